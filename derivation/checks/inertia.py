@@ -37,7 +37,7 @@ MODES = {"A0": 100, "all": 10}
 OSCILLATORS = 1200
 """Largest number of modes of the reference simulation."""
 ANY, MUCH = 1.0, 0.3
-"""A tolerance with which inertia is always omitted, and a change too large to be omitted."""
+"""A tolerance at which inertia is always omitted, and a change too large for omission."""
 MET, TIGHT = 3.0, 1e-4
 """Tolerance over the bound on the omitted branches, and smallest tolerance [1]."""
 
@@ -66,12 +66,12 @@ def pass_over(data: Scene) -> str:
     """Return why a scene is skipped (too long or no impact); empty if it is not."""
     model = bending(model_of(read(data)))
     if zener_number(model) > HEAVIEST:
-        return f"Zener's number above {HEAVIEST:g}"
+        return f"Zener parameter above {HEAVIEST:g}"
     still = quasi_static(model)
     if still is None:
         return "no impact on the quasi-static plate"
     if weight_share(model, still.max_indentation) > FALLEN:
-        return f"work of the weight over the energy brought above {FALLEN:g}"
+        return f"work of the weight over the initial kinetic energy above {FALLEN:g}"
     most = MODES[data["inertia"]["branches"]]
     if count_of(ContactLaw(model, frozenset({"hertz", "inertia"}))) > most:
         return "too many modes"
@@ -118,7 +118,7 @@ def solve(number: int, data: Scene, place: float) -> InertiaRow | str:
         modes = _modes(used or _moving(model, rtol))
         many = replace(model, inertia=InertiaSettings(modes=2 * modes, branches="all"))
         if oscillators_of(many) > OSCILLATORS:
-            return f"truth: more than {OSCILLATORS} oscillators"
+            return f"reference: more than {OSCILLATORS} modes"
         truth = _moving(many, rtol)
     except SceneError as refused:
         return str(refused).partition(":")[0]

@@ -1,4 +1,4 @@
-"""Random scenes with plate inertia, and the errors in them over the stated bounds.
+"""Random scenes with plate inertia, and the ratios of their errors to the stated bounds.
 
 Each scene is drawn from the seed and its number, log-uniformly over shapes, stiffnesses, densities
 and speeds. The reference is the same scene with every effect, twice the modes and all branches.

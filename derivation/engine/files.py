@@ -184,7 +184,7 @@ def _explained(path: Path) -> Iterator[None]:
         yield
     except OSError as error:
         full = error.errno in (errno.ENOSPC, errno.EDQUOT)
-        mend = "free some space" if full else "ask for leave to write there"
+        mend = "free some space" if full else "obtain permission to write there"
         raise OSError(
             f"cannot write {path}: {error.strerror}; {mend}, or name another folder"
         ) from None

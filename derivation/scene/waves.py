@@ -200,7 +200,7 @@ def _converged(
             return best or found
         best, count, rough = _judged(rough, found), 2 * count, found
         change, beyond = best.inertia.left(outputs)
-        # Where omitted branches are worth more than modes could mend, a tenth is small enough.
+        # Where omitted branches matter more than additional modes, a tenth of them is small enough.
         enough = goal if beyond <= goal / SHARE else max(goal, 0.1 * beyond)
         if law.model.inertia.modes:
             return _of_chosen_modes(best, law, count, budget)

@@ -20,7 +20,7 @@ MOST_PROBES = 32
 TIMED = (8, 64, 512, 4096)
 """Points that are timed, more while they take less than `ENOUGH`."""
 ENOUGH = 0.5
-"""Seconds of a timing that tell the cost."""
+"""Duration of a timing that is sufficient for the estimate [s]."""
 
 
 @dataclass(frozen=True)

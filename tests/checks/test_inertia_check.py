@@ -175,13 +175,13 @@ def test_scenes_are_passed_over_for_what_they_are() -> None:
     """By hand: the work 2 g delta over v^2, delta of the impact, at least the quasi-static one."""
     assert inertia_check.pass_over(changed()) == ""
     slow = changed(impact={"speed": 1e-3, "gravity": 9.81})
-    assert "weight over the energy brought above 100" in inertia_check.pass_over(slow)
+    assert "weight over the initial kinetic energy above 100" in inertia_check.pass_over(slow)
     still = inertia_check.quasi_static(model_of(read(slow)))
     assert still is not None
     assert 2.0 * 9.81 * still.max_indentation / 1e-6 > inertia_check.FALLEN
     # Zener's number goes with the mass to the power 3/5 and is 5 in between.
     heavy, light = (changed(sphere={"density": rho}) for rho in (1e7, 1e3))
-    assert inertia_check.pass_over(heavy) == "Zener's number above 5"
+    assert inertia_check.pass_over(heavy) == "Zener parameter above 5"
     assert inertia_check.pass_over(light) == ""
     numbers = [zener_number(model_of(read(data))) for data in (heavy, light)]
     assert numbers[0] / numbers[1] == pytest.approx(1e4**0.6, rel=1e-9)
@@ -193,13 +193,13 @@ def test_scenes_are_passed_over_for_what_they_are() -> None:
 
 
 def test_scenes_out_of_reach_are_refused_by_name(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A truth of too many oscillators; an impact beyond the law's range."""
+    """A reference of too many modes; an impact beyond the law's range."""
     data, place = measure.scene(9)
     found = inertia_check.solve(9, data, place)
     assert isinstance(found, InertiaRow)
     monkeypatch.setattr(inertia_check, "OSCILLATORS", found.oscillators // 2)
     assert inertia_check.solve(9, data, place) == (
-        f"truth: more than {found.oscillators // 2} oscillators"
+        f"reference: more than {found.oscillators // 2} modes"
     )
 
     def beyond(law: ContactLaw, *_: object) -> None:

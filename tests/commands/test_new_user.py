@@ -213,7 +213,7 @@ def _refused(capsys: Captured) -> None:
     lines = [line for line in capsys.readouterr().err.splitlines() if line.strip()]
     assert len(lines) == 1, lines
     assert lines[0].startswith("platecontact: cannot write ")
-    assert "Permission denied; ask for leave to write there, or name another folder" in lines[0]
+    assert "Permission denied; obtain permission to write there, or name another folder" in lines[0]
 
 
 def test_an_installed_copy_records_nothing(

@@ -1,4 +1,4 @@
-"""The impacts and the plates that are computed, the cheapest and most telling ones first."""
+"""The impacts and the plates that are computed, the fastest and most informative ones first."""
 
 import itertools
 import math
@@ -13,9 +13,9 @@ ALUMINIUM = (70e9, 0.3, 2700.0)
 CONCRETE = (33e9, 0.2, 2400.0)
 STEEL_DENSITY = 7850.0
 SLENDER = 10.0
-"""Radius of the paraboloid over the contact radius in the grid of cases."""
+"""Radius of the paraboloid over the contact radius, for the grid of cases."""
 THICKNESS = 0.01
-"""Of the grid's plates [m]."""
+"""Radius of the plates in the grid [m]."""
 GRID = (
     (0.2, 0.3, 0.05, 5.0),
     (0.1, 0.2, 0.1, 10.0),
@@ -32,8 +32,8 @@ GRID = (
     (0.05, 0.45, 0.35, 50.0),
     (0.02, 0.3, 0.2, 50.0),
 )
-"""Thickness over radius, Poisson's ratio, and of an impact on a half-space: contact radius over
-thickness, and contact time over the time of a thickness echo."""
+"""Thickness over radius, Poisson's ratio, and for an impact on a half-space contact radius over
+thickness and contact time over the time of a through-thickness reflection."""
 RATIOS = (0.02, 0.05, 0.1, 0.2, 0.3)
 """Thickness over radius of the plates whose natural frequencies are computed."""
 POISSON = (0.0, 0.2, 0.3, 0.45)
@@ -46,9 +46,10 @@ class ElementCase:
     Parameters
     ----------
     name, group
-        Its own name, and that of the cases that differ from it in the edge or one dimension.
+        Name of the case, and name shared with the cases that differ in the edge or in one
+        dimension.
     plate, sphere
-        What strikes what.
+        Plate and sphere.
     """
 
     name: str
@@ -79,7 +80,7 @@ class ElementCase:
 
     @property
     def edge_echo(self) -> float:
-        """Earliest time at which the edge can be felt at the axis [s]."""
+        """Earliest time at which the edge can affect the motion of the axis [s]."""
         return 2.0 * self.plate.radius / self.plate.pressure_wave_speed
 
 
@@ -107,7 +108,7 @@ def _ball(radius: float, speed: float, density: float = STEEL_DENSITY) -> Sphere
 
 
 def _panes() -> Iterator[ElementCase]:
-    """Yield the glass pane, wider and thicker ones: their edges cannot be felt in the contact."""
+    """Yield the glass pane, and wider and thicker ones, whose edges do not affect the contact."""
     pane = Plate(0.3, 0.008, *GLASS)
     for radius, thickness in ((0.3, 0.008), (0.3, 0.02), (0.6, 0.008), (0.6, 0.02)):
         first = (radius, thickness) == (0.3, 0.008)
@@ -116,7 +117,7 @@ def _panes() -> Iterator[ElementCase]:
 
 
 def _examples() -> Iterator[ElementCase]:
-    """Yield cases close to the examples of scenes."""
+    """Yield cases close to the example scenes."""
     block = ElementCase(
         "impact_echo paper", "impact_echo", Plate(1.0, 0.2, *CONCRETE), _ball(0.004, 2)
     )

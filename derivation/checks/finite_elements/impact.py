@@ -14,9 +14,9 @@ Nodes = NDArray[np.bool_]
 DAMPING = 0.8
 """Spectral radius of the time integration at infinite frequency."""
 ROUNDS = 60
-"""Changes of the set of touching nodes in one time step after which something is wrong."""
+"""Largest number of changes of the set of touching nodes in one time step; more are an error."""
 CLEAR = 1.5
-"""Height of the sphere, over the plate's largest deflection, at which no contact can follow."""
+"""Height of the sphere over the plate's largest deflection above which no contact is possible."""
 FLIGHT = 8
 """Length of the time steps between contacts over that of those in a contact."""
 APART = 20
@@ -28,7 +28,7 @@ PEAK = 0.05
 
 
 class WideContactError(ArithmeticError):
-    """The contact is wider than the part of the mesh that is made for it."""
+    """Error: the contact is wider than the fine part of the mesh."""
 
 
 @dataclass(frozen=True)
@@ -58,10 +58,10 @@ class Sphere:
 
 
 def touching(compliance: Double, gap: Double, start: Nodes) -> tuple[Double, Nodes]:
-    """Solve compliance @ force + gap >= 0, force >= 0, one of both being 0 at each node.
+    """Solve compliance @ force + gap >= 0, force >= 0, where at each node one of both is 0.
 
-    Returns the forces and the set of touching nodes, found from a first guess by the
-    primal-dual active-set method.
+    Returns the forces and the set of touching nodes, by the primal-dual active-set method from a
+    first guess.
     """
     active = start
     for _ in range(ROUNDS):
@@ -78,7 +78,7 @@ def touching(compliance: Double, gap: Double, start: Nodes) -> tuple[Double, Nod
 
 
 def pressed(system: System, sphere: Sphere, way: float) -> tuple[Double, Double]:
-    """Press the sphere in by a way [m] statically; returns radii [m] and forces [N] of nodes."""
+    """Return the static contact at a sphere displacement [m]: radii [m] and forces [N] of nodes."""
     nodes = system.contact_nodes
     columns = _unit_forces(system, system.static_solver)
     compliance = columns[nodes]
@@ -88,7 +88,7 @@ def pressed(system: System, sphere: Sphere, way: float) -> tuple[Double, Double]
 
 
 def _unit_forces(system: System, solver: Any) -> Double:
-    """Return the solutions under a unit downward force at each contact node, w upwards."""
+    """Return the solutions for a unit downward force at each contact node, w upwards."""
     load = np.zeros((system.free.size, system.contact_nodes.size))
     load[system.contact_nodes, np.arange(system.contact_nodes.size)] = 1.0
     found: Double = solver.solve(load)
@@ -97,7 +97,7 @@ def _unit_forces(system: System, solver: Any) -> Double:
 
 @dataclass(frozen=True)
 class History:
-    """What was computed at every time step.
+    """Results at every time step.
 
     Parameters
     ----------
@@ -190,7 +190,7 @@ class ElementState:
 def struck(
     system: System, sphere: Sphere, step: float, longest: float, *, until_end: bool = True
 ) -> History:
-    """Let the sphere strike the plate until no further contact can follow.
+    """Simulate the impact until no further contact is possible.
 
     Steps [s] are longer between contacts. Without `until_end` the impact ends with the first
     contact.
@@ -212,7 +212,7 @@ def struck(
             before, coarse.state, used = fine.state, fine.state, coarse
         force = used.advance()
         if used is coarse and force.any():
-            # The coming contact is computed in short steps.
+            # The next contact is computed with short steps.
             fine.state, used, apart = before, fine, -FLIGHT
             force = used.advance()
         fine.state = used.state
@@ -250,7 +250,7 @@ class ElementImpact:
     total_time
         From the first contact to the end of the last one [s].
     contacts
-        Number of contacts, those counted once that the sphere leaves for `APART` steps at least.
+        Number of contacts that are separated by at least `APART` steps without contact.
     energy
         Energy of plate and sphere after the last contact, over the initial one [1].
     """
@@ -283,7 +283,7 @@ def results(history: History, radii: Double) -> ElementImpact:
 
 
 def _spans(force: Double) -> list[tuple[int, int]]:
-    """Return first and last step of each contact."""
+    """Return the first and last step of each contact."""
     steps = np.flatnonzero(force > 0.0)
     cuts = np.flatnonzero(np.diff(steps) > APART)
     starts = np.concatenate((steps[:1], steps[cuts + 1]))
@@ -292,7 +292,7 @@ def _spans(force: Double) -> list[tuple[int, int]]:
 
 
 def _end(history: History, start: int, stop: int) -> float:
-    """Return when a contact ends, force^(2/3) falling linearly towards its end."""
+    """Return the end of a contact, assuming that force^(2/3) decreases linearly towards it."""
     last = np.arange(max(stop - END + 1, start), stop + 1)
     last = last[history.force[last] > 0.0]
     if last.size < 2:
@@ -302,7 +302,7 @@ def _end(history: History, start: int, stop: int) -> float:
 
 
 def _peak(history: History, contact_time: float) -> float:
-    """Return the largest force, nodal noise smoothed."""
+    """Return the largest force, with the noise of nodes smoothed."""
     place = int(np.argmax(history.force))
     near = np.abs(history.time - history.time[place]) < PEAK * contact_time
     near &= history.force > 0.0

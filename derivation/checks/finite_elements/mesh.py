@@ -42,7 +42,7 @@ class Mesh:
 
 @dataclass(frozen=True)
 class Grading:
-    """How finely a plate is divided.
+    """Mesh density of a plate.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def graded(b: float, thickness: float, reach: float, grading: Grading) -> Mesh:
 
 
 def resting(b: float, thickness: float, layers: int, degree: int) -> Mesh:
-    """Return the mesh of a plate without contact, halved so many times towards edge and corners."""
+    """Return the mesh of a plate without contact, halved repeatedly towards edge and corners."""
     steps = thickness / 2 * 0.5 ** np.arange(layers + 1)
     h = thickness / 2
     z_ends = np.concatenate((-h + np.append(0.0, steps[::-1]), h - steps[1:], [h]))
@@ -96,7 +96,7 @@ def resting(b: float, thickness: float, layers: int, degree: int) -> Mesh:
 
 
 def _halved(ends: Double, times: int) -> Double:
-    """Halve the first interval so many times."""
+    """Halve the first interval this many times."""
     more = ends[1] * 0.5 ** np.arange(times, 0, -1)
     return np.concatenate((ends[:1], more, ends[1:]))
 
@@ -104,7 +104,7 @@ def _halved(ends: Double, times: int) -> Double:
 def _growing(first: float, length: float, growth: float, largest: float, last: int) -> Double:
     """Return ends from 0 to a length, growing from a first size up to a largest one.
 
-    The last interval is halved so many times towards the end.
+    The last interval is halved a given number of times towards the end.
     """
     ends, size = [0.0], first
     while ends[-1] < length:

@@ -32,12 +32,12 @@ RESULTS = (
     "total_time",
 )  # fmt: skip
 SPREAD = 1.05, 1.25
-"""Reach of the fine mesh over the contact radius on a half-space; by so much more each time that
-is not enough."""
+"""Reach of the fine mesh over the contact radius on a half-space, and its increase each time the
+mesh is too small."""
 LONGEST = 300.0
-"""Longest impact over the contact time on a half-space."""
+"""Longest duration of an impact over the contact time on a half-space."""
 LEAST = {"contact_time": 1e-4, "total_time": 1e-4, "max_force": 1e-4}
-"""Least error estimates, of results that single nodes touch [1]; of others `LEAST_ERROR`."""
+"""Smallest error estimates of results that depend on single nodes [1], else `LEAST_ERROR`."""
 LEAST_ERROR = 2e-5
 FREQUENCIES = 4
 
@@ -49,7 +49,7 @@ class ElementSetting:
     Parameters
     ----------
     grading
-        How fine the mesh is.
+        Density of the mesh.
     steps
         Time steps over the contact time on a half-space.
     """
@@ -61,9 +61,9 @@ class ElementSetting:
 BEST = ElementSetting(Grading(contact=12, far=2.0), 400)
 COARSER = ElementSetting(Grading(contact=8, thickness=1.0, far=3.0, edge=1), 400)
 LONGER = ElementSetting(BEST.grading, 200)
-"""The solution that is recorded, one on a coarser mesh and one with longer steps."""
+"""The recorded solution, one on a coarser mesh, and one with longer steps."""
 MODAL = ((5, 6), (4, 6), (5, 5))
-"""Layers towards the edge, where a clamp is singular, and degree: the best mesh, two others."""
+"""Layers towards the edge, where a clamp is singular, and degree: the best mesh and two others."""
 
 
 def solved(
@@ -135,7 +135,7 @@ def plate_row(plate: Plate) -> dict[str, Any]:
 
 
 def plate_inputs(plate: Plate) -> dict[str, Any]:
-    """Return what a plate's natural frequencies depend on."""
+    """Return the quantities on which a plate's natural frequencies depend."""
     ratio = plate.thickness / plate.radius
     return {
         "edge": plate.edge,
@@ -175,13 +175,13 @@ def _inputs(item: ElementCase | Plate) -> dict[str, Any]:
 
 
 def _key(row: Mapping[str, Any]) -> str:
-    """Return what a row was computed from, as text."""
+    """Return the inputs of a row, as text."""
     names = ("scene", "spherical_profile", "edge", "thickness_over_radius", "poissons_ratio")
     return json.dumps([row.get(name) for name in (*names, "source")])
 
 
 def header() -> dict[str, Any]:
-    """Return with what the numbers were computed."""
+    """Return the versions of the programs that computed the numbers."""
     import scipy
 
     settings = {"best": BEST, "coarser_mesh": COARSER, "longer_steps": LONGER}
@@ -199,7 +199,7 @@ def header() -> dict[str, Any]:
 
 
 def read(path: Path = MEASURED) -> dict[str, Any]:
-    """Return a record; an empty one if there is none."""
+    """Return a record, empty if there is none."""
     empty: dict[str, Any] = {"impacts": [], "plates": []}
     if not path.exists():
         return empty
@@ -208,12 +208,12 @@ def read(path: Path = MEASURED) -> dict[str, Any]:
 
 
 def to_json(record: Mapping[str, Any]) -> str:
-    """Return a record as JSON, a row to a line."""
+    """Return a record as JSON, one row per line."""
     return json_by_line(record, "impacts", "plates")
 
 
 def source_hash() -> str:
-    """Return a hash of the code that computes, docstrings, comments and imports left out."""
+    """Return a hash of the computing code without docstrings, comments and imports."""
     digest = hashlib.sha256(repr((BEST, COARSER, LONGER, MODAL)).encode())
     for name in ("mesh", "plate", "impact"):
         tree = ast.parse((Path(__file__).parent / f"{name}.py").read_text())

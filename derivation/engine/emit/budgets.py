@@ -71,7 +71,7 @@ def parse_budgets(data: Mapping[str, Any]) -> dict[str, Budget]:
     if unmatched or twice:
         raise ValueError(
             "expected one number and at most one rule per function in budgets.toml; "
-            f"mend {', '.join(sorted(unmatched | twice))}"
+            f"correct {', '.join(sorted(unmatched | twice))}"
         )
     rule_of = {name: rule["text"] for rule in rules.values() for name in rule.get("kernels", ())}
     ordinary = rules[ORDINARY]["text"]

@@ -15,11 +15,10 @@ from derivation.engine.formula.ulp import DOUBLE, SINGLE, Format
 FORMS = (
     "scalar", "array", "empty", "broadcast", "strided", "read-only", "integer", "float32",
 )  # fmt: skip
-"""How arguments are handed over.
+"""Ways in which arguments are passed.
 
-Plain numbers; arrays of doubles; arrays of shape (0,); every list along an axis of
-its own; every second number of a longer array, backwards; arrays that must not be
-written to; whole numbers of integer type; single precision.
+Plain numbers; arrays of doubles; arrays of shape (0,); each list along its own axis; every second
+number of a longer array, backwards; read-only arrays; integers; single precision.
 """
 
 EXPECTATIONS = ("value", "nan", "zero")
@@ -27,7 +26,7 @@ EXPECTATIONS = ("value", "nan", "zero")
 domain, or exactly zero where no ball around the truth can be relatively small."""
 
 SAID = ("cause", "form", "modes", "expect")
-"""What a file says of all cases of a table."""
+"""Entries in a file that apply to all cases of a table."""
 
 Numbers = tuple[float, ...]
 
@@ -39,15 +38,15 @@ class HardCase:
     Parameters
     ----------
     group
-        The difficulty it belongs to.
+        Name of the group of cases.
     kernel
-        What is computed.
+        Name of the function.
     cause
-        Why that is hard, in a sentence.
+        Reason for the difficulty, in a sentence.
     inputs
         Hexadecimal doubles by argument, one or several.
     form
-        How they are handed over, one of `FORMS`.
+        How arguments are passed, one of `FORMS`.
     modes
         Number of modes of a modal sum.
     expect
@@ -64,14 +63,14 @@ class HardCase:
 
     @property
     def key(self) -> str:
-        """What tells one case from another, whatever is said about it."""
+        """Return the part that distinguishes one case from another, without explanations."""
         given = " ".join(f"{name}={','.join(texts)}" for name, texts in self.inputs.items())
         modes = "" if self.modes is None else f" modes={self.modes}"
         return f"{self.kernel} {self.form}{modes} {given}"
 
     @property
     def table(self) -> dict[str, Any]:
-        """The table that describes it in a file, without what goes without saying."""
+        """Return the table that describes the case in a file, without default values."""
         form = {} if self.form == "scalar" else {"form": self.form}
         modes = {} if self.modes is None else {"modes": self.modes}
         expect = {} if self.expect == "value" else {"expect": self.expect}
@@ -82,7 +81,7 @@ class HardCase:
 
     @property
     def numbers(self) -> dict[str, Numbers]:
-        """The inputs as the doubles they are."""
+        """Return the inputs as doubles."""
         return {
             name: tuple(float.fromhex(text) for text in texts)
             for name, texts in self.inputs.items()
@@ -90,24 +89,24 @@ class HardCase:
 
     @property
     def format(self) -> Format:
-        """Format of arguments and results."""
+        """Return the format of arguments and results."""
         return SINGLE if self.form == "float32" else DOUBLE
 
     @property
     def listed(self) -> tuple[str, ...]:
-        """Arguments that are arrays: for `scalar` none, else all with not just one number."""
+        """Return the arguments that are arrays: those of several numbers; none for `scalar`."""
         numbers = self.numbers.items()
         return () if self.form == "scalar" else tuple(k for k, v in numbers if len(v) != 1)
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """The shape that results must have."""
+        """Return the shape that results must have."""
         lengths = [len(self.inputs[name]) for name in self.listed]
         return tuple(lengths) if self.form == "broadcast" else tuple(lengths[:1])
 
     @property
     def points(self) -> list[dict[str, float]]:
-        """Arguments point by point, in the order of the results."""
+        """Return the arguments point by point, in the order of the results."""
         numbers, found = self.numbers, []
         for place in itertools.product(*(range(length) for length in self.shape)):
             axes = place if self.form == "broadcast" else place * len(self.listed)
@@ -137,7 +136,7 @@ def read_cases(path: Path) -> list[HardCase]:
 
 
 def _parts(table: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Split a table into what holds for all its cases and the inputs by function."""
+    """Split a table into the entries for all its cases and the inputs by function."""
     said = {key: value for key, value in table.items() if key in SAID}
     return said, {key: value for key, value in table.items() if key not in SAID}
 
@@ -148,12 +147,12 @@ def _exact(given: Mapping[str, Any]) -> dict[str, tuple[str, ...]]:
 
 
 def checked(case: HardCase) -> HardCase:
-    """The case, if it is well formed.
+    """Return the case if it is well formed.
 
     Raises
     ------
     ValueError
-        Naming what is wrong with it.
+        If it is not; the message states the reason.
     """
     if case.form not in FORMS:
         raise ValueError(f"{case.key}: a form is one of {', '.join(FORMS)}, got {case.form}")
@@ -176,7 +175,7 @@ def _is_single(point: Mapping[str, float]) -> bool:
 
 
 def handed_over(case: HardCase, names: tuple[str, ...]) -> list[Any]:
-    """A kernel's arguments in the case's form, in the kernel's order."""
+    """Return a function's arguments in the case's form, in the function's order."""
     numbers = case.numbers
     axes = {name: axis for axis, name in enumerate(case.listed)}
     return [_argument(case, numbers[name], axes.get(name)) for name in names]

@@ -13,13 +13,13 @@ from derivation.engine.oracle.agreement import Routes
 from derivation.engine.oracle.oracle import Balls
 
 AGREEMENTS = 2
-"""Points per kernel at which the second oracle is asked too."""
+"""Number of points per function at which the second reference method is evaluated too."""
 
 SMALL = 1e-60
-"""Size of a value above which a route reaches its digits in little time."""
+"""Magnitude of a value above which the second reference method is fast."""
 
 EVERY = 4
-"""Single precision is judged at every fourth point."""
+"""Single precision is tested at every fourth point."""
 
 
 def _anywhere(_: Point) -> bool:
@@ -28,23 +28,23 @@ def _anywhere(_: Point) -> bool:
 
 @dataclass(frozen=True, eq=False)
 class Judge:
-    """What a paper's generated functions are compared with, and where.
+    """The references and the points with which a paper's generated functions are tested.
 
     Parameters
     ----------
     routes
-        Both references.
+        Both reference methods.
     grid
         The points of a function, from its name, its arguments' names and whether it is a sum.
     package
         Import name of the generated package.
     easy
-        Whether the second reference takes little time at a point.
+        Whether the second reference method is fast at a point.
     inside
         Whether a point lies in the domain, which rounding to single precision may leave.
     hard
-        The hard cases, if there are any. A function, so that what they need is loaded when they
-        are asked for.
+        Function that returns the hard cases, if there are any; their modules are loaded when it is
+        called.
     """
 
     routes: Routes
@@ -57,23 +57,23 @@ class Judge:
 
 @dataclass(frozen=True)
 class Row:
-    """A kernel's result.
+    """The result of one function.
 
     Parameters
     ----------
     kernel, module
-        Name and place.
+        Name of the function and of its module.
     budget
-        What is promised, in ULP; None for the formulas as printed.
+        Error budget in ULP; None for the formulas as published.
     double
         Errors with double arguments.
     single
-        Errors with single-precision arguments, in ULP of single precision;
-        None for tables, which take none, and for the formulas as printed.
+        Errors with single-precision arguments, in ULP of single precision; None for tables, which
+        take no such arguments, and for the formulas as published.
     oracles
-        At how many points both oracles gave the same value.
+        Number of points at which both reference methods agree.
     passed
-        Whether the promise is kept; None if there is none.
+        Whether no error exceeds the budget; None without a budget.
     """
 
     kernel: str
@@ -91,27 +91,25 @@ def check(
     kernels: Sequence[Kernel] | None = None,
     progress: Tell = quiet,
 ) -> tuple[Row, ...]:
-    """Measure kernels against the truth.
+    """Measure the errors of functions against reference values.
 
     Parameters
     ----------
     by
         The references and the points.
     digits
-        Decimal digits that the reference balls' radius warrants, at least 20.
+        Number of correct decimal digits of the reference balls, at least 20.
     kernels
-        What to measure; everything generated, and the formulas as printed, by
-        default.
+        Functions to measure; by default all generated ones and the formulas as published.
     progress
-        Told about each kernel before it is measured.
+        Called for each function before it is measured.
 
     Raises
     ------
     OracleError
-        If the two oracles contradict each other: then there is no truth to
-        measure against.
+        If the reference methods contradict each other, so that there is no reference value.
     ValueError
-        If fewer digits are asked than errors in double precision need.
+        If the number of digits is too small for errors in double precision.
     """
     if digits < 20:
         raise ValueError(f"a reference needs at least 20 digits to judge doubles, got {digits}")
@@ -146,13 +144,13 @@ def _row(
 def truths(
     balls: Balls, name: str, points: Sequence[Point], digits: int, fmt: Format = DOUBLE
 ) -> list[Truth]:
-    """References at the points whose value the format can hold."""
+    """Return the references at the points whose value is within the range of the format."""
     found = ((p, balls.reference(name, p.values, digits, p.modes)) for p in points)
     return [Truth(point, (true,)) for point, true in found if not overflows(true.value, fmt)]
 
 
 def _single(by: Judge, kernel: Kernel, points: Sequence[Point], digits: int) -> Errors:
-    """Judge a kernel in single precision, at every fourth point it can hold."""
+    """Return the errors of a function in single precision, at every fourth point in its range."""
     singles = (single for p in points[::EVERY] if (single := to_single(p)) is not None)
     rounded = [single for single in singles if by.inside(single)]
     found = truths(by.routes.balls, kernel.name, rounded, digits, SINGLE)
@@ -160,12 +158,12 @@ def _single(by: Judge, kernel: Kernel, points: Sequence[Point], digits: int) -> 
 
 
 def confirm(by: Judge, kernel: Kernel, found: Sequence[Truth], digits: int) -> int:
-    """Ask the second oracle too, where its routes are short; how many points were confirmed.
+    """Compare with the second reference method where it is fast; return the number of points.
 
     Raises
     ------
     OracleError
-        If it contradicts the first.
+        If it contradicts the first method.
     """
     easy = [t for t in found if by.easy(t.point) and bool(abs(t.references[0].value) > SMALL)]
     chosen = easy[:: max(1, len(easy) // AGREEMENTS)][:AGREEMENTS]

@@ -27,19 +27,19 @@ Data = Mapping[str, Any]
 
 @dataclass(frozen=True)
 class HardRow:
-    """What became of a case.
+    """The result of a case.
 
     Parameters
     ----------
     case
         The case.
     truth
-        Its true values.
+        Its reference values.
     error, allowed
-        Error of the generated form and what is allowed, in ULP, where their ratio is
-        largest. Infinite for NaN where the truth is finite, and the other way round.
+        Error of the generated form and its allowance, in ULP, where their ratio is largest.
+        Infinite for NaN where the reference is finite, and vice versa.
     printed
-        Largest error of the form as printed; None where there is none.
+        Largest error of the form as published; None if there is none.
     problem
         Why the case failed; empty if it did not.
     """
@@ -53,17 +53,17 @@ class HardRow:
 
     @property
     def kept(self) -> bool:
-        """Whether the case passed."""
+        """Return whether the case passed."""
         return not self.problem
 
 
 def committed(data: Data, given: Sequence[HardCase]) -> dict[str, Known]:
-    """The references that were recorded.
+    """Return the recorded references.
 
     Raises
     ------
     ValueError
-        Naming a case without one, and the command that finds it.
+        If a case has none; the message names the case and the command that computes it.
     """
     found = known_of(data)
     missing = [case.key for case in given if case.key not in found]
@@ -75,7 +75,7 @@ def committed(data: Data, given: Sequence[HardCase]) -> dict[str, Known]:
 
 
 def check(suite: Suite, truth: Mapping[str, Known]) -> tuple[HardRow, ...]:
-    """Judge generated and printed forms by the references, case by case."""
+    """Compare generated and published forms with the references, case by case."""
     return tuple(_row(suite, case, truth[case.key]) for case in suite.cases)
 
 
@@ -112,10 +112,10 @@ def _row(suite: Suite, case: HardCase, known: Known) -> HardRow:
 def _results(
     case: HardCase, kernel: Kernel, count: int, true: Sequence[Reference]
 ) -> tuple[np.ndarray[Any, Any], str]:
-    """Results, one output after the other, and what was wrong with the call.
+    """Return the results, one output after the other, and a description of errors in the call.
 
-    Any floating-point exception is an error but two: results may underflow, and those
-    whose true value overflows may say so, or that a denominator has vanished.
+    Every floating-point exception is an error, except underflow, and overflow or division by zero
+    where the reference value overflows.
     """
     overflown = any(math.isinf(float(one.value)) for one in true)
     beyond: Literal["ignore", "raise"] = "ignore" if overflown else "raise"
@@ -129,7 +129,7 @@ def _results(
 
 
 def _call(case: HardCase, kernel: Kernel, count: int) -> np.ndarray[Any, Any]:
-    """The kernel's results, of shape (count, *shape)."""
+    """Return the function's results, of shape (count, *shape)."""
     if kernel.by_count:
         (last,) = case.numbers["count"]
         found = kernel.call(int(last))
@@ -147,7 +147,7 @@ def _call(case: HardCase, kernel: Kernel, count: int) -> np.ndarray[Any, Any]:
 
 
 def _budgets(case: HardCase, kernel: Kernel, true: Sequence[Reference]) -> list[float]:
-    """What is allowed in ULP before conditioning, result by result."""
+    """Return the allowances in ULP before conditioning, result by result."""
     if not isinstance(kernel, Stating):
         return [kernel.budget or 0.0] * len(true)
     stated = np.ravel(kernel.stated(*handed_over(case, kernel.arguments))).tolist()
@@ -156,7 +156,7 @@ def _budgets(case: HardCase, kernel: Kernel, true: Sequence[Reference]) -> list[
 
 
 def cells(row: HardRow) -> tuple[str, ...]:
-    """A row's entries under `COLUMNS`, as text."""
+    """Return a row's entries under `COLUMNS`, as text."""
     return (
         row.case.group,
         row.case.kernel,
@@ -169,12 +169,12 @@ def cells(row: HardRow) -> tuple[str, ...]:
 
 
 def as_data(rows: Sequence[HardRow], package: str) -> dict[str, Any]:
-    """Rows and provenance as plain data; infinities as text."""
+    """Return rows and provenance as plain data; infinities as text."""
     return {"provenance": provenance(DIGITS, package), "cases": [_plain(row) for row in rows]}
 
 
 def result(rows: Sequence[HardRow], package: str) -> CheckResult:
-    """The cases as a table, and those that failed."""
+    """Return the cases as a table, and those that failed."""
     failed = [f"{row.case.key}: {row.problem}" for row in rows if not row.kept]
     return CheckResult(
         "Hard cases, errors in ULP",
@@ -187,7 +187,7 @@ def result(rows: Sequence[HardRow], package: str) -> CheckResult:
 
 
 def to_json(rows: Sequence[HardRow], package: str) -> str:
-    """The rows as JSON text, byte for byte the same for the same measurement."""
+    """Return the rows as JSON text, byte for byte the same for the same measurement."""
     return json.dumps(as_data(rows, package), indent=1, allow_nan=False) + "\n"
 
 

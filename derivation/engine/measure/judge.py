@@ -30,14 +30,14 @@ from derivation.engine.oracle.reference import Reference
 
 @dataclass(frozen=True)
 class Error:
-    """What a computed number is away from the reference value, and may be.
+    """Error of a computed number and its allowance.
 
     Parameters
     ----------
     ulp, allowed
         Error and allowance in ULP.
     needed
-        The budget that the error would just keep.
+        The smallest budget that the error does not exceed.
     """
 
     ulp: float
@@ -51,14 +51,14 @@ class Error:
 
 
 def judge(got: float, reference: Reference, budget: float, fmt: Format = DOUBLE) -> Error:
-    """Judge one computed number.
+    """Return the error of one computed number and its allowance.
 
     Parameters
     ----------
     got
         The number; a float32 is passed as the double of equal value.
     reference
-        What is true.
+        The reference value.
     budget
         Allowed error in ULP before conditioning, to be multiplied by the reference's scale. It is
         counted in units of the reference's magnitude, which for a sum over modes is that of all
@@ -82,7 +82,7 @@ def judge(got: float, reference: Reference, budget: float, fmt: Format = DOUBLE)
 
 
 def largest(errors: Iterable[Error]) -> Error:
-    """The error that is largest in proportion to what is allowed."""
+    """Return the error with the largest ratio to its allowance."""
     return max(errors, key=lambda error: error.ratio)
 
 
@@ -99,7 +99,7 @@ class Truth:
 
 @dataclass(frozen=True)
 class Worst:
-    """A point where the error is largest in proportion to what is allowed.
+    """The point with the largest ratio of error to allowance.
 
     Parameters
     ----------
@@ -108,9 +108,9 @@ class Worst:
     modes
         Number of modes of a modal sum.
     got, truth
-        The computed number in hexadecimal and decimal; the true one to 20 digits.
+        The computed number in hexadecimal and decimal; the reference value to 20 digits.
     ulp, allowed
-        Error and allowance in ULP of the truth.
+        Error and allowance in ULP of the reference value.
     """
 
     arguments: tuple[tuple[str, str, str], ...]
@@ -123,33 +123,32 @@ class Worst:
 
 @dataclass(frozen=True)
 class Errors:
-    """What one kernel did on its points, in one format.
+    """The errors of one function on its points, in one format.
 
     Parameters
     ----------
     points
-        How many were judged.
+        Number of points.
     excluded
-        How many were left out: their truth overflows.
+        Number of omitted points, whose reference value overflows.
     zeros
-        How many results have a true value of exactly zero (or below 2^-1200). There a
-        unit in the last place is the smallest subnormal and says nothing, so
-        the ULP columns leave them out; the ratio judges them.
+        Number of results whose reference value is exactly zero (or below 2^-1200). There a unit in
+        the last place is the smallest subnormal, which is not meaningful. The ULP columns omit
+        these results; the ratio includes them.
     not_finite
-        How many results were NaN or infinite.
+        Number of results that are NaN or infinite.
     max_ulp, p99_ulp, rms_ulp
-        Of the finite results.
+        Largest error, 99th percentile and root mean square of the finite results.
     ratio
-        The largest error over what is allowed; infinite if any was not finite.
-        None if nothing is promised.
+        Largest error over its allowance; infinite if a result is not finite. None without a budget.
     needed
-        The budget that would just do: the largest error beyond what conditioning allows.
+        The smallest sufficient budget: the largest error beyond the allowance for conditioning.
     worst
-        Where that was (or the largest error, if nothing is promised).
+        Point of the largest ratio (or of the largest error, without a budget).
     dtype
         NumPy name of the results' type.
     warned
-        Warnings raised.
+        Warnings issued.
     """
 
     points: int
@@ -166,7 +165,7 @@ class Errors:
     warned: tuple[str, ...]
 
     def kept(self, fmt: Format = DOUBLE) -> bool:
-        """Whether every result is finite, within its allowance, of the right type and silent."""
+        """Return whether all results are finite, allowed, of the right type and silent."""
         within = self.ratio is not None and self.ratio <= 1.0
         return within and self.not_finite == 0 and self.dtype == fmt.name and not self.warned
 
@@ -174,7 +173,7 @@ class Errors:
 def measured(
     kernel: Kernel, found: Sequence[Truth], excluded: int = 0, fmt: Format = DOUBLE
 ) -> Errors:
-    """Judge a function at the given points.
+    """Return the errors of a function at the given points.
 
     Parameters
     ----------
@@ -183,14 +182,14 @@ def measured(
     found
         Points with their references, none of them overflowing.
     excluded
-        How many overflowing points were left out, for the record.
+        Number of omitted points, whose reference value overflows.
     fmt
         Format of arguments and results.
 
     Raises
     ------
     ValueError
-        If there is no point, or another number of results than are true.
+        If there is no point, or if the number of results differs from that of the references.
     """
     if not found:
         raise ValueError(f"no point at which {fmt.name} can hold {kernel.name}")
@@ -226,7 +225,7 @@ def measured(
 
 
 def _rms(errors: Sequence[float]) -> float:
-    """Root of the mean square, scaled so that squares do not overflow."""
+    """Return the root of the mean square, scaled so that squares do not overflow."""
     most = max(errors, default=0.0)
     if most == 0.0:
         return 0.0

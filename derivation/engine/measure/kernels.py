@@ -1,4 +1,4 @@
-"""What is measured: a function together with the row that says what it promises."""
+"""The functions to be measured, each with the row that states its budget."""
 
 import importlib
 import importlib.util
@@ -15,7 +15,7 @@ from derivation.engine.measure.point import Point
 Results = np.ndarray[Any, np.dtype[Any]]
 
 AS_PRINTED = "as_printed"
-"""Module of the formulas as printed: measured for contrast, without a promise."""
+"""Module of the formulas as published, which are measured for comparison, without a budget."""
 
 
 @dataclass(frozen=True)
@@ -25,15 +25,15 @@ class Kernel:
     Parameters
     ----------
     name
-        Name of the formula it computes, whose truth it is held to.
+        Name of the formula it computes, with which it is compared.
     module
-        The generated module it stands in.
+        The generated module that contains it.
     arguments
         Names of its arguments, in order.
     call
         The function itself: arrays in, array out; modal sums take ``modes=``.
     budget
-        Allowed error in ULP before conditioning; None if nothing is promised.
+        Allowed error in ULP before conditioning; None without a budget.
     modes
         Whether it is a modal sum.
     """
@@ -47,11 +47,11 @@ class Kernel:
 
     @property
     def by_count(self) -> bool:
-        """Whether it returns a table whose length is its only argument."""
+        """Return whether it returns a table whose length is its only argument."""
         return self.arguments == ("count",)
 
     def results(self, points: Sequence[Point], fmt: Format = DOUBLE) -> Results:
-        """Results at the points, in their own type, one call per number of modes."""
+        """Return the results at the points, in their own type; one call per number of modes."""
         if self.by_count:
             last = [int(point.values["count"]) for point in points]
             table: Results = np.asarray(self.call(max(last)))
@@ -76,19 +76,20 @@ class Kernel:
 
 @dataclass(frozen=True)
 class Stating(Kernel):
-    """A kernel whose promise depends on its arguments: it states its errors itself.
+    """A function whose budget depends on its arguments, so that it states its errors itself.
 
     Parameters
     ----------
     stated
-        Arguments -> the largest error of every result in its own unit, in the results' shapes.
+        Function of the arguments that returns the largest error of every result, in the result's
+        unit and shape.
     """
 
     stated: Callable[..., Any] = field(kw_only=True)
 
 
 def kernel_of_row(package: str, row: Mapping[str, Any]) -> Kernel:
-    """The kernel that a row of a package's manifest describes."""
+    """Return the function that a row of a package's manifest describes."""
     module = importlib.import_module(f"{package}.{row['module']}")
     return Kernel(
         row["name"],
@@ -101,13 +102,13 @@ def kernel_of_row(package: str, row: Mapping[str, Any]) -> Kernel:
 
 
 def generated_kernels(package: str) -> tuple[Kernel, ...]:
-    """Every kernel of a package's manifest, in its order."""
+    """Return every function of a package's manifest, in its order."""
     manifest = importlib.import_module(f"{package}.manifest")
     return tuple(kernel_of_row(package, row) for row in manifest.KERNELS)
 
 
 def printed_kernels(package: str) -> tuple[Kernel, ...]:
-    """Every formula as printed; its name is that of the derived one it is held against."""
+    """Return every formula as published, under the name of the derived one."""
     if importlib.util.find_spec(f"{package}.{AS_PRINTED}") is None:
         return ()
     module = importlib.import_module(f"{package}.{AS_PRINTED}")

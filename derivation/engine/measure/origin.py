@@ -1,7 +1,7 @@
-"""What references follow from, as a hash: one that changes asks for them anew.
+"""Hash of the sources of references; if it changes, the references must be computed again.
 
-The engine is no part of it. Its balls enclose the same number however they are computed, so that
-a change of the engine may move their radii and nothing else; its own tests see to that.
+The engine is not part of the hash. Its balls enclose the same number however they are computed, so
+that a change of the engine can change only their radii; the engine has its own tests.
 """
 
 import ast
@@ -23,13 +23,13 @@ _WITH_EMPTY_LISTS: dict[str, Any] = {"show_empty": True} if sys.version_info >= 
 
 
 def of_expression(expression: sp.Expr) -> str:
-    """Hash of an expression that balls are computed from."""
+    """Return the hash of an expression from which balls are computed."""
     return _hash(sp.srepr(expression))
 
 
 @cache
 def of_modules(names: tuple[str, ...]) -> str:
-    """Hash of modules and of all that they import from their own package and from this one.
+    """Return the hash of modules and of all that they import from their own package and this one.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ def dump(tree: ast.AST) -> str:
 
 
 def _imported(node: ast.AST, where: str) -> Iterator[str]:
-    """What a statement imports: a module by the name that it has here, since it may move."""
+    """Return what a statement imports: a module is named as it is used, because it may be moved."""
     if isinstance(node, ast.ImportFrom):
         for alias in node.names:
             name = alias.asname or alias.name
@@ -93,7 +93,7 @@ def _imported(node: ast.AST, where: str) -> Iterator[str]:
 
 
 def _modules(tree: ast.Module, where: str) -> Iterator[str]:
-    """Modules that a module imports, the engine's left out."""
+    """Return the modules that a module imports, without those of the engine."""
     for node in ast.walk(tree):
         if isinstance(node, ast.ImportFrom):
             source = _source(node, where)
@@ -102,13 +102,13 @@ def _modules(tree: ast.Module, where: str) -> Iterator[str]:
 
 
 def _source(node: ast.ImportFrom, where: str) -> str:
-    """Full name of what a statement imports from."""
+    """Return the full name of what a statement imports from."""
     return resolve_name("." * node.level + (node.module or ""), where.rpartition(".")[0])
 
 
 @cache
 def _is_module(name: str) -> bool:
-    """Whether this is a module, not a package or something inside a module."""
+    """Return whether this is a module, not a package or an object in a module."""
     try:
         spec = find_spec(name)
     except ModuleNotFoundError:

@@ -25,11 +25,11 @@ COLUMNS = (
     "#budget",
     "kept",
 )
-"""Headings of the table; `used` is the largest error over what is allowed."""
+"""Headings of the table; `used` is the largest error over its allowance."""
 
 
 def cells(row: Row) -> tuple[str, ...]:
-    """A row's entries under `COLUMNS`, as text."""
+    """Return a row's entries under `COLUMNS`, as text."""
     errors = row.double
     infinite = f"{errors.not_finite} not finite" if errors.not_finite else f"{errors.max_ulp:.3g}"
     return (
@@ -44,7 +44,7 @@ def cells(row: Row) -> tuple[str, ...]:
 
 
 def worst(row: Row) -> str:
-    """Where a row's error is largest in proportion to what is allowed, in exact doubles."""
+    """Return the arguments with the largest ratio of error to allowance, as exact doubles."""
     found = row.double.worst
     arguments = " ".join(f"{name}={exact}" for name, exact, _ in found.arguments)
     modes = f" modes={found.modes}" if found.modes else ""
@@ -52,7 +52,7 @@ def worst(row: Row) -> str:
 
 
 def result(rows: Sequence[Row], digits: int, package: str) -> CheckResult:
-    """The rows as a table with the worst arguments. Formulas as printed promise nothing."""
+    """Return the rows as a table with the worst arguments. Published formulas have no budget."""
     return CheckResult(
         f"Errors against {digits} digits",
         COLUMNS,
@@ -65,7 +65,7 @@ def result(rows: Sequence[Row], digits: int, package: str) -> CheckResult:
 
 
 def provenance(digits: int, package: str) -> dict[str, str | int]:
-    """With what the numbers were made; no time, place or machine, so that they repeat."""
+    """Return versions and settings without time, place or machine, hence reproducible."""
     return {
         "digits": digits,
         "generated": generated_hash(package),
@@ -78,7 +78,7 @@ def provenance(digits: int, package: str) -> dict[str, str | int]:
 
 
 def generated_hash(package: str) -> str:
-    """SHA-256 of a generated package's sources, names and contents in the order of the names."""
+    """Return the SHA-256 of a generated package: names and contents in the order of the names."""
     origin = importlib.import_module(package).__file__
     if origin is None:
         raise FileNotFoundError(
@@ -91,7 +91,7 @@ def generated_hash(package: str) -> str:
 
 
 def as_data(rows: Sequence[Row], digits: int, package: str) -> dict[str, Any]:
-    """Rows and provenance as plain data; infinities as the text "inf"."""
+    """Return rows and provenance as plain data; infinities as the text "inf"."""
     return {
         "provenance": provenance(digits, package),
         "rows": plain_rows(rows),
@@ -99,5 +99,5 @@ def as_data(rows: Sequence[Row], digits: int, package: str) -> dict[str, Any]:
 
 
 def to_json(rows: Sequence[Row], digits: int, package: str) -> str:
-    """The rows as JSON text, byte for byte the same for the same measurement."""
+    """Return the rows as JSON text, byte for byte the same for the same measurement."""
     return sorted_json(as_data(rows, digits, package))

@@ -9,11 +9,11 @@ from derivation.engine.outputs import sorted_json
 
 
 class Kept(Protocol):
-    """A row that says whether what it is about kept its promise."""
+    """A row that states whether its budget is met."""
 
     @property
     def kept(self) -> bool:
-        """Whether it did."""
+        """Return whether the budget is met."""
 
 
 @dataclass(frozen=True)
@@ -23,19 +23,19 @@ class CheckResult:
     Parameters
     ----------
     title, columns, cells
-        Of its table.
+        Title, columns and cells of the table.
     data
-        Makes it as plain data.
+        Function that returns the result as plain data.
     passed
-        Whether every promise is kept.
+        Whether every budget is met.
     note
-        A sentence below the table, if there is something to say.
+        A sentence below the table; may be empty.
     listings
-        Lines below that, under their titles.
+        Lines below the note, under their titles.
     budgeted
-        Rows from which tighter budgets may follow.
+        Rows from which tighter budgets may be suggested.
     recorded
-        Makes the text of the record, if that is not the data in sorted order.
+        Function that returns the text of the record, if it is not the data in sorted order.
     """
 
     title: str
@@ -49,10 +49,10 @@ class CheckResult:
     recorded: Callable[[], str] | None = None
 
     def record(self) -> str:
-        """The data as a file of the committed measurements holds them."""
+        """Return the data as the text of a file of committed measurements."""
         return self.recorded() if self.recorded else sorted_json(self.data())
 
 
 def all_kept(rows: Iterable[Kept]) -> bool:
-    """Whether every row kept its promise."""
+    """Return whether every row meets its budget."""
     return all(row.kept for row in rows)

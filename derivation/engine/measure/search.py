@@ -17,16 +17,16 @@ from derivation.engine.measure.point import Point
 from derivation.engine.measure.target import Target
 
 DRAWN = 256
-"""Points drawn at random between climbs."""
+"""Number of random points between local searches."""
 
 STRIDES = tuple(2**bits for bits in range(46, -1, -2))
-"""Steps of a climb, in floats: from 2% of a number down to its neighbour."""
+"""Steps of a local search, in floats: from 2 % of a number down to its neighbour."""
 
 WHOLE_STRIDES = (4096, 256, 32, 8, 3, 2, 1)
 """The same for whole numbers."""
 
 Tell = Callable[[str, int, float], None]
-"""Called at every kernel's turn: its name, how many points all have had, the worst ratio."""
+"""Called at every function's turn with its name, the number of points, and the largest ratio."""
 
 
 @dataclass(frozen=True)
@@ -38,8 +38,8 @@ class Found:
     point
         The arguments.
     company
-        A second point, handed over together with it in one array, if the error is
-        larger so than for plain numbers.
+        A second point, passed together with it in one array, if the error is then larger than for
+        plain numbers.
     error
         Error and allowance.
     """
@@ -50,22 +50,22 @@ class Found:
 
     @property
     def ratio(self) -> float:
-        """Error over allowance."""
+        """Return error over allowance."""
         return self.error.ratio
 
 
 @dataclass
 class Standing:
-    """How far a kernel's search has come.
+    """The state of the search for one function.
 
     Parameters
     ----------
     evaluations
-        Points looked at.
+        Number of evaluated points.
     unjudged
-        How many were found to have no truth that a double can hold, or none at all.
+        Number of points without a reference value, or with one outside the range of doubles.
     worst
-        The largest error in proportion to what is allowed.
+        The point with the largest ratio of error to allowance.
     """
 
     evaluations: int = 0
@@ -74,22 +74,22 @@ class Standing:
 
     @property
     def ratio(self) -> float:
-        """The worst ratio; -1 before there is any."""
+        """Return the largest ratio; -1 before the first evaluation."""
         return -1.0 if self.worst is None else self.worst.ratio
 
 
 @dataclass
 class Search:
-    """A search and what it has found.
+    """A search and its results.
 
     Parameters
     ----------
     seed
-        What the sequence of points depends on.
+        Seed of the sequence of points.
     standings
-        By kernel, in the order of their turns.
+        States by function, in the order of their turns.
     interrupted
-        Whether it was stopped from outside.
+        Whether it was interrupted.
     """
 
     seed: int
@@ -98,12 +98,12 @@ class Search:
 
     @property
     def evaluations(self) -> int:
-        """Points looked at by all kernels."""
+        """Return the number of points evaluated for all functions."""
         return sum(standing.evaluations for standing in self.standings.values())
 
     @property
     def ratio(self) -> float:
-        """The worst ratio of all kernels."""
+        """Return the largest ratio of all functions."""
         return max((standing.ratio for standing in self.standings.values()), default=-1.0)
 
 
@@ -115,25 +115,25 @@ def search(
     tell: Tell | None = None,
     keep: Callable[[Search], None] | None = None,
 ) -> Search:
-    """Look for larger and larger errors until the time or the evaluations are used up.
+    """Search for larger errors until the time or the number of evaluations is used up.
 
     Parameters
     ----------
     targets
-        The kernels.
+        The functions.
     seed
         The same seed and number of evaluations give the same worst points.
     seconds, evaluations
-        When to stop, whichever comes first; at least one is needed.
+        Limits; the search ends at the first one reached. At least one is required.
     tell
-        Told about every turn.
+        Called at every turn.
     keep
-        Called after every round with what has been found so far.
+        Called after every round with the search so far.
 
     Raises
     ------
     ValueError
-        If nothing says when to stop.
+        If there is no limit.
     """
     if seconds is None and evaluations is None:
         raise ValueError("expected seconds or evaluations, got neither: a search has no end")
@@ -176,11 +176,11 @@ def _take_turns(
 
 
 def hunt(target: Target, seed: int, standing: Standing) -> Iterator[None]:
-    """Look for one kernel's worst point; pauses after every point, and never ends.
+    """Search for one function's worst point; the generator yields after every point, without end.
 
-    Points are drawn at random; then the worst of them, or in every other cycle the
-    worst of all so far, is where steps begin that grow smaller, one argument at a
-    time, and are kept where they lead to something worse.
+    Points are drawn at random. A local search then starts from the worst of them or, in every other
+    cycle, from the worst point so far. It changes one argument at a time by decreasing steps and
+    keeps each step that leads to a larger ratio.
     """
     generator = random.Random(f"{target.name} from {seed}")
     for cycle in itertools.count():
@@ -195,7 +195,7 @@ def hunt(target: Target, seed: int, standing: Standing) -> Iterator[None]:
 def _climb(
     target: Target, generator: random.Random, here: Standing, standing: Standing
 ) -> Iterator[None]:
-    """Steps from a point, to either side in each argument, shrinking."""
+    """Take decreasing steps from a point, to either side in each argument."""
     if here.worst is None:
         return
     domain = target.domain
@@ -213,7 +213,7 @@ def _climb(
 def _look(
     target: Target, points: Sequence[Point], here: Standing, standing: Standing
 ) -> Iterator[None]:
-    """Judge points one by one; what is worse than before is kept here and overall."""
+    """Evaluate points one by one; larger ratios are kept here and overall."""
     if not points:
         return
     results = target.call(points) if target.bound is not None else None
@@ -231,12 +231,12 @@ def _look(
 
 
 def _may_be_worse(target: Target, point: Point, got: tuple[float, ...], ratio: float) -> bool:
-    """The screen: whether an upper bound of the ratio leaves a chance."""
+    """Return whether an upper bound of the ratio exceeds the largest ratio so far."""
     return target.bound is None or target.bound(point, got) > ratio
 
 
 def weigh(target: Target, point: Point, company: Point | None) -> Found | None:
-    """A point's error: alone as plain numbers, or in company if that is worse."""
+    """Return a point's error: for plain numbers, or in an array with a second point if larger."""
     plain = target.call([point])[0]
     alone = target.measure(point, plain)
     if alone is None:

@@ -14,7 +14,7 @@ from derivation.engine.measure.target import Target
 from derivation.engine.outputs import plain
 
 COLUMNS = ("kernel", "#evaluations", "#ratio", "#ULP", "#allowed", "new")
-"""Headings of the table, all of the worst point: its ratio is error over allowance."""
+"""Headings of the table; the columns of the worst point have error over allowance as ratio."""
 
 GROUP = "search"
 """Group of its cases."""
@@ -26,12 +26,12 @@ _HEADER = """\
 
 
 def seconds_of(duration: str) -> int:
-    """Seconds of a duration: a whole number, and s, m or h.
+    """Return the seconds of a duration: a whole number followed by s, m or h.
 
     Raises
     ------
     ValueError
-        For anything else, and for no time at all.
+        If the duration has another form or is zero.
     """
     found = re.fullmatch(r"([1-9][0-9]{0,6})([smh])", duration)
     if found is None:
@@ -43,7 +43,7 @@ def seconds_of(duration: str) -> int:
 
 
 def case_of(kernel: str, found: Found, seed: int) -> HardCase:
-    """A found point as a case; two points in one array if it takes two."""
+    """Return a point of the search as a case; both points in one array if two are needed."""
     points = [found.point] if found.company is None else [found.point, found.company]
     inputs = {name: tuple(p.values[name].hex() for p in points) for name in found.point.values}
     form = "scalar" if found.company is None else "array"
@@ -52,17 +52,17 @@ def case_of(kernel: str, found: Found, seed: int) -> HardCase:
 
 
 def points_of(case: HardCase) -> list[Point]:
-    """A case's points: the one in question, and the other if there is one."""
+    """Return a case's points: the point itself, and the second one if there is one."""
     return [Point(values, case.modes) for values in case.points]
 
 
 def measured(case: HardCase, targets: Mapping[str, Target]) -> Found | None:
-    """A case's error as the kernel is now; None if it is not searched or not to be judged.
+    """Return the present error of a case; None if it is not searched or has no reference.
 
     Raises
     ------
     ValueError
-        If the inputs are not the kernel's arguments.
+        If the inputs are not the function's arguments.
     """
     target = targets.get(case.kernel)
     if target is None:
@@ -75,12 +75,12 @@ def measured(case: HardCase, targets: Mapping[str, Target]) -> Found | None:
 
 
 def read(path: Path) -> list[HardCase]:
-    """Cases of an earlier search's file; none if there is no file.
+    """Return the cases in the file of an earlier search; empty if there is no file.
 
     Raises
     ------
     ValueError
-        If it is another kind of file, which is not to be overwritten.
+        If it is another kind of file, which must not be overwritten.
     """
     if not path.exists():
         return []
@@ -96,7 +96,7 @@ def read(path: Path) -> list[HardCase]:
 
 
 def to_toml(cases: Sequence[tuple[HardCase, Found | None]]) -> str:
-    """The file: a table per case; what was measured stands above it as a comment."""
+    """Return the text of the file: a table per case, the measured error above it as a comment."""
     return _HEADER + "".join(_table(case, found) for case, found in cases)
 
 
@@ -123,19 +123,19 @@ class Book:
     Parameters
     ----------
     path
-        Where it is; what an earlier search left there is kept.
+        Path of the file; cases of an earlier search are kept.
     targets
-        The kernels, by which earlier cases are measured anew.
+        The functions, with which earlier cases are measured again.
     ratios
-        The worst ratio on record, by kernel.
+        Largest recorded ratio by function.
     worst
-        Arguments of the worst error on record, as hexadecimal doubles, of kernels whose ratio is
-        measured anew.
+        Arguments of the largest recorded error, as hexadecimal doubles, of functions whose ratio is
+        measured again.
 
     Raises
     ------
     ValueError
-        If the file is of another kind.
+        If it is another kind of file.
     """
 
     def __init__(
@@ -158,7 +158,7 @@ class Book:
             self._known[kernel] = max(found.ratio, self._known.get(kernel, 0.0))
 
     def _best_known(self, kernel: str) -> float:
-        """The worst ratio on record, measured when first asked for if that was not kept."""
+        """Return the largest recorded ratio, measured at the first call if it is not recorded."""
         texts = self._unmeasured.pop(kernel, None)
         if texts is not None and kernel in self._targets:
             names = self._targets[kernel].domain.arguments
@@ -167,7 +167,7 @@ class Book:
         return self._known.get(kernel, 0.0)
 
     def is_new(self, kernel: str, found: Found | None) -> bool:
-        """Whether a case is worse than what is known of its kernel, or beyond its allowance."""
+        """Return whether a case exceeds its function's largest known ratio, or its allowance."""
         if found is None or any(
             case.kernel == kernel and points_of(case)[0] == found.point for case, _ in self._earlier
         ):
@@ -175,7 +175,7 @@ class Book:
         return found.ratio > min(self._best_known(kernel), 1.0)
 
     def keep(self, search: Search) -> None:
-        """Write earlier and new cases, if there are any that are not written yet."""
+        """Write earlier and new cases, if some are not written yet."""
         new = [
             (case_of(kernel, standing.worst, search.seed), standing.worst)
             for kernel, standing in search.standings.items()
@@ -188,7 +188,7 @@ class Book:
 
     @property
     def written(self) -> bool:
-        """Whether there was anything to write."""
+        """Return whether there was a case to write."""
         return bool(self._written)
 
 
@@ -196,7 +196,7 @@ class Book:
 
 
 def cells(kernel: str, search: Search, book: Book) -> tuple[str, ...]:
-    """A kernel's entries under `COLUMNS`."""
+    """Return a function's entries under `COLUMNS`."""
     standing = search.standings[kernel]
     worst = standing.worst
     if worst is None:
@@ -207,7 +207,7 @@ def cells(kernel: str, search: Search, book: Book) -> tuple[str, ...]:
 
 
 def arguments(kernel: str, search: Search) -> str:
-    """A kernel's worst arguments in exact doubles, on a line."""
+    """Return a function's worst arguments as exact doubles, in one line."""
     worst = search.standings[kernel].worst
     if worst is None:
         return f"{kernel}:"
@@ -218,7 +218,7 @@ def arguments(kernel: str, search: Search) -> str:
 
 
 def as_data(search: Search) -> dict[str, Any]:
-    """A search as plain data: the same for the same seed and evaluations."""
+    """Return a search as plain data: the same for the same seed and number of evaluations."""
     return {
         "seed": search.seed,
         "interrupted": search.interrupted,
@@ -239,5 +239,5 @@ def _row(kernel: str, search: Search) -> dict[str, Any]:
 
 
 def kept(search: Search) -> bool:
-    """Whether every error found is within its allowance."""
+    """Return whether every error is within its allowance."""
     return all(standing.ratio <= 1.0 for standing in search.standings.values())

@@ -9,13 +9,13 @@ from dataclasses import dataclass
 from typing import Protocol
 
 MARGIN = 1.25
-"""A suggestion leaves a quarter more than the worst that was measured."""
+"""A suggested budget is a quarter larger than the largest measured error."""
 
 QUARTER = 0.25
 """Suggestions are multiples of this many ULP."""
 
 LEAST = 0.5
-"""What rounding the result alone may cost: nothing below is suggested."""
+"""Smallest suggested budget: the rounding of the result alone."""
 
 
 class MeasuredErrors(Protocol):
@@ -23,11 +23,11 @@ class MeasuredErrors(Protocol):
 
     @property
     def needed(self) -> float:
-        """The budget [ULP] that would just have been kept."""
+        """The smallest budget [ULP] that is met."""
 
 
 class MeasuredRow(Protocol):
-    """What a suggestion follows from."""
+    """The parts of a row on which a suggestion depends."""
 
     @property
     def kernel(self) -> str:
@@ -35,11 +35,11 @@ class MeasuredRow(Protocol):
 
     @property
     def budget(self) -> float | None:
-        """What is promised [ULP]; None if nothing is."""
+        """Error budget [ULP]; None without one."""
 
     @property
     def passed(self) -> bool | None:
-        """Whether the budget is kept."""
+        """Whether the budget is met."""
 
     @property
     def double(self) -> MeasuredErrors:
@@ -57,9 +57,9 @@ class Suggestion:
     Parameters
     ----------
     name
-        Of the function.
+        Name of the function.
     ulp, budget, needed
-        The suggested budget, the one in force, and the error that was measured, in ULP.
+        The suggested budget, the present one, and the measured error, in ULP.
     """
 
     name: str
@@ -68,7 +68,7 @@ class Suggestion:
     needed: float
 
     def __str__(self) -> str:
-        """A line for the table [ulp] of `budgets.toml`."""
+        """Return a line for the table [ulp] of `budgets.toml`."""
         return f"{self.name} = {self.ulp}  # {self.budget:g}, {self.needed:.3g} measured"
 
 

@@ -25,39 +25,39 @@ SAVED_EVERY = 30.0
 """Seconds."""
 
 _SPARE = 2
-"""Digits of a reference beyond those written."""
+"""Number of digits of a reference beyond the written ones."""
 
 _SLOPE_DIGITS, _SLOPE_STEP, _SLOPE_BITS = 15, Fraction(1, 2**20), 512
-"""Sensitivities only set allowances: a difference quotient to a few digits will do."""
+"""Sensitivities are used for allowances only: a difference quotient to a few digits suffices."""
 
 Given = Sequence[Any]
 Values = Callable[[Given, int], tuple[arb, ...]]
-"""Arguments and digits -> balls, one for each result."""
+"""Function of arguments and digits that returns balls, one for each result."""
 
 
 @dataclass(frozen=True)
 class HardLaw:
-    """What a kernel without a closed formula of the chain is compared with.
+    """The references of a function without a closed formula in the derivation.
 
     Parameters
     ----------
     values
-        Its results.
+        Function that returns its results.
     sizes
-        From arguments and results, what the budget counts in units of; the results' own
-        magnitudes if there is nothing else to say.
+        Function of arguments and results that returns the units of the budget; by default the
+        magnitudes of the results.
     conditioned
-        Whether what rounding the arguments does is allowed on top; not where a kernel
-        promises a relative error.
+        Whether the effect of rounding the arguments is allowed in addition; not for functions whose
+        budget is a relative error.
     slopes
-        From arguments and results, the sum of |x df/dx| over the arguments, of each result;
-        found by differences if there is no quicker way.
+        Function of arguments and results that returns the sum of |x df/dx| over the arguments for
+        each result; by default from differences.
     scale
-        From arguments and first result, what multiplies the budget; nothing if left out.
+        Function of arguments and first result that returns a factor of the budget; by default 1.
     results
-        How many results the kernel has.
+        Number of results.
     oracle
-        Modules that the results follow from.
+        Modules on which the results depend.
     """
 
     values: Values
@@ -70,7 +70,7 @@ class HardLaw:
 
 
 class Known(NamedTuple):
-    """The references of a case, and the hash of what they follow from, see `Suite.origin`."""
+    """The references of a case, and the hash of their sources, see `Suite.origin`."""
 
     origin: str
     references: Sequence[Stored]
@@ -78,22 +78,22 @@ class Known(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Suite:
-    """A paper's hard cases and what they are compared with.
+    """A paper's hard cases and their references.
 
     Parameters
     ----------
     cases
         The cases.
     kernels
-        What they are about, by name.
+        Their functions, by name.
     printed
-        The formulas as printed, by the name of the derived one.
+        The formulas as published, by the name of the derived one.
     balls
         References of formulas, functions and numbers by index.
     laws
         References of other kernels, by name.
     numbers
-        Modules that the functions and numbers by index among the `balls` follow from.
+        Modules on which the functions and numbers by index among the `balls` depend.
     outwards
         Arguments that are moved upwards for a difference quotient, all others downwards, so that
         no point comes to lie outside the domain.
@@ -101,7 +101,7 @@ class Suite:
     Raises
     ------
     ValueError
-        For a case that stands there twice.
+        If a case appears twice.
     """
 
     cases: tuple[HardCase, ...]
@@ -120,13 +120,13 @@ class Suite:
             seen.add(case.key)
 
     def results(self, kernel: str) -> int:
-        """How many results a kernel has."""
+        """Return the number of results of a function."""
         return self.laws[kernel].results if kernel in self.laws else 1
 
     def origin(self, kernel: str) -> str:
-        """Hash of a kernel's derived expression, or of its oracle: the modules and all they import.
+        """Return the hash of a function's derived expression, or of its oracle with its imports.
 
-        A reference with another one has to be found anew.
+        A reference with another hash must be computed again.
         """
         if kernel in self.laws:
             return of_modules(self.laws[kernel].oracle)
@@ -137,7 +137,7 @@ class Suite:
         return of_expression(expression)
 
     def references(self, case: HardCase) -> list[Stored]:
-        """The truth of a case: for every result, and of each for every point."""
+        """Return the references of a case: for every result and every point."""
         results = range(self.results(case.kernel))
         if case.expect != "value":
             values = {"nan": "nan", "zero": "0"}
@@ -170,7 +170,7 @@ class Suite:
         ]
 
     def _differences(self, law: HardLaw, point: Mapping[str, float]) -> list[arb]:
-        """Of every result, the sum of |x df/dx| over the arguments."""
+        """Return the sum of |x df/dx| over the arguments, for every result."""
         given = list(point.values())
         here = law.values(given, _SLOPE_DIGITS)
         totals = [arb(0)] * len(here)
@@ -191,28 +191,27 @@ class Suite:
 
 
 def known_of(data: Mapping[str, Any]) -> dict[str, Known]:
-    """What is recorded, by key."""
+    """Return the recorded references by key."""
     return {row["key"]: Known(row["origin"], row["references"]) for row in data["cases"]}
 
 
 def find_references(
     suite: Suite, recorded: Path, part: Path, tell: Tell = quiet
 ) -> dict[str, Known]:
-    """The truth of every case by its key, from the original expressions: minutes.
+    """Return the references of all cases by key, from the original expressions (takes minutes).
 
-    Those that stand are kept, all saved as they come.
+    Up-to-date references are reused, and new ones are saved as they are computed.
 
     Parameters
     ----------
     suite
         The cases.
     recorded
-        The record so far. References that follow from what they would follow from now are
-        taken over.
+        The present record. References whose sources have not changed are reused.
     part
-        Where references are saved while others are sought, for a run after one that was stopped.
+        File in which references are saved during the run, so that a stopped run can be continued.
     tell
-        Told about every case that is done: its kernel, its number, and how many there are.
+        Called after every case with its function, its number and the number of cases.
     """
     known = _standing(recorded) | _standing(part)
     found: dict[str, Known] = {}

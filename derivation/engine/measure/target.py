@@ -18,27 +18,27 @@ from derivation.engine.oracle.reference import Reference
 Numbers = tuple[float, ...]
 """A function's results at a point."""
 NO_REFERENCE = PrecisionError, ValueError, ZeroDivisionError, OverflowError
-"""What a reference raises where it has no value: at singular points, outside the domain."""
+"""Exceptions of a reference without a value: at singular points and outside the domain."""
 
 _DIGITS, _FEW = 50, 20
-"""Digits of the reference, and of the upper bound."""
+"""Numbers of digits of the reference and of the upper bound."""
 
 
 @dataclass(frozen=True)
 class Domain:
-    """Where a function is searched.
+    """The domain in which a function is searched.
 
     Parameters
     ----------
     name
-        The function.
+        Name of the function.
     arguments
-        Their names in order.
+        Names of the arguments in order.
     modes
         Whether it is a modal sum.
     conditions
-        What the arguments satisfy, as comparisons in Python's notation; the doubles are compared as
-        a function compares them, rounding included. Those that name other arguments do not count.
+        Conditions on the arguments, as comparisons in Python's notation; the doubles are compared
+        as in a function, rounding included. Conditions with other arguments are ignored.
     whole
         Whether its arguments are whole numbers.
     """
@@ -50,14 +50,14 @@ class Domain:
     whole: bool = False
 
     def holds(self, point: Point) -> bool:
-        """Whether a point lies in the domain."""
+        """Return whether a point is in the domain."""
         codes = _compiled(self.conditions, self.arguments)
         finite = all(math.isfinite(value) for value in point.values.values())
         # The conditions are a manifest's and a paper's own, never a stranger's.
         return finite and all(eval(code, {"abs": abs}, dict(point.values)) for code in codes)
 
     def moved(self, point: Point, name: str, steps: int) -> Point:
-        """Return the point with one argument so many floats, or whole numbers, further on."""
+        """Return the point with one argument changed by a number of floats, or of integers."""
         value = point.values[name]
         there = value + steps if self.whole else _beside(value, steps)
         return Point({**point.values, name: there}, point.modes)
@@ -65,7 +65,7 @@ class Domain:
 
 @cache
 def _compiled(conditions: tuple[str, ...], arguments: tuple[str, ...]) -> tuple[CodeType, ...]:
-    """The conditions that name nothing but arguments."""
+    """Return the conditions that contain nothing but arguments."""
     codes = (compile(condition, "<domain>", "eval") for condition in conditions)
     return tuple(code for code in codes if set(code.co_names) - {"abs"} <= set(arguments))
 
@@ -76,7 +76,7 @@ def _beside(value: float, floats: int) -> float:
 
 
 Draw = Callable[[Domain, Random], Point]
-"""Returns a random point of a domain."""
+"""Function that returns a random point of a domain."""
 Measure = Callable[[Point, Numbers], Error | None]
 """Point and results -> the largest error; None where no double holds the reference value, there is
 none, or the point lies outside the domain after all."""
@@ -89,18 +89,18 @@ class Target:
     Parameters
     ----------
     domain
-        Where.
+        The domain of the search.
     draw
-        Draws a point of the domain.
+        Function that returns a random point of the domain.
     call
-        Points -> results.
+        Function of points that returns the results.
     measure
-        Judges results.
+        Function that returns the error of the results.
     bound
-        Point and results -> a number that `measure`'s ratio never exceeds, found with less effort;
-        None where there is no such short cut.
+        Function of point and results that returns a cheaper upper bound of `measure`'s ratio; None
+        if there is none.
     share, every
-        Points per turn, and how many rounds go by for one turn.
+        Points per turn, and number of rounds per turn.
     """
 
     domain: Domain
@@ -113,12 +113,12 @@ class Target:
 
     @property
     def name(self) -> str:
-        """The function's name."""
+        """Return the function's name."""
         return self.domain.name
 
 
 def measure_by(references: Callable[[Point], Sequence[Reference] | None], budget: float) -> Measure:
-    """Return what judges all results at a point by their references."""
+    """Return a function that compares all results at a point with their references."""
 
     def measure(point: Point, results: Numbers) -> Error | None:
         try:
@@ -136,7 +136,7 @@ def measure_by(references: Callable[[Point], Sequence[Reference] | None], budget
 def closed_target(
     by: Judge, domain: Domain, kernel: Kernel, draw: Draw, share: int = 48, every: int = 1
 ) -> Target:
-    """Return a function of the manifest, with its budget and what conditioning allows."""
+    """Return a function of the manifest with its budget and its allowance for conditioning."""
     balls, budget = by.routes.balls, float(kernel.budget or 0.0)
 
     def call(points: Sequence[Point]) -> list[Numbers]:

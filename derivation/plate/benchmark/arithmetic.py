@@ -1,7 +1,7 @@
 """One method in several kinds of arithmetic: NumPy floats of any width, mpmath, and Arb balls.
 
-Each knows zeros of J0, s(y) = sin y - y cos y and its hyperbolic counterpart, and the
-plate factor, to its own precision; arrays hold its numbers.
+Each computes zeros of J0, s(y) = sin y - y cos y with its hyperbolic counterpart, and the plate
+factor to its own precision. Arrays contain its numbers.
 """
 
 import math
@@ -27,28 +27,28 @@ Array = Any
 """NumPy array of an arithmetic's numbers."""
 
 SERIES_END = 1.6
-"""Below this floats sum s(y) as a power series: its closed form cancels."""
+"""|y| below which floats sum s(y) as a power series, because its closed form cancels."""
 
 TERMS = 12, 17
-"""Of the series of s(y) and of the plate factor's denominator: the next is below 1e-20 of them."""
+"""Numbers of terms for s(y) and for the plate factor's denominator; the rest is below 1e-20."""
 
 FAR, FAR_TERMS = 1000, 4
 """Zeros beyond this number come in long doubles from McMahon's expansion: so many terms leave out
 less than 1e-26 of the value."""
 
 KNOWN = 1 << 16
-"""Zeros up to this number come in doubles from the generated code."""
+"""Number of zeros that are computed in doubles by the generated code."""
 
 
 class Arithmetic:
-    """What a method asks of its numbers.
+    """The operations that a method needs.
 
     Attributes
     ----------
     digits, constants
-        Decimal digits its numbers hold, and to which constants are found.
+        Numbers of decimal digits of its numbers, and of constants.
     wide
-        Whether numbers are objects, taken one by one.
+        Whether numbers are objects, evaluated one by one.
     """
 
     name: str
@@ -60,23 +60,23 @@ class Arithmetic:
 
     @property
     def bits(self) -> int:
-        """Precision at which constants are found, with some to spare."""
+        """Return the precision of constants, with a margin."""
         return math.ceil(LOG2_10 * (self.constants + 10)) + 24
 
     def context(self) -> AbstractContextManager[Any]:
-        """Where its precision holds."""
+        """Return a context in which its precision is set."""
         raise NotImplementedError
 
     def number(self, value: Any) -> Any:
-        """A double, a ball or a number of its own as its number."""
+        """Return a double, a ball or one of its own numbers as its number."""
         raise NotImplementedError
 
     def array(self, values: Any) -> Array:
-        """Each as its number."""
+        """Return each number as its number."""
         raise NotImplementedError
 
     def wrapped(self, inner: Callable[[Array], Array]) -> Callable[[Any], Array]:
-        """A function of its numbers as one of doubles, in its precision."""
+        """Return a function of its numbers as one of doubles, in its precision."""
 
         def call(values: Any) -> Array:
             with self.context():
@@ -85,40 +85,40 @@ class Arithmetic:
         return call
 
     def pi(self) -> Any:
-        """The number pi."""
+        """Return the number pi."""
         with flint.ctx.workprec(self.bits):
             return self.number(arb.pi())
 
     def zeros(self, count: int) -> tuple[Array, Array]:
-        """The first zeros j_n of J0, and J1(j_n)."""
+        """Return the first zeros j_n of J0, and J1(j_n)."""
         with flint.ctx.workprec(self.bits):
             j = [certified.j0_zero(n, self.bits + 16) for n in range(1, count + 1)]
             slopes = [certified.j1_at_zero(n, self.bits) for n in range(1, count + 1)]
             return self.array(j), self.array(slopes)
 
     def shape(self, y: Array) -> Array:
-        """s(y) = sin y - y cos y."""
+        """Return s(y) = sin y - y cos y."""
         raise NotImplementedError
 
     def wall_shape(self, t: Array) -> Array:
-        """t cosh t - sinh t = s(i t) i."""
+        """Return t cosh t - sinh t = s(i t) i."""
         raise NotImplementedError
 
     def turned(self, y: Array) -> Array:
-        """(1 - i y) e^(iy), whose imaginary part is s(y)."""
+        """Return (1 - i y) e^(iy), whose imaginary part is s(y)."""
         raise NotImplementedError
 
     def excess(self, T: Array) -> Array:
-        """G(T) - 1."""
+        """Return G(T) - 1."""
         raise NotImplementedError
 
     def printed_factor(self, x: Array) -> Array:
-        """Plate factor as the paper prints it, x = phi h."""
+        """Return the plate factor as published, x = phi h."""
         raise NotImplementedError
 
 
 class Floats(Arithmetic):
-    """NumPy floats: Taylor series where closed forms cancel, found anew for each width."""
+    """NumPy floats: Taylor series where closed forms cancel, computed for each width."""
 
     wide, constants, exp, log = False, 60, np.exp, np.log
 
@@ -134,26 +134,26 @@ class Floats(Arithmetic):
         self._sine = self._sinh * self.array((-1.0) ** np.arange(len(odd)))
 
     def context(self) -> AbstractContextManager[Any]:
-        """Overflow is a result here, not an error."""
+        """Return a context in which overflow is a result, not an error."""
         return np.errstate(all="ignore")
 
     def number(self, value: Any) -> Any:
-        """Balls are rounded by way of 25 decimals."""
+        """Return balls rounded by way of 25 decimals."""
         given = value.str(25, radius=False) if isinstance(value, arb) else value
         return self.dtype.type(given)
 
     def array(self, values: Any) -> Array:
-        """Each as a float."""
+        """Return each number as a float."""
         if isinstance(values, list):
             values = [self.number(value) for value in values]
         return np.asarray(values, self.dtype)
 
     def wrapped(self, inner: Callable[[Array], Array]) -> Callable[[Any], Array]:
-        """Nothing is added to a function of doubles."""
+        """Return the function of doubles unchanged."""
         return inner if self is DOUBLE else lambda values: inner(values.astype(self.dtype))
 
     def zeros(self, count: int, begin: int = 0) -> tuple[Array, Array]:
-        """Those with begin < n <= count: known ones, and beyond by McMahon's expansion."""
+        """Return those with begin < n <= count: known ones, and others by McMahon's expansion."""
         known = min(count, KNOWN if self.digits <= 16 else FAR)
         if self.digits <= 16:
             near = self.array(bessel_j0_zeros(known)), self.array(bessel_j1_at_j0_zeros(known))
@@ -166,7 +166,7 @@ class Floats(Arithmetic):
         return j, slope
 
     def _far(self, begin: int, end: int) -> tuple[Array, Array]:
-        """With beta = (n - 1/4) pi, j = beta (1 + s) and J1(j)^2 = 2 q/(pi beta).
+        """Return j = beta (1 + s) and J1(j)^2 = 2 q/(pi beta), beta = (n - 1/4) pi.
 
         s and q are in powers of 1/beta^2 (McMahon 1894; DLMF 10.21.19 and 10.21.20).
         """
@@ -177,23 +177,23 @@ class Floats(Arithmetic):
         return beta * (1 + w * stretch), np.sqrt(2 * slope / (pi * beta)) * np.where(n % 2, 1, -1)
 
     def shape(self, y: Array) -> Array:
-        """Power series below SERIES_END."""
+        """Return the power series, for y below SERIES_END."""
         near = np.minimum(y, self.number(SERIES_END))
         series = horner(self._sine, near * near) * (y * y * y)
         return np.where(y < SERIES_END, series, np.sin(y) - y * np.cos(y))
 
     def wall_shape(self, t: Array) -> Array:
-        """The same series without the alternating sign."""
+        """Return the same series without alternating signs."""
         near = np.minimum(t, self.number(SERIES_END))
         series = horner(self._sinh, near * near) * (t * t * t)
         return np.where(t < SERIES_END, series, t * np.cosh(t) - np.sinh(t))
 
     def turned(self, y: Array) -> Array:
-        """As it stands."""
+        """Return the closed form."""
         return (1 - 1j * y) * np.exp(1j * y)
 
     def excess(self, T: Array) -> Array:
-        """4 e^(-2T) n/((1 - e^(-2T))^2 - 4 T^2 e^(-2T)), the denominator by its series below 2."""
+        """Return 4 e^(-2T) n/((1 - e^(-2T))^2 - 4 T^2 e^(-2T)), by series for T < 2."""
         decay = np.exp(-2 * T)
         numerator = -np.expm1(-2 * T) / 2 + T + T * T
         near = np.minimum(T, self.number(2.0))
@@ -203,17 +203,17 @@ class Floats(Arithmetic):
         return np.where(T > 2, 4 * decay * numerator / apart, small)
 
     def printed_factor(self, x: Array) -> Array:
-        """Overflows from x = 88.7 on in doubles."""
+        """Return the published form, which overflows in doubles from x = 88.7 on."""
         return _printed_factor(x, np.exp(2 * x))
 
 
 class Wide(Arithmetic):
-    """Numbers of any precision, as objects in arrays; a function takes them one by one."""
+    """Numbers of any precision, as objects in arrays; a function evaluates them one by one."""
 
     wide = True
 
     def array(self, values: Any) -> Array:
-        """Every number converted; an array without axes stays one number."""
+        """Return every number converted; an array without axes stays one number."""
         if isinstance(values, list | np.ndarray):
             flat = [self.number(value) for value in np.ravel(np.array(values, dtype=object))]
             return np.array(flat, dtype=object)
@@ -227,31 +227,31 @@ class BallArithmetic(Wide):
         self.name, self.digits, self.constants = f"Arb, {digits} digits", digits, digits + 10
 
     def context(self) -> AbstractContextManager[Any]:
-        """Its precision and some bits to spare."""
+        """Return its precision with some additional bits."""
         manager: AbstractContextManager[Any] = flint.ctx.workprec(
             math.ceil(self.digits * LOG2_10) + 24
         )
         return manager
 
     def number(self, value: Any) -> Any:
-        """Exactly."""
+        """Return the exact number."""
         return value if isinstance(value, arb) else arb(float(value))
 
     def shape(self, y: Array) -> Array:
-        """By the oracle's kernel, which knows the power series; and so is all else."""
+        """Return the Arb reference's function, which uses its power series."""
         return np.frompyfunc(lambda x: kernel("hertz", acb(x)).real * x**3 / 3, 1, 1)(y)
 
     def wall_shape(self, t: Array) -> Array:
-        """The same on the imaginary axis."""
+        """Return the same on the imaginary axis."""
         return np.frompyfunc(lambda x: kernel("hertz", acb(0, x)).real * x**3 / 3, 1, 1)(t)
 
     def excess(self, T: Array) -> Array:
-        """The oracle's."""
+        """Return the Arb reference's function."""
         return np.frompyfunc(lambda x: plate_excess(acb(x)).real, 1, 1)(T)
 
 
 class Mpmath(Wide):
-    """mpmath at a number of digits; where closed forms cancel it takes more."""
+    """mpmath at a number of digits; where closed forms cancel it uses more."""
 
     exp, log = np.frompyfunc(mp.exp, 1, 1), np.frompyfunc(mp.log, 1, 1)
 
@@ -260,30 +260,30 @@ class Mpmath(Wide):
         self.constants = constants or digits + 10
 
     def context(self) -> AbstractContextManager[Any]:
-        """Its precision and some digits to spare."""
+        """Return its precision with some additional digits."""
         manager: AbstractContextManager[Any] = mp.workdps(self.digits + 3)
         return manager
 
     def number(self, value: Any) -> Any:
-        """Balls are rounded by way of decimals."""
+        """Return balls rounded by way of decimals."""
         if isinstance(value, arb):
             return mpf(value.str(self.digits + 8, radius=False))
         return value if isinstance(value, mpf) else mpf(float(value))
 
     def shape(self, y: Array) -> Array:
-        """As it stands."""
+        """Return the closed form."""
         return self._each(lambda x, c, s: s - x * c, 3, y)
 
     def wall_shape(self, t: Array) -> Array:
-        """As it stands."""
+        """Return the closed form."""
         return self._each(lambda x, *_: x * mp.cosh(x) - mp.sinh(x), 3, t)
 
     def turned(self, y: Array) -> Array:
-        """By its parts."""
+        """Return the value from its parts."""
         return self._each(lambda x, c, s: mpc(c + x * s, s - x * c), 0, y)
 
     def excess(self, T: Array) -> Array:
-        """By decaying exponentials."""
+        """Return the value in decaying exponentials."""
 
         def function(x: mpf, *_: mpf) -> mpf:
             decay = mp.exp(-2 * x)
@@ -293,11 +293,11 @@ class Mpmath(Wide):
         return self._each(function, 4, T)
 
     def printed_factor(self, x: Array) -> Array:
-        """As printed."""
+        """Return the published form."""
         return self._each(lambda x, *_: _printed_factor(x, mp.exp(2 * x)), 3, x)
 
     def _each(self, function: Callable[..., Any], power: int, values: Array) -> Array:
-        """A function of a number, its cosine and sine that cancels like the number's power."""
+        """Return a function of a number, its cosine and sine that cancels like its power."""
 
         def one(x: mpf) -> Any:
             with mp.extradps(5 + max(0, math.ceil(-power * math.log10(float(x))))):
@@ -307,7 +307,7 @@ class Mpmath(Wide):
 
 
 def horner(coefficients: Any, x: Array) -> Array:
-    """A polynomial, its constant first."""
+    """Return a polynomial, its constant first."""
     value = coefficients[-1] + 0 * x
     for coefficient in coefficients[-2::-1]:
         value *= x
@@ -322,7 +322,7 @@ def _printed_factor(x: Any, e2: Any) -> Any:
 
 @cache
 def mcmahon() -> list[list[arb]]:
-    """Coefficients of s/w and q of `Floats._far`, w = 1/beta^2."""
+    """Return the coefficients of s/w and q of `Floats._far`, w = 1/beta^2."""
     rows = zero_correction(0, FAR_TERMS).coefficients, slope_squared(FAR_TERMS).coefficients
     with flint.ctx.workprec(96):
         return [[arb(int(c.p)) / int(c.q) for c in row] for row in rows]
@@ -332,23 +332,23 @@ SINGLE = Floats("float32", np.float32)
 DOUBLE = Floats("float64", np.float64)
 LONG = Floats("long double", np.longdouble)
 HAS_LONG = LONG.digits > DOUBLE.digits
-"""Whether the platform's long double is any longer than double."""
+"""Return whether the platform's long double is longer than double."""
 
 WIDE = 60
-"""Digits at least of what stands for exact arithmetic."""
+"""Smallest number of digits of the arithmetic that serves as exact."""
 
 
 def exact_for(ar: Arithmetic) -> Arithmetic:
-    """What stands for exact arithmetic beside another: digits enough for its rounding to be seen.
+    """Return an arithmetic with sufficient digits to show the rounding of another one.
 
-    Constants are found to as many digits for both, so that they are found once.
+    Both use the same digits for constants, so that these are computed once.
     """
     digits = max(WIDE, ar.digits + 10)
     return Mpmath(digits, digits)
 
 
 def as_ball(value: Any) -> arb:
-    """Any arithmetic's number, exactly."""
+    """Return any arithmetic's number, exactly."""
     if isinstance(value, arb):
         return value
     if isinstance(value, mpf):
@@ -360,6 +360,6 @@ def as_ball(value: Any) -> arb:
 
 
 def as_fraction(value: mpf) -> Fraction:
-    """An mpmath number, exactly."""
+    """Return an mpmath number, exactly."""
     mantissa, exponent = value.man_exp
     return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)

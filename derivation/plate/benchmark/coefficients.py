@@ -1,8 +1,8 @@
 """Coefficients of the contact law's power series in a/h to any number of digits, in balls.
 
-delta = (a^2/R) (1 + A (c_1 + c_3 A^2 + ...)), A = a/h: the oracle's power series; for plates so
-thin that the residues at the roots of sinh T = +-T are below the digits asked for, the closed
-form. They are for methods to be judged: bounds of what is left out are not kept.
+delta = (a^2/R) (1 + A (c_1 + c_3 A^2 + ...)), A = a/h: the power series of the Arb reference; for
+plates so thin that the residues at the roots of sinh T = +-T are negligible, the closed form. The
+methods of the benchmark use them; truncation errors are not bounded.
 """
 
 import math
@@ -22,25 +22,25 @@ ROOT_HEIGHT = 4.2
 """The first residue is of the order e^(-ROOT_HEIGHT b/h)."""
 
 RADIUS = 4.0
-"""Of convergence in a/h, in a thin plate."""
+"""Radius of convergence in a/h for a thin plate."""
 
 LEAST = 0.5
-"""a/h up to which coefficients are found at least, though a regime's contacts be smaller."""
+"""Smallest a/h up to which coefficients are computed, even if all contacts are smaller."""
 
 MOST_ZEROS = 20_000
-"""Of J0, from which on finding them takes minutes."""
+"""Number of zeros of J0 above which their computation takes minutes."""
 
 LAW_DIGITS, MOST_TERMS = 40, 200
-"""Of the law that stands for the exact one, and terms of it in a thin plate."""
+"""Number of digits of the law that serves as exact, and number of its terms for a thin plate."""
 
 
 def is_thin(h: float, b: float, digits: int) -> bool:
-    """Whether the closed form gives so many digits."""
+    """Return whether the closed form gives this many digits."""
     return ROOT_HEIGHT * b / h > (digits + 5) * math.log(10)
 
 
 def coefficients(regime: Regime, count: int, digits: int) -> list[arb]:
-    """c_1, c_3 ... to some digits; fewer where the rest are below all of these."""
+    """Return c_1, c_3 ... to a number of digits; fewer if the others are negligible."""
     if is_thin(regime.h, regime.b, digits):
         return closed_form(regime.h, regime.b, count, digits)
     reach = max(regime.high if regime.high < RADIUS else 0.0, 1.05 * deepest(regime) / regime.h)
@@ -48,7 +48,7 @@ def coefficients(regime: Regime, count: int, digits: int) -> list[arb]:
 
 
 def exact_law(regime: Regime) -> list[arb]:
-    """All of them that the law takes up to a regime's largest contact, to LAW_DIGITS.
+    """Return all coefficients up to a test case's largest contact, to LAW_DIGITS.
 
     Raises
     ------
@@ -65,7 +65,7 @@ def exact_law(regime: Regime) -> list[arb]:
 
 @cache
 def oracles(h: float, b: float, top: float, digits: int) -> list[arb]:
-    """Oracle 1's up to a/h = top; beyond 4 its terms cancel, and it knows more of them."""
+    """Return those of the Arb reference up to a/h = top; for a > 4 h its terms cancel."""
     eta, bits = ratio_of(h, b), math.ceil((digits + 5) * LOG2_10)
     if contact_points.mode_count(float(eta), bits) > MOST_ZEROS:
         raise NotImplementedError("the law of so large contacts on so thin a plate takes minutes")
@@ -81,7 +81,7 @@ def oracles(h: float, b: float, top: float, digits: int) -> list[arb]:
 
 @cache
 def closed_form(h: float, b: float, count: int, digits: int) -> list[arb]:
-    """The thin plate's: a logarithm and finite parts M_k."""
+    """Return those of the thin plate: a logarithm and finite parts M_k."""
     bits = math.ceil(digits * LOG2_10) + 64
     with flint.ctx.workprec(bits):
         eta, pi = arb(h) / arb(b), arb.pi()

@@ -1,9 +1,10 @@
-"""How many digits a method gets right, and whether truncation or rounding takes the rest.
+"""Correct digits of a method, and whether truncation or rounding limits them.
 
-Rounding is what a method differs by from itself in 60 digits or more, or in long doubles where
-that would take minutes. What integrates in time, in doubles alone, is run again in other units of
-length and of time, which change nothing but rounding (stochastic arithmetic after Vignes, 1993).
-Rounding in ratios of lengths alone stays the same there: sums and polynomials are not judged so.
+Rounding is the difference of a method from the same method in 60 digits or more, or in long doubles
+where that would take minutes. Methods that integrate in time, in doubles alone, are repeated in
+other units of length and time, which change nothing but rounding (stochastic arithmetic after
+Vignes, 1993). Units do not change rounding in ratios of lengths, so that this is not used for sums
+and polynomials.
 """
 
 import math
@@ -21,7 +22,7 @@ from derivation.plate.benchmark.interface import Call, Method
 from derivation.plate.benchmark.problems import Problem
 
 RUNS, SEED = 5, 5
-"""Runs in other units, and the seed of these."""
+"""Number of runs in other units, and the seed of these units."""
 
 ESTIMATE = (
     "an estimate: rounding is the spread of runs in other units of length and of time, which "
@@ -31,22 +32,22 @@ ESTIMATE = (
 
 @dataclass(frozen=True)
 class BenchmarkErrors:
-    """Digits of the worst point: -log10 of the relative error; None where it was not measured.
+    """Correct digits of the worst point: -log10 of the relative error; None if it was not measured.
 
     Attributes
     ----------
     total
-        The method against the truth; minus infinity where it gives no number.
+        The method compared with the reference value; minus infinity if it gives no number.
     truncation
-        The same truncated method without rounding against the truth.
+        The same truncated method without rounding, compared with the reference value.
     rounding
-        The method against the same without rounding; the total where nothing is truncated.
+        The method compared with the same without rounding; the total if nothing is truncated.
     worst
         Argument of the worst point, in hexadecimal.
     unsplit
-        Why truncation and rounding are not told apart, or None.
+        Why truncation and rounding are not separated, or None.
     remark
-        What is to be said of how they are, or None.
+        Remark on how they are separated, or None.
     """
 
     total: float
@@ -59,7 +60,7 @@ class BenchmarkErrors:
 
 @dataclass(frozen=True)
 class Judged:
-    """A prepared method with its errors; time of the set-up, and of the first call a point [s]."""
+    """A prepared method with its errors; time of set-up, and of the first call per point [s]."""
 
     call: Call
     errors: BenchmarkErrors
@@ -68,7 +69,7 @@ class Judged:
 
 
 def judge(method: Method, problem: Problem, clock: Callable[[], float]) -> Judged:
-    """Prepare a method and compare its results with the truth."""
+    """Prepare a method and compare its results with the reference values."""
     begin = clock()
     call = method.ready(problem.regime)
     middle = clock()
@@ -82,10 +83,10 @@ def judge(method: Method, problem: Problem, clock: Callable[[], float]) -> Judge
 
 
 def certified(method: Method, problem: Problem, values: Sequence[arb]) -> BenchmarkErrors:  # noqa: ARG001
-    """Of balls that enclose the truth: their radii, which are rounding.
+    """Return the radii of balls, which are rounding.
 
-    A radius holds a bound of what the method leaves out as well. But at each precision the
-    oracles leave out less than its last bit.
+    A radius contains a bound of the truncation error too, but the references truncate less than the
+    last bit at each precision.
     """
     with flint.ctx.workprec(64):
         worst = max(float((x.rad() / abs(x).abs_lower()).log()) for x in values)
@@ -94,7 +95,7 @@ def certified(method: Method, problem: Problem, values: Sequence[arb]) -> Benchm
 
 
 def split(method: Method, problem: Problem, values: Sequence[Any]) -> BenchmarkErrors:
-    """Total, truncation and rounding; total <= truncation + rounding as errors at each point."""
+    """Return total, truncation and rounding; as errors, total <= truncation + rounding."""
     most, truncation, unsplit, same = problem.digits, None, None, None
     with flint.ctx.workprec(math.ceil(most * LOG2_10) + 128):
         total = [digits(v, t, most) for v, t in zip(values, problem.truths, strict=True)]
@@ -114,10 +115,10 @@ def split(method: Method, problem: Problem, values: Sequence[Any]) -> BenchmarkE
 
 
 def without_rounding(method: Method, problem: Problem) -> list[arb]:
-    """Results next to without rounding, or what runs in random units have in common.
+    """Return results almost without rounding, or the mean of runs in random units.
 
-    Those are means, with the deviation of a single run as their radii. In exact arithmetic all
-    runs would be the same; what is rounded where differs in each.
+    The radius of a mean is the standard deviation of a single run. In exact arithmetic all runs
+    would be equal; in each run different numbers are rounded.
     """
     if method.split == "long" and not HAS_LONG:
         raise NotImplementedError("the platform's long double is no longer than double")
@@ -130,7 +131,7 @@ def without_rounding(method: Method, problem: Problem) -> list[arb]:
         call = method.ready(problem.regime.in_units(length, time))
         factor = {"law": arb(length), "inversion": arb(length) / arb(time) ** 2,
                   "impact": arb(time)}[method.task]  # fmt: skip
-        # The points are scaled in doubles: that too is rounding.
+        # The points are scaled in doubles, which is rounding too.
         runs.append([factor * as_ball(value) for value in call(problem.points * given)])
     found = [spread(list(values)) for values in zip(*runs, strict=True)]
     if not all(ball.is_finite() for ball in found):
@@ -139,14 +140,14 @@ def without_rounding(method: Method, problem: Problem) -> list[arb]:
 
 
 def spread(values: list[arb]) -> arb:
-    """Mean of some values, and the standard deviation of one of them as its radius."""
+    """Return the mean of some values, with the standard deviation of one of them as its radius."""
     mean = sum(values, arb(0)) / len(values)
     square = sum(((x - mean) ** 2 for x in values), arb(0)) / (len(values) - 1)
     return mean + arb(0, square.sqrt().abs_upper())
 
 
 def digits(value: Any, true: arb, most: float) -> float:
-    """-log10 of a relative error, at most as many as the truth has."""
+    """Return -log10 of a relative error, at most the number of digits of the reference value."""
     ball = as_ball(value)
     if not ball.is_finite():
         return -math.inf

@@ -27,24 +27,24 @@ from generated.contact_law import indentation
 
 MOST_MODES, QUICK_MODES = 20_971_520, 1_048_576
 CHUNK, BLOCK = 1 << 19, 1 << 13
-"""Modes prepared, and modes summed, at a time."""
+"""Numbers of modes prepared, and summed, at a time."""
 
 FADED = 100
-"""Exponent 4 h phi from which G - 1 < e^-FADED (1 + 4 h phi)^2 is nothing beside 1."""
+"""Exponent 4 h phi from which G - 1 < e^-FADED (1 + 4 h phi)^2 is negligible compared with 1."""
 
 DIGITS = (6, 9, 10, 11, 12)
 TRUE_DIGITS = 30
-"""Of the indentation that the sums are compared with."""
+"""Number of digits of the reference indentation."""
 
 POINTS = 1_000_000
 
 
 @dataclass(frozen=True)
 class Reached:
-    """Digits reached by a direct sum: modes, and time per point [s] without set-up.
+    """Digits reached by a direct sum: number of modes, and time per point [s] without set-up.
 
-    `truncation` and `rounding` are the digits that so many modes have in long doubles, and those
-    of the sum in doubles against them; None where there is no long double.
+    `truncation` and `rounding` are the digits of this many modes in long doubles, and those of the
+    sum in doubles compared with them; None where there is no long double.
     """
 
     digits: int
@@ -61,11 +61,11 @@ class Headline:
     Attributes
     ----------
     contact_radius
-        Where the sum is taken [m].
+        Contact radius of the comparison [m].
     reached
-        What the direct sum takes for each number of digits, as far as it got.
+        Modes and time of the direct sum for each number of digits that it reached.
     modes, setup, per_mode
-        Modes summed in all; time of their zeros and weights [s]; time of a mode [s].
+        Total number of modes; time of their zeros and weights [s]; time of a mode [s].
     digits, called, prepared
         Of the generated law: digits, and time per point of a large array [s].
     """
@@ -81,7 +81,7 @@ class Headline:
 
 
 def headline(regime: Regime, quick: bool) -> Headline:
-    """Measure it."""
+    """Measure the comparison."""
     a, r = deepest(regime), regime
     true = contact_balls.indentation(a, r.R, r.h, r.b, TRUE_DIGITS)
     own = float(indentation(a, r.R, r.h, r.b))
@@ -89,7 +89,7 @@ def headline(regime: Regime, quick: bool) -> Headline:
     partial, times, setup = direct(r, a, QUICK_MODES if quick else MOST_MODES)
     reached = tuple(_reached(regime, a, true, partial, times))
     radii = np.random.default_rng(clock.SEED).uniform(0.1 * a, a, POINTS)
-    # As called, the whole array at once: that is how it is meant to be used.
+    # As called, with the whole array at once, which is the intended use.
     calls = [shipped.called().ready(regime), shipped.prepared().ready(regime)]
     candidates = [clock.Candidate(call, radii, 1) for call in calls]
     called, prepared = clock.session(candidates, clock.QUICK if quick else clock.FULL).timings
@@ -101,7 +101,7 @@ def headline(regime: Regime, quick: bool) -> Headline:
 
 
 def direct(regime: Regime, a: float, most: int, ar: Floats = DOUBLE) -> tuple[Array, Array, float]:
-    """The sum and the time so far after each block of modes, and time of the set-up."""
+    """Return the sum and the time after each block of modes, and the time of the set-up."""
     partial, times, setup, total, spent = [], [], 0.0, ar.number(0.0), 0.0
     R, h, b, radius = (ar.number(x) for x in (regime.R, regime.h, regime.b, a))
     factor, eta, alpha = 8 * b * b / (ar.pi() * R), h / b, radius / b
@@ -128,7 +128,7 @@ def direct(regime: Regime, a: float, most: int, ar: Floats = DOUBLE) -> tuple[Ar
 def _reached(
     regime: Regime, a: float, true: arb, partial: Array, times: Array
 ) -> Iterator[Reached]:
-    """From which block on the error stays below each power of ten; truncation in long doubles."""
+    """Return the first block with errors below each power of ten; truncation in long doubles."""
     errors, blocks = np.abs(partial / float(true) - 1), {}
     for wanted in DIGITS:
         late = np.flatnonzero(errors > 10.0**-wanted)

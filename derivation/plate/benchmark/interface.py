@@ -1,4 +1,4 @@
-"""What is compared, and where: a method prepares a contact and returns a function of an array."""
+"""Methods and test cases of the benchmark: a method prepares a contact and returns a function."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -11,21 +11,21 @@ from generated.impact import impact
 Task = Literal["law", "inversion", "impact"]
 Doubles = clock.Doubles
 Call = clock.Call
-"""Radii -> indentations [m], indentations -> forces [N], or speeds -> contact times [s]."""
+"""Function of radii, indentations or speeds: indentations [m], forces [N] or times [s]."""
 
 TASKS: tuple[Task, ...] = ("law", "inversion", "impact")
 TIE = 1.2
-"""Times within this factor of each other are not told apart."""
+"""Ratio of times below which two methods count as equally fast."""
 
 
 @dataclass(frozen=True)
 class Regime:
-    """A sphere on a plate and the range of contacts looked at; exact doubles.
+    """A sphere on a plate and the range of its contacts; exact doubles.
 
     Attributes
     ----------
     name
-        What the contact is like.
+        Name of the test case.
     R, h, b
         Sphere radius, half-thickness and radius of the plate [m].
     low, high
@@ -60,7 +60,7 @@ class Regime:
         return 4 * self.mu * (self.lam + self.mu) / (self.lam + 2 * self.mu)
 
     def in_units(self, length: float, time: float) -> "Regime":
-        """The same where lengths and times are counted in other units [m, s]."""
+        """Return the same contact in other units of length and time [m, s]."""
         press = length * time * time
         return replace(
             self, R=self.R / length, h=self.h / length, b=self.b / length,
@@ -81,46 +81,46 @@ PAPER = REGIMES[1]
 
 
 def deepest(regime: Regime) -> float:
-    """Contact radius that an impact at the regime's speed reaches [m]."""
+    """Return the contact radius of an impact at the test case's speed [m]."""
     r = regime
     return float(impact(r.R, r.m, r.speed, r.h, r.b, r.lam, r.mu).max_contact_radius)
 
 
 def never_fails(regime: Regime) -> str | None:  # noqa: ARG001
-    """The reason of a failure, for a method that has none."""
+    """Return None: the method has no reason to fail."""
     return None
 
 
 Split = Literal["wide", "long", "units", "all", "ball"]
-"""How rounding is told from truncation.
+"""How rounding is separated from truncation.
 
 `wide` and `long`: by the same method in 60 digits or more, or in long doubles. `units`: by the
 spread of its results in other units of length and time. `all`: the method truncates nothing, or
-less than its arithmetic tells. `ball`: results are balls that enclose the truth.
+less than the precision of its arithmetic. `ball`: results are balls that enclose the truth.
 """
 
 
 @dataclass(frozen=True)
 class Method:
-    """One way to a result.
+    """A method at a setting.
 
     Attributes
     ----------
     task, family, setting
-        What it computes; its kind; what is varied within the kind.
+        Its result, its kind, and the parameter varied within the kind.
     prepare
-        Set-up for a regime in an arithmetic: coefficients, zeros, tables. What it returns is
-        timed; it takes and gives arrays of the arithmetic's numbers.
+        Set-up for a test case in an arithmetic: coefficients, zeros, tables. The returned function
+        is timed; its argument and result are arrays of the arithmetic's numbers.
     ar
         The arithmetic that is compared.
     split
-        How rounding is told from truncation.
+        How rounding is separated from truncation.
     fails
-        Why the method is not tried in a regime, or None.
+        Function that returns why the method is omitted in a test case, or None.
     scalar
-        Whether it takes numbers singly, so that an array buys nothing.
+        Whether it evaluates numbers one by one, so that arrays are not faster.
     quick
-        Whether a quick run takes it along.
+        Whether a quick run includes it.
     """
 
     task: Task
@@ -135,22 +135,22 @@ class Method:
 
     @property
     def arithmetic(self) -> str:
-        """Name of the numbers."""
+        """Return the name of the arithmetic."""
         return self.ar.name
 
     @property
     def one_by_one(self) -> bool:
-        """Whether numbers are taken singly, by the method or by its arithmetic."""
+        """Return whether numbers are evaluated one by one, by the method or by its arithmetic."""
         return self.scalar or self.ar.wide
 
     def ready(self, regime: Regime, ar: Arithmetic | None = None) -> Call:
-        """What is timed: a function of doubles, in its own arithmetic or in another."""
+        """Return the function to be timed: of doubles, in its own arithmetic or in another."""
         numbers = ar or self.ar
         with numbers.context():
             return numbers.wrapped(self.prepare(regime, numbers))
 
     @property
     def name(self) -> str:
-        """Family, setting and, unless double precision, arithmetic."""
+        """Return family, setting and, unless it is double precision, arithmetic."""
         parts = [self.family, self.setting, "" if self.arithmetic == "float64" else self.arithmetic]
         return ", ".join(part for part in parts if part)

@@ -1,4 +1,4 @@
-"""How cost grows with points, thinness, digits and scenes: slopes, memory, and where lines end."""
+"""Run time by number of points, thinness, digits and scenes: slopes, memory, linearity."""
 
 import math
 import tracemalloc
@@ -22,32 +22,32 @@ LONG = 0.5
 """A call that takes longer is timed once [s]."""
 
 OFF = 1.5
-"""Factor beyond which a time has left the straight line."""
+"""Factor by which a time differs from the straight line at its end."""
 
 DIGITS_PER_TERM = 2.2
-"""Of the small-a series at a/h = 0.3: 2 log10(4/0.3)."""
+"""Digits per term of the small-a series at a/h = 0.3: 2 log10(4/0.3)."""
 
 SPLIT_POINTS = 64
 
 
 @dataclass(frozen=True)
 class Growth:
-    """Times over a size.
+    """Times as a function of a size.
 
     Attributes
     ----------
     what, method
-        What grows, and whose time it is.
+        The varied size, and the method.
     x, seconds
-        Sizes, and time of the whole [s].
+        Sizes, and total times [s].
     slope
-        Of log(time) over log(size) along the straight part, at the upper end.
+        Slope of log(time) over log(size) along the straight part, at the upper end.
     leaves
-        Largest size at which the time lies off that line by a factor of OFF, if any.
+        Largest size at which the time differs from that line by a factor of OFF, if any.
     why
-        What the time consists of there.
+        What takes the time there.
     peak_bytes
-        Memory that the last call took at most, its result included; None if not measured.
+        Peak memory of the last call, its result included; None if not measured.
     """
 
     what: str
@@ -63,14 +63,14 @@ class Growth:
 def growth(
     what: str, method: str, x: Sequence[float], calls: Sequence[Callable[[], object]], why: str
 ) -> Growth:
-    """Time each call, and trace the memory of the last."""
+    """Return the time of each call, and the memory of the last."""
     seconds = tuple(_lowest(call) for call in calls)
     slope, leaves = line(x, seconds)
     return Growth(what, method, tuple(x), seconds, slope, leaves, why, peak(calls[-1]))
 
 
 def line(x: Sequence[float], seconds: Sequence[float]) -> tuple[float, float | None]:
-    """Slope through the last three points, and the largest size whose time is off that line."""
+    """Return the slope through the last three points, and the largest size off that line."""
     logs, times = np.log(x), np.log(seconds)
     slope, start = np.polyfit(logs[-3:], times[-3:], 1)
     off = np.flatnonzero(np.abs(times - (start + slope * logs)) > math.log(OFF))
@@ -78,7 +78,7 @@ def line(x: Sequence[float], seconds: Sequence[float]) -> tuple[float, float | N
 
 
 def peak(call: Callable[[], object]) -> int:
-    """Most memory that a call had taken at any time [bytes]."""
+    """Return the peak memory of a call [bytes]."""
     tracemalloc.start()
     call()
     _, most = tracemalloc.get_traced_memory()
@@ -87,7 +87,7 @@ def peak(call: Callable[[], object]) -> int:
 
 
 def _lowest(call: Callable[[], object]) -> float:
-    """Lower quartile of a few calls' times [s]."""
+    """Return the lower quartile of the times of a few calls [s]."""
     call()
     times = []
     for _ in range(REPEATS):
@@ -100,7 +100,7 @@ def _lowest(call: Callable[[], object]) -> float:
 
 
 def points() -> list[Growth]:
-    """The law over the number of points, the plate's preparation included and not."""
+    """Return times of the law by number of points, including and excluding the plate's set-up."""
     sizes = [10**k for k in range(8)]
     radii = np.random.default_rng(1).uniform(1e-3, 0.03, sizes[-1])
     ready = shipped.prepared().ready(PAPER)
@@ -118,7 +118,7 @@ def points() -> list[Growth]:
 
 
 def thinness() -> list[Growth]:
-    """The law over b/h: called with 10 000 points, and split with a few."""
+    """Return times of the law by b/h: a call with 10 000 points, and the set-up with a few."""
     ratios = [10.0**k for k in range(5)]
     shares = np.random.default_rng(1).uniform(0.01, 0.9, ARRAY)
     plates = [replace(PAPER, R=100.0, h=1 / ratio) for ratio in ratios]
@@ -142,7 +142,7 @@ def thinness() -> list[Growth]:
 
 
 def digits(quick: bool) -> list[Growth]:
-    """The small-a series over the digits asked for: set-up, and one point in balls and mpmath."""
+    """Return times of the small-a series by digits: set-up, and one point in balls and mpmath."""
     asked = [30, 50, 100] if quick else [30, 50, 100, 200, 300, 500, 1000]
     setups, balls, numbers = [], [], []
     for count in asked:
@@ -150,7 +150,7 @@ def digits(quick: bool) -> list[Growth]:
         begin = CPU()
         balls.append(polynomials.small_contacts(terms, BallArithmetic(count)).ready(PAPER))
         setups.append(CPU() - begin)
-        # The same coefficients: they are not found anew.
+        # The same coefficients, so that they are not computed again.
         numbers.append(polynomials.small_contacts(terms, Mpmath(count)).ready(PAPER))
     a, setup_slope = np.array([0.3 * PAPER.h]), line(asked, setups)
     return [
@@ -172,7 +172,7 @@ def digits(quick: bool) -> list[Growth]:
 
 
 def scenes(quick: bool) -> list[Growth]:
-    """Impacts of different scenes by each of `simulate`'s methods, the whole law's in one batch."""
+    """Return times of impacts of different scenes by each method of `simulate`."""
     sizes = [10**k for k in range(5 if quick else 6)]
     batches = [speed.scenes(0.01, 2.9, n) for n in sizes]
     rows = [list(zip(*(x.tolist() for x in s.values()), strict=True)) for s in batches]
@@ -193,12 +193,12 @@ def scenes(quick: bool) -> list[Growth]:
 
 
 def _each(method: Callable[..., object], scenes: Sequence[Sequence[float]]) -> list[object]:
-    """A method of single scenes on each."""
+    """Call a method of single scenes for each of them."""
     return [method(*scene) for scene in scenes]
 
 
 def studies(quick: bool) -> tuple[tuple[str, Callable[[], list[Growth]]], ...]:
-    """Every study by what grows; a quick one asks for fewer digits."""
+    """Return every study by its varied size; a quick one has fewer digits."""
     return (
         ("points", points),
         ("b/h", thinness),

@@ -1,4 +1,4 @@
-"""What needs no set-up of its own: Hertz's formulas, the generated code, and the oracles."""
+"""Methods without their own set-up: Hertz's formulas, the generated code, and the references."""
 
 from collections.abc import Callable
 
@@ -50,7 +50,7 @@ def stiffness(regime: Regime, ar: Arithmetic) -> Array:
 
 
 def hertz(task: Task) -> Method:
-    """The plate left out."""
+    """Return the reason that the plate is omitted."""
     made = {"law": hertz_law, "inversion": hertz_force, "impact": hertz_time}
     return Method(task, "Hertz", "", made[task])
 
@@ -59,13 +59,13 @@ def hertz(task: Task) -> Method:
 
 
 def plate(regime: Regime, ar: Floats) -> list[Array]:
-    """R, h, b, lam and mu in doubles or singles."""
+    """Return R, h, b, lam and mu in doubles or singles."""
     r = regime
     return [ar.number(x) for x in (r.R, r.h, r.b, r.lam, r.mu)]
 
 
 def called(ar: Floats = DOUBLE) -> Method:
-    """`indentation` as anyone calls it: domain and plate are looked into every time."""
+    """`indentation` as users call it: domain and plate are checked in every call."""
 
     def prepare(regime: Regime, _: Arithmetic) -> Call:
         R, h, b, *_elastic = plate(regime, ar)
@@ -75,7 +75,7 @@ def called(ar: Floats = DOUBLE) -> Method:
 
 
 def prepared() -> Method:
-    """The same polynomials, the plate prepared once, the arguments trusted."""
+    """The same polynomials with the plate prepared once and without checks of the arguments."""
 
     def prepare(regime: Regime, _: Arithmetic) -> Call:
         plates = contact_series.plates_of(np.array([regime.eta]))
@@ -119,7 +119,7 @@ def bounce(ar: Floats = DOUBLE) -> Method:
 
 
 def oracle(task: Task, digits: int, quick: bool = True) -> Method:
-    """Balls that enclose the truth; what all points share is found at the set-up."""
+    """Balls that enclose the reference value; common quantities are computed at set-up."""
     family = {
         "law": "contour integrals", "inversion": "enclosed root", "impact": "integrals in balls",
     }  # fmt: skip

@@ -63,15 +63,15 @@ class SpeedTiming:
     Parameters
     ----------
     name
-        What was timed.
+        Name of the comparison.
     value, unit
         The result: a ratio of times, or a rate.
     limit
-        What is promised of it: at most for a ratio, at least for a rate.
+        Stated limit: the largest ratio, or the smallest rate.
     spread
-        Largest upper over lower quartile among the times it rests on.
+        Largest ratio of upper to lower quartile among its times.
     kept
-        Whether the promise is kept.
+        Whether the limit is met.
     """
 
     name: str

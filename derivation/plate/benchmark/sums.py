@@ -11,11 +11,11 @@ from derivation.plate.benchmark.arithmetic import DOUBLE, LONG, Arithmetic, Arra
 from derivation.plate.benchmark.interface import Call, Method, Regime
 
 WIDE_MODES = 1000
-"""Direct sums of more modes are repeated in long doubles: they leave out so much that these tell
-it. Split ones of more are left out where numbers are taken one by one."""
+"""Direct sums of more modes are repeated in long doubles, in which their truncation error shows.
+Split sums of more modes are omitted where numbers are evaluated one by one."""
 
 _MODES, _ELEMENTS = 4096, 65536
-"""Modes, and elements of an array, worked on at a time, so that they stay in the cache."""
+"""Modes and array elements that are processed at a time, so that they fit into the cache."""
 
 OVERFLOW = 709.78
 """Exponent from which e^x is no double."""

@@ -1,7 +1,7 @@
-"""What other programs make of the parts of the problem they can do, beside the generated code.
+"""Results of other programs for the parts of the problem that they can solve.
 
-None computes a plate with an edge: they are compared on a half-space, on which Hertz's formulas
-are exact, and so is the generated code, with h and b so large that the plate's share is below
+None computes a plate with an edge. They are compared on a half-space, for which Hertz's formulas
+are exact. For the generated code h and b are so large that the plate's contribution is below
 rounding. `half_space` runs them; `PLATECONTACT_TOOLS` names the Python that has them.
 """
 
@@ -25,7 +25,7 @@ from generated.impact import impact
 
 VARIABLE = "PLATECONTACT_TOOLS"
 LIMIT = 120
-"""Time after which a program is given up [s]."""
+"""Time limit for a program [s]."""
 
 FAR = 1e20
 """Half-thickness and radius of the plate over the contact radius, for the generated code."""
@@ -33,20 +33,20 @@ FAR = 1e20
 
 @dataclass(frozen=True)
 class Tool:
-    """What a program did with a problem.
+    """The result of a program for a problem.
 
     Attributes
     ----------
     name, version
         The program.
     problem, setting
-        What it computed, and how.
+        The problem, and the settings.
     error, seconds
         Relative error, and time of one result [s].
     cannot
-        What it cannot do of the contact of a sphere and a plate.
+        The parts of the contact of a sphere and a plate that it cannot compute.
     missing
-        Why it is not here, if it is not.
+        Why it is not available, if it is not.
     """
 
     name: str
@@ -60,12 +60,12 @@ class Tool:
 
 
 def tools() -> list[Tool]:
-    """Every program's results, and the generated code's on the same problems."""
+    """Return the results of every program, and of the generated code for the same problems."""
     return own() + [row for name in half_space.PROGRAMS for row in run(name, os.environ)]
 
 
 def run(name: str, environment: Mapping[str, str]) -> list[Tool]:
-    """One program's results; SciPy's by this Python."""
+    """Return the results of one program; SciPy runs in this Python."""
     python = sys.executable if name.startswith("SciPy") else environment.get(VARIABLE)
     if python is None:
         return [Tool(name, missing=f"not installed: {VARIABLE} names no Python that has it")]
@@ -86,7 +86,7 @@ def run(name: str, environment: Mapping[str, str]) -> list[Tool]:
 
 
 def own() -> list[Tool]:
-    """The generated code on the same problems."""
+    """Return the results of the generated code for the same problems."""
     far = Regime("half-space", 1.0, 0.1 * FAR, 0.1 * FAR, 0.0, 0.0, 1.0)
     r, a, made = far, 0.1, f"h = b = {FAR:g} a"
     depth, law = _timed(lambda: float(indentation(a, r.R, r.h, r.b)))

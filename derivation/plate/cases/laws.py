@@ -1,4 +1,4 @@
-"""What kernels without a closed formula of the chain are held to in the hard cases: balls."""
+"""References for the hard cases of functions without a closed formula in the derivation: balls."""
 
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
@@ -29,7 +29,7 @@ from derivation.plate.pressure import oracle as pressure_balls
 from derivation.plate.subjects import handed_in
 
 _SPARE, _FEW, _FEW_OF_RADIUS = 8, 20, 15
-"""Digits beyond those asked for, and of magnitudes and radii, which only set allowances."""
+"""Additional digits; and digits of magnitudes and radii, which only determine tolerances."""
 
 _RADIUS: Callable[..., arb] = contact_balls.contact_radius
 _SERIES: Callable[..., tuple[arb, arb]] = contact_quantities.truncated_series
@@ -51,12 +51,12 @@ def _one(function: Callable[..., arb], scale: Scale | None = None) -> HardLaw:
 
 
 def _of_sum(name: str) -> Scale:
-    """What multiplies the budget of a sum whose parts cancel, see `tolerance`."""
+    """Return the factor of the budget of a sum whose parts cancel, see `tolerance`."""
     return lambda given, value: tolerance(name, tuple(given), float(value))
 
 
 def _of_radius(given: Given, _: arb) -> float:
-    """A force is excused as its contact radius is."""
+    """Return the same factor for a force, from its contact radius."""
     radius = float(_RADIUS(*given[:4], digits=_FEW_OF_RADIUS))
     return tolerance("contact_radius", tuple(given[:4]), radius)
 
@@ -74,7 +74,7 @@ def _of_series(given: Given, _: arb) -> float:
 
 @cache
 def _moved(kind: str, given: tuple[Any, ...], digits: int) -> arb:
-    """What the edge's mean motion takes: kept, since a support's part is a multiple of it."""
+    """Return the edge's mean motion; cached, because a support's part is a multiple of it."""
     a, h, b, lam, mu = given
     return edge_balls.edge_part(kind, a, h, b, lam, mu, digits)
 
@@ -118,7 +118,7 @@ def _edge_bound(support: str) -> HardLaw:
 
 
 def _stiff(P: Exact, h: Exact, lam: Exact, mu: Exact) -> arb:
-    """(1 + nu) P/(2 pi H^2), at the precision now set."""
+    """Return (1 + nu) P/(2 pi H^2) at the current precision."""
     first, second = Fraction(lam), Fraction(mu)
     share = (3 * first + 2 * second) * Fraction(P) / (16 * (first + second) * Fraction(h) ** 2)
     return to_ball(share) / arb.pi()
@@ -126,7 +126,7 @@ def _stiff(P: Exact, h: Exact, lam: Exact, mu: Exact) -> arb:
 
 def _far(support: str) -> HardLaw:
     def of_edge(given: Given, digits: int) -> tuple[arb, arb]:
-        """What the states of bending and of stretching add to S."""
+        """Return the contributions of the states of bending and of extension to S."""
         _, a, h, b, lam, mu = given
         if support == "clamped":
             bent, stretched = clamp_balls.far_clamp(a, h, b, lam, mu)
@@ -150,7 +150,7 @@ def _far(support: str) -> HardLaw:
             return (_stiff(P, h, lam, mu) * total,)
 
     def sizes(given: Given, _: Sequence[arb]) -> tuple[arb]:
-        """Of the paper's edge and of the states of stretching and bending."""
+        """Return the sum of the magnitudes of the parts: the paper's edge, extension, bending."""
         P, a, h, b, lam, mu = given
         plain = back_face_balls.far_sum(a, h, b, _FEW)
         with flint.ctx.workprec(_bits(_FEW)):
@@ -165,7 +165,7 @@ def _far(support: str) -> HardLaw:
 
 
 def _sphere(given: Given, digits: int) -> tuple[arb, ...]:
-    """P, delta and its slope over those of Hertz, by the theory's formulas with R = 1, E* = 1."""
+    """Return P, delta and its slope over those of Hertz, by the theory for R = 1, E* = 1."""
     x = Fraction(given[0])
     depth, force = (formula.expression for formula in curvature.spherical_contact())
     # E* is 1 for lam = 0 and mu = 1/2.
@@ -182,7 +182,7 @@ def _sphere(given: Given, digits: int) -> tuple[arb, ...]:
 
 
 def _contact(given: Given, digits: int) -> tuple[arb, ...]:
-    """Force, indentation, stiffness, slope, centre and mean pressure of a paraboloid."""
+    """Return force, indentation, stiffness, slope, central and mean pressure of a paraboloid."""
     a, R, h, b, modulus = given
     state = pressure_balls.solve(pressure_balls.case(a, h, b), digits)
     with flint.ctx.workprec(_bits(digits)):
@@ -198,7 +198,7 @@ def _contact(given: Given, digits: int) -> tuple[arb, ...]:
 
 
 def _of_means(_: Given, values: Sequence[arb]) -> tuple[arb, ...]:
-    """The centre's error is counted in the mean pressure, all others in themselves."""
+    """Return magnitudes: the mean pressure for the central one, else each result itself."""
     sizes = [abs(value) for value in values]
     return (*sizes[:4], sizes[5], sizes[5])
 
@@ -220,13 +220,13 @@ def _mean(given: Given, _: Sequence[arb]) -> tuple[arb, ...]:
 
 @cache
 def _impact(given: tuple[Any, ...], digits: int) -> tuple[arb, ...]:
-    """Kept, since several kernels are held to the same impact."""
+    """Return the impact; cached, because several functions are compared with it."""
     R, m, v0, h, b, lam, mu = given
     return tuple(contact_impact.impact(R, m, v0, h, b, lam, mu, digits))
 
 
 def _state(given: Given, digits: int) -> tuple[arb, ...]:
-    """By the law's power series, which many times are found quickly with."""
+    """Return the state from the power series of the law, which is fast for many times."""
     t, *motion = given
     R, m, v0, h, b, lam, mu = motion
     return contact_quantities.state(t, R, m, v0, h, b, lam, mu, digits)
@@ -238,7 +238,7 @@ _ESTIMATE = HardLaw(
     results=4,
     oracle=(contact_impact.__name__,),
 )
-"""A simple law states its own error: of the impact by the law that holds."""
+"""Return the stated error of a simple law, relative to the impact by the corrected law."""
 
 
 def _first_coefficient(given: Given, digits: int) -> tuple[arb]:
@@ -307,4 +307,4 @@ LAWS: Mapping[str, HardLaw] = {
     "leading": _ESTIMATE,
     "corrected": HardLaw(_corrected, _largest, oracle=(printed_motion_balls.__name__,)),
 } | {name: law for laws in handed_in("cases", "LAWS") for name, law in laws.items()}
-"""By kernel."""
+"""References by function."""

@@ -1,4 +1,4 @@
-"""Hard cases at the seams of impacts: their sensitivities, simple laws, the paper's motion."""
+"""Hard cases at the switch points of impacts: sensitivities, simple laws, the paper's motion."""
 
 import math
 from collections.abc import Iterator
@@ -25,12 +25,12 @@ _FEW = 30
 
 
 def motion_families() -> Iterator[HardCase]:
-    """Every one of them; the plate's half-thickness is 1 where nothing else is said."""
+    """Yield all cases; the plate's half-thickness is 1 unless stated otherwise."""
     return chain(_sensitivities(), _history(), _simple_impacts(), _paper())
 
 
 def _speed(a: float, h: float, b: float) -> float:
-    """That of the sphere which just reaches a contact radius."""
+    """Return the speed of the sphere that just reaches a contact radius."""
     energy = contact_impact.stored_energy(a, _SPHERE["R"], h, b, LAM, MU, _FEW)
     return math.sqrt(2.0 * float(energy) / _SPHERE["m"])
 
@@ -87,7 +87,7 @@ def _simple_impacts() -> Iterator[HardCase]:
 def _estimates(
     why: str, h: float | tuple[float, ...], b: float | tuple[float, ...]
 ) -> Iterator[HardCase]:
-    """Both laws, of a contact that is narrow beside thickness and radius."""
+    """Yield cases of both laws, for a contact that is narrow compared with thickness and radius."""
     thickness, radius = (x if isinstance(x, float) else x[0] for x in (h, b))
     speed = _speed(0.1 * min(thickness, radius), thickness, radius)
     for kernel in ("hertz", "leading"):
@@ -96,7 +96,7 @@ def _estimates(
 
 
 def _root() -> float:
-    """The double nearest to the h/b at which c_1, which falls there, passes zero: by halving."""
+    """Return the double nearest to the h/b at which the decreasing c_1 is 0, by bisection."""
     low, high = 0.5, 0.6
     while low < (middle := (low + high) / 2) < high:
         above = contact_balls.coefficient(1, middle, 1, 12) > 0

@@ -1,4 +1,4 @@
-"""What the search holds to the truth: each kernel with its domain, its oracle and its allowance."""
+"""Targets of the search: each function with its domain, reference and tolerance."""
 
 import importlib
 import inspect
@@ -30,10 +30,10 @@ from derivation.plate.search.draw import (
 )
 
 ULP_OF_LAW = 8.0
-"""Allowed to the contact law's kernels in ULP, times `contact.cases.truth.tolerance`."""
+"""Tolerance of the contact law's functions in ULP, before the factor `tolerance`."""
 
 _OF_LAW = 24
-"""Digits of the contact law's reference."""
+"""Number of digits of the contact law's reference."""
 
 _SLOW, _SLOWEST = (1, 16), (1, 32)
 _SHARES = {
@@ -41,7 +41,7 @@ _SHARES = {
     "finite_part_ratio": _SLOW, "contact_radius": (1, 1), "indentation": (3, 1),
     "stiffness": (3, 1),
 }  # fmt: skip
-"""Points per turn, and how many rounds lie between turns, where the truth takes long."""
+"""Points per turn, and number of rounds per turn, for slow references."""
 
 _SHARE, _SHARE_OF_SUMS = (48, 1), (4, 1)
 
@@ -124,7 +124,7 @@ def _law_target(name: str) -> Target:
 
 @lru_cache(maxsize=8)
 def _true(name: str, given: Sequence[Any], keys: tuple[str, ...]) -> tuple[arb, ...] | None:
-    """The first oracle's balls; None where the contact grows beyond what the kernels promise."""
+    """Return the Arb balls; None where the contact is wider than the domain of the functions."""
     values = dict(zip(keys, given, strict=True))
     if name == "force_of_radius":
         return (truth("P", values, _OF_LAW),)

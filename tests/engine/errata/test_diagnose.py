@@ -1,4 +1,4 @@
-"""Freshly damaged copies of proven formulas are told apart and mended; rewritten ones are equal."""
+"""Damaged copies of proved formulas are distinguished and corrected; equal forms stay equal."""
 
 import itertools
 import json

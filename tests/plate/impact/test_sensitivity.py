@@ -1,4 +1,4 @@
-"""Slope of the contact law and an impact's sensitivities: truth, limits, scaling, differences."""
+"""Slope of the contact law and sensitivities of an impact: references, limits, scaling."""
 
 import math
 from fractions import Fraction

@@ -1,4 +1,4 @@
-"""The search in the contact law: points, truth and allowance; where there is nothing to judge."""
+"""The search in the contact law: points, references, tolerances, and points without references."""
 
 import dataclasses
 import json

@@ -1,4 +1,4 @@
-"""The contact law's kernels against what both oracles agree on: errors in ULP, row by row."""
+"""Compares the contact law's generated functions with reference values: errors in ULP, as rows."""
 
 import importlib
 import math
@@ -16,38 +16,38 @@ from derivation.plate.contact.cases.judge import judge, results
 from derivation.plate.contact.cases.truth import DIGITS, ContactTruth, Job, relative, truths
 
 LIMIT = 2e-15
-"""Relative error that a kernel keeps besides its budget."""
+"""Relative error that a function must not exceed, in addition to its budget."""
 
 KERNELS = (
     "indentation", "contact_radius", "stiffness", "force", "force_of_radius", "radius_of_force",
     "max_pressure", "impact",
 )  # fmt: skip
-"""What can be measured."""
+"""Functions that can be measured."""
 
 FORCES = KERNELS[3:7]
-"""Kernels on whose closed forms every third contact tells enough."""
+"""Functions with closed forms, for which every third contact is sufficient."""
 
 IN_TWO_WAYS = ("indentation", "contact_radius", "stiffness", "force")
-"""Kernels that compute a plain number in another way than an array: the larger error counts."""
+"""Functions that treat plain numbers and arrays differently: the larger error counts."""
 
 EVERY = 4
-"""Single precision is judged at every fourth point."""
+"""Single precision is tested at every fourth point."""
 
 
 @dataclass(frozen=True)
 class ContactCase:
-    """One impact.
+    """An impact with its error.
 
     Parameters
     ----------
     c1_A
-        The first term that the plate adds to Hertz's, at the largest contact.
+        The plate's first correction of Hertz's law, at the largest contact.
     h_over_b, a_over_h
         Half-thickness over plate radius, largest contact radius over half-thickness.
     error
         Largest relative error of the four results.
     digits
-        To how many the oracles agree.
+        Number of digits to which the reference methods agree.
     """
 
     c1_A: float
@@ -59,28 +59,28 @@ class ContactCase:
 
 @dataclass(frozen=True)
 class ContactRow:
-    """What one kernel did.
+    """The measured errors of one function.
 
     Parameters
     ----------
     kernel
         Its name.
     points
-        How many points were judged.
+        Number of points.
     digits
-        To how many the oracles agree, the fewest over the points.
+        Smallest number of digits to which the reference methods agree.
     max_error, p99_error
-        Largest error and its 99th percentile, over the truth's `scale`.
+        Largest error and its 99th percentile, over the reference value's `scale`.
     worst
         Arguments of the largest error, in hexadecimal.
     budget
-        What is promised, in ULP.
+        Stated error budget, in ULP.
     double, single
-        Errors in ULP of either format; no single ones at points given.
+        Errors in ULP of each format; `single` is None if points were given.
     passed
-        Whether all errors keep the budget and the limit.
+        Whether no error exceeds the budget or the limit.
     cases
-        The impacts one by one, by c_1 A; empty for other kernels.
+        The single impacts, ordered by c_1 A; empty for other functions.
     """
 
     kernel: str
@@ -102,26 +102,27 @@ def check(
     processes: int = 1,
     tell: Tell = quiet,
 ) -> tuple[ContactRow, ...]:
-    """Hold kernels to the truth, which is what both oracles agree on, asked point by point.
+    """Compare functions with reference values, on which both reference methods agree.
 
     Parameters
     ----------
     kernels
-        Functions by name, with the arguments the manifest names; impact returns contact
-        time, largest indentation, force and contact radius.
+        Functions by name, with the arguments of the manifest; impact returns contact time, largest
+        indentation, force and contact radius.
     points
-        Arguments by kernel; the default grids if left out, then in single precision too.
+        Arguments by function; by default the grids, then also in single precision.
     processes
-        How many points are worked on at a time.
+        Number of processes.
     tell
-        Told about every point that is done: kernel, how many, of how many.
+        Called after each point with the function's name, the number of finished points and the
+        total.
 
     Raises
     ------
     OracleError
-        If the oracles contradict each other: then there is no truth to measure against.
+        If the reference methods contradict each other, so that there is no reference value.
     ValueError
-        For a name that is not among these, and for a kernel without points.
+        For an unknown name, and for a function without points.
     """
     unknown = sorted(set(kernels) - set(KERNELS))
     if unknown:
@@ -138,13 +139,13 @@ def check(
 
 
 def promised() -> dict[str, float]:
-    """Budgets in ULP by kernel, from the manifest."""
+    """Return the budgets in ULP by function, from the manifest."""
     manifest = importlib.import_module("generated.manifest")
     return {row["name"]: float(row["budget"]) for row in manifest.CONTACT}
 
 
 def _rounded(jobs: Sequence[Job]) -> list[Job]:
-    """Some of the jobs, their arguments rounded to single precision."""
+    """Return some of the jobs, with arguments rounded to single precision."""
     found: list[Job] = []
     for name, where in jobs[::EVERY]:
         point = arguments(name, where, DIGITS) if isinstance(where, ContactShape) else where
@@ -153,7 +154,7 @@ def _rounded(jobs: Sequence[Job]) -> list[Job]:
 
 
 def _jobs(name: str, points: Mapping[str, Sequence[Point]] | None) -> list[Job]:
-    """A kernel's points, or its grid; to the impacts' the paper's own is added."""
+    """Return a function's points, or its grid; impacts include the one of the paper."""
     if points is None:
         shapes: list[Job] = [(name, s) for s in grid(name)[:: 3 if name in FORCES else 1]]
         return [*shapes, (name, PAPERS_IMPACT)] if name == "impact" else shapes
@@ -163,7 +164,7 @@ def _jobs(name: str, points: Mapping[str, Sequence[Point]] | None) -> list[Job]:
 
 
 def _mixed(parts: Sequence[Sequence[Job]]) -> list[Job]:
-    """All jobs, each kernel's spread evenly: an impact takes seconds, the others far less."""
+    """Return all jobs, interleaved: an impact takes seconds, the others far less."""
     placed = [
         ((i + 0.5) / len(jobs), k, i) for k, jobs in enumerate(parts) for i in range(len(jobs))
     ]
@@ -201,17 +202,17 @@ def _row(
 
 
 def _used(errors: Errors) -> float:
-    """How much of what is allowed an error takes at most."""
+    """Return the largest fraction of the allowed error."""
     return math.inf if errors.ratio is None else errors.ratio
 
 
 def _of_arrays(call: Callable[..., Any]) -> Callable[..., Any]:
-    """The kernel of arrays of one point."""
+    """Return the function applied to arrays of one point."""
     return lambda *point: call(*(np.atleast_1d(x) for x in point))
 
 
 def _error(name: str, call: Callable[..., Any], true: ContactTruth) -> float:
-    """Largest error over the results at a point; infinite if one is not finite."""
+    """Return the largest error over the results at a point; infinite if one is not finite."""
     values = [float(value) for value in results(call, true.point)]
     if len(values) != len(true.values):
         raise ValueError(f"{name} gave {len(values)} results, {len(true.values)} are expected")

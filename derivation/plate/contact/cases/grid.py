@@ -1,4 +1,4 @@
-"""Where the contact law's kernels are measured: plates thin and thick, contacts small and wide."""
+"""Points at which the contact law's functions are measured: thin and thick plates, all contacts."""
 
 import math
 import random
@@ -9,23 +9,23 @@ from derivation.plate.contact.oracle import forces as contact_forces
 from derivation.plate.impact.oracle import impact as contact_impact
 
 ROOT = 0.5301974990742511
-"""The double nearest to the h/b at which c_1 passes zero."""
+"""Return the double nearest to the h/b at which c_1 passes zero."""
 
 THICKNESSES = (
     1e-4, 1e-3, 1e-2, 0.05, 0.0908, 0.0911, 0.1, 0.3, 0.3332, 0.3335, ROOT, 0.6, 1.0, 3.0, 10.0,
     100.0,
 )  # fmt: skip
-"""h/b, on both sides of 1/11 and 1/3 too, where the kernels change their form."""
+"""h/b, including both sides of 1/11 and 1/3, where the functions change their method."""
 
 RATIOS = (1e-8, 1e-5, 1e-2, 0.1, 0.48, 0.52, 1.0, 2.0, 2.95, 3.1, 4.1, 6.0)
-"""a/h, on both sides of 1/2 and 3, where the kernels change their form, and of 4, where
-the series in a/h ends."""
+"""a/h, including both sides of 1/2 and 3, where the functions change their method, and of 4, the
+radius of convergence of the series in a/h."""
 
 JITTER = 0.97
-"""Ratios are drawn from this share of their value up to all of it."""
+"""Ratios are drawn between this fraction of their value and the value."""
 
 WIDE = (0.9, 0.999)
-"""Contacts wider than this share of the plate are drawn back to between these."""
+"""Contacts wider than this fraction of the plate are replaced by contacts between these."""
 
 LENGTHS = (1.0, 1e-3, 25.4, 640.0)
 
@@ -46,7 +46,7 @@ Point = tuple[float, ...]
 
 
 class ContactShape(NamedTuple):
-    """A contact, and what may lead to it."""
+    """A contact, and the arguments that lead to it."""
 
     a: float
     R: float
@@ -58,7 +58,7 @@ class ContactShape(NamedTuple):
 
 
 def grid(name: str) -> tuple[ContactShape, ...]:
-    """Contacts at which a kernel is measured, the same in every run."""
+    """Return the contacts at which a function is measured, the same in every run."""
     generator = random.Random(name)
     if name == "impact":
         return tuple(_drawn(generator, i, *case) for i, case in enumerate(IMPACTS))
@@ -72,7 +72,7 @@ def grid(name: str) -> tuple[ContactShape, ...]:
 
 
 def _drawn(generator: random.Random, i: int, eta: float, ratio: float) -> ContactShape:
-    """A contact of a given h/b and a/h in a plate of some size and matter."""
+    """Return a contact of given h/b and a/h in a plate of some size and material."""
     b = LENGTHS[i % len(LENGTHS)] * generator.uniform(0.5, 2.0)
     R = b * generator.uniform(1.5, 60.0)
     mu = 10 ** generator.uniform(0.0, 11.0)
@@ -82,7 +82,7 @@ def _drawn(generator: random.Random, i: int, eta: float, ratio: float) -> Contac
 
 
 def arguments(name: str, shape: ContactShape, digits: int) -> Point:
-    """Arguments with which a kernel should come to a contact, but for their rounding."""
+    """Return the arguments for which a function gives this contact, up to their rounding."""
     a, R, h, b, lam, mu, m = shape
     if name == "indentation":
         return (a, R, h, b)

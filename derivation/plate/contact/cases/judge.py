@@ -1,4 +1,4 @@
-"""A contact kernel's references: its true values, and what conditioning allows by differences."""
+"""Errors of a contact function, relative to its conditioning, which is found by differences."""
 
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -14,22 +14,22 @@ from derivation.engine.oracle.reference import Reference
 from derivation.plate.contact.cases.truth import ContactTruth
 
 STEP = 1e-5
-"""By how much of itself an argument is moved to find a condition number.
+"""Relative change of an argument for a condition number.
 
-The derivative is then right to ten digits, and errors of a kernel of N ULP change the
-number by some N 1e-11 only: what a kernel gets wrong does not excuse itself.
+The derivative is then accurate to ten digits. An error of N ULP in the function changes the
+condition number by about N 1e-11 only, so that errors do not enlarge their own tolerance.
 """
 
 
 def results(call: Callable[..., Any], point: Sequence[Any]) -> np.ndarray:
-    """A kernel's results at a point, one or several, as an array of one dimension."""
+    """Return a function's results at a point, one or several, as a one-dimensional array."""
     return np.atleast_1d(np.asarray(call(*point)))
 
 
 def conditioning(call: Callable[..., Any], point: Sequence[float]) -> np.ndarray:
-    """Sum of |condition numbers| over the arguments, of each result.
+    """Return the sum of |condition numbers| over the arguments, for each result.
 
-    By central differences, or by one side where the other is outside the domain.
+    Central differences are used, or one-sided ones at the boundary of the domain.
     """
     here = results(call, point)
     total = np.zeros(here.shape)
@@ -45,10 +45,10 @@ def conditioning(call: Callable[..., Any], point: Sequence[float]) -> np.ndarray
 
 
 class OneByOne(Kernel):
-    """A kernel that is called with plain numbers: many are computed in another way."""
+    """A function called with plain numbers, for which many use another method."""
 
     def results(self, points: Sequence[Point], fmt: Format = DOUBLE) -> Results:
-        """Results, of each for every point."""
+        """Return every result for every point."""
         kind = np.dtype(fmt.name).type
         rows = [results(self.call, [kind(x) for x in p.values.values()]) for p in points]
         return np.stack(rows, -1)
@@ -57,16 +57,16 @@ class OneByOne(Kernel):
 def judge(
     call: Callable[..., Any], found: Sequence[ContactTruth], budget: float, fmt: Format = DOUBLE
 ) -> Errors:
-    """Judge a kernel by what both oracles say.
+    """Return the errors of a function against the reference values.
 
     Raises
     ------
     ValueError
-        If the kernel gives another number of results than are true.
+        If the function returns another number of results than the reference.
     """
     names = tuple(str(place) for place in range(len(found[0].point)))
     kernel = OneByOne("the kernel", "", names, call, budget)
-    with flint.ctx.workprec(256):  # the balls are read from text, and errors rounded from there
+    with flint.ctx.workprec(256):  # the balls are read from text, and errors are rounded from there
         truths = [
             Truth(Point(dict(zip(names, true.point, strict=True))), _references(call, true))
             for true in found
@@ -78,7 +78,7 @@ def _references(call: Callable[..., Any], true: ContactTruth) -> tuple[Reference
     totals = conditioning(call, true.point)
     if totals.size != len(true.values):
         raise ValueError(f"{totals.size} results at {true.point}, {len(true.values)} are expected")
-    # Of a kernel without a value nothing is known, and nothing is allowed.
+    # Without a value of the function there is no conditioning, and no error is allowed.
     shares = np.where(np.isfinite(totals), totals, 0.0).tolist()
     balls = [flint.arb(value) for value in true.values]
     return tuple(

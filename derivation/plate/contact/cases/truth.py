@@ -1,4 +1,4 @@
-"""What is true of the contact law: both oracles asked at every point, several points at a time."""
+"""Reference values of the contact law: two methods at every point, in several processes."""
 
 import math
 import multiprocessing
@@ -14,30 +14,30 @@ from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.impact.oracle.agreement import agree
 
 DIGITS = 24
-"""Both oracles share at least so many digits, or there is no truth."""
+"""Smallest number of digits to which both methods must agree."""
 
 _WRITTEN = 50
-"""Digits with which a ball is passed on between processes."""
+"""Digits with which a ball is sent between processes."""
 
 Job = tuple[str, ContactShape | Point]
 
 
 @dataclass(frozen=True)
 class ContactTruth:
-    """What both oracles say at a point.
+    """Reference values at a point.
 
     Parameters
     ----------
     point
-        The kernel's arguments.
+        The function's arguments.
     values
         Its results as balls, in decimal.
     digits
-        To how many the oracles agree.
+        Number of digits to which both methods agree.
     scale
-        What an error is divided by, see `tolerance`.
+        Divisor of errors, see `tolerance`.
     bend
-        For an impact c_1 A, the first term that the plate adds to Hertz's; else 0.
+        For an impact c_1 A, the plate's first correction of Hertz's law; else 0.
     radius
         Contact radius, for an impact the largest.
     """
@@ -51,12 +51,12 @@ class ContactTruth:
 
 
 def truth(job: Job) -> ContactTruth:
-    """Both oracles' answer for a kernel at its arguments, or at a contact of the grid.
+    """Return the reference values of a function at its arguments, or at a contact of the grid.
 
     Raises
     ------
     OracleError
-        If they contradict each other.
+        If both methods contradict each other.
     """
     name, where = job
     point = arguments(name, where, DIGITS) if isinstance(where, ContactShape) else where
@@ -69,11 +69,11 @@ def truth(job: Job) -> ContactTruth:
 
 
 def tolerance(name: str, point: Point, true: float) -> float:
-    """What an error is divided by: (1 + |F|)/|1 + F|, F being what the plate adds to Hertz.
+    """Return the divisor of errors: (1 + |F|)/|1 + F|, where F is the plate's correction of Hertz.
 
-    A sum is known to a unit in the last place of its largest part. Where 1 + F is
-    small against that, so is what can be asked; where F itself passes zero, 1
-    stays and nothing is excused. All other results are held to their own size.
+    A sum is accurate to a unit in the last place of its largest part. Where 1 + F is small compared
+    with that part, the tolerance is larger; where F passes zero, the divisor is 1. For all other
+    results the divisor is 1.
     """
     if name not in ("indentation", "contact_radius", "stiffness"):
         return 1.0
@@ -87,22 +87,23 @@ def tolerance(name: str, point: Point, true: float) -> float:
 
 
 def bending(point: Point, radius: float) -> float:
-    """c_1 A of an impact."""
+    """Return c_1 A of an impact."""
     h, b = point[3], point[4]
     return float(contact_balls.coefficient(1, h, b, 12)) * (radius / h)
 
 
 def truths(jobs: Sequence[Job], processes: int = 1, tell: Tell = quiet) -> list[ContactTruth]:
-    """Answers in the order of the questions.
+    """Return the reference values of the jobs, in their order.
 
     Parameters
     ----------
     jobs
-        Kernels' names, each with arguments or a contact of the grid.
+        Names of functions, each with arguments or a contact of the grid.
     processes
-        How many points are worked on at a time; 1 starts no process.
+        Number of processes; 1 starts none.
     tell
-        Told about every point that is done: kernel, how many, of how many.
+        Called after each point with the function's name, the number of finished points and the
+        total.
     """
     if processes == 1:
         found = []
@@ -110,7 +111,7 @@ def truths(jobs: Sequence[Job], processes: int = 1, tell: Tell = quiet) -> list[
             found.append(truth(job))
             tell(job[0], done, len(jobs))
         return found
-    # Fresh processes, since a copy of one with threads may hang.
+    # New processes, because a copy of a process with threads may hang.
     pool = ProcessPoolExecutor(processes, multiprocessing.get_context("spawn"))
     try:
         futures: dict[Future[ContactTruth], str] = {pool.submit(truth, job): job[0] for job in jobs}
@@ -123,7 +124,7 @@ def truths(jobs: Sequence[Job], processes: int = 1, tell: Tell = quiet) -> list[
 
 
 def relative(value: float, true: str, scale: float) -> float:
-    """|value - true| over |true| times a scale; infinite for a value that is not finite."""
+    """Return |value - reference| over |reference| times a scale; infinite if not finite."""
     if not math.isfinite(value):
         return math.inf
     with flint.ctx.workprec(256):

@@ -1,4 +1,4 @@
-"""What the contact law hands in for the generated package."""
+"""Modules of the contact law for the generated package."""
 
 from pathlib import Path
 
@@ -12,7 +12,7 @@ RUNTIME = Path(__file__).parents[1] / "runtime"
 
 
 def contact_kernels() -> Routines:
-    """Correction, indentation and force, printed from proven expressions."""
+    """Return the routines of correction, indentation and force, printed from proved expressions."""
     imports = {
         "blocks": ("hertz_shape",),
         "contact_numbers": ("CUBIC", "FAR_HALF", "FAR_MIDDLE", "LINEAR", "REACH"),
@@ -25,14 +25,14 @@ def contact_kernels() -> Routines:
 
 
 def contact_point_kernels() -> Routines:
-    """The same expressions of single numbers."""
+    """Return the same routines for single numbers."""
     made = (series.polynomial_slope(), *(make() for make in law.POINT_ROUTINES))
     title = "Contact law of a sphere on a plate: formulas of single, ordinary numbers."
     return Routines("contact_point_kernels", title, made, {}, SCALARS)
 
 
 def sensitivity_kernels() -> Routines:
-    """What every parameter does to an impact, likewise."""
+    """Return the routines of an impact's sensitivities to each parameter."""
     made = tuple(make() for make in sensitivities.ROUTINES)
     return Routines("sensitivity_kernels", "Slopes of an impact by its parameters.", made, {})
 

@@ -1,10 +1,10 @@
-"""Contact law and its force as code computes them, proved to be those of the theory.
+"""Contact law and contact force as the code computes them, proved equal to those of the theory.
 
 With F the correction of the contact law and A = a/h::
 
     delta = (a^2/R) (1 + F(A)),   P = C a^3/R
 
-The code knows F and A F'(A) as `F` and `slope`, and C over mu as `modulus`.
+In the code F, A F'(A) and C over mu are `F`, `slope` and `modulus`.
 """
 
 import sympy as sp
@@ -26,46 +26,46 @@ square, ratio, radius, residual, exponent, flat = sp.symbols(
 
 
 class Correction(sp.Function):
-    """F of A = a/h and of log(h/b)."""
+    """F as a function of A = a/h and log(h/b)."""
 
     def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """By either argument."""
+        """Return the derivative by one of the two arguments."""
         kinds = {1: CorrectionSlope, 2: CorrectionByThickness}
         return kinds[argindex](*self.args)
 
 
 class CorrectionSlope(sp.Function):
-    """F' of A."""
+    """F' as a function of A."""
 
     def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """By either argument."""
+        """Return the derivative by one of the two arguments."""
         kinds = {1: CorrectionCurve, 2: CorrectionSlopeByThickness}
         return kinds[argindex](*self.args)
 
 
 class CorrectionCurve(sp.Function):
-    """F'' of A."""
+    """F'' as a function of A."""
 
 
 class CorrectionByThickness(sp.Function):
-    """The slope of F by log(h/b) at fixed A."""
+    """Derivative of F by log(h/b) at fixed A."""
 
     def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """By A."""
+        """Return the derivative by A."""
         del argindex
         return CorrectionSlopeByThickness(*self.args)
 
 
 class CorrectionSlopeByThickness(sp.Function):
-    """The slope of F' by log(h/b)."""
+    """Derivative of F' by log(h/b)."""
 
 
 log_eta = sp.Symbol("log_eta", real=True)
 CORRECTION = Correction(a / h, log_eta)
 FORCE = contact_radius().expression
-"""P by the contact radius."""
+"""P as a function of the contact radius."""
 DEPTH = contact_split()[0].expression * (1 + CORRECTION)
-"""The indentation by the contact radius."""
+"""Indentation as a function of the contact radius."""
 MODULUS = FORCE * R / a**3 / mu
 """(4/3) E* over mu."""
 LAW: Facts = {
@@ -78,11 +78,11 @@ LAW: Facts = {
     A: a / h,
     inverse_R: 1 / R,
 }
-"""What the arguments stand for."""
+"""Meaning of the arguments."""
 
 
 def reduce(expression: sp.Expr) -> sp.Expr:
-    """0 if and only if it vanishes."""
+    """Return 0 if and only if the expression vanishes."""
     found = expression.replace(TIMES, lambda first, *powers: first * _powers(powers))
     return sp.simplify(sp.powdenest(found, force=True))
 
@@ -95,7 +95,7 @@ def _powers(powers: tuple[sp.Expr, ...]) -> sp.Expr:
 def root(
     symbol: sp.Symbol, degree: int, factors: tuple[sp.Expr, ...], *divisors: sp.Expr
 ) -> Several:
-    """``symbol = root(degree, factors, divisors)``, which stays in the range of doubles."""
+    """Return ``symbol = root(degree, factors, divisors)``, which stays in the range of doubles."""
     exact = (sp.Mul(*factors) / sp.Mul(*divisors)) ** sp.Rational(1, degree)
     below = (sp.Tuple(*divisors),) if divisors else ()
     return Several((symbol,), "root", (sp.Integer(degree), sp.Tuple(*factors), *below), (exact,))
@@ -103,7 +103,7 @@ def root(
 
 @named
 def modulus_over_mu() -> Claims:
-    """(4/3) E* over mu; `first` and `second` are lam and mu over any common factor."""
+    """Return (4/3) E* over mu; `first` and `second` are lam and mu over any common factor."""
     return Claims(
         (first, second),
         (),
@@ -116,7 +116,7 @@ def modulus_over_mu() -> Claims:
 
 @named
 def hertz_force() -> Claims:
-    """P, the contact force."""
+    """Return P, the contact force."""
     return Claims(
         (a, R, mu, modulus), (), (TIMES(modulus, mu, 1, a, 3, R, -1),), (FORCE,), LAW, reduce
     )
@@ -124,7 +124,7 @@ def hertz_force() -> Claims:
 
 @named
 def hertz_radius() -> Claims:
-    """a, the contact radius."""
+    """Return a, the contact radius."""
     return Claims(
         (P, R, mu, modulus),
         (root(radius, 3, (P, R), mu, modulus),),
@@ -137,7 +137,7 @@ def hertz_radius() -> Claims:
 
 @named
 def largest_pressure() -> Claims:
-    """p_0, the largest contact pressure."""
+    """Return p_0, the largest contact pressure."""
     return Claims(
         (a, R, mu, modulus),
         (),
@@ -149,7 +149,7 @@ def largest_pressure() -> Claims:
 
 
 def indentation() -> Routine:
-    """The indentation of a contact radius."""
+    """Return the indentation as a function of the contact radius."""
     return routine(
         "indentation_of",
         (a, R, F),
@@ -164,7 +164,7 @@ def indentation() -> Routine:
 
 @named
 def indentation_in_range() -> Claims:
-    """delta of ordinary lengths."""
+    """Return delta for lengths that neither overflow nor underflow."""
     return Claims(
         (a, inverse_R, F),
         (Let(whole, 1 + F), Let(flat, inverse_R * a)),
@@ -177,7 +177,7 @@ def indentation_in_range() -> Claims:
 
 @named
 def depth_coefficients() -> Claims:
-    """What goes with a^2 in the indentation; and with a^3, by what goes with A in F."""
+    """Return the factor of a^2 in the indentation, and that of a^3 from the factor of A in F."""
     hertz = DEPTH.subs(CORRECTION, 0)
     return Claims(
         (S, R, h),
@@ -191,7 +191,7 @@ def depth_coefficients() -> Claims:
 
 @named
 def relative_rise() -> Claims:
-    """(R/a) d delta/da."""
+    """Return (R/a) d delta/da."""
     return Claims(
         (F, slope),
         (Let(whole, 1 + F),),
@@ -203,7 +203,7 @@ def relative_rise() -> Claims:
 
 
 def indentation_slope() -> Routine:
-    """d delta/da."""
+    """Return d delta/da."""
     return routine(
         "slope_of_indentation",
         (a, R, F, slope),
@@ -217,7 +217,7 @@ def indentation_slope() -> Routine:
 
 
 def stiffness() -> Routine:
-    """dP/d delta, by the slopes of both by the contact radius."""
+    """Return dP/d delta, from the derivatives of both by the contact radius."""
     return routine(
         "contact_stiffness",
         (a, rise, mu, modulus),
@@ -232,7 +232,7 @@ def stiffness() -> Routine:
 
 @named
 def depth_ratio() -> Claims:
-    """sqrt(R delta)/h, what Hertz's radius would be over h."""
+    """Return sqrt(R delta)/h, Hertz's contact radius over h."""
     return Claims(
         (delta, R, h),
         (root(radius, 2, (delta, R), h, h),),
@@ -245,7 +245,7 @@ def depth_ratio() -> Claims:
 
 @named
 def depth_ratio_at() -> Claims:
-    """sqrt(R delta)/h by A and F."""
+    """Return sqrt(R delta)/h in terms of A and F."""
     return Claims(
         (A, F), (Let(whole, 1 + F),), (A * sp.sqrt(whole),), (sp.sqrt(R * DEPTH) / h,), LAW, reduce
     )
@@ -253,7 +253,7 @@ def depth_ratio_at() -> Claims:
 
 @named
 def radius_of_share() -> Claims:
-    """a by what share it is of Hertz's radius sqrt(R delta)."""
+    """Return a from its ratio to Hertz's radius sqrt(R delta)."""
     return Claims(
         (share, delta, R), (root(radius, 2, (delta, R)),), (share * radius,), (a,), LAW, reduce
     )
@@ -261,7 +261,7 @@ def radius_of_share() -> Claims:
 
 @named
 def force_of_share() -> Claims:
-    """P by delta, a and a over Hertz's radius, whose errors count once, not three times."""
+    """Return P from delta, a and a over Hertz's radius; an error of a counts once, not thrice."""
     return Claims(
         (share, delta, a, mu, modulus),
         (),
@@ -274,7 +274,7 @@ def force_of_share() -> Claims:
 
 @named
 def depth_ratio_in_range() -> Claims:
-    """sqrt(R delta)/h of ordinary lengths."""
+    """Return sqrt(R delta)/h for lengths that neither overflow nor underflow."""
     return Claims(
         (delta, R, h), (), (sp.sqrt(R * delta) / h,), (sp.sqrt(R * DEPTH) / h,), LAW, reduce
     )
@@ -282,13 +282,13 @@ def depth_ratio_in_range() -> Claims:
 
 @named
 def radius_in_range() -> Claims:
-    """a by what share it is of Hertz's radius, of ordinary lengths."""
+    """Return a from its ratio to Hertz's radius, for such lengths."""
     return Claims((share, delta, R), (), (share * sp.sqrt(R * delta),), (a,), LAW, reduce)
 
 
 @named
 def force_in_range() -> Claims:
-    """P by delta, a and a over Hertz's radius, of ordinary numbers."""
+    """Return P from delta, a and a over Hertz's radius, for such numbers."""
     return Claims(
         (share, delta, a, mu, modulus),
         (),
@@ -301,7 +301,7 @@ def force_in_range() -> Claims:
 
 @named
 def stiffness_in_range() -> Claims:
-    """dP/d delta of ordinary numbers; `rise` is (R/a) d delta/da."""
+    """Return dP/d delta for such numbers; `rise` is (R/a) d delta/da."""
     return Claims(
         (a, rise, mu, modulus),
         (),
@@ -314,7 +314,7 @@ def stiffness_in_range() -> Claims:
 
 @named
 def newton_step() -> Claims:
-    """(R delta/h^2) over that at A, less 1, and by what share of itself A is to grow."""
+    """Return R delta/h^2 over its value at A, minus 1, and the relative increase of A."""
     goal = (h * eps) ** 2 / (R * DEPTH) - 1
     power = 1 / (a * sp.diff(sp.log(R * DEPTH), a))
     step = sp.series((1 + residual) ** exponent - 1, residual, 0, 3).removeO()
@@ -351,7 +351,7 @@ ROUTINES = (
     force_of_share,
     newton_step,
 )
-"""Of arrays."""
+"""Routines for arrays."""
 POINT_ROUTINES = (
     modulus_over_mu,
     indentation_in_range,
@@ -363,4 +363,4 @@ POINT_ROUTINES = (
     stiffness_in_range,
     newton_step,
 )
-"""Of single numbers, which are ordinary ones."""
+"""Routines for single numbers that neither overflow nor underflow."""

@@ -1,10 +1,11 @@
-"""Turns the theory of kappa_n and M_k into the tables of doubles their generated code needs.
+"""Computes tables of doubles for the generated code of kappa_n and M_k.
 
     kappa_n = int_0^oo y^n K0(y)/I0(y) dy
     M_k     = FP int_0^oo T^(2k-4) (G - 1) dT     (Hadamard's finite part)
 
-For low index a table: one set of trapezoids integrates all of them. For large index the
-expansions of `theory.moments`, from where their bounds are below the tolerance.
+For low index there is a table; one set of trapezoidal nodes serves all integrals. For large index
+the code uses the expansions of `theory.moments`, from the index at which their bounds are below the
+tolerance.
 """
 
 from collections.abc import Sequence
@@ -33,29 +34,29 @@ from derivation.plate.modules import ComputedModule, RuntimeModule
 from derivation.plate.vocabulary import k
 
 TOLERANCE = Fraction(1, 2**60)
-"""What the expansions may leave out, of values near 1."""
+"""Tolerance of the expansions' truncation error, for values near 1."""
 TERMS = 13
-"""Terms of the expansion of kappa_n; where it begins follows from it."""
+"""Number of terms of the expansion of kappa_n; the index from which it is used follows from it."""
 BITS = 512
 FIRST_K = 2
-"""M_k is counted from here."""
+"""First index k of M_k."""
 _KAPPAS, _FINITE_PARTS = 200, 100
-"""How many are computed: beyond these no double holds them."""
+"""Number of computed values; the next ones exceed the range of doubles."""
 _STEP = 32
 _TAIL = -120
 _END = 320
 _SURE = 100
 _WARRANTED = 90
-"""Bits that quadrature leaves correct at least; what a rounding decides must not hang on more."""
+"""Smallest number of correct bits of the quadrature; a rounding must not depend on further bits."""
 
 
 def _nodes() -> list[tuple[Ball, Ball]]:
-    """Abscissae y and weights of int_0^oo f dy: trapezoids in v, y = exp(v - e^(-v)).
+    """Return nodes y and weights of int_0^oo f dy: the trapezoidal rule in v, y = exp(v - e^(-v)).
 
-    For f analytic in a sector |arg y| < d about the axis and falling exponentially the
-    error is e^(-2 pi d/step): below 1e-40 for every integrand in here (d > 0.58), and
-    below 1e-34 for high powers of y, which grow by (cos d)^-n off the axis.
-    The tests compare the integrals with another rule, another map of the axis.
+    For f analytic in a sector |arg y| < d about the axis and decaying exponentially the error is
+    e^(-2 pi d/step): below 1e-40 for every integrand of this module (d > 0.58), and below 1e-34 for
+    high powers of y, which grow by (cos d)^-n off the axis. The tests compare the integrals with
+    another rule and another map of the axis.
     """
     step = Ball(1) / _STEP
     found = []
@@ -69,12 +70,12 @@ def _nodes() -> list[tuple[Ball, Ball]]:
 
 
 def sharp(value: Ball) -> Ball:
-    """The middle of a ball whose radius, rounding alone, is far below what is asked.
+    """Return the middle of a ball whose radius is due to rounding and far below the tolerance.
 
     Raises
     ------
     ArithmeticError
-        If it is not.
+        If the radius is larger.
     """
     if not value.rad() < Ball(2) ** -_SURE * (1 + abs(value)):
         raise ArithmeticError(f"{value} is not sharp enough for a table")
@@ -83,14 +84,14 @@ def sharp(value: Ball) -> Ball:
 
 @cache
 def kappas() -> tuple[Ball, ...]:
-    """kappa_0, kappa_1, kappa_2, ... = int_0^oo y^n K0(y)/I0(y) dy."""
+    """Return kappa_0, kappa_1, kappa_2, ... = int_0^oo y^n K0(y)/I0(y) dy."""
     with flint.ctx.workprec(3 * BITS):
         points = [(y, w * y.bessel_k(Ball(0)) / y.bessel_i(Ball(0))) for y, w in _nodes()]
         return _by_power(points, 1, _KAPPAS)
 
 
 def _by_power(points: Sequence[tuple[Ball, Ball]], step: int, count: int) -> tuple[Ball, ...]:
-    """Sums of share y^(step i) over the nodes, i = 0 ... count - 1."""
+    """Return the sums of share y^(step i) over the nodes, i = 0 ... count - 1."""
     found = []
     for _ in range(count):
         found.append(sharp(sum((share for _, share in points), Ball(0))))
@@ -100,24 +101,24 @@ def _by_power(points: Sequence[tuple[Ball, Ball]], step: int, count: int) -> tup
 
 @cache
 def excess_nodes() -> tuple[tuple[Ball, Ball, Ball], ...]:
-    """T, weight and G - 1 for the integrals over T."""
-    with flint.ctx.workprec(3 * BITS):  # 840 bits cancel in what is left of G - 1 at 2^_TAIL
+    """Return T, weight and G - 1 for the integrals over T."""
+    with flint.ctx.workprec(3 * BITS):  # at 2^_TAIL, 840 bits cancel in the remainder of G - 1
         return tuple((T, weight, plate_excess(T)) for T, weight in _nodes())
 
 
 @cache
 def finite_parts() -> tuple[Ball, ...]:
-    """M_2, M_3, M_4, ...: from M_4 on the integral itself converges."""
+    """Return M_2, M_3, M_4, ...; from M_4 on the integral itself converges."""
     with flint.ctx.workprec(3 * BITS):
         points = [(T, weight * excess * T**4) for T, weight, excess in excess_nodes()]
         return (*_singular_parts(), *_by_power(points, 2, _FINITE_PARTS - 2))
 
 
 def _singular_parts() -> tuple[Ball, Ball]:
-    """M_2 and M_3, the finite parts of int (G - 1) dT and int T^2 (G - 1) dT.
+    """Return M_2 and M_3, the finite parts of int (G - 1) dT and int T^2 (G - 1) dT.
 
-    The poles, G = 6/T^3 + 6/(5T) + ..., are taken off with a factor e^(-T^2), whose own
-    finite parts are FP int T^-3 e^(-T^2) = (gE - 1)/2 and FP int T^-1 e^(-T^2) = -gE/2.
+    The poles, G = 6/T^3 + 6/(5T) + ..., are subtracted with a factor e^(-T^2); their finite parts
+    are FP int T^-3 e^(-T^2) = (gE - 1)/2 and FP int T^-1 e^(-T^2) = -gE/2.
     """
     second, third = Ball(0), Ball(0)
     for T, weight, excess in excess_nodes():
@@ -130,7 +131,7 @@ def _singular_parts() -> tuple[Ball, Ball]:
 
 
 def kappa_ratios() -> tuple[Ball, ...]:
-    """kappa_n 2^(n+1)/(pi n!), n = 0, 1, 2, ..."""
+    """Return kappa_n 2^(n+1)/(pi n!), n = 0, 1, 2, ..."""
     with flint.ctx.workprec(BITS):
         return tuple(
             value * Ball(2) ** (n + 1) / (Ball.pi() * Ball(n + 1).gamma())
@@ -139,7 +140,7 @@ def kappa_ratios() -> tuple[Ball, ...]:
 
 
 def finite_part_ratios() -> tuple[Ball, ...]:
-    """M_k 2^(2k-3)/(2k-2)!, k = 2, 3, 4, ..."""
+    """Return M_k 2^(2k-3)/(2k-2)!, k = 2, 3, 4, ..."""
     with flint.ctx.workprec(BITS):
         return tuple(
             value * Ball(2) ** (2 * index - 3) / Ball(2 * index - 1).gamma()
@@ -149,13 +150,13 @@ def finite_part_ratios() -> tuple[Ball, ...]:
 
 @cache
 def kappa_start() -> int:
-    """Smallest n from which the expansion of kappa_n is within tolerance."""
+    """Return the smallest n from which the expansion of kappa_n is within the tolerance."""
     return first_true(lambda n: bool(kappa_bound(n, TERMS) <= TOLERANCE))
 
 
 @cache
 def finite_part_start() -> int:
-    """Smallest k from which the limit of M_k's ratio is within tolerance; kept between runs."""
+    """Return the smallest k from which the limit of M_k's ratio is within the tolerance."""
     rooms = (
         "engine/cache.py",
         "engine/formula",
@@ -174,12 +175,12 @@ def _finite_part_start() -> int:
 
 
 def _doubles(values: Sequence[Ball]) -> tuple[float, ...]:
-    """Correctly rounded values, up to the last that a double holds.
+    """Return correctly rounded values, up to the last one in the range of doubles.
 
     Raises
     ------
     ArithmeticError
-        If a rounding cannot be decided, or if there is no value too large for a double.
+        If a rounding cannot be decided, or if no value exceeds the range of doubles.
     """
     held = [value for value in values if abs(value) < Ball(float_info.max)]
     if len(held) == len(values):
@@ -195,7 +196,7 @@ def _round(values: Sequence[Ball]) -> tuple[float, ...]:
 
 @cache
 def tables() -> dict[str, tuple[float, ...]]:
-    """Every table by name; the ratios' end where their expansion begins."""
+    """Return every table by name; those of the ratios end where their expansion begins."""
     return {
         "kappa": _doubles(kappas()),
         "kappa_ratio": _round(kappa_ratios()[: kappa_start()]),
@@ -205,14 +206,14 @@ def tables() -> dict[str, tuple[float, ...]]:
 
 
 def _limit_parts() -> tuple[sp.Rational, sp.Rational]:
-    """Pole and residue of the ratio's limit 1 + residue/(k - pole)."""
+    """Return pole and residue of the ratio's limit 1 + residue/(k - pole)."""
     above = sp.cancel(finite_part_limit() - 1)
     (pole,) = sp.roots(sp.denom(above), k)
     return pole, sp.cancel(above * (k - pole))
 
 
 def moment_numbers() -> Numbers:
-    """The tables, where the expansions begin, and their coefficients."""
+    """Return the tables, the first indices of the expansions, and their coefficients."""
     found = {name: np.array(table) for name, table in tables().items()}
     pole, residue = _limit_parts()
     constants = (

@@ -1,4 +1,4 @@
-"""The numbers that the generated contact law needs: tables, ends of ranges, exponents."""
+"""Constants for the generated contact law: tables, ends of ranges, exponents."""
 
 import numpy as np
 import sympy as sp
@@ -16,7 +16,7 @@ _CELL = "ends in b/h, then rows by powers of b/h, scaled to [-1, 1]"
 
 
 def numbers() -> Numbers:
-    """Of a plate's polynomials, and of the sensitivities of an impact."""
+    """Constants of a plate's polynomials, and of the sensitivities of an impact."""
     return Numbers(
         "contact_numbers",
         "Numbers of the contact law: ends of its polynomials, and their tables.",

@@ -1,7 +1,7 @@
-"""What every parameter does to an impact, as code computes it, proved to be that of the theory.
+"""Sensitivities of an impact as the code computes them, proved equal to those of the theory.
 
 The contact time is an integral over q = 1 - u^2 of N/sqrt(S); N and S are sums over the powers n of
-the law, as V = (R/a) d delta/da and the work E are.
+the law, like V = (R/a) d delta/da and the work E.
 """
 
 from collections.abc import Mapping
@@ -29,7 +29,7 @@ own, of_energy, of_eta = sp.symbols("own of_energy of_eta", real=True)
 
 @named
 def power_work() -> Claims:
-    """The work of a term that goes with the n-th power of A: int_0^1 x^3 d(term x^n)."""
+    """Return the work of a term proportional to the n-th power of A: int_0^1 x^3 d(term x^n)."""
     return Claims(
         (n, term),
         (),
@@ -42,14 +42,14 @@ def power_work() -> Claims:
 
 @named
 def power_slope() -> Claims:
-    """The slope by log A of a term of F that is one of delta with the n-th power of A."""
+    """Return the derivative by log A of a term of F whose term of delta is proportional to A^n."""
     return Claims(
         (n, term), (), (term * (n - 2),), (sp.diff(term * x ** (n - 2), x).subs(x, 1),), {}
     )
 
 
 class NearNodes:
-    """Where the inner integral's nodes lie, w = 1 - u from 0 to 1 - sqrt(1 - ratio)."""
+    """Positions of the inner integral's nodes, w = 1 - u from 0 to 1 - sqrt(1 - ratio)."""
 
     node, ratio, root, share = sp.symbols("node ratio root share", positive=True)
     last, w, rest, left, short, height = sp.symbols("last w rest left short height", positive=True)
@@ -57,7 +57,7 @@ class NearNodes:
 
 @named
 def near_nodes() -> Claims:
-    """q, s = q/ratio, 1 - q, (1 - s) ratio^5/(1 - q), and where w ends; root^2 is 1 - ratio."""
+    """Return q, s = q/ratio, 1 - q, (1 - s) ratio^5/(1 - q), the end of w; root^2 is 1 - ratio."""
     k = NearNodes
     u = 1 - (1 - k.root) * k.node
     there, s_there = 1 - u**2, (1 - u**2) / (1 - k.root**2)
@@ -84,7 +84,7 @@ def near_nodes() -> Claims:
 
 @named
 def work_weight() -> Claims:
-    """What V is multiplied by in int x^3 d(x^2 (1 + F))."""
+    """Return the factor of V in int x^3 d(x^2 (1 + F))."""
     rise = R / a * sp.diff(DEPTH, a)
     return Claims(
         (x, weight),
@@ -97,7 +97,7 @@ def work_weight() -> Claims:
 
 @named
 def rates() -> Claims:
-    """V = 2 (1 + F) + A F', and its slopes by log A and by log(h/b)."""
+    """Return V = 2 (1 + F) + A F', and its derivatives by log A and by log(h/b)."""
     F, slope, curve, deeper = sp.symbols("F slope curve deeper", real=True)
     rise = R / a * sp.diff(DEPTH, a)
     grown = a * sp.diff(CORRECTION, a)
@@ -141,12 +141,12 @@ SUMS: Facts = {
     energy_slope: weighted(ETA_WEIGHTS, _work),
     lift_slope: weighted(ETA_WEIGHTS, lambda _: sp.Integer(1)),
 }
-"""What the sums stand for."""
+"""Meaning of the sums."""
 
 
 @named
 def peak_growth() -> Claims:
-    """How A_m, delta_m and P_m grow with energy number and h/b: logarithmic slopes."""
+    """Return logarithmic derivatives of A_m, delta_m and P_m by energy number and h/b."""
     by_radius = a * sp.diff(sp.log(FORCE), a)
     growth = tuple(formula.expression for formula in peaks())
     return Claims(
@@ -168,7 +168,7 @@ def peak_growth() -> Claims:
 
 @named
 def whole_work() -> Claims:
-    """The work over A_m^5 by that over A_near^5 and what is added; near is A_near/A_m."""
+    """Return the work over A_m^5 from that over A_near^5 and the added work; near is A_near/A_m."""
     near, within, rise = sp.symbols("near within rise", positive=True)
     work = sp.integrate(x**3 * sp.diff(term * x**n, x), x)
     return Claims(
@@ -185,13 +185,13 @@ def whole_work() -> Claims:
 
 
 def _time_parts(weights: Mapping[int, sp.Expr], at: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-    """N and S."""
+    """Return N and S."""
     stored = weighted(weights, lambda k: _work(k) * geometric(k + 3, at))
     return weighted(weights, lambda k: k * at ** (k - 1)), stored
 
 
 def _near_terms(name: str, hertz: int, summary: str) -> Routine:
-    """N and S at s = q/ratio by sums over the powers that begin with the third."""
+    """Return N and S at s = q/ratio as sums over the powers from the third on."""
     k = NearNodes
     rest, square, cube, six, start, rise = sp.symbols("rest square cube six start rise")
     every = _weights(D, hertz)
@@ -228,19 +228,19 @@ def _near_terms(name: str, hertz: int, summary: str) -> Routine:
 
 
 def near_terms() -> Routine:
-    """Of the law."""
+    """Return the sums for the law."""
     what = "N and S by sums over the terms of F up to A_near, at s = A/A_near, and the work beyond."
     return _near_terms("near_terms", 1, what)
 
 
 def near_slope_terms() -> Routine:
-    """Of its slopes, in which Hertz's term is not."""
+    """Return the sums for its derivatives, which do not contain Hertz's term."""
     return _near_terms("near_slope_terms", 0, "The same for a slope of F.")
 
 
 @named
 def far_nodes() -> Claims:
-    """The node of [q, 1] counted from 1, where 1 - q = gap u^2."""
+    """Return the node of [q, 1], measured from 1, where 1 - q = gap u^2."""
     gap, u = sp.symbols("gap u", positive=True)
     return Claims(
         (gap, u, NearNodes.node),
@@ -254,7 +254,7 @@ def far_nodes() -> Claims:
 
 @named
 def time_terms() -> Claims:
-    """Terms of int N/sqrt(S) and of its slopes by log A_m and log(h/b)."""
+    """Return terms of int N/sqrt(S) and of its derivatives by log A_m and log(h/b)."""
     names = sp.symbols("N S N_1 S_1 N_2 S_2", positive=True)
     N, S, N_1, S_1, N_2, S_2 = names
     scaled, half = sp.symbols("scaled half", positive=True)
@@ -273,16 +273,16 @@ def time_terms() -> Claims:
 
 
 class TimeIntegral(sp.Function):
-    """Integral of N/sqrt(S), of A_m and log(h/b)."""
+    """The integral of N/sqrt(S) as a function of A_m and log(h/b)."""
 
     def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """By log A_m, or by log(h/b)."""
+        """Return the derivative by log A_m or by log(h/b)."""
         return (by_radius / sp.exp(self.args[0]), by_thickness)[argindex - 1]
 
 
 @named
 def time_growth() -> Claims:
-    """How the contact time grows with energy number and h/b, by how A_m does."""
+    """Return the contact time's derivatives by energy number and h/b, from those of A_m."""
     log_A = sp.Symbol("log_A", real=True)
     A = sp.exp(log_A)
     time = sp.log(TimeIntegral(log_A, log_eta)) + sp.expand_log(sp.log(A**2 / sp.sqrt(A**5)))
@@ -301,7 +301,7 @@ def time_growth() -> Claims:
 
 @named
 def parameter_power() -> Claims:
-    """Power of a parameter in a result: its own, and those by energy number and h/b."""
+    """Return the power of a parameter in a result: its own, and those by energy number and h/b."""
     log_p = sp.Symbol("log_p", real=True)
     change = own * log_p + by_energy * (of_energy * log_p) + by_eta * (of_eta * log_p)
     return Claims(
@@ -316,7 +316,7 @@ def parameter_power() -> Claims:
 
 @named
 def constants_powers() -> Claims:
-    """Powers of lam and mu in a result by that of E*."""
+    """Return the powers of lam and mu in a result from the power of E*."""
     by_lam = modulus_slope().expression
     return Claims(
         (powers, lam, mu),

@@ -1,7 +1,7 @@
-"""Correction F of the contact law as code computes it, proved to be that of the theory.
+"""Correction F of the contact law as the code computes it, proved equal to that of the theory.
 
-Of a thin plate F = c1 A + c3 A^3 + Phi(A), v = 1/eta = b/h; of any plate it is a sum over modes.
-Where the code has a polynomial instead, F = A S(t) with t = (A^2 - middle)/half.
+For a thin plate F = c1 A + c3 A^3 + Phi(A), v = 1/eta = b/h; for any plate it is a sum over the
+modes. Where the code uses a polynomial instead, F = A S(t) with t = (A^2 - middle)/half.
 """
 
 import sympy as sp
@@ -32,18 +32,18 @@ change, steep, first, second = sp.symbols("change steep first second", real=True
 
 
 def thin(k: int) -> sp.Expr:
-    """c_(2k-3), by v."""
+    """Return c_(2k-3) as a function of v."""
     found: sp.Expr = thin_coefficient(k).expression.subs(eta, 1 / v)
     return found
 
 
 def constant(k: int) -> sp.Expr:
-    """What of that does not depend on v."""
+    """Return the part of c_(2k-3) that does not depend on v."""
     return thin(k).subs(v, 1) - thin(k).diff(v, 2).limit(v, sp.oo) / 2
 
 
 THIN: Facts = {LINEAR: constant(2), CUBIC: constant(3)}
-"""What the constants stand for."""
+"""Meaning of the constants."""
 
 
 def _with_logarithm(expression: sp.Expr) -> sp.Expr:
@@ -52,7 +52,7 @@ def _with_logarithm(expression: sp.Expr) -> sp.Expr:
 
 @named
 def thin_coefficients() -> Claims:
-    """c1 and c3 of a thin plate."""
+    """Return c1 and c3 of a thin plate."""
     found = _with_logarithm(thin(2)), _with_logarithm(thin(3))
     shares = [part.coeff(sp.log(v)) for part in found]
     grows = found[0].coeff(v**2)
@@ -70,14 +70,14 @@ def thin_coefficients() -> Claims:
 
 
 def in_powers(center: sp.Expr, width: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-    """What c1 and c3 add to S_0 and S_1, t = (A^2 - center)/width."""
+    """Return the contributions of c1 and c3 to S_0 and S_1, t = (A^2 - center)/width."""
     t = sp.Symbol("t", real=True)
     polynomial = sp.Poly(linear + cubic * (center + width * t), t)
     return polynomial.coeff_monomial(1), polynomial.coeff_monomial(t)
 
 
 def thin_start(name: str, center: sp.Expr, width: sp.Expr) -> Routine:
-    """What they add to a polynomial."""
+    """Return the contributions of c1 and c3 to a polynomial."""
     t = sp.Symbol("t", real=True)
     law = sp.expand((thin(2) * A + thin(3) * A**3) / A).subs(A, sp.sqrt(center + width * t))
     law = sp.Poly(sp.expand(law), t)
@@ -95,18 +95,18 @@ def thin_start(name: str, center: sp.Expr, width: sp.Expr) -> Routine:
 
 
 def thin_near() -> Routine:
-    """Of the first polynomial."""
+    """Return their contributions to the first polynomial."""
     return thin_start("thin_near", sp.Integer(0), REACH**2)
 
 
 def thin_far() -> Routine:
-    """Of the second."""
+    """Return their contributions to the second polynomial."""
     return thin_start("thin_far", MIDDLE, HALF)
 
 
 @named
 def linear_by_log() -> Claims:
-    """The slope of c1 by log v."""
+    """Return the derivative of c1 by log v."""
     found = sp.expand(v * sp.diff(thin(2), v))
     return Claims(
         (v,),
@@ -119,21 +119,21 @@ def linear_by_log() -> Claims:
 
 
 def cubic_by_log() -> sp.Expr:
-    """That of c3, a number."""
+    """Return the derivative of c3 by log v, a number."""
     return sp.simplify(v * sp.diff(thin(3), v))
 
 
 # --- modes
 
 SHARE = reduced_split()[1].expression
-"""A mode's share of F."""
+"""One mode's term of F."""
 WEIGHT = plate_factors()[2].expression.subs(T, 2 * eta * j_n) / (j_n * J1**2)
 """w_n."""
 
 
 @named
 def mode_weight() -> Claims:
-    """w_n, the weight of a mode."""
+    """Return w_n, the weight of a mode."""
     exact = plate_factors()[2].expression.subs(T, 2 * eta * j_n)
     return Claims(
         (eta, j_n, J1),
@@ -147,7 +147,7 @@ def mode_weight() -> Claims:
 
 @named
 def weight_by_thickness() -> Claims:
-    """The slope of w_n by log(h/b)."""
+    """Return the derivative of w_n by log(h/b)."""
     exact = plate_factor_slope().expression.subs(T, 2 * eta * j_n)
     return Claims(
         (eta, j_n, J1),
@@ -160,7 +160,7 @@ def weight_by_thickness() -> Claims:
 
 @named
 def mode_terms() -> Claims:
-    """What a mode adds to both sums, y = alpha j_n."""
+    """Return one mode's terms of both sums, y = alpha j_n."""
     block = blocks()["hertz_shape"]
     return Claims(
         (y, weight),
@@ -182,7 +182,7 @@ def mode_terms() -> Claims:
 
 @named
 def of_modes() -> Claims:
-    """What the modes add to F and A F'."""
+    """Return the contributions of the modes to F and A F'."""
     kernel = sine_kernel(y)
     sums = {total: kernel, rise: sp.diff(y * kernel, y)}
     return Claims(
@@ -199,10 +199,10 @@ def of_modes() -> Claims:
 
 
 class Series(sp.Function):
-    """S of t."""
+    """S as a function of t."""
 
     def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """By t."""
+        """Return the derivative by t."""
         del argindex
         return SeriesSlope(self.args[0])
 
@@ -211,7 +211,7 @@ class SeriesSlope(sp.Function):
     """S' of t."""
 
     def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """By t."""
+        """Return the derivative by t."""
         del argindex
         return 2 * SeriesCurve(self.args[0])
 
@@ -231,16 +231,16 @@ POLYNOMIAL: Facts = {
     square: A**2,
     inverse_half: 1 / half,
 }
-"""What Horner's rule gives."""
+"""Result of Horner's rule."""
 
 
 def by_log_radius(expression: sp.Expr) -> sp.Expr:
-    """Derivative by log A."""
+    """Return the derivative by log A."""
     return A * sp.diff(expression, A)
 
 
 def polynomial_slope() -> Routine:
-    """F and A F'."""
+    """Return F and A F'."""
     return routine(
         "with_slope_of",
         (A, square, inverse_half, S, slope),
@@ -254,7 +254,7 @@ def polynomial_slope() -> Routine:
 
 
 def polynomial_slopes() -> Routine:
-    """F, A F' and A (A F')'."""
+    """Return F, A F' and A (A F')'."""
     return routine(
         "with_slopes_of",
         (A, square, inverse_half, S, slope, curve),
@@ -273,21 +273,21 @@ def polynomial_slopes() -> Routine:
 
 
 class Table(sp.Function):
-    """A coefficient at fixed (a/b)^2 over eta, of log(eta)."""
+    """A coefficient at fixed (a/b)^2 over eta, as a function of log(eta)."""
 
     def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """By log(eta)."""
+        """Return the derivative by log(eta)."""
         del argindex
         return TableSlope(self.args[0])
 
 
 class TableSlope(sp.Function):
-    """The slope of that by log(eta)."""
+    """Derivative of `Table` by log(eta)."""
 
 
 @named
 def thick_by_thickness() -> Claims:
-    """The slope of S_k by log(h/b) at fixed A, in powers of A eta; order is 2k + 1."""
+    """Return the derivative of S_k by log(h/b) at fixed A, in powers of A eta; order is 2k + 1."""
     coefficient = eta**order * Table(sp.log(eta))
     return Claims(
         (order, S, eta, change),
@@ -301,7 +301,7 @@ def thick_by_thickness() -> Claims:
 
 @named
 def range_by_thickness() -> Claims:
-    """What times -(1 + t) is the slope of t by log v at fixed A, up to A = v."""
+    """Return the derivative of t by log v at fixed A, over -(1 + t), for ranges up to A = v."""
     start = sp.Symbol("start", positive=True)
     place = PLACE.subs({middle: (v**2 + start**2) / 2, half: (v**2 - start**2) / 2})
     return Claims(

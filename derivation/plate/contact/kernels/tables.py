@@ -1,4 +1,4 @@
-"""Turns the corrected contact law into the tables of doubles its generated code needs.
+"""Computes tables of doubles for the generated code of the corrected contact law.
 
 The law is delta = (a^2/R) (1 + F), F a function of A = a/h and eta = h/b (alpha = a/b = A eta):
 
@@ -34,32 +34,33 @@ from derivation.plate.contact.theory.thin_plate import plate_excess
 from derivation.plate.vocabulary import M
 
 REACH = 3
-"""The first polynomial ends at A = REACH or alpha = 1, whichever comes first."""
+"""End of the first polynomial: A = REACH or alpha = 1, whichever is smaller."""
 FAR_REACH = 6
-"""The second polynomial, in A^2, ends here."""
+"""End of the second polynomial, which is one in A^2."""
 TERMS, SHORT_TERMS, FAR_TERMS = 19, 7, 24
-"""Coefficients of the first polynomial, of its beginning, and of the second."""
+"""Numbers of coefficients of the first polynomial, of its beginning, and of the second."""
 SHORT = 6
-"""The short polynomial serves x = A/reach up to 1/SHORT."""
+"""The short polynomial is used for x = A/reach up to 1/SHORT."""
 MODES = 11
-"""Modes that count for eta >= 1/REACH: w_n falls like e^(-4 eta j_n)."""
+"""Number of modes that matter for eta >= 1/REACH: w_n decays like e^(-4 eta j_n)."""
 CELLS = ((3, 4, 20), (4, 6, 22), (6, 11, 23))
-"""Ranges of 1/eta with the number of powers that hold the thin plate's remainder there.
+"""Ranges of 1/eta, each with the number of powers that represent the thin plate's remainder.
 
-They hold its derivative too. Beyond the last range the closed form is all there is, up to
-A = FAR_REACH.
+They represent its derivative too. Beyond the last range the remainder is negligible up to
+A = FAR_REACH, and the closed form is used alone.
 """
 FAR_CELLS = ((3, 4, 20), (4, 6, 21), (6, 8, 19), (8, 11, 18))
-"""The same for F/A itself from A = REACH on."""
+"""The same for F/A itself for A > REACH."""
 WIDE_START = 2
-"""In the first of them the second polynomial spans A from here, lest its range shrink to a point.
+"""A from which the second polynomial extends in the first of these ranges.
 
-Its end, alpha = 1, comes as near to REACH as one likes.
+Otherwise its range could shrink to a point, because its end, alpha = 1, can be arbitrarily close to
+REACH.
 """
 IMPACT_NODES, INNER_NODES = 24, 12
-"""Gauss nodes of the integrals over the impact, enough for c1 A from -0.37 to 1e17.
+"""Numbers of Gauss nodes of the integrals over the impact, for c1 A from -0.37 to 1e17.
 
-The latter are those from A = REACH on, where the nearest singularity is farther.
+The second number is for A > REACH, where the nearest singularity is farther away.
 """
 _NEGLIGIBLE = 2.0**-60
 
@@ -67,7 +68,7 @@ Rows = tuple[tuple[float, ...], ...]
 
 
 def edge_part(alpha: Ball) -> Ball:
-    """W(alpha)/alpha for 0 <= alpha <= 1, by the series in kappa_n; terms fall like 4^-k."""
+    """Return W(alpha)/alpha, 0 <= alpha <= 1, by its series in kappa_n; terms fall like 4^-k."""
     square, total = alpha * alpha, Ball(0)
     factorial = Ball(6)
     power = Ball(1)
@@ -80,19 +81,19 @@ def edge_part(alpha: Ball) -> Ball:
 
 
 def shape(y: Ball) -> Ball:
-    """g(y) = 3 (sin y - y cos y)/y^3, 1 at y = 0."""
+    """Return g(y) = 3 (sin y - y cos y)/y^3, which is 1 at y = 0."""
     if y == 0:
         return Ball(1)
     return 3 * (y.sin() - y * y.cos()) / y**3
 
 
 def thin_part(A: Ball) -> Ball:
-    """Phi(A)/A, the thin plate's universal function."""
+    """Return Phi(A)/A, the thin plate's universal function."""
     if A == 0:
         return Ball(0)
     total = Ball(0)
     for T, weight, excess in excess_nodes():
-        if T < _NEGLIGIBLE:  # the integrand is O(T): what is left out is its square
+        if T < _NEGLIGIBLE:  # the integrand is O(T): the omitted part is of the order of its square
             continue
         y = A * T / 2
         total += weight * excess * (shape(y) - 1 + y * y / 10)
@@ -101,7 +102,7 @@ def thin_part(A: Ball) -> Ball:
 
 @cache
 def thin_constants() -> tuple[Ball, Ball]:
-    """K1 and K3: c1 = v^2/(4 pi) + K1 + 4 ln(v)/(5 pi), c3 = K3 - ln(v)/(10 pi), v = 1/eta."""
+    """Return K1, K3: c1 = v^2/(4 pi) + K1 + 4 ln(v)/(5 pi), c3 = K3 - ln(v)/(10 pi), v = 1/eta."""
     with flint.ctx.workprec(BITS):
         known = dict(zip((M[2], M[3]), finite_parts(), strict=False))
         linear, cubic = (enclose(constant(k), known) for k in (2, 3))
@@ -109,7 +110,7 @@ def thin_constants() -> tuple[Ball, Ball]:
 
 
 def thin_numbers() -> tuple[float, float]:
-    """Both, rounded."""
+    """Return K1 and K3, rounded."""
     with flint.ctx.workprec(BITS):
         linear, cubic = _round(thin_constants())
         return linear, cubic
@@ -117,7 +118,7 @@ def thin_numbers() -> tuple[float, float]:
 
 @cache
 def modes(count: int) -> tuple[tuple[Ball, Ball], ...]:
-    """j_n and 1/(j_n J1(j_n)^2) for the first modes."""
+    """Return j_n and 1/(j_n J1(j_n)^2) for the first modes."""
     with flint.ctx.workprec(BITS):
         zeros = [bessel_zero(0, index) for index in range(1, count + 1)]
         return tuple(
@@ -126,7 +127,7 @@ def modes(count: int) -> tuple[tuple[Ball, Ball], ...]:
 
 
 def whole_over_radius(v: Ball, radii: Sequence[Ball]) -> list[Ball]:
-    """F/A by the sum over the modes.
+    """Return F/A as the sum over the modes.
 
     Parameters
     ----------
@@ -145,7 +146,7 @@ def whole_over_radius(v: Ball, radii: Sequence[Ball]) -> list[Ball]:
 
 
 def thin_remainder(v: Ball, radii: Sequence[Ball], thin: Sequence[Ball]) -> list[Ball]:
-    """F/A - c1 - c3 A^2 - Phi/A: what the thin plate's closed form leaves out.
+    """Return F/A - c1 - c3 A^2 - Phi/A, the error of the thin plate's closed form.
 
     Parameters
     ----------
@@ -164,17 +165,17 @@ def thin_remainder(v: Ball, radii: Sequence[Ball], thin: Sequence[Ball]) -> list
 
 
 def chebyshev_nodes(count: int) -> list[Ball]:
-    """Zeros of the Chebyshev polynomial of that degree, from 1 down to -1."""
+    """Return the zeros of the Chebyshev polynomial of this degree, from 1 down to -1."""
     return [((2 * i + 1) * Ball.pi() / (2 * count)).cos() for i in range(count)]
 
 
 def in_powers(values: Sequence[Ball], variable: tuple[int, int] = (0, 1)) -> list[Ball]:
-    """Powers of z, constant first, of the polynomial with these values at Chebyshev nodes.
+    """Return the coefficients in powers of z, constant first, of an interpolation polynomial.
 
     Parameters
     ----------
     values
-        At `chebyshev_nodes`, in their order.
+        Values at `chebyshev_nodes`, in their order.
     variable
         The nodes' t in terms of z: t = variable[0] + variable[1] z.
     """
@@ -198,16 +199,16 @@ def in_powers(values: Sequence[Ball], variable: tuple[int, int] = (0, 1)) -> lis
 
 
 UNIT = (-1, 2)
-"""For polynomials in z = (1 + t)/2, which runs over [0, 1]."""
+"""Variable of polynomials in z = (1 + t)/2, which runs over [0, 1]."""
 
 
 def _over_squares(function: Callable[[Ball], Ball], count: int) -> list[Ball]:
-    """The even function of x as a polynomial in x^2, 0 <= x <= 1."""
+    """Return the even function of x as a polynomial in x^2, 0 <= x <= 1."""
     return in_powers([function(x) for x in _roots(count)], UNIT)
 
 
 def _roots(count: int) -> list[Ball]:
-    """x where x^2 is a Chebyshev node of [0, 1]."""
+    """Return the values of x for which x^2 is a Chebyshev node of [0, 1]."""
     return [((1 + t) / 2).sqrt() for t in chebyshev_nodes(count)]
 
 
@@ -217,7 +218,7 @@ def _round(balls: Sequence[Ball]) -> tuple[float, ...]:
 
 @cache
 def tables() -> dict[str, Rows]:
-    """Every table by name, rows of correctly rounded coefficients, constant terms first.
+    """Return every table by name: rows of correctly rounded coefficients, constant terms first.
 
     thin, far_thin
         Phi/A in powers of (A/3)^2, and of t = (A^2 - 22.5)/13.5.
@@ -227,9 +228,9 @@ def tables() -> dict[str, Rows]:
         The thin plate's remainder over A: for each power of tau (1/eta, scaled to [-1, 1])
         a row in powers of (A/3)^2.
     far_0, ...
-        F/A itself beyond A = 3: likewise, in powers of t in [-1, 1], A^2 scaled.
+        F/A itself for A > 3: likewise, in powers of t in [-1, 1], A^2 scaled.
     short
-        Row j: what x^(2k), k = SHORT_TERMS, ..., adds to the coefficient of x^(2j) of
+        Row j: the contributions of x^(2k), k = SHORT_TERMS, ..., to the coefficient of x^(2j) of
         the short polynomial, 0 <= x <= 1/SHORT.
     """
     with flint.ctx.workprec(BITS):
@@ -247,7 +248,7 @@ def tables() -> dict[str, Rows]:
 
 
 def _far_radii(top: Ball, start: int = REACH) -> list[Ball]:
-    """A whose squares are Chebyshev nodes between start^2 and top^2."""
+    """Return the values of A whose squares are Chebyshev nodes between start^2 and top^2."""
     low, high = start**2, top * top
     return [((low + high + (high - low) * t) / 2).sqrt() for t in chebyshev_nodes(FAR_TERMS)]
 
@@ -261,14 +262,14 @@ def _mode(zero: Ball) -> list[Ball]:
 
 
 def _shortened(power: int) -> list[Ball]:
-    """z^power, 0 <= z <= 1/SHORT^2, by fewer powers of z."""
+    """Return z^power, 0 <= z <= 1/SHORT^2, in terms of fewer powers of z."""
     scale = SHORT**2
     row = _over_squares(lambda x: (x * x / scale) ** power, SHORT_TERMS)
     return [a * scale**j for j, a in enumerate(row)]
 
 
 def _cell(first: int, last: int, count: int) -> Rows:
-    """The thin plate's remainder for first <= 1/eta <= last."""
+    """Return the thin plate's remainder for first <= 1/eta <= last."""
     radii = [REACH * x for x in _roots(TERMS)]
     thin = [thin_part(A) for A in radii]
     return _in_thickness(
@@ -277,7 +278,7 @@ def _cell(first: int, last: int, count: int) -> Rows:
 
 
 def _far_cell(first: int, last: int, count: int) -> Rows:
-    """F/A beyond REACH, up to A = FAR_REACH or alpha = 1, for first <= 1/eta <= last."""
+    """Return F/A for A > REACH, up to A = FAR_REACH or alpha = 1, for first <= 1/eta <= last."""
     start = WIDE_START if first == REACH else REACH
     return _in_thickness(
         [
@@ -293,13 +294,13 @@ def _cell_nodes(first: int, last: int, count: int) -> list[Ball]:
 
 
 def _in_thickness(rows: Sequence[Sequence[Ball]]) -> Rows:
-    """Rows at the nodes of a cell as powers of tau, rounded."""
+    """Return the rows at the nodes of a cell as powers of tau, rounded."""
     powers = [in_powers(column) for column in zip(*rows, strict=True)]
     return tuple(_round(row) for row in zip(*powers, strict=True))
 
 
 def gauss_legendre(count: int) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Gauss-Legendre nodes and weights on [0, 1], correctly rounded."""
+    """Return Gauss-Legendre nodes and weights on [0, 1], correctly rounded."""
     with flint.ctx.workprec(BITS):
         pairs = [Ball.legendre_p_root(count, i, weight=True) for i in reversed(range(count))]
         return _round([(1 + x) / 2 for x, _ in pairs]), _round([w / 2 for _, w in pairs])

@@ -1,12 +1,12 @@
-"""Oracle 1 of the contact law: indentation, stiffness and contact radius in ball arithmetic.
+"""Arb reference of the contact law: indentation, stiffness and contact radius in ball arithmetic.
 
 With alpha = a/b, eta = h/b and L of `sums`, where the modes are not truncated,
 
     delta = (a^2/R) (1 + 8 alpha/(3 pi) L[hertz]),
     d delta/da = (2 a/R) (1 + 4 alpha/pi L[sinc]).
 
-Arguments are exact: a double stands for the binary fraction it holds. Only a < b
-has meaning; beyond it everything here refuses.
+Arguments are exact: a double stands for its binary fraction. The law is defined for a < b only;
+otherwise the functions of this module raise an error.
 """
 
 import math
@@ -26,19 +26,19 @@ from derivation.plate.contact.oracle.sums import (
 )
 
 _STEP = 64
-"""Precisions are multiples of this many bits, so that few sets of nodes serve all."""
+"""Precisions are multiples of this many bits, so that few sets of nodes are needed."""
 
 _SPARE = 40
 _ATTEMPTS = 8
 
 
 def settle(compute: Callable[[int], tuple[arb, ...]], digits: int, what: str) -> tuple[arb, ...]:
-    """Compute with more and more bits until every ball's relative radius is below 10^-digits.
+    """Compute with increasing precision until every ball's relative radius is below 10^-digits.
 
     Raises
     ------
     PrecisionError
-        If that does not happen; a value that is exactly zero never is narrow.
+        If this is not reached; it never is for a value that is exactly zero.
     """
     target = math.ceil(digits * LOG2_10) + 1
     bits = _STEP * math.ceil((target + _SPARE) / _STEP)
@@ -52,14 +52,14 @@ def settle(compute: Callable[[int], tuple[arb, ...]], digits: int, what: str) ->
 
 
 def ratio_of(length: Exact, b: Exact) -> Fraction:
-    """Exact quotient of two lengths."""
+    """Return the exact quotient of two lengths."""
     if not (length > 0 and b > 0):
         raise ValueError(f"lengths are positive, got {length} and {b}")
     return Fraction(length) / Fraction(b)
 
 
 def modulus(lam: Exact, mu: Exact) -> arb:
-    """E* = 4 mu (lam + mu)/(lam + 2 mu)."""
+    """Return E* = 4 mu (lam + mu)/(lam + 2 mu)."""
     first, second = to_ball(lam), to_ball(mu)
     return 4 * second * (first + second) / (first + 2 * second)
 
@@ -68,11 +68,11 @@ def modulus(lam: Exact, mu: Exact) -> arb:
 
 
 def kappa(n: int, digits: int = 50) -> arb:
-    """int_0^oo y^n K0(y)/I0(y) dy = 1/(n+1) int_0^oo y^n/I0(y)^2 dy.
+    """Return int_0^oo y^n K0(y)/I0(y) dy = 1/(n+1) int_0^oo y^n/I0(y)^2 dy.
 
-    By parts: (K0/I0)' = -1/(y I0^2), which takes the logarithm away. For y >= 1,
-    pi I0 >= int_0^pi e^(y (1 - t^2/2)) dt gives I0 >= e^y/(3 sqrt y), and where
-    y >= n + 2, the rest of y^n/I0^2 <= 9 y^(n+1) e^(-2y) is below its first value.
+    Integration by parts with (K0/I0)' = -1/(y I0^2) removes the logarithm. For y >= 1, pi
+    I0 >= int_0^pi e^(y (1 - t^2/2)) dt gives I0 >= e^y/(3 sqrt y), and where y >= n + 2, the rest
+    of y^n/I0^2 <= 9 y^(n+1) e^(-2y) is below its first value.
     """
 
     def compute(bits: int) -> tuple[arb]:
@@ -85,13 +85,12 @@ def kappa(n: int, digits: int = 50) -> arb:
 
 
 def finite_part(k: int, digits: int = 50) -> arb:
-    """M_k = FP int_0^oo T^(2k-4) (G - 1) dT, k >= 2.
+    """Return M_k = FP int_0^oo T^(2k-4) (G - 1) dT, k >= 2.
 
-    G = n/(T^3 d) with n = 1 + sinh(2T)/(2T), d = (sinh^2 T - T^2)/T^4 even;
-    n - (6 + 6 T^2/5) d begins with T^4, so G - 6/T^3 - 6/(5T) is regular, and
-    the finite part of the two terms over [0, 1] is -3 for k = 2, 0 and 3/5 for
-    k = 3, and the plain integral beyond. G - 1 < 7 T^2 e^(-2T) for T >= 3, and
-    T^(2k-2) e^(-T) falls from T = 2k - 2 on.
+    G = n/(T^3 d) with n = 1 + sinh(2T)/(2T), d = (sinh^2 T - T^2)/T^4 even; n - (6 + 6 T^2/5) d
+    begins with T^4, so G - 6/T^3 - 6/(5T) is regular, and the finite part of the two terms over
+    [0, 1] is -3 for k = 2, 0 and 3/5 for k = 3, and the plain integral beyond. G - 1 < 7 T^2
+    e^(-2T) for T >= 3, and T^(2k-2) e^(-T) decreases from T = 2k - 2 on.
     """
     if k < 2:
         raise ValueError(f"constants are counted from 2, got {k}")
@@ -110,9 +109,10 @@ def finite_part(k: int, digits: int = 50) -> arb:
 
 
 def _regular(T: acb, bits: int) -> acb:
-    """G - 6/T^3 - 6/(5 T) for |T| <= 2: T (sum r_k T^(2k))/d.
+    """Return G - 6/T^3 - 6/(5 T) for |T| <= 2: T (sum r_k T^(2k))/d.
 
-    Terms from `count` on are below 8^k 4^k/(2k)!, falling by more than half from k = 4.
+    Terms from `count` on are below 8^k 4^k/(2k)!, each less than half of the previous one from
+    k = 4.
     """
     count = 6
     while arb(32) ** count / math.factorial(2 * count) > arb(2) ** -bits:
@@ -132,14 +132,14 @@ def _regular(T: acb, bits: int) -> acb:
 
 
 def side_wall(alpha: Exact, digits: int = 50) -> arb:
-    """W(alpha), what the rim alone adds: the plate is a half-space in depth."""
+    """Return W(alpha), the contribution of the finite radius of an infinitely thick plate."""
     return settle(
         lambda _: (excess("hertz", to_ball(alpha), None),), digits, f"W at {alpha}"
     )[0]  # fmt: skip
 
 
 def coefficient(order: int, h: Exact, b: Exact, digits: int = 50) -> arb:
-    """c_order of delta = (a^2/R) (1 + c_1 a/h + c_3 (a/h)^3 + ...), for an odd order."""
+    """Return c_order of delta = (a^2/R) (1 + c_1 a/h + c_3 (a/h)^3 + ...), for an odd order."""
     if order < 1 or order % 2 == 0:
         raise ValueError(f"only odd powers follow the Hertz term, got {order}")
     eta, m = ratio_of(h, b), (order - 1) // 2
@@ -156,13 +156,13 @@ def coefficient(order: int, h: Exact, b: Exact, digits: int = 50) -> arb:
 
 
 def departure(a: Exact, h: Exact, b: Exact, digits: int = 50) -> arb:
-    """F = delta R/a^2 - 1; relatively narrow too, hence refused where it vanishes."""
+    """Return F = delta R/a^2 - 1 with a small relative radius; raises an error where F vanishes."""
     alpha, eta = ratio_of(a, b), ratio_of(h, b)
     return settle(lambda _: (excess("hertz", to_ball(alpha), eta),), digits, f"F at {a, h, b}")[0]
 
 
 def indentation(a: Exact, R: Exact, h: Exact, b: Exact, digits: int = 50) -> arb:
-    """Indentation at a contact radius."""
+    """Return the indentation at a contact radius."""
     alpha, eta = ratio_of(a, b), ratio_of(h, b)
 
     def compute(_: int) -> tuple[arb]:
@@ -172,7 +172,7 @@ def indentation(a: Exact, R: Exact, h: Exact, b: Exact, digits: int = 50) -> arb
 
 
 def slope(a: Exact, R: Exact, h: Exact, b: Exact, digits: int = 50) -> arb:
-    """d delta/da at a contact radius."""
+    """Return d delta/da at a contact radius."""
     alpha, eta = ratio_of(a, b), ratio_of(h, b)
 
     def compute(_: int) -> tuple[arb]:
@@ -184,9 +184,9 @@ def slope(a: Exact, R: Exact, h: Exact, b: Exact, digits: int = 50) -> arb:
 def stiffness(
     a: Exact, R: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact, digits: int = 50
 ) -> arb:
-    """dP/d delta at a contact radius: 2 E* a over the slope's departure from Hertz."""
+    """Return dP/d delta at a contact radius: 2 E* a over the slope divided by Hertz's."""
     alpha, eta = ratio_of(a, b), ratio_of(h, b)
-    if not R > 0:  # it cancels, and stands among the arguments since a kernel has it
+    if not R > 0:  # R cancels; it is an argument because the function has it
         raise ValueError(f"a radius is positive, got {R}")
 
     def compute(_: int) -> tuple[arb]:
@@ -202,11 +202,11 @@ def ratio_where(
     start: float,
     what: str,
 ) -> arb:
-    """alpha in (0, 1) where an increasing function reaches a value, at the precision now set.
+    """Return alpha in (0, 1) where an increasing function has a value, at the current precision.
 
-    Newton's iteration in logarithms on midpoints, `steepness` being d log value/d log
-    alpha; what certifies the ball is that the value is below the target on its left
-    end and above on its right.
+    Newton's iteration in logarithms on midpoints, `steepness` being d log value/d log alpha; the
+    ball is certified, because the value is below the target at its left end and above it at its
+    right end.
 
     Raises
     ------
@@ -232,7 +232,7 @@ def ratio_where(
             working = bits
     else:
         raise PrecisionError(f"no convergence towards {what}")
-    # Room for the value's own width; a value that is too wide leaves a ball that is too wide.
+    # Allow for the radius of the value itself; too wide a value leads to too wide a ball.
     radius = x * (arb(2) ** (16 - bits) + 8 * (value(x) / target - 1).abs_upper())
     low, high = (x - radius).mid(), (x + radius).mid()
     if not (value(low) < target and value(high) > target):
@@ -241,7 +241,7 @@ def ratio_where(
 
 
 def contact_radius(delta: Exact, R: Exact, h: Exact, b: Exact, digits: int = 50) -> arb:
-    """Contact radius at an indentation."""
+    """Return the contact radius at an indentation."""
     eta = ratio_of(h, b)
 
     def value(x: arb) -> arb:
@@ -252,7 +252,7 @@ def contact_radius(delta: Exact, R: Exact, h: Exact, b: Exact, digits: int = 50)
 
     def compute(_: int) -> tuple[arb]:
         target = to_ball(delta) * to_ball(R) / to_ball(b) ** 2
-        # Hertz's, or that of a bent plate, x^3/(4 pi eta^3) = target, if it is smaller.
+        # Hertz's radius, or that of bending alone, x^3/(4 pi eta^3) = target, if it is smaller.
         start = min(float(target) ** (1 / 2), (4 * math.pi * float(target)) ** (1 / 3) * float(eta))
         return (to_ball(b) * ratio_where(value, steepness, target, start, f"delta = {delta}"),)
 

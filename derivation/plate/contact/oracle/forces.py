@@ -1,4 +1,4 @@
-"""Oracle 1 of forces and pressures: Hertz's closed forms of the contact radius."""
+"""Arb reference of forces and pressures: Hertz's closed forms in terms of the contact radius."""
 
 from flint import arb
 
@@ -7,7 +7,7 @@ from derivation.plate.contact.oracle import balls as contact_balls
 
 
 def force_of_radius(a: Exact, R: Exact, lam: Exact, mu: Exact, digits: int = 50) -> arb:
-    """P = 4 E* a^3/(3 R)."""
+    """Return P = 4 E* a^3/(3 R)."""
 
     def compute(_: int) -> tuple[arb]:
         return (4 * contact_balls.modulus(lam, mu) * to_ball(a) ** 3 / (3 * to_ball(R)),)
@@ -16,7 +16,7 @@ def force_of_radius(a: Exact, R: Exact, lam: Exact, mu: Exact, digits: int = 50)
 
 
 def radius_of_force(P: Exact, R: Exact, lam: Exact, mu: Exact, digits: int = 50) -> arb:
-    """The contact radius of a force."""
+    """Return the contact radius at a force."""
 
     def compute(_: int) -> tuple[arb]:
         cube = 3 * to_ball(P) * to_ball(R) / (4 * contact_balls.modulus(lam, mu))
@@ -26,7 +26,7 @@ def radius_of_force(P: Exact, R: Exact, lam: Exact, mu: Exact, digits: int = 50)
 
 
 def max_pressure(a: Exact, R: Exact, lam: Exact, mu: Exact, digits: int = 50) -> arb:
-    """p_0 = 2 E* a/(pi R)."""
+    """Return p_0 = 2 E* a/(pi R)."""
 
     def compute(_: int) -> tuple[arb]:
         return (2 * contact_balls.modulus(lam, mu) * to_ball(a) / (arb.pi() * to_ball(R)),)
@@ -37,7 +37,7 @@ def max_pressure(a: Exact, R: Exact, lam: Exact, mu: Exact, digits: int = 50) ->
 def force(
     delta: Exact, R: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact, digits: int = 50
 ) -> arb:
-    """The force at an indentation."""
+    """Return the force at an indentation."""
     a = contact_balls.contact_radius(delta, R, h, b, digits + 2)
 
     def compute(_: int) -> tuple[arb]:

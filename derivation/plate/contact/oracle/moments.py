@@ -1,9 +1,9 @@
-"""Oracle 1 of kappa_n and M_k at any index: certified integrals about the integrand's peak.
+"""Arb reference of kappa_n and M_k at any index: certified integrals near the integrand's peak.
 
-A power times e^(-2y) has its peak near half the power, as wide as the power's root. There
-the integrand is divided by its size at the peak, and integrated in ball arithmetic; the
-rest of the axis, both sides, is bounded. For low index the plain integrals of
-`balls` serve.
+The product of a power and e^(-2y) has its peak near half the power; the width of the peak is about
+the square root of the power. There the integrand is divided by its peak value and integrated in
+ball arithmetic; the integrals over the rest of the axis are bounded. For low index the plain
+integrals of `balls` are used.
 """
 
 import math
@@ -18,7 +18,7 @@ from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.contact.oracle.balls import settle
 
 LOW_KAPPA, LOW_FINITE_PART = 16, 128
-"""Up to these powers of the integration variable the plain integrals serve."""
+"""Largest powers of the integration variable for which the plain integrals are used."""
 
 _SPARE = 8
 
@@ -27,14 +27,14 @@ NEAR_ZERO = flint.arb(2) ** -20
 
 
 def kappa_ratio(n: int, bits: int) -> arb:
-    """kappa_n 2^(n+1)/(pi n!) as a ball, its relative radius below 2^-bits."""
+    """Return kappa_n 2^(n+1)/(pi n!) as a ball with a relative radius below 2^-bits."""
     if n < 0:
         raise ValueError(f"moments are counted from 0, got {n}")
     return _kappa_ratio(n, bits + _SPARE)
 
 
 def kappa(n: int, bits: int) -> arb:
-    """kappa_n as a ball, its relative radius below 2^-bits."""
+    """Return kappa_n as a ball with a relative radius below 2^-bits."""
     ratio = kappa_ratio(n, bits)
     with flint.ctx.workprec(bits + 4 * _SPARE):
         return ratio * arb.pi() * arb(n + 1).gamma() / arb(2) ** (n + 1)
@@ -51,11 +51,11 @@ def _kappa_ratio(n: int, bits: int) -> arb:
 
 
 def _far_kappa(n: int) -> arb:
-    """The ratio from kappa_n = int_0^oo y^n/I0^2 dy/(n+1).
+    """Return the ratio from kappa_n = int_0^oo y^n/I0^2 dy/(n+1).
 
-    y^n/I0^2 <= 9 (y^n + y^(n+1)) e^(-2y): I0 >= e^y/(3 sqrt y) from y = 1 on
-    (`balls.kappa`), and I0 >= 1 >= e^y/3 below. What y^p e^(-2y) is at the ends
-    bounds it outside: it rises up to p/2, and falls by the rate 2 - p/y beyond.
+    y^n/I0^2 <= 9 (y^n + y^(n+1)) e^(-2y): I0 >= e^y/(3 sqrt y) from y = 1 on (`balls.kappa`), and
+    I0 >= 1 >= e^y/3 below. Outside the ends, y^p e^(-2y) is bounded by its values there: it
+    increases up to p/2 and then decreases at the rate 2 - p/y.
     """
 
     def shape(y: acb) -> acb:
@@ -73,12 +73,12 @@ def _far_kappa(n: int) -> arb:
 
 
 def finite_part_ratio(k: int, bits: int) -> arb:
-    """M_k 2^(2k-3)/(2k-2)! as a ball, its relative radius below 2^-bits."""
+    """Return M_k 2^(2k-3)/(2k-2)! as a ball with a relative radius below 2^-bits."""
     return _finite_part_ratio(k, bits + _SPARE)
 
 
 def finite_part(k: int, bits: int) -> arb:
-    """M_k as a ball, its relative radius below 2^-bits."""
+    """Return M_k as a ball with a relative radius below 2^-bits."""
     ratio = finite_part_ratio(k, bits)
     with flint.ctx.workprec(bits + 4 * _SPARE):
         return ratio * arb(2 * k - 1).gamma() / arb(2) ** (2 * k - 3)
@@ -95,7 +95,7 @@ def _finite_part_ratio(k: int, bits: int) -> arb:
 
 
 def _far_finite_part(m: int) -> arb:
-    """The ratio from int_0^oo T^m (G - 1) dT, m = 2k - 4.
+    """Return the ratio from int_0^oo T^m (G - 1) dT, m = 2k - 4.
 
     G - 1 <= 7 T^2 e^(-2T) from T = 3 on (`balls.finite_part`); below, 1 - e^(-2T) <= 2T
     and sinh^2 T - T^2 >= T^4/3 give G - 1 <= 6/T^3 + 3/T^2, and 15 3^(m-2) for the integral.
@@ -116,10 +116,10 @@ def _far_finite_part(m: int) -> arb:
 
 
 def _window(power: int, least: arb) -> tuple[arb, arb, arb]:
-    """Ends about the peak of y^power e^(-2y), and the logarithm of its size there.
+    """Return the ends of the peak of y^power e^(-2y), and the logarithm of its peak value.
 
-    Outside it is below the precision now set, unless the left end is `least`. Found in
-    doubles: what lies outside is bounded by whoever asks.
+    Outside the ends the function is below the current precision, unless the left end is `least`.
+    The ends are computed in doubles; the caller bounds the integral outside.
     """
     drop, middle = (flint.ctx.prec + 16) * math.log(2), power / 2
 
@@ -136,12 +136,12 @@ def _window(power: int, least: arb) -> tuple[arb, arb, arb]:
 
 
 def _size(power: int, y: arb, scale: arb) -> arb:
-    """y^power e^(-2y) over e^scale."""
+    """Return y^power e^(-2y) over e^scale."""
     return (y.log() * power - 2 * y - scale).exp()
 
 
 def _body(power: int, shape: Callable[[acb], acb], left: arb, right: arb, scale: arb) -> arb:
-    """Integral of y^power e^(-2y) shape(y), over e^scale."""
+    """Return the integral of y^power e^(-2y) shape(y), over e^scale."""
 
     def integrand(y: acb, analytic: bool) -> acb:
         return (y.log(analytic=analytic) * power - 2 * y - scale).exp() * shape(y)

@@ -1,18 +1,20 @@
-"""Oracle 1 to any number of digits: the modal sum at finitely many points, as a power series.
+"""Arb reference to any number of digits: the modal sum at finitely many points, as a power series.
 
 For an even entire k with |k(w)| <= e^|Im w| and 0 < alpha < 1 the sum identity
-(`contact.theory.split`) gives the functional L of `sums` as side wall and thickness,
+(`contact.theory.split`) gives the functional L of `sums` as the parts of finite radius and finite
+thickness,
 
     L = -1/pi int_0^oo k(i alpha y) K0(y)/I0(y) dy + sum k(alpha j) (G(2 eta j) - 1)/(j J1(j)^2).
 
-By parts, (K0/I0)' = -1/(y I0^2), the first is int k^(alpha y)/I0^2 dy with k^(w) =
-int_0^1 k(i w s) ds, which `wall` makes a finite sum; the second is cut after N modes.
-With k(w) = sum (-1)^m C_m w^(2m) what is left is a power series in alpha,
+By parts, (K0/I0)' = -1/(y I0^2), the first is int k^(alpha y)/I0^2 dy with k^(w) = int_0^1 k(i w s)
+ds, which `wall` replaces by a finite sum; the second is truncated after N modes. With k(w) = sum
+(-1)^m C_m w^(2m) the result is a power series in alpha,
 
     L = sum (-1)^m C_m L_m alpha^(2m),
     L_m = (-1)^(m+1)/(pi (2m+1)) sum p y^(2m) + sum q j^(2m),
 
-the same L_m for all kernels. All that is left out is bounded, and enters the balls' radii.
+with the same L_m for all weight functions k. All truncation errors are bounded and added to the
+radii.
 """
 
 import math
@@ -30,9 +32,9 @@ from derivation.plate.contact.oracle.sums import COEFFICIENTS, SHARES, plate_exc
 from derivation.plate.contact.oracle.wall import Points, wall_points
 
 PLATES = 64
-"""Plates whose numbers are kept: many more would fill the memory."""
+"""Number of cached plates, limited by memory."""
 DEEPEST = 1.5
-"""Largest a/(4h) served: beyond 1 the modes' powers cancel, by as many times the precision."""
+"""Largest a/(4h): for larger values the modes' powers cancel and need a multiple of the bits."""
 
 _SPARE = 64
 
@@ -43,14 +45,14 @@ class PointSeries(NamedTuple):
     Attributes
     ----------
     powers
-        By kernel of `sums`, (-1)^m C_m L_m of the file's head as coefficients of x^m [1],
+        By weight function of `sums`, (-1)^m C_m L_m (see the module) as coefficients of x^m [1],
         x = alpha^2.
     reach
-        Largest alpha = a/b [1] that `rest` holds for.
+        Largest alpha = a/b [1] for which `rest` is a bound.
     rest
-        Upper bound of what L leaves out [1], for each of the kernels.
+        Upper bound of the truncation error of L [1], for each of the weight functions.
     working
-        Bits that sums of the powers take: beyond a = 4h they cancel.
+        Working precision of the sums of powers, which cancel for a > 4h.
     """
 
     powers: Mapping[str, arb_poly]
@@ -59,12 +61,12 @@ class PointSeries(NamedTuple):
     working: int
 
     def excess(self, name: str, alpha: arb) -> arb:
-        """What the plate adds to the 1 of Hertz, see `sums.excess`.
+        """Return the plate's correction of Hertz, see `sums.excess`.
 
         Raises
         ------
         PrecisionError
-            If a/b = alpha is beyond the reach.
+            If alpha = a/b exceeds the reach.
         """
         if not (alpha > 0 and alpha <= self.reach):
             raise PrecisionError(f"the series is made for a/b up to {self.reach}, got {alpha}")
@@ -73,7 +75,7 @@ class PointSeries(NamedTuple):
         return SHARES[name] * alpha / arb.pi() * value
 
     def slope(self, alpha: arb) -> tuple[arb_poly, arb]:
-        """p of `impact.Law`: exact coefficients, and a bound of p's error on [0, 1]."""
+        """Return p of `impact.Law`: exact coefficients, and a bound of p's error on [0, 1]."""
         share, square = SHARES["sinc"] * alpha / arb.pi(), alpha * alpha
         error, exact, power = share * self.rest, [], share
         for term in self.powers["sinc"].coeffs():
@@ -85,7 +87,7 @@ class PointSeries(NamedTuple):
 
 
 def mode_count(eta: float, bits: int) -> int:
-    """About how many modes the thickness takes at a precision, T >= 3 at the last one."""
+    """Return the approximate number of modes for a precision, with T >= 3 at the last one."""
     least = math.ceil(1 / eta)
     return max(
         least, math.ceil((bits + 2 * math.log2(bits / eta) + 8) * math.log(2) / (4 * math.pi * eta))
@@ -93,7 +95,7 @@ def mode_count(eta: float, bits: int) -> int:
 
 
 def prepare(eta: Fraction, reach: float, bits: int, tell: Callable[[int, int], None]) -> None:
-    """Find the zeros that `series` is going to ask for; `tell` gets each one's index and all."""
+    """Compute the zeros that `series` uses; `tell` is called with each index and the total."""
     precision = working_bits(eta, reach, bits) + _SPARE
     count = mode_count(float(eta), bits)
     for index in range(1, count + 1):
@@ -102,36 +104,37 @@ def prepare(eta: Fraction, reach: float, bits: int, tell: Callable[[int, int], N
 
 
 def working_bits(eta: Fraction, reach: float, bits: int) -> int:
-    """Precision of the sums of `series`: from a = 4h on their terms cancel.
+    """Return the precision of the sums of `series`: for a > 4h their terms cancel.
 
-    The last mode weighs e^(-4 eta j) = 2^-bits, and its powers add up to e^(alpha j) times that.
+    The weight of the last mode is e^(-4 eta j) = 2^-bits, and its powers add up to e^(alpha j)
+    times that.
     """
     return math.ceil(bits * max(1.0, reach / (4 * float(eta)))) + _SPARE
 
 
 @lru_cache(maxsize=PLATES)
 def mode_points(eta: Fraction, bits: int, working: int) -> Points:
-    """Zeros j and q = (G(2 eta j) - 1)/(j J1(j)^2) of the first modes.
+    """Return zeros j and q = (G(2 eta j) - 1)/(j J1(j)^2) of the first modes.
 
-    The rest: x (J0^2 + Y0^2) rises to 2/pi (Watson, 13.74), and is 4/(pi^2 j J1^2) at j, so
-    that 1/(j J1^2) < pi/2 < 2. G - 1 < 7 T^2 e^(-2T) for T = 2 eta j >= 3
-    (`sums`), where T^2 e^(-T) falls; j_(N+1) > (N + 3/4) pi, and zeros are more than 3
-    apart (`zeros`): with T' = 2 eta (N + 3/4) pi all that follow add up to less than
-    14 T'^2 e^(-2T')/(1 - e^(-6 eta)), if |k| <= 1 on the real axis.
+    Bound of the omitted modes: x (J0^2 + Y0^2) rises to 2/pi (Watson, 13.74), and is
+    4/(pi^2 j J1^2) at j, so that 1/(j J1^2) < pi/2 < 2. G - 1 < 7 T^2 e^(-2T) for T = 2 eta
+    j >= 3 (`sums`), where T^2 e^(-T) decreases; j_(N+1) > (N + 3/4) pi, and zeros are more than 3
+    apart (`zeros`): with T' = 2 eta (N + 3/4) pi all following terms add up to less than 14 T'^2
+    e^(-2T')/(1 - e^(-6 eta)), if |k| <= 1 on the real axis.
 
     Parameters
     ----------
     eta
         h/b [1].
     bits
-        What is left out is below about 2^-bits.
+        The truncation error is below about 2^-bits.
     working
-        Precision of places and weights.
+        Precision of zeros and weights.
 
     Raises
     ------
     PrecisionError
-        If the modes end before their bound holds.
+        If the modes end before the bound is valid.
     """
     with flint.ctx.workprec(working + _SPARE):
         scale, places, weights = 2 * to_ball(eta), [], []
@@ -149,11 +152,11 @@ def mode_points(eta: Fraction, bits: int, working: int) -> Points:
 
 @lru_cache(maxsize=PLATES)
 def series(eta: Fraction, reach: float, bits: int) -> PointSeries:
-    """L for a/b up to `reach`, all that is left out below about 2^-bits.
+    """Return L for a/b up to `reach`, with truncation errors below about 2^-bits.
 
-    After M terms what remains of the kernels' series at the points is, C_m being at most
-    1/(2m+1)!, below 2 alpha^(2M)/(2M+1)! (sum p y^(2M) + sum q j^(2M)) once the
-    largest w = alpha y or alpha j has w^2 <= (2M + 2) (2M + 3)/2, so that terms halve.
+    After M terms the remainder of the weight functions' series at the points is, because C_m is at
+    most 1/(2m+1)!, below 2 alpha^(2M)/(2M+1)! (sum p y^(2M) + sum q j^(2M)) once the largest
+    w = alpha y or alpha j has w^2 <= (2M + 2) (2M + 3)/2, so that terms halve.
 
     Parameters
     ----------
@@ -162,14 +165,14 @@ def series(eta: Fraction, reach: float, bits: int) -> PointSeries:
     reach
         Largest a/b [1], below 1.
     bits
-        Precision; beyond a = 4h more is worked with, since terms cancel.
+        Precision; for a > 4h the working precision is higher, because terms cancel.
 
     Raises
     ------
     ValueError
         Unless 0 < reach < 1.
     PrecisionError
-        If the contact is deeper than 4 h DEEPEST.
+        If the contact radius exceeds 4 h DEEPEST.
     """
     if not 0 < reach < 1:
         raise ValueError(f"the law has meaning for 0 < a/b < 1, got {reach}")

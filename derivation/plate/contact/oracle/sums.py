@@ -1,4 +1,4 @@
-"""The untruncated modal sum in ball arithmetic: integrals without poles, with proven bounds.
+"""The untruncated modal sum in ball arithmetic: integrals without poles, with proved bounds.
 
 The sum over the modes of an even entire k with |k(w)| <= e^|Im w|, taken as
 residues of Y0/J0 between x = 1 < j_1 and infinity, becomes integrals:
@@ -7,12 +7,11 @@ residues of Y0/J0 between x = 1 < j_1 and infinity, becomes integrals:
     L = -1/2 int_0^1 k(alpha x) dx + 1/2 int_1^oo k(alpha x) (G - 1) dx
         -1/2 Re int k(alpha z) G(2 eta z) H(z)/J0(z) dz,   z = 1 + (2 + i) y, y > 0,
 
-H being the first Hankel function of order 0. No pole is crossed. J0 has real
-zeros only; and for T = x + iy, x > 0, |y| <= x, sinh^2 T = T^2 would need
-|sinh T|^2 = |T|^2, but sinh^2 x + sin^2 y - x^2 - y^2 >= (x^4 - y^4)/3 + 2 x^6/45 > 0
-(sinh^2 x >= x^2 + x^4/3 + 2 x^6/45 and sin^2 y >= y^2 - y^4/3). Every
-integral is a Gauss-Legendre sum with the error bound of Bernstein's ellipse; the cost
-does not depend on the plate's thickness. alpha = a/b and eta = h/b.
+H being the first Hankel function of order 0. No pole is crossed. J0 has real zeros only; and for
+T = x + iy, x > 0, |y| <= x, sinh^2 T = T^2 would need |sinh T|^2 = |T|^2, but sinh^2 x + sin^2
+y - x^2 - y^2 >= (x^4 - y^4)/3 + 2 x^6/45 > 0 (sinh^2 x >= x^2 + x^4/3 + 2 x^6/45 and sin^2
+y >= y^2 - y^4/3). Every integral is a Gauss-Legendre sum with the error bound of Bernstein's
+ellipse; the run time does not depend on the plate's thickness. alpha = a/b and eta = h/b.
 """
 
 import math
@@ -27,12 +26,12 @@ from flint import acb, acb_poly, arb
 from derivation.engine.formula.ball import PrecisionError, to_ball
 
 PANELS = 512
-"""Panels whose numbers are kept, of some plates: many more would fill the memory."""
+"""Number of cached panels, of several plates, limited by memory."""
 SERIES_REACH = 2
-"""Power series serve for arguments below this in magnitude, closed forms beyond."""
+"""|w| below which power series are used, and closed forms above."""
 
 PIECES = 600
-"""Balls around an ellipse on which a factor is bounded."""
+"""Number of balls around an ellipse on which a factor is bounded."""
 
 COEFFICIENTS: dict[str, Callable[[int], flint.fmpq]] = {
     "hertz": lambda k: flint.fmpq(3 * (2 * k + 2), math.factorial(2 * k + 3)),
@@ -54,9 +53,9 @@ SHARES = {"hertz": flint.fmpq(8, 3), "sinc": flint.fmpq(4), "work": flint.fmpq(2
 
 
 class Weight(NamedTuple):
-    """An entire even factor of the modes, |value(z)| <= |z|^power e^(rate |Im z|), rate <= 1.
+    """An even entire factor of the modes, |value(z)| <= |z|^power e^(rate |Im z|), rate <= 1.
 
-    Rates are powers of two, so that few sets of nodes serve all weights.
+    Rates are powers of two, so that few sets of nodes are needed.
     """
 
     value: Callable[[acb], acb]
@@ -65,10 +64,10 @@ class Weight(NamedTuple):
 
 
 class Panel(NamedTuple):
-    """Nodes with their weights times a fixed factor, and what the sum of them leaves out.
+    """Nodes with their weights times a fixed factor, and a bound of the quadrature error.
 
-    `bound` holds for a weight of power 0 and is multiplied by size^power; |z| is
-    between `nearest` and `size` on the ellipse.
+    `bound` is for a weight of power 0 and is multiplied by size^power; |z| is between `nearest` and
+    `size` on the ellipse.
     """
 
     nodes: tuple[tuple[acb, acb], ...]
@@ -84,9 +83,10 @@ def _blurred(value: acb, radius: arb) -> acb:
 
 @cache
 def _kernel_series(name: str, bits: int) -> tuple[acb_poly, arb]:
-    """Series in w^2 and a bound of what it leaves out for |w| <= 2.
+    """Return the series in w^2 and a bound of its truncation error for |w| <= 2.
 
-    Terms are below 4^k/(2k+1)!, which falls by less than 1/2: the rest is below twice the next.
+    Terms are below 4^k/(2k+1)!, each less than half of the previous one, so that the remainder is
+    below twice the next term.
     """
     count = 3
     while arb(4) ** count / math.factorial(2 * count + 1) > arb(2) ** -bits:
@@ -96,7 +96,7 @@ def _kernel_series(name: str, bits: int) -> tuple[acb_poly, arb]:
 
 
 def kernel(name: str, w: acb) -> acb:
-    """One of the kernels `hertz`, `sinc`, `work` on a complex ball."""
+    """Return one of the weight functions `hertz`, `sinc`, `work` on a complex ball."""
     if w.abs_upper() < SERIES_REACH:
         series, rest = _kernel_series(name, flint.ctx.prec)
         return _blurred(series(w * w), rest)
@@ -105,9 +105,10 @@ def kernel(name: str, w: acb) -> acb:
 
 @cache
 def _denominator_series(bits: int) -> tuple[acb_poly, arb]:
-    """(sinh^2 T - T^2)/T^4 = sum_(k>=2) 2^(2k-1) T^(2k-4)/(2k)!, and the rest for |T| <= 2.
+    """Return (sinh^2 T - T^2)/T^4 = sum_(k>=2) 2^(2k-1) T^(2k-4)/(2k)!, its remainder for |T| <= 2.
 
-    Terms fall by 16/((2k+1)(2k+2)) < 1/2 from k = 2 on; the k-th is below 4^(2k)/(2k)!.
+    The ratio of successive terms is 16/((2k+1)(2k+2)) < 1/2 from k = 2 on; the k-th is below
+    4^(2k)/(2k)!.
     """
     count = 4
     while arb(4) ** (2 * count) / math.factorial(2 * count) > arb(2) ** -bits:
@@ -117,7 +118,7 @@ def _denominator_series(bits: int) -> tuple[acb_poly, arb]:
 
 
 def plate_excess(T: acb) -> acb:
-    """G(T) - 1 of the loaded face on a complex ball."""
+    """Return G(T) - 1 of the contact face on a complex ball."""
     decay = (-2 * T).exp()
     numerator = (1 - decay) / 2 + T + T**2
     if T.abs_upper() < SERIES_REACH:
@@ -127,14 +128,14 @@ def plate_excess(T: acb) -> acb:
 
 
 def excess_bound(T: arb) -> arb:
-    """Of |G - 1| on |arg T| <= 45 degrees: |numerator| <= 1 + |T| + |T|^2 and
+    """Return a bound of |G - 1| on |arg T| <= 45 degrees.
     |sinh^2 T - T^2| >= 2 (Re T)^6/45 >= |T|^6/180 (see above); it falls with |T|.
     """
     return 180 * (1 + T + T**2) / T**6
 
 
 def hankel_over_j0(z: acb) -> acb:
-    """H(z)/J0(z) as (2/(pi i)) K0(-iz)/I0(-iz), for Re z > 0 (the cut of K0 lies beyond)."""
+    """Return H(z)/J0(z) = (2/(pi i)) K0(-iz)/I0(-iz) for Re z > 0, away from the cut of K0."""
     if not z.real > 0:
         raise ValueError(f"a ball across the cut: {z}")
     w = acb(z.imag, -z.real)
@@ -142,7 +143,7 @@ def hankel_over_j0(z: acb) -> acb:
 
 
 def hankel_bound(z: acb) -> arb:
-    """Of |H/J0| on a small ball within 45 degrees of the axis.
+    """Return a bound of |H/J0| on a small ball within 45 degrees of the axis.
 
     For |z| >= 4 and y = Im z >= 1: |H| <= sqrt(2/(pi |z|)) e^-y, and the other
     Hankel function, half of J0 with it, is at least 0.89 sqrt(2/(pi |z|)) e^y
@@ -157,13 +158,13 @@ def hankel_bound(z: acb) -> arb:
 
 @cache
 def _gauss(count: int, bits: int) -> tuple[tuple[arb, arb], ...]:
-    """Gauss-Legendre nodes and weights on [-1, 1]."""
+    """Return Gauss-Legendre nodes and weights on [-1, 1]."""
     with flint.ctx.workprec(bits):
         return tuple(arb.legendre_p_root(count, k, weight=True) for k in range(count))
 
 
 def _ellipse(low: acb, high: acb, rho: arb, pieces: int) -> list[acb]:
-    """Balls that cover the boundary of Bernstein's ellipse around a straight path."""
+    """Return balls that cover the boundary of Bernstein's ellipse around a straight path."""
     middle, half = (low + high) / 2, (high - low) / 2
     major, minor = (rho + 1 / rho) / 2, (rho - 1 / rho) / 2
     step = 2 * arb.pi() / pieces
@@ -180,10 +181,10 @@ def _panel(
     bound: Callable[[acb], arb],
     rate: float = 1.0,
 ) -> Panel:
-    """Gauss-Legendre on one path; `bound` is of |factor| on a ball.
+    """Return Gauss-Legendre nodes on one path; `bound` is that of |factor| on a ball.
 
-    n + 1 nodes miss at most 64/15 M rho^(-2n)/(1 - rho^-2) on [-1, 1], M the
-    largest magnitude on the ellipse, taken on its boundary (Trefethen, ATAP, 19.3).
+    The error of n + 1 nodes is at most 64/15 M rho^(-2n)/(1 - rho^-2) on [-1, 1], M the largest
+    magnitude on the ellipse, taken on its boundary (Trefethen, ATAP, 19.3).
     """
     bits, half = flint.ctx.prec, (high - low) / 2
     with flint.ctx.workprec(64):
@@ -206,8 +207,8 @@ def _panel(
 
 @cache
 def _bare_ray(k: int, bits: int) -> Panel:
-    """The ray's k-th panel with H/J0 alone: y in [0, 1/2], [1/2, 1], [1, 2], [2, 4], ..."""
-    # K0's power series cancels by e^(2 |z|), 3 |z| bits; where the asymptotic one serves, none.
+    """Return the ray's k-th panel with H/J0 alone: y in [0, 1/2], [1/2, 1], [1, 2], [2, 4], ..."""
+    # K0's power series cancels by e^(2 |z|), 3 |z| bits; its asymptotic series does not.
     spare = 32 + (4 * 2**k if 2**k <= bits else 0)
     with flint.ctx.workprec(bits + spare):
         first = arb(0) if k == 0 else arb(2) ** (k - 2)
@@ -216,7 +217,7 @@ def _bare_ray(k: int, bits: int) -> Panel:
 
 
 def _ray_panels(end: int, eta: Fraction | None) -> list[Panel]:
-    """H/J0 G: |G| is bounded where |z| is smallest, on the sector the ellipse keeps to."""
+    """Return H/J0 G: |G| is bounded where |z| is smallest, on the sector around the ellipse."""
     panels = []
     for k in range(end + 1):
         bare = _bare_ray(k, flint.ctx.prec)
@@ -232,7 +233,7 @@ def _ray_panels(end: int, eta: Fraction | None) -> list[Panel]:
 
 @lru_cache(maxsize=PANELS)
 def _axis_panel(eta: Fraction, k: int, rate: float, bits: int) -> Panel:
-    """G - 1 on [2^k, 2^(k+1)]; the ellipse keeps within 45 degrees, and beyond 0.66 2^k."""
+    """Return G - 1 on [2^k, 2^(k+1)]; on the ellipse |arg| < 45 degrees and |T| > 0.66 2^k."""
     with flint.ctx.workprec(bits):
         low, scale = acb(arb(2) ** k), 2 * to_ball(eta)
         bound = excess_bound(scale * arb("0.66") * arb(2) ** k)
@@ -245,13 +246,12 @@ def _axis_panel(eta: Fraction, k: int, rate: float, bits: int) -> Panel:
 def _panels(
     eta: Fraction | None, power: int, rate: float, bits: int
 ) -> tuple[tuple[Panel, ...], arb]:
-    """Everything that stands behind L's real part, and a bound of both tails.
+    """Return all panels of L's real part, and a bound of both tails.
 
-    The ray ends at y = 2^(end-1) >= power: what follows is below 5 |z|^power
-    (1 + |G - 1|) e^(-y), there times 4, since y^power e^-y/2 falls from 2 power on.
-    On the axis, for T >= 3, (1 - e^(-2T))^2 - 4 T^2 e^(-2T) > 0.8 and the numerator
-    is below 1.4 T^2, so G - 1 < 7 T^2 e^(-2T), and from T = power + 3 on
-    T^(power+2) e^(-2T) falls at least as e^-T.
+    The ray ends at y = 2^(end-1) >= power: the tail is below 5 |z|^power (1 + |G - 1|) e^(-y),
+    there times 4, since y^power e^-y/2 decreases from 2 power on. On the axis, for T >= 3,
+    (1 - e^(-2T))^2 - 4 T^2 e^(-2T) > 0.8 and the numerator is below 1.4 T^2, so G - 1 < 7 T^2
+    e^(-2T), and from T = power + 3 on T^(power+2) e^(-2T) decreases at least like e^-T.
     """
     need = 0.7 * bits + 4 * power + 10
     need += 0 if eta is None else max(0.0, -6 * math.log(2 * float(eta)))
@@ -276,7 +276,7 @@ def _panels(
 
 
 def functional(weight: Weight, eta: Fraction | None) -> arb:
-    """L of the file's head; eta = None stands for G = 1, the side wall alone."""
+    """Return L (see the module); eta = None means G = 1, the finite radius alone."""
     panels, tail = _panels(eta, weight.power, weight.rate, flint.ctx.prec)
     total = arb(0, tail)
     for panel in panels:
@@ -286,7 +286,7 @@ def functional(weight: Weight, eta: Fraction | None) -> arb:
 
 
 def excess(name: str, alpha: arb, eta: Fraction | None) -> arb:
-    """What the plate adds to the 1 of Hertz, for one of the kernels, at the precision now set.
+    """Return the plate's correction of Hertz for a weight function, at the current precision.
 
     Raises
     ------

@@ -1,14 +1,14 @@
-"""The side wall's integral as a finite sum, to any number of digits, with a proven bound.
+"""The integral of the finite radius as a finite sum, to any number of digits, with a proved bound.
 
 For g even and entire with |g(y)| <= e^|Re y| the trapezoidal rule is applied to
 
     int_0^oo g(y)/I0(y)^2 dy = 1/2 int F(t) dt,   F = g(y) y'/I0(y)^2,   y = 2 sinh t.
 
-The zeros of I0 are the points +-i j_n, j_1 > 2.4. For |Im t| < pi/2 the real part of y
-vanishes only with that of t, and |y| < 2 there: F is analytic in that strip, and falls
-doubly exponentially along it. With M = int |F(t + i d)| dt, the rule of step s errs by
-at most 2 M/(e^(2 pi d/s) - 1) (Trefethen & Weideman 2014, theorem 5.1); M is bounded in
-balls. Neither nodes nor weights depend on plate or contact.
+The zeros of I0 are the points +-i j_n, j_1 > 2.4. For |Im t| < pi/2 the real part of y vanishes
+only with that of t, and |y| < 2 there: F is analytic in that strip, and decreases doubly
+exponentially along it. With M = int |F(t + i d)| dt, the error of the rule of step s is at most 2
+M/(e^(2 pi d/s) - 1) (Trefethen & Weideman 2014, theorem 5.1); M is bounded in balls. Neither nodes
+nor weights depend on plate or contact.
 """
 
 import math
@@ -21,23 +21,23 @@ from flint import acb, arb
 from derivation.engine.formula.ball import PrecisionError
 
 SHIFT = 1.35
-"""d: how far the line is shifted off the real axis on which F is bounded."""
+"""d, the shift of the line off the real axis on which F is bounded."""
 
 NEAR, PIECES = 1.6, 320
-"""Up to which t the shifted line is covered by balls, and by how many."""
+"""Largest t up to which balls cover the shifted line, and their number."""
 
 _SPARE = 24
 
 
 class Points(NamedTuple):
-    """A sum or an integral of g as sum of weight times g(place), and a bound of the rest.
+    """A sum or an integral of g as a sum of weight times g(place), and a bound of its error.
 
     Attributes
     ----------
     places, weights
         Balls [1]; all weights are positive.
     rest
-        Upper bound of the rest [1], for every g that the function returning this allows.
+        Upper bound of the error [1], for every g admitted by the function that returns this.
     """
 
     places: tuple[arb, ...]
@@ -47,7 +47,7 @@ class Points(NamedTuple):
 
 @cache
 def shifted_bound() -> arb:
-    """M of the file's head, 2 int_0^oo |F(t + i d)| dt, for every g with |g| <= e^|Re y|.
+    """Return M (see the module), 2 int_0^oo |F(t + i d)| dt, for every g with |g| <= e^|Re y|.
 
     Up to NEAR balls cover the line. Beyond, |y| >= 2 sinh t >= 4 and Re y = 2 cos d sinh t
     >= 1. There |I0(y)| is |J0| at Im y + i Re y, half the sum of two Hankel functions, of
@@ -78,12 +78,12 @@ def shifted_bound() -> arb:
 
 
 def step_bound(step: arb) -> arb:
-    """What the trapezoidal rule of a step may be wrong by, for the half of the line."""
+    """Return a bound of the error of the trapezoidal rule of a step, for the half line."""
     return (shifted_bound() / ((2 * arb.pi() * arb(SHIFT) / step).exp() - 1)).abs_upper()
 
 
 def trapezoidal(step: arb, end: float) -> tuple[list[arb], list[arb]]:
-    """Places y and weights of the rule of a step, the last y being the first beyond `end`."""
+    """Return nodes y and weights of the rule of a step; the last y is the first one above `end`."""
     count = math.ceil(math.asinh(end / 2) / float(step))
     places, weights = [arb(0)], [step]
     for k in range(1, count + 1):
@@ -95,21 +95,22 @@ def trapezoidal(step: arb, end: float) -> tuple[list[arb], list[arb]]:
 
 @cache
 def wall_points(bits: int) -> Points:
-    """Places and weights of int_0^oo g/I0^2 dy = sum weight g(y), for |g(y)| <= e^|Re y|.
+    """Return nodes and weights of int_0^oo g/I0^2 dy = sum weight g(y), for |g(y)| <= e^|Re y|.
 
-    The sum ends at a y >= 2 where what follows, below 9 y e^(-y) y' since I0 >= e^y/(3 sqrt y)
-    from y = 1 on (`balls.kappa`), falls with t: its logarithm has the slope
-    y'/y + y/y' - y' < 0. The rest is below the integral, 9 (y + 1) e^(-y).
+    The sum ends at a y >= 2. Because I0 >= e^y/(3 sqrt y) from y = 1 on (`balls.kappa`), the
+    following terms are below 9 y e^(-y) y', which decreases with t: its logarithm has the slope
+    y'/y + y/y' - y' < 0. Their sum is below the integral, 9 (y + 1) e^(-y).
 
     Parameters
     ----------
     bits
-        What is left out is below 2^-bits; the balls are about that narrow, relatively.
+        The truncation error is below 2^-bits, and so are the relative radii of the balls,
+        approximately.
 
     Raises
     ------
     PrecisionError
-        If the sum ends before its bound holds.
+        If the sum ends before its bound is valid.
     """
     with flint.ctx.workprec(bits + _SPARE):
         need = (bits + 1) * math.log(2) + float(shifted_bound().log())

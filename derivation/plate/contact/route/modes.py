@@ -1,4 +1,4 @@
-"""Oracle 2 of the modes: zeros of J0 with their weights, and the plate factor, in mpmath."""
+"""mpmath reference of the modes: zeros of J0 with their weights, and the plate factor."""
 
 import math
 from functools import cache
@@ -6,12 +6,12 @@ from functools import cache
 from mpmath import mp, mpf
 
 _COARSE = 15
-"""Digits of a zero that Newton's iteration begins with, of which each step makes twice as many."""
+"""Digits of a zero at the start of Newton's iteration, each step of which doubles them."""
 
 
 @cache
 def mode(n: int, dps: int) -> tuple[mpf, mpf]:
-    """j_n and 1/(j_n J1(j_n)^2)."""
+    """Return j_n and 1/(j_n J1(j_n)^2)."""
     with mp.workdps(_COARSE):
         zero = mp.besseljzero(0, n)
     steps = [dps + 5]
@@ -25,7 +25,7 @@ def mode(n: int, dps: int) -> tuple[mpf, mpf]:
 
 
 def excess(T: mpf) -> mpf:
-    """G(T) - 1, with as many digits more as its two cancellations take."""
+    """Return G(T) - 1, with additional digits for its two cancellations."""
     lost = max(0, math.ceil(-4 * math.log10(float(abs(T)))))
     with mp.workdps(mp.dps + lost + 5):
         decay = mp.exp(-2 * T)

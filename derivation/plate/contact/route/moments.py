@@ -1,4 +1,4 @@
-"""Oracle 2 of kappa_n and M_k: trapezoids in mpmath, K0 and I0 from their power series."""
+"""mpmath reference of kappa_n and M_k: trapezoidal rule, K0 and I0 from their power series."""
 
 from collections.abc import Callable, Iterator
 from functools import cache
@@ -8,14 +8,14 @@ from mpmath import mp, mpf
 
 @cache
 def wall_moment(n: int, digits: int) -> mpf:
-    """int_0^oo y^n K0/I0 dy."""
+    """Return int_0^oo y^n K0/I0 dy."""
     with mp.workdps(digits):
         return _trapezoids(lambda y: y**n * _wall(y), n)
 
 
 @cache
 def wall_moments(count: int, digits: int) -> tuple[mpf, ...]:
-    """kappa_0, kappa_2, ..., so many of them, from one set of nodes."""
+    """Return the first kappa_0, kappa_2, ... from one set of nodes."""
     with mp.workdps(digits):
         step = 1 / (8 + mpf(4) / 5 * mp.dps + mp.sqrt(2 * count))
         points = list(_nodes(step, 2 * count))
@@ -28,9 +28,9 @@ def wall_moments(count: int, digits: int) -> tuple[mpf, ...]:
 
 
 def _wall(y: mpf) -> mpf:
-    """K0/I0 = -log(y/2) - gamma + sum H_m (y/2)^(2m)/m!^2 / I0, with digits for what cancels.
+    """Return K0/I0 = -log(y/2) - gamma + sum H_m (y/2)^(2m)/m!^2 / I0, with sufficient digits.
 
-    The sums are of whole numbers, in units of 2^-bits.
+    The sums are sums of integers, in units of 2^-bits.
     """
     with mp.workdps(mp.dps + 10 + int(0.9 * y)):
         bits = mp.prec + 20
@@ -47,11 +47,11 @@ def _wall(y: mpf) -> mpf:
 
 @cache
 def finite_part(k: int, digits: int) -> mpf:
-    """FP int_0^oo T^(2k-4) (G - 1) dT.
+    """Return FP int_0^oo T^(2k-4) (G - 1) dT.
 
-    The powers 1/T^3 and 1/T are taken off with a factor e^(-T^2); the finite part of
-    T^(s-1) e^(-T^2) is Gamma(s/2)/2 without its pole. Near T = 0 the fourth power of T
-    cancels, for which the precision is raised.
+    The powers 1/T^3 and 1/T are subtracted with a factor e^(-T^2); the finite part of T^(s-1)
+    e^(-T^2) is Gamma(s/2)/2 without its pole. Near T = 0 the fourth power of T cancels, for which
+    the precision is raised.
     """
     m = 2 * k - 4
 
@@ -70,7 +70,7 @@ def finite_part(k: int, digits: int) -> mpf:
 
 
 def _trapezoids(function: Callable[[mpf], mpf], power: int) -> mpf:
-    """int_0^oo of what falls like y^power e^(-2y), y = exp(u - e^(-u)), in equal steps of u."""
+    """Return int_0^oo of a function that decays like y^power e^(-2y), y = exp(u - e^(-u))."""
     step = 1 / (8 + mpf(4) / 5 * mp.dps + mp.sqrt(power))
     return step * sum((w * function(y) for y, w in _nodes(step, power)), mpf(0))
 
@@ -85,10 +85,10 @@ def _nodes(step: mpf, power: int) -> Iterator[tuple[mpf, mpf]]:
 
 
 def leading_wall_moment(n: mpf) -> mpf:
-    """pi n!/2^(n+1), what kappa_n tends to for large n."""
+    """Return pi n!/2^(n+1), the leading term of kappa_n for large n."""
     return mp.pi * mp.factorial(n) / mpf(2) ** (n + 1)
 
 
 def leading_finite_part(k: mpf) -> mpf:
-    """(2k-2)!/2^(2k-3), what M_k tends to for large k."""
+    """Return (2k-2)!/2^(2k-3), the leading term of M_k for large k."""
     return mp.factorial(2 * k - 2) / mpf(2) ** (2 * k - 3)

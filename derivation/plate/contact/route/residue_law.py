@@ -1,9 +1,9 @@
-"""Oracle 2 of contact law and impact to any number of digits, by the power series of `residues`.
+"""mpmath reference of contact law and impact to any number of digits, by `residues`.
 
-The impact's time is an integral of an even function of u, a = a_m (1 - u^2), over
-[-1, 1], where Fejer's first rule serves: its nodes are cosines, and its weights take no more
-than sums of them. All that is summed is in fixed-point numbers. Everything is evaluated once:
-what it is compared with is certified.
+The impact's time is an integral of an even function of u, a = a_m (1 - u^2), over [-1, 1], where
+Fejer's first rule is used: its nodes are cosines, and its weights are sums of cosines. All sums use
+fixed-point numbers. Nothing is evaluated twice, because the results are compared with certified
+ones.
 """
 
 import cmath
@@ -26,19 +26,19 @@ SHALLOW, DEEPEST = 1.5, 96.0
 the work goes with the 2.5th power of it."""
 
 EDGE = mpf("0.9999")
-"""Largest a/b that is looked for."""
+"""Largest a/b at which a root is searched for."""
 
 _EXTRA = 30
-"""Digits that arguments are worked out with beyond those asked for."""
+"""Number of additional digits with which arguments are computed."""
 
 _FEW = 25
-"""Series are made for multiples of so many digits, and roots looked for with so many first."""
+"""Series are computed for multiples of this number of digits; roots are located with it first."""
 
 _STEPS = 60
 
 
 class RouteImpact(NamedTuple):
-    """What an impact comes to."""
+    """Results of an impact."""
 
     contact_time: mpf
     max_indentation: mpf
@@ -47,25 +47,25 @@ class RouteImpact(NamedTuple):
 
 
 class ResidueLaw(NamedTuple):
-    """A plate's law up to some contact radius, its argument q = a/(reach b)."""
+    """A plate's law up to some contact radius, in terms of q = a/(reach b)."""
 
     known: ResidueSeries
     eta: mpf
 
     def depth(self, q: mpf) -> mpf:
-        """delta R/a^2."""
+        """Return delta R/a^2."""
         return 1 + q * self._sum([x // (2 * j + 3) for j, x in enumerate(self.known.terms)], q)
 
     def slope(self, q: mpf) -> mpf:
-        """(R/2a) d delta/da."""
+        """Return (R/2a) d delta/da."""
         return 1 + q * self._sum(self.known.terms, q) / 2
 
     def work(self, q: mpf) -> mpf:
-        """int_0^q x^4 (slope at x) dx."""
+        """Return int_0^q x^4 (slope at x) dx."""
         return q**5 * (mpf(1) / 5 + q * self._sum(self.works(), q))
 
     def works(self) -> Scaled:
-        """What is left of s_j in `work`."""
+        """Return the factors of s_j in `work`."""
         return [x // (4 * j + 12) for j, x in enumerate(self.known.terms)]
 
     def _sum(self, terms: Sequence[int], q: mpf) -> mpf:
@@ -81,14 +81,14 @@ def _horner(terms: Sequence[int], x: int, bits: int) -> int:
 
 
 def depth_served(depth: float) -> float:
-    """Largest a/h that the series for contacts of a/h = depth serves.
+    """Return the largest a/h for which the series for contacts of a/h = depth is used.
 
     Raises
     ------
     RouteError
-        If that is more than DEEPEST.
+        If depth exceeds DEEPEST.
     """
-    # At a root just within a series' reach the law is asked for beside it too.
+    # Near a root just within the reach of a series, the law is evaluated on both sides of the root.
     served: float = SHALLOW * 2 ** max(0, math.ceil(math.log2(depth / SHALLOW) - 1e-6))
     if served > DEEPEST:
         raise RouteError(f"this route serves contacts up to a = {DEEPEST:g} h, got {depth:.4g} h")
@@ -96,13 +96,13 @@ def depth_served(depth: float) -> float:
 
 
 def seconds(eta: float, reach: float, digits: int) -> float:
-    """About how long the law up to a/b = reach and an impact take [s]: powers, and the poles."""
+    """Return the approximate run time of the law up to a/b = reach and an impact [s]."""
     powers = 30 * (digits / 1000) ** 3 * (1 + (depth_served(reach / eta) / 2.5) ** 2.5)
     return float(powers + 100 * eta * (digits / 1000) ** 2.2)
 
 
 def _law(h: float, b: float, x: mpf, digits: int) -> tuple[ResidueLaw, mpf]:
-    """The law of a plate for contacts up to a/b = x at least, and q there."""
+    """Return the law of a plate for contacts up to at least a/b = x, and q there."""
     digits = _FEW * math.ceil(digits / _FEW)
     with mp.workdps(digits + _EXTRA):
         eta = mpf(h) / mpf(b)
@@ -117,21 +117,21 @@ def _ratio(a: float, b: float) -> mpf:
 
 
 def indentation(a: float, R: float, h: float, b: float, digits: int = 40) -> mpf:
-    """Indentation [m] at a contact radius [m]."""
+    """Return the indentation [m] at a contact radius [m]."""
     with mp.workdps(digits + _EXTRA):
         law, q = _law(h, b, _ratio(a, b), digits)
         return mpf(a) ** 2 / mpf(R) * law.depth(q)
 
 
 def slope(a: float, R: float, h: float, b: float, digits: int = 40) -> mpf:
-    """d delta/da [1] at a contact radius [m]."""
+    """Return d delta/da [1] at a contact radius [m]."""
     with mp.workdps(digits + _EXTRA):
         law, q = _law(h, b, _ratio(a, b), digits)
         return 2 * mpf(a) / mpf(R) * law.slope(q)
 
 
 def hertz_stiffness(R: mpf, lam: float, mu: float) -> mpf:
-    """P/a^3 = 4 E*/(3 R)."""
+    """Return P/a^3 = 4 E*/(3 R)."""
     first, second = mpf(lam), mpf(mu)
     return 16 * second * (first + second) / (first + 2 * second) / (3 * R)
 
@@ -139,13 +139,13 @@ def hertz_stiffness(R: mpf, lam: float, mu: float) -> mpf:
 def stiffness(
     a: float, R: float, h: float, b: float, lam: float, mu: float, digits: int = 40
 ) -> mpf:
-    """dP/d delta [N/m] at a contact radius [m]: (dP/da)/(d delta/da)."""
+    """Return dP/d delta [N/m] at a contact radius [m]: (dP/da)/(d delta/da)."""
     with mp.workdps(digits + _EXTRA):
         return 3 * hertz_stiffness(mpf(R), lam, mu) * mpf(a) ** 2 / slope(a, R, h, b, digits)
 
 
 def contact_radius(delta: float, R: float, h: float, b: float, digits: int = 40) -> mpf:
-    """Contact radius [m] at an indentation [m]."""
+    """Return the contact radius [m] at an indentation [m]."""
 
     def function(x: mpf, digits: int) -> tuple[mpf, mpf]:
         law, q = _law(h, b, x, digits)
@@ -154,25 +154,25 @@ def contact_radius(delta: float, R: float, h: float, b: float, digits: int = 40)
 
     with mp.workdps(digits + _EXTRA):
         target = mpf(delta) * mpf(R) / mpf(b) ** 2
-        # Hertz's, or that of a bent plate, x^3/(4 pi eta^3) = target, if it is smaller.
+        # Hertz's radius, or that of bending alone, x^3/(4 pi eta^3) = target, if it is smaller.
         start = min(mp.sqrt(target), mp.cbrt(4 * mp.pi * target) * mpf(h) / mpf(b))
         return mpf(b) * _root(function, target, start, digits)
 
 
 def force_of_radius(a: float, R: float, lam: float, mu: float, digits: int = 40) -> mpf:
-    """The force [N] of a contact radius [m]."""
+    """Return the force [N] at a contact radius [m]."""
     with mp.workdps(digits + _EXTRA):
         return hertz_stiffness(mpf(R), lam, mu) * mpf(a) ** 3
 
 
 def radius_of_force(P: float, R: float, lam: float, mu: float, digits: int = 40) -> mpf:
-    """The contact radius [m] of a force [N]."""
+    """Return the contact radius [m] at a force [N]."""
     with mp.workdps(digits + _EXTRA):
         return mp.cbrt(mpf(P) / hertz_stiffness(mpf(R), lam, mu))
 
 
 def max_pressure(a: float, R: float, lam: float, mu: float, digits: int = 40) -> mpf:
-    """p_0 = 3 P/(2 pi a^2) [Pa]."""
+    """Return p_0 = 3 P/(2 pi a^2) [Pa]."""
     with mp.workdps(digits + _EXTRA):
         return 3 * force_of_radius(a, R, lam, mu, digits) / (2 * mp.pi * mpf(a) ** 2)
 
@@ -180,7 +180,7 @@ def max_pressure(a: float, R: float, lam: float, mu: float, digits: int = 40) ->
 def force(
     delta: float, R: float, h: float, b: float, lam: float, mu: float, digits: int = 40
 ) -> mpf:
-    """The force [N] at an indentation [m]."""
+    """Return the force [N] at an indentation [m]."""
     with mp.workdps(digits + _EXTRA):
         return force_of_radius(contact_radius(delta, R, h, b, digits), R, lam, mu, digits)
 
@@ -188,7 +188,7 @@ def force(
 def impact(
     R: float, m: float, v0: float, h: float, b: float, lam: float, mu: float, digits: int = 30
 ) -> RouteImpact:
-    """The conservative impact of a sphere of mass m [kg] at speed v0 [m/s]."""
+    """Return the conservative impact of a sphere of mass m [kg] at speed v0 [m/s]."""
 
     def function(x: mpf, digits: int) -> tuple[mpf, mpf]:
         law, q = _law(h, b, x, digits)
@@ -199,7 +199,7 @@ def impact(
         stiff = hertz_stiffness(mpf(R), lam, mu)
         unit = 2 * stiff * mpf(b) ** 5 / mpf(R)
         target = mpf(m) * mpf(v0) ** 2 / 2 / unit
-        # Hertz's x^5/5, or a bent plate's x^6/(16 pi eta^3), if it leads less far.
+        # Hertz's x^5/5, or x^6/(16 pi eta^3) of bending alone, if it gives the smaller x.
         bent = mp.root(16 * mp.pi * target * (mpf(h) / mpf(b)) ** 3, 6)
         x = _root(function, target, min(mp.root(5 * target, 5), bent), digits)
         law, largest = _law(h, b, x, digits)
@@ -212,15 +212,16 @@ def impact(
 def _root(
     function: Callable[[mpf, int], tuple[mpf, mpf]], target: mpf, start: mpf, digits: int
 ) -> mpf:
-    """x in (0, 1) where an increasing function reaches its target: Newton in logarithms.
+    """Return x in (0, 1) where an increasing function reaches its target: Newton in logarithms.
 
-    The function gives its value and d log value/d log x to so many digits: few at first. Values
-    beside the root, a relative 10^-(digits + 4) away, must enclose the target.
+    The function returns its value and d log value/d log x to a number of digits, which is small at
+    first. Its values at relative distances of 10^-(digits + 4) from the root must enclose the
+    target.
 
     Raises
     ------
     ValueError
-        If the target lies beyond the edge of the plate.
+        If the target is reached only beyond the edge of the plate.
     RouteError
         If no root is found.
     """
@@ -242,7 +243,7 @@ def _root(
 
 
 def _quarter(of: ResidueLaw, largest: mpf, digits: int) -> mpf:
-    """int_0^1 2 u r S/sqrt(E(largest) - E(q)) du of slope S and work E, q = largest (1 - u^2)."""
+    """Return int_0^1 2 u r S/sqrt(E(largest) - E(q)) du: slope S, work E, q = largest (1 - u^2)."""
     count = 2 * math.ceil((digits + 10) / math.log10(_ellipse(of, largest)) / 2)
     bits, whole, total = of.known.bits, of.work(largest), mpf(0)
     works = of.works()
@@ -257,7 +258,7 @@ def _quarter(of: ResidueLaw, largest: mpf, digits: int) -> mpf:
 
 
 def _ellipse(of: ResidueLaw, largest: mpf) -> float:
-    """Axes' sum of an ellipse for deep contacts too: the law is singular at a = +-4 i h."""
+    """Return the sum of the axes of an ellipse that avoids the singularities at a = +-4 i h."""
     square = complex(1, -4 * float(of.eta / (largest * of.known.reach)))
     u = cmath.sqrt(square)
     half = (abs(u - 1) + abs(u + 1)) / 2
@@ -266,7 +267,7 @@ def _ellipse(of: ResidueLaw, largest: mpf) -> float:
 
 @lru_cache(maxsize=2)
 def _fejer(count: int, bits: int) -> tuple[tuple[mpf, mpf], ...]:
-    """Positive nodes and weights of Fejer's first rule on [-1, 1]; `count` is even.
+    """Return positive nodes and weights of Fejer's first rule on [-1, 1]; `count` is even.
 
     u_k = cos t_k, t_k = (2k + 1) pi/(2 count), with the weights
     2/count (1 - 2 sum cos(2 i t_k)/(4 i^2 - 1)), i = 1 ... count/2; the cosines are those of

@@ -1,7 +1,7 @@
-"""Oracle 2 to many digits: the law's power series from the plate factor's axis and its poles.
+"""mpmath reference to many digits: the law's power series from the plate factor's axis and poles.
 
-Neither zeros of J0 nor moments of K0/I0 are used. The modal sum is closed around the poles
-T_n of G, sinh T = +-T, instead (link 14 of the theory): with A = a/h and eta = h/b,
+Neither zeros of J0 nor moments of K0/I0 are used. Instead, the contour of the modal sum is closed
+around the poles T_n of G, sinh T = +-T (link 14 of the theory): with A = a/h and eta = h/b,
 
     delta = (a^2/R) (1 + sum s_j/(2j+3)),   d delta/da = (2a/R) (1 + 1/2 sum s_j),
     s_j = (-1)^j 4/pi (A/2)^(2j+1)/(2j+1)! N_j,
@@ -9,9 +9,9 @@ T_n of G, sinh T = +-T, instead (link 14 of the theory): with A = a/h and eta = 
     low_0 = 3/(8 eta^2) + (6/5) l,  low_1 = 6 l,  l = gamma - log(4 eta),  else 0,
 
 g_n being G's residue at T_n and z_n = T_n/(2 eta). The finite part up to 1 is that of G's Laurent
-series, term by term; beyond, trapezoids with T = 1 + exp(t - e^(-t)) serve. So few products
-of so many digits are left that Python's integers do: all numbers are fixed-point ones.
-Nothing is proved of what is left out: results are compared with certified ones.
+series, term by term; from 1 on, the trapezoidal rule with T = 1 + exp(t - e^(-t)) is used. Few
+products of many digits are needed, so that Python's integers are sufficient: all numbers are
+fixed-point numbers. Truncation errors are not bounded; results are compared with certified ones.
 """
 
 import cmath
@@ -27,19 +27,18 @@ from mpmath import mp, mpc, mpf
 from derivation.engine.formula.ball import LOG2_10
 
 PLATES = 256
-"""Series kept."""
+"""Number of cached series."""
 
 STRIP = 1.0
-"""Half-width of the strip that sets the step of the trapezoids, unless the contact is deep:
-T = 1 + y keeps off the poles of G, of which arg (T_1 - 1) = 1.28 is the lowest."""
+"""Half-width of the strip that determines the step of the trapezoidal rule, unless the contact is
+deep: T = 1 + y avoids the poles of G, of which arg (T_1 - 1) = 1.28 is the lowest."""
 
 FIRST_ZERO = 2.4
-"""Somewhat below that of J0. Where G - 1 is nothing at T = 2 eta FIRST_ZERO, the plate is a
-half-space in depth: the side wall alone is left, N_j = (-1)^(j+1) 2/pi (2 eta)^(2j+1) kappa_(2j)
-of link 12."""
+"""Slightly below the first zero of J0. If G - 1 is negligible at T = 2 eta FIRST_ZERO, only the
+finite radius matters: N_j = (-1)^(j+1) 2/pi (2 eta)^(2j+1) kappa_(2j) of link 12."""
 
 _SPARE = 64
-"""Bits beyond the digits asked for: what sums of thousands of terms take, and more."""
+"""Additional bits for sums of thousands of terms."""
 
 Scaled = list[int]
 """Numbers times a power of two, rounded down."""
@@ -51,7 +50,7 @@ class ResidueSeries(NamedTuple):
     Attributes
     ----------
     terms
-        s_j of the file's head for a = reach b, times 2^bits: coefficients of q^(2j+1).
+        s_j (see the module) for a = reach b, times 2^bits: coefficients of q^(2j+1).
     bits
         Binary places.
     reach
@@ -65,14 +64,14 @@ class ResidueSeries(NamedTuple):
 
 @lru_cache(maxsize=PLATES)
 def series(eta: mpf, reach: mpf, digits: int) -> ResidueSeries:
-    """The law of a plate of h/b = eta for contacts up to a/b = reach < 1.
+    """Return the law of a plate of h/b = eta for contacts up to a/b = reach < 1.
 
     Parameters
     ----------
     eta, reach
-        Ratios [1], to be exact to more digits than asked for.
+        Ratios [1], accurate to more digits than requested.
     digits
-        Digits of the sums.
+        Number of digits of the sums.
     """
     bits, A = math.ceil(digits * LOG2_10) + _SPARE, float(reach / eta)
     with mp.workprec(bits + _SPARE):
@@ -97,12 +96,12 @@ def series(eta: mpf, reach: mpf, digits: int) -> ResidueSeries:
 
 
 def fixed(x: mpf, bits: int) -> int:
-    """x 2^bits, rounded down."""
+    """Return x 2^bits, rounded down."""
     return int(x.to_fixed(bits))
 
 
 def floating(x: int, bits: int) -> mpf:
-    """x 2^-bits."""
+    """Return x 2^-bits."""
     return mp.ldexp(mpf(x), -bits)
 
 
@@ -111,14 +110,14 @@ def _product(x: int, factor: mpf, bits: int) -> int:
 
 
 class _Place(NamedTuple):
-    """T and the weight that its even powers have in the N_j."""
+    """Return T and the weight of its even powers in the N_j."""
 
     T: mpf | mpc
     weight: mpf | mpc
 
 
 def _wall(bits: int, eta: mpf) -> Iterator[_Place]:
-    """-2/pi int_0^oo K0/I0 dy as a sum over the places T = 2 i eta y."""
+    """Return -2/pi int_0^oo K0/I0 dy as a sum over the nodes T = 2 i eta y."""
     need = bits * math.log(2)
     for y, w in _nodes(2 * math.pi * STRIP / need, need, need + 2 * math.log(need)):
         with mp.workprec(bits + math.ceil(y / math.log(2)) + _SPARE):
@@ -126,7 +125,7 @@ def _wall(bits: int, eta: mpf) -> Iterator[_Place]:
 
 
 def _axis(bits: int, A: float) -> Iterator[_Place]:
-    """int_1^oo (G - 1) dT as a sum; in a strip where e^(A Im T/2) stays below e^(2 Re T)."""
+    """Return int_1^oo (G - 1) dT as a sum; in a strip where e^(A Im T/2) is below e^(2 Re T)."""
     need = bits * math.log(2)
     step = 2 * math.pi * min(STRIP, 0.9 * math.atan(4 / A)) / need
     deep = max(0, math.ceil((A / 2 - 2) * need / 2 / math.log(2)))
@@ -136,7 +135,7 @@ def _axis(bits: int, A: float) -> Iterator[_Place]:
 
 
 def _nodes(step: float, need: float, end: float) -> Iterator[tuple[mpf, mpf]]:
-    """Trapezoids in t of an integral over y = exp(t - e^(-t)), from y = e^-need on."""
+    """Return trapezoidal nodes in t of an integral over y = exp(t - e^(-t)), y >= e^-need."""
     ratio, rising = mp.exp(-mpf(step)), mp.exp(mpf(step))
     start = math.floor(-math.log(need) / step)
     up = mp.exp(start * mpf(step))
@@ -148,14 +147,14 @@ def _nodes(step: float, need: float, end: float) -> Iterator[tuple[mpf, mpf]]:
 
 
 def _excess(T: mpf) -> mpf:
-    """G - 1 for T >= 1."""
+    """Return G - 1 for T >= 1."""
     decay = mp.exp(-2 * T)
     above = 2 * decay * (1 - decay + 2 * T + 2 * T * T)
     return above / ((1 - decay) ** 2 - 4 * T * T * decay)
 
 
 def _roots(bits: int, eta: mpf, reach: float) -> Iterator[_Place]:
-    """T_n and 2 pi g_n H/J0, while e^(-Im T (2 - reach)/(2 eta)) is above 2^-bits."""
+    """Return T_n and 2 pi g_n H/J0, while e^(-Im T (2 - reach)/(2 eta)) is above 2^-bits."""
     highest = bits * math.log(2) * 2 * float(eta) / (2 - reach)
     for n in range(1, math.floor(highest / math.pi) + 1):
         swell = math.ceil(reach / float(eta) * (n + 1) * math.pi / 2 / math.log(2))
@@ -168,7 +167,7 @@ def _roots(bits: int, eta: mpf, reach: float) -> Iterator[_Place]:
 
 @cache
 def _root(n: int, bits: int) -> mpc:
-    """The root of T - asinh T = i pi n with a positive real part, by Newton's iteration."""
+    """Return the root of T - asinh T = i pi n with a positive real part, by Newton's iteration."""
     T = complex(math.log(2 * math.pi * (n + 0.5)), math.pi * (n + 0.5))
     for _ in range(4):
         T -= (T - cmath.asinh(T) - 1j * math.pi * n) / (1 - 1 / cmath.sqrt(1 + T * T))
@@ -184,7 +183,7 @@ def _root(n: int, bits: int) -> mpc:
 
 
 def _bessel_quotient(w: mpc) -> mpc:
-    """K0/I0 by their power series, absolutely as exact as the working precision.
+    """Return K0/I0 from their power series, with an absolute error of the working precision.
 
     With t_m = (w/2)^(2m)/m!^2 and harmonic numbers H_m, I0 = sum t_m and
     K0 = -(log(w/2) + gamma) I0 + sum H_m t_m, where sum H_m t_m = sum_m (I0 - t_0 ... - t_(m-1))/m.
@@ -206,9 +205,9 @@ def _bessel_quotient(w: mpc) -> mpc:
 
 @dataclass
 class _Term:
-    """weight (half T)^(2j)/(2j+1)! of a place, real if `im` is None, times 2^(bits + swell).
+    """Weight (half T)^(2j)/(2j+1)! of a node, real if `im` is None, times 2^(bits + swell).
 
-    It has binary places for what its power series swells by, e^(half |T|).
+    It has binary places for the growth of its power series, e^(half |T|).
     """
 
     swell: int
@@ -218,7 +217,7 @@ class _Term:
     im: int | None
 
     def advance(self, step: int, bits: int) -> None:
-        """The next power of the square, over its step of the factorial."""
+        """Continue with the next power of the square, over its step of the factorial."""
         (x, y), more = self.square, bits + self.swell
         if self.im is None:
             self.re = (self.re * x >> more) // step
@@ -227,12 +226,12 @@ class _Term:
         self.re, self.im = (re * x - im * y >> more) // step, (re * y + im * x >> more) // step
 
     def lives(self, step: int) -> bool:
-        """Whether anything is left of it, or may come yet."""
+        """Return whether a term is nonzero, or a later one may be."""
         return self.far > step or abs(self.re) > 1 or abs(self.im or 0) > 1
 
 
 def _powers(places: list[_Place], half: mpf, bits: int) -> Iterator[int | None]:
-    """Sums over the places for j = 0, 1 ...: of poles the imaginary part; None when all died."""
+    """Return sums over the nodes for j = 0, 1 ... (imaginary parts for poles); None if all end."""
     running = []
     for T, weight in places:
         swell = math.ceil(float(half * abs(T)) / math.log(2))
@@ -255,21 +254,21 @@ def _powers(places: list[_Place], half: mpf, bits: int) -> Iterator[int | None]:
 
 @cache
 def _laurent(bits: int) -> Scaled:
-    """g_n of G = sum g_n T^(2n-3), which converges for |T| < 4.7, until nothing is left at 1."""
+    """Return g_n of G = sum g_n T^(2n-3), |T| < 4.7, up to negligible terms at T = 1."""
     below: Scaled = []
     found: Scaled = []
     while len(found) < 4 or abs(found[-1]) > 8:
         i = len(found)
         above = (4**i << bits) // math.factorial(2 * i + 1) + (0 if i else 1 << bits)
         below.append((2 ** (2 * i + 3) << bits) // math.factorial(2 * i + 4))
-        # T^3 G (sinh^2 T - T^2)/T^4 = 1 + sinh(2T)/(2T), and below begins with 1/3.
+        # T^3 G (sinh^2 T - T^2)/T^4 = 1 + sinh(2T)/(2T), and the divisor begins with 1/3.
         rest = sum(g * below[i - k] for k, g in enumerate(found)) >> bits
         found.append(3 * (above - rest))
     return found
 
 
 def _near(bits: int, half: mpf, eta: mpf) -> Iterator[int]:
-    """The finite part up to T = 1, and low_j: times half^(2j)/(2j+1)!."""
+    """Return the finite part up to T = 1, and low_j: times half^(2j)/(2j+1)!."""
     more = bits + _SPARE
     laurent, scale, square = _laurent(more), 1 << more, fixed(half * half, more)
     log = mp.euler - mp.log(4 * eta)

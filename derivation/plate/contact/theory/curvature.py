@@ -1,16 +1,17 @@
-"""Link 21: a sphere instead of a paraboloid, a and delta not small beside R (Sneddon 1965).
+"""Link 21: the profile of a sphere instead of a paraboloid, for contacts of any a/R (Sneddon 1965).
 
-A flat punch of radius c with force dP sinks by d delta = dP/(2 E* c) and leaves the face
+A flat punch of radius c with force dP is displaced by d delta = dP/(2 E* c) and deflects the
+surface by
 
     dw(r) = d delta (2/pi) arcsin(c/r)    for r > c,
 
-so a contact that grows from 0 to a, each step a flat punch, fits the profile f if
+A contact that grows from 0 to a in steps of flat punches matches the profile f if
 
     f(r) = (2/pi) int_0^r arccos(c/r) delta'(c) dc    for r <= a.
 
-For the sphere, f = R - sqrt(R^2 - r^2), this is solved by delta = (a/2) log((R+a)/(R-a)).
-At equal force, a_H being Hertz's radius, a_H^3 = 3 P R/(4 E*), the half-space's part of
-S = (R/2a_H) d delta/d a_H is a_H/a: 1 at a = 0, and growing.
+For the sphere, f = R - sqrt(R^2 - r^2), this is solved by delta = (a/2) log((R+a)/(R-a)). At equal
+force, with the Hertz radius a_H^3 = 3 P R/(4 E*), the half-space's part of S = (R/2a_H) d delta/d
+a_H is a_H/a. It is 1 at a = 0 and increases with a.
 """
 
 from functools import cache
@@ -29,12 +30,13 @@ LOGARITHM = sp.log((R + a) / (R - a))
 
 @cache
 def flat_punch() -> Proof:
-    """p = dP/(2 pi c sqrt(c^2 - s^2)): flat below the punch, arcsin(c/r) beside it.
+    """Prove the pressure and the deflection of a flat punch, arcsin(c/r) outside it.
 
-    Its Fourier-Bessel transform is dP sin(c phi)/(2 pi c phi), by power series, and with the
-    half-space's influence coefficient w = dP/(pi c E*) int_0^oo sin(c phi)/phi J0(phi r) dphi.
-    By c this is the integral of cos(c phi) J0(phi r), the real part of Laplace' transform of
-    J0 at i c: 1/sqrt(r^2 - c^2) for c < r, nothing for c > r.
+    The pressure is p = dP/(2 pi c sqrt(c^2 - s^2)). Its Fourier-Bessel transform is dP
+    sin(c phi)/(2 pi c phi), by power series. With the half-space's influence coefficient,
+    w = dP/(pi c E*) int_0^oo sin(c phi)/phi J0(phi r) dphi. Its derivative with respect to c
+    contains the integral of cos(c phi) J0(phi r), the real part of the Laplace transform of J0 at i
+    c: 1/sqrt(r^2 - c^2) for c < r and 0 for c > r.
     """
     bessel = (-1) ** _m / (4**_m * sp.factorial(_m) ** 2)
     moment = sp.sqrt(sp.pi) / 2 * sp.gamma(_m + 1) / sp.gamma(_m + sp.Rational(3, 2))
@@ -58,7 +60,7 @@ def flat_punch() -> Proof:
 
 @cache
 def spherical_contact() -> tuple[Formula, Formula]:
-    """Indentation and force of a sphere on a half-space by the contact radius."""
+    """Return indentation and force of a sphere on a half-space, by the contact radius."""
     flat_punch()
     depth = a / 2 * LOGARITHM
     force = PLANE_STRAIN_MODULUS * ((a**2 + R**2) / 2 * LOGARITHM - a * R)
@@ -111,12 +113,12 @@ def spherical_contact() -> tuple[Formula, Formula]:
 
 
 def _powers() -> None:
-    """delta' has the coefficients that `spherical_contact` uses, checked to the tenth power.
+    """Check that delta' has the coefficients that `spherical_contact` uses, up to the tenth power.
 
     Raises
     ------
     ProofError
-        If one differs.
+        If a coefficient differs.
     """
     slope = sp.diff(_x / 2 * sp.log((1 + _x) / (1 - _x)), _x)
     expanded = sp.series(slope, _x, 0, 11).removeO()
@@ -127,7 +129,7 @@ def _powers() -> None:
 
 @cache
 def growth() -> Proof:
-    """S = a_H/a at equal force, and it grows: every power of a/R in (a_H/a)^3 is positive."""
+    """Prove S = a_H/a at equal force; it increases: (a_H/a)^3 has positive coefficients."""
     depth, force = (formula.expression for formula in spherical_contact())
     radius = sp.cbrt(3 * R * force / (4 * PLANE_STRAIN_MODULUS))
     order = sp.Symbol("n", integer=True, positive=True)
@@ -145,6 +147,6 @@ def growth() -> Proof:
 
 
 def curvature() -> tuple[Formula, ...]:
-    """The formulas of the link, the growth of the slope proved with them."""
+    """Return the formulas of the link, after proving that the slope increases."""
     growth()
     return spherical_contact()

@@ -1,8 +1,8 @@
-"""Link 11: the terms of the paper's gamma_k for large j, and whether a series diverges at all.
+"""Link 11: the terms of the paper's gamma_k for large j, and whether the series converges.
 
-For j -> oo the plate factor tends to 1 and J1(j_n)^2 to 2/(pi j_n), so that
-phi_j^3 K_j -> 4/(R b). The terms phi_j^(2k-1) K_j of gamma_k therefore grow
-like phi_j^(2k-4): they do not even tend to zero, for any k >= 2.
+For j -> oo the plate factor tends to 1 and J1(j_n)^2 to 2/(pi j_n), so that phi_j^3 K_j -> 4/(R b).
+The terms phi_j^(2k-1) K_j of gamma_k therefore grow like phi_j^(2k-4): for every k >= 2 they do not
+tend to zero.
 """
 
 from dataclasses import dataclass
@@ -22,18 +22,18 @@ _E = sp.Symbol("E", positive=True)
 
 @dataclass(frozen=True)
 class Tail:
-    """How the terms of a modal sum behave for large j.
+    """The behaviour of the terms of a modal sum for large j.
 
     Parameters
     ----------
     kind
         ``convergent`` (absolutely), ``divergent`` or ``undecided``.
     exponent
-        Power of j that the terms' envelope follows; -oo if they decay exponentially.
+        Power of j that bounds the magnitude of the terms; -oo if they decay exponentially.
     leading
-        The terms for large j, in phi; without it where they oscillate.
+        The terms for large j, in phi; None if they oscillate.
     says
-        The same in words.
+        Description in words.
     """
 
     kind: str
@@ -44,23 +44,22 @@ class Tail:
 
 @cache
 def slope_at_infinity() -> sp.Expr:
-    """J1(b phi)^2 for large j in terms of phi: 2/(pi b phi).
+    """Return J1(b phi)^2 for large j in terms of phi: 2/(pi b phi).
 
     The expansions of J1(j_n)^2 and of j_n begin with 2/(pi beta) and beta.
     """
     first = slope_squared(2).term(0, b * phi)
-    # The zero's correction begins with 1/beta: beta may be read as j_n = b phi.
+    # The zero's correction begins with 1/beta, so beta may be replaced by j_n = b phi.
     assert zero_correction(0, 1).first < 1
     return 2 * first / (sp.pi * b * phi)
 
 
 def tail(term: sp.Expr, variable: sp.Symbol = phi) -> Tail:
-    """Decide by computation whether the sum of a term over all modes converges.
+    """Determine whether the sum of a term over all modes converges.
 
-    The term is a rational function of e^(h phi), times powers of phi and of
-    J1(b phi), and possibly sin and cos of multiples of phi, which are bounded.
-    Its leading power of e^(h phi), and then of phi, decides: phi_n grows like
-    n, and a sum of n^p converges for p < -1 only.
+    The term is a rational function of e^(h phi), times powers of phi and of J1(b phi), and possibly
+    of sin and cos of multiples of phi, which are bounded. Convergence depends on its leading power
+    of e^(h phi) and then of phi: phi_n grows like n, and a sum of n^p converges only for p < -1.
     """
     smooth = term.subs(J1, sp.sqrt(slope_at_infinity()))
     growth, leading = _leading_exponential(smooth)
@@ -98,7 +97,7 @@ def _power(base: str, exponent: sp.Expr) -> str:
 
 
 def _leading_exponential(term: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-    """Power of e^(h phi) that wins for large phi, and its coefficient."""
+    """Return the dominant power of e^(h phi) for large phi, and its coefficient."""
     exponential = term.rewrite((sp.sinh, sp.cosh, sp.tanh, sp.coth), sp.exp)
     exponential = exponential.replace(
         sp.exp, lambda argument: _E ** sp.cancel(sp.expand(argument) / (h * phi))
@@ -117,7 +116,7 @@ def _leading_exponential(term: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
 
 
 def _leading_power(expression: sp.Expr, variable: sp.Symbol) -> tuple[sp.Expr, sp.Expr]:
-    """Highest power of the variable, and its coefficient, of a product of sums of powers."""
+    """Return the highest power and its coefficient, for a product of sums of powers."""
     exponent, coefficient = sp.Integer(0), sp.Integer(1)
     for factor in sp.Mul.make_args(sp.powsimp(expression)):
         base, outer = factor.as_base_exp()
@@ -137,7 +136,7 @@ def _leading_power(expression: sp.Expr, variable: sp.Symbol) -> tuple[sp.Expr, s
 
 @cache
 def influence_at_infinity() -> Formula:
-    """phi_j^3 K_j for j -> oo."""
+    """Return phi_j^3 K_j for j -> oo."""
     cubed = phi**3 * contact_law()[0].expression.subs(J1, sp.sqrt(slope_at_infinity()))
     limit = sp.limit(cubed.rewrite(sp.exp), h, sp.oo)
     found = tail(phi**3 * contact_law()[0].expression)
@@ -161,19 +160,19 @@ def influence_at_infinity() -> Formula:
 
 
 def printed_term(k: int) -> sp.Expr:
-    """One mode's share of the paper's gamma_k, k >= 2, with the derived K_j."""
+    """Return one mode's term of the paper's gamma_k, k >= 2, with the derived K_j."""
     return _scale(k) * phi ** (2 * k - 1) * contact_law()[0].expression
 
 
 def _scale(k: int) -> sp.Expr:
-    """Coefficient of phi^(2k-1) in s(a phi), with a in terms of P^(1/3)."""
+    """Return the coefficient of phi^(2k-1) in s(a phi), with a in terms of P^(1/3)."""
     factor = sp.Rational((-1) ** k * (2 * k - 2), sp.factorial(2 * k - 1))
     return factor * (a / P ** sp.Rational(1, 3)) ** (2 * k - 1)
 
 
 @cache
 def truncated_gamma(k: int) -> Formula:
-    """Leading growth with N of the paper's gamma_k, its sum cut after N modes.
+    """Return the leading growth with N of the paper's gamma_k, its sum truncated after N modes.
 
     By Stolz's theorem the partial sums of positive terms that behave like
     C n^p, p > -1, behave like C N^(p+1)/(p+1); phi_n behaves like pi n/b.
@@ -212,5 +211,5 @@ def truncated_gamma(k: int) -> Formula:
 
 
 def divergence() -> tuple[Formula, ...]:
-    """The limit of phi^3 K_j, and the growth of the first truncated coefficients."""
+    """Return the limit of phi^3 K_j, and the growth of the first truncated coefficients."""
     return (influence_at_infinity(), truncated_gamma(2), truncated_gamma(3))

@@ -1,7 +1,7 @@
 """Link 8: Hertz pressure (7) -> its Fourier-Bessel coefficients A_j, (4) and (8).
 
-Sonine's integral is proved by comparing power series; the relation between
-contact radius and force follows from the half-space's influence coefficient.
+Sonine's integral is proved by comparing power series; the relation between contact radius and force
+follows from the half-space's influence coefficient.
 """
 
 from functools import cache
@@ -16,12 +16,12 @@ _m = sp.Symbol("m", integer=True, nonnegative=True)
 _y, _t, _s = sp.symbols("y t s", positive=True)
 
 SINE_MINUS = sp.sin(a * phi) - a * phi * sp.cos(a * phi)
-"""s(a phi), with s(y) = sin y - y cos y."""
+"""Return s(a phi), with s(y) = sin y - y cos y."""
 
 
 @cache
 def pressure() -> Formula:
-    """Hertz's pressure of resultant P on the contact disc, compression negative."""
+    """Return Hertz's pressure of resultant P on the contact disc, compression negative."""
     peak = sp.Symbol("p_0", real=True)
     resultant = -2 * sp.pi * sp.integrate(peak * _t * a**2 * sp.sqrt(1 - _t**2), (_t, 0, 1))
     (solution,) = sp.solve(resultant - P, peak)
@@ -45,11 +45,10 @@ def pressure() -> Formula:
 
 @cache
 def sonine() -> Formula:
-    """int_0^a r sqrt(1 - r^2/a^2) J0(phi r) dr, by its power series in phi.
+    """Return int_0^a r sqrt(1 - r^2/a^2) J0(phi r) dr, proved by its power series in phi.
 
-    J0's series is integrated term by term (a Beta integral each; absolute
-    convergence allows it), and every coefficient equals that of
-    (sin y - y cos y)/y^3, y = a phi, times a^2.
+    J0's series, which converges absolutely, is integrated term by term (each term is a Beta
+    integral). Every coefficient equals that of (sin y - y cos y)/y^3, y = a phi, times a^2.
     """
     bessel = (-1) ** _m / (4**_m * sp.factorial(_m) ** 2)
     integral = (
@@ -82,11 +81,11 @@ def sonine() -> Formula:
 
 
 def dirichlet_under_bessel() -> tuple[sp.Expr, sp.Expr]:
-    """int_0^oo sin(phi t) J0(phi r)/phi dphi for t < r and for t >= r.
+    """Return int_0^oo sin(phi t) J0(phi r)/phi dphi for t < r and for t >= r.
 
-    J0(phi r) = (2/pi) int_0^(pi/2) cos(phi r sin theta) dtheta turns the
-    integral into Dirichlet's, which is pi/2 where r sin theta < t and 0 beyond:
-    what remains is the length of that interval of theta.
+    J0(phi r) = (2/pi) int_0^(pi/2) cos(phi r sin theta) dtheta turns the integral into Dirichlet's,
+    which is pi/2 where r sin theta < t and 0 beyond. The result is the length of that interval of
+    theta.
     """
     dirichlet = sp.integrate(sp.sin(_y) / _y, (_y, 0, sp.oo))
     return 2 / sp.pi * dirichlet * sp.asin(_t / r), 2 / sp.pi * dirichlet * sp.pi / 2
@@ -94,11 +93,11 @@ def dirichlet_under_bessel() -> tuple[sp.Expr, sp.Expr]:
 
 @cache
 def contact_radius() -> Formula:
-    """Hertz's relation between a and P in (7), for a sphere on the half-space.
+    """Return Hertz's relation between a and P in (7), for a sphere on the half-space.
 
-    The pressure's Hankel transform is Sonine's integral; as
-    s(a phi)/phi^2 = int_0^a t sin(phi t) dt, the surface displacement under it
-    is a parabola in r, which must be that of the sphere, r^2/(2R).
+    The pressure's Hankel transform is Sonine's integral; as s(a phi)/phi^2 = int_0^a t sin(phi t)
+    dt, the surface displacement under the pressure is a parabola in r, which must match the
+    sphere's profile r^2/(2R).
     """
     radius = sp.Symbol("r", positive=True)
     near, far = (value.subs(r, radius) for value in dirichlet_under_bessel())
@@ -134,10 +133,10 @@ def contact_radius() -> Formula:
 
 
 def norm_of_bessel() -> Proof:
-    """Orthogonality: int_0^b r J0(phi_i r) J0(phi_j r) dr is b^2 J1(b phi_j)^2/2 or 0.
+    """Prove orthogonality: int_0^b r J0(phi_i r) J0(phi_j r) dr is b^2 J1(b phi_j)^2/2 or 0.
 
-    Two antiderivatives, each checked by differentiation; both ends follow
-    from J0(b phi) = 0.
+    Both antiderivatives are checked by differentiation; their values at the limits follow from
+    J0(b phi) = 0.
     """
     k = sp.Symbol("k", positive=True)
     j0, j1 = sp.besselj(0, phi * r), sp.besselj(1, phi * r)
@@ -157,7 +156,7 @@ def norm_of_bessel() -> Proof:
 
 @cache
 def pressure_coefficient() -> Formula:
-    """A_j of (4) and (8): the pressure's moment, Sonine's integral, over the mode's norm."""
+    """Return A_j of (4) and (8): the pressure's moment, Sonine's integral, over the mode's norm."""
     norm = b**2 * J1**2 / 2
     orthogonality = norm_of_bessel()
     peak = pressure().expression.subs(r, 0).subs(P, contact_radius().expression)

@@ -1,7 +1,7 @@
 """Link 9: deflection under the sphere -> K_j and the contact law (6).
 
-The indentation is delta = -w(0, +h) = sum K_j s(a phi_j), s(y) = sin y - y cos y:
-K_j already holds the prefactor of A_j.
+The indentation is delta = -w(0, +h) = sum K_j s(a phi_j), s(y) = sin y - y cos y: K_j includes the
+prefactor of A_j.
 """
 
 from functools import cache
@@ -16,7 +16,7 @@ from derivation.plate.vocabulary import A_j, Formula, h, z
 
 @cache
 def contact_law() -> tuple[Formula, ...]:
-    """K_j on the loaded and on the far face, and one mode's share of delta."""
+    """Return K_j on the contact face and on the back face, and one mode's term of delta."""
     top, bottom, _ = influence_coefficients()
     coefficient = pressure_coefficient().expression
     prefactor = -coefficient / SINE_MINUS

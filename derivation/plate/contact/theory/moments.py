@@ -1,14 +1,14 @@
-"""kappa_n and M_k for large index: rational expansions, with bounds of what they leave out.
+"""kappa_n and M_k for large index: rational expansions with bounds of the truncation error.
 
-Both numbers grow like a factorial; over their leading terms they tend to 1:
+Both numbers grow like a factorial; divided by their leading terms they tend to 1:
 
     kappa_n = int_0^oo y^n K0(y)/I0(y) dy             r_n   = kappa_n 2^(n+1)/(pi n!)
     M_k     = FP int_0^oo T^(2k-4) (G - 1) dT         rho_k = M_k 2^(2k-3)/(2k-2)!
 
 K0/I0 = pi e^(-2y) D(y), and the quotient of Hankel's expansions gives D = sum q_j y^-j, hence
-r_n = sum q_j 2^j/(n (n-1) ... (n-j+1)). G - 1 begins with 4 e^(-2T) (T^2 + T + 1/2), which
-integrates to rho_k = (2k-1)/(2k-3); the rest, like e^(-4T), is smaller by the factor 2^(-2k)
-and powers of k.
+r_n = sum q_j 2^j/(n (n-1) ... (n-j+1)). G - 1 begins with 4 e^(-2T) (T^2 + T + 1/2), whose integral
+gives rho_k = (2k-1)/(2k-3). The rest decays like e^(-4T), so its contribution is smaller by the
+factor 2^(-2k) and powers of k.
 """
 
 from collections.abc import Mapping
@@ -23,7 +23,7 @@ from derivation.plate.modes.theory.plate_factor import plate_factors
 from derivation.plate.vocabulary import T, k
 
 Laurent = Mapping[int, sp.Rational]
-"""Coefficients of a sum of powers, positive and negative, by power."""
+"""Coefficients by power, positive or negative, of a sum of powers."""
 
 _y, _c = sp.symbols("y c", positive=True)
 _m = sp.Symbol("m", integer=True, nonnegative=True)
@@ -31,7 +31,7 @@ _m = sp.Symbol("m", integer=True, nonnegative=True)
 
 @cache
 def gamma_moment() -> Proof:
-    """int_0^oo y^m e^(-cy) dy = m!/c^(m+1): m/c times the one before, and 1/c for m = 0."""
+    """Prove int_0^oo y^m e^(-cy) dy = m!/c^(m+1): m/c times the previous one, and 1/c for m = 0."""
     step = -(_y ** (_m + 1)) * sp.exp(-_c * _y) / _c
     integrand = (_y ** (_m + 1) - (_m + 1) / _c * _y**_m) * sp.exp(-_c * _y)
     first = -sp.exp(-_c * _y) / _c
@@ -47,7 +47,7 @@ def gamma_moment() -> Proof:
 
 
 def moment(power: int, rate: int) -> sp.Rational:
-    """int_0^oo y^power e^(-rate y) dy, the exponents being integers."""
+    """Return int_0^oo y^power e^(-rate y) dy, where the exponents are integers."""
     return sp.Rational(sp.factorial(power), rate ** (power + 1))
 
 
@@ -58,8 +58,8 @@ def moment(power: int, rate: int) -> sp.Rational:
 def hankel(terms: int) -> Coefficients:
     """a_j > 0 of I0 ~ e^y/sqrt(2 pi y) sum a_j y^-j, K0 ~ sqrt(pi/(2y)) e^-y sum (-1)^j a_j y^-j.
 
-    e^(sy)/sqrt(y) y^-j, s = +-1, is put into the modified Bessel equation; the
-    balance of each power gives the ratio of neighbouring coefficients.
+    e^(sy)/sqrt(y) y^-j, s = +-1, is inserted into the modified Bessel equation; the balance of each
+    power gives the ratio of neighbouring coefficients.
     """
     image = _carried(_y**-_m, 1)
     low, high = (sp.expand(image * _y**_m).coeff(_y, power) for power in (1, 0))
@@ -85,7 +85,7 @@ def hankel(terms: int) -> Coefficients:
 
 
 def _carried(v: sp.Expr, sign: int) -> sp.Expr:
-    """y^2 w'' + y w' - y^2 w for w = v e^(sign y)/sqrt(y), over e^(sign y)/sqrt(y)."""
+    """Return y^2 w'' + y w' - y^2 w for w = v e^(sign y)/sqrt(y), over e^(sign y)/sqrt(y)."""
     carrier = sp.exp(sign * _y) / sp.sqrt(_y)
     w = v * carrier
     left = _y**2 * sp.diff(w, _y, 2) + _y * sp.diff(w, _y) - _y**2 * w
@@ -94,7 +94,7 @@ def _carried(v: sp.Expr, sign: int) -> sp.Expr:
 
 @cache
 def wall_quotient(terms: int) -> Coefficients:
-    """q_j of D = e^(2y) K0/(pi I0) ~ sum q_j y^-j: the quotient of Hankel's expansions."""
+    """Return q_j of D = e^(2y) K0/(pi I0) ~ sum q_j y^-j: the quotient of Hankel's expansions."""
     a = hankel(terms)
     q: list[sp.Rational] = []
     for index in range(terms):
@@ -110,7 +110,7 @@ def wall_quotient(terms: int) -> Coefficients:
 
 @cache
 def quotient_bound(terms: int) -> tuple[Laurent, Laurent]:
-    """Bound of |D - sum_(j<N) q_j y^-j| for every y > 0: powers of y, and powers times e^-y.
+    """Return a bound of |D - sum_(j<N) q_j y^-j|, y > 0: powers of y, and powers times e^-y.
 
     Write the scaled functions as i = sqrt(2 pi y) e^-y I0 and k = sqrt(2y/pi) e^y K0, so that
     D = k/i, and their truncated expansions as i_N, k_N, q_N. Then
@@ -119,12 +119,12 @@ def quotient_bound(terms: int) -> tuple[Laurent, Laurent]:
 
     - k = sqrt(y/pi) int_0^oo e^(-yu) u^(-1/2) (1 + u/2)^(-1/2) du, and the binomial series
       alternates: |k - k_N| <= a_N y^-N.
-    - i is the same integral over (0, 2) with 1 - u/2. Its series sum c_j (u/2)^j has falling
-      positive c_j: the remainder is below 2 c_N (u/2)^N for u <= 1, below (1 - u/2)^(-1/2)
-      beyond, where the integral of u^(-1/2) (1 - u/2)^(-1/2) is below 2 sqrt(2). What is
-      missing of the terms' integrals, u > 2, has e^(-yu) <= e^-y e^(-yu/2). Together
-      |i - i_N| <= 2 a_N y^-N + e^-y [(4/5)(1 + y) + (3/2) sum_(j<N) a_j 2^j y^-j], with
-      sqrt(y) <= (1 + y)/2, 2 sqrt(2/pi) < 8/5 and sqrt(2) < 3/2.
+    - i is the same integral over (0, 2) with 1 - u/2. Its series sum c_j (u/2)^j has decreasing
+      positive c_j: the remainder is below 2 c_N (u/2)^N for u <= 1, below (1 - u/2)^(-1/2) beyond,
+      where the integral of u^(-1/2) (1 - u/2)^(-1/2) is below 2 sqrt(2). In the omitted part of the
+      terms' integrals, u > 2, e^(-yu) <= e^-y e^(-yu/2). Together |i - i_N| <= 2 a_N
+      y^-N + e^-y [(4/5)(1 + y) + (3/2) sum_(j<N) a_j 2^j y^-j], with sqrt(y) <= (1 + y)/2, 2
+      sqrt(2/pi) < 8/5 and sqrt(2) < 3/2.
     - i >= erf(sqrt(2y)) >= sqrt(1 - e^(-2y)), hence 1/i <= 1 + 1/(2y).
     """
     a, q = hankel(terms + 1), wall_quotient(terms)
@@ -151,7 +151,7 @@ def _product(first: Laurent, *others: Laurent) -> Laurent:
 
 @cache
 def wall_constant(terms: int = 12) -> Proof:
-    """D -> 1: the factor pi of K0/I0 = pi e^(-2y) D, which the equation leaves open.
+    """Prove D -> 1: the factor pi of K0/I0 = pi e^(-2y) D, not determined by the equation.
 
     The truncated expansion, widened by the bound, must contain D.
     """
@@ -175,7 +175,7 @@ def _at(series: Laurent, y: flint.arb) -> flint.arb:
 
 @cache
 def kappa_steps(terms: int) -> Coefficients:
-    """2^j q_j: r_n = sum of 2^j q_j/(n (n-1) ... (n-j+1)), the first terms."""
+    """Return 2^j q_j, the first terms of r_n = sum 2^j q_j/(n (n-1) ... (n-j+1))."""
     gamma_moment()
     wall_constant()
     n = terms + 3
@@ -193,10 +193,10 @@ def kappa_steps(terms: int) -> Coefficients:
 
 
 def kappa_bound(n: int, terms: int) -> sp.Expr:
-    """Bound of |r_n - its first terms| for this n and every larger one; infinite for n < 2 terms.
+    """Return a bound of |r_n - its first terms| for all indices >= n; infinite for n < 2 terms.
 
-    2^(n+1)/n! times the integral of y^n e^(-2y) `quotient_bound`, exactly; every term in it
-    falls with n.
+    2^(n+1)/n! times the integral of y^n e^(-2y) `quotient_bound`, computed exactly; every term of
+    it decreases with n.
     """
     if n < 2 * terms:
         return sp.oo
@@ -211,11 +211,11 @@ def kappa_bound(n: int, terms: int) -> sp.Expr:
 
 @cache
 def excess_beyond_first() -> Proof:
-    """G - 1 = 4 E (T^2 + T + 1/2) + rest, E = e^(-2T): the rest, and what bounds it.
+    """Prove the rest of G - 1 = 4 E (T^2 + T + 1/2) + rest, E = e^(-2T), and its bound.
 
     rest = 4 E^2 (N - 1/2 - E (T^2 + T + 1/2))/d with N = (T^2 + T + 1/2) (4 T^2 + 2) and
-    d = (1 - E)^2 - 4 T^2 E = 4 E (sinh^2 T - T^2). For T >= 1 d rises from d(1) > 1/5; below,
-    sinh^2 T - T^2 >= T^4/3 and E > 2/15. So 1/d <= 5 + 6/T^4 and 0 <= rest <= 4 E^2 N/d.
+    d = (1 - E)^2 - 4 T^2 E = 4 E (sinh^2 T - T^2). For T >= 1, d increases from d(1) > 1/5; for
+    T < 1, sinh^2 T - T^2 >= T^4/3 and E > 2/15. So 1/d <= 5 + 6/T^4 and 0 <= rest <= 4 E^2 N/d.
     """
     E = sp.exp(-2 * T)
     first = T**2 + T + sp.Rational(1, 2)
@@ -241,13 +241,13 @@ def excess_beyond_first() -> Proof:
 
 
 def _next_power(t: sp.Expr) -> sp.Expr:
-    """N(T) of the rest's leading term 4 e^(-4T) N."""
+    """Return N(T) of the rest's leading term 4 e^(-4T) N."""
     return (t**2 + t + sp.Rational(1, 2)) * (4 * t**2 + 2)
 
 
 @cache
 def finite_part_limit() -> sp.Expr:
-    """(2k-1)/(2k-3): rho_k without what G - 1 holds beyond 4 e^(-2T) (T^2 + T + 1/2)."""
+    """Return (2k-1)/(2k-3), which is rho_k for the part 4 e^(-2T) (T^2 + T + 1/2) of G - 1."""
     gamma_moment()
     excess_beyond_first()
     limit = (2 * k - 1) / (2 * k - 3)
@@ -264,10 +264,10 @@ def finite_part_limit() -> sp.Expr:
 
 
 def finite_part_bound(index: int) -> sp.Expr:
-    """Bound of rho_k less its limit, k = index or larger; infinite for k < 4.
+    """Return a bound of rho_k minus its limit, for k = index or larger; infinite for k < 4.
 
-    2^(2k-3)/(2k-2)! times the integral of T^m e^(-4T) 4 N (5 + 6/T^4), m = 2k - 4, exactly.
-    From k to k + 1 it falls at least by the factor (m+5) (m+6)/(4 (m+3) (m+4)) < 1.
+    2^(2k-3)/(2k-2)! times the integral of T^m e^(-4T) 4 N (5 + 6/T^4), m = 2k - 4, exactly. From k
+    to k + 1 it decreases at least by the factor (m+5) (m+6)/(4 (m+3) (m+4)) < 1.
     """
     excess_beyond_first()
     if index < 4:

@@ -1,10 +1,10 @@
 """Link 13: delta R/a^2 = 1 + c_1 A + c_3 A^3 + ..., A = a/h, with exact coefficients of h/b.
 
-The split of the indentation converges, so its terms may be expanded in a:
-sin y - y cos y = sum (-1)^k (2k-2)/(2k-1)! y^(2k-1), k >= 2. With absolute values
-this is again a convergent double sum, for a < 4 h in the modes, where G - 1 dies
-like e^(-4 eta j_n), and for a < 2 b in the side wall, where K0/I0 dies like e^(-2y).
-These are the paper's gamma_k with the divergent part of their sums taken out.
+The split of the indentation converges, so its terms may be expanded in a: sin y - y cos y = sum
+(-1)^k (2k-2)/(2k-1)! y^(2k-1), k >= 2. The double sum converges absolutely: for a < 4 h in the
+modes, where G - 1 decays like e^(-4 eta j_n), and for a < 2 b in the finite-radius term, where
+K0/I0 decays like e^(-2y). The coefficients are the paper's gamma_k without the divergent part of
+their sums.
 """
 
 from collections.abc import Callable
@@ -37,7 +37,7 @@ from derivation.plate.vocabulary import (
 
 _y = sp.Symbol("y", positive=True)
 FIRST, LAST = 2, 5
-"""Range of k for which the chain records coefficients c_(2k-3)."""
+"""Range of k for which the derivation records coefficients c_(2k-3)."""
 
 
 @dataclass(frozen=True)
@@ -49,9 +49,9 @@ class Coefficient:
     k
         Index of the paper's gamma_k.
     mode
-        One mode's share, in eta, j_n and J1(j_n).
+        One mode's term, in eta, j_n and J1(j_n).
     side
-        The side wall's part, in eta and kappa.
+        The part of the finite radius, in eta and kappa.
     proof
         Expansion of the split.
     """
@@ -63,23 +63,23 @@ class Coefficient:
 
     @property
     def order(self) -> int:
-        """Power of a/h that the coefficient belongs to."""
+        """Power of a/h to which the coefficient belongs."""
         return 2 * self.k - 3
 
     @property
     def by_plate_radius(self) -> tuple[sp.Expr, sp.Expr]:
-        """The same two parts as coefficients of (a/b)^order, for thick plates."""
+        """Return the same two parts as coefficients of (a/b)^order, for thick plates."""
         return self.mode / eta**self.order, self.side / eta**self.order
 
 
 def sine_coefficient(k: int) -> sp.Rational:
-    """Coefficient of y^(2k-1) in sin y - y cos y."""
+    """Return the coefficient of y^(2k-1) in sin y - y cos y."""
     return sp.Rational((-1) ** k * (2 * k - 2), sp.factorial(2 * k - 1))
 
 
 @cache
 def coefficient(k: int) -> Coefficient:
-    """c_(2k-3), k >= 2, from the coefficient of alpha^(2k-3) in the split, alpha = eta A."""
+    """Return c_(2k-3), k >= 2, from the coefficient of alpha^(2k-3) in the split, alpha = eta A."""
     order = 2 * k - 3
     excess = plate_factors()[2].expression.subs(T, 2 * eta * j_n)
     size = abs(sine_coefficient(k))
@@ -105,7 +105,7 @@ def coefficient(k: int) -> Coefficient:
 
 @cache
 def kappa_by_parts(n: int) -> Proof:
-    """kappa_n = int y^n K0/I0 dy = 1/(n+1) int_0^oo y^n/I0^2 dy.
+    """Prove kappa_n = int y^n K0/I0 dy = 1/(n+1) int_0^oo y^n/I0^2 dy.
 
     (K0/I0)' = -1/(y I0^2) by the Wronskian of I0 and K0, and y^(n+1) K0/I0
     vanishes at both ends; the new integrand has no logarithm at 0.
@@ -136,7 +136,7 @@ def kappa_by_parts(n: int) -> Proof:
 
 @cache
 def kappa_ball(n: int, digits: int = 30) -> flint.arb:
-    """Ball around kappa_n, n >= 0, its relative radius below 10^-digits."""
+    """Return a ball around kappa_n, n >= 0, with a relative radius below 10^-digits."""
     kappa_by_parts(n)
 
     def compute() -> flint.arb:
@@ -153,7 +153,7 @@ def _wall_integrand(n: int) -> Callable[[flint.acb, bool], flint.acb]:
 
 @cache
 def series_formulas() -> tuple[Formula, ...]:
-    """Both parts of c_1, c_3, ..., and the paper's gamma_k as they should read."""
+    """Return both parts of c_1, c_3, ..., and the corrected form of the paper's gamma_k."""
     formulas: list[Formula] = []
     for k in range(FIRST, LAST + 1):
         c = coefficient(k)
@@ -177,7 +177,7 @@ def series_formulas() -> tuple[Formula, ...]:
 
 @cache
 def regular_gamma(k: int) -> Formula:
-    """gamma_k without its divergent part: delta = (a^2/R) + sum gamma_k P^((2k-1)/3)."""
+    """Return gamma_k without its divergent part: delta = (a^2/R) + sum gamma_k P^((2k-1)/3)."""
     order = 2 * k - 3
     value = (a / P ** sp.Rational(1, 3)) ** (2 * k - 1) * c_A[order] / (R * h**order)
     term = a**2 / R * c_A[order] * (a / h) ** order
@@ -202,7 +202,7 @@ def regular_gamma(k: int) -> Formula:
 
 @cache
 def small_contact() -> Formula:
-    """delta R/a^2 as a polynomial in A = a/h, to the order the chain records."""
+    """Return delta R/a^2 as a polynomial in A = a/h, to the recorded order."""
     orders = [2 * k - 3 for k in range(FIRST, LAST + 1)]
     value = 1 + sp.Add(*(c_A[n] * a_ratio**n for n in orders))
     terms = [coefficient(k) for k in range(FIRST, LAST + 1)]

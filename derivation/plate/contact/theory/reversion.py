@@ -1,9 +1,9 @@
-"""Link 15: the contact law solved for the force, by Lagrange's inversion, to any order.
+"""Link 15: the contact law solved for the force to any order, by Lagrange inversion.
 
-Two laws are inverted: the paper's formal one, delta = sum gamma_k P^((2k-1)/3), and
-the right one, delta = (a^2/R)(1 + c_1 A + c_3 A^3 + ...), P = (4/3) E* a^3/R. Both
-have the shape y^d = x^d (1 + r_1 x^g + r_2 x^(2g) + ...), and Lagrange's formula
-gives x^p = sum over n of p/(p + g n) [x^(g n)] (1 + r_1 x^g + ...)^(-(p + g n)/d) y^(p + g n).
+Two laws are inverted: the paper's formal one, delta = sum gamma_k P^((2k-1)/3), and the corrected
+one, delta = (a^2/R)(1 + c_1 A + c_3 A^3 + ...), P = (4/3) E* a^3/R. Both have the shape
+y^d = x^d (1 + r_1 x^g + r_2 x^(2g) + ...), and Lagrange's formula gives x^p = sum over n of
+p/(p + g n) [x^(g n)] (1 + r_1 x^g + ...)^(-(p + g n)/d) y^(p + g n).
 """
 
 from collections.abc import Sequence
@@ -26,7 +26,7 @@ _RAYS = 200
 def power_series(
     series: Sequence[sp.Expr], exponent: sp.Rational, terms: int
 ) -> tuple[sp.Expr, ...]:
-    """Power of a series that begins with 1, truncated: from b' s = exponent s' b, b = s^exponent.
+    """Return b = s^exponent, truncated, for a series s = 1 + ...: b' s = exponent s' b.
 
     Examples
     --------
@@ -44,7 +44,7 @@ def power_series(
 
 
 def inverted(series: Sequence[sp.Expr], d: int, g: int, p: int, terms: int) -> tuple[sp.Expr, ...]:
-    """Coefficients of y^(p + g n) in x^p, where y^d = x^d (series in x^g), by Lagrange."""
+    """Return coefficients of y^(p + g n) in x^p, where y^d = x^d (series in x^g), by Lagrange."""
     found = []
     for n in range(terms):
         exponent = sp.Rational(-(p + g * n), d)
@@ -55,10 +55,10 @@ def inverted(series: Sequence[sp.Expr], d: int, g: int, p: int, terms: int) -> t
 def composition(
     series: Sequence[sp.Expr], inverse: Sequence[sp.Expr], d: int, g: int, p: int
 ) -> dict[str, sp.Expr]:
-    """What the inverse leaves when x, taken from x^p, is put back into the series: zeros.
+    """Return the residuals of the inverse: x, taken from x^p, is inserted into the series.
 
-    x^(d + g n) is the power (d + g n)/p of the inverse series: the coefficient of
-    y^(d + g l) in y^d must be 1 for l = 0 and vanish for all l up to the order kept.
+    x^(d + g n) is the power (d + g n)/p of the inverse series: the coefficient of y^(d + g l) in
+    y^d must be 1 for l = 0 and 0 for all other l up to the truncation order.
     """
     terms = len(inverse)
     total = [sp.Integer(0)] * terms
@@ -72,7 +72,7 @@ def composition(
 
 @cache
 def formal_coefficients(last: int = LAST_XI) -> tuple[Formula, ...]:
-    """xi_2, ..., xi_last: the paper's formal law delta = sum gamma_k P^((2k-1)/3) inverted.
+    """Return xi_2, ..., xi_last: the paper's formal law delta = sum gamma_k P^((2k-1)/3) inverted.
 
     x = P^(1/3), y = (delta/gamma_2)^(1/3): d = 3, g = 2, p = 3.
     """
@@ -103,13 +103,13 @@ def formal_coefficients(last: int = LAST_XI) -> tuple[Formula, ...]:
 
 
 def plate_law(orders: int) -> tuple[sp.Expr, ...]:
-    """1 + c_1 A + c_3 A^3 + ..., as coefficients of A^0, A^1, ..., A^orders."""
+    """Return 1 + c_1 A + c_3 A^3 + ..., as coefficients of A^0, A^1, ..., A^orders."""
     return tuple(sp.Integer(1) if n == 0 else c_A.get(n, sp.Integer(0)) for n in range(orders + 1))
 
 
 @cache
 def force_coefficients(last: int = LAST_P) -> tuple[sp.Expr, ...]:
-    """p_0 = 1, p_1, ..., p_last: a^3 = h^3 eps^3 sum p_n eps^n, eps = sqrt(R delta)/h.
+    """Return p_0 = 1, p_1, ..., p_last: a^3 = h^3 eps^3 sum p_n eps^n, eps = sqrt(R delta)/h.
 
     x = A, y = eps, as eps^2 = A^2 (1 + c_1 A + ...): d = 2, g = 1, p = 3.
     """
@@ -118,7 +118,7 @@ def force_coefficients(last: int = LAST_P) -> tuple[sp.Expr, ...]:
 
 @cache
 def force_composition(last: int = LAST_P) -> Proof:
-    """Proof of p_1, ..., p_last."""
+    """Prove p_1, ..., p_last."""
     residuals = composition(plate_law(last), force_coefficients(last), 2, 1, 3)
     return prove(
         "Inversion of the contact law",
@@ -130,7 +130,7 @@ def force_composition(last: int = LAST_P) -> Proof:
 
 @cache
 def force_formulas(shown: int = 4) -> tuple[Formula, ...]:
-    """p_1, ..., p_shown, the force's leading part, and its powers of delta."""
+    """Return p_1, ..., p_shown, the leading part of the force, and its powers of delta."""
     proof = force_composition()
     formulas = [
         Formula(
@@ -150,7 +150,7 @@ def force_formulas(shown: int = 4) -> tuple[Formula, ...]:
 
 
 def _hertz_force(scale: sp.Expr) -> Formula:
-    """(4/3) E* sqrt(R) delta^(3/2): the force at p_n = 0."""
+    """Return (4/3) E* sqrt(R) delta^(3/2), the force for p_n = 0."""
     value = scale * sp.sqrt(R) * delta ** sp.Rational(3, 2)
     proof = prove(
         "Hertz's force",
@@ -171,7 +171,7 @@ def _hertz_force(scale: sp.Expr) -> Formula:
 
 @cache
 def exponent() -> Formula:
-    """Power of delta in the k-th term of the force, k = 2, 3, ...: that of Hertz first.
+    """Return the power of delta in the k-th term of the force, k = 2, 3, ...; Hertz's is k = 2.
 
     eps^(3 + n) is delta^((3 + n)/2); with n = k - 2 the first is delta^(3/2).
     """
@@ -200,7 +200,7 @@ def exponent() -> Formula:
 
 @cache
 def radius_estimate() -> tuple[Formula, Formula]:
-    """Radius of convergence with c_1 alone, where d(eps^2)/dA = 0, in eps and in delta."""
+    """Return the convergence radius with c_1 alone, d(eps^2)/dA = 0, in eps and in delta."""
     law = a_ratio**2 * (1 + c_A[1] * a_ratio)
     turning = -2 / (3 * c_A[1])
     squared = sp.factor(law.subs(a_ratio, turning))
@@ -236,15 +236,15 @@ def radius_estimate() -> tuple[Formula, Formula]:
 
 
 def radius(coefficients: Sequence[float], bits: int = 128) -> float:
-    """Radius of convergence in eps of the inverted series, for given c_1, c_3, c_5, ...
+    """Return the radius of convergence in eps of the inverted series, for given c_1, c_3, c_5, ...
 
-    The inverse A(eps) is singular at critical values eps(A), d(eps^2)/dA = 0. Of these,
-    only those count that A reaches when it is followed along the ray from eps = 0.
+    The inverse A(eps) is singular at critical values eps(A), where d(eps^2)/dA = 0. Only those
+    count that A reaches by continuation along the ray from eps = 0.
 
     Raises
     ------
     ValueError
-        If all coefficients are zero: then the series ends with its first term.
+        If all coefficients are zero, so that the series ends with its first term.
     """
     with flint.ctx.workprec(bits):
         slope = [flint.arb(2)]
@@ -273,7 +273,7 @@ def _law(coefficients: Sequence[float], A: flint.acb) -> flint.acb:
 
 
 def _reaches(coefficients: Sequence[float], target: flint.acb, A: flint.acb) -> bool:
-    """Whether A(eps), followed by Newton's iteration from 0 towards `target`, ends near A."""
+    """Return whether Newton continuation of A(eps) from 0 towards `target` ends near A."""
     here = flint.acb(0)
     for step in range(1, _RAYS):
         # Steps shorten towards the end, where the derivative vanishes like a square root.
@@ -290,5 +290,5 @@ def _reaches(coefficients: Sequence[float], target: flint.acb, A: flint.acb) -> 
 
 
 def reversion() -> tuple[Formula, ...]:
-    """The inversion's formulas: xi_k, p_n, Hertz's force, its powers, the radius."""
+    """Return the formulas of the inversion: xi_k, p_n, Hertz's force, its powers, the radius."""
     return (*formal_coefficients(), *force_formulas(), *radius_estimate())

@@ -1,14 +1,14 @@
-"""Link 12: delta = a^2/R + side wall + thickness, by a sum over the zeros of J0 as integrals.
+"""Link 12: delta = a^2/R + finite radius + finite thickness: sums over zeros of J0 as integrals.
 
 For f entire and growing slower than e^(2|Im z|)
 
     sum f(j_n)/(j_n J1(j_n)^2)
         = 1/2 int_0^oo f dx - 1/(2 pi) int_0^oo [f(iy) + f(-iy)] K0(y)/I0(y) dy.
 
-Proof: f H/J0 with H = J0 + i Y0 is integrated around the first quadrant, passing
-above the zeros, and f (J0 - i Y0)/J0 around the fourth, passing below them. Both
-decay like e^(-2|Im z|), so the real axis equals the imaginary one. Half circles
-leave half residues of f Y0/J0; the principal values of both cancel in the sum.
+Proof: f H/J0 with H = J0 + i Y0 is integrated around the first quadrant, passing above the zeros,
+and f (J0 - i Y0)/J0 around the fourth, passing below them. Both integrands decay like e^(-2|Im z|),
+so the integral along the real axis equals that along the imaginary axis. Half circles around the
+zeros contribute half residues of f Y0/J0; the principal values of both contours cancel in the sum.
 """
 
 from collections.abc import Callable
@@ -26,22 +26,22 @@ from derivation.plate.vocabulary import J1, Formula, R, T, a, alpha, b, eta, h, 
 
 _y = sp.Symbol("y", positive=True)
 WALL = sp.besselk(0, _y) / sp.besseli(0, _y)
-"""K0(y)/I0(y), the weight of the side wall."""
+"""Return K0(y)/I0(y), the weight function of the finite radius."""
 
 
 @cache
 def bending_residue() -> Proof:
-    """Y0/J0 has the residue -2/(pi j_n J1(j_n)^2) at j_n.
+    """Prove that Y0/J0 has the residue -2/(pi j_n J1(j_n)^2) at j_n.
 
-    x (J1 Y0 - J0 Y1), the Wronskian times x, is constant by J0' = -J1 and
-    J1' = J0 - J1/x, alike for Y; as x -> 0 it is 2/pi, because Y1 = -2/(pi x) + ...
+    x (J1 Y0 - J0 Y1), the Wronskian times x, is constant because J0' = -J1 and J1' = J0 - J1/x, and
+    likewise for Y. Its limit for x -> 0 is 2/pi, because Y1 = -2/(pi x) + ...
     """
     x, j0, j1, y0, y1 = sp.symbols("x j0 j1 y0 y1", positive=True)
     rates = {j0: -j1, j1: j0 - j1 / x, y0: -y1, y1: y0 - y1 / x}
     wronskian = x * (j1 * y0 - j0 * y1)
     slope = sp.diff(wronskian, x)
     slope += sp.Add(*(sp.diff(wronskian, s) * rate for s, rate in rates.items()))
-    # Leading terms for x -> 0; what follows is smaller by x^2 log x.
+    # Leading terms for x -> 0; the next terms are smaller by x^2 log x.
     small = {j0: 1, j1: x / 2, y0: 2 / sp.pi * sp.log(x), y1: -2 / (sp.pi * x)}
     constant = sp.limit(wronskian.subs(small), x, 0)
     (value,) = sp.solve(wronskian.subs(j0, 0) - constant, y0)
@@ -55,7 +55,7 @@ def bending_residue() -> Proof:
 
 @cache
 def imaginary_axis() -> Proof:
-    """J0(iy) = I0(y), and (J0 + i Y0)(iy) = -(2 i/pi) K0(y), coefficient by coefficient.
+    """Prove J0(iy) = I0(y) and (J0 + i Y0)(iy) = -(2 i/pi) K0(y), coefficient by coefficient.
 
     With L = log(y/2) + gamma and harmonic numbers H_m the series are
     pi/2 Y0(z) = (log(z/2) + gamma) J0(z) - sum (-1)^m H_m (z/2)^(2m)/m!^2 and
@@ -78,11 +78,11 @@ def imaginary_axis() -> Proof:
 
 @cache
 def contour() -> Proof:
-    """The two quadrants added: half residues, real and imaginary axes in one balance."""
+    """Prove the sum identity: both contours added, with half residues and both axes."""
     bending_residue()
     imaginary_axis()
     integral, principal, total, up, down = sp.symbols("F V S U D")
-    # S sums f(j_n)/(j_n J1^2); U and D are int f(+-iy) K0/I0 dy; dz = +-i dy.
+    # S is the sum of f(j_n)/(j_n J1^2); U and D are int f(+-iy) K0/I0 dy; dz = +-i dy.
     residues = -2 / sp.pi * total
     upper = integral + sp.I * principal - sp.pi * sp.I * sp.I * residues
     lower = integral - sp.I * principal + sp.pi * sp.I * (-sp.I) * residues
@@ -98,10 +98,10 @@ def contour() -> Proof:
 
 @dataclass(frozen=True)
 class _Example:
-    """A function f and what the identity needs of it.
+    """A function f and what the sum identity requires of it.
 
-    `primitive` is an integral of f(iy) + f(-iy) that vanishes at y = 0; by parts,
-    (K0/I0)' = -1/(y I0^2) then leaves an integrand without logarithm.
+    `primitive` is the integral of f(iy) + f(-iy) that vanishes at y = 0. Integration by parts with
+    (K0/I0)' = -1/(y I0^2) gives an integrand without a logarithm.
     """
 
     name: str
@@ -118,7 +118,7 @@ _EXAMPLES = (
 
 @cache
 def identity_in_balls() -> Proof:
-    """The identity for two explicit functions, both sides rigorous balls at two precisions."""
+    """Check the identity for two explicit functions, with both sides as balls at two precisions."""
     for example in _EXAMPLES:
         for bits in (80, 120):
             with flint.ctx.workprec(bits):
@@ -130,7 +130,7 @@ def identity_in_balls() -> Proof:
 
 
 def _modes(example: _Example, bits: int) -> flint.arb:
-    """The sum; 1/(j J1^2) < 2 there, and |f(x)| <= x e^-x for x > 1 bounds the rest."""
+    """Return a ball of the sum; 1/(j J1^2) < 2, and |f(x)| <= x e^-x for x > 1 bounds the tail."""
     count = bits // 4
     total = flint.arb(0)
     for n in range(1, count + 1):
@@ -156,11 +156,11 @@ def _axes(example: _Example, bits: int) -> flint.arb:
 
 
 def wall_tail(n: int, end: flint.arb) -> flint.arb:
-    """Bound of int_end^oo y^n/I0(y)^2 dy for end >= n + 1, end >= 1.
+    """Return a bound of int_end^oo y^n/I0(y)^2 dy for end >= n + 1, end >= 1.
 
-    I0(y) = (1/pi) int_0^pi e^(y cos t) dt and cos t >= 1 - t^2/2 give, from
-    t <= 1/sqrt(y), I0(y) >= e^(y - 1/2)/(pi sqrt(y)). The integrand is below
-    pi^2 e y^(n+1) e^(-2y), whose logarithm falls at least by 1 per unit of y.
+    I0(y) = (1/pi) int_0^pi e^(y cos t) dt and cos t >= 1 - t^2/2 give, by integrating over
+    t <= 1/sqrt(y), I0(y) >= e^(y - 1/2)/(pi sqrt(y)). The integrand is below pi^2 e y^(n+1)
+    e^(-2y), whose logarithm decreases by at least 1 per unit of y.
     """
     pi = flint.arb.pi()
     return pi**2 * flint.arb.const_e() * end ** (n + 1) * (-2 * end).exp()
@@ -168,7 +168,7 @@ def wall_tail(n: int, end: flint.arb) -> flint.arb:
 
 @cache
 def zero_of_j0(n: int, bits: int) -> flint.arb:
-    """Ball around the n-th zero of J0: Newton from McMahon's first terms, then a change of sign.
+    """Return a ball around the n-th zero of J0: Newton from McMahon's first terms, a sign change.
 
     The zeros are more than 3 apart, and the n-th lies within 1/20 above
     (n - 1/4) pi, so a change of sign there is the n-th.
@@ -188,7 +188,7 @@ def zero_of_j0(n: int, bits: int) -> flint.arb:
 
 @cache
 def half_space_integral() -> Proof:
-    """int_0^oo (sin y - y cos y)/y^3 dy = pi/4, Dirichlet's integral by parts."""
+    """Prove int_0^oo (sin y - y cos y)/y^3 dy = pi/4: Dirichlet's integral, by parts."""
     boundary = (_y * sp.cos(_y) - sp.sin(_y)) / (2 * _y**2)
     integrand = (sp.sin(_y) - _y * sp.cos(_y)) / _y**3
     rest = sp.sin(_y) / (2 * _y)
@@ -205,29 +205,29 @@ def half_space_integral() -> Proof:
 
 
 def wall_bracket(ratio: sp.Expr) -> sp.Expr:
-    """(u cosh u - sinh u)/y^3, u = ratio y: what s(u)/y^3 becomes on the imaginary axis."""
+    """Return (u cosh u - sinh u)/y^3, u = ratio y: the value of s(u)/y^3 on the imaginary axis."""
     return (ratio * _y * sp.cosh(ratio * _y) - sp.sinh(ratio * _y)) / _y**3
 
 
 def _side_density() -> sp.Expr:
-    """Weight of K0/I0 in the side wall's part of the indentation."""
+    """Return the weight of K0/I0 in the finite radius's part of the indentation."""
     return -8 * b**2 / (sp.pi**2 * R) * wall_bracket(a / b)
 
 
 @cache
 def contact_split() -> tuple[Formula, ...]:
-    """The three parts of the indentation: half-space, side wall, thickness."""
+    """Return the three parts of the indentation: half-space, finite radius, finite thickness."""
     contour()
     half_space_integral()
     identity_in_balls()
     excess = plate_factors()[2].expression.subs(T, 2 * phi * h)
     flat = 8 / (sp.pi * R * b**2 * phi**4 * J1**2)
     x = sp.Symbol("x", positive=True)
-    # f(x) of the identity with G = 1: one mode's share is f(j_n)/(j_n J1^2), j_n = b phi.
+    # f(x) of the identity with G = 1: one mode's term is f(j_n)/(j_n J1^2), j_n = b phi.
     f = 8 * b**2 / (sp.pi * R) * (sp.sin(alpha * x) - alpha * x * sp.cos(alpha * x)) / x**3
     f = f.subs(alpha, a / b)
     both = sp.expand(f.subs(x, sp.I * _y)) + sp.expand(f.subs(x, -sp.I * _y))
-    # int f dx/2 by x = b y/a, with the integral just found.
+    # int f dx/2 with x = b y/a, by the integral above.
     half = 8 * b**2 / (sp.pi * R) * (a / b) ** 2 * sp.pi / 4 / 2
     proof = prove(
         "Split of the indentation",
@@ -267,7 +267,7 @@ def contact_split() -> tuple[Formula, ...]:
 
 @cache
 def reduced_split() -> tuple[Formula, Formula]:
-    """delta R/a^2 = 1 + F(alpha, eta): its side wall W(alpha) and one mode's share of the rest."""
+    """Return delta R/a^2 = 1 + F(alpha, eta): W(alpha) of the finite radius, one mode of F - W."""
     thickness = contact_split()[2].expression
     y = alpha * j_n
     g = 3 * (sp.sin(y) - y * sp.cos(y)) / y**3

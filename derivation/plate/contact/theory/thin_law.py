@@ -1,11 +1,12 @@
 """Link 14, for all contact radii: F = c_1 A + c_3 A^3 + Phi(A) for a thin plate, A = a/h.
 
-From c_5 on the thin plate's coefficients are the finite parts M_k alone, with no trace of
-h/b: together they are one function of A,
+From c_5 on, the thin plate's coefficients contain only the finite parts M_k and do not depend on
+h/b. Together they are one function of A,
 
     Phi(A) = (2A/pi) int_0^oo [s(y)/y^3 - 1/3 + y^2/30] (G(T) - 1) dT,   y = A T/2,
 
-s(y) = sin y - y cos y, which converges for every A, beyond the radius A = 4 of its series too.
+s(y) = sin y - y cos y, which converges for every A, also beyond A = 4, the radius of convergence of
+its series.
 """
 
 from functools import cache
@@ -29,17 +30,17 @@ from derivation.plate.vocabulary import Formula, M, T, a_ratio, eta
 
 _y = sp.Symbol("y", positive=True)
 SERIES_REACH = 4
-"""The kernel's power series serves for arguments below this in magnitude."""
+"""|y| below which the kernel is computed by its power series."""
 
 
 def sine_kernel(y: sp.Expr) -> sp.Expr:
-    """s(y)/y^3, the weight of a mode: 1/3 at 0."""
+    """Return s(y)/y^3, the weight function of a mode: 1/3 at 0."""
     return (sp.sin(y) - y * sp.cos(y)) / y**3
 
 
 @cache
 def universal_part() -> Formula:
-    """Phi(A), the sum of M_k's terms from c_5 on."""
+    """Return Phi(A), the sum of M_k's terms from c_5 on."""
     y = a_ratio * T / 2
     low = sp.Add(*(sine_coefficient(k) * _y ** (2 * k - 4) for k in (2, 3)))
     kernel = (sine_kernel(_y) - low).subs(_y, y)
@@ -75,9 +76,9 @@ def universal_part() -> Formula:
 
 @cache
 def _kernel_series(bits: int) -> tuple[flint.acb_poly, flint.arb]:
-    """(s(y)/y^3 - 1/3 + y^2/30)/y^4 in powers of y^2, and the rest for |y| <= 4.
+    """Return (s(y)/y^3 - 1/3 + y^2/30)/y^4 in powers of y^2, and its truncation error for |y| <= 4.
 
-    Coefficients are below 1/(2m+6)!, and terms fall by more than half.
+    Coefficients are below 1/(2m+6)!, and each term is less than half of the previous one.
     """
     count = 4
     while flint.arb(SERIES_REACH) ** (2 * count) / flint.arb.fac_ui(2 * count + 6) > (
@@ -90,7 +91,7 @@ def _kernel_series(bits: int) -> tuple[flint.acb_poly, flint.arb]:
 
 
 def _kernel(y: flint.acb) -> flint.acb:
-    """(s(y)/y^3 - 1/3 + y^2/30)/y^4 on a complex ball."""
+    """Return (s(y)/y^3 - 1/3 + y^2/30)/y^4 on a complex ball."""
     if y.abs_upper() < SERIES_REACH:
         series, rest = _kernel_series(flint.ctx.prec)
         spread = flint.arb(0, rest.upper())
@@ -100,9 +101,9 @@ def _kernel(y: flint.acb) -> flint.acb:
 
 @cache
 def universal_ball(A: Exact, digits: int = 30) -> flint.arb:
-    """Ball around Phi(A), A > 0, its relative radius below 10^-digits.
+    """Return a ball around Phi(A), A > 0, with a relative radius below 10^-digits.
 
-    As ball arithmetic sees it, Phi = A^5/(8 pi) int T^4 (kernel/y^4) (G - 1) dT.
+    The form that ball arithmetic evaluates is Phi = A^5/(8 pi) int T^4 (kernel/y^4) (G - 1) dT.
     """
     excess_for_large()
     universal_part()
@@ -121,8 +122,8 @@ def universal_ball(A: Exact, digits: int = 30) -> flint.arb:
 
         total = flint.acb.integral(near, flint.acb(0), flint.acb(1)).real
         total += flint.acb.integral(far, flint.acb(1), flint.acb(end)).real
-        # |kernel| <= 1/840, and G - 1 <= 16 T^2 e^(-2T) for T >= 2; the integrand's
-        # logarithm falls at least by 1 per unit of T from 6 on.
+        # |kernel| <= 1/840, and G - 1 <= 16 T^2 e^(-2T) for T >= 2; from T = 6 on
+        # the logarithm of the integrand decreases by at least 1 per unit of T.
         rest = 16 * end**6 * (-2 * end).exp() / 840
         return 2 * half**5 * 2 / flint.arb.pi() * (total + flint.arb(0, rest.upper()))
 
@@ -130,12 +131,12 @@ def universal_ball(A: Exact, digits: int = 30) -> flint.arb:
 
 
 def thin_coefficient_ball(k: int, ratio: Exact, digits: int = 30) -> flint.arb:
-    """Ball around c_(2k-3) of a thin plate at h/b = ratio, its relative radius below 10^-digits.
+    """Return a ball around c_(2k-3) of a thin plate at h/b = ratio, its radius below 10^-digits.
 
     Raises
     ------
     PrecisionError
-        Where it vanishes.
+        If the coefficient vanishes.
     """
     expression = thin_coefficient(k).expression
 
@@ -147,7 +148,7 @@ def thin_coefficient_ball(k: int, ratio: Exact, digits: int = 30) -> flint.arb:
 
 
 def thin_law_ball(A: Exact, ratio: Exact, digits: int = 30) -> flint.arb:
-    """Ball around c_1 A + c_3 A^3 + Phi(A), what a thin plate adds to Hertz's 1."""
+    """Return a ball around c_1 A + c_3 A^3 + Phi(A), the thin plate's F."""
 
     def compute() -> flint.arb:
         more = int(flint.ctx.prec / LOG2_10) + 1

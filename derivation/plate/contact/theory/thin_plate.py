@@ -1,18 +1,18 @@
 """Link 14: the coefficients c_n of a thin plate, eta = h/b -> 0, up to exponentially small terms.
 
-Mellin's transform turns the modal sum into an integral over s of
-M(s) (2 eta)^(-s) Z(s - 2k + 4), with M(s) = int T^(s-1) (G - 1) dT and
-Z(s) = sum j_n^(-s)/(j_n J1(j_n)^2). Shifted to the left, its path meets
+The Mellin transform turns the modal sum into an integral over s of M(s) (2 eta)^(-s) Z(s - 2k + 4),
+with M(s) = int T^(s-1) (G - 1) dT and Z(s) = sum j_n^(-s)/(j_n J1(j_n)^2). If its path is shifted
+to the left, it crosses
 
 - the poles of M: simple, one for each power of T in the Laurent series of G - 1;
 - the pole of Z at 1, of residue 1/2, which belongs to s = 2k - 3 and yields M_k,
   the finite part of int T^(2k-4) (G - 1) dT.
 
-Where two of them coincide, a double pole leaves a logarithm of eta. Z follows from
-the sum identity with f = x^(-s): Z(s) = -cos(pi s/2)/pi int y^(-s) K0/I0 dy, so it
-vanishes at -1, -3, ..., and the expansion of K0/I0 at 0 gives Z at 1 and 3. All
-other terms end after finitely many; what remains is exponentially small, and the next
-link (`thin_remainder`) finds it, as a sum that makes these coefficients exact.
+Where two of them coincide, the double pole gives a logarithm of eta. Z follows from the sum
+identity with f = x^(-s): Z(s) = -cos(pi s/2)/pi int y^(-s) K0/I0 dy, so it vanishes at -1, -3, ...,
+and the expansion of K0/I0 at 0 gives Z at 1 and 3. There are finitely many other terms. The
+remainder is exponentially small; `thin_remainder` gives it as a sum that makes these coefficients
+exact.
 """
 
 from dataclasses import dataclass
@@ -37,19 +37,19 @@ Ball = TypeVar("Ball", flint.arb, flint.acb)
 
 @dataclass(frozen=True)
 class Laurent:
-    """Coefficients by power: of the part of an expansion that is needed."""
+    """Coefficients by power, of part of an expansion."""
 
     coefficients: dict[int, sp.Expr]
     proof: Proof
 
     def at(self, power: int) -> sp.Expr:
-        """The coefficient of a power, 0 where the expansion has none."""
+        """Return the coefficient of a power, 0 if the expansion does not contain it."""
         return self.coefficients.get(power, sp.Integer(0))
 
 
 @cache
 def plate_factor_at_zero(terms: int = 4) -> Laurent:
-    """G(T) = 6/T^3 + (6/5)/T + ...: quotient of the two power series."""
+    """Return G(T) = 6/T^3 + (6/5)/T + ..., the quotient of the two power series."""
     G = plate_factors()[0].expression
     above = (sp.sinh(2 * T) + 2 * T) / 2
     below = sp.sinh(T) ** 2 - T**2
@@ -72,21 +72,21 @@ def plate_factor_at_zero(terms: int = 4) -> Laurent:
 
 
 def _taylor_above(i: int) -> sp.Rational:
-    """Coefficient of T^(2i+1) in sinh T cosh T + T."""
+    """Return the coefficient of T^(2i+1) in sinh T cosh T + T."""
     return sp.Rational(4**i, sp.factorial(2 * i + 1)) + (1 if i == 0 else 0)
 
 
 def _taylor_below(i: int) -> sp.Rational:
-    """Coefficient of T^(2i+4) in sinh^2 T - T^2."""
+    """Return the coefficient of T^(2i+4) in sinh^2 T - T^2."""
     return sp.Rational(2 ** (2 * i + 3), sp.factorial(2 * i + 4))
 
 
 @cache
 def wall_at_zero() -> Laurent:
-    """K0/I0 = -log(y/2) - gamma + y^2/4 + ...: coefficients beside the logarithm, by power.
+    """Return K0/I0 = -log(y/2) - gamma + y^2/4 + ...: coefficients without the logarithm, by power.
 
-    K0 = -(log(y/2) + gamma) I0 + sum H_m (y/2)^(2m)/m!^2, so no power of y but
-    the zeroth carries a logarithm.
+    K0 = -(log(y/2) + gamma) I0 + sum H_m (y/2)^(2m)/m!^2, so the logarithm appears only with the
+    zeroth power of y.
     """
     imaginary_axis()
     y = sp.Symbol("y", positive=True)
@@ -106,14 +106,14 @@ def wall_at_zero() -> Laurent:
 
 @cache
 def zero_sum(s: int) -> Laurent:
-    """Z(s + u) = sum j_n^(-s-u)/(j_n J1^2) about an integer s <= 3: powers u^-1 and u^0.
+    """Return Z(s + u) = sum j_n^(-s-u)/(j_n J1^2) near an integer s <= 3: powers u^-1 and u^0.
 
-    int_0^1 y^(-s-u) y^p dy = -1/(u + s - p - 1), and with log y in front the
-    negative square of it; the rest of the integral is regular. For s < 1 it is kappa_(-s).
+    int_0^1 y^(-s-u) y^p dy = -1/(u + s - p - 1), and with the factor log y the integral is minus
+    its square; the rest of the integral is regular. For s < 1 it is kappa_(-s).
     """
     contour()
     wall = wall_at_zero()
-    # -cos(pi (s + u)/2)/pi, its value and slope at u = 0.
+    # -cos(pi (s + u)/2)/pi: value and slope at u = 0.
     angle = sp.pi * (s + _u) / 2
     value, slope, bend = (sp.diff(-sp.cos(angle) / sp.pi, _u, n).subs(_u, 0) for n in range(3))
     if s < 1:
@@ -121,7 +121,7 @@ def zero_sum(s: int) -> Laurent:
         found = {0: sp.expand(value * regular)}
         residuals = {"odd": value if s % 2 else sp.Integer(0)}
     else:
-        # The power y^(s-1) of K0/I0 meets a pole: -(c)/u, and -log y gives 1/u^2 at s = 1.
+        # The power y^(s-1) of K0/I0 gives a pole: -(c)/u, and -log y gives 1/u^2 at s = 1.
         simple, double = -wall.at(s - 1), sp.Integer(1 if s == 1 else 0)
         found = {-1: slope * double, 0: slope * simple + bend / 2 * double}
         residuals = {"value": value, "bend": bend}
@@ -135,13 +135,13 @@ def zero_sum(s: int) -> Laurent:
 
 @cache
 def thin_modal_sum(k: int) -> sp.Expr:
-    """sum j_n^(2k-5) (G(2 eta j_n) - 1)/J1(j_n)^2 for eta -> 0: all its residues.
+    """Return sum j_n^(2k-5) (G(2 eta j_n) - 1)/J1(j_n)^2 for eta -> 0: all its residues.
 
     In eta, M_k, kappa_(2k-4), Euler's constant (as a symbol) and L = log(2 eta).
     """
     g = plate_factor_at_zero().coefficients
     own = 2 * k - 3
-    # Every other pole of M lies at s = -1, -3, ..., where Z(s - 2k + 4) = 0.
+    # All other poles of M are at s = -1, -3, ..., where Z(s - 2k + 4) = 0.
     poles = {-power: value for power, value in g.items() if power < 0} | {0: sp.Integer(-1)}
     total = sp.Integer(0)
     for s in sorted({own, *poles}):
@@ -154,14 +154,14 @@ def thin_modal_sum(k: int) -> sp.Expr:
 
 
 def _residue(*factors: dict[int, sp.Expr]) -> sp.Expr:
-    """Coefficient of 1/u in a product of expansions in u."""
+    """Return the coefficient of 1/u in a product of expansions in u."""
     product = sp.Mul(*(sp.Add(*(c * _u**n for n, c in factor.items())) for factor in factors))
     return sp.expand(product).coeff(_u, -1)
 
 
 @cache
 def thin_coefficient(k: int) -> Formula:
-    """c_(2k-3) of a thin plate."""
+    """Return c_(2k-3) of a thin plate."""
     order = 2 * k - 3
     size = sine_coefficient(k)
     exact = coefficient(k)
@@ -192,7 +192,7 @@ def thin_coefficient(k: int) -> Formula:
 
 
 def _low_rest(k: int, size: sp.Rational) -> sp.Expr:
-    """c_1 and c_3 without M_k, by SymPy's residue of the double pole, and the bending term."""
+    """Return c_1 and c_3 without M_k, by SymPy's residue of the double pole, and bending."""
     g = plate_factor_at_zero()
     pole = g.at(3 - 2 * k)
     wall = wall_at_zero()
@@ -206,7 +206,7 @@ def _low_rest(k: int, size: sp.Rational) -> sp.Expr:
 
 
 def _collected(total: sp.Expr, k: int) -> sp.Expr:
-    """The coefficient with M_k, the logarithm and Euler's constant in one bracket."""
+    """Return the coefficient with M_k, the logarithm and Euler's constant in one bracket."""
     log_4 = sp.Symbol("log_4", real=True)
     fused = sp.expand(total.subs(_LOG, log_4 - sp.log(2)))
     factor = fused.coeff(M[k])
@@ -217,7 +217,7 @@ def _collected(total: sp.Expr, k: int) -> sp.Expr:
 
 @cache
 def finite_part(k: int) -> sp.Expr:
-    """M_k as an exact definition: convergent integrals and the powers' finite parts on (0, 1)."""
+    """Return M_k in terms of convergent integrals and the finite parts of the powers on (0, 1)."""
     G = plate_factors()[0].expression
     power = 2 * k - 4
     singular = {n: c for n, c in plate_factor_at_zero().coefficients.items() if n < 0}
@@ -228,7 +228,7 @@ def finite_part(k: int) -> sp.Expr:
 
 
 def _finite_powers(k: int) -> sp.Rational:
-    """Hadamard's finite part of int_0^1 T^(2k-4) (Laurent part - 1) dT; 1/T has none."""
+    """Return Hadamard's finite part of int_0^1 T^(2k-4) (Laurent part - 1) dT; that of 1/T is 0."""
     singular = {n: c for n, c in plate_factor_at_zero().coefficients.items() if n < 0}
     powers = [(n + 2 * k - 3, c) for n, c in (singular | {0: sp.Integer(-1)}).items()]
     return sp.Add(*(c / power for power, c in powers if power != 0))
@@ -236,7 +236,7 @@ def _finite_powers(k: int) -> sp.Rational:
 
 @cache
 def finite_part_ball(k: int, digits: int = 30) -> flint.arb:
-    """Ball around M_k, its relative radius below 10^-digits."""
+    """Return a ball around M_k with a relative radius below 10^-digits."""
     excess_for_large()
     finite = _finite_powers(k)
 
@@ -250,7 +250,7 @@ def finite_part_ball(k: int, digits: int = 30) -> flint.arb:
             lambda x, _: x ** (2 * k - 4) * plate_excess(x), flint.acb(1), flint.acb(end)
         )
         # For T >= 2, sinh^2 T - T^2 >= e^(2T)/8 and 1/2 + T + T^2 <= 2 T^2; with
-        # T >= 4 k the integrand's logarithm falls at least by 1 per unit of T.
+        # T >= 4 k, the logarithm of the integrand decreases by at least 1 per unit of T.
         rest = 16 * end ** (2 * k - 2) * (-2 * end).exp()
         number = flint.arb(flint.fmpq(int(finite.p), int(finite.q)))
         return inner.real + outer.real + number + flint.arb(0, rest.upper())
@@ -260,7 +260,7 @@ def finite_part_ball(k: int, digits: int = 30) -> flint.arb:
 
 @cache
 def excess_for_large() -> Proof:
-    """G - 1 = ((1 - e^(-2T))/2 + T + T^2)/(sinh^2 T - T^2), without cancellation."""
+    """Prove G - 1 = ((1 - e^(-2T))/2 + T + T^2)/(sinh^2 T - T^2), without cancellation."""
     short = ((1 - sp.exp(-2 * T)) / 2 + T + T**2) / (sp.sinh(T) ** 2 - T**2)
     return prove(
         "Excess of the plate factor",
@@ -275,7 +275,7 @@ def plate_excess(x: Ball) -> Ball:
 
 
 def regular_part(x: flint.acb) -> flint.acb:
-    """G - 6/T^3 - (6/5)/T as a quotient of power series with bounded tails.
+    """Return G - 6/T^3 - (6/5)/T as a quotient of power series with bounded tails.
 
     Its numerator's coefficients are n_i - 6 d_i - (6/5) d_(i-1), T^(2i+1); those
     for i < 2 vanish. In powers of T^2 both series have coefficients below
@@ -307,5 +307,5 @@ def _ball(value: sp.Rational) -> flint.arb:
 
 
 def thin_plate() -> tuple[Formula, ...]:
-    """The thin plate's coefficients that the chain records."""
+    """Return the thin plate's recorded coefficients."""
     return tuple(thin_coefficient(k) for k in range(FIRST, LAST + 1))

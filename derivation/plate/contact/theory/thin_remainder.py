@@ -1,21 +1,22 @@
-"""Link 14, made exact: what the thin plate's law leaves out, residues at T_n, sinh T = +-T.
+"""Link 14, made exact: the remainder of the thin plate's law, by residues at T_n, sinh T = +-T.
 
-In the contour integral behind the sum over the zeros of J0 (`split`) the modes'
-share f(z) = q(z) (G(2 eta z) - 1), q even and entire, has poles at z_n = T_n/(2 eta). They add
+In the contour integral behind the sum over the zeros of J0 (`split`) the modes' part
+f(z) = q(z) (G(2 eta z) - 1), q even and entire, has poles at z_n = T_n/(2 eta). They contribute
 
     pi Im sum_n q(z_n) g_n/(2 eta) H(z_n)/J0(z_n),   g_n = (1 + sqrt(1 + T_n^2))^2/(2 T_n^2),
 
-g_n being G's residue at T_n and H = J0 + i Y0. What the axes leave is the thin plate's closed
-form and nothing else: G is odd, so on the imaginary axis f(iy) + f(-iy) = -2 q(iy), which is
-the side wall with its sign turned. Only the pole of G at 0 needs care: z^w is put in front
-and w -> 0; the poles in 1/w of both axes cancel (`axes`).
+where g_n is G's residue at T_n and H = J0 + i Y0. The contribution of the axes is exactly the thin
+plate's closed form: G is odd, so on the imaginary axis f(iy) + f(-iy) = -2 q(iy), the finite-radius
+term with the opposite sign. The pole of G at 0 is treated by a factor z^w, w -> 0; the poles in 1/w
+of both axes cancel (`axes`).
 
-This holds for every h/b, thick plates included, and for a < 2b, where |q| <= e^(alpha |Im z|)
-(the law itself has meaning for a < b). Closing the contour: on the lines Im T = pi n - pi/4
-|sinh T -+ T| > cosh(Re T)/4, and 2 G = (cosh T - 1)/(sinh T + T) + (cosh T + 1)/(sinh T - T), so
-|G| < 8; with |H/J0| <= 3 e^(-2 Im z) the lines' share vanishes as n grows, and so does
-that of a vertical line far to the right, where G - 1 dies like T^2 e^(-2T). A term of a
-coefficient is of the order exp(-Im T_n/eta), one of the law exp(-Im T_n (2 - alpha)/(2 eta)).
+This holds for every h/b, thick plates included, and for a < 2b, where |q| <= e^(alpha |Im z|) (the
+law itself is defined for a < b). Closing the contour: on the lines Im T = pi n - pi/4,
+|sinh T -+ T| > cosh(Re T)/4, and 2 G = (cosh T - 1)/(sinh T + T) + (cosh T + 1)/(sinh T - T),
+so |G| < 8; with
+|H/J0| <= 3 e^(-2 Im z) the contribution of these lines vanishes as n increases, and so does that of
+a vertical line far to the right, where G - 1 decays like T^2 e^(-2T). A term of a coefficient is of
+the order exp(-Im T_n/eta), one of the law exp(-Im T_n (2 - alpha)/(2 eta)).
 """
 
 from collections.abc import Callable, Mapping
@@ -56,7 +57,7 @@ _LOG = sp.Symbol("L", real=True)
 
 @cache
 def residue_at_roots() -> Proof:
-    """G's residue (1 + sqrt(1 + T^2))^2/(2 T^2) at a simple pole T_n.
+    """Prove G's residue (1 + sqrt(1 + T^2))^2/(2 T^2) at a simple pole T_n.
 
     With u = asinh T, sinh T = s sinh u and cosh T = s cosh u, s = (-1)^n.
     """
@@ -84,20 +85,20 @@ def residue_at_roots() -> Proof:
 
 
 def residue(at: sp.Expr, root_of_square: sp.Expr) -> sp.Expr:
-    """G's residue at T, given sqrt(1 + T^2)."""
+    """Return G's residue at T, given sqrt(1 + T^2)."""
     return (1 + root_of_square) ** 2 / (2 * at**2)
 
 
 @cache
 def contour_with_poles() -> Proof:
-    """Both quadrants of `contour` with f's poles inside: pi Im X is added to the sum.
+    """Prove the sum identity with poles of f inside the contours: pi Im X is added to the sum.
 
-    X sums f's residues times H/J0 in the first quadrant, Y is its conjugate in the fourth,
-    which is run through clockwise.
+    X sums f's residues times H/J0 in the first quadrant, Y is its conjugate in the fourth, where
+    the contour runs clockwise.
     """
     contour()
     integral, principal, total, up, down, re, im = sp.symbols("F V S U D X_r X_i")
-    halves = -2 * total  # of each quadrant's half residues, see `contour`
+    halves = -2 * total  # half residues of each quadrant, see `contour`
     on_axes = 2 / sp.pi * (up + down)
     poles = 2 * sp.pi * sp.I * (re + sp.I * im), -2 * sp.pi * sp.I * (re - sp.I * im)
     upper = integral + sp.I * principal + halves
@@ -113,7 +114,7 @@ def contour_with_poles() -> Proof:
 
 @cache
 def imaginary_part() -> Proof:
-    """f(iy) + f(-iy) for f = z^w q (G - 1): -2 cos(pi w/2) - 2 sin(pi w/2) G(iy)/i, times y^w q."""
+    """Prove f(iy) + f(-iy) = [-2 cos(pi w/2) - 2 sin(pi w/2) G(iy)/i] y^w q, f = z^w q (G - 1)."""
     turn, g = sp.symbols("E g", positive=True)
     G = plate_factors()[0].expression
     # turn = e^(i pi w/2), G(iy) = i g.
@@ -128,10 +129,10 @@ def imaginary_part() -> Proof:
 
 @cache
 def axes(k: int) -> Mapping[int, sp.Expr]:
-    """What both axes give for z^(w + 2k - 4) (G - 1), w -> 0: coefficients of 1/w and w^0.
+    """Return the contribution of both axes for z^(w + 2k - 4) (G - 1), w -> 0: powers 1/w and w^0.
 
-    Near 0 a power y^(w+m) has the integral 1/(w + m + 1) from 0 to 1, with -log y in front
-    its square; all else is regular, and vanishes with sin(pi w/2) on the imaginary axis.
+    Near 0 a power y^(w+m) has the integral 1/(w + m + 1) from 0 to 1, and with the factor -log y
+    its square. All else is regular and vanishes with sin(pi w/2) on the imaginary axis.
     """
     contour_with_poles()
     imaginary_part()
@@ -153,20 +154,20 @@ def axes(k: int) -> Mapping[int, sp.Expr]:
 
 
 def _sum_of_roots(weight: Callable[[sp.Expr], sp.Expr]) -> sp.Expr:
-    """Im sum weight(T_n) (1 + sqrt(1 + T_n^2))^2 H/J0 at T_n/(2 eta)."""
+    """Return Im sum weight(T_n) (1 + sqrt(1 + T_n^2))^2 H/J0 at T_n/(2 eta)."""
     at = PlateRoot(_n)
     wave = sp.hankel1(0, at / (2 * eta)) / sp.besselj(0, at / (2 * eta))
     return sp.im(sp.Sum(weight(at) * (1 + sp.sqrt(1 + at**2)) ** 2 * wave, (_n, 1, sp.oo)))
 
 
 def _share(weight: sp.Expr) -> sp.Expr:
-    """pi times a root's residue f/(2 eta), without H/J0, for q = weight(z), z = T/(2 eta)."""
+    """Return pi times a root's residue f/(2 eta) without H/J0, q = weight(z), z = T/(2 eta)."""
     return sp.pi * weight * residue(T, sp.sqrt(1 + T**2)) / (2 * eta)
 
 
 @cache
 def coefficient_remainder(k: int) -> Formula:
-    """c_(2k-3) less its closed form: a sum over the roots, exact for every h/b."""
+    """Return c_(2k-3) minus its closed form: a sum over the roots, exact for every h/b."""
     residue_at_roots()
     order, size, found = 2 * k - 3, sine_coefficient(k), axes(k)
     factor = size * sp.Integer(2) ** (5 - 2 * k)
@@ -197,7 +198,7 @@ def coefficient_remainder(k: int) -> Formula:
 
 
 def _mode_factor(power: int) -> sp.Expr:
-    """f(j_n)/(j_n J1^2) of the sum identity for f = z^power (G(2 eta z) - 1)."""
+    """Return f(j_n)/(j_n J1^2) of the sum identity for f = z^power (G(2 eta z) - 1)."""
     return j_n ** (power - 1) * plate_factors()[2].expression.subs(T, 2 * eta * j_n) / J1**2
 
 
@@ -209,14 +210,14 @@ def _law_weight(at: sp.Expr) -> sp.Expr:
 
 @cache
 def law_remainder() -> Formula:
-    """F(A, eta) less c_1 A + c_3 A^3 + Phi(A): a sum over the roots, exact for a < b."""
+    """Return F(A, eta) minus c_1 A + c_3 A^3 + Phi(A): a sum over the roots, exact for a < b."""
     residue_at_roots()
     universal_part()
     for k in range(FIRST, LAST + 1):
         axes(k)
     wall, modes = (formula.expression for formula in reduced_split())
     (height,) = wall.variables
-    mode = 8 * alpha / sp.pi  # before q(z) = s(alpha z)/(alpha z)^3
+    mode = 8 * alpha / sp.pi  # factor of q(z) = s(alpha z)/(alpha z)^3
     on_axis = mode / sp.pi * sine_kernel(sp.I * alpha * height)
     x = T / (2 * eta)
     real = mode / 2 * sine_kernel(alpha * x) / (2 * eta)
@@ -248,13 +249,13 @@ def law_remainder() -> Formula:
 
 
 def thin_remainder() -> tuple[Formula, ...]:
-    """Phi and the exact remainders of coefficients and law that the chain records."""
+    """Return Phi and the recorded exact remainders of coefficients and law."""
     coefficients = (coefficient_remainder(k) for k in range(FIRST, LAST + 1))
     return (universal_part(), *coefficients, law_remainder())
 
 
 def root_share(at: flint.acb, ratio: flint.arb) -> flint.acb:
-    """(1 + sqrt(1 + T^2))^2 H(z)/J0(z) at z = T/(2 eta), H/J0 = (2/(pi i)) K0/I0 at -iz."""
+    """Return (1 + sqrt(1 + T^2))^2 H(z)/J0(z) at z = T/(2 eta), H/J0 = (2/(pi i)) K0/I0 at -iz."""
     z = at / (2 * ratio)
     turned = flint.acb(z.imag, -z.real)
     wave = turned.bessel_k(0) / turned.bessel_i(0) * flint.acb(0, -2) / flint.arb.pi()
@@ -267,11 +268,11 @@ def _sum_over_roots(
     quotient: Callable[[int], flint.arb],
     ratio: flint.arb,
 ) -> flint.arb:
-    """sum Im[weight(T_n) root_share(T_n)] and a ball for what follows its last term.
+    """Return sum Im[weight(T_n) root_share(T_n)] with a ball for the terms after the last one.
 
-    `first(n)` bounds term n, and `quotient(n)` the ratio of any two in a row from there, by
-    |1 + sqrt(1 + T^2)|^2/|T|^2 = |coth(u/2)|^2 <= (pi + 1)/(pi - 1) < 2 (cosh Re u >=
-    |sinh u| = |T| > pi) and |H/J0| <= 3 e^(-2 Im z) for |z| >= 4, Im z >= 1: there
+    `first(n)` bounds term n, and `quotient(n)` bounds the ratio of successive terms from there on,
+    by |1 + sqrt(1 + T^2)|^2/|T|^2 = |coth(u/2)|^2 <= (pi + 1)/(pi - 1) < 2, since cosh Re
+    u >= |sinh u| = |T| > pi, and |H/J0| <= 3 e^(-2 Im z) for |z| >= 4, Im z >= 1: there
     |H| <= sqrt(2/(pi |z|)) e^(-Im z), and the other Hankel function is at least 0.89
     sqrt(2/(pi |z|)) e^(Im z) (DLMF 10.17.14 with l = 1, variation pi/2).
     """
@@ -291,7 +292,7 @@ def _sum_over_roots(
 
 
 def coefficient_remainder_ball(k: int, ratio: Exact, digits: int = 30) -> flint.arb:
-    """Ball around c_(2k-3) less its closed form at h/b = ratio > 0.
+    """Return a ball around c_(2k-3) minus its closed form at h/b = ratio > 0.
 
     Its relative radius is below 10^-digits. Terms are below 6 (8 n)^(2k-4) e^(-pi n/eta).
     """
@@ -313,7 +314,7 @@ def coefficient_remainder_ball(k: int, ratio: Exact, digits: int = 30) -> flint.
 
 
 def law_remainder_ball(A: Exact, ratio: Exact, digits: int = 30) -> flint.arb:
-    """Ball around F less c_1 A + c_3 A^3 + Phi(A), its relative radius below 10^-digits.
+    """Return a ball around F minus c_1 A + c_3 A^3 + Phi(A), relative radius below 10^-digits.
 
     Terms are below A^3/4 e^(-pi n (2 - alpha)/(2 eta)), by |s(y)/y^3| <= e^|Im y|/3.
 

@@ -6,16 +6,16 @@ In the first quadrant they are T_1, T_2, ..., in order of height; T_n is the sol
 
 and there is exactly one for each n >= 1.
 
-Every root is one of these: put u = asinh T, Re u > 0. Then sinh u = +-sinh T, so that
-u = T or u = -T but for multiples of i pi, and -T has the wrong real part. sinh maps the
-half strip Re u > 0, 0 < Im u < pi/2 onto the first quadrant, one to one, hence n >= 0.
-n = 0 would be sinh T = T with T = x + iy, 0 < y < pi/2: cos y = x/sinh x and
-sin y/y = 1/cosh x < x/sinh x, since tanh x < x, so tan y < y, which is not true.
+Every root is one of these: let u = asinh T, Re u > 0. Then sinh u = +-sinh T, so that u = T or
+u = -T up to multiples of i pi, and -T has a negative real part. sinh maps the half strip Re u > 0,
+0 < Im u < pi/2 onto the first quadrant, one to one, hence n >= 0. n = 0 would be sinh T = T with
+T = x + iy, 0 < y < pi/2: cos y = x/sinh x and sin y/y = 1/cosh x < x/sinh x, since tanh x < x.
+Hence tan y < y, a contradiction.
 
-Each n has one: asinh T + i pi n maps the closed strip Re T >= 0, pi n <= Im T <= pi n + pi/2
-into itself (values on the cut taken from the right), and |1 + T^2| >= (pi n)^2 - 1 there, so
-that it shrinks distances by `contraction(n)` < 0.34: it has one fixed point. That is not on
-the imaginary axis, where sin y = +-y holds at 0 alone. On the real axis sinh T > T.
+There is one for each n: asinh T + i pi n maps the closed strip Re T >= 0, pi n <= Im T <= pi
+n + pi/2 into itself (values on the cut taken from the right), and |1 + T^2| >= (pi n)^2 - 1 there,
+so that it is a contraction with the factor `contraction(n)` < 0.34 and has one fixed point. The
+fixed point is not on the imaginary axis, where sin y = +-y only at 0. On the real axis sinh T > T.
 """
 
 from functools import cache
@@ -27,12 +27,12 @@ from derivation.engine.formula.proof import Proof, prove
 from derivation.plate.vocabulary import T
 
 SIZE_OVER_INDEX = 8
-"""|T_n| <= 8 n: |T| - log(2 |T| + 1) <= pi (n + 1/2), and 8 n is beyond that from n = 1 on."""
+"""|T_n| <= 8 n, because |T| - log(2 |T| + 1) <= pi (n + 1/2), which is exceeded at 8 n."""
 
 
 @cache
 def numbering() -> Proof:
-    """What the argument above uses: periods of sinh and cosh, and the slope of asinh."""
+    """Prove the periods of sinh and cosh and the slope of asinh that the argument above uses."""
     u = sp.Symbol("u", positive=True)
     turned = {n: u + sp.I * sp.pi * n for n in (1, 2)}
     return prove(
@@ -46,23 +46,23 @@ def numbering() -> Proof:
 
 
 def contraction(n: int) -> flint.arb:
-    """Bound of |d asinh T/dT| where Im T >= pi n."""
+    """Return a bound of |d asinh T/dT| where Im T >= pi n."""
     return 1 / ((n * flint.arb.pi()) ** 2 - 1).sqrt()
 
 
 @cache
 def root(n: int, bits: int = 128) -> flint.acb:
-    """Ball around T_n with a radius below 2^-bits.
+    """Return a ball around T_n with a radius below 2^-bits.
 
-    Newton's iteration gives a point; the contraction bounds its distance from the root
-    by that from its own image over 1 - `contraction`.
+    Newton's iteration gives a point. Its distance from the root is at most its distance from its
+    own image over 1 - `contraction`.
 
     Raises
     ------
     ValueError
         Unless n >= 1.
     ArithmeticError
-        If the iteration ended elsewhere.
+        If the iteration does not converge to this root.
     """
     if n < 1:
         raise ValueError(f"the roots are counted from 1, got {n}")
@@ -83,5 +83,5 @@ def root(n: int, bits: int = 128) -> flint.acb:
 
 
 def height(n: int, digits: int = 30) -> flint.arb:
-    """Im T_n; the share of T_n in a thin plate's law is of the order exp(-Im T_n b/h)."""
+    """Return Im T_n; T_n contributes of the order exp(-Im T_n b/h) to a thin plate's law."""
     return root(n, int(3.33 * digits) + 8).imag

@@ -1,4 +1,4 @@
-"""What the impact hands in for the generated package."""
+"""Modules of the impact for the generated package."""
 
 from pathlib import Path
 
@@ -15,7 +15,7 @@ RUNTIME = Path(__file__).parents[1] / "runtime"
 
 
 def simple_impact_kernels() -> Routines:
-    """The impact by Hertz's law and by its first correction, of single numbers."""
+    """Return the routines of the impact by Hertz's law and by its first correction."""
     title = "An impact by Hertz's law and by its first correction: formulas of single numbers."
     names = [part.name for part in simple.numbers().constants]
     made = tuple(make() for make in simple_laws.ROUTINES)

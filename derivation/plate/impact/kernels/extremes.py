@@ -1,4 +1,4 @@
-"""The extremes of an impact, proved: by Hertz's law, and as shares of these."""
+"""Largest values of an impact, proved: by Hertz's law, and relative to these."""
 
 import sympy as sp
 
@@ -15,7 +15,7 @@ share, lift, modulus = sp.symbols("share lift modulus", positive=True)
 
 @named
 def peak_shares() -> Claims:
-    """Largest indentation and force over those by Hertz's law, by the share of its radius."""
+    """Return largest indentation and force over those by Hertz's law, by the ratio of the radii."""
     return Claims(
         (share, lift),
         (),
@@ -30,7 +30,7 @@ def peak_shares() -> Claims:
 
 @named
 def hertz_impact() -> Claims:
-    """Largest radius by Hertz's law; indentation and force as three factors each."""
+    """Return the largest radius by Hertz's law; indentation and force as three factors each."""
     one, brought = sp.Integer(1), (sp.Rational(5, 4), m, v0, v0)
     radius = sp.Symbol("radius", positive=True)
     C = contact_radius().expression / a**3 / R
@@ -59,7 +59,7 @@ def hertz_impact() -> Claims:
 
 @named
 def number_of_energy() -> Claims:
-    """The energy of impact over (4/3) E* h^5/R^2."""
+    """Return the impact energy over (4/3) E* h^5/R^2."""
     number = sp.Symbol("number", positive=True)
     above = sp.Rational(1, 2), m, v0, v0, R, R
     below = mu, modulus, h, h, h, h, h

@@ -25,7 +25,7 @@ MODULUS = contact_radius().expression * R / a**3 / mu
 
 
 def without_scaling(expression: sp.Expr) -> sp.Expr:
-    """Products that stay in the range of doubles as plain ones."""
+    """Return the expression with range-safe products replaced by plain ones."""
 
     def product(first: sp.Expr, *powers: sp.Expr) -> sp.Expr:
         pairs = zip(powers[::2], powers[1::2], strict=True)
@@ -37,7 +37,7 @@ def without_scaling(expression: sp.Expr) -> sp.Expr:
 def root(
     symbol: sp.Symbol, degree: int, factors: tuple[sp.Expr, ...], *divisors: sp.Expr
 ) -> Several:
-    """``symbol = root(degree, factors, divisors)``, which stays in the range of doubles."""
+    """Return ``symbol = root(degree, factors, divisors)``, which stays in the range of doubles."""
     exact = (sp.Mul(*factors) / sp.Mul(*divisors)) ** sp.Rational(1, degree)
     below = (sp.Tuple(*divisors),) if divisors else ()
     return Several((symbol,), "root", (sp.Integer(degree), sp.Tuple(*factors), *below), (exact,))
@@ -45,7 +45,7 @@ def root(
 
 @named
 def eps_over() -> Claims:
-    """sqrt(R delta)/h over a radius of convergence."""
+    """Return sqrt(R delta)/h over a radius of convergence."""
     eps = sp.Symbol("eps", positive=True)
     return Claims(
         (delta, R, h, radius),
@@ -58,7 +58,7 @@ def eps_over() -> Claims:
 
 @named
 def size_of_eps() -> Claims:
-    """|sqrt(R delta)/h| where |A| is that of a circle; F may be complex."""
+    """Return |sqrt(R delta)/h| for A on a circle; F may be complex."""
     depth = contact_split()[0].expression.subs(a, a_ratio * h) * (1 + F)
     return Claims(
         (circle, F),
@@ -71,7 +71,7 @@ def size_of_eps() -> Claims:
 
 @named
 def lagrange() -> Claims:
-    """The power of 1 + F whose coefficient of A^n makes p_n, and by what factor."""
+    """Return the power of 1 + F whose coefficient of A^n gives p_n, and the factor."""
     exponent, factor = -(n + 3) / 2, 3 / (n + 3)
     prove(
         "Coefficients of the reversed series",
@@ -88,7 +88,7 @@ def lagrange() -> Claims:
 
 @named
 def force_of_bracket() -> Claims:
-    """Hertz's force times the bracket; `modulus` is (4/3) E*/mu."""
+    """Return Hertz's force times the bracket; `modulus` is (4/3) E*/mu."""
     hertz = {f.name: f.expression for f in force_formulas()}["P_half"]
     length = sp.Symbol("length", positive=True)
     return Claims(
@@ -105,7 +105,7 @@ ROUTINES = eps_over, size_of_eps, lagrange, force_of_bracket
 
 
 def reversed_kernels() -> Routines:
-    """The reversed series, printed from proven expressions."""
+    """Return the routines of the reversed series, printed from proved expressions."""
     title = "Force over indentation by the reversed series."
     made = tuple(make() for make in ROUTINES)
     return Routines("reversed_kernels", title, made, {"ranges": ("root", "times")})

@@ -1,6 +1,6 @@
-"""An impact by the contact law alone, proved.
+"""Impact by the contact law alone, proved equal to that of the theory.
 
-With D_n as in the theory, q = a/a_m and E the work over C a^5, the code knows of each contact
+With D_n as in the theory, q = a/a_m and E the work over C a^5, the code computes for each contact
 
     lift = 1 + F = sum D_n q^(n-2),   slope = A F' = sum (n - 2) D_n q^(n-2),
     quotient = (1 - W(q)/W(1))/(1 - q),   W(q) = sum n D_n/(n + 3) q^(n+3).
@@ -33,26 +33,26 @@ added, goal, known, mean, left, short, rise = sp.symbols(
 
 
 NUMBERS = orders()
-"""The n of the D_n that the proofs carry."""
+"""Indices n of the D_n in the proofs."""
 
 
 def lifted(at: sp.Expr) -> sp.Expr:
-    """1 + F."""
+    """Return 1 + F."""
     return sp.Add(*(weight(n) * at ** (n - 2) for n in NUMBERS))
 
 
 def sloped(at: sp.Expr) -> sp.Expr:
-    """A F'."""
+    """Return A F'."""
     return at * sp.diff(lifted(s), s).subs(s, at)
 
 
 def work(at: sp.Expr) -> sp.Expr:
-    """The work up to q, over C a_m^5."""
+    """Return the work up to q, over C a_m^5."""
     return sp.integrate(sp.expand(s**3 * sp.diff(s**2 * lifted(s), s)), (s, 0, at))
 
 
 def _left(at: sp.Expr) -> sp.Expr:
-    """(W(1) - W(q))/(1 - q)."""
+    """Return (W(1) - W(q))/(1 - q)."""
     return sp.cancel((work(sp.Integer(1)) - work(at)) / (1 - at))
 
 
@@ -64,12 +64,12 @@ SHAPE: Facts = {
     whole: lifted(sp.Integer(1)),
     energy: WHOLE,
 }
-"""What the code knows of a point of an impact."""
+"""Quantities in the code at one point of an impact."""
 
 
 @named
 def shapes() -> Claims:
-    """(1 + F)/(1 + F_m), d(delta/delta_m)/dq and (1 - E/E_m)/(1 - q)."""
+    """Return (1 + F)/(1 + F_m), d(delta/delta_m)/dq and (1 - E/E_m)/(1 - q)."""
     return Claims(
         (q, lift, slope, quotient, whole, energy),
         (),
@@ -85,7 +85,7 @@ def shapes() -> Claims:
 
 @named
 def time_density() -> Claims:
-    """dt/dw in units of delta_m/v0, w = 1 - sqrt(1 - q)."""
+    """Return dt/dw in units of delta_m/v0, w = 1 - sqrt(1 - q)."""
     at = 1 - u_t**2
     meaning: Facts = {
         rate: sp.diff(s**2 * lifted(s), s).subs(s, at) / lifted(sp.Integer(1)),
@@ -97,7 +97,7 @@ def time_density() -> Claims:
 
 @named
 def near_quotient() -> Claims:
-    """(E_near - E)/((1 - s) A_near^5) by the first of the tails, and the sum of all others."""
+    """Return (E_near - E)/((1 - s) A_near^5) from the first of the tails, and the sum of others."""
     first, rest, cube, fourth = sp.symbols("first rest cube fourth", positive=True)
     shares = [sp.Rational(n, n + 3) * weight(n) for n in NUMBERS[1:]]
     tails = [sp.Add(*shares[k:]) for k in range(len(shares))]
@@ -120,7 +120,7 @@ def near_quotient() -> Claims:
 
 @named
 def work_share() -> Claims:
-    """What D_n adds to the work, over D_n."""
+    """Return the contribution of D_n to the work, over D_n."""
     n = sp.Symbol("n", positive=True)
     claim = sp.integrate(s ** (n + 2), (s, 0, 1)) * n
     return Claims((n,), (), (n / (n + 3),), (claim,), {})
@@ -128,7 +128,7 @@ def work_share() -> Claims:
 
 @named
 def whole_work() -> Claims:
-    """E/A^5 by what the plate adds to Hertz's."""
+    """Return E/A^5 from the plate's contribution in addition to Hertz's."""
     return Claims(
         (extra,), (), (extra + sp.Rational(2, 5),), (WHOLE,), {extra: WHOLE - work_of_contact(0)}
     )
@@ -136,7 +136,7 @@ def whole_work() -> Claims:
 
 @named
 def share_of_work() -> Claims:
-    """A over Hertz's radius, by what the plate adds to E/A^5 at A."""
+    """Return A over Hertz's radius, from the plate's contribution to E/A^5 at A."""
     return Claims(
         (extra,),
         (),
@@ -147,18 +147,18 @@ def share_of_work() -> Claims:
 
 
 def _in_radius(expression: sp.Expr, at: sp.Expr = A) -> sp.Expr:
-    """D_n as c_(n-2) A^(n-2), by the symbols of D_n at A = 1."""
+    """Return the expression with D_n = c_(n-2) A^(n-2); the symbols of D_n hold at A = 1."""
     return expression.subs({weight(n): weight(n) * at ** (n - 2) for n in NUMBERS[1:]})
 
 
 ENERGY = A**5 * _in_radius(WHOLE)
-"""The work up to A, over (4/3) E* h^5/R^2."""
+"""Work up to A, over (4/3) E* h^5/R^2."""
 DENSITY = A * sp.diff(ENERGY, A) / A**5
 
 
 @named
 def deeper_step() -> Claims:
-    """The work over that at A, less 1, and by what share of itself A is to grow."""
+    """Return the work over that at A, minus 1, and the relative increase of A in the step."""
     residual, exponent = sp.symbols("residual exponent", positive=True)
     missing = work_of_contact(0) * A_h**5 / ENERGY - 1
     power = ENERGY / (A * sp.diff(ENERGY, A))
@@ -181,7 +181,7 @@ def deeper_step() -> Claims:
 
 @named
 def work_density() -> Claims:
-    """P d delta/dq over C a_m^5."""
+    """Return P d delta/dq over C a_m^5."""
     return Claims(
         (q, F, slope),
         (Let(square, q**2),),
@@ -198,7 +198,7 @@ _E_m = sp.Symbol("E_m", positive=True)
 
 @named
 def far_quotient() -> Claims:
-    """(E_m - E)/((1 - q) A^5) by the same up to the first polynomial's end, q = ratio."""
+    """Return (E_m - E)/((1 - q) A^5) from its value at the first polynomial's end, q = ratio."""
     return Claims(
         (quotient, short, left, ratio, rise),
         (),
@@ -215,7 +215,7 @@ def far_quotient() -> Claims:
 
 @named
 def work_beyond() -> Claims:
-    """(E - E_near)/A^5 by the mean of the work's density between A_near/A and 1."""
+    """Return (E - E_near)/A^5 from the mean of the work's density between A_near/A and 1."""
     return Claims(
         (A, near, mean),
         (),
@@ -227,7 +227,7 @@ def work_beyond() -> Claims:
 
 @named
 def far_work() -> Claims:
-    """E by that at A_near, and by what it rises to A over A^5."""
+    """Return E from its value at A_near and its increase up to A over A^5."""
     return Claims(
         (known, A, rise),
         (),
@@ -239,7 +239,7 @@ def far_work() -> Claims:
 
 @named
 def far_step() -> Claims:
-    """A^5, the work that is missing over it, and by what share of itself A is to grow."""
+    """Return A^5, the missing work over it, and the relative increase of A in the step."""
     residual, fifth = sp.symbols("residual fifth", real=True)
     claim = (goal - ENERGY) / A**5
     plain = _in_radius(lifted(sp.Integer(1))) - 1
@@ -255,7 +255,7 @@ def far_step() -> Claims:
 
 @named
 def far_whole() -> Claims:
-    """E/A^5 by that at A_near = ratio A, and what is added over A^5."""
+    """Return E/A^5 from that at A_near = ratio A and the added work over A^5."""
     return Claims(
         (inner, ratio, added),
         (),
@@ -267,7 +267,7 @@ def far_whole() -> Claims:
 
 @named
 def state() -> Claims:
-    """Indentation, velocity and force over their largest values; v is sqrt(1 - q)."""
+    """Return indentation, velocity and force over their largest values; v is sqrt(1 - q)."""
     root_left = sp.Symbol("v", positive=True)
     return Claims(
         (q, root_left, lift, quotient),
@@ -309,7 +309,7 @@ ROUTINES = (
 
 
 def impact_kernels() -> Routines:
-    """An impact by the contact law, printed from proven expressions."""
+    """Return the routines of an impact by the contact law, printed from proved expressions."""
     title = "An impact by the contact law: shapes over its course, and its extremes."
     made = tuple(make() for make in ROUTINES)
     imports = {"ranges": ("product", "root", "root_factors")}

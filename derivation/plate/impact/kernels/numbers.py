@@ -1,4 +1,4 @@
-"""The numbers that the generated code of the impact needs."""
+"""Constants for the generated code of the impact."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ from derivation.plate.contact.kernels.tables import IMPACT_NODES, INNER_NODES, g
 
 
 def impact_numbers() -> Numbers:
-    """Gauss' rules, and the errors of a contact time as committed."""
+    """Return Gauss' rules, and the committed errors of the contact time."""
     (nodes, weights), (inner_nodes, inner_weights) = (
         tuple(np.array(part) for part in gauss_legendre(count))
         for count in (IMPACT_NODES, INNER_NODES)

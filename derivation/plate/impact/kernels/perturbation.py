@@ -1,8 +1,9 @@
 """Formulas of the paper's own motion, proved.
 
-In units of the linear motion's rate and largest indentation, s = delta_0/delta_max, all of (15)
-to (18) depends on one number, excess = -(radicand of (17), (18) where that motion turns)/v0^2.
-The radicand vanishes at s = last; s = last x^3, x = 1 - u^2 makes the integrals of (16) smooth.
+In units of the linear motion's rate and largest indentation, s = delta_0/delta_max, equations (15)
+to (18) depend on one parameter, excess = -(radicand of (17), (18) at that motion's turning
+point)/v0^2. The radicand vanishes at s = last; s = last x^3, x = 1 - u^2 makes the integrals
+of (16) smooth.
 """
 
 import sympy as sp
@@ -47,28 +48,28 @@ PLACE: Facts = {
     u: sp.sqrt(1 - _q / (1 + _q)),
     excess: (1 - (_p / (1 + _p)) ** 2) / (_p / (1 + _p)) ** sp.Rational(8, 3),
 }
-"""Any positive p, q are a point of the motion; 1 = last^2 + excess last^(8/3) gives the excess."""
+"""Any p, q > 0 are a point of the motion; excess follows from 1 = last^2 + excess last^(8/3)."""
 
 
 def _rate() -> sp.Expr:
-    """Angular frequency of the linear motion."""
+    """Return the angular frequency of the linear motion."""
     (wave,) = linear_motion().expression.atoms(sp.sin)
     return wave.args[0] / t
 
 
 def _peak() -> sp.Expr:
-    """Largest indentation of the linear motion."""
+    """Return the largest indentation of the linear motion."""
     return linear_motion().expression.subs(sp.sin(_rate() * t), 1)
 
 
 def _number() -> sp.Expr:
-    """The radicand where the linear motion turns, over -v0^2."""
+    """Return the radicand at the turning point of the linear motion, over -v0^2."""
     return -linearisation()[2].expression / v0**2
 
 
 @named
 def linear() -> Claims:
-    """Indentation by the linear term, (15)."""
+    """Return the indentation by the linear term, (15)."""
     return Claims(
         (t, *MOTION), (), (linear_motion().expression,), (linear_motion().expression,), {}
     )
@@ -76,7 +77,7 @@ def linear() -> Claims:
 
 @named
 def turning_point() -> Claims:
-    """Contact time and largest indentation of the linear motion, (15)."""
+    """Return contact time and largest indentation of the linear motion, (15)."""
     return Claims(
         MOTION,
         (Let(over, m / xi_k[2]),),
@@ -88,13 +89,13 @@ def turning_point() -> Claims:
 
 @named
 def excess_at_turn() -> Claims:
-    """Radicand of (17), (18) at the linear motion's turning point, over -v0^2."""
+    """Return the radicand of (17), (18) at the linear motion's turning point, over -v0^2."""
     return Claims((*MOTION, xi_k[3]), (), (_number(),), (_number(),), {})
 
 
 @named
 def end_of_radicand() -> Claims:
-    """The radicand over -v0^2 at s^2 = y^3, and how it grows with y."""
+    """Return the radicand over -v0^2 at s^2 = y^3, and its derivative by y."""
     cube = sp.Symbol("cube", positive=True)
     claim = -(formal_speed_squared() / v0**2).subs(delta, _peak() * y ** sp.Rational(3, 2))
     return Claims(
@@ -108,7 +109,7 @@ def end_of_radicand() -> Claims:
 
 @named
 def cosine_at_end() -> Claims:
-    """sqrt(1 - s^2) at s = last, by the radicand, also where s is almost 1."""
+    """Return sqrt(1 - s^2) at s = last from the radicand, also where s is almost 1."""
     return Claims(
         (excess, last),
         (),
@@ -120,7 +121,7 @@ def cosine_at_end() -> Claims:
 
 @named
 def integrands() -> Claims:
-    """-F dt/du of (17), and -G dt/du of (18) over the largest indentation."""
+    """Return -F dt/du of (17), and -G dt/du of (18) over the largest indentation."""
     F, G, _ = (formula.expression for formula in linearisation())
     coefficient = xi_k[3] * PLACE[excess] / _number()
     inner = PLACE[last] * (_q / (1 + _q)) ** 3
@@ -156,14 +157,14 @@ def integrands() -> Claims:
 
 @named
 def radius_cubed() -> Claims:
-    """a^3/P by (7)."""
+    """Return a^3/P by (7)."""
     value = a**3 / contact_radius().expression
     return Claims((R, lam, mu), (), (value,), (value,), {})
 
 
 @named
 def shares() -> Claims:
-    """One mode's shares of gamma_2 and gamma_3 of (10), by K_j and a/P^(1/3)."""
+    """Return one mode's terms of gamma_2 and gamma_3 of (10), from K_j and a/P^(1/3)."""
     values = tuple(mode_share(k) for k in (2, 3))
     return Claims(
         (phi, K, ratio),
@@ -175,14 +176,14 @@ def shares() -> Claims:
 
 
 def mode_share(k: int) -> sp.Expr:
-    """One mode's share of gamma_k in K_j = K and a/P^(1/3) = ratio."""
+    """Return one mode's term of gamma_k in K_j = K and a/P^(1/3) = ratio."""
     share = printed_term(k) / contact_law()[0].expression
     return K * sp.powsimp(share.subs(a, ratio * P ** sp.Rational(1, 3)), force=True)
 
 
 @named
 def coefficients() -> Claims:
-    """xi_2, and xi_3 as derived and as printed, of (10)."""
+    """Return xi_2, and xi_3 as derived and as published, of (10)."""
     derived = {f.name: f.expression for f in formal_coefficients()}
     printed = {p.name: p.expression for p in PRINTED_MOTION}
     values = derived["xi_2"], derived["xi_3"], printed["xi_3"]
@@ -201,13 +202,13 @@ OF_ONE_MOTION = (
 
 
 def perturbation_kernels() -> Routines:
-    """The paper's own motion, printed from proven expressions."""
+    """Return the routines of the paper's own motion, printed from proved expressions."""
     title = "The paper's own motion, (10) and (14) to (18)."
     return Routines("perturbation_kernels", title, tuple(make() for make in ROUTINES), {})
 
 
 def motion_kernels() -> Routines:
-    """Its numbers: of one motion at a time."""
+    """Return the routines for the constants of a single motion."""
     title = "Numbers of the paper's own motion, (10) and (15) to (18)."
     made = tuple(make() for make in OF_ONE_MOTION)
     return Routines("motion_kernels", title, made, {}, QUIET_SCALARS)

@@ -1,8 +1,8 @@
-"""Constants of the impact by simple laws, and of the bounds of what these leave out.
+"""Constants of the impact by simple laws, and bounds of the error of these laws.
 
-`theory.substitution` shows 1 + 3/2 c_1 A - K_3 A^3 <= S <= 1 + 3/2 c_1 A. For 1/eta up to THIN
-both c_1 and K_3 are sums over a few modes; beyond it they are the thin plate's closed forms
-less sums over roots with a proven bound. Every constant is a ball; bounds are rounded up.
+`theory.substitution` shows 1 + 3/2 c_1 A - K_3 A^3 <= S <= 1 + 3/2 c_1 A. For 1/eta up to THIN both
+c_1 and K_3 are sums over a few modes; for larger 1/eta they are the thin plate's closed forms minus
+sums over roots with a proved bound. Every constant is a ball; bounds are rounded up.
 """
 
 import math
@@ -36,13 +36,13 @@ from derivation.plate.impact.theory.substitution import (
 from derivation.plate.vocabulary import u_t
 
 THIN = 6
-"""1/eta from which on the roots' share, like e^(-pi/eta), is left out."""
+"""1/eta from which on the contribution of the roots, like e^(-pi/eta), is omitted."""
 FADED = 18
-"""T = 2 eta j_n beyond which modes are left out, for 1/eta <= THIN."""
+"""T = 2 eta j_n above which modes are omitted, for 1/eta <= THIN."""
 
 
 def numbers() -> Numbers:
-    """What the generated simple impacts need: modes, Gauss' rule, constants and bounds."""
+    """Return the constants of the generated simple impacts: modes, Gauss' rule, bounds."""
     # T_n = 2 eta j_n > FADED for n beyond these, for every 1/eta <= THIN.
     count = math.ceil(FADED * THIN / (2 * math.pi) + 0.25)
     if not 2 * zero_of_j0(count, 64) > FADED * THIN:
@@ -84,7 +84,7 @@ def numbers() -> Numbers:
 
 
 def _rule() -> tuple[tuple[float, ...], ...]:
-    """The rows that `simple_laws` says."""
+    """Return the rows that `simple_laws` defines."""
     nodes, weights = gauss_legendre(IMPACT_NODES)
     return tuple(
         tuple(nearest_double(evaluate(part, {u_t: u, gauss: weight})) for part in ROW)
@@ -93,34 +93,34 @@ def _rule() -> tuple[tuple[float, ...], ...]:
 
 
 def above(bound: Ball) -> float:
-    """A short number above a bound: 0.1 % is more than four digits' rounding, 0.05 %."""
+    """Return a short number above a bound: 0.1 % exceeds the rounding to four digits, 0.05 %."""
     return float(f"{1.001 * float(bound.abs_upper()):.4g}")
 
 
 def _wall(share: sp.Expr, index: int) -> Ball:
-    """What the side wall takes from a coefficient, over the power of eta."""
+    """Return the reduction of a coefficient by the finite radius, over the power of eta."""
     (kappa_n,) = share.free_symbols
     return evaluate(share / kappa_n, {}) * kappa_ball(index)
 
 
 def _cubic(coefficient: Ball) -> Ball:
-    """What a coefficient of A^3 in the law is in its slope."""
+    """Return the contribution to the slope of a coefficient of A^3 in the law."""
     return coefficient * int(CUBIC.p) / int(CUBIC.q)
 
 
 def _roots(k: int) -> Ball:
-    """C of |roots' share of c_(2k-3)| <= C e^(-pi/eta) for 1/eta >= THIN."""
+    """Return C, where the roots' part of c_(2k-3) is at most C e^(-pi/eta) for 1/eta >= THIN."""
     decay = (-Ball.pi() * THIN).exp()
     later = sum((Ball(n) ** (2 * k - 4) * decay ** (n - 1) for n in range(1, 40)), Ball(0))
-    # From n = 40 on terms fall by far more than half.
+    # From n = 40 on each term is far below half of the previous one.
     return roots_bound(k) * (later + 2 * Ball(40) ** (2 * k - 4) * decay**39)
 
 
 def _faded(power: int) -> Ball:
-    """Bound of the sum of w_n T_n^power over the modes with T_n >= FADED, 1/eta <= THIN.
+    """Return a bound of the sum of w_n T_n^power over the modes with T_n >= FADED, 1/eta <= THIN.
 
-    w_n = (G - 1)/(j_n J1^2) with 1/(j_n J1^2) < 2 and G - 1 <= 16 T^2 e^(-2T) for T >= 2;
-    T^4 e^(-2T) falls there, and neighbours are at least 2 eta 3 >= 6/THIN apart.
+    w_n = (G - 1)/(j_n J1^2) with 1/(j_n J1^2) < 2 and G - 1 <= 16 T^2 e^(-2T) for T >= 2; T^4
+    e^(-2T) decreases there, and successive T_n differ by at least 2 eta 3 >= 6/THIN.
     """
     gap = Ball(6) / THIN
     steps = [FADED + gap * n for n in range(60)]

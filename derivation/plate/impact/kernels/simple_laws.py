@@ -1,4 +1,4 @@
-"""An impact by Hertz's law and by its first correction: formulas of single numbers, proved."""
+"""Impact by Hertz's law and by its first correction: proved formulas of single numbers."""
 
 import sympy as sp
 
@@ -50,13 +50,13 @@ fall, rise = sp.symbols("fall rise", nonnegative=True)
 
 
 def slope_share(power: int) -> sp.Rational:
-    """What c A^power of delta R/a^2 is in (R/2a) d delta/da, over c A^power."""
+    """Return the factor of c A^power in (R/2a) d delta/da, for a term c A^power of delta R/a^2."""
     return sp.diff(A ** (power + 2), A) / (2 * A ** (power + 1))
 
 
 CUBIC = slope_share(3)
 wall_linear, wall_cubic = (-coefficient(k).by_plate_radius[1] for k in (2, 3))
-"""What the side wall takes from c_1 and from c_3, over the power of eta."""
+"""Reductions of c_1 and c_3 by the finite radius, over the power of eta."""
 MEANING: Facts = {
     WALL: wall_linear,
     WALL_CUBIC: WALL_REST - CUBIC * wall_cubic,
@@ -64,21 +64,21 @@ MEANING: Facts = {
     THIN_CUBIC: -CUBIC * thin_coefficient(3).expression.subs(eta, 1),
     HERTZ_TIME: hertz_time().expression,
 }
-"""What the numbers of the module are, but for bounds."""
+"""Meaning of the module's constants, except bounds."""
 _q = 1 - u_t**2
 ROW = (_q, 6 * geometric(5, _q), 5 * geometric(6, _q), 8 * _q * gauss)
-"""A row of the rule: q = a/a_m at a node, sums of its powers, and 8 q times the weight."""
+"""A row of Gauss' rule: q = a/a_m at a node, sums of its powers, and 8 q times the weight."""
 
 
 def most(c_1: sp.Expr, radius: sp.Expr) -> sp.Expr:
-    """S_1 = 1 + 3/2 c_1 A."""
+    """Return S_1 = 1 + 3/2 c_1 A."""
     found: sp.Expr = one_sided().expression.subs({c_A[1]: c_1, a_ratio: radius})
     return found
 
 
 @named
 def thick_plate() -> Claims:
-    """c_1, the size of its parts, K_3; what modes that are not among j_n, 1/(j_n J1^2) add."""
+    """Return c_1, the size of its parts, K_3, and the contributions of omitted modes."""
     rows, zero, weight, fade, lack, share, linear, cubic = sp.symbols(
         "modes zero weight fade lack share linear cubic", positive=True
     )
@@ -130,7 +130,7 @@ def thick_plate() -> Claims:
 
 @named
 def thin_plate() -> Claims:
-    """c_1 and K_3 of a thin plate for 1/eta = v but for the roots' shares; how these fade."""
+    """Return c_1 and K_3 of a thin plate for 1/eta = v without the roots' part, and its decay."""
     logarithm = sp.Symbol("logarithm", real=True)
     claim = -CUBIC * (thin_coefficient(3).expression - coefficient(3).side)
     return Claims(
@@ -149,7 +149,7 @@ def thin_plate() -> Claims:
 
 @named
 def sphere() -> Claims:
-    """E*, twice the energy brought, and the fifth power of Hertz's largest radius."""
+    """Return E*, twice the initial kinetic energy, the fifth power of Hertz's largest radius."""
     energy = sp.Symbol("energy", positive=True)
     C = contact_radius().expression / a**3 / R
     brought = energy_number().expression * energy_scale().subs(E, reduced_modulus())
@@ -164,7 +164,7 @@ def sphere() -> Claims:
 
 @named
 def hertz_bounds() -> Claims:
-    """How much S at A may be below 1, and above."""
+    """Return how much S at A may be below 1, and above 1."""
     upper, lower = most(bend + bend_error, A), most(bend - bend_error, A) - rest * A**3
     factor = sp.Symbol("factor", positive=True)
     return Claims(
@@ -178,13 +178,13 @@ def hertz_bounds() -> Claims:
 
 @named
 def steepness() -> Claims:
-    """S_1 - 1 at A."""
+    """Return S_1 - 1 at A."""
     return Claims((bend, A), (), (3 * bend * A / 2,), (most(bend, A) - 1,), {})
 
 
 @named
 def leading_bounds() -> Claims:
-    """Over S_1 at A: what an error of c_1 changes, and K_3 A^3; and d log S_1/d log A."""
+    """Return changes over S_1 at A, by an error of c_1 and by K_3 A^3; and d log S_1/d log A."""
     whole = sp.Symbol("whole", positive=True)
     law = most(bend, A)
     meaning: Facts = {steep: law - 1}
@@ -198,19 +198,19 @@ def leading_bounds() -> Claims:
 
 
 def _work(c_1: sp.Expr) -> sp.Expr:
-    """The work up to A over that by Hertz's law."""
+    """Return the work up to A over that by Hertz's law."""
     return sp.expand(work_of_contact(1) / work_of_contact(0)).subs(D[3], c_1)
 
 
 @named
 def beside_hertz() -> Claims:
-    """What the first correction adds to the work up to Hertz's largest A, over that."""
+    """Return the first correction's relative contribution to the work up to Hertz's largest A."""
     return Claims((bend, over_h), (), (5 * bend * over_h / 4,), (_work(bend * over_h) - 1,), {})
 
 
 @named
 def share_step() -> Claims:
-    """Excess work up to s times Hertz's radius, and how it grows; y by `beside_hertz`."""
+    """Return the excess work up to s times Hertz's radius, its derivative; y by `beside_hertz`."""
     fourth, inner = sp.symbols("fourth inner", real=True)
     work = s**5 * _work(s * sp.Symbol("z", real=True))
     z = 4 * y / 5
@@ -226,7 +226,7 @@ def share_step() -> Claims:
 
 @named
 def leading_time() -> Claims:
-    """Contact time by Gauss' rule; x is S_1 - 1 at the largest radius a."""
+    """Return the contact time by Gauss' rule; x is S_1 - 1 at the largest radius a."""
     q, fifth, sixth, weight, total = sp.symbols("q fifth sixth weight total", positive=True)
     whole = 6 + 5 * x
     sums = Sums(
@@ -249,7 +249,7 @@ def leading_time() -> Claims:
 
 @named
 def hertz_peaks() -> Claims:
-    """Contact time, indentation and force on a half-space at the largest contact radius."""
+    """Return contact time, indentation and force on a half-space at the largest contact radius."""
     law = a**2 / R
     return Claims(
         (a, R, v0, modulus),
@@ -262,7 +262,7 @@ def hertz_peaks() -> Claims:
 
 @named
 def peaks() -> Claims:
-    """Indentation and force at a contact radius; bent is c_1 A."""
+    """Return indentation and force at a contact radius; bent is c_1 A."""
     bent = sp.Symbol("bent", real=True)
     law = small_contact().expression.subs({c: 0 for n, c in c_A.items() if n > 1})
     return Claims(
@@ -276,7 +276,7 @@ def peaks() -> Claims:
 
 @named
 def elasticities() -> Claims:
-    """How fast work, indentation and contact time change with the largest radius."""
+    """Return logarithmic derivatives of work, indentation and time by the largest radius."""
     found = exponents(fall, rise)
     return Claims(
         (fall, rise), (), tuple(found.values()), tuple(exponents(fall, rise).values()), {}

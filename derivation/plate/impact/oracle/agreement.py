@@ -1,4 +1,4 @@
-"""Both oracles of the contact law side by side: neither is believed before they agree."""
+"""Compares both reference methods of the contact law: a value is used only if both agree."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -14,13 +14,13 @@ from derivation.plate.contact.route import residue_law
 from derivation.plate.impact.oracle import impact as contact_impact
 
 SPARE = 2
-"""Digits asked of the first oracle beyond those the two must share."""
+"""Additional digits of the Arb reference, beyond those to which both methods must agree."""
 
 
 class Agreement(NamedTuple):
-    """What both oracles say: the first one's balls, and to how many digits the second repeats it.
+    """A reference value: the Arb balls, and the number of digits to which mpmath agrees.
 
-    The digits count the balls' own width too: they are a lower bound.
+    The number of digits includes the radii of the balls and is a lower bound.
     """
 
     values: tuple[arb, ...]
@@ -38,19 +38,19 @@ FIRST: Mapping[str, Callable[..., Any]] = {
     "max_pressure": contact_forces.max_pressure,
     "impact": contact_impact.impact,
 }
-"""Oracle 1, in ball arithmetic."""
+"""Arb reference, in ball arithmetic."""
 
 SECOND: dict[str, Callable[..., Any]] = {name: getattr(residue_law, name) for name in FIRST}
-"""Oracle 2, by residues."""
+"""mpmath reference, by residues."""
 
 
 def agree(name: str, arguments: Sequence[float], digits: int = 40) -> Agreement:
-    """What both oracles give for a quantity.
+    """Return the results of both methods for a quantity.
 
     Raises
     ------
     OracleError
-        If they differ by more than 10^-digits.
+        If the results differ by more than 10^-digits.
     """
     balls = _several(FIRST[name](*arguments, digits=digits + SPARE))
     others = _several(SECOND[name](*arguments, digits=digits))
@@ -60,7 +60,7 @@ def agree(name: str, arguments: Sequence[float], digits: int = 40) -> Agreement:
             apart = (abs(ball - to_ball(other)) / abs(ball)).abs_upper()
             if not apart <= arb(10) ** -digits:
                 raise OracleError(f"{name} at {tuple(arguments)}: {ball} against {other}")
-            # Both may give the same exact number.
+            # Both results may be the same exact number.
             shared = min(shared, -math.log10(max(float(apart), 1e-99)))
     return Agreement(balls, shared)
 

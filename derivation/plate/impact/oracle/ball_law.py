@@ -1,7 +1,7 @@
-"""Oracle 1's law of a plate: a power series where that is possible and quicker, else integrals.
+"""A plate's law for the Arb reference: a power series if possible and faster, else integrals.
 
-Seconds are those measured on one idle core of the kind this was written on: right within
-a factor of two or three elsewhere, which is enough to choose and to announce.
+Run times were measured on one idle core. On other processors they are accurate within a factor of
+two or three, which is sufficient for the choice and for the announced time.
 """
 
 import math
@@ -18,60 +18,60 @@ from derivation.plate.contact.oracle.balls import modulus, ratio_of, settle
 from derivation.plate.contact.oracle.sums import excess, excess_bound, hankel_bound
 
 Tell = Callable[[str, int, int], None]
-"""Wants to be told what is being done, which part of it, and of how many."""
+"""Called with the current task, the index of the current part, and the number of parts."""
 
 
 class BallLaw(Protocol):
-    """What a plate adds to Hertz's law up to a/b = `reach`, at the precision now set."""
+    """The plate's correction of Hertz's law up to a/b = `reach`, at the current precision."""
 
     @property
     def reach(self) -> arb:
-        """Largest a/b [1] served."""
+        """Largest a/b [1] for which the law can be evaluated."""
 
     def excess(self, name: str, alpha: arb) -> arb:
-        """See `contact.oracle.sums.excess`; alpha = a/b [1]."""
+        """Return `contact.oracle.sums.excess` at alpha = a/b [1]."""
 
     def slope(self, alpha: arb) -> tuple[flint.arb_poly, arb]:
-        """Exact coefficients of p(t), and a bound of p's error on [0, 1].
+        """Return exact coefficients of p(t), and a bound of p's error on [0, 1].
 
         (R/2a) d delta/da = 1 + q p(q^2) at a = q alpha b.
         """
 
 
 class Integrals(NamedTuple):
-    """The law of a plate of h/b = eta by the integrals of `sums`, whatever the contact."""
+    """The law of a plate of h/b = eta by the integrals of `sums`, for any contact."""
 
     eta: Fraction
 
     @property
     def reach(self) -> arb:
-        """The plate's edge."""
+        """Return the edge of the plate, alpha = 1."""
         return arb(1)
 
     def excess(self, name: str, alpha: arb) -> arb:
-        """See `contact.oracle.sums.excess`."""
+        """Return `contact.oracle.sums.excess`."""
         return excess(name, alpha, self.eta)
 
     def slope(self, alpha: arb) -> tuple[flint.arb_poly, arb]:
-        """See `BallLaw.slope`."""
+        """Return the same as `BallLaw.slope`."""
         return _slope_polynomial(alpha, self.eta)
 
 
 def law_of(
     eta: Fraction, reach: float, digits: int, tell: Tell = lambda *_: None
 ) -> Callable[[int], BallLaw]:
-    """Oracle 1's law at so many bits: a power series where that is possible and quicker.
+    """Return the law of the Arb reference: a power series if possible and faster.
 
     Parameters
     ----------
     eta
         h/b [1].
     reach
-        Largest a/b [1] asked for.
+        Largest a/b [1] at which it is evaluated.
     digits
-        Digits, which decide what is quicker.
+        Number of digits, which determines the faster method.
     tell
-        Told of every zero of J0.
+        Called for every zero of J0.
     """
     if not by_series(float(eta), reach, digits):
         tell("oracle 1: integrals", 1, 1)
@@ -88,7 +88,7 @@ def law_of(
 def pressed(
     a: float, R: float, b: float, lam: float, mu: float, law: Callable[[int], BallLaw], digits: int
 ) -> tuple[arb, ...]:
-    """Indentation [m] and stiffness [N/m] at a contact radius [m]."""
+    """Return indentation [m] and stiffness [N/m] at a contact radius [m]."""
     alpha = ratio_of(a, b)
 
     def compute(bits: int) -> tuple[arb, arb]:
@@ -100,35 +100,35 @@ def pressed(
 
 
 def by_series(eta: float, reach: float, digits: int) -> bool:
-    """Whether oracle 1 takes the power series."""
+    """Return whether the Arb reference uses the power series."""
     if reach > 4 * contact_points.DEEPEST * eta:
         return False
     return series_seconds(eta, digits) < integrals_seconds(digits)
 
 
 def first_seconds(eta: float, reach: float, digits: int) -> float:
-    """About how long oracle 1 takes [s]."""
+    """Return the approximate run time of the Arb reference [s]."""
     return (
         series_seconds(eta, digits) if by_series(eta, reach, digits) else integrals_seconds(digits)
     )
 
 
 def series_seconds(eta: float, digits: int) -> float:
-    """About how long oracle 1 takes by the power series [s]."""
+    """Return the approximate run time of the power series [s]."""
     modes = contact_points.mode_count(eta, math.ceil(digits * LOG2_10))
     return 0.5 + modes * (3e-4 + 0.02 * (digits / 1000) ** 2) + 50 * (digits / 1000) ** 3
 
 
 def integrals_seconds(digits: int) -> float:
-    """About how long oracle 1 takes in integrals [s]."""
+    """Return the approximate run time of the integrals [s]."""
     return 2 + 220 * (digits / 300) ** 3
 
 
 def _size(alpha: float, eta: float) -> tuple[float, float]:
-    """rho of an ellipse for L[sinc] in q, foci +-1, and half the largest rate it allows.
+    """Return rho of an ellipse for L[sinc] in q, foci +-1, half the largest rate it allows.
 
-    With half-axes A, B: |Im(alpha z)| <= alpha (sqrt(A^2 + 4 B^2) y + B) on the ray, to
-    stay below 1.8 y + ..., and <= alpha B x on the axis, to stay below 3.2 eta x.
+    With half-axes A, B: |Im(alpha z)| <= alpha (sqrt(A^2 + 4 B^2) y + B) on the ray, which must be
+    below 1.8 y + ..., and <= alpha B x on the axis, which must be below 3.2 eta x.
     """
     low, high = 1.0, 1e3
     for _ in range(60):
@@ -140,12 +140,12 @@ def _size(alpha: float, eta: float) -> tuple[float, float]:
 
 
 def _ellipse_bound(alpha: arb, eta: arb, rate: arb) -> arb:
-    """|4 alpha/pi L[sinc]| on that ellipse.
+    """Return a bound of |4 alpha/pi L[sinc]| on that ellipse.
 
-    On the axis for T <= 3 the exponential is below e^4.8 < 122 and the excess at
-    most 180 * 13/T^6; for T >= 3 it is below 4.9 e^(-2T) (1 + T + T^2), which against
-    e^(1.6 T) leaves an integral below 159. On the ray |H/J0| <= 3 e^(-2y) for |z| >= 4,
-    y >= 1; before y = 2 balls bound it, e^4 making up for e^(-2y).
+    On the axis for T <= 3 the exponential is below e^4.8 < 122 and the excess at most 180 * 13/T^6;
+    for T >= 3 it is below 4.9 e^(-2T) (1 + T + T^2), so that the integral with e^(1.6 T) is below
+    159. On the ray |H/J0| <= 3 e^(-2y) for |z| >= 4, y >= 1; for y < 2 it is bounded by balls, with
+    e^4 for e^(-2y).
     """
     pieces = (arb((2 * k + 1) * arb(1) / 200, arb(1) / 200) for k in range(200))
     near = arb(3)
@@ -158,12 +158,12 @@ def _ellipse_bound(alpha: arb, eta: arb, rate: arb) -> arb:
 
 
 def _slope_polynomial(alpha: arb, eta: Fraction) -> tuple[flint.arb_poly, arb]:
-    """Exact coefficients of p(t), where S(q) = 1 + q p(q^2) on [0, 1], and a bound of p's error.
+    """Return exact coefficients of p(t), S(q) = 1 + q p(q^2) on [0, 1], and a bound of p's error.
 
-    L[sinc] is even in alpha, hence analytic in t = q^2 inside an ellipse of
-    parameter rho^2, foci 0 and 1. Interpolation in n + 1 Chebyshev nodes misses at
-    most 4 M rho^(-2n)/(rho^2 - 1), and errors of the values (taken at their
-    midpoints) count (2/pi) log(n + 1) + 1 times (Trefethen, ATAP, 8.2 and 15.2).
+    L[sinc] is even in alpha, hence analytic in t = q^2 inside an ellipse of parameter rho^2, foci 0
+    and 1. The error of interpolation at n + 1 Chebyshev nodes is at most 4 M rho^(-2n)/(rho^2 - 1).
+    Errors of the values (taken at their midpoints) are amplified at most by (2/pi)
+    log(n + 1) + 1 (Trefethen, ATAP, 8.2 and 15.2).
     """
     bits = flint.ctx.prec
     root, rate = _size(float(alpha), float(eta))

@@ -1,12 +1,12 @@
-"""Oracle 1 of the impact: the conservative law's course in ball arithmetic.
+"""Arb reference of the impact: the motion by the conservative law, in ball arithmetic.
 
 With the notation of `contact.oracle.balls` and P = 4 E* a^3/(3 R),
 
     int P d delta = (8 E*/(15 R^2)) a^5 (1 + 20 alpha/pi L[work]),
 
-which gives the largest contact radius a_m. For the time, d delta/da is taken for
-a polynomial on [0, a_m] with a proven error, see `ball_law`; the rest is exact in that
-polynomial, and the root's singularity at a_m is taken away by a = a_m (1 - u^2).
+which gives the largest contact radius a_m. For the time, d delta/da is approximated by a polynomial
+on [0, a_m] with a proved error bound, see `ball_law`. All else is exact for that polynomial; the
+substitution a = a_m (1 - u^2) removes the singularity of the root at a_m.
 """
 
 import math
@@ -23,17 +23,17 @@ from derivation.plate.contact.oracle.sums import excess
 from derivation.plate.impact.oracle.ball_law import BallLaw, Integrals, law_of
 
 _MARGIN = 1 + 2.0**-30
-"""The law is made for contacts larger than the largest by this factor."""
+"""The law is computed for contacts larger than the largest one by this factor."""
 
 _MOTIONS = 256
-"""Largest contacts kept."""
+"""Number of cached largest contacts."""
 
 _PIECES = (16, 256)
-"""Of [0, 1], to show that the slope is positive: few, and more if they do not suffice."""
+"""Numbers of parts of [0, 1] in the proof that the slope is positive, tried in this order."""
 
 
 class ImpactBalls(NamedTuple):
-    """What an impact comes to: balls."""
+    """Results of an impact, as balls."""
 
     contact_time: arb
     max_indentation: arb
@@ -42,7 +42,7 @@ class ImpactBalls(NamedTuple):
 
 
 class Course(NamedTuple):
-    """An impact's polynomials in q = a/a_m, exact ones, and what they may be wrong by.
+    """An impact's exact polynomials in q = a/a_m, with a bound of their error.
 
     With S = (R/2a) d delta/da and H = int_q^1 x^4 S dx/(1 - q), the time from a to
     a_m is scale int_0^u q S/sqrt(H) du, q = 1 - u^2. `doubt` bounds its relative error.
@@ -56,7 +56,7 @@ class Course(NamedTuple):
 
 
 def _spread(polynomial: flint.arb_poly) -> flint.arb_poly:
-    """1 + q p(q^2)."""
+    """Return 1 + q p(q^2)."""
     spread = [arb(1)]
     for term in polynomial.coeffs():
         spread += [term, arb(0)]
@@ -64,10 +64,10 @@ def _spread(polynomial: flint.arb_poly) -> flint.arb_poly:
 
 
 def _doubt(polynomial: flint.arb_poly, error: arb) -> arb:
-    """Bound of the relative error of S and of every integral of it, where p errs by `error`.
+    """Return a bound of the relative error of S and its integrals, if p has the error `error`.
 
-    S errs by q error, and S/q = 1/q + p >= 1 + p: in thin plates, where p is large,
-    nothing is lost against S(0) = 1.
+    The error of S is q error, and S/q = 1/q + p >= 1 + p. Hence the bound is small for thin plates
+    too, where p is large.
     """
     p = flint.acb_poly(polynomial)
     for count in _PIECES:
@@ -80,7 +80,7 @@ def _doubt(polynomial: flint.arb_poly, error: arb) -> arb:
 
 
 def _at(polynomial: flint.acb_poly, q: acb) -> acb:
-    """A polynomial on a ball, around its midpoint unless it is narrow."""
+    """Return a polynomial on a ball, expanded about its midpoint unless the ball is narrow."""
     if max(float(q.real.rad()), float(q.imag.rad())) < 1e-30:
         return polynomial(q)
     middle = q.mid()
@@ -88,7 +88,7 @@ def _at(polynomial: flint.acb_poly, q: acb) -> acb:
 
 
 def _duration(course: Course, u: arb, bits: int) -> arb:
-    """Time between a_m (1 - u^2) and a_m."""
+    """Return the time between a_m (1 - u^2) and a_m."""
 
     def integrand(v: acb, analytic: bool) -> acb:
         q = 1 - v * v
@@ -101,7 +101,7 @@ def _duration(course: Course, u: arb, bits: int) -> arb:
 
 
 def _course(alpha: arb, R: Exact, m: Exact, b: Exact, stiff: arb, law: BallLaw) -> Course:
-    """Polynomials at a largest a/b; `stiff` is C = 4 E*/(3R)."""
+    """Return the polynomials at a largest a/b; `stiff` is C = 4 E*/(3R)."""
     bits = flint.ctx.prec
     bare, error = law.slope(alpha)
     polynomial = _spread(bare)
@@ -114,7 +114,7 @@ def _course(alpha: arb, R: Exact, m: Exact, b: Exact, stiff: arb, law: BallLaw) 
         radius = alpha * to_ball(b)
         scale = 2 * radius**2 / to_ball(R)
         scale *= (to_ball(m) * to_ball(R) / (stiff * radius**5)).sqrt()
-        # Relative errors below d of S and H make one of S/sqrt(H) below 2 d.
+        # Relative errors below d of S and H cause a relative error below 2 d of S/sqrt(H).
         doubt = (3 * _doubt(bare, error)).abs_upper()
         return Course(flint.acb_poly(polynomial), flint.acb_poly(energy), scale, doubt, radius)
 
@@ -123,9 +123,9 @@ def impact(
     R: Exact, m: Exact, v0: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact, digits: int = 40,
     law: Callable[[int], BallLaw] | None = None,
 ) -> ImpactBalls:  # fmt: skip
-    """The conservative impact of a sphere of mass m at speed v0.
+    """Return the conservative impact of a sphere of mass m at speed v0.
 
-    `law` gives the plate's law at so many bits, without it that of `law_for`.
+    `law` returns the plate's law at a given precision in bits; the default is that of `law_for`.
 
     Raises
     ------
@@ -143,7 +143,7 @@ def impact(
 def stored_energy(
     a: Exact, R: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact, digits: int = 40
 ) -> arb:
-    """int P d delta up to a contact radius: m v0^2/2 of the impact that just reaches it."""
+    """Return int P d delta up to a contact radius: m v0^2/2 of the impact that just reaches it."""
     alpha, eta = ratio_of(a, b), ratio_of(h, b)
 
     def compute(_: int) -> tuple[arb]:
@@ -158,7 +158,7 @@ def history(
     R: Exact, m: Exact, v0: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact,
     digits: int = 40,
 ) -> tuple[arb, ...]:  # fmt: skip
-    """Times since first touch at which the growing contact reaches the given radii."""
+    """Return the times since first contact at which the growing contact reaches the given radii."""
     chosen = law_for((R, m, v0, h, b, lam, mu), digits)
 
     def compute(bits: int) -> tuple[arb, ...]:
@@ -168,13 +168,13 @@ def history(
 
 
 def law_for(motion: Sequence[Exact], digits: int) -> Callable[[int], BallLaw]:
-    """The law at so many bits, up to the largest contact of an impact of exact numbers."""
+    """Return a function of the precision: the law up to the largest contact of an exact impact."""
     return law_of(ratio_of(motion[3], motion[4]), reach_of(tuple(motion)), digits)
 
 
 @lru_cache(maxsize=_MOTIONS)
 def reach_of(motion: tuple[Exact, ...]) -> float:
-    """Somewhat above the largest a/b of an impact, and below 1."""
+    """Return a number slightly above the largest a/b of an impact, and below 1."""
     R, m, v0, h, b, lam, mu = motion
     with flint.ctx.workprec(64):
         largest = largest_ratio(R, m, v0, h, b, lam, mu, Integrals(ratio_of(h, b)))
@@ -184,7 +184,7 @@ def reach_of(motion: tuple[Exact, ...]) -> float:
 def largest_ratio(
     R: Exact, m: Exact, v0: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact, law: BallLaw
 ) -> arb:
-    """Largest a/b of an impact, at the precision now set.
+    """Return the largest a/b of an impact, at the current precision.
 
     Raises
     ------
@@ -200,8 +200,8 @@ def largest_ratio(
         return 5 * x**5 * (1 + law.excess("sinc", x)) / here
 
     target = to_ball(m) * to_ball(v0) ** 2 / 4 * 5 * to_ball(R) / stiff / to_ball(b) ** 5
-    # Hertz's, or that of a bent plate, 5 x^6/(16 pi eta^3) = target, if it is smaller.
-    # Roots are taken of the ball: of a slow impact no double holds the target.
+    # Hertz's radius, or that of bending alone, 5 x^6/(16 pi eta^3) = target, if it is smaller.
+    # Roots are those of balls: for a slow impact the target is below the range of doubles.
     bent = (3.2 * math.pi) ** (1 / 6) * float(target.root(6)) * float(eta) ** 0.5
     start = min(float(target.root(5)), bent, float(law.reach))
     return ratio_where(value, steepness, target, start, f"the sphere stops from {v0}")
@@ -222,7 +222,7 @@ def _impact(
 
 
 def _left(a: Exact, course: Course) -> arb:
-    """u of a contact radius, 1 - u^2 = a/a_m."""
+    """Return u of a contact radius, 1 - u^2 = a/a_m."""
     if not to_ball(a) < course.radius:
         raise ValueError(f"a contact radius below {course.radius.str(8)} is expected, got {a}")
     return (1 - to_ball(a) / course.radius).sqrt()

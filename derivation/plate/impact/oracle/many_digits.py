@@ -1,7 +1,7 @@
-"""Contact law and conservative impact to many digits: oracle 1's balls, repeated by oracle 2.
+"""Contact law and conservative impact to many digits: Arb balls, compared with mpmath.
 
-Oracle 1 takes the law as `ball_law` has it, oracle 2 is `contact.route.residue_law`. Arguments
-are doubles, taken exactly.
+The law of the Arb reference is in `ball_law`; the mpmath reference is `contact.route.residue_law`.
+Arguments are doubles, taken as exact numbers.
 """
 
 import math
@@ -24,7 +24,7 @@ Motion = tuple[float, float, float, float, float, float, float]
 INPUTS = ("R", "m", "v0", "h", "b", "lam", "mu")
 
 SHARES = (0.25, 0.5, 1.0)
-"""At which parts of the largest contact radius the law is given."""
+"""Fractions of the largest contact radius at which the law is given."""
 
 UNITS = {
     "contact_time": "s",
@@ -36,25 +36,25 @@ UNITS = {
 }
 
 MOST = 1000
-"""Digits that can be asked for."""
+"""Numbers of digits that can be requested."""
 
 _SPARE = 3
-"""Digits computed beyond those shown, so that rounding to the latter is what the radius is."""
+"""Additional digits of the computation; the stated radius is that of rounding to shown digits."""
 
 
 class Quantity(NamedTuple):
-    """A number by oracle 1, and how far oracle 2 repeats it.
+    """A number from the Arb reference, and its agreement with mpmath.
 
     Attributes
     ----------
     name, unit
-        What it is, in SI.
+        Name of the quantity and its SI unit.
     ball
-        Oracle 1's ball: it contains the value.
+        Ball of the Arb reference, which contains the value.
     compared
-        To how many digits oracle 2 was asked.
+        Number of digits computed by mpmath.
     shared
-        On how many digits both agree, the ball's own width counted: a lower bound.
+        Number of digits on which both agree, including the ball's radius: a lower bound.
     """
 
     name: str
@@ -65,11 +65,11 @@ class Quantity(NamedTuple):
 
     @property
     def agrees(self) -> bool:
-        """Whether oracle 2 repeats the digits that it was asked for, but for the last one."""
+        """Whether mpmath agrees to the requested digits, except for the last one."""
         return self.shared >= self.compared - 1
 
     def shown(self, digits: int) -> tuple[str, str]:
-        """Decimal value of so many digits, and a bound of what it differs from the truth by."""
+        """Return the decimal value of this many digits, and a bound of its error."""
         text = self.ball.str(digits, more=True).strip("[]")
         value, _, radius = text.partition(" +/- ")
         return value, radius or "0"
@@ -83,18 +83,18 @@ class Pressed(NamedTuple):
 
 
 class ImpactReference(NamedTuple):
-    """What both oracles say of a scene.
+    """The results of both reference methods for a scene.
 
     Attributes
     ----------
     motion
-        The scene in numbers, doubles taken exactly.
+        The scene as numbers; doubles are exact.
     digits
-        Digits asked for, to which oracle 1's balls are narrow.
+        Number of requested digits, which determines the radii of the balls.
     impact
         Contact time, largest indentation, force and contact radius.
     law
-        Indentation and stiffness at parts of the largest contact radius.
+        Indentation and stiffness at fractions of the largest contact radius.
     """
 
     motion: Motion
@@ -104,18 +104,18 @@ class ImpactReference(NamedTuple):
 
     @property
     def quantities(self) -> Iterator[Quantity]:
-        """All of them."""
+        """All numbers."""
         yield from self.impact
         for pressed in self.law:
             yield from pressed.quantities
 
     @property
     def agrees(self) -> bool:
-        """Whether both oracles agree wherever both were asked."""
+        """Whether both methods agree on every compared number."""
         return all(quantity.agrees for quantity in self.quantities)
 
     def to_json(self) -> dict[str, Any]:
-        """Plain data: numbers as text, since no double holds them."""
+        """Return plain data: numbers as text, because they exceed the precision of doubles."""
 
         def plain(quantity: Quantity) -> dict[str, Any]:
             value, radius = quantity.shown(self.digits)
@@ -156,25 +156,25 @@ class ImpactReference(NamedTuple):
 
 
 def reference(motion: Motion, digits: int, tell: ball_law.Tell) -> ImpactReference:
-    """Law and impact by both oracles.
+    """Return law and impact with many digits, from both reference methods.
 
     Parameters
     ----------
     motion
-        The scene in numbers, doubles taken exactly.
+        The scene as numbers; doubles are exact.
     digits
-        Relative radius of all balls is below 10^-digits.
+        The relative radius of each ball is below 10^-digits.
     tell
-        Told what is being done.
+        Called with the current task and its progress.
 
     Raises
     ------
     ValueError
-        If the contact reaches the plate's edge, or the digits are not 1 to 1000.
+        If the contact reaches the plate's edge, or the number of digits is not between 1 and 1000.
     derivation.engine.formula.ball.PrecisionError
         If a ball does not become narrow enough.
     derivation.engine.oracle.agreement.RouteError
-        If oracle 2 does not answer for its digits.
+        If mpmath does not reach its digits.
     """
     if not 1 <= digits <= MOST:
         raise ValueError(f"expected 1 to {MOST} digits, got {digits}")
@@ -199,16 +199,16 @@ def reference(motion: Motion, digits: int, tell: ball_law.Tell) -> ImpactReferen
 
 
 def expected_seconds(motion: Motion, radius: float, digits: int) -> float:
-    """About how long `reference` takes [s] on one idle core, both oracles together.
+    """Return the approximate run time of `reference` [s] on one idle core, for both methods.
 
     Parameters
     ----------
     motion
-        The scene in numbers.
+        The scene as numbers.
     radius
-        Largest contact radius [m], which a double tells well enough.
+        Largest contact radius [m], for which a double is sufficient.
     digits
-        Digits asked for.
+        Number of requested digits.
     """
     h, b = motion[3:5]
     first = ball_law.first_seconds(h / b, radius / b, digits)
@@ -225,11 +225,11 @@ def _beside(
 
 
 def shared(ball: arb, other: mpf) -> float:
-    """On how many digits a number agrees with a ball, at least."""
+    """Return a lower bound of the number of digits to which a number agrees with a ball."""
     value = exactly(other)
     with flint.ctx.workprec(64 + max(_bits(ball), _bits(value))):
         apart = (abs(ball - value) / abs(ball)).abs_upper()
-        # The logarithm of a ball: no double holds 10^-1000.
+        # The logarithm of a ball, because 10^-1000 is below the range of doubles.
         return math.inf if apart == 0 else -float((apart.log() / arb(10).log()).upper())
 
 

@@ -1,12 +1,11 @@
-"""Oracle 1 of the paper's own motion: its correction, (16), by collocation in balls.
+"""Arb reference of the paper's own motion: its correction, (16), by collocation in balls.
 
-eta' + F eta + G = 0 from rest, with F and G of (17) and (18) as the theory has them. The
-indentation that the paper calls delta_0 goes like x^3 where F and G are smooth in x; they end in
-a square root at the place `last` where the radicand vanishes, which x = x_last (1 - u^2) takes
-away. On panels of u that halve towards that place eta is collocated at Gauss' nodes. Balls hold
-all rounding; what the collocation errs by is found by repeating it with more nodes: ten times
-the difference is put on as the radius. An estimate by convergence, which is geometric, and no
-proof.
+eta' + F eta + G = 0 from rest, with F and G of (17) and (18) as in the theory. The indentation,
+delta_0 in the paper, is proportional to x^3, where F and G are smooth in x. At `last`, where the
+radicand vanishes, they have the singularity of a square root, which x = x_last (1 - u^2) removes.
+On panels of u that are halved towards that point, eta is collocated at Gauss' nodes. The balls
+include all rounding. The collocation error is estimated with more nodes: ten times the difference
+is added to the radius. Convergence is geometric; the estimate is not proved.
 """
 
 from functools import cache
@@ -21,7 +20,7 @@ from derivation.plate.impact.theory.impact import linearisation
 from derivation.plate.vocabulary import delta_0, m, v0, xi_k
 
 MARGIN = 10
-"""Radius put on, over the difference of two resolutions."""
+"""Added radius over the difference of two resolutions."""
 _SPARE = 64
 _STEPS = 12
 
@@ -29,25 +28,25 @@ _STEPS = 12
 def corrected(
     t: Exact, mass: Exact, speed: Exact, xi_2: Exact, xi_3: Exact, digits: int = 40
 ) -> arb:
-    """Indentation delta_0 + eta at a time since the first touch.
+    """Return the indentation delta_0 + eta at a time since first contact.
 
     Parameters
     ----------
     t
         Time [s]; above 0, and before the radicand vanishes.
     mass, speed
-        Of the sphere [kg, m/s].
+        Mass and impact speed of the sphere [kg, m/s].
     xi_2, xi_3
         Coefficients of (10) [N/m, N/m^(5/3)], above 0.
     digits
-        Decimal digits the ball's radius warrants.
+        Number of decimal digits of the ball.
 
     Raises
     ------
     ValueError
-        If the radicand has vanished by then.
+        If the radicand vanishes earlier.
     derivation.engine.formula.ball.PrecisionError
-        If the ball does not become narrow: too close to that place.
+        If the ball does not become narrow, because the time is too close to that point.
     """
     given = (t, mass, speed, xi_2, xi_3)
 
@@ -61,14 +60,15 @@ def corrected(
 
 
 def largest(mass: Exact, speed: Exact, xi_2: Exact) -> arb:
-    """Largest indentation of the linear motion, (15), at the precision now set."""
+    """Return the largest indentation of the linear motion, (15), at the current precision."""
     return to_ball(speed) * (to_ball(mass) / to_ball(xi_2)).sqrt()
 
 
 def last_share(mass: Exact, speed: Exact, xi_2: Exact, xi_3: Exact) -> arb:
-    """Where the radicand vanishes: delta_0 over its largest value, at the precision now set.
+    """Return delta_0 over its largest value where the radicand vanishes, at the current precision.
 
-    Newton's iteration from above, in y with s^2 = y^3, on midpoints: no enclosure.
+    Newton's iteration from above, in y with s^2 = y^3, on midpoints; the result is not an
+    enclosure.
     """
     excess = _excess(mass, speed, xi_2, xi_3)
     y = arb(min(1.0, float(excess) ** -0.25)) * (1 + arb(2) ** -40)
@@ -79,7 +79,7 @@ def last_share(mass: Exact, speed: Exact, xi_2: Exact, xi_3: Exact) -> arb:
 
 
 def _excess(mass: Exact, speed: Exact, xi_2: Exact, xi_3: Exact) -> arb:
-    """Minus the radicand at the linear motion's turning point over the speed's square."""
+    """Return minus the radicand at the linear motion's turning point over the speed's square."""
     values = _values(mass, speed, xi_2, xi_3)
     return -enclose(linearisation()[2].expression, values) / to_ball(speed) ** 2
 
@@ -109,7 +109,7 @@ def _over(
     eta: arb, start: arb, stop: arb, count: int, scales: tuple[arb, arb, arb],
     values: dict[sp.Basic, arb],
 ) -> arb:  # fmt: skip
-    """eta at the end of a panel of u: collocation of eta' = -(F eta + G) dt/du."""
+    """Return eta at the end of a panel of u: collocation of eta' = -(F eta + G) dt/du."""
     (end, peak, rate), (F, G) = scales, (f.expression for f in linearisation()[:2])
     nodes, weights, within = _rule(count, flint.ctx.prec)
     half = (stop - start) / 2
@@ -136,10 +136,10 @@ def _over(
 
 @cache
 def _rule(count: int, bits: int) -> tuple[list[arb], list[arb], list[list[arb]]]:
-    """Gauss' nodes and weights on [-1, 1], and integrals from -1 to each node by the values there.
+    """Return Gauss' nodes and weights on [-1, 1], and integrals from -1 to each node.
 
-    An interpolant is sum c_k P_k with c_k = (k + 1/2) sum w f P_k, and the integral of P_k is
-    (P_(k+1) - P_(k-1))/(2k + 1).
+    The integrals are linear in the values at the nodes. An interpolant is sum c_k P_k with
+    c_k = (k + 1/2) sum w f P_k, and the integral of P_k is (P_(k+1) - P_(k-1))/(2k + 1).
     """
     with flint.ctx.workprec(bits):
         pairs = [arb.legendre_p_root(count, i, weight=True) for i in range(count)]
@@ -155,7 +155,7 @@ def _rule(count: int, bits: int) -> tuple[list[arb], list[arb], list[list[arb]]]
 
 
 def _legendre(x: arb, count: int) -> list[arb]:
-    """P_0, ..., P_count at a number."""
+    """Return P_0, ..., P_count at a number."""
     found = [arb(1), x]
     for k in range(1, count):
         found.append(((2 * k + 1) * x * found[k] - k * found[k - 1]) / (k + 1))

@@ -1,4 +1,4 @@
-"""Oracle 1 of what follows from the contact law: the reversed series, the motion."""
+"""Arb reference of quantities derived from the contact law: the reversed series, the motion."""
 
 from collections.abc import Sequence
 from fractions import Fraction
@@ -14,17 +14,17 @@ from derivation.plate.impact.oracle import impact as contact_impact
 _GRID, _STEPS = 8, 12
 _LEAST = 14
 _NEXT = 13
-"""Next to the turning point: 10^-_NEXT of the contact time and less."""
+"""Distance from the turning point below which a power series is used, over the contact time."""
 
 Motion = tuple[Exact, Exact, Exact, Exact, Exact, Exact, Exact]
-"""R, m, v0, h, b, lam, mu of an impact."""
+"""R, m, v0, h, b, lam and mu of an impact."""
 
 
 def truncated_series(
     delta: Exact, R: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact,
     digits: int = 50, terms: int = 12,
 ) -> tuple[arb, arb]:  # fmt: skip
-    """The first terms of the reversed series P(delta), and their magnitudes' sum over theirs.
+    """Return the first terms of the reversed series P(delta), and their sum's condition number.
 
     p_n = 3/(n + 3) [A^n] (1 + c_1 A + c_3 A^3 + ...)^(-(n + 3)/2), eps = sqrt(R delta)/h.
     """
@@ -43,7 +43,7 @@ def truncated_series(
 
 
 def power(series: Sequence[arb], exponent: arb) -> list[arb]:
-    """A power of a power series that begins with 1, to as many terms (Euler's recurrence)."""
+    """Return a power of a power series 1 + ..., with as many terms (Euler's recurrence)."""
     found = [arb(1)]
     for n in range(1, len(series)):
         shares = ((exponent * k - (n - k)) * series[k] * found[n - k] for k in range(1, n + 1))
@@ -55,11 +55,11 @@ def state(
     t: Exact, R: Exact, m: Exact, v0: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact,
     digits: int = 40,
 ) -> tuple[arb, arb, arb, arb]:  # fmt: skip
-    """Indentation, its rate, contact radius and force at a time since the first touch.
+    """Return indentation, its rate, contact radius and force at a time since first contact.
 
-    The contact radius is found by Newton's iteration on
-    the times that it is reached at, certified by a time on either side; the rate follows from
-    the energy. Next to the turning point a power series serves, see `_turned`.
+    The contact radius is found by Newton's iteration on the times at which it is reached, and
+    certified by a time on either side. The rate follows from the energy. Near the turning point a
+    power series is used, see `_turned`.
 
     Raises
     ------
@@ -104,14 +104,14 @@ def state(
 def _turned(
     t: Exact, course: contact_impact.ImpactBalls, motion: Motion
 ) -> tuple[arb, arb, arb, arb]:
-    """The state next to the turning point, at the precision now set.
+    """Return the state near the turning point, at the current precision.
 
     m z'' = -P(z) from rest at z_m, with K = dP/dz there: in powers of x = (K/m) tau^2,
 
         z = z_m - (P_m/K) (x/2 - x^2/24 ...),  z' = -(P_m/m) tau (1 - x/6 ...)
 
-    What is left out is of the order of x^2 beside what is kept, below 10^-50; ten times as much
-    is put on as the radius, which is an estimate and no proof.
+    The omitted terms are of the relative order of x^2, below 10^-50. Ten times as much is added to
+    the radius, which is an estimate, not a proof.
     """
     R, m, _, h, b, lam, mu = motion
     tau = to_ball(t) - course.contact_time / 2
@@ -128,9 +128,9 @@ def _turned(
 
 
 def _start(goal: arb, course: contact_impact.ImpactBalls, motion: Motion) -> Fraction:
-    """Contact radius a_m (1 - u^2) near a time, u interpolated between times of a grid.
+    """Return the contact radius a_m (1 - u^2) near a time, u interpolated between times of a grid.
 
-    In the first panel it is a root of the time, as in free flight.
+    In the first panel it is proportional to the root of the time, as in free flight.
     """
     largest, grid = fraction(course.max_contact_radius), range(1, _GRID)
     radii = [largest * (1 - (1 - Fraction(k, _GRID)) ** 2) for k in grid]
@@ -145,13 +145,13 @@ def _start(goal: arb, course: contact_impact.ImpactBalls, motion: Motion) -> Fra
 
 
 def _speed(a: Exact, motion: Motion, digits: int) -> arb:
-    """Speed at a contact radius, from the energy that is left."""
+    """Return the speed at a contact radius, from the remaining energy."""
     R, m, v0, h, b, lam, mu = motion
     stored = contact_impact.stored_energy(a, R, h, b, lam, mu, digits)
     return (to_ball(v0) ** 2 - 2 * stored / to_ball(m)).sqrt()
 
 
 def fraction(ball: arb) -> Fraction:
-    """Midpoint of a ball, exactly."""
+    """Return the midpoint of a ball, exactly."""
     mantissa, exponent = ball.mid().man_exp()
     return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)

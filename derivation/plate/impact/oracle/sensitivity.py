@@ -1,11 +1,11 @@
-"""Oracle 1 of an impact's sensitivities, and what rounding a scene does to them.
+"""Arb reference of an impact's sensitivities, and the effect of rounding a scene on them.
 
 Every result is a product of powers of the scene's numbers times f(Y, eta), Y being the energy
-number and eta = h/b, so that its sensitivity to x is own_x + e_x f_Y + q_x f_eta, with the
-theory's exponents and logarithmic derivatives of f. These are differences by v0, of which Y goes
-with the square, and by b, which stands in eta alone. Richardson's extrapolation of two steps
-leaves the fourth power of the step; what it takes off, with a margin, is put on as the radius:
-an estimate, not a proof.
+number and eta = h/b, so that its sensitivity to x is own_x + e_x f_Y + q_x f_eta, with the theory's
+exponents and logarithmic derivatives of f. They are computed from differences by v0, because Y is
+proportional to v0^2, and by b, which appears only in eta. Richardson extrapolation of two steps
+leaves an error of the fourth power of the step. Its correction, with a margin, is added to the
+radius: an estimate, not a proof.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -22,9 +22,9 @@ from derivation.plate.impact.theory.sensitivity import RESULTS, exponents
 
 _SPARE = 5
 _SPEED, _RADIUS = 2, 4
-"""Places of v0 and b among a scene's numbers."""
+"""Positions of v0 and b among a scene's numbers."""
 _STEP, _STEP_DIGITS = Fraction(1, 2**20), 30
-"""Of second differences, which are asked for to a few digits."""
+"""Step of second differences, which need only a few digits."""
 
 
 def logarithmic(
@@ -33,18 +33,19 @@ def logarithmic(
     bits: int,
     floor: float,
 ) -> tuple[arb, ...]:
-    """d log(result)/d log(parameter) of results as functions of the parameter's factor, near 1.
+    """Return d log(result)/d log(parameter), from results as functions of the parameter's factor.
 
     Parameters
     ----------
     results
-        Factor -> balls, of so many digits that differences of the step's size keep enough.
+        Function that returns balls for a factor, with digits sufficient for differences of this
+        step.
     step
-        Of the differences.
+        Step of the differences.
     bits
-        Precision they are taken at.
+        Precision of the differences.
     floor
-        Least radius put on.
+        Smallest radius added.
     """
     found = []
     for size in (step, 2 * step):
@@ -61,7 +62,7 @@ def logarithmic(
 
 
 class _Shares(NamedTuple):
-    """d log E*/d log lam and d log E*/d log mu, and lam times the former's slope by lam."""
+    """Return d log E*/d log lam and d log E*/d log mu, and lam times the former's slope by lam."""
 
     lam: Fraction
     mu: Fraction
@@ -69,16 +70,17 @@ class _Shares(NamedTuple):
 
 
 def impact_sensitivities(scene: Sequence[Any], digits: int) -> tuple[arb, ...]:
-    """Logarithmic derivatives of four results by seven parameters, row by row.
+    """Return logarithmic derivatives of four results by seven parameters, row by row.
 
-    The step of the differences goes with the digits: extrapolated, they err by its fourth power.
+    The step of the differences depends on the digits, because the extrapolation error is its fourth
+    power.
 
     Parameters
     ----------
     scene
         R, m, v0, h, b, lam, mu: exact numbers.
     digits
-        Digits after the point.
+        Number of decimal places.
     """
     bits = 8 * digits + 64
     by_speed, by_radius = (_by(scene, place, digits, bits) for place in (_SPEED, _RADIUS))
@@ -91,7 +93,7 @@ def impact_sensitivities(scene: Sequence[Any], digits: int) -> tuple[arb, ...]:
 
 
 def rounding(scene: Sequence[Any], values: Sequence[arb]) -> list[arb]:
-    """Of each of `impact_sensitivities`, here `values`, the sum of |x d/dx| over the scene."""
+    """Return the sum of |x d/dx| over the scene for each sensitivity, here `values`."""
     shares, found = _shares(scene), list[arb]()
     lam, mu, bend = map(to_ball, shares)
     with flint.ctx.workprec(4 * _STEP_DIGITS):
@@ -102,7 +104,7 @@ def rounding(scene: Sequence[Any], values: Sequence[arb]) -> list[arb]:
                 [e * (x * YY + y * Y_eta) + q * (x * Y_eta + y * eta_eta) for _, x, y in rows]
                 for _, e, q in rows
             ]
-            # E* is the last: what lam and mu do, they do by it.
+            # E* is the last: lam and mu act only through it.
             spread = [[*row[:-1], row[-1] * lam, row[-1] * mu] for row in changes]
             modulus = sum(values[7 * number + 5 : 7 * number + 7], arb(0))
             own = [*[arb(0)] * 5, modulus * bend, -modulus * bend]
@@ -120,7 +122,7 @@ def _shares(scene: Sequence[Any]) -> _Shares:
 
 
 def _exponents() -> Iterator[list[tuple[arb, ...]]]:
-    """Of every result, for R, m, v0, h, b and E*: its own, that of Y and that of eta."""
+    """Return exponents of R, m, v0, h, b, E* for every result: its own, that of Y, of eta."""
     table = exponents()
     for name in RESULTS:
         rows = zip(table[name], table["energy"], table["eta"], strict=True)
@@ -128,7 +130,7 @@ def _exponents() -> Iterator[list[tuple[arb, ...]]]:
 
 
 def _results(scene: Sequence[Any], speed: Fraction, radius: Fraction, digits: int) -> Any:
-    """The impact with v0 and b times these factors."""
+    """Return the impact with v0 and b multiplied by these factors."""
     moved = [Fraction(x) for x in scene]
     moved[_SPEED] *= speed
     moved[_RADIUS] *= radius
@@ -137,7 +139,7 @@ def _results(scene: Sequence[Any], speed: Fraction, radius: Fraction, digits: in
 
 
 def _by(scene: Sequence[Any], place: int, digits: int, bits: int) -> tuple[arb, ...]:
-    """Of every result by v0 or b."""
+    """Return the logarithmic derivatives of every result by v0 or b."""
     halvings = digits + 3 * _SPARE
     wanted, one = digits + halvings // 3 + _SPARE, Fraction(1)
 
@@ -149,14 +151,14 @@ def _by(scene: Sequence[Any], place: int, digits: int, bits: int) -> tuple[arb, 
 
 
 def _coarsely(scene: Sequence[Any]) -> tuple[float, ...]:
-    """The scene to ten digits, which are enough for allowances: neighbours have them in common."""
+    """Return the scene to ten digits, sufficient for tolerances, so that neighbours share them."""
     return tuple(float(f"{float(x):.10g}") for x in scene)
 
 
 @cache
 def _curvatures(scene: tuple[float, ...]) -> list[tuple[arb, arb, arb]]:
-    """Of every result the second derivatives of log f by Y twice, by Y and eta, by eta twice."""
-    steps = (1 / (1 + _STEP), Fraction(1), 1 + _STEP)  # logarithms at equal distances
+    """Return second derivatives of log f for every result: by Y twice, Y and eta, eta twice."""
+    steps = (1 / (1 + _STEP), Fraction(1), 1 + _STEP)  # logarithms at equally spaced factors
     grid = [[_results(scene, v, b, _STEP_DIGITS) for b in steps] for v in steps]
     found = []
     for number in range(len(RESULTS)):

@@ -1,8 +1,9 @@
-"""What rounding its arguments does to an impact's state at a time: it sets allowances alone.
+"""Effect of rounding the arguments on an impact's state at a time; used for tolerances alone.
 
 In units of h^2/R for the indentation, h for the contact radius, E* h^3/R for the force and
 sqrt(m/(E* h)) for time, the state is a function of the time, of the energy number Y and of h/b.
-Moving v0 moves Y alone, moving b moves h/b alone; what time does follows from the motion.
+Changing v0 changes only Y, changing b changes only h/b; the effect of the time follows from the
+motion.
 """
 
 from collections.abc import Callable, Sequence
@@ -19,14 +20,14 @@ from derivation.plate.impact.theory.sensitivity import exponents
 
 _STEP, _DIGITS = Fraction(1, 2**20), 15
 _SPEED, _RADIUS = 3, 5
-"""Places of v0 and b among the arguments."""
+"""Positions of v0 and b among the arguments."""
 
 State = Callable[[Sequence[Any], int], tuple[arb, ...]]
-"""Arguments, time first, and digits -> indentation, rate, contact radius, force."""
+"""Function of arguments (time first) and digits: indentation, rate, contact radius, force."""
 
 
 def rounding(state: State, given: Sequence[Any], values: Sequence[arb]) -> list[arb]:
-    """Of every part of the state, here `values`, the sum of |x d/dx| over the arguments."""
+    """Return the sum of |x d/dx| over the arguments for each component of the state `values`."""
     by_speed, by_radius = (state(_moved(given, place), _DIGITS) for place in (_SPEED, _RADIUS))
     lam, mu = (Fraction(x) for x in given[6:])
     share = lam * mu / ((lam + mu) * (lam + 2 * mu))
@@ -64,7 +65,7 @@ def _ball(number: Any) -> arb:
 
 
 def _flows(given: Sequence[Any], values: Sequence[arb]) -> list[arb]:
-    """t d/dt of every part: nothing moves but the sphere where there is no contact."""
+    """Return t d/dt of every component: without contact only the sphere moves."""
     t, R, m, _, h, b, _, _ = given
     _, speed, radius, force = values
     if radius == 0:

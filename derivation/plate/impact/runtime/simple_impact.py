@@ -8,7 +8,7 @@ Hence `hertz` (S = 1) and `leading` (S = 1 + 3/2 c_1 A) return bounds of their o
 proved; rounding errors are counted. One impact takes microseconds, without NumPy.
 
 Arithmetic: margins for rounding; sums of intervals of logarithms; Newton's iteration and its
-starting value; ratios and products that tell whether numbers are ordinary.
+starting value; ratios and products that show overflow and underflow.
 """
 
 from bisect import bisect_right

@@ -1,8 +1,8 @@
-"""Link 16: the sphere's motion: energy integral (13), contact time, linearisation (15) to (18).
+"""Link 16: motion of the sphere: energy integral (13), contact time, linearisation (15) to (18).
 
-m delta'' + P(delta) = 0 has the integral m delta'^2/2 + int P d delta = m v0^2/2.
-With the right law both P and delta are polynomials in the contact radius a, so
-the contact time is an integral over q = a/a_m; its root at q = 1 divides out.
+m delta'' + P(delta) = 0 has the integral m delta'^2/2 + int P d delta = m v0^2/2. With the
+corrected law both P and delta are polynomials in the contact radius a, so the contact time is an
+integral over q = a/a_m; the substitution below removes its singularity at q = 1.
 """
 
 from functools import cache
@@ -18,24 +18,24 @@ from derivation.plate.vocabulary import D, Formula, R, a, delta, delta_0, h, m, 
 _q = sp.Symbol("q", positive=True)
 _a_m = sp.Symbol("a_m", positive=True)
 SHOWN = 3
-"""How many D_3, D_5, ... the recorded contact-time integrand carries."""
+"""Number of D_3, D_5, ... in the recorded integrand of the contact time."""
 
 
 def formal_force(at: sp.Expr, last: int = 3) -> sp.Expr:
-    """sum over k = 2 ... last of xi_k delta^((2k-1)/3), the paper's form of the force."""
+    """Return sum over k = 2 ... last of xi_k delta^((2k-1)/3), the paper's form of the force."""
     return sp.Add(*(xi_k[i] * at ** sp.Rational(2 * i - 1, 3) for i in range(2, last + 1)))
 
 
 @cache
 def formal_speed_squared() -> sp.Expr:
-    """delta'^2 as a function of delta: v0^2 - 2/m int P d delta."""
+    """Return delta'^2 as a function of delta: v0^2 - 2/m int P d delta."""
     work = sp.integrate(sp.expand(formal_force(delta)), (delta, 0, delta))
     return v0**2 - sp.expand(2 / m * work)
 
 
 @cache
 def motion() -> tuple[Formula, Formula]:
-    """(11) and (13) with the force's first two terms."""
+    """Return (11) and (13) with the first two terms of the force."""
     force = formal_force(delta)
     squared = formal_speed_squared()
     # d/dt (delta'^2) = 2 delta' delta'', and delta'' = -P/m.
@@ -83,7 +83,7 @@ def weight(n: int) -> sp.Expr:
 
 
 def orders(shown: int = SHOWN) -> tuple[int, ...]:
-    """The n of D_n: 2, 3, 5, 7, ..."""
+    """Return the indices n of D_n: 2, 3, 5, 7, ..."""
     return (2, *(2 * i + 1 for i in range(1, shown + 1)))
 
 
@@ -94,18 +94,18 @@ def geometric(n: int, q: sp.Expr) -> sp.Expr:
 
 @cache
 def work_of_contact(shown: int = SHOWN) -> sp.Expr:
-    """sum n D_n/(n + 3), the work up to a_m over C a_m^5, C = 4 E*/(3 R^2)."""
+    """Return sum n D_n/(n + 3), the work up to a_m over C a_m^5, C = 4 E*/(3 R^2)."""
     return sp.Add(*(sp.Rational(n, n + 3) * weight(n) for n in orders(shown)))
 
 
 @cache
 def contact_time(shown: int = SHOWN) -> tuple[Formula, ...]:
-    """The contact-time integrand, the largest work, and where both come from.
+    """Return the integrand of the contact time and the largest work, with their proofs.
 
-    delta = (a_m^2/R) sum D_n q^n and P = C R a_m^3 q^3: the work between q and 1 is
-    C a_m^5 sum n D_n/(n+3) (1 - q^(n+3)), each term of which holds the factor 1 - q.
-    With q = 1 - u^2 this is u^2, its root cancels dq = -2 u du, and the integrand
-    2 (sum n D_n q^(n-1))/sqrt(sum n D_n/(n+3) geo_(n+3)(q)) is analytic in u.
+    delta = (a_m^2/R) sum D_n q^n and P = C R a_m^3 q^3: the work between q and 1 is C a_m^5 sum n
+    D_n/(n+3) (1 - q^(n+3)), each term of which has the factor 1 - q. With q = 1 - u^2 this factor
+    is u^2, its root cancels against dq = -2 u du, and the integrand 2 (sum n D_n q^(n-1))/sqrt(sum
+    n D_n/(n+3) geo_(n+3)(q)) is analytic in u.
     """
     q = 1 - u_t**2
     rate = sp.Add(*(n * weight(n) * q ** (n - 1) for n in orders(shown)))
@@ -141,7 +141,7 @@ def contact_time(shown: int = SHOWN) -> tuple[Formula, ...]:
 
 
 def _in_quotients(shown: int) -> sp.Expr:
-    """The integrand as it is read, in q = a/a_m: geometric sums as (1 - q^n)/(1 - q)."""
+    """Return the integrand in q = a/a_m, with geometric sums as (1 - q^n)/(1 - q)."""
     rate = sp.Add(*(n * weight(n) * _q ** (n - 1) for n in orders(shown)))
     stored = sp.Add(
         *(sp.Rational(n, n + 3) * weight(n) * (1 - _q ** (n + 3)) for n in orders(shown))
@@ -150,7 +150,7 @@ def _in_quotients(shown: int) -> sp.Expr:
 
 
 def prove_contact_time(shown: int, integrand: sp.Expr) -> Proof:
-    """Energy, its factor 1 - q, and the substitution, each with all D_n at once."""
+    """Prove the energy, its factor 1 - q, and the substitution, with all D_n at once."""
     scale = contact_radius().expression / a**3
     C = scale / R
     travel = _a_m**2 / R * sp.Add(*(weight(n) * _q**n for n in orders(shown)))
@@ -178,7 +178,7 @@ def prove_contact_time(shown: int, integrand: sp.Expr) -> Proof:
 
 @cache
 def hertz_time() -> Formula:
-    """Contact time of the half-space over delta_max/v0: 2 int_0^1 dx/sqrt(1 - x^(5/2)).
+    """Return the contact time on the half-space over delta_max/v0: 2 int_0^1 dx/sqrt(1 - x^(5/2)).
 
     x = s^(2/5) turns it into Euler's Beta integral B(2/5, 1/2).
     """
@@ -220,7 +220,7 @@ def hertz_time() -> Formula:
 
 @cache
 def linear_motion() -> Formula:
-    """(15): the motion under the force's first term, xi_2 delta."""
+    """Return (15): the motion under the first term of the force, xi_2 delta."""
     value = v0 * sp.sqrt(m / xi_k[2]) * sp.sin(sp.sqrt(xi_k[2] / m) * t)
     proof = prove(
         "Linear motion",
@@ -244,7 +244,7 @@ def linear_motion() -> Formula:
 
 
 def linearised(force: sp.Expr, first: sp.Expr, at: sp.Symbol) -> tuple[sp.Expr, sp.Expr]:
-    """F and G of eta' + F eta + G = 0 for any force and any first part of it, both in `at`.
+    """Return F and G of eta' + F eta + G = 0, for any force and any first part of it, both in `at`.
 
     delta' = V(delta), delta_0' = V_0(delta_0), V^2 = v0^2 - 2/m int P: with
     delta = delta_0 + eta, eta' = V(delta_0) - V_0(delta_0) + V'(delta_0) eta, so
@@ -259,7 +259,7 @@ def linearised(force: sp.Expr, first: sp.Expr, at: sp.Symbol) -> tuple[sp.Expr, 
 
 @cache
 def linearisation() -> tuple[Formula, ...]:
-    """(17), (18) and the radicand at the linear motion's largest indentation."""
+    """Return (17), (18) and the radicand at the largest indentation of the linear motion."""
     force = formal_force(delta_0)
     first = formal_force(delta_0, 2)
     F, G = linearised(force, first, delta_0)
@@ -302,7 +302,7 @@ def linearisation() -> tuple[Formula, ...]:
 
 @cache
 def linearisation_about_hertz() -> tuple[Formula, Formula]:
-    """F and G about Hertz's motion, which the right law begins with instead of a linear one.
+    """Return F and G about Hertz's motion, the first part of the corrected law.
 
     The force is Hertz's, k delta^(3/2), times 1 + p_1 eps with eps = sqrt(R delta)/h.
     """
@@ -348,10 +348,9 @@ def linearisation_about_hertz() -> tuple[Formula, Formula]:
 
 
 def validity() -> str:
-    """Up to where (16) to (18) have real values, from the radicand at the turning point.
+    """Return the range of real values of (16) to (18), from the radicand at the turning point.
 
-    The sign of xi_3 = -gamma_3/gamma_2^(8/3) is that of -gamma_3, however many
-    modes are kept for it.
+    The sign of xi_3 = -gamma_3/gamma_2^(8/3) is that of -gamma_3, for any number of modes.
     """
     negative = truncated_gamma(3).expression.is_negative
     x = sp.Symbol("x", positive=negative, negative=not negative)
@@ -365,7 +364,7 @@ def validity() -> str:
 
 
 def impact() -> tuple[Formula, ...]:
-    """The motion's formulas."""
+    """Return the formulas of the motion."""
     return (
         *motion(),
         *contact_time(),

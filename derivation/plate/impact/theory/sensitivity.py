@@ -1,14 +1,15 @@
-"""Link 17: slopes of the contact law, and what every parameter does to an impact's results.
+"""Link 17: slopes of the contact law, and sensitivities of the impact's results to each parameter.
 
-Put a = h A into the energy integral: A_m depends on the energy number
-Y = m v0^2/2 over (4/3) E* h^5/R^2, and on eta = h/b. Every result is a product of powers
-of the parameters times a function of these two. Where results change smoothly they are
-locally Y^p eta^q: seven logarithmic derivatives follow from p and q, and
+With a = h A in the energy integral, A_m depends on eta = h/b and on the energy number Y, which is m
+v0^2/2 over (4/3) E* h^5/R^2. Every result is a product of powers of the parameters times a function
+of these two. Where results change smoothly they are locally Y^p eta^q: seven logarithmic
+derivatives follow from p and q, and
 
     p of A_m = E/(2 U),   q = -E_eta/(2 U),   A^5 E = int_0^A x^3 d(x^2 (1 + F)),
 
-with 2 U = sum n D_n, E = sum n D_n/(n + 3) of link 16. The contact time is
-sqrt(m/(E* h)) A_m^(-1/2) I up to a number: its integrand has no singularity to move.
+with 2 U = sum n D_n, E = sum n D_n/(n + 3) of link 16. The contact time is sqrt(m/(E* h))
+A_m^(-1/2) I up to a constant factor; its integrand has no singularity that depends on the
+parameters.
 """
 
 from collections.abc import Callable, Mapping
@@ -48,7 +49,7 @@ from derivation.plate.vocabulary import (
 )
 
 PARAMETERS = (R, m, v0, h, b, lam, mu)
-"""A scene's parameters, in the order of the generated functions."""
+"""Parameters of a scene, in the order of the generated functions."""
 RESULTS = {
     "contact_time": "s",
     "max_indentation": "m",
@@ -64,18 +65,18 @@ Change = Callable[[int], sp.Expr]
 
 
 def reduced_modulus() -> sp.Expr:
-    """E* from the force of link 8, P = (4/3) E* a^3/R."""
+    """Return E* from the force of link 8, P = (4/3) E* a^3/R."""
     return sp.Rational(3, 4) * contact_radius().expression * R / a**3
 
 
 def energy_scale() -> sp.Expr:
-    """(4/3) E* h^5/R^2, with a symbol for E*."""
+    """Return (4/3) E* h^5/R^2, with a symbol for E*."""
     return sp.Rational(4, 3) * _MODULUS * h**5 / R**2
 
 
 @cache
 def energy_number() -> Formula:
-    """The energy of impact over (4/3) E* h^5/R^2; what A_m depends on beside h/b."""
+    """Return the impact energy over (4/3) E* h^5/R^2, on which A_m depends in addition to h/b."""
     value = m * v0**2 / 2 / energy_scale().subs(_MODULUS, reduced_modulus())
     C = contact_radius().expression / a**3 / R
     proof = prove(
@@ -101,7 +102,7 @@ def energy_number() -> Formula:
 
 @cache
 def law_slopes() -> tuple[Formula, ...]:
-    """d delta/da by its series, and the modes' part of d delta/da and of h dF/dh."""
+    """Return d delta/da by its series, and the modes' part of d delta/da and of h dF/dh."""
     series = small_contact().expression
     delta = a**2 / R * series.subs(a_ratio, a / h)
     slope = a / R * (2 + sp.Add(*((n + 2) * c * (a / h) ** n for n, c in _shown(series).items())))
@@ -166,7 +167,7 @@ def law_slopes() -> tuple[Formula, ...]:
 
 
 def _shown(series: sp.Expr) -> dict[int, sp.Symbol]:
-    """The coefficients of a series in A by their order."""
+    """Return the coefficients of a series in A by their order."""
     return {n: c for n, c in c_A.items() if series.has(c)}
 
 
@@ -174,7 +175,7 @@ def _shown(series: sp.Expr) -> dict[int, sp.Symbol]:
 
 
 def power_laws() -> dict[str, sp.Expr]:
-    """Each result's powers of the parameters, beside its function of energy number and eta."""
+    """Return the powers of the parameters in each result, apart from the function of Y and eta."""
     travel = h**2 / R
     # Half the contact time is sqrt(m/2) (a_m^2/R) I/sqrt(C a_m^5), a_m = h A_m.
     C = energy_scale() / h**5
@@ -185,14 +186,14 @@ def power_laws() -> dict[str, sp.Expr]:
 
 
 def logarithmic(expression: sp.Expr) -> tuple[sp.Rational, ...]:
-    """Exponents of R, m, v0, h, b and E* in a product of powers."""
+    """Return the exponents of R, m, v0, h, b and E* in a product of powers."""
     logarithm = sp.expand_log(sp.log(expression), force=True)
     return tuple(sp.simplify(x * sp.diff(logarithm, x)) for x in (*PARAMETERS[:5], _MODULUS))
 
 
 @cache
 def exponents() -> dict[str, tuple[sp.Rational, ...]]:
-    """Exponents of R, m, v0, h, b and E*: in every result, in `energy` and in `eta`."""
+    """Return the exponents of R, m, v0, h, b and E* in every result, in `energy` and in `eta`."""
     found = {name: logarithmic(law) for name, law in power_laws().items()}
     energy = logarithmic(m * v0**2 / 2 / energy_scale())
     return {**found, "energy": energy, "eta": logarithmic(h / b)}
@@ -200,7 +201,7 @@ def exponents() -> dict[str, tuple[sp.Rational, ...]]:
 
 @cache
 def scaling() -> Proof:
-    """Units do not matter: derivatives weighted by dimensions give the result's dimension."""
+    """Prove independence of units: exponents weighted by dimensions give the result's dimension."""
     stress = dimension_of("Pa")
     units = [*(dimension_of(BY_NAME[str(x)].unit) for x in PARAMETERS[:5]), stress]
     table = exponents()
@@ -227,7 +228,7 @@ def _part(unit: Dimension, basis: str) -> sp.Rational:
 
 @cache
 def modulus_slope() -> Formula:
-    """d log E*/d log lam; d log E*/d log mu is what is missing to 1."""
+    """Return d log E*/d log lam; d log E*/d log mu is 1 minus this."""
     logarithm = sp.log(reduced_modulus())
     value = lam * mu / ((lam + mu) * (lam + 2 * mu))
     proof = prove(
@@ -254,7 +255,7 @@ def modulus_slope() -> Formula:
 
 
 def weighted(weights: Mapping[int, sp.Expr], share: Callable[[int], sp.Expr]) -> sp.Expr:
-    """The sum of D_n times a share of each n."""
+    """Return the sum of D_n times a factor for each n."""
     return sp.Add(*(share(n) * weight for n, weight in weights.items()))
 
 
@@ -268,7 +269,7 @@ def _eta_weights() -> dict[int, sp.Expr]:
 
 @cache
 def peaks() -> tuple[Formula, ...]:
-    """Logarithmic derivatives of largest radius and indentation by energy number and eta."""
+    """Return logarithmic derivatives of largest radius and indentation by energy number and eta."""
     D_n, slopes = _weights(), _eta_weights()
     work = weighted(D_n, lambda n: sp.Rational(n, n + 3))
     rise, lift = weighted(D_n, sp.Integer), weighted(D_n, lambda _: sp.Integer(1))
@@ -278,7 +279,7 @@ def peaks() -> tuple[Formula, ...]:
     depth_by_energy, depth_by_eta = work / lift, (lift_slope - work_slope) / lift
 
     def grown(value: sp.Expr) -> sp.Expr:
-        """The derivative by log A_m: D_n goes with A^(n - 2)."""
+        """Return the derivative by log A_m, where D_n is proportional to A^(n - 2)."""
         return sp.Add(*((n - 2) * D[n] * sp.diff(value, D[n]) for n in orders()[1:]))
 
     def deeper(value: sp.Expr) -> sp.Expr:
@@ -319,10 +320,10 @@ def peaks() -> tuple[Formula, ...]:
 
 @cache
 def times() -> tuple[Formula, ...]:
-    """How the contact time's integrand changes with log A_m and, at fixed A_m, with log eta.
+    """Return the change of the time's integrand with log A_m and, at fixed A_m, with log eta.
 
-    With N = sum n D_n q^(n-1), S = sum n D_n/(n+3) (1 + ... + q^(n+2)) the integrand is
-    2 N/sqrt(S) and changes by 2 (N' - N S'/(2 S))/sqrt(S); q stays, and nothing is singular.
+    With N = sum n D_n q^(n-1), S = sum n D_n/(n+3) (1 + ... + q^(n+2)) the integrand is 2 N/sqrt(S)
+    and changes by 2 (N' - N S'/(2 S))/sqrt(S); q is fixed, and nothing is singular.
     """
     integrand = contact_time()[0].expression
     q = 1 - u_t**2
@@ -378,6 +379,6 @@ def times() -> tuple[Formula, ...]:
 
 
 def sensitivity() -> tuple[Formula, ...]:
-    """The formulas of this link; the energy number stands only where scaling holds."""
+    """Return the formulas of this link."""
     scaling()
     return (*law_slopes(), energy_number(), modulus_slope(), *peaks(), *times())

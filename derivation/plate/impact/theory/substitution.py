@@ -1,23 +1,23 @@
-"""Link 18: how far an impact moves if its law is replaced by a simpler one.
+"""Link 18: bounds of the change of an impact if its law is replaced by a simpler one.
 
-With S = (R/2a) d delta/da = 1 + F + A F'/2 the work is W = K int_0^a x^4 S dx and the contact
-time 2 int d delta/v. Two things are shown.
+With S = (R/2a) d delta/da = 1 + F + A F'/2 the work is W = K int_0^a x^4 S dx and the contact time
+2 int d delta/v. Two statements are proved.
 
-The law between two simple ones. Modes add (4 alpha/pi) w_n sinc(alpha j_n) to S, w_n > 0, the
-side wall takes (4/pi^2) int sinh(alpha y)/y K0/I0 dy away; 1 - y^2/6 <= sinc y <= 1 and
-alpha y <= sinh(alpha y) <= alpha y + alpha^3 (sinh y - y) give for every a < b
+Bounds of the law. Modes add (4 alpha/pi) w_n sinc(alpha j_n) to S, w_n > 0, and the finite radius
+subtracts (4/pi^2) int sinh(alpha y)/y K0/I0 dy. The inequalities 1 - y^2/6 <= sinc y <= 1 and alpha
+y <= sinh(alpha y) <= alpha y + alpha^3 (sinh y - y) give for every a < b
 
     1 + 3/2 c_1 A - K_3 A^3 <= S <= 1 + 3/2 c_1 A,
     K_3 = eta^3 [2/(3 pi) sum w_n j_n^2 + (4/pi^2) int (sinh y - y)/y K0/I0 dy].
 
-Substitution. Let l S_1 <= S <= u S_1 on [0, a_top], where S_1 > 0 and d log S_1/d log a is
-between -p and q. W lies between l W_1 and u W_1, pointwise, and so does what is left of it
-between any a and a_m. At equal energy, with e = 5 - p the least elasticity of W_1,
+Substitution. Let l S_1 <= S <= u S_1 on [0, a_top], where S_1 > 0 and d log S_1/d log a is between
+-p and q. Then W lies between l W_1 and u W_1, pointwise, and so does its part between any a and
+a_m. At equal energy, with e = 5 - p the least elasticity of W_1,
 
     u^(-1/e) <= a_m/a_1 <= l^(-1/e)                    if l^(-1/e) a_1 <= a_top,
 
-force as its cube; indentation and time add the factors [l, u] and [l/sqrt u, u/sqrt l] and
-change with a_m by `exponents`.
+The force changes by the cube of this. Indentation and time have the additional factors [l, u] and
+[l/sqrt u, u/sqrt l] and change with a_m by `exponents`.
 """
 
 from collections.abc import Callable, Mapping
@@ -42,7 +42,7 @@ _p, _r = sp.symbols("p r", nonnegative=True)
 
 @cache
 def slope_law() -> Formula:
-    """The side wall's part of S; the modes' is link 17's."""
+    """Return the finite radius's part of S; that of the modes is in link 17."""
     wall, mode = reduced_split()
 
     def sloped(part: sp.Expr) -> sp.Expr:
@@ -75,7 +75,7 @@ def slope_law() -> Formula:
 
 @cache
 def one_sided() -> Formula:
-    """S <= 1 + 3/2 c_1 A for every a < b; what it is less than that is at most K_3 A^3."""
+    """Return 1 + 3/2 c_1 A, and prove 1 + 3/2 c_1 A - K_3 A^3 <= S <= 1 + 3/2 c_1 A for a < b."""
     slope_law()
     first = coefficient(2)
     weight = plate_factors()[2].expression.subs(T, 2 * eta * j_n) / (j_n * J1**2)
@@ -116,8 +116,8 @@ def one_sided() -> Formula:
 def exponents(fall: sp.Expr, rise: sp.Expr) -> Mapping[str, sp.Expr]:
     """Exponents of `lemma` for -fall <= d log S_1/d log a <= rise.
 
-    `energy` is the least elasticity of W_1, `depth` the largest of delta_1; the contact time of
-    S_1 falls with a_m at most like a_m^-shorter and grows at most like a_m^longer.
+    `energy` is the least elasticity of W_1, `depth` the largest of delta_1; the contact time of S_1
+    decreases with a_m at most like a_m^-shorter and increases at most like a_m^longer.
     """
     half = sp.Rational(1, 2)
     return {
@@ -130,16 +130,16 @@ def exponents(fall: sp.Expr, rise: sp.Expr) -> Mapping[str, sp.Expr]:
 
 @cache
 def lemma() -> Proof:
-    """The exponents: extreme powers put for S_1 into work, indentation and time."""
+    """Prove the exponents: extreme powers for S_1 in work, indentation and time."""
     found = exponents(_p, _r)
 
     def power(of: sp.Expr, top: sp.Expr) -> sp.Expr:
         return sp.integrate(_x**of, (_x, 0, top), conds="none")
 
-    # S_1(x) <= S_1(a) (x/a)^-p below a: work and indentation grow at least, at most so fast.
+    # S_1(x) <= S_1(a) (x/a)^-p below a: bounds of the growth of work and indentation.
     work = _a**5 / power(4 - _p, _a) * _a**-_p
     depth = _a**2 / power(1 + _r, _a) * _a**_r
-    # S_1(g x) between g^-p and g^q times S_1(x): travel over speed, both at a_m and at g a_m.
+    # S_1(g x) is between g^-p and g^q times S_1(x): distance over speed, both at a_m and at g a_m.
     travel, speed = (2 - _p, 2 + _r), (sp.Rational(5) / 2 - _p / 2, sp.Rational(5) / 2 + _r / 2)
     elasticity = _x / (1 + _x)
     return prove(
@@ -157,7 +157,7 @@ def lemma() -> Proof:
 
 
 def substitution() -> tuple[Formula, ...]:
-    """The formulas of the link, the lemma proved with them."""
+    """Return the formulas of the link, after proving the lemma."""
     lemma()
     return slope_law(), one_sided()
 
@@ -166,7 +166,7 @@ def substitution() -> tuple[Formula, ...]:
 
 
 def wall_rest_ball(digits: int = 12) -> flint.arb:
-    """(4/pi^2) int_0^oo (sinh y - y)/y K0/I0 dy = (4/pi^2) int (Shi y - y)/(y I0^2) dy.
+    """Return (4/pi^2) int_0^oo (sinh y - y)/y K0/I0 dy = (4/pi^2) int (Shi y - y)/(y I0^2) dy.
 
     By parts, Shi being the integral of sinh y/y and (K0/I0)' = -1/(y I0^2). For y <= 1
     Shi y - y is below y^3/12, and beyond it Shi y is below e^y/2.
@@ -181,7 +181,7 @@ def wall_rest_ball(digits: int = 12) -> flint.arb:
 def wall_integral(
     integrand: Callable[[flint.acb, bool], flint.acb], digits: int, what: str
 ) -> flint.arb:
-    """(4/pi^2) int_0^oo of what is below y^2/12 for y <= 1 and below e^y/I0^2 beyond."""
+    """Return (4/pi^2) int_0^oo of a function below y^2/12 for y <= 1 and below e^y/I0^2 beyond."""
 
     def compute() -> flint.arb:
         bits = flint.ctx.prec
@@ -195,23 +195,23 @@ def wall_integral(
 
 
 def roots_bound(k: int) -> flint.arb:
-    """C where the roots' share of c_(2k-3) is below C sum n^(2k-4) e^(-pi n/eta), eta <= 1/3.
+    """Return C: the roots' part of c_(2k-3) is below C sum n^(2k-4) e^(-pi n/eta), eta <= 1/3.
 
-    As `thin_remainder.coefficient_remainder_ball` has it.
+    See `thin_remainder.coefficient_remainder_ball`.
     """
     size = abs(sine_coefficient(k)) * sp.Integer(2) ** (5 - 2 * k)
     return flint.arb(6) * SIZE_OVER_INDEX ** (2 * k - 4) * flint.arb(int(size.p)) / int(size.q)
 
 
 def time_quadrature_bound(nodes: int, arcs: int = 256, boxes: int = 64) -> flint.arb:
-    """Relative error of Gauss' rule on [0, 1] for the contact time of S_1 = 1 + x A/A_m.
+    """Bound the relative error of Gauss' rule on [0, 1] for the contact time of S_1 = 1 + x A/A_m.
 
-    The integrand is f = q (1 - y + y q)/sqrt(6 (1 - y) g_5 + 5 y g_6) up to a factor,
-    q = 1 - u^2, y = x/(1 + x), g_n = 1 + ... + q^(n-1), and holds for -1 <= y <= 1,
-    hence for every x >= -1/2. On a Bernstein ellipse with parameter rho about [0, 1] balls
-    show the radicand to be nonzero for all y. Its zeros inside are as many for every y, and
-    none for y = 0, where they are fifth roots of unity in q. A polynomial of degree 2n - 1 is
-    then within 2 M rho^(1-2n)/(rho - 1) of f, and Gauss' rule is exact for it.
+    The integrand is f = q (1 - y + y q)/sqrt(6 (1 - y) g_5 + 5 y g_6) up to a factor, q = 1 - u^2,
+    y = x/(1 + x), g_n = 1 + ... + q^(n-1), and is valid for -1 <= y <= 1, hence for every
+    x >= -1/2. On a Bernstein ellipse with parameter rho about [0, 1], ball arithmetic shows that
+    the radicand is nonzero for all y. The number of its zeros inside is therefore the same for
+    every y, and 0 for y = 0, where they are fifth roots of unity in q. A polynomial of degree
+    2n - 1 is then within 2 M rho^(1-2n)/(rho - 1) of f, and Gauss' rule is exact for it.
     """
     rho = flint.arb(12) / 5
     _no_root_inside(rho)
@@ -234,7 +234,7 @@ def _wide(middle: flint.arb, half: flint.arb) -> flint.arb:
 
 
 def _on_ellipse(rho: flint.arb, turn: flint.arb, arcs: int) -> flint.acb:
-    """u on an arc of the upper half of the ellipse; the lower one is its conjugate."""
+    """Return u on an arc of the upper half of the ellipse; the lower half is its conjugate."""
     angle = _wide(turn, flint.arb(1) / (2 * arcs))
     z = rho * flint.acb(flint.arb.cos_pi(angle), flint.arb.sin_pi(angle))
     return flint.acb(1) / 2 + (z + 1 / z) / 4
@@ -250,12 +250,12 @@ def _size(u: flint.acb, y: flint.arb) -> flint.arb:
 
 
 def _no_root_inside(rho: flint.arb) -> None:
-    """For y = 0 the radicand vanishes at q = e^(2 pi i k/5) alone, u = sqrt(1 - q) outside.
+    """Prove that for y = 0 the radicand vanishes only outside: q = e^(2 pi i k/5), u = sqrt(1 - q).
 
     Raises
     ------
     ArithmeticError
-        If one were inside.
+        If a zero is inside.
     """
     product = sp.expand((1 - _q) * geometric(5, _q))
     prove("Fifth roots", "1 - q^5 = (1 - q) g_5.", {"g_5": product - 1 + _q**5})

@@ -14,15 +14,22 @@ ONSET = 6
 NEWTON = 30
 """Steps of Newton's iteration at most."""
 _CLOSE, _NEARLY, _NEXT = 1e-15, 1e-12, 1e-14
+_LEAST, _SAFETY = 0.01, 0.9
 _HALVINGS, _REAL = 60, 1e-9
 
 
 class Radau(NamedTuple):
-    """Nodes on (0, 1], the integral from 0 to each, and Legendre coefficients."""
+    """Nodes on (0, 1], the integral from 0 to each, and Legendre coefficients.
+
+    `values` gives values at the nodes from coefficients; `ahead` slope and curvature, in lengths
+    of the element, of the parabola through such values by least squares, at their end.
+    """
 
     x: Array
     integral: Array
     analysis: Array
+    values: Array
+    ahead: Array
 
 
 @cache
@@ -32,12 +39,16 @@ def radau(n: int) -> Radau:
     last[n - 1 :] = 1.0
     nodes = np.sort(-legroots(last))
     nodes[-1] = 1.0
-    analysis = np.linalg.inv(legvander(nodes, n - 1))
+    values = legvander(nodes, n - 1)
+    analysis = np.linalg.inv(values)
     x, weights = leggauss(n)
     half = (1.0 + nodes) / 2.0
-    values = legvander(np.outer(half, 1.0 + x) - 1.0, n - 1) @ analysis
-    integral = np.einsum("i,j,ijk->ik", half, weights / 2.0, values)
-    return Radau(half, integral, np.asarray(analysis, dtype=np.float64))
+    inner = legvander(np.outer(half, 1.0 + x) - 1.0, n - 1) @ analysis
+    integral = np.einsum("i,j,ijk->ik", half, weights / 2.0, inner)
+    weights = np.sqrt(0.025 + half)[:, None]
+    fit = np.linalg.pinv(weights * np.vander(half - 1.0, 3, increasing=True)) * weights[:, 0]
+    matrices = (np.asarray(x, dtype=np.float64) for x in (analysis, values, fit[1:]))
+    return Radau(half, integral, *matrices)
 
 
 def newton_step(
@@ -54,15 +65,15 @@ def newton_step(
     a
         Radii there.
     """
-    if not (np.all(np.isfinite(system)) and np.all(np.isfinite(residual))):
-        return None
     try:
         step = np.linalg.solve(system, residual)
     except np.linalg.LinAlgError:
         return None
     moved = by_x @ step
-    size = float(np.max(np.abs(moved)) / np.max(a))
-    shorter = step / max(1.0, -2.0 * float(np.min(moved / a)))
+    size = float(np.abs(moved).max() / a.max())
+    if not math.isfinite(size):
+        return None
+    shorter = step / max(1.0, -2.0 * float((moved / a).min()))
     return np.asarray(shorter, dtype=np.float64), size
 
 
@@ -86,6 +97,15 @@ def converged(size: float, before: float, order: int) -> bool:
     return size < before < math.inf and size * (size / before) ** order <= _NEXT
 
 
+def change_of_length(sizes: Array, tolerance: float) -> tuple[float, float]:
+    """Error of an element from the sizes of its coefficients, and the factor for its length."""
+    n, error = sizes.size, float(np.max(sizes[-2:]))
+    if error > tolerance:
+        return error, min(0.8, max(0.1, math.pow(0.1 * tolerance / error, 1.0 / n)))
+    needed = n - int(np.argmax(sizes[::-1] > tolerance)) if np.any(sizes > tolerance) else 1
+    return error, min(2.0, _SAFETY * n / (needed + 2))
+
+
 class Element(NamedTuple):
     """Legendre coefficients on [x, x + length], a row per quantity, and of the slope solved for."""
 
@@ -101,6 +121,18 @@ class Element(NamedTuple):
     def slope_at(self, x: Array) -> Array:
         """That slope at x, within the element or somewhat beyond."""
         return np.asarray(self.slope @ self._basis(x), dtype=np.float64)
+
+    def slope_beyond(self, row: int, x: Array) -> Array:
+        """Slope of a row beyond the element, whose square goes on like a parabola.
+
+        The square of a radius is smooth where the contact closes too.
+        """
+        rule, s = radau(self.slope.size), (x - self.x) / self.length - 1.0
+        square = (rule.values @ self.rows[row]) ** 2
+        growth, bent = rule.ahead @ square
+        ahead = np.maximum(square[-1] + s * (growth + s * bent), _LEAST * square[-1])
+        slope = (0.5 * growth + s * bent) / (self.length * np.sqrt(ahead))
+        return np.asarray(slope, dtype=np.float64)
 
     def _basis(self, x: Array) -> Array:
         s = 2.0 * (x - self.x) / self.length - 1.0

@@ -15,6 +15,7 @@ that of the paper's edge: a remainder taken with the held edge's own law would k
 any wave has travelled there.
 """
 
+import itertools
 import math
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
     from generated.edge_modes import Waves
 
 Indices = NDArray[np.intp]
+Parts = tuple[tuple[slice, slice, Indices, Indices], ...]
 DEGREE, RESOLVED = 32, 0.75
 """Least degree of the tables, and by how much it grows with the largest wave number times a."""
 SMALL = 1e-6
@@ -81,11 +83,28 @@ class Modes:
         return np.repeat(np.arange(self.first.size), ends - self.first)
 
     @cached_property
-    def groups(self) -> tuple[tuple[Indices, Indices], ...]:
-        """Shapes that have equally many oscillators, and these, shape (shapes, oscillators)."""
-        counts = np.bincount(self.shape, minlength=self.first.size)
-        alike = [np.flatnonzero(counts == count) for count in np.unique(counts)]
-        return tuple((some, self.first[some, None] + np.arange(counts[some[0]])) for some in alike)
+    def _parts(self) -> dict[int, Parts]:
+        return {}
+
+    def parts(self, most: int) -> Parts:
+        """Shapes with all their oscillators, about so many at once."""
+        if most not in self._parts:
+            self._parts[most] = self._split(most)
+        return self._parts[most]
+
+    def _split(self, most: int) -> Parts:
+        bounds = np.append(self.first, self.omega.size)
+        places = np.searchsorted(bounds, np.arange(0, self.omega.size, most))
+        ends = [*np.unique(places).tolist(), self.first.size]
+        return tuple(
+            (
+                slice(low, high),
+                slice(bounds[low], bounds[high]),
+                self.shape[bounds[low] : bounds[high]] - low,
+                self.first[low:high] - bounds[low],
+            )
+            for low, high in itertools.pairwise(ends)
+        )
 
     def by_shape(self, values: Array) -> Array:
         """Sums over the oscillators of each shape, along the last axis."""
@@ -340,8 +359,8 @@ class ContactTables:
     pointwise: bool = False
 
     def at(self, a: Array) -> ContactSamples:
-        """The contact at radii [m]; NaN beyond the top."""
-        x = np.where(a <= self.top, a / self.top, np.nan)
+        """The contact at radii [m]; NaN below 0 and beyond the top."""
+        x = np.where((a >= 0.0) & (a <= self.top), a / self.top, np.nan)
         found = chebyshev(2.0 * x - 1.0, self.table.shape[0] - 1) @ self.table
         x, count = x[:, None], found.shape[1] // 4
         powers = x**3, x**2, x * x / self.top, x / self.top

@@ -37,8 +37,10 @@ from derivation.scene.time_element import A, DynamicProblem, P, TimeElement, Z
 from derivation.scene.wave_motion import ContactInterval, DynamicImpact, InertiaDetails
 from derivation.scene.yielding import units_of, yielding_of
 
-STAGES = 14, 16
-"""Nodes of an element, of the run that checks and of the one that counts."""
+NODES, MANY = (32, 24, 16), (500, 5000)
+"""Nodes of an element, and numbers of oscillators beyond which there are fewer."""
+FEWER = 2
+"""How many fewer the run that checks has."""
 WIDEST = 30.0
 """How much larger than the first guess an infinite plate is made, to wait for a contact's end."""
 LOOSE, SHARE = 3e-4, 1.0 / 3.0
@@ -60,8 +62,13 @@ def goal(rtol: float | None) -> float:
     return LOOSE if rtol is None else SHARE * rtol
 
 
-def rough_tolerance(goal: float) -> float:
-    """Tolerance of the time elements in a run that only tells what more modes change [1]."""
+def nodes_for(problem: DynamicProblem) -> int:
+    """Nodes of an element: fewer where many oscillators make each of them dear."""
+    return NODES[int(np.searchsorted(MANY, problem.omega.size))]
+
+
+def time_tolerance(goal: float) -> float:
+    """Tolerance of the time elements, small beside what more modes may change [1]."""
     return min(1e-8, max(contact_sequence.TOLERANCE, 1e-3 * goal))
 
 
@@ -124,13 +131,14 @@ def _branched(
     every, lowest, room = branching(law, "all"), branching(law, "A0"), goal / SHARE - goal
     if not followed(every, 2 * affordable(every)):
         return lowest, None
-    problem, close = problem_of(lowest, count_of(law)), rough_tolerance(goal)
-    most, begin = contact_sequence.steps_of(problem), problem.begin()
-    first = contact_sequence.contact(problem, STAGES[0], begin, 0.0, 0.0, close, most=most)
+    problem, close = problem_of(lowest, count_of(law)), time_tolerance(goal)
+    n = nodes_for(problem) - FEWER
+    most, begin = contact_sequence.steps_of(problem, n), problem.begin()
+    first = contact_sequence.contact(problem, n, begin, 0.0, 0.0, close, most=most)
     if _motion(lowest, ImpactHistory(problem, (first,), "")).inertia.left(outputs)[1] > room:
-        budget.left -= first.tried * contact_sequence.weight_of(problem)
+        budget.left -= first.tried * contact_sequence.weight_of(problem, n)
         return every, None
-    history = contact_sequence.impact_history(problem, STAGES[0], close, first=first)
+    history = contact_sequence.impact_history(problem, n, close, first=first)
     budget.left -= history.work
     rough = _motion(lowest, history)
     if rough.inertia.complete and rough.inertia.left(outputs)[1] > room:
@@ -154,9 +162,9 @@ def _check_heavy(law: ContactLaw) -> None:
         return
     swing = half_period(model.m, modes)
     problem = problem_of(law, 2 * affordable(law))
-    phase = swing / problem.T * float(np.max(problem.omega))
-    steps = IN_CONTACT * phase / (contact_sequence.PHASE * STAGES[1])
-    most = contact_sequence.steps_of(problem)
+    n = nodes_for(problem)
+    steps = IN_CONTACT * swing / problem.T * problem.fastest / (contact_sequence.PHASE * n)
+    most = contact_sequence.steps_of(problem, n)
     if steps > most:
         raise SceneError(
             f"effects.inertia: the sphere is {ratio:.3g} times as heavy as the first mode of the "
@@ -183,15 +191,15 @@ def _converged(
 
     The run with the fewest may be known.
     """
-    count = affordable(law)
+    count, close = affordable(law), time_tolerance(goal)
     check_followed(law, 2 * count)
-    rough = known or _run(law, count, STAGES[0], budget, tolerance=rough_tolerance(goal))
+    rough = known or _run(law, count, budget, close, FEWER)
     if not rough.inertia.complete:  # and no finer run would be
         return rough
     best: DynamicImpact | None = None
     while True:
         try:
-            found = _run(law, 2 * count, STAGES[1], budget, rough.impact_history)
+            found = _run(law, 2 * count, budget, close, coarse=rough.impact_history)
         except SceneError:
             if best is None:
                 raise
@@ -211,8 +219,8 @@ def _converged(
 
 def _work(history: ImpactHistory) -> float:
     """Number of time elements, weighted by the run time of each."""
-    elements = sum(len(touching.pieces) for touching in history.contacts)
-    return elements * contact_sequence.weight_of(history.problem)
+    pieces = [piece.element for touching in history.contacts for piece in touching.pieces]
+    return len(pieces) * contact_sequence.weight_of(history.problem, pieces[0].slope.size)
 
 
 def problem_of(law: ContactLaw, count: int) -> DynamicProblem:
@@ -223,17 +231,18 @@ def problem_of(law: ContactLaw, count: int) -> DynamicProblem:
 def _run(
     law: ContactLaw,
     count: int,
-    n: int,
     budget: Budget,
+    tolerance: float,
+    fewer_nodes: int = 0,
     coarse: ImpactHistory | None = None,
-    tolerance: float = contact_sequence.TOLERANCE,
 ) -> DynamicImpact:
-    """The impact with so many bending modes by elements of n nodes and a tolerance.
+    """The impact with so many bending modes by elements of a tolerance, or of fewer nodes too.
 
     If with the contacts of a coarser run it would exceed its work, it is not begun, and those are
     all that is known.
     """
     problem = _problem(law, plate_of(law, count))
+    n = nodes_for(problem) - fewer_nodes
     work = min(contact_sequence.WORK, budget.left)
     if coarse and expected_work(problem, n, coarse) > work:
         fewer = count // 2
@@ -276,7 +285,7 @@ def _of_chosen_modes(
         return found
     if not fast(law, count):
         return _unjudged(found)
-    coarse = _run(law, max(1, count // 4), STAGES[0], budget, tolerance=rough_tolerance(LOOSE))
+    coarse = _run(law, max(1, count // 4), budget, time_tolerance(LOOSE), FEWER)
     if not coarse.inertia.complete:
         return _unjudged(found)
     further = _judged(coarse, found).inertia.mode_convergence

@@ -5,7 +5,7 @@ from functools import cache
 from typing import NamedTuple
 
 import numpy as np
-from numpy.polynomial.legendre import legder, leggauss, legroots, legvander
+from numpy.polynomial.legendre import legder, leggauss, legroots, legval, legvander
 
 from derivation.scene.effects.effect import Array
 
@@ -15,7 +15,9 @@ NEWTON = 30
 """Steps of Newton's iteration at most."""
 _CLOSE, _NEARLY, _NEXT = 1e-15, 1e-12, 1e-14
 _LEAST, _SAFETY = 0.01, 0.9
-_HALVINGS, _REAL = 60, 1e-9
+_HALVINGS, _LOW, _REAL = 60, 0.1, 1e-9
+"""A row whose values at the nodes stay above this part of the largest stays above 0 between them;
+imaginary part of a root that is rounding."""
 
 
 class Radau(NamedTuple):
@@ -138,14 +140,32 @@ class Element(NamedTuple):
         s = 2.0 * (x - self.x) / self.length - 1.0
         return np.asarray(legvander(s, self.slope.size - 1).T, dtype=np.float64)
 
+    def fall(self, row: int) -> float | None:
+        """Where a row first falls through zero, also if it rises again; None if it does not."""
+        values = radau(self.slope.size).values @ self.rows[row]
+        if values.min() > _LOW * values.max():
+            return None
+        roots = legroots(self.rows[row])
+        inner = np.sort(roots.real[(np.abs(roots.imag) < _REAL) & (np.abs(roots.real) <= 1.0)])
+        falls = inner[legval(inner, legder(self.rows[row])) < 0.0]
+        if falls.size:
+            return self.x + self.length * (1.0 + float(falls[0])) / 2.0
+        return self.x + self.length if values[-1] <= 0.0 else None
+
     def end(self, row: int) -> float:
-        """Where a row falls through zero."""
+        """Where a row that is positive before it and negative after it falls through zero."""
         low, high = self.x, self.x + self.length
         for _ in range(_HALVINGS):
             middle = 0.5 * (low + high)
             above = float(self.at(np.array([middle]))[row, 0]) > 0.0
             low, high = (middle, high) if above else (low, middle)
         return low
+
+    def zero_near_end(self, row: int) -> float:
+        """Where a row falls through zero, by Newton's step from the element's end."""
+        values = self.rows[row]
+        rise = 2.0 / self.length * float(legval(1.0, legder(values)))
+        return self.x + self.length - (float(values.sum()) / rise if rise < 0.0 else 0.0)
 
     def largest(self, row: int) -> float:
         """The largest value of a row: at an end or where its slope is zero."""

@@ -256,9 +256,9 @@ def contact(
             continue
         if problem.yielding is not None:
             made, problem = next_branch(problem, n, made, state, radius)
-        # A viscoelastic contact separates before it is flat.
-        if float(np.sum(made.element.rows[P])) <= 0.0:
-            last = _let_go(problem, n, made, state, radius)
+        # A viscoelastic contact separates before it is flat, and may meet again within an element.
+        if problem.retardation_time and (end := made.element.fall(P)) is not None:
+            last = _let_go(problem, n, made, end, state, radius)
             ended = origin + (last.element.x + last.element.length) ** ONSET
             pieces = (*found, last)
             tries = step + 1 - tried
@@ -367,16 +367,21 @@ def _check_weight(problem: DynamicProblem, x: float) -> None:
 
 
 def _let_go(
-    problem: DynamicProblem, n: int, made: TimeElement, state: ImpactState, radius: float
+    problem: DynamicProblem,
+    n: int,
+    made: TimeElement,
+    end: float,
+    state: ImpactState,
+    radius: float,
 ) -> TimeElement:
     """The element that ends where its force does."""
     for _ in range(3):
-        x, end = made.element.x, made.element.end(P)
+        x = made.element.x
         guess = made.element.slope_at(x + (end - x) * radau(n).x)
         shorter = element(problem, n, x, end - x, state, radius, guess)
         if shorter is None:
             break
-        made = shorter
+        made, end = shorter, shorter.element.zero_near_end(P)
     return made
 
 

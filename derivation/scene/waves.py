@@ -51,8 +51,8 @@ HEAVY, IN_CONTACT = 10.0, 0.7
 least fraction of its half period in contact; random scenes have at least 0.77."""
 NONE: Results = (0.0, 0.0, 0.0, 0.0, 0.0)
 UNKNOWN: Results = (math.inf, math.inf, math.inf, math.inf, math.inf)
-INTEGRATION, ROUNDING = 1e-10, 2e-12
-"""What tests hold elements and arithmetic to, beside the change with the modes [1]."""
+INTEGRATION, ROUNDING = 10.0, 2e-12
+"""Tested bounds: error of the results over the tolerance of the time elements, and rounding [1]."""
 WORK = 4e7
 """Work of all runs of an impact, as `contact_sequence` counts that of one."""
 
@@ -70,6 +70,15 @@ def nodes_for(problem: DynamicProblem) -> int:
 def time_tolerance(goal: float) -> float:
     """Tolerance of the time elements, small beside what more modes may change [1]."""
     return min(1e-8, max(contact_sequence.TOLERANCE, 1e-3 * goal))
+
+
+def integration_error(history: ImpactHistory) -> float:
+    """Tested bound on the error of the results by the time elements [1].
+
+    The force of a viscoelastic contact is less exact.
+    """
+    viscous = history.problem.retardation_time > 0.0
+    return (contact_sequence.ROUGH if viscous else INTEGRATION) * history.tolerance
 
 
 @dataclass
@@ -128,10 +137,11 @@ def _branched(
     modes, which take up the goal. Branches cannot be taken where the contact is so short that
     there would be too many.
     """
-    every, lowest, room = branching(law, "all"), branching(law, "A0"), goal / SHARE - goal
+    every, lowest, close = branching(law, "all"), branching(law, "A0"), time_tolerance(goal)
+    room = goal / SHARE - goal - INTEGRATION * close
     if not followed(every, 2 * affordable(every)):
         return lowest, None
-    problem, close = problem_of(lowest, count_of(law)), time_tolerance(goal)
+    problem = problem_of(lowest, count_of(law))
     n = nodes_for(problem) - FEWER
     most, begin = contact_sequence.steps_of(problem, n), problem.begin()
     first = contact_sequence.contact(problem, n, begin, 0.0, 0.0, close, most=most)

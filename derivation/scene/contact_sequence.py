@@ -164,7 +164,7 @@ def steps_of(problem: DynamicProblem, n: int, work: float = WORK) -> int:
 
 
 def weight_of(problem: DynamicProblem, n: int) -> float:
-    """Time that an element takes, in units of which about two million pass in a second."""
+    """Time that an element takes, in units of which two to three million pass in a second."""
     modes, degree = problem.contact.modes, len(problem.contact.table) - 1
     each = 0.3 * modes.omega.size + (0.1 + 0.003 * degree) * modes.phi.size
     return 2000.0 + n * each
@@ -173,13 +173,11 @@ def weight_of(problem: DynamicProblem, n: int) -> float:
 def expected_work(problem: DynamicProblem, n: int, coarse: ImpactHistory) -> float:
     """Work of an impact whose contacts last as long as those of a run with fewer modes.
 
-    There are more elements where `PHASE` limits them; elsewhere their length grows with the
-    n-th root of the tolerance.
+    There are more elements where `PHASE` limits them.
     """
     lasted = sum(touching.end - touching.start for touching in coarse.contacts)
     more, fewer = (lasted * some.fastest / PHASE for some in (problem, coarse.problem))
     others = sum(touching.tried for touching in coarse.contacts) - fewer / n
-    others *= math.pow(coarse.tolerance / TOLERANCE, 1.0 / n)
     return (more / n + max(0.0, others)) * weight_of(problem, n)
 
 

@@ -8,19 +8,12 @@ import numpy as np
 
 from derivation.engine.activity import tell
 from derivation.scene.collocation import NEWTON, ONSET, change_of_length, radau
+from derivation.scene.dynamic_problem import DynamicProblem, ImpactState
 from derivation.scene.effects.effect import Array
 from derivation.scene.effects.inertia import WIDER
 from derivation.scene.flight import meeting
 from derivation.scene.scene import IncompleteError
-from derivation.scene.time_element import (
-    LOST,
-    A,
-    DynamicProblem,
-    ImpactState,
-    P,
-    TimeElement,
-    element,
-)
+from derivation.scene.time_element import LOST, A, P, TimeElement, element
 from derivation.scene.yield_events import next_branch
 from derivation.scene.yielding import Yielding
 
@@ -171,9 +164,8 @@ def weight_of(problem: DynamicProblem, n: int) -> float:
 
 
 def expected_work(problem: DynamicProblem, n: int, coarse: ImpactHistory) -> float:
-    """Work of an impact whose contacts last as long as those of a run with fewer modes.
-
-    There are more elements where `PHASE` limits them.
+    """Work of an impact whose contacts last as long, in elements shorter only by `PHASE`, as those
+    of a run with fewer modes.
     """
     lasted = sum(touching.end - touching.start for touching in coarse.contacts)
     more, fewer = (lasted * some.fastest / PHASE for some in (problem, coarse.problem))

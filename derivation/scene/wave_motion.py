@@ -11,6 +11,7 @@ import numpy as np
 from derivation.scene import contact_sequence
 from derivation.scene.collocation import ONSET, Element
 from derivation.scene.contact_sequence import ImpactHistory
+from derivation.scene.dynamic_problem import DynamicProblem, ImpactState
 from derivation.scene.effects.effect import Array, Results
 from derivation.scene.html import html_table
 from derivation.scene.law import ContactLaw
@@ -18,19 +19,7 @@ from derivation.scene.limits import local_indentation
 from derivation.scene.motion import EnergyBalance, Motion
 from derivation.scene.quantity import counted
 from derivation.scene.scene import OUTPUTS
-from derivation.scene.time_element import (
-    DAMPED,
-    A,
-    DynamicProblem,
-    E,
-    ImpactState,
-    P,
-    V,
-    W,
-    Z,
-    nodes_of,
-    values_at,
-)
+from derivation.scene.time_element import DAMPED, A, E, P, V, W, Z, nodes_of, values_at
 
 IRREGULAR = 2.0
 """What modes left out may change, over what half of those there are did."""

@@ -8,7 +8,6 @@ its edge while the sphere is in contact.
 """
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -16,11 +15,12 @@ import numpy as np
 
 from derivation.scene import contact_sequence
 from derivation.scene.contact_sequence import ImpactHistory, expected_work
-from derivation.scene.dynamic_energy import balance_of
-from derivation.scene.effects.effect import Results
-from derivation.scene.effects.inertia import WIDER, higher_branch_error, weight_share
+from derivation.scene.contact_tables import contact_of
+from derivation.scene.dynamic_problem import DynamicProblem
+from derivation.scene.dynamic_results import UNKNOWN, dynamic_impact_of
+from derivation.scene.effects.inertia import WIDER
 from derivation.scene.law import ContactLaw
-from derivation.scene.modal import ModalPlate, Modes, contact_of, plate_of
+from derivation.scene.modal import ModalPlate, Modes, plate_of
 from derivation.scene.mode_count import (
     LAST,
     affordable,
@@ -33,8 +33,7 @@ from derivation.scene.mode_count import (
 )
 from derivation.scene.model import Model
 from derivation.scene.scene import OUTPUTS, SceneError
-from derivation.scene.time_element import A, DynamicProblem, P, TimeElement, Z
-from derivation.scene.wave_motion import ContactInterval, DynamicImpact, InertiaDetails
+from derivation.scene.wave_motion import DynamicImpact
 from derivation.scene.yielding import units_of, yielding_of
 
 NODES, MANY = (32, 24, 16), (500, 5000)
@@ -49,8 +48,6 @@ one that is given."""
 HEAVY, IN_CONTACT = 10.0, 0.7
 """Sphere mass over that of the plate's first mode above which the plate acts as a spring, and the
 least fraction of its half period in contact; random scenes have at least 0.77."""
-NONE: Results = (0.0, 0.0, 0.0, 0.0, 0.0)
-UNKNOWN: Results = (math.inf, math.inf, math.inf, math.inf, math.inf)
 INTEGRATION, ROUNDING = 10.0, 2e-12
 """Tested bounds: error of the results over the tolerance of the time elements, and rounding [1]."""
 WORK = 4e7
@@ -145,12 +142,13 @@ def _branched(
     n = nodes_for(problem) - FEWER
     most, begin = contact_sequence.steps_of(problem, n), problem.begin()
     first = contact_sequence.contact(problem, n, begin, 0.0, 0.0, close, most=most)
-    if _motion(lowest, ImpactHistory(problem, (first,), "")).inertia.left(outputs)[1] > room:
+    begun = dynamic_impact_of(lowest, ImpactHistory(problem, (first,), ""))
+    if begun.inertia.left(outputs)[1] > room:
         budget.left -= first.tried * contact_sequence.weight_of(problem, n)
         return every, None
     history = contact_sequence.impact_history(problem, n, close, first=first)
     budget.left -= history.work
-    rough = _motion(lowest, history)
+    rough = dynamic_impact_of(lowest, history)
     if rough.inertia.complete and rough.inertia.left(outputs)[1] > room:
         return every, None
     return lowest, rough
@@ -258,10 +256,10 @@ def _run(
         fewer = count // 2
         while fewer > 1 and expected_work(problem_of(law, fewer), n, coarse) > work:
             fewer //= 2
-        return _motion(law, _unchecked(coarse, problem, fewer))
+        return dynamic_impact_of(law, _unchecked(coarse, problem, fewer))
     history = contact_sequence.impact_history(problem, n, tolerance, work)
     budget.left -= history.work
-    return _motion(law, history)
+    return dynamic_impact_of(law, history)
 
 
 def _unchecked(coarse: ImpactHistory, problem: DynamicProblem, fewer: int) -> ImpactHistory:
@@ -333,82 +331,3 @@ def echo_time(model: Model) -> float:
     if model.inertia.branches == "all":
         fastest = math.sqrt((model.lam + 2.0 * model.mu) / model.mu)
     return 2.0 * model.b / (fastest * model.shear_speed)
-
-
-def _motion(law: ContactLaw, history: ImpactHistory) -> DynamicImpact:
-    """The results of an impact."""
-    problem, last = history.problem, history.contacts[-1].after
-    energy = problem.m * problem.v0**2
-    pieces = [piece for touching in history.contacts for piece in touching.pieces]
-    largest = {row: _largest(pieces, row) for row in (A, Z, P)}
-    displacement = max(
-        largest[Z], max(touching.before.displacement for touching in history.contacts)
-    )
-    energies, widest = problem.energies(last), problem.a * largest[A]
-    if problem.yielding:
-        widest /= problem.yielding.flattening
-    first, total = history.contacts[0], history.contacts[-1].end
-    inertia = InertiaDetails(
-        tuple(_touch(problem, touching) for touching in history.contacts),
-        problem.T * total,
-        history.reason,
-        history.remedy,
-        problem.omega.size,
-        tuple((energy * energies).tolist()),
-        NONE if history.complete else UNKNOWN,
-        _branches(law, widest, problem.depth * displacement, problem.T * first.end),
-    )
-    return DynamicImpact(
-        problem.T * first.end,
-        problem.depth * displacement,
-        problem.force * largest[P],
-        widest,
-        0.0,
-        -last.velocity if history.complete else math.nan,
-        energy_balance=balance_of(history),
-        impact_history=history,
-        inertia=inertia,
-        law=law,
-        dent=problem.yielding.dent if problem.yielding else 0.0,
-    )
-
-
-def _branches(law: ContactLaw, a: float, displacement: float, T: float) -> Results:
-    """What the branches left out may change in each result [1]: also of all, those too fast.
-
-    Where there is a weight, all but the displacement change by more.
-    """
-    model = law.model
-    if model.inertia.branches == "all":
-        return NONE
-    heavier = float(1.0 + weight_share(model, displacement))
-    changed = higher_branch_error(model, a, T, 2.0 * law.damping_ratio)
-    time, depth, force, radius, speed = map(float, changed)
-    return heavier * time, depth, heavier * force, heavier * radius, heavier * speed
-
-
-def _touch(problem: DynamicProblem, touching: contact_sequence.Touching) -> ContactInterval:
-    """A contact in SI."""
-    before, after = touching.before, touching.after
-    lasted = touching.end - touching.start
-    return ContactInterval(
-        problem.T * touching.start,
-        problem.T * touching.end,
-        problem.m * problem.v0 * (before.velocity - after.velocity + problem.weight * lasted),
-        problem.force * _largest(touching.pieces, P),
-        -before.separation_speed,
-    )
-
-
-def _largest(pieces: Sequence[TimeElement], row: int) -> float:
-    """The largest value of a row; elements whose coefficients say that it is not theirs are passed.
-
-    No Legendre polynomial exceeds 1.
-    """
-    found = -math.inf
-    bounds = [(float(np.sum(np.abs(piece.element.rows[row]))), piece) for piece in pieces]
-    for bound, piece in sorted(bounds, key=lambda pair: -pair[0]):
-        if bound <= found:
-            break
-        found = max(found, piece.element.largest(row))
-    return found

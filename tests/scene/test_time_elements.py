@@ -7,10 +7,12 @@ import pytest
 
 from derivation.scene import contact_sequence, read, waves
 from derivation.scene.contact_sequence import ImpactHistory
+from derivation.scene.dynamic_problem import DynamicProblem
+from derivation.scene.dynamic_results import dynamic_impact_of
 from derivation.scene.effects import PAPER
 from derivation.scene.law import ContactLaw
 from derivation.scene.model import model_of
-from derivation.scene.time_element import DynamicProblem, P
+from derivation.scene.time_element import P
 
 BALL = {"radius": 0.01, "material": "steel"}
 PANE = {"radius": 0.1, "thickness": 0.01, "material": "glass"}
@@ -38,7 +40,7 @@ def case(name: str) -> tuple[ContactLaw, DynamicProblem]:
 
 def numbers(law: ContactLaw, history: ImpactHistory) -> np.ndarray:
     assert history.complete
-    return np.array(waves._motion(law, history).numbers)
+    return np.array(dynamic_impact_of(law, history).numbers)
 
 
 @pytest.mark.parametrize("name", CASES)

@@ -247,7 +247,8 @@ def contact(
         if problem.yielding is not None:
             made, problem = next_branch(problem, n, made, state, radius)
         # A viscoelastic contact separates before it is flat, and may meet again within an element.
-        if problem.retardation_time and (end := made.element.fall(P)) is not None:
+        ending = problem.retardation_time or float(made.element.rows[P].sum()) <= 0.0
+        if ending and (end := made.element.fall(P)) is not None:
             last = _let_go(problem, n, made, end, state, radius)
             ended = origin + (last.element.x + last.element.length) ** ONSET
             pieces = (*found, last)

@@ -24,11 +24,12 @@ from derivation.engine.outputs import recorded_in, sorted_json
 from derivation.plate.benchmark.speed import machine
 from derivation.plate.judge import PACKAGE
 from derivation.scene import contact_sequence, waves
+from derivation.scene.contact_tables import ContactSamples
+from derivation.scene.dynamic_problem import DynamicProblem
 from derivation.scene.effects.effect import Array
 from derivation.scene.impact import selected_effects, simulate
-from derivation.scene.modal import ContactSamples
 from derivation.scene.scene import OUTPUTS, Scene, read
-from derivation.scene.time_element import DynamicProblem, P
+from derivation.scene.time_element import P
 
 MEASURED: Path = measurements() / "moving.json"
 SCENE: dict[str, dict[str, Any]] = {

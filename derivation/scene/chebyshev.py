@@ -10,20 +10,9 @@ from derivation.scene.quadrature import gauss
 
 
 def chebyshev(s: Array, degree: int) -> Array:
-    """Return the Chebyshev polynomials up to a degree at points of [-1, 1], along a last axis.
-
-    Each step doubles their number by 2 T_m T_k = T_(m+k) + T_(m-k).
-    """
-    found = np.empty((degree + 1, *s.shape))
-    found[0] = 1.0
-    found[1:2] = s
-    known = 1
-    while known < degree:
-        more = min(known, degree - known)
-        found[known + 1 :][:more] = 2.0 * found[known] * found[1 : more + 1]
-        found[known + 1 :][:more] -= found[known - more : known][::-1]
-        known += more
-    return np.moveaxis(found, 0, -1)
+    """Return the Chebyshev polynomials up to a degree at points of [-1, 1], along a last axis."""
+    angle = np.arccos(s)[..., None]
+    return np.asarray(np.cos(angle * np.arange(degree + 1)), dtype=np.float64)
 
 
 def by_growth(table: Array) -> Array:

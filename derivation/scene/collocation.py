@@ -5,7 +5,7 @@ from functools import cache
 from typing import NamedTuple
 
 import numpy as np
-from numpy.polynomial.legendre import legder, leggauss, legroots, legvander
+from numpy.polynomial.legendre import legder, leggauss, legroots, legval, legvander
 
 from derivation.scene.effects.effect import Array
 
@@ -14,15 +14,24 @@ ONSET = 6
 NEWTON = 30
 """Steps of Newton's iteration at most."""
 _CLOSE, _NEARLY, _NEXT = 1e-15, 1e-12, 1e-14
-_HALVINGS, _REAL = 60, 1e-9
+_LEAST, _SAFETY = 0.01, 0.9
+_HALVINGS, _LOW, _REAL = 60, 0.1, 1e-9
+"""A row whose values at the nodes stay above this part of the largest stays above 0 between them;
+imaginary part of a root that is rounding."""
 
 
 class Radau(NamedTuple):
-    """Nodes on (0, 1], the integral from 0 to each, and Legendre coefficients."""
+    """Nodes on (0, 1], the integral from 0 to each, and Legendre coefficients.
+
+    `values` gives values at the nodes from coefficients; `ahead` slope and curvature, in lengths
+    of the element, of the parabola through such values by least squares, at their end.
+    """
 
     x: Array
     integral: Array
     analysis: Array
+    values: Array
+    ahead: Array
 
 
 @cache
@@ -32,12 +41,16 @@ def radau(n: int) -> Radau:
     last[n - 1 :] = 1.0
     nodes = np.sort(-legroots(last))
     nodes[-1] = 1.0
-    analysis = np.linalg.inv(legvander(nodes, n - 1))
+    values = legvander(nodes, n - 1)
+    analysis = np.linalg.inv(values)
     x, weights = leggauss(n)
     half = (1.0 + nodes) / 2.0
-    values = legvander(np.outer(half, 1.0 + x) - 1.0, n - 1) @ analysis
-    integral = np.einsum("i,j,ijk->ik", half, weights / 2.0, values)
-    return Radau(half, integral, np.asarray(analysis, dtype=np.float64))
+    inner = legvander(np.outer(half, 1.0 + x) - 1.0, n - 1) @ analysis
+    integral = np.einsum("i,j,ijk->ik", half, weights / 2.0, inner)
+    weights = np.sqrt(0.025 + half)[:, None]
+    fit = np.linalg.pinv(weights * np.vander(half - 1.0, 3, increasing=True)) * weights[:, 0]
+    matrices = (np.asarray(x, dtype=np.float64) for x in (analysis, values, fit[1:]))
+    return Radau(half, integral, *matrices)
 
 
 def newton_step(
@@ -54,15 +67,15 @@ def newton_step(
     a
         Radii there.
     """
-    if not (np.all(np.isfinite(system)) and np.all(np.isfinite(residual))):
-        return None
     try:
         step = np.linalg.solve(system, residual)
     except np.linalg.LinAlgError:
         return None
     moved = by_x @ step
-    size = float(np.max(np.abs(moved)) / np.max(a))
-    shorter = step / max(1.0, -2.0 * float(np.min(moved / a)))
+    size = float(np.abs(moved).max() / a.max())
+    if not math.isfinite(size):
+        return None
+    shorter = step / max(1.0, -2.0 * float((moved / a).min()))
     return np.asarray(shorter, dtype=np.float64), size
 
 
@@ -86,6 +99,15 @@ def converged(size: float, before: float, order: int) -> bool:
     return size < before < math.inf and size * (size / before) ** order <= _NEXT
 
 
+def change_of_length(sizes: Array, tolerance: float) -> tuple[float, float]:
+    """Error of an element from the sizes of its coefficients, and the factor for its length."""
+    n, error = sizes.size, float(np.max(sizes[-2:]))
+    if error > tolerance:
+        return error, min(0.8, max(0.1, math.pow(0.1 * tolerance / error, 1.0 / n)))
+    needed = n - int(np.argmax(sizes[::-1] > tolerance)) if np.any(sizes > tolerance) else 1
+    return error, min(2.0, _SAFETY * n / (needed + 2))
+
+
 class Element(NamedTuple):
     """Legendre coefficients on [x, x + length], a row per quantity, and of the slope solved for."""
 
@@ -102,18 +124,48 @@ class Element(NamedTuple):
         """That slope at x, within the element or somewhat beyond."""
         return np.asarray(self.slope @ self._basis(x), dtype=np.float64)
 
+    def slope_beyond(self, row: int, x: Array) -> Array:
+        """Slope of a row beyond the element, whose square goes on like a parabola.
+
+        The square of a radius is smooth where the contact closes too.
+        """
+        rule, s = radau(self.slope.size), (x - self.x) / self.length - 1.0
+        square = (rule.values @ self.rows[row]) ** 2
+        growth, bent = rule.ahead @ square
+        ahead = np.maximum(square[-1] + s * (growth + s * bent), _LEAST * square[-1])
+        slope = (0.5 * growth + s * bent) / (self.length * np.sqrt(ahead))
+        return np.asarray(slope, dtype=np.float64)
+
     def _basis(self, x: Array) -> Array:
         s = 2.0 * (x - self.x) / self.length - 1.0
         return np.asarray(legvander(s, self.slope.size - 1).T, dtype=np.float64)
 
+    def fall(self, row: int) -> float | None:
+        """Where a row first falls through zero, also if it rises again; None if it does not."""
+        values = radau(self.slope.size).values @ self.rows[row]
+        if values.min() > _LOW * values.max():
+            return None
+        roots = legroots(self.rows[row])
+        inner = np.sort(roots.real[(np.abs(roots.imag) < _REAL) & (np.abs(roots.real) <= 1.0)])
+        falls = inner[legval(inner, legder(self.rows[row])) < 0.0]
+        if falls.size:
+            return self.x + self.length * (1.0 + float(falls[0])) / 2.0
+        return self.x + self.length if values[-1] <= 0.0 else None
+
     def end(self, row: int) -> float:
-        """Where a row falls through zero."""
+        """Where a row that is positive before it and negative after it falls through zero."""
         low, high = self.x, self.x + self.length
         for _ in range(_HALVINGS):
             middle = 0.5 * (low + high)
             above = float(self.at(np.array([middle]))[row, 0]) > 0.0
             low, high = (middle, high) if above else (low, middle)
         return low
+
+    def zero_near_end(self, row: int) -> float:
+        """Where a row falls through zero, by Newton's step from the element's end."""
+        values = self.rows[row]
+        rise = 2.0 / self.length * float(legval(1.0, legder(values)))
+        return self.x + self.length - (float(values.sum()) / rise if rise < 0.0 else 0.0)
 
     def largest(self, row: int) -> float:
         """The largest value of a row: at an end or where its slope is zero."""

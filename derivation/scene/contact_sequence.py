@@ -7,29 +7,23 @@ from typing import NamedTuple
 import numpy as np
 
 from derivation.engine.activity import tell
-from derivation.scene.collocation import NEWTON, ONSET, radau
+from derivation.scene.collocation import NEWTON, ONSET, change_of_length, radau
+from derivation.scene.dynamic_problem import DynamicProblem, ImpactState
 from derivation.scene.effects.effect import Array
 from derivation.scene.effects.inertia import WIDER
 from derivation.scene.flight import meeting
 from derivation.scene.scene import IncompleteError
-from derivation.scene.time_element import (
-    LOST,
-    A,
-    DynamicProblem,
-    ImpactState,
-    P,
-    TimeElement,
-    V,
-    element,
-)
+from derivation.scene.time_element import LOST, A, P, TimeElement, element
 from derivation.scene.yield_events import next_branch
 from derivation.scene.yielding import Yielding
 
-FIRST, LONGEST, SHORTEST = 0.05, 0.25, 1e-13
+FIRST, LONGEST, SHORTEST = 0.3, 0.3, 1e-13
 """First, largest and least length of an element in x."""
+EARLY = 0.5
+"""How much faster elements may grow while they begin about at the onset."""
 TOLERANCE = 1e-11
 """An element's last coefficients over the largest there are."""
-PHASE = 0.45
+PHASE = 0.75
 """Largest phase of an oscillator over an element, for each of its nodes."""
 CLOSED = 1e-5
 """What is left of a contact when its end is taken in one step, over the time it took."""
@@ -128,9 +122,9 @@ def impact_history(
         If the first contact is not followed to its end.
     """
     t, radius, state, found = 0.0, 0.0, problem.begin(), list[Touching]()
-    weight, tried, used = weight_of(problem), 0, 0.0
+    weight, tried, used = weight_of(problem, n), 0, 0.0
     while True:
-        most = min(ELEMENTS, tried + steps_of(problem, work - used))
+        most = min(ELEMENTS, tried + steps_of(problem, n, work - used))
         try:
             touching = first or contact(problem, n, state, t, radius, tolerance, tried, most)
             first = None
@@ -157,31 +151,26 @@ def impact_history(
             state = state._replace(approach=0.0)
 
 
-def steps_of(problem: DynamicProblem, work: float = WORK) -> int:
-    """Elements that may be tried: fewer, the more oscillators each has."""
-    return int(min(ELEMENTS, max(work, 0.0) / weight_of(problem)))
+def steps_of(problem: DynamicProblem, n: int, work: float = WORK) -> int:
+    """Elements of n nodes that may be tried: fewer, the more oscillators each has."""
+    return int(min(ELEMENTS, max(work, 0.0) / weight_of(problem, n)))
 
 
-def weight_of(problem: DynamicProblem) -> float:
-    """Time that an element takes, in units of which about two million pass in a second."""
+def weight_of(problem: DynamicProblem, n: int) -> float:
+    """Time that an element takes, in units of which two to three million pass in a second."""
     modes, degree = problem.contact.modes, len(problem.contact.table) - 1
-    return 2000.0 + modes.omega.size + (8.0 + 0.25 * degree) * modes.phi.size
+    each = 0.3 * modes.omega.size + (0.1 + 0.003 * degree) * modes.phi.size
+    return 2000.0 + n * each
 
 
 def expected_work(problem: DynamicProblem, n: int, coarse: ImpactHistory) -> float:
-    """Work of an impact whose contacts last as long as those of a run with fewer modes.
-
-    There are more elements where `PHASE` limits them; elsewhere their length grows with the
-    n-th root of the tolerance.
+    """Work of an impact whose contacts last as long, in elements shorter only by `PHASE`, as those
+    of a run with fewer modes.
     """
     lasted = sum(touching.end - touching.start for touching in coarse.contacts)
-    more, fewer = (
-        lasted * float(np.max(some.omega, initial=0.0)) / PHASE
-        for some in (problem, coarse.problem)
-    )
+    more, fewer = (lasted * some.fastest / PHASE for some in (problem, coarse.problem))
     others = sum(touching.tried for touching in coarse.contacts) - fewer / n
-    others *= math.pow(coarse.tolerance / TOLERANCE, 1.0 / n)
-    return (more / n + max(0.0, others)) * weight_of(problem)
+    return (more / n + max(0.0, others)) * weight_of(problem, n)
 
 
 def _check_count(problem: DynamicProblem, found: list[Touching], t: float) -> None:
@@ -225,7 +214,7 @@ def contact(
     x, length, state, first = _begun(begin, radius), FIRST, begin, radius
     origin = start - x**ONSET
     # Before a quantity has grown, what counts is how large it will be.
-    scale, known = np.full((LOST, 1), 0.1), None
+    scale = np.full((LOST, 1), 0.1)
     for step in range(tried, most):
         if step % TOLD == TOLD - 1:
             now, count = problem.T * (origin + x**ONSET), problem.omega.size
@@ -234,7 +223,7 @@ def contact(
         if length < SHORTEST * max(x, 1.0):
             break
         if found:
-            guess = found[-1].element.slope_at(x + length * radau(n).x)
+            guess = found[-1].element.slope_beyond(A, x + length * radau(n).x)
         else:
             guess = np.zeros(n) if first else _onset(problem, n, length, -begin.separation_speed)
         made = element(problem, n, x, length, state, radius, guess)
@@ -243,23 +232,24 @@ def contact(
         if made is None:
             length *= 0.5
             continue
-        rows = made.element.rows[:LOST]
-        largest = np.maximum(scale, np.max(np.abs(rows), axis=1, keepdims=True))
+        sizes = np.abs(made.element.rows[:LOST])
+        largest = np.maximum(scale, sizes.max(axis=1, keepdims=True))
+        unit = largest.copy()
         # Where the contact closes its radius matters beside itself: it says when.
-        unit = np.vstack((OWN * np.max(np.abs(rows[A])), largest[V:]))
+        unit[A] = OWN * sizes[A].max()
         # A force that depends on the rate of the radius is as rough as that; it is only integrated.
         if problem.retardation_time:
             unit[P] *= ROUGH
-        error = max(float(np.max(np.abs(rows[:, -2:]) / unit)), 1e-300)
-        change = 0.9 * math.pow(tolerance / error, 1.0 / n)
+        error, change = change_of_length((sizes / unit).max(axis=0), tolerance)
         if error > tolerance:
-            length *= min(0.8, max(0.1, change))
+            length *= change
             continue
         if problem.yielding is not None:
             made, problem = next_branch(problem, n, made, state, radius)
-        # A viscoelastic contact separates before it is flat.
-        if float(np.sum(made.element.rows[P])) <= 0.0:
-            last = _let_go(problem, n, made, state, radius)
+        # A viscoelastic contact separates before it is flat, and may meet again within an element.
+        ending = problem.retardation_time or float(made.element.rows[P].sum()) <= 0.0
+        if ending and (end := made.element.fall(P)) is not None:
+            last = _let_go(problem, n, made, end, state, radius)
             ended = origin + (last.element.x + last.element.length) ** ONSET
             pieces = (*found, last)
             tries = step + 1 - tried
@@ -268,10 +258,10 @@ def contact(
         x = made.element.x + made.element.length
         _check_weight(problem, x)
         state, radius, scale = made.end, made.radius, largest
-        if known is not None:  # what has changed from the last element to this goes on
-            change *= min(1.0, length / known[0] * math.pow(known[1] / error, 1.0 / n))
-        known = length, error
-        length = min(LONGEST, length * min(2.0, change))
+        # What limits it is even in time, but for the onset.
+        more = x**ONSET - made.element.x**ONSET
+        more *= change * (1.0 + EARLY * more / x**ONSET)
+        length = min(LONGEST, (x**ONSET + more) ** (1.0 / ONSET) - x)
         left = _left(state)
         if left < CLOSED * x**ONSET and not problem.retardation_time:
             more, after = _released(problem, made, left)
@@ -348,7 +338,7 @@ def _left(state: ImpactState) -> float:
 
 def _longest(problem: DynamicProblem, n: int, x: float, state: ImpactState | None) -> float:
     """Length an element may have: by the fastest oscillator, and not beyond the release."""
-    most = float(np.max(problem.omega, initial=0.0))
+    most = problem.fastest
     ahead = PHASE * n / most if most else math.inf
     if state is not None:
         ahead = min(ahead, TOWARDS * _left(state))
@@ -357,8 +347,10 @@ def _longest(problem: DynamicProblem, n: int, x: float, state: ImpactState | Non
 
 def _check_weight(problem: DynamicProblem, x: float) -> None:
     """End with a sphere that its weight keeps on the plate: it stays far longer than it swings."""
+    if not problem.weight:
+        return
     swing = math.pi * math.sqrt(float(np.sum(problem.inverse_modal_mass / problem.omega**2)))
-    if problem.weight and x**ONSET > STAYS * max(1.0, swing):
+    if x**ONSET > STAYS * max(1.0, swing):
         raise IncompleteError(
             "the sphere does not rebound because its weight holds it on the plate",
             "increase impact.speed, or remove impact.gravity",
@@ -366,16 +358,21 @@ def _check_weight(problem: DynamicProblem, x: float) -> None:
 
 
 def _let_go(
-    problem: DynamicProblem, n: int, made: TimeElement, state: ImpactState, radius: float
+    problem: DynamicProblem,
+    n: int,
+    made: TimeElement,
+    end: float,
+    state: ImpactState,
+    radius: float,
 ) -> TimeElement:
     """The element that ends where its force does."""
     for _ in range(3):
-        x, end = made.element.x, made.element.end(P)
+        x = made.element.x
         guess = made.element.slope_at(x + (end - x) * radau(n).x)
         shorter = element(problem, n, x, end - x, state, radius, guess)
         if shorter is None:
             break
-        made = shorter
+        made, end = shorter, shorter.element.zero_near_end(P)
     return made
 
 

@@ -6,16 +6,10 @@ import numpy as np
 
 from derivation.scene.collocation import ONSET
 from derivation.scene.contact_sequence import ImpactHistory, Touching
+from derivation.scene.dynamic_problem import DynamicProblem, ImpactState
 from derivation.scene.motion import EnergyBalance
 from derivation.scene.quadrature import NODES, gauss
-from derivation.scene.time_element import (
-    DAMPED,
-    LEAK,
-    LOST,
-    DynamicProblem,
-    ImpactState,
-    TimeElement,
-)
+from derivation.scene.time_element import DAMPED, LEAK, LOST, TimeElement
 
 
 def balance_of(history: ImpactHistory) -> EnergyBalance:

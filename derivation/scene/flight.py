@@ -5,10 +5,10 @@ from collections.abc import Callable
 
 import numpy as np
 
+from derivation.scene.dynamic_problem import DynamicProblem, ImpactState
 from derivation.scene.effects.effect import Array
 from derivation.scene.oscillators import FreeMotion
 from derivation.scene.scene import IncompleteError
-from derivation.scene.time_element import DynamicProblem, ImpactState
 
 STEP, BLOCK, BLOCKS = 0.3, 256, 4000
 """Phase of the fastest oscillator between looks in flight, looks at once, and how many times."""

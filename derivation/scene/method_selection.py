@@ -162,7 +162,7 @@ def _with_inertia(
         "full",
         None,
         law=Part(math.fsum(found.inertia.left(selected.outputs)), ESTIMATED),
-        quadrature=Part(waves.INTEGRATION, TESTED),
+        quadrature=Part(waves.integration_error(found.impact_history), TESTED),
         rounding=Part(rounding_of(law), TESTED),
     )
 

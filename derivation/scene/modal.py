@@ -15,6 +15,7 @@ that of the paper's edge: a remainder taken with the held edge's own law would k
 any wave has travelled there.
 """
 
+import itertools
 import math
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
@@ -24,7 +25,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from derivation.scene import kernels
-from derivation.scene.chebyshev import by_growth, chebyshev, knots
 from derivation.scene.effects.edge import CLAMPED, SUPPORTED
 from derivation.scene.effects.effect import Array
 from derivation.scene.law import ContactLaw
@@ -35,8 +35,7 @@ if TYPE_CHECKING:
     from generated.edge_modes import Waves
 
 Indices = NDArray[np.intp]
-DEGREE, RESOLVED = 32, 0.75
-"""Least degree of the tables, and by how much it grows with the largest wave number times a."""
+Parts = tuple[tuple[slice, slice, Indices, Indices], ...]
 SMALL = 1e-6
 """Contact radius over plate radius and thickness at which a contact counts as a point."""
 
@@ -81,11 +80,28 @@ class Modes:
         return np.repeat(np.arange(self.first.size), ends - self.first)
 
     @cached_property
-    def groups(self) -> tuple[tuple[Indices, Indices], ...]:
-        """Shapes that have equally many oscillators, and these, shape (shapes, oscillators)."""
-        counts = np.bincount(self.shape, minlength=self.first.size)
-        alike = [np.flatnonzero(counts == count) for count in np.unique(counts)]
-        return tuple((some, self.first[some, None] + np.arange(counts[some[0]])) for some in alike)
+    def _parts(self) -> dict[int, Parts]:
+        return {}
+
+    def parts(self, most: int) -> Parts:
+        """Shapes with all their oscillators, about so many at once."""
+        if most not in self._parts:
+            self._parts[most] = self._split(most)
+        return self._parts[most]
+
+    def _split(self, most: int) -> Parts:
+        bounds = np.append(self.first, self.omega.size)
+        places = np.searchsorted(bounds, np.arange(0, self.omega.size, most))
+        ends = [*np.unique(places).tolist(), self.first.size]
+        return tuple(
+            (
+                slice(low, high),
+                slice(bounds[low], bounds[high]),
+                self.shape[bounds[low] : bounds[high]] - low,
+                self.first[low:high] - bounds[low],
+            )
+            for low, high in itertools.pairwise(ends)
+        )
 
     def by_shape(self, values: Array) -> Array:
         """Sums over the oscillators of each shape, along the last axis."""
@@ -129,34 +145,6 @@ class ModalPlate(NamedTuple):
     modes: Modes
     less: Modes
     more: Modes | None
-
-
-class ContactSamples(NamedTuple):
-    """The contact at radii: contact force and the forces that drive the shapes [N], in columns,
-    quasi-static depth [m], of each shape its share in the depth less 1, and slopes by the radius.
-    """
-
-    forces: Array
-    forces_a: Array
-    depth: Array
-    depth_a: Array
-    less: Array
-    less_a: Array
-
-    @property
-    def force(self) -> Array:
-        """Contact force [N]."""
-        return self.forces[:, 0]
-
-    @property
-    def force_a(self) -> Array:
-        """Slope of the contact force by the radius [N/m]."""
-        return self.forces_a[:, 0]
-
-    @property
-    def felt(self) -> Array:
-        """The forces that drive the shapes [N]."""
-        return self.forces[:, 1:]
 
 
 def plate_of(law: ContactLaw, count: int) -> ModalPlate:
@@ -323,69 +311,6 @@ def _edge_compliance(law: ContactLaw) -> float:
     share = float(edge(np.array([a]), model.h, model.b, model.lam, model.mu)[0])
     # delta = (a^2/R) F and P = (4/3) E* a^3/R with the plate's own E*.
     return 0.75 * share / (model.modulus * a)
-
-
-@dataclass(frozen=True)
-class ContactTables:
-    """Tables of a law with oscillators, up to a contact radius [m].
-
-    In x, the radius over the largest, they hold Chebyshev's coefficients of the forces over x^3, of
-    depth and shares over x^2, and of the slopes of both over x^2 and x.
-    """
-
-    modes: Modes
-    R: float
-    top: float
-    table: Array
-    pointwise: bool = False
-
-    def at(self, a: Array) -> ContactSamples:
-        """The contact at radii [m]; NaN beyond the top."""
-        x = np.where(a <= self.top, a / self.top, np.nan)
-        found = chebyshev(2.0 * x - 1.0, self.table.shape[0] - 1) @ self.table
-        x, count = x[:, None], found.shape[1] // 4
-        powers = x**3, x**2, x * x / self.top, x / self.top
-        parts = (found[:, k * count : (k + 1) * count] * powers[k] for k in range(4))
-        forces, squares, forces_a, squares_a = parts
-        return ContactSamples(
-            forces, forces_a, squares[:, 0], squares_a[:, 0], squares[:, 1:], squares_a[:, 1:]
-        )
-
-
-def contact_of(law: ContactLaw, plate: ModalPlate, top: float, pointwise: bool) -> ContactTables:
-    """Tables of a law on the paper's edge with a plate's modes, up to a contact radius [m]."""
-    # sin(a phi) asks for a polynomial of a degree beyond half of a phi.
-    fastest = float(np.max(plate.less.phi, initial=0.0))
-    x, analysis, mean = knots(max(DEGREE, int(16 + RESOLVED * top * fastest)))
-    a = top * x
-    shape = law.at(a)
-    slope = 2.0 * (a / law.model.R) * shape.slope
-    force, depth = law.force(a, shape), law.indentation(a, shape)
-    # P' over x^2 is a polynomial, whose mean weighted by x^2 is P over x^3.
-    growth = (law.stiffness(a, shape) * slope * top / x**2)[:, None]
-
-    def driven(modes: Modes) -> tuple[Array, Array]:
-        """P_j over x^3 and s_j - 1."""
-        less = modes.shares_less_one(a)
-        return mean @ (analysis @ (growth * (1.0 + less))), 0.0 * less if pointwise else less
-
-    def moved(modes: Modes) -> Array:
-        """Static deflection of modes over x^2."""
-        felt, less = driven(modes)
-        return np.asarray((felt * (1.0 + less)) @ modes.compliance * x, dtype=np.float64)
-
-    felt, less = driven(plate.modes)
-    rest = depth / x**2 - moved(plate.less)
-    if plate.more is not None:
-        rest += moved(plate.more)
-    values = np.column_stack((force / x**3, felt, rest, less / x[:, None] ** 2))
-    table = analysis @ values
-    growths = by_growth(table)
-    count = table.shape[1] // 2
-    growths[:, :count] += 3.0 * table[:, :count]  # d(x^3 f)/dx = x^2 (3 f + x f')
-    growths[:, count:] += 2.0 * table[:, count:]
-    whole = np.concatenate((table, growths), axis=1)
-    return ContactTables(plate.modes, law.model.R, top, whole, pointwise)
 
 
 def sine_less_one(sine: Array, y: Array) -> Array:

@@ -17,7 +17,7 @@ FEWEST, MOST = 2, 3000
 """Modes of the run that checks, to begin with; the one that counts has twice as many."""
 MODES, MANY = 6000, 30_000
 """Most bending modes, and most oscillators of all branches, of the run that counts."""
-WORK = 1.4e6
+WORK = 6.5e5
 """Work of a course beyond which its modes are not doubled once more: that may take minutes."""
 LAST, FURTHER = 8.0, 4.5
 """Where the change with the modes is no more than this times what is small enough, once more may

@@ -63,42 +63,46 @@ class FreeMotion:
 
 
 class Response(NamedTuple):
-    """What makes up the response to an impulse, see above, shape (times, oscillators)."""
+    """What makes up the response to an impulse, see above, shape (times, 2, oscillators).
 
-    moved_sin: Array
-    moved_cos: Array
-    rate_cos: Array
-    rate_sin: Array
-    drive_cos: Array
-    drive_sin: Array
+    `moved` holds moved_sin and -moved_cos, `rate` and `drive` their cosine and their sine.
+    """
+
+    moved: Array
+    rate: Array
+    drive: Array
 
     @classmethod
     def empty(cls, shape: tuple[int, int], damping_ratio: float) -> Self:
-        """Room for values; without damping for one cosine and one sine."""
-        if not damping_ratio:
-            cos, sin = np.empty((2, *shape))
-            return cls(sin, cos, cos, sin, cos, sin)
-        return cls(*np.empty((6, *shape)))
+        """Room for values; without damping `rate` is `drive`."""
+        times, oscillators = shape
+        moved, *others = np.empty((3 if damping_ratio else 2, times, 2, oscillators))
+        return cls(moved, others[0], others[-1])
 
     def of(self, part: slice) -> Self:
         """The same of some oscillators."""
-        return type(self)(*(values[:, part] for values in self))
+        return type(self)(*(values[..., part] for values in self))
 
 
 def response_at(
     since: Array, omega: Array, damping_ratio: float, response: Response, part: slice
 ) -> tuple[Array, Array]:
     """Fill in the response of some oscillators at times; return `by_q` and `by_rate` there."""
+    of = response.of(part)
     if damping_ratio:
         from generated.damping_kernels import response as damped
 
         phase = np.multiply.outer(since, omega)
-        for row, values in zip(response, damped(phase, np.asarray(damping_ratio)), strict=True):
-            row[:, part] = values
+        found = damped(phase, np.asarray(damping_ratio))
+        rows = (values[:, k] for values in of for k in range(2))
+        for row, values in zip(rows, found, strict=True):
+            row[:] = values
+        np.negative(of.moved[:, 1], out=of.moved[:, 1])
         free = FreeMotion(phase, damping_ratio)
         return free.by_q, free.by_rate
     half = np.multiply.outer(since, 0.5 * omega)
     s, c = np.sin(half), np.cos(half)
     versed, sine = 2.0 * s * s, 2.0 * s * c
-    response.drive_cos[:, part], response.drive_sin[:, part] = 1.0 - versed, sine
+    of.drive[:, 0], of.drive[:, 1] = 1.0 - versed, sine
+    of.moved[:, 0], of.moved[:, 1] = sine, versed - 1.0
     return versed, sine_less_one(sine, 2.0 * half)

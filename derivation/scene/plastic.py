@@ -10,12 +10,14 @@ import numpy as np
 
 from derivation.scene import contact_sequence, wave_motion
 from derivation.scene.contact_sequence import Touching
+from derivation.scene.contact_tables import contact_of
+from derivation.scene.dynamic_problem import DynamicProblem
 from derivation.scene.effects.effect import Array
 from derivation.scene.effects.inertia import WIDER
 from derivation.scene.law import ContactLaw
-from derivation.scene.modal import ModalPlate, Modes, contact_of
+from derivation.scene.modal import ModalPlate, Modes
 from derivation.scene.motion import EnergyBalance, Motion
-from derivation.scene.time_element import A, DynamicProblem, P, V, Z
+from derivation.scene.time_element import A, P, V, Z
 from derivation.scene.yielding import units_of, yielding_of
 
 STAGES = 14, 16

@@ -7,11 +7,11 @@ from html import escape
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.polynomial.legendre import legvander
 
 from derivation.scene import contact_sequence
-from derivation.scene.collocation import ONSET, Element, radau
+from derivation.scene.collocation import ONSET, Element
 from derivation.scene.contact_sequence import ImpactHistory
+from derivation.scene.dynamic_problem import DynamicProblem, ImpactState
 from derivation.scene.effects.effect import Array, Results
 from derivation.scene.html import html_table
 from derivation.scene.law import ContactLaw
@@ -19,19 +19,7 @@ from derivation.scene.limits import local_indentation
 from derivation.scene.motion import EnergyBalance, Motion
 from derivation.scene.quantity import counted
 from derivation.scene.scene import OUTPUTS
-from derivation.scene.time_element import (
-    DAMPED,
-    A,
-    DynamicProblem,
-    E,
-    ImpactState,
-    P,
-    V,
-    W,
-    Z,
-    nodes_of,
-    values_at,
-)
+from derivation.scene.time_element import DAMPED, A, E, P, V, W, Z, nodes_of, values_at
 
 IRREGULAR = 2.0
 """What modes left out may change, over what half of those there are did."""
@@ -259,12 +247,13 @@ def deflections(history: ImpactHistory, t: float) -> Array:
 def oscillating(
     problem: DynamicProblem, found: Element, start: ImpactState, radius: float, x: float
 ) -> Array:
-    """Deflection of each shape at a place of an element."""
-    n = found.slope.size
-    nodes = nodes_of(problem, n, found.x, found.length, start)
+    """Deflection of each shape at a place of an element, where a shorter one would end."""
+    if x <= found.x:
+        return problem.contact.modes.by_shape(start.q)
+    length = min(x - found.x, found.length)
+    nodes = nodes_of(problem, found.slope.size, found.x, length, start)
     q = values_at(problem, nodes, start, radius, found.slope_at(nodes.x)).q
-    s = 2.0 * (x - found.x) / found.length - 1.0
-    return np.asarray(legvander([s], n - 1)[0] @ (radau(n).analysis @ q), dtype=np.float64)
+    return np.asarray(q[-1], dtype=np.float64)
 
 
 def rows_of(problem: DynamicProblem, touching: contact_sequence.Touching, t: Array) -> Array:

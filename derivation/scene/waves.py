@@ -8,7 +8,6 @@ its edge while the sphere is in contact.
 """
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -16,11 +15,12 @@ import numpy as np
 
 from derivation.scene import contact_sequence
 from derivation.scene.contact_sequence import ImpactHistory, expected_work
-from derivation.scene.dynamic_energy import balance_of
-from derivation.scene.effects.effect import Results
-from derivation.scene.effects.inertia import WIDER, higher_branch_error, weight_share
+from derivation.scene.contact_tables import contact_of
+from derivation.scene.dynamic_problem import DynamicProblem
+from derivation.scene.dynamic_results import UNKNOWN, dynamic_impact_of
+from derivation.scene.effects.inertia import WIDER
 from derivation.scene.law import ContactLaw
-from derivation.scene.modal import ModalPlate, Modes, contact_of, plate_of
+from derivation.scene.modal import ModalPlate, Modes, plate_of
 from derivation.scene.mode_count import (
     LAST,
     affordable,
@@ -33,12 +33,13 @@ from derivation.scene.mode_count import (
 )
 from derivation.scene.model import Model
 from derivation.scene.scene import OUTPUTS, SceneError
-from derivation.scene.time_element import A, DynamicProblem, P, TimeElement, Z
-from derivation.scene.wave_motion import ContactInterval, DynamicImpact, InertiaDetails
+from derivation.scene.wave_motion import DynamicImpact
 from derivation.scene.yielding import units_of, yielding_of
 
-STAGES = 14, 16
-"""Nodes of an element, of the run that checks and of the one that counts."""
+NODES, MANY = (32, 24, 16), (500, 5000)
+"""Nodes of an element, and numbers of oscillators beyond which there are fewer."""
+FEWER = 2
+"""How many fewer the run that checks has."""
 WIDEST = 30.0
 """How much larger than the first guess an infinite plate is made, to wait for a contact's end."""
 LOOSE, SHARE = 3e-4, 1.0 / 3.0
@@ -47,10 +48,8 @@ one that is given."""
 HEAVY, IN_CONTACT = 10.0, 0.7
 """Sphere mass over that of the plate's first mode above which the plate acts as a spring, and the
 least fraction of its half period in contact; random scenes have at least 0.77."""
-NONE: Results = (0.0, 0.0, 0.0, 0.0, 0.0)
-UNKNOWN: Results = (math.inf, math.inf, math.inf, math.inf, math.inf)
-INTEGRATION, ROUNDING = 1e-10, 2e-12
-"""What tests hold elements and arithmetic to, beside the change with the modes [1]."""
+INTEGRATION, ROUNDING = 10.0, 2e-12
+"""Tested bounds: error of the results over the tolerance of the time elements, and rounding [1]."""
 WORK = 4e7
 """Work of all runs of an impact, as `contact_sequence` counts that of one."""
 
@@ -60,9 +59,23 @@ def goal(rtol: float | None) -> float:
     return LOOSE if rtol is None else SHARE * rtol
 
 
-def rough_tolerance(goal: float) -> float:
-    """Tolerance of the time elements in a run that only tells what more modes change [1]."""
+def nodes_for(problem: DynamicProblem) -> int:
+    """Nodes of an element: fewer where many oscillators make each of them dear."""
+    return NODES[int(np.searchsorted(MANY, problem.omega.size))]
+
+
+def time_tolerance(goal: float) -> float:
+    """Tolerance of the time elements, small beside what more modes may change [1]."""
     return min(1e-8, max(contact_sequence.TOLERANCE, 1e-3 * goal))
+
+
+def integration_error(history: ImpactHistory) -> float:
+    """Tested bound on the error of the results by the time elements [1].
+
+    The force of a viscoelastic contact is less exact.
+    """
+    viscous = history.problem.retardation_time > 0.0
+    return (contact_sequence.ROUGH if viscous else INTEGRATION) * history.tolerance
 
 
 @dataclass
@@ -121,18 +134,21 @@ def _branched(
     modes, which take up the goal. Branches cannot be taken where the contact is so short that
     there would be too many.
     """
-    every, lowest, room = branching(law, "all"), branching(law, "A0"), goal / SHARE - goal
+    every, lowest, close = branching(law, "all"), branching(law, "A0"), time_tolerance(goal)
+    room = goal / SHARE - goal - INTEGRATION * close
     if not followed(every, 2 * affordable(every)):
         return lowest, None
-    problem, close = problem_of(lowest, count_of(law)), rough_tolerance(goal)
-    most, begin = contact_sequence.steps_of(problem), problem.begin()
-    first = contact_sequence.contact(problem, STAGES[0], begin, 0.0, 0.0, close, most=most)
-    if _motion(lowest, ImpactHistory(problem, (first,), "")).inertia.left(outputs)[1] > room:
-        budget.left -= first.tried * contact_sequence.weight_of(problem)
+    problem = problem_of(lowest, count_of(law))
+    n = nodes_for(problem) - FEWER
+    most, begin = contact_sequence.steps_of(problem, n), problem.begin()
+    first = contact_sequence.contact(problem, n, begin, 0.0, 0.0, close, most=most)
+    begun = dynamic_impact_of(lowest, ImpactHistory(problem, (first,), ""))
+    if begun.inertia.left(outputs)[1] > room:
+        budget.left -= first.tried * contact_sequence.weight_of(problem, n)
         return every, None
-    history = contact_sequence.impact_history(problem, STAGES[0], close, first=first)
+    history = contact_sequence.impact_history(problem, n, close, first=first)
     budget.left -= history.work
-    rough = _motion(lowest, history)
+    rough = dynamic_impact_of(lowest, history)
     if rough.inertia.complete and rough.inertia.left(outputs)[1] > room:
         return every, None
     return lowest, rough
@@ -154,9 +170,9 @@ def _check_heavy(law: ContactLaw) -> None:
         return
     swing = half_period(model.m, modes)
     problem = problem_of(law, 2 * affordable(law))
-    phase = swing / problem.T * float(np.max(problem.omega))
-    steps = IN_CONTACT * phase / (contact_sequence.PHASE * STAGES[1])
-    most = contact_sequence.steps_of(problem)
+    n = nodes_for(problem)
+    steps = IN_CONTACT * swing / problem.T * problem.fastest / (contact_sequence.PHASE * n)
+    most = contact_sequence.steps_of(problem, n)
     if steps > most:
         raise SceneError(
             f"effects.inertia: the sphere is {ratio:.3g} times as heavy as the first mode of the "
@@ -183,15 +199,15 @@ def _converged(
 
     The run with the fewest may be known.
     """
-    count = affordable(law)
+    count, close = affordable(law), time_tolerance(goal)
     check_followed(law, 2 * count)
-    rough = known or _run(law, count, STAGES[0], budget, tolerance=rough_tolerance(goal))
+    rough = known or _run(law, count, budget, close, FEWER)
     if not rough.inertia.complete:  # and no finer run would be
         return rough
     best: DynamicImpact | None = None
     while True:
         try:
-            found = _run(law, 2 * count, STAGES[1], budget, rough.impact_history)
+            found = _run(law, 2 * count, budget, close, coarse=rough.impact_history)
         except SceneError:
             if best is None:
                 raise
@@ -211,8 +227,8 @@ def _converged(
 
 def _work(history: ImpactHistory) -> float:
     """Number of time elements, weighted by the run time of each."""
-    elements = sum(len(touching.pieces) for touching in history.contacts)
-    return elements * contact_sequence.weight_of(history.problem)
+    pieces = [piece.element for touching in history.contacts for piece in touching.pieces]
+    return len(pieces) * contact_sequence.weight_of(history.problem, pieces[0].slope.size)
 
 
 def problem_of(law: ContactLaw, count: int) -> DynamicProblem:
@@ -223,26 +239,27 @@ def problem_of(law: ContactLaw, count: int) -> DynamicProblem:
 def _run(
     law: ContactLaw,
     count: int,
-    n: int,
     budget: Budget,
+    tolerance: float,
+    fewer_nodes: int = 0,
     coarse: ImpactHistory | None = None,
-    tolerance: float = contact_sequence.TOLERANCE,
 ) -> DynamicImpact:
-    """The impact with so many bending modes by elements of n nodes and a tolerance.
+    """The impact with so many bending modes by elements of a tolerance, or of fewer nodes too.
 
     If with the contacts of a coarser run it would exceed its work, it is not begun, and those are
     all that is known.
     """
     problem = _problem(law, plate_of(law, count))
+    n = nodes_for(problem) - fewer_nodes
     work = min(contact_sequence.WORK, budget.left)
     if coarse and expected_work(problem, n, coarse) > work:
         fewer = count // 2
         while fewer > 1 and expected_work(problem_of(law, fewer), n, coarse) > work:
             fewer //= 2
-        return _motion(law, _unchecked(coarse, problem, fewer))
+        return dynamic_impact_of(law, _unchecked(coarse, problem, fewer))
     history = contact_sequence.impact_history(problem, n, tolerance, work)
     budget.left -= history.work
-    return _motion(law, history)
+    return dynamic_impact_of(law, history)
 
 
 def _unchecked(coarse: ImpactHistory, problem: DynamicProblem, fewer: int) -> ImpactHistory:
@@ -276,7 +293,7 @@ def _of_chosen_modes(
         return found
     if not fast(law, count):
         return _unjudged(found)
-    coarse = _run(law, max(1, count // 4), STAGES[0], budget, tolerance=rough_tolerance(LOOSE))
+    coarse = _run(law, max(1, count // 4), budget, time_tolerance(LOOSE), FEWER)
     if not coarse.inertia.complete:
         return _unjudged(found)
     further = _judged(coarse, found).inertia.mode_convergence
@@ -314,82 +331,3 @@ def echo_time(model: Model) -> float:
     if model.inertia.branches == "all":
         fastest = math.sqrt((model.lam + 2.0 * model.mu) / model.mu)
     return 2.0 * model.b / (fastest * model.shear_speed)
-
-
-def _motion(law: ContactLaw, history: ImpactHistory) -> DynamicImpact:
-    """The results of an impact."""
-    problem, last = history.problem, history.contacts[-1].after
-    energy = problem.m * problem.v0**2
-    pieces = [piece for touching in history.contacts for piece in touching.pieces]
-    largest = {row: _largest(pieces, row) for row in (A, Z, P)}
-    displacement = max(
-        largest[Z], max(touching.before.displacement for touching in history.contacts)
-    )
-    energies, widest = problem.energies(last), problem.a * largest[A]
-    if problem.yielding:
-        widest /= problem.yielding.flattening
-    first, total = history.contacts[0], history.contacts[-1].end
-    inertia = InertiaDetails(
-        tuple(_touch(problem, touching) for touching in history.contacts),
-        problem.T * total,
-        history.reason,
-        history.remedy,
-        problem.omega.size,
-        tuple((energy * energies).tolist()),
-        NONE if history.complete else UNKNOWN,
-        _branches(law, widest, problem.depth * displacement, problem.T * first.end),
-    )
-    return DynamicImpact(
-        problem.T * first.end,
-        problem.depth * displacement,
-        problem.force * largest[P],
-        widest,
-        0.0,
-        -last.velocity if history.complete else math.nan,
-        energy_balance=balance_of(history),
-        impact_history=history,
-        inertia=inertia,
-        law=law,
-        dent=problem.yielding.dent if problem.yielding else 0.0,
-    )
-
-
-def _branches(law: ContactLaw, a: float, displacement: float, T: float) -> Results:
-    """What the branches left out may change in each result [1]: also of all, those too fast.
-
-    Where there is a weight, all but the displacement change by more.
-    """
-    model = law.model
-    if model.inertia.branches == "all":
-        return NONE
-    heavier = float(1.0 + weight_share(model, displacement))
-    changed = higher_branch_error(model, a, T, 2.0 * law.damping_ratio)
-    time, depth, force, radius, speed = map(float, changed)
-    return heavier * time, depth, heavier * force, heavier * radius, heavier * speed
-
-
-def _touch(problem: DynamicProblem, touching: contact_sequence.Touching) -> ContactInterval:
-    """A contact in SI."""
-    before, after = touching.before, touching.after
-    lasted = touching.end - touching.start
-    return ContactInterval(
-        problem.T * touching.start,
-        problem.T * touching.end,
-        problem.m * problem.v0 * (before.velocity - after.velocity + problem.weight * lasted),
-        problem.force * _largest(touching.pieces, P),
-        -before.separation_speed,
-    )
-
-
-def _largest(pieces: Sequence[TimeElement], row: int) -> float:
-    """The largest value of a row; elements whose coefficients say that it is not theirs are passed.
-
-    No Legendre polynomial exceeds 1.
-    """
-    found = -math.inf
-    bounds = [(float(np.sum(np.abs(piece.element.rows[row]))), piece) for piece in pieces]
-    for bound, piece in sorted(bounds, key=lambda pair: -pair[0]):
-        if bound <= found:
-            break
-        found = max(found, piece.element.largest(row))
-    return found

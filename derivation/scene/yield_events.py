@@ -8,8 +8,9 @@ import numpy as np
 from numpy.polynomial.legendre import legder, legroots, legval
 
 from derivation.scene.collocation import Element, radau
+from derivation.scene.dynamic_problem import DynamicProblem, ImpactState
 from derivation.scene.effects.effect import Array
-from derivation.scene.time_element import A, DynamicProblem, ImpactState, TimeElement, element
+from derivation.scene.time_element import A, TimeElement, element
 from derivation.scene.yielding import Yielding
 
 Made = TypeVar("Made")

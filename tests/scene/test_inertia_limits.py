@@ -21,12 +21,13 @@ from derivation.scene import (
     mode_count,
     waves,
 )
+from derivation.scene.contact_tables import contact_of
+from derivation.scene.dynamic_problem import DynamicProblem
 from derivation.scene.effects import WHOLE_PLATE
 from derivation.scene.law import ContactLaw
 from derivation.scene.limits import zener_number
-from derivation.scene.modal import ModalPlate, Modes, contact_of, free_modes
+from derivation.scene.modal import ModalPlate, Modes, free_modes
 from derivation.scene.model import InertiaSettings, Model
-from derivation.scene.time_element import DynamicProblem
 from derivation.scene.wave_plot import zener_restitution
 
 REST = WHOLE_PLATE | {"hertz"}

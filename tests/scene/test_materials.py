@@ -249,9 +249,9 @@ def test_a_drive_is_refused_at_once_with_what_to_do() -> None:
 
 
 def test_a_sphere_that_stays_on_a_light_plate_is_refused_before_any_step() -> None:
-    """130 g on phone glass of 70 mm: the remedy runs, and gives the swing that is predicted."""
+    """130 g on phone glass of 140 mm: the remedy runs, and gives the swing that is predicted."""
     phone = SCENES["130 g of steel on phone glass"]
-    wide = phone | {"plate": phone["plate"] | {"radius": 0.035}}
+    wide = phone | {"plate": phone["plate"] | {"radius": 0.07}}
     with pytest.raises(
         SceneError, match=r"effects\.inertia: .* set effects\.inertia = false"
     ) as told:

@@ -315,10 +315,11 @@ def test_an_element_that_cannot_be_shortened_is_kept(monkeypatch: pytest.MonkeyP
     found = waves.impact(law(MOVING | {"viscosity"}, retardation_time=1e-4))
     problem, touching = found.impact_history.problem, found.impact_history.contacts[0]
     last, before = touching.pieces[-1], touching.pieces[-2]
-    again = contact_sequence._let_go(problem, 10, last, before.end, before.radius)
+    end, n = last.element.x + last.element.length, last.element.slope.size
+    again = contact_sequence._let_go(problem, n, last, end, before.end, before.radius)
     assert again.element.end(P) == pytest.approx(last.element.end(P), rel=1e-6)
     monkeypatch.setattr(contact_sequence, "element", lambda *_: None)
-    assert contact_sequence._let_go(problem, 10, last, before.end, before.radius) is last
+    assert contact_sequence._let_go(problem, n, last, end, before.end, before.radius) is last
 
 
 def test_a_guess_without_numbers_leads_nowhere() -> None:

@@ -9,6 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from derivation.scene import contact_sequence, motion, waves
+from derivation.scene.dynamic_results import dynamic_impact_of
 from derivation.scene.effects import WHOLE_PLATE
 from derivation.scene.law import ContactLaw
 from derivation.scene.modal import free_modes, plate_of
@@ -128,7 +129,7 @@ def test_nodes_do_not_matter_and_the_ledger_closes(h: float) -> None:
         assert one.start == pytest.approx(other.start, rel=1e-9, abs=1e-9)
         assert one.end == pytest.approx(other.end, rel=1e-9)
         assert one.after.velocity == pytest.approx(other.after.velocity, abs=1e-9)
-    found = waves._motion(ContactLaw(model, EFFECTS), fine)
+    found = dynamic_impact_of(ContactLaw(model, EFFECTS), fine)
     assert abs(found.energy_balance.residual) <= 1e-11
     assert 0.0 < found.restitution < 1.0
     for one, two in zip(fine.contacts[:-1], fine.contacts[1:], strict=True):
@@ -140,10 +141,10 @@ def test_nodes_do_not_matter_and_the_ledger_closes(h: float) -> None:
 def test_the_axis_leaks_what_it_is_said_to() -> None:
     """The pointwise coupling loses energy, which the energy balance states."""
     model = replace(BALL, inertia=InertiaSettings(pointwise=True))
-    found = waves._motion(ContactLaw(model, EFFECTS), course(model))
+    found = dynamic_impact_of(ContactLaw(model, EFFECTS), course(model))
     assert abs(found.energy_balance.coupling_loss) > 1e-8 * found.energy_balance.initial_kinetic
     assert abs(found.energy_balance.residual) <= 1e-11
-    kept = waves._motion(ContactLaw(BALL, EFFECTS), course(BALL))
+    kept = dynamic_impact_of(ContactLaw(BALL, EFFECTS), course(BALL))
     assert kept.energy_balance.coupling_loss == 0.0
 
 

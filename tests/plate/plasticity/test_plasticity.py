@@ -14,12 +14,13 @@ from scipy.optimize import brentq, minimize_scalar
 from derivation.scene import indent, read, simulate
 from derivation.scene.collocation import ONSET
 from derivation.scene.contact_sequence import contact
+from derivation.scene.dynamic_problem import DynamicProblem
 from derivation.scene.effects import BY_NAME, WHOLE_PLATE
 from derivation.scene.law import ContactLaw
 from derivation.scene.method_selection import moved
 from derivation.scene.model import Model
 from derivation.scene.scene import OUTPUTS, SceneError
-from derivation.scene.time_element import DynamicProblem, P
+from derivation.scene.time_element import P
 from derivation.scene.waves import problem_of
 from derivation.scene.yielding import yielding_of
 from derivation.scene_code import scene_code

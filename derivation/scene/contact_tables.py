@@ -1,0 +1,105 @@
+"""Tables of a contact law with the modes of a plate: forces, depth and shares by the radius."""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from derivation.scene.chebyshev import by_growth, chebyshev, knots
+from derivation.scene.effects.effect import Array
+from derivation.scene.law import ContactLaw
+from derivation.scene.modal import ModalPlate, Modes
+
+DEGREE, RESOLVED = 32, 0.75
+"""Least degree of the tables, and by how much it grows with the largest wave number times a."""
+
+
+class ContactSamples(NamedTuple):
+    """The contact at radii: contact force and the forces that drive the shapes [N], in columns,
+    quasi-static depth [m], of each shape its share in the depth less 1, and slopes by the radius.
+    """
+
+    forces: Array
+    forces_a: Array
+    depth: Array
+    depth_a: Array
+    less: Array
+    less_a: Array
+
+    @property
+    def force(self) -> Array:
+        """Contact force [N]."""
+        return self.forces[:, 0]
+
+    @property
+    def force_a(self) -> Array:
+        """Slope of the contact force by the radius [N/m]."""
+        return self.forces_a[:, 0]
+
+    @property
+    def felt(self) -> Array:
+        """The forces that drive the shapes [N]."""
+        return self.forces[:, 1:]
+
+
+@dataclass(frozen=True)
+class ContactTables:
+    """Tables of a law with oscillators, up to a contact radius [m].
+
+    In x, the radius over the largest, they hold Chebyshev's coefficients of the forces over x^3, of
+    depth and shares over x^2, and of the slopes of both over x^2 and x.
+    """
+
+    modes: Modes
+    R: float
+    top: float
+    table: Array
+    pointwise: bool = False
+
+    def at(self, a: Array) -> ContactSamples:
+        """The contact at radii [m]; NaN below 0 and beyond the top."""
+        x = np.where((a >= 0.0) & (a <= self.top), a / self.top, np.nan)
+        found = chebyshev(2.0 * x - 1.0, self.table.shape[0] - 1) @ self.table
+        x, count = x[:, None], found.shape[1] // 4
+        powers = x**3, x**2, x * x / self.top, x / self.top
+        parts = (found[:, k * count : (k + 1) * count] * powers[k] for k in range(4))
+        forces, squares, forces_a, squares_a = parts
+        return ContactSamples(
+            forces, forces_a, squares[:, 0], squares_a[:, 0], squares[:, 1:], squares_a[:, 1:]
+        )
+
+
+def contact_of(law: ContactLaw, plate: ModalPlate, top: float, pointwise: bool) -> ContactTables:
+    """Tables of a law on the paper's edge with a plate's modes, up to a contact radius [m]."""
+    # sin(a phi) asks for a polynomial of a degree beyond half of a phi.
+    fastest = float(np.max(plate.less.phi, initial=0.0))
+    x, analysis, mean = knots(max(DEGREE, int(16 + RESOLVED * top * fastest)))
+    a = top * x
+    shape = law.at(a)
+    slope = 2.0 * (a / law.model.R) * shape.slope
+    force, depth = law.force(a, shape), law.indentation(a, shape)
+    # P' over x^2 is a polynomial, whose mean weighted by x^2 is P over x^3.
+    growth = (law.stiffness(a, shape) * slope * top / x**2)[:, None]
+
+    def driven(modes: Modes) -> tuple[Array, Array]:
+        """P_j over x^3 and s_j - 1."""
+        less = modes.shares_less_one(a)
+        return mean @ (analysis @ (growth * (1.0 + less))), 0.0 * less if pointwise else less
+
+    def moved(modes: Modes) -> Array:
+        """Static deflection of modes over x^2."""
+        felt, less = driven(modes)
+        return np.asarray((felt * (1.0 + less)) @ modes.compliance * x, dtype=np.float64)
+
+    felt, less = driven(plate.modes)
+    rest = depth / x**2 - moved(plate.less)
+    if plate.more is not None:
+        rest += moved(plate.more)
+    values = np.column_stack((force / x**3, felt, rest, less / x[:, None] ** 2))
+    table = analysis @ values
+    growths = by_growth(table)
+    count = table.shape[1] // 2
+    growths[:, :count] += 3.0 * table[:, :count]  # d(x^3 f)/dx = x^2 (3 f + x f')
+    growths[:, count:] += 2.0 * table[:, count:]
+    whole = np.concatenate((table, growths), axis=1)
+    return ContactTables(plate.modes, law.model.R, top, whole, pointwise)

@@ -1,0 +1,173 @@
+"""An impact on a plate with inertia in units of a contact, and the states of sphere and plate."""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from derivation.scene.contact_tables import ContactSamples, ContactTables
+from derivation.scene.effects.effect import Array
+from derivation.scene.oscillators import FreeMotion
+from derivation.scene.yielding import Yielding
+
+PART = 32768
+"""Values of oscillators at the nodes that are computed at once, so that they stay in the cache."""
+
+
+class ImpactState(NamedTuple):
+    """Displacement and velocity of the sphere, deflection and velocity of the modes.
+
+    `approach` is the displacement of the sphere less the deflection of the plate. It is integrated
+    and not subtracted, as it may be far smaller than both.
+    """
+
+    displacement: float
+    velocity: float
+    q: Array
+    q_dot: Array
+    approach: float
+
+    @property
+    def separation_speed(self) -> float:
+        """Velocity of the plate less that of the sphere: positive while they separate."""
+        return float(np.sum(self.q_dot)) - self.velocity
+
+
+@dataclass(frozen=True)
+class DynamicProblem:
+    """A scene in units of a contact: m, v0 and T; forces are m v0/T and depths v0 T.
+
+    Attributes
+    ----------
+    contact
+        Tables of the contact.
+    a, T, m, v0
+        Units of radius [m] and time [s], mass [kg] and speed [m/s].
+    weight
+        What presses the sphere on, in units of v0/T.
+    retardation_time
+        A_v over T.
+    heard
+        Time from which waves may return from the edge of a plate that is to have none.
+    damping_ratio
+        Damping ratio of every mode [1].
+    yielding
+        The contact that yields, on the branch on which it is; None of an elastic one.
+    range_end
+        Which limit of the contact law ends its tables; empty if none does.
+    """
+
+    contact: ContactTables
+    a: float
+    T: float
+    m: float
+    v0: float
+    weight: float = 0.0
+    retardation_time: float = 0.0
+    heard: float = math.inf
+    damping_ratio: float = 0.0
+    yielding: Yielding | None = None
+    range_end: str = ""
+
+    @property
+    def force(self) -> float:
+        """Unit of forces [N]."""
+        return self.m * (self.v0 / self.T)
+
+    @property
+    def depth(self) -> float:
+        """Unit of depths [m]."""
+        return self.v0 * self.T
+
+    @cached_property
+    def omega(self) -> Array:
+        """Angular frequencies."""
+        return self.contact.modes.omega * self.T
+
+    @cached_property
+    def fastest(self) -> float:
+        """The largest of them, 0 if there is none."""
+        return float(np.max(self.omega, initial=0.0))
+
+    @cached_property
+    def inverse_modal_mass(self) -> Array:
+        """Acceleration of a mode by a unit force."""
+        return self.contact.modes.inverse_modal_mass * self.m
+
+    @cached_property
+    def strength(self) -> Array:
+        """Deflection of a mode by a unit impulse, times its omega over its sine."""
+        return self.inverse_modal_mass / self.omega
+
+    def parts(self, n: int) -> tuple["Part", ...]:
+        """The oscillators, so many at once that their values at n nodes stay in the cache."""
+        return tuple(map(Part._make, self.contact.modes.parts(max(1, PART // n))))
+
+    @cached_property
+    def by_speed(self) -> NDArray[np.intp]:
+        """Order of the oscillators, the slowest first."""
+        return np.argsort(self.omega, kind="stable")
+
+    def at(self, a: Array) -> ContactSamples:
+        """The contact at radii [m], and what yielding adds to its depth."""
+        found = self.contact.at(a)
+        if self.yielding is None:
+            return found
+        depth, depth_a = self.yielding.added(found.force, found.force_a)
+        return found._replace(depth=found.depth + depth, depth_a=found.depth_a + depth_a)
+
+    def begin(self) -> ImpactState:
+        """Everything at the moment of first contact."""
+        none = np.zeros_like(self.omega)
+        return ImpactState(0.0, 1.0, none, none, 0.0)
+
+    def energies(self, state: ImpactState) -> Array:
+        """Of each oscillator, over m v0^2."""
+        return (state.q_dot**2 + (self.omega * state.q) ** 2) / (2.0 * self.inverse_modal_mass)
+
+    def flight_loss(self, state: ImpactState, t: float) -> float:
+        """Energy that damping takes in free flight, over m v0^2."""
+        if not self.damping_ratio:
+            return 0.0
+        from generated.damping_kernels import free_loss
+
+        swing, phase = self.omega * state.q, self.omega * t
+        lost = free_loss(phase, np.asarray(self.damping_ratio), swing, state.q_dot)
+        return float(np.sum(lost / self.inverse_modal_mass))
+
+    def flown(self, state: ImpactState, t: float) -> ImpactState:
+        """A state after free flight."""
+        free = FreeMotion(self.omega * t, self.damping_ratio)
+        bent = state.q_dot * t * free.by_rate - state.q * free.by_q
+        fallen = 0.5 * self.weight * t * t
+        return ImpactState(
+            state.displacement + state.velocity * t + fallen,
+            state.velocity + self.weight * t,
+            state.q + state.q_dot * t + bent,
+            state.q_dot * free.cos - state.q * self.omega * free.sin,
+            state.approach - state.separation_speed * t + (fallen - float(np.sum(bent))),
+        )
+
+
+class Part(NamedTuple):
+    """Some shapes, all their oscillators, the shape of each, and the first of each, both counted
+    from the first of these.
+    """
+
+    shapes: slice
+    oscillators: slice
+    shape: NDArray[np.intp]
+    first: NDArray[np.intp]
+
+    def by_oscillator(self, values: Array) -> Array:
+        """Values of these shapes, for each oscillator."""
+        return values if self.first.size == self.shape.size else values[..., self.shape]
+
+    def by_shape(self, values: Array) -> Array:
+        """Sums over the oscillators of each shape."""
+        if self.first.size == self.shape.size:
+            return values
+        return np.asarray(np.add.reduceat(values, self.first, axis=-1), dtype=np.float64)

@@ -1,0 +1,97 @@
+"""The results of an impact on a plate with inertia, in SI, from the history of its contacts."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from derivation.scene.contact_sequence import ImpactHistory, Touching
+from derivation.scene.dynamic_energy import balance_of
+from derivation.scene.dynamic_problem import DynamicProblem
+from derivation.scene.effects.effect import Results
+from derivation.scene.effects.inertia import higher_branch_error, weight_share
+from derivation.scene.law import ContactLaw
+from derivation.scene.time_element import A, P, TimeElement, Z
+from derivation.scene.wave_motion import ContactInterval, DynamicImpact, InertiaDetails
+
+NONE: Results = (0.0, 0.0, 0.0, 0.0, 0.0)
+UNKNOWN: Results = (math.inf, math.inf, math.inf, math.inf, math.inf)
+
+
+def dynamic_impact_of(law: ContactLaw, history: ImpactHistory) -> DynamicImpact:
+    """The results of an impact."""
+    problem, last = history.problem, history.contacts[-1].after
+    energy = problem.m * problem.v0**2
+    pieces = [piece for touching in history.contacts for piece in touching.pieces]
+    largest = {row: _largest(pieces, row) for row in (A, Z, P)}
+    displacement = max(
+        largest[Z], max(touching.before.displacement for touching in history.contacts)
+    )
+    energies, widest = problem.energies(last), problem.a * largest[A]
+    if problem.yielding:
+        widest /= problem.yielding.flattening
+    first, total = history.contacts[0], history.contacts[-1].end
+    inertia = InertiaDetails(
+        tuple(_touch(problem, touching) for touching in history.contacts),
+        problem.T * total,
+        history.reason,
+        history.remedy,
+        problem.omega.size,
+        tuple((energy * energies).tolist()),
+        NONE if history.complete else UNKNOWN,
+        _branches(law, widest, problem.depth * displacement, problem.T * first.end),
+    )
+    return DynamicImpact(
+        problem.T * first.end,
+        problem.depth * displacement,
+        problem.force * largest[P],
+        widest,
+        0.0,
+        -last.velocity if history.complete else math.nan,
+        energy_balance=balance_of(history),
+        impact_history=history,
+        inertia=inertia,
+        law=law,
+        dent=problem.yielding.dent if problem.yielding else 0.0,
+    )
+
+
+def _branches(law: ContactLaw, a: float, displacement: float, T: float) -> Results:
+    """What the branches left out may change in each result [1]: also of all, those too fast.
+
+    Where there is a weight, all but the displacement change by more.
+    """
+    model = law.model
+    if model.inertia.branches == "all":
+        return NONE
+    heavier = float(1.0 + weight_share(model, displacement))
+    changed = higher_branch_error(model, a, T, 2.0 * law.damping_ratio)
+    time, depth, force, radius, speed = map(float, changed)
+    return heavier * time, depth, heavier * force, heavier * radius, heavier * speed
+
+
+def _touch(problem: DynamicProblem, touching: Touching) -> ContactInterval:
+    """A contact in SI."""
+    before, after = touching.before, touching.after
+    lasted = touching.end - touching.start
+    return ContactInterval(
+        problem.T * touching.start,
+        problem.T * touching.end,
+        problem.m * problem.v0 * (before.velocity - after.velocity + problem.weight * lasted),
+        problem.force * _largest(touching.pieces, P),
+        -before.separation_speed,
+    )
+
+
+def _largest(pieces: Sequence[TimeElement], row: int) -> float:
+    """The largest value of a row; elements whose coefficients say that it is not theirs are passed.
+
+    No Legendre polynomial exceeds 1.
+    """
+    found = -math.inf
+    bounds = [(float(np.sum(np.abs(piece.element.rows[row]))), piece) for piece in pieces]
+    for bound, piece in sorted(bounds, key=lambda pair: -pair[0]):
+        if bound <= found:
+            break
+        found = max(found, piece.element.largest(row))
+    return found

@@ -1,0 +1,74 @@
+"""Impacts by time elements of any number of nodes: their stated error, and where contacts end."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from derivation.scene import contact_sequence, read, waves
+from derivation.scene.contact_sequence import ImpactHistory
+from derivation.scene.dynamic_problem import DynamicProblem
+from derivation.scene.dynamic_results import dynamic_impact_of
+from derivation.scene.effects import PAPER
+from derivation.scene.law import ContactLaw
+from derivation.scene.model import model_of
+from derivation.scene.time_element import P
+
+BALL = {"radius": 0.01, "material": "steel"}
+PANE = {"radius": 0.1, "thickness": 0.01, "material": "glass"}
+MEMBRANE = {"radius": 0.1, "thickness": 0.001, "material": "glass"}
+SOFT = {"radius": 0.1, "thickness": 0.004, "youngs_modulus": 5e9, "poissons_ratio": 0.3,
+        "density": 1500.0}  # fmt: skip
+CASES: dict[str, tuple[dict[str, Any], int, frozenset[str]]] = {
+    "one contact": (PANE, 40, frozenset()),
+    "several contacts": (MEMBRANE, 8, frozenset()),
+    "damped": (MEMBRANE | {"loss_factor": 0.04}, 12, frozenset({"damping"})),
+    "yielding": (SOFT | {"yield_stress": 5e7}, 20, frozenset({"plasticity"})),
+    "viscoelastic": (SOFT | {"retardation_time": 5e-6}, 20, frozenset({"viscosity"})),
+    "viscoelastic, several contacts": (
+        SOFT | {"thickness": 0.0015, "retardation_time": 5e-5}, 20, frozenset({"viscosity"})
+    ),
+}  # fmt: skip
+
+
+def case(name: str) -> tuple[ContactLaw, DynamicProblem]:
+    plate, modes, effects = CASES[name]
+    given = read({"sphere": BALL, "plate": plate, "impact": {"speed": 1.0}})
+    law = ContactLaw(model_of(given), PAPER | {"inertia"} | effects)
+    return law, waves.problem_of(law, modes)
+
+
+def numbers(law: ContactLaw, history: ImpactHistory) -> np.ndarray:
+    assert history.complete
+    return np.array(dynamic_impact_of(law, history).numbers)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_results_differ_by_no_more_than_the_tolerance_of_the_elements_says(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    law, problem = case(name)
+    loose = waves.time_tolerance(waves.LOOSE)
+    runs = [
+        contact_sequence.impact_history(problem, n, tolerance)
+        for tolerance in (loose, contact_sequence.TOLERANCE)
+        for n in (waves.NODES[0], waves.NODES[-1])
+    ]
+    # By far shorter elements, of other nodes.
+    monkeypatch.setattr(contact_sequence, "PHASE", 0.3)
+    monkeypatch.setattr(contact_sequence, "LONGEST", 0.1)
+    fine = numbers(law, contact_sequence.impact_history(problem, 20))
+    for history in runs:
+        off = np.abs(numbers(law, history) / fine - 1.0)
+        assert np.max(off) <= waves.integration_error(history)
+
+
+@pytest.mark.parametrize("name", [name for name in CASES if "viscoelastic" in name])
+def test_a_viscoelastic_contact_never_pulls(name: str) -> None:
+    """The force stays positive within every element, however long the elements are."""
+    _, problem = case(name)
+    for n, tolerance in ((16, 1e-11), (32, 1e-8)):
+        for touching in contact_sequence.impact_history(problem, n, tolerance).contacts:
+            for piece in touching.pieces:
+                x = piece.element.x + piece.element.length * np.linspace(0.0, 1.0, 2001)
+                assert np.min(piece.element.at(x)[P]) > -1e-6

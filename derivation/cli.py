@@ -200,8 +200,8 @@ def reference(
 
     Example: platecontact reference scene.toml --digits 100
     """
+    from derivation.checks.paper_law import in_doubles
     from derivation.scene import load
-    from derivation.scene.paper_law import in_doubles
 
     scene_commands.check_outputs(scene, json)
     known = in_doubles(load(scene))

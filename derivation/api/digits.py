@@ -1,9 +1,9 @@
 """Contact law and impact of a scene to many digits."""
 
 from derivation.checks import many_digits
+from derivation.checks.paper_law import in_doubles
 from derivation.plate.impact.oracle.many_digits import ImpactReference
 from derivation.scene import Scene
-from derivation.scene.paper_law import in_doubles
 
 
 def reference(scene: Scene, digits: int = 50) -> ImpactReference:

@@ -14,10 +14,10 @@ The modules in reading order:
 6. `method_selection` selects the fastest method whose error bound meets the tolerance, and states
    the `achieved_accuracy`. `motion` is for a quasi-static plate, `viscous` with `collocation` and
    `viscous_law` for a viscoelastic contact, `plastic` for a plastic one, and `waves` for plate
-   inertia: modes (`modal`), one time element (`time_element`), the sequence of contacts
-   (`contact_sequence`) and the time history (`wave_motion`).
-7. `impact` and `indentation` simulate an impact and compute static contacts; `paper_law` is an
-   impact by the paper's law alone.
+   inertia: modes (`modal`), tables of the contact (`contact_tables`), the scaled problem
+   (`dynamic_problem`), one time element (`time_element`), the sequence of contacts
+   (`contact_sequence`), the time history (`wave_motion`) and the results (`dynamic_results`).
+7. `impact` and `indentation` simulate an impact and compute static contacts.
 8. `sweep` simulates a scene for each value of a key. `rows` computes many scenes at once in arrays
    (`columns`, `rows_selection`, `static_rows`), with the same effects, bounds and laws.
 9. `result` holds the results, `answer` formats them, `export` converts them for pandas and xarray,

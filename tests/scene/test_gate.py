@@ -10,6 +10,7 @@ import pytest
 from given import ALL, AT_REST, EXAMPLES, model, random_models, scene
 
 from derivation.checks import effects as measure
+from derivation.checks import paper_law
 from derivation.cli import main
 from derivation.scene import (
     SceneError,
@@ -17,7 +18,6 @@ from derivation.scene import (
     explain,
     load,
     motion,
-    paper_law,
     read,
     simulate,
 )

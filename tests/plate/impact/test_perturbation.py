@@ -16,6 +16,7 @@ from mpmath import mp, mpf, quad
 from printed_sums import truncated_gamma
 
 import derivation.checks.effects
+from derivation.checks.paper_law import in_doubles
 from derivation.cli import main
 from derivation.plate.impact.oracle import printed_motion as printed_motion_balls
 from derivation.plate.impact.theory.impact import linear_motion, linearisation
@@ -24,7 +25,6 @@ from derivation.plate.vocabulary import delta_0, m, v0, xi_k
 from derivation.scene import SceneError, explain, indent, kernels, load, read, simulate
 from derivation.scene.comparison import MODES, compare
 from derivation.scene.model import Model
-from derivation.scene.paper_law import in_doubles
 from generated.impact import impact
 from generated.perturbation import PrintedMotion, printed_motion
 

@@ -120,10 +120,11 @@ class Model:
     def supports(self) -> Supports:
         """What a simple support adds, of many plates, for contacts up to about Hertz's largest."""
         modulus = self.modulus / (1.0 + self.softness)
-        energy = 0.9375 * self.R * (self.R / modulus) * self.m * (self.v0 * self.v0)
         plate = (self.h, self.b, self.lam, self.mu)
-        columns = np.broadcast_arrays(np.power(energy, 0.2), *plate)
-        return supports_of(*columns)
+        with np.errstate(all="ignore"):  # extreme scenes give NaN, which is checked
+            energy = 0.9375 * self.R * (self.R / modulus) * self.m * (self.v0 * self.v0)
+            columns = np.broadcast_arrays(np.power(energy, 0.2), *plate)
+            return supports_of(*columns)
 
     def take(self, index: Any) -> "Model":
         """Return some of many scenes by their indices; an int gives a single scene."""

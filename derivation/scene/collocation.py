@@ -14,10 +14,11 @@ ONSET = 6
 NEWTON = 30
 """Steps of Newton's iteration at most."""
 _CLOSE, _NEARLY, _NEXT = 1e-15, 1e-12, 1e-14
-_LEAST, _SAFETY = 0.01, 0.9
-_HALVINGS, _LOW, _REAL = 60, 0.1, 1e-9
-"""A row whose values at the nodes stay above this part of the largest stays above 0 between them;
-imaginary part of a root that is rounding."""
+_SAFETY = 0.9  # part of the length that the sizes of the coefficients allow
+_LEAST = 0.01  # least square of a continued row, over the square at the end of its element
+_HALVINGS = 60
+_LOW = 0.1  # least over largest value at the nodes above which a row has no zero between them
+_REAL = 1e-9  # largest imaginary part of a real root, due to rounding
 
 
 class Radau(NamedTuple):
@@ -100,7 +101,10 @@ def converged(size: float, before: float, order: int) -> bool:
 
 
 def change_of_length(sizes: Array, tolerance: float) -> tuple[float, float]:
-    """Error of an element from the sizes of its coefficients, and the factor for its length."""
+    """Return the error of an element and the factor for the length of the next.
+
+    Both follow from the sizes of its Legendre coefficients.
+    """
     n, error = sizes.size, float(np.max(sizes[-2:]))
     if error > tolerance:
         return error, min(0.8, max(0.1, math.pow(0.1 * tolerance / error, 1.0 / n)))

@@ -164,8 +164,9 @@ def weight_of(problem: DynamicProblem, n: int) -> float:
 
 
 def expected_work(problem: DynamicProblem, n: int, coarse: ImpactHistory) -> float:
-    """Work of an impact whose contacts last as long, in elements shorter only by `PHASE`, as those
-    of a run with fewer modes.
+    """Return the work of an impact, estimated from a run with fewer modes.
+
+    Its contacts are assumed to last as long. Elements are shorter only where `PHASE` limits them.
     """
     lasted = sum(touching.end - touching.start for touching in coarse.contacts)
     more, fewer = (lasted * some.fastest / PHASE for some in (problem, coarse.problem))

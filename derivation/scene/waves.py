@@ -37,9 +37,9 @@ from derivation.scene.wave_motion import DynamicImpact
 from derivation.scene.yielding import units_of, yielding_of
 
 NODES, MANY = (32, 24, 16), (500, 5000)
-"""Nodes of an element, and numbers of oscillators beyond which there are fewer."""
+"""Nodes of an element, and numbers of oscillators above which an element has fewer."""
 FEWER = 2
-"""How many fewer the run that checks has."""
+"""Difference in the number of nodes between a run and the coarser one that checks it."""
 WIDEST = 30.0
 """How much larger than the first guess an infinite plate is made, to wait for a contact's end."""
 LOOSE, SHARE = 3e-4, 1.0 / 3.0
@@ -60,22 +60,24 @@ def goal(rtol: float | None) -> float:
 
 
 def nodes_for(problem: DynamicProblem) -> int:
-    """Nodes of an element: fewer where many oscillators make each of them dear."""
+    """Return the number of nodes of an element: fewer for many oscillators, to save time."""
     return NODES[int(np.searchsorted(MANY, problem.omega.size))]
 
 
 def time_tolerance(goal: float) -> float:
-    """Tolerance of the time elements, small beside what more modes may change [1]."""
+    """Return the tolerance of the time elements, small against the goal for more modes [1]."""
     return min(1e-8, max(contact_sequence.TOLERANCE, 1e-3 * goal))
 
 
 def integration_error(history: ImpactHistory) -> float:
-    """Tested bound on the error of the results by the time elements [1].
+    """Return the tested bound on the error of the results due to the time elements [1]."""
+    return _integration_error(history.problem, history.tolerance)
 
-    The force of a viscoelastic contact is less exact.
-    """
-    viscous = history.problem.retardation_time > 0.0
-    return (contact_sequence.ROUGH if viscous else INTEGRATION) * history.tolerance
+
+def _integration_error(problem: DynamicProblem, tolerance: float) -> float:
+    """Return that bound; elements may resolve the force of a viscoelastic contact less well."""
+    viscous = problem.retardation_time > 0.0
+    return (contact_sequence.ROUGH if viscous else INTEGRATION) * tolerance
 
 
 @dataclass
@@ -135,10 +137,10 @@ def _branched(
     there would be too many.
     """
     every, lowest, close = branching(law, "all"), branching(law, "A0"), time_tolerance(goal)
-    room = goal / SHARE - goal - INTEGRATION * close
     if not followed(every, 2 * affordable(every)):
         return lowest, None
     problem = problem_of(lowest, count_of(law))
+    room = goal / SHARE - goal - _integration_error(problem, close)
     n = nodes_for(problem) - FEWER
     most, begin = contact_sequence.steps_of(problem, n), problem.begin()
     first = contact_sequence.contact(problem, n, begin, 0.0, 0.0, close, most=most)

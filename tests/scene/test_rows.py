@@ -47,7 +47,7 @@ def check(scene: Scene, columns: Mapping[str, Array], rtol: float | None = None)
         assert found.status[row] == "finished"
         assert found.reason[row] == "; ".join(one.warnings)
         assert found.model_error[row] == one.model_error
-        assert found.bound[row] == pytest.approx(one.accuracy.bound, rel=1e-9, abs=ROUNDING)
+        assert found.bound[row] == pytest.approx(one.accuracy.bound, rel=1e-9, abs=1e-14)
         for name in UNITS:
             value = getattr(one, name)
             assert found.results[name][row] == pytest.approx(value, rel=ROUNDING, nan_ok=True), name

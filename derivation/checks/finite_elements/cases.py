@@ -15,7 +15,7 @@ STEEL_DENSITY = 7850.0
 SLENDER = 10.0
 """Radius of the paraboloid over the contact radius, for the grid of cases."""
 THICKNESS = 0.01
-"""Radius of the plates in the grid [m]."""
+"""Thickness of the plates in the grid [m]."""
 GRID = (
     (0.2, 0.3, 0.05, 5.0),
     (0.1, 0.2, 0.1, 10.0),

@@ -14,7 +14,7 @@ from derivation.scene.effects.inertia import WIDER
 from derivation.scene.flight import meeting
 from derivation.scene.scene import IncompleteError
 from derivation.scene.time_element import LOST, A, P, TimeElement, element
-from derivation.scene.yield_events import next_branch
+from derivation.scene.yield_events import UncutError, next_branch
 from derivation.scene.yielding import Yielding
 
 FIRST, LONGEST, SHORTEST = 0.3, 0.3, 1e-13
@@ -246,7 +246,11 @@ def contact(
             length *= change
             continue
         if problem.yielding is not None:
-            made, problem = next_branch(problem, n, made, state, radius)
+            try:
+                made, problem = next_branch(problem, n, made, state, radius)
+            except UncutError:
+                length *= 0.5
+                continue
         # A viscoelastic contact separates before it is flat, and may meet again within an element.
         ending = problem.retardation_time or float(made.element.rows[P].sum()) <= 0.0
         if ending and (end := made.element.fall(P)) is not None:

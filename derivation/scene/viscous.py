@@ -33,7 +33,7 @@ from derivation.scene.viscous_law import (
     bending_of,
     curve_of,
 )
-from derivation.scene.yield_events import branch_after, cut
+from derivation.scene.yield_events import UncutError, branch_after, cut
 from derivation.scene.yielding import Yielding, yielding_of
 
 STAGES = 9, 12
@@ -220,7 +220,11 @@ def elements(problem: ViscousProblem, n: int) -> tuple[ViscousElement, ...]:
             continue
         branch = problem.yielding
         if branch is not None:
-            last, end, problem = _next_branch(problem, n, (last, end), start)
+            try:
+                last, end, problem = _next_branch(problem, n, (last, end), start)
+            except UncutError:
+                length *= 0.5
+                continue
         found.append((last, branch))
         if float(np.sum(last.rows[P])) <= 0.0:
             return tuple(found)

@@ -1,5 +1,6 @@
 """Where a contact begins or ceases to yield: time elements end there, another branch follows."""
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 from typing import TypeVar
@@ -15,17 +16,28 @@ from derivation.scene.yielding import Yielding
 
 Made = TypeVar("Made")
 
-_TRIES, _CLOSE = 6, 1e-13
-"""How often an element is made anew to end at an event, and how near it ends, over its length."""
+_TRIES, _CLOSE, _NEAR = 6, 1e-13, 1e-9
+"""How often an element is made anew to end at an event; distance from the event, over its length,
+that is sought, and that is enough."""
 _REAL, _BEGUN, _BEYOND = 1e-7, 1e-9, 1.05
 """Imaginary part that is rounding; how far from its start an element's event is, and how far beyond
 its end one is looked for when it has been cut, in its variable on [-1, 1]."""
 
 
+class UncutError(ArithmeticError):
+    """An element could not be made to end at its event; a shorter one is needed."""
+
+
 def next_branch(
     problem: DynamicProblem, n: int, made: TimeElement, start: ImpactState, radius: float
 ) -> tuple[TimeElement, DynamicProblem]:
-    """The element, cut at its first event, and the problem on the branch after it."""
+    """Return the element, cut at its first event, and the problem on the branch after it.
+
+    Raises
+    ------
+    UncutError
+        As `cut` does.
+    """
     branch, x = problem.yielding, made.element.x
     assert branch is not None
 
@@ -67,21 +79,29 @@ def cut(
     -------
     Made or None
         None if there is no event.
+
+    Raises
+    ------
+    UncutError
+        If no element that ends at the event is found.
     """
     first = element_of(made)
     place, nodes = _event(branch, unit, first, 1.0), radau(first.slope.size).x
     if place is None:
         return None
+    off = math.inf
     for _ in range(_TRIES):
-        guess = element_of(made).slope_at(first.x + (place - first.x) * nodes)
-        remade = shorter(place - first.x, guess)
+        length = place - first.x
+        remade = shorter(length, element_of(made).slope_at(first.x + length * nodes))
         if remade is None:
-            break
-        made = remade
-        again = _event(branch, unit, element_of(made), _BEYOND)
-        if again is None or abs(again - place) <= _CLOSE * element_of(made).length:
+            raise UncutError
+        made, again = remade, _event(branch, unit, element_of(remade), _BEYOND)
+        off = 0.0 if again is None else abs(again - place) / length
+        if again is None or off <= _CLOSE:
             break
         place = again
+    if off > _NEAR:
+        raise UncutError
     return made
 
 

@@ -16,7 +16,7 @@ from derivation.plate.contact.cases.judge import judge, results
 from derivation.plate.contact.cases.truth import DIGITS, ContactTruth, Job, relative, truths
 
 LIMIT = 2e-15
-"""Relative error that a function must not exceed, in addition to its budget."""
+"""Largest relative error allowed; the budget in ULP applies as well."""
 
 KERNELS = (
     "indentation", "contact_radius", "stiffness", "force", "force_of_radius", "radius_of_force",
@@ -80,7 +80,7 @@ class ContactRow:
     passed
         Whether no error exceeds the budget or the limit.
     cases
-        The single impacts, ordered by c_1 A; empty for other functions.
+        The individual impacts, ordered by c_1 A; empty for other functions.
     """
 
     kernel: str
@@ -202,12 +202,12 @@ def _row(
 
 
 def _used(errors: Errors) -> float:
-    """Return the largest fraction of the allowed error."""
+    """Return the largest ratio of error to allowed error; infinite if there is none."""
     return math.inf if errors.ratio is None else errors.ratio
 
 
 def _of_arrays(call: Callable[..., Any]) -> Callable[..., Any]:
-    """Return the function applied to arrays of one point."""
+    """Return a function that passes each argument as an array of one element."""
     return lambda *point: call(*(np.atleast_1d(x) for x in point))
 
 

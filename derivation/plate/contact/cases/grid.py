@@ -1,4 +1,4 @@
-"""Points at which the contact law's functions are measured: thin and thick plates, all contacts."""
+"""Test points of the contact law's functions: thin and thick plates, small and wide contacts."""
 
 import math
 import random
@@ -9,7 +9,7 @@ from derivation.plate.contact.oracle import forces as contact_forces
 from derivation.plate.impact.oracle import impact as contact_impact
 
 ROOT = 0.5301974990742511
-"""Return the double nearest to the h/b at which c_1 passes zero."""
+"""The double nearest to the h/b at which c_1 passes zero."""
 
 THICKNESSES = (
     1e-4, 1e-3, 1e-2, 0.05, 0.0908, 0.0911, 0.1, 0.3, 0.3332, 0.3335, ROOT, 0.6, 1.0, 3.0, 10.0,
@@ -25,7 +25,7 @@ JITTER = 0.97
 """Ratios are drawn between this fraction of their value and the value."""
 
 WIDE = (0.9, 0.999)
-"""Contacts wider than this fraction of the plate are replaced by contacts between these."""
+"""The largest a/b is drawn between these two values; wider contacts are reduced to it."""
 
 LENGTHS = (1.0, 1e-3, 25.4, 640.0)
 

@@ -45,7 +45,7 @@ def conditioning(call: Callable[..., Any], point: Sequence[float]) -> np.ndarray
 
 
 class OneByOne(Kernel):
-    """A function called with plain numbers, for which many use another method."""
+    """A function called with plain numbers; many functions use another method for these."""
 
     def results(self, points: Sequence[Point], fmt: Format = DOUBLE) -> Results:
         """Return every result for every point."""
@@ -62,11 +62,11 @@ def judge(
     Raises
     ------
     ValueError
-        If the function returns another number of results than the reference.
+        If the number of results differs from that of the reference.
     """
     names = tuple(str(place) for place in range(len(found[0].point)))
     kernel = OneByOne("the kernel", "", names, call, budget)
-    with flint.ctx.workprec(256):  # the balls are read from text, and errors are rounded from there
+    with flint.ctx.workprec(256):  # to read the balls from text and to round the errors
         truths = [
             Truth(Point(dict(zip(names, true.point, strict=True))), _references(call, true))
             for true in found

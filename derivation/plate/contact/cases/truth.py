@@ -56,7 +56,7 @@ def truth(job: Job) -> ContactTruth:
     Raises
     ------
     OracleError
-        If both methods contradict each other.
+        If the two methods contradict each other.
     """
     name, where = job
     point = arguments(name, where, DIGITS) if isinstance(where, ContactShape) else where
@@ -124,7 +124,7 @@ def truths(jobs: Sequence[Job], processes: int = 1, tell: Tell = quiet) -> list[
 
 
 def relative(value: float, true: str, scale: float) -> float:
-    """Return |value - reference| over |reference| times a scale; infinite if not finite."""
+    """Return |value - reference|/(scale |reference|); infinite for a value that is not finite."""
     if not math.isfinite(value):
         return math.inf
     with flint.ctx.workprec(256):

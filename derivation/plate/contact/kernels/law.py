@@ -164,7 +164,7 @@ def indentation() -> Routine:
 
 @named
 def indentation_in_range() -> Claims:
-    """Return delta for lengths that neither overflow nor underflow."""
+    """Return delta for lengths whose products neither overflow nor underflow."""
     return Claims(
         (a, inverse_R, F),
         (Let(whole, 1 + F), Let(flat, inverse_R * a)),
@@ -261,7 +261,7 @@ def radius_of_share() -> Claims:
 
 @named
 def force_of_share() -> Claims:
-    """Return P from delta, a and a over Hertz's radius; an error of a counts once, not thrice."""
+    """Return P by delta, a and a/a_H, a_H = sqrt(R delta); errors of a_H count once, not thrice."""
     return Claims(
         (share, delta, a, mu, modulus),
         (),
@@ -274,7 +274,7 @@ def force_of_share() -> Claims:
 
 @named
 def depth_ratio_in_range() -> Claims:
-    """Return sqrt(R delta)/h for lengths that neither overflow nor underflow."""
+    """Return sqrt(R delta)/h for lengths whose products neither overflow nor underflow."""
     return Claims(
         (delta, R, h), (), (sp.sqrt(R * delta) / h,), (sp.sqrt(R * DEPTH) / h,), LAW, reduce
     )
@@ -282,13 +282,13 @@ def depth_ratio_in_range() -> Claims:
 
 @named
 def radius_in_range() -> Claims:
-    """Return a from its ratio to Hertz's radius, for such lengths."""
+    """Return a from its ratio to Hertz's radius, for products without overflow or underflow."""
     return Claims((share, delta, R), (), (share * sp.sqrt(R * delta),), (a,), LAW, reduce)
 
 
 @named
 def force_in_range() -> Claims:
-    """Return P from delta, a and a over Hertz's radius, for such numbers."""
+    """Return P from delta, a and a over Hertz's radius, if no product over- or underflows."""
     return Claims(
         (share, delta, a, mu, modulus),
         (),
@@ -301,7 +301,7 @@ def force_in_range() -> Claims:
 
 @named
 def stiffness_in_range() -> Claims:
-    """Return dP/d delta for such numbers; `rise` is (R/a) d delta/da."""
+    """Return dP/d delta if products neither overflow nor underflow; `rise` is (R/a) d delta/da."""
     return Claims(
         (a, rise, mu, modulus),
         (),
@@ -363,4 +363,4 @@ POINT_ROUTINES = (
     stiffness_in_range,
     newton_step,
 )
-"""Routines for single numbers that neither overflow nor underflow."""
+"""Routines for single numbers whose products neither overflow nor underflow."""

@@ -41,7 +41,7 @@ BITS = 512
 FIRST_K = 2
 """First index k of M_k."""
 _KAPPAS, _FINITE_PARTS = 200, 100
-"""Number of computed values; the next ones exceed the range of doubles."""
+"""Numbers of computed values; the last ones already exceed the range of doubles."""
 _STEP = 32
 _TAIL = -120
 _END = 320
@@ -156,7 +156,10 @@ def kappa_start() -> int:
 
 @cache
 def finite_part_start() -> int:
-    """Return the smallest k from which the limit of M_k's ratio is within the tolerance."""
+    """Return the smallest k from which M_k's ratio is within TOLERANCE of its limit.
+
+    The result is cached on disk.
+    """
     rooms = (
         "engine/cache.py",
         "engine/formula",

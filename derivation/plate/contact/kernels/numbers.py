@@ -16,7 +16,7 @@ _CELL = "ends in b/h, then rows by powers of b/h, scaled to [-1, 1]"
 
 
 def numbers() -> Numbers:
-    """Constants of a plate's polynomials, and of the sensitivities of an impact."""
+    """Return the constants of a plate's polynomials, and of the sensitivities of an impact."""
     return Numbers(
         "contact_numbers",
         "Numbers of the contact law: ends of its polynomials, and their tables.",

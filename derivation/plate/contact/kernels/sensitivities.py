@@ -42,7 +42,7 @@ def power_work() -> Claims:
 
 @named
 def power_slope() -> Claims:
-    """Return the derivative by log A of a term of F whose term of delta is proportional to A^n."""
+    """Return the derivative by log A of a term of F proportional to A^(n-2), as A^n is in delta."""
     return Claims(
         (n, term), (), (term * (n - 2),), (sp.diff(term * x ** (n - 2), x).subs(x, 1),), {}
     )
@@ -57,7 +57,7 @@ class NearNodes:
 
 @named
 def near_nodes() -> Claims:
-    """Return q, s = q/ratio, 1 - q, (1 - s) ratio^5/(1 - q), the end of w; root^2 is 1 - ratio."""
+    """Return q, s = q/ratio, 1 - q, (1 - s) ratio^5/(1 - q) and max w, where root^2 = 1 - ratio."""
     k = NearNodes
     u = 1 - (1 - k.root) * k.node
     there, s_there = 1 - u**2, (1 - u**2) / (1 - k.root**2)
@@ -228,13 +228,13 @@ def _near_terms(name: str, hertz: int, summary: str) -> Routine:
 
 
 def near_terms() -> Routine:
-    """Return the sums for the law."""
+    """Return the routine of N and S for the law."""
     what = "N and S by sums over the terms of F up to A_near, at s = A/A_near, and the work beyond."
     return _near_terms("near_terms", 1, what)
 
 
 def near_slope_terms() -> Routine:
-    """Return the sums for its derivatives, which do not contain Hertz's term."""
+    """Return the routine of N and S for derivatives of the law, which lack Hertz's term."""
     return _near_terms("near_slope_terms", 0, "The same for a slope of F.")
 
 

@@ -95,12 +95,12 @@ def thin_start(name: str, center: sp.Expr, width: sp.Expr) -> Routine:
 
 
 def thin_near() -> Routine:
-    """Return their contributions to the first polynomial."""
+    """Return the contributions of c1 and c3 to the first polynomial."""
     return thin_start("thin_near", sp.Integer(0), REACH**2)
 
 
 def thin_far() -> Routine:
-    """Return their contributions to the second polynomial."""
+    """Return the contributions of c1 and c3 to the second polynomial."""
     return thin_start("thin_far", MIDDLE, HALF)
 
 

@@ -36,7 +36,7 @@ from derivation.plate.vocabulary import M
 REACH = 3
 """End of the first polynomial: A = REACH or alpha = 1, whichever is smaller."""
 FAR_REACH = 6
-"""End of the second polynomial, which is one in A^2."""
+"""Largest A of the second polynomial, a polynomial in A^2."""
 TERMS, SHORT_TERMS, FAR_TERMS = 19, 7, 24
 """Numbers of coefficients of the first polynomial, of its beginning, and of the second."""
 SHORT = 6
@@ -52,13 +52,13 @@ A = FAR_REACH, and the closed form is used alone.
 FAR_CELLS = ((3, 4, 20), (4, 6, 21), (6, 8, 19), (8, 11, 18))
 """The same for F/A itself for A > REACH."""
 WIDE_START = 2
-"""A from which the second polynomial extends in the first of these ranges.
+"""Smallest A of the second polynomial in the first range of FAR_CELLS.
 
 Otherwise its range could shrink to a point, because its end, alpha = 1, can be arbitrarily close to
 REACH.
 """
 IMPACT_NODES, INNER_NODES = 24, 12
-"""Numbers of Gauss nodes of the integrals over the impact, for c1 A from -0.37 to 1e17.
+"""Numbers of Gauss nodes of the integrals over the impact, enough for c1 A from -0.37 to 1e17.
 
 The second number is for A > REACH, where the nearest singularity is farther away.
 """
@@ -93,7 +93,7 @@ def thin_part(A: Ball) -> Ball:
         return Ball(0)
     total = Ball(0)
     for T, weight, excess in excess_nodes():
-        if T < _NEGLIGIBLE:  # the integrand is O(T): the omitted part is of the order of its square
+        if T < _NEGLIGIBLE:  # the integrand is O(T): the omitted part is O(T^2)
             continue
         y = A * T / 2
         total += weight * excess * (shape(y) - 1 + y * y / 10)
@@ -127,7 +127,7 @@ def modes(count: int) -> tuple[tuple[Ball, Ball], ...]:
 
 
 def whole_over_radius(v: Ball, radii: Sequence[Ball]) -> list[Ball]:
-    """Return F/A as the sum over the modes.
+    """Return F/A from W and the sum over the modes.
 
     Parameters
     ----------
@@ -146,7 +146,7 @@ def whole_over_radius(v: Ball, radii: Sequence[Ball]) -> list[Ball]:
 
 
 def thin_remainder(v: Ball, radii: Sequence[Ball], thin: Sequence[Ball]) -> list[Ball]:
-    """Return F/A - c1 - c3 A^2 - Phi/A, the error of the thin plate's closed form.
+    """Return F/A - c1 - c3 A^2 - Phi/A, the remainder of the thin plate's closed form, over A.
 
     Parameters
     ----------

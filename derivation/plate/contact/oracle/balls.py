@@ -38,7 +38,7 @@ def settle(compute: Callable[[int], tuple[arb, ...]], digits: int, what: str) ->
     Raises
     ------
     PrecisionError
-        If this is not reached; it never is for a value that is exactly zero.
+        If that radius is not reached, as for a value that is exactly zero.
     """
     target = math.ceil(digits * LOG2_10) + 1
     bits = _STEP * math.ceil((target + _SPARE) / _STEP)
@@ -70,9 +70,9 @@ def modulus(lam: Exact, mu: Exact) -> arb:
 def kappa(n: int, digits: int = 50) -> arb:
     """Return int_0^oo y^n K0(y)/I0(y) dy = 1/(n+1) int_0^oo y^n/I0(y)^2 dy.
 
-    Integration by parts with (K0/I0)' = -1/(y I0^2) removes the logarithm. For y >= 1, pi
-    I0 >= int_0^pi e^(y (1 - t^2/2)) dt gives I0 >= e^y/(3 sqrt y), and where y >= n + 2, the rest
-    of y^n/I0^2 <= 9 y^(n+1) e^(-2y) is below its first value.
+    Integration by parts with (K0/I0)' = -1/(y I0^2) removes the logarithm. For y >= 1,
+    pi I0 >= int_0^pi e^(y (1 - t^2/2)) dt gives I0 >= e^y/(3 sqrt y). From y >= n + 2 on, the
+    integral of y^n/I0^2 <= 9 y^(n+1) e^(-2y) is below the bound's first value.
     """
 
     def compute(bits: int) -> tuple[arb]:
@@ -88,9 +88,9 @@ def finite_part(k: int, digits: int = 50) -> arb:
     """Return M_k = FP int_0^oo T^(2k-4) (G - 1) dT, k >= 2.
 
     G = n/(T^3 d) with n = 1 + sinh(2T)/(2T), d = (sinh^2 T - T^2)/T^4 even; n - (6 + 6 T^2/5) d
-    begins with T^4, so G - 6/T^3 - 6/(5T) is regular, and the finite part of the two terms over
-    [0, 1] is -3 for k = 2, 0 and 3/5 for k = 3, and the plain integral beyond. G - 1 < 7 T^2
-    e^(-2T) for T >= 3, and T^(2k-2) e^(-T) decreases from T = 2k - 2 on.
+    begins with T^4, so G - 6/T^3 - 6/(5T) is regular. The finite part of the two terms over
+    [0, 1] is -3 for k = 2, 3/5 for k = 3, and the plain integral for k > 3. For T >= 3,
+    G - 1 < 7 T^2 e^(-2T), and T^(2k-2) e^(-T) decreases from T = 2k - 2 on.
     """
     if k < 2:
         raise ValueError(f"constants are counted from 2, got {k}")
@@ -112,7 +112,7 @@ def _regular(T: acb, bits: int) -> acb:
     """Return G - 6/T^3 - 6/(5 T) for |T| <= 2: T (sum r_k T^(2k))/d.
 
     Terms from `count` on are below 8^k 4^k/(2k)!, each less than half of the previous one from
-    k = 4.
+    k = 5 on.
     """
     count = 6
     while arb(32) ** count / math.factorial(2 * count) > arb(2) ** -bits:
@@ -184,9 +184,9 @@ def slope(a: Exact, R: Exact, h: Exact, b: Exact, digits: int = 50) -> arb:
 def stiffness(
     a: Exact, R: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact, digits: int = 50
 ) -> arb:
-    """Return dP/d delta at a contact radius: 2 E* a over the slope divided by Hertz's."""
+    """Return dP/d delta at a contact radius: 2 E* a over the ratio of the slope to Hertz's."""
     alpha, eta = ratio_of(a, b), ratio_of(h, b)
-    if not R > 0:  # R cancels; it is an argument because the function has it
+    if not R > 0:  # R cancels; it is an argument because the generated function has it
         raise ValueError(f"a radius is positive, got {R}")
 
     def compute(_: int) -> tuple[arb]:
@@ -202,11 +202,11 @@ def ratio_where(
     start: float,
     what: str,
 ) -> arb:
-    """Return alpha in (0, 1) where an increasing function has a value, at the current precision.
+    """Return alpha in (0, 1) where an increasing function equals `target`, at current precision.
 
-    Newton's iteration in logarithms on midpoints, `steepness` being d log value/d log alpha; the
-    ball is certified, because the value is below the target at its left end and above it at its
-    right end.
+    Newton's iteration in logarithms on midpoints, `steepness` being d log value/d log alpha. The
+    ball is certified because the value is below the target at the ball's left end and above it at
+    the right end.
 
     Raises
     ------

@@ -54,8 +54,8 @@ def _far_kappa(n: int) -> arb:
     """Return the ratio from kappa_n = int_0^oo y^n/I0^2 dy/(n+1).
 
     y^n/I0^2 <= 9 (y^n + y^(n+1)) e^(-2y): I0 >= e^y/(3 sqrt y) from y = 1 on (`balls.kappa`), and
-    I0 >= 1 >= e^y/3 below. Outside the ends, y^p e^(-2y) is bounded by its values there: it
-    increases up to p/2 and then decreases at the rate 2 - p/y.
+    I0 >= 1 >= e^y/3 below. Outside the interval, y^p e^(-2y) is bounded by its values at the ends:
+    it increases up to p/2, and then its logarithm decreases at the rate 2 - p/y.
     """
 
     def shape(y: acb) -> acb:

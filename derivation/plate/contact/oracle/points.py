@@ -1,20 +1,20 @@
 """Arb reference to any number of digits: the modal sum at finitely many points, as a power series.
 
 For an even entire k with |k(w)| <= e^|Im w| and 0 < alpha < 1 the sum identity
-(`contact.theory.split`) gives the functional L of `sums` as the parts of finite radius and finite
-thickness,
+(`contact.theory.split`) gives the functional L of `sums` as a part of the finite radius and one of
+the finite thickness,
 
     L = -1/pi int_0^oo k(i alpha y) K0(y)/I0(y) dy + sum k(alpha j) (G(2 eta j) - 1)/(j J1(j)^2).
 
-By parts, (K0/I0)' = -1/(y I0^2), the first is int k^(alpha y)/I0^2 dy with k^(w) = int_0^1 k(i w s)
-ds, which `wall` replaces by a finite sum; the second is truncated after N modes. With k(w) = sum
-(-1)^m C_m w^(2m) the result is a power series in alpha,
+By parts, (K0/I0)' = -1/(y I0^2), the first integral is int k^(alpha y)/I0^2 dy with
+k^(w) = int_0^1 k(i w s) ds, which `wall` replaces by a finite sum; the second part is truncated
+after N modes. With k(w) = sum (-1)^m C_m w^(2m) the result is a power series in alpha,
 
     L = sum (-1)^m C_m L_m alpha^(2m),
     L_m = (-1)^(m+1)/(pi (2m+1)) sum p y^(2m) + sum q j^(2m),
 
 with the same L_m for all weight functions k. All truncation errors are bounded and added to the
-radii.
+radii of the balls.
 """
 
 import math
@@ -34,7 +34,7 @@ from derivation.plate.contact.oracle.wall import Points, wall_points
 PLATES = 64
 """Number of cached plates, limited by memory."""
 DEEPEST = 1.5
-"""Largest a/(4h): for larger values the modes' powers cancel and need a multiple of the bits."""
+"""Largest a/(4h). Above 1 the modes' powers cancel, and the bits needed grow as a/(4h)."""
 
 _SPARE = 64
 
@@ -52,7 +52,7 @@ class PointSeries(NamedTuple):
     rest
         Upper bound of the truncation error of L [1], for each of the weight functions.
     working
-        Working precision of the sums of powers, which cancel for a > 4h.
+        Working precision [bits] of the sums of powers, which cancel for a > 4h.
     """
 
     powers: Mapping[str, arb_poly]
@@ -117,10 +117,10 @@ def mode_points(eta: Fraction, bits: int, working: int) -> Points:
     """Return zeros j and q = (G(2 eta j) - 1)/(j J1(j)^2) of the first modes.
 
     Bound of the omitted modes: x (J0^2 + Y0^2) rises to 2/pi (Watson, 13.74), and is
-    4/(pi^2 j J1^2) at j, so that 1/(j J1^2) < pi/2 < 2. G - 1 < 7 T^2 e^(-2T) for T = 2 eta
-    j >= 3 (`sums`), where T^2 e^(-T) decreases; j_(N+1) > (N + 3/4) pi, and zeros are more than 3
-    apart (`zeros`): with T' = 2 eta (N + 3/4) pi all following terms add up to less than 14 T'^2
-    e^(-2T')/(1 - e^(-6 eta)), if |k| <= 1 on the real axis.
+    4/(pi^2 j J1^2) at j, so that 1/(j J1^2) < pi/2 < 2. For T = 2 eta j >= 3, where T^2 e^(-T)
+    decreases, G - 1 < 7 T^2 e^(-2T) (`sums`). As j_(N+1) > (N + 3/4) pi and zeros are more than 3
+    apart (`zeros`), with T' = 2 eta (N + 3/4) pi all following terms add up to less than
+    14 T'^2 e^(-2T')/(1 - e^(-6 eta)), if |k| <= 1 on the real axis.
 
     Parameters
     ----------
@@ -154,9 +154,9 @@ def mode_points(eta: Fraction, bits: int, working: int) -> Points:
 def series(eta: Fraction, reach: float, bits: int) -> PointSeries:
     """Return L for a/b up to `reach`, with truncation errors below about 2^-bits.
 
-    After M terms the remainder of the weight functions' series at the points is, because C_m is at
-    most 1/(2m+1)!, below 2 alpha^(2M)/(2M+1)! (sum p y^(2M) + sum q j^(2M)) once the largest
-    w = alpha y or alpha j has w^2 <= (2M + 2) (2M + 3)/2, so that terms halve.
+    Because C_m is at most 1/(2m+1)!, the remainder of the weight functions' series at the points
+    after M terms is below 2 alpha^(2M)/(2M+1)! (sum p y^(2M) + sum q j^(2M)). This requires that
+    the largest w = alpha y or alpha j has w^2 <= (2M + 2) (2M + 3)/2, so that terms halve.
 
     Parameters
     ----------

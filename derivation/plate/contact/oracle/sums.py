@@ -8,10 +8,11 @@ residues of Y0/J0 between x = 1 < j_1 and infinity, becomes integrals:
         -1/2 Re int k(alpha z) G(2 eta z) H(z)/J0(z) dz,   z = 1 + (2 + i) y, y > 0,
 
 H being the first Hankel function of order 0. No pole is crossed. J0 has real zeros only; and for
-T = x + iy, x > 0, |y| <= x, sinh^2 T = T^2 would need |sinh T|^2 = |T|^2, but sinh^2 x + sin^2
-y - x^2 - y^2 >= (x^4 - y^4)/3 + 2 x^6/45 > 0 (sinh^2 x >= x^2 + x^4/3 + 2 x^6/45 and sin^2
-y >= y^2 - y^4/3). Every integral is a Gauss-Legendre sum with the error bound of Bernstein's
-ellipse; the run time does not depend on the plate's thickness. alpha = a/b and eta = h/b.
+T = x + iy, x > 0, |y| <= x, sinh^2 T = T^2 would need |sinh T|^2 = |T|^2, but
+sinh^2 x + sin^2 y - x^2 - y^2 >= (x^4 - y^4)/3 + 2 x^6/45 > 0, because
+sinh^2 x >= x^2 + x^4/3 + 2 x^6/45 and sin^2 y >= y^2 - y^4/3. Every integral is a Gauss-Legendre
+sum with the error bound of Bernstein's ellipse; the run time does not depend on the plate's
+thickness. alpha = a/b and eta = h/b.
 """
 
 import math
@@ -28,7 +29,7 @@ from derivation.engine.formula.ball import PrecisionError, to_ball
 PANELS = 512
 """Number of cached panels, of several plates, limited by memory."""
 SERIES_REACH = 2
-"""|w| below which power series are used, and closed forms above."""
+"""|w| and |T| below which power series are used, and closed forms above."""
 
 PIECES = 600
 """Number of balls around an ellipse on which a factor is bounded."""
@@ -85,8 +86,8 @@ def _blurred(value: acb, radius: arb) -> acb:
 def _kernel_series(name: str, bits: int) -> tuple[acb_poly, arb]:
     """Return the series in w^2 and a bound of its truncation error for |w| <= 2.
 
-    Terms are below 4^k/(2k+1)!, each less than half of the previous one, so that the remainder is
-    below twice the next term.
+    Terms are below 4^k/(2k+1)!, each less than half of the previous one from k = 2 on, so that the
+    remainder is below twice the next term.
     """
     count = 3
     while arb(4) ** count / math.factorial(2 * count + 1) > arb(2) ** -bits:
@@ -105,10 +106,10 @@ def kernel(name: str, w: acb) -> acb:
 
 @cache
 def _denominator_series(bits: int) -> tuple[acb_poly, arb]:
-    """Return (sinh^2 T - T^2)/T^4 = sum_(k>=2) 2^(2k-1) T^(2k-4)/(2k)!, its remainder for |T| <= 2.
+    """Return the series of (sinh^2 T - T^2)/T^4 in T^2, and a bound of its remainder for |T| <= 2.
 
-    The ratio of successive terms is 16/((2k+1)(2k+2)) < 1/2 from k = 2 on; the k-th is below
-    4^(2k)/(2k)!.
+    It is sum_(k>=2) 2^(2k-1) T^(2k-4)/(2k)!. The ratio of successive terms is at most
+    16/((2k+1)(2k+2)) < 1/2 from k = 3 on; the k-th is below 4^(2k)/(2k)!.
     """
     count = 4
     while arb(4) ** (2 * count) / math.factorial(2 * count) > arb(2) ** -bits:
@@ -129,7 +130,9 @@ def plate_excess(T: acb) -> acb:
 
 def excess_bound(T: arb) -> arb:
     """Return a bound of |G - 1| on |arg T| <= 45 degrees.
-    |sinh^2 T - T^2| >= 2 (Re T)^6/45 >= |T|^6/180 (see above); it falls with |T|.
+
+    |numerator| <= 1 + |T| + |T|^2 and |sinh^2 T - T^2| >= 2 (Re T)^6/45 >= |T|^6/180 (see the
+    module). The bound decreases with |T|.
     """
     return 180 * (1 + T + T**2) / T**6
 
@@ -217,7 +220,7 @@ def _bare_ray(k: int, bits: int) -> Panel:
 
 
 def _ray_panels(end: int, eta: Fraction | None) -> list[Panel]:
-    """Return H/J0 G: |G| is bounded where |z| is smallest, on the sector around the ellipse."""
+    """Return the ray's panels with H/J0 G; |G| is bounded at the ellipse's smallest |z|."""
     panels = []
     for k in range(end + 1):
         bare = _bare_ray(k, flint.ctx.prec)
@@ -233,7 +236,7 @@ def _ray_panels(end: int, eta: Fraction | None) -> list[Panel]:
 
 @lru_cache(maxsize=PANELS)
 def _axis_panel(eta: Fraction, k: int, rate: float, bits: int) -> Panel:
-    """Return G - 1 on [2^k, 2^(k+1)]; on the ellipse |arg| < 45 degrees and |T| > 0.66 2^k."""
+    """Return G - 1 on x in [2^k, 2^(k+1)]; on the ellipse |arg z| < 45 degrees, |z| > 0.66 2^k."""
     with flint.ctx.workprec(bits):
         low, scale = acb(arb(2) ** k), 2 * to_ball(eta)
         bound = excess_bound(scale * arb("0.66") * arb(2) ** k)
@@ -248,10 +251,12 @@ def _panels(
 ) -> tuple[tuple[Panel, ...], arb]:
     """Return all panels of L's real part, and a bound of both tails.
 
-    The ray ends at y = 2^(end-1) >= power: the tail is below 5 |z|^power (1 + |G - 1|) e^(-y),
-    there times 4, since y^power e^-y/2 decreases from 2 power on. On the axis, for T >= 3,
-    (1 - e^(-2T))^2 - 4 T^2 e^(-2T) > 0.8 and the numerator is below 1.4 T^2, so G - 1 < 7 T^2
-    e^(-2T), and from T = power + 3 on T^(power+2) e^(-2T) decreases at least like e^-T.
+    The ray ends at y = 2^(end-1) >= power. From there on the integrand is below
+    5 |z|^power (1 + |G - 1|) e^(-y), and the tail is below 4 times its value at the end, since
+    y^power e^(-y/2) decreases from 2 power on. On the axis, for T >= 3,
+    (1 - e^(-2T))^2 - 4 T^2 e^(-2T) > 0.8 and the numerator is below 1.4 T^2, so
+    G - 1 < 7 T^2 e^(-2T), and from T = power + 3 on T^(power+2) e^(-2T) decreases at least like
+    e^-T.
     """
     need = 0.7 * bits + 4 * power + 10
     need += 0 if eta is None else max(0.0, -6 * math.log(2 * float(eta)))

@@ -6,9 +6,9 @@ For g even and entire with |g(y)| <= e^|Re y| the trapezoidal rule is applied to
 
 The zeros of I0 are the points +-i j_n, j_1 > 2.4. For |Im t| < pi/2 the real part of y vanishes
 only with that of t, and |y| < 2 there: F is analytic in that strip, and decreases doubly
-exponentially along it. With M = int |F(t + i d)| dt, the error of the rule of step s is at most 2
-M/(e^(2 pi d/s) - 1) (Trefethen & Weideman 2014, theorem 5.1); M is bounded in balls. Neither nodes
-nor weights depend on plate or contact.
+exponentially along it. With M = int |F(t + i d)| dt, the error of the rule of step s is at most
+2 M/(e^(2 pi d/s) - 1) (Trefethen & Weideman 2014, theorem 5.1); M is bounded in balls. Neither
+nodes nor weights depend on plate or contact.
 """
 
 import math
@@ -21,7 +21,7 @@ from flint import acb, arb
 from derivation.engine.formula.ball import PrecisionError
 
 SHIFT = 1.35
-"""d, the shift of the line off the real axis on which F is bounded."""
+"""d, the distance from the real axis of the line on which F is bounded."""
 
 NEAR, PIECES = 1.6, 320
 """Largest t up to which balls cover the shifted line, and their number."""
@@ -104,8 +104,7 @@ def wall_points(bits: int) -> Points:
     Parameters
     ----------
     bits
-        The truncation error is below 2^-bits, and so are the relative radii of the balls,
-        approximately.
+        The error is below 2^-bits; the relative radii of the balls are about 2^-bits.
 
     Raises
     ------

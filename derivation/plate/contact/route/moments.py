@@ -15,7 +15,7 @@ def wall_moment(n: int, digits: int) -> mpf:
 
 @cache
 def wall_moments(count: int, digits: int) -> tuple[mpf, ...]:
-    """Return the first kappa_0, kappa_2, ... from one set of nodes."""
+    """Return the first `count` of kappa_0, kappa_2, ..., from one set of nodes."""
     with mp.workdps(digits):
         step = 1 / (8 + mpf(4) / 5 * mp.dps + mp.sqrt(2 * count))
         points = list(_nodes(step, 2 * count))
@@ -28,7 +28,7 @@ def wall_moments(count: int, digits: int) -> tuple[mpf, ...]:
 
 
 def _wall(y: mpf) -> mpf:
-    """Return K0/I0 = -log(y/2) - gamma + sum H_m (y/2)^(2m)/m!^2 / I0, with sufficient digits.
+    """Return K0/I0 = -log(y/2) - gamma + sum H_m (y/2)^(2m)/m!^2 / I0, at raised precision.
 
     The sums are sums of integers, in units of 2^-bits.
     """
@@ -49,9 +49,9 @@ def _wall(y: mpf) -> mpf:
 def finite_part(k: int, digits: int) -> mpf:
     """Return FP int_0^oo T^(2k-4) (G - 1) dT.
 
-    The powers 1/T^3 and 1/T are subtracted with a factor e^(-T^2); the finite part of T^(s-1)
-    e^(-T^2) is Gamma(s/2)/2 without its pole. Near T = 0 the fourth power of T cancels, for which
-    the precision is raised.
+    The powers 1/T^3 and 1/T are subtracted with a factor e^(-T^2); the finite part of
+    T^(s-1) e^(-T^2) is Gamma(s/2)/2 without its pole. Near T = 0 the fourth power of T cancels,
+    for which the precision is raised.
     """
     m = 2 * k - 4
 
@@ -70,7 +70,7 @@ def finite_part(k: int, digits: int) -> mpf:
 
 
 def _trapezoids(function: Callable[[mpf], mpf], power: int) -> mpf:
-    """Return int_0^oo of a function that decays like y^power e^(-2y), y = exp(u - e^(-u))."""
+    """Return int_0^oo of f ~ y^power e^(-2y) by equal steps of u, where y = exp(u - e^(-u))."""
     step = 1 / (8 + mpf(4) / 5 * mp.dps + mp.sqrt(power))
     return step * sum((w * function(y) for y, w in _nodes(step, power)), mpf(0))
 

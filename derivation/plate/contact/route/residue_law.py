@@ -2,8 +2,8 @@
 
 The impact's time is an integral of an even function of u, a = a_m (1 - u^2), over [-1, 1], where
 Fejer's first rule is used: its nodes are cosines, and its weights are sums of cosines. All sums use
-fixed-point numbers. Nothing is evaluated twice, because the results are compared with certified
-ones.
+fixed-point numbers. No result is repeated with more digits to estimate its error, because results
+are compared with certified ones.
 """
 
 import cmath
@@ -65,7 +65,7 @@ class ResidueLaw(NamedTuple):
         return q**5 * (mpf(1) / 5 + q * self._sum(self.works(), q))
 
     def works(self) -> Scaled:
-        """Return the factors of s_j in `work`."""
+        """Return s_j/(4j + 12), the coefficients in `work`, times 2^bits."""
         return [x // (4 * j + 12) for j, x in enumerate(self.known.terms)]
 
     def _sum(self, terms: Sequence[int], q: mpf) -> mpf:

@@ -31,7 +31,7 @@ PLATES = 256
 
 STRIP = 1.0
 """Half-width of the strip that determines the step of the trapezoidal rule, unless the contact is
-deep: T = 1 + y avoids the poles of G, of which arg (T_1 - 1) = 1.28 is the lowest."""
+deep: T = 1 + y avoids the poles T_n of G, whose smallest arg (T_n - 1) is 1.28, for n = 1."""
 
 FIRST_ZERO = 2.4
 """Slightly below the first zero of J0. If G - 1 is negligible at T = 2 eta FIRST_ZERO, only the
@@ -110,14 +110,14 @@ def _product(x: int, factor: mpf, bits: int) -> int:
 
 
 class _Place(NamedTuple):
-    """Return T and the weight of its even powers in the N_j."""
+    """T and the weight of its even powers in the N_j."""
 
     T: mpf | mpc
     weight: mpf | mpc
 
 
 def _wall(bits: int, eta: mpf) -> Iterator[_Place]:
-    """Return -2/pi int_0^oo K0/I0 dy as a sum over the nodes T = 2 i eta y."""
+    """Yield the nodes T = 2 i eta y and weights of a sum for -2/pi int_0^oo K0/I0 dy."""
     need = bits * math.log(2)
     for y, w in _nodes(2 * math.pi * STRIP / need, need, need + 2 * math.log(need)):
         with mp.workprec(bits + math.ceil(y / math.log(2)) + _SPARE):
@@ -125,7 +125,7 @@ def _wall(bits: int, eta: mpf) -> Iterator[_Place]:
 
 
 def _axis(bits: int, A: float) -> Iterator[_Place]:
-    """Return int_1^oo (G - 1) dT as a sum; in a strip where e^(A Im T/2) is below e^(2 Re T)."""
+    """Yield nodes and weights of int_1^oo (G - 1) dT; in its strip e^(A Im T/2) < e^(2 Re T)."""
     need = bits * math.log(2)
     step = 2 * math.pi * min(STRIP, 0.9 * math.atan(4 / A)) / need
     deep = max(0, math.ceil((A / 2 - 2) * need / 2 / math.log(2)))
@@ -135,7 +135,7 @@ def _axis(bits: int, A: float) -> Iterator[_Place]:
 
 
 def _nodes(step: float, need: float, end: float) -> Iterator[tuple[mpf, mpf]]:
-    """Return trapezoidal nodes in t of an integral over y = exp(t - e^(-t)), y >= e^-need."""
+    """Yield y = exp(t - e^(-t)) and its weight at equal steps of t, from about y = e^-need on."""
     ratio, rising = mp.exp(-mpf(step)), mp.exp(mpf(step))
     start = math.floor(-math.log(need) / step)
     up = mp.exp(start * mpf(step))
@@ -154,7 +154,7 @@ def _excess(T: mpf) -> mpf:
 
 
 def _roots(bits: int, eta: mpf, reach: float) -> Iterator[_Place]:
-    """Return T_n and 2 pi g_n H/J0, while e^(-Im T (2 - reach)/(2 eta)) is above 2^-bits."""
+    """Yield T_n and 2 pi g_n H/J0, while e^(-Im T (2 - reach)/(2 eta)) is above 2^-bits."""
     highest = bits * math.log(2) * 2 * float(eta) / (2 - reach)
     for n in range(1, math.floor(highest / math.pi) + 1):
         swell = math.ceil(reach / float(eta) * (n + 1) * math.pi / 2 / math.log(2))
@@ -205,9 +205,9 @@ def _bessel_quotient(w: mpc) -> mpc:
 
 @dataclass
 class _Term:
-    """Weight (half T)^(2j)/(2j+1)! of a node, real if `im` is None, times 2^(bits + swell).
+    """Product weight (half T)^(2j)/(2j+1)! of a node, real if `im` is None, times 2^(bits + swell).
 
-    It has binary places for the growth of its power series, e^(half |T|).
+    It has `swell` additional binary places for the growth of its power series, e^(half |T|).
     """
 
     swell: int
@@ -217,7 +217,7 @@ class _Term:
     im: int | None
 
     def advance(self, step: int, bits: int) -> None:
-        """Continue with the next power of the square, over its step of the factorial."""
+        """Multiply by (half T)^2 and divide by `step`, the next factors of the factorial."""
         (x, y), more = self.square, bits + self.swell
         if self.im is None:
             self.re = (self.re * x >> more) // step
@@ -231,7 +231,7 @@ class _Term:
 
 
 def _powers(places: list[_Place], half: mpf, bits: int) -> Iterator[int | None]:
-    """Return sums over the nodes for j = 0, 1 ... (imaginary parts for poles); None if all end."""
+    """Yield sums over the nodes (imaginary parts for poles), j = 0, 1, ...; None after the last."""
     running = []
     for T, weight in places:
         swell = math.ceil(float(half * abs(T)) / math.log(2))
@@ -268,7 +268,7 @@ def _laurent(bits: int) -> Scaled:
 
 
 def _near(bits: int, half: mpf, eta: mpf) -> Iterator[int]:
-    """Return the finite part up to T = 1, and low_j: times half^(2j)/(2j+1)!."""
+    """Yield (finite part up to T = 1 + low_j) half^(2j)/(2j+1)! for j = 0, 1, ..."""
     more = bits + _SPARE
     laurent, scale, square = _laurent(more), 1 << more, fixed(half * half, more)
     log = mp.euler - mp.log(4 * eta)

@@ -1,17 +1,17 @@
-"""Link 21: the profile of a sphere instead of a paraboloid, for contacts of any a/R (Sneddon 1965).
+"""Link 21: a sphere instead of a paraboloid, for a and delta not small against R (Sneddon 1965).
 
 A flat punch of radius c with force dP is displaced by d delta = dP/(2 E* c) and deflects the
 surface by
 
-    dw(r) = d delta (2/pi) arcsin(c/r)    for r > c,
+    dw(r) = d delta (2/pi) arcsin(c/r)    for r > c.
 
 A contact that grows from 0 to a in steps of flat punches matches the profile f if
 
     f(r) = (2/pi) int_0^r arccos(c/r) delta'(c) dc    for r <= a.
 
 For the sphere, f = R - sqrt(R^2 - r^2), this is solved by delta = (a/2) log((R+a)/(R-a)). At equal
-force, with the Hertz radius a_H^3 = 3 P R/(4 E*), the half-space's part of S = (R/2a_H) d delta/d
-a_H is a_H/a. It is 1 at a = 0 and increases with a.
+force, with the Hertz radius a_H, a_H^3 = 3 P R/(4 E*), the half-space's part of
+S = (R/2a_H) d delta/d a_H is a_H/a. It is 1 at a = 0 and increases with a.
 """
 
 from functools import cache
@@ -32,11 +32,11 @@ LOGARITHM = sp.log((R + a) / (R - a))
 def flat_punch() -> Proof:
     """Prove the pressure and the deflection of a flat punch, arcsin(c/r) outside it.
 
-    The pressure is p = dP/(2 pi c sqrt(c^2 - s^2)). Its Fourier-Bessel transform is dP
-    sin(c phi)/(2 pi c phi), by power series. With the half-space's influence coefficient,
-    w = dP/(pi c E*) int_0^oo sin(c phi)/phi J0(phi r) dphi. Its derivative with respect to c
-    contains the integral of cos(c phi) J0(phi r), the real part of the Laplace transform of J0 at i
-    c: 1/sqrt(r^2 - c^2) for c < r and 0 for c > r.
+    The pressure is p = dP/(2 pi c sqrt(c^2 - s^2)). Its Fourier-Bessel transform is
+    dP sin(c phi)/(2 pi c phi), by power series. With the half-space's influence coefficient,
+    w = dP/(pi c E*) int_0^oo sin(c phi)/phi J0(phi r) dphi. The derivative of this integral by c
+    is that of cos(c phi) J0(phi r), the real part of the Laplace transform of J0 at i c:
+    1/sqrt(r^2 - c^2) for c < r and 0 for c > r.
     """
     bessel = (-1) ** _m / (4**_m * sp.factorial(_m) ** 2)
     moment = sp.sqrt(sp.pi) / 2 * sp.gamma(_m + 1) / sp.gamma(_m + sp.Rational(3, 2))
@@ -60,7 +60,7 @@ def flat_punch() -> Proof:
 
 @cache
 def spherical_contact() -> tuple[Formula, Formula]:
-    """Return indentation and force of a sphere on a half-space, by the contact radius."""
+    """Return indentation and force of a sphere on a half-space, as functions of contact radius."""
     flat_punch()
     depth = a / 2 * LOGARITHM
     force = PLANE_STRAIN_MODULUS * ((a**2 + R**2) / 2 * LOGARITHM - a * R)

@@ -1,4 +1,4 @@
-"""Link 11: the terms of the paper's gamma_k for large j, and whether the series converges.
+"""Link 11: the terms of the paper's gamma_k for large j, and whether a modal sum converges.
 
 For j -> oo the plate factor tends to 1 and J1(j_n)^2 to 2/(pi j_n), so that phi_j^3 K_j -> 4/(R b).
 The terms phi_j^(2k-1) K_j of gamma_k therefore grow like phi_j^(2k-4): for every k >= 2 they do not
@@ -29,7 +29,7 @@ class Tail:
     kind
         ``convergent`` (absolutely), ``divergent`` or ``undecided``.
     exponent
-        Power of j that bounds the magnitude of the terms; -oo if they decay exponentially.
+        Power of j that the amplitude of the terms follows; -oo if they decay exponentially.
     leading
         The terms for large j, in phi; None if they oscillate.
     says
@@ -58,8 +58,8 @@ def tail(term: sp.Expr, variable: sp.Symbol = phi) -> Tail:
     """Determine whether the sum of a term over all modes converges.
 
     The term is a rational function of e^(h phi), times powers of phi and of J1(b phi), and possibly
-    of sin and cos of multiples of phi, which are bounded. Convergence depends on its leading power
-    of e^(h phi) and then of phi: phi_n grows like n, and a sum of n^p converges only for p < -1.
+    sin and cos of multiples of phi, which are bounded. Convergence depends on its leading power of
+    e^(h phi) and then of phi: phi_n grows like n, and a sum of n^p converges only for p < -1.
     """
     smooth = term.subs(J1, sp.sqrt(slope_at_infinity()))
     growth, leading = _leading_exponential(smooth)
@@ -116,7 +116,7 @@ def _leading_exponential(term: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
 
 
 def _leading_power(expression: sp.Expr, variable: sp.Symbol) -> tuple[sp.Expr, sp.Expr]:
-    """Return the highest power and its coefficient, for a product of sums of powers."""
+    """Return the highest power of the variable, and its coefficient, in a product of power sums."""
     exponent, coefficient = sp.Integer(0), sp.Integer(1)
     for factor in sp.Mul.make_args(sp.powsimp(expression)):
         base, outer = factor.as_base_exp()

@@ -16,7 +16,7 @@ _m = sp.Symbol("m", integer=True, nonnegative=True)
 _y, _t, _s = sp.symbols("y t s", positive=True)
 
 SINE_MINUS = sp.sin(a * phi) - a * phi * sp.cos(a * phi)
-"""Return s(a phi), with s(y) = sin y - y cos y."""
+"""s(a phi), with s(y) = sin y - y cos y."""
 
 
 @cache
@@ -95,9 +95,9 @@ def dirichlet_under_bessel() -> tuple[sp.Expr, sp.Expr]:
 def contact_radius() -> Formula:
     """Return Hertz's relation between a and P in (7), for a sphere on the half-space.
 
-    The pressure's Hankel transform is Sonine's integral; as s(a phi)/phi^2 = int_0^a t sin(phi t)
-    dt, the surface displacement under the pressure is a parabola in r, which must match the
-    sphere's profile r^2/(2R).
+    The pressure's Hankel transform is Sonine's integral. Since
+    s(a phi)/phi^2 = int_0^a t sin(phi t) dt, the surface displacement under the pressure is a
+    parabola in r, which must match the sphere's profile r^2/(2R).
     """
     radius = sp.Symbol("r", positive=True)
     near, far = (value.subs(r, radius) for value in dirichlet_under_bessel())

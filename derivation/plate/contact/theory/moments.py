@@ -56,8 +56,9 @@ def moment(power: int, rate: int) -> sp.Rational:
 
 @cache
 def hankel(terms: int) -> Coefficients:
-    """a_j > 0 of I0 ~ e^y/sqrt(2 pi y) sum a_j y^-j, K0 ~ sqrt(pi/(2y)) e^-y sum (-1)^j a_j y^-j.
+    """Return a_j > 0 of Hankel's expansions of I0 and K0.
 
+    I0 ~ e^y/sqrt(2 pi y) sum a_j y^-j and K0 ~ sqrt(pi/(2y)) e^-y sum (-1)^j a_j y^-j.
     e^(sy)/sqrt(y) y^-j, s = +-1, is inserted into the modified Bessel equation; the balance of each
     power gives the ratio of neighbouring coefficients.
     """
@@ -122,9 +123,9 @@ def quotient_bound(terms: int) -> tuple[Laurent, Laurent]:
     - i is the same integral over (0, 2) with 1 - u/2. Its series sum c_j (u/2)^j has decreasing
       positive c_j: the remainder is below 2 c_N (u/2)^N for u <= 1, below (1 - u/2)^(-1/2) beyond,
       where the integral of u^(-1/2) (1 - u/2)^(-1/2) is below 2 sqrt(2). In the omitted part of the
-      terms' integrals, u > 2, e^(-yu) <= e^-y e^(-yu/2). Together |i - i_N| <= 2 a_N
-      y^-N + e^-y [(4/5)(1 + y) + (3/2) sum_(j<N) a_j 2^j y^-j], with sqrt(y) <= (1 + y)/2, 2
-      sqrt(2/pi) < 8/5 and sqrt(2) < 3/2.
+      terms' integrals, u > 2, e^(-yu) <= e^-y e^(-yu/2). Together
+      |i - i_N| <= 2 a_N y^-N + e^-y [(4/5)(1 + y) + (3/2) sum_(j<N) a_j 2^j y^-j], with
+      sqrt(y) <= (1 + y)/2, 2 sqrt(2/pi) < 8/5 and sqrt(2) < 3/2.
     - i >= erf(sqrt(2y)) >= sqrt(1 - e^(-2y)), hence 1/i <= 1 + 1/(2y).
     """
     a, q = hankel(terms + 1), wall_quotient(terms)
@@ -151,7 +152,7 @@ def _product(first: Laurent, *others: Laurent) -> Laurent:
 
 @cache
 def wall_constant(terms: int = 12) -> Proof:
-    """Prove D -> 1: the factor pi of K0/I0 = pi e^(-2y) D, not determined by the equation.
+    """Prove D -> 1: the factor pi of K0/I0 = pi e^(-2y) D, which Bessel's equation leaves open.
 
     The truncated expansion, widened by the bound, must contain D.
     """
@@ -175,7 +176,7 @@ def _at(series: Laurent, y: flint.arb) -> flint.arb:
 
 @cache
 def kappa_steps(terms: int) -> Coefficients:
-    """Return 2^j q_j, the first terms of r_n = sum 2^j q_j/(n (n-1) ... (n-j+1))."""
+    """Return 2^j q_j, numerators of the first terms of r_n = sum 2^j q_j/(n (n-1) ... (n-j+1))."""
     gamma_moment()
     wall_constant()
     n = terms + 3
@@ -193,7 +194,7 @@ def kappa_steps(terms: int) -> Coefficients:
 
 
 def kappa_bound(n: int, terms: int) -> sp.Expr:
-    """Return a bound of |r_n - its first terms| for all indices >= n; infinite for n < 2 terms.
+    """Return a bound of |r_n - its first terms| for all indices >= n; infinite for n < 2 `terms`.
 
     2^(n+1)/n! times the integral of y^n e^(-2y) `quotient_bound`, computed exactly; every term of
     it decreases with n.

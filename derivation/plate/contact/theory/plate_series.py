@@ -1,10 +1,10 @@
 """Link 13: delta R/a^2 = 1 + c_1 A + c_3 A^3 + ..., A = a/h, with exact coefficients of h/b.
 
-The split of the indentation converges, so its terms may be expanded in a: sin y - y cos y = sum
-(-1)^k (2k-2)/(2k-1)! y^(2k-1), k >= 2. The double sum converges absolutely: for a < 4 h in the
-modes, where G - 1 decays like e^(-4 eta j_n), and for a < 2 b in the finite-radius term, where
-K0/I0 decays like e^(-2y). The coefficients are the paper's gamma_k without the divergent part of
-their sums.
+The split of the indentation converges, so its terms may be expanded in a:
+sin y - y cos y = sum (-1)^k (2k-2)/(2k-1)! y^(2k-1), k >= 2. The double sum converges absolutely:
+for a < 4 h in the modes, where G - 1 decays like e^(-4 eta j_n), and for a < 2 b in the
+finite-radius term, where K0/I0 decays like e^(-2y). The coefficients are the paper's gamma_k
+without the divergent part of their sums.
 """
 
 from collections.abc import Callable
@@ -68,7 +68,7 @@ class Coefficient:
 
     @property
     def by_plate_radius(self) -> tuple[sp.Expr, sp.Expr]:
-        """Return the same two parts as coefficients of (a/b)^order, for thick plates."""
+        """Both parts as coefficients of (a/b)^order, for thick plates."""
         return self.mode / eta**self.order, self.side / eta**self.order
 
 

@@ -26,7 +26,7 @@ _RAYS = 200
 def power_series(
     series: Sequence[sp.Expr], exponent: sp.Rational, terms: int
 ) -> tuple[sp.Expr, ...]:
-    """Return b = s^exponent, truncated, for a series s = 1 + ...: b' s = exponent s' b.
+    """Return b = s^exponent, truncated, for a series s = 1 + ..., by b' s = exponent s' b.
 
     Examples
     --------
@@ -200,7 +200,7 @@ def exponent() -> Formula:
 
 @cache
 def radius_estimate() -> tuple[Formula, Formula]:
-    """Return the convergence radius with c_1 alone, d(eps^2)/dA = 0, in eps and in delta."""
+    """Return the convergence radius with c_1 alone, where d(eps^2)/dA = 0, in eps and in delta."""
     law = a_ratio**2 * (1 + c_A[1] * a_ratio)
     turning = -2 / (3 * c_A[1])
     squared = sp.factor(law.subs(a_ratio, turning))
@@ -239,7 +239,7 @@ def radius(coefficients: Sequence[float], bits: int = 128) -> float:
     """Return the radius of convergence in eps of the inverted series, for given c_1, c_3, c_5, ...
 
     The inverse A(eps) is singular at critical values eps(A), where d(eps^2)/dA = 0. Only those
-    count that A reaches by continuation along the ray from eps = 0.
+    critical points A count that continuation along the ray from eps = 0 reaches.
 
     Raises
     ------

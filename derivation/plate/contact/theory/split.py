@@ -1,4 +1,4 @@
-"""Link 12: delta = a^2/R + finite radius + finite thickness: sums over zeros of J0 as integrals.
+"""Link 12: delta = a^2/R + finite radius + finite thickness, by integrals for sums over J0 zeros.
 
 For f entire and growing slower than e^(2|Im z|)
 
@@ -26,7 +26,7 @@ from derivation.plate.vocabulary import J1, Formula, R, T, a, alpha, b, eta, h, 
 
 _y = sp.Symbol("y", positive=True)
 WALL = sp.besselk(0, _y) / sp.besseli(0, _y)
-"""Return K0(y)/I0(y), the weight function of the finite radius."""
+"""K0(y)/I0(y), the weight function of the finite radius."""
 
 
 @cache
@@ -159,8 +159,8 @@ def wall_tail(n: int, end: flint.arb) -> flint.arb:
     """Return a bound of int_end^oo y^n/I0(y)^2 dy for end >= n + 1, end >= 1.
 
     I0(y) = (1/pi) int_0^pi e^(y cos t) dt and cos t >= 1 - t^2/2 give, by integrating over
-    t <= 1/sqrt(y), I0(y) >= e^(y - 1/2)/(pi sqrt(y)). The integrand is below pi^2 e y^(n+1)
-    e^(-2y), whose logarithm decreases by at least 1 per unit of y.
+    t <= 1/sqrt(y), I0(y) >= e^(y - 1/2)/(pi sqrt(y)). The integrand is below
+    pi^2 e y^(n+1) e^(-2y), whose logarithm decreases by at least 1 per unit of y.
     """
     pi = flint.arb.pi()
     return pi**2 * flint.arb.const_e() * end ** (n + 1) * (-2 * end).exp()
@@ -210,7 +210,7 @@ def wall_bracket(ratio: sp.Expr) -> sp.Expr:
 
 
 def _side_density() -> sp.Expr:
-    """Return the weight of K0/I0 in the finite radius's part of the indentation."""
+    """Return the weight of K0/I0 in the finite-radius part of the indentation."""
     return -8 * b**2 / (sp.pi**2 * R) * wall_bracket(a / b)
 
 
@@ -267,7 +267,7 @@ def contact_split() -> tuple[Formula, ...]:
 
 @cache
 def reduced_split() -> tuple[Formula, Formula]:
-    """Return delta R/a^2 = 1 + F(alpha, eta): W(alpha) of the finite radius, one mode of F - W."""
+    """Return W of the finite radius and one mode's term of F - W, where delta R/a^2 = 1 + F."""
     thickness = contact_split()[2].expression
     y = alpha * j_n
     g = 3 * (sp.sin(y) - y * sp.cos(y)) / y**3

@@ -131,7 +131,9 @@ def universal_ball(A: Exact, digits: int = 30) -> flint.arb:
 
 
 def thin_coefficient_ball(k: int, ratio: Exact, digits: int = 30) -> flint.arb:
-    """Return a ball around c_(2k-3) of a thin plate at h/b = ratio, its radius below 10^-digits.
+    """Return a ball around c_(2k-3) of a thin plate at h/b = ratio.
+
+    Its relative radius is below 10^-digits.
 
     Raises
     ------

@@ -192,7 +192,7 @@ def thin_coefficient(k: int) -> Formula:
 
 
 def _low_rest(k: int, size: sp.Rational) -> sp.Expr:
-    """Return c_1 and c_3 without M_k, by SymPy's residue of the double pole, and bending."""
+    """Return c_1 or c_3 without M_k: SymPy's residue of the double pole, plus the bending term."""
     g = plate_factor_at_zero()
     pole = g.at(3 - 2 * k)
     wall = wall_at_zero()
@@ -270,7 +270,7 @@ def excess_for_large() -> Proof:
 
 
 def plate_excess(x: Ball) -> Ball:
-    """G - 1 by `excess_for_large`."""
+    """Return G - 1 by `excess_for_large`."""
     return ((1 - (-2 * x).exp()) / 2 + x + x * x) / (x.sinh() ** 2 - x * x)
 
 

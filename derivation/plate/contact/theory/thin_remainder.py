@@ -12,11 +12,10 @@ of both axes cancel (`axes`).
 
 This holds for every h/b, thick plates included, and for a < 2b, where |q| <= e^(alpha |Im z|) (the
 law itself is defined for a < b). Closing the contour: on the lines Im T = pi n - pi/4,
-|sinh T -+ T| > cosh(Re T)/4, and 2 G = (cosh T - 1)/(sinh T + T) + (cosh T + 1)/(sinh T - T),
-so |G| < 8; with
-|H/J0| <= 3 e^(-2 Im z) the contribution of these lines vanishes as n increases, and so does that of
-a vertical line far to the right, where G - 1 decays like T^2 e^(-2T). A term of a coefficient is of
-the order exp(-Im T_n/eta), one of the law exp(-Im T_n (2 - alpha)/(2 eta)).
+|sinh T -+ T| > cosh(Re T)/4, and 2 G = (cosh T - 1)/(sinh T + T) + (cosh T + 1)/(sinh T - T), so
+|G| < 8. Since |H/J0| <= 3 e^(-2 Im z), the contribution of these lines vanishes as n increases, and
+so does that of a vertical line far to the right, where G - 1 decays like T^2 e^(-2T). A term of a
+coefficient is of the order exp(-Im T_n/eta), one of the law exp(-Im T_n (2 - alpha)/(2 eta)).
 """
 
 from collections.abc import Callable, Mapping
@@ -203,14 +202,14 @@ def _mode_factor(power: int) -> sp.Expr:
 
 
 def _law_weight(at: sp.Expr) -> sp.Expr:
-    """s(A T/2)/T^5."""
+    """Return s(A T/2)/T^5."""
     y = a_ratio * at / 2
     return (sp.sin(y) - y * sp.cos(y)) / at**5
 
 
 @cache
 def law_remainder() -> Formula:
-    """Return F(A, eta) minus c_1 A + c_3 A^3 + Phi(A): a sum over the roots, exact for a < b."""
+    """Return F(A, eta) - c_1 A - c_3 A^3 - Phi(A): a sum over the roots, exact for a < b."""
     residue_at_roots()
     universal_part()
     for k in range(FIRST, LAST + 1):
@@ -270,9 +269,9 @@ def _sum_over_roots(
 ) -> flint.arb:
     """Return sum Im[weight(T_n) root_share(T_n)] with a ball for the terms after the last one.
 
-    `first(n)` bounds term n, and `quotient(n)` bounds the ratio of successive terms from there on,
-    by |1 + sqrt(1 + T^2)|^2/|T|^2 = |coth(u/2)|^2 <= (pi + 1)/(pi - 1) < 2, since cosh Re
-    u >= |sinh u| = |T| > pi, and |H/J0| <= 3 e^(-2 Im z) for |z| >= 4, Im z >= 1: there
+    `first(n)` bounds term n, and `quotient(n)` bounds the ratio of successive terms from there on.
+    Used are |1 + sqrt(1 + T^2)|^2/|T|^2 = |coth(u/2)|^2 <= (pi + 1)/(pi - 1) < 2, since
+    cosh Re u >= |sinh u| = |T| > pi, and |H/J0| <= 3 e^(-2 Im z) for |z| >= 4, Im z >= 1: there
     |H| <= sqrt(2/(pi |z|)) e^(-Im z), and the other Hankel function is at least 0.89
     sqrt(2/(pi |z|)) e^(Im z) (DLMF 10.17.14 with l = 1, variation pi/2).
     """
@@ -314,7 +313,7 @@ def coefficient_remainder_ball(k: int, ratio: Exact, digits: int = 30) -> flint.
 
 
 def law_remainder_ball(A: Exact, ratio: Exact, digits: int = 30) -> flint.arb:
-    """Return a ball around F minus c_1 A + c_3 A^3 + Phi(A), relative radius below 10^-digits.
+    """Return a ball around F - c_1 A - c_3 A^3 - Phi(A), its relative radius below 10^-digits.
 
     Terms are below A^3/4 e^(-pi n (2 - alpha)/(2 eta)), by |s(y)/y^3| <= e^|Im y|/3.
 

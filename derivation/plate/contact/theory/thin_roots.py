@@ -12,10 +12,11 @@ u = -T up to multiples of i pi, and -T has a negative real part. sinh maps the h
 T = x + iy, 0 < y < pi/2: cos y = x/sinh x and sin y/y = 1/cosh x < x/sinh x, since tanh x < x.
 Hence tan y < y, a contradiction.
 
-There is one for each n: asinh T + i pi n maps the closed strip Re T >= 0, pi n <= Im T <= pi
-n + pi/2 into itself (values on the cut taken from the right), and |1 + T^2| >= (pi n)^2 - 1 there,
-so that it is a contraction with the factor `contraction(n)` < 0.34 and has one fixed point. The
-fixed point is not on the imaginary axis, where sin y = +-y only at 0. On the real axis sinh T > T.
+There is one for each n: asinh T + i pi n maps the closed half strip Re T >= 0,
+pi n <= Im T <= pi n + pi/2 into itself (values on the cut taken from the right). Since
+|1 + T^2| >= (pi n)^2 - 1 there, the map is a contraction with the factor `contraction(n)` < 0.34
+and has one fixed point. The fixed point is not on the imaginary axis, where sin y = +-y only at 0.
+On the real axis sinh T > T.
 """
 
 from functools import cache
@@ -27,7 +28,7 @@ from derivation.engine.formula.proof import Proof, prove
 from derivation.plate.vocabulary import T
 
 SIZE_OVER_INDEX = 8
-"""|T_n| <= 8 n, because |T| - log(2 |T| + 1) <= pi (n + 1/2), which is exceeded at 8 n."""
+"""|T_n| <= 8 n: |T| - log(2 |T| + 1) <= pi (n + 1/2) at T_n, but larger for |T| = 8 n, n >= 1."""
 
 
 @cache
@@ -83,5 +84,5 @@ def root(n: int, bits: int = 128) -> flint.acb:
 
 
 def height(n: int, digits: int = 30) -> flint.arb:
-    """Return Im T_n; T_n contributes of the order exp(-Im T_n b/h) to a thin plate's law."""
+    """Return Im T_n; the term of T_n in a thin plate's law is of the order exp(-Im T_n b/h)."""
     return root(n, int(3.33 * digits) + 8).imag

@@ -6,20 +6,20 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from derivation.engine.activity import Tell, quiet
+from derivation.engine.activity import Progress, quiet
 from derivation.engine.files import PACKAGE, expect_writable, measurements, write_file
 from derivation.engine.measure.judge import Errors
 from derivation.engine.measure.record import provenance
 from derivation.engine.measure.result import CheckResult, all_kept
+from derivation.engine.measure.search import Progress as SearchProgress
 from derivation.engine.measure.search import Search, search
-from derivation.engine.measure.search import Tell as SearchTell
 from derivation.engine.measure.search_record import Book, seconds_of
 from derivation.engine.outputs import folder_for, plain, recorded_in, sorted_json
 from derivation.plate.benchmark import run as accuracy_run
 from derivation.plate.benchmark import speed, user_calls
 from derivation.plate.contact.cases.check import KERNELS, LIMIT, ContactRow
 from derivation.plate.contact.cases.check import check as measure_contact
-from derivation.plate.contact.cases.truth import DIGITS
+from derivation.plate.contact.cases.reference_values import DIGITS
 from derivation.plate.judge import PACKAGE as GENERATED
 from derivation.plate.paper import PAPER
 from derivation.plate.search.targets import recorded, targets
@@ -34,7 +34,7 @@ MEASURED_ACCURACY = measurements() / "accuracy.json"
 EXAMPLE = PACKAGE / "scene" / "examples" / "paper.toml"
 
 
-def check_contact(progress: Tell = quiet) -> CheckResult:
+def check_contact(progress: Progress = quiet) -> CheckResult:
     """Compare contact law, its inversion and impact with both references; takes minutes.
 
     Raises
@@ -45,7 +45,7 @@ def check_contact(progress: Tell = quiet) -> CheckResult:
     kernels: dict[str, Callable[..., Any]] = {
         name: impact.impact if name == "impact" else getattr(contact_law, name) for name in KERNELS
     }
-    rows = measure_contact(kernels, processes=os.cpu_count() or 1, tell=progress)
+    rows = measure_contact(kernels, processes=os.cpu_count() or 1, progress=progress)
     cells = [
         (r.kernel, r.points, r.digits, f"{r.max_error:.2g}", f"{r.double.max_ulp:.3g}",
          f"{r.double.ratio:.2f}", f"{r.budget:g}", r.passed)
@@ -87,7 +87,7 @@ def _short(errors: Errors) -> dict[str, Any]:
     return {name: getattr(errors, name) for name in kept} | {"worst": worst}
 
 
-def check_speed(progress: Tell = quiet) -> CheckResult:
+def check_speed(progress: Progress = quiet) -> CheckResult:
     """Measure run times of contact law, impact and start of the program on this machine."""
     examples = sorted(EXAMPLE.parent.glob("*.toml"))
     solved = [path for path in examples if selected_effects(load(path))[1].law.solved]
@@ -104,7 +104,7 @@ def accuracy(
     quick: bool = False,
     scene: Path | None = None,
     out: Path | None = None,
-    progress: Tell = quiet,
+    progress: Progress = quiet,
     update: bool = False,
 ) -> tuple[dict[str, Any], Path | None]:
     """Measure accuracy against run time, and write the result to a file if one is given.
@@ -153,7 +153,7 @@ def search_worse(
     seed: int = 1,
     functions: Sequence[str] = (),
     out: Path | None = None,
-    progress: SearchTell | None = None,
+    progress: SearchProgress | None = None,
 ) -> tuple[Search, Book]:
     """Search for larger errors for some time, and write each new worst case to a file.
 
@@ -166,6 +166,6 @@ def search_worse(
     path = folder_for(None, PAPER.report_folder) / "search.toml" if out is None else out
     expect_writable(path)
     book = Book(path, chosen, *recorded(PAPER.measured, MEASURED_CONTACT))
-    found = search(chosen, seed, seconds, tell=progress, keep=book.keep)
+    found = search(chosen, seed, seconds, progress=progress, keep=book.keep)
     book.keep(found)
     return found, book

@@ -114,7 +114,7 @@ def of_module(text: str, skipped: Sequence[str] = ()) -> Iterator[CodeMutant]:
             yield CodeMutant(place.home, f"{original} -> {ast.unparse(new)}{inside}", changed)
 
 
-class _Place(NamedTuple):
+class _Position(NamedTuple):
     home: str
     node: Code
     parent: ast.AST
@@ -124,10 +124,10 @@ class _Place(NamedTuple):
 SKIPPED = ("shape", "axis", "dtype", "reshape", "broadcast_to", "arange")
 
 
-def _formulas(tree: ast.Module, skipped: Sequence[str]) -> Iterator[_Place]:
+def _formulas(tree: ast.Module, skipped: Sequence[str]) -> Iterator[_Position]:
     """Arithmetic of all functions and of module constants."""
 
-    def walk(node: ast.AST, home: str, parent: ast.AST, exponent: bool) -> Iterator[_Place]:
+    def walk(node: ast.AST, home: str, parent: ast.AST, exponent: bool) -> Iterator[_Position]:
         if isinstance(node, ast.Subscript | ast.arguments):
             return
         if isinstance(node, ast.AnnAssign):
@@ -148,7 +148,7 @@ def _formulas(tree: ast.Module, skipped: Sequence[str]) -> Iterator[_Place]:
         if isinstance(node, ast.Assign) and not home:
             home = ast.unparse(node.targets[0])
         if isinstance(node, ast.BinOp | ast.UnaryOp | ast.Constant | ast.Call | ast.AugAssign):
-            yield _Place(home, node, parent, exponent)
+            yield _Position(home, node, parent, exponent)
         power = isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow)
         for name, child in ast.iter_fields(node):
             for part in child if isinstance(child, list) else [child]:

@@ -25,7 +25,7 @@ OPERATORS: Mapping[type[ast.cmpop], Any] = {
 }  # fmt: skip
 
 
-class Place(NamedTuple):
+class Position(NamedTuple):
     """A comparison: module and function, and the how manyth it is there."""
 
     home: str
@@ -62,9 +62,9 @@ class Sides:
 class Watch:
     """What the comparisons of modules have done."""
 
-    sides: dict[Place, Sides] = field(default_factory=dict)
+    sides: dict[Position, Sides] = field(default_factory=dict)
 
-    def beyond(self, reach: float) -> dict[Place, Sides]:
+    def beyond(self, reach: float) -> dict[Position, Sides]:
         """The comparisons that have not come this close to both sides of the switch."""
         return {
             place: sides
@@ -110,7 +110,7 @@ class _Counting(ast.NodeTransformer):
 
     def __init__(self, module: str, watch: Watch) -> None:
         self.home, self.watch = module, watch
-        self.kinds: dict[Place, Any] = {}
+        self.kinds: dict[Position, Any] = {}
 
     def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
         outer, self.home = self.home, f"{self.home}.{node.name}"
@@ -134,8 +134,8 @@ class _Counting(ast.NodeTransformer):
             return node
         number = sum(place.home == self.home for place in self.kinds)
         for index, op in enumerate(node.ops):
-            self.kinds[Place(self.home, number + index)] = OPERATORS[type(op)]
-            self.watch.sides[Place(self.home, number + index)] = Sides()
+            self.kinds[Position(self.home, number + index)] = OPERATORS[type(op)]
+            self.watch.sides[Position(self.home, number + index)] = Sides()
         at = [ast.Constant(self.home), ast.Constant(number)]
         call = ast.Call(ast.Name(COUNTER, ast.Load()), [*at, node.left, *node.comparators], [])
         return ast.copy_location(call, node)
@@ -144,7 +144,7 @@ class _Counting(ast.NodeTransformer):
         """The outcome of a comparison, each pair of a chained one counted separately."""
         outcome: Any = True
         for index, (left, right) in enumerate(pairwise(operands)):
-            place = Place(home, number + index)
+            place = Position(home, number + index)
             outcome = self.kinds[place](left, right)
             self.watch.sides[place].count(left, right, outcome)
             if index + 2 < len(operands) and not outcome:

@@ -15,7 +15,7 @@ from typing import Any
 import flint
 
 from derivation.checks.random_scenes import spreading
-from derivation.engine.activity import Tell, quiet
+from derivation.engine.activity import Progress, quiet
 from derivation.engine.files import measurements, write_file
 from derivation.engine.measure.result import CheckResult, all_kept
 from derivation.engine.outputs import expect_recordable, json_by_line, plain_rows
@@ -41,7 +41,7 @@ ORACLE: Callable[..., tuple[flint.arb, ...]] = contact_impact.impact
 
 
 @dataclass(frozen=True)
-class SceneTruth:
+class SceneReference:
     """Reference values of an impact, in decimal, to DIGITS digits."""
 
     point: Point
@@ -80,7 +80,7 @@ class BoundRow:
         return self.ratio <= 1.0
 
 
-def check_bounds(count: int, update: bool = False, progress: Tell = quiet) -> CheckResult:
+def check_bounds(count: int, update: bool = False, progress: Progress = quiet) -> CheckResult:
     """Test the bounds that `simulate` states on the first `count` random scenes.
 
     Recorded reference values are reused; others are computed, about a second each. With `update`
@@ -88,9 +88,9 @@ def check_bounds(count: int, update: bool = False, progress: Tell = quiet) -> Ch
     """
     if update:
         expect_recordable(MEASURED)
-    known = committed_truths()
-    found: list[SceneTruth] = []
-    for true in truths(count, known, progress=progress):
+    known = committed_references()
+    found: list[SceneReference] = []
+    for true in reference_values(count, known, progress=progress):
         found.append(true)
         if update and len(found) > len(known) and len(found) % KEPT_EVERY == 0:
             write_file(MEASURED, to_json(found, ()))
@@ -120,15 +120,15 @@ def scene(number: int, seed: int = SEED) -> Point:
     return R, m, math.sqrt(2 * work / m), h, b, lam, mu
 
 
-def truth(point: Point) -> SceneTruth:
+def reference(point: Point) -> SceneReference:
     """Compute the reference values of an impact."""
     balls = ORACLE(*point, digits=DIGITS)
-    return SceneTruth(point, tuple(ball.str(_WRITTEN, radius=False) for ball in balls))
+    return SceneReference(point, tuple(ball.str(_WRITTEN, radius=False) for ball in balls))
 
 
-def truths(
-    count: int, known: Sequence[SceneTruth] = (), seed: int = SEED, progress: Tell = quiet
-) -> Iterator[SceneTruth]:
+def reference_values(
+    count: int, known: Sequence[SceneReference] = (), seed: int = SEED, progress: Progress = quiet
+) -> Iterator[SceneReference]:
     """Yield the reference values of the first `count` scenes; known ones are not computed again.
 
     Parameters
@@ -143,7 +143,7 @@ def truths(
             yield found[_written(point)]
             continue
         progress("reference", number + 1, count)
-        yield truth(point)
+        yield reference(point)
 
 
 def _written(point: Point) -> tuple[str, ...]:
@@ -154,7 +154,7 @@ def _written(point: Point) -> tuple[str, ...]:
     return tuple(f"{x:.10e}" for x in point)
 
 
-def errors(values: Iterable[float], true: SceneTruth) -> tuple[float, ...]:
+def errors(values: Iterable[float], true: SceneReference) -> tuple[float, ...]:
     """Return the relative errors of the results, with the error of the reference values added."""
     with flint.ctx.workprec(256):
         return tuple(
@@ -173,7 +173,7 @@ def simulated(point: Point, rtol: float) -> tuple[Sequence[float], str, float]:
 
 
 def judge(
-    known: Sequence[SceneTruth], tolerances: Sequence[float] = TOLERANCES
+    known: Sequence[SceneReference], tolerances: Sequence[float] = TOLERANCES
 ) -> tuple[BoundRow, ...]:
     """Run every scene at every tolerance; return a row for each method in order of first use.
 
@@ -200,18 +200,18 @@ def judge(
     return tuple(worst.values())
 
 
-def to_json(known: Sequence[SceneTruth], rows: Sequence[BoundRow]) -> str:
+def to_json(known: Sequence[SceneReference], rows: Sequence[BoundRow]) -> str:
     """Return reference values and rows as JSON, one per line."""
     data = {"digits": DIGITS, "seed": SEED, "python-flint": flint.__version__}
     listed = {"rows": plain_rows(rows), "truths": plain_rows(known)}
     return json_by_line(data | listed, *listed)
 
 
-def committed_truths() -> list[SceneTruth]:
+def committed_references() -> list[SceneReference]:
     """Return the recorded reference values; none if they have another number of digits."""
     if not MEASURED.is_file():
         return []
     data: dict[str, Any] = json.loads(MEASURED.read_text())
     if data["digits"] != DIGITS:
         return []
-    return [SceneTruth(tuple(t["point"]), tuple(t["values"])) for t in data["truths"]]
+    return [SceneReference(tuple(t["point"]), tuple(t["values"])) for t in data["truths"]]

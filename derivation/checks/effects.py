@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from derivation.checks.random_scenes import Scene, largest_change, spreading
-from derivation.engine.activity import Tell, quiet
+from derivation.engine.activity import Progress, quiet
 from derivation.engine.files import measurements
 from derivation.engine.measure.result import CheckResult, all_kept
 from derivation.engine.outputs import json_by_line, plain_rows
@@ -71,7 +71,7 @@ class EffectCheckRow:
         return self.ratio <= 1.0 and self.tightest <= 1.0
 
 
-def check_effects(count: int, progress: Tell = quiet) -> CheckResult:
+def check_effects(count: int, progress: Progress = quiet) -> CheckResult:
     """Compare random scenes at several tolerances with all applicable effects."""
     rows = judge(count, progress=progress)
     cells = [
@@ -116,7 +116,7 @@ def scene(number: int, seed: int = SEED) -> dict[str, dict[str, Any]]:
     return {"sphere": sphere, "plate": plate, "impact": impact, "effects": effects}
 
 
-def judge(count: int, seed: int = SEED, progress: Tell = quiet) -> tuple[EffectCheckRow, ...]:
+def judge(count: int, seed: int = SEED, progress: Progress = quiet) -> tuple[EffectCheckRow, ...]:
     """Run every scene at every tolerance; return a row for each tolerance."""
     found: dict[float, list[EffectCheckRow]] = {rtol: [] for rtol in TOLERANCES}
     refused = dict.fromkeys(TOLERANCES, 0)

@@ -7,7 +7,7 @@ from typing import Any
 
 from derivation.checks.finite_elements import record
 from derivation.checks.finite_elements.record import MEASURED, RESULTS
-from derivation.engine.activity import Tell, quiet
+from derivation.engine.activity import Progress, quiet
 from derivation.engine.files import expect_writable, write_file
 from derivation.engine.measure.result import CheckResult, all_kept
 from derivation.engine.outputs import plain_rows
@@ -66,7 +66,7 @@ class Compared:
 
 
 def compare(
-    path: Path = MEASURED, *, save: bool = False, progress: Tell = quiet
+    path: Path = MEASURED, *, save: bool = False, progress: Progress = quiet
 ) -> tuple[Compared, ...]:
     """Simulate every recorded case, without finite elements; save the results if requested.
 

@@ -11,7 +11,7 @@ import numpy as np
 from derivation.checks import inertia_judged as inertia
 from derivation.checks.inertia_judged import InertiaJudged, InertiaRow
 from derivation.checks.random_scenes import Scene, largest_change
-from derivation.engine.activity import Tell, quiet
+from derivation.engine.activity import Progress, quiet
 from derivation.engine.files import measurements
 from derivation.scene import motion, waves
 from derivation.scene.effect_selection import decide
@@ -42,7 +42,7 @@ MET, TIGHT = 3.0, 1e-4
 """Tolerance over the bound on the omitted branches, and smallest tolerance [1]."""
 
 
-def judge(count: int, seed: int = inertia.SEED, progress: Tell = quiet) -> InertiaJudged:
+def judge(count: int, seed: int = inertia.SEED, progress: Progress = quiet) -> InertiaJudged:
     """Draw scenes until `count` of them are neither skipped nor rejected."""
     passed_over, refused, rows = Counter[str](), Counter[str](), list[InertiaRow]()
     for number in itertools.count():
@@ -119,20 +119,20 @@ def solve(number: int, data: Scene, place: float) -> InertiaRow | str:
         many = replace(model, inertia=InertiaSettings(modes=2 * modes, branches="all"))
         if oscillators_of(many) > OSCILLATORS:
             return f"reference: more than {OSCILLATORS} modes"
-        truth = _moving(many, rtol)
+        reference = _moving(many, rtol)
     except SceneError as refused:
         return str(refused).partition(":")[0]
     still = quasi_static(model)
     assert still is not None  # such scenes are skipped
     price = next(row.bound for row in selected.rows if row.name == "inertia")
     total = used.inertia.total_time if used is not None else values[0]
-    error, quantity = largest_change(values, truth.numbers)
-    alone, worth = largest_change(still.numbers, truth.numbers)
-    lasted = abs(total / truth.inertia.total_time - 1.0)
-    contacts, oscillators = len(truth.inertia.contacts), truth.inertia.modes
+    error, quantity = largest_change(values, reference.numbers)
+    alone, worth = largest_change(still.numbers, reference.numbers)
+    lasted = abs(total / reference.inertia.total_time - 1.0)
+    contacts, oscillators = len(reference.inertia.contacts), reference.inertia.modes
     return InertiaRow(
         number, rtol, known, accuracy.bound, error, quantity, lasted, price, alone, worth,
-        contacts, _modes(truth), oscillators,
+        contacts, _modes(reference), oscillators,
     )  # fmt: skip
 
 

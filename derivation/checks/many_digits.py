@@ -1,6 +1,6 @@
 """Contact law and impact of a scene to many digits, by both references."""
 
-from derivation.engine.activity import Tell
+from derivation.engine.activity import Progress
 from derivation.plate.impact.oracle import many_digits as oracle
 from derivation.scene.result import Result
 
@@ -12,7 +12,7 @@ def time_of_reference(known: Result, digits: int) -> str:
     return f"estimated time: about {time} on an idle machine"
 
 
-def reference(known: Result, digits: int, progress: Tell) -> oracle.ImpactReference:
+def reference(known: Result, digits: int, progress: Progress) -> oracle.ImpactReference:
     """Return contact law and impact of a scene to many digits, by both references.
 
     Raises

@@ -16,7 +16,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
 
-from derivation.engine.activity import Tell, quiet
+from derivation.engine.activity import Progress, quiet
 from derivation.engine.files import measurements, write_file
 from derivation.engine.measure.clock import Candidate, interleaved
 from derivation.engine.measure.record import provenance
@@ -103,7 +103,7 @@ class Trial:
     method: str
     setting: float
     call: Callable[[], CostOutcome]
-    truth: Callable[[], Numbers]
+    reference: Callable[[], Numbers]
     names: Sequence[str]
 
 
@@ -112,14 +112,14 @@ FIRST = ("contact_time", "max_force", "restitution")
 """Results of the first contact; the restitution refers to the speed after it."""
 
 
-def measure(progress: Tell = quiet) -> dict[str, Any]:
+def measure(progress: Progress = quiet) -> dict[str, Any]:
     """Measure every row, in interleaved rounds; return it with scene, machine and load."""
     trials = [*integrators(), *modes(), *branches(), *tolerances()]
     before, rows = os.getloadavg()[0], list[tuple[Trial, CostOutcome, dict[str, float]]]()
     for number, trial in enumerate(trials, start=1):
         progress(f"{trial.study}: {trial.method}", number, len(trials) + 1)
         found = trial.call()
-        pairs = zip(trial.names, found.numbers, trial.truth(), strict=True)
+        pairs = zip(trial.names, found.numbers, trial.reference(), strict=True)
         rows.append((trial, found, {n: abs(x / true - 1.0) for n, x, true in pairs}))
     progress("times", len(trials) + 1, len(trials) + 1)
     nothing = np.zeros(1)
@@ -143,7 +143,7 @@ def measure(progress: Tell = quiet) -> dict[str, Any]:
 
 
 def record(
-    out: Path | None = None, progress: Tell = quiet, committed: bool = False
+    out: Path | None = None, progress: Progress = quiet, committed: bool = False
 ) -> tuple[dict[str, Any], Path | None]:
     """Measure, and write the result to a file or as the committed measurement."""
     path = recorded_in(MEASURED, committed, out)
@@ -182,14 +182,14 @@ def _timed(trial: Trial) -> Callable[[Array], object]:
 
 def integrators() -> list[Trial]:
     """Return the trials of the first contact: time elements, Runge-Kutta, fixed steps."""
-    truth = cache(lambda: by_runge_kutta(FINEST).numbers)
+    reference = cache(lambda: by_runge_kutta(FINEST).numbers)
     settings: list[tuple[str, float, Callable[[], CostOutcome]]] = [
         ("elements, nodes", n, partial(by_elements, n, contact_sequence.TOLERANCE)) for n in NODES
     ]
     settings += [("elements, tolerance", t, partial(by_elements, 16, t)) for t in TOLERANCES]
     settings += [("DOP853", t, partial(by_runge_kutta, t)) for t in RELATIVE]
     settings += [("velocity Verlet", 2**k, partial(by_verlet, 2**k)) for k in STEPS]
-    return [Trial("integrator", name, x, call, truth, FIRST) for name, x, call in settings]
+    return [Trial("integrator", name, x, call, reference, FIRST) for name, x, call in settings]
 
 
 def by_elements(n: int, tolerance: float) -> CostOutcome:
@@ -316,26 +316,30 @@ class _Motion:
 
 def modes() -> list[Trial]:
     """Return the trials of numbers of modes, compared with the largest number."""
-    truth = cache(lambda: _simulated(modes=MOST).numbers)
-    return [Trial("modes", "A0", n, partial(_simulated, modes=n), truth, OUTPUTS) for n in MODES]
+    reference = cache(lambda: _simulated(modes=MOST).numbers)
+    return [
+        Trial("modes", "A0", n, partial(_simulated, modes=n), reference, OUTPUTS) for n in MODES
+    ]
 
 
 def branches() -> list[Trial]:
     """Return the same trials with all branches, and one with A0 only."""
-    truth = cache(lambda: _simulated(modes=MOST_ALL, branches="all").numbers)
+    reference = cache(lambda: _simulated(modes=MOST_ALL, branches="all").numbers)
     found = [
-        Trial("branches", "all", n, partial(_simulated, modes=n, branches="all"), truth, OUTPUTS)
+        Trial(
+            "branches", "all", n, partial(_simulated, modes=n, branches="all"), reference, OUTPUTS
+        )
         for n in ALL
     ]
     alone = partial(_simulated, modes=ALL[-1])
-    return [*found, Trial("branches", "A0", ALL[-1], alone, truth, OUTPUTS)]
+    return [*found, Trial("branches", "A0", ALL[-1], alone, reference, OUTPUTS)]
 
 
 def tolerances() -> list[Trial]:
     """Return the trials of tolerances; the smallest ones require all branches."""
-    truth = cache(lambda: _simulated(modes=MOST_ALL, branches="all").numbers)
+    reference = cache(lambda: _simulated(modes=MOST_ALL, branches="all").numbers)
     return [
-        Trial("rtol", name, x, partial(_simulated, rtol=x, branches=name), truth, OUTPUTS)
+        Trial("rtol", name, x, partial(_simulated, rtol=x, branches=name), reference, OUTPUTS)
         for x, name in ASKED
     ]
 

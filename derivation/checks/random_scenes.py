@@ -16,8 +16,8 @@ def spreading(generator: Random) -> Callable[[float, float], float]:
     return lambda low, high: 10 ** generator.uniform(math.log10(low), math.log10(high))
 
 
-def largest_change(values: Sequence[float], truth: Sequence[float]) -> tuple[float, str]:
+def largest_change(values: Sequence[float], reference: Sequence[float]) -> tuple[float, str]:
     """Return the largest relative difference of the results (infinite for NaN) and its result."""
-    changes = [abs(value / x - 1.0) for value, x in zip(values, truth, strict=True)]
+    changes = [abs(value / x - 1.0) for value, x in zip(values, reference, strict=True)]
     changes = [change if math.isfinite(change) else math.inf for change in changes]
     return max(changes), OUTPUTS[changes.index(max(changes))]

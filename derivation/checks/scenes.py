@@ -19,7 +19,7 @@ import numpy as np
 
 from derivation.checks.random_scenes import Scene
 from derivation.checks.realistic_scenes import RTOL, SEED, Kind, Outcome, scenes
-from derivation.engine.activity import Tell, quiet
+from derivation.engine.activity import Progress, quiet
 from derivation.scene.impact import simulate
 from derivation.scene.scene import IncompleteError, SceneError, read
 
@@ -35,7 +35,7 @@ READY = "ready"
 def check_scenes(
     count: int,
     seed: int = SEED,
-    progress: Tell = quiet,
+    progress: Progress = quiet,
     limit: float = LIMIT,
     drawn: Sequence[Scene] | None = None,
 ) -> tuple[Outcome, ...]:

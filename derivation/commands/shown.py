@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NoReturn
 
 import typer
 
-from derivation.engine.activity import Tell
+from derivation.engine.activity import Progress
 from derivation.engine.console import OUT, counted, listing, put, put_json, table
 from derivation.engine.files import write_file
 from derivation.engine.outputs import expect_recordable
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def shown(
-    measure: Callable[[Tell], "CheckResult"],
+    measure: Callable[[Progress], "CheckResult"],
     json: str | None,
     suggest_budgets: bool = False,
     record: Path | None = None,

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-Tell = Callable[[str, int, int], None]
+Progress = Callable[[str, int, int], None]
 """Function that receives the name of a part of the work, its number, and the number of parts."""
 _listeners: list[Callable[[str], None]] = []
 
@@ -12,7 +12,7 @@ def quiet(*_: object) -> None:
     """Report nothing."""
 
 
-def tell(text: str) -> None:
+def announce(text: str) -> None:
     """Report what is being computed."""
     for listener in _listeners:
         listener(text)

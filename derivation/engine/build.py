@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from derivation.engine import package
-from derivation.engine.activity import Tell, quiet
+from derivation.engine.activity import Progress, quiet
 from derivation.engine.emit.freshness import Freshness
 from derivation.engine.errata.findings import Finding
 from derivation.engine.errata.text import TextDiagnosis, diagnosed
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from derivation.engine.measure.hard import HardRow
     from derivation.engine.rewrite.account import Account
 
-Timed = Callable[[str], AbstractContextManager[Tell]]
+Timed = Callable[[str], AbstractContextManager[Progress]]
 """Context that shows the named stage and its duration, and yields a function for its progress."""
 
 
@@ -92,7 +92,7 @@ def build(paper: Paper, out: Path | None, timed: Timed) -> Built:
     with timed("misprints"):
         misprints(paper)
     with timed("check") as progress:
-        rows = check(paper, update=not paper.committed, tell=progress)
+        rows = check(paper, update=not paper.committed, progress=progress)
     with timed("report"):
         reported, missing = _report_as_far_as_possible(paper, reports)
     measured = () if paper.committed else (paper.measured,)
@@ -137,7 +137,7 @@ def misprints(paper: Paper) -> tuple[Finding, ...]:
 
 
 def check(
-    paper: Paper, digits: int = 50, update: bool = False, tell: Tell = quiet
+    paper: Paper, digits: int = 50, update: bool = False, progress: Progress = quiet
 ) -> "tuple[Row, ...]":
     """Stage 5: compare the generated functions with both references; save the result on request.
 
@@ -158,13 +158,15 @@ def check(
         raise FileNotFoundError(
             f"no package in {paper.package_folder}: run `platecontact generate` with the same paper"
         )
-    rows = measure.check(paper.judge(), digits, progress=tell)
+    rows = measure.check(paper.judge(), digits, progress=progress)
     if update:
         write_file(paper.measured, to_json(rows, digits, paper.package().target))
     return rows
 
 
-def check_hard(paper: Paper, update: bool = False, tell: Tell = quiet) -> "tuple[HardRow, ...]":
+def check_hard(
+    paper: Paper, update: bool = False, progress: Progress = quiet
+) -> "tuple[HardRow, ...]":
     """Stage 5 at the hard cases: compare generated and published forms with recorded references.
 
     With `update`, outdated references are computed again, which takes minutes, and recorded. An
@@ -191,7 +193,7 @@ def check_hard(paper: Paper, update: bool = False, tell: Tell = quiet) -> "tuple
             raise FileNotFoundError(f"no references in {paper.hard}: run `{hard.COMMAND}`")
         return hard.check(suite, hard.committed(json.loads(paper.hard.read_text()), suite.cases))
     part = paper.hard.with_suffix(".part.json")
-    rows = hard.check(suite, find_references(suite, paper.hard, part, tell))
+    rows = hard.check(suite, find_references(suite, paper.hard, part, progress))
     write_file(paper.hard, hard.to_json(rows, paper.package().target))
     part.unlink()
     return rows
@@ -223,23 +225,25 @@ def diagnose(
     return diagnosed(paper.chain, relations, name, text, latex=latex, at=at, digits=digits)
 
 
-def account(paper: Paper, update: bool = False, tell: Tell = quiet) -> "tuple[Account, ...]":
+def account(
+    paper: Paper, update: bool = False, progress: Progress = quiet
+) -> "tuple[Account, ...]":
     """Return the effect of each rule on each formula, without and with it; save on request."""
     from derivation.engine.rewrite.account import accounts
 
     if update:
         expect_recordable(paper.rewritten)
     own = paper.package()
-    found = accounts(formulas(paper), own.rewritten, own.scales, tell)
+    found = accounts(formulas(paper), own.rewritten, own.scales, progress)
     if update:
         write_file(paper.rewritten, sorted_json({"rows": plain_rows(found)}))
     return found
 
 
-def check_generated(paper: Paper, out: Path | None, mend: str) -> Freshness:
-    """Compare the package with what would be written; `mend` is the command that writes it."""
+def check_generated(paper: Paper, out: Path | None, remedy: str) -> Freshness:
+    """Compare the package with what would be written; `remedy` is the command that writes it."""
     folder = folder_for(out, paper.package_folder)
-    return package.freshness_of(paper.chain, paper.package(), folder, mend)
+    return package.freshness_of(paper.chain, paper.package(), folder, remedy)
 
 
 def verdict(paper: Paper, rows: "Sequence[Row]") -> list[str]:

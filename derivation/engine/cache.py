@@ -180,7 +180,7 @@ def from_plain(plain: Any, kinds: Mapping[str, type]) -> Any:
 def _expression(name: str, parts: Any, kinds: Mapping[str, type]) -> sp.Basic:
     if name == "Symbol":
         own, assumptions = parts
-        return sp.Symbol(_text(own), **_truths(assumptions))
+        return sp.Symbol(_text(own), **_reference_values(assumptions))
     if name == "Rational":
         p, q = parts
         return sp.Rational(int(p), int(q))
@@ -193,7 +193,7 @@ def _expression(name: str, parts: Any, kinds: Mapping[str, type]) -> sp.Basic:
     head = _head(name, kinds)
     if name == "Function":
         own, assumptions, parts = parts
-        head = sp.Function(_text(own), **_truths(assumptions))
+        head = sp.Function(_text(own), **_reference_values(assumptions))
     if head is None:
         raise ValueError(f"expected a part of an expression, got {name!r:.40}")
     return head(*_expressions(from_plain(part, kinds) for part in parts))
@@ -219,5 +219,5 @@ def _text(value: Any) -> str:
     return value
 
 
-def _truths(values: Any) -> dict[str, bool]:
+def _reference_values(values: Any) -> dict[str, bool]:
     return {_text(key): bool(value) for key, value in values.items()}

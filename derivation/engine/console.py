@@ -15,15 +15,17 @@ from rich.console import Console
 from rich.progress import (
     BarColumn,
     MofNCompleteColumn,
-    Progress,
     SpinnerColumn,
     TextColumn,
     TimeElapsedColumn,
 )
+from rich.progress import (
+    Progress as Display,
+)
 from rich.table import Table
 from rich.text import Text
 
-from derivation.engine.activity import Tell
+from derivation.engine.activity import Progress
 from derivation.engine.files import expect_writable, write_file
 from derivation.engine.printable import in_json, one_line, printable
 from derivation.engine.text import paragraph
@@ -89,12 +91,12 @@ def stage(name: str) -> Iterator[None]:
 
 
 @contextmanager
-def counted(name: str) -> Iterator[Tell]:
+def counted(name: str) -> Iterator[Progress]:
     """Show a bar and a clock for work in parts; yields the function that reports a part."""
     start = time.perf_counter()
     part = TextColumn("{task.description}", markup=False)
     columns = (TextColumn(name), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), part)
-    with Progress(*columns, console=NOTES, transient=True, disable=not NOTES.is_terminal) as bar:
+    with Display(*columns, console=NOTES, transient=True, disable=not NOTES.is_terminal) as bar:
         task = bar.add_task("", total=None)
         yield lambda part, number, total: bar.update(
             task, description=part, completed=number - 1, total=total
@@ -106,7 +108,7 @@ def counted(name: str) -> Iterator[Tell]:
 def clocked(name: str) -> Iterator[Callable[[str, int, float], None]]:
     """Show a clock for work without end; yields the function that reports part, count and worst."""
     columns = (TextColumn(name), SpinnerColumn(), TimeElapsedColumn())
-    with Progress(
+    with Display(
         *columns, TextColumn("{task.description}", markup=False), console=NOTES, transient=True
     ) as bar:
         task = bar.add_task("", total=None)
@@ -123,7 +125,7 @@ def watched(name: str) -> Iterator[None]:
     if not NOTES.is_terminal:
         yield
         return
-    with Progress(
+    with Display(
         SpinnerColumn(),
         TextColumn(name),
         TimeElapsedColumn(),

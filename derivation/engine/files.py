@@ -184,9 +184,9 @@ def _explained(path: Path) -> Iterator[None]:
         yield
     except OSError as error:
         full = error.errno in (errno.ENOSPC, errno.EDQUOT)
-        mend = "free some space" if full else "obtain permission to write there"
+        remedy = "free some space" if full else "obtain permission to write there"
         raise OSError(
-            f"cannot write {path}: {error.strerror}; {mend}, or name another folder"
+            f"cannot write {path}: {error.strerror}; {remedy}, or name another folder"
         ) from None
 
 

@@ -8,7 +8,7 @@ from derivation.engine.emit.freshness import Freshness, compare
 from derivation.engine.files import real, write_folder
 from derivation.engine.formula.chain import Chain
 from derivation.engine.formula.record import Record
-from derivation.engine.rewrite.form import Branch, Form, Seam, Step
+from derivation.engine.rewrite.form import Branch, Form, Step, Switch
 from derivation.engine.rewrite.scales import Scales
 from derivation.engine.staging import recover
 
@@ -46,7 +46,7 @@ class Package:
 
 def forms_of(chain: Chain, package: Package) -> tuple[Form, ...]:
     """Return the stable forms, proved equal to the formulas."""
-    kinds = (Form, Step, Branch, Seam)
+    kinds = (Form, Step, Branch, Switch)
     rooms = ("engine/rewrite", *package.sources)
     return chain.kept("forms", lambda: package.forms(chain.formulas()), *kinds, also=rooms)
 
@@ -73,7 +73,7 @@ def write(chain: Chain, package: Package, folder: Path) -> tuple[Path, ...]:
     return write_folder(folder, files_of(chain, package))
 
 
-def freshness_of(chain: Chain, package: Package, folder: Path, mend: str) -> Freshness:
-    """Compare the files of a folder with what would be written; `mend` is the command for it."""
+def freshness_of(chain: Chain, package: Package, folder: Path, remedy: str) -> Freshness:
+    """Compare the files of a folder with what would be written; `remedy` is the command for it."""
     recover(real(folder))
-    return compare(folder, files_of(chain, package), mend)
+    return compare(folder, files_of(chain, package), remedy)

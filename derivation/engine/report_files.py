@@ -105,10 +105,10 @@ def write(
     return (*contents, *(pdf.compile_all(contents) if compiled else ()))
 
 
-def freshness(paper: Paper, out: Path | None, mend: str) -> Freshness:
-    """Compare the report with what would be written; `mend` is the command that writes it."""
+def freshness(paper: Paper, out: Path | None, remedy: str) -> Freshness:
+    """Compare the report with what would be written; `remedy` is the command that writes it."""
     folder = folder_for(out, paper.report_folder)
-    return compare(folder, committed_files(paper), mend, "[ar]*.[tb]*")
+    return compare(folder, committed_files(paper), remedy, "[ar]*.[tb]*")
 
 
 def fragments(paper: Paper, names: Sequence[str]) -> str:

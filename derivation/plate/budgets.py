@@ -38,9 +38,9 @@ def read_printed_share() -> float:
     return share
 
 
-def read_promises(table: str = "impact") -> dict[str, float]:
+def read_stated_limits(table: str = "impact") -> dict[str, float]:
     """Return the committed relative errors of a table; they are measured, not proved."""
-    return budgets.read_promises(BUDGETS, table)
+    return budgets.read_stated_limits(BUDGETS, table)
 
 
 def counted(sources: Mapping[str, str]) -> dict[str, str]:

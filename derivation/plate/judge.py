@@ -32,7 +32,7 @@ def _hard() -> "Suite":
 PACKAGE = "generated"
 JUDGE = general.Judge(routes.ORACLE, grid, PACKAGE, _is_easy, hard=_hard)
 check = partial(general.check, JUDGE)
-truths = partial(general.truths, balls.ORACLE)
+reference_values = partial(general.reference_values, balls.ORACLE)
 generated_kernels = partial(kernels.generated_kernels, PACKAGE)
 printed_kernels = partial(kernels.printed_kernels, PACKAGE)
 kernel_of_row = partial(kernels.kernel_of_row, PACKAGE)

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from derivation.engine.activity import tell
+from derivation.engine.activity import announce
 from derivation.scene.collocation import NEWTON, ONSET, change_of_length, radau
 from derivation.scene.dynamic_problem import DynamicProblem, ImpactState
 from derivation.scene.effects.effect import Array
@@ -46,7 +46,7 @@ LEFT = "no further contact is possible"
 """Why a simulation ends."""
 
 
-class Touching(NamedTuple):
+class ContactRun(NamedTuple):
     """A contact: when it began and ended, in units of the problem, its elements and states.
 
     `radius` is that at its beginning, not 0 where the face has not recovered from the last one.
@@ -81,7 +81,7 @@ class ImpactHistory:
     """
 
     problem: DynamicProblem
-    contacts: tuple[Touching, ...]
+    contacts: tuple[ContactRun, ...]
     reason: str
     remedy: str = ""
     work: float = 0.0
@@ -98,7 +98,7 @@ def impact_history(
     n: int,
     tolerance: float = TOLERANCE,
     work: float = WORK,
-    first: Touching | None = None,
+    first: ContactRun | None = None,
 ) -> ImpactHistory:
     """Simulate an impact from the first contact on, by elements of n nodes.
 
@@ -121,7 +121,7 @@ def impact_history(
     IncompleteError
         If the first contact is not followed to its end.
     """
-    t, radius, state, found = 0.0, 0.0, problem.begin(), list[Touching]()
+    t, radius, state, found = 0.0, 0.0, problem.begin(), list[ContactRun]()
     weight, tried, used = weight_of(problem, n), 0, 0.0
     while True:
         most = min(ELEMENTS, tried + steps_of(problem, n, work - used))
@@ -174,7 +174,7 @@ def expected_work(problem: DynamicProblem, n: int, coarse: ImpactHistory) -> flo
     return (more / n + max(0.0, others)) * weight_of(problem, n)
 
 
-def _check_count(problem: DynamicProblem, found: list[Touching], t: float) -> None:
+def _check_count(problem: DynamicProblem, found: list[ContactRun], t: float) -> None:
     """End a simulation that has as many contacts as are followed."""
     if len(found) >= CONTACTS:
         raise IncompleteError(
@@ -194,7 +194,7 @@ def contact(
     tolerance: float = TOLERANCE,
     tried: int = 0,
     most: int = ELEMENTS,
-) -> Touching:
+) -> ContactRun:
     """A contact, element by element, until the force is gone.
 
     Parameters
@@ -219,7 +219,7 @@ def contact(
     for step in range(tried, most):
         if step % TOLD == TOLD - 1:
             now, count = problem.T * (origin + x**ONSET), problem.omega.size
-            tell(f"{now:.3g} s after first contact, {count} oscillators")
+            announce(f"{now:.3g} s after first contact, {count} oscillators")
         length = min(length, _longest(problem, n, x, state if found else None))
         if length < SHORTEST * max(x, 1.0):
             break
@@ -258,7 +258,7 @@ def contact(
             ended = origin + (last.element.x + last.element.length) ** ONSET
             pieces = (*found, last)
             tries = step + 1 - tried
-            return Touching(start, ended, first, pieces, begin, last.end, tries, problem.yielding)
+            return ContactRun(start, ended, first, pieces, begin, last.end, tries, problem.yielding)
         found.append(made)
         x = made.element.x + made.element.length
         _check_weight(problem, x)
@@ -272,7 +272,7 @@ def contact(
             more, after = _released(problem, made, left)
             ended = start + x**ONSET + more
             tries, pieces = step + 1 - tried, tuple(found)
-            return Touching(start, ended, first, pieces, begin, after, tries, problem.yielding)
+            return ContactRun(start, ended, first, pieces, begin, after, tries, problem.yielding)
     else:
         raise _endless(problem, origin + x**ONSET, most)
     raise _lost(problem, state, radius, problem.T * (origin + x**ONSET))

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from derivation.scene.collocation import ONSET
-from derivation.scene.contact_sequence import ImpactHistory, Touching
+from derivation.scene.contact_sequence import ContactRun, ImpactHistory
 from derivation.scene.dynamic_problem import DynamicProblem, ImpactState
 from derivation.scene.motion import EnergyBalance
 from derivation.scene.quadrature import NODES, gauss
@@ -52,7 +52,7 @@ def _damping_loss(history: ImpactHistory) -> float:
     return found
 
 
-def _given_up(problem: DynamicProblem, touching: Touching) -> float:
+def _given_up(problem: DynamicProblem, touching: ContactRun) -> float:
     """Return the energy over m v0^2 stored in a viscoelastic contact at its end, minus start."""
     if not problem.retardation_time:
         return 0.0

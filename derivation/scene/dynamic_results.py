@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from derivation.scene.contact_sequence import ImpactHistory, Touching
+from derivation.scene.contact_sequence import ContactRun, ImpactHistory
 from derivation.scene.dynamic_energy import balance_of
 from derivation.scene.dynamic_problem import DynamicProblem
 from derivation.scene.effects.effect import Results
@@ -70,7 +70,7 @@ def _branches(law: ContactLaw, a: float, displacement: float, T: float) -> Resul
     return heavier * time, depth, heavier * force, heavier * radius, heavier * speed
 
 
-def _touch(problem: DynamicProblem, touching: Touching) -> ContactInterval:
+def _touch(problem: DynamicProblem, touching: ContactRun) -> ContactInterval:
     """A contact in SI."""
     before, after = touching.before, touching.after
     lasted = touching.end - touching.start

@@ -46,7 +46,7 @@ from generated.impact_shapes import cut
 from generated.plasticity_numbers import YIELD_LIMIT
 from generated.sensitivity import indentation_slope
 from generated.simple_impact import Estimate, Plate, hertz, law_errors, leading, plate_of
-from generated.viscosity import Course, viscous_logarithms, viscous_number
+from generated.viscosity import ImpactExtremes, viscous_logarithms, viscous_number
 from generated.viscous_bodies import retardation_of_two
 
 Numbers = float | Array
@@ -105,8 +105,8 @@ __all__ = [
     "WALL_GROWTH",
     "WALL_LINEAR",
     "YIELD_LIMIT",
-    "Course",
     "Estimate",
+    "ImpactExtremes",
     "Numbers",
     "Plate",
     "Plates",

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from derivation.scene import contact_sequence, wave_motion
-from derivation.scene.contact_sequence import Touching
+from derivation.scene.contact_sequence import ContactRun
 from derivation.scene.contact_tables import contact_of
 from derivation.scene.dynamic_problem import DynamicProblem
 from derivation.scene.effects.effect import Array
@@ -31,7 +31,7 @@ class PlasticMotion(Motion):
     """An impact with plastic deformation, with its time elements."""
 
     problem: DynamicProblem | None = None
-    touching: Touching | None = None
+    touching: ContactRun | None = None
 
     def history(self, law: ContactLaw, times: Array) -> tuple[Array, Array, Array, Array]:  # noqa: ARG002
         """Return indentation [m], velocity [m/s], contact radius [m] and force [N] at times [s]."""

@@ -14,7 +14,7 @@ from multiprocessing import get_context
 
 import numpy as np
 
-from derivation.engine.activity import Tell, quiet
+from derivation.engine.activity import Progress, quiet
 from derivation.engine.text import aligned, paragraph
 from derivation.scene.impact import simulate
 from derivation.scene.keys import EXAMPLE, number_key, varied
@@ -117,7 +117,7 @@ def run(
     scene: Scene,
     sweep: Sweep,
     rtol: float | None = None,
-    progress: Tell = quiet,
+    progress: Progress = quiet,
     workers: int = 1,
 ) -> tuple[SweepRow, ...]:
     """Simulate the scene for each value; the row of a rejected scene states the reason.

@@ -256,7 +256,7 @@ def oscillating(
     return np.asarray(q[-1], dtype=np.float64)
 
 
-def rows_of(problem: DynamicProblem, touching: contact_sequence.Touching, t: Array) -> Array:
+def rows_of(problem: DynamicProblem, touching: contact_sequence.ContactRun, t: Array) -> Array:
     """The rows in a contact and in the flight after it, at times in units of the problem."""
     found = np.zeros((DAMPED + 1, t.size))
     pieces, inside = touching.pieces, t <= touching.end

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from derivation.engine.activity import Tell, quiet
+from derivation.engine.activity import Progress, quiet
 from derivation.scene.errors import SceneError
 from derivation.scene.method_selection import check_rtol
 from derivation.scene.scene import Scene
@@ -134,7 +134,9 @@ def check(study: Study, out: Path | None) -> None:
         check_out(out)
 
 
-def finish(store: Store, out: Path | None, sensitivity: bool, tell: Tell) -> Sensitivities | None:
+def finish(
+    store: Store, out: Path | None, sensitivity: bool, progress: Progress
+) -> Sensitivities | None:
     """Write the file of a study whose points are all computed, and compute its sensitivities.
 
     Raises
@@ -144,7 +146,7 @@ def finish(store: Store, out: Path | None, sensitivity: bool, tell: Tell) -> Sen
     """
     _check_some(store)
     if out is not None:
-        write(store, out, tell)
+        write(store, out, progress)
     return sensitivities(store) if sensitivity else None
 
 

@@ -309,9 +309,9 @@ def _check_seed(seed: int) -> None:
         raise SceneError(f"seed: expected a whole number from 0, got {seed}; change it")
 
 
-def _check_size(size: int, mend: str) -> None:
+def _check_size(size: int, remedy: str) -> None:
     if not 1 <= size <= MOST_POINTS:
-        raise SceneError(f"sweep: expected 1 to {MOST_POINTS:,} points, got {size:,}; {mend}")
+        raise SceneError(f"sweep: expected 1 to {MOST_POINTS:,} points, got {size:,}; {remedy}")
 
 
 def _check_power(size: int, what: str) -> None:

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from derivation.engine.activity import Tell
+from derivation.engine.activity import Progress
 from derivation.scene.errors import SceneError
 from derivation.scene.rows import solve
 from derivation.scene.scene import read
@@ -100,7 +100,9 @@ class Queue:
         self._size = min(max(wanted, 1), max(GROWTH * points, FIRST), LARGEST)
 
 
-def compute(store: Store, workers: int, scheduler: str | None, retry: bool, tell: Tell) -> int:
+def compute(
+    store: Store, workers: int, scheduler: str | None, retry: bool, progress: Progress
+) -> int:
     """Compute what is missing and keep it; returns the number of points computed.
 
     Parameters
@@ -113,7 +115,7 @@ def compute(store: Store, workers: int, scheduler: str | None, retry: bool, tell
         Address of a Dask scheduler whose workers do the work instead.
     retry
         Whether points that are finished without a result are computed again.
-    tell
+    progress
         Called after each batch with the number of points that are done and of all.
     """
     queue = Queue(store.missing(), store.failed() if retry else ())
@@ -127,9 +129,9 @@ def compute(store: Store, workers: int, scheduler: str | None, retry: bool, tell
             store.keep(batch.start, batch.stop, content, seconds)
         done += batch.count
         queue.learn(batch.count, seconds)
-        tell("points", total - todo + done + 1, total)
+        progress("points", total - todo + done + 1, total)
 
-    tell("points", total - todo + 1, total)
+    progress("points", total - todo + 1, total)
     if scheduler is None:
         _here(store, queue, keep, workers)
     if queue.left:

@@ -7,7 +7,7 @@ from math import prod
 from pathlib import Path
 from typing import Any
 
-from derivation.engine.activity import Tell
+from derivation.engine.activity import Progress
 from derivation.engine.files import expect_folder, expect_writable
 from derivation.engine.nearest import did_you_mean
 from derivation.scene.errors import SceneError
@@ -41,7 +41,7 @@ def check_out(out: Path) -> None:
     (expect_folder if out.suffix == ".zarr" else expect_writable)(out)
 
 
-def write(store: Store, out: Path, tell: Tell) -> None:
+def write(store: Store, out: Path, progress: Progress) -> None:
     """Write all results of a finished study; the file is there whole or not at all.
 
     Parameters
@@ -50,19 +50,19 @@ def write(store: Store, out: Path, tell: Tell) -> None:
         The finished batches.
     out
         The file, or folder of Zarr.
-    tell
+    progress
         Called after each block with the number of points that are written and of all.
     """
     temporary = store.folder / f"{out.stem}.writing{out.suffix}"
     _remove(temporary)
-    writers: dict[str, Callable[[Store, Path, Tell], None]] = {
+    writers: dict[str, Callable[[Store, Path, Progress], None]] = {
         ".nc": _netcdf,
         ".zarr": _zarr,
         ".parquet": _parquet,
         ".csv": _csv,
     }
     try:
-        writers[out.suffix](store, temporary, tell)
+        writers[out.suffix](store, temporary, progress)
         if temporary.is_dir():
             _remove(out)
         temporary.replace(out)
@@ -78,7 +78,7 @@ def _remove(path: Path) -> None:
         path.unlink(missing_ok=True)
 
 
-def _csv(store: Store, path: Path, tell: Tell) -> None:
+def _csv(store: Store, path: Path, progress: Progress) -> None:
     import pyarrow as pa
     from pyarrow.csv import CSVWriter
 
@@ -86,7 +86,7 @@ def _csv(store: Store, path: Path, tell: Tell) -> None:
     with pa.OSFile(str(path), "wb") as stream:
         stream.write((",".join(names) + "\n").encode())
         writer = None
-        for table in _with_points(store, tell):
+        for table in _with_points(store, progress):
             if writer is None:
                 writer = CSVWriter(stream, table.schema, write_options=_plain())
             writer.write_table(table)
@@ -101,11 +101,11 @@ def _plain() -> Any:
     return WriteOptions(include_header=False, quoting_style="needed")
 
 
-def _parquet(store: Store, path: Path, tell: Tell) -> None:
+def _parquet(store: Store, path: Path, progress: Progress) -> None:
     import pyarrow.parquet as pq
 
     writer = None
-    for table in _with_points(store, tell):
+    for table in _with_points(store, progress):
         if writer is None:
             writer = pq.ParquetWriter(path, table.schema, compression="zstd")
         writer.write_table(table)
@@ -113,7 +113,7 @@ def _parquet(store: Store, path: Path, tell: Tell) -> None:
         writer.close()
 
 
-def _with_points(store: Store, tell: Tell) -> Iterator[Any]:
+def _with_points(store: Store, progress: Progress) -> Iterator[Any]:
     """Tables of points and results, with units; numbers that there are not are null."""
     import pyarrow as pa
 
@@ -128,10 +128,10 @@ def _with_points(store: Store, tell: Tell) -> Iterator[Any]:
         fields = [pa.field(name, v.type, metadata=labels(name)) for name, v in columns.items()]
         about = {name: str(value) for name, value in attributes(study).items()}
         yield pa.table(list(columns.values()), schema=pa.schema(fields, metadata=about))
-        tell("write", stop + 1, study.plan.size)
+        progress("write", stop + 1, study.plan.size)
 
 
-def _zarr(store: Store, path: Path, tell: Tell) -> None:
+def _zarr(store: Store, path: Path, progress: Progress) -> None:
     import zarr
 
     group = zarr.open_group(path, mode="w")
@@ -148,13 +148,13 @@ def _zarr(store: Store, path: Path, tell: Tell) -> None:
             attributes=about,
         )
 
-    _arrays(store, create, tell)
+    _arrays(store, create, progress)
     with warnings.catch_warnings():  # that other programs may not know it; they do without it
         warnings.simplefilter("ignore")
         zarr.consolidate_metadata(path)
 
 
-def _netcdf(store: Store, path: Path, tell: Tell) -> None:
+def _netcdf(store: Store, path: Path, progress: Progress) -> None:
     import h5netcdf
     import h5py
 
@@ -168,10 +168,10 @@ def _netcdf(store: Store, path: Path, tell: Tell) -> None:
             made.attrs.update(about)
             return made
 
-        _arrays(store, create, tell)
+        _arrays(store, create, progress)
 
 
-def _arrays(store: Store, create: Callable[..., Any], tell: Tell) -> None:
+def _arrays(store: Store, create: Callable[..., Any], progress: Progress) -> None:
     """Fill an array per result, over the dimensions of the study, and one per key."""
     study, plan = store.study, store.study.plan
     dims, shape = tuple(plan.dims), tuple(plan.dims.values())
@@ -193,13 +193,13 @@ def _arrays(store: Store, create: Callable[..., Any], tell: Tell) -> None:
             found = study.plan.points(start, stop)
             for key, array in points.items():
                 array[place] = found[key]
-        tell("write", stop + 1, plan.size)
+        progress("write", stop + 1, plan.size)
 
 
-Place = tuple[slice, ...]
+Slices = tuple[slice, ...]
 
 
-def blocks(shape: tuple[int, ...]) -> Iterator[tuple[Place, int, int]]:
+def blocks(shape: tuple[int, ...]) -> Iterator[tuple[Slices, int, int]]:
     """Pieces of an array of at most `BLOCK` elements that lie together in memory.
 
     Yields the slices of each piece, its first element, and the one behind its last.
@@ -218,7 +218,7 @@ def blocks(shape: tuple[int, ...]) -> Iterator[tuple[Place, int, int]]:
         start = stop
 
 
-def _extent(shape: tuple[int, ...], place: Place) -> tuple[int, ...]:
+def _extent(shape: tuple[int, ...], place: Slices) -> tuple[int, ...]:
     """Lengths of a piece."""
     pairs = zip(shape, place, strict=True)
     return tuple(len(range(*part.indices(length))) for length, part in pairs)

@@ -25,13 +25,13 @@ x = np.geomspace(1e-6, 1e3, 400)
 figure = Figure(figsize=(6.4, 3.8), layout="constrained")
 axes = figure.subplots()
 mpmath.mp.dps = 40
-truth = [exact(each) for each in x]
+reference = [exact(each) for each in x]
 with np.errstate(all="ignore"):
     for label, form in (("published form", as_printed.K_j), ("generated function", K_j)):
         values = form(x, 1.0, 1.0, 1.0, J1)
         errors = [
             float(abs(v / t - 1)) if np.isfinite(v) else 1.0
-            for v, t in zip(values, truth, strict=True)
+            for v, t in zip(values, reference, strict=True)
         ]
         axes.semilogx(x, -np.log10(np.clip(errors, 1e-17, 1.0)), label=label)
 axes.set(

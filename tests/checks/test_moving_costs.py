@@ -31,14 +31,14 @@ def test_three_integrators_agree() -> None:
     assert max(fine) < max(rough) / 10
 
 
-def test_truth_and_rows_are_of_the_same_results() -> None:
+def test_reference_and_rows_are_of_the_same_results() -> None:
     trials = [*moving_costs.modes(), *moving_costs.branches(), *moving_costs.tolerances()]
     assert all(trial.names == OUTPUTS for trial in trials)
     few = next(trial for trial in trials if (trial.study, trial.setting) == ("modes", 10))
     more = next(trial for trial in trials if (trial.study, trial.setting) == ("modes", 40))
     errors = []
     for trial in (few, more):
-        pairs = zip(trial.call().numbers, trial.truth(), strict=True)
+        pairs = zip(trial.call().numbers, trial.reference(), strict=True)
         errors.append(max(abs(x / y - 1) for x, y in pairs))
     assert 0.0 < errors[1] < errors[0] < 1e-3
 
@@ -47,7 +47,7 @@ def test_a_tolerance_is_kept_and_its_bound_stated() -> None:
     [trial] = [t for t in moving_costs.tolerances() if (t.method, t.setting) == ("A0", 5e-3)]
     found = trial.call()
     assert found.bound is not None
-    pairs = zip(found.numbers, trial.truth(), strict=True)
+    pairs = zip(found.numbers, trial.reference(), strict=True)
     assert max(abs(x / y - 1) for x, y in pairs) < found.bound <= trial.setting
 
 

@@ -232,39 +232,41 @@ def test_a_hard_case_that_stands_there_twice_is_refused(monkeypatch: Patch) -> N
 # --- bounds in random scenes
 
 
-def test_truths_are_kept_as_they_come(monkeypatch: Patch, tmp_path: Path, capsys: Captured) -> None:
+def test_references_are_kept_as_they_come(
+    monkeypatch: Patch, tmp_path: Path, capsys: Captured
+) -> None:
     """Those on record are not sought again, nor lost by a look at fewer, nor by a stop."""
-    known = bounds.committed_truths()[:7]
+    known = bounds.committed_references()[:7]
     path, sought = tmp_path / "bounds.json", list[Any]()
     monkeypatch.setattr(bounds, "MEASURED", path)
     monkeypatch.setattr(bounds, "KEPT_EVERY", 2)
-    truths = {bounds.scene(number): true for number, true in enumerate(known)}
+    reference_values = {bounds.scene(number): true for number, true in enumerate(known)}
 
-    def truth(point: Any) -> Any:
+    def reference(point: Any) -> Any:
         if len(sought) == 4:
             raise KeyboardInterrupt
         sought.append(point)
-        return truths[point]
+        return reference_values[point]
 
-    monkeypatch.setattr(bounds, "truth", truth)
+    monkeypatch.setattr(bounds, "reference", reference)
     assert main(["check", "error-bounds", "-n", "7", "--update"]) == 2
     assert "interrupted" in capsys.readouterr().err
-    assert bounds.committed_truths() == known[:4]
+    assert bounds.committed_references() == known[:4]
     sought[:] = [None]
     assert main(["check", "error-bounds", "-n", "7", "--update"]) == 0
     assert sought == [None, *map(bounds.scene, range(4, 7))]
-    assert bounds.committed_truths() == known
+    assert bounds.committed_references() == known
     whole = rows_of(path)
     assert sum(row["runs"] for row in whole) == 7 * len(bounds.TOLERANCES)
     assert main(["check", "error-bounds", "-n", "2", "--update"]) == 0
-    assert bounds.committed_truths() == known
+    assert bounds.committed_references() == known
     assert sum(row["runs"] for row in rows_of(path)) == 2 * len(bounds.TOLERANCES)
     shown = capsys.readouterr().out
     assert "7 scenes" in shown
     assert all(row["method"] in shown for row in whole)
     data = json.loads(path.read_text()) | {"digits": bounds.DIGITS + 1}
     path.write_text(json.dumps(data))
-    assert bounds.committed_truths() == []  # of other digits
+    assert bounds.committed_references() == []  # of other digits
 
 
 def test_a_result_that_is_no_number_is_json_all_the_same(
@@ -348,8 +350,8 @@ def test_speed_is_shown_and_recorded(
     given, path = list[Any](), tmp_path / "speed.json"
     timing = SpeedTiming("law over exp", 2.25, "times", 2.0, 1.1, kept)
 
-    def measured(examples: Any, solved: Any, tell: Any, calls: Any) -> list[SpeedTiming]:
-        tell("law", 1, 1)
+    def measured(examples: Any, solved: Any, progress: Any, calls: Any) -> list[SpeedTiming]:
+        progress("law", 1, 1)
         assert calls
         given.append((examples, solved))
         return [timing]

@@ -105,8 +105,8 @@ def test_build_goes_through_every_stage(
     """The package is written before it is checked; without LaTeX all else is there."""
     made = list[str]()
 
-    def checked(_: Paper, update: bool, tell: Any) -> tuple[Row, ...]:
-        tell("P", 1, 1)
+    def checked(_: Paper, update: bool, progress: Any) -> tuple[Row, ...]:
+        progress("P", 1, 1)
         made.append("check")
         assert not update  # of the plate it is committed
         assert (tmp_path / "generated" / "pressure.py").is_file()
@@ -224,8 +224,8 @@ def test_moving_costs_are_measured_and_written(
         return call
 
     def trial(study: str, name: str, *numbers: float) -> list[moving_costs.Trial]:
-        truth = (1.0, 2.0, 4.0)
-        return [moving_costs.Trial(study, name, 3, outcome(name, *numbers), lambda: truth,
+        reference = (1.0, 2.0, 4.0)
+        return [moving_costs.Trial(study, name, 3, outcome(name, *numbers), lambda: reference,
                                    moving_costs.FIRST)]  # fmt: skip
 
     monkeypatch.setattr(moving_costs, "integrators", lambda: trial("integrator", "slow", 1, 2, 5))

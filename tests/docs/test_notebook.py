@@ -67,7 +67,7 @@ def test_what_is_shown(source: str, kind: str, says: tuple[str, ...], executed: 
     assert [text for text in says if text not in shown] == [], shown
 
 
-def test_comparisons_say_what_mends_the_print(executed: list[Any]) -> None:
+def test_comparisons_say_what_corrects_the_print(executed: list[Any]) -> None:
     [own] = [cell for cell in executed if cell.source.startswith("diagnose(")]
     shown = own.outputs[0].data["text/markdown"]
     assert r"Omega\_3: different" in shown

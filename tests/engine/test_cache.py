@@ -13,7 +13,7 @@ import sympy as sp
 from derivation.engine import build, cache
 from derivation.engine.cache import cache_folder, cached, from_plain, to_plain
 from derivation.engine.formula.proof import Proof
-from derivation.engine.rewrite.form import Block, Branch, Form, Seam, Step
+from derivation.engine.rewrite.form import Block, Branch, Form, Step, Switch
 from derivation.plate import derived
 from derivation.plate.blocks import blocks
 from derivation.plate.paper import PAPER
@@ -55,7 +55,7 @@ def test_what_is_kept_is_computed_once(folder: Path) -> None:
 
 
 def test_the_projects_own_results_come_back_as_they_are(formulas: Mapping[str, Formula]) -> None:
-    kinds = (*derived.CHAIN.kinds, Proof, Form, Step, Branch, Seam, Block)
+    kinds = (*derived.CHAIN.kinds, Proof, Form, Step, Branch, Switch, Block)
     for value in (formulas, build.rewrite(PAPER), blocks()):
         found = again(value, *kinds)
         assert found == value

@@ -7,10 +7,10 @@ import pytest
 from mutants import of_module
 from mutated_code import BEYOND_ALL, May, compiled, source
 
-from derivation.engine.measure.judge import Truth, measured
+from derivation.engine.measure.judge import PointReference, measured
 from derivation.engine.measure.kernels import Kernel
 from derivation.plate.grids import grid
-from derivation.plate.judge import generated_kernels, truths
+from derivation.plate.judge import generated_kernels, reference_values
 
 KERNELS = {kernel.name: kernel for kernel in generated_kernels()}
 SHOWN_BY = {
@@ -40,7 +40,7 @@ MAY_PASS: May = {
 """How many mutants of a function may pass at most, and why."""
 
 
-def noticed(kernel: Kernel, found: list[Truth], module: str, tree: ast.Module) -> bool:
+def noticed(kernel: Kernel, found: list[PointReference], module: str, tree: ast.Module) -> bool:
     """Whether a function of a changed module, or upon one, is beyond its budget or fails."""
     users = () if kernel.module == module else (kernel.module,)
     try:
@@ -54,12 +54,14 @@ def noticed(kernel: Kernel, found: list[Truth], module: str, tree: ast.Module) -
 @pytest.mark.parametrize("module", ["omega", "pressure", "mode_shapes", "blocks"])
 def test_every_mutant_is_noticed_or_may_pass(module: str) -> None:
     """But for the domains, beyond which `test_silence` looks."""
-    known: dict[str, list[Truth]] = {}
+    known: dict[str, list[PointReference]] = {}
     passed: dict[str, list[str]] = {}
     for mutant in of_module(source(module), ("inside",)):
         kernel = KERNELS[SHOWN_BY.get(mutant.home, mutant.home)]
         if kernel.name not in known:
-            known[kernel.name] = truths(kernel.name, grid(kernel.name, kernel.arguments), 30)
+            known[kernel.name] = reference_values(
+                kernel.name, grid(kernel.name, kernel.arguments), 30
+            )
             whole = ast.parse(source(module))
             assert not noticed(kernel, known[kernel.name], module, whole)
         if not noticed(kernel, known[kernel.name], module, mutant.tree):

@@ -1,4 +1,4 @@
-"""The generated Bessel functions against Arb: value, zeros, seams, types."""
+"""The generated Bessel functions against Arb: value, zeros, switch points, types."""
 
 import importlib
 import math
@@ -41,13 +41,13 @@ def excess(function, order: int, points: np.ndarray) -> tuple[float, float]:
         with flint.ctx.workprec(BITS + max(0, 2 * math.frexp(x)[1])):
             ball = flint.arb(x)
             j0, j1 = ball.bessel_j(0), ball.bessel_j(1)
-            truth = (j0, j1)[order]
-            if truth == 0:
+            reference = (j0, j1)[order]
+            if reference == 0:
                 assert got == 0
                 continue
             slope = -j1 if order == 0 else j0 - j1 / ball
-            condition = float(abs(ball * slope / truth))
-        worst = max(worst, (ulp_error(got, truth) - condition / 2, x))
+            condition = float(abs(ball * slope / reference))
+        worst = max(worst, (ulp_error(got, reference) - condition / 2, x))
     return worst
 
 
@@ -60,7 +60,7 @@ def around(points, count: int = 32) -> np.ndarray:
 def arguments(where: str) -> np.ndarray:
     """Arguments by the region they test."""
     random = np.random.default_rng(7)
-    start = tables.taylor_table().seams[-1]
+    start = tables.taylor_table().switches[-1]
     if where == "taylor":
         return random.uniform(0, start, 3000)
     if where == "tiny":
@@ -70,7 +70,7 @@ def arguments(where: str) -> np.ndarray:
     if where == "large":
         return 10 ** random.uniform(2, 15, 2000)
     if where == "seams":
-        return around(tables.seams())
+        return around(tables.switches())
     with flint.ctx.workprec(BITS):
         zeros = [tables.bessel_zero(n, i) for n in (0, 1) for i in (*range(1, 31), 1000, 10**6)]
     return around(float(zero) for zero in zeros)
@@ -98,8 +98,8 @@ def test_below_the_asymptotic_range_zeros_cost_no_digits(bessel: ModuleType, ord
         zeros = [float(tables.bessel_zero(order, index)) for index in range(1, 10)]
     points = around(zeros)
     with flint.ctx.workprec(BITS):
-        truths = [flint.arb(x).bessel_j(order) for x in points.tolist()]
-    raw = max(map(ulp_error, function(points).tolist(), truths))
+        reference_values = [flint.arb(x).bessel_j(order) for x in points.tolist()]
+    raw = max(map(ulp_error, function(points).tolist(), reference_values))
     assert raw <= RAW_BUDGET
 
 
@@ -107,10 +107,10 @@ def test_zeros_and_slopes(bessel: ModuleType) -> None:
     zeros, slopes = bessel.bessel_j0_zeros(10**6), bessel.bessel_j1_at_j0_zeros(10**6)
     assert zeros.shape == slopes.shape == (10**6,)
     for index in INDICES:
-        truth = j0_zero(index, 200)
+        reference = j0_zero(index, 200)
         with flint.ctx.workprec(200):
-            slope = truth.bessel_j(1)
-        assert ulp_error(float(zeros[index - 1]), truth) <= ZERO_BUDGET, index
+            slope = reference.bessel_j(1)
+        assert ulp_error(float(zeros[index - 1]), reference) <= ZERO_BUDGET, index
         assert ulp_error(float(slopes[index - 1]), slope) <= ZERO_BUDGET, index
 
 
@@ -235,9 +235,9 @@ def test_modulus_bound_holds_where_the_method_begins(order: int) -> None:
     start = sp.Rational(tables.asymptotic_start())
     with flint.ctx.workprec(BITS):
         x = flint.arb(float(start))
-        truth = (x.bessel_j(order) ** 2 + x.bessel_y(order) ** 2) * flint.arb.pi() * x / 2
+        reference = (x.bessel_j(order) ** 2 + x.bessel_y(order) ** 2) * flint.arb.pi() * x / 2
         series = theory.modulus_squared(order, tables.TERMS).expression(start, tables.TERMS)
-        error = abs(truth - flint.arb(flint.fmpq(int(series.p), int(series.q))))
+        error = abs(reference - flint.arb(flint.fmpq(int(series.p), int(series.q))))
     bound = float(theory.modulus_bound(order, tables.TERMS, start))
     assert bound / 2 < float(error) <= bound
 

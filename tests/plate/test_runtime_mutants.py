@@ -178,11 +178,11 @@ def viscosity_cases() -> list[Sharp]:
             *in_domain("viscous_number", number, lambda *e: (0.3, 0.7, 0.9, *e, 1e-5),
                        (0, 1, 2, 5), 8.0),
             *expected("restitution_weak", points, [*weak, NAN, NAN], 4.0),
-            *map(logarithms, COURSES),
+            *map(logarithms, EXTREMES),
         ]  # fmt: skip
 
 
-COURSES = (
+EXTREMES = (
     (0.1, 1.0, 0.0, 0.2, 0.8, 0.4, 1.0),
     (0.6, 1.4, 0.1, 0.2, 0.8, 0.4, 1.0),
     (0.99, 1.9, 0.0, 0.2, 0.8, 0.4, 1.0),
@@ -198,9 +198,9 @@ COURSES = (
 """Weak to strong, with a weight, and where nothing is shown."""
 
 
-def logarithms(course: tuple[float, ...]) -> Sharp:
+def logarithms(extremes: tuple[float, ...]) -> Sharp:
     """The bounds of link 24 as its text has them."""
-    epsilon, n, fall, rise, depth, radius, u = map(mpf, course)
+    epsilon, n, fall, rise, depth, radius, u = map(mpf, extremes)
     true = [mp.inf] * 5
     if epsilon < 1 and n * epsilon < 2:
         Lambda = mp.pi / 2 * epsilon / (1 - epsilon / 2)
@@ -214,7 +214,9 @@ def logarithms(course: tuple[float, ...]) -> Sharp:
             force = max(mp.log(1 + epsilon**2) / 2, (1 + rise) * turned)
             true = [max(longer, shorter) + slower, depth * turned, force, radius * turned, rebound]
     return Sharp(
-        lambda m: m.viscous_logarithms(m.Course(*course)), np.array([float(x) for x in true]), 32.0
+        lambda m: m.viscous_logarithms(m.ImpactExtremes(*extremes)),
+        np.array([float(x) for x in true]),
+        32.0,
     )
 
 

@@ -44,7 +44,7 @@ def paper(**changes: float) -> Model:
 
 
 def test_bounds_hold_in_a_hundred_scenes() -> None:
-    known = bounds.committed_truths()
+    known = bounds.committed_references()
     assert len(known) >= 100
     chosen = known[:: len(known) // 100][:100]
     rows = bounds.judge(chosen)
@@ -53,20 +53,20 @@ def test_bounds_hold_in_a_hundred_scenes() -> None:
     assert {row.method: row.ratio > 0.1 for row in rows}["leading"]  # and are no mere caution
 
 
-def test_committed_rows_are_those_of_all_truths() -> None:
+def test_committed_rows_are_those_of_all_references() -> None:
     data = json.loads(bounds.MEASURED.read_text())
     assert sum(row["runs"] for row in data["rows"]) == len(data["truths"]) * len(bounds.TOLERANCES)
     assert all(row["ratio"] <= 1 for row in data["rows"])
 
 
-def test_committed_truths_are_the_seeds_scenes() -> None:
-    known = bounds.committed_truths()
+def test_committed_references_are_the_seeds_scenes() -> None:
+    known = bounds.committed_references()
     for number in (0, 1, 17, len(known) - 1):
         np.testing.assert_allclose(bounds.scene(number), known[number].point, rtol=1e-12)
 
 
 def test_a_bound_that_does_not_hold_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    [true] = bounds.committed_truths()[:1]
+    [true] = bounds.committed_references()[:1]
     exact = [float(text) for text in true.values]
     off = [exact[0], exact[1], 1.01 * exact[2], exact[3]]
     monkeypatch.setattr(bounds, "simulated", lambda _, rtol: (off, "hertz", rtol / 2))
@@ -81,28 +81,28 @@ def test_a_bound_that_does_not_hold_is_noticed(monkeypatch: pytest.MonkeyPatch) 
         bounds.judge([true], [1e-3])
 
 
-def test_no_error_is_below_the_truths_own_radius() -> None:
-    """Of a truth known to so many digits nothing is told apart that lies nearer."""
-    true = bounds.SceneTruth((), ("1", "1"))
+def test_no_error_is_below_the_references_own_radius() -> None:
+    """Of a reference value known to so many digits nothing is told apart that lies nearer."""
+    true = bounds.SceneReference((), ("1", "1"))
     exact, off = bounds.errors((1.0, 1.0 + 2.0**-52), true)
     assert exact >= 10.0**-bounds.DIGITS
     assert off >= 2.0**-52 + 10.0**-bounds.DIGITS
     assert exact < 1.001 * 10.0**-bounds.DIGITS
 
 
-def test_truths_are_sought_once(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_references_are_sought_once(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     asked: list[bounds.Point] = []
 
-    def oracle(point: bounds.Point) -> bounds.SceneTruth:
+    def oracle(point: bounds.Point) -> bounds.SceneReference:
         asked.append(point)
-        return bounds.SceneTruth(point, ("1", "1", "1", "1"))
+        return bounds.SceneReference(point, ("1", "1", "1", "1"))
 
-    monkeypatch.setattr(bounds, "truth", oracle)
-    first = list(bounds.truths(3))
+    monkeypatch.setattr(bounds, "reference", oracle)
+    first = list(bounds.reference_values(3))
     monkeypatch.setattr(bounds, "MEASURED", tmp_path / "bounds.json")
     bounds.MEASURED.write_text(bounds.to_json(first, ()))
-    again = bounds.committed_truths()
-    assert list(bounds.truths(4, again))[:3] == first == again
+    again = bounds.committed_references()
+    assert list(bounds.reference_values(4, again))[:3] == first == again
     assert asked == [bounds.scene(number) for number in range(4)]
 
 
@@ -169,7 +169,7 @@ def test_quadrature_of_the_first_correction(x: float) -> None:
 
 def test_measured_rounding_covers_the_budget_with_its_conditioning() -> None:
     """8 ULP of `impact` plus half the sum of the arguments' condition numbers."""
-    points = np.array([true.point for true in bounds.committed_truths()])
+    points = np.array([true.point for true in bounds.committed_references()])
     slopes = impact_sensitivities(*points.T)
     ulp = budgets.read_budgets()["impact"].ulp + 0.5 * np.abs(slopes).sum(axis=1)
     assert np.isfinite(ulp).all()
@@ -177,7 +177,7 @@ def test_measured_rounding_covers_the_budget_with_its_conditioning() -> None:
         assert ulp.max() * 2.0**-52 < method_selection.whole_law(method, None).rounding.bound
 
 
-def test_half_the_nodes_keep_their_promise_with_room() -> None:
+def test_half_the_nodes_keep_their_stated_limit_with_room() -> None:
     """In thin plates with deep contacts, where the integrand is the hardest."""
     arguments = scenes(0.01, 5.9, 5000)
     coarse, full = (impact(**arguments, coarse=flag).contact_time for flag in (True, False))
@@ -192,7 +192,7 @@ def methods(model: Model) -> list[str]:
 
 
 def test_a_smaller_tolerance_never_takes_a_cheaper_method() -> None:
-    models = [Model(*true.point) for true in bounds.committed_truths()[:40]]
+    models = [Model(*true.point) for true in bounds.committed_references()[:40]]
     for model in [paper(), *models]:
         ranks = [COST[name] for name in methods(model)]
         assert ranks == sorted(ranks, reverse=True)

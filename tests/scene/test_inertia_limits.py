@@ -111,7 +111,7 @@ def test_a_narrow_plate_gives_some_of_it_back() -> None:
 # --- its oscillators
 
 
-def course(
+def history(
     model: Model, modes: Modes, n: int = 16, tolerance: float = contact_sequence.TOLERANCE
 ) -> contact_sequence.ImpactHistory:
     law = ContactLaw(model, REST | {"inertia"})
@@ -126,12 +126,12 @@ def restitution(found: contact_sequence.ImpactHistory) -> float:
 def test_every_branch_converges_with_the_modes() -> None:
     """Above Rayleigh's waves what modes left at rest change falls as their number grows."""
     every = replace(BALL, inertia=InertiaSettings(branches="all"))
-    found = [restitution(course(every, free_modes(every, count))) for count in (4, 8, 16, 32)]
+    found = [restitution(history(every, free_modes(every, count))) for count in (4, 8, 16, 32)]
     steps = np.abs(np.diff(found))
     assert steps[2] < 0.6 * steps[1] < 0.6 * steps[0]
     assert steps[2] < 1e-5
     # And not to where the first branch alone goes.
-    first = restitution(course(BALL, free_modes(BALL, 32)))
+    first = restitution(history(BALL, free_modes(BALL, 32)))
     assert abs(first - found[-1]) > 2.0 * steps[2]
 
 
@@ -141,7 +141,7 @@ def test_branches_converge() -> None:
     for highest in (1.0, 2.0, 4.0, 8.0):
         shapes = modal._branches(BALL, lowest, highest * float(lowest.root[-1]))
         modes = modal._modes(BALL, shapes)
-        found.append((modes.omega.size, restitution(course(BALL, modes))))
+        found.append((modes.omega.size, restitution(history(BALL, modes))))
     counts, values = zip(*found, strict=True)
     assert all(more > 1.5 * few for few, more in pairwise(counts))
     steps = np.abs(np.diff(values))
@@ -159,9 +159,9 @@ def test_many_contacts_are_the_same_at_another_resolution(
     model = replace(BALL, R=0.04, **changes)
     assert 8.0 < zener_number(model) < 10.0
     modes = free_modes(model, 8)
-    runs = [course(model, modes), course(model, modes, 13)]
+    runs = [history(model, modes), history(model, modes, 13)]
     monkeypatch.setattr(contact_sequence, "PHASE", 0.3)
-    fine = course(model, modes, 18, 1e-12)
+    fine = history(model, modes, 18, 1e-12)
     assert len(fine.contacts) == contacts
     for other in runs:
         assert len(other.contacts) == len(fine.contacts)
@@ -219,7 +219,7 @@ def test_an_element_keeps_the_state_at_its_end_alone() -> None:
     modes = free_modes(BALL, 400)
     tracemalloc.start()
     try:
-        found = course(BALL, modes)
+        found = history(BALL, modes)
         kept, _ = tracemalloc.get_traced_memory()
     finally:
         tracemalloc.stop()

@@ -200,14 +200,14 @@ def test_takes_any_input_and_touches_none(case: str) -> None:
 def test_impact_at_other_speeds(case: str, factor: float) -> None:
     made = recipe(scene_of(case))
     model = replace(made.law.model, v0=factor * made.law.model.v0)
-    truth = None
+    reference = None
     with suppress(SceneError):  # a slow sphere may stay on a viscous plate
-        truth = moved(ContactLaw(model, made.law.effects))
-    if truth is None or truth.max_contact_radius > names_of(case)["LIMIT"]:
+        reference = moved(ContactLaw(model, made.law.effects))
+    if reference is None or reference.max_contact_radius > names_of(case)["LIMIT"]:
         assert math.isnan(names_of(case)["impact"](model.v0).max_force)
         return
     found = names_of(case)["impact"](model.v0)
-    assert list(found) == pytest.approx(list(truth.numbers), rel=1e-11, abs=1e-11)
+    assert list(found) == pytest.approx(list(reference.numbers), rel=1e-11, abs=1e-11)
 
 
 @pytest.mark.parametrize("case", ["block", "paper", "glass_pane", "viscous", "viscous, bent"])
@@ -245,9 +245,9 @@ def test_a_lagging_force_by_indentation_and_rate() -> None:
 
     pull.terminal = True  # type: ignore[attr-defined]
     span = (0.0, 2.0 * result.contact_time)
-    course = solve_ivp(rates, span, [0.0, law.model.v0], events=pull, rtol=1e-9, atol=1e-13)
-    assert course.t[-1] == pytest.approx(result.contact_time, rel=1e-6)
-    assert -course.y[1, -1] / law.model.v0 == pytest.approx(result.restitution, rel=1e-6)
+    history = solve_ivp(rates, span, [0.0, law.model.v0], events=pull, rtol=1e-9, atol=1e-13)
+    assert history.t[-1] == pytest.approx(result.contact_time, rel=1e-6)
+    assert -history.y[1, -1] / law.model.v0 == pytest.approx(result.restitution, rel=1e-6)
 
 
 @pytest.mark.parametrize("case", ["viscous, bent", "viscous, stiff"])
@@ -267,12 +267,12 @@ def test_a_bent_plate_s_inner_state_gives_the_impact(case: str) -> None:
 
     pull.terminal = True  # type: ignore[attr-defined]
     start = 1e-9 * T
-    course = solve_ivp(
+    history = solve_ivp(
         rates, (start, 2.0 * T), [model.v0 * start, model.v0, 0.5 * model.v0 * start],
         method="Radau", events=pull, rtol=1e-8, atol=[1e-14, 1e-9, 1e-14],
     )  # fmt: skip
-    assert course.t[-1] == pytest.approx(T, rel=1e-5)
-    assert -course.y[1, -1] / model.v0 == pytest.approx(made.motion.restitution, rel=1e-5)
+    assert history.t[-1] == pytest.approx(T, rel=1e-5)
+    assert -history.y[1, -1] / model.v0 == pytest.approx(made.motion.restitution, rel=1e-5)
     assert np.isnan(names["elastic_rate"](1.0, 0.0))
     assert names["force"](1.0, -1.0) == 0.0
 

@@ -212,7 +212,7 @@ def test_a_sphere_that_is_too_heavy_is_told_so() -> None:
     data.pop("inertia")
     with pytest.raises(SceneError, match=r"^impact\.gravity: .*kg"):
         simulate(read(data))
-    data["impact"]["speed"] = 1e-9  # no speed mends it
+    data["impact"]["speed"] = 1e-9  # no speed corrects it
     with pytest.raises(SceneError, match=r"^impact\.gravity: "):
         simulate(read(data))
     data["effects"]["gravity"] = False

@@ -32,11 +32,11 @@ def test_thick_plate_gives_hertz() -> None:
     stiffness = 16 * m.mu * (m.lam + m.mu) / (3 * (m.lam + 2 * m.mu)) * math.sqrt(m.R)
     depth = (1.25 * m.m * m.v0**2 / stiffness) ** 0.4
     time = 2 * math.gamma(1.4) / math.gamma(0.9) * math.sqrt(math.pi) * depth / m.v0
-    truth = time, depth, stiffness * depth**1.5, math.sqrt(m.R * depth)
+    reference = time, depth, stiffness * depth**1.5, math.sqrt(m.R * depth)
     ours = (
         found.contact_time, found.max_indentation, found.max_force, found.max_contact_radius,
     )  # fmt: skip
-    np.testing.assert_allclose(ours, truth, rtol=1e-6)
+    np.testing.assert_allclose(ours, reference, rtol=1e-6)
     assert found.warnings == ()
 
 

@@ -132,14 +132,14 @@ def test_slow_oscillators_alone_say_when_contact_is_impossible() -> None:
     law = ContactLaw(replace(model_of(scene()), h=0.001, m=0.05), frozenset(
         {"hertz", "bending", "finite_thickness", "finite_radius", "inertia"}))  # fmt: skip
     problem = waves.problem_of(law, 40)
-    course = contact_sequence.impact_history(problem, 14)
-    for one, two in zip(course.contacts, course.contacts[1:], strict=False):
+    history = contact_sequence.impact_history(problem, 14)
+    for one, two in zip(history.contacts, history.contacts[1:], strict=False):
         wait = two.start - one.end
         clear = flight._clear(problem, one.after)
         assert clear <= wait
         for share in (0.25, 0.5, 1.0):
             assert problem.flown(one.after, share * clear).approach <= 1e-12
-    assert len(course.contacts) > 1
+    assert len(history.contacts) > 1
 
 
 def test_a_tolerance_is_refused_where_omitted_effects_have_no_bound() -> None:

@@ -22,7 +22,7 @@ BALL = Model(R=0.02, m=0.25, v0=1.0, h=0.005, b=0.15, lam=40e9, mu=27e9, density
 MODES = 8
 
 
-def course(model: Model, n: int = 16, modes: int = MODES) -> contact_sequence.ImpactHistory:
+def history(model: Model, n: int = 16, modes: int = MODES) -> contact_sequence.ImpactHistory:
     law = ContactLaw(model, EFFECTS | ({"gravity"} if model.gravity else frozenset()))
     if model.loss_factor:
         law = replace(law, effects=law.effects | {"damping"})
@@ -107,7 +107,7 @@ def integrated(model: Model, end: float) -> tuple[float, float, float]:
 )
 def test_an_independent_integrator_agrees(changes: dict[str, Any]) -> None:
     model = replace(BALL, **changes)
-    found = course(model)
+    found = history(model)
     problem, first = found.problem, found.contacts[0]
     if model.gravity:
         fallen = 2.0 * model.gravity * problem.depth * first.pieces[-1].element.largest(2)
@@ -123,7 +123,7 @@ def test_an_independent_integrator_agrees(changes: dict[str, Any]) -> None:
 def test_nodes_do_not_matter_and_the_ledger_closes(h: float) -> None:
     """Several contacts where the plate is thin; the sphere never lies below the free face."""
     model = replace(BALL, h=h)
-    fine, coarse = (course(model, n) for n in (16, 14))
+    fine, coarse = (history(model, n) for n in (16, 14))
     assert len(fine.contacts) == len(coarse.contacts)
     for one, other in zip(fine.contacts, coarse.contacts, strict=True):
         assert one.start == pytest.approx(other.start, rel=1e-9, abs=1e-9)
@@ -141,10 +141,10 @@ def test_nodes_do_not_matter_and_the_ledger_closes(h: float) -> None:
 def test_the_axis_leaks_what_it_is_said_to() -> None:
     """The pointwise coupling loses energy, which the energy balance states."""
     model = replace(BALL, inertia=InertiaSettings(pointwise=True))
-    found = dynamic_impact_of(ContactLaw(model, EFFECTS), course(model))
+    found = dynamic_impact_of(ContactLaw(model, EFFECTS), history(model))
     assert abs(found.energy_balance.coupling_loss) > 1e-8 * found.energy_balance.initial_kinetic
     assert abs(found.energy_balance.residual) <= 1e-11
-    kept = dynamic_impact_of(ContactLaw(BALL, EFFECTS), course(BALL))
+    kept = dynamic_impact_of(ContactLaw(BALL, EFFECTS), history(BALL))
     assert kept.energy_balance.coupling_loss == 0.0
 
 
@@ -168,6 +168,6 @@ def test_a_plate_without_mass_is_at_rest() -> None:
 
 
 def test_more_modes_change_less() -> None:
-    results = [-course(BALL, 16, modes).contacts[-1].after.velocity for modes in (4, 8, 16, 32)]
+    results = [-history(BALL, 16, modes).contacts[-1].after.velocity for modes in (4, 8, 16, 32)]
     steps = np.abs(np.diff(results))
     assert steps[2] < 0.5 * steps[1] < 0.5 * steps[0]

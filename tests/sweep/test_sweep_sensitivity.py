@@ -37,12 +37,12 @@ def test_indices_of_known_functions(monkeypatch: pytest.MonkeyPatch) -> None:
     variance = 1 / 12
     joint = variance**2 / (variance**2 + variance)
     names = list(UNITS)
-    truth = {
+    reference = {
         names[0]: ([0.2, 0.8, 0], [0.2, 0.8, 0]),
         names[1]: ([0, 0, 1 - joint], [joint, joint, 1 - joint]),
         names[4]: ([1, 0, 0], [1, 0, 0]),
     }
-    for name, (first, total) in truth.items():
+    for name, (first, total) in reference.items():
         one = data.sel(result=name)
         np.testing.assert_allclose(one["first_order"].sel(key=list(KEYS)), first, atol=0.03)
         np.testing.assert_allclose(one["total_order"].sel(key=list(KEYS)), total, atol=0.03)
@@ -53,7 +53,9 @@ def test_indices_of_known_functions(monkeypatch: pytest.MonkeyPatch) -> None:
         assert np.isnan(data.sel(result=name)["first_order"]).all()
 
 
-def test_intervals_cover_the_truth_as_often_as_they_say(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_intervals_cover_the_reference_as_often_as_they_say(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     monkeypatch.setattr(run, "solve", rows)
     monkeypatch.setattr(sensitivity, "RESAMPLES", 100)
     inside = []

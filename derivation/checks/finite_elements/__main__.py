@@ -4,5 +4,5 @@ from derivation.checks.finite_elements.record import computed
 from derivation.engine.console import counted
 
 if __name__ == "__main__":
-    with counted("elastodynamics") as tell:
-        computed(tell=tell)
+    with counted("elastodynamics") as progress:
+        computed(progress=progress)

@@ -21,7 +21,7 @@ from derivation.checks.finite_elements.impact import (
 )
 from derivation.checks.finite_elements.mesh import Grading, graded, resting
 from derivation.checks.finite_elements.plate import Plate, System
-from derivation.engine.activity import Tell, quiet
+from derivation.engine.activity import Progress, quiet
 from derivation.engine.files import measurements, write_file
 from derivation.engine.measure.origin import dump
 from derivation.engine.outputs import json_by_line
@@ -144,7 +144,7 @@ def plate_inputs(plate: Plate) -> dict[str, Any]:
     }
 
 
-def computed(path: Path = MEASURED, tell: Tell = quiet) -> dict[str, Any]:
+def computed(path: Path = MEASURED, progress: Progress = quiet) -> dict[str, Any]:
     """Compute what is missing from a record, which is written after each case; returns it."""
     record = read(path)
     version = source_hash()
@@ -160,7 +160,7 @@ def computed(path: Path = MEASURED, tell: Tell = quiet) -> dict[str, Any]:
         else:
             (impacts if isinstance(item, ElementCase) else plates).append(row)
     for number, item in enumerate(todo):
-        tell(item.name if isinstance(item, ElementCase) else "plate", number + 1, len(todo))
+        progress(item.name if isinstance(item, ElementCase) else "plate", number + 1, len(todo))
         if isinstance(item, ElementCase):
             impacts.append(impact_row(item) | {"source": version})
         else:

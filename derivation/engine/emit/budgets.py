@@ -56,7 +56,7 @@ def read_budgets(file: Path) -> dict[str, Budget]:
     return parse_budgets(tomllib.loads(file.read_text()))
 
 
-def read_promises(file: Path, table: str) -> dict[str, float]:
+def read_stated_limits(file: Path, table: str) -> dict[str, float]:
     """Read the relative errors of a table; they are measured, not proved."""
     found: dict[str, float] = tomllib.loads(file.read_text())[table]
     return found

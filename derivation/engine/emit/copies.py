@@ -99,9 +99,9 @@ def copied(
     added: list[tuple[int, list[str]]] = [(_end_of_docstring(tree, file), header.splitlines())]
     for node, mark in _marked(tree):
         budget = budgets[node.name].notes(_words(mark).get("domain", ""))
-        added.append(_promise(node, budget, lines))
+        added.append(_stated_limit(node, budget, lines))
     functions = {node.name: node for node in tree.body if isinstance(node, ast.FunctionDef)}
-    added += (_promise(functions[name], text, lines) for name, text in notes.items())
+    added += (_stated_limit(functions[name], text, lines) for name, text in notes.items())
     for place, text in sorted(added, key=lambda pair: -pair[0]):
         lines[place:place] = text
     return "\n".join(_relative(line, package) for line in lines) + "\n"
@@ -185,7 +185,7 @@ def _parameters(lines: list[str] | tuple[str, ...]) -> Iterator[tuple[str, str]]
     yield from ((name, " ".join(meaning)) for name in names)
 
 
-def _promise(
+def _stated_limit(
     node: ast.FunctionDef, notes: Sequence[str], lines: list[str]
 ) -> tuple[int, list[str]]:
     """Return the position for the notes in a docstring, and the lines to insert there."""

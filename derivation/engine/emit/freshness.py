@@ -18,7 +18,7 @@ class Freshness:
         Names of missing files, and of surplus files.
     diffs
         Unified diff of every edited file, by name.
-    mend
+    remedy
         The command that writes the folder again.
     """
 
@@ -26,7 +26,7 @@ class Freshness:
     missing: tuple[str, ...]
     orphans: tuple[str, ...]
     diffs: Mapping[str, str]
-    mend: str
+    remedy: str
 
     @property
     def fresh(self) -> bool:
@@ -41,7 +41,7 @@ class Freshness:
         lines += [f"orphaned: {self.folder / name}" for name in self.orphans]
         lines += [diff.rstrip("\n") for diff in self.diffs.values()]
         if self.missing or self.diffs:
-            lines.append(f"To update the files, run: {self.mend}")
+            lines.append(f"To update the files, run: {self.remedy}")
         if self.orphans:
             orphans = " ".join(str(self.folder / name) for name in self.orphans)
             lines.append(f"To remove the orphaned files, run: rm {orphans}")
@@ -49,7 +49,7 @@ class Freshness:
 
 
 def compare(
-    folder: Path, expected: Mapping[str, str], mend: str, pattern: str = "**/*"
+    folder: Path, expected: Mapping[str, str], remedy: str, pattern: str = "**/*"
 ) -> Freshness:
     """Compare a folder's files with the expected ones, by name and content.
 
@@ -59,7 +59,7 @@ def compare(
         Folder to compare; it need not exist.
     expected
         File contents by name relative to the folder.
-    mend
+    remedy
         The command that would write them.
     pattern
         Pattern of the files that are compared.
@@ -75,7 +75,7 @@ def compare(
         tuple(sorted(expected.keys() - found.keys())),
         tuple(sorted(found.keys() - expected.keys())),
         {name: _diff(name, found[name], expected[name]) for name in edited if name in found},
-        mend,
+        remedy,
     )
 
 

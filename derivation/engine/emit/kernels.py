@@ -12,7 +12,7 @@ from derivation.engine.emit.printer import to_numpy
 from derivation.engine.formula.notation import to_plain
 from derivation.engine.formula.record import Record
 from derivation.engine.formula.vocabulary import Argument, applicable
-from derivation.engine.rewrite.form import Branch, Form, Seam, Step
+from derivation.engine.rewrite.form import Branch, Form, Step, Switch
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class BranchText:
 
 
 @dataclass(frozen=True)
-class SeamText:
+class SwitchText:
     """A choice between two branches as text."""
 
     mask: str
@@ -92,13 +92,13 @@ class EmittedKernel:
     modes: bool
     steps: tuple[Line, ...] = ()
     value: str = ""
-    seam: SeamText | None = None
+    switch: SwitchText | None = None
     example: tuple[str, ...] = ()
 
     @property
     def carried(self) -> tuple[str, ...]:
         """If some arguments are unused: the last one that is used, followed by the unused ones."""
-        code = set(re.findall(r"\w+", repr((self.value, self.steps, self.seam))))
+        code = set(re.findall(r"\w+", repr((self.value, self.steps, self.switch))))
         idle = [x.name for x in self.arguments if x.name not in code and not self.modes]
         return ([x.name for x in self.arguments if x.name in code][-1], *idle) if idle else ()
 
@@ -115,7 +115,7 @@ class EmittedKernel:
 
 def kernel_of_form(stable: Form, formula: Record, budget: Budget, style: Style) -> EmittedKernel:
     """Return the row of a function that evaluates a stable form."""
-    seam = seam_text(stable.value, whole=True) if isinstance(stable.value, Seam) else None
+    switch = switch_text(stable.value, whole=True) if isinstance(stable.value, Switch) else None
     return kernel(
         formula,
         formula.arguments,
@@ -123,8 +123,8 @@ def kernel_of_form(stable: Form, formula: Record, budget: Budget, style: Style) 
         budget,
         style,
         steps=lines(stable.steps),
-        value="" if seam else to_numpy(stable.value),
-        seam=seam,
+        value="" if switch else to_numpy(stable.value),
+        switch=switch,
     )
 
 
@@ -137,7 +137,7 @@ def kernel(
     *,
     steps: tuple[Line, ...] = (),
     value: str,
-    seam: SeamText | None = None,
+    switch: SwitchText | None = None,
     modes: int = 0,
     result: sp.Expr | None = None,
 ) -> EmittedKernel:
@@ -168,7 +168,7 @@ def kernel(
         modes=bool(modes),
         steps=steps,
         value=value,
-        seam=seam,
+        switch=switch,
         example=_example(formula, arguments, style, modes, result),
     )
 
@@ -225,17 +225,17 @@ def lines(steps: tuple[Step, ...]) -> tuple[Line, ...]:
     return tuple(Line(str(s.symbol), to_numpy(s.expression), s.comment) for s in steps)
 
 
-def seam_text(seam: Seam, *, whole: bool = False) -> SeamText:
+def switch_text(switch: Switch, *, whole: bool = False) -> SwitchText:
     """Return a switch point as text.
 
     The branch above is evaluated at all points, guarded against those below. The branch below is
     evaluated at its own points only: it selects them itself, or in a whole function is given them.
     """
-    name = str(seam.variable)
-    clamped = {seam.variable: f"np.maximum({name}, {float(seam.at)})"}
-    below = _branch_text(seam.below, {} if whole else _picked(seam.below), "low")
-    return SeamText(
-        "below", name, to_numpy(seam.at), (below, _branch_text(seam.above, clamped, "high"))
+    name = str(switch.variable)
+    clamped = {switch.variable: f"np.maximum({name}, {float(switch.at)})"}
+    below = _branch_text(switch.below, {} if whole else _picked(switch.below), "low")
+    return SwitchText(
+        "below", name, to_numpy(switch.at), (below, _branch_text(switch.above, clamped, "high"))
     )
 
 

@@ -19,7 +19,7 @@ from derivation.engine.emit.kernels import (
     kernel_of_form,
     lines,
     rows_by_module,
-    seam_text,
+    switch_text,
 )
 from derivation.engine.emit.printer import to_numpy
 from derivation.engine.emit.routine import ARRAYS, QUIET_SCALARS, Dialect, Routine
@@ -30,11 +30,11 @@ from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.automatic import automatic
 from derivation.engine.rewrite.blocks import HYPERBOLIC, Definition, built
 from derivation.engine.rewrite.every_variable import accurate
-from derivation.engine.rewrite.form import SCALINGS, Block, Form, Seam, Step, form
+from derivation.engine.rewrite.form import SCALINGS, Block, Form, Step, Switch, form
 from derivation.engine.rewrite.scales import Scales
 
 RUNTIME = Path(__file__).parents[1] / "runtime"
-Shape = tuple[tuple[Step, ...], sp.Expr | Seam]
+Shape = tuple[tuple[Step, ...], sp.Expr | Switch]
 """Steps and value of a form."""
 
 
@@ -283,7 +283,7 @@ def _first_lines(printed: Sequence[str], dialect: Dialect) -> list[str]:
 
 def block_text(block: Block) -> dict[str, Any]:
     """Return the template context of a building block."""
-    seam = seam_text(block.value) if isinstance(block.value, Seam) else None
+    switch = switch_text(block.value) if isinstance(block.value, Switch) else None
     return {
         "name": block.name,
         "variable": str(block.arguments[0]),
@@ -291,8 +291,8 @@ def block_text(block: Block) -> dict[str, Any]:
         "domain": ", ".join(block.domain),
         "truncation": block.truncation,
         "steps": lines(block.steps),
-        "seam": seam,
-        "value": "" if seam else to_numpy(block.value),
+        "switch": switch,
+        "value": "" if switch else to_numpy(block.value),
     }
 
 

@@ -7,11 +7,11 @@ import numpy as np
 import sympy as sp
 
 from derivation.engine.emit.copies import function_text
-from derivation.engine.emit.kernels import lines, seam_text
+from derivation.engine.emit.kernels import lines, switch_text
 from derivation.engine.emit.package import RUNTIME, Module, fill
 from derivation.engine.emit.printer import to_numpy
 from derivation.engine.emit.source import format_files
-from derivation.engine.rewrite.form import Seam
+from derivation.engine.rewrite.form import Switch
 from derivation.engine.rewrite.series import POLYNOMIAL
 from derivation.engine.rewrite.stabilise import Stable
 from derivation.engine.rewrite.tested import ENDS, CodeCheck, Function, tested
@@ -45,8 +45,8 @@ def _compiled(source: str) -> Function:
 
 
 def _source(stable: Stable, low: float, high: float, statement: str) -> str:
-    seam = seam_text(stable.value) if isinstance(stable.value, Seam) else None
-    sides = (stable.value.below, stable.value.above) if isinstance(stable.value, Seam) else ()
+    switch = switch_text(stable.value) if isinstance(stable.value, Switch) else None
+    sides = (stable.value.below, stable.value.above) if isinstance(stable.value, Switch) else ()
     powers = any(
         part.has(POLYNOMIAL)
         for side in sides
@@ -63,8 +63,8 @@ def _source(stable: Stable, low: float, high: float, statement: str) -> str:
         "polynomial": function_text(RUNTIME / "polynomials.py", "polynomial") if powers else "",
         "function": {
             "steps": lines(stable.steps),
-            "seam": seam,
-            "value": "" if seam else to_numpy(stable.value),
+            "switch": switch,
+            "value": "" if switch else to_numpy(stable.value),
         },
     }
     return format_files({"f.py": fill(Module("f", "standalone", context))})["f.py"]

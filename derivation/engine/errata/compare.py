@@ -119,11 +119,11 @@ class _Case:
     relations: Mapping[sp.Symbol, sp.Expr]
     search: VariantSearch
     have: Values
-    truth: Values
+    reference: Values
 
     def method(self, expression: sp.Expr) -> str | None:
         """Return how an expression was found equal to the derived one; None if it is not."""
-        if not self.search.points.same(expression, self.truth):
+        if not self.search.points.same(expression, self.reference):
             return None
         difference = (expression - self.formula.expression).subs(dict(self.relations))
         if terms_when_expanded(difference) <= _MAX_TERMS and reduces_to_zero(difference):
@@ -288,7 +288,7 @@ def _repairs(
     """Yield candidates in order: another derived formula, a factor counted twice, single edits."""
     yield from _mistaken(case, formulas)
     yield from _counted_twice(case, formulas)
-    for count, repair in enumerate(repairs(case.given, case.truth, case.search)):
+    for count, repair in enumerate(repairs(case.given, case.reference, case.search)):
         if count == _MAX_CANDIDATES:
             return
         yield repair, None
@@ -331,7 +331,7 @@ def _counted_twice(
         if factor not in case.relations or factor.name not in formulas:
             continue
         rest = case.given / factor
-        need = [w / v for w, v in zip(case.truth, points.values(rest), strict=True)]
+        need = [w / v for w, v in zip(case.reference, points.values(rest), strict=True)]
         for other in _formulas_with_values(case, formulas, points.values(rest)):
             if factor.name not in ancestors(other.name, formulas):
                 continue
@@ -380,7 +380,7 @@ def _as_power(case: _Case, repair: Repair) -> Repair:
 
 def _ratio(case: _Case) -> sp.Expr | None:
     """Return given over derived where that is a monomial, or short after cancellation."""
-    ratio = [v / w for v, w in zip(case.have, case.truth, strict=True)]
+    ratio = [v / w for v, w in zip(case.have, case.reference, strict=True)]
     simple = monomial(ratio, case.search.points)
     if simple is not None:
         return simple

@@ -8,7 +8,7 @@ from math import log
 
 import sympy as sp
 
-from derivation.engine.errata.place import BASE, TERM, TERMS, Place, inner, with_needs
+from derivation.engine.errata.position import BASE, TERM, TERMS, Position, inner, with_needs
 from derivation.engine.errata.sample import Values, agree, monomial, rational, real
 from derivation.engine.errata.variant import (
     CONSTANT,
@@ -37,7 +37,7 @@ class Edit:
     """One change at one position, with its weight: the smaller, the more likely the error."""
 
     kind: str
-    place: Place
+    place: Position
     new: sp.Expr
     says: str
     cost: float
@@ -47,10 +47,10 @@ class Edit:
         return round(self.cost, 6), self.place.depth, self.says
 
 
-def single_edits(root: Place, truth: Values, search: VariantSearch) -> list[Edit]:
+def single_edits(root: Position, reference: Values, search: VariantSearch) -> list[Edit]:
     """Yield every edit below a position that gives the correct values, the likeliest first."""
     found: list[Edit] = []
-    for place, need in with_needs(root, truth, search.points):
+    for place, need in with_needs(root, reference, search.points):
         found += ratio_edits(place, need, search)
         found += exponent_edits(place, need, search)
         found += term_edits(place, need, search)
@@ -63,12 +63,12 @@ def single_edits(root: Place, truth: Values, search: VariantSearch) -> list[Edit
     return sorted(found, key=Edit.order)
 
 
-def _edit(kind: str, place: Place, new: sp.Expr, says: str, extra: float = 0.0) -> Edit:
+def _edit(kind: str, place: Position, new: sp.Expr, says: str, extra: float = 0.0) -> Edit:
     group = 0.5 if place.role == TERMS else 0.0
     return Edit(kind, place, new, says, COST[kind] + group + extra)
 
 
-def edit_of(variant: Variant, place: Place) -> Edit:
+def edit_of(variant: Variant, place: Position) -> Edit:
     """Return the edit that puts a variant at a position."""
     new = variant.build()
     if variant.kind == LOST:
@@ -91,7 +91,7 @@ def _text(expression: sp.Expr) -> str:
 # Ratio: the required value is a simple multiple of the given one.
 
 
-def ratio_edits(place: Place, need: Values, search: VariantSearch) -> Iterator[Edit]:
+def ratio_edits(place: Position, need: Values, search: VariantSearch) -> Iterator[Edit]:
     """Yield edits of sign, constant, extra or missing factor, and a factor counted twice."""
     if not own_ratio(place):
         return
@@ -117,7 +117,9 @@ def ratio_edits(place: Place, need: Values, search: VariantSearch) -> Iterator[E
                 yield ratio_edit(place, left * factor**power, extra, kind)
 
 
-def ratio_edit(place: Place, ratio: sp.Expr, extra: float = 0.0, kind: str | None = None) -> Edit:
+def ratio_edit(
+    place: Position, ratio: sp.Expr, extra: float = 0.0, kind: str | None = None
+) -> Edit:
     """Return the multiplication by a ratio, with a text that suits the expression."""
     new, where = ratio * place.node, name_of(place)
     if ratio == -1:
@@ -131,7 +133,7 @@ def ratio_edit(place: Place, ratio: sp.Expr, extra: float = 0.0, kind: str | Non
     return _edit(kind, place, new, _ratio_words(where, ratio, kind), extra)
 
 
-def _stray_or_missing(place: Place, ratio: sp.Expr) -> str:
+def _stray_or_missing(place: Position, ratio: sp.Expr) -> str:
     """Return whether the ratio removes what the expression contains, or adds what it does not."""
     above, below = sp.fraction(ratio)
     numerator, denominator = sp.fraction(place.node)
@@ -162,7 +164,7 @@ def _size(ratio: sp.Expr) -> float:
 # Exponent: the required value is a power of the given one.
 
 
-def exponent_edits(place: Place, need: Values, search: VariantSearch) -> Iterator[Edit]:
+def exponent_edits(place: Position, need: Values, search: VariantSearch) -> Iterator[Edit]:
     """Yield another power of the same base."""
     node = place.node
     if node.is_number or place.role in (BASE, TERMS):
@@ -182,7 +184,7 @@ def exponent_edits(place: Place, need: Values, search: VariantSearch) -> Iterato
 # Terms: one too many in a sum, or a simple one missing.
 
 
-def term_edits(place: Place, need: Values, search: VariantSearch) -> Iterator[Edit]:
+def term_edits(place: Position, need: Values, search: VariantSearch) -> Iterator[Edit]:
     """Yield a term removed or added."""
     if not isinstance(place.node, sp.Add) or place.role == TERMS:
         return
@@ -200,7 +202,7 @@ def term_edits(place: Place, need: Values, search: VariantSearch) -> Iterator[Ed
 # Parentheses: their terms need the factor that is applied to another term only.
 
 
-def drawn_in_front(place: Place, need: Values, search: VariantSearch) -> Iterator[Edit]:
+def drawn_in_front(place: Position, need: Values, search: VariantSearch) -> Iterator[Edit]:
     """Yield c (x + y) for c x + y, where c is the ratio that y needs."""
     if place.role not in (TERM, TERMS) or place.parent is None:
         return

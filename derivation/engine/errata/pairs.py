@@ -13,7 +13,7 @@ import flint
 import sympy as sp
 
 from derivation.engine.errata.edit import Edit, edit_of, ratio_edit
-from derivation.engine.errata.place import FACTOR, TERM, Place, everywhere
+from derivation.engine.errata.position import FACTOR, TERM, Position, everywhere
 from derivation.engine.errata.sample import Values, monomial, rational, real
 from derivation.engine.errata.variant import (
     Variant,
@@ -54,18 +54,18 @@ class _Change:
     """
 
     part: int
-    place: Place
+    place: Position
     variant: Variant
     effect: float
 
-    def applied(self, whole: sp.Expr, root: Place) -> sp.Expr:
+    def applied(self, whole: sp.Expr, root: Position) -> sp.Expr:
         """Return `whole`, a rewritten root, with this change as well."""
         if self.part == _OVERALL:
             return self.variant.build() / root.node * whole
         old, new = root.node.args[self.part], self.part_after(root)
         return whole / old * new if isinstance(root.node, sp.Mul) else whole - old + new
 
-    def part_after(self, root: Place) -> sp.Expr:
+    def part_after(self, root: Position) -> sp.Expr:
         """Return the changed part of the root."""
         part = self.place
         while part.parent is not root and part.parent is not None:
@@ -73,27 +73,27 @@ class _Change:
         return self.place.put(self.variant.build(), part)
 
 
-def pair_edits(root: Place, truth: Values, search: VariantSearch) -> list[Pair]:
+def pair_edits(root: Position, reference: Values, search: VariantSearch) -> list[Pair]:
     """Yield pairs of edits in different parts of a product or sum, the likeliest first."""
     if not isinstance(root.node, sp.Add | sp.Mul):
         return []
     have = search.points.value(root.node, 0)
     product = isinstance(root.node, sp.Mul)
-    goal = real(truth[0] / have if product else truth[0] - have)
+    goal = real(reference[0] / have if product else reference[0] - have)
     if goal is None:
         return []
     changes = sorted(_changes(root, search), key=lambda change: change.effect)
-    found = list(_meetings(root, changes, goal, truth, search))
+    found = list(_meetings(root, changes, goal, reference, search))
     if product:
-        found += _with_overall_ratio(root, changes, truth, search)
+        found += _with_overall_ratio(root, changes, reference, search)
     return sorted(found, key=Pair.order)
 
 
-def _changes(root: Place, search: VariantSearch) -> Iterator[_Change]:
+def _changes(root: Position, search: VariantSearch) -> Iterator[_Change]:
     """Yield every variant inside every part of the root, and of the whole, with their effects."""
     product = isinstance(root.node, sp.Mul)
     for index, node in enumerate(root.node.args):
-        part = Place(node, FACTOR if product else TERM, root, (index,))
+        part = Position(node, FACTOR if product else TERM, root, (index,))
         own = search.points.value(node, 0)
         for place in everywhere(part):
             for variant in tried(place, search):
@@ -118,7 +118,7 @@ def _of_the_whole(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
         yield Variant(kind, times, lambda f=factor: f * node, extra)  # type: ignore[misc]
 
 
-def _lifted(place: Place, value: flint.acb, top: Place, search: VariantSearch) -> flint.acb:
+def _lifted(place: Position, value: flint.acb, top: Position, search: VariantSearch) -> flint.acb:
     """Return the value of the position `top` when the position inside it takes another value."""
     while place is not top and place.parent is not None:
         node = place.parent.node
@@ -138,7 +138,11 @@ def _lifted(place: Place, value: flint.acb, top: Place, search: VariantSearch) -
 
 
 def _meetings(
-    root: Place, changes: Sequence[_Change], goal: float, truth: Values, search: VariantSearch
+    root: Position,
+    changes: Sequence[_Change],
+    goal: float,
+    reference: Values,
+    search: VariantSearch,
 ) -> Iterator[Pair]:
     """Yield pairs of changes in different parts whose effects add up to the required one."""
     product = isinstance(root.node, sp.Mul)
@@ -154,7 +158,7 @@ def _meetings(
             if change.part < other.part and seen < _MAX_MEETINGS:
                 seen += 1
                 new = other.applied(change.applied(root.node, root), root)
-                if search.points.same(new, truth):
+                if search.points.same(new, reference):
                     yield Pair(
                         edit_of(change.variant, change.place),
                         edit_of(other.variant, other.place),
@@ -163,7 +167,7 @@ def _meetings(
 
 
 def _with_overall_ratio(
-    root: Place, changes: Sequence[_Change], truth: Values, search: VariantSearch
+    root: Position, changes: Sequence[_Change], reference: Values, search: VariantSearch
 ) -> Iterator[Pair]:
     """Yield changes after which only a monomial is missing."""
     points = search.points
@@ -172,10 +176,10 @@ def _with_overall_ratio(
         if change.part == _OVERALL or change.effect == last_effect:
             continue
         last_effect = change.effect
-        if not _could_be_monomial(root, change, truth, search):
+        if not _could_be_monomial(root, change, reference, search):
             continue
         new = change.applied(root.node, root)
-        ratio = [w / v for w, v in zip(truth, points.values(new), strict=True)]
+        ratio = [w / v for w, v in zip(reference, points.values(new), strict=True)]
         simple = monomial(ratio, points)
         if simple is not None and simple != 1:
             yield Pair(
@@ -185,14 +189,16 @@ def _with_overall_ratio(
             )
 
 
-def _could_be_monomial(root: Place, change: _Change, truth: Values, search: VariantSearch) -> bool:
+def _could_be_monomial(
+    root: Position, change: _Change, reference: Values, search: VariantSearch
+) -> bool:
     """Return whether the missing factor after a change scales like a power of each symbol."""
     points = search.points
     old = root.node.args[change.part]
     new = change.part_after(root)
     first = None
     for point in _tell_tale_points(root, search):
-        value = truth[point] / points.value(root.node, point) * points.value(old, point)
+        value = reference[point] / points.value(root.node, point) * points.value(old, point)
         lack = real(value / points.value(new, point))
         if lack is None:
             return False
@@ -203,7 +209,7 @@ def _could_be_monomial(root: Place, change: _Change, truth: Values, search: Vari
     return True
 
 
-def _tell_tale_points(root: Place, search: VariantSearch) -> list[int]:
+def _tell_tale_points(root: Position, search: VariantSearch) -> list[int]:
     """Return the first sample point, and those that double a symbol in a function's argument."""
     inside: set[sp.Symbol] = set().union(*(f.free_symbols for f in root.node.atoms(sp.Function)))
     symbols = enumerate(search.points.symbols, start=1)

@@ -7,7 +7,7 @@ import sympy as sp
 
 from derivation.engine.errata.edit import single_edits
 from derivation.engine.errata.pairs import pair_edits
-from derivation.engine.errata.place import TERMS, Place, inner, needed
+from derivation.engine.errata.position import TERMS, Position, inner, needed
 from derivation.engine.errata.sample import Values
 from derivation.engine.errata.variant import VariantSearch
 
@@ -26,7 +26,7 @@ class Repair:
     edits: int
 
 
-def repairs(given: sp.Expr, truth: Values, search: VariantSearch) -> Iterator[Repair]:
+def repairs(given: sp.Expr, reference: Values, search: VariantSearch) -> Iterator[Repair]:
     """Yield corrections with the right values at every sample point: single edits, then pairs.
 
     Pairs are sought in different parts of the whole, then in those of each part.
@@ -34,14 +34,14 @@ def repairs(given: sp.Expr, truth: Values, search: VariantSearch) -> Iterator[Re
     size = given.count_ops()
     if size > MAX_OPERATIONS:
         return
-    root = Place(given)
-    for edit in single_edits(root, truth, search):
+    root = Position(given)
+    for edit in single_edits(root, reference, search):
         yield Repair(edit.kind, edit.says, edit.place.put(edit.new), 1)
     if size > MAX_OPERATIONS_FOR_PAIRS:
         return
-    yield from _pairs(root, truth, search)
+    yield from _pairs(root, reference, search)
     for part in inner(root):
-        need = needed(part, truth, search.points)
+        need = needed(part, reference, search.points)
         if part.role != TERMS and need is not None and all(w.is_finite() for w in need):
             yield from _pairs(part, need, search)
             if isinstance(part.node, sp.Pow):
@@ -50,6 +50,6 @@ def repairs(given: sp.Expr, truth: Values, search: VariantSearch) -> Iterator[Re
                     yield from _pairs(base, inside, search) if inside else ()
 
 
-def _pairs(place: Place, need: Values, search: VariantSearch) -> Iterator[Repair]:
+def _pairs(place: Position, need: Values, search: VariantSearch) -> Iterator[Repair]:
     for pair in pair_edits(place, need, search):
         yield Repair(TWO, pair.says, pair.new, 2)

@@ -11,7 +11,7 @@ from itertools import chain, combinations
 import flint
 import sympy as sp
 
-from derivation.engine.errata.place import BASE, FACTOR, TERMS, WHOLE, Place
+from derivation.engine.errata.position import BASE, FACTOR, TERMS, WHOLE, Position
 from derivation.engine.errata.sample import Sample
 
 SIGN, CONSTANT, EXPONENT, SWAP = "sign", "constant ratio", "wrong exponent", "swapped function"
@@ -89,7 +89,7 @@ class VariantSearch:
         return Variant(kind, self.points.value(new, 0), lambda: new, extra)
 
 
-def variants(place: Place, search: VariantSearch) -> Iterator[Variant]:
+def variants(place: Position, search: VariantSearch) -> Iterator[Variant]:
     """Yield other functions, parentheses and faces, which can only be found by trying."""
     if place.role != TERMS:
         yield from other_functions(place.node, search)
@@ -99,7 +99,7 @@ def variants(place: Place, search: VariantSearch) -> Iterator[Variant]:
         yield from other_faces(place.node, search)
 
 
-def tried(place: Place, search: VariantSearch) -> Iterator[Variant]:
+def tried(place: Position, search: VariantSearch) -> Iterator[Variant]:
     """Yield all variants, simple multiples and powers included, where nothing can be solved."""
     yield from variants(place, search)
     node, value = place.node, search.points.value(place.node, 0)
@@ -119,7 +119,7 @@ def raised_to(node: sp.Expr, power: sp.Rational) -> sp.Expr:
     return base ** (exponent * power)
 
 
-def own_ratio(place: Place) -> bool:
+def own_ratio(place: Position) -> bool:
     """Return whether a ratio here differs from that of the product or power around it."""
     if place.role == BASE:
         return bool(place.parent is not None and abs(place.parent.node.exp) != 1)
@@ -289,7 +289,7 @@ def groups(members: Sequence[int]) -> Iterator[tuple[int, ...]]:
     return chain.from_iterable(combinations(members, size) for size in sizes)
 
 
-def name_of(place: Place) -> str:
+def name_of(place: Position) -> str:
     """Return the name of a position for a sentence."""
     text = sp.sstr(place.node)
     short = text if len(text) <= 90 else text[:87] + "..."

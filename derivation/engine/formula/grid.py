@@ -34,7 +34,7 @@ def domain_grid(
     name: str,
     arguments: Sequence[str],
     vocabulary: Vocabulary,
-    seams: Mapping[str, Sequence[float]],
+    switches: Mapping[str, Sequence[float]],
 ) -> tuple[dict[str, float], ...]:
     """Return points for a function.
 
@@ -46,7 +46,7 @@ def domain_grid(
         Its arguments' names.
     vocabulary
         The symbols with their domains.
-    seams
+    switches
         Switch points of its forms, by argument.
 
     Raises
@@ -65,7 +65,7 @@ def domain_grid(
 
     points = [drawn() for _ in range(DRAWN)]
     for key in arguments:
-        own = (*_candidates(vocabulary.by_name[key].domain), *_around(seams.get(key, ())))
+        own = (*_candidates(vocabulary.by_name[key].domain), *_around(switches.get(key, ())))
         points += [drawn() | {key: value} for value in own]
     return tuple(values for values in points if inside(vocabulary, values))
 

@@ -44,7 +44,7 @@ DOUBLE = Format("float64", 53, -1074, 1024, "<d", "<q")
 SINGLE = Format("float32", 24, -149, 128, "<f", "<i")
 
 
-def spacing_exponent(truth: flint.arb, fmt: Format = DOUBLE) -> int:
+def spacing_exponent(reference: flint.arb, fmt: Format = DOUBLE) -> int:
     """Return the exponent k of the unit in the last place 2^k of an exact value.
 
     Below the smallest normal number, and at zero, the unit is the smallest subnormal. Above the
@@ -52,7 +52,7 @@ def spacing_exponent(truth: flint.arb, fmt: Format = DOUBLE) -> int:
     as that power, which its exact value may be.
     """
     with flint.ctx.workprec(fmt.precision + _GUARD_BITS):
-        mantissa, exponent = truth.abs_upper().man_exp()
+        mantissa, exponent = reference.abs_upper().man_exp()
     if mantissa == 0:
         return fmt.smallest
     leading = int(exponent) + abs(int(mantissa)).bit_length() - 1
@@ -64,20 +64,20 @@ def spacing(x: float, fmt: Format = DOUBLE) -> float:
     return math.ldexp(1.0, spacing_exponent(flint.arb(x), fmt))
 
 
-def overflows(truth: flint.arb, fmt: Format = DOUBLE) -> bool:
+def overflows(reference: flint.arb, fmt: Format = DOUBLE) -> bool:
     """Return whether rounding to nearest turns the exact value into an infinity."""
     threshold = flint.arb(2) ** fmt.limit - flint.arb(2) ** (fmt.limit - fmt.precision - 1)
-    return bool(abs(truth) >= threshold)
+    return bool(abs(reference) >= threshold)
 
 
-def ulp_error(got: float, truth: flint.arb, fmt: Format = DOUBLE) -> float:
+def ulp_error(got: float, reference: flint.arb, fmt: Format = DOUBLE) -> float:
     """Return the distance between a computed number and the exact value, in ULP of the exact value.
 
     Parameters
     ----------
     got
         The computed number; a float32 is passed as the double of the same value.
-    truth
+    reference
         Ball around the exact value. Its radius is part of the error.
     fmt
         The format that defines the unit.
@@ -93,20 +93,20 @@ def ulp_error(got: float, truth: flint.arb, fmt: Format = DOUBLE) -> float:
     ValueError
         If the exact value is not finite.
     """
-    if not truth.is_finite():
-        raise ValueError(f"expected a finite ball as the exact value, got {truth}")
+    if not reference.is_finite():
+        raise ValueError(f"expected a finite ball as the exact value, got {reference}")
     if math.isnan(got):
         return math.inf
     if math.isinf(got):
         # An infinity of the same sign is the correctly rounded overflow.
-        return 0.0 if overflows(truth, fmt) and (got > 0) == bool(truth > 0) else math.inf
-    return upper_float(distance(got, truth) * flint.arb(2) ** -spacing_exponent(truth, fmt))
+        return 0.0 if overflows(reference, fmt) and (got > 0) == bool(reference > 0) else math.inf
+    return upper_float(distance(got, reference) * flint.arb(2) ** -spacing_exponent(reference, fmt))
 
 
-def distance(got: float, truth: flint.arb) -> flint.arb:
-    """Return |got - truth| as a ball whose rounding is far below a unit of either format."""
+def distance(got: float, reference: flint.arb) -> flint.arb:
+    """Return |got - reference| as a ball whose rounding is far below a unit of either format."""
     with flint.ctx.workprec(DOUBLE.precision + _GUARD_BITS):
-        return abs(flint.arb(got) - truth)
+        return abs(flint.arb(got) - reference)
 
 
 def upper_float(ball: flint.arb) -> float:

@@ -23,7 +23,7 @@ number of a longer array, backwards; read-only arrays; integers; single precisio
 
 EXPECTATIONS = ("value", "nan", "zero")
 """What a kernel is to return: the true value, NaN because the point is outside its
-domain, or exactly zero where no ball around the truth can be relatively small."""
+domain, or exactly zero where no ball around the reference value can be relatively small."""
 
 SAID = ("cause", "form", "modes", "expect")
 """Entries in a file that apply to all cases of a table."""

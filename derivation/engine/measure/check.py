@@ -1,11 +1,11 @@
-"""The check: every kernel against its truth on its hard points, one row each."""
+"""The check: every kernel against its reference value on its hard points, one row each."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from derivation.engine.activity import Tell, quiet
+from derivation.engine.activity import Progress, quiet
 from derivation.engine.formula.ulp import DOUBLE, SINGLE, Format, overflows
-from derivation.engine.measure.judge import Errors, Truth, measured
+from derivation.engine.measure.judge import Errors, PointReference, measured
 from derivation.engine.measure.kernels import Kernel, generated_kernels, printed_kernels
 from derivation.engine.measure.point import Point, to_single
 from derivation.engine.measure.suite import Suite
@@ -89,7 +89,7 @@ def check(
     by: Judge,
     digits: int = 50,
     kernels: Sequence[Kernel] | None = None,
-    progress: Tell = quiet,
+    progress: Progress = quiet,
 ) -> tuple[Row, ...]:
     """Measure the errors of functions against reference values.
 
@@ -118,19 +118,19 @@ def check(
         if kernels is None
         else tuple(kernels)
     )
-    known: dict[str, list[Truth]] = {}
+    known: dict[str, list[PointReference]] = {}
     rows = []
     for number, kernel in enumerate(chosen, start=1):
         progress(kernel.name, number, len(chosen))
         points = by.grid(kernel.name, kernel.arguments, kernel.modes)
         if kernel.name not in known:
-            known[kernel.name] = truths(by.routes.balls, kernel.name, points, digits)
+            known[kernel.name] = reference_values(by.routes.balls, kernel.name, points, digits)
         rows.append(_row(by, kernel, points, known[kernel.name], digits))
     return tuple(rows)
 
 
 def _row(
-    by: Judge, kernel: Kernel, points: Sequence[Point], found: Sequence[Truth], digits: int
+    by: Judge, kernel: Kernel, points: Sequence[Point], found: Sequence[PointReference], digits: int
 ) -> Row:
     double = measured(kernel, found, len(points) - len(found))
     if kernel.budget is None:
@@ -141,23 +141,25 @@ def _row(
     return Row(kernel.name, kernel.module, kernel.budget, double, single, oracles, passed)
 
 
-def truths(
+def reference_values(
     balls: Balls, name: str, points: Sequence[Point], digits: int, fmt: Format = DOUBLE
-) -> list[Truth]:
+) -> list[PointReference]:
     """Return the references at the points whose value is within the range of the format."""
     found = ((p, balls.reference(name, p.values, digits, p.modes)) for p in points)
-    return [Truth(point, (true,)) for point, true in found if not overflows(true.value, fmt)]
+    return [
+        PointReference(point, (true,)) for point, true in found if not overflows(true.value, fmt)
+    ]
 
 
 def _single(by: Judge, kernel: Kernel, points: Sequence[Point], digits: int) -> Errors:
     """Return the errors of a function in single precision, at every fourth point in its range."""
     singles = (single for p in points[::EVERY] if (single := to_single(p)) is not None)
     rounded = [single for single in singles if by.inside(single)]
-    found = truths(by.routes.balls, kernel.name, rounded, digits, SINGLE)
+    found = reference_values(by.routes.balls, kernel.name, rounded, digits, SINGLE)
     return measured(kernel, found, len(rounded) - len(found), SINGLE)
 
 
-def confirm(by: Judge, kernel: Kernel, found: Sequence[Truth], digits: int) -> int:
+def confirm(by: Judge, kernel: Kernel, found: Sequence[PointReference], digits: int) -> int:
     """Compare with the second reference method where it is fast; return the number of points.
 
     Raises

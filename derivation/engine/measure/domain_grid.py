@@ -9,7 +9,7 @@ from derivation.engine.measure.point import Point
 from derivation.engine.oracle.agreement import Route, Routes
 from derivation.engine.oracle.oracle import Balls
 from derivation.engine.rewrite.blocks import Definition, built
-from derivation.engine.rewrite.form import Seam
+from derivation.engine.rewrite.form import Switch
 
 
 def domain_judge(
@@ -37,16 +37,16 @@ def domain_judge(
     own = chain.vocabulary
 
     def grid(name: str, arguments: Sequence[str], _: bool) -> tuple[Point, ...]:
-        return tuple(map(Point, domain_grid(name, arguments, own, seams_of(blocks))))
+        return tuple(map(Point, domain_grid(name, arguments, own, switches_of(blocks))))
 
     references = Routes(Balls(own, chain.formulas), routes)
     return Judge(references, grid, package, easy, lambda point: inside(own, point.values))
 
 
-def seams_of(blocks: tuple[Definition, ...]) -> dict[str, tuple[float, ...]]:
+def switches_of(blocks: tuple[Definition, ...]) -> dict[str, tuple[float, ...]]:
     """Where building blocks change branches, by variable."""
     found: dict[str, set[float]] = {}
     for block in built(blocks).values():
-        if isinstance(block.value, Seam):
+        if isinstance(block.value, Switch):
             found.setdefault(str(block.value.variable), set()).add(float(block.value.at))
     return {variable: tuple(sorted(places)) for variable, places in found.items()}

@@ -33,7 +33,7 @@ class HardRow:
     ----------
     case
         The case.
-    truth
+    reference value
         Its reference values.
     error, allowed
         Error of the generated form and its allowance, in ULP, where their ratio is largest.

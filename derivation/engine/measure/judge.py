@@ -90,7 +90,7 @@ def largest(errors: Iterable[Error]) -> Error:
 
 
 @dataclass(frozen=True)
-class Truth:
+class PointReference:
     """A point with the reference value of each result there."""
 
     point: Point
@@ -107,7 +107,7 @@ class Worst:
         Names, hexadecimal floats and their decimal form.
     modes
         Number of modes of a modal sum.
-    got, truth
+    got, reference value
         The computed number in hexadecimal and decimal; the reference value to 20 digits.
     ulp, allowed
         Error and allowance in ULP of the reference value.
@@ -171,7 +171,7 @@ class Errors:
 
 
 def measured(
-    kernel: Kernel, found: Sequence[Truth], excluded: int = 0, fmt: Format = DOUBLE
+    kernel: Kernel, found: Sequence[PointReference], excluded: int = 0, fmt: Format = DOUBLE
 ) -> Errors:
     """Return the errors of a function at the given points.
 
@@ -232,7 +232,7 @@ def _rms(errors: Sequence[float]) -> float:
     return most * math.sqrt(math.fsum((e / most) ** 2 for e in errors) / len(errors))
 
 
-def _worst(truth: Truth, reference: Reference, got: float, error: Error) -> Worst:
+def _worst(truth: PointReference, reference: Reference, got: float, error: Error) -> Worst:
     arguments = truth.point.values.items()
     return Worst(
         tuple((key, value.hex(), repr(value)) for key, value in arguments),

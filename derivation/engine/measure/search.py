@@ -25,7 +25,7 @@ STRIDES = tuple(2**bits for bits in range(46, -1, -2))
 WHOLE_STRIDES = (4096, 256, 32, 8, 3, 2, 1)
 """The same for whole numbers."""
 
-Tell = Callable[[str, int, float], None]
+Progress = Callable[[str, int, float], None]
 """Called at every function's turn with its name, the number of points, and the largest ratio."""
 
 
@@ -112,7 +112,7 @@ def search(
     seed: int,
     seconds: float | None = None,
     evaluations: int | None = None,
-    tell: Tell | None = None,
+    progress: Progress | None = None,
     keep: Callable[[Search], None] | None = None,
 ) -> Search:
     """Search for larger errors until the time or the number of evaluations is used up.
@@ -125,7 +125,7 @@ def search(
         The same seed and number of evaluations give the same worst points.
     seconds, evaluations
         Limits; the search ends at the first one reached. At least one is required.
-    tell
+    progress
         Called at every turn.
     keep
         Called after every round with the search so far.
@@ -147,7 +147,7 @@ def search(
 
     try:
         with np.errstate(all="ignore"):
-            _take_turns(targets, hunts, found, over, tell, keep)
+            _take_turns(targets, hunts, found, over, progress, keep)
     except KeyboardInterrupt:
         found.interrupted = True
     return found
@@ -158,15 +158,15 @@ def _take_turns(
     hunts: Sequence[Iterator[None]],
     found: Search,
     over: Callable[[], bool],
-    tell: Tell | None,
+    progress: Progress | None,
     keep: Callable[[Search], None] | None,
 ) -> None:
     for number in itertools.count():
         for target, steps in zip(targets, hunts, strict=True):
             if (number + 1) % target.every:
                 continue  # so that what takes long waits for the others' first turns
-            if tell is not None:
-                tell(target.name, found.evaluations, found.ratio)
+            if progress is not None:
+                progress(target.name, found.evaluations, found.ratio)
             for _ in range(target.share):
                 if over():
                     return

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import flint
 from flint import arb
 
-from derivation.engine.activity import Tell, quiet
+from derivation.engine.activity import Progress, quiet
 from derivation.engine.files import write_file
 from derivation.engine.formula.ball import to_ball
 from derivation.engine.measure.case import HardCase
@@ -196,7 +196,7 @@ def known_of(data: Mapping[str, Any]) -> dict[str, Known]:
 
 
 def find_references(
-    suite: Suite, recorded: Path, part: Path, tell: Tell = quiet
+    suite: Suite, recorded: Path, part: Path, progress: Progress = quiet
 ) -> dict[str, Known]:
     """Return the references of all cases by key, from the original expressions (takes minutes).
 
@@ -210,7 +210,7 @@ def find_references(
         The present record. References whose sources have not changed are reused.
     part
         File in which references are saved during the run, so that a stopped run can be continued.
-    tell
+    progress
         Called after every case with its function, its number and the number of cases.
     """
     known = _standing(recorded) | _standing(part)
@@ -224,7 +224,7 @@ def find_references(
             if time.monotonic() - saved > SAVED_EVERY:
                 _save(part, found)
                 saved = time.monotonic()
-            tell(case.kernel, number, len(suite.cases))
+            progress(case.kernel, number, len(suite.cases))
     finally:
         _save(part, found)
     return found

@@ -150,7 +150,7 @@ class Balls:
     def reference(
         self, name: str, values: Mapping[str, float], digits: int = 50, modes: int | None = None
     ) -> Reference:
-        """Return value and sensitivities, see `truth`; every slope must be finite too."""
+        """Return value and sensitivities, see `reference value`; every slope must be finite too."""
         return self._refined(name, values, digits, modes, slopes=True)
 
     def stated(self, name: str) -> tuple[Record, sp.Expr]:

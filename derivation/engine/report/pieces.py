@@ -180,10 +180,10 @@ def as_printed(left: str, right: str) -> str:
 
 def accuracy_tables(check: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
     """The generated functions, and for contrast the formulas as published."""
-    promised = [row for row in check["rows"] if row["passed"] is not None]
+    stated_limits = [row for row in check["rows"] if row["passed"] is not None]
     printed = [row for row in check["rows"] if row["passed"] is None]
     for subject, rows in (
-        ("Errors of the generated functions", promised),
+        ("Errors of the generated functions", stated_limits),
         ("Errors of the formulas evaluated as published, at the same points", printed),
     ):
         yield {"caption": f"{subject} {COLUMNS}", "rows": [accuracy_row(row) for row in rows]}

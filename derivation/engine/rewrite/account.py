@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from derivation.engine.activity import Tell, quiet
+from derivation.engine.activity import Progress, quiet
 from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.automatic import dimensionless
 from derivation.engine.rewrite.scales import Scales
@@ -39,7 +39,7 @@ def accounts(
     formulas: Mapping[str, Record],
     names: Sequence[str],
     scales: Scales,
-    tell: Tell = quiet,
+    progress: Progress = quiet,
 ) -> tuple[Account, ...]:
     """Yield the result for every named formula whose form the rules find.
 
@@ -51,12 +51,12 @@ def accounts(
         Those to be rewritten, in order.
     scales
         The dimensionless variables.
-    tell
+    progress
         Called with each formula's name before it is rewritten.
     """
     found = []
     for number, name in enumerate(names, start=1):
-        tell(name, number, len(names))
+        progress(name, number, len(names))
         reduced = dimensionless(formulas[name].expression, scales)
         scale = reduced.scale
         stable = stabilise(reduced.expression, scale.variable, ENDS)

@@ -12,7 +12,7 @@ from derivation.engine.formula.ball import Exact, PrecisionError, evaluate, to_b
 from derivation.engine.formula.operations import FUNCTIONS
 from derivation.engine.formula.ulp import neighbours, overflows, ulp_error
 from derivation.engine.rewrite.doubles import run
-from derivation.engine.rewrite.form import Seam, Step
+from derivation.engine.rewrite.form import Step, Switch
 from derivation.engine.rewrite.shape import Shape, assembled
 from derivation.engine.rewrite.terms import UnreachableError
 
@@ -74,7 +74,7 @@ class AccuracyTest:
     def worst(self, form: sp.Expr | Shape) -> float:
         """Return the largest error in ULP in addition to conditioning; infinite for no value."""
         steps, value = assembled(form) if isinstance(form, Shape) else ((), form)
-        if not (isinstance(value, Seam) and self.lead):
+        if not (isinstance(value, Switch) and self.lead):
             return max(self._error(point, steps, value) for point in self.exact)
         at, kept = float(value.at), float(value.at**self.lead)
         below = (self._error(t, steps, value) for t in self.exact if t.x < at)
@@ -82,7 +82,11 @@ class AccuracyTest:
         return max(*below, *above)
 
     def _error(
-        self, point: ExactPoint, steps: tuple[Step, ...], value: sp.Expr | Seam, scale: float = 1.0
+        self,
+        point: ExactPoint,
+        steps: tuple[Step, ...],
+        value: sp.Expr | Switch,
+        scale: float = 1.0,
     ) -> float:
         try:
             got = run(steps, value, {self.x: point.x, **dict(self.others)}) * scale
@@ -116,8 +120,11 @@ def points(low: float, high: float, seed: str) -> tuple[float, ...]:
     near, far = max(first, -4.0), min(last, 1.7)
     found |= {10 ** generator.uniform(near, far) for _ in range(90)}
     found |= {x for x in LARGE if low <= x <= high}
-    for seam in (0.25, 0.5, 1.0, 2.0, 4.0):
-        found |= {*neighbours(seam, 1), *(seam * generator.uniform(1.0, 1.25) for _ in range(12))}
+    for switch in (0.25, 0.5, 1.0, 2.0, 4.0):
+        found |= {
+            *neighbours(switch, 1),
+            *(switch * generator.uniform(1.0, 1.25) for _ in range(12)),
+        }
     return tuple(sorted(x for x in found if low <= x <= high))
 
 

@@ -12,7 +12,7 @@ import sympy as sp
 
 from derivation.engine.cache import cached
 from derivation.engine.formula.proof import prove
-from derivation.engine.rewrite.form import Block, Branch, Seam, Step, branches, undo
+from derivation.engine.rewrite.form import Block, Branch, Step, Switch, branches, undo
 from derivation.engine.rewrite.shape import decay
 from derivation.engine.rewrite.stabilise import Stable, stabilise
 
@@ -71,7 +71,7 @@ def built(definitions: tuple[Definition, ...]) -> dict[str, Block]:
         If the rules do not find a form of a block.
     """
     key = hashlib.sha256(repr(definitions).encode()).hexdigest()[:8]
-    kinds = (Block, Step, Branch, Seam)
+    kinds = (Block, Step, Branch, Switch)
     rooms = ("engine/cache.py", "engine/formula", "engine/rewrite")
     return cached(f"blocks-{key}", rooms, lambda: _built(definitions), *kinds)
 
@@ -80,7 +80,7 @@ def _built(definitions: tuple[Definition, ...]) -> dict[str, Block]:
     found = {row.name: _block(*row) for row in definitions}
     for block in found.values():
         _, side = branches(block.value)[-1]
-        over = block.value.at**block.held if isinstance(block.value, Seam) else 1
+        over = block.value.at**block.held if isinstance(block.value, Switch) else 1
         direct = undo(side.value, (*block.steps, *side.steps), found)
         prove(
             f"Direct form of {block.name}",
@@ -94,11 +94,11 @@ def _block(
     name: str, variable: sp.Symbol, total: sp.Expr, lead: int, held: int, reads: str
 ) -> Block:
     stable = stabilise(total / variable**lead, variable, ENDS, held)
-    if isinstance(stable.value, Seam):
+    if isinstance(stable.value, Switch):
         above = _decay_once(stable.value.above)
         stable = replace(stable, value=replace(stable.value, above=above))
     summary = f"{reads}."
-    if isinstance(stable.value, Seam):
+    if isinstance(stable.value, Switch):
         start = (total / variable**lead).series(variable, 0, 1).removeO()
         summary = (
             f"{reads} over min({variable}, {stable.value.at})^{held}, {start} at {variable} = 0."
@@ -134,10 +134,10 @@ def _decay_once(branch: Branch) -> Branch:
 
 def _truncation(stable: Stable) -> str:
     """Return the truncation error in words; empty if there is no series."""
-    if not isinstance(stable.value, Seam):
+    if not isinstance(stable.value, Switch):
         return ""
-    seam = stable.value
+    switch = stable.value
     return (
         f"series truncated at a relative error of {float(stable.truncation):.1e} "
-        f"for {seam.variable} < {seam.at}"
+        f"for {switch.variable} < {switch.at}"
     )

@@ -12,7 +12,7 @@ import flint
 import sympy as sp
 
 from derivation.engine.formula.operations import FUNCTIONS
-from derivation.engine.rewrite.form import CLOSELY, TIMES, Block, Branch, Seam, Step
+from derivation.engine.rewrite.form import CLOSELY, TIMES, Block, Branch, Step, Switch
 from derivation.engine.rewrite.series import POLYNOMIAL
 
 _BITS = 160
@@ -127,7 +127,7 @@ def _function(function: Callable[[flint.arb], flint.arb], argument: float) -> fl
 
 def run(
     steps: tuple[Step, ...],
-    value: sp.Expr | Seam,
+    value: sp.Expr | Switch,
     values: Values,
     blocks: Blocks = NO_BLOCKS,
 ) -> float:
@@ -135,7 +135,7 @@ def run(
     known = dict(values)
     for step in steps:
         known[step.symbol] = rounded(step.expression, known, blocks)
-    if not isinstance(value, Seam):
+    if not isinstance(value, Switch):
         return rounded(value, known, blocks)
     below = known[value.variable] < float(value.at)
     branch: Branch = value.below if below else value.above

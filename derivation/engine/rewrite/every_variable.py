@@ -12,7 +12,7 @@ from derivation.engine.formula.grid import domain_grid
 from derivation.engine.formula.record import Record
 from derivation.engine.formula.ulp import overflows, ulp_error
 from derivation.engine.rewrite.doubles import run
-from derivation.engine.rewrite.form import Block, Seam, Step
+from derivation.engine.rewrite.form import Block, Step, Switch
 from derivation.engine.rewrite.stabilise import ENOUGH
 from derivation.engine.rewrite.terms import UnreachableError
 
@@ -34,8 +34,8 @@ class LargestError(NamedTuple):
 
 
 def accurate(
-    formula: Record, steps: tuple[Step, ...], value: sp.Expr | Seam, blocks: Mapping[str, Block]
-) -> tuple[tuple[Step, ...], sp.Expr | Seam]:
+    formula: Record, steps: tuple[Step, ...], value: sp.Expr | Switch, blocks: Mapping[str, Block]
+) -> tuple[tuple[Step, ...], sp.Expr | Switch]:
     """Return a form that is accurate in every variable of its formula.
 
     Parameters
@@ -63,7 +63,7 @@ def accurate(
 
 
 def measured(
-    formula: Record, steps: tuple[Step, ...], value: sp.Expr | Seam, blocks: Mapping[str, Block]
+    formula: Record, steps: tuple[Step, ...], value: sp.Expr | Switch, blocks: Mapping[str, Block]
 ) -> LargestError:
     """Return the largest error of a form at difficult points of every variable.
 
@@ -75,13 +75,13 @@ def measured(
     own = [argument.name for argument in formula.arguments]
     symbols = {argument.name: argument.symbol for argument in formula.arguments}
     found = []
-    for point in domain_grid(formula.name, own, formula.vocabulary, _seams(value)):
+    for point in domain_grid(formula.name, own, formula.vocabulary, _switches(value)):
         if all(x == 0 or abs(x) >= SMALLEST for x in point.values()):
             at = {symbols[name]: x for name, x in point.items()}
-            truth = _truth(formula.expression, at)
-            if truth is not None:
+            reference = _reference(formula.expression, at)
+            if reference is not None:
                 got = _computed(steps, value, at, blocks)
-                found.append((_beyond(formula.expression, truth, got, at), point))
+                found.append((_beyond(formula.expression, reference, got, at), point))
     if len(found) < ENOUGH_POINTS:
         raise UnreachableError(
             f"{formula.name} has values at {len(found)} test points, expected {ENOUGH_POINTS}"
@@ -90,11 +90,11 @@ def measured(
     return LargestError(error, at_worst, len(found))
 
 
-def _seams(value: sp.Expr | Seam) -> dict[str, tuple[float, ...]]:
-    return {str(value.variable): (float(value.at),)} if isinstance(value, Seam) else {}
+def _switches(value: sp.Expr | Switch) -> dict[str, tuple[float, ...]]:
+    return {str(value.variable): (float(value.at),)} if isinstance(value, Switch) else {}
 
 
-def _truth(expression: sp.Expr, at: Mapping[sp.Symbol, float]) -> flint.arb | None:
+def _reference(expression: sp.Expr, at: Mapping[sp.Symbol, float]) -> flint.arb | None:
     """Return the value; None where it has no ball, or is too small for all digits of a double."""
     try:
         value = evaluate(expression, at, DIGITS)
@@ -105,7 +105,7 @@ def _truth(expression: sp.Expr, at: Mapping[sp.Symbol, float]) -> flint.arb | No
 
 def _computed(
     steps: tuple[Step, ...],
-    value: sp.Expr | Seam,
+    value: sp.Expr | Switch,
     at: Mapping[sp.Symbol, float],
     blocks: Mapping[str, Block],
 ) -> float:
@@ -116,10 +116,10 @@ def _computed(
 
 
 def _beyond(
-    expression: sp.Expr, truth: flint.arb, got: float, at: Mapping[sp.Symbol, float]
+    expression: sp.Expr, reference: flint.arb, got: float, at: Mapping[sp.Symbol, float]
 ) -> float:
     """Return the error [ULP], reduced by half the condition numbers where it is large."""
-    error = ulp_error(got, truth)
+    error = ulp_error(got, reference)
     if not ENOUGH / 2 < error < math.inf:
         return error
     for symbol, x in at.items():
@@ -128,5 +128,5 @@ def _beyond(
         except (PrecisionError, NotImplementedError):
             continue  # then no conditioning is taken into account
         with flint.ctx.workprec(64):
-            error -= float(abs(slope * to_ball(x) / truth).abs_upper()) / 2
+            error -= float(abs(slope * to_ball(x) / reference).abs_upper()) / 2
     return max(error, 0.0)

@@ -67,7 +67,7 @@ class Branch:
 
 
 @dataclass(frozen=True)
-class Seam:
+class Switch:
     """A switch point: `variable` below `at` selects the first branch, otherwise the second."""
 
     variable: sp.Symbol
@@ -95,7 +95,7 @@ class Form:
     name: str
     module: str
     steps: tuple[Step, ...]
-    value: sp.Expr | Seam
+    value: sp.Expr | Switch
     proof: Proof
 
 
@@ -132,7 +132,7 @@ class Block:
     domain: tuple[str, ...]
     summary: str
     steps: tuple[Step, ...]
-    value: sp.Expr | Seam
+    value: sp.Expr | Switch
     truncation: str = ""
 
     def __call__(self, argument: sp.Expr) -> sp.Expr:
@@ -141,7 +141,7 @@ class Block:
 
     def near(self, argument: sp.Expr) -> sp.Expr:
         """Return the argument, at most the switch point."""
-        return sp.Min(argument, self.value.at) if isinstance(self.value, Seam) else sp.Integer(1)
+        return sp.Min(argument, self.value.at) if isinstance(self.value, Switch) else sp.Integer(1)
 
     def definition(self, argument: sp.Expr) -> sp.Expr:
         """Return the exact definition of the block."""
@@ -196,7 +196,7 @@ def form(
     module: str,
     formula: sp.Expr,
     steps: tuple[Step, ...],
-    value: sp.Expr | Seam,
+    value: sp.Expr | Switch,
     blocks: Mapping[str, Block],
 ) -> Form:
     """Build a stable form, proving each of its branches equal to `formula`.
@@ -217,9 +217,9 @@ def form(
     return Form(name, module, steps, value, proof)
 
 
-def branches(value: sp.Expr | Seam) -> list[tuple[str, Branch]]:
+def branches(value: sp.Expr | Switch) -> list[tuple[str, Branch]]:
     """Yield the branches of a result, labelled by their side of the switch point."""
-    if isinstance(value, Seam):
+    if isinstance(value, Switch):
         return [
             (f"{value.variable} < {value.at}", value.below),
             (f"{value.variable} >= {value.at}", value.above),

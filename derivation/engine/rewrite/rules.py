@@ -27,7 +27,7 @@ from derivation.engine.rewrite.terms import (
 
 Rewritten: TypeAlias = sp.Expr | Shape
 
-SEAMS = tuple(sp.Rational(n, 4) for n in (1, 2, 4, 8, 16))
+SWITCHES = tuple(sp.Rational(n, 4) for n in (1, 2, 4, 8, 16))
 """Possible switch points of a truncated series; the first with sufficient accuracy is used. They
 are powers of two, so that a power of x can be constant there without rounding."""
 
@@ -62,11 +62,11 @@ def conjugate(_: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
         signs = [part.could_extract_minus_sign() for part in node.args]
         return sum(signs) == 1 and any(_is_root(part) for part in node.args)
 
-    def mended(node: sp.Expr) -> sp.Expr:
+    def corrected(node: sp.Expr) -> sp.Expr:
         p, q = sorted(node.args, key=lambda part: part.could_extract_minus_sign())
         return sp.expand(p**2 - q**2) / (p - q)
 
-    found = given.replace(is_difference, mended)
+    found = given.replace(is_difference, corrected)
     if found != given:
         yield found
 
@@ -222,18 +222,18 @@ def balance(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
 
 def section(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
     """Replace sums that cancel at 0, below a switch point, by series times a power of x."""
-    if not isinstance(given, Shape) or given.seam is not None:
+    if not isinstance(given, Shape) or given.switch is not None:
         return
-    for seam in SEAMS:
+    for switch in SWITCHES:
         try:
             yield replace(
-                given, seam=seam, factors=tuple(_sectioned(f, x, seam) for f in given.factors)
+                given, switch=switch, factors=tuple(_sectioned(f, x, switch) for f in given.factors)
             )
         except UnreachableError:
             continue
 
 
-def _sectioned(factor: Factor, x: sp.Symbol, seam: sp.Rational) -> Factor:
+def _sectioned(factor: Factor, x: sp.Symbol, switch: sp.Rational) -> Factor:
     """Return the factor's leading power, and its truncated series if its parts cancel in it."""
     terms = terms_of(factor.value, x)
     lead = leading_power(terms)
@@ -242,17 +242,17 @@ def _sectioned(factor: Factor, x: sp.Symbol, seam: sp.Rational) -> Factor:
     # About the middle of its rates a sum of hyperbolic functions is even or odd.
     rates = [key.rate for key in terms]
     shift = (max(rates) + min(rates)) / 2
-    found = taylor_section({k._replace(rate=k.rate - shift): v for k, v in terms.items()}, seam)
+    found = taylor_section({k._replace(rate=k.rate - shift): v for k, v in terms.items()}, switch)
     near = found.polynomial(square if found.stride == 2 else x)
     return replace(factor, near=near, lead=lead, rate=shift, truncation=found.bound)
 
 
 def share(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
     """Compute e^(-x) once for both sides of a switch point, and e^(-2x) as its square."""
-    if isinstance(given, Shape) and given.seam is not None:
-        _, seam = assembled(given)
+    if isinstance(given, Shape) and given.switch is not None:
+        _, switch = assembled(given)
         sides = [
-            sp.Add(*(s.expression for s in b.steps), b.value) for b in (seam.below, seam.above)
+            sp.Add(*(s.expression for s in b.steps), b.value) for b in (switch.below, switch.above)
         ]
         if all(side.has(sp.exp(-x)) for side in sides):
             yield replace(given, shared=True)

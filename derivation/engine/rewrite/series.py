@@ -48,7 +48,7 @@ def leading_power(terms: Terms) -> int:
     raise UnreachableError("the sum vanishes at 0 with all its derivatives")
 
 
-def taylor_section(terms: Terms, seam: sp.Rational) -> Section:
+def taylor_section(terms: Terms, switch: sp.Rational) -> Section:
     """Return the truncated series of a sum about 0, with an error below a quarter of a rounding.
 
     The truncation error is bounded by Taylor's theorem term by term. The sum itself is at least its
@@ -66,11 +66,11 @@ def taylor_section(terms: Terms, seam: sp.Rational) -> Section:
     found = found[lead:]
     stride = 1 if any(found[1::2]) else 2
     found = found[::stride]
-    sizes = [abs(c) * seam ** (stride * k) for k, c in enumerate(found)]
+    sizes = [abs(c) * switch ** (stride * k) for k, c in enumerate(found)]
     for degree in range(2, len(found)):
-        rest = left_out(terms, lead + stride * degree, seam) / seam**lead
+        rest = left_out(terms, lead + stride * degree, switch) / switch**lead
         same = all(c * found[0] >= 0 for c in found[:degree])
         lowest = sizes[0] - (0 if same else sp.Add(*sizes[1:degree])) - rest
         if lowest > 0 and rest / lowest < UNIT_ROUNDOFF / 4:
             return Section(lead, stride, tuple(found[:degree]), rest / lowest)
-    raise UnreachableError(f"no section of at most {len(found)} terms reaches {seam}")
+    raise UnreachableError(f"no section of at most {len(found)} terms reaches {switch}")

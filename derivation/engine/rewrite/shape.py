@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import sympy as sp
 
-from derivation.engine.rewrite.form import Branch, Seam, Step
+from derivation.engine.rewrite.form import Branch, Step, Switch
 
 square, decay = sp.symbols("square decay", positive=True)
 ZERO = sp.Integer(0)
@@ -51,7 +51,7 @@ class Shape:
         Exponents of x and of the exponential.
     factors
         Sums in x and their exponents.
-    seam
+    switch
         Switch point below which the factors' series are used.
     shared
         Whether exponentials are computed once for both sides of the switch point, and squared.
@@ -64,7 +64,7 @@ class Shape:
     power: int
     rate: sp.Rational
     factors: tuple[Factor, ...]
-    seam: sp.Rational | None = None
+    switch: sp.Rational | None = None
     shared: bool = False
     lead: int = 0
 
@@ -73,23 +73,23 @@ class Shape:
         return replace(self, factors=tuple(factors))
 
 
-def assembled(shape: Shape) -> tuple[tuple[Step, ...], sp.Expr | Seam]:
+def assembled(shape: Shape) -> tuple[tuple[Step, ...], sp.Expr | Switch]:
     """Return steps and value of a shape; the value has a switch point if there are series."""
     x = shape.x
     beyond = [(f.far, f.top, 0) for f in shape.factors]
-    if shape.seam is None:
+    if shape.switch is None:
         high = _side(shape, shape.power, shape.rate, beyond)
         return high.steps, high.value
-    held = replace(shape, front=shape.front / shape.seam**shape.lead)
+    held = replace(shape, front=shape.front / shape.switch**shape.lead)
     high = _side(held, shape.power + shape.lead, shape.rate, beyond)
     sides = [
         (f.value / x**f.lead if f.near is None else f.near, f.lead, f.rate) for f in shape.factors
     ]
     low = _side(shape, shape.power, shape.rate, sides)
     if not shape.shared:
-        return (), Seam(x, shape.seam, low, high)
+        return (), Switch(x, shape.switch, low, high)
     low, high = (_with_decay(side, x) for side in (low, high))
-    return (Step(decay, sp.exp(-x)),), Seam(x, shape.seam, low, high)
+    return (Step(decay, sp.exp(-x)),), Switch(x, shape.switch, low, high)
 
 
 def _with_decay(side: Branch, x: sp.Symbol) -> Branch:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from derivation.engine.rewrite.accuracy_test import AccuracyTest, accuracy_test, with_whole
-from derivation.engine.rewrite.form import Branch, Seam, Step
+from derivation.engine.rewrite.form import Branch, Step, Switch
 from derivation.engine.rewrite.rules import RULES, SHARE, Rewritten, Rule
 from derivation.engine.rewrite.shape import Shape, assembled
 from derivation.engine.rewrite.terms import UnreachableError, terms_of
@@ -61,7 +61,7 @@ class Stable:
     expression: sp.Expr
     variable: sp.Symbol
     steps: tuple[Step, ...]
-    value: sp.Expr | Seam
+    value: sp.Expr | Switch
     applied: tuple[Applied, ...]
     worst: float
     truncation: sp.Rational
@@ -150,7 +150,7 @@ def _through(
 
 
 def _held(form: Rewritten, lead: int) -> Rewritten:
-    return replace(form, lead=lead) if isinstance(form, Shape) and form.seam else form
+    return replace(form, lead=lead) if isinstance(form, Shape) and form.switch else form
 
 
 def _account(
@@ -171,7 +171,7 @@ def decayed(expression: sp.Expr, x: sp.Symbol) -> sp.Expr:
         form = next(rule.apply(x, form), form)
     assert isinstance(form, Shape)  # as `decay` returns for every expression
     _, value = assembled(form)
-    assert isinstance(value, sp.Expr)  # seams come later
+    assert isinstance(value, sp.Expr)  # switch points come later
     return value
 
 
@@ -183,7 +183,7 @@ def operations(form: Rewritten) -> int:
 def _operations(form: Rewritten) -> list[int]:
     """Return the number of operations of every branch."""
     steps, value = assembled(form) if isinstance(form, Shape) else ((), form)
-    sides = (value.below, value.above) if isinstance(value, Seam) else (Branch((), value),)
+    sides = (value.below, value.above) if isinstance(value, Switch) else (Branch((), value),)
     return [
         int(sum(sp.count_ops(step.expression) for step in (*steps, *side.steps)))
         + int(sp.count_ops(side.value))

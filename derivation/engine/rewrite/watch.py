@@ -9,7 +9,7 @@ import sympy as sp
 
 from derivation.engine.formula.ball import enclose
 from derivation.engine.formula.ulp import from_ordinal, ordinal
-from derivation.engine.rewrite.form import Branch, Seam
+from derivation.engine.rewrite.form import Branch, Switch
 from derivation.engine.rewrite.series import POLYNOMIAL
 from derivation.engine.rewrite.stabilise import Stable
 
@@ -64,7 +64,7 @@ def derivative(expression: sp.Expr, x: sp.Symbol) -> sp.Expr:
 def _written_out(stable: Stable) -> Iterator[sp.Expr]:
     """Return the values of the form's branches in the variable alone, without polynomials."""
     value = stable.value
-    sides = (value.below, value.above) if isinstance(value, Seam) else (Branch((), value),)
+    sides = (value.below, value.above) if isinstance(value, Switch) else (Branch((), value),)
     for side in sides:
         steps = (*stable.steps, *side.steps)
         for place, expression in enumerate((*(s.expression for s in steps), side.value)):
@@ -92,7 +92,7 @@ def hard_places(stable: Stable, low: float, high: float) -> list[float]:
     """
     x, watched, points = stable.variable, parts(stable), grid(low, high)
     found: set[float] = set()
-    if isinstance(stable.value, Seam):
+    if isinstance(stable.value, Switch):
         found.add(float(stable.value.at))
     with flint.ctx.workprec(BITS):
         rows = [_marks(watched, x, point) for point in points]

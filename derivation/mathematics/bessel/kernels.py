@@ -64,15 +64,15 @@ class TaylorTable:
     ----------
     high, low
         Centres, each the sum of two doubles.
-    seams
-        Ends of the intervals, 0 first; interval i is [seams[i], seams[i + 1]).
+    switches
+        Ends of the intervals, 0 first; interval i is [switch points[i], switch points[i + 1]).
     rows
         For J0 and J1: the coefficients about each centre, constant term first.
     """
 
     high: tuple[float, ...]
     low: tuple[float, ...]
-    seams: tuple[float, ...]
+    switches: tuple[float, ...]
     rows: tuple[tuple[tuple[float, ...], ...], tuple[tuple[float, ...], ...]]
 
 
@@ -204,16 +204,16 @@ def taylor_table() -> TaylorTable:
         stop = asymptotic_start()
         points = centres()
         middles = [_on_grid((a + b) / 2) for a, b in pairwise(points)]
-        seams = (Fraction(0), *(seam for seam in middles if seam < stop), stop)
-        points = points[: len(seams) - 1]
-        length = _terms_needed(points, seams)
+        switches = (Fraction(0), *(switch for switch in middles if switch < stop), stop)
+        points = points[: len(switches) - 1]
+        length = _terms_needed(points, switches)
         series = [_taylor_of_j0(point, length + 1) for point in points]
         slopes = [[-(n + 1) * a for n, a in enumerate(row[1:])] for row in series]
         high = tuple(float(point.mid()) for point in points)
         return TaylorTable(
             high,
             tuple(nearest_double(point - near) for point, near in zip(points, high, strict=True)),
-            tuple(float(seam) for seam in seams),
+            tuple(float(switch) for switch in switches),
             (_rounded(row[:length] for row in series), _rounded(slopes)),
         )
 
@@ -222,7 +222,7 @@ def _rounded(rows: Iterable[Iterable[flint.arb]]) -> tuple[tuple[float, ...], ..
     return tuple(tuple(nearest_double(a) for a in row) for row in rows)
 
 
-def _terms_needed(points: tuple[flint.arb, ...], seams: tuple[Fraction, ...]) -> int:
+def _terms_needed(points: tuple[flint.arb, ...], switches: tuple[Fraction, ...]) -> int:
     """Return the number of Taylor terms that suffices on every interval, for J0 and J1.
 
     The remainder t^n/n! max |J0^(n)| (J0^(n+1) for J1) is compared with the value at both ends.
@@ -231,7 +231,7 @@ def _terms_needed(points: tuple[flint.arb, ...], seams: tuple[Fraction, ...]) ->
     """
     ends = [
         (to_ball(end) - point, to_ball(end))
-        for point, left, right in zip(points, seams, seams[1:], strict=False)
+        for point, left, right in zip(points, switches, switches[1:], strict=False)
         for end in (left, right)
         if end > 0
     ]
@@ -266,9 +266,9 @@ def _taylor_of_j0(point: flint.arb, length: int) -> list[flint.arb]:
     return row[2:]
 
 
-def seams() -> tuple[float, ...]:
+def switches() -> tuple[float, ...]:
     """Return arguments where J0 and J1 change their method or centre, ascending."""
-    return (*taylor_table().seams, LARGEST_PHASE)
+    return (*taylor_table().switches, LARGEST_PHASE)
 
 
 @cache
@@ -321,7 +321,9 @@ def bessel_numbers() -> Numbers:
     both = (0, 1)
     constants = (
         *_multiples_of_pi(),
-        Constant("ASYMPTOTIC_START", table.seams[-1], "x above which modulus and phase are used."),
+        Constant(
+            "ASYMPTOTIC_START", table.switches[-1], "x above which modulus and phase are used."
+        ),
         Constant("LARGEST_PHASE", LARGEST_PHASE, "x up to which n in n pi/4 is an exact double."),
         Constant(
             "MODULUS",
@@ -356,7 +358,9 @@ def bessel_numbers() -> Numbers:
         Constant("LOW_ZEROS", tuple(low_zeros(n) for n in both), "The zeros before these indices."),
         Constant("LOW_SLOPES", low_slopes(), "J1 at those zeros of J0."),
         Constant("CELLS", CELLS, "Every interval ends at a multiple of 1/CELLS."),
-        Constant("SEAMS", table.seams[:-1], "Starts of the intervals of the Taylor polynomials."),
+        Constant(
+            "SWITCHES", table.switches[:-1], "Starts of the intervals of the Taylor polynomials."
+        ),
         Constant("CENTRE_HIGH", table.high, "Their centres, rounded to doubles."),
         Constant("CENTRE_LOW", table.low, "Differences of the centres and these doubles."),
         Constant("TAYLOR", table.rows, "Coefficients about each centre, constant term first."),

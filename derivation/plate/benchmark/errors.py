@@ -98,7 +98,7 @@ def split(method: Method, problem: Problem, values: Sequence[Any]) -> BenchmarkE
     """Return total, truncation and rounding; as errors, total <= truncation + rounding."""
     most, truncation, unsplit, same = problem.digits, None, None, None
     with flint.ctx.workprec(math.ceil(most * LOG2_10) + 128):
-        total = [digits(v, t, most) for v, t in zip(values, problem.truths, strict=True)]
+        total = [digits(v, t, most) for v, t in zip(values, problem.reference_values, strict=True)]
         rounding = min(total) if method.split == "all" else None
         if method.split != "all" and min(total) > -math.inf:
             try:
@@ -106,7 +106,7 @@ def split(method: Method, problem: Problem, values: Sequence[Any]) -> BenchmarkE
             except (NotImplementedError, PrecisionError) as reason:
                 unsplit = str(reason)
         if same is not None:
-            truncation = min(map(digits, same, problem.truths, [most] * len(same)))
+            truncation = min(map(digits, same, problem.reference_values, [most] * len(same)))
             rounding = min(map(digits, values, same, [most] * len(same)))
     place = int(np.argmin(total))
     remark = ESTIMATE if method.split == "units" and same is not None else None

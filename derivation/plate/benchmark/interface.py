@@ -96,7 +96,8 @@ Split = Literal["wide", "long", "units", "all", "ball"]
 
 `wide` and `long`: by the same method in 60 digits or more, or in long doubles. `units`: by the
 spread of its results in other units of length and time. `all`: the method truncates nothing, or
-less than the precision of its arithmetic. `ball`: results are balls that enclose the truth.
+less than the precision of its arithmetic. `ball`: results are balls that enclose the reference
+value.
 """
 
 

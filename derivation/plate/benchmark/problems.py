@@ -36,7 +36,7 @@ class Problem:
 
     Attributes
     ----------
-    points, truths, digits
+    points, reference_values, digits
         Arguments, the results there as balls, and how many digits of these are sure.
     sample
         Arguments of the same kind, to time.
@@ -45,7 +45,7 @@ class Problem:
     task: Task
     regime: Regime
     points: Doubles
-    truths: tuple[arb, ...]
+    reference_values: tuple[arb, ...]
     digits: int
     sample: Doubles
 
@@ -72,13 +72,13 @@ def _law(regime: Regime, quick: bool) -> Problem:
     digits = QUICK_DIGITS if quick else MANY_DIGITS if regime is PAPER else LAW_DIGITS
     radii = _spread(low, high, 10 if quick else 18, SEED)
     if digits == MANY_DIGITS:
-        truths = _many_digits(radii, regime)
+        reference_values = _many_digits(radii, regime)
     else:
-        truths = tuple(
+        reference_values = tuple(
             contact_balls.indentation(float(a), regime.R, regime.h, regime.b, digits) for a in radii
         )
     return Problem(
-        "law", regime, radii, truths, digits, _spread(low, high, ARRAY - 2, SEED + 1)
+        "law", regime, radii, reference_values, digits, _spread(low, high, ARRAY - 2, SEED + 1)
     )  # fmt: skip
 
 
@@ -98,9 +98,9 @@ def _inversion(regime: Regime, quick: bool) -> Problem:
     R, h, b = regime.R, regime.h, regime.b
     depths = np.array([float(contact_balls.indentation(float(a), R, h, b, 20)) for a in radii])
     with flint.ctx.workprec(math.ceil(2 * INVERSION_DIGITS * LOG2_10)):
-        truths = tuple(_force(float(d), regime) for d in depths)
+        reference_values = tuple(_force(float(d), regime) for d in depths)
     sample = indentation(_spread(top / SPAN, 0.999 * top, ARRAY - 2, SEED + 1), R, h, b)
-    return Problem("inversion", regime, depths, truths, INVERSION_DIGITS, sample)
+    return Problem("inversion", regime, depths, reference_values, INVERSION_DIGITS, sample)
 
 
 def _force(delta: float, regime: Regime) -> arb:
@@ -113,9 +113,9 @@ def _impact(regime: Regime, quick: bool) -> Problem:
     shares = (1.0,) if quick else (0.7, 0.85, 1.0)
     speeds = np.array([share * regime.speed for share in shares])
     r = regime
-    truths = tuple(
+    reference_values = tuple(
         contact_impact.impact(r.R, r.m, float(v), r.h, r.b, r.lam, r.mu, IMPACT_DIGITS).contact_time
         for v in speeds
     )
     sample = _spread(0.7 * r.speed, r.speed, ARRAY - 2, SEED + 1)
-    return Problem("impact", regime, speeds, truths, IMPACT_DIGITS, sample)
+    return Problem("impact", regime, speeds, reference_values, IMPACT_DIGITS, sample)

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
-from derivation.engine.activity import Tell, quiet
+from derivation.engine.activity import Progress, quiet
 from derivation.engine.measure.clock import CONTENDED, FULL, QUICK, SEED, Session
 from derivation.engine.measure.record import provenance
 from derivation.engine.outputs import plain
@@ -53,7 +53,7 @@ def regimes(scene: Regime | None) -> tuple[Regime, ...]:
 
 def measure(
     names: Sequence[str] = (), quick: bool = False, scene: Regime | None = None,
-    tell: Tell = quiet,
+    progress: Progress = quiet,
 ) -> dict[str, Any]:  # fmt: skip
     """Measure everything, or the methods named; seconds when quick, else minutes.
 
@@ -64,7 +64,7 @@ def measure(
     """
     chosen, places = methods(names, quick), regimes(scene)
     studies = scaling.studies(quick)
-    told = _Told(tell, len(TASKS) * len(places) + len(studies) + 2)
+    told = _Progress(progress, len(TASKS) * len(places) + len(studies) + 2)
     effort = QUICK if quick else FULL
     before = os.getloadavg()[0]
     rows: list[BenchmarkRow] = []
@@ -112,12 +112,12 @@ def _session(session: Session) -> dict[str, Any]:
     }  # fmt: skip
 
 
-class _Told:
+class _Progress:
     """Counts the parts of the work and tells whoever wants to know."""
 
-    def __init__(self, tell: Tell, total: int) -> None:
-        self.tell, self.total, self.number = tell, total, 0
+    def __init__(self, progress: Progress, total: int) -> None:
+        self.progress, self.total, self.number = progress, total, 0
 
     def __call__(self, part: str) -> None:
         self.number += 1
-        self.tell(part, self.number, self.total)
+        self.progress(part, self.number, self.total)

@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from derivation.engine.activity import Tell, quiet
+from derivation.engine.activity import Progress, quiet
 from derivation.plate.modes.naive import FIELDS, naive_field
 from generated import (
     G,
@@ -225,7 +225,7 @@ def hertz_alone(scene: Path, limit: float) -> SpeedTiming:
 def measure(
     examples: Sequence[Path],
     solved: Collection[Path] = (),
-    tell: Tell = quiet,
+    progress: Progress = quiet,
     further: Sequence[tuple[str, Callable[[], SpeedTiming]]] = (),
 ) -> list[SpeedTiming]:
     """Every comparison, one after the other.
@@ -236,7 +236,7 @@ def measure(
         The scene files of the cold starts, one of them `block.toml`, where Hertz is enough.
     solved
         Those among them for which the pressure is solved for.
-    tell
+    progress
         Called before each with its name, number and how many there are.
     further
         More comparisons, each with its name.
@@ -259,7 +259,7 @@ def measure(
     planned += tuple(further)
     found = []
     for number, (name, timing) in enumerate(planned, start=1):
-        tell(name, number, len(planned))
+        progress(name, number, len(planned))
         found.append(timing())
     return found
 

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from derivation.engine.measure.kernels import Kernel, Stating
-from derivation.plate.budgets import read_budgets, read_promises
+from derivation.plate.budgets import read_budgets, read_stated_limits
 from generated import edge_mode_kernels as kernels
 from generated import edge_modes, non_hertzian_pressure, sensitivity, simple_impact
 from generated.bessel import bessel_j0
@@ -28,7 +28,7 @@ _SCENE = ("R", "m", "v0", "h", "b", "lam", "mu")
 
 def others() -> tuple[Kernel, ...]:
     """Contacts with the true pressure, simple impacts, the paper's motion, sensitivities."""
-    error = read_promises("pressure")["error"] * _ULP
+    error = read_stated_limits("pressure")["error"] * _ULP
     contact = ("a", "R", "h", "b", "modulus")
     motion = ("t", "m", "v0", "xi_2", "xi_3")
     found = [
@@ -110,11 +110,11 @@ def _of_waves() -> list[Kernel]:
 
 def _of_held_waves() -> list[Kernel]:
     """One mode of a held plate with a thickness, and the loaded face of a mode by its numbers."""
-    promised = read_promises("edge_modes")
-    face = promised.pop("face")
+    stated_limits = read_stated_limits("edge_modes")
+    face = stated_limits.pop("face")
     found = [
         Kernel(name, "edge_modes", ("count", "eta", "nu"), _each(partial(_mode, name)),
-               max(promised.values()))
+               max(stated_limits.values()))
         for name in ("clamped_waves", "supported_waves")
     ]  # fmt: skip
     for name, at in (("wave_shape", "r"), ("wave_share", "a")):

@@ -1,6 +1,6 @@
-"""Hard cases that come in families: every seam, and the constants that are counted.
+"""Hard cases that come in families: every switch point, and the constants that are counted.
 
-Where the seams are is asked of the rewrite's own data, so that one that moves takes
+Where the switch points are is asked of the rewrite's own data, so that one that moves takes
 its cases along.
 """
 
@@ -19,7 +19,7 @@ from derivation.plate.cases.steel import LAM, MU
 from derivation.plate.contact.kernels import tables as contact_tables
 from derivation.plate.contact.kernels.moments import FIRST_K, finite_part_start, kappa_start
 from derivation.plate.contact.oracle import balls as contact_balls
-from derivation.plate.grids import seams
+from derivation.plate.grids import switches
 from derivation.plate.impact.oracle import impact as contact_impact
 from derivation.plate.subjects import handed_in
 
@@ -50,16 +50,24 @@ def families() -> tuple[HardCase, ...]:
 
 def _families() -> tuple[HardCase, ...]:
     made = chain(
-        _block_seams(), _bessel_seams(), _zeros_by_index(), _beside_zeros(), _moments(),
-        _contact_seams(), _thickness_seams(), _thinnest(), _impact_seams(), scene_families(),
+        _block_switches(),
+        _bessel_switches(),
+        _zeros_by_index(),
+        _beside_zeros(),
+        _moments(),
+        _contact_switches(),
+        _thickness_switches(),
+        _thinnest(),
+        _impact_switches(),
+        scene_families(),
         *(cases() for cases in handed_in("cases", "CASES")),
-    )  # fmt: skip
+    )
     return tuple(checked(case) for case in made)
 
 
 _MODE = {"lam": LAM, "mu": MU, "A_j": -1e6}
 
-_OF_SEAM: dict[str, tuple[tuple[str, Callable[[float], Inputs]], ...]] = {
+_OF_SWITCH: dict[str, tuple[tuple[str, Callable[[float], Inputs]], ...]] = {
     "T": (
         ("G", lambda T: exactly(T=T)),
         ("G_minus_1", lambda T: exactly(T=T)),
@@ -79,12 +87,12 @@ _OF_SEAM: dict[str, tuple[tuple[str, Callable[[float], Inputs]], ...]] = {
         ("A_j", lambda y: exactly(phi=y, b=10.0, R=3.0, a=1.0, lam=LAM, mu=MU, J1=0.25)),
     ),
 }
-"""Kernels that pass through a seam in T = 2 phi h or y = a phi, and arguments
+"""Kernels that pass through a switch point in T = 2 phi h or y = a phi, and arguments
 by which they come to it: lengths are 1."""
 
 
-def _block_seams() -> Iterator[HardCase]:
-    for variable, places in seams().items():
+def _block_switches() -> Iterator[HardCase]:
+    for variable, places in switches().items():
         for place in places:
             for offset in OFFSETS:
                 cause = (
@@ -93,14 +101,14 @@ def _block_seams() -> Iterator[HardCase]:
                     else f"On {variable} = {place:g}"
                 )
                 cause += ", where a series hands over to exponentials or circular functions."
-                for kernel, inputs in _OF_SEAM[variable]:
+                for kernel, inputs in _OF_SWITCH[variable]:
                     given = inputs(beside(place, offset))
-                    yield HardCase("seams of the building blocks", kernel, cause, given)
+                    yield HardCase("switch points of the building blocks", kernel, cause, given)
 
 
-def _bessel_seams() -> Iterator[HardCase]:
+def _bessel_switches() -> Iterator[HardCase]:
     start = float(bessel_tables.asymptotic_start())
-    for place in bessel_tables.seams()[1:]:
+    for place in bessel_tables.switches()[1:]:
         what = "one Taylor polynomial hands over to the next"
         if place == start:
             what = "the last Taylor polynomial hands over to modulus and phase"
@@ -108,8 +116,13 @@ def _bessel_seams() -> Iterator[HardCase]:
             what = "multiples of pi/4 cease to be exact doubles"
         cause = f"0, 1 and 32 ULP to either side of x = {place:g}, where {what}."
         for kernel in ("bessel_j0", "bessel_j1"):
-            yield HardCase("seams of the Bessel functions", kernel, cause, exactly(x=around(place)),
-                       "array")  # fmt: skip
+            yield HardCase(
+                "switch points of the Bessel functions",
+                kernel,
+                cause,
+                exactly(x=around(place)),
+                "array",
+            )
 
 
 def _zeros_by_index() -> Iterator[HardCase]:
@@ -157,9 +170,9 @@ def _moments() -> Iterator[HardCase]:
             yield HardCase(group, kernel, cause, exactly(**{argument: float(start + offset)}))
 
 
-def _contact_seams() -> Iterator[HardCase]:
+def _contact_switches() -> Iterator[HardCase]:
     """Ends of the polynomials in a/h: lengths are such that h is 1, and a therefore a/h."""
-    group = "seams of the contact law"
+    group = "switch points of the contact law"
     for b in (1e3, 10.0, 5.0, 2.0, 0.25):
         reach = min(float(contact_tables.REACH), b)
         ends = [(reach / contact_tables.SHORT, "the short polynomial ends")]
@@ -186,7 +199,7 @@ def _contact_seams() -> Iterator[HardCase]:
                 yield HardCase(group, "force", cause, given | exactly(lam=LAM, mu=MU), "array")
 
 
-def _thickness_seams() -> Iterator[HardCase]:
+def _thickness_switches() -> Iterator[HardCase]:
     """Ends of the cells in b/h, of both polynomials: h is 1, and b therefore b/h."""
     ends = {float(end) for cell in contact_tables.CELLS for end in cell[:2]}
     far_ends = {float(end) for cell in contact_tables.FAR_CELLS for end in cell[:2]}
@@ -198,7 +211,7 @@ def _thickness_seams() -> Iterator[HardCase]:
             cause += "the closed form of thin plates" if b == max(places) else "another table"
             cause += f" takes over; a = {a:g} h."
             same: dict[str, float] = {"a": a, "R": 50.0, "h": 1.0}
-            group = "seams of the contact law"
+            group = "switch points of the contact law"
             given = exactly(**same, b=around(b))
             yield HardCase(group, "indentation", cause, given, "array")
             yield HardCase(group, "indentation_slope", cause, given, "array")
@@ -212,10 +225,12 @@ def _thinnest() -> Iterator[HardCase]:
         given = exactly(a=6.5e-5, R=1e-2, h=beside(1e-5, offset), b=1.0)
         cause = f"{offset:+d} ULP from h/b = 1e-5, below which no sum is taken for a > 6 h."
         expect = "nan" if offset < 0 else "value"
-        yield HardCase("seams of the contact law", "indentation", cause, given, expect=expect)
+        yield HardCase(
+            "switch points of the contact law", "indentation", cause, given, expect=expect
+        )
 
 
-def _impact_seams() -> Iterator[HardCase]:
+def _impact_switches() -> Iterator[HardCase]:
     """Speeds at which the contact just grows to 3 h, in a thin plate and in the paper's."""
     for b in (100.0, 10.0):
         place = float(contact_tables.REACH)
@@ -223,4 +238,4 @@ def _impact_seams() -> Iterator[HardCase]:
         speeds = around(math.sqrt(2.0 * energy / 1e3))
         cause = f"0, 1 and 32 ULP to either side of the speed that reaches a = {place:g} h."
         given = exactly(R=50.0, m=1e3, v0=speeds, h=1.0, b=b, lam=LAM, mu=MU)
-        yield HardCase("seams of the contact law", "impact", cause, given, "array")
+        yield HardCase("switch points of the contact law", "impact", cause, given, "array")

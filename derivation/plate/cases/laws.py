@@ -13,7 +13,7 @@ from derivation.engine.formula.ulp import upper_float
 from derivation.engine.measure.suite import Given, HardLaw
 from derivation.plate import vocabulary as symbols
 from derivation.plate.back_face import oracle as back_face_balls
-from derivation.plate.contact.cases.truth import tolerance
+from derivation.plate.contact.cases.reference_values import tolerance
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.contact.oracle import forces as contact_forces
 from derivation.plate.contact.theory import curvature

@@ -1,4 +1,4 @@
-"""Hard cases at the seams of what scenes are made of: edge, back face, sphere, pressure."""
+"""Hard cases at the switch points of what scenes are made of: edge, back face, sphere, pressure."""
 
 import math
 from collections.abc import Iterator
@@ -15,11 +15,11 @@ from derivation.plate.cases.steel import LAM, MU
 from derivation.plate.edge.kernels import tables as edge_tables
 from derivation.plate.edge.theory.clamped import LEVEL
 from derivation.plate.effects.kernels import numbers as effect_tables
-from derivation.plate.grids import seams
+from derivation.plate.grids import switches
 from derivation.plate.pressure.kernels import numbers as pressure_tables
 
-EDGE, FAR = "seams of the edge", "seams of the far face"
-SPHERE, PRESSURE = "seams of the sphere", "seams of the true pressure"
+EDGE, FAR = "switch points of the edge", "switch points of the far face"
+SPHERE, PRESSURE = "switch points of the sphere", "switch points of the true pressure"
 
 SUMS = ("supported_edge", "supported_edge_slope")
 CLAMPED = ("clamped_edge", "clamped_edge_slope")
@@ -29,7 +29,7 @@ FAR_EDGES = ("supported_far_stress", "clamped_far_stress")
 _STEEL: dict[str, float] = {"lam": LAM, "mu": MU}
 _FORCE = 1e3
 _MODES = (1, 2, 3)
-"""Modes at whose seams cases lie: all go through the same code."""
+"""Modes at whose switch points cases lie: all go through the same code."""
 
 
 def scene_families() -> Iterator[HardCase]:
@@ -72,9 +72,9 @@ def _edge() -> Iterator[HardCase]:
         more = exactly(P=_FORCE) | given
         yield from _beside(EDGE, FAR_EDGES[:1], f"{why}; a = {width:g} b", more)
     for mode in _MODES:
-        place = edge_tables.SEAM / (2 * _zero(mode))
+        place = edge_tables.SWITCH / (2 * _zero(mode))
         given = exactly(a=0.3, h=around(place), b=1.0, **_STEEL)
-        why = f"T = {edge_tables.SEAM} of mode {mode}, where Q - 3 ceases to be a power series"
+        why = f"T = {edge_tables.SWITCH} of mode {mode}, where Q - 3 ceases to be a power series"
         yield from _beside(EDGE, SUMS, why, given)
     for mode in (1, 10):
         place = _last_mode(edge_tables.FADED, mode)
@@ -99,7 +99,7 @@ def _last(
 
 def _shape(group: str, kernels: tuple[str, ...], more: dict[str, float]) -> Iterator[HardCase]:
     """Where g(y) of the modes' sums changes branches."""
-    for mode, place in product(_MODES[:2], seams()["y"]):
+    for mode, place in product(_MODES[:2], switches()["y"]):
         a = around(place / _zero(mode))
         given = exactly(**more, a=a, h=0.4, b=1.0, **_STEEL)
         why = f"y = {place:g} of mode {mode}, where g(y) ceases to be a power series"

@@ -16,7 +16,7 @@ from derivation.plate.waves.cases.laws import differences
 from derivation.plate.waves.cases.places import partner_crossing
 from generated.edge_mode_numbers import SMALL
 
-SEAMS, WAVES = "seams of held plates with a thickness", "waves of held plates"
+SWITCHES, WAVES = "switch points of held plates with a thickness", "waves of held plates"
 _MODES = ("clamped_waves", "supported_waves")
 _METAL = 0.3
 _LAST, _FIRST = math.nextafter(0.5, 0.0), -1.0 + 2.0**-53
@@ -30,12 +30,12 @@ def held_wave_families() -> Iterator[HardCase]:
         place = partner_crossing(kernel.removesuffix("_waves"), CROSSING, _METAL)
         why = f"h/b = {place:g}, where k2 of mode {CROSSING} reaches the series at infinity"
         given = exactly(count=float(CROSSING), eta=around(place), nu=_METAL)
-        yield about(SEAMS, kernel, why, given)
+        yield about(SWITCHES, kernel, why, given)
     for kernel, at in (("wave_shape", "r"), ("wave_share", "a")):
         why = f"{at}/b = 0.5, where k {at} or k2 {at} = {SMALL:g} ends the power series"
         size = 2.0 * SMALL
         for k, k2 in ((size, 3.0), (5.0, size)):
-            yield about(SEAMS, kernel, why, exactly(k=k, k2=k2, t=1.02, **{at: around(0.5)}))
+            yield about(SWITCHES, kernel, why, exactly(k=k, k2=k2, t=1.02, **{at: around(0.5)}))
         cause = "From the axis, and from a punch of zero radius, to the edge."
         places = (1e-9, 1e-3, 0.3, 0.9)
         given = exactly(k=(2.2, 8.6), k2=(2.1, 8.1), t=1.02, **{at: places})

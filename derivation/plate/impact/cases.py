@@ -16,8 +16,8 @@ from derivation.plate.impact.kernels import simple as simple_impact_tables
 from derivation.plate.impact.oracle import impact as contact_impact
 from derivation.plate.impact.oracle import printed_motion as printed_motion_balls
 
-IMPACTS, SIMPLE = "seams of the impact", "seams of simple impacts"
-PAPER = "seams of the paper's motion"
+IMPACTS, SIMPLE = "switch points of the impact", "switch points of simple impacts"
+PAPER = "switch points of the paper's motion"
 
 _SPHERE: dict[str, float] = {"R": 50.0, "m": 1e3}
 _STEEL: dict[str, float] = {"lam": LAM, "mu": MU}

@@ -10,15 +10,15 @@ from derivation.engine.rewrite.form import FAR, ONCE
 from derivation.mathematics.bessel.oracle import j0_zero
 from derivation.plate.blocks import blocks
 from derivation.plate.cases.steel import LAM, MU
-from derivation.plate.grids import seams
+from derivation.plate.grids import switches
 from derivation.plate.modes.kernels.forms import mode_forms
 from derivation.plate.oracle import arguments
 from generated.contact_series import _ORDINARY, _USUAL
 
 CLOSED, SUMS, PLATES = (
-    "seams of the closed formulas",
-    "seams of the sums over modes",
-    "seams of the contact law",
+    "switch points of the closed formulas",
+    "switch points of the sums over modes",
+    "switch points of the contact law",
 )
 
 Numbers = float | tuple[float, ...]
@@ -106,11 +106,11 @@ def _mode_shapes() -> Iterator[HardCase]:
 def _sums() -> Iterator[HardCase]:
     zero = float(j0_zero(1, 80))
     for kernel in _OF_SUMS:
-        for place in seams()["T"]:
+        for place in switches()["T"]:
             why = f"T = {place:g} of the first mode, where it changes branches"
             h = around(place / (2 * zero))
             yield _case(SUMS, kernel, why, {**_PLATE, "h": h}, _MODES)
-        for place in seams()["y"]:
+        for place in switches()["y"]:
             why = f"y = a phi = {place:g} of the first mode, where the load changes branches"
             yield _case(SUMS, kernel, why, {**_PLATE, "a": around(place / zero)}, _MODES)
     for kernel in ("sigma_rr", "sigma_tt"):

@@ -8,7 +8,7 @@ import numpy as np
 from generated.arrays import as_doubles, as_result, inside
 
 
-class _Place(NamedTuple):
+class _Point(NamedTuple):
     """Return T = 2 phi h, distances from both faces times phi, 1 - 2 nu, and sinh T."""
 
     T: Any
@@ -18,22 +18,22 @@ class _Place(NamedTuple):
     s: Any
 
 
-def _f(p: _Place) -> Any:
+def _f(p: _Point) -> Any:
     by_far = p.s * ((1 + p.c) * np.cosh(p.u) + p.v * np.sinh(p.u))
     return (by_far + p.T * ((1 + p.c) * np.cosh(p.v) + p.u * np.sinh(p.v))) / 2
 
 
-def _in_plane(p: _Place, c: Any) -> Any:
+def _in_plane(p: _Point, c: Any) -> Any:
     by_far = p.s * (c * np.sinh(p.u) - p.v * np.cosh(p.u))
     return by_far - p.T * (c * np.sinh(p.v) - p.u * np.cosh(p.v))
 
 
-def _zz(p: _Place) -> Any:
+def _zz(p: _Point) -> Any:
     versine, cubic = np.cosh(p.u) - 1, np.sinh(p.u) - p.u
     return p.s * (p.v * versine + cubic) + p.T * (np.sinh(p.v) * versine + np.cosh(p.v) * cubic)
 
 
-FIELDS: Mapping[str, Callable[[_Place], Any]] = {
+FIELDS: Mapping[str, Callable[[_Point], Any]] = {
     "mode_f": _f,
     "mode_g": lambda p: _in_plane(p, p.c) / 2,
     "mode_zz": _zz,
@@ -51,7 +51,7 @@ def naive_field(name: str, *given: Any) -> Any:
         [z, phi, h, lam, mu, A_j], abs(z) <= h, phi > 0, h > 0, 3 * lam > -2 * mu, mu > 0
     )
     T = 2 * phi * h
-    place = _Place(T, phi * (h + z), phi * (h - z), mu / (lam + mu), np.sinh(T))
+    place = _Point(T, phi * (h + z), phi * (h - z), mu / (lam + mu), np.sinh(T))
     value = A_j * FIELDS[name](place) / (place.s**2 - T**2)
     if name == "mode_f":
         value = value / (mu * phi)

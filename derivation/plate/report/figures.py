@@ -83,8 +83,8 @@ def _drawn(draw: Callable[[Figure, Model], None], case: Model) -> Figure:
 def draw_history(figure: Figure, case: Model) -> None:
     """Figure 1: indentation against time, as published at two truncations, and corrected."""
     axes = figure.subplots(1, 2, sharey=True)
-    truth = impact(case.R, case.m, case.v0, case.h, case.b, case.lam, case.mu)
-    t = np.linspace(0.0, float(truth.contact_time), 400)
+    reference = impact(case.R, case.m, case.v0, case.h, case.b, case.lam, case.mu)
+    t = np.linspace(0.0, float(reference.contact_time), 400)
     right = history(t, case.R, case.m, case.v0, case.h, case.b, case.lam, case.mu)
     for ax, modes in zip(axes, (100, 400), strict=True):
         motion = printed_motion(*case.numbers, modes)
@@ -93,9 +93,9 @@ def draw_history(figure: Figure, case: Model) -> None:
         ax.plot(1e3 * t, 1e3 * right.indentation, "k", label="corrected law")
         ax.plot(1e3 * early, 1e3 * motion.linear(early), "--", label="linear term (15)")
         ax.plot(1e3 * half, 1e3 * motion.corrected(half), label="correction (16), as published")
-        mended = printed_motion(*case.numbers, modes, corrected=True)
-        ax.plot(1e3 * half, 1e3 * mended.corrected(half), ":", label=r"the same, $\xi_3$ corrected")
-        breaks = np.array([motion.breaks_at, mended.breaks_at])
+        fixed = printed_motion(*case.numbers, modes, corrected=True)
+        ax.plot(1e3 * half, 1e3 * fixed.corrected(half), ":", label=r"the same, $\xi_3$ corrected")
+        breaks = np.array([motion.breaks_at, fixed.breaks_at])
         ax.plot(1e3 * breaks, 1e3 * motion.linear(breaks), "kx", label="(17), (18) no longer real")
         ax.set(title=f"sums truncated after {modes} modes", xlabel="time [ms]")
     axes[0].set_ylabel("indentation [mm]")
@@ -212,5 +212,5 @@ def _real_until(case: Model, modes: int) -> list[str]:
     """Times until which the published correction is real, as published and with xi_3 corrected."""
     if not modes:
         return ["", ""]
-    both = (printed_motion(*case.numbers, modes, corrected=mended) for mended in (False, True))
+    both = (printed_motion(*case.numbers, modes, corrected=fixed) for fixed in (False, True))
     return [f"{1e3 * motion.breaks_at:.3f}" for motion in both]

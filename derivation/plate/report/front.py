@@ -111,7 +111,7 @@ def stages(
 
 
 def checks(measured: Mapping[str, Data]) -> Iterator[tuple[str, str]]:
-    """Measurements: what was held against the truth, and how near the limit it came."""
+    """Measurements: what was held against the reference value, and how near the limit it came."""
     rows = [row for row in measured["check"]["rows"] if row["passed"] is not None]
     yield (
         code("check"),

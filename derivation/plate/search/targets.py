@@ -17,7 +17,7 @@ from derivation.engine.measure.point import Point
 from derivation.engine.measure.target import Domain, Numbers, Target, measure_by
 from derivation.engine.nearest import did_you_mean
 from derivation.engine.oracle.reference import Reference, unsized
-from derivation.plate.contact.cases.truth import tolerance
+from derivation.plate.contact.cases.reference_values import tolerance
 from derivation.plate.impact.oracle.agreement import FIRST
 from derivation.plate.judge import JUDGE, generated_kernels
 from derivation.plate.oracle import truth

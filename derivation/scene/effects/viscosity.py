@@ -51,7 +51,7 @@ class Viscosity(Effect):
         steepness = stiffness / force * depth
         steepening = 2.0 * stiffness / force * (energy / force) - 1.0
         deepening = 2.0 * energy / force / depth
-        course = kernels.Course(
+        extremes = kernels.ImpactExtremes(
             MARGIN * epsilon,
             MARGIN * float(np.max(steepness) / steepness[-1]),
             MARGIN * max(0.0, -float(np.min(steepening))),
@@ -61,7 +61,7 @@ class Viscosity(Effect):
             max(1.0, MARGIN * float(energy[-1] / model.m) * 2.0 / model.v0 / model.v0),
         )
         none = none_of(context.radii)
-        return Bound(none, none, results=kernels.viscous_logarithms(course))
+        return Bound(none, none, results=kernels.viscous_logarithms(extremes))
 
     def proved(self, law: "ContactLaw") -> bool:  # noqa: ARG002
         """Return False: proved only for a half-space."""

@@ -86,7 +86,7 @@ def test_manifest_and_docstring_show_the_whole_budget(row: dict) -> None:
     assert f"Domain: {row['domain'] or 'all real numbers'}." in shown
 
 
-def test_blocks_of_modes_leave_no_seam() -> None:
+def test_blocks_of_modes_leave_no_switch() -> None:
     """Sums across the block boundary equal the sum of single-mode differences."""
     arguments = (0.01, 0.1, 0.13, 0.004)
     sums = [generated.delta(*arguments, modes=n) for n in (127, 128, 129, 257)]

@@ -187,16 +187,16 @@ def anywhere(seed: int) -> tuple[str, sp.Expr] | None:
     return None if same(expression, chain()[name].expression) else (name, expression)
 
 
-def mended(diagnosis: Diagnosis) -> bool:
-    truth = chain()[diagnosis.name].expression
-    return diagnosis.repaired is not None and same(diagnosis.repaired, truth)
+def corrected(diagnosis: Diagnosis) -> bool:
+    reference = chain()[diagnosis.name].expression
+    return diagnosis.repaired is not None and same(diagnosis.repaired, reference)
 
 
 def checked(slip: tuple[str, sp.Expr]) -> Diagnosis:
     """The diagnosis of a damaged formula, after it was seen to be different."""
     diagnosis = diagnose(slip[0], slip[1], chain())
     assert diagnosis.verdict == "different", slip
-    assert diagnosis.repaired is None or mended(diagnosis), (slip, diagnosis.repair)
+    assert diagnosis.repaired is None or corrected(diagnosis), (slip, diagnosis.repair)
     return diagnosis
 
 
@@ -206,7 +206,7 @@ def drawn(make: Callable[[int], tuple[str, sp.Expr] | None], start: int, count: 
 
 
 @pytest.mark.parametrize("start", [0, 10_000, 20_000])
-def test_single_slip_is_mended_by_one_edit(start: int) -> None:
+def test_single_slip_is_corrected_by_one_edit(start: int) -> None:
     for seed in drawn(single, start, 24):
         slip = single(seed)
         assert slip is not None
@@ -215,7 +215,7 @@ def test_single_slip_is_mended_by_one_edit(start: int) -> None:
         assert diagnosis.edits == 1, (seed, slip, diagnosis.repair)
 
 
-def test_two_slips_in_different_factors_are_mended() -> None:
+def test_two_slips_in_different_factors_are_corrected() -> None:
     for seed in drawn(pair, 0, 12):
         slip = pair(seed)
         assert slip is not None
@@ -266,7 +266,7 @@ def test_kind_of_slip_is_named(kind: str) -> None:
     found = diagnose_text(name, text, chain()).diagnosis
     assert (found.verdict, found.kind) == ("different", kind), found.repair
     assert (found.repaired is None) == (kind in ("unexplained", "dimension"))
-    assert found.repaired is None or mended(found)
+    assert found.repaired is None or corrected(found)
 
 
 def test_stray_factor_is_named_by_dimension_alone() -> None:
@@ -317,9 +317,9 @@ def test_values_have_every_digit_right() -> None:
     found = diagnose_text("Omega_3", text, chain(), at={"phi": "2.5", "h": "0.1"})
     with mpmath.workdps(80):
         x, scale = mpmath.mpf("0.25"), 2 * mpmath.mpf("0.43e9")
-        truth = -mpmath.sinh(x) / scale / (mpmath.sinh(2 * x) + 2 * x)
-        assert found.derived_value == str(Decimal(mpmath.nstr(truth, 50, strip_zeros=False)))
-        assert abs(mpmath.mpf(found.given_value) * mpmath.mpf("2.5") / truth - 1) < 1e-49
+        reference = -mpmath.sinh(x) / scale / (mpmath.sinh(2 * x) + 2 * x)
+        assert found.derived_value == str(Decimal(mpmath.nstr(reference, 50, strip_zeros=False)))
+        assert abs(mpmath.mpf(found.given_value) * mpmath.mpf("2.5") / reference - 1) < 1e-49
     assert (found.verdict, found.ratio) == ("different", 1 / phi)
     report = json.loads(json.dumps(found.to_json()))
     assert report["given"] == found.given_value

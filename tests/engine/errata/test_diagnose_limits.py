@@ -1,4 +1,4 @@
-"""How far the search for slips goes: what it mends inside powers, and where it stops."""
+"""How far the search for slips goes: what it corrects inside powers, and where it stops."""
 
 import itertools
 from collections.abc import Iterable, Mapping, Sequence
@@ -9,10 +9,10 @@ import flint
 import pytest
 import sympy as sp
 
-from derivation.engine.errata import compare, place, repairs, sample
+from derivation.engine.errata import compare, position, repairs, sample
 from derivation.engine.errata.dimensions import unit_name
 from derivation.engine.errata.edit import factor_pool, single_edits, term_pool
-from derivation.engine.errata.place import FACTOR, TERM, TERMS, Place, inner
+from derivation.engine.errata.position import FACTOR, TERM, TERMS, Position, inner
 from derivation.engine.errata.variant import TWICE, VariantSearch
 from derivation.engine.formula.dimension import Dimension
 from derivation.engine.formula.parse import FormulaError
@@ -26,18 +26,18 @@ from derivation.plate.vocabulary import A_j, Formula, P, R, T, a, b, h, lam, mu,
 Formulas = Mapping[str, Formula]
 
 
-def search_for(given: sp.Expr, truth: sp.Expr) -> VariantSearch:
+def search_for(given: sp.Expr, reference: sp.Expr) -> VariantSearch:
     """What the search is given for a comparison of two expressions."""
-    points = sample.sample([given, truth], {}, {})
-    for expression in (given, truth, *factor_pool((given, truth))):
+    points = sample.sample([given, reference], {}, {})
+    for expression in (given, reference, *factor_pool((given, reference))):
         points.learn(expression)
-    return VariantSearch(points, factor_pool((given, truth)), term_pool(truth))
+    return VariantSearch(points, factor_pool((given, reference)), term_pool(reference))
 
 
-def mended(given: sp.Expr, truth: sp.Expr) -> Iterable[repairs.Repair]:
+def corrected(given: sp.Expr, reference: sp.Expr) -> Iterable[repairs.Repair]:
     with flint.ctx.workprec(300):
-        search = search_for(given, truth)
-        yield from repairs.repairs(given, search.points.values(truth), search)
+        search = search_for(given, reference)
+        yield from repairs.repairs(given, search.points.values(reference), search)
 
 
 # --- equal, or not to be told
@@ -59,7 +59,7 @@ def test_symbols_and_functions_that_nobody_knows(formulas: Formulas) -> None:
 
 
 def test_few_candidates_are_examined(formulas: Formulas, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Each is held against the derived formula; what mends nothing is not reported."""
+    """Each is held against the derived formula; what corrects nothing is not reported."""
     asked = itertools.count()
 
     def endless(*_: object) -> Iterable[repairs.Repair]:
@@ -90,60 +90,60 @@ def test_a_term_too_many_is_left_out(formulas: Formulas) -> None:
     assert found.repaired == right
 
 
-def test_a_slip_in_one_of_two_equal_factors_is_mended() -> None:
+def test_a_slip_in_one_of_two_equal_factors_is_corrected() -> None:
     """SymPy writes (a + b) (a + b) as a power."""
-    truth = (a + b) * (a - b) * h
-    first = next(iter(mended((a + b) ** 2 * h, truth)))
+    reference = (a + b) * (a - b) * h
+    first = next(iter(corrected((a + b) ** 2 * h, reference)))
     assert first.edits == 1
-    assert sp.expand(first.expression - truth) == 0
+    assert sp.expand(first.expression - reference) == 0
 
 
-def test_a_slip_in_an_equal_factor_and_another_one_are_mended() -> None:
-    truth = (a + b) * (a - b) * (lam + mu)
-    found = list(mended((a + b) ** 2 * (lam - mu), truth))
+def test_a_slip_in_an_equal_factor_and_another_one_are_corrected() -> None:
+    reference = (a + b) * (a - b) * (lam + mu)
+    found = list(corrected((a + b) ** 2 * (lam - mu), reference))
     assert found
     assert any(repair.edits == 2 for repair in found)
-    assert all(sp.expand(repair.expression - truth) == 0 for repair in found)
+    assert all(sp.expand(repair.expression - reference) == 0 for repair in found)
 
 
 def test_a_slip_that_fits_one_point_alone_is_none() -> None:
-    given, truth, other = sp.sinh(phi * h), sp.cosh(phi * h), a * b
+    given, reference, other = sp.sinh(phi * h), sp.cosh(phi * h), a * b
     with flint.ctx.workprec(300):
-        search = search_for(given * a * b, truth)
-        right = search.points.values(truth)
-        assert single_edits(Place(given), right, search)
+        search = search_for(given * a * b, reference)
+        right = search.points.values(reference)
+        assert single_edits(Position(given), right, search)
         mixed = [right[0], *search.points.values(other)[1:]]
-        assert not single_edits(Place(given), mixed, search)
+        assert not single_edits(Position(given), mixed, search)
 
 
 def test_long_formulas_are_searched_for_single_slips_or_not_at_all(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    truth = a**3 * sp.sinh(phi * h) * sp.cosh(phi * b) / R
+    reference = a**3 * sp.sinh(phi * h) * sp.cosh(phi * b) / R
     one = a**3 * sp.cosh(phi * h) * sp.cosh(phi * b) / R
     two = a**3 * sp.cosh(phi * h) * sp.sinh(phi * b) / R
-    assert next(iter(mended(one, truth))).edits == 1
-    assert next(iter(mended(two, truth))).edits == 2
+    assert next(iter(corrected(one, reference))).edits == 1
+    assert next(iter(corrected(two, reference))).edits == 2
     monkeypatch.setattr(repairs, "MAX_OPERATIONS_FOR_PAIRS", 3)
-    assert next(iter(mended(one, truth))).edits == 1
-    assert not list(mended(two, truth))
+    assert next(iter(corrected(one, reference))).edits == 1
+    assert not list(corrected(two, reference))
     monkeypatch.setattr(repairs, "MAX_OPERATIONS", 3)
-    assert not list(mended(one, truth))
+    assert not list(corrected(one, reference))
 
 
-def test_three_terms_that_nothing_mends() -> None:
-    assert not list(mended(a**2 + b * h + sp.sin(phi * h), sp.cosh(phi * b) * lam))
+def test_three_terms_that_nothing_corrects() -> None:
+    assert not list(corrected(a**2 + b * h + sp.sin(phi * h), sp.cosh(phi * b) * lam))
 
 
 def test_groups_are_taken_out_of_short_sums_alone() -> None:
-    short, long = (sp.Add(*(phi**k for k in range(1, n + 1))) for n in (3, place.MAX_TERMS + 1))
-    roles = [[part.role for part in inner(Place(total))] for total in (short, long)]
+    short, long = (sp.Add(*(phi**k for k in range(1, n + 1))) for n in (3, position.MAX_TERMS + 1))
+    roles = [[part.role for part in inner(Position(total))] for total in (short, long)]
     assert (roles[0].count(TERM), roles[0].count(TERMS)) == (3, 3)
-    assert roles[1] == [TERM] * (place.MAX_TERMS + 1)
+    assert roles[1] == [TERM] * (position.MAX_TERMS + 1)
 
 
 def test_one_of_equal_factors_is_replaced_alone() -> None:
-    (factor,) = (part for part in inner(Place(1 / (a + b) ** 3)) if part.role == FACTOR)
+    (factor,) = (part for part in inner(Position(1 / (a + b) ** 3)) if part.role == FACTOR)
     assert factor.put(a - b) == 1 / ((a + b) ** 2 * (a - b))
 
 

@@ -15,14 +15,14 @@ from mpmath import mp, mpf
 from derivation.engine.files import write_file
 from derivation.engine.measure import check as checking
 from derivation.engine.measure.check import Row
-from derivation.engine.measure.judge import Truth, measured
+from derivation.engine.measure.judge import PointReference, measured
 from derivation.engine.measure.kernels import Kernel
 from derivation.engine.measure.point import Point, to_single
 from derivation.engine.measure.record import COLUMNS, as_data, cells, to_json
 from derivation.engine.oracle.agreement import OracleError
 from derivation.mathematics.bessel.oracle import j0_zero
-from derivation.plate.grids import grid, seams
-from derivation.plate.judge import check, kernel_of_row, truths
+from derivation.plate.grids import grid, switches
+from derivation.plate.judge import check, kernel_of_row, reference_values
 from derivation.plate.modes.route import routes
 from derivation.plate.oracle import reference
 
@@ -46,8 +46,8 @@ def kernel_G(formula: str = G_PRINTED) -> Kernel:
 
 
 @pytest.fixture(scope="module")
-def truths_of_G() -> list[Truth]:
-    return truths("G", grid("G", ("T",)), 50)
+def references_of_G() -> list[PointReference]:
+    return reference_values("G", grid("G", ("T",)), 50)
 
 
 def test_right_kernel_passes() -> None:
@@ -64,18 +64,18 @@ def test_right_kernel_passes() -> None:
 NAMES_F = ("z", "phi", "h", "lam", "mu", "A_j")
 
 
-def test_printed_form_in_doubles_fails(truths_of_G: list[Truth]) -> None:
+def test_printed_form_in_doubles_fails(references_of_G: list[PointReference]) -> None:
     def naive(T: Any) -> Any:
         with np.errstate(all="ignore"):
             return (np.sinh(T) * np.cosh(T) + T) / (np.sinh(T) ** 2 - T**2)
 
-    errors = measured(Kernel("G", "influence", ("T",), naive, 8.0), truths_of_G)
+    errors = measured(Kernel("G", "influence", ("T",), naive, 8.0), references_of_G)
     assert errors.ratio == math.inf
     assert errors.not_finite > 0
     assert errors.max_ulp > 1e12
 
 
-def test_one_nan_is_enough_to_fail(truths_of_G: list[Truth]) -> None:
+def test_one_nan_is_enough_to_fail(references_of_G: list[PointReference]) -> None:
     right = kernel_G().call
 
     def with_nan(T: Any) -> Any:
@@ -83,11 +83,11 @@ def test_one_nan_is_enough_to_fail(truths_of_G: list[Truth]) -> None:
         result[37] = np.nan
         return result
 
-    errors = measured(dataclasses.replace(kernel_G(), call=with_nan), truths_of_G)
+    errors = measured(dataclasses.replace(kernel_G(), call=with_nan), references_of_G)
     assert errors.not_finite == 1
     assert errors.ratio == math.inf
     assert errors.worst.got[1] == "nan"
-    assert errors.worst.arguments[0][1] == truths_of_G[37].point.values["T"].hex()
+    assert errors.worst.arguments[0][1] == references_of_G[37].point.values["T"].hex()
 
 
 def test_wrong_dtype_and_warnings_fail() -> None:
@@ -105,10 +105,10 @@ def test_wrong_dtype_and_warnings_fail() -> None:
         assert row.passed is False
 
 
-def test_wrong_shape_is_refused(truths_of_G: list[Truth]) -> None:
+def test_wrong_shape_is_refused(references_of_G: list[PointReference]) -> None:
     kernel = dataclasses.replace(kernel_G(), call=lambda T: np.float64(1.0))  # noqa: ARG005
     with pytest.raises(ValueError, match="gave shape"):
-        measured(kernel, truths_of_G)
+        measured(kernel, references_of_G)
 
 
 def test_formulas_as_printed_are_measured_but_not_judged() -> None:
@@ -137,7 +137,7 @@ def test_table_of_zeros_is_judged_entry_by_entry() -> None:
         return np.array([float(j0_zero(n, 80)) for n in range(1, count + 1)])
 
     points = [Point({"count": float(n)}) for n in (1, 2, 50, 1000)]
-    found = truths("bessel_j0_zeros", points, 30)
+    found = reference_values("bessel_j0_zeros", points, 30)
     kernel = Kernel("bessel_j0_zeros", "bessel", ("count",), zeros, 1.0)
     assert measured(kernel, found).max_ulp <= 0.5
     shifted = dataclasses.replace(kernel, call=lambda count: zeros(count + 1)[1:])
@@ -147,7 +147,7 @@ def test_table_of_zeros_is_judged_entry_by_entry() -> None:
 def test_modal_sum_is_called_once_per_number_of_modes() -> None:
     arguments = ("h", "b", "R", "a")
     points = grid("delta", arguments, modes=True)[:12]
-    found = truths("delta", points, 30)
+    found = reference_values("delta", points, 30)
     calls = []
 
     def right(*columns: Any, modes: int) -> Any:
@@ -212,13 +212,13 @@ def test_grid_of_a_mode_holds_its_hard_places() -> None:
     assert any(v["lam"] < 0 for v in values)
 
 
-def test_both_sides_of_every_seam_are_in_the_grid() -> None:
-    assert set(seams()) == {"T", "y"}
+def test_both_sides_of_every_switch_are_in_the_grid() -> None:
+    assert set(switches()) == {"T", "y"}
     in_T = {point.values["T"] for point in grid("G", ("T",))}
-    for place in seams()["T"]:
+    for place in switches()["T"]:
         assert {place, math.nextafter(place, 0), math.nextafter(place, 9)} <= in_T
     in_y = {p.values["phi"] * p.values["a"] for p in grid("sonine", ("phi", "a"))}
-    for place in seams()["y"]:
+    for place in switches()["y"]:
         assert {place, math.nextafter(place, 0), math.nextafter(place, 9)} <= in_y
 
 

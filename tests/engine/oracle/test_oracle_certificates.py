@@ -155,10 +155,10 @@ def test_a_slope_that_may_vanish_bounds_nothing() -> None:
     """S/q = 1/q + p is 1 + p at least: above 0 for p = -1/2, not for p = -2."""
     with flint.ctx.workprec(64):
         error = arb(2) ** -40
-        allowed = contact_impact._doubt(flint.arb_poly([-0.5]), error)
+        allowed = contact_impact._error_bound(flint.arb_poly([-0.5]), error)
         assert error / arb(0.5) <= allowed < error / arb(0.49)
         with pytest.raises(PrecisionError, match="slope could not be shown to be positive"):
-            contact_impact._doubt(flint.arb_poly([-2]), error)
+            contact_impact._error_bound(flint.arb_poly([-2]), error)
 
 
 def test_bounds_hold_where_they_are_proved() -> None:

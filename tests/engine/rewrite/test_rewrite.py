@@ -20,7 +20,7 @@ from derivation.engine.formula.ulp import from_ordinal, ordinal, overflows, ulp_
 from derivation.engine.rewrite import rules
 from derivation.engine.rewrite.automatic import automatic
 from derivation.engine.rewrite.doubles import rounded
-from derivation.engine.rewrite.form import Seam
+from derivation.engine.rewrite.form import Switch
 from derivation.engine.rewrite.rules import RULES, Rewritten
 from derivation.engine.rewrite.series import POLYNOMIAL, taylor_section
 from derivation.engine.rewrite.shape import Shape, assembled
@@ -89,7 +89,7 @@ def value_of(form: Rewritten) -> sp.Expr:
     if not isinstance(form, Shape):
         return form
     steps, value = assembled(form)
-    branch = value.above if isinstance(value, Seam) else None
+    branch = value.above if isinstance(value, Switch) else None
     expression = branch.value if branch else value
     for step in reversed((*steps, *(branch.steps if branch else ()))):
         expression = expression.subs(step.symbol, step.expression)
@@ -121,10 +121,10 @@ def test_difference_of_roots_in_18_cancels_no_more() -> None:
     """The source term of the perturbation, at times so small that as printed it is noise."""
     source = formulas()["G_1"].expression
     at = dict.fromkeys(source.free_symbols, 1.0) | {_delta(source): 1e-7}
-    (mended,) = rules.conjugate(x, source)
+    (corrected,) = rules.conjugate(x, source)
     true = float(evaluate(source, at, 20))
     assert abs(rounded(source, at) / true - 1) > 100
-    assert rounded(mended, at) == pytest.approx(true, rel=1e-15)
+    assert rounded(corrected, at) == pytest.approx(true, rel=1e-15)
 
 
 def _delta(source: sp.Expr) -> sp.Symbol:
@@ -132,14 +132,14 @@ def _delta(source: sp.Expr) -> sp.Symbol:
 
 
 @settings(max_examples=60)
-@given(share=st.floats(0.0, 1.0), seam=st.sampled_from((0.25, 0.5, 1.0, 1.5)))
+@given(share=st.floats(0.0, 1.0), switch=st.sampled_from((0.25, 0.5, 1.0, 1.5)))
 @pytest.mark.parametrize(
     "core",
     [sp.sinh(x) - x, sp.sin(x) - x * sp.cos(x), sp.exp(x) - 1 - x, sp.exp(-x) * sp.sin(x) - x],
 )
-def test_section_keeps_its_bound(core: sp.Expr, share: float, seam: float) -> None:
-    section = taylor_section(terms_of(core, x), sp.Rational(seam))
-    point = flint.arb(seam * max(share, 1e-6))
+def test_section_keeps_its_bound(core: sp.Expr, share: float, switch: float) -> None:
+    section = taylor_section(terms_of(core, x), sp.Rational(switch))
+    point = flint.arb(switch * max(share, 1e-6))
     with flint.ctx.workprec(600):
         total = sum(
             (
@@ -347,8 +347,8 @@ def test_blocks_have_one_section_each_or_none() -> None:
     for name, own, total, lead, held, _ in DEFINITIONS:
         block = blocks()[name]
         assert block.total == total
-        assert isinstance(block.value, Seam) == (lead > 0)
-        if isinstance(block.value, Seam):
+        assert isinstance(block.value, Switch) == (lead > 0)
+        if isinstance(block.value, Switch):
             least = sp.Min(own, block.value.at)
             assert block.definition(own) == total / own ** (lead - held) / least**held
             assert float(block.value.at).hex().startswith("0x1.0"), "not a power of two"
@@ -360,11 +360,11 @@ def test_blocks_have_one_section_each_or_none() -> None:
 
 
 @pytest.mark.parametrize("name", [row[0] for row in DEFINITIONS])
-def test_generated_blocks_on_both_sides_of_their_seams(name: str) -> None:
+def test_generated_blocks_on_both_sides_of_their_switches(name: str) -> None:
     block = blocks()[name]
     (own,) = block.arguments
     call = getattr(importlib.import_module("generated.blocks"), name)
-    at = float(block.value.at) if isinstance(block.value, Seam) else 1.0
+    at = float(block.value.at) if isinstance(block.value, Switch) else 1.0
     for point in (0.01, 0.3, 0.99, 1.0, 1.4999, math.nextafter(at, 0.0), at, 3.7, 20.0):
         held = sp.Integer(int(at)) if point >= at else own
         definition = block.divided / held**block.held

@@ -71,7 +71,7 @@ def test_the_section_names_every_failure(committed: dict[str, Any]) -> None:
 
 def test_the_readme_shows_what_was_measured(committed: dict[str, Any]) -> None:
     text = (ROOT / reporting.README).read_text()
-    assert readme.renewed(text, committed) == text, "to mend: platecontact report"
+    assert readme.renewed(text, committed) == text, "to correct: platecontact report"
 
 
 def test_the_readmes_block_is_found_by_its_markers(committed: dict[str, Any]) -> None:

@@ -48,8 +48,10 @@ RADII = np.array([0.002, 0.01, 0.03])
 @pytest.fixture(scope="module")
 def law() -> Problem:
     """The paper's law at three radii."""
-    truths = [contact_balls.indentation(float(a), PAPER.R, PAPER.h, PAPER.b, 40) for a in RADII]
-    return Problem("law", PAPER, RADII, tuple(truths), 40, np.full(50, 0.01))
+    reference_values = [
+        contact_balls.indentation(float(a), PAPER.R, PAPER.h, PAPER.b, 40) for a in RADII
+    ]
+    return Problem("law", PAPER, RADII, tuple(reference_values), 40, np.full(50, 0.01))
 
 
 @pytest.fixture(scope="module")
@@ -58,9 +60,11 @@ def pressed() -> Problem:
     depths = np.array([1e-4, 0.1])
     found = [contact_balls.contact_radius(d, THICK.R, THICK.h, THICK.b, 40) for d in depths]
     with flint.ctx.workprec(160):
-        truths = [4 * contact_balls.modulus(THICK.lam, THICK.mu) * a**3 / (3 * arb(THICK.R))
-                  for a in found]  # fmt: skip
-    return Problem("inversion", THICK, depths, tuple(truths), 38, np.full(50, 0.01))
+        reference_values = [
+            4 * contact_balls.modulus(THICK.lam, THICK.mu) * a**3 / (3 * arb(THICK.R))
+            for a in found
+        ]
+    return Problem("inversion", THICK, depths, tuple(reference_values), 38, np.full(50, 0.01))
 
 
 def bounce(regime) -> Problem:
@@ -215,7 +219,7 @@ def test_the_whole_law_is_the_oracles(regime) -> None:
             first, second = arb(radius), arb(r.R)
             assert digits(lift[k], depth * second / first**2, 45) > 37
             assert digits(slope[k], steep * second / (2 * first), 45) > 37
-    assert digits(time, bounce(r).truths[0], 32) > 30
+    assert digits(time, bounce(r).reference_values[0], 32) > 30
 
 
 def test_a_law_that_would_take_minutes_says_so() -> None:
@@ -232,7 +236,7 @@ def test_the_papers_law_is_judged_to_many_digits_by_another_oracle(
     monkeypatch.setattr(problems, "ARRAY", 50)
     set_task = problems.problem("law", PAPER, quick=False)
     assert set_task.digits == 40
-    for a, value in list(zip(set_task.points, set_task.truths, strict=True))[:3]:
+    for a, value in list(zip(set_task.points, set_task.reference_values, strict=True))[:3]:
         true = contact_balls.indentation(float(a), PAPER.R, PAPER.h, PAPER.b, 42)
         assert digits(value, true, 50) > 39
 
@@ -292,7 +296,7 @@ def test_truncation_and_rounding_are_told_apart(task: str, law, pressed, bounced
 
 @needs_long
 def test_long_sums_truncate_like_those_in_more_digits(law: Problem) -> None:
-    task = replace(law, points=RADII[1:], truths=law.truths[1:])
+    task = replace(law, points=RADII[1:], reference_values=law.reference_values[1:])
     method = sums.direct(1500)
     assert method.split == "long"
     found, again = judged(method, task), judged(replace(method, split="wide"), task)

@@ -19,7 +19,7 @@ from derivation.pipeline import MEASURED_CONTACT
 from derivation.plate.contact.cases import check as contact
 from derivation.plate.contact.cases import grid as contact_grid
 from derivation.plate.contact.cases import judge as contact_judge
-from derivation.plate.contact.cases import truth as contact_truth
+from derivation.plate.contact.cases import reference_values as contact_reference
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.contact.oracle import forces as contact_forces
 from derivation.plate.contact.oracle.sums import plate_excess
@@ -233,7 +233,7 @@ def test_oracles_agree_on_impacts(
     where: tuple[float, ...] | contact_grid.ContactShape, bending: float
 ) -> None:
     """To 24 digits each; c_1 A says how far from Hertz's the impact is."""
-    found = contact_truth.truth(("impact", where))
+    found = contact_reference.reference_value(("impact", where))
     assert found.digits >= 24
     assert found.bend == pytest.approx(bending, rel=1e-3)
 
@@ -278,7 +278,7 @@ def rounded(*point: Any) -> float:
     return float(contact_balls.indentation(*(np.asarray(x).item() for x in point), 25))
 
 
-def test_a_rounded_truth_passes_and_a_wrong_one_does_not() -> None:
+def test_a_rounded_reference_passes_and_a_wrong_one_does_not() -> None:
     points = {"indentation": ((0.3, 2.0, 0.1, 1.0), (0.9, 2.0, 3.0, 1.0))}
     (row,) = contact.check({"indentation": rounded}, points)
     assert row.passed
@@ -293,7 +293,7 @@ def test_a_rounded_truth_passes_and_a_wrong_one_does_not() -> None:
 def test_contacts_are_judged_in_units_of_their_format() -> None:
     """P = 16 mu (lam + mu) a^3/(3 R (lam + 2 mu)), conditions 3, 1 and 1 for both moduli."""
     point = (0.25, 2.0, 0.0, 0.75)
-    true = contact_truth.truth(("force_of_radius", point))
+    true = contact_reference.reference_value(("force_of_radius", point))
     total = contact_judge.conditioning(contact_law.force_of_radius, point)
     assert total == pytest.approx([5.0], rel=1e-8)
     for fmt in (DOUBLE, SINGLE):
@@ -321,7 +321,7 @@ def test_contacts_are_judged_in_units_of_their_format() -> None:
 def test_forces_by_both_oracles_agree() -> None:
     for name in ("force", "force_of_radius", "radius_of_force", "max_pressure"):
         shape = contact_grid.grid(name)[100]
-        assert contact_truth.truth((name, shape)).digits >= 24
+        assert contact_reference.reference_value((name, shape)).digits >= 24
 
 
 def test_check_refuses_what_it_does_not_know() -> None:
@@ -338,12 +338,12 @@ def test_grids_keep_inside_the_plate() -> None:
 def test_several_processes_answer_as_one() -> None:
     jobs = [("stiffness", shape) for shape in contact_grid.grid("stiffness")[100:102]]
     told: list[tuple[str, int, int]] = []
-    alone = contact_truth.truths(jobs)
-    assert contact_truth.truths(jobs, 2, lambda *what: told.append(what)) == alone
+    alone = contact_reference.reference_values(jobs)
+    assert contact_reference.reference_values(jobs, 2, lambda *what: told.append(what)) == alone
     assert told == [("stiffness", 1, 2), ("stiffness", 2, 2)]
 
 
-def test_committed_measurements_cover_what_is_promised() -> None:
+def test_committed_measurements_cover_what_is_stated() -> None:
     """Every kernel within its budget and 2e-15 of what both oracles share, in both formats.
 
     Impacts from -0.369 to 1e10.
@@ -355,7 +355,7 @@ def test_committed_measurements_cover_what_is_promised() -> None:
         assert row["digits"] >= 20
         assert row["passed"]
         assert row["max_error"] <= measured["limit"] == contact.LIMIT == 2e-15
-        assert row["budget"] >= contact.promised()[row["kernel"]]
+        assert row["budget"] >= contact.stated_limits()[row["kernel"]]
         assert row["double"]["ratio"] <= 1
         assert row["single"]["ratio"] <= 1
         assert row["single"]["dtype"] == "float32"

@@ -17,7 +17,7 @@ from derivation.engine.formula.ulp import ulp_error
 from derivation.mathematics.bessel.theory.functions import phase_shift, power
 from derivation.plate.contact.kernels import moments as tables
 from derivation.plate.contact.oracle import balls as contact_balls
-from derivation.plate.contact.oracle import moments as truth
+from derivation.plate.contact.oracle import moments as reference
 from derivation.plate.contact.theory import moments as theory
 from generated import finite_part, finite_part_ratio, kappa, kappa_ratio
 
@@ -50,20 +50,20 @@ def fraction(value: sp.Rational) -> arb:
 def test_wall_moments() -> None:
     start = tables.kappa_start()
     indices = [*range(7), 9, 12, 19, 33, 50, 76, start - 1, start, 150, LAST_N - 1, LAST_N]
-    assert max(errors(kappa, truth.kappa, indices)) <= BUDGET
-    assert max(errors(kappa_ratio, truth.kappa_ratio, [*indices, *LARGE])) <= BUDGET
+    assert max(errors(kappa, reference.kappa, indices)) <= BUDGET
+    assert max(errors(kappa_ratio, reference.kappa_ratio, [*indices, *LARGE])) <= BUDGET
 
 
 def test_wall_moments_around_the_switch() -> None:
     start = tables.kappa_start()
     near = [*range(start - 3, start + 4)]
-    assert max(errors(kappa_ratio, truth.kappa_ratio, near)) <= BUDGET
+    assert max(errors(kappa_ratio, reference.kappa_ratio, near)) <= BUDGET
 
 
 def test_finite_parts_of_every_index() -> None:
     indices = list(range(2, LAST_K + 1))
-    assert max(errors(finite_part, truth.finite_part, indices)) <= BUDGET
-    assert max(errors(finite_part_ratio, truth.finite_part_ratio, [*indices, *LARGE])) <= BUDGET
+    assert max(errors(finite_part, reference.finite_part, indices)) <= BUDGET
+    assert max(errors(finite_part_ratio, reference.finite_part_ratio, [*indices, *LARGE])) <= BUDGET
 
 
 def test_signs_and_known_values() -> None:
@@ -79,8 +79,8 @@ def test_signs_and_known_values() -> None:
 
 def test_last_values_are_the_last_that_a_double_holds() -> None:
     largest = arb(np.finfo(float).max)
-    assert truth.kappa(LAST_N, BITS) < largest < truth.kappa(LAST_N + 1, BITS)
-    assert truth.finite_part(LAST_K, BITS) < largest < truth.finite_part(LAST_K + 1, BITS)
+    assert reference.kappa(LAST_N, BITS) < largest < reference.kappa(LAST_N + 1, BITS)
+    assert reference.finite_part(LAST_K, BITS) < largest < reference.finite_part(LAST_K + 1, BITS)
     assert np.isnan(kappa([LAST_N + 1, 10**6])).all()
     assert np.isnan(finite_part([LAST_K + 1, 10**6])).all()
 
@@ -187,7 +187,7 @@ def test_bound_of_the_expansion_holds(n: int) -> None:
     terms = 12
     value = sum(a / sp.ff(n, j) for j, a in enumerate(theory.kappa_steps(terms)))
     with flint.ctx.workprec(200):
-        error = abs(truth.kappa_ratio(n, 150) - fraction(value))
+        error = abs(reference.kappa_ratio(n, 150) - fraction(value))
         bound = fraction(theory.kappa_bound(n, terms))
         assert error < bound
         assert n < 100 or bound < 1000 * error
@@ -205,7 +205,7 @@ def test_bounds_fall_with_the_index() -> None:
 def test_bound_of_the_finite_part_holds(k: int) -> None:
     limit = theory.finite_part_limit().subs(sp.Symbol("k", positive=True), k)
     with flint.ctx.workprec(300):
-        error = truth.finite_part_ratio(k, 200) - fraction(limit)
+        error = reference.finite_part_ratio(k, 200) - fraction(limit)
     bound = fraction(theory.finite_part_bound(k))
     assert 0 < error < bound
     assert k < 9 or bound < 20 * error
@@ -238,9 +238,9 @@ def test_trapezoids_are_right_far_beyond_a_double() -> None:
     limit = arb(2) ** -tables._WARRANTED
     with flint.ctx.workprec(200):
         for n in (0, 1, 2, 11, 64, 130, LAST_N):
-            assert abs(tables.kappas()[n] / truth.kappa(n, 120) - 1) < limit, n
+            assert abs(tables.kappas()[n] / reference.kappa(n, 120) - 1) < limit, n
         for k in (2, 3, 4, 11, 40, LAST_K):
-            assert abs(tables.finite_parts()[k - 2] / truth.finite_part(k, 120) - 1) < limit, k
+            assert abs(tables.finite_parts()[k - 2] / reference.finite_part(k, 120) - 1) < limit, k
 
 
 def test_generated_steps_are_those_of_the_theory() -> None:
@@ -262,22 +262,22 @@ def test_tables_are_repeatable() -> None:
 
 @pytest.mark.parametrize("n", [17, 20, 31])
 def test_peak_integral_is_the_plain_integral(n: int) -> None:
-    assert truth.kappa(n, 120).overlaps(contact_balls.kappa(n, 35))
+    assert reference.kappa(n, 120).overlaps(contact_balls.kappa(n, 35))
 
 
 def test_peak_integral_of_finite_parts_is_the_plain_integral() -> None:
     for k in (67, 75):
-        assert truth.finite_part(k, 120).overlaps(contact_balls.finite_part(k, 35))
+        assert reference.finite_part(k, 120).overlaps(contact_balls.finite_part(k, 35))
 
 
 def test_precision_is_what_is_asked() -> None:
     for bits in (60, 150):
         for n in (3, 30, 10**5):
-            assert truth.kappa_ratio(n, bits).rel_accuracy_bits() >= bits
-            assert truth.finite_part_ratio(n, bits).rel_accuracy_bits() >= bits
-        assert truth.kappa(30, bits).rel_accuracy_bits() >= bits
-    for number in (truth.kappa_ratio, truth.kappa):
+            assert reference.kappa_ratio(n, bits).rel_accuracy_bits() >= bits
+            assert reference.finite_part_ratio(n, bits).rel_accuracy_bits() >= bits
+        assert reference.kappa(30, bits).rel_accuracy_bits() >= bits
+    for number in (reference.kappa_ratio, reference.kappa):
         with pytest.raises(ValueError, match="from 0"):
             number(-1, 60)
     with pytest.raises(ValueError, match="from 2"):
-        truth.finite_part(1, 60)
+        reference.finite_part(1, 60)

@@ -73,10 +73,10 @@ def test_sphere_kernel_within_its_budget() -> None:
             arc = mp.atanh(x)
             force = mpf(3) / 4 * ((1 + x * x) * arc - x) / x**3 if rho > 1e-5 else 1 + 2 * x * x / 5
             depth, edge = arc / x, 1 / (1 - x * x)
-            truth = (force, depth, (depth + edge) / 2)
+            reference = (force, depth, (depth + edge) / 2)
             # Condition numbers: of the edge at most 2 x^2/(1 - x^2).
             allowed = 8 + float(x * x / (1 - x * x))
-            for value, true in zip(sphere_contact(rho), truth, strict=True):
+            for value, true in zip(sphere_contact(rho), reference, strict=True):
                 assert abs(mpf(float(value)) - true) < allowed * float(np.spacing(float(true)))
 
 

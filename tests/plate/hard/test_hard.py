@@ -18,7 +18,7 @@ from derivation.engine.measure.suite import Known, Suite, find_references
 from derivation.engine.oracle.reference import Stored, restored
 from derivation.plate.cases.laws import LAWS
 from derivation.plate.cases.suite import WRITTEN
-from derivation.plate.grids import seams
+from derivation.plate.grids import switches
 from derivation.plate.impact.oracle.agreement import agree
 from derivation.plate.modes.route import routes
 from derivation.plate.paper import PAPER
@@ -44,23 +44,23 @@ GROUPS = {
     "infinities and NaN": 15,
     "shapes and types": 36,
     "sums over the modes": 8,
-    "seams of the building blocks": 30,
-    "seams of the Bessel functions": 80,
-    "seams of the contact law": 90,
+    "switch points of the building blocks": 30,
+    "switch points of the Bessel functions": 80,
+    "switch points of the contact law": 90,
     "Bessel zeros by index": 24,
     "doubles next to zeros of J0 and J1": 12,
     "moments by index": 30,
-    "seams of the closed formulas": 50,
-    "seams of the sums over modes": 30,
-    "seams of the edge": 56,
-    "seams of the far face": 30,
-    "seams of the sphere": 1,
-    "seams of the true pressure": 15,
-    "seams of the impact": 9,
-    "seams of simple impacts": 10,
-    "seams of the paper's motion": 3,
-    "seams of the plate's waves": 36,
-    "seams of held plates with a thickness": 6,
+    "switch points of the closed formulas": 50,
+    "switch points of the sums over modes": 30,
+    "switch points of the edge": 56,
+    "switch points of the far face": 30,
+    "switch points of the sphere": 1,
+    "switch points of the true pressure": 15,
+    "switch points of the impact": 9,
+    "switch points of simple impacts": 10,
+    "switch points of the paper's motion": 3,
+    "switch points of the plate's waves": 36,
+    "switch points of held plates with a thickness": 6,
     "waves of held plates": 12,
     "waves of the plate": 100,
 }
@@ -92,22 +92,24 @@ def test_every_form_is_there_for_several_kernels(cases: tuple[HardCase, ...]) ->
     assert any(len(shape) == 2 for shape in shapes)
 
 
-def test_every_seam_of_the_blocks_is_there(cases: tuple[HardCase, ...]) -> None:
-    points = [case.points[0] for case in cases if case.group == "seams of the building blocks"]
+def test_every_switch_of_the_blocks_is_there(cases: tuple[HardCase, ...]) -> None:
+    points = [
+        case.points[0] for case in cases if case.group == "switch points of the building blocks"
+    ]
     reached = {
         "T": {p["T"] for p in points if "T" in p},
         "y": {p["phi"] for p in points if p.get("a") == 1.0},
     }
-    assert seams()
-    for variable, places in seams().items():
+    assert switches()
+    for variable, places in switches().items():
         for place in places:
             wanted = {from_ordinal(ordinal(place) + offset) for offset in (-32, -1, 0, 1, 32)}
             assert wanted <= reached[variable]
 
 
-def test_seams_come_in_all_offsets(cases: tuple[HardCase, ...]) -> None:
+def test_switches_come_in_all_offsets(cases: tuple[HardCase, ...]) -> None:
     assert OFFSETS == (-32, -1, 0, 1, 32)
-    arrays = [c for c in cases if c.group == "seams of the Bessel functions"]
+    arrays = [c for c in cases if c.group == "switch points of the Bessel functions"]
     for case in arrays:
         at = [ordinal(x) for x in case.numbers["x"]]
         assert tuple(place - at[2] for place in at) == OFFSETS
@@ -154,8 +156,8 @@ def test_references_repeat(suite: Suite, truth: dict[str, Known]) -> None:
     laws = [c for c in values if c.kernel in ("indentation", "stiffness") and not c.shape]
     quick = ("sphere_contact", "plate_of", "far_stress", "contact", "clamped_edge_bound",
              "dynamic_influence", "bending_share", "symmetric_residue")  # fmt: skip
-    seams = [next(c for c in values if c.kernel == kernel) for kernel in quick]
-    for case in (*generator.sample(closed, 24), *generator.sample(laws, 3), *seams):
+    switches = [next(c for c in values if c.kernel == kernel) for kernel in quick]
+    for case in (*generator.sample(closed, 24), *generator.sample(laws, 3), *switches):
         fresh = suite.references(case)
         for old, new in zip(truth[case.key].references, fresh, strict=True):
             if new["value"] in ("nan", "inf", "-inf"):

@@ -11,7 +11,7 @@ from mpmath import mp
 
 from derivation.engine.formula.proof import ProofError
 from derivation.engine.oracle.agreement import RouteError, to_ball
-from derivation.plate.budgets import read_promises
+from derivation.plate.budgets import read_stated_limits
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.pressure import oracle as pressure_balls
 from derivation.plate.pressure import route as pressure_routes
@@ -130,8 +130,8 @@ def test_oracles_refuse_what_they_do_not_reach() -> None:
 # --- generated code against the oracle
 
 
-def test_the_promise_is_the_committed_one() -> None:
-    assert read_promises("pressure") == {"error": ERROR}
+def test_the_stated_limit_is_the_committed_one() -> None:
+    assert read_stated_limits("pressure") == {"error": ERROR}
 
 
 @pytest.mark.parametrize(("a", "v", "sphere"), [(0.5, 2.0, 0.8), (1.5, 20.0, 1.9), (2.0, 5.0, 9.0)])

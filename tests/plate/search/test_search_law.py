@@ -20,7 +20,7 @@ from derivation.engine.measure.search import Found, Standing
 from derivation.engine.measure.search_record import Book, as_data, case_of, to_toml
 from derivation.engine.measure.target import Numbers, Target
 from derivation.plate.contact.cases import judge as contact_judge
-from derivation.plate.contact.cases.truth import truth
+from derivation.plate.contact.cases.reference_values import reference_value
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.search.draw import domain_of, draw
 from derivation.plate.search.targets import recorded, targets
@@ -43,7 +43,7 @@ def _quiet() -> Iterator[None]:
         yield
 
 
-# --- points, truth, allowance
+# --- points, reference value, allowance
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -82,7 +82,7 @@ def test_drawn_depths_and_speeds_lead_to_contacts_within_the_law(law: dict[str, 
         assert 0.0 < found.max_contact_radius < min(motion["b"], motion["R"])
 
 
-def test_what_the_law_does_not_promise_is_not_judged(law: dict[str, Target]) -> None:
+def test_what_the_law_does_not_stated_limit_is_not_judged(law: dict[str, Target]) -> None:
     """A contact beyond the plate's edge; forces that no double holds."""
     beyond = Point({"delta": 2.0, "R": 1.0, "h": 0.5, "b": 1.0})
     assert law["contact_radius"].measure(beyond, (1.0,)) is None
@@ -93,7 +93,7 @@ def test_what_the_law_does_not_promise_is_not_judged(law: dict[str, Target]) -> 
 @pytest.mark.parametrize(
     ("a", "R", "judged"), [(0.55, 100.0, True), (0.8, 100.0, False), (0.55, 0.5, False)]
 )
-def test_a_contact_wider_than_promised_has_no_truth(
+def test_a_contact_wider_than_stated_has_no_reference(
     a: float, R: float, judged: bool, law: dict[str, Target]
 ) -> None:
     """Up to six half-thicknesses, here 0.6, and a sphere's own radius."""
@@ -105,7 +105,7 @@ def test_a_contact_wider_than_promised_has_no_truth(
 
 
 def test_a_kernel_with_too_many_results_is_no_kernel() -> None:
-    true = truth(("max_pressure", (0.1, 1.0, 1e9, 1e9)))
+    true = reference_value(("max_pressure", (0.1, 1.0, 1e9, 1e9)))
     with pytest.raises(ValueError, match="2 results at "):
         contact_judge.judge(lambda *_: (1.0, 2.0), [true], 1.0)
 
@@ -125,7 +125,7 @@ def plain(name: str, arguments: tuple[str, ...], conditions: tuple[str, ...]) ->
     return Target(domain_of(name, arguments, False, conditions), draw, call, measure, None, 48, 1)
 
 
-def test_points_without_truth_are_counted_and_no_worst_is_made_up() -> None:
+def test_points_without_reference_are_counted_and_no_worst_is_made_up() -> None:
     target = dataclasses.replace(plain("blind", ("x",), ()), measure=lambda *_: None)
     standing = search.search([target], 1, evaluations=600).standings["blind"]
     assert (standing.evaluations, standing.unjudged) == (600, 600)

@@ -20,7 +20,7 @@ from derivation.scene.method_selection import moved
 from derivation.scene.model import Model
 from derivation.scene.motion import Motion
 from derivation.scene.scene import OUTPUTS, SceneError
-from generated.viscosity import Course, restitution_weak, viscous_logarithms, viscous_number
+from generated.viscosity import ImpactExtremes, restitution_weak, viscous_logarithms, viscous_number
 
 HERTZ = frozenset({"hertz", "viscosity"})
 PLATE = WHOLE_PLATE | HERTZ
@@ -245,16 +245,16 @@ def test_course_meets_the_results() -> None:
     assert travelled == pytest.approx(depth[-1], rel=1e-7)
 
 
-COURSE = Course(0.1, 1.0, 0.0, 0.2, 0.8, 0.4, 1.0)
+EXTREMES = ImpactExtremes(0.1, 1.0, 0.0, 0.2, 0.8, 0.4, 1.0)
 
 
 def test_logarithms_hold_for_hertz() -> None:
     """epsilon = (4/5)^(2/5) x, log Omega/log s = 1/5, delta ~ s^(4/5) and a ~ s^(2/5)."""
-    assert viscous_logarithms(COURSE._replace(epsilon=1.0)) == (math.inf,) * 5
+    assert viscous_logarithms(EXTREMES._replace(epsilon=1.0)) == (math.inf,) * 5
     calm = moves(ContactLaw(BALL, frozenset({"hertz"}))).numbers
     for x in (1e-4, 0.01, 0.3, 0.9):
         found = moves(ContactLaw(with_number(x), HERTZ)).numbers
-        most = viscous_logarithms(COURSE._replace(epsilon=0.8**0.4 * x, rise=0.2))
+        most = viscous_logarithms(EXTREMES._replace(epsilon=0.8**0.4 * x, rise=0.2))
         changes = [abs(math.log(new / old)) for new, old in zip(found, calm, strict=True)]
         assert all(change <= bound for change, bound in zip(changes, most, strict=True))
         # Not ten times too wide either, but for the force, where only e^2 is lost.

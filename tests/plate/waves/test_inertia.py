@@ -77,9 +77,9 @@ def test_thin_plate_series_of_any_order() -> None:
     x, nu = 0.125, 0.3
     slopes, residues = bending_branch.thin_powers(12)
     with flint.ctx.workprec(BITS):
-        truth = inertia_balls.zero(x, nu, digits=25) / arb(x) ** 4
+        reference = inertia_balls.zero(x, nu, digits=25) / arb(x) ** 4
         answer = inertia_balls.residue(x, nu, digits=25)
-        for row, true in ((slopes, truth), (residues, answer)):
+        for row, true in ((slopes, reference), (residues, answer)):
             total, errors = arb(0), []
             for n, coefficient in enumerate(row):
                 total += evaluate(coefficient, {gam: material(nu)}, 30) * arb(x) ** (2 * n)

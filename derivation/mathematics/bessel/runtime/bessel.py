@@ -34,9 +34,9 @@ from generated.bessel_numbers import (
     QUARTER_PI,
     QUARTER_PI_TAIL,
     QUARTERS,
-    SEAMS,
     SHIFT,
     SLOPE_EXCESS,
+    SWITCHES,
     TAYLOR,
     ZERO_CORRECTION,
 )
@@ -46,7 +46,7 @@ _BLOCK = 8192  # number of points in one block, so that intermediate arrays fit 
 # Ordered by power, the highest first: each line contains one coefficient of all centres.
 _TAYLOR = tuple(np.array(table).T[::-1].copy() for table in TAYLOR)
 _CELLS = np.arange(int(CELLS * ASYMPTOTIC_START)) / CELLS
-_CENTRE_OF_CELL = np.searchsorted(SEAMS, _CELLS, "right") - 1
+_CENTRE_OF_CELL = np.searchsorted(SWITCHES, _CELLS, "right") - 1
 _QUARTER_HALVES = halves(np.array(QUARTER_PI))
 _HIGH, _LOW = np.array(CENTRE_HIGH), np.array(CENTRE_LOW)
 

@@ -8,12 +8,18 @@ from typing import Any
 
 import numpy as np
 
-from derivation.engine.activity import Tell, quiet
+from derivation.engine.activity import Progress, quiet
 from derivation.engine.formula.ulp import SINGLE
 from derivation.engine.measure.judge import Errors
 from derivation.plate.contact.cases.grid import PAPERS_IMPACT, ContactShape, Point, arguments, grid
 from derivation.plate.contact.cases.judge import judge, results
-from derivation.plate.contact.cases.truth import DIGITS, ContactTruth, Job, relative, truths
+from derivation.plate.contact.cases.reference_values import (
+    DIGITS,
+    ContactReference,
+    Job,
+    reference_values,
+    relative,
+)
 
 LIMIT = 2e-15
 """Largest relative error allowed; the budget in ULP applies as well."""
@@ -100,7 +106,7 @@ def check(
     kernels: Mapping[str, Callable[..., Any]],
     points: Mapping[str, Sequence[Point]] | None = None,
     processes: int = 1,
-    tell: Tell = quiet,
+    progress: Progress = quiet,
 ) -> tuple[ContactRow, ...]:
     """Compare functions with reference values, on which both reference methods agree.
 
@@ -113,7 +119,7 @@ def check(
         Arguments by function; by default the grids, then also in single precision.
     processes
         Number of processes.
-    tell
+    progress
         Called after each point with the function's name, the number of finished points and the
         total.
 
@@ -130,15 +136,15 @@ def check(
     double = [_jobs(name, points) for name in kernels]
     single = [[] if points else _rounded(jobs) for jobs in double]
     jobs = _mixed([*double, *single])
-    known = dict(zip(jobs, truths(jobs, processes, tell), strict=True))
-    budgets = promised()
+    known = dict(zip(jobs, reference_values(jobs, processes, progress), strict=True))
+    budgets = stated_limits()
     return tuple(
         _row(name, call, budgets[name], [known[job] for job in d], [known[job] for job in s])
         for (name, call), d, s in zip(kernels.items(), double, single, strict=True)
     )
 
 
-def promised() -> dict[str, float]:
+def stated_limits() -> dict[str, float]:
     """Return the budgets in ULP by function, from the manifest."""
     manifest = importlib.import_module("generated.manifest")
     return {row["name"]: float(row["budget"]) for row in manifest.CONTACT}
@@ -175,8 +181,8 @@ def _row(
     name: str,
     call: Callable[..., Any],
     budget: float,
-    found: Sequence[ContactTruth],
-    rounded: Sequence[ContactTruth],
+    found: Sequence[ContactReference],
+    rounded: Sequence[ContactReference],
 ) -> ContactRow:
     ways = (call, _of_arrays(call)) if name in IN_TWO_WAYS else (call,)
     errors = [max(_error(name, way, true) for way in ways) for true in found]
@@ -211,7 +217,7 @@ def _of_arrays(call: Callable[..., Any]) -> Callable[..., Any]:
     return lambda *point: call(*(np.atleast_1d(x) for x in point))
 
 
-def _error(name: str, call: Callable[..., Any], true: ContactTruth) -> float:
+def _error(name: str, call: Callable[..., Any], true: ContactReference) -> float:
     """Return the largest error over the results at a point; infinite if one is not finite."""
     values = [float(value) for value in results(call, true.point)]
     if len(values) != len(true.values):
@@ -220,6 +226,6 @@ def _error(name: str, call: Callable[..., Any], true: ContactTruth) -> float:
     return max(relative(value, ball, true.scale) for value, ball in pairs)
 
 
-def _case(true: ContactTruth, error: float) -> ContactCase:
+def _case(true: ContactReference, error: float) -> ContactCase:
     h, b = true.point[3], true.point[4]
     return ContactCase(true.bend, h / b, true.radius / h, error, math.floor(true.digits))

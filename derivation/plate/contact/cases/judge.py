@@ -7,11 +7,11 @@ import flint
 import numpy as np
 
 from derivation.engine.formula.ulp import DOUBLE, Format
-from derivation.engine.measure.judge import Errors, Truth, measured
+from derivation.engine.measure.judge import Errors, PointReference, measured
 from derivation.engine.measure.kernels import Kernel, Results
 from derivation.engine.measure.point import Point
 from derivation.engine.oracle.reference import Reference
-from derivation.plate.contact.cases.truth import ContactTruth
+from derivation.plate.contact.cases.reference_values import ContactReference
 
 STEP = 1e-5
 """Relative change of an argument for a condition number.
@@ -55,7 +55,7 @@ class OneByOne(Kernel):
 
 
 def judge(
-    call: Callable[..., Any], found: Sequence[ContactTruth], budget: float, fmt: Format = DOUBLE
+    call: Callable[..., Any], found: Sequence[ContactReference], budget: float, fmt: Format = DOUBLE
 ) -> Errors:
     """Return the errors of a function against the reference values.
 
@@ -67,14 +67,16 @@ def judge(
     names = tuple(str(place) for place in range(len(found[0].point)))
     kernel = OneByOne("the kernel", "", names, call, budget)
     with flint.ctx.workprec(256):  # to read the balls from text and to round the errors
-        truths = [
-            Truth(Point(dict(zip(names, true.point, strict=True))), _references(call, true))
+        reference_values = [
+            PointReference(
+                Point(dict(zip(names, true.point, strict=True))), _references(call, true)
+            )
             for true in found
         ]
-        return measured(kernel, truths, fmt=fmt)
+        return measured(kernel, reference_values, fmt=fmt)
 
 
-def _references(call: Callable[..., Any], true: ContactTruth) -> tuple[Reference, ...]:
+def _references(call: Callable[..., Any], true: ContactReference) -> tuple[Reference, ...]:
     totals = conditioning(call, true.point)
     if totals.size != len(true.values):
         raise ValueError(f"{totals.size} results at {true.point}, {len(true.values)} are expected")

@@ -94,12 +94,12 @@ def mode_count(eta: float, bits: int) -> int:
     )
 
 
-def prepare(eta: Fraction, reach: float, bits: int, tell: Callable[[int, int], None]) -> None:
-    """Compute the zeros that `series` uses; `tell` is called with each index and the total."""
+def prepare(eta: Fraction, reach: float, bits: int, progress: Callable[[int, int], None]) -> None:
+    """Compute the zeros that `series` uses; `progress` is called with each index and the total."""
     precision = working_bits(eta, reach, bits) + _SPARE
     count = mode_count(float(eta), bits)
     for index in range(1, count + 1):
-        tell(index, count)
+        progress(index, count)
         j0_zero(index, precision)
 
 

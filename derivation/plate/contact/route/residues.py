@@ -77,7 +77,7 @@ def series(eta: mpf, reach: mpf, digits: int) -> ResidueSeries:
     with mp.workprec(bits + _SPARE):
         half = reach / eta / 2
         factor = 4 / mp.pi * half
-        roots: list[_Place] = []
+        roots: list[_Node] = []
         near: Iterator[int] = repeat(0)
         if 4 * FIRST_ZERO * eta > bits * math.log(2):
             axis = list(_wall(bits, eta))
@@ -109,29 +109,29 @@ def _product(x: int, factor: mpf, bits: int) -> int:
     return x * fixed(factor, bits + _SPARE) >> (bits + _SPARE)
 
 
-class _Place(NamedTuple):
+class _Node(NamedTuple):
     """T and the weight of its even powers in the N_j."""
 
     T: mpf | mpc
     weight: mpf | mpc
 
 
-def _wall(bits: int, eta: mpf) -> Iterator[_Place]:
+def _wall(bits: int, eta: mpf) -> Iterator[_Node]:
     """Yield the nodes T = 2 i eta y and weights of a sum for -2/pi int_0^oo K0/I0 dy."""
     need = bits * math.log(2)
     for y, w in _nodes(2 * math.pi * STRIP / need, need, need + 2 * math.log(need)):
         with mp.workprec(bits + math.ceil(y / math.log(2)) + _SPARE):
-            yield _Place(mpc(0, 2 * eta * y), -4 * eta / mp.pi * w * _bessel_quotient(y).real)
+            yield _Node(mpc(0, 2 * eta * y), -4 * eta / mp.pi * w * _bessel_quotient(y).real)
 
 
-def _axis(bits: int, A: float) -> Iterator[_Place]:
+def _axis(bits: int, A: float) -> Iterator[_Node]:
     """Yield nodes and weights of int_1^oo (G - 1) dT; in its strip e^(A Im T/2) < e^(2 Re T)."""
     need = bits * math.log(2)
     step = 2 * math.pi * min(STRIP, 0.9 * math.atan(4 / A)) / need
     deep = max(0, math.ceil((A / 2 - 2) * need / 2 / math.log(2)))
     with mp.workprec(bits + deep + _SPARE):
         for y, w in _nodes(step, need, need / 2 + 2 * math.log(need)):
-            yield _Place(1 + y, w * _excess(1 + y))
+            yield _Node(1 + y, w * _excess(1 + y))
 
 
 def _nodes(step: float, need: float, end: float) -> Iterator[tuple[mpf, mpf]]:
@@ -153,7 +153,7 @@ def _excess(T: mpf) -> mpf:
     return above / ((1 - decay) ** 2 - 4 * T * T * decay)
 
 
-def _roots(bits: int, eta: mpf, reach: float) -> Iterator[_Place]:
+def _roots(bits: int, eta: mpf, reach: float) -> Iterator[_Node]:
     """Yield T_n and 2 pi g_n H/J0, while e^(-Im T (2 - reach)/(2 eta)) is above 2^-bits."""
     highest = bits * math.log(2) * 2 * float(eta) / (2 - reach)
     for n in range(1, math.floor(highest / math.pi) + 1):
@@ -162,7 +162,7 @@ def _roots(bits: int, eta: mpf, reach: float) -> Iterator[_Place]:
             T = _root(n, mp.prec)
             residue = (1 + mp.sqrt(1 + T * T)) ** 2 / (2 * T * T)
             # H/J0 at z is 2/(pi i) K0/I0 at -iz.
-            yield _Place(T, 4 * residue * mpc(0, -1) * _bessel_quotient(mpc(0, -1) * T / (2 * eta)))
+            yield _Node(T, 4 * residue * mpc(0, -1) * _bessel_quotient(mpc(0, -1) * T / (2 * eta)))
 
 
 @cache
@@ -230,7 +230,7 @@ class _Term:
         return self.far > step or abs(self.re) > 1 or abs(self.im or 0) > 1
 
 
-def _powers(places: list[_Place], half: mpf, bits: int) -> Iterator[int | None]:
+def _powers(places: list[_Node], half: mpf, bits: int) -> Iterator[int | None]:
     """Yield sums over the nodes (imaginary parts for poles), j = 0, 1, ...; None after the last."""
     running = []
     for T, weight in places:

@@ -22,7 +22,7 @@ from derivation.engine.rewrite.form import undo
 from derivation.engine.rewrite.series import taylor_section
 from derivation.engine.rewrite.terms import terms_of
 from derivation.plate.blocks import blocks
-from derivation.plate.edge.kernels.tables import SEAM
+from derivation.plate.edge.kernels.tables import SWITCH
 from derivation.plate.edge.theory.sums import (
     Kernel,
     closed,
@@ -80,7 +80,7 @@ def of_indentation() -> Routine:
     at = blocks()["hertz_shape"].value.at
     high, shape = sp.symbols("high shape", positive=True)
 
-    def without_seam(expression: sp.Expr) -> sp.Expr:
+    def without_switch(expression: sp.Expr) -> sp.Expr:
         width = alpha * j_n
         return sp.simplify(expression.xreplace({sp.Min(width, at): at * width / sp.Max(width, at)}))
 
@@ -96,7 +96,7 @@ def of_indentation() -> Routine:
         (indentation_kernel(alpha * j_n),),
         "3 (sin y - y cos y)/y^3, y = alpha j.",
         {j: j_n},
-        without_seam,
+        without_switch,
     )
 
 
@@ -133,7 +133,7 @@ def thin(kind: str) -> Routine:
 def _bent_series(square: sp.Symbol, series: sp.Symbol) -> Several:
     """Return (T cosh T + 2 T - 3 sinh T)/T^5 in powers of T^2, truncated below rounding."""
     total = sp.expand(sp.numer(sp.together(Q - 3)))
-    section = taylor_section(terms_of(total, T), sp.Integer(SEAM))
+    section = taylor_section(terms_of(total, T), sp.Integer(SWITCH))
     return Several(
         (series,), "polynomial", (square, *section.coefficients), (total / T**section.lead,)
     )
@@ -151,7 +151,7 @@ def _of_T() -> tuple[dict[str, sp.Symbol], tuple[Let | Several, ...]]:
             Several((s[name],), block, (T,), (known[block].definition(T),))
             for name, block in (("lower", "sinh_minus"), ("upper", "sinh_plus"))
         ),
-        Let(s["square"], GUARDED(T, SEAM) ** 2),
+        Let(s["square"], GUARDED(T, SWITCH) ** 2),
         _bent_series(s["square"], s["series"]),
     )
 
@@ -159,8 +159,8 @@ def _of_T() -> tuple[dict[str, sp.Symbol], tuple[Let | Several, ...]]:
 def _sides(mode: sp.Symbol) -> tuple[sp.Basic, Facts, Facts]:
     """Return the condition for the power series of Q - 3, and the block's power on either side."""
     size = 2 * eta * mode
-    near = sp.Min(size, SEAM)
-    return sp.Lt(T, SEAM), {near: size}, {near: SEAM}
+    near = sp.Min(size, SWITCH)
+    return sp.Lt(T, SWITCH), {near: size}, {near: SWITCH}
 
 
 @named
@@ -171,7 +171,7 @@ def later_modes() -> Claims:
     weight, above = sp.symbols("weight above", real=True)
     condition, near, far = _sides(j_n)
     of_series = T - 3 - 2 * fading * square * series / lower
-    of_decay = -T * fading * (T + gone) / (SEAM**2 * lower)
+    of_decay = -T * fading * (T + gone) / (SWITCH**2 * lower)
     kernel = sp.Symbol("k", real=True)
     mode = kernel / (j_n**2 * J1)
     size = {T: 2 * eta * j_n}
@@ -204,7 +204,7 @@ def all_modes() -> Claims:
     condition, near, far = _sides(j_n)
     of_series = -2 * fading * square * series / lower
     lead = sp.Symbol("lead", real=True)
-    of_decay = lead - T * fading * (T + gone) / (SEAM**2 * lower)
+    of_decay = lead - T * fading * (T + gone) / (SWITCH**2 * lower)
     modes = ((k_1, j_n, J1), (k_2, j_2, J1_2))
     (cube_1, cube_2), (square_of_1, square_of_2) = (
         [k / (zero**power * slope) for k, zero, slope in modes] for power in (3, 2)

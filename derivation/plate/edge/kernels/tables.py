@@ -31,7 +31,7 @@ TERMS = 34
 """Number of coefficients of the tables in alpha^2."""
 CUT_OFF = 2**-58
 """Truncation error of the tables, for sums near 1/8."""
-SEAM = 2
+SWITCH = 2
 """T below which Q - 3 is a power series."""
 FADED = 46
 """T beyond which modes are omitted: T^2 e^(-T) is below 1e-16 times the first modes."""

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from derivation.engine.emit.package import Routines
-from derivation.plate.budgets import read_promises
+from derivation.plate.budgets import read_stated_limits
 from derivation.plate.edge_modes.kernels import amplitudes, edges, faces, states
 from derivation.plate.edge_modes.kernels.numbers import numbers
 from derivation.plate.modules import ComputedModule, RuntimeModule
@@ -29,8 +29,8 @@ def edge_mode_kernels() -> Routines:
 
 def _limits() -> Mapping[str, Sequence[str]]:
     """Return tested limits as lines of a docstring."""
-    promised = read_promises("edge_modes").items()
-    numbers = ", ".join(f"{name} {ulp:g}" for name, ulp in promised if name != "face")
+    stated_limits = read_stated_limits("edge_modes").items()
+    numbers = ", ".join(f"{name} {ulp:g}" for name, ulp in stated_limits if name != "face")
     text = (
         f"Tested error limits in units in the last place (ULP): {numbers}; for c relative to "
         "c (1 + k), for k2 to k^2/k2, for t to max(1, |t|). Half the sum of the condition "

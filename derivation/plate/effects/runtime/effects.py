@@ -26,7 +26,7 @@ class Sphere(NamedTuple):
     slope: np.ndarray
 
 
-class Share(NamedTuple):
+class Contribution(NamedTuple):
     """Contribution to F and to S [1]."""
 
     depth: np.ndarray
@@ -68,7 +68,7 @@ def sphere_contact(a_over_R: ArrayLike) -> Sphere:
 
 @in_manifest("W", equation="6", domain="alpha >= 0, alpha < 1")
 @quiet
-def side_wall(alpha: ArrayLike) -> Share:
+def side_wall(alpha: ArrayLike) -> Contribution:
     """Compute the effect of the plate's finite radius for Hertz pressure and the paper's edge.
 
     Formula::
@@ -96,12 +96,12 @@ def side_wall(alpha: ArrayLike) -> Share:
     [alpha] = inside([alpha], alpha >= 0, alpha < 1)
     square = alpha * alpha
     depth, slope = (-alpha * polynomial(square, *row) for row in (WALL_DEPTH, WALL_SLOPE))
-    return Share(as_result(depth, kind), as_result(slope, kind))
+    return Contribution(as_result(depth, kind), as_result(slope, kind))
 
 
 @in_manifest("F_B", equation="6", domain="a_ratio >= 0, eta > 0")
 @quiet
-def bending(a_ratio: ArrayLike, eta: ArrayLike) -> Share:
+def bending(a_ratio: ArrayLike, eta: ArrayLike) -> Contribution:
     """Compute the effect of thin-plate bending, P b^2/(8 pi D), for the paper's edge.
 
     Formula::
@@ -128,7 +128,7 @@ def bending(a_ratio: ArrayLike, eta: ArrayLike) -> Share:
     """
     kind, [a_ratio, eta] = as_doubles(a_ratio, eta)
     [a_ratio, eta] = inside([a_ratio, eta], a_ratio >= 0, eta > 0)
-    return Share(*(as_result(x, kind) for x in kernels.bent_plate(a_ratio, eta)))
+    return Contribution(*(as_result(x, kind) for x in kernels.bent_plate(a_ratio, eta)))
 
 
 @in_manifest(r"\lambda_Z", domain="R > 0, m > 0, v0 > 0, h > 0, 3 * lam > -2 * mu, mu > 0, rho > 0")

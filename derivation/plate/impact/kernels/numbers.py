@@ -4,7 +4,7 @@ import numpy as np
 
 from derivation.engine.emit.package import Numbers
 from derivation.engine.emit.tables import Constant
-from derivation.plate.budgets import read_promises
+from derivation.plate.budgets import read_stated_limits
 from derivation.plate.contact.kernels.tables import IMPACT_NODES, INNER_NODES, gauss_legendre
 
 
@@ -14,7 +14,7 @@ def impact_numbers() -> Numbers:
         tuple(np.array(part) for part in gauss_legendre(count))
         for count in (IMPACT_NODES, INNER_NODES)
     )
-    stated = read_promises()
+    stated = read_stated_limits()
     return Numbers(
         "impact_numbers",
         "Numbers of the impact: Gauss' rules on [0, 1], and how far results may be off.",

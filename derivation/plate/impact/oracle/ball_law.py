@@ -17,7 +17,7 @@ from derivation.plate.contact.oracle import points as contact_points
 from derivation.plate.contact.oracle.balls import modulus, ratio_of, settle
 from derivation.plate.contact.oracle.sums import excess, excess_bound, hankel_bound
 
-Tell = Callable[[str, int, int], None]
+Progress = Callable[[str, int, int], None]
 """Called with the current task, the index of the current part, and the number of parts."""
 
 
@@ -58,7 +58,7 @@ class Integrals(NamedTuple):
 
 
 def law_of(
-    eta: Fraction, reach: float, digits: int, tell: Tell = lambda *_: None
+    eta: Fraction, reach: float, digits: int, progress: Progress = lambda *_: None
 ) -> Callable[[int], BallLaw]:
     """Return the law of the Arb reference: a power series if possible and faster.
 
@@ -70,16 +70,18 @@ def law_of(
         Largest a/b [1] at which it is evaluated.
     digits
         Number of digits, which determines the faster method.
-    tell
+    progress
         Called for every zero of J0.
     """
     if not by_series(float(eta), reach, digits):
-        tell("oracle 1: integrals", 1, 1)
+        progress("oracle 1: integrals", 1, 1)
         return lambda _: Integrals(eta)
 
     def law(bits: int) -> BallLaw:
-        contact_points.prepare(eta, reach, bits, lambda k, n: tell("oracle 1: zeros of J0", k, n))
-        tell("oracle 1: power series", 1, 1)
+        contact_points.prepare(
+            eta, reach, bits, lambda k, n: progress("oracle 1: zeros of J0", k, n)
+        )
+        progress("oracle 1: power series", 1, 1)
         return contact_points.series(eta, reach, bits)
 
     return law

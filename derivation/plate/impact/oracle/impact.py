@@ -41,17 +41,17 @@ class ImpactBalls(NamedTuple):
     max_contact_radius: arb
 
 
-class Course(NamedTuple):
+class ImpactPolynomials(NamedTuple):
     """An impact's exact polynomials in q = a/a_m, with a bound of their error.
 
     With S = (R/2a) d delta/da and H = int_q^1 x^4 S dx/(1 - q), the time from a to
-    a_m is scale int_0^u q S/sqrt(H) du, q = 1 - u^2. `doubt` bounds its relative error.
+    a_m is scale int_0^u q S/sqrt(H) du, q = 1 - u^2. `error_bound` bounds its relative error.
     """
 
     slope: flint.acb_poly
     energy: flint.acb_poly
     scale: arb
-    doubt: arb
+    error_bound: arb
     radius: arb
 
 
@@ -63,7 +63,7 @@ def _spread(polynomial: flint.arb_poly) -> flint.arb_poly:
     return flint.arb_poly(spread)
 
 
-def _doubt(polynomial: flint.arb_poly, error: arb) -> arb:
+def _error_bound(polynomial: flint.arb_poly, error: arb) -> arb:
     """Return a bound of the relative error of S and its integrals, if p has the error `error`.
 
     The error of S is q error, and S/q = 1/q + p >= 1 + p. Hence the bound is small for thin plates
@@ -87,20 +87,22 @@ def _at(polynomial: flint.acb_poly, q: acb) -> acb:
     return polynomial(flint.acb_poly([middle, 1]))(q - middle)
 
 
-def _duration(course: Course, u: arb, bits: int) -> arb:
+def _duration(polynomials: ImpactPolynomials, u: arb, bits: int) -> arb:
     """Return the time between a_m (1 - u^2) and a_m."""
 
     def integrand(v: acb, analytic: bool) -> acb:
         q = 1 - v * v
-        return q * _at(course.slope, q) / _at(course.energy, q).sqrt(analytic=analytic)
+        return q * _at(polynomials.slope, q) / _at(polynomials.energy, q).sqrt(analytic=analytic)
 
-    with flint.ctx.workprec(bits + 2 * course.slope.degree() + 64):
+    with flint.ctx.workprec(bits + 2 * polynomials.slope.degree() + 64):
         tolerance = arb(2) ** -bits
         body = acb.integral(integrand, 0, acb(u), rel_tol=tolerance, abs_tol=tolerance).real
-        return course.scale * body * arb(1, course.doubt)
+        return polynomials.scale * body * arb(1, polynomials.error_bound)
 
 
-def _course(alpha: arb, R: Exact, m: Exact, b: Exact, stiff: arb, law: BallLaw) -> Course:
+def _polynomials(
+    alpha: arb, R: Exact, m: Exact, b: Exact, stiff: arb, law: BallLaw
+) -> ImpactPolynomials:
     """Return the polynomials at a largest a/b; `stiff` is C = 4 E*/(3R)."""
     bits = flint.ctx.prec
     bare, error = law.slope(alpha)
@@ -115,8 +117,10 @@ def _course(alpha: arb, R: Exact, m: Exact, b: Exact, stiff: arb, law: BallLaw) 
         scale = 2 * radius**2 / to_ball(R)
         scale *= (to_ball(m) * to_ball(R) / (stiff * radius**5)).sqrt()
         # Relative errors below d of S and H cause a relative error below 2 d of S/sqrt(H).
-        doubt = (3 * _doubt(bare, error)).abs_upper()
-        return Course(flint.acb_poly(polynomial), flint.acb_poly(energy), scale, doubt, radius)
+        error_bound = (3 * _error_bound(bare, error)).abs_upper()
+        return ImpactPolynomials(
+            flint.acb_poly(polynomial), flint.acb_poly(energy), scale, error_bound, radius
+        )
 
 
 def impact(
@@ -213,16 +217,16 @@ def _impact(
 ) -> tuple[ImpactBalls, tuple[arb, ...]]:  # fmt: skip
     stiff, bits = 4 * modulus(lam, mu) / (3 * to_ball(R)), flint.ctx.prec
     alpha = largest_ratio(R, m, v0, h, b, lam, mu, law)
-    course = _course(alpha, R, m, b, stiff, law)
-    whole = _duration(course, arb(1), bits)
-    deepest = course.radius**2 / to_ball(R) * (1 + law.excess("hertz", alpha))
-    force = stiff * course.radius**3
-    found = ImpactBalls(2 * whole, deepest, force, course.radius)
-    return found, tuple(whole - _duration(course, _left(a, course), bits) for a in radii)
+    polynomials = _polynomials(alpha, R, m, b, stiff, law)
+    whole = _duration(polynomials, arb(1), bits)
+    deepest = polynomials.radius**2 / to_ball(R) * (1 + law.excess("hertz", alpha))
+    force = stiff * polynomials.radius**3
+    found = ImpactBalls(2 * whole, deepest, force, polynomials.radius)
+    return found, tuple(whole - _duration(polynomials, _left(a, polynomials), bits) for a in radii)
 
 
-def _left(a: Exact, course: Course) -> arb:
+def _left(a: Exact, polynomials: ImpactPolynomials) -> arb:
     """Return u of a contact radius, 1 - u^2 = a/a_m."""
-    if not to_ball(a) < course.radius:
-        raise ValueError(f"a contact radius below {course.radius.str(8)} is expected, got {a}")
-    return (1 - to_ball(a) / course.radius).sqrt()
+    if not to_ball(a) < polynomials.radius:
+        raise ValueError(f"a contact radius below {polynomials.radius.str(8)} is expected, got {a}")
+    return (1 - to_ball(a) / polynomials.radius).sqrt()

@@ -155,7 +155,7 @@ class ImpactReference(NamedTuple):
         return found
 
 
-def reference(motion: Motion, digits: int, tell: ball_law.Tell) -> ImpactReference:
+def reference(motion: Motion, digits: int, progress: ball_law.Progress) -> ImpactReference:
     """Return law and impact with many digits, from both reference methods.
 
     Parameters
@@ -164,7 +164,7 @@ def reference(motion: Motion, digits: int, tell: ball_law.Tell) -> ImpactReferen
         The scene as numbers; doubles are exact.
     digits
         The relative radius of each ball is below 10^-digits.
-    tell
+    progress
         Called with the current task and its progress.
 
     Raises
@@ -179,21 +179,21 @@ def reference(motion: Motion, digits: int, tell: ball_law.Tell) -> ImpactReferen
     if not 1 <= digits <= MOST:
         raise ValueError(f"expected 1 to {MOST} digits, got {digits}")
     R, _, _, h, b, lam, mu = motion
-    tell("largest contact radius", 1, 1)
-    law = ball_law.law_of(ratio_of(h, b), contact_impact.reach_of(motion), digits, tell)
+    progress("largest contact radius", 1, 1)
+    law = ball_law.law_of(ratio_of(h, b), contact_impact.reach_of(motion), digits, progress)
     wanted = digits + _SPARE
     found = contact_impact.impact(*motion, wanted, law)
     radii = [float(found.max_contact_radius) * share for share in SHARES]
     balls = [ball_law.pressed(a, R, b, lam, mu, law, wanted) for a in radii]
     laws: list[Pressed] = []
     for a, both in zip(radii, balls, strict=True):
-        tell("mpmath: law", len(laws) + 1, len(radii))
+        progress("mpmath: law", len(laws) + 1, len(radii))
         again = (
             residue_law.indentation(a, R, h, b, digits),
             residue_law.stiffness(a, R, h, b, lam, mu, digits),
         )
         laws.append(Pressed(a, _beside(("indentation", "stiffness"), both, again, digits)))
-    tell("mpmath: impact", 1, 1)
+    progress("mpmath: impact", 1, 1)
     moved = _beside(found._fields, found, residue_law.impact(*motion, digits), digits)
     return ImpactReference(motion, digits, moved, tuple(laws))
 

@@ -7,7 +7,7 @@ terms do not, are in `in_plane`; `steps` contains the notation and common steps.
 import sympy as sp
 from sympy.codegen.cfunctions import expm1
 
-from derivation.engine.rewrite.form import CLOSELY, TIMES, Branch, Seam, Step
+from derivation.engine.rewrite.form import CLOSELY, TIMES, Branch, Step, Switch
 from derivation.engine.rewrite.sections import sections
 from derivation.plate.blocks import blocks
 from derivation.plate.modes.kernels.in_plane import in_plane
@@ -123,7 +123,7 @@ def _deflection() -> Shape:
         ),
         CLOSELY(core / 2, *FADED, *scale),
     )
-    return WHOLE_T, Seam(T, THIN, thin, thick)
+    return WHOLE_T, Switch(T, THIN, thin, thick)
 
 
 def _axial() -> Shape:
@@ -180,7 +180,7 @@ def _axial() -> Shape:
         ),
         TIMES(core, *FADED, A_j, 1),
     )
-    return WHOLE_T, Seam(T, THIN, thin, thick)
+    return WHOLE_T, Switch(T, THIN, thin, thick)
 
 
 def _shear() -> Shape:
@@ -218,4 +218,4 @@ def _shear() -> Shape:
         ),
         -TIMES(core, *FADED, A_j, 1),
     )
-    return WHOLE_T, Seam(T, THIN, thin, thick)
+    return WHOLE_T, Switch(T, THIN, thin, thick)

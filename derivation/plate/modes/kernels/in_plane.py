@@ -6,7 +6,7 @@ instead. In thick plates those would cancel.
 
 import sympy as sp
 
-from derivation.engine.rewrite.form import CLOSELY, LOST, SUM, TIMES, Branch, Seam, Step
+from derivation.engine.rewrite.form import CLOSELY, LOST, SUM, TIMES, Branch, Step, Switch
 from derivation.engine.rewrite.sections import sections
 from derivation.plate.modes.kernels.steps import (
     DECAY,
@@ -176,7 +176,7 @@ def _radial_displacement() -> Shape:
         ),
         TIMES(core / 2, *FADED, *scale),
     )
-    return WHOLE_T, Seam(T, CROSSING, middle, faces)
+    return WHOLE_T, Switch(T, CROSSING, middle, faces)
 
 
 def _radial() -> Shape:
@@ -212,7 +212,7 @@ def _radial() -> Shape:
         ),
         TIMES(core, *FADED, A_j, 1),
     )
-    return WHOLE_T, Seam(T, THIN, middle, faces)
+    return WHOLE_T, Switch(T, THIN, middle, faces)
 
 
 def _hoop() -> Shape:
@@ -243,4 +243,4 @@ def _hoop() -> Shape:
         ),
         TIMES(core, *FADED, *scale),
     )
-    return WHOLE_T, Seam(T, THIN, middle, faces)
+    return WHOLE_T, Switch(T, THIN, middle, faces)

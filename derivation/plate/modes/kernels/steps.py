@@ -16,7 +16,7 @@ that may be very large or small, `times_closely` where rounding uses most of the
 
 import sympy as sp
 
-from derivation.engine.rewrite.form import ONCE, TAIL, Seam, Step
+from derivation.engine.rewrite.form import ONCE, TAIL, Step, Switch
 from derivation.plate.vocabulary import T, h, lam, mu, phi, z
 
 x, u, v = sp.symbols("x u v", real=True)
@@ -25,7 +25,7 @@ ratio = sp.Symbol("ratio", positive=True)
 slip, fade, lack = sp.symbols("slip fade lack", real=True)
 
 Steps = tuple[Step, ...]
-Shape = tuple[Steps, sp.Expr | Seam]
+Shape = tuple[Steps, sp.Expr | Switch]
 ONE = sp.Integer(1)
 
 THIN = sp.Rational(9, 4)

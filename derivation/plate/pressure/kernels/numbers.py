@@ -20,7 +20,7 @@ from derivation.engine.emit.package import Numbers
 from derivation.engine.emit.tables import Constant
 from derivation.engine.formula.ball import enclose
 from derivation.mathematics.bessel.kernels import nearest_double
-from derivation.plate.budgets import read_promises
+from derivation.plate.budgets import read_stated_limits
 from derivation.plate.contact.kernels.moments import BITS
 from derivation.plate.contact.theory.thin_plate import plate_excess
 from derivation.plate.pressure.theory.true_pressure import kernel, kernel_by_powers
@@ -65,7 +65,7 @@ def pressure_numbers() -> Numbers:
             ),
             Constant(
                 "ERROR",
-                read_promises("pressure")["error"],
+                read_stated_limits("pressure")["error"],
                 "Tested limit of the relative error of all results; for the pressure, of its mean.",
             ),
             Constant("FADED", float(FADED), "T = 2 eta j_n up to which modes are summed."),

@@ -14,7 +14,7 @@ from generated.arrays import as_doubles, as_result, in_manifest, inside, quiet
 from generated.viscosity_bounds import rebound_bounds, spiral_bounds
 
 
-class Course(NamedTuple):
+class ImpactExtremes(NamedTuple):
     """Largest values during an impact computed without viscosity, from which bounds follow.
 
     With indentation z, force P, energy U, s = sqrt(2 U/m) and Omega = P/(m s):
@@ -121,12 +121,12 @@ def restitution_weak(x_v: ArrayLike) -> np.ndarray:
     return as_result(kernels.restitution_of_number(x_v), kind)
 
 
-def viscous_logarithms(course: Course) -> tuple[float, float, float, float, float]:
+def viscous_logarithms(extremes: ImpactExtremes) -> tuple[float, float, float, float, float]:
     """Return bounds of the factors by which viscosity can change the results of an impact.
 
     Parameters
     ----------
-    course
+    extremes
         The impact without viscosity.
 
     Returns
@@ -136,10 +136,10 @@ def viscous_logarithms(course: Course) -> tuple[float, float, float, float, floa
         contact radius and restitution. They are inf where no bound is proved: for epsilon >= 1,
         or if the weight may prevent separation.
     """
-    epsilon, steepness, *_, energy = course
+    epsilon, steepness, *_, energy = extremes
     if not (epsilon < 1.0 and steepness * epsilon < 2.0):
         return inf, inf, inf, inf, inf
-    longer, shorter, shallower, narrower, pull, weaker, gone = spiral_bounds(*course)
+    longer, shorter, shallower, narrower, pull, weaker, gone = spiral_bounds(*extremes)
     if not gone < 1.0:
         return inf, inf, inf, inf, inf  # the weight may prevent separation
     leaving = max(rebound_bounds(gone, epsilon, steepness, energy))

@@ -11,7 +11,7 @@ from derivation.plate.waves import oracle as inertia_balls
 from derivation.plate.waves.cases.places import CROSSINGS, crossing
 from generated.wave_numbers import NEAR, SHALLOW, SMALL
 
-WAVES = "seams of the plate's waves"
+WAVES = "switch points of the plate's waves"
 HARD_WAVES = "waves of the plate"
 
 LOWEST = ("bending_frequency", "bending_residue", "bending_share")
@@ -30,7 +30,7 @@ _NEAREST = 2**10
 def wave_families() -> Iterator[HardCase]:
     """Yield all of them."""
     return chain(
-        _lowest_seams(), _influence_seams(), _branch_seams(), _lowest(),
+        _lowest_switches(), _influence_switches(), _branch_switches(), _lowest(),
         _influence(), _branches(), _shapes(),
     )  # fmt: skip
 
@@ -38,7 +38,7 @@ def wave_families() -> Iterator[HardCase]:
 # --- switch points
 
 
-def _lowest_seams() -> Iterator[HardCase]:
+def _lowest_switches() -> Iterator[HardCase]:
     everywhere = {SHALLOW: LOWEST, SMALL: LOWEST[2:], 1.0: LOWEST[2:]}
     what = {
         SHALLOW: "where a power series is replaced by exponentials",
@@ -51,7 +51,7 @@ def _lowest_seams() -> Iterator[HardCase]:
             yield about(WAVES, kernel, f"x = {place:g}, {what[place]}", given)
 
 
-def _influence_seams() -> Iterator[HardCase]:
+def _influence_switches() -> Iterator[HardCase]:
     gam = _level(_METAL)
     for x in (1e-3, 0.7, 20.1):
         square = Fraction(x) ** 2
@@ -75,7 +75,7 @@ def _level(nu: float) -> Fraction:
     return (1 - 2 * Fraction(nu)) / (2 * (1 - Fraction(nu)))
 
 
-def _branch_seams() -> Iterator[HardCase]:
+def _branch_switches() -> Iterator[HardCase]:
     for name, of in CROSSINGS.items():
         place = crossing(name)
         given = exactly(x=around(place), nu=of.nu, index=float(of.index))

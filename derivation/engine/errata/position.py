@@ -26,7 +26,7 @@ _INVERSE: dict[type[sp.Basic], Callable[[flint.acb], flint.acb]] = {
 
 
 @dataclass(frozen=True, eq=False)
-class Place:
+class Position:
     """A node of an expression, or some terms of a sum, with the path to the root.
 
     Parameters
@@ -43,7 +43,7 @@ class Place:
 
     node: sp.Expr
     role: str = WHOLE
-    parent: "Place | None" = None
+    parent: "Position | None" = None
     taken: tuple[int, ...] = ()
 
     @property
@@ -51,7 +51,7 @@ class Place:
         """Number of steps to the root."""
         return 0 if self.parent is None else self.parent.depth + 1
 
-    def put(self, new: sp.Expr, top: "Place | None" = None) -> sp.Expr:
+    def put(self, new: sp.Expr, top: "Position | None" = None) -> sp.Expr:
         """Return the whole expression, or that of the position `top`, with `new` inserted here."""
         if self.parent is None or self is top:
             return new
@@ -66,29 +66,29 @@ class Place:
         return self.parent.put(node.func(*rest), top)
 
 
-def inner(place: Place) -> Iterator[Place]:
+def inner(place: Position) -> Iterator[Position]:
     """Yield the positions directly inside a position, groups of terms included."""
     node, args = place.node, place.node.args
     if isinstance(node, sp.Add):
         for index, term in enumerate(args):
-            yield Place(term, TERM, place, (index,))
+            yield Position(term, TERM, place, (index,))
         if len(args) <= MAX_TERMS:
             for size in range(2, len(args)):
                 for group in combinations(range(len(args)), size):
-                    yield Place(sp.Add(*(args[i] for i in group)), TERMS, place, group)
+                    yield Position(sp.Add(*(args[i] for i in group)), TERMS, place, group)
     elif isinstance(node, sp.Mul):
         for index, factor in enumerate(args):
-            yield Place(factor, FACTOR, place, (index,))
+            yield Position(factor, FACTOR, place, (index,))
     elif isinstance(node, sp.Pow) and isinstance(node.exp, sp.Rational) and not node.base.is_Atom:
-        yield Place(node.base, BASE, place, (0,))
+        yield Position(node.base, BASE, place, (0,))
         if isinstance(node.exp, sp.Integer) and abs(node.exp) > 1:
             # SymPy writes equal factors as a power; the misprint may be in one of them
-            yield Place(node.base, FACTOR, place, (0,))
+            yield Position(node.base, FACTOR, place, (0,))
     elif isinstance(node, sp.Function) and len(args) == 1:
-        yield Place(args[0], ARGUMENT, place, (0,))
+        yield Position(args[0], ARGUMENT, place, (0,))
 
 
-def everywhere(place: Place) -> Iterator[Place]:
+def everywhere(place: Position) -> Iterator[Position]:
     """Yield the position and all positions inside it; groups of terms are not divided further."""
     yield place
     if place.role != TERMS:
@@ -96,7 +96,7 @@ def everywhere(place: Place) -> Iterator[Place]:
             yield from everywhere(part)
 
 
-def needed(part: Place, need: Values, points: Sample) -> list[flint.acb] | None:
+def needed(part: Position, need: Values, points: Sample) -> list[flint.acb] | None:
     """Return the values required inside, given those of the parent; None if not determined."""
     assert part.parent is not None  # the root requires the reference values themselves
     node = part.parent.node
@@ -128,13 +128,13 @@ def _root(value: flint.acb, exponent: sp.Rational, near: flint.acb) -> flint.acb
 
 
 def with_needs(
-    root: Place, truth: Values, points: Sample
-) -> Iterator[tuple[Place, list[flint.acb]]]:
+    root: Position, reference: Values, points: Sample
+) -> Iterator[tuple[Position, list[flint.acb]]]:
     """Yield every position with its required values, where these are determined and finite."""
-    yield root, list(truth)
+    yield root, list(reference)
     if root.role == TERMS:
         return
     for part in inner(root):
-        need = needed(part, truth, points)
+        need = needed(part, reference, points)
         if need is not None and all(w.is_finite() for w in need):
             yield from with_needs(part, need, points)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import flint
 
-from derivation.engine.activity import Tell, quiet
+from derivation.engine.activity import Progress, quiet
 from derivation.plate.contact.cases.grid import ContactShape, Point, arguments
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.impact.oracle.agreement import agree
@@ -23,7 +23,7 @@ Job = tuple[str, ContactShape | Point]
 
 
 @dataclass(frozen=True)
-class ContactTruth:
+class ContactReference:
     """Reference values at a point.
 
     Parameters
@@ -50,7 +50,7 @@ class ContactTruth:
     radius: float
 
 
-def truth(job: Job) -> ContactTruth:
+def reference_value(job: Job) -> ContactReference:
     """Return the reference values of a function at its arguments, or at a contact of the grid.
 
     Raises
@@ -65,7 +65,9 @@ def truth(job: Job) -> ContactTruth:
     first, last = float(found.values[0]), float(found.values[-1])
     radius = last if name in ("impact", "contact_radius") else point[0]
     bend = bending(point, radius) if name == "impact" else 0.0
-    return ContactTruth(point, values, found.digits, tolerance(name, point, first), bend, radius)
+    return ContactReference(
+        point, values, found.digits, tolerance(name, point, first), bend, radius
+    )
 
 
 def tolerance(name: str, point: Point, true: float) -> float:
@@ -92,7 +94,9 @@ def bending(point: Point, radius: float) -> float:
     return float(contact_balls.coefficient(1, h, b, 12)) * (radius / h)
 
 
-def truths(jobs: Sequence[Job], processes: int = 1, tell: Tell = quiet) -> list[ContactTruth]:
+def reference_values(
+    jobs: Sequence[Job], processes: int = 1, progress: Progress = quiet
+) -> list[ContactReference]:
     """Return the reference values of the jobs, in their order.
 
     Parameters
@@ -101,23 +105,25 @@ def truths(jobs: Sequence[Job], processes: int = 1, tell: Tell = quiet) -> list[
         Names of functions, each with arguments or a contact of the grid.
     processes
         Number of processes; 1 starts none.
-    tell
+    progress
         Called after each point with the function's name, the number of finished points and the
         total.
     """
     if processes == 1:
         found = []
         for done, job in enumerate(jobs, start=1):
-            found.append(truth(job))
-            tell(job[0], done, len(jobs))
+            found.append(reference_value(job))
+            progress(job[0], done, len(jobs))
         return found
     # New processes, because a copy of a process with threads may hang.
     pool = ProcessPoolExecutor(processes, multiprocessing.get_context("spawn"))
     try:
-        futures: dict[Future[ContactTruth], str] = {pool.submit(truth, job): job[0] for job in jobs}
+        futures: dict[Future[ContactReference], str] = {
+            pool.submit(reference_value, job): job[0] for job in jobs
+        }
         for done, future in enumerate(as_completed(futures), start=1):
             future.result()
-            tell(futures[future], done, len(jobs))
+            progress(futures[future], done, len(jobs))
         return [future.result() for future in futures]
     finally:
         pool.shutdown(cancel_futures=True)

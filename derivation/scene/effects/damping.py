@@ -18,10 +18,12 @@ from derivation.scene.effects.inertia import (
     SENSITIVITY,
     SLOWEST,
     PlateInertia,
+    dissipated,
     late,
     off_rest,
     weight_share,
 )
+from derivation.scene.effects.viscosity import viscous_number
 from derivation.scene.model import Model
 
 if TYPE_CHECKING:
@@ -72,13 +74,14 @@ class Damping(Effect):
         heavier = 1.0 + weight_share(model, context.depth)
         T = SLOWEST * context.depth / (model.v0 * math.sqrt(heavier))
         a, force = float(context.radii[-1]), float(context.samples.force[-1])
+        viscous = viscous_number(model)
         most = max(PlateInertia().bound(model, context).results)
         if not most < NO_BOUND:
             return Bound(none, none, results=5 * (math.inf,))
 
         def changed(phase: Array, rise: Numbers) -> Array:
             steady = np.minimum(VARIATION, np.minimum(phase * phase, TURNING / (phase * rise)))
-            ringing = late(phase, rise)
+            ringing = late(phase, rise, viscous)
             return model.loss_factor * steady + np.minimum(
                 2.0 * ringing, model.loss_factor * ringing * phase
             )
@@ -86,7 +89,7 @@ class Damping(Effect):
         off = force / context.depth * off_rest(model, a, T, changed)
         logs = [factor * off for factor in SENSITIVITY]
         logs[0], logs[4] = heavier * logs[0], heavier * logs[4]
-        return Bound(none, none, results=(logs[0], logs[1], logs[2], logs[3], logs[4]))
+        return Bound(none, none, results=dissipated(logs, viscous))
 
     def proved(self, law: "ContactLaw") -> bool:  # noqa: ARG002
         """Return False: tested on random scenes."""

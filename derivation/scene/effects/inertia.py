@@ -1,7 +1,7 @@
 """Inertia: plate vibration, which takes energy from the sphere and may return part of it."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,6 +18,7 @@ from derivation.scene.effects.effect import (
     none_of,
 )
 from derivation.scene.effects.finite_thickness import WHOLE_PLATE
+from derivation.scene.effects.viscosity import viscous_number
 from derivation.scene.model import Model
 from derivation.scene.scene import SceneError
 
@@ -36,6 +37,13 @@ STEP_FORCE = 5.0
 """Bound on the same deviation, times omega T, for a force that rises suddenly."""
 HERTZ_ONSET = 2.0
 """The same, times (omega T_rise)^(3/2), for a force that begins as t^(3/2), as by Hertz's law."""
+VISCOUS_ONSET = 0.5
+"""The same, over x_v/sqrt(omega T), for a viscoelastic contact, whose force begins as t^(1/2)."""
+MOST_VISCOUS = 2.0
+"""Largest x_v with a bound. Beyond it the sphere nearly stops in the contact, and the vibration of
+the plate may change the little that remains of its speed by any factor."""
+DISSIPATION = 1.2, 0.4
+"""Coefficients of x_v and x_v^2 in a bound on 1/e - 1, e the restitution of Hertz's contact."""
 COUNTED, NODES_BEYOND = 32, 64
 """Number of modes that are summed, and of nodes of the integral over higher modes."""
 CONTACT_DECAY, CONTACT_END = 3.0, 30.0
@@ -85,12 +93,17 @@ class PlateInertia(Effect):
         heavier = 1.0 + weight_share(model, context.depth)
         T = SLOWEST * context.depth / (model.v0 * np.sqrt(heavier))
         a, force = context.radii[..., -1:], context.samples.force[..., -1:]
-        off = force / context.depth * off_rest(model, a, T, late)
+        viscous = viscous_number(model)
+
+        def deviation(phase: Array, rise: Numbers) -> Array:
+            return late(phase, rise, viscous)
+
+        off = force / context.depth * off_rest(model, a, T, deviation)
         more = higher_branch_error(model, a, T) if np.all(model.density) else 5 * (0.0,)
         none = none_of(context.radii)
         logs = [factor * off + part for factor, part in zip(SENSITIVITY, more, strict=True)]
         logs[0], logs[4] = heavier * logs[0], heavier * logs[4]
-        return Bound(none, none, results=(logs[0], logs[1], logs[2], logs[3], logs[4]))
+        return Bound(none, none, results=dissipated(logs, viscous))
 
     def proved(self, law: "ContactLaw") -> bool:  # noqa: ARG002
         """Return False: tested on random scenes."""
@@ -220,13 +233,32 @@ def off_rest(
     return np.asarray(counted + span * np.sum(weights * n * of_mode(n), axis=-1, keepdims=True))
 
 
-def late(phase: Array, rise: Numbers) -> Array:
+def dissipated(logs: Sequence[Numbers], viscous: Numbers) -> Changes:
+    """Return the changes of a viscoelastic contact by its x_v; infinite beyond `MOST_VISCOUS`.
+
+    A change of the speed of the sphere is relative to the speed that remains, 1/e times as much.
+    """
+    one, two = DISSIPATION
+    known = np.asarray(viscous) <= MOST_VISCOUS
+    factor = np.where(known, 1.0 + viscous * (one + two * viscous), np.inf)
+    time, depth, force, radius, speed = (_number(log * factor) for log in logs)
+    return time, depth, force, radius, speed
+
+
+def _number(x: Array) -> Numbers:
+    """Return an array of one number without dimensions as a float."""
+    return float(x) if x.ndim == 0 else x
+
+
+def late(phase: Array, rise: Numbers, viscous: Numbers = 0.0) -> Array:
     """Return a mode's deviation from its quasi-static response over its static deflection.
 
     The deviation depends on P'', which is of the order of P/T^2 by Hertz's law, and of P/(T T_rise)
-    on a plate that bends, where the force starts suddenly. The onset as t^(3/2) excites fast modes.
+    on a plate that bends, where the force starts suddenly. The onset as t^(3/2) excites fast modes,
+    more so that as t^(1/2) of a viscoelastic contact, with its parameter x_v.
     """
     slow = np.minimum(SMOOTH_FORCE / (phase * phase * rise), STEP_FORCE / phase)
     onset = phase * rise
     slow = np.maximum(slow, HERTZ_ONSET * rise / (onset * np.sqrt(onset)))
+    slow = np.maximum(slow, VISCOUS_ONSET * viscous / np.sqrt(phase))
     return np.asarray(np.minimum(MAX_DYNAMIC_FACTOR, slow))

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from derivation.scene import kernels
-from derivation.scene.effects.effect import Bound, BoundContext, Effect, none_of
+from derivation.scene.effects.effect import Bound, BoundContext, Effect, Numbers, none_of
 from derivation.scene.model import Model
 
 if TYPE_CHECKING:
@@ -34,11 +34,7 @@ class Viscosity(Effect):
 
     def value(self, model: Model, a: float) -> float:  # noqa: ARG002
         """Return the viscous parameter of Hertz's contact."""
-        modulus = model.lam, model.mu
-        number = kernels.viscous_number(
-            model.R, model.m, model.v0, *modulus, model.retardation_time
-        )
-        return float(number * (1.0 + model.softness) ** -0.4)
+        return float(viscous_number(model))
 
     def bound(self, model: Model, context: BoundContext) -> Bound:
         """Return the bound of derivation step 24, proved for a half-space.
@@ -66,3 +62,14 @@ class Viscosity(Effect):
     def proved(self, law: "ContactLaw") -> bool:  # noqa: ARG002
         """Return False: proved only for a half-space."""
         return False
+
+
+def viscous_number(model: Model) -> Numbers:
+    """Return the viscous parameter x_v of Hertz's contact [1]; 0 without a retardation time."""
+    if not np.any(model.retardation_time):
+        return 0.0
+    number = kernels.viscous_number(
+        model.R, model.m, model.v0, model.lam, model.mu, model.retardation_time
+    )
+    found: Numbers = number * np.power(1.0 + model.softness, -0.4)
+    return found

@@ -26,6 +26,11 @@ def formula(name: str) -> "Record":
     name
         Name of the formula, as `platecontact derive` lists it.
 
+    Returns
+    -------
+    derivation.engine.formula.record.Record
+        The formula with its unit, meaning and proof.
+
     Raises
     ------
     KeyError
@@ -50,23 +55,39 @@ def formula(name: str) -> "Record":
 def diagnose(
     name: str, text: str, latex: bool = False, at: str = "", digits: int = 50
 ) -> "TextDiagnosis":
-    """Compare a formula of your own with the derived one of that name.
+    """Compare a formula of your own with the derived one of the same name.
 
     Parameters
     ----------
     name
-        For instance ``K_j``.
+        Name of the derived formula, for example ``K_j``.
     text
-        The formula in SymPy syntax, or in LaTeX if `latex`; nothing in it is executed.
+        The formula in SymPy syntax, or in LaTeX if `latex` is true; it is parsed, not executed.
+        For a sum over modes, give one term or ``Sum(..., (j, 1, oo))``.
     at
-        Point to evaluate both at, like ``phi=2.5,h=0.1``; exact decimals.
+        Point at which both are evaluated, in SI units, like ``phi=2.5,h=0.1``; the decimals are
+        taken as exact. Symbols that are not given have default values.
     digits
-        Digits of both values.
+        Number of significant digits of both values, from 1 to 1000.
+
+    Returns
+    -------
+    derivation.engine.errata.text.TextDiagnosis
+        Whether the formulas are equal, how to correct yours, and both values at the point.
 
     Raises
     ------
     ValueError
-        For a name, formula or point that cannot be used.
+        If the name, formula, point or number of digits is not valid.
+
+    Examples
+    --------
+    >>> import platecontact as pc
+    >>> found = pc.diagnose("P", "16*mu*(lam + mu)*a**2/(3*R*(lam + 2*mu))")
+    >>> found.verdict
+    'different'
+    >>> found.repair
+    'read a**3 instead of a**2'
     """
     from derivation.plate import derived
 

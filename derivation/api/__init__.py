@@ -13,8 +13,8 @@
 
 `load` reads a scene from a file, `read` from nested mappings.
 
-All quantities are in SI units. Each name is loaded at its first use, so that a simulation does not
-load SymPy.
+All quantities are in SI units. Each name is loaded at its first use; a simulation does not load
+SymPy.
 """
 
 from importlib import import_module
@@ -82,8 +82,8 @@ HOMES = {
     "rewrite": ".formulary",
     "sweep": "derivation.sweep",
 }
-"""The module of each name; the default is `derivation.scene`. Names are relative because an
-installed copy has this package only under the name `platecontact`."""
+"""The module of each name; the default is `derivation.scene`. The modules of this package have
+relative names, because an installed copy is called `platecontact`."""
 
 
 def __getattr__(name: str) -> Any:

@@ -7,28 +7,30 @@ from derivation.scene import Scene
 
 
 def reference(scene: Scene, digits: int = 50) -> ImpactReference:
-    """Return contact law and impact to many digits, by both references (Arb and mpmath).
+    """Compute contact law and impact to many digits by two independent methods (Arb and mpmath).
 
-    Each number of the scene means exactly the double that it is read as.
+    Both start from the same doubles R, m, v0, h, b, lambda and mu, taken as exact. Mass and Lame
+    constants that follow from other keys are rounded to doubles first.
 
     Parameters
     ----------
     scene
         A quasi-static impact that the paper's contact law describes.
     digits
-        Number of digits, from 1 to 1000.
+        Number of significant digits, from 1 to 1000.
 
     Returns
     -------
     derivation.plate.impact.oracle.many_digits.ImpactReference
-        The values of both references in SI units, and whether they agree.
+        Certified values in SI units, and the number of digits on which both methods agree.
 
     Raises
     ------
     derivation.scene.SceneError
-        If the scene requires an effect beyond that law, disables one of it, or exceeds its range.
+        If the scene requires an effect beyond that law, disables a part of that law, or exceeds its
+        range.
     ValueError
-        If the references do not reach this number of digits.
+        If `digits` is not between 1 and 1000, or the methods do not reach this number of digits.
 
     Examples
     --------

@@ -17,11 +17,12 @@ class Rewritten:
     Parameters
     ----------
     form
-        The form, verified to be equal to the formula, with the applied rules.
+        The form, equal to the formula except for the truncation error of its series, with the
+        applied rules.
     source
         Source of a module with one function that evaluates it; it imports only NumPy.
     tested
-        The tested range of the function, and the largest error found.
+        The range in which the function was tested, and the largest error found [ULP].
     """
 
     form: Stable
@@ -33,7 +34,7 @@ class Rewritten:
 
 
 def formulas() -> dict[str, Record]:
-    """Return all derived formulas by name, each with its proof.
+    """Return all derived formulas by name, each with its unit and proof.
 
     Examples
     --------
@@ -45,7 +46,7 @@ def formulas() -> dict[str, Record]:
 
 
 def misprints() -> tuple[Finding, ...]:
-    """Return the published formulas of the paper, each with the finding of its comparison.
+    """Return the comparison of each published formula with the derived one, misprint or not.
 
     Examples
     --------
@@ -57,14 +58,16 @@ def misprints() -> tuple[Finding, ...]:
 
 
 def rewrite(formula: str, variable: str = "x") -> Rewritten:
-    """Find a numerically stable form of a formula of one variable, and test it.
+    """Find a numerically stable form of a formula of one variable, and test its code.
+
+    The function returns NaN outside the range in which it was tested.
 
     Parameters
     ----------
     formula
         The formula in SymPy syntax; it is parsed, not executed.
     variable
-        Name of its variable, a positive real number.
+        Name of its variable, which is positive.
 
     Returns
     -------
@@ -74,7 +77,8 @@ def rewrite(formula: str, variable: str = "x") -> Rewritten:
     Raises
     ------
     ValueError
-        If the formula cannot be read, no rule applies to it, or it needs too much time or memory.
+        If the formula cannot be read, no form accurate to 8 ULP is found, or the search needs too
+        much time or memory.
 
     Examples
     --------

@@ -2,8 +2,8 @@
 
 The modules in reading order:
 
-1. `scene` reads and validates the scene file; `bodies` are its tables of sphere, plate and
-   materials, `materials` the built-in materials.
+1. `scene` reads and validates the scene file; its tables are in `bodies` (sphere, plate and own
+   materials) and `settings`; `materials` has the built-in materials.
 2. `model` converts the scene into the quantities of the contact law.
 3. `effects` has one module for each effect. `law` combines the included effects; no other module
    uses the name of an effect.

@@ -17,7 +17,8 @@ Edge = Literal["paper", "simply-supported", "clamped"]
 class Sphere(Table):
     """The solid sphere; it is rigid unless a material or elastic constants are given.
 
-    Density, yield stress and retardation time replace those of the material.
+    Give `mass` or `density`, or a material of known density. Density, yield stress and retardation
+    time replace those of the material.
 
     Examples
     --------
@@ -54,7 +55,7 @@ class Sphere(Table):
 
     @classmethod
     def conflicts(cls, given: Mapping[str, Any]) -> list[str]:
-        """Also reject material constants of a rigid sphere."""
+        """Return the problems of the keys, among them yield or retardation of a rigid sphere."""
         problems = super().conflicts(given)
         elastic = ("material", "youngs_modulus", "poissons_ratio")
         if all(given.get(key) is None for key in elastic):
@@ -71,7 +72,8 @@ class Sphere(Table):
 class Plate(Table):
     """The elastic circular plate, struck at its centre.
 
-    Density, yield stress and retardation time replace those of the material.
+    Give `thickness` or `half_thickness`, and a material or one pair of elastic constants. Density,
+    yield stress and retardation time replace those of the material.
 
     Examples
     --------
@@ -138,7 +140,7 @@ class Plate(Table):
 
     @classmethod
     def conflicts(cls, given: Mapping[str, Any]) -> list[str]:
-        """Also reject an unstable material, whose bulk modulus is not positive."""
+        """Return the problems of the keys, among them a bulk modulus that is not positive."""
         problems = super().conflicts(given)
         lam, mu = given.get("lame_lambda"), given.get("lame_mu")
         if is_number(lam) and is_number(mu) and mu > 0 and 3 * lam + 2 * mu <= 0:
@@ -151,7 +153,7 @@ class Plate(Table):
 
 
 class Material(Table):
-    """Your own material, to which `material` of sphere and plate refers by name.
+    """A material of your own, to which `material` of sphere and plate refers by name.
 
     Examples
     --------
@@ -163,6 +165,8 @@ class Material(Table):
     ...     impact=pc.Impact(speed=20.0),
     ...     materials={"hailstone": hail},
     ... )
+    >>> scene.materials["hailstone"].density
+    900.0
     """
 
     youngs_modulus: Positive = Field(

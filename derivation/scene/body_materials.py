@@ -24,14 +24,13 @@ class Body(NamedTuple):
     lam, mu
         Lame constants [Pa]; infinite for a rigid body.
     density
-        Density [kg/m^3]; 0 if unknown.
+        Density [kg/m^3], of the table or else of the material; 0 if unknown.
     retardation_time
         Retardation time [s]; 0 for an elastic body.
     yield_stress
         Yield stress [Pa]; infinite if unknown.
     solid_density
-        Density of its material [kg/m^3], even if the table gives another density; 0 without a
-        material.
+        Density of the material [kg/m^3], whatever the table gives; 0 if unknown.
     """
 
     lam: float
@@ -53,7 +52,7 @@ def first_given(*values: Any) -> Any:
 
 
 def body_of(table: Sphere | Plate, own: Mapping[str, KnownMaterial]) -> Body:
-    """Return the material constants of a body of a valid scene."""
+    """Return the material constants of a sphere or plate of a valid scene."""
     material = find(table.material, own) if table.material is not None else None
     return Body(
         *_lame_constants(table, material),
@@ -76,7 +75,7 @@ def _lame_constants(table: Sphere | Plate, material: KnownMaterial | None) -> tu
 
 
 def material_problems(tables: Mapping[str, Any]) -> list[str]:
-    """Return the problems of the materials of a scene, whose tables may be invalid."""
+    """Return the problems of material names in the tables of a scene, which may be invalid."""
     given = tables.get(OWN_MATERIALS)
     own = [str(name) for name in given] if isinstance(given, Mapping) else []
     problems = list(_names_alike(own))

@@ -1,18 +1,27 @@
-"""What a scene fails with: one message with key, expectation, value and remedy."""
+"""Errors of a scene: a message with key, expectation, value and remedy."""
 
 
 class SceneError(ValueError):
-    """A scene that cannot be computed: the one way in which `scene` fails.
+    """The error of a scene, file or argument that is not valid or cannot be computed.
 
-    The message gives the key, what was expected, the value, and the remedy.
+    The message states the key, what was expected, what was given, and what to do.
+
+    Examples
+    --------
+    >>> import platecontact as pc
+    >>> try:
+    ...     pc.Impact(speed=-1.0)
+    ... except pc.SceneError as error:
+    ...     print(str(error).partition("; ")[0])
+    impact.speed: expected a positive number (impact speed [m/s]), got -1
     """
 
 
 class IncompleteError(SceneError):
-    """An impact with plate inertia that could not be followed to its end: why, and the remedy."""
+    """The error of an impact with plate inertia that could not be computed to its end."""
 
     def __init__(self, why: str, remedy: str) -> None:
-        super().__init__(why, remedy)  # as pickle makes it anew
+        super().__init__(why, remedy)  # the arguments from which pickle restores it
         self.why, self.remedy = why, remedy
 
     def __str__(self) -> str:

@@ -20,7 +20,7 @@ class Example:
     Parameters
     ----------
     name
-        Name of the scene file without its ending.
+        Name of the scene file without its suffix.
     description
         What the scene shows: the first comment line of the file.
     file
@@ -47,7 +47,7 @@ def copy(names: Sequence[str], folder: Path, replace: bool = False) -> tuple[Exa
     Parameters
     ----------
     names
-        Names of examples, with or without the ending ``.toml``.
+        Names of examples, with or without the suffix ``.toml``.
     folder
         Folder of the copies; it is created if it does not exist.
     replace
@@ -56,7 +56,7 @@ def copy(names: Sequence[str], folder: Path, replace: bool = False) -> tuple[Exa
     Raises
     ------
     SceneError
-        If a name is unknown, or a file exists and `replace` is False.
+        If a name is unknown, or a file exists and `replace` is false.
     OSError
         If the folder cannot be written to.
     """

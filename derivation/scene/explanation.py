@@ -29,10 +29,10 @@ class Explanation:
     effects
         The included effects, and the effects table.
     evaluation_times
-        Measured time [s] to evaluate the law with each included effect alone at the nodes of an
-        impact.
+        For each included effect, the measured time [s] to evaluate the law with this effect alone
+        at the nodes of an impact; for plate inertia and damping, to compute modes and tables.
     notes
-        Remarks about plate inertia.
+        A remark about plate inertia.
     """
 
     effects: SelectedEffects
@@ -91,7 +91,7 @@ def _change(bound: float) -> str:
 RUN_TIME_DIGITS = 2
 """Significant digits of a run time that are shown."""
 REPEATS, SHORT = 3, 1e-3
-"""Number of timings, of which the least counts, and duration [s] above which one is enough."""
+"""Largest number of timings, of which the shortest counts, and duration [s] that ends them."""
 
 
 def explain(scene: Scene, rtol: float | None = None) -> Explanation:
@@ -112,7 +112,7 @@ def explain(scene: Scene, rtol: float | None = None) -> Explanation:
     Raises
     ------
     SceneError
-        If the tolerance is not between 1e-13 and 1, or an effect cannot be computed.
+        If the tolerance is not between 1e-13 and 1, or a required effect cannot be computed.
 
     Examples
     --------

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def data_frame(result: Result, n: int | None = None) -> "pd.DataFrame":
-    """Return the history of an impact over time [s]; the units are in `attrs`.
+    """Return the history as a DataFrame over time [s], with the units in `attrs["units"]`.
 
     Parameters
     ----------
@@ -31,10 +31,10 @@ def data_frame(result: Result, n: int | None = None) -> "pd.DataFrame":
 
 
 def data_set(result: Result, n: int | None = None) -> "xr.Dataset":
-    """Return results as scalars and the history over time, each with its unit.
+    """Return results as scalars and the history over time as a Dataset, each with its unit.
 
-    The attributes of the data set are the error bound, the model error, the warnings and the scene
-    as JSON.
+    The attributes of the Dataset are the error bound, the model error, the warnings as one text,
+    and the scene as JSON.
 
     Parameters
     ----------

@@ -43,8 +43,8 @@ def simulate(
     scene
         The scene, as `load` returns it.
     times
-        Times after first contact [s], of any shape, at which `Result.history` is evaluated; by
-        default times evenly spaced over the contact.
+        Times after first contact [s] at which `Result.history` is evaluated: a number, a list or a
+        one-dimensional array. By default times evenly spaced over the impact.
     rtol
         Relative tolerance of the results [1], from 1e-13 to 1: the fastest combination of effects
         and method whose error bound meets it is used. By default the tolerance of the scene; if
@@ -60,8 +60,8 @@ def simulate(
     Raises
     ------
     SceneError
-        If the impact exceeds the range of the contact law, a time lies outside the contact, or the
-        tolerance is not between 1e-13 and 1 or cannot be met.
+        If the impact exceeds the range of the contact law, a required key is missing, a time lies
+        outside the impact, or the tolerance is not between 1e-13 and 1 or cannot be met.
 
     Examples
     --------
@@ -73,7 +73,7 @@ def simulate(
     ... )
     >>> result = pc.simulate(scene)
     >>> print(f"{result.max_force:.3g} N, {result.restitution:.2f}")
-    857 N, 0.97
+    1.29e+03 N, 0.97
     """
     rtol, selected = selected_effects(scene, rtol)
     numbers, accuracy = solve_selected(selected, rtol)
@@ -118,12 +118,14 @@ def warnings_of(
     ----------
     contact_time, delta, a, pressure
         Contact time [s], and largest indentation [m], contact radius [m] and pressure [Pa].
-    stress, strength
-        Largest tensile stress on the back face, and tensile strength of the plate [Pa], if given.
+    stress
+        Largest tensile stress on the back face [Pa]; NaN if it is not needed.
+    strength
+        Tensile strength of the plate [Pa]; None if it is unknown.
     deflection
         Largest deflection of the plate [m], if plate inertia is included.
     known
-        Characteristic times of the plate, if they have been computed.
+        Zener parameter and characteristic times of the plate, if they have been computed.
     """
     model, dynamic = law.model, deflection is not None
     fraction = 1.0 - float(local_indentation(law, a)) / delta
@@ -137,7 +139,7 @@ def warnings_of(
 
 
 def _yield_warnings(law: ContactLaw, a: float, pressure: float) -> tuple[str, ...]:
-    """Return warnings about yielding that the law neglects or does not cover."""
+    """Return warnings about yielding that the law neglects, or that exceeds its range."""
     if law.plastic:
         return impact_warnings(law, a)
     model = law.model
@@ -151,7 +153,7 @@ def _known(stress: float) -> float | None:
 
 
 def _model_error(selected: SelectedEffects, a: float, motion: "DynamicImpact | None") -> float:
-    """Return the largest relative model error of the outputs, of edge and plate inertia."""
+    """Return the largest relative model error [1]: of the outputs, or of the edge alone."""
     model, other_edge = selected.law.model, selected.law.other_edge
     if motion is None:
         return edge_remainder(model, a) if other_edge else 0.0
@@ -173,7 +175,7 @@ def selected_effects(
     Raises
     ------
     SceneError
-        If the tolerance is not between 1e-13 and 1.
+        If the tolerance is not between 1e-13 and 1, or a required effect cannot be computed.
     """
     outputs = OUTPUTS
     if scene.accuracy is not None:
@@ -184,7 +186,7 @@ def selected_effects(
 
 
 def selection_tolerance(rtol: float | None) -> float:
-    """Return the tolerance of the effect selection [1], from that of the results or by default.
+    """Return the tolerance of the effect selection [1] for a tolerance of the results.
 
     Raises
     ------

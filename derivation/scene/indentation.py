@@ -1,7 +1,7 @@
 """Computes static contacts from given contact radii, forces or indentations.
 
-Every effect that applies to a static contact is included unless the scene disables it, because none
-of them takes much time. Radii follow from forces and indentations by Newton's iteration in
+Every effect that applies to a static contact is included unless the scene disables it; there is no
+selection by a tolerance. Radii follow from forces and indentations by Newton's iteration in
 logarithms.
 """
 
@@ -49,9 +49,9 @@ class StaticContact:
     force
         Contact force [N].
     stiffness
-        Derivative of the force by the indentation [N/m].
+        Derivative of the force with respect to the indentation, on loading [N/m].
     max_pressure
-        Pressure at the centre of the contact [Pa].
+        Pressure at the centre of the contact [Pa]; where the contact yields, the limit 1.6 Y.
     warnings
         Warnings about validity.
     """
@@ -64,7 +64,7 @@ class StaticContact:
     warnings: tuple[str, ...] = ()
 
     def to_json(self) -> dict[str, Any]:
-        """Return the contact under fixed keys, in SI units."""
+        """Return the attributes as a dictionary, in SI units."""
         return asdict(self) | {"warnings": list(self.warnings)}
 
 
@@ -96,18 +96,15 @@ def indent(
     force: Values | None = None,
     indentation: Values | None = None,
 ) -> StaticContacts:
-    """Compute static contacts; give exactly one of contact_radius, force and indentation.
+    """Compute static contacts from contact radii, forces or indentations.
 
     Parameters
     ----------
     scene
-        The scene, as `load` returns it; its speed and mass have no effect.
-    contact_radius
-        Contact radii [m], a positive number or an iterable of positive numbers.
-    force
-        Contact forces [N], likewise.
-    indentation
-        Indentations [m], likewise.
+        The scene, as `load` returns it. Speed, mass, gravity and tolerance have no effect.
+    contact_radius, force, indentation
+        Contact radii [m], forces [N] or indentations [m], exactly one of the three: a positive
+        number or an iterable of positive numbers. The indentation includes plate deflection.
 
     Returns
     -------
@@ -117,8 +114,8 @@ def indent(
     Raises
     ------
     SceneError
-        If not exactly one of the three is given, or a value is outside the range of the contact
-        law.
+        If not exactly one of the three is given, or a value is not a positive number or is outside
+        the range of the contact law.
 
     Examples
     --------
@@ -130,7 +127,7 @@ def indent(
     ... )
     >>> [contact] = pc.indent(scene, force=100.0)
     >>> print(f"{contact.indentation:.2g} m")
-    9.1e-06 m
+    6.2e-06 m
     """
     choices = {"contact_radius": contact_radius, "force": force, "indentation": indentation}
     given = [(name, values) for name, values in choices.items() if values is not None]
@@ -204,7 +201,8 @@ def _contact(law: ContactLaw, name: str, value: float) -> StaticContact:
 class _Loaded(NamedTuple):
     """Contact radius [m], force [N], indentation [m] and stiffness [N/m] of a static contact.
 
-    `radius_a`, `force_a` and `depth_a` are derivatives by the contact radius of the elastic law.
+    `radius_a`, `force_a` and `depth_a` are derivatives with respect to the contact radius of the
+    elastic law.
     """
 
     radius: float
@@ -217,7 +215,7 @@ class _Loaded(NamedTuple):
 
 
 def _loaded(law: ContactLaw, a: float) -> _Loaded:
-    """Return the contact at a radius [m] of the elastic law; a yielding contact is wider."""
+    """Return the contact at a radius [m] of the elastic law; if it yields, its radius is larger."""
     radii = np.array([a])
     shape: Shape = law.at(radii)
     stiffness, depth_a = law.stiffness(radii, shape), 2.0 * shape.slope * (radii / law.model.R)

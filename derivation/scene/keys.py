@@ -1,4 +1,4 @@
-"""Keys of a scene file with numeric values: their descriptions, and scenes with other values."""
+"""Keys of a scene file as `table.key`: their descriptions, and scenes with other values."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -58,7 +58,10 @@ def rivals(place: str) -> set[str]:
 
 
 def varied(scene: Scene, values: Mapping[str, float]) -> dict[str, Any]:
-    """Return the tables of a scene with other values of keys `table.key`, in SI units."""
+    """Return the tables of a scene with new values of keys `table.key`, in SI units.
+
+    Keys that exclude a new one are removed.
+    """
     data = scene.to_json()
     for place, value in values.items():
         name, _, key = place.rpartition(".")

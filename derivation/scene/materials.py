@@ -17,7 +17,7 @@ class KnownMaterial:
     Attributes
     ----------
     name
-        Its name in the catalogue, or in the scene that defines it.
+        Name in the catalogue, or in the scene that defines it.
     youngs_modulus, poissons_ratio
         Young's modulus [Pa] and Poisson's ratio [1].
     lam, mu
@@ -29,7 +29,7 @@ class KnownMaterial:
     retardation_time
         Retardation time of the material [s]; None if it is elastic.
     source
-        Source of the constants.
+        Source of the constants; empty if none is given.
     also
         Other names.
     """
@@ -46,7 +46,7 @@ class KnownMaterial:
     also: tuple[str, ...] = ()
 
     def to_json(self) -> dict[str, Any]:
-        """Return the constants in SI units; those that the source does not give are missing."""
+        """Return the constants in SI units, without those that the source does not give."""
         found = {
             "name": self.name,
             "youngs_modulus": self.youngs_modulus,
@@ -72,7 +72,7 @@ def plane_strain_modulus(lam: float, mu: float) -> float:
 
 
 def material_of(name: str, keys: Mapping[str, Any]) -> KnownMaterial:
-    """Make a material from a table with E and nu or, in the catalogue, Lame constants."""
+    """Return a material from a table with E and nu or, in the catalogue, Lame constants."""
     if "lame_mu" in keys:
         lam, mu = keys["lame_lambda"], keys["lame_mu"]
         E, nu = mu * (3 * lam + 2 * mu) / (lam + mu), lam / (2 * (lam + mu))
@@ -115,12 +115,12 @@ HOLLOW = {
 
 
 def find(name: str, own: Mapping[str, KnownMaterial] | None = None) -> KnownMaterial | None:
-    """Return the material with a name, first from the scene, then from the catalogue.
+    """Return a material by name, from the scene or else from the catalogue; None if unknown.
 
     Parameters
     ----------
     name
-        Its name; case, spaces, hyphens and underscores do not matter.
+        Name or other name; case, spaces, hyphens and underscores do not matter.
     own
         Materials that a scene defines, by name.
     """
@@ -129,7 +129,7 @@ def find(name: str, own: Mapping[str, KnownMaterial] | None = None) -> KnownMate
 
 
 def unknown(name: str, own: Iterable[str] = ()) -> str:
-    """Return the message for an unknown material: the nearest name, or that the ball is hollow."""
+    """Return the message for an unknown material, with the nearest name; hollow balls differ."""
     if plain(name) in HOLLOW:
         return (
             f"expected the material of a solid sphere, got {shown(name)}, which is hollow; the "

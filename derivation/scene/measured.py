@@ -1,8 +1,8 @@
 """Determines the yield stress or retardation time of the plate from a measured restitution.
 
 The restitution was measured on a thick block, which does not vibrate, or on the plate itself. The
-impact is simulated repeatedly until the restitution agrees. Restitution decreases with decreasing
-yield stress and with increasing retardation time, so that the solution is unique.
+impact is simulated repeatedly until the restitution agrees. The solution is unique, because
+restitution decreases with decreasing yield stress and with increasing retardation time.
 """
 
 import json
@@ -19,23 +19,26 @@ if TYPE_CHECKING:
 
 UNITS = {"yield_stress": "Pa", "retardation_time": "s"}
 DIGITS = 4
-"""Number of digits of the value that are shown."""
+"""Number of significant digits of the constant that are shown."""
 BLOCK = 1e4
-"""Size of the block over the sphere radius, so large that bending and edges have no effect."""
+"""Radius and half-thickness of the block over the sphere radius."""
 EFFECTS = {"yield_stress": "plasticity", "retardation_time": "viscosity"}
-"""The effect that each constant belongs to."""
+"""The effect of each constant."""
 EARLY = 1e-2
-"""First trial value of retardation time over contact time."""
+"""First trial value of the retardation time over the contact time without viscosity [1]."""
 STEPS, FACTOR = 40, 2.0
-"""Largest number of trial values until two of them enclose the solution, and their ratio."""
+"""Largest number of steps until two trial values enclose the solution, and ratio of a step."""
 CLOSE = {"block": 1e-9, "plate": 1e-4}
-"""Relative accuracy of the solution [1]; with plate inertia the restitution is less smooth."""
+"""Relative accuracy of the constant by specimen [1]; with plate inertia the restitution is less
+smooth."""
 BLOCK_RTOL = 1e-8
 """Relative tolerance of impacts on a block [1]."""
 
 
 def fitted(scene: "Scene") -> "Scene":
-    """Return the scene with the constant determined from its measured restitution.
+    """Return the scene with the constant that its measured restitution determines.
+
+    It has no table `measured`.
 
     Raises
     ------
@@ -48,13 +51,13 @@ def fitted(scene: "Scene") -> "Scene":
 
 
 def solved(scene: "Scene") -> float:
-    """Return the constant determined from the measured restitution of a scene [Pa or s]."""
+    """Return the constant that the measured restitution of a scene determines [Pa or s]."""
     assert scene.measured is not None
     return float(fitted(scene).plate.model_dump()[scene.measured.solve_for])
 
 
 def in_words(scene: "Scene") -> str:
-    """Return the constant determined from the measured restitution, as a sentence."""
+    """Return a phrase with the constant, the measured restitution, specimen and speed."""
     wanted = scene.measured
     assert wanted is not None
     value, unit = prefixed(solved(scene), UNITS[wanted.solve_for], DIGITS)
@@ -68,7 +71,7 @@ def in_words(scene: "Scene") -> str:
 
 @lru_cache(maxsize=64)
 def _fitted(text: str) -> str:
-    """Do the same for a scene as JSON text; results are cached."""
+    """Return the scene with its constant, both as JSON text; results are cached."""
     tables = json.loads(text)
     wanted = tables.pop("measured")
     key, goal = wanted["solve_for"], wanted["restitution"]
@@ -79,7 +82,7 @@ def _fitted(text: str) -> str:
 
 
 def _measurement(tables: dict[str, Any], wanted: dict[str, Any]) -> dict[str, Any]:
-    """Return the scene of the measurement."""
+    """Return the tables of the measurement: the impact on a thick block or on the plate."""
     speed = wanted.get("tested_at", tables["impact"]["speed"])
     scene = tables | {"impact": tables["impact"] | {"speed": speed}}
     if wanted.get("target", "block") == "plate":
@@ -98,7 +101,7 @@ def _measurement(tables: dict[str, Any], wanted: dict[str, Any]) -> dict[str, An
 
 
 def _simulated(tables: dict[str, Any], key: str, value: float | None) -> "Result":
-    """Simulate the impact with a trial value, or without energy loss in the contact."""
+    """Simulate the impact with a trial value; without one, the effect of the constant is off."""
     from derivation.scene.impact import simulate
     from derivation.scene.scene import read
 
@@ -108,10 +111,13 @@ def _simulated(tables: dict[str, Any], key: str, value: float | None) -> "Result
 
 
 def _solved(tables: dict[str, Any], key: str, goal: float, close: float) -> float:
-    """Return the value at which the restitution agrees with the measurement.
+    """Return the value of the constant at which the restitution agrees with the measurement.
 
-    The energy loss in the contact increases as the yield stress decreases, and as the retardation
-    time increases.
+    Raises
+    ------
+    SceneError
+        If the restitution exceeds that without energy loss in the contact, or no trial value
+        encloses it.
     """
     from scipy.optimize import brentq
 
@@ -138,7 +144,7 @@ def _solved(tables: dict[str, Any], key: str, goal: float, close: float) -> floa
     else:
         raise SceneError(
             f"measured.restitution: expected a value that some plate.{key} gives, got {goal:.6g}, "
-            f"which no value up to {math.exp(x):.6g} {UNITS[key]} gives; correct it, or change "
-            "measured.solve_for"
+            f"which no value from {first:.6g} to {math.exp(x):.6g} {UNITS[key]} gives; correct it, "
+            "or change measured.solve_for"
         )
     return math.exp(float(brentq(above, x, x + step, xtol=close)))

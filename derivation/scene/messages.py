@@ -14,11 +14,11 @@ Fields = Mapping[str, Mapping[str, FieldInfo]]
 """The fields of each table by key."""
 
 MOST, LONG = 20, 40
-"""Largest number of problems that are listed, and of letters of a key that are shown."""
+"""Largest number of problems that are listed, and of characters of a key that are shown."""
 OTHER_TABLE_ALIKE = 0.8
 """Similarity, from 0 to 1, from which a key of another table is suggested."""
 TABLE_ALIKE = 0.9
-"""Similarity from which an unknown table is taken for a misspelled table, not for a key."""
+"""Similarity from which an unknown table counts as a misspelled table, not as a key."""
 WANTED = '"auto", true or false'
 EXPECTED = {
     "material": "the name of a material (`platecontact materials` lists them)",
@@ -51,13 +51,13 @@ UNKNOWN = {
     ("sphere", key): _SOLID
     for key in ("thickness", "wall_thickness", "shell_thickness", "wall", "hollow", "inner_radius")
 }
-"""Why a key does not exist, for keys that users may expect."""
+"""Reasons why keys that users may expect do not exist."""
 
 ELSEWHERE = {
     "rtol": "; for more digits than double precision has, run "
     "`platecontact reference SCENE.toml --digits N`",
 }
-"""What to use for values that a key does not accept."""
+"""Remedies for values beyond the range of a key."""
 
 
 def shown(value: Any) -> str:

@@ -1,4 +1,4 @@
-"""The result of a simulation: numbers in SI units, time history, JSON; `answer` makes the text."""
+"""The result of a simulation: numbers in SI units, time history and JSON."""
 
 import math
 from collections.abc import Iterable
@@ -36,7 +36,7 @@ FEWEST_DIGITS, MOST_DIGITS = 2, 12
 
 @dataclass(frozen=True)
 class Result:
-    """The outcome of an impact.
+    """The results of a simulated impact, as `simulate` returns them.
 
     Attributes
     ----------
@@ -50,11 +50,11 @@ class Result:
     max_contact_radius
         Largest contact radius [m].
     restitution
-        Rebound speed over impact speed [1]; 1 unless the contact is viscoelastic or the plate has
-        inertia.
+        Rebound speed over impact speed [1]: 1 in an elastic contact on a quasi-static plate; NaN if
+        the simulation is incomplete.
     max_pressure
-        Largest contact pressure, at the centre of the widest contact [Pa]; in a viscoelastic
-        contact, that of the elastic part (while the contact grows, the viscous part adds to it).
+        Largest contact pressure, at the centre of the widest contact [Pa]; at most 1.6 times the
+        yield stress in a plastic contact, only the elastic part in a viscoelastic contact.
     comparison
         The paper's motion, for comparison; None unless `effects.compare_paper_motion` is true.
     max_tensile_stress
@@ -63,9 +63,9 @@ class Result:
         Method, and bound of the relative error.
     model_error
         Largest relative error of the model itself [1], not included in the bound of `accuracy`.
-        Without plate inertia: error of the edge model relative to the indentation, measured
-        against a three-dimensional elastic solution. With plate inertia: error of all outputs,
-        measured against explicit finite-element simulations.
+        Without plate inertia: error of the edge relative to the indentation, measured against a
+        three-dimensional elastic solution; 0 for the paper's edge. With plate inertia: error of the
+        requested outputs, measured against explicit finite-element simulations.
     warnings
         Warnings about validity and accuracy.
     scene
@@ -73,7 +73,7 @@ class Result:
     effects
         The included effects, and the effects table.
     times
-        Times [s] of the history; None for times evenly spaced over the contact.
+        Times [s] of the history; None for times evenly spaced over the impact.
     inertia_neglected
         Whether plate inertia is neglected although it may change the results (see `warnings`).
     """
@@ -164,7 +164,7 @@ class Result:
 
     @cached_property
     def dent(self) -> float:
-        """Depth of the dent left by plastic deformation [m]; 0 for an elastic contact."""
+        """Depth of the dent after a plastic contact [m]; 0 for an elastic contact."""
         law = self.effects.law
         if not law.plastic:
             return 0.0
@@ -180,12 +180,12 @@ class Result:
 
     @property
     def measured_note(self) -> str:
-        """The constant determined from a measured restitution, as a sentence; empty without one."""
+        """The constant that a measured restitution determines, in words; empty without one."""
         return measured.in_words(self.scene) if self.scene.measured else ""
 
     @property
     def total_time(self) -> float:
-        """Time from first contact to last separation [s]."""
+        """Time from first contact to last separation [s], of an incomplete impact to its end."""
         if self.dynamics is None:
             return self.contact_time
         return self.dynamics.inertia.total_time
@@ -201,7 +201,7 @@ class Result:
         Raises
         ------
         SceneError
-            If a time lies outside the contact.
+            If a time is not between 0 and `total_time`.
         """
         chosen = tuple(float(time) for time in np.atleast_1d(cast(Any, times)))
         for time in chosen:
@@ -218,7 +218,7 @@ class Result:
         Parameters
         ----------
         n
-            Number of times, evenly spaced over the contact, both ends included; by default the
+            Number of times, evenly spaced over the impact, both ends included; by default the
             times given to `simulate`, or 201 times.
 
         Returns
@@ -351,7 +351,7 @@ class Result:
 
     @property
     def disabled_note(self) -> str:
-        """Bound on the change by the effects that the scene disables; empty if there are none."""
+        """Bounds on the change by disabled effects, as a sentence; empty if there are none."""
         rows = [row for row in self.effects.rows if row.disabled]
         known = ", ".join(
             f"{row.name} ({f'at most {row.bound:.1e}' if row.bound < NO_BOUND else 'no bound'})"

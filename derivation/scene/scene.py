@@ -1,10 +1,10 @@
-"""Reads a scene file: its tables and keys, and one message that lists everything wrong in it."""
+"""Reads and validates a scene file; one message lists all problems of its tables and keys."""
 
 import tomllib
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal, cast, get_args
+from typing import TYPE_CHECKING, Annotated, Any, Literal, cast
 
 from pydantic import Field, ValidationError
 
@@ -21,6 +21,12 @@ from derivation.scene.errors import SceneError as SceneError
 from derivation.scene.example_scenes import remedy
 from derivation.scene.html import html_table
 from derivation.scene.messages import OWN_MATERIALS, shown
+from derivation.scene.settings import OUTPUTS as OUTPUTS
+from derivation.scene.settings import TIGHTEST as TIGHTEST
+from derivation.scene.settings import Accuracy as Accuracy
+from derivation.scene.settings import Inertia as Inertia
+from derivation.scene.settings import Measured as Measured
+from derivation.scene.settings import Output as Output
 from derivation.scene.table import (
     Problem,
     Problems,
@@ -31,19 +37,27 @@ from derivation.scene.table import (
     problems,
 )
 
-Output = Literal[
-    "contact_time", "max_indentation", "max_force", "max_contact_radius", "restitution"
-]
 Wanted = Literal["auto"] | bool
-OUTPUTS: tuple[Output, ...] = get_args(Output)
 LARGEST = 2**20
 """Largest size of a scene file [bytes]."""
-TIGHTEST = 1e-13
-"""Smallest relative tolerance that double precision allows."""
 
 
 class Impact(Table):
-    """Speed of the sphere at first contact, and gravity."""
+    """Speed of the sphere at first contact, and gravity.
+
+    Parameters
+    ----------
+    speed
+        Impact speed [m/s].
+    gravity
+        Gravitational acceleration during contact [m/s^2]; by default none.
+
+    Examples
+    --------
+    >>> import platecontact as pc
+    >>> pc.Impact(speed=1.0, gravity=9.81).to_json()
+    {'speed': 1.0, 'gravity': 9.81}
+    """
 
     speed: Positive = Field(description="impact speed [m/s]", examples=[1.0])
     gravity: Annotated[float, Field(ge=0)] | None = Field(
@@ -59,7 +73,32 @@ def _switch(description: str, example: bool = True) -> Any:
 
 
 class Effects(Table):
-    """Which effects are included; "auto" lets the tolerance decide."""
+    """Which effects are included; "auto" lets the tolerance decide.
+
+    Parameters
+    ----------
+    sphere_elasticity, spherical_profile, non_hertzian_pressure, plasticity, viscosity, gravity
+        Effects of sphere and contact: "auto", the default, to include the effect if the tolerance
+        requires it; True to include it if it applies to the scene; False to disable it.
+    bending, finite_thickness, finite_radius, edge, inertia, damping
+        Effects of the plate, with the same values.
+    compare_paper_motion
+        Whether to compare the result with the paper's perturbation motion; by default False. The
+        results do not change.
+
+    Examples
+    --------
+    >>> import platecontact as pc
+    >>> scene = pc.Scene(
+    ...     sphere=pc.Sphere(radius=0.01, material="steel"),
+    ...     plate=pc.Plate(radius=0.3, thickness=0.05, material="glass"),
+    ...     impact=pc.Impact(speed=1.0),
+    ...     effects=pc.Effects(inertia=False, spherical_profile=True),
+    ... )
+    >>> included = pc.explain(scene).effects.included
+    >>> "inertia" in included, "spherical_profile" in included
+    (False, True)
+    """
 
     sphere_elasticity: Wanted = _switch("elastic deformation of the sphere", False)
     spherical_profile: Wanted = _switch("spherical profile instead of a paraboloid", False)
@@ -80,71 +119,11 @@ class Effects(Table):
     )
 
 
-class Accuracy(Table):
-    """The requested accuracy of the results."""
-
-    rtol: Annotated[float, Field(ge=TIGHTEST, le=1)] = Field(
-        description="relative tolerance of the results [1]", examples=[1e-6]
-    )
-    outputs: tuple[Output, ...] = Field(
-        default=OUTPUTS,
-        description="results that the tolerance applies to",
-        examples=[["max_force"]],
-        min_length=1,
-        strict=False,  # TOML has arrays, no tuples
-    )
-
-
-class Inertia(Table):
-    """How the inertia of the plate is computed, if it is included."""
-
-    modes: Literal["auto"] | Annotated[int, Field(ge=2, le=6000)] = Field(
-        default="auto",
-        description="number of dynamic bending modes; higher modes respond quasi-statically",
-        examples=[40],
-    )
-    branches: Literal["auto", "A0", "all"] = Field(
-        default="auto",
-        description='Lamb-wave branches: "A0" (the lowest), "all", or "auto" (all if the tolerance '
-        "requires them)",
-        examples=["all"],
-    )
-    coupling: Literal["variational", "pointwise"] = Field(
-        default="variational",
-        description='definition of the indentation: "variational" (weighted mean of the gap, '
-        'conserves energy) or "pointwise" (at the axis)',
-        examples=["pointwise"],
-    )
-    extent: Literal["finite", "infinite"] = Field(
-        default="finite",
-        description='"finite" (with an edge) or "infinite" (no wave returns from the edge)',
-        examples=["infinite"],
-    )
-
-
-class Measured(Table):
-    """A measured restitution, from which a material constant of the plate is determined."""
-
-    restitution: Annotated[float, Field(gt=0, lt=1)] = Field(
-        description="measured rebound speed over impact speed [1]", examples=[0.6]
-    )
-    solve_for: Literal["yield_stress", "retardation_time"] = Field(
-        description="material constant of the plate to determine", examples=["yield_stress"]
-    )
-    target: Literal["block", "plate"] = Field(
-        default="block",
-        description="test specimen: a thick block of the plate material, or the plate itself",
-        examples=["plate"],
-    )
-    tested_at: Positive | None = Field(
-        default=None, description="impact speed of the measurement [m/s]", examples=[1.0]
-    )
-
-
 class Scene(Table):
-    """A sphere that strikes a plate.
+    """A sphere that strikes a plate: the input of a simulation.
 
-    Each table is an object such as `Sphere`, or a mapping from key to value.
+    Each table is an object such as `Sphere`, or a mapping from key to value. All values are in SI
+    units.
 
     Raises
     ------
@@ -258,7 +237,15 @@ def load(path: str | Path) -> Scene:
     Raises
     ------
     SceneError
-        If the file cannot be read, is not TOML, or contains a missing, unknown or invalid key.
+        If the file cannot be read or is not TOML, or a key is missing, unknown or invalid.
+
+    Examples
+    --------
+    The file is a copy of an example, which ``platecontact examples glass_pane`` writes.
+
+    >>> import platecontact as pc
+    >>> pc.load("glass_pane.toml").plate.edge
+    'simply-supported'
     """
     name = one_line(str(path), 200)
     try:
@@ -281,14 +268,14 @@ def load(path: str | Path) -> Scene:
         ) from None
     except (ValueError, RecursionError):  # more digits or brackets than Python can read
         raise SceneError(
-            f"{name}: expected TOML, got a number or nested brackets too long to read; "
+            f"{name}: expected TOML, got a number or nested brackets that are too long to read; "
             "write each line as `key = value`, such as `radius = 0.13`"
         ) from None
     return _scene(data, name)
 
 
 def read(data: Mapping[str, Any], source: str = "scene") -> Scene:
-    """Make a scene from nested mappings with the tables and keys of a scene file.
+    """Return a scene from nested mappings with the tables and keys of a scene file.
 
     Parameters
     ----------
@@ -328,7 +315,7 @@ def read(data: Mapping[str, Any], source: str = "scene") -> Scene:
 
 
 def _scene(data: Mapping[str, Any], source: str, scene: Scene | None = None) -> Scene:
-    """Make a scene, or initialise a given one, with a notice for each old name."""
+    """Return a scene, or initialise a given one; warn of each old name."""
     tables, notices, twice = old_names.renewed(_plain(data))
     for notice in notices:
         old_names.notify(notice)
@@ -359,6 +346,9 @@ def _plain(data: Mapping[str, Any]) -> dict[str, Any]:
 
 def schema() -> dict[str, Any]:
     """Return the JSON schema of scene files, with which editors check and complete TOML.
+
+    The schema covers single keys and choices between keys. `load` and `read` also check the names
+    of materials and combinations of values.
 
     Examples
     --------

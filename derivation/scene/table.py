@@ -77,8 +77,10 @@ class Table(BaseModel):
 
     @classmethod
     def __get_pydantic_json_schema__(cls, core_schema: Any, handler: Any) -> JsonDict:
-        """Return a JSON schema that contains the choices and allows no null."""
+        """Return a JSON schema with the summary of the table and the choices, without null."""
         made: JsonDict = handler.resolve_ref_schema(handler(core_schema))
+        if "description" in made:
+            made["description"] = str(made["description"]).partition("\n")[0]
         properties: Any = made["properties"]
         for field in properties.values():
             kinds = [kind for kind in field.pop("anyOf", []) if kind != {"type": "null"}]

@@ -9,6 +9,8 @@ from pathlib import Path
 import platecontact
 import pytest
 
+from derivation.scene.example_scenes import copy
+
 
 def test_an_installed_copy_needs_no_other_name() -> None:
     """There the package's folder is called `platecontact`, not `derivation/api`."""
@@ -28,18 +30,41 @@ def test_an_unknown_name_is_no_attribute() -> None:
         platecontact.simulat  # noqa: B018
 
 
-@pytest.mark.parametrize("module", ["", ".digits", ".formulary"])
-def test_examples_run(module: str) -> None:
-    found = doctest.testmod(importlib.import_module(f"platecontact{module}"))
+@pytest.mark.parametrize("module", ["platecontact", "derivation.scene.export"])
+def test_examples_of_modules_run(module: str) -> None:
+    found = doctest.testmod(importlib.import_module(module))
     assert found.attempted > 0
     assert found.failed == 0
 
 
-@pytest.mark.parametrize("module", ["bodies", "export", "result", "scene"])
-def test_examples_of_scenes_run(module: str) -> None:
-    found = doctest.testmod(importlib.import_module(f"derivation.scene.{module}"))
-    assert found.attempted > 0
-    assert found.failed == 0
+@pytest.mark.parametrize("name", platecontact.__all__)
+def test_each_public_name_has_an_example_that_runs(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """In a folder with the example scene that the examples read.
+
+    The examples of a class include those of its methods.
+    """
+    copy(["glass_pane"], tmp_path)
+    monkeypatch.chdir(tmp_path)
+    found = getattr(platecontact, name)
+    module = importlib.import_module(found.__module__)
+    runner = doctest.DocTestRunner()
+    for test in doctest.DocTestFinder().find(found, name, module=module, globs=dict(vars(module))):
+        runner.run(test)
+    assert runner.tries > 0
+    assert runner.failures == 0
+
+
+def test_the_schema_describes_each_table_in_one_line() -> None:
+    """Not with the parameters and examples of its class."""
+    made = platecontact.schema()
+    texts = {name: entry["description"] for name, entry in made["$defs"].items()}
+    texts["Scene"] = made["description"]
+    assert {"Scene", "Sphere", "Plate", "Measured"} <= texts.keys()
+    for name, text in texts.items():
+        assert text == getattr(platecontact, name).__doc__.partition("\n")[0]
+        assert text.endswith(".")
 
 
 def test_a_simulation_loads_no_sympy(tmp_path: Path) -> None:

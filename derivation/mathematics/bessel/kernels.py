@@ -1,9 +1,9 @@
 """Tables for the generated code of J0, J1 and their zeros, from the theory.
 
-Below `asymptotic_start` a Taylor polynomial about one of many centres is used: every zero of J0 and
-J1 is a centre, stored as a sum of two doubles, so that x - centre keeps its relative accuracy near
-the zero. Above it modulus and phase are used. Degrees and switch points follow from bounds of the
-truncation errors.
+Below `asymptotic_start` a Taylor polynomial about one of many centres is used. Every zero of J0 and
+J1 there is a centre, stored as a sum of two doubles, so that x - centre keeps its relative accuracy
+near the zero. Above it modulus and phase are used. Degrees and switch points follow from bounds of
+the truncation errors.
 """
 
 from bisect import bisect_left
@@ -49,7 +49,7 @@ CELLS = 16
 SPACING = Fraction(17, 20)
 """Largest distance of neighbouring centres; more centres allow a lower degree."""
 LARGEST_PHASE = 2.0**50
-"""x beyond which the multiple of pi/4 nearest to x is no longer an exact double."""
+"""x up to which modulus and phase are used: the integer n in n pi/4 near x is an exact double."""
 RUNTIME = Path(__file__).parent / "runtime"
 """Folder of the functions that need these tables."""
 _BITS = 320
@@ -65,7 +65,7 @@ class TaylorTable:
     high, low
         Centres, each the sum of two doubles.
     switches
-        Ends of the intervals, 0 first; interval i is [switch points[i], switch points[i + 1]).
+        Ends of the intervals, 0 first; interval i is [switches[i], switches[i + 1]).
     rows
         For J0 and J1: the coefficients about each centre, constant term first.
     """
@@ -125,16 +125,16 @@ def _value_and_slope(order: int, x: flint.arb) -> tuple[flint.arb, flint.arb]:
 
 
 def first_true(holds: Callable[[int], bool], limit: int = 1 << 12) -> int:
-    """Return the smallest positive integer from which a condition is met.
+    """Return the smallest positive integer that meets a condition met by all larger ones.
 
     Raises
     ------
     ArithmeticError
-        If it is not met up to `limit`.
+        If no integer below `limit` meets it.
     """
     found = bisect_left(range(limit), True, lo=1, key=holds)
     if found == limit:
-        raise ArithmeticError(f"the condition is not met up to {limit}")
+        raise ArithmeticError(f"the condition is not met below {limit}")
     return found
 
 
@@ -161,8 +161,8 @@ def asymptotic_start() -> Fraction:
 def mcmahon_start(order: int) -> int:
     """Return the smallest index from which the expansions of J_order's zeros are within tolerance.
 
-    The zero's remainder is bounded (`zero_bound`). For order 0 the expansion of J1 squared there is
-    also required; its remainder is taken as the first omitted term.
+    The remainder of the zero is bounded (`zero_bound`). For order 0 the expansion of J1 squared at
+    the zero must be within tolerance too; its remainder is estimated by the first omitted term.
     """
     quarters, slope = phase_at_zeros(order)[0], slope_squared(TERMS + 1)
 
@@ -193,7 +193,7 @@ def centres() -> tuple[flint.arb, ...]:
 
 
 def _on_grid(ball: flint.arb) -> Fraction:
-    """Return a multiple of 1/16 next to the ball, which is an exact double."""
+    """Return the multiple of 1/16, an exact double, nearest to the middle of the ball."""
     return Fraction(round(float(ball) * CELLS), CELLS)
 
 
@@ -294,10 +294,14 @@ def _multiples_of_pi() -> tuple[Constant, ...]:
         head, square = nearest_double(pi / 4), nearest_double(8 / pi**2)
         return (
             Constant("QUARTER_PI", head, "pi/4."),
-            Constant("QUARTER_PI_TAIL", nearest_double(pi / 4 - head), "pi/4 minus that double."),
+            Constant(
+                "QUARTER_PI_TAIL", nearest_double(pi / 4 - head), "pi/4 - QUARTER_PI, rounded."
+            ),
             Constant("EIGHT_OVER_PI2", square, "8/pi^2."),
             Constant(
-                "EIGHT_OVER_PI2_TAIL", nearest_double(8 / pi**2 - square), "8/pi^2 minus that."
+                "EIGHT_OVER_PI2_TAIL",
+                nearest_double(8 / pi**2 - square),
+                "8/pi^2 - EIGHT_OVER_PI2.",
             ),
             Constant("HALF_PI", nearest_double(pi / 2), "pi/2."),
             Constant("INVERSE_PI", nearest_double(1 / pi), "1/pi."),
@@ -316,7 +320,7 @@ def wrapped(texts: Iterable[str], width: int = 90) -> tuple[str, ...]:
 
 
 def bessel_numbers() -> Numbers:
-    """Return the tables of J0, J1 and their zeros, for J0 and J1 in turn where there are two."""
+    """Return the tables of J0, J1 and their zeros; pairs of tables are those of J0 and J1."""
     table = taylor_table()
     both = (0, 1)
     constants = (
@@ -324,7 +328,7 @@ def bessel_numbers() -> Numbers:
         Constant(
             "ASYMPTOTIC_START", table.switches[-1], "x above which modulus and phase are used."
         ),
-        Constant("LARGEST_PHASE", LARGEST_PHASE, "x up to which n in n pi/4 is an exact double."),
+        Constant("LARGEST_PHASE", LARGEST_PHASE, "x up to which modulus and phase are used."),
         Constant(
             "MODULUS",
             tuple(modulus_squared(n, TERMS).coefficients for n in both),
@@ -355,14 +359,14 @@ def bessel_numbers() -> Numbers:
             tuple(mcmahon_start(n) for n in both),
             "Indices of the zeros from which McMahon's expansion is used.",
         ),
-        Constant("LOW_ZEROS", tuple(low_zeros(n) for n in both), "The zeros before these indices."),
-        Constant("LOW_SLOPES", low_slopes(), "J1 at those zeros of J0."),
+        Constant("LOW_ZEROS", tuple(low_zeros(n) for n in both), "The zeros before FIRST_MCMAHON."),
+        Constant("LOW_SLOPES", low_slopes(), "J1 at the zeros of J0 in LOW_ZEROS."),
         Constant("CELLS", CELLS, "Every interval ends at a multiple of 1/CELLS."),
         Constant(
             "SWITCHES", table.switches[:-1], "Starts of the intervals of the Taylor polynomials."
         ),
-        Constant("CENTRE_HIGH", table.high, "Their centres, rounded to doubles."),
-        Constant("CENTRE_LOW", table.low, "Differences of the centres and these doubles."),
+        Constant("CENTRE_HIGH", table.high, "Centres of the Taylor polynomials, rounded."),
+        Constant("CENTRE_LOW", table.low, "The exact centres minus CENTRE_HIGH, rounded."),
         Constant("TAYLOR", table.rows, "Coefficients about each centre, constant term first."),
     )
     title = "Constants of the Bessel functions: expansions, zeros, Taylor polynomials."

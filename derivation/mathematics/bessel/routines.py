@@ -44,7 +44,7 @@ def wave() -> Claims:
 
 
 def far(order: int) -> Routine:
-    """Set the modulus series to 1 and the phase shift to 0."""
+    """Return the routine of J_order with the modulus series 1 and the phase shift 0."""
     sign = 1 - 2 * order
     return routine(
         f"far_{order}",
@@ -52,7 +52,7 @@ def far(order: int) -> Routine:
         (),
         (INVERSE_ROOT_PI * (sp.sin(x) + sign * sp.cos(x)) / sp.sqrt(x),),
         (hankel(order).subs({P: 1, SHIFT: 0}),),
-        f"Return J{order} where 1/x is below the rounding of 1.",
+        f"Return J{order} for x so large that 1 + 1/x rounds to 1.",
         NUMBERS,
         _by_sines,
     )
@@ -60,7 +60,7 @@ def far(order: int) -> Routine:
 
 @named
 def slope() -> Claims:
-    """Return |J1| at a zero of J0, beta = quarters pi/4."""
+    """Return |J1| at the zero of J0 near quarters pi/4; excess is SLOPE_EXCESS there."""
     quarters, excess = sp.symbols("quarters excess", positive=True)
     square = sp.Symbol("square", real=True)
     return Claims(

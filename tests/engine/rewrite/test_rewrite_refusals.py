@@ -109,7 +109,7 @@ def test_zeros_are_certified_before_they_are_tabulated(monkeypatch: pytest.Monke
 
 def test_a_condition_that_never_holds_has_no_first() -> None:
     assert bessel_tables.first_true(lambda n: n * n > 50) == 8
-    with pytest.raises(ArithmeticError, match="the condition is not met up to 64"):
+    with pytest.raises(ArithmeticError, match="the condition is not met below 64"):
         bessel_tables.first_true(lambda _: False, 64)
 
 

@@ -325,7 +325,7 @@ def test_forces_by_both_oracles_agree() -> None:
 
 
 def test_check_refuses_what_it_does_not_know() -> None:
-    with pytest.raises(ValueError, match="kernels are called"):
+    with pytest.raises(ValueError, match="kernels: expected"):
         contact.check({"depth": rounded})
 
 

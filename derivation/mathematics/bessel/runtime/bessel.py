@@ -1,7 +1,7 @@
 """Bessel functions J0 and J1, their zeros, and J1 at the zeros of J0, in NumPy alone.
 
-Below ASYMPTOTIC_START the functions are Taylor polynomials. Every zero of J0 and J1 is one of the
-centres, stored as a sum of two doubles, so that values near a zero keep their relative accuracy.
+Below ASYMPTOTIC_START the functions are Taylor polynomials. Each zero of J0 and J1 in that range is
+a centre, stored as a sum of two doubles, so that values near a zero keep their relative accuracy.
 Above, modulus and phase are used,
 
     J_nu(x) = sqrt(2 p(x) / (pi x)) sin(x +- pi/4 + s(x)),   + for J0, - for J1,
@@ -68,8 +68,13 @@ def bessel_j0(x: ArrayLike) -> np.ndarray:
     Returns
     -------
     float or ndarray
-        J_0(x) [1] in the shape of x; float32 for float32 input, else float64. NaN for NaN
-        and infinite arguments.
+        J_0(x) [1] in the shape of x; float32 for float16 and float32 input, else float64. NaN
+        for NaN and infinite arguments.
+
+    Raises
+    ------
+    TypeError
+        If x is complex or a masked array.
 
     Notes
     -----
@@ -101,8 +106,13 @@ def bessel_j1(x: ArrayLike) -> np.ndarray:
     Returns
     -------
     float or ndarray
-        J_1(x) [1] in the shape of x; float32 for float32 input, else float64. NaN for NaN
-        and infinite arguments.
+        J_1(x) [1] in the shape of x; float32 for float16 and float32 input, else float64. NaN
+        for NaN and infinite arguments.
+
+    Raises
+    ------
+    TypeError
+        If x is complex or a masked array.
 
     Notes
     -----

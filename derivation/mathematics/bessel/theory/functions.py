@@ -120,7 +120,7 @@ def taylor_recurrence() -> Recurrence:
 
 
 def _prove_recurrence(following: sp.Expr, at_origin: sp.Expr, degree: int = 8) -> Proof:
-    """Return residuals of polynomials from the recurrence in the equation, without their ends."""
+    """Prove that polynomials built by it solve Bessel's equation, except in the last powers."""
     series = [sp.Integer(0), sp.Integer(0), *sp.symbols("a_0 a_1", real=True)]
     origin = [sp.Integer(0), sp.Integer(1)]
     for index in range(degree - 1):
@@ -318,9 +318,9 @@ def hankel(order: sp.Expr) -> sp.Expr:
 def hankel_constants(terms: int = 12) -> Proof:
     """Prove J_nu(x) = sqrt(2 p/(pi x)) cos(x - nu pi/2 - pi/4 + shift): Hankel's constants.
 
-    The equation does not determine a factor and a phase. With remainders inside their bounds the
-    formula must contain J_nu; ball arithmetic proves it where the remainders are small enough to
-    exclude any other simple constant.
+    The equation does not determine a factor and a phase. At several points the ball of the formula,
+    widened by the bounds of the remainders, must overlap the ball of J_nu; the balls are small
+    enough to exclude any other simple constant.
     """
     bessel_functions()
     for order in (0, 1):
@@ -337,7 +337,7 @@ def hankel_constants(terms: int = 12) -> Proof:
 
 
 def _contains(order: int, point: sp.Integer, terms: int) -> None:
-    """Raise an error unless the ball of the truncated formula with its remainders contains J_nu."""
+    """Raise ProofError unless the ball of the formula, with remainders, overlaps that of J_nu."""
     square = _widened(modulus_squared(order, terms), point, modulus_bound(order, terms, point))
     moved = _widened(phase_shift(order, terms), point, phase_bound(order, terms, point))
     argument = enclose(point, {})

@@ -84,7 +84,7 @@ def ratio_bound(terms: int, start: Fraction) -> flint.arb:
 
 
 def logarithm_bound(terms: int, start: Fraction) -> flint.arb:
-    """Return the same for log(I0 sqrt(2 pi k) e^(-k))."""
+    """Return a bound, for k >= start, of the series' error in log(I0 sqrt(2 pi k) e^(-k))."""
     return ratio_bound(terms, start) * to_ball(start) / (terms - 1)
 
 
@@ -111,10 +111,15 @@ def bessel_integral() -> Proof:
 
 
 def sum_bound(steps: int, largest: Fraction) -> Fraction:
-    """Return a bound of the relative error of I0 and I1 by so many steps, for 0 <= k <= largest.
+    """Return a bound of the relative error of I0 and I1 by a sum of `steps` terms, k <= largest.
 
     For I0 it is 2 (I_M + I_2M + ...)/I0, for I1 (I_(M-2) - 2 I_M + I_(M+2) + ...) k/(2 I1) with
     I1 >= k/(2 + k) I0.
+
+    Raises
+    ------
+    ProofError
+        If the steps are too few for the bound.
     """
     bessel_integral()
     half = largest / 2
@@ -127,10 +132,15 @@ def sum_bound(steps: int, largest: Fraction) -> Fraction:
 
 
 def fourth_bound(steps: int, largest: Fraction) -> Fraction:
-    """Return a bound of the relative error of I2 by so many steps, for 0 < k <= largest.
+    """Return a bound of the relative error of I2 by a sum of `steps` terms, 0 < k <= largest.
 
     The error of the mean of sin^4 = (3 - 4 cos 2t + cos 4t)/8 is at most
     2 (I_(M-4) + I_(2M-4) + ...), and I_n <= 2 (k/2)^(n-2)/n! I2.
+
+    Raises
+    ------
+    ProofError
+        If the steps are too few for the bound.
     """
     fourth_power()
     least = steps - 4

@@ -26,7 +26,7 @@ ASIDE = sp.Rational(2, 5)
 
 @cache
 def phase_at_zeros(order: int) -> tuple[int, Proof]:
-    """Return the integer q of beta = (4 n + q) pi/4: cos(theta) = 0 at the n-th positive zero."""
+    """Return the integer q of beta = (4 n + q) pi/4, where cos(theta) = 0, with the proof."""
     q = 2 * order - 1
     n = sp.Symbol("n", integer=True, positive=True)
     theta = (4 * n + q) * sp.pi / 4 - order * sp.pi / 2 - sp.pi / 4

@@ -1,4 +1,4 @@
-"""Compares the contact law's generated functions with reference values: errors in ULP, as rows."""
+"""Comparison of the contact law's generated functions with reference values: errors in ULP."""
 
 import importlib
 import math
@@ -42,14 +42,14 @@ EVERY = 4
 
 @dataclass(frozen=True)
 class ContactCase:
-    """An impact with its error.
+    """The ratios of one measured impact, and the error of its results.
 
     Parameters
     ----------
     c1_A
-        The plate's first correction of Hertz's law, at the largest contact.
+        c_1 a/h at the largest contact radius, the plate's leading correction of Hertz's law [1].
     h_over_b, a_over_h
-        Half-thickness over plate radius, largest contact radius over half-thickness.
+        Half-thickness over plate radius, largest contact radius over half-thickness [1].
     error
         Largest relative error of the four results.
     digits
@@ -132,7 +132,7 @@ def check(
     """
     unknown = sorted(set(kernels) - set(KERNELS))
     if unknown:
-        raise ValueError(f"kernels are called {', '.join(KERNELS)}; got {', '.join(unknown)}")
+        raise ValueError(f"kernels: expected {', '.join(KERNELS)}; got {', '.join(unknown)}")
     double = [_jobs(name, points) for name in kernels]
     single = [[] if points else _rounded(jobs) for jobs in double]
     jobs = _mixed([*double, *single])

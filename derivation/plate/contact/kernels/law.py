@@ -82,7 +82,7 @@ LAW: Facts = {
 
 
 def reduce(expression: sp.Expr) -> sp.Expr:
-    """Return 0 if and only if the expression vanishes."""
+    """Simplify an expression; products written with `TIMES` are multiplied out first."""
     found = expression.replace(TIMES, lambda first, *powers: first * _powers(powers))
     return sp.simplify(sp.powdenest(found, force=True))
 
@@ -156,7 +156,7 @@ def indentation() -> Routine:
         (Let(whole, 1 + F),),
         (TIMES(whole, a, 2, R, -1),),
         (DEPTH,),
-        "delta, the indentation.",
+        "Return delta, the indentation, for any lengths.",
         LAW,
         reduce,
     )
@@ -210,7 +210,7 @@ def indentation_slope() -> Routine:
         (Let(ratio, a / R), Let(whole, 1 + F), Let(rise, 2 * whole + slope)),
         (ratio * rise,),
         (sp.diff(DEPTH, a),),
-        "d delta/da.",
+        "Return d delta/da.",
         LAW,
         reduce,
     )
@@ -224,7 +224,7 @@ def stiffness() -> Routine:
         (),
         (TIMES(3 * modulus, mu, 1, a, 1, rise, -1),),
         (sp.diff(FORCE, a) / sp.diff(DEPTH, a),),
-        "dP/d delta, the contact stiffness; `rise` is (R/a) d delta/da.",
+        "Return dP/d delta, the contact stiffness; `rise` is (R/a) d delta/da.",
         LAW,
         reduce,
     )
@@ -261,7 +261,7 @@ def radius_of_share() -> Claims:
 
 @named
 def force_of_share() -> Claims:
-    """Return P by delta, a and a/a_H, a_H = sqrt(R delta); errors of a_H count once, not thrice."""
+    """Return P from delta, a and a/sqrt(R delta), because a^3 would triple the error of a."""
     return Claims(
         (share, delta, a, mu, modulus),
         (),

@@ -1,4 +1,4 @@
-"""Computes tables of doubles for the generated code of kappa_n and M_k.
+"""Tables of doubles for the generated code of kappa_n and M_k.
 
     kappa_n = int_0^oo y^n K0(y)/I0(y) dy
     M_k     = FP int_0^oo T^(2k-4) (G - 1) dT     (Hadamard's finite part)
@@ -160,7 +160,7 @@ def finite_part_start() -> int:
 
     The result is cached on disk.
     """
-    rooms = (
+    folders = (
         "engine/cache.py",
         "engine/formula",
         "plate/*.py",
@@ -169,7 +169,7 @@ def finite_part_start() -> int:
         "engine/rewrite",
         "plate/*/kernels*",
     )
-    return cached("finite_part_start", rooms, _finite_part_start)
+    return cached("finite_part_start", folders, _finite_part_start)
 
 
 def _finite_part_start() -> int:
@@ -220,15 +220,19 @@ def moment_numbers() -> Numbers:
     found = {name: np.array(table) for name, table in tables().items()}
     pole, residue = _limit_parts()
     constants = (
-        Constant("FIRST_K", FIRST_K, "M_k is counted from here."),
-        Constant("KAPPA_START", kappa_start(), "n from which on kappa_n's expansion serves."),
-        Constant("FINITE_PART_START", finite_part_start(), "k from which on M_k's limit serves."),
+        Constant("FIRST_K", FIRST_K, "First index k of M_k."),
+        Constant("KAPPA_START", kappa_start(), "First n with the expansion of kappa_n."),
+        Constant(
+            "FINITE_PART_START", finite_part_start(), "First k with the limit of M_k's ratio."
+        ),
         Constant(
             "KAPPA_STEPS",
             kappa_steps(TERMS),
-            "Numerators of 1, 1/n, 1/(n (n-1)), ... in kappa_n's ratio.",
+            "Coefficients of 1, 1/n, 1/(n (n-1)), ... in kappa_n's ratio.",
         ),
-        Constant("LIMIT_POLE", float(pole), "M_k's ratio tends to 1 + LIMIT_RESIDUE/(k - this)."),
+        Constant(
+            "LIMIT_POLE", float(pole), "M_k's ratio tends to 1 + LIMIT_RESIDUE/(k - LIMIT_POLE)."
+        ),
         Constant("LIMIT_RESIDUE", float(residue), "See LIMIT_POLE."),
         Constant("KAPPA", found["kappa"], "kappa_n, from n = 0."),
         Constant("KAPPA_RATIO", found["kappa_ratio"], "kappa_n 2^(n+1)/(pi n!), from n = 0."),
@@ -239,7 +243,7 @@ def moment_numbers() -> Numbers:
             "M_k 2^(2k-3)/(2k-2)!, from k = FIRST_K.",
         ),
     )
-    title = "Constants of the contact law by whole index: tables and expansions."
+    title = "Constants of the contact law for integer indices: tables and expansions."
     return Numbers("series_numbers", title, constants)
 
 

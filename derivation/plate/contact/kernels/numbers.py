@@ -12,7 +12,7 @@ from derivation.plate.impact.theory.sensitivity import PARAMETERS, RESULTS, expo
 
 FAR_MIDDLE = sp.Rational(FAR_REACH**2 + REACH**2, 2)
 FAR_HALF = sp.Rational(FAR_REACH**2 - REACH**2, 2)
-_CELL = "ends in b/h, then rows by powers of b/h, scaled to [-1, 1]"
+_CELL = "ends in b/h, rows by scaled power of b/h"
 
 
 def numbers() -> Numbers:
@@ -27,13 +27,15 @@ def numbers() -> Numbers:
 def _ends() -> tuple[Constant, ...]:
     wide_end = tables.FAR_CELLS[0][1]
     return (
-        Constant("REACH", float(REACH), "The first polynomial ends at A = REACH or alpha = 1."),
-        Constant("FAR_REACH", float(FAR_REACH), "The second one at A = FAR_REACH or alpha = 1."),
-        Constant("SHORT", sp.Rational(1, SHORT), "Up to this share of its reach a short one does."),
-        Constant("WIDE_START", float(WIDE_START), "Where the second begins if b/h <= WIDE_END."),
-        Constant("WIDE_END", float(wide_end), "Up to this b/h its range begins at WIDE_START."),
-        Constant("FAR_MIDDLE", float(FAR_MIDDLE), "Middle of the range of A^2 of the second."),
-        Constant("FAR_HALF", float(FAR_HALF), "Half of that range."),
+        Constant("REACH", float(REACH), "End of the first polynomial: this A or alpha = 1."),
+        Constant(
+            "FAR_REACH", float(FAR_REACH), "End of the second polynomial: this A or alpha = 1."
+        ),
+        Constant("SHORT", sp.Rational(1, SHORT), "Fraction of the first range with the short one."),
+        Constant("WIDE_START", float(WIDE_START), "Its start if b/h <= WIDE_END, else REACH."),
+        Constant("WIDE_END", float(wide_end), "Largest b/h with the start WIDE_START."),
+        Constant("FAR_MIDDLE", float(FAR_MIDDLE), "Middle of its range of A^2 if b/h > FAR_REACH."),
+        Constant("FAR_HALF", float(FAR_HALF), "Half the width of that range."),
     )
 
 
@@ -41,13 +43,13 @@ def _closed_form() -> tuple[Constant, ...]:
     linear, cubic = tables.thin_numbers()
     log = float(cubic_by_log())
     return (
-        Constant("LINEAR", linear, "What of c1 of a thin plate does not depend on it."),
-        Constant("CUBIC", cubic, "What of c3 does not."),
-        Constant("NEAR_BY_LOG", REACH**2 * log, "How S_1 of a thin plate grows with log(b/h)."),
+        Constant("LINEAR", linear, "Part of a thin plate's c1 that does not depend on b/h."),
+        Constant("CUBIC", cubic, "Part of a thin plate's c3 that does not depend on b/h."),
+        Constant("NEAR_BY_LOG", REACH**2 * log, "Derivative of a thin plate's S_1 by log(b/h)."),
         Constant(
             "FAR_BY_LOG",
             (float(FAR_MIDDLE) * log, float(FAR_HALF) * log),
-            "How c3 makes S_0 and S_1 of the second polynomial grow with it.",
+            "Derivatives by log(b/h) of the parts of c3 in S_0 and S_1 of the second polynomial.",
         ),
     )
 
@@ -66,12 +68,16 @@ def _tables() -> tuple[Constant, ...]:
 
     return (
         Constant("THIN", row("thin"), "Phi/A of a thin plate in powers of (A/REACH)^2."),
-        Constant("THIN_FAR", row("far_thin"), "The same in powers of (A^2 - FAR_MIDDLE)/FAR_HALF."),
-        Constant("EDGE", row("edge"), "The edge's part W/alpha in powers of alpha^2."),
-        Constant("MODES", np.array(found["modes"]), "(8/(3 pi)) g(alpha j_n), for every mode."),
-        Constant("SHORTENED", np.array(found["short"]), "What powers left out add to S_0, ..."),
-        Constant("CELLS", cells("cell", tables.CELLS), f"What thin plates lack of F/A: {_CELL}."),
-        Constant("FAR_CELLS", cells("far", tables.FAR_CELLS), f"F/A from A = REACH on: {_CELL}."),
+        Constant("THIN_FAR", row("far_thin"), "Phi/A in powers of (A^2 - FAR_MIDDLE)/FAR_HALF."),
+        Constant("EDGE", row("edge"), "W/alpha of the finite radius in powers of alpha^2."),
+        Constant("MODES", np.array(found["modes"]), "(8/(3 pi)) g(alpha j_n), likewise, by n."),
+        Constant(
+            "SHORTENED", np.array(found["short"]), "Omitted powers in the short one's S_0, ..."
+        ),
+        Constant(
+            "CELLS", cells("cell", tables.CELLS), f"Remainder of a thin plate's F/A: {_CELL}."
+        ),
+        Constant("FAR_CELLS", cells("far", tables.FAR_CELLS), f"F/A on the second range: {_CELL}."),
     )
 
 
@@ -79,9 +85,9 @@ def _exponents() -> tuple[Constant, ...]:
     table = {name: tuple(map(float, row)) for name, row in exponents().items()}
     laws = np.array([table[name] for name in RESULTS])
     return (
-        Constant("RESULTS", tuple(RESULTS), "What the first axis of the sensitivities counts."),
-        Constant("PARAMETERS", tuple(map(str, PARAMETERS)), "What their second axis counts."),
-        Constant("POWERS", laws, "Powers of R, m, v0, h, b and E* in every result."),
-        Constant("ENERGY", np.array(table["energy"]), "The same in the energy number."),
-        Constant("ETA", np.array(table["eta"]), "The same in h/b."),
+        Constant("RESULTS", tuple(RESULTS), "Results, the first axis of the sensitivities."),
+        Constant("PARAMETERS", tuple(map(str, PARAMETERS)), "Parameters, their second axis."),
+        Constant("POWERS", laws, "Exponents of R, m, v0, h, b and E* in each result."),
+        Constant("ENERGY", np.array(table["energy"]), "The same for the energy number."),
+        Constant("ETA", np.array(table["eta"]), "The same for h/b."),
     )

@@ -191,7 +191,7 @@ def _time_parts(weights: Mapping[int, sp.Expr], at: sp.Expr) -> tuple[sp.Expr, s
 
 
 def _near_terms(name: str, hertz: int, summary: str) -> Routine:
-    """Return N and S at s = q/ratio as sums over the powers from the third on."""
+    """Return the routine of N and S at s = q/ratio, from sums over the powers from the third on."""
     k = NearNodes
     rest, square, cube, six, start, rise = sp.symbols("rest square cube six start rise")
     every = _weights(D, hertz)
@@ -229,13 +229,14 @@ def _near_terms(name: str, hertz: int, summary: str) -> Routine:
 
 def near_terms() -> Routine:
     """Return the routine of N and S for the law."""
-    what = "N and S by sums over the terms of F up to A_near, at s = A/A_near, and the work beyond."
+    what = "Return N and S from sums over the terms of F at s = A/A_near, and the work beyond."
     return _near_terms("near_terms", 1, what)
 
 
 def near_slope_terms() -> Routine:
     """Return the routine of N and S for derivatives of the law, which lack Hertz's term."""
-    return _near_terms("near_slope_terms", 0, "The same for a slope of F.")
+    what = "Return N and S for a slope of F, from the same sums without Hertz's term."
+    return _near_terms("near_slope_terms", 0, what)
 
 
 @named

@@ -77,7 +77,7 @@ def in_powers(center: sp.Expr, width: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
 
 
 def thin_start(name: str, center: sp.Expr, width: sp.Expr) -> Routine:
-    """Return the contributions of c1 and c3 to a polynomial."""
+    """Return the routine of the contributions of c1 and c3 to a polynomial."""
     t = sp.Symbol("t", real=True)
     law = sp.expand((thin(2) * A + thin(3) * A**3) / A).subs(A, sp.sqrt(center + width * t))
     law = sp.Poly(sp.expand(law), t)
@@ -88,19 +88,19 @@ def thin_start(name: str, center: sp.Expr, width: sp.Expr) -> Routine:
         (Several((linear, cubic), "thin_coefficients", (v,), exact),),
         in_powers(center, width),
         (law.coeff_monomial(1), law.coeff_monomial(t)),
-        "What c1 A + c3 A^3 adds to S_0 and S_1.",
+        "Return the contributions of c1 A + c3 A^3 to S_0 and S_1.",
         THIN,
         _with_logarithm,
     )
 
 
 def thin_near() -> Routine:
-    """Return the contributions of c1 and c3 to the first polynomial."""
+    """Return the routine of the contributions of c1 and c3 to the first polynomial."""
     return thin_start("thin_near", sp.Integer(0), REACH**2)
 
 
 def thin_far() -> Routine:
-    """Return the contributions of c1 and c3 to the second polynomial."""
+    """Return the routine of the contributions of c1 and c3 to the second polynomial."""
     return thin_start("thin_far", MIDDLE, HALF)
 
 
@@ -240,21 +240,21 @@ def by_log_radius(expression: sp.Expr) -> sp.Expr:
 
 
 def polynomial_slope() -> Routine:
-    """Return F and A F'."""
+    """Return the routine of F and A F'."""
     return routine(
         "with_slope_of",
         (A, square, inverse_half, S, slope),
         (Let(step, square * inverse_half), Let(F, A * S)),
         (F, F + 2 * A * step * slope),
         (LAW, by_log_radius(LAW)),
-        "F and A F' by S, S' and A^2.",
+        "Return F and A F' from A, A^2, S and dS/dt.",
         POLYNOMIAL,
         sp.expand,
     )
 
 
 def polynomial_slopes() -> Routine:
-    """Return F, A F' and A (A F')'."""
+    """Return the routine of F, A F' and A (A F')'."""
     return routine(
         "with_slopes_of",
         (A, square, inverse_half, S, slope, curve),
@@ -266,14 +266,14 @@ def polynomial_slopes() -> Routine:
         ),
         (F, F + 2 * steep, F + 8 * steep + 8 * change),
         (LAW, by_log_radius(LAW), by_log_radius(by_log_radius(LAW))),
-        "F, A F' and A (A F')' by S, S', S''/2 and A^2.",
+        "Return F, A F' and A (A F')' from A, A^2, S, dS/dt and (d^2 S/dt^2)/2.",
         POLYNOMIAL,
         sp.expand,
     )
 
 
 class Table(sp.Function):
-    """A coefficient at fixed (a/b)^2 over eta, as a function of log(eta)."""
+    """S_k/eta of a thick plate, t = (a/b)^2, as a function of log(eta)."""
 
     def fdiff(self, argindex: int = 1) -> sp.Expr:
         """Return the derivative by log(eta)."""

@@ -1,4 +1,4 @@
-"""Computes tables of doubles for the generated code of the corrected contact law.
+"""Tables of doubles for the generated code of the corrected contact law.
 
 The law is delta = (a^2/R) (1 + F), F a function of A = a/h and eta = h/b (alpha = a/b = A eta):
 
@@ -50,7 +50,7 @@ They represent its derivative too. Beyond the last range the remainder is neglig
 A = FAR_REACH, and the closed form is used alone.
 """
 FAR_CELLS = ((3, 4, 20), (4, 6, 21), (6, 8, 19), (8, 11, 18))
-"""The same for F/A itself for A > REACH."""
+"""Ranges of 1/eta with the number of powers that represent F/A itself for A > REACH."""
 WIDE_START = 2
 """Smallest A of the second polynomial in the first range of FAR_CELLS.
 

@@ -119,7 +119,7 @@ def mode_points(eta: Fraction, bits: int, working: int) -> Points:
     Bound of the omitted modes: x (J0^2 + Y0^2) rises to 2/pi (Watson, 13.74), and is
     4/(pi^2 j J1^2) at j, so that 1/(j J1^2) < pi/2 < 2. For T = 2 eta j >= 3, where T^2 e^(-T)
     decreases, G - 1 < 7 T^2 e^(-2T) (`sums`). As j_(N+1) > (N + 3/4) pi and zeros are more than 3
-    apart (`zeros`), with T' = 2 eta (N + 3/4) pi all following terms add up to less than
+    apart (`bessel.oracle`), with T' = 2 eta (N + 3/4) pi all following terms add up to less than
     14 T'^2 e^(-2T')/(1 - e^(-6 eta)), if |k| <= 1 on the real axis.
 
     Parameters

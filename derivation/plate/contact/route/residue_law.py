@@ -18,12 +18,14 @@ from derivation.engine.oracle.agreement import RouteError
 from derivation.plate.contact.route.residues import ResidueSeries, Scaled, fixed, floating, series
 
 ELLIPSE = 1.8
-"""Axes' sum of an ellipse about [-1, 1] that the integrand is analytic in: in a stiff
-half-space 2.02 and in a plate that bends alone 1.93, by where 1 - q^5 and 1 - q^6 vanish."""
+"""Sum of the half-axes of an ellipse with foci -1 and 1 in which the integrand is analytic.
+
+The zeros of 1 - q^5 limit it to 2.02 for a half-space, those of 1 - q^6 to 1.93 for bending alone.
+"""
 
 SHALLOW, DEEPEST = 1.5, 96.0
-"""a/h that the first series of a plate serves up to, and the last, each of twice the other's:
-the work goes with the 2.5th power of it."""
+"""Largest a/h of the first and of the last series of a plate; each reaches twice as far as the one
+before. The run time grows with the 2.5th power of it."""
 
 EDGE = mpf("0.9999")
 """Largest a/b at which a root is searched for."""
@@ -38,7 +40,7 @@ _STEPS = 60
 
 
 class RouteImpact(NamedTuple):
-    """Results of an impact."""
+    """Contact time [s], and largest indentation [m], force [N] and contact radius [m]."""
 
     contact_time: mpf
     max_indentation: mpf
@@ -131,7 +133,7 @@ def slope(a: float, R: float, h: float, b: float, digits: int = 40) -> mpf:
 
 
 def hertz_stiffness(R: mpf, lam: float, mu: float) -> mpf:
-    """Return P/a^3 = 4 E*/(3 R)."""
+    """Return P/a^3 = 4 E*/(3 R) [N/m^3]."""
     first, second = mpf(lam), mpf(mu)
     return 16 * second * (first + second) / (first + 2 * second) / (3 * R)
 
@@ -188,7 +190,7 @@ def force(
 def impact(
     R: float, m: float, v0: float, h: float, b: float, lam: float, mu: float, digits: int = 30
 ) -> RouteImpact:
-    """Return the conservative impact of a sphere of mass m [kg] at speed v0 [m/s]."""
+    """Return the results of an elastic impact of a sphere of mass m [kg] at speed v0 [m/s]."""
 
     def function(x: mpf, digits: int) -> tuple[mpf, mpf]:
         law, q = _law(h, b, x, digits)
@@ -258,7 +260,7 @@ def _quarter(of: ResidueLaw, largest: mpf, digits: int) -> mpf:
 
 
 def _ellipse(of: ResidueLaw, largest: mpf) -> float:
-    """Return the sum of the axes of an ellipse that avoids the singularities at a = +-4 i h."""
+    """Return the sum of the half-axes of an ellipse without the singularities at a = +-4 i h."""
     square = complex(1, -4 * float(of.eta / (largest * of.known.reach)))
     u = cmath.sqrt(square)
     half = (abs(u - 1) + abs(u + 1)) / 2

@@ -64,7 +64,7 @@ class ResidueSeries(NamedTuple):
 
 @lru_cache(maxsize=PLATES)
 def series(eta: mpf, reach: mpf, digits: int) -> ResidueSeries:
-    """Return the law of a plate of h/b = eta for contacts up to a/b = reach < 1.
+    """Return the law of a plate of h/b = eta for contacts up to a/b = reach <= 1.
 
     Parameters
     ----------

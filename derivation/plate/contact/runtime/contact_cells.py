@@ -14,7 +14,10 @@ Cells = tuple[tuple[float, float, Double], ...]
 
 
 def in_cells(v: Double, cells: Cells) -> Iterator[tuple[np.ndarray, Double, float, Double]]:
-    """Return which v lie in a cell, their position in [-1, 1], the half-width and the rows."""
+    """Yield for each cell the indices of the v in it, their positions in [-1, 1], half-width, rows.
+
+    Cells without any v are skipped.
+    """
     for first, last, rows in cells:
         chosen = np.flatnonzero((v > first) & (v <= last))
         if chosen.size:
@@ -23,7 +26,7 @@ def in_cells(v: Double, cells: Cells) -> Iterator[tuple[np.ndarray, Double, floa
 
 
 def horner(coefficients: list[Double] | list[float] | Double, t: Double) -> tuple[Double, Double]:
-    """Return a polynomial and its slope, computed in place because blocks fit in the cache."""
+    """Return a polynomial and its derivative by t, computed in place (blocks fit in the cache)."""
     value: Double = coefficients[-1] * t + coefficients[-2]
     slope = np.full_like(value, coefficients[-1])
     for coefficient in coefficients[-3::-1]:

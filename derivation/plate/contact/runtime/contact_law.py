@@ -72,7 +72,7 @@ def contact_radius(delta: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike) -
     Parameters
     ----------
     delta : array_like
-        Indentation [m]; from 0 to its value at a = min(b, 6 h).
+        Indentation [m]; from 0 to its value at a = min(b, 6 h), and such that a < R.
     R : array_like
         Sphere radius [m]; R > 0.
     h : array_like
@@ -108,7 +108,7 @@ def force(
     Parameters
     ----------
     delta : array_like
-        Indentation [m]; from 0 to its value at a = min(b, 6 h).
+        Indentation [m]; from 0 to its value at a = min(b, 6 h), and such that a < R.
     R : array_like
         Sphere radius [m]; R > 0.
     h : array_like

@@ -9,7 +9,7 @@ from generated.arrays import Double
 
 
 def index_of(owner: np.ndarray, shape: tuple[int, ...]) -> np.ndarray | None:
-    """Plate index of each point; None if there is only one plate."""
+    """Return the plate index of each point, or None if there is only one plate."""
     return None if owner.size == 1 else np.ravel(np.broadcast_to(owner, shape))
 
 
@@ -19,7 +19,7 @@ def cut_index(index: np.ndarray | None, part: slice) -> np.ndarray | None:
 
 
 def flat(x: Double, shape: tuple[int, ...]) -> Double:
-    """Return x, broadcast and flattened; a single value keeps the shape (1,)."""
+    """Return x, broadcast and flattened; without a copy if x is a single value."""
     if x.size == 1 and np.prod(shape) != 1:
         return np.broadcast_to(x.reshape(1), (int(np.prod(shape)),))
     return np.ravel(np.broadcast_to(x, shape))
@@ -32,7 +32,7 @@ def cut(x: Double, part: slice) -> Double:
 
 
 def pieces(arguments: list[Double], shape: tuple[int, ...], part: slice) -> list[Double]:
-    """Yield parts of flattened, broadcast arguments; the arguments themselves for a single part.
+    """Return parts of flattened, broadcast arguments; the arguments themselves for a single part.
 
     Single values stay single, so that no argument is broadcast as a whole.
     """

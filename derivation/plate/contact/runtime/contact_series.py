@@ -55,7 +55,7 @@ _THINNER = CELLS[-1][1]  # value of 1/eta above which the remainder is negligibl
 
 
 class Piece(NamedTuple):
-    """F = A (S_0 + S_1 t + ...), t = (A^2 - middle)/half, plates along the last axis."""
+    """Polynomials F = A (S_0 + S_1 t + ...), t = (A^2 - middle)/half; plates on the last axis."""
 
     coefficients: Double
     middle: Double
@@ -63,7 +63,7 @@ class Piece(NamedTuple):
 
 
 class Columns(NamedTuple):
-    """A piece at given points: one plate for each point (arrays) or one plate for all (scalars)."""
+    """`Piece` at given points: one plate for each point (arrays) or one plate for all (scalars)."""
 
     coefficients: list[Double] | list[float]
     middle: Double
@@ -71,7 +71,7 @@ class Columns(NamedTuple):
 
 
 class Plates(NamedTuple):
-    """Polynomials of several plates: eta, reach and far, the limits of A, have shape (plates,)."""
+    """Polynomials of several plates; eta and the limits reach and far of A have shape (plates,)."""
 
     eta: Double
     reach: Double
@@ -81,7 +81,7 @@ class Plates(NamedTuple):
 
 
 class Single(NamedTuple):
-    """One sphere on one plate: delta = a^2 (1/R + a S(t)/(h R)), t = (a scale)^2."""
+    """Law of one sphere on one plate: delta = a^2 (1/R + a S(t)/(h R)), t = (a scale)^2."""
 
     plates: Plates
     h: Double
@@ -103,7 +103,8 @@ def plate_coefficients(eta: ArrayLike) -> np.ndarray:
         delta = (a^2/R) (1 + F),  F = A sum_k S_k (A/reach)^(2k)
         A = a/h, reach = min(REACH, 1/eta), REACH as in `contact_numbers`
 
-    S_k reach^(-2k) equals the paper's zeta-regularised c_(2k+1) except for economisation.
+    For small k, S_k reach^(-2k) is close to the coefficient c_(2k+1) of A^(2k+1) in the series of
+    F about A = 0. It is not equal, because the polynomial interpolates F/A over the whole range.
 
     Parameters
     ----------
@@ -152,7 +153,7 @@ def _first(eta: Double) -> Double:
 
 
 def _thick(eta: Double) -> Double:
-    """Return the edge contribution plus that of the first modes, for reach = 1/eta."""
+    """Return the coefficients from the finite radius and the first modes, for reach = 1/eta."""
     zeros, weights = _weights(eta, MODES.shape[0])
     total = np.repeat(EDGE[:, None], eta.size, axis=1)
     for index in reversed(range(zeros.size)):
@@ -303,7 +304,7 @@ def sphere_on_plate(plates: Plates, h: Double, R: Double) -> Single | None:
 
 
 def indent(a: Double, most: float, law: Single, out: Double) -> None:
-    """Return the indentation at a block of radii a >= 0 of shape (points,), alpha < 1.
+    """Write the indentation at a block of radii a >= 0 of shape (points,), alpha < 1, to `out`.
 
     NaN stays NaN. `most` is the largest radius, or NaN if some radii may be NaN.
     """
@@ -328,7 +329,7 @@ def indent(a: Double, most: float, law: Single, out: Double) -> None:
 
 
 def _indent(a: Double, law: Single, coefficients: list[float], out: Double) -> None:
-    """Evaluate the polynomial in as few passes over memory as there are operations."""
+    """Write a^2 (1/R + a S) to `out`, in one pass over memory for each operation."""
     t = a * law.scale
     t *= t
     np.multiply(t, coefficients[-1], out=out)
@@ -396,5 +397,5 @@ def _beyond(
 
 
 def blocks_of(size: int) -> list[slice]:
-    """Yield slices of at most _BLOCK points."""
+    """Return slices of at most _BLOCK points that cover `size` points."""
     return [slice(start, start + _BLOCK) for start in range(0, size, _BLOCK)]

@@ -36,16 +36,16 @@ _APART = 512  # number of points per plate from which the plate is processed sep
 
 @dataclass(frozen=True, eq=False)
 class PlateArrays:
-    """Plates of the broadcast lengths h and b, NaN outside the domain.
+    """Plates of the broadcast lengths h and b; h is NaN where h <= 0.
 
     Parameters
     ----------
     h, b
         Half-thickness and radius [m], of any shapes.
+    plates
         Polynomials of the distinct plates.
-        Polynomials of the plates that differ.
+    owner
         Index of the polynomials of each plate, in the broadcast shape of h and b.
-        Which of them each is, in the broadcast shape of h and b.
     """
 
     h: Double
@@ -106,7 +106,7 @@ def _plate_by_plate(
 
 
 def _at(x: Double, place: tuple[int, ...], lengths: tuple[int, ...]) -> Double:
-    """Return the part of an argument that belongs to a plate, along the axes of the plates."""
+    """Return the part of an argument that belongs to the plate at an index of the plates' axes."""
     whole = x.reshape((1,) * (len(place) - x.ndim) + x.shape)
     sizes = whole.shape[whole.ndim - len(place) :]
     own = (min(i, size - 1) for i, size in zip(place, sizes, strict=True))

@@ -24,7 +24,7 @@ _USUAL = 1e-20, 1e20  # range of h/b for which that also applies to the coeffici
 
 
 class PointPiece(NamedTuple):
-    """F = A (S_0 + S_1 t + ...), t = (A^2 - middle) inverse_half; the highest power comes first."""
+    """F = A (S_0 + S_1 t + ...), t = (A^2 - middle) inverse_half, with the highest power first."""
 
     coefficients: tuple[float, ...]
     middle: float
@@ -74,7 +74,7 @@ class PlatePoints:
 
     @cached_property
     def linear(self) -> float:
-        """Upper bound of F for small A, at least 0 [1]."""
+        """Coefficient of A in F, or 0 if that is negative [1]."""
         return max(self.first.coefficients[-1], 0.0)
 
     @cached_property
@@ -94,7 +94,7 @@ class PlatePoints:
 
 
 def plate_points(some: PlateArrays) -> PlatePoints | None:
-    """Return the only plate if its lengths are ordinary, else None."""
+    """Return the plate of scalar h and b if its lengths are ordinary, else None."""
     if some.h.ndim or some.b.ndim:
         return None
     h, b = some.h.item(), some.b.item()
@@ -103,7 +103,7 @@ def plate_points(some: PlateArrays) -> PlatePoints | None:
 
 
 def indentation(plate: PlatePoints, a: float, R: float) -> float | None:
-    """Return the indentation [m] at a contact radius [m]."""
+    """Return the indentation [m] at a contact radius [m], or None."""
     if not (_ordinary(a, R) and a < plate.b and a < R):
         return None
     A = a / plate.h
@@ -119,13 +119,13 @@ def indentation(plate: PlatePoints, a: float, R: float) -> float | None:
 
 
 def contact_radius(plate: PlatePoints, delta: float, R: float) -> float | None:
-    """Return the contact radius [m] at an indentation [m]."""
+    """Return the contact radius [m] at an indentation [m], or None."""
     found = _contact(plate, delta, R)
     return None if found is None else found[0]
 
 
 def force(plate: PlatePoints, delta: float, R: float, lam: float, mu: float) -> float | None:
-    """Return the force [N] at an indentation [m]."""
+    """Return the force [N] at an indentation [m], or None."""
     modulus = _modulus(lam, mu)
     found = None if modulus is None else _contact(plate, delta, R)
     if modulus is None or found is None:
@@ -135,7 +135,7 @@ def force(plate: PlatePoints, delta: float, R: float, lam: float, mu: float) -> 
 
 
 def stiffness(plate: PlatePoints, a: float, R: float, lam: float, mu: float) -> float | None:
-    """Return the stiffness [N/m] at a contact radius [m]."""
+    """Return the stiffness [N/m] at a contact radius [m], or None."""
     modulus = _modulus(lam, mu)
     if modulus is None or not (_ordinary(a, R) and a < plate.b and a < R):
         return None
@@ -147,7 +147,7 @@ def stiffness(plate: PlatePoints, a: float, R: float, lam: float, mu: float) -> 
 
 
 def _contact(plate: PlatePoints, delta: float, R: float) -> tuple[float, float] | None:
-    """Return the contact radius and its ratio to Hertz's radius."""
+    """Return the contact radius [m] and its ratio to Hertz's radius, or None."""
     if not _ordinary(delta, R):
         return None
     eps = kernels.depth_ratio_in_range(delta, R, plate.h)
@@ -179,7 +179,7 @@ def _ordinary(one: float, other: float) -> bool:
 
 
 def _modulus(lam: float, mu: float) -> float | None:
-    """Return (4/3) E*/mu of ordinary constants."""
+    """Return (4/3) E*/mu of ordinary constants, None for others."""
     low, high = _ORDINARY
     if low < mu < high and -2.0 * mu < 3.0 * lam < high:
         return kernels.modulus_over_mu(lam, mu)

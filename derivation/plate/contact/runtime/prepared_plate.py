@@ -76,7 +76,7 @@ class PreparedPlate:
         Parameters
         ----------
         delta : array_like
-            Indentation [m]; from 0 to its value at a = min(b, 6 h).
+            Indentation [m]; from 0 to its value at a = min(b, 6 h), and such that a < R.
         R : array_like
             Sphere radius [m]; R > 0.
 
@@ -103,7 +103,7 @@ class PreparedPlate:
         Parameters
         ----------
         delta : array_like
-            Indentation [m]; from 0 to its value at a = min(b, 6 h).
+            Indentation [m]; from 0 to its value at a = min(b, 6 h), and such that a < R.
         R : array_like
             Sphere radius [m]; R > 0.
         lam : array_like
@@ -162,7 +162,7 @@ class PreparedPlate:
 
     @cached_property
     def points(self) -> PlatePoints | None:
-        """Return the plate for contacts in plain numbers; None if its lengths are not ordinary."""
+        """Plate for contacts in plain numbers; None unless h and b are plain, ordinary numbers."""
         plain = isinstance(self.h, (int, float)) and isinstance(self.b, (int, float))
         return plate_points.plate_points(self.arrays) if plain else None
 

@@ -265,10 +265,10 @@ def _integrals(sums: list[_Sums], weights: Double) -> Double:
 
 
 class _Beyond(NamedTuple):
-    """Return the contributions beyond the first polynomial, with slopes by log A_m and log eta.
+    """Contributions beyond the first polynomial, with slopes by log A_m and log eta.
 
-    `rises` is the work divided by A_m^5, `integrals` the part of the contact time; `rate`
-    and `lift_slope` are V and the slope of F by log eta at A_m.
+    `rises` is the work divided by A_m^5, `integrals` the part of the integral in the contact time;
+    `rate` and `lift_slope` are V and the slope of F by log eta at A_m.
     """
 
     rises: Double

@@ -84,5 +84,5 @@ def root(n: int, bits: int = 128) -> flint.acb:
 
 
 def height(n: int, digits: int = 30) -> flint.arb:
-    """Return Im T_n; the term of T_n in a thin plate's law is of the order exp(-Im T_n b/h)."""
+    """Return Im T_n; T_n contributes terms of the order exp(-Im T_n b/h) to the coefficients."""
     return root(n, int(3.33 * digits) + 8).imag

@@ -26,6 +26,11 @@ def formula(name: str) -> "Record":
     name
         Name of the formula, as `platecontact derive` lists it.
 
+    Returns
+    -------
+    Record
+        The formula, with its expression, unit, meaning and proof.
+
     Raises
     ------
     KeyError
@@ -52,21 +57,39 @@ def diagnose(
 ) -> "TextDiagnosis":
     """Compare a formula of your own with the derived one of that name.
 
+    For a sum over the modes, one term is compared.
+
     Parameters
     ----------
     name
-        For instance ``K_j``.
+        Name of the derived formula, such as ``K_j``.
     text
-        The formula in SymPy syntax, or in LaTeX if `latex`; nothing in it is executed.
+        Your formula; it is parsed, not executed.
+    latex
+        Whether `text` is LaTeX instead of SymPy syntax.
     at
-        Point to evaluate both at, like ``phi=2.5,h=0.1``; exact decimals.
+        Point at which both are evaluated, in SI units, such as ``phi=2.5,h=0.1``; each decimal
+        number is used exactly. Without a point there are no values.
     digits
-        Digits of both values.
+        Number of significant digits of both values, 1 to 1000.
+
+    Returns
+    -------
+    TextDiagnosis
+        The verdict ("equal" or "different"), the misprint that explains a difference, and the
+        values.
 
     Raises
     ------
     ValueError
-        For a name, formula or point that cannot be used.
+        If the name, formula, point or number of digits is invalid, or the comparison exceeds its
+        limit of time or memory.
+
+    Examples
+    --------
+    >>> import platecontact as pc
+    >>> pc.diagnose("G", "1 + 4*T*exp(-2*T)").verdict
+    'different'
     """
     from derivation.plate import derived
 

@@ -69,7 +69,7 @@ def diagnose(
         Whether `text` is LaTeX instead of SymPy syntax.
     at
         Point at which both are evaluated, in SI units, such as ``phi=2.5,h=0.1``; each decimal
-        number is used exactly. Without a point there are no values.
+        number is used exactly. Symbols that are not given have default values.
     digits
         Number of significant digits of both values, 1 to 1000.
 

@@ -62,8 +62,10 @@ def diagnose(
     name
         Name of the derived formula, for example ``K_j``.
     text
-        The formula in SymPy syntax, or in LaTeX if `latex` is true; it is parsed, not executed.
+        Your formula; it is parsed, not executed.
         For a sum over modes, give one term or ``Sum(..., (j, 1, oo))``.
+    latex
+        Whether `text` is LaTeX instead of SymPy syntax.
     at
         Point at which both are evaluated, in SI units, like ``phi=2.5,h=0.1``; the decimals are
         taken as exact. Symbols that are not given have default values.
@@ -78,7 +80,8 @@ def diagnose(
     Raises
     ------
     ValueError
-        If the name, formula, point or number of digits is not valid.
+        If the name, formula, point or number of digits is invalid, or the comparison exceeds its
+        limit of time or memory.
 
     Examples
     --------

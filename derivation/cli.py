@@ -62,7 +62,7 @@ app = typer.Typer(
 
 
 def _show_version(wanted: bool) -> None:
-    """Print the version of the installed distribution."""
+    """Print the version and exit, if the option is given."""
     if wanted:
         OUT.say(f"platecontact {version('platecontact')}")
         raise typer.Exit
@@ -162,7 +162,7 @@ def benchmark(
 
 
 def _written(path: Path | None) -> None:
-    """Say where a measurement was written, or how to save it."""
+    """Print where a measurement was written, or how to save it."""
     NOTES.say(f"written: {path}" if path else "not saved; to save it, add --out FILE or --update")
 
 
@@ -196,7 +196,7 @@ def reference(
     """Compute contact law and impact of a scene to many digits.
 
     Two independent methods (Arb and mpmath) must agree; the exit status is 1 if they do not. Each
-    number of the scene means exactly the double that it is read as.
+    number of the scene is read as a double, and the reference is computed for exactly that double.
 
     Example: platecontact reference scene.toml --digits 100
     """
@@ -206,7 +206,7 @@ def reference(
     scene_commands.check_outputs(scene, json)
     known = in_doubles(load(scene))
 
-    from derivation.checks import many_digits  # SymPy, which a refusal does not wait for
+    from derivation.checks import many_digits  # imports SymPy: slow, so scenes are rejected first
 
     warn(known.warnings)
     NOTES.say(many_digits.time_of_reference(known, digits))
@@ -228,7 +228,7 @@ command()(scene_commands.schema)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run a command; an error that a user can cause is shown as one message, with status 2."""
+    """Run a command and return its exit status; an error of the user is shown as one message."""
     platecontact = get_command(app)
     try:
         if in_checkout():

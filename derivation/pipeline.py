@@ -1,4 +1,4 @@
-"""Measurements of the plate code beyond the stages of `derivation.engine.build`."""
+"""Checks and benchmarks of the plate code in addition to the stages of a build."""
 
 import os
 from collections.abc import Callable, Sequence
@@ -35,7 +35,7 @@ EXAMPLE = PACKAGE / "scene" / "examples" / "paper.toml"
 
 
 def check_contact(progress: Progress = quiet) -> CheckResult:
-    """Compare contact law, its inversion and impact with both references; takes minutes.
+    """Compare contact law, its inversion and impact with both references; this takes minutes.
 
     Raises
     ------
@@ -47,8 +47,8 @@ def check_contact(progress: Progress = quiet) -> CheckResult:
     }
     rows = measure_contact(kernels, processes=os.cpu_count() or 1, progress=progress)
     cells = [
-        (r.kernel, r.points, r.digits, f"{r.max_error:.2g}", f"{r.double.max_ulp:.3g}",
-         f"{r.double.ratio:.2f}", f"{r.budget:g}", r.passed)
+        (r.kernel, r.points, r.digits, f"{r.double.max_ulp:.3g}",
+         f"{r.double.ratio:.2f}", f"{r.budget:g}", "yes" if r.passed else "NO")
         for r in rows
     ]  # fmt: skip
     return CheckResult(
@@ -57,7 +57,6 @@ def check_contact(progress: Progress = quiet) -> CheckResult:
             "function",
             "#points",
             "#agreeing digits",
-            "#max error",
             "#max ULP",
             "#fraction of budget",
             "#budget",
@@ -81,19 +80,22 @@ def contact_data(rows: tuple[ContactRow, ...]) -> dict[str, Any]:
 
 
 def _short(errors: Errors) -> dict[str, Any]:
-    """Return the recorded part of the errors of a function in a format."""
+    """Return the recorded part of a function's errors in one floating-point format."""
     kept = ("points", "max_ulp", "needed", "ratio", "dtype")
     worst = [exact for _, exact, _ in errors.worst.arguments]
     return {name: getattr(errors, name) for name in kept} | {"worst": worst}
 
 
 def check_speed(progress: Progress = quiet) -> CheckResult:
-    """Measure run times of contact law, impact and start of the program on this machine."""
+    """Measure run times of contact law, impact and program start, and compare with limits."""
     examples = sorted(EXAMPLE.parent.glob("*.toml"))
     solved = [path for path in examples if selected_effects(load(path))[1].law.solved]
     timings = speed.measure(examples, solved, progress, user_calls.planned())
     columns = ("measurement", "#measured", "#limit", "passed")
-    cells = [(t.name, f"{t.value:.3g} {t.unit}", f"{t.limit:g}", t.kept) for t in timings]
+    cells = [
+        (t.name, f"{t.value:.3g} {t.unit}", f"{t.limit:g}", "yes" if t.kept else "NO")
+        for t in timings
+    ]
     return CheckResult(
         "Run times", columns, cells, lambda: speed.as_data(timings), all_kept(timings)
     )
@@ -107,7 +109,7 @@ def accuracy(
     progress: Progress = quiet,
     update: bool = False,
 ) -> tuple[dict[str, Any], Path | None]:
-    """Measure accuracy against run time, and write the result to a file if one is given.
+    """Measure accuracy against run time; save the result with `out` or `update`.
 
     Parameters
     ----------
@@ -122,13 +124,18 @@ def accuracy(
     progress
         Called at each step.
     update
-        Whether to replace the project's committed measurement.
+        Whether to replace the committed measurement.
+
+    Returns
+    -------
+    dict, Path or None
+        The result as plain data, and the file to which it was written.
 
     Raises
     ------
     ValueError
-        If a method is unknown, the scene cannot be used, or `update` is combined with other
-        options.
+        If a method is unknown, the scene cannot be used, or `update` is combined with `methods`,
+        `scene` or `out`.
     OSError
         If the file cannot be written.
     """
@@ -157,10 +164,30 @@ def search_worse(
 ) -> tuple[Search, Book]:
     """Search for larger errors for some time, and write each new worst case to a file.
 
+    Parameters
+    ----------
+    duration
+        Duration of the search, such as ``60s``, ``5m`` or ``1h``.
+    seed
+        Random seed.
+    functions
+        Names of the functions; all if empty.
+    out
+        File for the worst cases; by default ``search.toml`` in the paper's report folder.
+    progress
+        Called at each function's turn.
+
+    Returns
+    -------
+    Search, Book
+        The search with its results, and the file of worst cases.
+
     Raises
     ------
     ValueError
-        If the duration or a function name is invalid, or the file contains something else.
+        If the duration or a function name is invalid, or the file is not one of worst cases.
+    OSError
+        If the file cannot be written.
     """
     seconds, chosen = seconds_of(duration), targets(functions)
     path = folder_for(None, PAPER.report_folder) / "search.toml" if out is None else out

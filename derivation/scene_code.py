@@ -1,4 +1,4 @@
-"""Generates the source code of one scene, tests it and formats it."""
+"""Generation of the source code of one scene, with its test."""
 
 import hashlib
 import json
@@ -21,13 +21,19 @@ def scene_code(scene: Scene) -> str:
     Parameters
     ----------
     scene
-        The scene, as `load` returns it; the effects are those that `simulate` includes.
+        The scene, as `load` returns it; the code contains the effects that `simulate` includes.
+
+    Returns
+    -------
+    str
+        Source of the module. Its docstring states the largest differences from the contact law.
 
     Raises
     ------
     SceneError
-        As `simulate` does; for plate inertia and plasticity; for a viscoelastic contact on a simply
-        supported or clamped plate that bends; and if the code does not reproduce the law.
+        If `simulate` rejects the scene; if it requires plate inertia or plasticity, or a
+        viscoelastic contact with bending of a simply supported or clamped plate; or if the code
+        does not reproduce the contact law.
     """
     made = recipe(scene)
     found = errors(made, _run(_text(made, made.head)))
@@ -60,7 +66,7 @@ def write_scene_code(scene: Scene, out: Path) -> None:
     Raises
     ------
     SceneError
-        If the file name does not end in .py, or as `scene_code`.
+        If the file name does not end in .py, or if `scene_code` raises it.
     OSError
         If the file cannot be written.
     """
@@ -77,6 +83,6 @@ def _run(text: str) -> dict[str, Any]:
 
 
 def _rounded_up(error: float) -> str:
-    """Return an error with one digit, rounded up."""
+    """Return an error with one digit, rounded up, at least 1e-15."""
     least = max(error, 1e-15)
     return f"{least + 0.5 * 10.0 ** math.floor(math.log10(least)):.0e}"

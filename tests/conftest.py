@@ -56,7 +56,7 @@ def cases(suite: "Suite") -> "tuple[HardCase, ...]":
 
 
 @pytest.fixture(scope="session")
-def truth(cases: "tuple[HardCase, ...]") -> "dict[str, Known]":
+def references(cases: "tuple[HardCase, ...]") -> "dict[str, Known]":
     """Their references, as recorded."""
     from derivation.engine.measure import hard
     from derivation.plate.paper import PAPER

@@ -1,1 +1,1 @@
-"""Checks of error bounds and effect selection on random scenes, and against finite elements."""
+"""Checks of simulations: on random scenes, and against finite elements and other references."""

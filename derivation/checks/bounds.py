@@ -1,8 +1,8 @@
 """Tests stated error bounds: random impacts at several tolerances against Arb reference values.
 
-The reference values of a scene take about a second each and are recorded; the errors are measured
-again each time. Each scene is drawn from the seed and its number, log-uniformly over shapes,
-materials and speeds within the range of the law.
+The reference values of a scene take about a second and are recorded; the errors are measured again
+in each run. Each scene is drawn from the seed and its number, log-uniformly over shapes, materials
+and speeds within the range of the contact law.
 """
 
 import json
@@ -36,13 +36,13 @@ QUANTITIES = ("contact_time", "max_indentation", "max_force", "max_contact_radiu
 _WRITTEN = DIGITS + 3
 
 Point = tuple[float, ...]
-"""R, m, v0, h, b, lam and mu of an impact."""
+"""R, m, v0, h, b, lam and mu of an impact, in SI units."""
 ORACLE: Callable[..., tuple[flint.arb, ...]] = contact_impact.impact
 
 
 @dataclass(frozen=True)
 class SceneReference:
-    """Reference values of an impact, in decimal, to DIGITS digits."""
+    """Reference values of an impact in the order of `QUANTITIES`, as decimal text."""
 
     point: Point
     values: tuple[str, ...]
@@ -50,20 +50,20 @@ class SceneReference:
 
 @dataclass(frozen=True)
 class BoundRow:
-    """The largest error of one method over its bound.
+    """The largest ratio of error to bound of one method.
 
     Parameters
     ----------
     method
-        Its name.
+        Name of the method.
     runs
-        Number of runs, over all scenes and tolerances, in which the method was chosen.
+        Number of runs, over all scenes and tolerances, in which the method was selected.
     ratio
-        Largest error over the stated bound.
+        Largest error over the stated bound [1].
     error, bound
-        Error and bound of that run [1].
+        Relative error and bound of the run with that ratio [1].
     quantity, point
-        The result, and the scene.
+        The result and the scene of that run.
     """
 
     method: str
@@ -83,15 +83,15 @@ class BoundRow:
 def check_bounds(count: int, update: bool = False, progress: Progress = quiet) -> CheckResult:
     """Test the bounds that `simulate` states on the first `count` random scenes.
 
-    Recorded reference values are reused; others are computed, about a second each. With `update`
-    they are saved from time to time, so that an interrupted run can be continued.
+    Recorded reference values are reused; others are computed, which takes about a second per scene.
+    With `update`, new ones are saved during the run, so that an interrupted run can be continued.
     """
     if update:
         expect_recordable(MEASURED)
     known = committed_references()
     found: list[SceneReference] = []
-    for true in reference_values(count, known, progress=progress):
-        found.append(true)
+    for expected in reference_values(count, known, progress=progress):
+        found.append(expected)
         if update and len(found) > len(known) and len(found) % KEPT_EVERY == 0:
             write_file(MEASURED, to_json(found, ()))
     rows = judge(found)
@@ -106,7 +106,10 @@ def check_bounds(count: int, update: bool = False, progress: Progress = quiet) -
 
 
 def scene(number: int, seed: int = SEED) -> Point:
-    """Return the scene with a number: h/b from 1e-4 to 100, a_m from 1e-8 of the law's range up."""
+    """Return the scene with a number.
+
+    h/b is 1e-4 to 100; the largest contact radius is 1e-8 to 1 times 85 % of min(b, R, 6 h).
+    """
     generator = random.Random(f"bounds {seed} {number}")
     spread = spreading(generator)
     b, eta = spread(1e-3, 1e2), spread(1e-4, 1e2)
@@ -121,7 +124,7 @@ def scene(number: int, seed: int = SEED) -> Point:
 
 
 def reference(point: Point) -> SceneReference:
-    """Compute the reference values of an impact."""
+    """Compute the reference values of an impact, as decimal text."""
     balls = ORACLE(*point, digits=DIGITS)
     return SceneReference(point, tuple(ball.str(_WRITTEN, radius=False) for ball in balls))
 
@@ -149,19 +152,19 @@ def reference_values(
 def _written(point: Point) -> tuple[str, ...]:
     """Return the numbers of a scene to 11 digits, which identify it.
 
-    The last digits of the speed depend on rounding errors of the generated law.
+    The last digits of the speed depend on rounding errors of the generated contact law.
     """
     return tuple(f"{x:.10e}" for x in point)
 
 
-def errors(values: Iterable[float], true: SceneReference) -> tuple[float, ...]:
+def errors(values: Iterable[float], expected: SceneReference) -> tuple[float, ...]:
     """Return the relative errors of the results, with the error of the reference values added."""
     with flint.ctx.workprec(256):
         return tuple(
             float((abs(flint.arb(value) / flint.arb(text) - 1) + 10.0**-DIGITS).abs_upper())
             if math.isfinite(value)
             else math.inf
-            for value, text in zip(values, true.values, strict=True)
+            for value, text in zip(values, expected.values, strict=True)
         )
 
 
@@ -175,7 +178,7 @@ def simulated(point: Point, rtol: float) -> tuple[Sequence[float], str, float]:
 def judge(
     known: Sequence[SceneReference], tolerances: Sequence[float] = TOLERANCES
 ) -> tuple[BoundRow, ...]:
-    """Run every scene at every tolerance; return a row for each method in order of first use.
+    """Simulate every scene at every tolerance; return a row for each method, by first use.
 
     Raises
     ------
@@ -184,17 +187,19 @@ def judge(
     """
     worst: dict[str, BoundRow] = {}
     for rtol in tolerances:
-        for true in known:
-            values, method, bound = simulated(true.point, rtol)
+        for expected in known:
+            values, method, bound = simulated(expected.point, rtol)
             if not bound <= rtol:
-                raise ValueError(f"{method} states {bound} for {rtol} at {true.point}")
-            found = errors(values, true)
+                raise ValueError(f"{method} states {bound} for {rtol} at {expected.point}")
+            found = errors(values, expected)
             error = max(found)
             before = worst.get(method)
             ratio, runs = error / bound, 1 + (before.runs if before else 0)
             if before is None or ratio > before.ratio:
                 quantity = QUANTITIES[found.index(error)]
-                worst[method] = BoundRow(method, runs, ratio, error, bound, quantity, true.point)
+                worst[method] = BoundRow(
+                    method, runs, ratio, error, bound, quantity, expected.point
+                )
             else:
                 worst[method] = replace(before, runs=runs)
     return tuple(worst.values())

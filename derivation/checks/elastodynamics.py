@@ -1,5 +1,6 @@
-"""Compares simulated impacts with the recorded finite-element solutions of the same scenes."""
+"""Comparison of simulated impacts with recorded finite-element solutions of the same scenes."""
 
+import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,13 +12,17 @@ from derivation.engine.activity import Progress, quiet
 from derivation.engine.files import expect_writable, write_file
 from derivation.engine.measure.result import CheckResult, all_kept
 from derivation.engine.outputs import plain_rows
+from derivation.engine.text import aligned, paragraph
 from derivation.scene.impact import simulate
 from derivation.scene.scene import OUTPUTS, SceneError, read
 
-COLUMNS = (
-    "case", "#finite-element error", "#difference", "worst result", "#bound", "#model error",
-    "#contacts", "passed",
-)  # fmt: skip
+COLUMNS = ("edge", "worst result", "#difference", "#allowed", "#contacts", "passed")
+NOTE = (
+    "difference: of the simulation from the finite elements, relative; worst result: the one with "
+    "the largest difference over the allowed one; allowed: sum of error bound, model error and "
+    "finite-element error; contacts: number in finite elements/simulation."
+)
+"""Explanation of `COLUMNS`."""
 
 
 @dataclass(frozen=True)
@@ -31,13 +36,13 @@ class Compared:
     differences
         Relative difference of each result from that of the finite elements [1].
     errors
-        Relative errors of the finite elements [1].
+        Estimated relative errors of the finite-element results [1].
     bound, model_error
         Error bound and model error stated by the simulation [1].
     contacts
-        Number of contacts, of the finite elements and of the simulation.
+        Number of contacts in the finite-element solution and in the simulation.
     refused
-        The error message if the simulation rejects the scene; then all else is empty.
+        The error message if the simulation rejects the scene; then there are no differences.
     """
 
     name: str
@@ -50,9 +55,8 @@ class Compared:
 
     @property
     def excess(self) -> dict[str, float]:
-        """Difference over the sum of bound, model error and finite-element error [1]."""
-        stated = self.bound + self.model_error
-        return {k: abs(self.differences[k]) / (stated + self.errors[k]) for k in self.differences}
+        """Difference over the allowed difference, for each result [1]."""
+        return {k: abs(x) / self.allowed(k) for k, x in self.differences.items()}
 
     @property
     def worst(self) -> str:
@@ -61,8 +65,12 @@ class Compared:
 
     @property
     def kept(self) -> bool:
-        """Whether no difference is larger than allowed."""
+        """Whether no difference is larger than allowed, or the scene is rejected."""
         return bool(self.refused) or max(self.excess.values()) <= 1.0
+
+    def allowed(self, name: str) -> float:
+        """Return the allowed difference of a result: the sum of all stated errors [1]."""
+        return self.bound + self.model_error + self.errors[name]
 
 
 def compare(
@@ -93,22 +101,36 @@ def compare(
 
 
 def result(found: Sequence[Compared]) -> CheckResult:
-    """Return the cases as a table, and those that are rejected."""
+    """Return the cases as lines of text, and those that are rejected."""
     refused = [f"{case.name}: {case.refused}" for case in found if case.refused]
     return CheckResult(
         "Impacts against finite elements",
-        COLUMNS,
-        [cells(case) for case in found],
+        (),
+        (),
         lambda: plain_rows(found),
         all_kept(found),
-        listings=[(f"{len(refused)} rejected", refused)],
+        note=paragraph(NOTE, 0),
+        listings=[
+            ("Impacts against finite elements", table(found)),
+            (f"{len(refused)} rejected", refused),
+        ],
     )
 
 
-def simulated(row: Mapping[str, Any]) -> dict[str, Any]:
-    """Return what `simulate` gives for a recorded case.
+def table(found: Sequence[Compared]) -> list[str]:
+    """Return the cases in lines of at most 80 columns, below the name of their group."""
+    head, rule, *rows = aligned(COLUMNS, [cells(case) for case in found]).splitlines()
+    lines = [f"  {head}", f"  {rule}"]
+    names = (case.name.rpartition(" ")[0] for case in found)
+    for group, numbered in itertools.groupby(zip(names, rows, strict=True), lambda x: x[0]):
+        lines += [group, *(f"  {row}" for _, row in numbered)]
+    return lines
 
-    Without a tolerance, with as many modes and branches as the program chooses.
+
+def simulated(row: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the simulated results of a recorded case, with plate inertia.
+
+    No tolerance is given, and the program selects the numbers of modes and branches.
     """
     effects = {"spherical_profile": row["spherical_profile"], "inertia": True}
     try:
@@ -129,7 +151,7 @@ def simulated(row: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def compared(row: Mapping[str, Any]) -> Compared:
-    """Return a case with its differences, from a row with the program's results."""
+    """Return a case with its differences, from a recorded row with the simulated results."""
     program = row["program"]
     if "refused" in program:
         return Compared(row["name"], {}, {}, 0.0, 0.0, (row["contacts"], 0), program["refused"])
@@ -143,22 +165,21 @@ def compared(row: Mapping[str, Any]) -> Compared:
 
 
 def _judged(row: Mapping[str, Any]) -> Sequence[str]:
-    """Return the results with a bound, without total time and contact radius."""
+    """Return the names of the compared results; total time and contact radius have no bound."""
     return [name for name in OUTPUTS if name in row["elements"] and name != "max_contact_radius"]
 
 
 def cells(case: Compared) -> tuple[str, ...]:
     """Return a case's entries under `COLUMNS`, as text."""
+    edge = case.name.rpartition(" ")[2]
     if case.refused:
-        return (case.name, "", "", case.refused.partition(":")[0] + " rejected", "", "", "", "")
-    worst, numbers = case.worst, case.contacts
+        return (edge, "rejected", "", "", "", "")
+    worst = case.worst
     return (
-        case.name,
-        f"{case.errors[worst]:.1e}",
-        f"{case.differences[worst]:+.1e}",
+        edge,
         worst,
-        f"{case.bound:.1e}",
-        f"{case.model_error:.1e}",
-        f"{numbers[0]}/{numbers[1]}",
+        f"{case.differences[worst]:+.1e}",
+        f"{case.allowed(worst):.1e}",
+        f"{case.contacts[0]}/{case.contacts[1]}",
         "yes" if case.kept else "NO",
     )

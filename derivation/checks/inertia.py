@@ -1,4 +1,4 @@
-"""Tests impacts with plate inertia on random scenes, against twice the modes and all branches."""
+"""Tests impacts with plate inertia on random scenes, against twice the modes, all branches."""
 
 import itertools
 import math
@@ -31,19 +31,20 @@ MEASURED: Path = measurements() / "inertia.json"
 HEAVIEST = 5.0
 """Largest Zener parameter of the scenes."""
 FALLEN = 100.0
-"""Largest work of the weight over the kinetic energy of the scenes."""
+"""Largest work of the sphere's weight over its initial kinetic energy, of the scenes."""
 MODES = {"A0": 100, "all": 10}
-"""Largest number of modes of the first run of a scene."""
+"""Largest number of modes with which `simulate` begins, by branches; other scenes are skipped."""
 OSCILLATORS = 1200
 """Largest number of modes of the reference simulation."""
 ANY, MUCH = 1.0, 0.3
-"""A tolerance at which inertia is always omitted, and a change too large for omission."""
+"""Tolerance with which the bound on the change by inertia is computed, and the value of that bound
+from which inertia is included [1]."""
 MET, TIGHT = 3.0, 1e-4
-"""Tolerance over the bound on the omitted branches, and smallest tolerance [1]."""
+"""Factor of the bound on the omitted branches, and summand, of the smallest tolerance [1]."""
 
 
 def judge(count: int, seed: int = inertia.SEED, progress: Progress = quiet) -> InertiaJudged:
-    """Draw scenes until `count` of them are neither skipped nor rejected."""
+    """Draw and simulate scenes until `count` of them are neither skipped nor rejected."""
     passed_over, refused, rows = Counter[str](), Counter[str](), list[InertiaRow]()
     for number in itertools.count():
         data, place = inertia.scene(number, seed)
@@ -63,7 +64,7 @@ def judge(count: int, seed: int = inertia.SEED, progress: Progress = quiet) -> I
 
 
 def pass_over(data: Scene) -> str:
-    """Return why a scene is skipped (too long or no impact); empty if it is not."""
+    """Return the reason for which a scene is skipped; empty if it is not."""
     model = bending(model_of(read(data)))
     if zener_number(model) > HEAVIEST:
         return f"Zener parameter above {HEAVIEST:g}"
@@ -79,10 +80,11 @@ def pass_over(data: Scene) -> str:
 
 
 def placed(data: Scene, place: float) -> tuple[Scene, float]:
-    """Return a scene and its tolerance, from a number in [0, 1).
+    """Return a scene and its tolerance, from a number `place` in [0, 1).
 
-    For the lower half, and if inertia changes little, the scene has all other effects and a
-    tolerance with which inertia is omitted; else a tolerance that requires inertia and can be met.
+    If the bound on the change by inertia is below `MUCH`, and `place` is below 1/2 or no tolerance
+    that requires inertia can be met, the scene has all other effects and a tolerance with which
+    inertia is omitted. Otherwise the tolerance can be met and, if possible, requires inertia.
     """
     model = model_of(read(data))
     still = quasi_static(model)
@@ -99,14 +101,14 @@ def placed(data: Scene, place: float) -> tuple[Scene, float]:
 
 
 def solve(number: int, data: Scene, place: float) -> InertiaRow | str:
-    """Compare `simulate` with the reference; return the key of the error if the scene is rejected.
+    """Compare `simulate` with the reference; return the key of the error of a rejected scene.
 
     Parameters
     ----------
     number, data
         The scene.
     place
-        A number in [0, 1) that determines its tolerance (see `placed`).
+        A number in [0, 1) that determines the tolerance, see `placed`.
     """
     try:
         data, rtol = placed(data, place)
@@ -137,7 +139,7 @@ def solve(number: int, data: Scene, place: float) -> InertiaRow | str:
 
 
 def bending(model: Model) -> Model:
-    """Return the model with an automatic number of bending modes."""
+    """Return the model with the default settings of inertia: automatic modes and branches."""
     return replace(model, inertia=InertiaSettings())
 
 
@@ -150,15 +152,15 @@ def quasi_static(model: Model) -> motion.Motion | None:
 
 
 def present(model: Model) -> frozenset[str]:
-    """Return the names of all applicable effects."""
+    """Return the names of all applicable effects that can be selected."""
     return frozenset(e.name for e in EFFECTS if e.selectable and not e.not_applicable_reason(model))
 
 
 def oscillators_of(model: Model) -> int:
     """Return the approximate number of modes of all branches, by Weyl's law.
 
-    There are (2/pi) sqrt(Omega^2 - x^2) shear waves across the thickness, and likewise pressure
-    waves with gam Omega^2, where x = phi h = n pi eta.
+    Below the frequency Omega there are (2/pi) sqrt(Omega^2 - x^2) branches of shear waves, and
+    likewise of pressure waves with gam Omega^2, where x = phi h = n pi eta.
     """
     modes, gam = model.inertia.modes, model.mu / (model.lam + 2.0 * model.mu)
     root = bending_frequency(np.array([modes * math.pi * model.eta]), model.poissons_ratio)
@@ -166,11 +168,11 @@ def oscillators_of(model: Model) -> int:
 
 
 def _moving(model: Model, rtol: float) -> DynamicImpact:
-    """Return the impact with every effect."""
+    """Return the impact with every applicable effect."""
     with np.errstate(all="ignore"):
         return waves.impact(ContactLaw(model, present(model)), waves.goal(rtol))
 
 
 def _modes(found: DynamicImpact) -> int:
-    """Return the number of wave numbers of the plate."""
+    """Return the number of wave numbers of a simulation; each has a mode of every branch."""
     return len(np.unique(found.impact_history.problem.contact.modes.phi))

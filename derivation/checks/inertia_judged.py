@@ -1,7 +1,7 @@
 """Random scenes with plate inertia, and the ratios of their errors to the stated bounds.
 
 Each scene is drawn from the seed and its number, log-uniformly over shapes, stiffnesses, densities
-and speeds. The reference is the same scene with every effect, twice the modes and all branches.
+and speeds. The reference has every applicable effect, twice the modes and all branches.
 """
 
 import random
@@ -27,13 +27,15 @@ class InertiaRow:
     included
         Whether the selection included inertia.
     bound, error, quantity
-        Stated bound, largest difference from the reference, and its result [1].
+        Stated bound [1], largest relative difference from the reference [1], and its result.
     total_time
-        Relative difference of the total time [1]; of a quasi-static plate, of the contact time.
+        Relative difference from the reference's total time [1]: of the total time, or of the
+        contact time if inertia is omitted.
     price, alone, worth
-        Stated bound on the change if inertia is omitted, actual change, and its result [1].
+        Stated bound on the change if inertia is omitted [1], largest actual change [1], and the
+        result that changes most.
     contacts, modes, oscillators
-        Numbers of contacts, wave numbers and modes of the reference.
+        Numbers of contacts, wave numbers and modes (of all branches) of the reference.
     """
 
     number: int
@@ -53,7 +55,7 @@ class InertiaRow:
 
 @dataclass(frozen=True)
 class InertiaJudged:
-    """The outcome for random scenes.
+    """The results of random scenes.
 
     Parameters
     ----------
@@ -64,7 +66,7 @@ class InertiaJudged:
     refused
         Number of rejected scenes by the key of the error message.
     rows
-        The other scenes.
+        Results of the other scenes.
     """
 
     drawn: int
@@ -84,11 +86,11 @@ class Side:
     scenes
         Number of scenes.
     ratio, quantity, number
-        Largest difference over the tolerance, with its result and scene.
+        Largest relative difference over the tolerance [1], with its result and scene.
     tightest
-        Largest difference over the stated bound.
+        Largest relative difference over the stated bound [1].
     price
-        Largest change if inertia is omitted over the stated bound.
+        Largest ratio of the change if inertia is omitted to its stated bound [1].
     """
 
     included: bool
@@ -108,7 +110,7 @@ class Side:
 def scene(number: int, seed: int = SEED) -> tuple[dict[str, dict[str, Any]], float]:
     """Return the scene with a number, and a number in [0, 1) that determines its tolerance.
 
-    The scenes range from grains to boulders on panes, plates and blocks.
+    Over the plate radius, the sphere radius is 0.005 to 2 and half the thickness 0.002 to 1.
     """
     generator = random.Random(f"inertia {seed} {number}")
     spread = spreading(generator)
@@ -160,7 +162,7 @@ COLUMNS = (
 
 
 def as_data(judged: InertiaJudged, seed: int) -> dict[str, Any]:
-    """Return the outcome as plain data, infinite bounds as null."""
+    """Return the results as plain data; infinite bounds become null."""
     rows = plain_rows(judged.rows)
     for row in rows:
         row["price"] = None if isinstance(row["price"], str) else row["price"]
@@ -175,7 +177,7 @@ def as_data(judged: InertiaJudged, seed: int) -> dict[str, Any]:
 
 
 def result(judged: InertiaJudged, seed: int) -> CheckResult:
-    """Return the table of sides, and the reasons why other scenes do not count."""
+    """Return the table of sides, and the reasons why scenes were rejected or skipped."""
     cells = [
         ("included" if side.included else "omitted", side.scenes, f"{side.ratio:.3f}",
          side.quantity, f"{side.tightest:.3f}", f"{side.price:.3f}")

@@ -18,7 +18,7 @@ def reference(known: Result, digits: int, progress: Progress) -> oracle.ImpactRe
     Raises
     ------
     ValueError
-        If the references do not reach this number of digits.
+        If this number of digits cannot be reached for the scene.
     """
     try:
         return oracle.reference(_motion(known), digits, progress)

@@ -1,8 +1,9 @@
 """Accuracy against run time with plate inertia: integrators, modes, branches, tolerance.
 
 All methods simulate one scene, an impact for which every method is feasible. Integrators use the
-same modes and are compared with a Runge-Kutta method of the smallest tolerance. Numbers of modes
-and branches are compared with the largest number, tolerances with the reference of modes.
+same modes and are compared with a Runge-Kutta method of tolerance `FINEST`. Numbers of modes of the
+branch A0 are compared with the largest number; all branches and tolerances are compared with the
+largest number of modes of all branches.
 """
 
 import os
@@ -38,19 +39,19 @@ SCENE: dict[str, dict[str, Any]] = {
     "impact": {"speed": 2.0},
     "effects": {"non_hertzian_pressure": False},
 }
-"""A bearing ball on an aluminium plate with the paper's edge."""
+"""A steel sphere on an aluminium plate with the paper's edge."""
 OSCILLATORS, FINEST = 40, 1e-13
 """Number of modes of all integrators, and tolerance of the reference Runge-Kutta method."""
 NODES, TOLERANCES = (6, 8, 10, 12, 16), (1e-3, 1e-5, 1e-7, 1e-9, 1e-11)
-"""Nodes of a time element, at the smallest tolerance; and tolerances, with 16 nodes."""
+"""Nodes of a time element, at the program's tolerance; and tolerances, with 16 nodes."""
 STEPS, RELATIVE = (8, 10, 12), (1e-3, 1e-5, 1e-7, 1e-9, 1e-11)
-"""Powers of two of the number of Verlet steps; tolerances of the Runge-Kutta method."""
+"""Binary logarithms of the number of Verlet steps; tolerances of the Runge-Kutta method."""
 MODES, MOST = (5, 10, 20, 40, 80, 160), 320
 ALL, MOST_ALL = (5, 10, 20, 40, 80), 160
 ASKED = ((1e-2, "A0"), (5e-3, "A0"), (1e-3, "all"), (3e-4, "all"))
 ROUNDS = 5
 BEGUN = 0.1
-"""Square root of the time from which separation is detected."""
+"""Square root of the time from which separation is detected, in the units of the problem."""
 LOOKS = 200
 """Number of times at which the force is sampled to locate its peak."""
 CLOSE = 1e-8
@@ -59,7 +60,7 @@ Numbers = tuple[float, ...]
 
 
 class CostOutcome(NamedTuple):
-    """Results, number of modes, and the stated bound, if any."""
+    """Results, number of modes, and the stated error bound, if there is one."""
 
     numbers: Numbers
     oscillators: int
@@ -79,7 +80,7 @@ class CostRow:
     oscillators
         Number of modes.
     seconds
-        Processor time of an impact [s].
+        Processor time of a simulation [s].
     errors
         Relative errors by result [1]; for integrators, those of the first contact.
     bound
@@ -113,7 +114,10 @@ FIRST = ("contact_time", "max_force", "restitution")
 
 
 def measure(progress: Progress = quiet) -> dict[str, Any]:
-    """Measure every row, in interleaved rounds; return it with scene, machine and load."""
+    """Measure every row; return the rows with scene, machine and load as plain data.
+
+    Run times are measured in interleaved rounds.
+    """
     trials = [*integrators(), *modes(), *branches(), *tolerances()]
     before, rows = os.getloadavg()[0], list[tuple[Trial, CostOutcome, dict[str, float]]]()
     for number, trial in enumerate(trials, start=1):
@@ -145,7 +149,20 @@ def measure(progress: Progress = quiet) -> dict[str, Any]:
 def record(
     out: Path | None = None, progress: Progress = quiet, committed: bool = False
 ) -> tuple[dict[str, Any], Path | None]:
-    """Measure, and write the result to a file or as the committed measurement."""
+    """Measure, and write the result to a file or as the committed measurement.
+
+    Returns
+    -------
+    dict, Path or None
+        The result as plain data, and the file to which it was written.
+
+    Raises
+    ------
+    ValueError
+        If both `out` and `committed` are given, or the package is not a checkout.
+    OSError
+        If the file cannot be written.
+    """
     path = recorded_in(MEASURED, committed, out)
     data = measure(progress)
     if path is not None:
@@ -154,7 +171,7 @@ def record(
 
 
 def cells(data: dict[str, Any]) -> list[tuple[str, ...]]:
-    """Return the rows as text."""
+    """Return the rows of the table, as text."""
     return [
         (
             row["study"],
@@ -181,7 +198,7 @@ def _timed(trial: Trial) -> Callable[[Array], object]:
 
 
 def integrators() -> list[Trial]:
-    """Return the trials of the first contact: time elements, Runge-Kutta, fixed steps."""
+    """Return the trials for the first contact: time elements, Runge-Kutta, fixed steps."""
     reference = cache(lambda: by_runge_kutta(FINEST).numbers)
     settings: list[tuple[str, float, Callable[[], CostOutcome]]] = [
         ("elements, nodes", n, partial(by_elements, n, contact_sequence.TOLERANCE)) for n in NODES
@@ -201,7 +218,10 @@ def by_elements(n: int, tolerance: float) -> CostOutcome:
 
 
 def by_runge_kutta(rtol: float) -> CostOutcome:
-    """Compute it by DOP853 of SciPy in the square root of time, in which the onset is smooth."""
+    """Compute the first contact by SciPy's DOP853 in the square root of time.
+
+    As a function of the square root, the motion is smooth at first contact.
+    """
     problem = _problem()
     motion = _Motion(problem)
 
@@ -229,7 +249,10 @@ def by_runge_kutta(rtol: float) -> CostOutcome:
 
 
 def by_verlet(steps: int) -> CostOutcome:
-    """Compute it by velocity Verlet with equal steps of the contact time on a rigid plate."""
+    """Compute the first contact by velocity Verlet.
+
+    `steps` is their number in the contact time on a plate that does not deflect.
+    """
     motion = _Motion(_problem())
     state, dt = motion.begin(), 1.0 / steps
     half, times, forces = motion.accelerations(state), [0.0], [0.0]
@@ -296,7 +319,7 @@ class _Motion:
         return float(self._touching(state).force[0]) / self.problem.force
 
     def _touching(self, state: Array) -> ContactSamples:
-        """Return the contact with the local indentation of the state, by Newton's iteration."""
+        """Return the contact with the local indentation of a state, by Newton's method."""
         problem, q, deep = self.problem, state[2::2], self.pressed(state)
         a = self.radius
         for _ in range(50):
@@ -315,7 +338,7 @@ class _Motion:
 
 
 def modes() -> list[Trial]:
-    """Return the trials of numbers of modes, compared with the largest number."""
+    """Return the trials for numbers of modes of A0, compared with the largest number."""
     reference = cache(lambda: _simulated(modes=MOST).numbers)
     return [
         Trial("modes", "A0", n, partial(_simulated, modes=n), reference, OUTPUTS) for n in MODES
@@ -323,7 +346,7 @@ def modes() -> list[Trial]:
 
 
 def branches() -> list[Trial]:
-    """Return the same trials with all branches, and one with A0 only."""
+    """Return the trials for numbers of modes of all branches, and one with A0 only."""
     reference = cache(lambda: _simulated(modes=MOST_ALL, branches="all").numbers)
     found = [
         Trial(
@@ -336,7 +359,7 @@ def branches() -> list[Trial]:
 
 
 def tolerances() -> list[Trial]:
-    """Return the trials of tolerances; the smallest ones require all branches."""
+    """Return the trials for tolerances; the two smallest ones are met with all branches."""
     reference = cache(lambda: _simulated(modes=MOST_ALL, branches="all").numbers)
     return [
         Trial("rtol", name, x, partial(_simulated, rtol=x, branches=name), reference, OUTPUTS)
@@ -358,5 +381,5 @@ def _scene(**inertia: Any) -> Scene:
 
 
 def _problem() -> DynamicProblem:
-    """Return the scene with the modes of the integrators."""
+    """Return the scene as a dynamic problem with the modes of the integrators."""
     return waves.problem_of(selected_effects(_scene(modes=OSCILLATORS))[1].law, OSCILLATORS)

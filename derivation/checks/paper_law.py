@@ -1,4 +1,4 @@
-"""Impacts by the paper's contact law alone, for which there are references to many digits."""
+"""Impacts by the paper's contact law, the only one with references to many digits."""
 
 from derivation.scene.effects import BY_NAME, EFFECTS, WHOLE_PLATE
 from derivation.scene.impact import selected_effects, simulate
@@ -8,15 +8,15 @@ from derivation.scene.scene import Scene, SceneError, read
 
 
 def in_doubles(scene: Scene) -> Result:
-    """Return the impact of a scene in double precision by the law of the references.
+    """Return the impact of a scene in double precision by the paper's contact law.
 
-    That is the paper's law: a quasi-static plate with the paper's edge, a rigid paraboloid and
-    Hertz's pressure.
+    It includes a quasi-static plate with the paper's edge, a rigid paraboloid, Hertz's pressure.
 
     Raises
     ------
     derivation.scene.scene.SceneError
-        If the scene requires an effect beyond that law, disables one of it, or exceeds its range.
+        If the scene requires an effect that the law does not include, disables an effect of the
+        law, or exceeds its range.
     """
     switched = scene.effects.model_dump()
     known = {name: name in WHOLE_PLATE for name in BY_NAME if name != "hertz"}
@@ -43,7 +43,7 @@ def in_doubles(scene: Scene) -> Result:
 
 
 def _needed(scene: Scene) -> list[str]:
-    """Return the effects beyond the paper's law that the scene or its tolerance requires."""
+    """Return the required effects that the paper's law does not include."""
     wanted = scene.effects.model_dump()
     if not model_of(scene).density and wanted["inertia"] is not True:
         # Without density it is unknown whether plate inertia matters.

@@ -17,7 +17,7 @@ def spreading(generator: Random) -> Callable[[float, float], float]:
 
 
 def largest_change(values: Sequence[float], reference: Sequence[float]) -> tuple[float, str]:
-    """Return the largest relative difference of the results (infinite for NaN) and its result."""
+    """Return the largest relative difference (infinite for NaN), and the name of its result."""
     changes = [abs(value / x - 1.0) for value, x in zip(values, reference, strict=True)]
     changes = [change if math.isfinite(change) else math.inf for change in changes]
     return max(changes), OUTPUTS[changes.index(max(changes))]

@@ -1,7 +1,7 @@
 """Random scenes as an engineer might write them, and the outcome of their simulation.
 
-Materials range from foam to steel, spheres from 1 mm to 0.1 m, plates from 0.5 mm to 0.2 m. Scenes
-far outside the range of an elastic model are drawn again.
+Materials range from foam to steel, sphere radii from 1 mm to 0.1 m, and plate thicknesses from
+0.5 mm to 0.2 m. Scenes far outside the range of an elastic model are drawn again.
 """
 
 import json
@@ -19,9 +19,9 @@ SEED = 1
 RTOL = 1e-3
 """Relative tolerance of the simulations."""
 MOST_REJECTED = 0.15
-"""Largest allowed fraction of runs at that tolerance that are rejected or incomplete."""
+"""Largest allowed fraction of the runs with `RTOL` that are rejected or incomplete."""
 WIDEST = 0.4
-"""Largest contact radius by Hertz's law over sphere radius of a realistic scene."""
+"""Largest contact radius, by Hertz's law, over the sphere radius in a realistic scene."""
 PLATES: Mapping[str, tuple[float, float, float]] = {
     "foam": (1e7, 0.3, 100.0),
     "rubber": (5e6, 0.45, 1100.0),
@@ -54,9 +54,10 @@ class Outcome:
     Attributes
     ----------
     kind
-        One of `KINDS`: rejected means rejected before the impact, incomplete during it.
+        One of `KINDS`: "rejected" before the impact, "incomplete" if stopped during it, "overrun"
+        if stopped at the limit of time.
     message
-        The reason, if it did not finish; of a traceback the last lines.
+        The reason, if it did not finish; the last lines of a traceback.
     rtol
         Relative tolerance [1]; None for the default.
     scene
@@ -81,14 +82,14 @@ class Outcome:
 
     @property
     def remedied(self) -> bool:
-        """Whether a rejection states a remedy after a semicolon."""
+        """Whether the message states a remedy after a semicolon, if the run was rejected."""
         if self.kind not in ("rejected", "incomplete"):
             return True
         return bool(self.message.rpartition("; ")[0] and self.message.rpartition("; ")[2].strip())
 
 
 def scenes(count: int, seed: int = SEED) -> Iterator[Scene]:
-    """Yield realistic scenes, the same for the same seed."""
+    """Yield `count` realistic scenes; the same seed gives the same scenes."""
     generator = Random(seed)
     for _ in range(count):
         scene = _draw(generator)
@@ -98,7 +99,7 @@ def scenes(count: int, seed: int = SEED) -> Iterator[Scene]:
 
 
 def _draw(generator: Random) -> Scene:
-    """Draw sphere, plate, impact and effects."""
+    """Return a random scene: sphere, plate, impact and effects."""
     spread = spreading(generator)
     R = spread(1e-3, 0.1)
     sphere: dict[str, Any] = {"radius": R, "material": generator.choice(NAMED)}
@@ -129,14 +130,14 @@ def _draw(generator: Random) -> Scene:
 
 
 def _realistic(scene: Scene) -> bool:
-    """Return whether sphere and contact are small against the plate, and contact against sphere."""
+    """Return whether the sphere is smaller than the plate, and the contact than both."""
     R, b = scene["sphere"]["radius"], scene["plate"]["radius"]
     wide = _widest(scene)
     return bool(b > R and wide < WIDEST and wide * R < 0.5 * b)
 
 
 def _widest(scene: Scene) -> float:
-    """Return the approximate contact radius over sphere radius [1] by Hertz's law."""
+    """Return the approximate largest contact radius, by Hertz's law, over the sphere radius [1]."""
     sphere, plate, v0 = scene["sphere"], scene["plate"], scene["impact"]["speed"]
     R = sphere["radius"]
     soft = 0.0 if "mass" in sphere else 1.0 / STIFFNESS[sphere["material"]]
@@ -147,7 +148,7 @@ def _widest(scene: Scene) -> float:
 
 
 def passed(found: Sequence[Outcome]) -> bool:
-    """Return whether no run failed, each rejection has a remedy, and few scenes are rejected."""
+    """Return whether no run failed, each rejection states a remedy, and few runs are rejected."""
     failed = any(outcome.kind in ("NaN", "traceback", "overrun") for outcome in found)
     remedied = all(outcome.remedied for outcome in found)
     return not failed and remedied and rejected(found).get(RTOL, 0.0) <= MOST_REJECTED
@@ -188,7 +189,7 @@ def cost(found: Sequence[Outcome]) -> str:
 
 
 def failures(found: Sequence[Outcome]) -> list[str]:
-    """Return a message and its scene, as TOML in one line, for each group that did not finish."""
+    """Return the first message and scene, as TOML in one line, of each group not finished."""
     firsts: dict[tuple[str, str, bool], Outcome] = {}
     for outcome in found:
         if outcome.kind != "finished":
@@ -203,7 +204,7 @@ def failures(found: Sequence[Outcome]) -> list[str]:
 
 
 def one_line(scene: Scene) -> str:
-    """Return a scene as inline tables of TOML."""
+    """Return a scene as inline tables of TOML, in one line."""
     tables = (
         f"{table} = {{ " + ", ".join(f"{k} = {json.dumps(v)}" for k, v in keys.items()) + " }"
         for table, keys in scene.items()

@@ -26,9 +26,9 @@ from derivation.scene.scene import IncompleteError, SceneError, read
 LIMIT = 60.0
 """Largest processor time of a run [s]."""
 PATIENCE = 20.0
-"""Largest elapsed time over processor time, on a busy machine."""
+"""Elapsed time over `LIMIT` after which a process is stopped; a busy machine needs some reserve."""
 START = 300.0
-"""Longest start of a process [s]."""
+"""Longest time that a process may take to start [s]."""
 READY = "ready"
 
 
@@ -39,16 +39,20 @@ def check_scenes(
     limit: float = LIMIT,
     drawn: Sequence[Scene] | None = None,
 ) -> tuple[Outcome, ...]:
-    """Simulate realistic random scenes in the order in which they are drawn.
+    """Simulate realistic random scenes; return the outcomes in the order of the scenes.
 
     Each is simulated with `RTOL`, and again with the default tolerance if it does not finish.
 
     Parameters
     ----------
+    count, seed
+        Number of scenes, and random seed.
+    progress
+        Called after each scene with the outcome of its first run.
     limit
         Largest processor time of a run [s].
     drawn
-        Scenes to run instead of random ones.
+        Scenes to simulate instead of random ones.
     """
     chosen = scenes(count, seed) if drawn is None else drawn
     jobs = list(chosen)
@@ -87,13 +91,13 @@ def processors() -> int:
 
 
 class Worker:
-    """A process that simulates scenes, and is replaced if one takes too long."""
+    """A process that simulates scenes; it is replaced if it ends or takes too long."""
 
     def __init__(self) -> None:
         self.start()
 
     def start(self) -> None:
-        """Start the process, which sends `READY`."""
+        """Start the process, which sends `READY` when it can receive scenes."""
         context = get_context("spawn")
         self.pipe, other = context.Pipe()
         self.process = context.Process(target=serve, args=(other,), daemon=True)
@@ -102,7 +106,7 @@ class Worker:
         self.ready = False
 
     def run(self, scene: Scene, rtol: float | None, limit: float) -> Outcome:
-        """Simulate a scene in the process."""
+        """Simulate a scene in the process; return the outcome."""
         try:
             if not self.ready and self.pipe.poll(START):
                 self.ready = self.pipe.recv() == READY
@@ -154,7 +158,7 @@ def overrun(limit: float) -> str:
 
 
 def run(scene: Scene, rtol: float | None, limit: float = LIMIT) -> tuple[Kind, str]:
-    """Simulate a scene as the command does, with its history; return outcome and message."""
+    """Simulate a scene, with history and JSON; return the kind of outcome and the message."""
     try:
         with limited(limit):
             return _run(scene, rtol)
@@ -164,7 +168,7 @@ def run(scene: Scene, rtol: float | None, limit: float = LIMIT) -> tuple[Kind, s
 
 @contextmanager
 def limited(seconds: float) -> Iterator[None]:
-    """Raise TimeoutError after a processor time [s], if the system supports it."""
+    """Raise TimeoutError in the block after a processor time [s], if the system supports it."""
 
     def stop(*_: object) -> None:
         raise TimeoutError
@@ -182,7 +186,7 @@ def limited(seconds: float) -> Iterator[None]:
 
 
 def _run(scene: Scene, rtol: float | None) -> tuple[Kind, str]:
-    """Do the same without a limit."""
+    """Simulate a scene without a limit of time; return the kind of outcome and the message."""
     try:
         result = simulate(read(scene), rtol=rtol)
         columns: Any = result.history()

@@ -22,7 +22,7 @@ SUBCOMMANDS: dict[str, Callable[..., None]] = {
     "scenes": check_scenes.scenes,
     "finite-elements": check_scenes.finite_elements,
 }
-"""In the order of the help."""
+"""Subcommands by name, in the order of the help."""
 MOVED = {
     "--contact": "contact-law",
     "--speed": "timing",

@@ -54,9 +54,10 @@ def hard_cases(
     paper: PaperFolder = None,
     json: Json = None,
 ) -> None:
-    """Compare functions with recorded values at hard cases.
+    """Compare functions with recorded reference values at hard cases.
 
-    The exit status is 1 if an error exceeds its limit.
+    Prints the largest error of each group of cases, as a fraction of its limit. The exit status is
+    1 if an error exceeds its limit.
 
     Example: platecontact check hard-cases --json hard.json
     """

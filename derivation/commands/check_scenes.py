@@ -34,7 +34,7 @@ def effects(
     """Test the effect selection on random scenes.
 
     The automatic selection is compared with a quasi-static simulation that includes every
-    applicable effect. The exit status is 1 if a difference exceeds its bound.
+    applicable effect. The exit status is 1 if a difference exceeds the tolerance or its bound.
 
     Example: platecontact check effects -n 300
     """
@@ -53,7 +53,7 @@ def inertia(
     """Test impacts with plate inertia on random scenes.
 
     Each is compared with a simulation with twice as many modes and all wave branches. The exit
-    status is 1 if a difference exceeds its bound.
+    status is 1 if a difference exceeds the tolerance or its bound.
 
     Example: platecontact check inertia -n 50 --seed 3
     """
@@ -67,8 +67,8 @@ def inertia(
 def scenes(number: Number, seed: Seed = SEED, json: Json = None) -> None:
     """Simulate random realistic scenes and count failures.
 
-    The exit status is 1 if a simulation crashes, runs too long or returns NaN, or if too many
-    scenes are rejected.
+    The exit status is 1 if a simulation crashes, runs too long or returns NaN, if too many scenes
+    are rejected, or if an error message states no remedy.
 
     Example: platecontact check scenes -n 20 --seed 5
     """

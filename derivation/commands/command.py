@@ -19,7 +19,7 @@ RENAMED = {
 
 
 class Command(TyperCommand):
-    """A command that rejects an option given twice where only one value counts."""
+    """A command that rejects repeated options, unless several values are allowed."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Replace former names and reject repeated options before the arguments are parsed."""
@@ -34,7 +34,7 @@ class Group(TyperGroup):
         return list(takewhile(lambda arg: arg not in self.commands, args))
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Replace former names and reject repeated options of the group itself."""
+        """Replace former names; reject repeated options, and options that have no effect."""
         own = prepared(self, ctx, self.own(args))
         rest = args[len(self.own(args)) :]
         misplaced = [option for option in given(self, ctx, own) if not option.is_eager]

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 HEADS = ("formula", "unit", "eq.", "meaning")
 NEAR = 3
-"""Names suggested for one that is not known."""
+"""Largest number of names suggested for an unknown name."""
 
 
 def derive(
@@ -68,7 +68,7 @@ def _table(formulas: "list[Record]") -> str:
 
 
 def _one(of: "About") -> str:
-    """Return the details of a formula; equations stay on one line, so that they can be copied."""
+    """Return the details of a formula; equations are not wrapped, so that they can be copied."""
     formula, shown = of.formula, of.formula.to_json()
     proof = formula.proof
     equation = f"equation ({formula.equation}) of the paper" if formula.equation else ""

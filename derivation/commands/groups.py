@@ -27,7 +27,7 @@ class Grouped(TyperGroup):
     """A command whose help lists its subcommands by topic."""
 
     def format_commands(self, ctx: Any, formatter: Any) -> None:  # noqa: ARG002
-        """Write a section for each group."""
+        """Write a section of the help for each group."""
         longest = max(len(name) for names in GROUPS.values() for name in names)
         for title, names in GROUPS.items():
             helps = (self.commands[x].get_short_help_str(formatter.width) for x in names)

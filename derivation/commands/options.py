@@ -31,7 +31,7 @@ def chosen(folder: Path | None) -> "Paper":
     Raises
     ------
     derivation.engine.load.PaperError
-        If the folder holds no paper.
+        If the folder contains no paper, or a module in it cannot be imported.
     """
     if folder is None:
         from derivation.plate.paper import PAPER
@@ -43,7 +43,7 @@ def chosen(folder: Path | None) -> "Paper":
 
 
 def alone(folder: Path | None, allowed: str, *others: object) -> None:
-    """Reject options that cannot be combined with --paper.
+    """Reject options that cannot be combined with --paper; `allowed` names the others.
 
     Raises
     ------

@@ -161,7 +161,7 @@ def new(
 
 
 def _repeated(command: str, paper: Path | None, out: Path | None) -> str:
-    """Return the command that writes what was compared."""
+    """Return the command that writes the compared files."""
     options = {"--paper": paper, "--out": out}
     given = [f" {name} {value}" for name, value in options.items() if value is not None]
     return f"platecontact {command}{''.join(given)}"

@@ -291,7 +291,17 @@ def check_outputs(
     csv: Path | None = None,
     animate: Path | None = None,
 ) -> None:
-    """Reject output files of unknown format, and those that would overwrite scene or each other."""
+    """Reject output files that are figures of unknown format, not writable, or named twice.
+
+    A name is taken if it is that of the scene file or of another output.
+
+    Raises
+    ------
+    SceneError
+        If a name cannot be used.
+    OSError
+        If a file cannot be written.
+    """
     from derivation.scene import SceneError
 
     if plot is not None:

@@ -1,4 +1,4 @@
-"""Runs a check and shows the result: progress, JSON, tables, tighter budgets, exit status."""
+"""Runs a check and shows its result: progress, JSON, tables, tighter budgets, exit status."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -21,7 +21,7 @@ def shown(
     suggest_budgets: bool = False,
     record: Path | None = None,
 ) -> NoReturn:
-    """Run a check, save its result if `record` is given, and exit with 1 if the check failed."""
+    """Run a check, save its result if `record` is given, and exit: 0 if it passed, 1 if not."""
     if record:
         expect_recordable(record)
     with counted("check") as progress:
@@ -35,7 +35,8 @@ def shown(
         budgets = suggestions(found.budgeted)
     tighter = {"suggested_budgets": {budget.name: budget.ulp for budget in budgets}}
     if put_json(lambda: found.data() | tighter if suggest_budgets else found.data(), json):
-        table(found.title, found.columns, found.cells)
+        if found.columns:
+            table(found.title, found.columns, found.cells)
         if found.note:
             put(f"{found.note}\n")
         for title, lines in found.listings:

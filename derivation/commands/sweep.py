@@ -183,7 +183,7 @@ def _drawing(
 
 
 def _say_how_to_resume(store: "Store", out: Path | None) -> None:
-    """Say how to continue an interrupted study."""
+    """Print how to continue an interrupted study."""
     if out is None:
         NOTES.say("Nothing was saved; with --out FILE an interrupted study can be continued.")
     else:

@@ -1,4 +1,4 @@
-"""`python -m derivation.checks.finite_elements`: compute what the record lacks."""
+"""`python -m derivation.checks.finite_elements`: compute missing cases of the record."""
 
 from derivation.checks.finite_elements.record import computed
 from derivation.engine.console import counted

@@ -1,4 +1,4 @@
-"""The impacts and the plates that are computed, the fastest and most informative ones first."""
+"""Impacts and plates that are computed, in the order of computation."""
 
 import itertools
 import math
@@ -32,8 +32,9 @@ GRID = (
     (0.05, 0.45, 0.35, 50.0),
     (0.02, 0.3, 0.2, 50.0),
 )
-"""Thickness over radius, Poisson's ratio, and for an impact on a half-space contact radius over
-thickness and contact time over the time of a through-thickness reflection."""
+"""Plate thickness over radius, Poisson's ratio, contact radius over plate thickness, and contact
+time over the time of a through-thickness reflection; contact radius and time are those of the same
+impact on a half-space."""
 RATIOS = (0.02, 0.05, 0.1, 0.2, 0.3)
 """Thickness over radius of the plates whose natural frequencies are computed."""
 POISSON = (0.0, 0.2, 0.3, 0.45)
@@ -46,8 +47,7 @@ class ElementCase:
     Parameters
     ----------
     name, group
-        Name of the case, and name shared with the cases that differ in the edge or in one
-        dimension.
+        Name of the case, and name shared with the cases that differ only in the edge.
     plate, sphere
         Plate and sphere.
     """
@@ -96,7 +96,7 @@ def impacts() -> tuple[ElementCase, ...]:
 
 
 def plates() -> tuple[Plate, ...]:
-    """Return every plate whose natural frequencies are computed: of radius and modulus 1."""
+    """Return every plate whose natural frequencies are computed; radius, E and density are 1."""
     return tuple(
         Plate(1.0, ratio, 1.0, nu, 1.0, edge)
         for edge, ratio, nu in itertools.product(EDGES, RATIOS, POISSON)
@@ -108,7 +108,7 @@ def _ball(radius: float, speed: float, density: float = STEEL_DENSITY) -> Sphere
 
 
 def _panes() -> Iterator[ElementCase]:
-    """Yield the glass pane, and wider and thicker ones, whose edges do not affect the contact."""
+    """Yield the pane of the example `glass_pane`, and wider and thicker panes."""
     pane = Plate(0.3, 0.008, *GLASS)
     for radius, thickness in ((0.3, 0.008), (0.3, 0.02), (0.6, 0.008), (0.6, 0.02)):
         first = (radius, thickness) == (0.3, 0.008)
@@ -127,7 +127,7 @@ def _examples() -> Iterator[ElementCase]:
 
 
 def _grid(rows: tuple[tuple[float, float, float, float], ...]) -> Iterator[ElementCase]:
-    """Yield plates of other shapes under other contacts."""
+    """Yield plates and spheres with given rows of `GRID`."""
     for ratio, nu, width, echoes in rows:
         plate = Plate(THICKNESS / ratio, THICKNESS, GLASS[0], nu, GLASS[2])
         a = width * THICKNESS

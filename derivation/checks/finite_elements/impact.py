@@ -10,21 +10,23 @@ from derivation.checks.finite_elements.mesh import Double
 from derivation.checks.finite_elements.plate import System, factorised
 
 Nodes = NDArray[np.bool_]
-"""Whether each contact node touches the sphere."""
+"""For each contact node, whether it touches the sphere."""
 DAMPING = 0.8
 """Spectral radius of the time integration at infinite frequency."""
 ROUNDS = 60
 """Largest number of changes of the set of touching nodes in one time step; more are an error."""
 CLEAR = 1.5
-"""Height of the sphere over the plate's largest deflection above which no contact is possible."""
+"""Height of the sphere above the undeformed plate, over the largest deflection so far, from which
+no further contact is assumed."""
 FLIGHT = 8
-"""Length of the time steps between contacts over that of those in a contact."""
+"""Length of the time steps between contacts over their length during a contact."""
 APART = 20
-"""Time steps without contact after which they are made longer."""
+"""Number of time steps without contact after which steps are longer, and that separates two
+contacts."""
 END = 5
-"""Last steps of a contact from which its end is extrapolated."""
+"""Number of last steps of a contact from which its end is extrapolated."""
 PEAK = 0.05
-"""Time about the largest force, over the contact time, in which a polynomial is fitted to it."""
+"""Half the time, over the contact time, in which a polynomial is fitted to the largest force."""
 
 
 class WideContactError(ArithmeticError):
@@ -60,8 +62,17 @@ class Sphere:
 def touching(compliance: Double, gap: Double, start: Nodes) -> tuple[Double, Nodes]:
     """Solve compliance @ force + gap >= 0, force >= 0, where at each node one of both is 0.
 
-    Returns the forces and the set of touching nodes, by the primal-dual active-set method from a
-    first guess.
+    The primal-dual active-set method is used, from a first guess.
+
+    Returns
+    -------
+    Double, Nodes
+        The forces, and for each node whether it touches the sphere.
+
+    Raises
+    ------
+    ArithmeticError
+        If the set of touching nodes still changes after `ROUNDS` iterations.
     """
     active = start
     for _ in range(ROUNDS):
@@ -88,7 +99,7 @@ def pressed(system: System, sphere: Sphere, way: float) -> tuple[Double, Double]
 
 
 def _unit_forces(system: System, solver: Any) -> Double:
-    """Return the solutions for a unit downward force at each contact node, w upwards."""
+    """Return the displacements for a unit force, along +z, at each contact node."""
     load = np.zeros((system.free.size, system.contact_nodes.size))
     load[system.contact_nodes, np.arange(system.contact_nodes.size)] = 1.0
     found: Double = solver.solve(load)
@@ -102,7 +113,7 @@ class History:
     Parameters
     ----------
     time
-        Since the first contact [s].
+        Time since first contact [s].
     way, speed
         Displacement [m] and velocity [m/s] of the sphere, downwards.
     force
@@ -122,10 +133,10 @@ class History:
 
 
 class Stepper:
-    """Generalised-alpha time steps of plate and sphere with the contact solved exactly in each.
+    """Generalised-alpha time steps of plate and sphere.
 
-    The contact condition holds at the end of each step. The scheme is that of Arnold and Bruels,
-    of second order in displacements, velocities and contact forces.
+    The contact condition is satisfied at the end of each step. The scheme is that of Arnold and
+    Bruels, of second order in displacements, velocities and contact forces.
     """
 
     def __init__(
@@ -150,7 +161,7 @@ class Stepper:
         self.active = np.zeros(system.contact_nodes.size, dtype=bool)
 
     def advance(self) -> Double:
-        """Take one step; returns the contact forces [N] at the nodes."""
+        """Compute one step; return the contact forces [N] at the nodes."""
         h, old, mass = self.h, self.state, self.sphere.mass
         rest = self.keep[0] * old.real - self.keep[1] * old.a
         start = old.q + h * old.v + h**2 * ((0.5 - self.beta) * old.a + self.beta * rest)
@@ -174,7 +185,7 @@ class Stepper:
 
 @dataclass(frozen=True)
 class ElementState:
-    """Displacements q, velocities v, and the scheme's and the equation's accelerations."""
+    """Displacements q, velocities v, accelerations a of the scheme and `real` of the equations."""
 
     q: Double
     v: Double
@@ -192,15 +203,23 @@ def struck(
 ) -> History:
     """Simulate the impact until no further contact is possible.
 
-    Steps [s] are longer between contacts. Without `until_end` the impact ends with the first
-    contact.
+    Parameters
+    ----------
+    system, sphere
+        The plate on a mesh, and the sphere.
+    step
+        Time step during a contact [s]; between contacts it is `FLIGHT` times as long.
+    longest
+        Largest duration of the impact [s].
+    until_end
+        Whether further contacts are computed; if not, the impact ends with the first one.
 
     Raises
     ------
-    Wide
+    WideContactError
         If the contact reaches the end of the fine mesh.
     ArithmeticError
-        If the impact takes longer than the longest time [s].
+        If the impact takes longer than `longest`.
     """
     fine, coarse = Stepper(system, sphere, step), None
     brought, nodes = fine.energy(), system.contact_nodes
@@ -238,17 +257,17 @@ class ElementImpact:
     Parameters
     ----------
     contact_time
-        Of the first contact [s].
+        Duration of the first contact [s].
     max_indentation
         Largest displacement of the sphere since first contact [m].
     max_force
         Largest contact force [N].
     max_contact_radius
-        Largest contact radius, between the outermost touching node and the next one [m].
+        Largest contact radius: midway between the outermost touching node and the next one [m].
     restitution
-        Speed after the last contact over the impact speed [1].
+        Rebound speed after the last contact over the impact speed [1].
     total_time
-        From the first contact to the end of the last one [s].
+        Time from first contact to the end of the last contact [s].
     contacts
         Number of contacts that are separated by at least `APART` steps without contact.
     energy
@@ -283,7 +302,7 @@ def results(history: History, radii: Double) -> ElementImpact:
 
 
 def _spans(force: Double) -> list[tuple[int, int]]:
-    """Return the first and last step of each contact."""
+    """Return the numbers of the first and last step of each contact."""
     steps = np.flatnonzero(force > 0.0)
     cuts = np.flatnonzero(np.diff(steps) > APART)
     starts = np.concatenate((steps[:1], steps[cuts + 1]))
@@ -292,7 +311,7 @@ def _spans(force: Double) -> list[tuple[int, int]]:
 
 
 def _end(history: History, start: int, stop: int) -> float:
-    """Return the end of a contact, assuming that force^(2/3) decreases linearly towards it."""
+    """Return the end of a contact [s]; force^(2/3) is assumed to decrease linearly towards it."""
     last = np.arange(max(stop - END + 1, start), stop + 1)
     last = last[history.force[last] > 0.0]
     if last.size < 2:
@@ -302,7 +321,7 @@ def _end(history: History, start: int, stop: int) -> float:
 
 
 def _peak(history: History, contact_time: float) -> float:
-    """Return the largest force, with the noise of nodes smoothed."""
+    """Return the largest force [N], without the fluctuations from node to node."""
     place = int(np.argmax(history.force))
     near = np.abs(history.time - history.time[place]) < PEAK * contact_time
     near &= history.force > 0.0

@@ -47,9 +47,9 @@ class Grading:
     Parameters
     ----------
     contact
-        Elements over the reach of the contact.
+        Number of elements over the reach of the contact, before halving.
     growth
-        Largest ratio of neighbouring element sizes.
+        Ratio of neighbouring element sizes away from the contact, until the largest size.
     thickness
         Largest element size over the plate thickness.
     far
@@ -57,9 +57,9 @@ class Grading:
     degree
         Polynomial degree.
     core
-        How often the elements next to the axis are halved.
+        How often the element at the axis is halved; the layer at the contact face is as thin.
     edge
-        How often the elements are halved towards the plate's edge.
+        How often the element at the plate's edge is halved.
     """
 
     contact: int = 8
@@ -72,7 +72,7 @@ class Grading:
 
 
 def graded(b: float, thickness: float, reach: float, grading: Grading) -> Mesh:
-    """Return the mesh of a plate of radius b [m] and thickness [m], fine within the reach [m]."""
+    """Return the mesh of a plate of radius b [m] and thickness [m], fine up to the reach [m]."""
     size = reach / grading.contact
     inner = _halved(np.linspace(0.0, reach, grading.contact + 1), grading.core)
     outer = _growing(size, b - reach, grading.growth, grading.far * thickness, grading.edge)
@@ -86,7 +86,10 @@ def graded(b: float, thickness: float, reach: float, grading: Grading) -> Mesh:
 
 
 def resting(b: float, thickness: float, layers: int, degree: int) -> Mesh:
-    """Return the mesh of a plate without contact, halved repeatedly towards edge and corners."""
+    """Return the mesh of a plate without contact; elements are halved towards edge and faces.
+
+    `layers` is the number of halvings, from half the thickness on.
+    """
     steps = thickness / 2 * 0.5 ** np.arange(layers + 1)
     h = thickness / 2
     z_ends = np.concatenate((-h + np.append(0.0, steps[::-1]), h - steps[1:], [h]))
@@ -96,15 +99,16 @@ def resting(b: float, thickness: float, layers: int, degree: int) -> Mesh:
 
 
 def _halved(ends: Double, times: int) -> Double:
-    """Halve the first interval this many times."""
+    """Return the ends after halving the first interval repeatedly towards its start."""
     more = ends[1] * 0.5 ** np.arange(times, 0, -1)
     return np.concatenate((ends[:1], more, ends[1:]))
 
 
 def _growing(first: float, length: float, growth: float, largest: float, last: int) -> Double:
-    """Return ends from 0 to a length, growing from a first size up to a largest one.
+    """Return ends of intervals from 0 to a length, which grow from a first to a largest size.
 
-    The last interval is halved a given number of times towards the end.
+    All sizes are then reduced to fit the length. The last interval is halved `last` times towards
+    the end.
     """
     ends, size = [0.0], first
     while ends[-1] < length:

@@ -1,4 +1,4 @@
-"""The plate: material and edge, its sparse matrices, static contact and natural frequencies."""
+"""The plate: material and edge, its sparse matrices, and natural frequencies."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -11,10 +11,11 @@ from derivation.checks.finite_elements.mesh import Double, Mesh
 from derivation.plate.edge.remainder import lobatto
 
 EDGES = ("paper", "simply-supported", "clamped")
-"""On the whole edge r = b: w = 0 and a radial spring 2 mu/b; w = 0 alone; u = w = 0."""
+"""Conditions on the whole edge r = b: w = 0 with a radial spring of stiffness 2 mu/b per area;
+w = 0; u = w = 0."""
 EVEN = 1e-8
-"""Product of the faces' deflections at the axis, over the largest displacement squared, above
-which a mode is one of bending."""
+"""Product of the two faces' deflections at the axis, over the square of the largest displacement,
+above which a mode is a bending mode."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +74,7 @@ class Plate:
 
 
 class System:
-    """Stiffness and consistent mass of a plate on a mesh, its supports imposed."""
+    """Stiffness and consistent mass matrix of a plate on a mesh, with its edge conditions."""
 
     def __init__(self, plate: Plate, mesh: Mesh) -> None:
         self.plate, self.mesh = plate, mesh
@@ -96,7 +97,7 @@ class System:
         return number
 
     def _assembled(self, size: int, edge: NDArray[Any]) -> tuple[Any, Any]:
-        """Return stiffness and mass of the free unknowns."""
+        """Return stiffness and mass matrix of the free unknowns."""
         from scipy import sparse
 
         mesh, numbers, stiff, heavy = self.mesh, [], [], []
@@ -123,7 +124,7 @@ class System:
         return tuple(m[self.free][:, self.free].tocsc() for m in (stiffness, mass))
 
     def _spring(self, size: int, edge: NDArray[Any]) -> Any:
-        """Return the stiffness of sigma_rr = -(2 mu/b) u on the edge."""
+        """Return the stiffness matrix of the condition sigma_rr = -(2 mu/b) u on the edge."""
         from scipy import sparse
 
         degree, heights = self.mesh.degree, np.diff(self.mesh.z_ends)
@@ -135,11 +136,17 @@ class System:
 
     @cached_property
     def static_solver(self) -> Any:
-        """The factors of the stiffness."""
+        """Factors of the stiffness matrix."""
         return factorised(self.stiffness)
 
     def bending_frequencies(self, count: int) -> Double:
-        """Return the lowest angular frequencies of bending modes [rad/s]."""
+        """Return the lowest angular frequencies of bending modes [rad/s].
+
+        Raises
+        ------
+        ArithmeticError
+            If fewer than `count` of the computed modes are bending modes.
+        """
         from scipy.sparse.linalg import LinearOperator, eigsh
 
         solver = self.static_solver
@@ -149,7 +156,7 @@ class System:
         )
         faces = self._number(np.zeros(2, dtype=int), np.array([0, self.mesh.rows - 1]), 1)
         back, front = shapes[np.searchsorted(self.free, faces)]
-        # In bending both faces move together, in extension against each other.
+        # In bending both faces move in the same direction, in extension in opposite directions.
         bending = np.sort(squares[back * front > EVEN * (shapes**2).max(axis=0)])
         if bending.size < count:
             raise ArithmeticError(f"modes: expected {count} of bending, got {bending.size}")
@@ -171,7 +178,7 @@ class _Reference:
         self.row = np.tile(np.arange(degree + 1), degree + 1)
 
     def element(self, plate: Plate, r_ends: Double, z_ends: Double) -> tuple[Double, Double]:
-        """Return an element's stiffness and mass."""
+        """Return an element's stiffness and mass matrix."""
         width, height = np.diff(r_ends)[0], np.diff(z_ends)[0]
         r = np.repeat(r_ends.mean() + width / 2 * self.points, self.points.size)
         area = 2.0 * np.pi * np.kron(self.weights, self.weights) * r * width * height / 4
@@ -201,7 +208,7 @@ def factorised(matrix: Any) -> Any:
 
 
 def _nodes(ends: Double, degree: int) -> Double:
-    """Return the nodes of a row of elements."""
+    """Return the coordinates of the nodes of a row of elements."""
     nodes = lobatto(degree)[0]
     low, high = ends[:-1, None], ends[1:, None]
     inner = (low + high) / 2 + (high - low) / 2 * nodes[:-1]

@@ -1,4 +1,4 @@
-"""Each case on several meshes and time steps, its error estimates, and the record of all."""
+"""Solutions of each case on several meshes and with several time steps, and their record."""
 
 import ast
 import hashlib
@@ -32,12 +32,13 @@ RESULTS = (
     "total_time",
 )  # fmt: skip
 SPREAD = 1.05, 1.25
-"""Reach of the fine mesh over the contact radius on a half-space, and its increase each time the
-mesh is too small."""
+"""Reach of the fine mesh over the contact radius on a half-space, and the factor by which it is
+increased if the contact is wider."""
 LONGEST = 300.0
 """Longest duration of an impact over the contact time on a half-space."""
 LEAST = {"contact_time": 1e-4, "total_time": 1e-4, "max_force": 1e-4}
-"""Smallest error estimates of results that depend on single nodes [1], else `LEAST_ERROR`."""
+"""Smallest error estimates of results that depend on single nodes [1]; for others except the
+contact radius `LEAST_ERROR`."""
 LEAST_ERROR = 2e-5
 FREQUENCIES = 4
 
@@ -51,7 +52,7 @@ class ElementSetting:
     grading
         Density of the mesh.
     steps
-        Time steps over the contact time on a half-space.
+        Number of time steps in the contact time on a half-space.
     """
 
     grading: Grading
@@ -61,15 +62,16 @@ class ElementSetting:
 BEST = ElementSetting(Grading(contact=12, far=2.0), 400)
 COARSER = ElementSetting(Grading(contact=8, thickness=1.0, far=3.0, edge=1), 400)
 LONGER = ElementSetting(BEST.grading, 200)
-"""The recorded solution, one on a coarser mesh, and one with longer steps."""
+"""Settings of the recorded solution, of one on a coarser mesh, and of one with longer steps."""
 MODAL = ((5, 6), (4, 6), (5, 5))
-"""Layers towards the edge, where a clamp is singular, and degree: the best mesh and two others."""
+"""Number of layers towards the edge, where stresses are singular, and polynomial degree: of the
+recorded solution, and of two others for the error estimate."""
 
 
 def solved(
     case: ElementCase, setting: ElementSetting, *, until_end: bool = True
 ) -> tuple[ElementImpact, float]:
-    """Return an impact's results, and half the distance of contact nodes at its widest [m]."""
+    """Return an impact's results, and half the node distance at the largest contact radius [m]."""
     plate, reach = case.plate, SPREAD[0] * case.radius
     while True:
         mesh = graded(plate.radius, plate.thickness, reach, setting.grading)
@@ -145,7 +147,10 @@ def plate_inputs(plate: Plate) -> dict[str, Any]:
 
 
 def computed(path: Path = MEASURED, progress: Progress = quiet) -> dict[str, Any]:
-    """Compute what is missing from a record, which is written after each case; returns it."""
+    """Compute the cases that are missing from a record or outdated, and return the record.
+
+    The record is written after each case.
+    """
     record = read(path)
     version = source_hash()
     known = {_key(row): row for row in record["impacts"] + record["plates"]}
@@ -175,13 +180,13 @@ def _inputs(item: ElementCase | Plate) -> dict[str, Any]:
 
 
 def _key(row: Mapping[str, Any]) -> str:
-    """Return the inputs of a row, as text."""
+    """Return the inputs of a row and the hash of the code, as text."""
     names = ("scene", "spherical_profile", "edge", "thickness_over_radius", "poissons_ratio")
     return json.dumps([row.get(name) for name in (*names, "source")])
 
 
 def header() -> dict[str, Any]:
-    """Return the versions of the programs that computed the numbers."""
+    """Return the versions of the programs and the settings of the solutions."""
     import scipy
 
     settings = {"best": BEST, "coarser_mesh": COARSER, "longer_steps": LONGER}
@@ -226,7 +231,7 @@ def source_hash() -> str:
 
 
 def _is_text(node: ast.AST) -> bool:
-    """Whether a statement is a string alone."""
+    """Return whether a statement is a docstring."""
     return (
         isinstance(node, ast.Expr)
         and isinstance(node.value, ast.Constant)

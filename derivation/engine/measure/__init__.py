@@ -1,1 +1,1 @@
-"""How wrong the generated functions are: hard points, errors in ULP, verdicts as data."""
+"""Errors of generated functions at test points and by search; run times."""

@@ -146,9 +146,7 @@ def reference_values(
 ) -> list[PointReference]:
     """Return the references at the points whose value is within the range of the format."""
     found = ((p, balls.reference(name, p.values, digits, p.modes)) for p in points)
-    return [
-        PointReference(point, (true,)) for point, true in found if not overflows(true.value, fmt)
-    ]
+    return [PointReference(point, (ref,)) for point, ref in found if not overflows(ref.value, fmt)]
 
 
 def _single(by: Judge, kernel: Kernel, points: Sequence[Point], digits: int) -> Errors:
@@ -169,6 +167,6 @@ def confirm(by: Judge, kernel: Kernel, found: Sequence[PointReference], digits: 
     """
     easy = [t for t in found if by.easy(t.point) and bool(abs(t.references[0].value) > SMALL)]
     chosen = easy[:: max(1, len(easy) // AGREEMENTS)][:AGREEMENTS]
-    for truth in chosen:
-        by.routes.agree(kernel.name, truth.point.values, digits, truth.point.modes)
+    for at in chosen:
+        by.routes.agree(kernel.name, at.point.values, digits, at.point.modes)
     return len(chosen)

@@ -1,4 +1,4 @@
-"""The hard cases checked: generated and printed forms against the recorded references."""
+"""Check of the hard cases: generated functions and published formulas against references."""
 
 import json
 import math
@@ -17,9 +17,15 @@ from derivation.engine.measure.record import provenance
 from derivation.engine.measure.result import CheckResult
 from derivation.engine.measure.suite import Known, Suite, known_of
 from derivation.engine.oracle.reference import DIGITS, Reference, restored
+from derivation.engine.text import paragraph
 
 COMMAND = "platecontact check hard-cases --update"
-COLUMNS = ("group", "kernel", "cause", "#generated", "#printed", "#allowed", "kept")
+COLUMNS = ("group", "#cases", "#error/limit", "passed")
+NOTE = (
+    "error/limit: the largest in the group, of the generated functions. With --json FILE, each "
+    "case is written with its cause, and with the error of the published formula."
+)
+"""Explanation of `COLUMNS`."""
 _SIGNIFICANT = 3
 
 Data = Mapping[str, Any]
@@ -33,19 +39,20 @@ class HardRow:
     ----------
     case
         The case.
-    reference value
-        Its reference values.
+    reference
+        Its reference values and their origin.
     error, allowed
-        Error of the generated form and its allowance, in ULP, where their ratio is largest.
-        Infinite for NaN where the reference is finite, and vice versa.
+        Error of the generated function and its allowance, in ULP, where their ratio is largest. The
+        error is infinite for NaN where the reference is finite, and vice versa, and if the call
+        failed or gave results of another shape or type.
     printed
-        Largest error of the form as published; None if there is none.
+        Largest error of the published formula in ULP; None if there is none.
     problem
-        Why the case failed; empty if it did not.
+        Reason why the case failed; empty if it passed.
     """
 
     case: HardCase
-    truth: Known
+    reference: Known
     error: float
     allowed: float
     printed: float | None
@@ -53,17 +60,25 @@ class HardRow:
 
     @property
     def kept(self) -> bool:
-        """Return whether the case passed."""
+        """Whether the case passed."""
         return not self.problem
 
 
 def committed(data: Data, given: Sequence[HardCase]) -> dict[str, Known]:
-    """Return the recorded references.
+    """Return the recorded reference values by the key of their case.
+
+    Parameters
+    ----------
+    data
+        Content of the record, ``hard.json``.
+    given
+        The cases.
 
     Raises
     ------
     ValueError
-        If a case has none; the message names the case and the command that computes it.
+        If a case has none; the message states the first such case and the command that computes
+        its reference values.
     """
     found = known_of(data)
     missing = [case.key for case in given if case.key not in found]
@@ -74,9 +89,22 @@ def committed(data: Data, given: Sequence[HardCase]) -> dict[str, Known]:
     return {case.key: found[case.key] for case in given}
 
 
-def check(suite: Suite, truth: Mapping[str, Known]) -> tuple[HardRow, ...]:
-    """Compare generated and published forms with the references, case by case."""
-    return tuple(_row(suite, case, truth[case.key]) for case in suite.cases)
+def check(suite: Suite, references: Mapping[str, Known]) -> tuple[HardRow, ...]:
+    """Compare generated functions and published formulas with reference values, case by case.
+
+    Parameters
+    ----------
+    suite
+        The cases and their functions.
+    references
+        Reference values by the key of their case.
+
+    Returns
+    -------
+    tuple of HardRow
+        A row for each case, in order.
+    """
+    return tuple(_row(suite, case, references[case.key]) for case in suite.cases)
 
 
 def _row(suite: Suite, case: HardCase, known: Known) -> HardRow:
@@ -112,10 +140,10 @@ def _row(suite: Suite, case: HardCase, known: Known) -> HardRow:
 def _results(
     case: HardCase, kernel: Kernel, count: int, true: Sequence[Reference]
 ) -> tuple[np.ndarray[Any, Any], str]:
-    """Return the results, one output after the other, and a description of errors in the call.
+    """Return the results, one output after the other, and a description of an error in the call.
 
-    Every floating-point exception is an error, except underflow, and overflow or division by zero
-    where the reference value overflows.
+    Warnings and floating-point exceptions are errors, except underflow, and except overflow and
+    division by zero if a reference value is infinite.
     """
     overflown = any(math.isinf(float(one.value)) for one in true)
     beyond: Literal["ignore", "raise"] = "ignore" if overflown else "raise"
@@ -124,7 +152,7 @@ def _results(
             warnings.simplefilter("error")
             with np.errstate(over=beyond, divide=beyond):
                 return _call(case, kernel, count), ""
-    except Exception as error:  # whatever a kernel raises is a failure of the case
+    except Exception as error:  # any exception of a function is a failure of the case
         return np.empty((0, *case.shape)), f"{type(error).__name__}: {error}"
 
 
@@ -147,7 +175,7 @@ def _call(case: HardCase, kernel: Kernel, count: int) -> np.ndarray[Any, Any]:
 
 
 def _budgets(case: HardCase, kernel: Kernel, true: Sequence[Reference]) -> list[float]:
-    """Return the allowances in ULP before conditioning, result by result."""
+    """Return the budgets in ULP, without conditioning, result by result."""
     if not isinstance(kernel, Stating):
         return [kernel.budget or 0.0] * len(true)
     stated = np.ravel(kernel.stated(*handed_over(case, kernel.arguments))).tolist()
@@ -155,17 +183,27 @@ def _budgets(case: HardCase, kernel: Kernel, true: Sequence[Reference]) -> list[
     return [error * 2.0**-unit for error, unit in zip(stated, units, strict=True)]
 
 
-def cells(row: HardRow) -> tuple[str, ...]:
-    """Return a row's entries under `COLUMNS`, as text."""
-    return (
-        row.case.group,
-        row.case.kernel,
-        row.case.cause,
-        f"{row.error:.3g}",
-        "" if row.printed is None else f"{row.printed:.3g}",
-        f"{row.allowed:.3g}",
-        "yes" if row.kept else f"NO: {row.problem}",
-    )
+def cells(rows: Sequence[HardRow]) -> list[tuple[str, ...]]:
+    """Return the entries of each group under `COLUMNS`, as text."""
+    groups: dict[str, list[HardRow]] = {}
+    for row in rows:
+        groups.setdefault(row.case.group, []).append(row)
+    return [
+        (
+            group,
+            str(len(found)),
+            f"{max(_ratio(row) for row in found):.2f}",
+            "yes" if all(row.kept for row in found) else "NO",
+        )
+        for group, found in groups.items()
+    ]
+
+
+def _ratio(row: HardRow) -> float:
+    """Return error over allowance; without an allowance 0 for no error, else infinity."""
+    if row.allowed:
+        return row.error / row.allowed
+    return math.inf if row.error else 0.0
 
 
 def as_data(rows: Sequence[HardRow], package: str) -> dict[str, Any]:
@@ -174,20 +212,26 @@ def as_data(rows: Sequence[HardRow], package: str) -> dict[str, Any]:
 
 
 def result(rows: Sequence[HardRow], package: str) -> CheckResult:
-    """Return the cases as a table, and those that failed."""
-    failed = [f"{row.case.key}: {row.problem}" for row in rows if not row.kept]
+    """Return the groups of cases as a table, and the cases that failed."""
+    failed = [
+        f"{row.case.key}: {row.problem} ({row.error:.3g} ULP, {row.allowed:.3g} allowed). "
+        f"{row.case.cause}"
+        for row in rows
+        if not row.kept
+    ]
     return CheckResult(
-        "Hard cases, errors in ULP",
+        "Hard cases",
         COLUMNS,
-        [cells(row) for row in rows],
+        cells(rows),
         lambda: as_data(rows, package),
         not failed,
+        note=paragraph(NOTE, 0),
         listings=[(f"{len(rows)} cases, {len(failed)} failed", failed)],
     )
 
 
 def to_json(rows: Sequence[HardRow], package: str) -> str:
-    """Return the rows as JSON text, byte for byte the same for the same measurement."""
+    """Return the rows as JSON text; equal measurements give equal bytes."""
     return json.dumps(as_data(rows, package), indent=1, allow_nan=False) + "\n"
 
 
@@ -196,8 +240,8 @@ def _plain(row: HardRow) -> dict[str, Any]:
     return case | {
         "inputs": {name: list(texts) for name, texts in row.case.inputs.items()},
         "key": row.case.key,
-        "origin": row.truth.origin,
-        "references": list(row.truth.references),
+        "origin": row.reference.origin,
+        "references": list(row.reference.references),
         "error": _rounded(row.error),
         "allowed": _rounded(row.allowed),
         "printed": None if row.printed is None else _rounded(row.printed),

@@ -1,11 +1,11 @@
-"""How an error is judged: computed numbers against reference values, in ULP of the true value.
+"""Errors of computed numbers against reference values, in ULP of the reference value.
 
-Allowed is the function's budget, and half the sum of the condition numbers: what rounding every
-argument by half a unit in the last place does to the value. The error itself is kept beside that.
-NaN or an infinity where the true value is finite is an infinite error, and so is the reverse. Below
-the smallest normal number errors are counted in the smallest double.
+The allowed error is the function's budget plus half the sum of the condition numbers, which is the
+effect on the value if every argument is rounded by half a unit in the last place. If only one of
+result and reference value is finite, the error is infinite. Below the smallest normal number,
+errors are counted in units of the smallest subnormal number.
 
-The check on grids, the hard cases, the check of the contact law and the search all ask `judge`.
+The check on grids, the hard cases, the check of the contact law and the search all call `judge`.
 """
 
 import math
@@ -37,7 +37,7 @@ class Error:
     ulp, allowed
         Error and allowance in ULP.
     needed
-        The smallest budget that the error does not exceed.
+        The smallest budget with which the error is allowed [ULP]; 0 if conditioning explains it.
     """
 
     ulp: float
@@ -60,11 +60,16 @@ def judge(got: float, reference: Reference, budget: float, fmt: Format = DOUBLE)
     reference
         The reference value.
     budget
-        Allowed error in ULP before conditioning, to be multiplied by the reference's scale. It is
-        counted in units of the reference's magnitude, which for a sum over modes is that of all
-        modes together.
+        Allowed error in ULP without conditioning, to be multiplied by the reference's scale. It is
+        counted in units of the reference's magnitude, which for a sum over modes is the sum of the
+        magnitudes of all terms.
     fmt
-        The format whose units are meant.
+        The floating-point format that defines the unit in the last place.
+
+    Returns
+    -------
+    Error
+        Error and allowance in ULP of the reference value.
     """
     value = reference.value
     if not value.is_finite():
@@ -72,8 +77,8 @@ def judge(got: float, reference: Reference, budget: float, fmt: Format = DOUBLE)
         return Error(0.0 if same else math.inf, budget, 0.0 if same else math.inf)
     spacing = spacing_exponent(value, fmt)
     unit = math.ldexp(1.0, spacing_exponent(reference.magnitude, fmt) - spacing)
-    # 2^-p times the sensitivities: so it also holds where the value is subnormal or zero, and a
-    # condition number says nothing.
+    # 2^-p times the sensitivities is also valid if the value is subnormal or zero, where the
+    # condition number is not meaningful.
     with flint.ctx.workprec(128):
         rounding = upper_float(reference.total * flint.arb(2) ** (-fmt.precision - spacing))
     ulp = ulp_error(got, value, fmt)
@@ -91,7 +96,7 @@ def largest(errors: Iterable[Error]) -> Error:
 
 @dataclass(frozen=True)
 class PointReference:
-    """A point with the reference value of each result there."""
+    """A point, and the reference value of each result at this point."""
 
     point: Point
     references: tuple[Reference, ...]
@@ -107,7 +112,7 @@ class Worst:
         Names, hexadecimal floats and their decimal form.
     modes
         Number of modes of a modal sum.
-    got, reference value
+    got, reference
         The computed number in hexadecimal and decimal; the reference value to 20 digits.
     ulp, allowed
         Error and allowance in ULP of the reference value.
@@ -116,7 +121,7 @@ class Worst:
     arguments: tuple[tuple[str, str, str], ...]
     modes: int | None
     got: tuple[str, str]
-    truth: str
+    reference: str
     ulp: float
     allowed: float
 
@@ -132,23 +137,24 @@ class Errors:
     excluded
         Number of omitted points, whose reference value overflows.
     zeros
-        Number of results whose reference value is exactly zero (or below 2^-1200). There a unit in
-        the last place is the smallest subnormal, which is not meaningful. The ULP columns omit
-        these results; the ratio includes them.
+        Number of results whose reference value is exactly zero, or below 2^-1200. Their unit in the
+        last place is the smallest subnormal number, which is not meaningful. Largest error,
+        percentile and root mean square omit these results; the ratio includes them.
     not_finite
         Number of results that are NaN or infinite.
     max_ulp, p99_ulp, rms_ulp
-        Largest error, 99th percentile and root mean square of the finite results.
+        Largest error, 99th percentile and root mean square of the finite errors [ULP].
     ratio
         Largest error over its allowance; infinite if a result is not finite. None without a budget.
     needed
-        The smallest sufficient budget: the largest error beyond the allowance for conditioning.
+        The smallest sufficient budget: the largest error beyond the allowance for conditioning
+        [ULP].
     worst
         Point of the largest ratio (or of the largest error, without a budget).
     dtype
         NumPy name of the results' type.
     warned
-        Warnings issued.
+        Texts of the warnings issued.
     """
 
     points: int
@@ -165,7 +171,7 @@ class Errors:
     warned: tuple[str, ...]
 
     def kept(self, fmt: Format = DOUBLE) -> bool:
-        """Return whether all results are finite, allowed, of the right type and silent."""
+        """Return whether all results are finite, allowed and of type `fmt`, without warnings."""
         within = self.ratio is not None and self.ratio <= 1.0
         return within and self.not_finite == 0 and self.dtype == fmt.name and not self.warned
 
@@ -180,7 +186,7 @@ def measured(
     kernel
         The function and its budget.
     found
-        Points with their references, none of them overflowing.
+        Points with their references, of which none overflows the format.
     excluded
         Number of omitted points, whose reference value overflows.
     fmt
@@ -195,15 +201,15 @@ def measured(
         raise ValueError(f"no point at which {fmt.name} can hold {kernel.name}")
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        results = np.atleast_2d(kernel.results([truth.point for truth in found], fmt))
+        results = np.atleast_2d(kernel.results([at.point for at in found], fmt))
     expected = len(found[0].references), len(found)
     if results.shape != expected:
         raise ValueError(f"{kernel.name} gave shape {results.shape}, {expected} is expected")
     budget = math.inf if kernel.budget is None else kernel.budget
     all_of = [
-        (truth, reference, got, judge(got, reference, budget, fmt))
-        for truth, row in zip(found, results.T.tolist(), strict=True)
-        for reference, got in zip(truth.references, row, strict=True)
+        (at, reference, got, judge(got, reference, budget, fmt))
+        for at, row in zip(found, results.T.tolist(), strict=True)
+        for reference, got in zip(at.references, row, strict=True)
     ]
     worst = max(all_of, key=lambda one: one[3].ulp if kernel.budget is None else one[3].ratio)
     counted = [error.ulp for _, reference, _, error in all_of if reference.value != 0]
@@ -232,11 +238,11 @@ def _rms(errors: Sequence[float]) -> float:
     return most * math.sqrt(math.fsum((e / most) ** 2 for e in errors) / len(errors))
 
 
-def _worst(truth: PointReference, reference: Reference, got: float, error: Error) -> Worst:
-    arguments = truth.point.values.items()
+def _worst(at: PointReference, reference: Reference, got: float, error: Error) -> Worst:
+    arguments = at.point.values.items()
     return Worst(
         tuple((key, value.hex(), repr(value)) for key, value in arguments),
-        truth.point.modes,
+        at.point.modes,
         (got.hex(), repr(got)),
         reference.value.str(20, radius=False),
         error.ulp,

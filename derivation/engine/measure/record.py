@@ -1,4 +1,4 @@
-"""Rows -> JSON with provenance, and the table's columns for whoever draws it."""
+"""The result of a check as JSON with provenance, and as a table."""
 
 import hashlib
 import importlib
@@ -15,27 +15,32 @@ import sympy as sp
 from derivation.engine.measure.check import Row
 from derivation.engine.measure.result import CheckResult
 from derivation.engine.outputs import plain_rows, sorted_json
+from derivation.engine.text import paragraph
 
 COLUMNS = (
-    "kernel",
+    "function",
     "#points",
     "#max ULP",
     "#p99 ULP",
     "#used",
     "#budget",
-    "kept",
+    "pass",
 )
-"""Headings of the table; `used` is the largest error over its allowance."""
+NOTE = (
+    "p99: 99th percentile; used: largest error over the allowed error, which is the budget plus an "
+    "allowance for conditioning."
+)
+"""Explanation of `COLUMNS`."""
 
 
 def cells(row: Row) -> tuple[str, ...]:
     """Return a row's entries under `COLUMNS`, as text."""
     errors = row.double
-    infinite = f"{errors.not_finite} not finite" if errors.not_finite else f"{errors.max_ulp:.3g}"
+    largest = "infinite" if errors.not_finite else f"{errors.max_ulp:.3g}"
     return (
         row.kernel if row.passed is not None else f"{row.module}.{row.kernel}",
         str(errors.points),
-        infinite,
+        largest,
         f"{errors.p99_ulp:.3g}",
         "" if errors.ratio is None else f"{errors.ratio:.2f}",
         "" if row.budget is None else f"{row.budget:g}",
@@ -52,20 +57,21 @@ def worst(row: Row) -> str:
 
 
 def result(rows: Sequence[Row], digits: int, package: str) -> CheckResult:
-    """Return the rows as a table with the worst arguments. Published formulas have no budget."""
+    """Return the rows as a table, with the worst arguments of the functions that have a budget."""
     return CheckResult(
         f"Errors against {digits} digits",
         COLUMNS,
         [cells(row) for row in rows],
         lambda: as_data(rows, digits, package),
         all(row.passed is not False for row in rows),
+        note=paragraph(NOTE, 0),
         listings=[("Worst arguments", [worst(row) for row in rows if row.passed is not None])],
         budgeted=rows,
     )
 
 
 def provenance(digits: int, package: str) -> dict[str, str | int]:
-    """Return versions and settings without time, place or machine, hence reproducible."""
+    """Return versions, hash of the package and digits; times and the machine are not included."""
     return {
         "digits": digits,
         "generated": generated_hash(package),
@@ -78,7 +84,13 @@ def provenance(digits: int, package: str) -> dict[str, str | int]:
 
 
 def generated_hash(package: str) -> str:
-    """Return the SHA-256 of a generated package: names and contents in the order of the names."""
+    """Return the SHA-256 of a generated package: names and contents in the order of the names.
+
+    Raises
+    ------
+    FileNotFoundError
+        If the package has no file `__init__.py`.
+    """
     origin = importlib.import_module(package).__file__
     if origin is None:
         raise FileNotFoundError(
@@ -99,5 +111,5 @@ def as_data(rows: Sequence[Row], digits: int, package: str) -> dict[str, Any]:
 
 
 def to_json(rows: Sequence[Row], digits: int, package: str) -> str:
-    """Return the rows as JSON text, byte for byte the same for the same measurement."""
+    """Return the rows as JSON text; equal measurements give equal bytes."""
     return sorted_json(as_data(rows, digits, package))

@@ -1,1 +1,1 @@
-"""Ink: LaTeX rendered from theory and committed measurements, and the PDF made of it."""
+"""The report: LaTeX from formulas and recorded measurements, converted to HTML and PDF."""

@@ -22,24 +22,24 @@ PLAN = Plan(("misprints", "symbols", "accuracy"), ("derivation", "published"))
 
 @dataclass(frozen=True)
 class Contents:
-    """All that the report is a function of.
+    """All data on which the report depends.
 
     Parameters
     ----------
     title, subtitle, abstract
-        What the paper is about.
+        Title, subtitle, and a summary in a few sentences.
     vocabulary
         The symbols.
     links
-        The chain's links with their formulas.
+        The links of the derivation with their formulas.
     findings
-        Every printed formula against the derived one.
+        The comparison of each published formula with the derived one.
     check
-        The kept measurement of the generated functions.
+        The saved measurement of the generated functions, content of ``check.json``.
     prose
-        Prose by link, and references.
+        Text by link, and references.
     version
-        Of this program.
+        Version of this program.
     """
 
     title: str
@@ -54,7 +54,7 @@ class Contents:
 
 
 def parts(contents: Contents, shown: Sequence[str] = PLAN.names) -> Parts:
-    """The report's LaTeX, with the named sections."""
+    """Return the report's LaTeX with the named sections."""
     made = environment()
     provenance = contents.check["provenance"]
     versions = sorted((k, v) for k, v in provenance.items() if k not in ("digits", "generated"))
@@ -92,4 +92,4 @@ CONTEXTS: dict[str, Callable[[Contents], dict[str, Any]]] = {
     "derivation": lambda c: derivation_context(c.links, c.prose),
     "published": lambda c: misprints_context(c.findings),
 }
-"""What fills `templates/any/NAME.tex.j2`, by name."""
+"""Functions for the context of `templates/any/NAME.tex.j2`, by name."""

@@ -1,4 +1,4 @@
-"""How much of the generated package's arithmetic is printed, as a table of its modules."""
+"""Table of the arithmetic in each module of the generated package, printed or by hand."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -8,7 +8,7 @@ from derivation.engine.report.latex import escape, prose
 
 
 def arithmetic_context(sources: Mapping[str, str]) -> dict[str, Any]:
-    """What the section on generated code says of it, from the text of the modules by name."""
+    """Return the context of the section on generated code, from the source texts by module."""
     found = shares(sources)
     return {
         "operations": sum(part.operations for part in found),

@@ -1,4 +1,4 @@
-"""A report as LaTeX documents, made of its parts: the report itself, and its appendices."""
+"""The LaTeX documents of a report, made of its parts: the report and its appendices."""
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
@@ -16,16 +16,16 @@ _PART = re.compile(r"\\otherpart\{[\w-]+\}\{([^}]*)\}")
 
 @dataclass(frozen=True)
 class Parts:
-    """All that the documents are made of.
+    """The parts of the documents.
 
     Attributes
     ----------
     title, front
-        Title, and what stands in front of the report's sections.
+        Title, and LaTeX in front of the sections.
     sections
-        LaTeX by section; each begins with its heading and the label `sec:NAME`.
+        LaTeX by name of section; each begins with its heading and the label `sec:NAME`.
     references
-        The sources, of which a document lists those that it cites.
+        The sources; a document lists those that it cites.
     """
 
     title: str
@@ -36,7 +36,7 @@ class Parts:
 
 @dataclass(frozen=True)
 class Text:
-    """A document's LaTeX in parts: title, title page, sections, references."""
+    """The LaTeX of a document in parts: title, title page, sections, references."""
 
     title: str
     front: str
@@ -44,11 +44,11 @@ class Text:
     references: str
 
     def shows(self, figure: str) -> bool:
-        """Whether a figure stands in a section."""
+        """Return whether a section contains the figure of this name."""
         return any(f"figures/{figure}.pdf" in section for section in self.sections)
 
     def document(self, version: str) -> str:
-        """The whole file."""
+        """Return the whole file; it states the version of the program."""
         return (
             environment()
             .get_template("report.tex.j2")
@@ -70,17 +70,17 @@ class Plan:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """All of them."""
+        """Names of all sections and appendices, in order."""
         return self.sections + self.appendices
 
     def number(self, name: str) -> str:
-        """The number of a section, or the letter of an appendix."""
+        """Return the number of a section, or the letter of an appendix."""
         if name in self.sections:
             return str(self.sections.index(name) + 1)
         return chr(ord("A") + self.appendices.index(name))
 
     def documents(self, parts: Parts, shown: Sequence[str] = ()) -> dict[str, Text]:
-        """Return the documents by name: report and appendices, or one of the sections shown."""
+        """Return the documents by name: report and appendices, or one with the given sections."""
         if shown:
             name = "-".join([REPORT, *shown])
             return {name: self._document(parts, parts.title, parts.front, shown, linked=False)}
@@ -101,7 +101,7 @@ class Plan:
         return Text(title, front, tuple(sections), _listed(parts.references, [front, *sections]))
 
     def _resolved(self, text: str, names: Sequence[str], linked: bool) -> str:
-        """A text whose references to sections of the other document are numbers, and links."""
+        """Replace references to sections of another document by their number, and a link."""
 
         def number(match: re.Match[str]) -> str:
             name = match[1]
@@ -123,7 +123,7 @@ def cited(texts: Sequence[str]) -> Iterator[str]:
 
 
 def _listed(references: References, texts: Sequence[str]) -> str:
-    """The list of the sources that texts cite; nothing if there is none."""
+    """Return LaTeX of the list of the sources that texts cite; empty if there are none."""
     keys = set(cited(texts))
     items = [item for item in references.items() if item["key"] in keys]
     return environment().get_template("references.tex.j2").render(items=items) if items else ""

@@ -1,4 +1,4 @@
-"""Formulas as displayed equations: long sums in lines, what would be too small beside them."""
+"""Displayed equations: long sums are broken into lines, and deep fractions get a name."""
 
 import itertools
 from collections.abc import Callable
@@ -12,17 +12,17 @@ from derivation.engine.formula.vocabulary import Vocabulary
 from derivation.engine.report.width import typeset_width
 
 PAGE, COLUMN = 415.0, 208.0
-"""Width of a line of the report beside its equation's number, and of a column of a paper [pt]."""
+"""Width of a line of the report without the equation number, and of a column of a paper [pt]."""
 INDENT, SIGN = 10.0, 12.5
-"""Of the further lines of an equation, and a sign before their first term [pt]."""
+"""Width of the indent of further lines of an equation, and of a sign before a term [pt]."""
 DEEPEST = 2
-"""Fractions within each other, beyond which they are too small to read."""
+"""Largest number of nested fractions that is legible."""
 SHORT = 80.0
-"""Width of a fraction that is written with a slash inside another one [pt]."""
+"""Largest width of a fraction that is written with a slash inside another one [pt]."""
 LEAST_PART, NAME = 40.0, 27.0
-"""Width of a part worth a name, and of a name with its equals sign [pt]."""
+"""Smallest width of a part that gets a name, and width of a name with its equals sign [pt]."""
 FURTHER = r"& \quad "
-"""Begins a further line of a sum."""
+"""LaTeX at the beginning of a further line of a sum."""
 
 
 class Displayed(PaperPrinter):
@@ -45,7 +45,7 @@ class Displayed(PaperPrinter):
         return text
 
     def _with_slash(self, numerator: sp.Expr, denominator: sp.Expr) -> str:
-        """Numerator and denominator on one line, or nothing where that is long."""
+        """Return numerator and denominator on one line; empty if that is too wide."""
         sign = "- " if numerator.could_extract_minus_sign() else ""
         numerator = -numerator if sign else numerator
         over, under = self._print(numerator), self._print(denominator)
@@ -67,7 +67,7 @@ class Displayed(PaperPrinter):
         return self._with_limits(super()._print_Integral, expr)
 
     def _with_limits(self, printed: Callable[[sp.Expr], str], expr: sp.Expr) -> str:
-        """What is too small in a fraction already where a plain term is not."""
+        """Return a sum or integral; inside a fraction it counts as one more nested fraction."""
         self.inside += bool(self.inside)
         self.deepest = max(self.deepest, self.inside)
         text = printed(expr)
@@ -80,13 +80,13 @@ class Displayed(PaperPrinter):
 
 @cache
 def displayed(expression: sp.Basic, vocabulary: Vocabulary) -> str:
-    """LaTeX of an expression for a line of its own."""
+    """Return LaTeX of an expression in a displayed equation."""
     return str(Displayed(vocabulary).doprint(expression))
 
 
 @cache
 def legible(expression: sp.Expr, vocabulary: Vocabulary, room: float = PAGE) -> bool:
-    """Whether an expression fits a line, and its fractions can be read."""
+    """Return whether an expression fits a line of width `room` [pt], with legible fractions."""
     printer = Displayed(vocabulary)
     return typeset_width(printer.doprint(expression)) <= room and printer.deepest <= DEEPEST
 
@@ -94,7 +94,7 @@ def legible(expression: sp.Expr, vocabulary: Vocabulary, room: float = PAGE) -> 
 def equation(
     left: str, expression: sp.Expr, vocabulary: Vocabulary, prefix: str = "", room: float = PAGE
 ) -> str:
-    """Body of a displayed equation in lines that fit a width, its long parts named Z_1, Z_2 ...
+    """Return the body of an equation in lines of limited width; long parts are named Z_1, Z_2, ...
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ def equation(
     expression
         The right side.
     vocabulary
-        How its symbols are typeset.
+        The symbols with their notation.
     prefix
         LaTeX between the equals sign and the right side.
     room
@@ -124,18 +124,18 @@ def equation(
 
 
 def right_side(formula: Record) -> sp.Expr:
-    """What is shown of a formula: as it is stated, if that is not its value."""
+    """Return the shown right side of a formula: as stated by other formulas, or its expression."""
     return formula.expression if formula.stated is None else formula.stated
 
 
 def body(formula: Record, factor: Record | None = None, room: float = PAGE) -> str:
-    """A formula as a displayed equation, a factor in it called by its name where it is given."""
+    """Return a formula as the body of a displayed equation; `factor` is shown by its name."""
     shown = right_side(formula) if factor is None else folded(right_side(formula), factor)
     return equation(formula.latex, shown, formula.vocabulary, formula.sum_sign, room)
 
 
 def folded(expression: sp.Expr, formula: Record) -> sp.Expr:
-    """An expression with a function of one argument in it called by its name: G(2 phi h)."""
+    """Replace a function of one argument in an expression by its name, as in G(2 phi h)."""
     (argument,) = formula.expression.free_symbols
     called = sp.Function(formula.name)
     inner = {at.args[0] for at in expression.atoms(sp.sinh)}
@@ -147,7 +147,7 @@ def folded(expression: sp.Expr, formula: Record) -> sp.Expr:
 def _rows(
     left: str, value: sp.Expr, vocabulary: Vocabulary, room: float, prefix: str = ""
 ) -> list[str]:
-    """A left side and its sum in lines, which all but the first are indented."""
+    """Return a left side and its sum in lines; all lines but the first are indented."""
     begin = f"& {left} = "
     rows = [begin]
     for place, term in enumerate(_signed_terms(value, vocabulary)):
@@ -161,9 +161,9 @@ def _rows(
 def in_parts(
     expression: sp.Expr, room: float, vocabulary: Vocabulary, whole: bool = False
 ) -> tuple[sp.Expr, list[tuple[sp.Symbol, sp.Expr]]]:
-    """A formula whose terms can be read on a line each, and what the parts named in it are.
+    """Return a sum whose terms fit a line each, and the expressions of the parts named in it.
 
-    With `whole` all of it is a part.
+    With `whole`, the whole expression is the first part.
     """
     value = _expanded(expression)
     if not all(legible(term, vocabulary, room) for term in sp.Add.make_args(value)):
@@ -187,7 +187,7 @@ def in_parts(
 
 
 def _replaced(value: sp.Expr, part: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
-    """A value with a part of it, or some factors of one of its terms, called by a name."""
+    """Replace a part of a value, or some factors of one of its terms, by a symbol."""
     found = value.xreplace({part: symbol})
     if found != value or not part.is_Mul:
         return found
@@ -202,7 +202,7 @@ def _replaced(value: sp.Expr, part: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
 
 
 def _part(value: sp.Expr, room: float, vocabulary: Vocabulary) -> sp.Expr | None:
-    """What to name next in a value; nothing if all of its terms can be read on a line each."""
+    """Return the part of a value to be named next; None if each of its terms fits a line."""
     wide = [t for t in sp.Add.make_args(value) if not legible(t, vocabulary, room)]
     if not wide:
         return None
@@ -229,7 +229,7 @@ def _part(value: sp.Expr, room: float, vocabulary: Vocabulary) -> sp.Expr | None
 
 
 def _expanded(expression: sp.Expr) -> sp.Expr:
-    """A product of powers multiplied out, which sums in roots and quotients do not gain by."""
+    """Expand an expression, unless it contains functions, or sums in roots or denominators."""
     nested = any(not p.exp.is_Integer and p.base.is_Add for p in expression.atoms(sp.Pow))
     divided = any(p.exp.is_negative and p.base.is_Add for p in expression.atoms(sp.Pow))
     worse = nested or divided or expression.has(sp.Function, sp.Integral)
@@ -237,7 +237,7 @@ def _expanded(expression: sp.Expr) -> sp.Expr:
 
 
 def _signed_terms(expression: sp.Add, vocabulary: Vocabulary) -> list[str]:
-    """LaTeX of a sum's terms in printed order, each with its sign but the first's plus."""
+    """Return LaTeX of a sum's terms in printed order, each with its sign (no plus at first)."""
     text: list[str] = []
     for term in expression.as_ordered_terms():
         negative = term.could_extract_minus_sign()

@@ -1,4 +1,4 @@
-"""The look of a report's figures, and figures as the content of files."""
+"""Style of a report's figures, and their conversion to files."""
 
 import io
 from typing import Any
@@ -23,13 +23,13 @@ METADATA: dict[str, dict[str, Any]] = {
     ".pdf": {"CreationDate": None, "Producer": None},
     ".svg": {"Date": None, "Creator": None},
 }
-"""What is left out of a file, as it differs from run to run."""
+"""Metadata that are omitted from files because they differ from run to run."""
 
 
 def saved(figure: Figure, suffix: str) -> bytes:
-    """A figure as the content of a file, `.pdf` or `.svg`, the same bytes for the same drawing."""
+    """Return the content of a figure's file, `.pdf` or `.svg`; equal figures give equal bytes."""
     stream = io.BytesIO()
     with mpl.rc_context(STYLE):
         figure.savefig(stream, format=suffix[1:], transparent=True, metadata=METADATA[suffix])
-    figure.set_layout_engine("none")  # it is laid out, for every format that follows
+    figure.set_layout_engine("none")  # keep this layout for other formats
     return stream.getvalue()

@@ -1,4 +1,4 @@
-"""Formulas of the report as LaTeX to be pasted into another document."""
+"""LaTeX of formulas, to be pasted into another document."""
 
 from collections.abc import Iterator, Sequence
 
@@ -9,21 +9,21 @@ from derivation.engine.report.latex import prose
 from derivation.engine.report.references import References
 
 HEAD = r"""% Packages: \usepackage{amsmath,amssymb}
-% Sources: \bibliography{report}, with report.bib beside it
+% Sources: \bibliography{report}, with report.bib in the same folder
 """
 NEAR = 3
-"""Names suggested for one that is not known."""
+"""Largest number of names suggested for an unknown name."""
 
 
 def pasted(
     names: Sequence[str], links: Sequence[tuple[str, Sequence[Record]]], references: References
 ) -> str:
-    """LaTeX of formulas by their names, or of all of a link by its.
+    """Return LaTeX of the named formulas, and of all formulas of the named links.
 
     Raises
     ------
     ValueError
-        If there is neither formula nor link of a name.
+        If a name is neither a formula nor a link.
     """
     pieces = [piece for name in names for piece in _pieces(name, links, references)]
     return HEAD + "\n" + "\n".join(dict.fromkeys(pieces))
@@ -50,9 +50,10 @@ def _pieces(
 
 
 def fragment(link: str, formula: Record, references: References) -> str:
-    """A sentence, the formula as an equation with a label, and what it rests on.
+    """Return a formula as LaTeX: its meaning, an equation with a label, and a comment.
 
-    The lines fit a column of a paper in two columns, and no command of LaTeX is defined.
+    The comment states the formulas from which it follows, and the step that verified it. Lines fit
+    a column of a two-column paper, and the LaTeX needs no definitions of its own.
     """
     of = rf", equation~({formula.equation}) of~\cite{{paper}}" if formula.equation else ""
     sources = [key for key in references.cited(link) if key != "paper"]

@@ -1,4 +1,4 @@
-"""The hard cases as the report shows them: a table of groups, and one of cases for each."""
+"""The hard cases in the report: a table of groups, and a table of the cases of each group."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -7,13 +7,13 @@ from typing import Any
 from derivation.engine.report.latex import escape, prose
 
 SHOWN = 7
-"""Digits shown of a reference, of which the data hold more."""
+"""Number of digits of a reference that are shown; the data contain more."""
 
 _DECIMAL = re.compile(r"(-?)(\d*)\.?(\d*)(?:e([+-]?\d+))?$")
 
 
 def hard_context(data: Mapping[str, Any]) -> dict[str, Any]:
-    """Groups in the order in which they first come, each with its cases."""
+    """Return the context of the section: groups in order of appearance, with their cases."""
     groups: dict[str, list[Mapping[str, Any]]] = {}
     for case in data["cases"]:
         groups.setdefault(case["group"], []).append(case)
@@ -31,7 +31,7 @@ def hard_context(data: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def summary_row(name: str, cases: Sequence[Mapping[str, Any]]) -> str:
-    """Cells of a group: how many cases, the largest errors, and how many failed."""
+    """Return the cells of a group: number of cases, largest errors, number of failed cases."""
     printed = [float(case["printed"]) for case in cases if case["printed"] is not None]
     failed = sum(not case["kept"] for case in cases)
     cells = [prose(name), str(len(cases)), error(max(map(used, cases)))]
@@ -39,12 +39,12 @@ def summary_row(name: str, cases: Sequence[Mapping[str, Any]]) -> str:
 
 
 def used(case: Mapping[str, Any]) -> float:
-    """How much of what is allowed a case takes."""
+    """Return error over allowance of a case; without an allowance the error in ULP."""
     return float(case["error"]) / float(case["allowed"] or 1)
 
 
 def case_row(case: Mapping[str, Any]) -> str:
-    """Cells of a case: kernel and cause, reference, errors; below them its exact inputs."""
+    """Return the cells of a case: function, cause, reference, errors; then its exact inputs."""
     note = "" if case["kept"] else r" \textbf{Failed.}"
     kernel = rf"\texttt{{{escape(case['kernel'])}}}"
     cells = [f"{kernel}: {prose(case['cause'])}{note}", references(case["references"])]
@@ -54,7 +54,7 @@ def case_row(case: Mapping[str, Any]) -> str:
 
 
 def inputs(case: Mapping[str, Any]) -> str:
-    """Exact arguments and the form in which they come, to be broken between numbers."""
+    """Return the exact arguments and their form; lines may be broken between numbers."""
     forms = "" if case["form"] == "scalar" else f" ({case['form']})"
     modes = f", modes = {case['modes']}" if "modes" in case else ""
     given = [
@@ -65,12 +65,12 @@ def inputs(case: Mapping[str, Any]) -> str:
 
 
 def hexadecimal(text: str) -> str:
-    """A hexadecimal double without the zeros at its end."""
+    """Return a hexadecimal double without trailing zeros of the significand."""
     return re.sub(r"\.?0+p", "p", text)
 
 
 def references(stored: Sequence[Mapping[str, str]]) -> str:
-    """The first reference, and how many more there are."""
+    """Return the first reference value as LaTeX, and the number of further ones."""
     if not stored:
         return "none"
     more = rf", +\,{len(stored) - 1}" if len(stored) > 1 else ""
@@ -78,7 +78,7 @@ def references(stored: Sequence[Mapping[str, str]]) -> str:
 
 
 def reference(text: str) -> str:
-    """A decimal string cut to the digits shown."""
+    """Return a decimal number as LaTeX, truncated to the digits shown."""
     match = _DECIMAL.fullmatch(text)
     if match is None:
         return {"nan": "NaN", "inf": r"$\infty$", "-inf": r"$-\infty$"}[text]
@@ -94,7 +94,7 @@ def reference(text: str) -> str:
 
 
 def error(value: float | str) -> str:
-    """Two figures or three, large ones as powers of ten; 0 is exact."""
+    """Return an error as LaTeX: two decimals, or a power of ten; "0" means exactly zero."""
     number = float(value)
     if number == 0:
         return "0"

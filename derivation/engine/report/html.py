@@ -1,7 +1,7 @@
-"""The report as one HTML file that needs nothing beside it: formulas as MathML, figures as SVG.
+"""The report as one self-contained HTML file, with formulas as MathML and figures as SVG.
 
-Pandoc reads the same LaTeX that becomes the PDF. `page.tex` says what the report's own commands
-mean there, `page.lua` adds numbers and references and refuses what pandoc does not know.
+Pandoc converts the same LaTeX from which the PDF is made. `page.tex` defines the report's own
+commands for pandoc; `page.lua` adds numbers and references, and rejects unknown commands.
 """
 
 import re
@@ -21,26 +21,26 @@ _PLACE = re.compile(r'<embed\s+src="figures/([\w-]+)\.pdf"([^>]*?)\s*/>')
 
 
 class HtmlError(ValueError):
-    """The report's LaTeX holds something that has no counterpart in HTML."""
+    """The report cannot be converted to HTML; the message states the reason."""
 
 
 def page(text: Text, title: str, figures: Mapping[str, bytes]) -> str:
-    """The report as HTML.
+    """Return the report as HTML.
 
     Parameters
     ----------
     text
-        The report's LaTeX, which this reads.
+        The report's LaTeX.
     title
-        Title of the window.
+        Title of the browser window.
     figures
         Figures as SVG files by name.
 
     Raises
     ------
     HtmlError
-        If the LaTeX holds a command or a formula that has no counterpart in HTML, or a figure
-        that is not given.
+        If the LaTeX contains a command or a formula that cannot be converted, if a figure is not
+        given, or if pandoc is not installed.
     """
     meanings = (TEMPLATES / "page.tex").read_text(encoding="utf-8")
     parts = (meanings, text.front, *text.sections, text.references)
@@ -78,7 +78,7 @@ def _converted(latex: str, title: str) -> str:
 
 
 def _pandoc() -> str:
-    """The program that comes with the Python package, whichever else is installed."""
+    """Return the path of the pandoc program in the Python package `pypandoc_binary`."""
     package = find_spec("pypandoc")
     folder = Path(package.origin or "").parent / "files" if package else Path()
     found = shutil.which("pandoc", path=folder)
@@ -88,7 +88,7 @@ def _pandoc() -> str:
 
 
 def drawing(name: str, content: bytes, attributes: str = "") -> str:
-    """A figure's SVG element with more attributes, its ids its own."""
+    """Return a figure's SVG element with the given attributes; its ids begin with its name."""
     text = _METADATA.sub("", _PROLOG.sub(b"", content, count=1).decode())
     text = text.replace("xlink:href", "href").replace("<svg ", f"<svg {attributes}", 1)
     return _OWN.sub(rf"\g<1>{name}-", text)

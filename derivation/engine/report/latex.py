@@ -1,4 +1,4 @@
-"""Jinja2 for LaTeX: its delimiters, and filters that escape text and set mathematics in it."""
+"""Jinja2 for LaTeX: delimiters, and filters that escape text and keep its mathematics."""
 
 import re
 from pathlib import Path
@@ -26,7 +26,7 @@ SPECIAL = {
 
 
 def escape(text: object) -> str:
-    """Plain text as LaTeX."""
+    """Return plain text as LaTeX, with special characters escaped."""
     return "".join(SPECIAL.get(character, character) for character in str(text))
 
 
@@ -34,9 +34,9 @@ _NUMBER = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?)e([+-]?\d+)(?![\w.]*\w)")
 
 
 def prose(text: object) -> str:
-    """A sentence as LaTeX: mathematics where it stands between dollars, all else as it is.
+    """Return a sentence as LaTeX: text between dollars is mathematics, other text is escaped.
 
-    A number like 2.5e+20 is set as a power of ten.
+    A number like 2.5e+20 is typeset as a power of ten.
     """
     return mixed(str(text), lambda words: _NUMBER.sub(_power, escape(words)), "${}$".format)
 
@@ -48,24 +48,25 @@ def _power(match: re.Match[str]) -> str:
 
 
 def unit(text: str) -> str:
-    """A unit as LaTeX: m^2 raised."""
+    """Return a unit as LaTeX, with powers as superscripts."""
     return re.sub(r"\^(?:\(([^)]*)\)|(-?\d+(?:/\d+)?))", lambda m: f"$^{{{m[1] or m[2]}}}$", text)
 
 
 def code(text: object) -> str:
-    """A name or a command in typewriter, as it is typed."""
+    """Return a name or a command as LaTeX in typewriter type."""
     return rf"\texttt{{{escape(text).replace('--', '-{}-')}}}"
 
 
 def columns(spec: str) -> str:
-    """A table's columns in LaTeX's own letters; `P{0.3}` is text in a share of the line."""
+    """Return a table's column specification; `P{0.3}` is a paragraph of 0.3 line widths."""
     return re.sub(r"P\{([\d.]+)\}", r">{\\ragged}p{\1\\linewidth}", spec)
 
 
 def environment(*folders: Path) -> jinja2.Environment:
-    """Jinja2 with delimiters that LaTeX leaves alone; what is not defined is an error.
+    """Return a Jinja2 environment with delimiters that LaTeX does not use.
 
-    Templates are looked for in the folders, then among those of every report.
+    An undefined variable is an error. Templates are searched in the given folders, then among the
+    templates of the engine.
     """
     made = jinja2.Environment(
         loader=jinja2.FileSystemLoader([*folders, TEMPLATES]),

@@ -1,8 +1,8 @@
-"""Numbers as LaTeX: two decimals or three significant figures, or a power of ten."""
+"""Numbers as LaTeX: with two decimals, with three significant digits, or as powers of ten."""
 
 
 def number(value: float | str) -> str:
-    """Two or three significant figures, large ones as powers of ten."""
+    """Return a number with two decimals, or as a power of ten; text stands for infinity."""
     if isinstance(value, str):
         return r"$\infty$"
     if 0 < abs(value) < 1e-2 or abs(value) >= 1e4:
@@ -12,7 +12,7 @@ def number(value: float | str) -> str:
 
 
 def rounded(value: float) -> str:
-    """Three significant figures, small and large numbers as powers of ten."""
+    """Return a number with three significant digits; small and large ones as powers of ten."""
     if 1e-2 <= abs(value) < 1e4:
         return f"${value:.3g}$"
     mantissa, _, exponent = f"{value:.1e}".partition("e")

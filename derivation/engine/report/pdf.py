@@ -1,4 +1,4 @@
-"""A .tex file -> its PDF, the same bytes for the same text, without leftovers beside it."""
+"""Compilation of LaTeX files by pdflatex; equal texts give equal bytes."""
 
 import os
 import shutil
@@ -11,22 +11,21 @@ from pathlib import Path
 from derivation.engine.files import write_file
 
 PASSES = 4
-"""Most runs until what LaTeX notes for the next one no longer changes."""
+"""Largest number of runs of LaTeX until its auxiliary files no longer change."""
 PACKAGES = "texlive-latex-base texlive-latex-recommended lmodern"
 
 
 class TexError(OSError):
-    """There is no PDF; the message says why and how to get one."""
+    """The PDF cannot be made; the message states the reason, and a remedy if LaTeX is missing."""
 
 
 def compile_pdf(source: Path) -> Path:
-    """Compile a LaTeX file with pdflatex; returns the PDF beside it.
+    """Compile a LaTeX file with pdflatex; return the path of the PDF, in the same folder.
 
     Raises
     ------
     TexError
-        If there is no pdflatex, or it refuses the text: the message quotes its
-        first error.
+        If pdflatex is not installed or fails; the message quotes its first error.
     """
     target = source.with_suffix(".pdf")
     write_file(target, typeset(source)[0])
@@ -34,25 +33,24 @@ def compile_pdf(source: Path) -> Path:
 
 
 def compile_all(files: Iterable[Path]) -> tuple[Path, ...]:
-    """Compile the LaTeX files among some, side by side; returns the PDFs.
+    """Compile those files that end in .tex, in parallel; return the paths of the PDFs.
 
     Raises
     ------
     TexError
-        If there is no pdflatex, or it refuses a text.
+        If pdflatex is not installed or fails.
     """
     with ThreadPoolExecutor() as pool:  # LaTeX is another process
         return tuple(pool.map(compile_pdf, (path for path in files if path.suffix == ".tex")))
 
 
 def typeset(source: Path) -> tuple[bytes, str]:
-    """The PDF of a LaTeX file and the log of the last run.
+    """Return the PDF of a LaTeX file, and the log of the last run.
 
     Raises
     ------
     TexError
-        If there is no pdflatex, or it refuses the text: the message quotes its
-        first error.
+        If pdflatex is not installed or fails; the message quotes its first error.
     """
     engine = shutil.which("pdflatex")
     if engine is None:
@@ -66,12 +64,12 @@ def typeset(source: Path) -> tuple[bytes, str]:
             f"-output-directory={folder}",
         ]
         environment = {**os.environ, "SOURCE_DATE_EPOCH": "0", "FORCE_SOURCE_DATE": "1"}
-        environment["TEXINPUTS"] = f"{source.parent.resolve()}:"  # where the figures are
-        environment["max_print_line"] = "1000"  # or the log breaks its lines
+        environment["TEXINPUTS"] = f"{source.parent.resolve()}:"  # the folder of the figures
+        environment["max_print_line"] = "1000"  # otherwise the log breaks lines
         made = Path(folder) / source.name
         noted: list[bytes] = []
         for count in range(PASSES):
-            draft = [] if count else ["-draftmode"]  # the first run is for its notes alone
+            draft = [] if count else ["-draftmode"]  # the first run only writes auxiliary files
             run = subprocess.run(
                 [*command, *draft, source.resolve()],
                 env=environment,
@@ -90,13 +88,13 @@ def typeset(source: Path) -> tuple[bytes, str]:
 
 
 def _notes(made: Path) -> list[bytes]:
-    """What a run noted for the next one."""
+    """Return the content of the auxiliary files that a run leaves for the next one."""
     notes = (made.with_suffix(suffix) for suffix in (".aux", ".toc", ".out"))
     return [path.read_bytes() for path in notes if path.is_file()]
 
 
 def first_error(log: str) -> str:
-    """The first error in LaTeX's log with the lines that explain it."""
+    """Return the first error in LaTeX's log with the lines after it, or the last lines."""
     lines = log.splitlines()
     start = next(
         (i for i, line in enumerate(lines) if line.startswith("!")), max(0, len(lines) - 5)

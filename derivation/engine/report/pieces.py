@@ -1,4 +1,4 @@
-"""Formulas, findings and measurements of any paper -> what the report's templates show."""
+"""Contexts of the report's templates, from formulas, findings and measurements of any paper."""
 
 import re
 from collections import Counter
@@ -22,21 +22,21 @@ COLUMNS = (
     "mean square, error budget, and the largest error relative to what is allowed, which is the "
     "budget plus half the sum of the condition numbers."
 )
-"""What stands in the columns of a table of errors."""
+"""Description of the columns of a table of errors."""
 
 
 @dataclass(frozen=True)
 class Prose:
-    """What a report says of its links beyond their formulas.
+    """Text about the links of a derivation.
 
     Parameters
     ----------
     about
-        A few sentences by the link's name.
+        A few sentences for each link, by its name.
     references
         The sources.
     factor
-        Name of a formula by which it is called in others, if there is one.
+        Name of a formula that is shown by its name in other formulas; empty if there is none.
     """
 
     about: Mapping[str, str] = field(default_factory=dict)
@@ -45,7 +45,7 @@ class Prose:
 
 
 def chain_context(links: Sequence[tuple[str, Sequence[Record]]]) -> dict[str, Any]:
-    """The chain at a glance: what each link is built on, how much it holds."""
+    """Return the summary of the derivation: each link, the links it uses, number of formulas."""
     home = {f.name: place for place, (_, found) in enumerate(links, 1) for f in found}
     rows = []
     for place, (name, found) in enumerate(links, start=1):
@@ -70,7 +70,7 @@ def _equation_order(text: str) -> tuple[int, str]:
 def derivation_context(
     links: Sequence[tuple[str, Sequence[Record]]], said: Prose
 ) -> dict[str, Any]:
-    """The chain at a glance, and link by link."""
+    """Return the summary of the derivation, and the context of each link."""
     formulas = {f.name: f for _, found in links for f in found}
     return {
         "chain": chain_context(links),
@@ -79,7 +79,7 @@ def derivation_context(
 
 
 def symbols_context(vocabulary: Vocabulary) -> dict[str, Any]:
-    """Every symbol with meaning and unit, in the order of the vocabulary, two in a row."""
+    """Return the table of symbols with meaning and unit, two symbols in a row."""
     cells = [
         f"${symbol.latex}$ & {spoken(symbol.meaning, vocabulary)} & {unit(symbol.unit)}"
         for symbol in vocabulary.arguments
@@ -92,7 +92,7 @@ def symbols_context(vocabulary: Vocabulary) -> dict[str, Any]:
 def link_context(
     name: str, formulas: Sequence[Record], shown: Mapping[str, Record], said: Prose
 ) -> dict[str, Any]:
-    """A link of the chain: its formulas, which refer to those shown, and each proof once."""
+    """Return a link's context: its formulas, with references to `shown`, and each proof once."""
     proofs = {formula.proof.step: formula.proof for formula in formulas}
     return {
         "title": name[0].upper() + name[1:],
@@ -114,9 +114,9 @@ def link_context(
 def formula_context(
     formula: Record, known: Mapping[str, Record] | None = None, named: str = ""
 ) -> dict[str, Any]:
-    """A formula as the template shows it, with the numbers of those known that it comes from.
+    """Return the context of a formula, with the formulas from which it follows.
 
-    The formula named, if any, is called by its name in the others.
+    Those in `known` are cited with their equation number. The formula `named` is shown by its name.
     """
     known = known or {}
     whole, factor = right_side(formula), known.get(named)
@@ -136,13 +136,13 @@ def formula_context(
 
 
 def reference(name: str, known: Collection[str]) -> str:
-    """A formula's name, with the number of its equation if it is known."""
+    """Return a formula's name as LaTeX, with a reference to its equation if it is known."""
     place = rf"~(\ref{{eq:{name}}})" if name in known else ""
     return rf"\texttt{{{escape(name)}}}{place}"
 
 
 def misprints_context(findings: Sequence[Finding]) -> dict[str, Any]:
-    """Every comparison of a published formula with the derived one."""
+    """Return the comparisons of published formulas with derived ones, and number of misprints."""
     return {
         "findings": [finding_context(finding) for finding in findings],
         "wrong": sum(finding.is_misprint for finding in findings),
@@ -150,7 +150,7 @@ def misprints_context(findings: Sequence[Finding]) -> dict[str, Any]:
 
 
 def finding_context(finding: Finding) -> dict[str, Any]:
-    """A comparison as the template shows it."""
+    """Return the context of a comparison."""
     printed, diagnosis = finding.printed, finding.diagnosis
     formula = finding.formula
     return {
@@ -171,7 +171,7 @@ def finding_context(finding: Finding) -> dict[str, Any]:
 
 
 def as_printed(left: str, right: str) -> str:
-    """A printed equation, in the lines the paper gives it."""
+    """Return a published equation as LaTeX, with the line breaks of the paper."""
     right = right.rstrip(". ")
     if "&" in right:
         return rf"\begin{{aligned}} {left} ={{}}& {right} \end{{aligned}}"
@@ -179,7 +179,7 @@ def as_printed(left: str, right: str) -> str:
 
 
 def accuracy_tables(check: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
-    """The generated functions, and for contrast the formulas as published."""
+    """Yield the tables of errors: generated functions, then the formulas as published."""
     stated_limits = [row for row in check["rows"] if row["passed"] is not None]
     printed = [row for row in check["rows"] if row["passed"] is None]
     for subject, rows in (
@@ -190,7 +190,7 @@ def accuracy_tables(check: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
 
 
 def accuracy_row(row: Mapping[str, Any]) -> str:
-    """Cells of one row; a result that is not a number counts as infinitely wrong."""
+    """Return the cells of a function; the error of a result that is not finite is infinite."""
     errors = row["double"]
     cells = [
         rf"\texttt{{{escape(row['kernel'])}}}",
@@ -205,7 +205,7 @@ def accuracy_row(row: Mapping[str, Any]) -> str:
 
 
 def rewrite_rows(row: Mapping[str, Any]) -> Iterator[str]:
-    """Cells of a formula's rules: what the form is without and with each."""
+    """Yield the cells of each rule of a formula: operations and error without and with it."""
     for index, applied in enumerate(row["applied"]):
         name = rf"\texttt{{{escape(row['name'])}}}" if index == 0 else ""
         (fewer, more), (without, within) = applied["operations"], applied["worst"]

@@ -1,4 +1,4 @@
-"""What a paper builds on: a table of sources -> the report's references, a .bib file."""
+"""The sources of a paper: a table in a TOML file, as references of the report and .bib file."""
 
 import tomllib
 from collections.abc import Iterator, Mapping
@@ -13,7 +13,7 @@ Entry = Mapping[str, str]
 
 @dataclass(frozen=True)
 class References:
-    """The sources of a paper, in a TOML file; none without one."""
+    """The sources of a paper, read from a TOML file; without a file there are none."""
 
     table: Path | None = None
 
@@ -24,27 +24,27 @@ class References:
 
     @property
     def entries(self) -> dict[str, Entry]:
-        """Sources by key, in alphabetical order; `links` left to `cited`."""
+        """Sources by key, in alphabetical order, without the entry `links` (see `cited`)."""
         return {
             key: {name: text for name, text in entry.items() if name != "links"}
             for key, entry in self._rows.items()
         }
 
     def cited(self, link: str) -> list[str]:
-        """Keys of the sources that a link of the chain rests on."""
+        """Return the keys of the sources that a link of the derivation uses."""
         return [key for key, entry in self._rows.items() if link in entry.get("links", ())]
 
     def bib(self) -> str:
-        """The sources as a BibTeX file."""
+        """Return the sources as the text of a BibTeX file."""
         return "\n".join(bib_entry(key, entry) for key, entry in self.entries.items())
 
     def items(self) -> list[dict[str, str]]:
-        """Key and LaTeX of every source, as the report lists them."""
+        """Return key and LaTeX of every source, as the report lists them."""
         return [{"key": key, "text": item(entry)} for key, entry in self.entries.items()]
 
 
 def bib_entry(key: str, entry: Entry) -> str:
-    """One entry; the title's capitals are kept."""
+    """Return a BibTeX entry; braces keep the capitals of the title."""
     fields = [
         f"  {name} = {{{{{text}}}}}," if name == "title" else f"  {name} = {{{text}}},"
         for name, text in entry.items()
@@ -54,7 +54,7 @@ def bib_entry(key: str, entry: Entry) -> str:
 
 
 def item(entry: Entry) -> str:
-    """A source in a line."""
+    """Return a source as LaTeX in one line."""
     return ", ".join(_parts(entry)) + "."
 
 
@@ -78,7 +78,7 @@ def _parts(entry: Entry) -> Iterator[str]:
 
 
 def names(authors: str) -> str:
-    """`Last, First and ...` as `F. Last, ...`; a name in braces is left whole."""
+    """Return `Last, First and ...` as `F. Last, ...`; a name in braces is not changed."""
     people = authors.split(" and ")
     found = [_name(person) for person in people if person != "others"]
     return ", ".join(found) + (" and others" if "others" in people else "")

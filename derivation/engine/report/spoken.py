@@ -1,4 +1,4 @@
-"""Sentences with formulas typed as code among the words -> LaTeX with the formulas typeset."""
+"""Sentences that contain formulas as code, converted to LaTeX with typeset formulas."""
 
 import re
 from collections.abc import Iterator
@@ -10,18 +10,19 @@ from derivation.engine.report.latex import prose, unit
 
 _SIGNS = ("+", "-")
 SYMBOL = re.compile(r"(?<!\w)([A-Za-z]\w*)(?:\^(\d+|\([\d/]+\)))?")
-"""A word, and the power that it is raised to."""
+"""A word, and its power if there is one."""
 
 
 def spoken(text: str, vocabulary: Vocabulary) -> str:
-    """A sentence as LaTeX; code that reads as a formula is set as one, and units as units."""
+    """Return a sentence as LaTeX; code that can be parsed is typeset as a formula, like units."""
     return " ".join(_piece(piece, vocabulary) for piece in pieces(text))
 
 
 def pieces(text: str) -> Iterator[str]:
-    """Words, and code in pieces of its own: it holds a star, and goes on while a bracket is open.
+    """Yield pieces of a sentence: words, or code.
 
-    A sum of such pieces is one.
+    Code is a word that contains a star, followed by the words up to the closing bracket. A sum of
+    such parts is one piece.
     """
     words, place, said = text.split(" "), 0, list[str]()
     while place < len(words):
@@ -39,12 +40,12 @@ def pieces(text: str) -> Iterator[str]:
 
 
 def _begins(word: str) -> bool:
-    """Whether a word may be a term of a sum in code."""
+    """Return whether a word may be a term of a sum in code."""
     return "*" in word or "(" in word
 
 
 def _end(words: list[str], place: int) -> int:
-    """Where the term of code that begins at a word ends."""
+    """Return the position after the term of code that begins at a word."""
     end = place + 1
     while end < len(words) and _open(words[place:end]):
         end += 1
@@ -57,7 +58,7 @@ def _open(words: list[str]) -> bool:
 
 
 def _piece(text: str, vocabulary: Vocabulary) -> str:
-    """Code as a formula if it can be read, and with the comma or point behind it."""
+    """Return a piece as LaTeX; code that can be parsed becomes a formula, with punctuation."""
     match = re.fullmatch(r"(?P<code>.*\*.*?)(?P<end>[.,:;]?)", text, re.DOTALL)
     if match is not None:
         try:
@@ -71,7 +72,7 @@ def _piece(text: str, vocabulary: Vocabulary) -> str:
 
 
 def _named(text: str, vocabulary: Vocabulary) -> str:
-    """Words with symbols in dollars: Greek letters by their name, letters with index or power."""
+    """Return words with symbols as formulas: Greek names, and letters with index or power."""
 
     def symbol(match: re.Match[str]) -> str:
         name, power = match[1], (match[2] or "").strip("()")

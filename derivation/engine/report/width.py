@@ -1,10 +1,10 @@
-"""How wide a displayed formula is once typeset, in points of TeX's fonts at ten points."""
+"""Estimated width of a displayed formula, in points, typeset by TeX at ten points."""
 
 import re
 
 TOKEN = re.compile(r"\\[A-Za-z]+|\\.|[{}^_&]|\S")
 SMALLER = {1.0: 0.8, 0.8: 0.68, 0.68: 0.68}
-"""Size of scripts, and of what stands in fractions within fractions, by what is around it."""
+"""Relative size of scripts and of nested fractions, by the size around them."""
 GLYPHS = {
     2.8: ". ! ' [ ] | \\cdot \\prime \\vert \\lvert \\rvert",
     3.9: "j i l t ( ) \\iota \\delta \\ell",
@@ -15,7 +15,7 @@ GLYPHS = {
     8.2: "m A B C D E F G O P Q R U V Y \\Delta",
     9.5: "H K M N W X \\infty \\ldots \\mathcal",
 }
-"""Widths of letters and signs; any other one, such as a digit, is OTHER wide."""
+"""Letters and signs by their width [pt]; any other one, such as a digit, has the width `OTHER`."""
 WIDTH = {glyph: width for width, glyphs in GLYPHS.items() for glyph in glyphs.split()}
 OTHER, ROMAN = 5.0, 4.7
 BIG = {r"\sum": 14.5, r"\int": 10.0}
@@ -28,19 +28,19 @@ ROOT, TALL_ROOT, TALL_BRACKET = 8.4, 10.0, 6.6
 
 
 def typeset_width(latex: str) -> float:
-    """Width of a displayed formula [pt]."""
+    """Return the estimated width of a displayed formula [pt]."""
     return _Measure(latex).group(1.0, 0)
 
 
 class _Measure:
-    """A reader of LaTeX that goes through it once."""
+    """Sum of widths in one pass over the tokens of a formula."""
 
     def __init__(self, latex: str) -> None:
         self.tokens = TOKEN.findall(latex)
         self.at = 0
 
     def group(self, size: float, depth: int) -> float:
-        """Width up to the end, or to the brace or the bracket that closes."""
+        """Return the width up to the end, or to the closing brace or bracket."""
         total, before = 0.0, "="
         while self.at < len(self.tokens):
             token = self.tokens[self.at]
@@ -54,7 +54,7 @@ class _Measure:
         return total
 
     def one(self, size: float, depth: int, before: str) -> float:
-        """Width of the next thing: a token, a group, a script, a fraction or a bracket."""
+        """Return the width of the next token, group, script, fraction or bracket."""
         token = self.tokens[self.at]
         self.at += 1
         if token == "{":
@@ -76,7 +76,7 @@ class _Measure:
         return self.glyph(token, size, before)
 
     def glyph(self, token: str, size: float, before: str) -> float:
-        """Width of a letter or a sign with the space around it."""
+        """Return the width of a letter or a sign with the space around it."""
         if token in OPERATORS:
             alone = before in OPERATORS or before in RELATIONS or before in ("(", r"\left", ",")
             return size * (SIGN if alone or size < 1 else OPERATORS[token])
@@ -89,7 +89,7 @@ class _Measure:
         return size * SPACES.get(token, WIDTH.get(token, OTHER))
 
     def bracket(self, size: float, depth: int) -> float:
-        """Width from a bracket to the one that closes it, which grow with what is between."""
+        """Return the width of a pair of brackets, which grow with their content, and content."""
         start = self.at
         self.at += 1
         inside = self.group(size, depth)
@@ -98,11 +98,11 @@ class _Measure:
         return inside + 2 * (TALL_BRACKET if tall else size * WIDTH["("]) + THIN
 
     def tall(self, start: int) -> bool:
-        """Whether something tall was read since a place."""
+        """Return whether a fraction, sum or integral was read since a position."""
         return not {r"\frac", r"\sum", r"\int"}.isdisjoint(self.tokens[start : self.at])
 
     def big(self, own: float, size: float, depth: int) -> float:
-        """Width of a sign of a sum or an integral, whose limits stand above and below it."""
+        """Return the width of a sum or integral sign with its limits."""
         limits = own == BIG[r"\sum"]
         if self.at < len(self.tokens) and self.tokens[self.at] == r"\limits":
             limits, self.at = True, self.at + 1
@@ -113,7 +113,7 @@ class _Measure:
         return (max(own, scripts) if limits else own + scripts) + 2 * THIN
 
     def script(self, size: float, depth: int) -> float:
-        """Width of a sub- or superscript; the second of two stands above the first."""
+        """Return the width of a sub- or superscript; a second one has the same position."""
         width = self.one(size, depth + 1, "=")
         if self.at < len(self.tokens) and self.tokens[self.at] in ("^", "_"):
             self.at += 1

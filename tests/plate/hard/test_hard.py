@@ -130,9 +130,9 @@ def test_causes_are_sentences_and_inputs_are_exact(cases: tuple[HardCase, ...]) 
 # --- what is true
 
 
-def test_references_have_40_digits(truth: dict[str, Known]) -> None:
+def test_references_have_40_digits(references: dict[str, Known]) -> None:
     with flint.ctx.workprec(400):
-        for key, known in truth.items():
+        for key, known in references.items():
             for row in known.references:
                 if row["value"] in ("nan", "inf", "-inf", "0"):
                     continue
@@ -149,7 +149,7 @@ def test_file_repeats_the_definitions(cases: tuple[HardCase, ...], data: dict[st
         assert {name: tuple(texts) for name, texts in row["inputs"].items()} == case.inputs
 
 
-def test_references_repeat(suite: Suite, truth: dict[str, Known]) -> None:
+def test_references_repeat(suite: Suite, references: dict[str, Known]) -> None:
     generator = random.Random(7)
     values = [c for c in suite.cases if c.expect == "value" and 0 < len(c.points) < 6]
     closed = [case for case in values if case.kernel not in LAWS]
@@ -159,7 +159,7 @@ def test_references_repeat(suite: Suite, truth: dict[str, Known]) -> None:
     switches = [next(c for c in values if c.kernel == kernel) for kernel in quick]
     for case in (*generator.sample(closed, 24), *generator.sample(laws, 3), *switches):
         fresh = suite.references(case)
-        for old, new in zip(truth[case.key].references, fresh, strict=True):
+        for old, new in zip(references[case.key].references, fresh, strict=True):
             if new["value"] in ("nan", "inf", "-inf"):
                 assert old == new
                 continue
@@ -167,7 +167,7 @@ def test_references_repeat(suite: Suite, truth: dict[str, Known]) -> None:
                 assert restored(old).value.overlaps(restored(new).value), case.key
 
 
-def test_the_second_oracle_agrees(suite: Suite, truth: dict[str, Known]) -> None:
+def test_the_second_oracle_agrees(suite: Suite, references: dict[str, Known]) -> None:
     generator = random.Random(3)
     moderate = {"systems of units", "shapes and types", "contacts beyond 3 h"}
     values = [c for c in suite.cases if c.expect == "value" and not c.shape]
@@ -176,7 +176,7 @@ def test_the_second_oracle_agrees(suite: Suite, truth: dict[str, Known]) -> None
     laws = [case for case in sizes if case.kernel in ("indentation", "stiffness")]
     closed = [case for case in sizes if case.kernel in ("K_j", "C_top", "G", "mode_f")]
     for case in (*generator.sample(laws, 3), *generator.sample(closed, 3)):
-        (row,), (point,) = truth[case.key].references, case.points
+        (row,), (point,) = references[case.key].references, case.points
         arguments = [point[name] for name in suite.kernels[case.kernel].arguments]
         if case in laws:
             (value,) = agree(case.kernel, arguments, 24).values
@@ -187,11 +187,11 @@ def test_the_second_oracle_agrees(suite: Suite, truth: dict[str, Known]) -> None
 
 
 def test_references_follow_from_the_expressions_as_they_are(
-    suite: Suite, truth: dict[str, Known]
+    suite: Suite, references: dict[str, Known]
 ) -> None:
     """Those of closed formulas; what balls come to does not change with their oracle's text."""
     closed = {case.kernel: case for case in suite.cases if case.kernel not in LAWS}
-    assert {name: truth[case.key].origin for name, case in closed.items()} == {
+    assert {name: references[case.key].origin for name, case in closed.items()} == {
         name: suite.origin(name) for name in closed
     }
 

@@ -23,21 +23,21 @@ from derivation.plate.paper import PAPER
 
 
 def checked(
-    suite: Suite, chosen: Iterable[HardCase], truth: dict[str, Known]
+    suite: Suite, chosen: Iterable[HardCase], references: dict[str, Known]
 ) -> tuple[hard.HardRow, ...]:
     """What becomes of some of the cases."""
-    return hard.check(dataclasses.replace(suite, cases=tuple(chosen)), truth)
+    return hard.check(dataclasses.replace(suite, cases=tuple(chosen)), references)
 
 
-def test_generated_code_keeps_every_case(suite: Suite, truth: dict[str, Known]) -> None:
-    rows = hard.check(suite, truth)
+def test_generated_code_keeps_every_case(suite: Suite, references: dict[str, Known]) -> None:
+    rows = hard.check(suite, references)
     failed = [f"{row.case.key}: {row.problem}" for row in rows if not row.kept]
     assert not failed, "\n".join(failed)
 
 
-def test_printed_forms_stand_beside(suite: Suite, truth: dict[str, Known]) -> None:
+def test_printed_forms_stand_beside(suite: Suite, references: dict[str, Known]) -> None:
     values = [case for case in suite.cases if case.expect == "value" and case.form != "empty"]
-    rows = checked(suite, (case for case in values if case.kernel in ("K_j", "G")), truth)
+    rows = checked(suite, (case for case in values if case.kernel in ("K_j", "G")), references)
     assert all((row.printed is None) == (row.case.kernel == "G") for row in rows)
     assert max(row.printed for row in rows if row.printed is not None) > 1e12
 
@@ -59,25 +59,25 @@ def test_a_tampered_constant_is_noticed(
     name: str,
     kernels: set[str],
     suite: Suite,
-    truth: dict[str, Known],
+    references: dict[str, Known],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     place = importlib.import_module(f"generated.{module}")
     chosen = [case for case in suite.cases if case.kernel in kernels]
     with monkeypatch.context() as patched:
         patched.setattr(place, name, getattr(place, name) * 0.99)
-        spoilt = checked(suite, chosen, truth)
-    sound = checked(suite, chosen, truth)
+        spoilt = checked(suite, chosen, references)
+    sound = checked(suite, chosen, references)
     assert sum(row.kept for row in spoilt) < sum(row.kept for row in sound)
 
 
-def test_every_kind_of_damage_is_noticed(suite: Suite, truth: dict[str, Known]) -> None:
+def test_every_kind_of_damage_is_noticed(suite: Suite, references: dict[str, Known]) -> None:
     whole, cases = suite.kernels["G"], [case for case in suite.cases if case.kernel == "G"]
     right = whole.call
 
     def one(call: Any, case: HardCase) -> hard.HardRow:
         kernels = {"G": dataclasses.replace(whole, call=call)}
-        (row,) = checked(dataclasses.replace(suite, kernels=kernels), [case], truth)
+        (row,) = checked(dataclasses.replace(suite, kernels=kernels), [case], references)
         return row
 
     (case,) = (c for c in cases if c.form == "strided")

@@ -25,12 +25,14 @@ from derivation.plate.waves.cases import places as hard_wave_places
 from generated.impact import history
 
 
-def test_the_second_oracle_agrees(cases: tuple[HardCase, ...], truth: dict[str, Known]) -> None:
+def test_the_second_oracle_agrees(
+    cases: tuple[HardCase, ...], references: dict[str, Known]
+) -> None:
     """At the first point of a case; nothing of it is in units."""
 
     def first(kernel: str) -> tuple[dict[str, float], flint.arb]:
         case = next(c for c in cases if c.kernel == kernel)
-        return case.points[0], restored(truth[case.key].references[0]).value
+        return case.points[0], restored(references[case.key].references[0]).value
 
     with mp.workdps(40), flint.ctx.workprec(200):
         p, value = first("clamped_edge")
@@ -56,7 +58,7 @@ def test_the_second_oracle_agrees(cases: tuple[HardCase, ...], truth: dict[str, 
         assert abs(value / as_ball(force) - 1) < 1e-19
 
 
-def test_who_states_an_error_is_held_to_it(suite: Suite, truth: dict[str, Known]) -> None:
+def test_who_states_an_error_is_held_to_it(suite: Suite, references: dict[str, Known]) -> None:
     known = suite.kernels["leading"]
     assert isinstance(known, Stating)
     case = next(c for c in suite.cases if c.kernel == "leading")
@@ -66,7 +68,7 @@ def test_who_states_an_error_is_held_to_it(suite: Suite, truth: dict[str, Known]
             known, stated=lambda *x: tuple(share * error for error in known.stated(*x))
         )
         one = dataclasses.replace(suite, cases=(case,), kernels={"leading": less})
-        (row,) = hard.check(one, truth)
+        (row,) = hard.check(one, references)
         return row
 
     assert with_stated(1.0).kept
@@ -90,14 +92,14 @@ def test_rounding_of_a_state_is_what_the_arguments_change() -> None:
 
 
 def test_stress_below_a_clamped_edge_is_what_is_recorded_with_fewer_digits(
-    cases: tuple[HardCase, ...], truth: dict[str, Known]
+    cases: tuple[HardCase, ...], references: dict[str, Known]
 ) -> None:
     """And another than on the paper's edge."""
     for kernel in ("clamped_far_stress", "far_stress"):
         case = next(case for case in cases if case.kernel == "clamped_far_stress")
         [given] = [tuple(case.points[0].values())]
         [found] = LAWS[kernel].values(given, 10)
-        known = restored(truth[case.key].references[0]).value
+        known = restored(references[case.key].references[0]).value
         assert (abs(float(found / known) - 1) < 1e-9) is (kernel == case.kernel)
 
 

@@ -62,8 +62,8 @@ def diagnose(
     name
         Name of the derived formula, for example ``K_j``.
     text
-        Your formula; it is parsed, not executed.
-        For a sum over modes, give one term or ``Sum(..., (j, 1, oo))``.
+        Your formula; it is parsed, not executed. For a sum over modes, give one term or
+        ``Sum(..., (j, 1, oo))``.
     latex
         Whether `text` is LaTeX instead of SymPy syntax.
     at

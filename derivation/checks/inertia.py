@@ -89,7 +89,7 @@ def placed(data: Scene, place: float) -> tuple[Scene, float]:
     model = model_of(read(data))
     still = quasi_static(model)
     assert still is not None  # such scenes are skipped
-    others = dict.fromkeys(present(model) - {"inertia", "hertz"}, True)
+    others = dict.fromkeys(present(model) - {"inertia", "damping", "hertz"}, True)
     price = decide(model, others | {"inertia": "auto"}, ANY).error
     radiated = max(
         map(float, higher_branch_error(model, still.max_contact_radius, still.contact_time))
@@ -118,12 +118,15 @@ def solve(number: int, data: Scene, place: float) -> InertiaRow | str:
         used = dynamic_impact(selected, rtol) if known else None
         model = bending(selected.law.model)
         modes = _modes(used or _moving(model, rtol))
-        many = replace(model, inertia=InertiaSettings(modes=2 * modes, branches="all"))
+        branches = "A0" if model.retardation_time else "all"
+        many = replace(model, inertia=InertiaSettings(modes=2 * modes, branches=branches))
         if oscillators_of(many) > OSCILLATORS:
             return f"reference: more than {OSCILLATORS} modes"
         reference = _moving(many, rtol)
     except SceneError as refused:
         return str(refused).partition(":")[0]
+    if not reference.inertia.complete:
+        return "reference: incomplete"
     still = quasi_static(model)
     assert still is not None  # such scenes are skipped
     price = next(row.bound for row in selected.rows if row.name == "inertia")
@@ -133,8 +136,8 @@ def solve(number: int, data: Scene, place: float) -> InertiaRow | str:
     lasted = abs(total / reference.inertia.total_time - 1.0)
     contacts, oscillators = len(reference.inertia.contacts), reference.inertia.modes
     return InertiaRow(
-        number, rtol, known, accuracy.bound, error, quantity, lasted, price, alone, worth,
-        contacts, _modes(reference), oscillators,
+        number, rtol, inertia.dissipation_of(data), known, accuracy.bound, error, quantity, lasted,
+        price, alone, worth, contacts, _modes(reference), oscillators,
     )  # fmt: skip
 
 
@@ -144,9 +147,9 @@ def bending(model: Model) -> Model:
 
 
 def quasi_static(model: Model) -> motion.Motion | None:
-    """Return the impact with every effect except inertia; None outside the range of the models."""
+    """Return the impact with every effect of a quasi-static plate; None outside its range."""
     try:
-        return moved(ContactLaw(model, present(model) - {"inertia"}))
+        return moved(ContactLaw(model, present(model) - {"inertia", "damping"}))
     except SceneError:
         return None
 

@@ -1,9 +1,12 @@
 """Random scenes with plate inertia, and the ratios of their errors to the stated bounds.
 
 Each scene is drawn from the seed and its number, log-uniformly over shapes, stiffnesses, densities
-and speeds. The reference has every applicable effect, twice the modes and all branches.
+and speeds; half of the scenes have a viscoelastic contact, a yield stress or a loss factor. The
+reference has every applicable effect, twice the modes and all branches (of a viscoelastic contact,
+the bending branch alone).
 """
 
+import itertools
 import random
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -14,6 +17,10 @@ from derivation.engine.measure.result import CheckResult, all_kept
 from derivation.engine.outputs import json_by_line, plain_rows
 
 SEED = 1
+EFFECTS = ("viscosity", "plasticity", "damping")
+"""Effects that dissipate energy, and that half of the scenes have."""
+ELASTIC, SEVERAL = "none", "several"
+"""Names of scenes without such an effect, and with more than one."""
 
 
 @dataclass(frozen=True)
@@ -24,6 +31,8 @@ class InertiaRow:
     ----------
     number, rtol
         The scene and its tolerance.
+    dissipation
+        Name of its effect that dissipates energy; "none", or "several".
     included
         Whether the selection included inertia.
     bound, error, quantity
@@ -40,6 +49,7 @@ class InertiaRow:
 
     number: int
     rtol: float
+    dissipation: str
     included: bool
     bound: float
     error: float
@@ -77,10 +87,12 @@ class InertiaJudged:
 
 @dataclass(frozen=True)
 class Side:
-    """The largest errors over the bounds on one side of the selection threshold.
+    """The largest errors over the bounds on one side of the threshold, of one kind of dissipation.
 
     Parameters
     ----------
+    dissipation
+        Effect that dissipates energy; "none", or "several".
     included
         Whether inertia is included on this side.
     scenes
@@ -93,6 +105,7 @@ class Side:
         Largest ratio of the change if inertia is omitted to its stated bound [1].
     """
 
+    dissipation: str
     included: bool
     scenes: int
     ratio: float
@@ -132,18 +145,50 @@ def scene(number: int, seed: int = SEED) -> tuple[dict[str, dict[str, Any]], flo
     branches = "all" if generator.random() < 0.2 else "A0"
     tables = {"sphere": sphere, "plate": plate, "impact": impact}
     asked = {"effects": {"inertia": "auto"}, "inertia": {"branches": branches}}
-    return tables | asked, generator.random()
+    place = generator.random()
+    _add_dissipation(tables | asked, random.Random(f"dissipation {seed} {number}"))
+    return tables | asked, place
+
+
+def _add_dissipation(tables: dict[str, dict[str, Any]], generator: random.Random) -> None:
+    """Give half of the scenes one or two effects that dissipate energy.
+
+    The scales are estimates of the contact time and of Hertz's pressure of the scene.
+    """
+    if generator.random() < 0.5:
+        return
+    spread = spreading(generator)
+    sphere, plate, v0 = tables["sphere"], tables["plate"], tables["impact"]["speed"]
+    E = plate["youngs_modulus"]
+    speed = sphere["density"] * v0 * v0 / E
+    for name in generator.sample(EFFECTS, generator.choice([1, 1, 1, 2])):
+        if name == "viscosity":
+            plate["retardation_time"] = sphere["radius"] / v0 * speed**0.4 * spread(1e-3, 3.0)
+            tables["inertia"]["branches"] = "A0"
+        elif name == "plasticity":
+            plate["yield_stress"] = E * speed**0.2 * spread(3e-2, 1.0)
+        else:
+            plate["loss_factor"] = spread(1e-3, 1.0)
+
+
+def dissipation_of(data: Mapping[str, Mapping[str, Any]]) -> str:
+    """Return the effect of a scene that dissipates energy; "none", or "several"."""
+    keys = ("retardation_time", "yield_stress", "loss_factor")
+    found = [name for name, key in zip(EFFECTS, keys, strict=True) if key in data["plate"]]
+    return (found or [ELASTIC])[0] if len(found) < 2 else SEVERAL
 
 
 def sides(rows: Sequence[InertiaRow]) -> tuple[Side, ...]:
-    """Return the sides of the threshold on which there are scenes."""
-    parted = ([row for row in rows if row.included is side] for side in (True, False))
+    """Return the sides of the threshold on which there are scenes, by dissipation."""
+    kinds = itertools.product((ELASTIC, *EFFECTS, SEVERAL), (True, False))
+    parted = ([row for row in rows if (row.dissipation, row.included) == kind] for kind in kinds)
     return tuple(_side(part) for part in parted if part)
 
 
 def _side(rows: Sequence[InertiaRow]) -> Side:
     worst = max(rows, key=lambda row: row.error / row.rtol)
     return Side(
+        worst.dissipation,
         worst.included,
         len(rows),
         worst.error / worst.rtol,
@@ -155,7 +200,7 @@ def _side(rows: Sequence[InertiaRow]) -> Side:
 
 
 COLUMNS = (
-    "inertia", "#scenes", "#largest error/rtol", "result", "#error/bound",
+    "dissipation", "inertia", "#scenes", "#largest error/rtol", "result", "#error/bound",
     "#change/bound if omitted",
 )  # fmt: skip
 """Column heads of the table of sides."""
@@ -179,8 +224,8 @@ def as_data(judged: InertiaJudged, seed: int) -> dict[str, Any]:
 def result(judged: InertiaJudged, seed: int) -> CheckResult:
     """Return the table of sides, and the reasons why scenes were rejected or skipped."""
     cells = [
-        ("included" if side.included else "omitted", side.scenes, f"{side.ratio:.3f}",
-         side.quantity, f"{side.tightest:.3f}", f"{side.price:.3f}")
+        (side.dissipation, "included" if side.included else "omitted", side.scenes,
+         f"{side.ratio:.3f}", side.quantity, f"{side.tightest:.3f}", f"{side.price:.3f}")
         for side in sides(judged.rows)
     ]  # fmt: skip
     reasons = {"rejected": judged.refused, "skipped": judged.passed_over}

@@ -9,8 +9,9 @@ from derivation.scene.contact_sequence import ContactRun, ImpactHistory
 from derivation.scene.dynamic_energy import balance_of
 from derivation.scene.dynamic_problem import DynamicProblem
 from derivation.scene.effects.effect import Results
-from derivation.scene.effects.inertia import higher_branch_error, weight_share
+from derivation.scene.effects.inertia import after_yield, higher_branch_error, weight_share
 from derivation.scene.law import ContactLaw
+from derivation.scene.motion import EnergyBalance
 from derivation.scene.time_element import A, P, TimeElement, Z
 from derivation.scene.wave_motion import ContactInterval, DynamicImpact, InertiaDetails
 
@@ -31,6 +32,7 @@ def dynamic_impact_of(law: ContactLaw, history: ImpactHistory) -> DynamicImpact:
     if problem.yielding:
         widest /= problem.yielding.flattening
     first, total = history.contacts[0], history.contacts[-1].end
+    balance = balance_of(history)
     inertia = InertiaDetails(
         tuple(_touch(problem, touching) for touching in history.contacts),
         problem.T * total,
@@ -39,7 +41,7 @@ def dynamic_impact_of(law: ContactLaw, history: ImpactHistory) -> DynamicImpact:
         problem.omega.size,
         tuple((energy * energies).tolist()),
         NONE if history.complete else UNKNOWN,
-        _branches(law, widest, problem.depth * displacement, problem.T * first.end),
+        _branches(law, widest, problem.depth * displacement, problem.T * first.end, balance),
     )
     return DynamicImpact(
         problem.T * first.end,
@@ -48,7 +50,7 @@ def dynamic_impact_of(law: ContactLaw, history: ImpactHistory) -> DynamicImpact:
         widest,
         0.0,
         -last.velocity if history.complete else math.nan,
-        energy_balance=balance_of(history),
+        energy_balance=balance,
         impact_history=history,
         inertia=inertia,
         law=law,
@@ -56,17 +58,23 @@ def dynamic_impact_of(law: ContactLaw, history: ImpactHistory) -> DynamicImpact:
     )
 
 
-def _branches(law: ContactLaw, a: float, displacement: float, T: float) -> Results:
-    """What the branches left out may change in each result [1]: also of all, those too fast.
+def _branches(
+    law: ContactLaw, a: float, displacement: float, T: float, balance: EnergyBalance
+) -> Results:
+    """Return the changes of the results by the omitted branches [1].
 
-    Where there is a weight, all but the displacement change by more.
+    The work of the weight increases all of them except that of the displacement. What the contact
+    dissipates increases those of contact time and restitution, as if all of it were plastic.
     """
     model = law.model
     if model.inertia.branches == "all":
         return NONE
     heavier = float(1.0 + weight_share(model, displacement))
+    lost = balance.plastic_loss + balance.viscous_loss + balance.unrecovered_elastic
+    supplied = balance.initial_kinetic + max(0.0, balance.gravity_work)
+    restitution = math.sqrt(max(0.0, 1.0 - lost / supplied))
     changed = higher_branch_error(model, a, T, 2.0 * law.damping_ratio)
-    time, depth, force, radius, speed = map(float, changed)
+    time, depth, force, radius, speed = map(float, after_yield(changed, restitution))
     return heavier * time, depth, heavier * force, heavier * radius, heavier * speed
 
 

@@ -324,7 +324,9 @@ def test_effects_are_shown_and_recorded(
 
 def test_scenes_that_are_passed_over_are_listed(monkeypatch: Patch, capsys: Captured) -> None:
     passed, solved = iter(["too heavy", "", ""]), iter(["rtol"])
-    row = InertiaRow(2, 1e-2, True, 1e-3, 0.0, "max_force", 0.0, 1e-3, 0.0, "max_force", 1, 4, 8)
+    row = InertiaRow(
+        2, 1e-2, "none", True, 1e-3, 0.0, "max_force", 0.0, 1e-3, 0.0, "max_force", 1, 4, 8
+    )
     monkeypatch.setattr(inertia_check, "pass_over", lambda _: next(passed))
     monkeypatch.setattr(inertia_check, "solve", lambda *_: next(solved, row))
     assert main(["check", "inertia", "-n", "1"]) == 0

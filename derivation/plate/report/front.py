@@ -145,7 +145,7 @@ def checks(measured: Mapping[str, Data]) -> Iterator[tuple[str, str]]:
     worst = max(float(side["tightest"]) for side in moving["sides"])
     yield (
         code("check inertia"),
-        f"{len(moving['rows'])} impacts on plates that move, {used(worst, 'bound')}",
+        f"{len(moving['rows'])} impacts on plates with inertia, {used(worst, 'bound')}",
     )
     rows = measured["speed"]["rows"]
     kept = sum(row["kept"] for row in rows)

@@ -18,11 +18,13 @@ from derivation.scene.effects.inertia import (
     SENSITIVITY,
     SLOWEST,
     PlateInertia,
+    after_yield,
     dissipated,
     late,
     off_rest,
     weight_share,
 )
+from derivation.scene.effects.plasticity import plastic_restitution
 from derivation.scene.effects.viscosity import viscous_number
 from derivation.scene.model import Model
 
@@ -87,8 +89,9 @@ class Damping(Effect):
             )
 
         off = force / context.depth * off_rest(model, a, T, changed)
-        logs = [factor * off for factor in SENSITIVITY]
+        logs: list[Numbers] = [factor * off for factor in SENSITIVITY]
         logs[0], logs[4] = heavier * logs[0], heavier * logs[4]
+        logs = after_yield(logs, plastic_restitution(model, context))
         return Bound(none, none, results=dissipated(logs, viscous))
 
     def proved(self, law: "ContactLaw") -> bool:  # noqa: ARG002

@@ -18,6 +18,7 @@ from derivation.scene.effects.effect import (
     none_of,
 )
 from derivation.scene.effects.finite_thickness import WHOLE_PLATE
+from derivation.scene.effects.plasticity import plastic_restitution
 from derivation.scene.effects.viscosity import viscous_number
 from derivation.scene.model import Model
 from derivation.scene.scene import SceneError
@@ -44,6 +45,8 @@ MOST_VISCOUS = 2.0
 the plate may change the little that remains of its speed by any factor."""
 DISSIPATION = 1.2, 0.4
 """Coefficients of x_v and x_v^2 in a bound on 1/e - 1, e the restitution of Hertz's contact."""
+NOTHING = 1e-30
+"""Smallest fraction of the kinetic energy that counts as remaining."""
 COUNTED, NODES_BEYOND = 32, 64
 """Number of modes that are summed, and of nodes of the integral over higher modes."""
 CONTACT_DECAY, CONTACT_END = 3.0, 30.0
@@ -101,8 +104,11 @@ class PlateInertia(Effect):
         off = force / context.depth * off_rest(model, a, T, deviation)
         more = higher_branch_error(model, a, T) if np.all(model.density) else 5 * (0.0,)
         none = none_of(context.radii)
-        logs = [factor * off + part for factor, part in zip(SENSITIVITY, more, strict=True)]
+        logs: list[Numbers] = [
+            factor * off + part for factor, part in zip(SENSITIVITY, more, strict=True)
+        ]
         logs[0], logs[4] = heavier * logs[0], heavier * logs[4]
+        logs = after_yield(logs, plastic_restitution(model, context))
         return Bound(none, none, results=dissipated(logs, viscous))
 
     def proved(self, law: "ContactLaw") -> bool:  # noqa: ARG002
@@ -231,6 +237,17 @@ def off_rest(
 
     counted = np.sum(of_mode(first), axis=-1, keepdims=True)
     return np.asarray(counted + span * np.sum(weights * n * of_mode(n), axis=-1, keepdims=True))
+
+
+def after_yield(logs: Sequence[Numbers], restitution: Numbers) -> list[Numbers]:
+    """Return the changes of a plastic contact by its restitution e.
+
+    Unloading takes e times as long as loading, and a change of the speed of the sphere is relative
+    to the speed that remains, e times the impact speed.
+    """
+    time, depth, force, radius, speed = logs
+    steeper = 1.0 / np.maximum(restitution * restitution, NOTHING)
+    return [time * steeper, depth, force, radius, speed * steeper]
 
 
 def dissipated(logs: Sequence[Numbers], viscous: Numbers) -> Changes:

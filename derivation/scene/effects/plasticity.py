@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from derivation.scene.effects.effect import Bound, BoundContext, Effect
+from derivation.scene.effects.effect import Array, Bound, BoundContext, Effect, Numbers
 from derivation.scene.model import Model
 
 if TYPE_CHECKING:
@@ -38,13 +38,9 @@ class Plasticity(Effect):
 
         An elastic plate decreases the change.
         """
-        from generated.plasticity_kernels import hertz_modulus, unloaded, worked
+        from generated.plasticity_kernels import unloaded, worked
 
-        # The modulus of the law follows from the forces and their Hertz radii.
-        last = context.radii[-1]
-        modulus = hertz_modulus(context.samples.force[-1], np.array(model.R), last)
-        onset = _onset(model) * (model.modulus / modulus)
-        ratio = np.minimum(context.radii / onset, _LARGEST)
+        ratio = _over_onset(model, context)
         largest = np.maximum(ratio[-1], 1.0)
         flat = float(unloaded(largest)[0])
         slower = -float(np.log(worked(largest)[1]))
@@ -58,6 +54,28 @@ class Plasticity(Effect):
     def proved(self, law: "ContactLaw") -> bool:  # noqa: ARG002
         """Return False: tested on random scenes."""
         return False
+
+
+def plastic_restitution(model: Model, context: BoundContext) -> Numbers:
+    """Return the restitution of the plastic contact on a half-space [1]; 1 of an elastic one."""
+    if not np.any(np.isfinite(model.yield_stress)):
+        return 1.0
+    from generated.plasticity_kernels import worked
+
+    largest = np.maximum(_over_onset(model, context)[..., -1:], 1.0)
+    found: Numbers = worked(largest)[1]
+    return found
+
+
+def _over_onset(model: Model, context: BoundContext) -> Array:
+    """Return Hertz's radii of the force over the radius at the onset of yield [1]."""
+    from generated.plasticity_kernels import hertz_modulus
+
+    # The modulus of the law follows from the forces and their Hertz radii.
+    last, force = context.radii[..., -1:], context.samples.force[..., -1:]
+    modulus = hertz_modulus(force, np.asarray(model.R), last)
+    onset = _onset(model) * (model.modulus / modulus)
+    return np.minimum(context.radii / onset, _LARGEST)
 
 
 def _onset(model: Model) -> float:

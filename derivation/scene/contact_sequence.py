@@ -131,9 +131,10 @@ def impact_history(
             found.append(touching)
             tried, used = tried + touching.tried, used + touching.tried * weight
             after, last = touching.after, touching.pieces[-1].radius
-            problem = replace(problem, yielding=touching.yielding)
+            if touching.yielding is not problem.yielding:
+                problem = replace(problem, yielding=touching.yielding)
             # A sphere that would come back only by its weight has left: that is another impact.
-            weightless = replace(problem, weight=0.0)
+            weightless = replace(problem, weight=0.0) if problem.weight else problem
             wait, radius, looks = meeting(weightless, after, last, work - used)
             used += looks
             if problem.weight and wait < math.inf:

@@ -151,6 +151,20 @@ class DynamicProblem:
             state.approach - state.separation_speed * t + (fallen - float(np.sum(bent))),
         )
 
+    def flights(self, state: ImpactState, t: Array) -> Array:
+        """Velocity, displacement, deflection of the plate and its energy after free flights.
+
+        Shape (4, times); the state after one of them is `flown`.
+        """
+        free = FreeMotion(np.multiply.outer(t, self.omega), self.damping_ratio)
+        bent = state.q_dot * t[:, None] * free.by_rate - state.q * free.by_q
+        q = state.q + state.q_dot * t[:, None] + bent
+        q_dot = state.q_dot * free.cos - state.q * self.omega * free.sin
+        energies = (q_dot**2 + (self.omega * q) ** 2) / (2.0 * self.inverse_modal_mass)
+        velocity = state.velocity + self.weight * t
+        displacement = state.displacement + state.velocity * t + 0.5 * self.weight * t * t
+        return np.array([velocity, displacement, np.sum(q, axis=1), np.sum(energies, axis=1)])
+
 
 class Part(NamedTuple):
     """Some shapes, all their oscillators, the shape of each, and the first of each, both counted

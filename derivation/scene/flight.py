@@ -131,5 +131,7 @@ def _where(before: Callable[[float], bool], low: float, high: float) -> float:
     """Where a condition that holds at `low` ceases to."""
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
+        if not low < middle < high:  # no number lies between them
+            break
         low, high = (middle, high) if before(middle) else (low, middle)
     return high

@@ -13,7 +13,7 @@ modulus E* of the contact over that of the plate. For a paraboloid p = D_sphere 
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -160,17 +160,12 @@ class ContactLaw:
         plate, sphere, thickness = self._reach
         model = self.model
         widest = np.minimum(plate * model.b, sphere * model.R)
-        low: float = 0.0
         high: float = np.minimum(widest, thickness * model.h)
         if not self.solved:
             return high
-        if np.isfinite(self._contact(np.array([high])).force[0]):
-            return high
-        for _ in range(_HALVINGS):
-            middle = 0.5 * (low + high)
-            closed = np.isfinite(self._contact(np.array([middle])).force[0])
-            low, high = (middle, high) if closed else (low, middle)
-        return low
+        return _closed_up_to(
+            model.h, model.b, model.R, self.modulus, model.modulus, self.spherical, float(high)
+        )
 
     @property
     def limit_in_words(self) -> str:
@@ -396,3 +391,30 @@ class ContactLaw:
     def _beyond_whole_plate(self) -> tuple[PlateEffect, ...]:
         """Effects that add to the deflection of the whole plate with the paper's edge."""
         return tuple(e for e in self.plate_effects if e.name not in WHOLE_PLATE)
+
+
+@lru_cache(maxsize=32)
+def _closed_up_to(
+    h: float, b: float, R: float, modulus: float, plate_modulus: float, spherical: bool, high: float
+) -> float:
+    """Return the radius [m], at most `high`, up to which a contact is closed at its centre.
+
+    The pressure is non-Hertzian; several laws of a scene share the result.
+    """
+    from generated import non_hertzian_pressure
+
+    plate = non_hertzian_pressure.plate(h, b)
+
+    def closed(a: float) -> bool:
+        found = non_hertzian_pressure.contact(
+            plate, np.array([a]), R, modulus, plate_modulus, sphere=spherical
+        )
+        return bool(np.isfinite(found.force[0]))
+
+    if closed(high):
+        return high
+    low = 0.0
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if closed(middle) else (low, middle)
+    return low

@@ -184,11 +184,17 @@ class _Shapes(NamedTuple):
 
 def _free(model: Model, count: int, lagging: bool) -> _Shapes:
     """A0 on the paper's edge."""
+    return _free_shapes(model.eta, model.poissons_ratio, count, lagging)
+
+
+@lru_cache(maxsize=64)
+def _free_shapes(eta: float, nu: float, count: int, lagging: bool) -> _Shapes:
+    """The same for h/b and Poisson's ratio; models that differ in all else share it."""
     from generated import inertia
     from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
 
-    j, nu = bessel_j0_zeros(count), model.poissons_ratio
-    x = j * model.eta
+    j = bessel_j0_zeros(count)
+    x = j * eta
     root = inertia.bending_frequency(x, nu)
     residue = _residue(x, root, inertia.bending_residue(x, nu), nu, lagging)
     weight = 1.0 / (np.pi * bessel_j1_at_j0_zeros(count) ** 2)
@@ -280,19 +286,26 @@ def _some(waves: "Waves", part: slice) -> "Waves":
     return type(waves)(*(values[part] for values in waves))
 
 
-@lru_cache(maxsize=8)
 def _waves(model: Model) -> "Waves":
     """All modes of the model's edge below the cut-off."""
-    from generated.edge_modes import THICKEST, clamped_waves, cutoff, supported_waves
+    from generated.edge_modes import THICKEST
 
     if model.eta > THICKEST:
         raise _too_thick(model)
-    count = math.ceil(cutoff(model.poissons_ratio) / (math.pi * model.eta)) + 1
-    run = clamped_waves if model.edge == CLAMPED else supported_waves
-    found = run(count, model.eta, model.poissons_ratio)
+    found = _edge_waves(model.edge, model.eta, model.poissons_ratio)
     if not found.k.size:
         raise _too_thick(model)
     return found
+
+
+@lru_cache(maxsize=8)
+def _edge_waves(edge: str, eta: float, nu: float) -> "Waves":
+    """The same for h/b and Poisson's ratio; models that differ in all else share it."""
+    from generated.edge_modes import clamped_waves, cutoff, supported_waves
+
+    count = math.ceil(cutoff(nu) / (math.pi * eta)) + 1
+    run = clamped_waves if edge == CLAMPED else supported_waves
+    return run(count, eta, nu)
 
 
 def _too_thick(model: Model) -> SceneError:

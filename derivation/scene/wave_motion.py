@@ -3,16 +3,19 @@
 import math
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
+from functools import cached_property
 from html import escape
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.polynomial.legendre import legvander
 
 from derivation.scene import contact_sequence
 from derivation.scene.collocation import ONSET, Element
 from derivation.scene.contact_sequence import ImpactHistory
 from derivation.scene.dynamic_problem import DynamicProblem, ImpactState
 from derivation.scene.effects.effect import Array, Results
+from derivation.scene.flight import AT_ONCE
 from derivation.scene.html import html_table
 from derivation.scene.law import ContactLaw
 from derivation.scene.limits import local_indentation
@@ -111,13 +114,19 @@ class DynamicImpact(Motion):
     inertia: InertiaDetails = field(kw_only=True)
     energy_balance: EnergyBalance = field(kw_only=True)
 
+    @cached_property
+    def _touching(self) -> tuple[Array, ...]:
+        """The rows of each contact at the times of `LOOKS`, up to the plate's deflection."""
+        problem, contacts = self.impact_history.problem, self.impact_history.contacts
+        times = (np.linspace(one.start, one.end, LOOKS) * problem.T for one in contacts)
+        return tuple(self.rows(some)[: W + 1].copy() for some in times)
+
     @property
     def least(self) -> float:
         """Smallest force between two maxima of a contact, over the largest; 1 if there is none."""
         found = [1.0]
-        for touching in self.impact_history.contacts:
-            times = np.linspace(touching.start, touching.end, LOOKS) * self.impact_history.problem.T
-            force = self.rows(times)[P] / self.max_force
+        for rows in self._touching:
+            force = rows[P] / self.max_force
             inner = (force[1:-1] <= force[:-2]) & (force[1:-1] < force[2:])
             found += force[1:-1][inner].tolist()
         return min(found)
@@ -131,11 +140,10 @@ class DynamicImpact(Motion):
         """
         problem, found = self.impact_history.problem, 0.0
         slowest = float(np.min(problem.omega, initial=np.inf))
-        ends = [touching.start for touching in self.impact_history.contacts[1:]]
-        ends.append(self.impact_history.contacts[-1].end + 2.0 * np.pi / slowest)
-        for touching, end in zip(self.impact_history.contacts, ends, strict=True):
-            times = np.linspace(touching.start, touching.end, LOOKS) * problem.T
-            rows = self.rows(times)
+        contacts = self.impact_history.contacts
+        ends = [touching.start for touching in contacts[1:]]
+        ends.append(contacts[-1].end + 2.0 * np.pi / slowest)
+        for touching, rows, end in zip(contacts, self._touching, ends, strict=True):
             a = np.minimum(np.maximum(rows[A], 0.0), law.limit)
             local = local_indentation(law, a)
             flight = np.linspace(touching.end, end, FLIGHT) * problem.T
@@ -260,23 +268,25 @@ def rows_of(problem: DynamicProblem, touching: contact_sequence.ContactRun, t: A
     """The rows in a contact and in the flight after it, at times in units of the problem."""
     found = np.zeros((DAMPED + 1, t.size))
     pieces, inside = touching.pieces, t <= touching.end
-    starts = np.array([piece.element.x for piece in pieces])
+    starts, lengths = np.array([(one.element.x, one.element.length) for one in pieces]).T
     since = np.maximum(t - touching.start, 0.0) + starts[0] ** ONSET
     x = since ** (1.0 / ONSET)
-    last = pieces[-1].element.x + pieces[-1].element.length
     place = np.searchsorted(starts, x, side="right") - 1
+    x = np.minimum(x, starts[-1] + lengths[-1])
+    s = 2.0 * (x[inside] - starts[place[inside]]) / lengths[place[inside]] - 1.0
+    basis = np.zeros((t.size, pieces[0].element.slope.size))
+    basis[inside] = legvander(s, basis.shape[1] - 1)
     for index in np.unique(place[inside]):
         here = inside & (place == index)
-        found[:, here] = pieces[index].element.at(np.minimum(x[here], last))
+        found[:, here] = pieces[index].element.rows @ basis[here].T
         branch = pieces[index].yielding
         if branch is not None:
             a = problem.a * np.maximum(found[A, here], 0.0)
             found[A, here] = branch.widened(a, problem.contact.at(a).force) / problem.a
-    for k in np.flatnonzero(~inside):
-        state = problem.flown(touching.after, float(t[k]) - touching.end)
-        found[[V, Z, W, E], k] = (
-            state.velocity, state.displacement, float(np.sum(state.q)),
-            float(np.sum(problem.energies(state))),
-        )  # fmt: skip
+    flight = np.flatnonzero(~inside)
+    block = max(1, AT_ONCE // max(problem.omega.size, 1))
+    for some in (flight[k : k + block] for k in range(0, flight.size, block)):
+        flights = problem.flights(touching.after, t[some] - touching.end)
+        found[V, some], found[Z, some], found[W, some], found[E, some] = flights
     found[P] = np.maximum(found[P], 0.0)
     return found

@@ -99,3 +99,15 @@ def test_branches_change_at_their_yield_events_whatever_the_nodes_of_the_element
         history = contact_sequence.impact_history(problem, n, loose)
         off = np.abs(numbers(law, history) / fine - 1.0)
         assert np.max(off) <= waves.integration_error(history)
+
+
+@pytest.mark.parametrize("name", ["several contacts", "damped"])
+def test_rows_of_flights_are_those_of_single_flights(name: str) -> None:
+    _, problem = case(name)
+    after = contact_sequence.impact_history(problem, 16).contacts[0].after
+    times = np.array([0.0, 1e-3, 0.7, 5.0])
+    for t, row in zip(times, problem.flights(after, times).T, strict=True):
+        state = problem.flown(after, float(t))
+        assert row[:2].tolist() == [state.velocity, state.displacement]
+        assert row[2] == pytest.approx(np.sum(state.q), rel=1e-13)
+        assert row[3] == pytest.approx(np.sum(problem.energies(state)), rel=1e-13)

@@ -3,6 +3,7 @@
 Arithmetic: the types of results, and the test for integers.
 """
 
+import sys
 from collections.abc import Callable
 from typing import TypeVar
 
@@ -70,7 +71,8 @@ def refuse_masked(*arguments: ArrayLike) -> None:
     TypeError
         If an argument is a masked array.
     """
-    if any(isinstance(x, np.ma.MaskedArray) for x in arguments):
+    # There are no masked arrays before numpy.ma is loaded, which takes time.
+    if "numpy.ma" in sys.modules and any(isinstance(x, np.ma.MaskedArray) for x in arguments):
         raise TypeError(
             "expected arrays without a mask, got a masked array; pass array.filled(numpy.nan)"
         )

@@ -94,7 +94,7 @@ def test_j1_at_a_zero_known_too_coarsely(monkeypatch: pytest.MonkeyPatch) -> Non
 
 def test_numbers_by_index_have_whole_indices() -> None:
     with pytest.raises(ValueError, match=r"kappa needs an integer index, got 1\.5"):
-        balls.value("kappa", {"n": 1.5})
+        balls.truth("kappa", {"n": 1.5})
 
 
 # --- the contact law in balls

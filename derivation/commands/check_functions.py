@@ -54,7 +54,7 @@ def hard_cases(
     paper: PaperFolder = None,
     json: Json = None,
 ) -> None:
-    """Compare functions with recorded reference values at hard cases.
+    """Compare functions with reference values at hard cases.
 
     Prints the largest error of each group of cases, as a fraction of its limit. The exit status is
     1 if an error exceeds its limit.

@@ -1,4 +1,4 @@
-"""One formula with its link, the formulas it follows from, and those that follow from it."""
+"""One formula with its position in the derivation: link, sources, and formulas that use it."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ class About:
     used_by
         Names of the formulas that are derived from it.
     references
-        The literature that the link uses, a text for each source.
+        The literature that the link uses; a text for each source.
     """
 
     formula: Record
@@ -41,7 +41,7 @@ class About:
         return tuple((symbol, to_plain(symbol.meaning)) for symbol in self.formula.arguments)
 
     def to_json(self) -> dict[str, object]:
-        """Return the formula as data, with its position in the derivation."""
+        """Return the formula as plain data, with its position in the derivation."""
         place = {"link": self.link, "used_by": self.used_by, "references": self.references}
         return self.formula.to_json() | place
 
@@ -68,6 +68,6 @@ def about(paper: Paper, name: str) -> About:
 
 
 def _source(entry: Mapping[str, str]) -> str:
-    """Return a source as text: authors, title and year, as far as they are known."""
+    """Return a source as text: authors, title and year; missing entries are omitted."""
     authors = entry.get("author", "").strip("{}").replace(" and ", "; ")
     return ", ".join(text for text in (authors, entry["title"], entry.get("year", "")) if text)

@@ -1,4 +1,4 @@
-"""Progress of a long computation, reported to a listener; by default there is none."""
+"""Progress of a long computation, reported to listeners; by default there are none."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -9,18 +9,18 @@ _listeners: list[Callable[[str], None]] = []
 
 
 def quiet(*_: object) -> None:
-    """Report nothing."""
+    """Ignore a progress report."""
 
 
 def announce(text: str) -> None:
-    """Report what is being computed."""
+    """Pass a description of the current computation to all listeners."""
     for listener in _listeners:
         listener(text)
 
 
 @contextmanager
 def heard(listener: Callable[[str], None]) -> Iterator[None]:
-    """Report to a listener while the block runs."""
+    """Call a listener for each description that is announced in the block."""
     _listeners.append(listener)
     try:
         yield

@@ -1,4 +1,4 @@
-"""Work on a user's formula in a process of its own, with limits of time and memory."""
+"""Computation in a separate process, with limits of time and memory."""
 
 import contextlib
 import faulthandler
@@ -17,36 +17,36 @@ Value = TypeVar("Value")
 SECONDS = 15
 """Processor time [s] allowed for comparing a formula."""
 MEGABYTES = 1000
-"""Memory [MB] allowed in addition to what the program already uses."""
+"""Memory [MB] allowed in addition to the memory that the program already uses."""
 PATIENCE = 6
-"""Ratio of elapsed to processor time above which a process is treated as blocked."""
+"""Elapsed time over the limit of processor time after which a process is ended."""
 _CHUNK = 1 << 16
 
 
 class LimitError(ValueError):
-    """The work reached a limit of time or memory; the message states which, and a remedy."""
+    """A computation reached a limit of time, memory or recursion; the message states a remedy."""
 
 
 def bounded(
     work: Callable[[], Value], what: str, seconds: int = SECONDS, megabytes: int = MEGABYTES
 ) -> Value:
-    """Return the result of `work`, or raise its exception.
+    """Return the result of a function that runs in a separate process; its exceptions are raised.
 
-    If the system cannot fork, the work is done without limits.
+    If the system cannot fork, the function runs in this process without limits.
 
     Parameters
     ----------
     work
-        Called without arguments in a copy of this process; its result must be picklable.
+        Function without arguments; its result must be picklable.
     what
-        Description of the work for the message: ``comparing the formulas``.
+        Description of the work for the message, such as ``comparing the formulas``.
     seconds, megabytes
         Limits of processor time [s] and additional memory [MB].
 
     Raises
     ------
     LimitError
-        If a limit is reached.
+        If a limit is reached, or the recursion is too deep.
     """
     if not hasattr(os, "fork"):
         return work()
@@ -131,7 +131,7 @@ def _outcome(work: Callable[[], Any]) -> bytes:
 
 def _limit(seconds: int, megabytes: int) -> None:
     """Set the limits of this process, as far as the system supports them."""
-    import resource  # not available on every system
+    import resource  # not available on all systems
 
     held = 0
     with contextlib.suppress(OSError):

@@ -1,4 +1,4 @@
-"""The main job on a paper: six stages, each timed.
+"""The six stages of a build of a paper.
 
 1 derive     links -> proved formulas
 2 rewrite    formulas -> stable forms, proved equal
@@ -51,9 +51,9 @@ class Built:
     Parameters
     ----------
     passed
-        Whether every function is within its budget.
+        Whether no error exceeds its budget.
     notes
-        Remarks on the result, in sentences.
+        Remarks on the result.
     files
         The files written.
     """
@@ -68,15 +68,24 @@ def build(paper: Paper, out: Path | None, timed: Timed) -> Built:
 
     Parameters
     ----------
+    paper
+        The paper.
     out
-        Parent of the folders `generated` and `reports`, instead of the paper's own folder.
+        Parent of the folders `generated` and `reports`; by default the paper's own folder.
     timed
         Context that shows each stage.
 
+    Returns
+    -------
+    Built
+        Whether all errors are within their budgets, remarks, and the files written.
+
     Raises
     ------
+    derivation.engine.failed.FailedError
+        If a proof fails, or the two references contradict each other.
     ValueError
-        If no folder is given and the paper belongs to an installed copy.
+        If `out` is None and the paper belongs to an installed copy.
     OSError
         If a folder cannot be written to.
     """
@@ -107,20 +116,35 @@ def build(paper: Paper, out: Path | None, timed: Timed) -> Built:
 
 
 def derive(paper: Paper) -> Found:
-    """Stage 1: return the links with their formulas."""
+    """Return the links with their proved formulas (stage 1).
+
+    Raises
+    ------
+    derivation.engine.formula.proof.ProofError
+        If a proof fails.
+    """
     return paper.chain.found()
 
 
 def rewrite(paper: Paper) -> tuple[Form, ...]:
-    """Stage 2: return the stable forms."""
+    """Return the stable forms, proved equal to the formulas (stage 2)."""
     return package.forms_of(paper.chain, paper.package())
 
 
 def generate(paper: Paper, out: Path | None = None) -> tuple[Path, ...]:
-    """Stage 3: write the package; return the files written.
+    """Write the NumPy package, and return the files written (stage 3).
+
+    Parameters
+    ----------
+    paper
+        The paper.
+    out
+        Folder of the package; by default that of the paper.
 
     Raises
     ------
+    ValueError
+        If `out` is None and the paper belongs to an installed copy.
     OSError
         If the folder cannot be written to.
     """
@@ -132,14 +156,30 @@ def generate(paper: Paper, out: Path | None = None) -> tuple[Path, ...]:
 
 
 def misprints(paper: Paper) -> tuple[Finding, ...]:
-    """Stage 4: return the comparison of each published formula with the derived one."""
+    """Return the comparison of each published formula with the derived one (stage 4)."""
     return paper.errata.found(paper.chain)
 
 
 def check(
     paper: Paper, digits: int = 50, update: bool = False, progress: Progress = quiet
 ) -> "tuple[Row, ...]":
-    """Stage 5: compare the generated functions with both references; save the result on request.
+    """Compare the generated functions with both references (stage 5).
+
+    Parameters
+    ----------
+    paper
+        The paper.
+    digits
+        Number of correct digits of the reference values, at least 20.
+    update
+        Whether to save the result as the paper's measurement, `Paper.measured`.
+    progress
+        Called for each function before it is measured.
+
+    Returns
+    -------
+    tuple of Row
+        Errors, budget and result of each function.
 
     Raises
     ------
@@ -167,17 +207,29 @@ def check(
 def check_hard(
     paper: Paper, update: bool = False, progress: Progress = quiet
 ) -> "tuple[HardRow, ...]":
-    """Stage 5 at the hard cases: compare generated and published forms with recorded references.
+    """Compare the functions with recorded reference values at the hard cases (stage 5).
 
-    With `update`, outdated references are computed again, which takes minutes, and recorded. An
-    interrupted run continues where it was.
+    Parameters
+    ----------
+    paper
+        The paper.
+    update
+        Whether to compute missing and outdated reference values, which takes minutes, and to record
+        all. If such a run is interrupted, the next one continues it.
+    progress
+        Called after each reference value.
+
+    Returns
+    -------
+    tuple of HardRow
+        Error and result of each case.
 
     Raises
     ------
     FileNotFoundError
-        If no references are recorded.
+        If no reference values are recorded.
     ValueError
-        If a case has no reference, or the paper has no cases.
+        If a case has no reference value, or the paper has no hard cases.
     """
     from derivation.engine.measure import hard
     from derivation.engine.measure.suite import find_references
@@ -202,7 +254,7 @@ def check_hard(
 def report(
     paper: Paper, out: Path | None = None, compiled: bool = True, sections: Sequence[str] = ()
 ) -> tuple[Path, ...]:
-    """Stage 6: write the report and, on request, its PDF; see `derivation.engine.report_files`."""
+    """Write the report and, with `compiled`, its PDF (stage 6); see `report_files.write`."""
     # Imported late, because it may import the new package.
     from derivation.engine import report_files
 
@@ -220,7 +272,7 @@ def formulas(paper: Paper) -> dict[str, Record]:
 def diagnose(
     paper: Paper, name: str, text: str, latex: bool = False, at: str = "", digits: int = 50
 ) -> TextDiagnosis:
-    """Compare a formula given as text with the derived one, see `derivation.diagnose`."""
+    """Compare a formula given as text with the derived one; see `derivation.diagnose`."""
     relations = paper.errata.relations
     return diagnosed(paper.chain, relations, name, text, latex=latex, at=at, digits=digits)
 
@@ -228,7 +280,7 @@ def diagnose(
 def account(
     paper: Paper, update: bool = False, progress: Progress = quiet
 ) -> "tuple[Account, ...]":
-    """Return the effect of each rule on each formula, without and with it; save on request."""
+    """Return the effect of each rewriting rule on each formula; with `update`, save it."""
     from derivation.engine.rewrite.account import accounts
 
     if update:
@@ -241,17 +293,21 @@ def account(
 
 
 def check_generated(paper: Paper, out: Path | None, remedy: str) -> Freshness:
-    """Compare the package with what would be written; `remedy` is the command that writes it."""
+    """Compare the package with newly generated files; `remedy` is the command that writes them."""
     folder = folder_for(out, paper.package_folder)
     return package.freshness_of(paper.chain, paper.package(), folder, remedy)
 
 
 def verdict(paper: Paper, rows: "Sequence[Row]") -> list[str]:
-    """Return remarks on a new measurement, and whether it equals the saved one."""
+    """Return remarks on a new measurement, and on differences from the saved one."""
     from derivation.engine.measure.record import to_json
 
     failed = [row.kernel for row in rows if row.passed is False]
-    lines = [f"above their budget: {', '.join(failed)}"] if failed else ["all budgets kept"]
+    lines = (
+        [f"above their budget: {', '.join(failed)}"]
+        if failed
+        else ["all errors are within their budgets"]
+    )
     if paper.measured.is_file():
         kept, new = (
             {(row["kernel"], row["module"]): row for row in json.loads(text)["rows"]}
@@ -261,16 +317,19 @@ def verdict(paper: Paper, rows: "Sequence[Row]") -> list[str]:
             {name for name, module in new if new[name, module] != kept.get((name, module))}
         )
         if moved:
-            lines.append(f"not as committed in {paper.measured.name}: {', '.join(moved)}")
+            lines.append(f"different from the saved {paper.measured.name}: {', '.join(moved)}")
     return lines
 
 
 def _report_as_far_as_possible(
     paper: Paper, out: Path | None
 ) -> tuple[tuple[Path, ...], tuple[str, ...]]:
-    """Write the report; without LaTeX all of it except the PDF, with a remark.
+    """Write the report, without the PDF if LaTeX fails or is not installed.
 
-    Returns the files written, and what is missing.
+    Returns
+    -------
+    tuple of Path, tuple of str
+        The files written, and a remark if there is no PDF.
     """
     from derivation.engine.report.pdf import TexError, compile_all
 
@@ -278,11 +337,11 @@ def _report_as_far_as_possible(
     try:
         return (*written, *compile_all(written)), ()
     except TexError as error:
-        return written, (f"no PDF, all else is there: {error}",)
+        return written, (f"the PDF was not written, all other files were: {error}",)
 
 
 def _forget(target: str) -> None:
-    """Unload modules of a package that was written again."""
+    """Unload the modules of a package whose files have changed."""
     for name in [name for name in sys.modules if name == target or name.startswith(f"{target}.")]:
         del sys.modules[name]
     importlib.invalidate_caches()

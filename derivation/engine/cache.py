@@ -1,8 +1,8 @@
-"""Results cached as plain data, each under a hash of the sources that it was computed from.
+"""Cache of results as plain data, each under a hash of the sources from which it was computed.
 
-A file contains a checksum and a tree of JSON: numbers, texts, and lists of them under the name of
-what they form. Reading it builds SymPy expressions and the records that the caller names, and
-executes nothing else. What cannot be read is computed again.
+A file contains a checksum and a tree of JSON: numbers, texts, and the parts of an object under the
+name of its class. Reading it builds SymPy expressions and the classes that the caller names, and
+executes nothing else. A file that cannot be read is ignored, and its result is computed again.
 """
 
 import contextlib
@@ -32,26 +32,33 @@ HEADS: dict[str, type] = {
     head.__name__: head
     for head in (sp.Add, sp.Mul, sp.Pow, sp.Derivative, sp.Integral, sp.Sum, sp.Tuple, expm1)
 }
-"""Parts of expressions other than SymPy's functions."""
+"""Classes of expressions other than SymPy's functions, by name."""
 
 
 def cached(
     name: str, rooms: tuple[str | Path, ...], compute: Callable[[], Value], *kinds: type
 ) -> Value:
-    """Return the result of `compute`, cached while the named sources stay the same.
+    """Return the result of a function, cached until one of its sources changes.
 
     A cache that cannot be read or written is ignored.
 
     Parameters
     ----------
-    name, rooms
-        Name of the result, and the sources on which it depends: parts of this package by name,
-        others by path.
+    name
+        Name of the result.
+    rooms
+        Sources on which it depends: parts of this package by name, others by path; see
+        `derivation.engine.files.sources`.
     compute
-        Function that computes it, of None, booleans, integers, text, SymPy expressions, `kinds`,
-        and tuples and mappings by text of those.
+        Function that computes the result. It may contain None, booleans, integers, text, SymPy
+        expressions, `kinds`, tuples, and mappings with text as keys.
     kinds
-        Dataclasses and SymPy functions of this project that it contains.
+        Dataclasses and SymPy functions of this project that the result contains.
+
+    Raises
+    ------
+    TypeError
+        If the result contains something that cannot be cached.
     """
     key = f"{name}-{content_hash(sources(*rooms))[:32]}"
     folder, known = cache_folder(), {kind.__name__: kind for kind in kinds}
@@ -71,10 +78,10 @@ def cached(
 
 
 def cache_folder() -> Path | None:
-    """Return the folder for cached results; None if there is no private folder.
+    """Return the folder for cached results; None if no private folder is available.
 
     A relative path in XDG_CACHE_HOME is ignored, as its standard requires. A folder that belongs to
-    another user, or that everybody may write into, is not used.
+    another user, or into which everybody may write, is not used.
     """
     said = Path(os.environ.get("XDG_CACHE_HOME", ""))
     try:
@@ -161,7 +168,7 @@ def from_plain(plain: Any, kinds: Mapping[str, type]) -> Any:
     Raises
     ------
     TypeError, ValueError
-        If it does not represent a value.
+        If the tree does not represent a value.
     """
     if plain is None or isinstance(plain, (bool, int, str)):
         return plain
@@ -180,7 +187,7 @@ def from_plain(plain: Any, kinds: Mapping[str, type]) -> Any:
 def _expression(name: str, parts: Any, kinds: Mapping[str, type]) -> sp.Basic:
     if name == "Symbol":
         own, assumptions = parts
-        return sp.Symbol(_text(own), **_reference_values(assumptions))
+        return sp.Symbol(_text(own), **_assumptions(assumptions))
     if name == "Rational":
         p, q = parts
         return sp.Rational(int(p), int(q))
@@ -193,14 +200,14 @@ def _expression(name: str, parts: Any, kinds: Mapping[str, type]) -> sp.Basic:
     head = _head(name, kinds)
     if name == "Function":
         own, assumptions, parts = parts
-        head = sp.Function(_text(own), **_reference_values(assumptions))
+        head = sp.Function(_text(own), **_assumptions(assumptions))
     if head is None:
         raise ValueError(f"expected a part of an expression, got {name!r:.40}")
     return head(*_expressions(from_plain(part, kinds) for part in parts))
 
 
 def _head(name: str, kinds: Mapping[str, type]) -> Any:
-    """Return the class of expressions of a name: a head, a kind or a SymPy function; else None."""
+    """Return the class of expressions with a name, from `HEADS`, kinds or SymPy; else None."""
     head = HEADS.get(name) or kinds.get(name) or getattr(sp, name, None)
     known = isinstance(head, type) and issubclass(head, (Application, *HEADS.values()))
     return head if known and head not in (Application, sp.Function) else None
@@ -219,5 +226,5 @@ def _text(value: Any) -> str:
     return value
 
 
-def _reference_values(values: Any) -> dict[str, bool]:
+def _assumptions(values: Any) -> dict[str, bool]:
     return {_text(key): bool(value) for key, value in values.items()}

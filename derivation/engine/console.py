@@ -32,7 +32,7 @@ from derivation.engine.text import paragraph
 
 
 class UnreadError(Exception):
-    """The reader of the output has closed it, like `head`."""
+    """The reader of the output has closed the pipe, as `head` does."""
 
 
 def silence(stream: TextIO) -> None:
@@ -41,15 +41,15 @@ def silence(stream: TextIO) -> None:
 
 
 class Screen(Console):
-    """A console on which a user's text cannot move the cursor or set colours."""
+    """A console that escapes control characters in text of the user."""
 
     def say(self, text: str) -> None:
-        """Print a text as it is, without line breaks, so that it can be copied."""
+        """Print a text without additional line breaks, so that it can be copied."""
         known = printable(text).encode(self.encoding, "backslashreplace").decode(self.encoding)
         self.print(Text(known), markup=False, highlight=False, soft_wrap=True)
 
     def on_broken_pipe(self) -> None:
-        """Exit quietly if the reader of results has closed the output; ignore it for remarks."""
+        """Raise UnreadError if the reader of the results has closed the pipe; discard remarks."""
         if not self.stderr:
             raise UnreadError
         silence(sys.stderr)
@@ -57,11 +57,11 @@ class Screen(Console):
 
 OUT = Screen(emoji=False)
 NOTES = Screen(stderr=True, emoji=False)
-"""Progress and remarks, on another stream than results, so that results can be piped."""
+"""Console for progress and remarks: standard error, so that results can be piped."""
 
 
 def _checked(where: str | None) -> str | None:
-    """Refuse a file that cannot be written, before anything is computed."""
+    """Reject a file that cannot be written, before anything is computed."""
     if where and where != "-":
         expect_writable(Path(where))
     return where
@@ -92,7 +92,7 @@ def stage(name: str) -> Iterator[None]:
 
 @contextmanager
 def counted(name: str) -> Iterator[Progress]:
-    """Show a bar and a clock for work in parts; yields the function that reports a part."""
+    """Show a bar and a clock for work in parts; yield the function that reports a part."""
     start = time.perf_counter()
     part = TextColumn("{task.description}", markup=False)
     columns = (TextColumn(name), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), part)
@@ -106,7 +106,7 @@ def counted(name: str) -> Iterator[Progress]:
 
 @contextmanager
 def clocked(name: str) -> Iterator[Callable[[str, int, float], None]]:
-    """Show a clock for work without end; yields the function that reports part, count and worst."""
+    """Show a clock for a search; yield the function that reports name, count and worst ratio."""
     columns = (TextColumn(name), SpinnerColumn(), TimeElapsedColumn())
     with Display(
         *columns, TextColumn("{task.description}", markup=False), console=NOTES, transient=True
@@ -119,7 +119,7 @@ def clocked(name: str) -> Iterator[Callable[[str, int, float], None]]:
 
 @contextmanager
 def watched(name: str) -> Iterator[None]:
-    """Show the progress of a computation of unknown length, unless it is quick."""
+    """Show the announced progress of a computation of unknown length, on a terminal only."""
     from derivation.engine.activity import heard
 
     if not NOTES.is_terminal:
@@ -141,7 +141,7 @@ def watched(name: str) -> Iterator[None]:
 def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[object]]) -> None:
     """Print a table; columns whose name starts with `#` are numbers, aligned right.
 
-    Names in the first column, one word each, are not broken.
+    The first column is not wrapped if it contains single words.
     """
     heading = Text(one_line(title, 200), style="table.title")
     made = Table(title=heading, title_justify="left")
@@ -160,14 +160,14 @@ def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[object]]) 
 
 
 def listing(title: str, lines: Sequence[str]) -> None:
-    """Print lines as they are, without line breaks, so that they can be copied."""
+    """Print a title and lines without additional line breaks, so that they can be copied."""
     OUT.print(Text(one_line(title, 200), style="italic"))
     for line in lines:
         OUT.say(line)
 
 
 def warn(warnings: Sequence[str]) -> None:
-    """Show each warning once, separate from the results; of many only the first."""
+    """Show each warning once, on standard error; of many, the first `MOST`."""
     found = list(dict.fromkeys(warnings))
     for text in found[:MOST]:
         NOTES.say(paragraph(f"warning: {text}"))
@@ -177,7 +177,7 @@ def warn(warnings: Sequence[str]) -> None:
 
 @contextmanager
 def noted(shown: type[Warning]) -> Iterator[None]:
-    """Show each warning of a category once, as a remark; others as Python does."""
+    """Show each warning of a category once, as a remark; show others as Python does."""
     seen, usual = set[str](), warnings.showwarning
 
     def show(
@@ -229,7 +229,7 @@ def put(text: str) -> None:
 def put_json(make: Callable[[], Any], where: str | None) -> bool:
     """Write a result as JSON to a file, or to standard output for `-`.
 
-    This happens before anything is shown, because the reader of the screen may stop reading.
+    Call it before anything is shown, because the reader of the output may close the pipe.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The exception of a failed check; its message states which, and the residual."""
+"""The base class of exceptions for failed proofs and contradicting references."""
 
 
 class FailedError(AssertionError):

@@ -1,4 +1,4 @@
-"""Reading of files with checks, and writing of whole files only."""
+"""Reading of files with checks, and writing of files that are never incomplete."""
 
 import contextlib
 import errno
@@ -22,12 +22,12 @@ PINNED = ("sympy", "python-flint", "mpmath", "jinja2", "ruff")
 
 
 def measurements() -> Path:
-    """Return the folder of the committed measurements; an installed copy has its own."""
+    """Return the folder of the committed measurements, in the checkout or the installed copy."""
     return ROOT / "reports" / "data" if in_checkout() else PACKAGE / "data"
 
 
 def in_checkout() -> bool:
-    """Return whether the package runs from a checkout, into which it may write."""
+    """Return whether the package runs from a checkout; only there may it write its own files."""
     return (ROOT / "pyproject.toml").is_file()
 
 
@@ -43,12 +43,12 @@ def write_file(path: Path, content: str | bytes) -> None:
 
 
 def write_files(contents: Mapping[Path, str | bytes]) -> tuple[Path, ...]:
-    """Write all of the files or, if one cannot be written, none; return them.
+    """Write all of the files or, if one cannot be written, none; return their paths.
 
     Raises
     ------
     OSError
-        Naming the file that cannot be written, the reason, and a remedy.
+        If a file cannot be written; the message states the file, the reason, and a remedy.
     """
     made: list[Path] = []
     temporaries: dict[Path, Temporary] = {}
@@ -80,15 +80,15 @@ def write_files(contents: Mapping[Path, str | bytes]) -> tuple[Path, ...]:
 
 
 def write_folder(folder: Path, contents: Mapping[str, str | bytes]) -> tuple[Path, ...]:
-    """Write files of a folder in one step, so that no reader finds old and new ones mixed.
+    """Write files of a folder in one step, so that readers never find old and new files together.
 
-    They are written one by one if the folder cannot be moved: it contains other folders, is a mount
-    point, or is the working directory.
+    They are written one by one if the folder cannot be replaced: if it contains other folders, is a
+    mount point, or contains the working directory.
 
     Raises
     ------
     OSError
-        Naming the file that cannot be written, the reason, and a remedy.
+        If a file cannot be written; the message states the file, the reason, and a remedy.
     """
     target = real(folder)
     with _explained(folder):
@@ -107,7 +107,7 @@ def write_folder(folder: Path, contents: Mapping[str, str | bytes]) -> tuple[Pat
 
 
 def real(path: Path) -> Path:
-    """Return the file behind a link; a link to itself is returned as it is."""
+    """Return the file to which a link leads; a link to itself is returned unchanged."""
     return Path(os.path.realpath(path))
 
 
@@ -123,7 +123,7 @@ def _make_folder(folder: Path) -> list[Path]:
 
 
 def _remove_empty(folders: Sequence[Path]) -> None:
-    """Remove folders that were created in vain, outermost first in the list."""
+    """Remove empty folders, given with the outermost first."""
     for folder in reversed(folders):
         with contextlib.suppress(OSError):
             folder.rmdir()
@@ -148,7 +148,13 @@ def read_file(path: Path, most: int) -> bytes:
 
 
 def expect_writable(path: Path) -> None:
-    """Refuse a file that cannot be written, before minutes are spent on its content."""
+    """Reject a file that cannot be written, before its content is computed.
+
+    Raises
+    ------
+    OSError
+        If it cannot be written; the message states the reason, and a remedy.
+    """
     target = real(path)
     with _explained(path):
         there, fine = target.exists(), target.is_file()
@@ -161,7 +167,13 @@ def expect_writable(path: Path) -> None:
 
 
 def expect_folder(folder: Path) -> None:
-    """Refuse a folder that cannot be written into or created."""
+    """Reject a folder that cannot be written to or created.
+
+    Raises
+    ------
+    OSError
+        If it cannot be written to; the message states the reason, and a remedy.
+    """
     with _explained(folder):
         other = folder.exists() and not folder.is_dir()
         if not other:
@@ -171,7 +183,7 @@ def expect_folder(folder: Path) -> None:
 
 
 def _try_folder(folder: Path) -> None:
-    """Write a test file into a folder, or into that in which it would be created."""
+    """Write a test file into a folder, or into its nearest existing parent."""
     there = next(place for place in (folder, *folder.parents) if place.exists())
     with tempfile.TemporaryFile(dir=there) as stream:
         stream.write(bytes(PAGE))
@@ -179,7 +191,7 @@ def _try_folder(folder: Path) -> None:
 
 @contextlib.contextmanager
 def _explained(path: Path) -> Iterator[None]:
-    """Raise an error that names the file that could not be written, and a remedy."""
+    """Replace an OSError in the block by one that states the file, the reason and a remedy."""
     try:
         yield
     except OSError as error:
@@ -191,9 +203,10 @@ def _explained(path: Path) -> Iterator[None]:
 
 
 def sources(*rooms: str | Path) -> Iterator[Path]:
-    """Return the named source files, templates and data included, in a fixed order.
+    """Yield source files (``.py``, ``.j2`` and ``.toml``) in a fixed order.
 
-    A name is a folder or a file of the package, or a pattern like ``paper/*/theory*``.
+    Text names a folder or a file of this package, or is a pattern like ``plate/*/theory*``; other
+    folders and files are given by path.
     """
     for room in rooms:
         for place in sorted(PACKAGE.glob(room)) if isinstance(room, str) else [room]:
@@ -202,7 +215,7 @@ def sources(*rooms: str | Path) -> Iterator[Path]:
 
 
 def content_hash(paths: Iterable[Path]) -> str:
-    """Return a hash of the files' names and contents, and versions of libraries and Python."""
+    """Return a hash of names and contents of files, and of versions of Python and `PINNED`."""
     digest = hashlib.sha256(platform.python_version().encode())
     for library in PINNED:
         digest.update(f"{library}={version(library)};".encode())

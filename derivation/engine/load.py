@@ -12,7 +12,7 @@ from derivation.engine.paper import Paper
 
 SKELETON = Path(__file__).parent / "skeleton"
 PREFIX = "paper_in_"
-"""Prefix of the name under which a folder is imported, so that it hides no other module."""
+"""Prefix of the name under which a folder is imported, to avoid the names of other modules."""
 
 
 class PaperError(ValueError):
@@ -26,6 +26,8 @@ def load(folder: Path) -> Paper:
     ------
     PaperError
         If there is no paper, or the folder's modules cannot be imported.
+    derivation.engine.failed.FailedError
+        If a proof fails during the import.
     """
     place = folder.resolve()
     if not (place / "paper.py").is_file():
@@ -66,12 +68,12 @@ def _place(error: Exception, folder: Path) -> str:
 
 
 def begin(folder: Path) -> tuple[Path, ...]:
-    """Write a small working paper as a start for one's own; return its files.
+    """Write a small working paper into a folder, as a start for a new paper; return its files.
 
     Raises
     ------
     PaperError
-        If the folder is not empty.
+        If the folder is not empty, or is a file.
     OSError
         If it cannot be written to.
     """

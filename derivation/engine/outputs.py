@@ -16,7 +16,7 @@ def folder_for(out: Path | None, own: Path) -> Path:
     Raises
     ------
     ValueError
-        If no folder is given and the own one belongs to an installed copy.
+        If `out` is None and the project's folder belongs to an installed copy.
     """
     if out is None and _installed(own):
         raise ValueError("expected a folder, as this is an installed copy: add --out DIR")
@@ -24,12 +24,12 @@ def folder_for(out: Path | None, own: Path) -> Path:
 
 
 def writable_folder(out: Path | None, own: Path) -> Path:
-    """Return the same folder after a test that it can be written to.
+    """Return the folder to write to, as `folder_for` does, after a test that it is writable.
 
     Raises
     ------
     ValueError
-        If no folder is given and the own one belongs to an installed copy.
+        If `out` is None and the project's folder belongs to an installed copy.
     OSError
         If it cannot be written to.
     """
@@ -44,7 +44,7 @@ def recorded_in(committed: Path, update: bool, out: Path | None) -> Path | None:
     Raises
     ------
     ValueError
-        If both are asked for, or the committed one belongs to an installed copy.
+        If both are requested, or the committed one belongs to an installed copy.
     OSError
         If the file cannot be written.
     """
@@ -70,13 +70,13 @@ def expect_recordable(path: Path) -> None:
     """
     if _installed(path):
         raise ValueError(
-            "--update: expected a checkout, got an installed copy; keep the result by --json FILE"
+            "--update: expected a checkout, got an installed copy; save the result with --json FILE"
         )
     expect_writable(path)
 
 
 def plain(value: Any) -> Any:
-    """Return data for JSON, which has no infinities and no NaN: these become text."""
+    """Return data for JSON; infinities and NaN, which JSON does not allow, become text."""
     if isinstance(value, dict):
         return {key: plain(part) for key, part in value.items()}
     if isinstance(value, list | tuple):

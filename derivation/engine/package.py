@@ -22,18 +22,18 @@ class Package:
     Parameters
     ----------
     target
-        Its import name.
+        Import name of the package.
     forms
-        The stable forms of the formulas, proved equal to them.
+        Function from the formulas by name to their stable forms, proved equal to them.
     files
-        Function for its files by name, from formulas and forms.
+        Function from formulas and forms to the contents of the files by name.
     sources
         Files on which it depends in addition to the formulas: parts of this package by name, others
         by path.
     rewritten
-        Formulas whose forms are found by the rules.
+        Names of the formulas whose forms are found by the rewriting rules.
     scales
-        Their dimensionless variables.
+        Dimensionless variables of these formulas.
     """
 
     target: str
@@ -52,7 +52,7 @@ def forms_of(chain: Chain, package: Package) -> tuple[Form, ...]:
 
 
 def files_of(chain: Chain, package: Package) -> dict[str, str]:
-    """Return the files of the package by name."""
+    """Return the contents of the package's files by name."""
     own = ("engine/rewrite", "engine/errata", "engine/emit", "engine/runtime")
     rooms = (*own, *package.sources)
 
@@ -74,6 +74,6 @@ def write(chain: Chain, package: Package, folder: Path) -> tuple[Path, ...]:
 
 
 def freshness_of(chain: Chain, package: Package, folder: Path, remedy: str) -> Freshness:
-    """Compare the files of a folder with what would be written; `remedy` is the command for it."""
+    """Compare a folder with the files of the package; `remedy` is the command that writes them."""
     recover(real(folder))
     return compare(folder, files_of(chain, package), remedy)

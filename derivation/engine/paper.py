@@ -1,4 +1,4 @@
-"""The class `Paper`, which contains everything the engine needs from a paper."""
+"""The class `Paper`, which contains all data that the engine needs from a paper."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -32,17 +32,17 @@ class Report:
     prose
         Text by link, and references.
     subtitle, abstract
-        Below the title, and in a few sentences what the report is about.
+        Subtitle, and a summary in a few sentences.
     plan
-        Names of its sections and appendices, in order.
+        Names of the sections and appendices, in order.
     parts
-        The report's LaTeX, from the names of the sections to show; None for the sections that
-        suit any paper.
+        Function from the names of the sections to show to their LaTeX; None for the sections of
+        `any_report`, which suit any paper.
     figures
-        Function for every figure by name; only figures of the shown sections are drawn.
+        Function that returns all figures by name; those of the shown sections are written.
     beside
-        Function from the paper's folder to other files that depend on the same data and are
-        written with the whole report.
+        Function from the paper's folder to the contents of other files that depend on the same
+        data; they are written with the whole report.
     """
 
     prose: Prose = field(default_factory=Prose)
@@ -61,23 +61,24 @@ class Paper:
     Parameters
     ----------
     title
-        Its title.
+        Title of the paper.
     folder
-        Parent folder of its package `generated` and its `reports`.
+        Parent of the folders `generated` and `reports`.
     records
         Folder of the saved measurements.
     chain
-        Its vocabulary, the links of its derivation, and the files on which they depend.
+        Vocabulary, links of the derivation, and the files on which they depend.
     errata
         The published formulas.
     package
-        The generated package. It is a function, so that its imports are loaded when needed.
+        Function that returns the definition of the generated package; its imports are then loaded
+        only when needed.
     judge
-        References and points; likewise a function.
+        Function that returns the references and test points.
     report
-        The report; likewise a function.
+        Function that returns the content of the report.
     committed
-        Whether measurements are updated only on request, and a build compares with them.
+        Whether measurements are saved only on request. Otherwise every build saves them.
     """
 
     title: str
@@ -92,7 +93,7 @@ class Paper:
 
     @property
     def vocabulary(self) -> Vocabulary:
-        """Its symbols."""
+        """The symbols of the paper."""
         return self.chain.vocabulary
 
     @property
@@ -112,10 +113,10 @@ class Paper:
 
     @property
     def hard(self) -> Path:
-        """File with the references of the hard cases, and their origin."""
+        """File with the reference values of the hard cases, and their origin."""
         return self.records / "hard.json"
 
     @property
     def rewritten(self) -> Path:
-        """File with the saved effect of the rules."""
+        """File with the saved effects of the rewriting rules."""
         return self.records / "rewrite.json"

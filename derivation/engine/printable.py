@@ -5,7 +5,7 @@ import re
 _STEERING = re.compile(
     "[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff]"
 )
-"""Control characters except tab and newline, marks of direction, and halves of characters."""
+"""Control characters except tab and newline, marks of direction, and surrogates."""
 
 
 def printable(text: str) -> str:
@@ -14,13 +14,13 @@ def printable(text: str) -> str:
 
 
 def one_line(text: str, most: int = 60) -> str:
-    """Return the same on one line, shortened to at most `most` characters."""
+    """Return the first `most` characters of a text on one line, with control characters escaped."""
     cut = text if len(text) <= most else text[: most - 3] + "..."
     return printable(cut).replace("\n", "\\n").replace("\t", "\\t")
 
 
 def in_json(text: str) -> str:
-    """Return the same for JSON, whose own escapes keep their meaning."""
+    r"""Return JSON text with control characters escaped as in JSON, like ``\u001b``."""
     return _STEERING.sub(lambda found: f"\\u{ord(found[0]):04x}", text)
 
 

@@ -25,7 +25,7 @@ def documents(paper: Paper, sections: Sequence[str] = ()) -> dict[str, Text]:
     FileNotFoundError
         If a measurement is missing.
     ValueError
-        If there is no section of a name.
+        If a name is not that of a section.
     """
     own = paper.report()
     shown = chosen(sections, own.plan.names)
@@ -34,7 +34,7 @@ def documents(paper: Paper, sections: Sequence[str] = ()) -> dict[str, Text]:
 
 
 def _parts(paper: Paper, sections: Sequence[str]) -> Parts:
-    """The sections that suit any paper."""
+    """Return the report's parts with the sections that suit any paper."""
     if not paper.measured.is_file():
         raise FileNotFoundError(
             f"no measurement in {paper.measured}: run `platecontact check --update` with the same "
@@ -56,7 +56,7 @@ def _parts(paper: Paper, sections: Sequence[str]) -> Parts:
 
 
 def committed_files(paper: Paper) -> dict[str, str]:
-    """Return the report's files that can be compared byte by byte, by name."""
+    """Return the LaTeX files and the bibliography of the report by name."""
     tex = {
         f"{name}.tex": text.document(version("platecontact"))
         for name, text in documents(paper).items()
@@ -67,19 +67,31 @@ def committed_files(paper: Paper) -> dict[str, str]:
 def write(
     paper: Paper, out: Path | None = None, compiled: bool = True, sections: Sequence[str] = ()
 ) -> tuple[Path, ...]:
-    """Write the report with its appendices and, on request, their PDF; return the files written.
+    """Write the report with its appendices; return the files written.
 
-    Files with selected sections are named after them. The whole report in the paper's own folder is
-    written together with its accompanying files.
+    Parameters
+    ----------
+    paper
+        The paper.
+    out
+        Folder of the report; by default that of the paper, where the files of `Report.beside` are
+        written too.
+    compiled
+        Whether to compile the PDF.
+    sections
+        Names of the sections of a partial report, which its file name contains; all if empty.
 
     Raises
     ------
     OSError
         If the folder cannot be written to, or a measurement is missing.
     ValueError
-        If there is no section of a name.
+        If a name is not that of a section, or `out` is None and the paper belongs to an installed
+        copy.
+    derivation.engine.report.html.HtmlError
+        If the report cannot be converted to HTML; then nothing is written.
     derivation.engine.report.pdf.TexError
-        If LaTeX is missing or fails; everything else is written nevertheless.
+        If LaTeX is not installed or fails; all other files are written nevertheless.
     """
     folder, own = writable_folder(out, paper.report_folder), paper.report()
     texts = documents(paper, sections)
@@ -106,13 +118,13 @@ def write(
 
 
 def freshness(paper: Paper, out: Path | None, remedy: str) -> Freshness:
-    """Compare the report with what would be written; `remedy` is the command that writes it."""
+    """Compare the report with newly made files; `remedy` is the command that writes them."""
     folder = folder_for(out, paper.report_folder)
     return compare(folder, committed_files(paper), remedy, "[ar]*.[tb]*")
 
 
 def fragments(paper: Paper, names: Sequence[str]) -> str:
-    """Return LaTeX of formulas, or of all formulas of a link, ready to be pasted.
+    """Return LaTeX of the named formulas, and of all formulas of the named links.
 
     Raises
     ------
@@ -123,7 +135,7 @@ def fragments(paper: Paper, names: Sequence[str]) -> str:
 
 
 def write_fragments(paper: Paper, names: Sequence[str], out: Path) -> tuple[Path, ...]:
-    """Write the same as a file, with the bibliography.
+    """Write LaTeX of formulas to ``fragment.tex``, with the bibliography; return the files.
 
     Raises
     ------

@@ -1,7 +1,7 @@
 """Temporary files and folders that replace their target in one step.
 
-A temporary is locked while the process that writes it is running. A later run can therefore
-distinguish what a killed process left, which it removes, from what another process is writing.
+A temporary file is locked while the process that writes it is running. A later run can therefore
+distinguish files that a killed process left, which it removes, from files that are being written.
 """
 
 import contextlib
@@ -19,7 +19,7 @@ except ImportError:  # without such locks nothing is treated as a leftover
     fcntl = None
 
 MARK = ".platecontact-"
-"""Prefix of the name of every temporary."""
+"""Prefix of the name of every temporary file or folder."""
 TEMPORARY, SET_ASIDE = ".tmp", ".old"
 _EXCHANGE, _HERE = 2, -100
 """RENAME_EXCHANGE and AT_FDCWD of Linux."""
@@ -31,7 +31,7 @@ class Temporary:
     Attributes
     ----------
     path
-        Its path.
+        Path of the file or folder.
     """
 
     def __init__(self, parent: Path, folder: bool = False) -> None:
@@ -43,7 +43,7 @@ class Temporary:
             self.close()
 
     def _locked(self) -> bool:
-        """Lock it; False if another process has already removed it as a leftover."""
+        """Lock it; return False if another process has already removed it as a leftover."""
         if fcntl is None:
             return True
         with contextlib.suppress(OSError):  # some file systems have no locks
@@ -54,11 +54,11 @@ class Temporary:
             return False
 
     def write(self, content: bytes) -> None:
-        """Flush a file to the disk."""
+        """Write the content of a file, and flush it to the disk."""
         _write(self._handle, content)
 
     def close(self) -> None:
-        """Release the lock."""
+        """Close it, which releases the lock."""
         os.close(self._handle)
 
     def discard(self) -> None:
@@ -102,7 +102,7 @@ def settle(folder: Path) -> None:
 
 
 def remove_leftovers(folder: Path) -> None:
-    """Remove the temporaries in a folder whose process has ended."""
+    """Remove temporary files and folders whose process has ended."""
     if fcntl is None:
         return
     names = [name for name in os.listdir(folder) if name.startswith(MARK)]  # noqa: PTH208
@@ -124,9 +124,9 @@ def put_folder(target: Path, contents: dict[str, bytes]) -> None:
     Parameters
     ----------
     target
-        The folder, not a link, in an existing folder.
+        The folder, which is not a link; its parent exists.
     contents
-        Contents by name.
+        Contents of the files by name.
 
     Raises
     ------
@@ -149,7 +149,7 @@ def put_folder(target: Path, contents: dict[str, bytes]) -> None:
         _swap(staged.path, target)
         settle(target.parent)
     finally:
-        staged.discard()  # now the old folder, or a new one that could not be put in place
+        staged.discard()  # now the old folder, or the new one if it could not be put in place
         staged.close()
 
 
@@ -159,7 +159,7 @@ def _take_over(old: Path, new: Path, contents: dict[str, bytes]) -> None:
     Raises
     ------
     OSError
-        If the old one contains folders, or is the working directory.
+        If the old one contains folders or the working directory.
     """
     if Path.cwd().is_relative_to(old):
         raise OSError(errno.EBUSY, os.strerror(errno.EBUSY))
@@ -191,7 +191,7 @@ def _swap(new: Path, target: Path) -> None:
 
 
 def _exchange(one: Path, other: Path) -> bool:
-    """Exchange two names in one step; False if the system does not support it."""
+    """Exchange two names in one step; return False if the system does not support it."""
     import ctypes
 
     try:
@@ -207,12 +207,12 @@ def _exchange(one: Path, other: Path) -> bool:
 
 
 def _aside(target: Path) -> Path:
-    """Return the name of a folder between two renames."""
+    """Return the name of the old folder between two renames."""
     return target.with_name(f"{MARK}{target.name}{SET_ASIDE}")
 
 
 def recover(target: Path) -> None:
-    """Complete the replacement of a folder by a process that was killed between two renames.
+    """Complete or undo the replacement of a folder, if a process was killed between two renames.
 
     Raises
     ------

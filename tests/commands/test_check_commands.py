@@ -90,17 +90,17 @@ def test_a_formula_that_is_off_fails_and_the_verdict_names_it(
     paper = plate_paper.PAPER
     sound = build.check(paper, update=True)
     before = path.read_bytes()
-    assert build.verdict(paper, sound) == ["all budgets kept"]
+    assert build.verdict(paper, sound) == ["all errors are within their budgets"]
     spoilt(1.0 + 1e-13)
     assert main(["check"]) == 1
     assert "NO" in capsys.readouterr().out
     assert build.verdict(paper, build.check(paper)) == [
         "above their budget: bessel_j0",
-        "not as committed in check.json: bessel_j0",
+        "different from the saved check.json: bessel_j0",
     ]
     assert path.read_bytes() == before
     path.unlink()
-    assert build.verdict(paper, sound) == ["all budgets kept"]  # nothing to repeat
+    assert build.verdict(paper, sound) == ["all errors are within their budgets"]  # none saved
 
 
 # --- contact law

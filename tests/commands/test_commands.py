@@ -133,9 +133,9 @@ def test_build_goes_through_every_stage(
     said = capsys.readouterr().err
     stages = re.findall(r"✓ (\w+) +[\d.]+ s", said)
     assert stages == ["derive", "rewrite", "generate", "misprints", "check", "report"]
-    assert ("no PDF, all else is there: no latexmk" in said) is not pdf
+    assert ("the PDF was not written, all other files were: no latexmk" in said) is not pdf
     assert ("above their budget: P" in said) is not kept
-    assert "not as committed in check.json: P" in said  # these errors are made up
+    assert "different from the saved check.json: P" in said  # these errors are made up
     listed = said.partition("files written:\n")[2].splitlines()
     assert sorted(listed) == sorted(str(p) for p in tmp_path.rglob("*") if p.is_file())
 

@@ -1,1 +1,1 @@
-"""The published equations compared with the derived ones: misprints and their corrections."""
+"""Comparison of published equations with derived ones: misprints and their corrections."""

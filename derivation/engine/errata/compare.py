@@ -52,13 +52,14 @@ class Diagnosis:
     edits
         Number of changes in the correction.
     ratio
-        Given over derived formula, if that is short.
+        Given over derived formula, if that is short; else None.
     dimension
-        Error in the given formula's dimension, if any.
+        Error in the dimension of the given formula; None if there is none.
     given
         The given formula.
     method
-        How equality was decided, for the given or the corrected formula.
+        Method by which the given or corrected formula was found equal to the derived one, or the
+        given one different.
     """
 
     formula: Record
@@ -94,7 +95,7 @@ class Diagnosis:
         return f"**{name}: {self.verdict}**, {self.method}\n\n{self._repr_latex_()}{repair}"
 
     def to_json(self) -> dict[str, str | int | None]:
-        """Return plain text under fixed keys."""
+        """Return the result as plain data under fixed keys."""
         return {
             "name": self.name,
             "verdict": self.verdict,
@@ -139,13 +140,18 @@ def diagnose(
     Parameters
     ----------
     name
-        Name of a derived formula, for instance ``Omega_3``.
+        Name of a derived formula, such as ``Omega_3``.
     given
-        The formula to compare, in the paper's symbols and names of other formulas.
+        The formula to be compared; it may contain the paper's symbols and names of other formulas.
     formulas
         The derived formulas by name.
     relations
         The dependent symbols.
+
+    Returns
+    -------
+    Diagnosis
+        The verdict, and the correction if one was found.
 
     Raises
     ------
@@ -170,7 +176,7 @@ def diagnose(
 
 
 def comparable(formulas: Mapping[str, Record]) -> list[str]:
-    """Return names of formulas that can be evaluated: without unknown functions or integrals."""
+    """Return the names of formulas that can be evaluated in ball arithmetic."""
     return [name for name, formula in formulas.items() if enclosable(formula.expression)]
 
 
@@ -180,7 +186,7 @@ def known_formula(name: str, formulas: Mapping[str, Record]) -> Record:
     Raises
     ------
     FormulaError
-        If there is none that can be compared; the message suggests the nearest names.
+        If there is no such formula, or it cannot be evaluated; the message suggests other names.
     """
     names = comparable(formulas)
     if name in formulas and name not in names:
@@ -218,7 +224,7 @@ def relations_between(
     formulas: Mapping[str, Record],
     relations: Relations,
 ) -> dict[sp.Symbol, sp.Expr]:
-    """Return symbols that follow from others, if the two sides are not in the same symbols."""
+    """Return the dependent symbols, with their expressions, if both sides differ in symbols."""
     if given.free_symbols == derived.free_symbols:
         return {}
     return relations.between(name, given.free_symbols, derived.free_symbols, formulas)
@@ -285,7 +291,7 @@ def _diagnosis(
 def _repairs(
     case: _Case, formulas: Mapping[str, Record]
 ) -> Iterator[tuple[Repair, sp.Expr | None]]:
-    """Yield candidates in order: another derived formula, a factor counted twice, single edits."""
+    """Yield candidates: another derived formula, a factor counted twice, then one or two edits."""
     yield from _mistaken(case, formulas)
     yield from _counted_twice(case, formulas)
     for count, repair in enumerate(repairs(case.given, case.reference, case.search)):
@@ -297,7 +303,7 @@ def _repairs(
 def _mistaken(
     case: _Case, formulas: Mapping[str, Record]
 ) -> Iterator[tuple[Repair, sp.Expr | None]]:
-    """Yield derived formulas that the given one equals, for instance that of the other face."""
+    """Yield other derived formulas that equal the given one, such as that of the other face."""
     derived = case.formula
     for other in _formulas_with_values(case, formulas, case.have):
         if other.unit == derived.unit:
@@ -366,7 +372,7 @@ def _partial_products(expression: sp.Expr) -> Iterator[sp.Expr]:
 
 
 def _as_power(case: _Case, repair: Repair) -> Repair:
-    """Return the wrong power, for an extra or missing root of a factor of the given formula."""
+    """Return a correction as a wrong power, if a root of a factor is superfluous or missing."""
     excess = _ratio(case)
     if repair.kind not in (STRAY, MISSING) or excess is None or not excess.is_Pow:
         return repair
@@ -379,7 +385,7 @@ def _as_power(case: _Case, repair: Repair) -> Repair:
 
 
 def _ratio(case: _Case) -> sp.Expr | None:
-    """Return given over derived where that is a monomial, or short after cancellation."""
+    """Return given over derived formula, if that is a monomial or short; else None."""
     ratio = [v / w for v, w in zip(case.have, case.reference, strict=True)]
     simple = monomial(ratio, case.search.points)
     if simple is not None:

@@ -20,7 +20,7 @@ _NAMES = {dimension_of(unit): unit for unit in _COMMON}
 
 
 def dimension_note(expression: sp.Expr, unit: str, vocabulary: Vocabulary) -> str | None:
-    """Return the error in the dimension of an expression that should have a unit, or None."""
+    """Return a description of a wrong dimension; None if the expression has the given unit."""
     try:
         found = dimension(expression, vocabulary.dimensions)
     except DimensionError as error:
@@ -33,7 +33,7 @@ def dimension_note(expression: sp.Expr, unit: str, vocabulary: Vocabulary) -> st
 
 
 def unit_name(value: Dimension) -> str:
-    """Return the unit of a dimension, in metres and pascals where mass and time allow it."""
+    """Return the unit of a dimension, in metres and pascals if possible."""
     if value in _NAMES:
         return _NAMES[value]
     if value.time != -2 * value.mass:

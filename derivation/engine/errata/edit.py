@@ -1,4 +1,4 @@
-"""Single edits: at each position in a formula, the changes that give it the required value."""
+"""Single edits: changes at a position in a formula that give it the required value."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -34,7 +34,7 @@ _FEW = 3
 
 @dataclass(frozen=True, eq=False)
 class Edit:
-    """One change at one position, with its weight: the smaller, the more likely the error."""
+    """One change at one position, and its cost: the lower the cost, the more likely the error."""
 
     kind: str
     place: Position
@@ -43,12 +43,12 @@ class Edit:
     cost: float
 
     def order(self) -> tuple[float, int, str]:
-        """Sort key: cost, then distance from the root, then text."""
+        """Return the sort key: cost, then distance from the root, then text."""
         return round(self.cost, 6), self.place.depth, self.says
 
 
 def single_edits(root: Position, reference: Values, search: VariantSearch) -> list[Edit]:
-    """Yield every edit below a position that gives the correct values, the likeliest first."""
+    """Return all edits below a position that give the correct values, the most likely first."""
     found: list[Edit] = []
     for place, need in with_needs(root, reference, search.points):
         found += ratio_edits(place, need, search)
@@ -69,7 +69,7 @@ def _edit(kind: str, place: Position, new: sp.Expr, says: str, extra: float = 0.
 
 
 def edit_of(variant: Variant, place: Position) -> Edit:
-    """Return the edit that puts a variant at a position."""
+    """Return the edit that replaces the expression at a position by a variant."""
     new = variant.build()
     if variant.kind == LOST:
         shown = variant.shown() if variant.shown else sp.sstr(new)
@@ -120,7 +120,7 @@ def ratio_edits(place: Position, need: Values, search: VariantSearch) -> Iterato
 def ratio_edit(
     place: Position, ratio: sp.Expr, extra: float = 0.0, kind: str | None = None
 ) -> Edit:
-    """Return the multiplication by a ratio, with a text that suits the expression."""
+    """Return the multiplication of an expression by a ratio, as an edit with a description."""
     new, where = ratio * place.node, name_of(place)
     if ratio == -1:
         return _edit(SIGN, place, new, f"reverse the sign of {where}", extra)
@@ -134,7 +134,7 @@ def ratio_edit(
 
 
 def _stray_or_missing(place: Position, ratio: sp.Expr) -> str:
-    """Return whether the ratio removes what the expression contains, or adds what it does not."""
+    """Return the kind of error: the ratio removes a factor of the expression, or adds one."""
     above, below = sp.fraction(ratio)
     numerator, denominator = sp.fraction(place.node)
     taken = denominator.has(*above.free_symbols) or numerator.has(*below.free_symbols)
@@ -165,7 +165,7 @@ def _size(ratio: sp.Expr) -> float:
 
 
 def exponent_edits(place: Position, need: Values, search: VariantSearch) -> Iterator[Edit]:
-    """Yield another power of the same base."""
+    """Yield an edit to another power of the same base."""
     node = place.node
     if node.is_number or place.role in (BASE, TERMS):
         return
@@ -181,11 +181,11 @@ def exponent_edits(place: Position, need: Values, search: VariantSearch) -> Iter
         yield _edit(EXPONENT, place, new, says, 0.0 if node.is_Pow or node.is_Atom else 0.4)
 
 
-# Terms: one too many in a sum, or a simple one missing.
+# Terms: one is superfluous in a sum, or a simple one is missing.
 
 
 def term_edits(place: Position, need: Values, search: VariantSearch) -> Iterator[Edit]:
-    """Yield a term removed or added."""
+    """Yield edits that remove or add a term."""
     if not isinstance(place.node, sp.Add) or place.role == TERMS:
         return
     have = search.points.values(place.node)
@@ -199,11 +199,11 @@ def term_edits(place: Position, need: Values, search: VariantSearch) -> Iterator
             yield _edit(SUM, place, place.node + term, f"add the missing term {_text(term)}", 0.5)
 
 
-# Parentheses: their terms need the factor that is applied to another term only.
+# Parentheses: a factor of one term must be applied to other terms too.
 
 
 def drawn_in_front(place: Position, need: Values, search: VariantSearch) -> Iterator[Edit]:
-    """Yield c (x + y) for c x + y, where c is the ratio that y needs."""
+    """Yield c (x + y) for c x + y, where c is the ratio of required to given value of y."""
     if place.role not in (TERM, TERMS) or place.parent is None:
         return
     have = search.points.values(place.node)
@@ -226,7 +226,7 @@ def drawn_in_front(place: Position, need: Values, search: VariantSearch) -> Iter
 
 
 def _cancelled(search: VariantSearch) -> tuple[sp.Expr, ...]:
-    """Return known sums that may have cancelled against a part of the term, and 1."""
+    """Return 1 and sums that may have cancelled in the term, each with its reciprocal."""
     sums = [factor for factor in search.factors if isinstance(factor, sp.Add)]
     return (sp.Integer(1), *(1 / factor for factor in sums), *sums)
 

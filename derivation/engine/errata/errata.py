@@ -1,4 +1,4 @@
-"""All published formulas of a paper, and their comparison with the derived ones."""
+"""The published formulas of a paper, and their comparison with the derived ones."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -20,9 +20,9 @@ class Errata:
     relations
         The dependent symbols.
     finding
-        Function that compares a published formula in a way of its own, if necessary.
+        Function that compares a published formula instead of `findings.finding`, if necessary.
     kinds
-        Further classes of published formulas.
+        Further dataclasses that the findings contain, such as subclasses of `Printed`.
     """
 
     printed: Sequence[Printed] = ()
@@ -31,7 +31,7 @@ class Errata:
     kinds: tuple[type, ...] = ()
 
     def compared(self, formulas: Formulas) -> tuple[Finding, ...]:
-        """Return every published formula compared with the derived one, correct ones included."""
+        """Compare each published formula with the derived one; return all results."""
 
         def one(record: Printed) -> Finding:
             if self.finding is not None:
@@ -41,7 +41,7 @@ class Errata:
         return tuple(one(record) for record in self.printed)
 
     def found(self, chain: Chain) -> tuple[Finding, ...]:
-        """Return the same, cached until the sources change."""
+        """Return the results of `compared`, cached until the sources change."""
         kinds = (Finding, Diagnosis, Printed, *self.kinds)
         return chain.kept(
             "misprints", lambda: self.compared(chain.formulas()), *kinds, also=("engine/errata",)

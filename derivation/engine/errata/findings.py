@@ -27,15 +27,16 @@ class Printed:
     latex
         LaTeX of the right-hand side; for a sum, of one term.
     expression
-        The same in SymPy.
+        The right-hand side in SymPy.
     says
-        Statement of the paper about it in words, where that is part of the claim.
+        Statement of the paper about the formula in words, if that is part of the claim.
     full
-        The published right-hand side, where `latex` is only a part of it.
+        The complete published right-hand side, if `latex` is only a part of it.
     where
-        Names in the expression that another equation of the paper defines.
+        Symbols in the expression that another equation of the paper defines, with their
+        expressions.
     solved
-        The expression solved for the quantity `name`, if the paper solves for another one.
+        The equation solved for the quantity `name`, if the paper states it for another quantity.
     """
 
     name: str
@@ -60,7 +61,7 @@ class Printed:
 
 @dataclass(frozen=True)
 class Finding:
-    """A published formula, the derived one, and the result of the comparison."""
+    """A published formula, the derived one, and the result of their comparison."""
 
     printed: Printed
     formula: Record
@@ -69,12 +70,12 @@ class Finding:
 
     @property
     def is_misprint(self) -> bool:
-        """Whether published and derived formula differ."""
+        """Whether the published formula differs from the derived one."""
         return self.diagnosis.verdict == DIFFERENT
 
     @property
     def kind(self) -> str:
-        """The kind of misprint, or the statement that there is none."""
+        """The kind of misprint; "correct as published" if there is none."""
         return self.diagnosis.kind if self.is_misprint else CORRECT
 
     @property
@@ -83,7 +84,7 @@ class Finding:
         return f"{self.diagnosis.repair}. {self.remark}" if self.remark else self.diagnosis.repair
 
     def to_json(self) -> dict[str, str | None]:
-        """Return plain text under fixed keys."""
+        """Return the finding as plain data under fixed keys."""
         diagnosis, vocabulary = self.diagnosis, self.formula.vocabulary
         return {
             "equation": self.printed.equation,

@@ -1,7 +1,7 @@
 """Two misprints in different parts of a product or a sum, found by matching pairs of edits.
 
-Every edit of one part changes the whole by a known ratio (in a sum: difference); its partner is the
-edit of another part that supplies the rest.
+Every edit of one part changes the whole by a known ratio (in a sum, by a difference). The search
+finds an edit of another part with which the total change is the required one.
 """
 
 from bisect import bisect_left
@@ -38,11 +38,11 @@ class Pair:
 
     @property
     def says(self) -> str:
-        """Return both changes in a sentence."""
+        """Both changes in a sentence."""
         return f"{self.first.says}; and {self.second.says}"
 
     def order(self) -> tuple[float, str]:
-        """Sort key: cost, then text."""
+        """Return the sort key: cost, then text."""
         return round(self.first.cost + self.second.cost, 6), self.says
 
 
@@ -74,7 +74,7 @@ class _Change:
 
 
 def pair_edits(root: Position, reference: Values, search: VariantSearch) -> list[Pair]:
-    """Yield pairs of edits in different parts of a product or sum, the likeliest first."""
+    """Return pairs of edits in different parts of a product or sum, the most likely first."""
     if not isinstance(root.node, sp.Add | sp.Mul):
         return []
     have = search.points.value(root.node, 0)
@@ -110,7 +110,7 @@ def _changes(root: Position, search: VariantSearch) -> Iterator[_Change]:
 
 
 def _of_the_whole(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
-    """Yield variants of a product that no single factor shows."""
+    """Yield variants of a product that do not belong to a single factor."""
     yield from superfluous_parentheses(node, search)
     have = search.points.value(node, 0)
     for kind, factor, extra in multipliers(search):
@@ -119,7 +119,7 @@ def _of_the_whole(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
 
 
 def _lifted(place: Position, value: flint.acb, top: Position, search: VariantSearch) -> flint.acb:
-    """Return the value of the position `top` when the position inside it takes another value."""
+    """Return the value of the position `top` if a position inside it has another value."""
     while place is not top and place.parent is not None:
         node = place.parent.node
         whole = search.points.value(node, 0)
@@ -192,7 +192,7 @@ def _with_overall_ratio(
 def _could_be_monomial(
     root: Position, change: _Change, reference: Values, search: VariantSearch
 ) -> bool:
-    """Return whether the missing factor after a change scales like a power of each symbol."""
+    """Return whether the missing factor after a change is a power of each symbol."""
     points = search.points
     old = root.node.args[change.part]
     new = change.part_after(root)

@@ -16,11 +16,17 @@ _CANDIDATES = ("0.5", "0.1", "0.01", "1", "2", "10", "-1")
 """Values tried in turn for a symbol without a sample value."""
 
 _SCALES = ("10", "0.1", "100", "0.01")
-"""Factors of a default value, tried in turn where a formula has no real value."""
+"""Factors of a default value, tried in turn if a formula has no real value."""
 
 
 def default_value(argument: Argument, values: Mapping[str, str]) -> str:
-    """Return a value [SI] inside the symbol's own domain."""
+    """Return a value [SI] inside the symbol's own domain.
+
+    Raises
+    ------
+    FormulaError
+        If none is known.
+    """
     if argument.name in values:
         return values[argument.name]
     for literal in _CANDIDATES:
@@ -49,7 +55,7 @@ def parse_point(text: str) -> dict[str, str]:
 
 
 def exact(at: Mapping[str, str], vocabulary: Vocabulary, relations: Relations) -> Point:
-    """Return literals and exact values by symbol name, with additional symbols converted.
+    """Return literals and exact values by symbol name; additional symbols are converted.
 
     Raises
     ------
@@ -132,7 +138,7 @@ def completed(
 def others(
     point: Point, chosen: Iterable[str], conditions: Iterable[str], vocabulary: Vocabulary
 ) -> Iterator[Point]:
-    """Yield points near a completed one: one default value is made larger or smaller."""
+    """Yield points in the domain at which one default value is larger or smaller."""
     conditions = tuple(conditions)
     free = [name for name in point if name not in set(chosen)]
     for scale in _SCALES:

@@ -1,6 +1,6 @@
 """A position in an expression: its subexpression, and the value that would be correct there.
 
-The required value of a position is the one for which the whole is correct; it follows from the root
+With the required value of a position, the whole expression is correct. It is computed from the root
 downwards by inverting sums, products, powers and functions.
 """
 
@@ -34,7 +34,7 @@ class Position:
     node
         The subexpression.
     role
-        Its role in its parent: a term, a factor, ...
+        Role in its parent: a term, a factor, ...
     parent
         The position around it; None at the root.
     taken
@@ -48,7 +48,7 @@ class Position:
 
     @property
     def depth(self) -> int:
-        """Number of steps to the root."""
+        """Number of parents up to the root."""
         return 0 if self.parent is None else self.parent.depth + 1
 
     def put(self, new: sp.Expr, top: "Position | None" = None) -> sp.Expr:
@@ -97,7 +97,7 @@ def everywhere(place: Position) -> Iterator[Position]:
 
 
 def needed(part: Position, need: Values, points: Sample) -> list[flint.acb] | None:
-    """Return the values required inside, given those of the parent; None if not determined."""
+    """Return the required values of a part from those of its parent; None if not determined."""
     assert part.parent is not None  # the root requires the reference values themselves
     node = part.parent.node
     have = points.values(part.node)
@@ -118,7 +118,7 @@ def needed(part: Position, need: Values, points: Sample) -> list[flint.acb] | No
 
 
 def _root(value: flint.acb, exponent: sp.Rational, near: flint.acb) -> flint.acb:
-    """Return the base whose power is the value; of two signs, the one of the given base."""
+    """Return the base of a power with this value, with the sign of the given base."""
     root = value ** flint.arb(flint.fmpq(int(exponent.q), int(exponent.p)))
     if exponent.p % 2:
         if value.real < 0 and exponent.q == 1:

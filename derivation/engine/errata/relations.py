@@ -22,11 +22,11 @@ class Relations:
     Parameters
     ----------
     between
-        The dependent symbols of a comparison, from the name of the compared formula, the symbols of
-        the given and of the derived formula, and all formulas. It is called only if the two
-        formulas are not in the same symbols.
+        Function that returns the dependent symbols of a comparison and their expressions, from the
+        name of the compared formula, the symbols of the given and of the derived formula, and all
+        formulas. It is called only if the two formulas have different symbols.
     point
-        A point with values of additional symbols, converted to the vocabulary's symbols.
+        Function that converts a point with additional symbols to the vocabulary's symbols.
     """
 
     between: Callable[[str, Symbols, Symbols, Formulas], Meanings] = lambda *_: {}

@@ -18,7 +18,7 @@ MAX_OPERATIONS_FOR_PAIRS = 150
 
 @dataclass(frozen=True)
 class Repair:
-    """A correction: kind of error, a sentence, the corrected expression, number of edits."""
+    """A correction: kind of error, description, corrected expression, number of edits."""
 
     kind: str
     says: str
@@ -27,9 +27,9 @@ class Repair:
 
 
 def repairs(given: sp.Expr, reference: Values, search: VariantSearch) -> Iterator[Repair]:
-    """Yield corrections with the right values at every sample point: single edits, then pairs.
+    """Yield corrections with the correct values at every sample point: single edits, then pairs.
 
-    Pairs are sought in different parts of the whole, then in those of each part.
+    Pairs are searched in different parts of the whole expression, then in those of each part.
     """
     size = given.count_ops()
     if size > MAX_OPERATIONS:

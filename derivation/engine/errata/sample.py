@@ -1,7 +1,7 @@
-"""Sample points: values of expressions in 448-bit balls, by which corrections are tested.
+"""Sample points, at which corrections are tested in 448-bit ball arithmetic.
 
-The first point is followed by copies of it with one symbol doubled each, which determine a
-monomial's exponents; further random points exclude coincidence.
+The first point is followed by copies of it in which one symbol is doubled; they determine the
+exponents of a monomial. Further random points make an accidental agreement unlikely.
 """
 
 from collections.abc import Mapping, Sequence
@@ -25,7 +25,7 @@ Values = Sequence[flint.acb]
 
 @dataclass(frozen=True, eq=False)
 class Sample:
-    """Sample points, with the values that are already known at each.
+    """Sample points, and the values that are already known at each point.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ class Sample:
 
 
 def agree(x: flint.acb, y: flint.acb) -> bool:
-    """Return whether two balls are finite and overlap, that is, agree to all their digits."""
+    """Return whether two balls are finite and overlap."""
     return bool(x.is_finite() and y.is_finite() and x.overlaps(y))
 
 
@@ -78,9 +78,10 @@ def sample(
     relations: Mapping[sp.Symbol, sp.Expr],
     within: Mapping[sp.Symbol, Fraction],
 ) -> Sample:
-    """Return points for all symbols of some expressions; dependent symbols follow the others.
+    """Return sample points for all symbols of some expressions.
 
-    The random values of the symbols in `within` are multiplied by these factors.
+    Values of the symbols in `relations` follow from those of the others. Random values of the
+    symbols in `within` are multiplied by the factors there.
     """
     symbols: set[sp.Symbol] = set().union(*(e.free_symbols for e in expressions))
     dependent = [s for s in relations if s in symbols]
@@ -111,7 +112,7 @@ def real(value: flint.acb) -> float | None:
 
 
 def rational(number: float, denominator: int) -> Fraction | None:
-    """Return the simple fraction that a number represents, if any."""
+    """Return the simple fraction that equals a number; None if there is none."""
     if not abs(number) < 1e6:
         return None
     fraction = Fraction(number).limit_denominator(denominator)
@@ -119,7 +120,7 @@ def rational(number: float, denominator: int) -> Fraction | None:
 
 
 def constant(values: Values) -> sp.Expr | None:
-    """Return the simple rational, times a power of pi, that all values equal, if any."""
+    """Return the simple fraction times a power of pi that equals all values; None if none does."""
     number = real(values[0])
     if number is None or not agree(values[0], values[-1]):
         return None
@@ -134,7 +135,7 @@ def constant(values: Values) -> sp.Expr | None:
 
 
 def monomial(values: Values, points: Sample) -> sp.Expr | None:
-    """Return the constant times powers of the symbols that the values equal, if any."""
+    """Return the constant times powers of symbols that has these values; None if none has."""
     first = real(values[0])
     if first is None:
         return None

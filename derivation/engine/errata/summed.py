@@ -17,7 +17,7 @@ _LATEX_SUM = (
 
 
 def note(formula: Record) -> str | None:
-    """Return what is compared, if the quantity is a sum over the modes."""
+    """Return a note on the comparison of a sum over the modes; None for other formulas."""
     if not formula.summed:
         return None
     j = formula.vocabulary.indices[0]
@@ -25,7 +25,7 @@ def note(formula: Record) -> str | None:
 
 
 def without_latex_sum(text: str, vocabulary: Vocabulary) -> str:
-    r"""Return the LaTeX of one mode's term, from ``\sum_{j=1}^{\infty} ...`` or from itself."""
+    r"""Return LaTeX of one mode's term, from ``\sum_{j=1}^{\infty} ...`` or from the term alone."""
     match = re.fullmatch(_LATEX_SUM.format(index=_index(vocabulary)), text, re.DOTALL)
     if match is None:
         return text
@@ -38,7 +38,7 @@ def _index(vocabulary: Vocabulary) -> str:
 
 
 def parse_contribution(text: str, vocabulary: Vocabulary, also: Mapping[str, sp.Basic]) -> sp.Expr:
-    """Return the term of one mode, from ``c*Sum(..., (j, 1, oo))`` or from itself.
+    """Return the term of one mode, from ``c*Sum(..., (j, 1, oo))`` or from the term alone.
 
     Raises
     ------
@@ -69,7 +69,7 @@ def parse_contribution(text: str, vocabulary: Vocabulary, also: Mapping[str, sp.
 
 
 def _sums(plain: str) -> list[ast.Call]:
-    """Return the calls of Sum that are in no other one, in order; none if it cannot be read."""
+    """Return the calls of Sum, in order; empty if the text cannot be parsed."""
     if "Sum" not in plain:
         return []
     try:
@@ -101,7 +101,7 @@ def _check_limits(call: ast.Call, source: str, vocabulary: Vocabulary) -> None:
 
 
 def check_contribution(formula: Record, given: sp.Expr) -> None:
-    """Refuse what cannot be the term of one mode, for instance the whole sum.
+    """Reject an expression that cannot be the term of one mode, such as the whole sum.
 
     Raises
     ------

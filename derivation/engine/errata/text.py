@@ -48,7 +48,7 @@ class TextDiagnosis:
     given_value, derived_value
         Decimal values, correctly rounded.
     compared
-        What was compared if it is not the quantity itself: one term of a sum.
+        Note that one term of a sum was compared; None for other formulas.
     """
 
     diagnosis: Diagnosis
@@ -69,11 +69,11 @@ class TextDiagnosis:
 
     @property
     def ratio(self) -> sp.Expr | None:
-        """Given over derived formula, if that is short."""
+        """Given over derived formula, if that is short; else None."""
         return self.diagnosis.ratio
 
     def to_json(self) -> dict[str, object]:
-        """Return plain text under fixed keys."""
+        """Return the comparison as plain data under fixed keys."""
         more = self.diagnosis.to_json()
         return {
             "name": more["name"],
@@ -166,15 +166,26 @@ def diagnosed(
     at: str = "",
     digits: int = 50,
 ) -> TextDiagnosis:
-    """Do the same with limits of time and memory, for a point like ``phi=2.5,h=0.1``.
+    """Compare as `diagnose_text` does, with limits of time and memory.
+
+    Parameters
+    ----------
+    chain
+        The derived formulas.
+    at
+        Values of symbols in SI units, such as ``phi=2.5,h=0.1``.
+    relations, name, text, latex, digits
+        As for `diagnose_text`.
 
     Raises
     ------
     FormulaError
         If a name, formula, point or number of digits is not valid.
+    derivation.engine.bounded.LimitError
+        If a limit of time or memory is reached.
     """
     point = parse_point(at)
-    # A text that cannot be parsed is refused before anything is derived, for any names in it.
+    # A text that cannot be parsed, whatever its names mean, is rejected before the derivation.
     anything = {word: sp.Symbol(word) for word in re.findall(r"[A-Za-z]\w*", text)}
     own = chain.vocabulary
     bounded(lambda: read(text, own, anything, latex) and None, "reading the formula")
@@ -226,7 +237,7 @@ def _decimal(
                 return ends.pop()
     except PrecisionError:
         return _zero_or_singular(expression, values, where)
-    # A tie, as far as a thousand further digits show: the value is exactly half-way.
+    # A tie: to a thousand further digits, the value is exactly half-way between two numbers.
     return _round(middle, digits)
 
 

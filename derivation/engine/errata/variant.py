@@ -1,7 +1,7 @@
 """Alternatives at a position: other functions, parentheses, faces, simple multiples.
 
-A variant contains its value at the first sample point, so that thousands can be tested before one
-is built as an expression.
+A variant contains its value at the first sample point, so that thousands of variants can be tested
+before an expression is built.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -32,7 +32,7 @@ COST: Mapping[str, float] = {
     TWICE: 3.2,
     SUM: 5.0,
 }
-"""Weight of each kind of error: the smaller, the more likely."""
+"""Cost of each kind of error: the lower, the more likely."""
 
 _SHAPES: tuple[type[sp.Basic], ...] = (
     sp.sin,
@@ -58,7 +58,7 @@ class Variant:
     Parameters
     ----------
     kind
-        The kind of error that would turn it into the given one.
+        The kind of error by which the given expression would result from it.
     value
         Its value at the first sample point.
     build
@@ -66,7 +66,7 @@ class Variant:
     extra
         Cost in addition to that of its kind.
     shown
-        Text of it, where the expression alone does not show the change.
+        Function that returns its text, if the expression alone does not show the change.
     """
 
     kind: str
@@ -90,7 +90,7 @@ class VariantSearch:
 
 
 def variants(place: Position, search: VariantSearch) -> Iterator[Variant]:
-    """Yield other functions, parentheses and faces, which can only be found by trying."""
+    """Yield alternatives in functions, parentheses and faces, which can only be found by trial."""
     if place.role != TERMS:
         yield from other_functions(place.node, search)
         yield from lost_parentheses(place.node, search)
@@ -100,7 +100,7 @@ def variants(place: Position, search: VariantSearch) -> Iterator[Variant]:
 
 
 def tried(place: Position, search: VariantSearch) -> Iterator[Variant]:
-    """Yield all variants, simple multiples and powers included, where nothing can be solved."""
+    """Yield all variants, with simple multiples and powers, if no required value is known."""
     yield from variants(place, search)
     node, value = place.node, search.points.value(place.node, 0)
     if own_ratio(place):
@@ -114,20 +114,20 @@ def tried(place: Position, search: VariantSearch) -> Iterator[Variant]:
 
 
 def raised_to(node: sp.Expr, power: sp.Rational) -> sp.Expr:
-    """Return the node to a power; for a power, its base to a power, to avoid roots of squares."""
+    """Return an expression to a power; powers of powers are combined, to avoid roots of squares."""
     base, exponent = node.as_base_exp()
     return base ** (exponent * power)
 
 
 def own_ratio(place: Position) -> bool:
-    """Return whether a ratio here differs from that of the product or power around it."""
+    """Return whether a ratio at a position is not one of the product or power around it."""
     if place.role == BASE:
         return bool(place.parent is not None and abs(place.parent.node.exp) != 1)
     return place.role != FACTOR
 
 
 def multipliers(search: VariantSearch) -> Iterator[tuple[str, sp.Expr, float]]:
-    """Yield sign, small numbers, powers of the symbols, and the known factors."""
+    """Yield the factors -1, small numbers, powers of symbols, and the known factors."""
     yield SIGN, sp.Integer(-1), 0.0
     for kind, factor in small_factors(search.points.symbols):
         yield kind, factor, 0.2
@@ -137,7 +137,7 @@ def multipliers(search: VariantSearch) -> Iterator[tuple[str, sp.Expr, float]]:
 
 
 def small_factors(symbols: Sequence[sp.Symbol]) -> Iterator[tuple[str, sp.Expr]]:
-    """Yield simple multipliers to be tried where the ratio cannot be computed."""
+    """Yield simple factors to be tried if the ratio cannot be computed."""
     for number in (2, 3, 4, 8, 16):
         yield CONSTANT, sp.Integer(number)
         yield CONSTANT, sp.Rational(1, number)
@@ -151,7 +151,7 @@ def small_factors(symbols: Sequence[sp.Symbol]) -> Iterator[tuple[str, sp.Expr]]
 
 
 def other_functions(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
-    """Yield another function of the same argument, or the same one of a similar argument."""
+    """Yield other functions of the same argument, or the same function of a similar argument."""
     apply: Callable[[sp.Expr], sp.Expr]
     if isinstance(node, sp.besselj):
         order, argument = node.args
@@ -170,7 +170,7 @@ def other_functions(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
 
 
 def other_faces(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
-    """Yield the same with z or h reversed, where that changes it."""
+    """Yield the expression with the sign of z or h reversed, if that changes it."""
     if node.is_Atom:
         return
     for symbol in sorted(node.free_symbols, key=str):
@@ -198,7 +198,7 @@ def lost_parentheses(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
 
 @dataclass(frozen=True)
 class _Grouped:
-    """Return a sum in which the factor of one term is applied to a group of others."""
+    """A sum in which the factor of one term is applied to a group of others."""
 
     terms: Sequence[sp.Expr]
     index: int
@@ -242,7 +242,7 @@ def superfluous_parentheses(node: sp.Expr, search: VariantSearch) -> Iterator[Va
 
 @dataclass(frozen=True)
 class _Spread:
-    """Return a product with a sum in which some factors are applied to a group of terms only."""
+    """A product with a sum, in which some factors are applied to a group of terms only."""
 
     node: sp.Expr
     base: sp.Expr
@@ -265,7 +265,7 @@ class _Spread:
 def _partial_products(
     term: sp.Expr, search: VariantSearch
 ) -> Iterator[tuple[tuple[sp.Expr, ...], flint.acb]]:
-    """Yield some of a term's factors, their product other than +-1, and its value."""
+    """Yield groups of a term's factors, except for -1 alone, with the value of their product."""
     factors = sp.Mul.make_args(term)
     if len(factors) > _MAX_FACTORS:
         return
@@ -283,14 +283,14 @@ def _partial_products(
 
 
 def groups(members: Sequence[int]) -> Iterator[tuple[int, ...]]:
-    """Yield non-empty groups: all where there are few members, else small ones and the whole."""
+    """Yield non-empty groups of members; of more than five, groups of one, two and all."""
     count = len(members)
     sizes = range(1, count + 1) if count <= 5 else (1, 2, count)
     return chain.from_iterable(combinations(members, size) for size in sizes)
 
 
 def name_of(place: Position) -> str:
-    """Return the name of a position for a sentence."""
+    """Return a short description of a position."""
     text = sp.sstr(place.node)
     short = text if len(text) <= 90 else text[:87] + "..."
     return "the whole expression" if place.role == WHOLE else f"the {place.role} {short}"

@@ -1,4 +1,4 @@
-"""A hard case as data: what is computed where, in which form, and why that is hard."""
+"""Hard cases as data: function, arguments, form of the arguments, and reason."""
 
 import itertools
 import math
@@ -17,16 +17,16 @@ FORMS = (
 )  # fmt: skip
 """Ways in which arguments are passed.
 
-Plain numbers; arrays of doubles; arrays of shape (0,); each list along its own axis; every second
-number of a longer array, backwards; read-only arrays; integers; single precision.
+Plain numbers; arrays of doubles; arrays of shape (0,); each list along its own axis; views with a
+negative stride of longer arrays; read-only arrays; integers; single precision.
 """
 
 EXPECTATIONS = ("value", "nan", "zero")
-"""What a kernel is to return: the true value, NaN because the point is outside its
-domain, or exactly zero where no ball around the reference value can be relatively small."""
+"""Expected results: the reference value; NaN, because the point is outside the domain; or zero,
+where no ball around the reference value can be relatively small."""
 
 SAID = ("cause", "form", "modes", "expect")
-"""Entries in a file that apply to all cases of a table."""
+"""Keys of a table in a file that apply to all its cases."""
 
 Numbers = tuple[float, ...]
 
@@ -44,7 +44,7 @@ class HardCase:
     cause
         Reason for the difficulty, in a sentence.
     inputs
-        Hexadecimal doubles by argument, one or several.
+        For each argument, one or several doubles in hexadecimal.
     form
         How arguments are passed, one of `FORMS`.
     modes
@@ -63,14 +63,14 @@ class HardCase:
 
     @property
     def key(self) -> str:
-        """Return the part that distinguishes one case from another, without explanations."""
+        """Text that identifies the case: function, form and inputs."""
         given = " ".join(f"{name}={','.join(texts)}" for name, texts in self.inputs.items())
         modes = "" if self.modes is None else f" modes={self.modes}"
         return f"{self.kernel} {self.form}{modes} {given}"
 
     @property
     def table(self) -> dict[str, Any]:
-        """Return the table that describes the case in a file, without default values."""
+        """Description of the case as plain data, without default values."""
         form = {} if self.form == "scalar" else {"form": self.form}
         modes = {} if self.modes is None else {"modes": self.modes}
         expect = {} if self.expect == "value" else {"expect": self.expect}
@@ -81,7 +81,7 @@ class HardCase:
 
     @property
     def numbers(self) -> dict[str, Numbers]:
-        """Return the inputs as doubles."""
+        """The inputs as doubles."""
         return {
             name: tuple(float.fromhex(text) for text in texts)
             for name, texts in self.inputs.items()
@@ -89,24 +89,24 @@ class HardCase:
 
     @property
     def format(self) -> Format:
-        """Return the format of arguments and results."""
+        """Floating-point format of arguments and results."""
         return SINGLE if self.form == "float32" else DOUBLE
 
     @property
     def listed(self) -> tuple[str, ...]:
-        """Return the arguments that are arrays: those of several numbers; none for `scalar`."""
+        """Names of the arguments that are arrays, that is, not single numbers."""
         numbers = self.numbers.items()
         return () if self.form == "scalar" else tuple(k for k, v in numbers if len(v) != 1)
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Return the shape that results must have."""
+        """Shape that the results must have."""
         lengths = [len(self.inputs[name]) for name in self.listed]
         return tuple(lengths) if self.form == "broadcast" else tuple(lengths[:1])
 
     @property
     def points(self) -> list[dict[str, float]]:
-        """Return the arguments point by point, in the order of the results."""
+        """Arguments of each point, in the order of the results."""
         numbers, found = self.numbers, []
         for place in itertools.product(*(range(length) for length in self.shape)):
             axes = place if self.form == "broadcast" else place * len(self.listed)
@@ -116,14 +116,14 @@ class HardCase:
 
 
 def read_cases(path: Path) -> list[HardCase]:
-    """Return the cases of a TOML file: under the name of each group, tables of a cause.
+    """Return the cases of a TOML file: for each group, an array of tables with a cause each.
 
-    A table also has one entry per function: its inputs, or a list of several.
+    Each table also contains, for each function, its inputs or a list of inputs.
 
     Raises
     ------
     ValueError
-        If a case is not well formed; the message names the case.
+        If a case is invalid; the message states the case.
     """
     groups = tomllib.loads(path.read_text())
     return [
@@ -147,7 +147,7 @@ def _exact(given: Mapping[str, Any]) -> dict[str, tuple[str, ...]]:
 
 
 def checked(case: HardCase) -> HardCase:
-    """Return the case if it is well formed.
+    """Return the case if it is valid.
 
     Raises
     ------
@@ -155,18 +155,20 @@ def checked(case: HardCase) -> HardCase:
         If it is not; the message states the reason.
     """
     if case.form not in FORMS:
-        raise ValueError(f"{case.key}: a form is one of {', '.join(FORMS)}, got {case.form}")
+        raise ValueError(f"{case.key}: expected a form of {', '.join(FORMS)}, got {case.form}")
     if case.expect not in EXPECTATIONS:
-        raise ValueError(f"{case.key}: expected one of {', '.join(EXPECTATIONS)}")
+        raise ValueError(
+            f"{case.key}: expect must be one of {', '.join(EXPECTATIONS)}, got {case.expect}"
+        )
     if not case.cause.endswith(".") or not case.group:
-        raise ValueError(f"{case.key}: a cause is a sentence, and every case has a group")
+        raise ValueError(f"{case.key}: expected a group, and a cause that ends in a period")
     lengths = {len(case.inputs[name]) for name in case.listed}
     if case.form == "scalar" and any(len(texts) != 1 for texts in case.inputs.values()):
-        raise ValueError(f"{case.key}: plain numbers come one at a time")
+        raise ValueError(f"{case.key}: expected one number for each argument of a scalar case")
     if case.form != "broadcast" and len(lengths) > 1:
-        raise ValueError(f"{case.key}: lists of one length are expected, got {sorted(lengths)}")
+        raise ValueError(f"{case.key}: expected lists of equal length, got {sorted(lengths)}")
     if case.form == "float32" and not all(map(_is_single, case.points)):
-        raise ValueError(f"{case.key}: numbers of single precision are expected")
+        raise ValueError(f"{case.key}: expected numbers of single precision")
     return case
 
 
@@ -194,7 +196,7 @@ def _argument(case: HardCase, values: Numbers, axis: int | None) -> Any:
     if case.form == "broadcast":
         return array.reshape((-1,) + (1,) * (len(case.listed) - 1 - axis))
     if case.form == "strided":
-        # What lies between would be noticed: it is outside every domain.
+        # The values between are outside every domain, so that reading them gives NaN.
         longer = np.full(2 * array.size, -np.inf)
         longer[1::2] = array[::-1]
         return longer[::-2]

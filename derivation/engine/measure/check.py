@@ -1,4 +1,4 @@
-"""The check: every kernel against its reference value on its hard points, one row each."""
+"""Check of the generated functions against reference values at difficult points."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -35,13 +35,14 @@ class Judge:
     routes
         Both reference methods.
     grid
-        The points of a function, from its name, its arguments' names and whether it is a sum.
+        Function from a function's name, its arguments' names and whether it is a sum to its points.
     package
         Import name of the generated package.
     easy
-        Whether the second reference method is fast at a point.
+        Function that returns whether the second reference method is fast at a point.
     inside
-        Whether a point lies in the domain, which rounding to single precision may leave.
+        Function that returns whether a point lies in the domain; a point that is rounded to single
+        precision may not.
     hard
         Function that returns the hard cases, if there are any; their modules are loaded when it is
         called.
@@ -71,7 +72,7 @@ class Row:
         Errors with single-precision arguments, in ULP of single precision; None for tables, which
         take no such arguments, and for the formulas as published.
     oracles
-        Number of points at which both reference methods agree.
+        Number of points at which both reference methods were compared, and agree.
     passed
         Whether no error exceeds the budget; None without a budget.
     """
@@ -98,21 +99,26 @@ def check(
     by
         The references and the points.
     digits
-        Number of correct decimal digits of the reference balls, at least 20.
+        Number of correct decimal digits of the reference values, at least 20.
     kernels
         Functions to measure; by default all generated ones and the formulas as published.
     progress
         Called for each function before it is measured.
+
+    Returns
+    -------
+    tuple of Row
+        Errors, budget and result of each function.
 
     Raises
     ------
     OracleError
         If the reference methods contradict each other, so that there is no reference value.
     ValueError
-        If the number of digits is too small for errors in double precision.
+        If the number of digits is below 20.
     """
     if digits < 20:
-        raise ValueError(f"a reference needs at least 20 digits to judge doubles, got {digits}")
+        raise ValueError(f"expected at least 20 digits of the reference values, got {digits}")
     chosen = (
         (*generated_kernels(by.package), *printed_kernels(by.package))
         if kernels is None
@@ -144,13 +150,13 @@ def _row(
 def reference_values(
     balls: Balls, name: str, points: Sequence[Point], digits: int, fmt: Format = DOUBLE
 ) -> list[PointReference]:
-    """Return the references at the points whose value is within the range of the format."""
+    """Return the reference values at those points at which they do not overflow the format."""
     found = ((p, balls.reference(name, p.values, digits, p.modes)) for p in points)
     return [PointReference(point, (ref,)) for point, ref in found if not overflows(ref.value, fmt)]
 
 
 def _single(by: Judge, kernel: Kernel, points: Sequence[Point], digits: int) -> Errors:
-    """Return the errors of a function in single precision, at every fourth point in its range."""
+    """Return the errors of a function in single precision, at every fourth point."""
     singles = (single for p in points[::EVERY] if (single := to_single(p)) is not None)
     rounded = [single for single in singles if by.inside(single)]
     found = reference_values(by.routes.balls, kernel.name, rounded, digits, SINGLE)
@@ -158,12 +164,12 @@ def _single(by: Judge, kernel: Kernel, points: Sequence[Point], digits: int) -> 
 
 
 def confirm(by: Judge, kernel: Kernel, found: Sequence[PointReference], digits: int) -> int:
-    """Compare with the second reference method where it is fast; return the number of points.
+    """Compare both reference methods at points where the second is fast; return their number.
 
     Raises
     ------
     OracleError
-        If it contradicts the first method.
+        If the methods contradict each other.
     """
     easy = [t for t in found if by.easy(t.point) and bool(abs(t.references[0].value) > SMALL)]
     chosen = easy[:: max(1, len(easy) // AGREEMENTS)][:AGREEMENTS]

@@ -1,9 +1,9 @@
-"""Times side by side: candidates in shuffled turns, blocks of equal work, quartiles of ratios.
+"""Run times of several candidates, measured in interleaved rounds.
 
-In each round every candidate runs once, in an order drawn from a fixed seed, and its time is
-divided by the least of a reference in the same round: what the machine does meanwhile meets both.
-The lower quartile of the ratios counts. Time is the processor's: on a quiet machine that of the
-wall clock, and on a busy one not stretched by the turns of others.
+In each round every candidate runs once, in an order drawn from a fixed seed. Its time is divided by
+the shortest time of a reference workload in the same round, because a change of the machine's speed
+affects both. The result is the lower quartile of these ratios, times that of the reference's times.
+Times are processor times, which other processes affect less than elapsed times.
 """
 
 import math
@@ -19,24 +19,23 @@ Doubles = NDArray[np.float64]
 Call = Callable[[Any], Any]
 Clock = Callable[[], float]
 CPU: Clock = time.process_time
-"""What times are taken by [s]."""
+"""Clock for the measurements [s]."""
 
 LEAST, MOST = 2e-3, 2e-2
-"""A block lasts at least the first; an array grows as long as a call takes less than the second
-[s]."""
+"""Shortest time of a block of calls, and time of a call up to which its array is enlarged [s]."""
 
 CONTENDED = 1.5
-"""Upper over lower quartile of the reference's times from which the machine was busy."""
+"""Upper over lower quartile of the reference's times above which the machine counts as busy."""
 
 REFERENCES = 3
-"""How often the reference runs in a round; the least of its times counts."""
+"""Number of runs of the reference in a round; the shortest time is used."""
 
 SEED = 11
 
 
 @dataclass(frozen=True)
 class Effort:
-    """Rounds in which candidates take turns, and attempts while the machine is busy."""
+    """Number of rounds, and largest number of attempts on a busy machine."""
 
     rounds: int
     attempts: int
@@ -47,7 +46,7 @@ FULL, QUICK = Effort(25, 2), Effort(5, 1)
 
 @dataclass(frozen=True)
 class Candidate:
-    """Work to time: a call on an array, repeated so that a block is long enough."""
+    """Work to be timed: a block of repeated calls on an array."""
 
     call: Call
     array: Doubles
@@ -55,29 +54,29 @@ class Candidate:
 
     @property
     def work(self) -> int:
-        """Points of a block."""
+        """Number of points in a block."""
         return self.repeats * self.array.size
 
     def run(self) -> None:
-        """One block."""
+        """Run one block."""
         for _ in range(self.repeats):
             self.call(self.array)
 
 
 @dataclass(frozen=True)
 class Timing:
-    """Time of a candidate.
+    """Run time of a candidate.
 
     Attributes
     ----------
     seconds
-        Per point [s].
+        Time per point [s].
     points
-        Of an array.
+        Number of points of an array.
     spread
-        Upper over lower quartile of its times.
+        Upper over lower quartile of the times of a block [1].
     rounds
-        How often it was timed.
+        Number of rounds.
     """
 
     seconds: float
@@ -88,14 +87,16 @@ class Timing:
 
 @dataclass(frozen=True)
 class Session:
-    """Timings of candidates that took turns.
+    """Run times of candidates that were measured in the same rounds.
 
     Attributes
     ----------
+    timings
+        Run time of each candidate, in order.
     spread
-        Upper over lower quartile of the reference's times.
+        Upper over lower quartile of the reference's times [1].
     attempts
-        How often the whole was timed because the machine was busy; the calmest counts.
+        Number of attempts; the one with the smallest spread is used.
     """
 
     timings: tuple[Timing, ...]
@@ -104,14 +105,14 @@ class Session:
 
     @property
     def contended(self) -> bool:
-        """Whether even the calmest attempt met a busy machine."""
+        """Whether the machine was busy in every attempt."""
         return self.spread > CONTENDED
 
 
 def plan(call: Call, sample: Doubles, clock: Clock = CPU) -> Candidate:
-    """A block of the whole sample, or of as much of it as one call may take."""
+    """Return a candidate for the whole sample, or for a part if one call would take too long."""
     size, seconds, before = 1, _once(call, sample[:1], clock), math.inf
-    # Beyond MOST too while the set-up of a call outweighs its points.
+    # The array is also enlarged beyond MOST while the time of a call hardly depends on its size.
     while size < sample.size and (seconds < MOST or seconds < 2 * before):
         size, before = min(4 * size, sample.size), seconds
         seconds = _once(call, sample[:size], clock)
@@ -126,7 +127,7 @@ def _once(call: Call, array: Doubles, clock: Clock) -> float:
 
 
 def session(candidates: Sequence[Candidate], effort: Effort, clock: Clock = CPU) -> Session:
-    """Time candidates, several times while the machine is busy; the calmest attempt counts."""
+    """Measure candidates, again if the machine is busy; return the attempt of least spread."""
     best: Session | None = None
     for attempt in range(1, effort.attempts + 1):
         timings, spread = interleaved(candidates, effort.rounds, clock)
@@ -141,9 +142,9 @@ def session(candidates: Sequence[Candidate], effort: Effort, clock: Clock = CPU)
 def interleaved(
     candidates: Sequence[Candidate], rounds: int, clock: Clock = CPU
 ) -> tuple[tuple[Timing, ...], float]:
-    """Timings by rounds in shuffled order, and the reference's spread."""
-    # A large array made and given back first: before that the C library returns memory
-    # after every call, and what is timed is the operating system.
+    """Return run times from rounds in shuffled order, and the spread of the reference's times."""
+    # A large array is allocated and freed first. Otherwise the C library may return memory to the
+    # operating system after every call, which takes time.
     np.ones(4_000_000)
     everyone = [*candidates, *[reference()] * REFERENCES]
     random, times = np.random.default_rng(SEED), np.empty((rounds, len(everyone)))
@@ -155,7 +156,7 @@ def interleaved(
     own, base = times[:, : len(candidates)], times[:, len(candidates) :].min(axis=1)
     low, high = np.quantile(own, (0.25, 0.75), axis=0)
     usual, busy = np.quantile(base, (0.25, 0.75))
-    # Where the reference was disturbed, a ratio may come out below any time there was.
+    # If the reference was disturbed, the product may be smaller than every measured time.
     seconds = np.maximum(np.quantile(own / base[:, None], 0.25, axis=0) * usual, own.min(axis=0))
     timings = tuple(
         Timing(float(t) / c.work, c.array.size, float(wide), rounds)
@@ -165,6 +166,6 @@ def interleaved(
 
 
 def reference() -> Candidate:
-    """What every round's times are divided by: exponentials, about a block's worth."""
+    """Return the reference workload: exponentials, in about the time of a block."""
     x: Any = np.linspace(0.0, 1.0, 10_000)
     return Candidate(np.exp, x, 40)

@@ -1,4 +1,4 @@
-"""The judge of a paper whose functions have closed formulas: points from the domains."""
+"""References and test points of a paper whose functions have closed formulas."""
 
 from collections.abc import Callable, Mapping, Sequence
 
@@ -19,20 +19,26 @@ def domain_judge(
     blocks: tuple[Definition, ...],
     easy: Callable[[Point], bool],
 ) -> Judge:
-    """The judge of closed formulas: on these points, by balls and by the routes given.
+    """Return references and test points of closed formulas, with points from their domains.
 
     Parameters
     ----------
     chain
         The formulas with their vocabulary.
     routes
-        For each formula another route to its value; without one mpmath evaluates the formula.
+        For each formula, an independent method for its value in mpmath; a formula without one is
+        evaluated as derived.
     package
         Import name of the generated package.
     blocks
-        Building blocks of the forms, whose switch points are hard points.
+        Building blocks of the forms; points next to their switch points are tested.
     easy
-        Whether a route takes little time at a point.
+        Function that returns whether such a method is fast at a point.
+
+    Returns
+    -------
+    Judge
+        The references and test points, without hard cases.
     """
     own = chain.vocabulary
 
@@ -44,7 +50,7 @@ def domain_judge(
 
 
 def switches_of(blocks: tuple[Definition, ...]) -> dict[str, tuple[float, ...]]:
-    """Where building blocks change branches, by variable."""
+    """Return the switch points of building blocks, by variable."""
     found: dict[str, set[float]] = {}
     for block in built(blocks).values():
         if isinstance(block.value, Switch):

@@ -1,4 +1,4 @@
-"""The functions to be measured, each with the row that states its budget."""
+"""The functions to be measured, with their budgets."""
 
 import importlib
 import importlib.util
@@ -25,15 +25,15 @@ class Kernel:
     Parameters
     ----------
     name
-        Name of the formula it computes, with which it is compared.
+        Name of the formula that it computes, with which it is compared.
     module
         The generated module that contains it.
     arguments
         Names of its arguments, in order.
     call
-        The function itself: arrays in, array out; modal sums take ``modes=``.
+        The function, from arrays to an array; modal sums also take ``modes=``.
     budget
-        Allowed error in ULP before conditioning; None without a budget.
+        Allowed error in ULP, without conditioning; None without a budget.
     modes
         Whether it is a modal sum.
     """
@@ -47,11 +47,14 @@ class Kernel:
 
     @property
     def by_count(self) -> bool:
-        """Return whether it returns a table whose length is its only argument."""
+        """Whether it returns a table whose length is its only argument."""
         return self.arguments == ("count",)
 
     def results(self, points: Sequence[Point], fmt: Format = DOUBLE) -> Results:
-        """Return the results at the points, in their own type; one call per number of modes."""
+        """Return the results at the points, of the type that the function returns.
+
+        The function is called once for each number of modes.
+        """
         if self.by_count:
             last = [int(point.values["count"]) for point in points]
             table: Results = np.asarray(self.call(max(last)))
@@ -76,7 +79,7 @@ class Kernel:
 
 @dataclass(frozen=True)
 class Stating(Kernel):
-    """A function whose budget depends on its arguments, so that it states its errors itself.
+    """A function that states its error, because its budget depends on the arguments.
 
     Parameters
     ----------
@@ -108,7 +111,7 @@ def generated_kernels(package: str) -> tuple[Kernel, ...]:
 
 
 def printed_kernels(package: str) -> tuple[Kernel, ...]:
-    """Return every formula as published, under the name of the derived one."""
+    """Return the formulas as published, each with the name of the derived formula."""
     if importlib.util.find_spec(f"{package}.{AS_PRINTED}") is None:
         return ()
     module = importlib.import_module(f"{package}.{AS_PRINTED}")

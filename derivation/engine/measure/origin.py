@@ -1,6 +1,6 @@
 """Hash of the sources of references; if it changes, the references must be computed again.
 
-The engine is not part of the hash. Its balls enclose the same number however they are computed, so
+The engine is not part of the hash. Its balls enclose the exact value however they are computed, so
 that a change of the engine can change only their radii; the engine has its own tests.
 """
 
@@ -29,12 +29,14 @@ def of_expression(expression: sp.Expr) -> str:
 
 @cache
 def of_modules(names: tuple[str, ...]) -> str:
-    """Return the hash of modules and of all that they import from their own package and this one.
+    """Return the hash of modules and of all modules that they import, directly or indirectly.
+
+    Imports from other packages than theirs and this one are ignored.
 
     Parameters
     ----------
     names
-        The modules' names.
+        Names of the modules.
     """
     own = {_HERE, *(name.partition(".")[0] for name in names)}
     found: dict[str, str] = {}
@@ -49,7 +51,7 @@ def of_modules(names: tuple[str, ...]) -> str:
 
 
 def _code(tree: ast.Module, name: str) -> str:
-    """Return a module without comments, docstrings, sentences, and the places it imports from."""
+    """Return a module's code without comments, docstrings, sentences and sources of imports."""
     imported: list[str] = []
     for node in ast.walk(tree):
         body = getattr(node, "body", None)
@@ -70,12 +72,12 @@ def _is_text(node: ast.AST) -> bool:
 def dump(tree: ast.AST) -> str:
     """Return the text of a syntax tree, the same in every version of Python.
 
-    Python 3.12 added a field for parameters of types, and 3.13 leaves out empty lists.
+    Python 3.12 added a field for type parameters, and 3.13 omits empty lists.
 
     Parameters
     ----------
     tree
-        The tree; its nodes lose fields of parameters of types that are empty.
+        The tree; empty fields for type parameters are deleted from its nodes.
     """
     for node in ast.walk(tree):
         if getattr(node, "type_params", None) == []:
@@ -84,7 +86,7 @@ def dump(tree: ast.AST) -> str:
 
 
 def _imported(node: ast.AST, where: str) -> Iterator[str]:
-    """Return what a statement imports: a module is named as it is used, because it may be moved."""
+    """Yield the imported names; a module is named as it is used, because its file may be moved."""
     if isinstance(node, ast.ImportFrom):
         for alias in node.names:
             name = alias.asname or alias.name
@@ -93,7 +95,7 @@ def _imported(node: ast.AST, where: str) -> Iterator[str]:
 
 
 def _modules(tree: ast.Module, where: str) -> Iterator[str]:
-    """Return the modules that a module imports, without those of the engine."""
+    """Yield the modules that a module imports, without those of the engine."""
     for node in ast.walk(tree):
         if isinstance(node, ast.ImportFrom):
             source = _source(node, where)
@@ -102,13 +104,13 @@ def _modules(tree: ast.Module, where: str) -> Iterator[str]:
 
 
 def _source(node: ast.ImportFrom, where: str) -> str:
-    """Return the full name of what a statement imports from."""
+    """Return the full name of the module from which a statement imports."""
     return resolve_name("." * node.level + (node.module or ""), where.rpartition(".")[0])
 
 
 @cache
 def _is_module(name: str) -> bool:
-    """Return whether this is a module, not a package or an object in a module."""
+    """Return whether a name denotes a module, not a package or an object in a module."""
     try:
         spec = find_spec(name)
     except ModuleNotFoundError:

@@ -12,12 +12,12 @@ Inputs = dict[str, tuple[str, ...]]
 
 
 def beside(place: float, offset: int) -> float:
-    """Return the double at a distance, counted in doubles."""
+    """Return the double that is `offset` doubles above a number."""
     return from_ordinal(ordinal(place) + offset)
 
 
 def around(place: float) -> tuple[float, ...]:
-    """Return the doubles at all offsets from a number."""
+    """Return the doubles at all `OFFSETS` from a number."""
     return tuple(beside(place, offset) for offset in OFFSETS)
 
 
@@ -30,7 +30,7 @@ def exactly(**values: float | Sequence[float]) -> Inputs:
 
 
 def about(group: str, kernel: str, why: str, given: Inputs, modes: int | None = None) -> HardCase:
-    """Return a case with the doubles about a number, as an array."""
+    """Return a case with an array of doubles on both sides of a number, described by `why`."""
     return HardCase(
         group, kernel, f"0, 1 and 32 ULP to either side of {why}.", given, "array", modes
     )

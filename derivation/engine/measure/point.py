@@ -16,10 +16,10 @@ class Point:
 
 
 def to_single(point: Point) -> Point | None:
-    """The point in numbers of single precision, or None if that is another kind of point.
+    """Return the point rounded to single precision; None if the rounding changes its kind.
 
-    So it is where one of them leaves the range, or where two that differ
-    become equal: then a point next to an edge comes to lie on it.
+    This happens if a number overflows or becomes zero, or if two different numbers become equal:
+    a point next to the end of a domain would then lie on it.
     """
     with np.errstate(over="ignore"):
         values = {key: float(np.float32(value)) for key, value in point.values.items()}

@@ -1,4 +1,4 @@
-"""What a measurement comes to for whoever asked for it: a table, plain data, whether it passed."""
+"""The result of a measurement: a table, plain data, and whether it passed."""
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
@@ -9,11 +9,11 @@ from derivation.engine.outputs import sorted_json
 
 
 class Kept(Protocol):
-    """A row that states whether its budget is met."""
+    """A row that states whether its limits are met."""
 
     @property
     def kept(self) -> bool:
-        """Return whether the budget is met."""
+        """Whether the limits are met."""
 
 
 @dataclass(frozen=True)
@@ -23,19 +23,19 @@ class CheckResult:
     Parameters
     ----------
     title, columns, cells
-        Title, columns and cells of the table.
+        Title, columns and cells of the table; without columns there is no table.
     data
         Function that returns the result as plain data.
     passed
-        Whether every budget is met.
+        Whether every limit is met.
     note
-        A sentence below the table; may be empty.
+        Text below the table; may be empty.
     listings
-        Lines below the note, under their titles.
+        Titles, each with the lines below it; they follow the note.
     budgeted
         Rows from which tighter budgets may be suggested.
     recorded
-        Function that returns the text of the record, if it is not the data in sorted order.
+        Function that returns the text of the record; by default the data as sorted JSON.
     """
 
     title: str
@@ -54,5 +54,5 @@ class CheckResult:
 
 
 def all_kept(rows: Iterable[Kept]) -> bool:
-    """Return whether every row meets its budget."""
+    """Return whether every row meets its limits."""
     return all(row.kept for row in rows)

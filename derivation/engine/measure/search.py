@@ -1,7 +1,7 @@
-"""The search for worse: random points, then steps ever smaller around the worst, without end.
+"""Search for larger errors: random points, then decreasing steps around the worst of them.
 
-Which points follow each other depends on the seed and the kernel alone, and the
-kernels take turns in a fixed order: time only decides how far a search goes.
+The sequence of points of a function depends only on the seed and the function, and functions take
+turns in a fixed order. The time limit only determines how many points are evaluated.
 """
 
 import itertools
@@ -20,7 +20,7 @@ DRAWN = 256
 """Number of random points between local searches."""
 
 STRIDES = tuple(2**bits for bits in range(46, -1, -2))
-"""Steps of a local search, in floats: from 2 % of a number down to its neighbour."""
+"""Largest steps of a local search, in floats: from about 2 % of a number to its neighbour."""
 
 WHOLE_STRIDES = (4096, 256, 32, 8, 3, 2, 1)
 """The same for whole numbers."""
@@ -38,8 +38,8 @@ class Found:
     point
         The arguments.
     company
-        A second point, passed together with it in one array, if the error is then larger than for
-        plain numbers.
+        A second point that is passed in the same array, if the error is then larger than for plain
+        numbers.
     error
         Error and allowance.
     """
@@ -50,7 +50,7 @@ class Found:
 
     @property
     def ratio(self) -> float:
-        """Return error over allowance."""
+        """Error over allowance [1]."""
         return self.error.ratio
 
 
@@ -74,7 +74,7 @@ class Standing:
 
     @property
     def ratio(self) -> float:
-        """Return the largest ratio; -1 before the first evaluation."""
+        """Largest ratio of error to allowance; -1 before the first one."""
         return -1.0 if self.worst is None else self.worst.ratio
 
 
@@ -98,12 +98,12 @@ class Search:
 
     @property
     def evaluations(self) -> int:
-        """Return the number of points evaluated for all functions."""
+        """Number of points evaluated for all functions."""
         return sum(standing.evaluations for standing in self.standings.values())
 
     @property
     def ratio(self) -> float:
-        """Return the largest ratio of all functions."""
+        """Largest ratio of error to allowance of all functions."""
         return max((standing.ratio for standing in self.standings.values()), default=-1.0)
 
 
@@ -122,13 +122,18 @@ def search(
     targets
         The functions.
     seed
-        The same seed and number of evaluations give the same worst points.
+        Random seed; equal seeds and numbers of evaluations give the same worst points.
     seconds, evaluations
         Limits; the search ends at the first one reached. At least one is required.
     progress
-        Called at every turn.
+        Called at every function's turn.
     keep
         Called after every round with the search so far.
+
+    Returns
+    -------
+    Search
+        The state of each function's search; also after Ctrl-C.
 
     Raises
     ------
@@ -164,7 +169,7 @@ def _take_turns(
     for number in itertools.count():
         for target, steps in zip(targets, hunts, strict=True):
             if (number + 1) % target.every:
-                continue  # so that what takes long waits for the others' first turns
+                continue  # slow functions begin after the first turns of the others
             if progress is not None:
                 progress(target.name, found.evaluations, found.ratio)
             for _ in range(target.share):
@@ -176,7 +181,7 @@ def _take_turns(
 
 
 def hunt(target: Target, seed: int, standing: Standing) -> Iterator[None]:
-    """Search for one function's worst point; the generator yields after every point, without end.
+    """Search for one function's worst point without end; yield after every point.
 
     Points are drawn at random. A local search then starts from the worst of them or, in every other
     cycle, from the worst point so far. It changes one argument at a time by decreasing steps and
@@ -195,7 +200,7 @@ def hunt(target: Target, seed: int, standing: Standing) -> Iterator[None]:
 def _climb(
     target: Target, generator: random.Random, here: Standing, standing: Standing
 ) -> Iterator[None]:
-    """Take decreasing steps from a point, to either side in each argument."""
+    """Evaluate points at decreasing steps from the worst one, to both sides in each argument."""
     if here.worst is None:
         return
     domain = target.domain
@@ -203,7 +208,7 @@ def _climb(
         for name in domain.arguments:
             centre = here.worst.point
             if centre.values[name] == 0.0 and not domain.whole:
-                continue  # next to zero are subnormal numbers, far below every other length
+                continue  # the neighbours of zero are subnormal numbers
             steps = (generator.randint(1, stride), -generator.randint(1, stride))
             beside = (domain.moved(centre, name, step) for step in steps)
             points = [point for point in beside if domain.holds(point)]
@@ -213,7 +218,7 @@ def _climb(
 def _look(
     target: Target, points: Sequence[Point], here: Standing, standing: Standing
 ) -> Iterator[None]:
-    """Evaluate points one by one; larger ratios are kept here and overall."""
+    """Evaluate points one by one; store a larger ratio in `here`, and in `standing`."""
     if not points:
         return
     results = target.call(points) if target.bound is not None else None
@@ -236,7 +241,10 @@ def _may_be_worse(target: Target, point: Point, got: tuple[float, ...], ratio: f
 
 
 def weigh(target: Target, point: Point, company: Point | None) -> Found | None:
-    """Return a point's error: for plain numbers, or in an array with a second point if larger."""
+    """Return a point's error: for plain numbers, or in an array with a second point if larger.
+
+    Returns None if there is no reference value.
+    """
     plain = target.call([point])[0]
     alone = target.measure(point, plain)
     if alone is None:

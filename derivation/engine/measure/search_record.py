@@ -1,4 +1,4 @@
-"""What a search found as a file of hard cases, as a table and as data; and such files read back."""
+"""Results of a search as a file of hard cases, as a table and as plain data."""
 
 import json
 import re
@@ -13,11 +13,12 @@ from derivation.engine.measure.search import Found, Search, weigh
 from derivation.engine.measure.target import Target
 from derivation.engine.outputs import plain
 
-COLUMNS = ("kernel", "#evaluations", "#ratio", "#ULP", "#allowed", "new")
-"""Headings of the table; the columns of the worst point have error over allowance as ratio."""
+COLUMNS = ("function", "#evaluations", "#ratio", "#ULP", "#allowed", "new")
+"""Headings of the table; `ratio` is the largest error over its allowance, and the next two columns
+are that error and that allowance."""
 
 GROUP = "search"
-"""Group of its cases."""
+"""Group of the cases found by a search."""
 
 _SECONDS = {"s": 1, "m": 60, "h": 3600}
 _HEADER = """\
@@ -26,7 +27,7 @@ _HEADER = """\
 
 
 def seconds_of(duration: str) -> int:
-    """Return the seconds of a duration: a whole number followed by s, m or h.
+    """Return a duration in seconds, from a whole number followed by s, m or h.
 
     Raises
     ------
@@ -43,7 +44,7 @@ def seconds_of(duration: str) -> int:
 
 
 def case_of(kernel: str, found: Found, seed: int) -> HardCase:
-    """Return a point of the search as a case; both points in one array if two are needed."""
+    """Return a point of the search as a case, with an array if it has a second point."""
     points = [found.point] if found.company is None else [found.point, found.company]
     inputs = {name: tuple(p.values[name].hex() for p in points) for name in found.point.values}
     form = "scalar" if found.company is None else "array"
@@ -57,12 +58,12 @@ def points_of(case: HardCase) -> list[Point]:
 
 
 def measured(case: HardCase, targets: Mapping[str, Target]) -> Found | None:
-    """Return the present error of a case; None if it is not searched or has no reference.
+    """Return the error of a case; None if its function is not searched, or without a reference.
 
     Raises
     ------
     ValueError
-        If the inputs are not the function's arguments.
+        If the inputs are not those of the function.
     """
     target = targets.get(case.kernel)
     if target is None:
@@ -80,7 +81,7 @@ def read(path: Path) -> list[HardCase]:
     Raises
     ------
     ValueError
-        If it is another kind of file, which must not be overwritten.
+        If it is another kind of file, which is not overwritten.
     """
     if not path.exists():
         return []
@@ -96,7 +97,7 @@ def read(path: Path) -> list[HardCase]:
 
 
 def to_toml(cases: Sequence[tuple[HardCase, Found | None]]) -> str:
-    """Return the text of the file: a table per case, the measured error above it as a comment."""
+    """Return the text of the file: a table per case, with the measured error as a comment."""
     return _HEADER + "".join(_table(case, found) for case, found in cases)
 
 
@@ -118,7 +119,7 @@ def _table(case: HardCase, found: Found | None) -> str:
 
 
 class Book:
-    """The file of worst cases while a search runs.
+    """The file of worst cases, which is updated during a search.
 
     Parameters
     ----------
@@ -129,8 +130,8 @@ class Book:
     ratios
         Largest recorded ratio by function.
     worst
-        Arguments of the largest recorded error, as hexadecimal doubles, of functions whose ratio is
-        measured again.
+        For functions without a recorded ratio, the arguments of the largest recorded error as
+        hexadecimal doubles; the ratio is measured there.
 
     Raises
     ------
@@ -158,7 +159,7 @@ class Book:
             self._known[kernel] = max(found.ratio, self._known.get(kernel, 0.0))
 
     def _best_known(self, kernel: str) -> float:
-        """Return the largest recorded ratio, measured at the first call if it is not recorded."""
+        """Return the largest known ratio; if it is not recorded, it is measured once."""
         texts = self._unmeasured.pop(kernel, None)
         if texts is not None and kernel in self._targets:
             names = self._targets[kernel].domain.arguments
@@ -167,7 +168,7 @@ class Book:
         return self._known.get(kernel, 0.0)
 
     def is_new(self, kernel: str, found: Found | None) -> bool:
-        """Return whether a case exceeds its function's largest known ratio, or its allowance."""
+        """Return whether an unrecorded point exceeds the largest known ratio, or its allowance."""
         if found is None or any(
             case.kernel == kernel and points_of(case)[0] == found.point for case, _ in self._earlier
         ):
@@ -175,7 +176,7 @@ class Book:
         return found.ratio > min(self._best_known(kernel), 1.0)
 
     def keep(self, search: Search) -> None:
-        """Write earlier and new cases, if some are not written yet."""
+        """Write earlier and new cases, if there are new ones that are not written yet."""
         new = [
             (case_of(kernel, standing.worst, search.seed), standing.worst)
             for kernel, standing in search.standings.items()
@@ -188,7 +189,7 @@ class Book:
 
     @property
     def written(self) -> bool:
-        """Return whether there was a case to write."""
+        """Whether a new case was written."""
         return bool(self._written)
 
 
@@ -207,7 +208,7 @@ def cells(kernel: str, search: Search, book: Book) -> tuple[str, ...]:
 
 
 def arguments(kernel: str, search: Search) -> str:
-    """Return a function's worst arguments as exact doubles, in one line."""
+    """Return a function's worst arguments as hexadecimal doubles, in one line."""
     worst = search.standings[kernel].worst
     if worst is None:
         return f"{kernel}:"
@@ -218,7 +219,7 @@ def arguments(kernel: str, search: Search) -> str:
 
 
 def as_data(search: Search) -> dict[str, Any]:
-    """Return a search as plain data: the same for the same seed and number of evaluations."""
+    """Return a search as plain data, equal for equal seeds and numbers of evaluations."""
     return {
         "seed": search.seed,
         "interrupted": search.interrupted,

@@ -1,6 +1,6 @@
 """Tighter error budgets from measured errors, as lines of `budgets.toml`; no file is changed.
 
-Tightening is a deliberate edit, since a budget never grows again.
+A budget must be tightened by hand, because budgets are never increased again.
 """
 
 import math
@@ -23,7 +23,7 @@ class MeasuredErrors(Protocol):
 
     @property
     def needed(self) -> float:
-        """The smallest budget [ULP] that is met."""
+        """Smallest budget that is met [ULP]."""
 
 
 class MeasuredRow(Protocol):

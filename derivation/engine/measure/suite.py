@@ -1,4 +1,4 @@
-"""A suite of hard cases: what a paper hands in, and the references, found one by one and kept."""
+"""A paper's hard cases, and the computation and record of their reference values."""
 
 import json
 import math
@@ -22,13 +22,13 @@ from derivation.engine.oracle.oracle import Balls
 from derivation.engine.oracle.reference import DIGITS, Reference, Stored, bare, stored
 
 SAVED_EVERY = 30.0
-"""Seconds."""
+"""Time after which new reference values are saved [s]."""
 
 _SPARE = 2
 """Number of digits of a reference beyond the written ones."""
 
 _SLOPE_DIGITS, _SLOPE_STEP, _SLOPE_BITS = 15, Fraction(1, 2**20), 512
-"""Sensitivities are used for allowances only: a difference quotient to a few digits suffices."""
+"""Digits, relative step and bits of difference quotients; a few digits suffice for allowances."""
 
 Given = Sequence[Any]
 Values = Callable[[Given, int], tuple[arb, ...]]
@@ -42,10 +42,10 @@ class HardLaw:
     Parameters
     ----------
     values
-        Function that returns its results.
+        Function of arguments and digits that returns its results.
     sizes
-        Function of arguments and results that returns the units of the budget; by default the
-        magnitudes of the results.
+        Function of arguments and results that returns the magnitude to which the budget of each
+        result refers; by default that of the result.
     conditioned
         Whether the effect of rounding the arguments is allowed in addition; not for functions whose
         budget is a relative error.
@@ -57,7 +57,7 @@ class HardLaw:
     results
         Number of results.
     oracle
-        Modules on which the results depend.
+        Names of the modules on which the results depend.
     """
 
     values: Values
@@ -70,7 +70,7 @@ class HardLaw:
 
 
 class Known(NamedTuple):
-    """The references of a case, and the hash of their sources, see `Suite.origin`."""
+    """The reference values of a case, and the hash of their sources; see `Suite.origin`."""
 
     origin: str
     references: Sequence[Stored]
@@ -93,10 +93,10 @@ class Suite:
     laws
         References of other kernels, by name.
     numbers
-        Modules on which the functions and numbers by index among the `balls` depend.
+        Names of the modules on which the functions, and numbers by index, of `balls` depend.
     outwards
-        Arguments that are moved upwards for a difference quotient, all others downwards, so that
-        no point comes to lie outside the domain.
+        Arguments that are increased for a difference quotient, while all others are decreased, so
+        that no point lies outside the domain.
 
     Raises
     ------
@@ -116,7 +116,7 @@ class Suite:
         seen: set[str] = set()
         for case in self.cases:
             if case.key in seen:
-                raise ValueError(f"this hard case stands there twice: {case.key}")
+                raise ValueError(f"expected each hard case once, got {case.key} twice; remove one")
             seen.add(case.key)
 
     def results(self, kernel: str) -> int:
@@ -137,7 +137,7 @@ class Suite:
         return of_expression(expression)
 
     def references(self, case: HardCase) -> list[Stored]:
-        """Return the references of a case: for every result and every point."""
+        """Compute the reference values of a case, for every result and every point."""
         results = range(self.results(case.kernel))
         if case.expect != "value":
             values = {"nan": "nan", "zero": "0"}
@@ -191,25 +191,26 @@ class Suite:
 
 
 def known_of(data: Mapping[str, Any]) -> dict[str, Known]:
-    """Return the recorded references by key."""
+    """Return the recorded reference values by the key of their case."""
     return {row["key"]: Known(row["origin"], row["references"]) for row in data["cases"]}
 
 
 def find_references(
     suite: Suite, recorded: Path, part: Path, progress: Progress = quiet
 ) -> dict[str, Known]:
-    """Return the references of all cases by key, from the original expressions (takes minutes).
+    """Return the reference values of all cases by key; this takes minutes.
 
-    Up-to-date references are reused, and new ones are saved as they are computed.
+    Reference values whose sources have not changed are reused; the others are computed.
 
     Parameters
     ----------
     suite
         The cases.
     recorded
-        The present record. References whose sources have not changed are reused.
+        The file with the recorded reference values.
     part
-        File in which references are saved during the run, so that a stopped run can be continued.
+        File in which reference values are saved during the run, so that a stopped run can be
+        continued.
     progress
         Called after every case with its function, its number and the number of cases.
     """

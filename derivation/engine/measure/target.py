@@ -1,4 +1,4 @@
-"""What a search compares with reference values: a function, its domain and its allowance."""
+"""The functions that are searched for larger errors, with domains and allowances."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -18,7 +18,7 @@ from derivation.engine.oracle.reference import Reference
 Numbers = tuple[float, ...]
 """A function's results at a point."""
 NO_REFERENCE = PrecisionError, ValueError, ZeroDivisionError, OverflowError
-"""Exceptions of a reference without a value: at singular points and outside the domain."""
+"""Exceptions if there is no reference value: at singular points and outside the domain."""
 
 _DIGITS, _FEW = 50, 20
 """Numbers of digits of the reference and of the upper bound."""
@@ -53,7 +53,7 @@ class Domain:
         """Return whether a point is in the domain."""
         codes = _compiled(self.conditions, self.arguments)
         finite = all(math.isfinite(value) for value in point.values.values())
-        # The conditions are a manifest's and a paper's own, never a stranger's.
+        # The conditions come from the manifest and the paper, never from the user.
         return finite and all(eval(code, {"abs": abs}, dict(point.values)) for code in codes)
 
     def moved(self, point: Point, name: str, steps: int) -> Point:
@@ -65,7 +65,7 @@ class Domain:
 
 @cache
 def _compiled(conditions: tuple[str, ...], arguments: tuple[str, ...]) -> tuple[CodeType, ...]:
-    """Return the conditions that contain nothing but arguments."""
+    """Return the conditions that contain no other names than those of the arguments."""
     codes = (compile(condition, "<domain>", "eval") for condition in conditions)
     return tuple(code for code in codes if set(code.co_names) - {"abs"} <= set(arguments))
 
@@ -78,8 +78,8 @@ def _beside(value: float, floats: int) -> float:
 Draw = Callable[[Domain, Random], Point]
 """Function that returns a random point of a domain."""
 Measure = Callable[[Point, Numbers], Error | None]
-"""Point and results -> the largest error; None where no double holds the reference value, there is
-none, or the point lies outside the domain after all."""
+"""Function from point and results to the largest error; None if there is no reference value, it
+overflows, or the point lies outside the domain."""
 
 
 @dataclass(frozen=True)
@@ -97,10 +97,10 @@ class Target:
     measure
         Function that returns the error of the results.
     bound
-        Function of point and results that returns a cheaper upper bound of `measure`'s ratio; None
-        if there is none.
+        Function of point and results that returns an upper bound of the ratio of error to allowance
+        in less time than `measure`; None if there is none.
     share, every
-        Points per turn, and number of rounds per turn.
+        Number of points in a turn, and number of rounds from one turn to the next.
     """
 
     domain: Domain
@@ -113,22 +113,22 @@ class Target:
 
     @property
     def name(self) -> str:
-        """Return the function's name."""
+        """Name of the function."""
         return self.domain.name
 
 
 def measure_by(references: Callable[[Point], Sequence[Reference] | None], budget: float) -> Measure:
-    """Return a function that compares all results at a point with their references."""
+    """Return a function that compares all results at a point with their reference values."""
 
     def measure(point: Point, results: Numbers) -> Error | None:
         try:
             found = references(point)
         except NO_REFERENCE:
             return None
-        if found is None or any(overflows(true.value) for true in found):
+        if found is None or any(overflows(reference.value) for reference in found):
             return None
         pairs = zip(results, found, strict=True)
-        return largest(judge(got, true, budget) for got, true in pairs)
+        return largest(judge(got, reference, budget) for got, reference in pairs)
 
     return measure
 
@@ -136,17 +136,17 @@ def measure_by(references: Callable[[Point], Sequence[Reference] | None], budget
 def closed_target(
     by: Judge, domain: Domain, kernel: Kernel, draw: Draw, share: int = 48, every: int = 1
 ) -> Target:
-    """Return a function of the manifest with its budget and its allowance for conditioning."""
+    """Return the search target for a function with a budget, and an allowance for conditioning."""
     balls, budget = by.routes.balls, float(kernel.budget or 0.0)
 
     def call(points: Sequence[Point]) -> list[Numbers]:
         return [(float(value),) for value in kernel.results(points)]
 
     def bound(point: Point, results: Numbers) -> float:
-        # The allowance is the budget and more, so error over budget is an upper bound:
-        # who stays below the worst ratio by this is spared the condition numbers.
+        # The allowance is at least the budget, so that error over budget is an upper bound. If it
+        # does not exceed the largest ratio, condition numbers are not needed.
         try:
-            ball = balls.truth(kernel.name, point.values, _FEW, point.modes)
+            ball = balls.value(kernel.name, point.values, _FEW, point.modes)
         except NO_REFERENCE:
             return math.inf
         return ulp_error(results[0], ball) / budget

@@ -23,7 +23,7 @@ MAX_DIGITS = 4000
 
 
 class RouteError(ArithmeticError):
-    """A method did not give a reliable number."""
+    """A method did not give a reliable value."""
 
 
 class OracleError(FailedError):
@@ -43,12 +43,14 @@ class Routes:
     balls
         The Arb references.
     routes
-        For each formula the method for its value, or for one term of it. A formula without a method
-        is evaluated as derived: it shares only the expression with the Arb reference.
+        For each formula, the method for its value or for one term of it. A formula without a method
+        is evaluated as derived; it shares only the expression with the Arb reference.
     term
-        Values that the j-th term of a summed formula supplies, from j and the arguments.
+        Function from j and the arguments to the quantities that depend on the j-th term of a summed
+        formula.
     lost
-        Estimate of the digits that a method loses at a point, which saves attempts.
+        Function that estimates the digits that a method loses at a point; it reduces the number of
+        attempts.
     """
 
     balls: Balls
@@ -57,7 +59,7 @@ class Routes:
     lost: Callable[[Mapping[str, float]], int] = _none_lost
 
     def evaluate(self, name: str, values: Mapping[str, float], modes: int | None) -> mpf:
-        """Return a formula's value by its method, at the current working precision."""
+        """Return a formula's value by its method, at the current precision of mpmath."""
         exact = {key: mpf(value) for key, value in values.items()}
         route = self.routes[name] if name in self.routes else self._as_stated(name)
         if modes is None or self.term is None:
@@ -69,7 +71,7 @@ class Routes:
         return {}
 
     def _as_stated(self, name: str) -> Route:
-        """Evaluate the formula's own expression in mpmath, without tape and ball arithmetic."""
+        """Return a method that evaluates the formula's expression in mpmath."""
         if name not in self._stated:
             try:
                 _, expression = self.balls.stated(name)
@@ -88,13 +90,13 @@ class Routes:
     ) -> mpf:
         """Return a formula's value by its method, with the requested number of correct digits.
 
-        It is computed twice, each time with a quarter more digits, until both results agree; two
-        results below 10^-400 are zero.
+        The precision is increased by a quarter until two successive results agree; two results
+        below 10^-400 count as zero.
 
         Raises
         ------
         KeyError
-            If the name is not a formula either.
+            If there is neither a method nor a formula of this name.
         RouteError
             If no precision up to 4000 digits gives two equal results, or the quadrature does not
             converge.
@@ -117,14 +119,14 @@ class Routes:
     def agree(
         self, name: str, values: Mapping[str, float], digits: int = 50, modes: int | None = None
     ) -> flint.arb:
-        """Return the value on which both references agree, as an Arb ball.
+        """Compare both references at a point; return the Arb reference.
 
         Raises
         ------
         OracleError
             If they differ by more than 10^-digits of the value.
         """
-        ball = self.balls.truth(name, values, digits + 2, modes)
+        ball = self.balls.value(name, values, digits + 2, modes)
         other = to_ball(self.value(name, values, digits + 2, modes))
         with flint.ctx.workprec(int(LOG2_10 * digits) + 64):
             if bool(abs(ball - other) <= abs(ball) * flint.arb(10) ** -digits):
@@ -142,7 +144,7 @@ def _agree(one: mpf, other: mpf, digits: int) -> bool:
 
 
 def to_ball(number: mpf) -> flint.arb:
-    """Return an mpmath number as an exact rational."""
+    """Return an mpmath number as an exact Arb ball of radius zero."""
     sign, mantissa, exponent, _ = number._mpf_
     with flint.ctx.workprec(max(53, int(mantissa).bit_length())):
         return flint.arb(int(-mantissa if sign else mantissa)) * flint.arb(2) ** int(exponent)

@@ -1,4 +1,4 @@
-"""Arb references: a paper's original expressions in ball arithmetic, at exact doubles."""
+"""Arb references: a paper's derived expressions in ball arithmetic, at exact doubles."""
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
@@ -16,29 +16,28 @@ from derivation.engine.oracle.tape import Tape, record
 FLOOR = flint.arb(2) ** -1200
 """A ball inside +-2^-1200 is returned as zero.
 
-The smallest double is 2^-1074, so that a computed double cannot distinguish a value below this
-limit from zero. No ball around an exact zero is relatively small; exact zeros are recognised by
-this limit.
+The smallest double is 2^-1074, so that a value below this limit is zero in a test of doubles. The
+limit is necessary because no ball around an exact zero is relatively small.
 """
 
 SLOPE_BITS = 20
-"""Accuracy of the sensitivities, which only determine allowances."""
+"""Number of correct bits of the sensitivities, which only determine allowances."""
 
 
 @dataclass(frozen=True)
 class Terms:
-    """Values that a term of a summed formula supplies.
+    """Quantities that differ from term to term of a summed formula.
 
     Parameters
     ----------
     symbols
-        The symbols whose values it supplies.
+        Their symbols.
     at
-        Function for their values in the j-th term, from j, the arguments and a precision in bits.
+        Function from j, the arguments and a precision in bits to their values in the j-th term.
     through
-        For each symbol the argument through which it acts, and the power.
+        For some of these symbols, an argument on which the symbol depends, and its power.
     expression
-        The expression of one term, in its arguments and these symbols alone.
+        Function from a formula to the expression of one term, in the arguments and these symbols.
     """
 
     symbols: tuple[sp.Symbol, ...]
@@ -48,15 +47,16 @@ class Terms:
 
 
 Numbers = Mapping[str, tuple[str, Callable[[int, int], flint.arb]]]
-"""Constants by index: name of the index, and function for the ball at so many bits."""
+"""For each constant, the name of its index, and a function from index and bits to the ball."""
 
 Limit = tuple[str, Callable[[sp.Expr], sp.Expr | None]]
-"""An argument, and the expression for zero if its tape cannot be evaluated there."""
+"""An argument, and a function from an expression to its limit where the argument is zero; None if
+the expression itself can be evaluated there."""
 
 
 @dataclass(frozen=True)
 class _Program:
-    """A formula's tape, that at the limit if it differs, and whether it is summed."""
+    """Tape of a formula, tape of its limit if that differs, and whether it is a sum."""
 
     tape: Tape
     at_limit: Tape | None
@@ -72,17 +72,17 @@ class Balls:
     vocabulary
         The paper's symbols.
     formulas
-        Formulas by name that are derived quickly.
+        Function that returns formulas by name; it is called first.
     further
-        All other formulas; all formulas if there is no such distinction.
+        Function that returns further formulas, which take longer to derive.
     functions
         Further functions of one argument by name: the argument and the expression.
     numbers
         Constants by index. For a table, the constant is the last of `count` entries.
     terms
-        Values that terms of summed formulas supply.
+        Quantities that differ from term to term of a summed formula.
     limit
-        An argument at which expressions have a limit, zero.
+        An argument, and the limits of expressions where it is zero.
     """
 
     vocabulary: Vocabulary
@@ -102,12 +102,12 @@ class Balls:
         return {}
 
     def names(self) -> tuple[str, ...]:
-        """Return every name that `reference` accepts: formulas, functions, constants."""
+        """Return the names of formulas, functions and constants, without those in `further`."""
         closed = (n for n, f in self._known.items() if not f.expression.atoms(sp.Derivative))
         return (*closed, *self.functions, *self.numbers)
 
     def arguments(self, name: str) -> tuple[str, ...]:
-        """Return the arguments of a formula without those that the terms of a sum supply."""
+        """Return the arguments of a formula, without quantities that differ from term to term."""
         if name in self.numbers:
             return (self.numbers[name][0],)
         program = self._program(name)
@@ -118,7 +118,7 @@ class Balls:
         """Return whether a formula is a sum."""
         return name not in self.numbers and self._program(name).summed
 
-    def truth(
+    def value(
         self, name: str, values: Mapping[str, float], digits: int = 50, modes: int | None = None
     ) -> flint.arb:
         """Return a ball around a formula's value, with a relative radius below 10^-digits.
@@ -150,11 +150,17 @@ class Balls:
     def reference(
         self, name: str, values: Mapping[str, float], digits: int = 50, modes: int | None = None
     ) -> Reference:
-        """Return value and sensitivities, see `reference value`; every slope must be finite too."""
+        """Return value and sensitivities; parameters and exceptions are those of `value`.
+
+        Raises
+        ------
+        PrecisionError
+            Also if a sensitivity is not finite.
+        """
         return self._refined(name, values, digits, modes, slopes=True)
 
     def stated(self, name: str) -> tuple[Record, sp.Expr]:
-        """Return a formula and its expression; for a sum, that of one term.
+        """Return a formula and its expression, for a sum the expression of one term.
 
         Raises
         ------
@@ -196,7 +202,7 @@ class Balls:
         return _refine(compute, digits, f"{name} at {dict(values)}")
 
     def _by_index(self, name: str, values: Mapping[str, float], digits: int) -> Reference:
-        """Return the constant for an index; the index is exact, and extra bits are certified."""
+        """Return the constant for an index, with `SPARE_BITS` more bits than the digits need."""
         argument, number = self.numbers[name]
         if values[argument] != int(values[argument]):
             raise ValueError(f"{name} needs an integer index, got {values[argument]}")
@@ -235,7 +241,7 @@ class Balls:
 
 
 def _refine(compute: Callable[[int], Reference], digits: int, what: str) -> Reference:
-    """Repeat with doubled precision until value and sensitivities are narrow; NaN never is."""
+    """Repeat with doubled precision until the balls of value and sensitivities are narrow."""
     target = int(digits * LOG2_10) + 1
     bits = target + SPARE_BITS
     while bits <= MAX_BITS:

@@ -1,4 +1,4 @@
-"""A reference value, the effect of the arguments' rounding on it, and its text."""
+"""Reference values with the effect of the arguments' rounding, and their text."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -29,11 +29,10 @@ class Reference:
     Parameters
     ----------
     value
-        Ball around the value. NaN outside the domain, infinite where no format represents it.
+        Ball around the value; NaN outside the domain, infinite if it overflows.
     sensitivity
-        |x_i df/dx_i| by argument. For a summed formula these are added over the terms; an argument
-        also acts through quantities of a term that a function reads from a table, which are
-        included.
+        |x_i df/dx_i| by argument, including the effect through quantities that a function reads
+        from a table. For a summed formula the sensitivities of all terms are added.
     magnitude
         |value|, or for a summed formula the sum of its terms' magnitudes.
     scale
@@ -69,7 +68,7 @@ def bare(value: str) -> Stored:
 
 
 def stored(found: Reference, fmt: Format) -> Stored:
-    """Return a reference as text; of a value outside the format's range only the sign."""
+    """Return a reference as text; a value that overflows the format becomes "inf" or "-inf"."""
     with flint.ctx.workprec(_BITS):
         value = found.value
         if overflows(value, fmt):
@@ -86,7 +85,7 @@ def stored(found: Reference, fmt: Format) -> Stored:
 
 
 def _upwards(number: arb) -> str:
-    """Return three digits that are not below a number."""
+    """Return a positive number as text with three digits, not below the number."""
     if number == 0:
         return "0"
     raised = number * (1 + arb(10) ** -2)
@@ -94,7 +93,7 @@ def _upwards(number: arb) -> str:
 
 
 def restored(text: Mapping[str, str]) -> Reference:
-    """Return the reference that was written."""
+    """Return the reference that `stored` has converted to text."""
     if text["value"] in _ENDLESS:
         return unsized(_ENDLESS[text["value"]])
     with flint.ctx.workprec(_BITS):

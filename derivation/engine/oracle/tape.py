@@ -1,5 +1,6 @@
-"""Tapes: sequences of ball operations for an expression, evaluated forwards for the value and
-backwards for every partial derivative.
+"""Sequences of ball operations (tapes) that evaluate an expression and its derivatives.
+
+A tape is evaluated forwards for the value, and backwards for all partial derivatives.
 
 A tape is recorded once per formula and evaluated at any precision. Equal subexpressions are
 recorded once.
@@ -14,12 +15,12 @@ import sympy as sp
 from derivation.engine.formula.operations import Operation, operation
 
 Step = tuple[Operation, tuple[int, ...]]
-"""An operation, and the slots that it reads."""
+"""An operation, and the slots of its operands."""
 
 
 @dataclass(frozen=True)
 class Tape:
-    """Inputs take the first slots; each step fills the next one, and the last one is the result."""
+    """Inputs fill the first slots, each step fills the next one, and the last is the result."""
 
     inputs: tuple[sp.Symbol, ...]
     steps: tuple[Step, ...]
@@ -32,7 +33,7 @@ class Tape:
         return slots
 
     def gradient(self, slots: Sequence[flint.arb]) -> list[flint.arb]:
-        """Return partial derivatives by the inputs from the slots of an evaluation, in reverse."""
+        """Return the partial derivatives by the inputs, from the slots of an evaluation."""
         first = len(self.inputs)
         weights: list[flint.arb | None] = [None] * len(slots)
         weights[-1] = flint.arb(1)
@@ -53,7 +54,7 @@ def record(expression: sp.Expr, inputs: Sequence[sp.Symbol]) -> Tape:
     Raises
     ------
     NotImplementedError
-        For a function or constant without ball arithmetic here.
+        For a function or constant without ball arithmetic.
     ValueError
         If the expression depends on a symbol that is not an input.
     """

@@ -20,13 +20,13 @@ class Account:
     Parameters
     ----------
     name
-        The formula.
+        Name of the formula.
     variable
         The dimensionless variable, and its definition.
     applied
-        The rules that were kept, with the form's cost and error without and with each.
+        The rules that were kept, with number of operations and error without and with each.
     worst
-        Largest error of the form in ULP in addition to conditioning.
+        Largest error of the form in ULP, in addition to conditioning.
     """
 
     name: str
@@ -41,18 +41,23 @@ def accounts(
     scales: Scales,
     progress: Progress = quiet,
 ) -> tuple[Account, ...]:
-    """Yield the result for every named formula whose form the rules find.
+    """Return the result of the rules for each named formula.
 
     Parameters
     ----------
     formulas
-        Every formula by name.
+        All formulas by name.
     names
-        Those to be rewritten, in order.
+        Names of the formulas to be rewritten, in order.
     scales
         The dimensionless variables.
     progress
-        Called with each formula's name before it is rewritten.
+        Called for each formula before it is rewritten.
+
+    Raises
+    ------
+    UnreachableError
+        If the rules do not find a form of a formula.
     """
     found = []
     for number, name in enumerate(names, start=1):

@@ -24,11 +24,11 @@ LEAST = 40
 """Smallest number of points for a decision."""
 
 SAMPLES = (1.3, 0.7, 2.1, 0.45, 1.7, 0.9)
-"""Values of all further variables, which are positive."""
+"""Values of further variables, which are positive."""
 
 
 KNOWN = {function.__name__ for function in FUNCTIONS}
-"""Functions that double precision and balls both have."""
+"""Names of the functions that can be evaluated both in doubles and in balls."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class ExactPoint:
     value
         Ball around the value.
     slack
-        Error due to half a unit of rounding in x, in units of the value: |x f'/(2 f)|.
+        Error in ULP of the value if x is rounded by half a unit in the last place: |x f'/(2 f)|.
     """
 
     x: float
@@ -61,8 +61,8 @@ class AccuracyTest:
     exact
         The points with the exact values.
     lead, beyond
-        A power of x, and the same points for the expression times that power, which is tested
-        above a switch point.
+        A power of x, and the points with the exact values of the expression times that power, which
+        is tested above a switch point.
     """
 
     x: sp.Symbol
@@ -72,7 +72,7 @@ class AccuracyTest:
     beyond: tuple[ExactPoint, ...] = ()
 
     def worst(self, form: sp.Expr | Shape) -> float:
-        """Return the largest error in ULP in addition to conditioning; infinite for no value."""
+        """Return the largest error in ULP, in addition to conditioning; infinite if none."""
         steps, value = assembled(form) if isinstance(form, Shape) else ((), form)
         if not (isinstance(value, Switch) and self.lead):
             return max(self._error(point, steps, value) for point in self.exact)
@@ -96,9 +96,9 @@ class AccuracyTest:
 
 
 def with_whole(inner: AccuracyTest, whole: AccuracyTest, lead: int) -> AccuracyTest:
-    """Return a test that above a switch point compares the whole expression, not that over x^lead.
+    """Return a test that compares, above a switch point, the expression times x^lead.
 
-    Conditioning is taken into account for neither more than for the other.
+    At each point the smaller of the two allowances for conditioning is used.
     """
     excused = {point.x: point.slack for point in inner.exact}
     beyond = (
@@ -109,7 +109,7 @@ def with_whole(inner: AccuracyTest, whole: AccuracyTest, lead: int) -> AccuracyT
 
 
 def points(low: float, high: float, seed: str) -> tuple[float, ...]:
-    """Return decades with random digits between the ends, dense from 1e-4 to 50."""
+    """Return random points in each decade between the ends, and more from 1e-4 to 50."""
     generator = random.Random(seed)
     first, last = math.log10(low), math.log10(high)
     found = {low, high}
@@ -140,7 +140,7 @@ def accuracy_test(
     Parameters
     ----------
     expression
-        The original, whose balls are the reference values.
+        The original expression, from which the reference values are computed.
     x
         Its variable; all others have fixed positive values.
     ends
@@ -153,7 +153,7 @@ def accuracy_test(
     Raises
     ------
     UnreachableError
-        If it contains unknown functions, too many variables, or has too few values.
+        If it contains unknown functions or too many variables, or has a value at too few points.
     """
     unknown = {f.func.__name__ for f in expression.atoms(sp.Function)} - KNOWN
     if unknown:
@@ -181,7 +181,7 @@ def _exact_value(
     fixed: Sequence[tuple[sp.Symbol, float]],
     equal: sp.Expr,
 ) -> tuple[flint.arb | None, float]:
-    """Return the value and its slack; None where neither expression has a ball."""
+    """Return the value and its slack; None if neither expression has a ball."""
     at: dict[sp.Symbol, Exact] = {x: point, **dict(fixed)}
     for candidate in (expression, equal):
         try:

@@ -2,13 +2,13 @@
 
 Stages, in this order:
 
- 1 dimensionless   the one product that all functions depend on becomes a variable, and a sum of
-                   constants becomes its ratio to another
+ 1 dimensionless   the product on which all functions depend becomes a variable, and a sum of
+                   constants is written as its ratio to another sum
  2 rules           `fraction`, `decay` and `difference`, as for one variable
  3 blocks          sums that cancel at 0 become building blocks times a power of x
  4 quotients       quotients that tend to 1 become 1 plus a positive term; division where possible
- 5 powers          powers of the variable and of symbols, and the decay, are separated: sums are
-                   evaluated as they are, and `times` multiplies them by the powers
+ 5 powers          powers of the variable and of symbols, and the decay, are separated from the
+                   sums; `times` multiplies the value of the sums by the powers
 """
 
 from collections import defaultdict
@@ -44,7 +44,7 @@ class Reduced:
 
 
 def dimensionless(expression: sp.Expr, scales: Scales) -> Reduced:
-    """Return the formula in the product that all its functions depend on.
+    """Return the formula in terms of the product on which all its functions depend.
 
     Raises
     ------
@@ -130,7 +130,7 @@ Taken = tuple[sp.Expr, sp.Expr, dict[sp.Expr, int]]
 
 
 def _taken(shape: Shape, known: Mapping[str, Block]) -> Taken:
-    """The factors of a shape's sums."""
+    """Return the constant, the core and the powers of a shape's sums."""
     size, core, powers = sp.Integer(1), sp.Integer(1), defaultdict(int, {shape.x: shape.power})
     for factor in _paired(shape, known):
         content, value, taken = _factor(factor, shape.x, known)
@@ -156,9 +156,10 @@ def _paired(shape: Shape, known: Mapping[str, Block]) -> tuple[Factor, ...]:
 
 
 def _beyond_one(shape: Shape, known: Mapping[str, Block]) -> Taken | None:
-    """Write a quotient that tends to 1 as 1 plus a positive term, which may be inaccurate far out.
+    """Write a quotient that tends to 1 as 1 plus a positive term.
 
-    Return None if the term does not decay, or its parts differ in sign.
+    The relative error of the term has little effect where it is small. Return None if the term does
+    not decay, or its parts differ in sign.
     """
     own, whole = shape.x, sp.Mul(*(factor.value**factor.exponent for factor in shape.factors))
     if shape.rate != 0 or shape.power != 0 or whole.free_symbols != {own}:
@@ -277,7 +278,7 @@ def _factor(factor: Factor, variable: sp.Symbol, known: Mapping[str, Block]) -> 
 def _block(
     terms: Mapping[Key, sp.Expr], variable: sp.Symbol, known: Mapping[str, Block]
 ) -> Taken | None:
-    """Return the same for a building block of a multiple of the variable."""
+    """Return a sum as a constant, a building block and powers; None if there is no such block."""
     rates = [abs(key.scale if key.wave else key.rate) for key in terms]
     least = sp.gcd_list([rate for rate in rates if rate != 0])
     for block in known.values():

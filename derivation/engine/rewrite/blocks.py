@@ -1,7 +1,7 @@
 """Building blocks: sums that cancel at 0, divided by the power of their leading term.
 
 Each is a function of one variable with an exact definition, finite and nonzero at the origin. The
-rewriting rules find how it is computed.
+rewriting rules find its stable form.
 """
 
 import hashlib
@@ -18,7 +18,7 @@ from derivation.engine.rewrite.stabilise import Stable, stabilise
 
 T = sp.Symbol("T", positive=True)
 ENDS = (1e-150, 1e75)
-"""Upper limit of the tested range; above it, the powers in the denominators overflow."""
+"""Range in which the forms are tested; above it, the powers in the denominators overflow."""
 
 
 class Definition(NamedTuple):
@@ -31,10 +31,10 @@ class Definition(NamedTuple):
     total
         The sum that it represents.
     lead, held
-        The power of the leading term if the sum cancels at 0, and how much of that power keeps its
-        value at the switch point above it.
+        The power of the leading term if the sum cancels at 0, and the part of this power that is
+        constant above the switch point.
     reads
-        Text of the quotient for the docstring.
+        Text of the sum for the docstring.
     """
 
     name: str
@@ -61,7 +61,7 @@ HYPERBOLIC = (
 
 
 def built(definitions: tuple[Definition, ...]) -> dict[str, Block]:
-    """Return building blocks by name, the direct form of each proved equal to its definition.
+    """Return building blocks by name; the direct form of each is proved equal to its definition.
 
     Raises
     ------

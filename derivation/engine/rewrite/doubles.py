@@ -1,7 +1,7 @@
-"""Evaluation of expressions in double precision, with the same result on every machine.
+"""Evaluation of expressions in double precision, with equal results on all machines.
 
-Sums and products are Python's. Elementary functions are rounded correctly from ball arithmetic, so
-that the choice of a form does not depend on a processor or library.
+Sums and products are computed by Python. Elementary functions are rounded correctly from ball
+arithmetic, so that the selection of a form does not depend on a processor or library.
 """
 
 import math
@@ -24,12 +24,12 @@ NO_BLOCKS: Blocks = {}
 
 
 def rounded(expression: sp.Expr, values: Values, blocks: Blocks = NO_BLOCKS) -> float:
-    """Evaluate the expression node by node in doubles; NaN where a step has no value.
+    """Evaluate an expression node by node in doubles; NaN if a node has no value.
 
     Raises
     ------
     NotImplementedError
-        For a function that has no counterpart here.
+        For a function that cannot be evaluated.
     """
     memo: dict[sp.Basic, float] = dict(values)
 
@@ -112,7 +112,7 @@ def _power(base: float, exponent: sp.Expr) -> float:
 
 
 def _function(function: Callable[[flint.arb], flint.arb], argument: float) -> float:
-    """Round correctly for all practical purposes, from 160 bits."""
+    """Return a function's value, rounded from 160 bits, which in practice is correct rounding."""
     if not math.isfinite(argument):
         if function is _EXP and not math.isnan(argument):
             return 0.0 if argument < 0 else math.inf

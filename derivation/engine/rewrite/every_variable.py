@@ -18,7 +18,7 @@ from derivation.engine.rewrite.terms import UnreachableError
 
 DIGITS = 25
 ENOUGH_POINTS = 20
-"""Smallest number of values for a decision."""
+"""Smallest number of points with a value for a decision."""
 SMALLEST = 1e-150
 """Smallest value of an argument; products of smaller ones underflow."""
 LEAST_VALUE = 1e-300
@@ -36,7 +36,7 @@ class LargestError(NamedTuple):
 def accurate(
     formula: Record, steps: tuple[Step, ...], value: sp.Expr | Switch, blocks: Mapping[str, Block]
 ) -> tuple[tuple[Step, ...], sp.Expr | Switch]:
-    """Return a form that is accurate in every variable of its formula.
+    """Return the given form if it is accurate in every variable of its formula.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def accurate(
     Raises
     ------
     UnreachableError
-        If it is not accurate, naming the point with the largest error.
+        If it is not accurate; the message states the point with the largest error.
     """
     worst = measured(formula, steps, value, blocks)
     if worst.error > ENOUGH:
@@ -95,7 +95,7 @@ def _switches(value: sp.Expr | Switch) -> dict[str, tuple[float, ...]]:
 
 
 def _reference(expression: sp.Expr, at: Mapping[sp.Symbol, float]) -> flint.arb | None:
-    """Return the value; None where it has no ball, or is too small for all digits of a double."""
+    """Return the value; None if it has no ball, overflows, or may be subnormal."""
     try:
         value = evaluate(expression, at, DIGITS)
     except (PrecisionError, NotImplementedError):
@@ -118,7 +118,7 @@ def _computed(
 def _beyond(
     expression: sp.Expr, reference: flint.arb, got: float, at: Mapping[sp.Symbol, float]
 ) -> float:
-    """Return the error [ULP], reduced by half the condition numbers where it is large."""
+    """Return the error [ULP], less half the condition numbers if it is large."""
     error = ulp_error(got, reference)
     if not ENOUGH / 2 < error < math.inf:
         return error

@@ -10,17 +10,17 @@ from derivation.engine.formula.proof import Proof, prove
 from derivation.engine.runtime import ranges
 
 TIMES = sp.Function("times")
-"""Product of a value and powers of bases, given in turn; intermediate products may leave the range
-of doubles."""
+"""Product of a value and powers, from value, base, exponent, base, exponent, ...; intermediate
+products may leave the range of doubles."""
 
 CLOSELY = sp.Function("times_closely")
-"""The same product, rounded as if once, for factors that use most of a budget."""
+"""The same product, with an error as if rounded once, for factors that use most of a budget."""
 
 LOST = sp.Function("lost")
-"""The rounding error of a product of two: exactly zero in the proof."""
+"""The rounding error of a product of two numbers; it is zero in proofs."""
 
 SUM = sp.Function("sum_closely")
-"""A sum, rounded as if once; its last term is small."""
+"""A sum, with an error as if rounded once; its last term is small."""
 
 ONCE = sp.Integer(ranges.ONCE)
 """Largest v for which e^(-v) is applied as one factor."""
@@ -32,18 +32,18 @@ SCALINGS = (LOST, SUM, TAIL, TIMES, CLOSELY)
 """Functions of the generated module `ranges`."""
 
 TINY, FAR, LARGEST = sp.Float("5e-324"), sp.Integer(10**9), sp.Float("1e308")
-"""Limits of a product that must neither vanish nor overflow. Above FAR, expressions in e^-x have
-their value at infinity; TINY is the smallest double."""
+"""Limits of a product that must neither vanish nor overflow. TINY is the smallest double; beyond
+FAR, expressions in e^-x are equal to their value at infinity."""
 
 
 def held(product: sp.Expr, most: sp.Expr) -> sp.Expr:
-    """Return the product, which is positive, limited to the range from TINY to `most`."""
+    """Return a positive product, limited to the range from TINY to `most`."""
     return sp.Max(TINY, sp.Min(product, most))
 
 
 @dataclass(frozen=True)
 class Step:
-    """A named intermediate: ``symbol = expression  # comment``."""
+    """A named intermediate value: ``symbol = expression  # comment``."""
 
     symbol: sp.Symbol
     expression: sp.Expr
@@ -89,7 +89,7 @@ class Form:
     value
         The result, or the switch point between two branches.
     proof
-        That it equals the formula, with all steps substituted.
+        Proof that it equals the formula, with all steps substituted.
     """
 
     name: str
@@ -101,27 +101,27 @@ class Form:
 
 @dataclass(frozen=True)
 class Block:
-    """A building block of stable forms: a function of its own with an exact definition.
+    """A building block of stable forms: a separate function with an exact definition.
 
     Parameters
     ----------
     name
-        Its name in generated code.
+        Name in generated code.
     arguments
-        Its variables.
+        The variables.
     total
-        The sum it stands for.
+        The sum that it represents.
     lead, held
-        The power of the variable that the sum is divided by below the switch point, and how much
-        of it keeps its value at the switch point above it.
+        The power of the variable by which the sum is divided, and the part of this power that is
+        constant above the switch point.
     domain
         Conditions on the variables, in Python syntax.
     summary
-        First line of its docstring.
+        First line of the docstring.
     steps, value
         The computation; series are truncated, see `truncation`.
     truncation
-        Bound of the relative error of a truncated series, or empty.
+        Bound of the relative error of a truncated series, in words; empty without a series.
     """
 
     name: str
@@ -140,17 +140,17 @@ class Block:
         return sp.Function(self.name)(argument)
 
     def near(self, argument: sp.Expr) -> sp.Expr:
-        """Return the argument, at most the switch point."""
+        """Return the argument limited to the switch point; 1 without a switch point."""
         return sp.Min(argument, self.value.at) if isinstance(self.value, Switch) else sp.Integer(1)
 
     def definition(self, argument: sp.Expr) -> sp.Expr:
-        """Return the exact definition of the block."""
+        """Return the exact definition of the block for an argument."""
         (own,) = self.arguments
         return self.divided.subs(own, argument) / self.near(argument) ** self.held
 
     @property
     def divided(self) -> sp.Expr:
-        """Return the sum divided by the powers that are not kept constant."""
+        """The sum divided by the part of the power that is never constant."""
         (own,) = self.arguments
         return self.total / own ** (self.lead - self.held)
 
@@ -165,7 +165,7 @@ def undo(expression: sp.Expr, steps: tuple[Step, ...], blocks: Mapping[str, Bloc
     for block in blocks.values():
         expression = expression.replace(sp.Function(block.name), block.definition)
     expression = expression.replace(sp.Abs, lambda x: x)  # roots of squares, in even functions
-    expression = expression.replace(sp.Heaviside, lambda *_: _CHOICE)  # for either value
+    expression = expression.replace(sp.Heaviside, lambda *_: _CHOICE)  # for both values
     expression = expression.replace(expm1, lambda x: sp.exp(x) - 1)
     expression = expression.replace(lambda e: isinstance(e, sp.Max) and TINY in e.args, _released)
     return expression.replace(sp.Min, _least)
@@ -185,7 +185,7 @@ def _product(value: sp.Expr, *powers: sp.Expr) -> sp.Expr:
 
 
 def _least(*bounds: sp.Expr) -> sp.Expr:
-    """Write Min(a, 1/phi) as Min(a phi, 1)/phi with a symbol for Min: valid for any value."""
+    """Write Min(a, 1/phi) as Min(a phi, 1)/phi, with a symbol for Min that may have any value."""
     unit = sp.Mul(*(sp.denom(bound) for bound in bounds))
     name = sorted(str(sp.expand(bound * unit)) for bound in bounds)
     return sp.Symbol(f"Min({', '.join(name)})", positive=True) / unit
@@ -199,12 +199,23 @@ def form(
     value: sp.Expr | Switch,
     blocks: Mapping[str, Block],
 ) -> Form:
-    """Build a stable form, proving each of its branches equal to `formula`.
+    """Build a stable form, with a proof that each of its branches equals a formula.
+
+    Parameters
+    ----------
+    name, module
+        Name of the function, and of the generated module that contains it.
+    formula
+        The derived expression.
+    steps, value
+        Intermediate values, and the result or the switch point between two branches.
+    blocks
+        Building blocks by name.
 
     Raises
     ------
     ProofError
-        Naming the branch that differs from the formula, with the residual.
+        If a branch differs from the formula; the message states the branch and the residual.
     """
     proof = prove(
         f"Stable form of {name}",
@@ -218,7 +229,7 @@ def form(
 
 
 def branches(value: sp.Expr | Switch) -> list[tuple[str, Branch]]:
-    """Yield the branches of a result, labelled by their side of the switch point."""
+    """Return the branches of a result, labelled by their side of the switch point."""
     if isinstance(value, Switch):
         return [
             (f"{value.variable} < {value.at}", value.below),

@@ -1,8 +1,8 @@
 """The rewriting rules in the order of application, each with name, cause and condition.
 
-The first three transform an expression, the others its decomposition. A rule returns nothing where
-its condition is not met. Every rule is exact, except for `section`, whose truncation error is
-bounded.
+The first four transform an expression, and the others the decomposition that `decay` yields. A
+rule yields nothing if its condition is not met. Every rule is exact, except for `section`, whose
+truncation error is bounded.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -41,9 +41,9 @@ class Rule:
     name
         Name of the rule in reports.
     cause
-        The inaccuracy it removes: cancellation, overflow or absorption.
+        The inaccuracy that it removes: cancellation, overflow or absorption.
     apply
-        Function from the variable and an expression to every form that the rule can give it.
+        Function from the variable and an expression to the possible results of the rule.
     """
 
     name: str
@@ -52,7 +52,7 @@ class Rule:
 
 
 def conjugate(_: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
-    """Write p - q with a square root among them, as in (18), as (p^2 - q^2)/(p + q)."""
+    """Write p - q, where p or q contains a square root, as (p^2 - q^2)/(p + q)."""
     if isinstance(given, Shape):
         return
 
@@ -102,7 +102,7 @@ def fraction(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
 
 
 def _split(expression: sp.Expr, x: sp.Symbol) -> sp.Expr:
-    """Factor an expression of x alone; with others, signs of brackets would be lost."""
+    """Factor sums of x alone; with other variables, signs of brackets would be lost."""
     parts = sp.Mul.make_args(expression)
     return sp.Mul(
         *(sp.factor(sp.expand(p)) if p.free_symbols == {x} and p.is_Add else p for p in parts)
@@ -142,7 +142,7 @@ def _powers(expression: sp.Expr) -> Iterator[tuple[sp.Expr, sp.Expr]]:
 
 
 def _scaled(terms: Terms) -> tuple[sp.Rational, sp.Expr, dict[Key, sp.Expr]]:
-    """Return the largest rate, its coefficient, and the terms without both."""
+    """Return the largest rate, its coefficient, and the terms divided by both."""
     rate = max(key.rate for key in terms)
     leading = min((key for key in terms if key.rate == rate), key=lambda key: key[2:] + key[:2])
     size = terms[leading]
@@ -178,7 +178,7 @@ def difference(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
 
 
 def _terms(value: sp.Expr, x: sp.Symbol) -> dict[Key, sp.Expr]:
-    """Return the normal form of a sum; None if it has no such form."""
+    """Return the normal form of a sum; empty if it has no such form."""
     try:
         return terms_of(value, x)
     except UnreachableError:
@@ -186,7 +186,7 @@ def _terms(value: sp.Expr, x: sp.Symbol) -> dict[Key, sp.Expr]:
 
 
 def parts_of(terms: Terms, x: sp.Symbol) -> list[tuple[sp.Expr, int]]:
-    """Return the sum in parts whose constants are cancelled, each with its lowest power of x."""
+    """Return the parts of a sum with constants cancelled, each with its lowest power of x."""
     grouped: dict[tuple[sp.Expr, int, str, sp.Rational], dict[Key, sp.Expr]] = {}
     for key, value in terms.items():
         base = _base(value)
@@ -234,7 +234,7 @@ def section(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
 
 
 def _sectioned(factor: Factor, x: sp.Symbol, switch: sp.Rational) -> Factor:
-    """Return the factor's leading power, and its truncated series if its parts cancel in it."""
+    """Return the factor with its leading power, and a truncated series if its parts cancel."""
     terms = terms_of(factor.value, x)
     lead = leading_power(terms)
     if lead == min(power for _, power in parts_of(terms, x)):
@@ -270,4 +270,4 @@ RULES: Sequence[Rule] = (
 """Rules in the order of application."""
 
 SHARE = Rule("share", "time", share)
-"""The last rule: it removes an exponential at a negligible loss of accuracy."""
+"""The last rule, which saves an exponential; the loss of accuracy is negligible."""

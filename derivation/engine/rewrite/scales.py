@@ -1,4 +1,4 @@
-"""The dimensionless variables of a paper, which the functions in its formulas depend on."""
+"""The dimensionless variables of a paper, on which the functions in its formulas depend."""
 
 from dataclasses import dataclass
 
@@ -9,20 +9,21 @@ from derivation.engine.rewrite.form import Step
 
 @dataclass(frozen=True)
 class Scale:
-    """A product that functions may depend on, and that becomes a variable.
+    """A product on which functions depend, and that is replaced by a variable.
 
     Parameters
     ----------
     product
-        The product, for instance 2 k H.
+        The product, such as 2 k H.
     variable
         The dimensionless symbol for it.
     length
-        The symbol that the variable replaces.
+        The symbol that is eliminated from the formula.
     rate
-        The variable divided by the length, without a numerical factor; None if it is the product.
+        The variable divided by the length, without a numerical factor; None if the product is a
+        single symbol.
     joined
-        Whether powers of the variable over the rate are written as powers of the length again.
+        Whether powers of the variable over the rate are written as powers of the length.
     """
 
     product: sp.Expr
@@ -43,11 +44,11 @@ class Ratio:
 
 @dataclass(frozen=True)
 class Scales:
-    """All scales, and the ratio if there is one."""
+    """All scales of a paper, and its ratio if there is one."""
 
     rows: tuple[Scale, ...] = ()
     ratio: Ratio | None = None
 
     def of(self, product: sp.Expr) -> Scale | None:
-        """Return the scale of a product, or None."""
+        """Return the scale of a product; None if there is none."""
         return next((scale for scale in self.rows if scale.product == product), None)

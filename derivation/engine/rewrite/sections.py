@@ -1,8 +1,8 @@
-"""Truncated Taylor series of hyperbolic sums that cancel at 0, over their leading power, up to END.
+"""Truncated Taylor series of hyperbolic sums that cancel at 0, divided by their leading power.
 
-All are even and take the square of their variable, which may be known more accurately. In the
-bending and extension of a mode's fields no argument is larger than END; the scaling exponentials of
-building blocks would reduce accuracy there without benefit.
+All are even functions of the square of their variable, which may be known more accurately than the
+variable. They are used up to END, where the scaling by exponentials of building blocks would reduce
+the accuracy without benefit.
 """
 
 from functools import cache
@@ -30,7 +30,7 @@ _MOST = 60
 
 @cache
 def sections() -> dict[str, Block]:
-    """Return every truncated series by name."""
+    """Return all truncated series by name."""
     return {name: _section(name, total, power) for name, total, power in DEFINITIONS}
 
 
@@ -53,8 +53,7 @@ def _section(name: str, total: sp.Expr, power: int) -> Block:
 def _coefficients(total: sp.Expr, power: int) -> tuple[tuple[sp.Rational, ...], sp.Rational]:
     """Return Taylor coefficients in y^2, and a bound of the relative truncation error.
 
-    They are positive, so that the sum is at least the first of them, and the ratio of successive
-    terms decreases.
+    For the bound, the coefficients must be positive, and the ratio of successive terms decreases.
     """
     series = sp.Poly(total.series(y, 0, _MOST).removeO(), y)
     found = [series.coeff_monomial(y ** (power + 2 * k)) for k in range((_MOST - power) // 2)]

@@ -11,7 +11,7 @@ UNIT_ROUNDOFF = sp.Rational(1, 2**53)
 MOST_TERMS = 64
 
 POLYNOMIAL = sp.Function("polynomial")
-"""The generated Horner scheme: variable, constant term, and further coefficients upwards."""
+"""The generated Horner scheme, from variable, constant term, and coefficients in rising order."""
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,7 @@ class Section:
     coefficients
         Exact rationals c_0, c_1, ...
     bound
-        Bound of the relative truncation error from y = 0 to the switch point.
+        Bound of the relative truncation error between y = 0 and the switch point.
     """
 
     lead: int
@@ -49,10 +49,10 @@ def leading_power(terms: Terms) -> int:
 
 
 def taylor_section(terms: Terms, switch: sp.Rational) -> Section:
-    """Return the truncated series of a sum about 0, with an error below a quarter of a rounding.
+    """Return the truncated series of a sum about 0, with a relative error below 2^-55.
 
-    The truncation error is bounded by Taylor's theorem term by term. The sum itself is at least its
-    first coefficient, reduced by all others unless they have the same sign.
+    The truncation error is bounded by Taylor's theorem term by term. The sum is at least its first
+    coefficient, less the magnitudes of all other terms unless they have the same sign.
 
     Raises
     ------

@@ -20,11 +20,11 @@ class Factor:
     value, exponent
         The sum and its exponent.
     near, lead, rate
-        Below the switch point the sum is x^lead e^(rate x) near; None if no series is needed.
+        Below the switch point the sum is x^lead e^(rate x) near; near is None without a series.
     truncation
         Bound of the relative truncation error.
     far, top
-        Above the switch point, or everywhere, it is x^top far; None for the sum itself.
+        Above the switch point, or everywhere, it is x^top far; far is None for the sum itself.
     """
 
     value: sp.Expr
@@ -39,7 +39,7 @@ class Factor:
 
 @dataclass(frozen=True)
 class Shape:
-    """front x^power e^(rate x) times factors.
+    """A product: front x^power e^(rate x) times factors.
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ class Shape:
     shared
         Whether exponentials are computed once for both sides of the switch point, and squared.
     lead
-        This power of x, by which the front is divided, is constant above the switch point.
+        Power of x by which the expression is divided, and that is constant above the switch point.
     """
 
     x: sp.Symbol
@@ -127,7 +127,7 @@ def _side(
 
 
 def _names(factors: Iterable[Factor]) -> list[sp.Symbol]:
-    """Yield numerator, denominator, numerator_2, ..."""
+    """Return symbols for the factors: numerator, denominator, numerator_2, ..."""
     found: list[sp.Symbol] = []
     counts = {"numerator": 0, "denominator": 0}
     for factor in factors:

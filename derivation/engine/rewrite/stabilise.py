@@ -1,4 +1,4 @@
-"""Search for the stable form of an expression: apply the rules in turn, keep those that help."""
+"""Search for the stable form of an expression, by rules that are kept if they improve it."""
 
 import math
 from collections.abc import Sequence
@@ -13,10 +13,10 @@ from derivation.engine.rewrite.shape import Shape, assembled
 from derivation.engine.rewrite.terms import UnreachableError, terms_of
 
 EXACT = 0.75
-"""Error in ULP below which a series is not lengthened."""
+"""Error in ULP below which the results of a rule count as equally accurate."""
 
 NOTHING = 1.5
-"""Difference of errors, in ULP, below which two forms count as equally accurate."""
+"""Error in ULP up to which forms count as equally accurate when a rule is removed."""
 
 ENOUGH = 8.0
 """Error in ULP above which a form is rejected."""
@@ -47,13 +47,13 @@ class Stable:
     Parameters
     ----------
     expression, variable
-        The original and its variable.
+        The original expression and its variable.
     steps, value
-        The form.
+        Intermediate values, and the result or the switch point between two branches.
     applied
-        The rules kept, in order.
+        The rules that were kept, in order.
     worst
-        Its largest error in ULP in addition to conditioning.
+        Largest error of the form in ULP, in addition to conditioning.
     truncation
         Bound of the relative truncation error of its series.
     """
@@ -72,8 +72,8 @@ def stabilise(
 ) -> Stable:
     """Return the stable form of an expression for positive x.
 
-    All rules are applied in turn. Then each is removed if the form without it is more accurate, or
-    equally accurate and no longer.
+    All rules are applied in turn. Then each rule is removed if the form without it is more
+    accurate, or about as accurate and has no more operations.
 
     Parameters
     ----------
@@ -82,13 +82,14 @@ def stabilise(
     ends
         The interval in which the form is to be accurate.
     lead
-        A power of x by which the expression is divided only to be finite at 0: above a switch
-        point s the form is divided by s^lead instead, without rounding.
+        A power of x by which the expression is divided only to be finite at 0. Above a switch point
+        s, the form is divided by s^lead instead, without rounding.
 
     Raises
     ------
     UnreachableError
-        If the rules do not reduce its error to 8 ULP; the message states the reason.
+        If the error of the form exceeds 8 ULP, or the expression cannot be tested; the message
+        states the reason.
     """
     points = accuracy_test(expression, x, ends, decayed(expression, x))
     if lead:
@@ -106,7 +107,7 @@ def stabilise(
         shorter, error = _through(fewer, x, expression, at)
         no_longer = sum(_operations(shorter)) <= sum(_operations(form))
         if error < worst or (error <= max(worst, NOTHING) and no_longer):
-            # Other rules may have depended on this one: they are tested again.
+            # Other rules may have been necessary only with this one, so they are tested again.
             kept, form, worst, candidates = fewer, shorter, error, list(reversed(fewer))
     if worst > ENOUGH:
         raise UnreachableError(_reason(expression, x, worst))
@@ -120,7 +121,7 @@ def stabilise(
 
 
 class _Judge:
-    """An accuracy test that measures each form once."""
+    """An accuracy test that stores the error of each form."""
 
     def __init__(self, test: AccuracyTest) -> None:
         self.test, self.lead = test, test.lead
@@ -136,7 +137,7 @@ class _Judge:
 def _through(
     rules: Sequence[Rule], x: sp.Symbol, expression: sp.Expr, at: _Judge
 ) -> tuple[Rewritten, float]:
-    """Return the form that the rules lead to, and its largest error."""
+    """Return the form that results from the rules, and its largest error."""
     form: Rewritten = expression
     for rule in rules:
         try:
@@ -156,7 +157,7 @@ def _held(form: Rewritten, lead: int) -> Rewritten:
 def _account(
     rule: Rule, kept: Sequence[Rule], x: sp.Symbol, expression: sp.Expr, at: _Judge
 ) -> Applied:
-    """Return the form's cost and error without and with a rule."""
+    """Return number of operations and error of the form, without and with a rule."""
     with_it, without = list(kept), [other for other in kept if other != rule]
     pairs = [_through(rules, x, expression, at) for rules in (without, with_it)]
     before, after = (operations(form) for form, _ in pairs)
@@ -164,7 +165,7 @@ def _account(
 
 
 def decayed(expression: sp.Expr, x: sp.Symbol) -> sp.Expr:
-    """Return the expression in decaying exponentials, which can be enclosed for large x too."""
+    """Return the expression in decaying exponentials, whose balls are narrow also for large x."""
     form: Rewritten = expression
     names = [rule.name for rule in RULES]
     for rule in RULES[: names.index("decay") + 1]:
@@ -192,7 +193,7 @@ def _operations(form: Rewritten) -> list[int]:
 
 
 def _reason(expression: sp.Expr, x: sp.Symbol, worst: float) -> str:
-    """Return the remaining inaccuracy, and the first rule that failed, with its reason."""
+    """Return the message: the remaining error, and the first rule that failed, with the reason."""
     size = "overflows or has no value" if math.isinf(worst) else f"has an error of {worst:.3g} ULP"
     form: Rewritten = expression
     for rule in RULES:

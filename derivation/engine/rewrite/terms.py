@@ -1,7 +1,6 @@
 """Sums of c x^k e^(m x) w(x): normal form, Taylor coefficients, truncation errors.
 
-w is 1, or sin, cos or log(1 + .) of a multiple of x. Every formula of the paper consists of
-quotients of such sums.
+w is 1, or sin, cos or log(1 + .) of a multiple of x. The rules apply to quotients of such sums.
 """
 
 from collections.abc import Iterator, Mapping
@@ -18,7 +17,7 @@ class UnreachableError(ValueError):
 
 
 class Key(NamedTuple):
-    """x^power e^(rate x) wave(scale x); an empty word stands for no wave."""
+    """The function x^power e^(rate x) wave(scale x); an empty name means no wave."""
 
     power: int
     rate: sp.Rational
@@ -38,7 +37,7 @@ def terms_of(expression: sp.Expr, x: sp.Symbol) -> dict[Key, sp.Expr]:
     Raises
     ------
     UnreachableError
-        Naming the part that is not such a term.
+        If a part is not such a term; the message states the part.
     """
     if not expression.has(x):
         return {ONE: expression}
@@ -57,7 +56,7 @@ def terms_of(expression: sp.Expr, x: sp.Symbol) -> dict[Key, sp.Expr]:
 
 
 def _function(expression: sp.Expr, x: sp.Symbol) -> dict[Key, sp.Expr]:
-    """Return the wave for a function of a multiple of x."""
+    """Return the normal form of a function of a multiple of x."""
     scale = sp.cancel(expression.args[0] / x) if len(expression.args) == 1 else None
     if scale is None or not scale.is_Rational:
         raise UnreachableError(f"{expression} is not a function of a rational multiple of {x}")
@@ -101,7 +100,7 @@ def _times(one: Key, other: Key) -> Key:
 
 
 def expression_of(terms: Terms, x: sp.Symbol) -> sp.Expr:
-    """Return the sum that the terms stand for."""
+    """Return the sum of the terms."""
     return sp.Add(*(coefficient * monomial(key, x) for key, coefficient in terms.items()))
 
 
@@ -113,7 +112,7 @@ def monomial(key: Key, x: sp.Symbol) -> sp.Expr:
 
 
 def coefficient(key: Key, n: int) -> sp.Rational:
-    """Return the Taylor coefficient of x^n of one term: exponential and wave multiplied out."""
+    """Return the Taylor coefficient of x^n of one term, the product of exponential and wave."""
     order = n - key.power
     if order < 0:
         return sp.Integer(0)

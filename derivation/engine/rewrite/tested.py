@@ -1,4 +1,4 @@
-"""Range and error that a stable form states: those for which its code was tested."""
+"""Test of the code of a stable form, which determines the range and the error that it states."""
 
 import math
 import random
@@ -19,14 +19,14 @@ from derivation.engine.rewrite.watch import derivative, hard_places
 ENDS = (1e-150, 1e150)
 """The range that is tested first."""
 QUIET = ENOUGH / 2
-"""Limit of the errors [ULP] at the ends of the range."""
+"""Largest error [ULP] at the ends of a range."""
 LEAST_RATIO = 10.0
 """Smallest accepted ratio of the upper to the lower end."""
 ILL = 1e3
-"""Half a condition number above which a point counts as next to a zero."""
+"""Half condition number above which a point counts as next to a zero."""
 SHARE = 0.6
-"""Largest used part of the error that conditioning allows; NumPy's functions differ in their last
-bits from point to point, so that the next point may need more than the tested one."""
+"""Fraction of half the condition number that is subtracted from an error in the test; the stated
+limit allows all of it, because other points may have larger errors than the tested ones."""
 _NEAR_ZERO, _MOST_ZEROS = 150, 12
 _DIGITS = 25
 _ROUNDS = 8
@@ -49,7 +49,8 @@ class CodeCheck:
         The stated error [ULP in addition to half the condition number]: the largest one found,
         with a margin.
     worst, at
-        The largest error found [ULP in addition to half the condition number], and its point.
+        The largest error found [ULP in addition to `SHARE` times half the condition number], and
+        its point.
     points
         Number of points in the range that were compared.
     """
@@ -81,7 +82,7 @@ class _Reference:
         for most in (_LOW_PRECISION, _HIGH_PRECISION):
             for form, slope in self.candidates:
                 if most == _HIGH_PRECISION and not self._finite(form, point):
-                    continue  # beyond the exponents of balls: more precision does not help
+                    continue  # its exponent exceeds the range of balls, at any precision
                 value = self._refined(form, point, _DIGITS, most)
                 if value is None:
                     continue
@@ -148,12 +149,12 @@ def tested(stable: Stable, function: Function) -> CodeCheck:
 
 
 def stated(worst: float) -> float:
-    """Return the limit that is stated for a largest error: a fifth more, rounded up to halves."""
+    """Return the stated limit for a largest error: a fifth and 0.3 more, rounded up to halves."""
     return math.ceil(2 * (1.2 * worst + 0.3)) / 2
 
 
 def around(places: Iterable[float]) -> set[float]:
-    """Return doubles next to the given numbers, at distances that double."""
+    """Return doubles next to the given numbers, and at distances of 2^2, 2^5, ..., 2^56 doubles."""
     last = ordinal(ENDS[1])
     found: set[float] = set()
     for place in places:
@@ -167,7 +168,7 @@ def around(places: Iterable[float]) -> set[float]:
 
 
 def _random(draw: random.Random, low: float, high: float) -> set[float]:
-    """Return doubles evenly distributed over the range, and more where functions bend."""
+    """Return random doubles: uniform among the doubles of the range, and more in 1e-6 to 1e4."""
     first, last = ordinal(low), ordinal(high)
     found = {from_ordinal(draw.randint(first, last)) for _ in range(_RANDOM)}
     near, far = max(low, 1e-6), min(high, 1e4)
@@ -179,7 +180,7 @@ def _random(draw: random.Random, low: float, high: float) -> set[float]:
 def _next_to_zeros(
     draw: random.Random, reference: _Reference, low: float, high: float
 ) -> set[float]:
-    """Return random doubles at all distances from where the condition number is largest."""
+    """Return random doubles around the points with the largest condition numbers."""
     steep = [
         (known[1], point)
         for point, known in sorted(reference.known.items())
@@ -207,7 +208,10 @@ def _towards(low: float, high: float) -> set[float]:
 def _errors(
     function: Function, reference: _Reference, points: Sequence[float]
 ) -> dict[float, float]:
-    """Return errors [ULP in addition to half the condition number]; infinite for no value."""
+    """Return errors [ULP in addition to `SHARE` times half the condition number].
+
+    The error is infinite if there is no certified value, or if it overflows.
+    """
     if not points:
         return {}
     with np.errstate(all="ignore"):
@@ -223,9 +227,9 @@ def _errors(
 
 
 def _range(errors: Sequence[tuple[float, float]]) -> tuple[float, float]:
-    """Return the largest range between points beyond the limit, with ends where errors are small.
+    """Return the largest range without errors above the limit, and with small errors at its ends.
 
-    Ranges are compared by their ratio of ends within 1e-9 to 1e9, then in total.
+    Ranges are compared by the ratio of their ends, first within 1e-9 to 1e9, then in total.
     """
     runs: list[list[tuple[float, float]]] = [[]]
     for point, error in errors:

@@ -16,15 +16,15 @@ from derivation.engine.rewrite.stabilise import Stable
 Number = TypeVar("Number", int, float)
 
 BITS = 1100
-"""Bits that suffice for differences of two terms down to 1e-150, and for sines of 1e150."""
+"""Precision in bits, sufficient for arguments down to 1e-150 in differences and sines of 1e150."""
 _LARGEST, _SMALLEST, _LEAST = 1024, -1022, -1074
 _SHORT, _MOST_OPERATIONS = 60, 200
 _FIRST, _SPREAD = 30, 30
-"""Numbers of arguments that are kept: the smallest ones, and a selection of the others."""
+"""Number of arguments that are kept: of the smallest ones, and of a selection of the others."""
 
 
 def grid(low: float, high: float) -> list[float]:
-    """Return points between which the parts' signs are compared: decades, and evenly up to 60."""
+    """Return points between which signs of parts are compared: logarithmic, and even up to 60."""
     ends = math.log10(low), math.log10(high)
     steps = 320
     found = {10.0 ** (ends[0] + (ends[1] - ends[0]) * k / steps) for k in range(1, steps)}
@@ -34,7 +34,7 @@ def grid(low: float, high: float) -> list[float]:
 
 
 def parts(stable: Stable) -> list[sp.Expr]:
-    """Return parts of formula and form whose signs and sizes matter, with derivatives of sums."""
+    """Return the parts of formula and form, and derivatives of sums, to search for sign changes."""
     x = stable.variable
     whole = [stable.expression, *_written_out(stable)]
     found: dict[sp.Expr, None] = {}
@@ -62,7 +62,7 @@ def derivative(expression: sp.Expr, x: sp.Symbol) -> sp.Expr:
 
 
 def _written_out(stable: Stable) -> Iterator[sp.Expr]:
-    """Return the values of the form's branches in the variable alone, without polynomials."""
+    """Yield steps and results of all branches, as expressions in the variable alone."""
     value = stable.value
     sides = (value.below, value.above) if isinstance(value, Switch) else (Branch((), value),)
     for side in sides:
@@ -81,7 +81,7 @@ def _horner(variable: sp.Expr, *coefficients: sp.Expr) -> sp.Expr:
 
 
 def hard_places(stable: Stable, low: float, high: float) -> list[float]:
-    """Return doubles next to which a part changes sign, overflows or underflows; switch points too.
+    """Return doubles next to which a part changes sign, overflows or underflows, and switch points.
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ def hard_places(stable: Stable, low: float, high: float) -> list[float]:
 
 
 def _some(found: list[Number]) -> list[Number]:
-    """Return the first ones, and an even selection of the others."""
+    """Return the first `_FIRST` entries, and an even selection of the others."""
     others = found[_FIRST:]
     if len(others) <= _SPREAD:
         return found
@@ -127,7 +127,7 @@ def _enclosed(part: sp.Expr, known: dict[sp.Basic, flint.arb]) -> flint.arb:
 
 
 def _mark(value: flint.arb) -> tuple[int, int]:
-    """Return sign, 0 if unknown, and format class of a value."""
+    """Return sign (0 if unknown) and size class of a value: overflow, normal, subnormal, zero."""
     if not value.is_finite():
         return 0, 3
     sign = (value > 0) - (value < 0)
@@ -139,7 +139,7 @@ def _mark(value: flint.arb) -> tuple[int, int]:
 
 
 def _change(part: sp.Expr, x: sp.Symbol, below: float, above: float) -> float:
-    """Return the double at which the class of a part changes, between two where it differs."""
+    """Return a double at which the sign or class of a part changes, by bisection of an interval."""
     first, last = ordinal(below), ordinal(above)
     start = _mark(_enclosed(part, {x: flint.arb(below)}))
     while last - first > 1:

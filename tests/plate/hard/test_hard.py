@@ -271,10 +271,10 @@ def test_a_stopped_record_goes_on_where_it_was(
     ("change", "says"),
     [
         ({"form": "curled"}, "form"),
-        ({"expect": "luck"}, "expected"),
-        ({"cause": "no sentence"}, "sentence"),
-        ({"inputs": {"T": ("0x1p+0", "0x1p+1")}}, "one at a time"),
-        ({"form": "array", "inputs": {"T": ("0x1p+0",) * 2, "z": ("0x1p+0",) * 3}}, "one length"),
+        ({"expect": "luck"}, "expect must be"),
+        ({"cause": "no sentence"}, "ends in a period"),
+        ({"inputs": {"T": ("0x1p+0", "0x1p+1")}}, "one number for each"),
+        ({"form": "array", "inputs": {"T": ("0x1p+0",) * 2, "z": ("0x1p+0",) * 3}}, "equal length"),
         ({"form": "float32", "inputs": {"T": ("0x1.0000000000001p+0",)}}, "single"),
     ],
 )

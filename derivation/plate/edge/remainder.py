@@ -134,7 +134,7 @@ class Field:
         self.z, self.rim_weights = self._rim()
 
     def _rim(self) -> tuple[Double, Double]:
-        """Heights of the nodes on the edge and their quadrature weights."""
+        """Return the heights of the nodes on the edge and their quadrature weights."""
         nodes, weights, _ = lobatto(self.degree)
         z, w = np.zeros(self.rows), np.zeros(self.rows)
         for k, (low, high) in enumerate(zip(self.z_ends[:-1], self.z_ends[1:], strict=True)):
@@ -150,7 +150,7 @@ class Field:
         return found
 
     def stiffness(self) -> Any:
-        """Sparse matrix of the strain energy without the factor 2 pi."""
+        """Return the sparse matrix of the strain energy without the factor 2 pi."""
         from scipy import sparse
 
         rows, columns, values = [], [], []
@@ -262,7 +262,7 @@ def remainders(case: RemainderCase, mesh: RemainderMesh) -> list[float]:
 def rows(
     sizes: Sequence[float] = SIZES, poisson: Sequence[float] = POISSON
 ) -> list[dict[str, object]]:
-    """Yield every case: the remainder, and how it changes with degree and layers."""
+    """Return the model error of every case, and its change with degree and layers of the mesh."""
     found: list[dict[str, object]] = []
     for support, h, nu in itertools.product(SUPPORTS, sizes, poisson):
         case = RemainderCase(support, h, nu)

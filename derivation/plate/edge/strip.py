@@ -73,7 +73,7 @@ class Strip:
         )
 
     def _nodes(self) -> Double:
-        """Heights of the nodes."""
+        """Return the heights of the nodes."""
         nodes, _, _ = lobatto(self.degree)
         z = np.empty(self.rows)
         for k, (low, high) in enumerate(zip(self.z_ends, self.z_ends[1:], strict=False)):
@@ -118,7 +118,7 @@ class Strip:
 def rows(
     thinnings: Sequence[float] = THINNINGS, meshes: Sequence[RemainderMesh] = MESHES
 ) -> list[dict[str, float]]:
-    """Yield the constants of every n, and their largest change on another mesh."""
+    """Return the constants of every n, and their largest change on another mesh."""
     found = []
     for n in thinnings:
         first, *others = (np.array(Strip(n, mesh).constants()) for mesh in meshes)

@@ -25,7 +25,7 @@ CROSSING = 12
 
 
 def held_wave_families() -> Iterator[HardCase]:
-    """Yield all of them."""
+    """Yield the hard cases of clamped and supported plates."""
     for kernel in _MODES:
         place = partner_crossing(kernel.removesuffix("_waves"), CROSSING, _METAL)
         why = f"h/b = {place:g}, where k2 of mode {CROSSING} reaches the series at infinity"
@@ -73,7 +73,7 @@ keeps its accuracy there, whatever the condition number of nu."""
 
 
 def _of_waves(edge: held_balls.Edge) -> HardLaw:
-    """Return a mode by its number; c and k2 are counted as the budgets state."""
+    """Return the reference of a mode; errors of c and k2 are scaled as the budgets state."""
 
     def values(given: Given, digits: int) -> tuple[arb, ...]:
         count, eta, nu = given
@@ -93,7 +93,7 @@ def _of_waves(edge: held_balls.Edge) -> HardLaw:
 
 
 def _of_face(punch: bool) -> HardLaw:
-    """Return the contact face of a mode, or its mean under a punch minus 1.
+    """Return the reference of a mode's contact face, or of its mean under a punch minus 1.
 
     Errors are relative to the largest of its terms.
     """

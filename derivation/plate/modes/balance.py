@@ -13,7 +13,7 @@ def _printed(name: str) -> Printed:
 
 
 def balances(signs: Mapping[str, int]) -> bool:
-    """Return whether the published u, w and f_j, g_j balance; `signs` are put before each."""
+    """Return whether the published u, w and f_j, g_j balance; `signs` multiply each."""
     shapes = {
         f_j: signs.get("f_j", 1) * _printed("f_j").expression,
         g_j: signs.get("g_j", 1) * _printed("g_j").expression,

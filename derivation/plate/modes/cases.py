@@ -54,7 +54,7 @@ _MODES = 3
 
 
 def mode_families() -> Iterator[HardCase]:
-    """Yield all of them."""
+    """Yield the hard cases of formulas, of modal sums and of the law of one plate."""
     return chain(_closed(), _mode_shapes(), _sums(), _one_plate())
 
 
@@ -67,7 +67,7 @@ def _case(
 
 
 def _by_depth(kernel: str, T: float, why: str) -> HardCase:
-    """Yield cases where T = 2 phi h is near a given number, with h = 1."""
+    """Return a case where T = 2 phi h is near a given number, with h = 1."""
     depth = tuple(x / 2 for x in around(T))
     return _case(CLOSED, kernel, why, {**_LENGTHS, "T": around(T), "phi": depth})
 

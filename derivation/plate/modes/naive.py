@@ -9,7 +9,7 @@ from generated.arrays import as_doubles, as_result, inside
 
 
 class _Point(NamedTuple):
-    """Return T = 2 phi h, distances from both faces times phi, 1 - 2 nu, and sinh T."""
+    """T = 2 phi h, distances from back and contact face times phi, 1 - 2 nu, and sinh T."""
 
     T: Any
     u: Any

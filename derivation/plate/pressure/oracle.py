@@ -63,7 +63,7 @@ def case(
     Raises
     ------
     ValueError
-        Unless 0 < a < b, and a < R if R is given.
+        Unless 0 < a < b, h > 0, and a < R if R is given.
     """
     if not (0 < a < b and h > 0 and (R == 0 or a < R)):
         raise ValueError(f"expected 0 < a < b, h > 0, a < R, got a={a}, h={h}, b={b}, R={R}")

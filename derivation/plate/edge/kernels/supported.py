@@ -94,7 +94,7 @@ def of_indentation() -> Routine:
         ),
         (3 * at**2 * shape / high**2,),
         (indentation_kernel(alpha * j_n),),
-        "3 (sin y - y cos y)/y^3, y = alpha j.",
+        "Return 3 (sin y - y cos y)/y^3, y = alpha j.",
         {j: j_n},
         without_switch,
     )
@@ -108,7 +108,7 @@ def of_slope() -> Routine:
         (Let(y, sp.Max(alpha * j, SMALLEST)),),
         (slope_kernel(y),),
         (slope_kernel(alpha * j_n),),
-        "(3/2) sin(y)/y, y = alpha j.",
+        "Return (3/2) sin(y)/y, y = alpha j.",
         {j: j_n},
         in_ratio,
     )

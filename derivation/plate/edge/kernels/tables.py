@@ -64,7 +64,7 @@ def numbers() -> Numbers:
         "edge_numbers",
         "Constants of the edge: limits, and sums over the modes as tables.",
         (
-            Constant("WIDEST", float(WIDEST), "Largest a/b."),
+            Constant("WIDEST", float(WIDEST), "Largest a/b of the corrections."),
             Constant("MIDDLE", float(WIDEST**2 / 2), "alpha^2 at the centre of the tables."),
             Constant("THIN", float(THIN), "(1 - alpha)/eta above which the closed form suffices."),
             Constant("FADED", float(FADED), "T beyond which modes are omitted."),

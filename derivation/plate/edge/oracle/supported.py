@@ -30,7 +30,7 @@ from derivation.plate.contact.oracle.balls import ratio_of, settle
 
 
 class EdgeKernel(NamedTuple):
-    """k on the real axis and k(iy), and the first two coefficients of its power series."""
+    """k on the real axis, k(iy), and the coefficients of the power series of k(iy)."""
 
     real: Callable[[arb], arb]
     turned: Callable[[acb], acb]
@@ -129,7 +129,7 @@ def modes(count: int, bits: int) -> tuple[tuple[arb, arb], ...]:
 
 
 def _rest(T: arb, eta: arb) -> arb:
-    """Return a bound of either last sum for T >= 4: k/(j^2 |J1|) < 1.5 1.26 j^(-3/2) < 1."""
+    """Return a ball that contains either last sum, T > 4: k/(j^2 |J1|) < 1.5 1.26 j^(-3/2) < 1."""
     if not T > 4:
         raise ValueError(f"expected more modes in the sum, which ends at T = {T}")
     bound = 4 * T**2 * (-T).exp() / (1 - (-3 * eta).exp())
@@ -171,7 +171,9 @@ def _far(kernel: EdgeKernel, alpha: arb, y: acb) -> acb:
 
 
 def _near(kernel: EdgeKernel, alpha: arb, y: acb) -> acb:
-    """(k(0) - k(i alpha y)/I0(y))/y^2 = (k(0) (I0 - 1) - (k(i alpha y) - k(0)))/(y^2 I0), |y| <= 4.
+    """Return (k(0) - k(i alpha y)/I0(y))/y^2 for |y| < 4, else NaN.
+
+    It is (k(0) (I0 - 1) - (k(i alpha y) - k(0)))/(y^2 I0), with power series in the numerator.
 
     The coefficients of y^(2m) in both series are below 3/2 1/m!^2, and terms beyond `count`
     decrease by more than half.

@@ -14,7 +14,7 @@ from derivation.plate.edge.theory.clamped import LEVEL, SHEAR, TURN
 
 
 class Clamped(NamedTuple):
-    """Return the suppressed rotation for a load P, its part psi = chi eta psi', and the strain."""
+    """Load P, the rotation that a clamp suppresses, its part psi = chi eta psi', and the strain."""
 
     force: mpf
     turn: mpf
@@ -51,7 +51,7 @@ def clamp_part(kind: str, a: float, h: float, b: float, nu: float, digits: int =
 
 
 def far_clamp(a: float, h: float, b: float, nu: float, digits: int = 30) -> mpf:
-    """Return the reduction of S; the stress is (1 + nu) P/(2 pi H^2) times S."""
+    """Return the reduction of S; the stress is (1 + nu) P/(2 pi H^2) times S, H = 2 h."""
     with mp.workdps(digits + 20):
         eta, n = mpf(h) / mpf(b), mpf(nu) / (1 - mpf(nu))
         found = _clamped(mpf(a) / mpf(b), eta, n)
@@ -61,7 +61,7 @@ def far_clamp(a: float, h: float, b: float, nu: float, digits: int = 30) -> mpf:
 
 
 def _clamped(a: mpf, h: mpf, n: mpf) -> Clamped:
-    """Hertz pressure (2/pi) sqrt(a^2 - r^2)."""
+    """Return the motion that a clamp suppresses under Hertz pressure (2/pi) sqrt(a^2 - r^2)."""
 
     def load(weight: Callable[[mpf], mpf]) -> mpf:
         """Return an integral over the contact, with r = a sin t."""

@@ -231,7 +231,7 @@ def supported_edge_bound(
     Formula::
 
         (1 - nu)/(1 + nu) (3 alpha/(2 pi)) [|1 - 2 n eta^2|/eta^3 (1/8 + 2 eta |n| s) + (8/3) n^2 s]
-        s exceeds sum 1/(j^2 |J1|) by one or two thousandths
+        s exceeds sum 1/(j^2 |J1|) by less than 0.001
 
     Parameters
     ----------

@@ -67,7 +67,7 @@ def level() -> sp.Expr:
 
 
 def depth_lost() -> sp.Expr:
-    """Return s = 2 n (1 - 2 G) eta^2, by which the bending state is below (b^2 - r^2)/2."""
+    """Return s = 2 n (1 - 2 G) eta^2, the reduction of the bending state's w/(k b^2/2)."""
     return 2 * RATIO * (1 - 2 * level()) * eta**2
 
 

@@ -91,7 +91,7 @@ def residues() -> Proof:
 
 @dataclass(frozen=True)
 class Closed:
-    """Return half the residues at 0: of k/(z^3 J0), of k (Q - 3)/(z^3 J0) and of k H/(z^2 J0)."""
+    """Halves of the residues at 0 of k/(z^3 J0), of k (Q - 3)/(z^3 J0) and of k H/(z^2 J0)."""
 
     plain: sp.Expr
     bent: sp.Expr
@@ -337,7 +337,7 @@ def edge_bound() -> Formula:
 
 @cache
 def inverse_squares() -> sp.Rational:
-    """Return a short number above sum 1/(j^2 |J1|), by one or two thousandths."""
+    """Return the smallest multiple of 1/2000 above a bound of sum 1/(j^2 |J1|)."""
     steps = (inverse_squares_ball(3) * 2000).upper().ceil().unique_fmpz()
     return sp.Rational(int(steps), 2000)
 

@@ -190,7 +190,7 @@ def clamp() -> Claims:
     chi = sp.Symbol("chi", real=True)
     return Claims(
         (eta, nu),
-        (Let(chi, theory.CLAMP, "measured"),),
+        (Let(chi, theory.CLAMP, "by finite elements"),),
         (theory.CLAMPED.subs(theory.CLAMP, chi),),
         (theory.CLAMPED,),
         {},

@@ -83,10 +83,9 @@ def _reduce(expression: sp.Expr) -> sp.Expr:
 
 
 class _FaceParts:
-    """Return the parts of face and punch that differ: both waves, as the code has them."""
+    """Expressions and functions of both waves, for the face or for the mean under a punch."""
 
     def __init__(self, punch: bool) -> None:
-        """Insert the parts."""
         self.exact = theory.UNDER_PUNCH if punch else theory.ON_FACE
         self.first = self.exact.subs(mindlin.c, 0)
         self.second = (self.first - self.exact) / (mindlin.c * theory.t)

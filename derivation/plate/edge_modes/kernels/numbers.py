@@ -33,7 +33,7 @@ NODES = 20
 SMALL = 2.0
 """y below which J0 - 1, I0 - 1 and the means under a punch minus 1 are power series."""
 WIDEST = 6
-"""Above j_1^2: |y| below which power series in y = -k^2 or k2^2 are used."""
+"""|y| up to which power series in y = -k^2 or k2^2 are used; it exceeds j_1^2 = 5.78."""
 
 
 def powers(order: int, count: int) -> tuple[sp.Rational, ...]:
@@ -97,11 +97,11 @@ def _of_turns(steps: int) -> tuple[Constant, ...]:
     shares = [flint.arb(1) / (count if 0 < i < count else 2 * count) for i in range(count + 1)]
     rows = {
         "TURNS": (places, "x = 1 - cos t over half a turn."),
-        "MEAN": (shares, "I0 e^(-y) is the sum of these times e^(-y x),"),
-        "SECOND": (_times_sine(shares, places), "I1 e^(-y)/y that of these times e^(-y x),"),
+        "MEAN": (shares, "Weights of e^(-y x) whose sum is I0 e^(-y)."),
+        "SECOND": (_times_sine(shares, places), "Weights of e^(-y x) whose sum is I1 e^(-y)/y."),
         "FOURTH": (
             _times_sine(_times_sine(shares, places), places),
-            "3 I2 e^(-y)/y^2 that of these times e^(-y x).",
+            "Weights of e^(-y x) whose sum is 3 I2 e^(-y)/y^2.",
         ),
     }
     return tuple(
@@ -140,11 +140,11 @@ def numbers() -> Numbers:
             "edge_mode_numbers",
             "Constants of clamped and supported plates: coefficients, and limits of series.",
             (
-                Constant("START", float(start), "y above which I0 is its series at infinity."),
+                Constant("START", float(start), "y above which I0 is a series at infinity."),
                 Constant("SMALL", SMALL, "y below which J0 - 1, I0 - 1 and others are series."),
                 *_of_series(),
                 *_of_turns(turn_steps(start)),
-                Constant("NODES", places, "Nodes of Gauss' rule on (0, 1),"),
-                Constant("WEIGHTS", weights, "and its weights."),
+                Constant("NODES", places, "Nodes of Gauss' rule on (0, 1)."),
+                Constant("WEIGHTS", weights, "Weights of Gauss' rule on (0, 1)."),
             ),
         )

@@ -160,7 +160,7 @@ def _root(
 def _illinois(
     function: Callable[[Fraction], arb], low: Fraction, high: Fraction, bits: int
 ) -> Fraction:
-    """Return an enclosure of a root, by bisection and then the Illinois method."""
+    """Return an approximation of a root, by bisection and then the Illinois method."""
     at_low, at_high = (_exact(function(k).mid()) for k in (low, high))
     for step in range(_STEPS):
         k = (low + high) / 2

@@ -227,7 +227,7 @@ def shares_less_one(waves: Waves, a: ArrayLike) -> np.ndarray:
 
 
 def _given(count: int, eta: float, nu: float) -> tuple[int, Double, Double]:
-    """Refuse arguments outside their ranges."""
+    """Return the arguments with their types, after a check of their ranges."""
     count = whole(count, "modes")
     if not THINNEST <= eta <= THICKEST:
         raise ValueError(f"expected eta = h/b from {THINNEST:g} to {THICKEST:g}, got {eta!r}")
@@ -264,7 +264,7 @@ class _State(NamedTuple):
     k2
         Wave number of the evanescent part.
     mean, less, scaled
-        M, L and I0 e^(-k2) of the evanescent part.
+        M = 2 I1/(k2 I0), L = (1 - M)/k2^2 and I0 e^(-k2) of the evanescent part.
     """
 
     root: Double

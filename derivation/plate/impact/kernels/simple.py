@@ -57,30 +57,40 @@ def numbers() -> Numbers:
             Constant("MODES", pairs, "j_n and 1/(j_n J1(j_n)^2)."),
             Constant("RULE", _rule(), "Gauss' rule: a/a_m, 6 g_5, 5 g_6, and its weights."),
             Constant("THIN", float(THIN), "1/eta beyond which c_1 and K_3 are closed forms."),
-            Constant("FADED", float(FADED), "T = 2 eta j_n beyond which modes are left out."),
-            Constant("FADED_LINEAR", above(_faded(0)), "What these weigh at most."),
-            Constant("FADED_CUBIC", above(_faded(2)), "The same, times T^2."),
-            Constant("WALL", nearest_double(_wall(wall_linear, 0)), "Side wall's share of c_1."),
-            Constant("WALL_REST", above(rest), "Side wall's share of K_3, at most."),
-            Constant("WALL_CUBIC", above(cubic), "Its share of K_3 + 5/2 c_3, at most."),
+            Constant("FADED", float(FADED), "T = 2 eta j_n beyond which modes are omitted."),
+            Constant("FADED_LINEAR", above(_faded(0)), "Bound of the sum of their weights w_n."),
+            Constant("FADED_CUBIC", above(_faded(2)), "Bound of the sum of w_n T_n^2 over them."),
             Constant(
-                "THIN_LINEAR", nearest_double(thin[2] - bent), "c_1 at v = 1, less v^2/(4 pi)."
+                "WALL",
+                nearest_double(_wall(wall_linear, 0)),
+                "Reduction of c_1 by the finite radius, over eta.",
+            ),
+            Constant("WALL_REST", above(rest), "Bound of its part of K_3/eta^3."),
+            Constant("WALL_CUBIC", above(cubic), "Bound of its part of (K_3 + 5/2 c_3)/eta^3."),
+            Constant(
+                "THIN_LINEAR", nearest_double(thin[2] - bent), "c_1 - v^2/(4 pi) at v = 1/eta = 1."
             ),
             Constant("THIN_CUBIC", nearest_double(-_cubic(thin[3])), "-5/2 c_3 at v = 1."),
-            Constant("ROOTS_LINEAR", above(_roots(2)), "Roots' share of c_1 over e^(-pi/eta)."),
-            Constant("ROOTS_CUBIC", above(_cubic(_roots(3))), "Roots' share of K_3, likewise."),
+            Constant(
+                "ROOTS_LINEAR",
+                above(_roots(2)),
+                "Bound of the roots' part of c_1, over e^(-pi/eta).",
+            ),
+            Constant(
+                "ROOTS_CUBIC", above(_cubic(_roots(3))), "Bound of their part of K_3, likewise."
+            ),
             Constant(
                 "HERTZ_TIME",
                 nearest_double(evaluate(hertz_time().expression, {})),
-                "Contact time by speed over largest indentation.",
+                "Contact time times v0/delta_m on a half-space.",
             ),
             Constant(
                 "QUADRATURE",
                 above(time_quadrature_bound(IMPACT_NODES)),
-                "Relative error of Gauss' rule for the contact time of `leading`: proven.",
+                "Bound of the relative error of Gauss' rule in `leading`, proved.",
             ),
         )
-    return Numbers("simple_impact_numbers", "Numbers of the impact by simple laws.", constants)
+    return Numbers("simple_impact_numbers", "Constants of the impact by simple laws.", constants)
 
 
 def _rule() -> tuple[tuple[float, ...], ...]:
@@ -93,7 +103,7 @@ def _rule() -> tuple[tuple[float, ...], ...]:
 
 
 def above(bound: Ball) -> float:
-    """Return a short number above a bound: 0.1 % exceeds the rounding to four digits, 0.05 %."""
+    """Return a bound increased by 0.1 % and rounded to four digits, which changes it less."""
     return float(f"{1.001 * float(bound.abs_upper()):.4g}")
 
 

@@ -149,7 +149,7 @@ def thin_plate() -> Claims:
 
 @named
 def sphere() -> Claims:
-    """Return E*, twice the initial kinetic energy, the fifth power of Hertz's largest radius."""
+    """Return E*, twice the initial kinetic energy, and the fifth power of Hertz's largest a."""
     energy = sp.Symbol("energy", positive=True)
     C = contact_radius().expression / a**3 / R
     brought = energy_number().expression * energy_scale().subs(E, reduced_modulus())
@@ -210,7 +210,7 @@ def beside_hertz() -> Claims:
 
 @named
 def share_step() -> Claims:
-    """Return the excess work up to s times Hertz's radius, its derivative; y by `beside_hertz`."""
+    """Return s^5 (1 + y s) - 1, the work up to s times Hertz's radius, and its slope by s."""
     fourth, inner = sp.symbols("fourth inner", real=True)
     work = s**5 * _work(s * sp.Symbol("z", real=True))
     z = 4 * y / 5

@@ -1,4 +1,4 @@
-"""Compares both reference methods of the contact law: a value is used only if both agree."""
+"""Comparison of both reference methods of the contact law: a value is used only if both agree."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -50,7 +50,7 @@ def agree(name: str, arguments: Sequence[float], digits: int = 40) -> Agreement:
     Raises
     ------
     OracleError
-        If the results differ by more than 10^-digits.
+        If the results differ by more than 10^-digits (relative).
     """
     balls = _several(FIRST[name](*arguments, digits=digits + SPARE))
     others = _several(SECOND[name](*arguments, digits=digits))

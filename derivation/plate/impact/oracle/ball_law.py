@@ -45,7 +45,7 @@ class Integrals(NamedTuple):
 
     @property
     def reach(self) -> arb:
-        """Return the edge of the plate, alpha = 1."""
+        """Edge of the plate, alpha = 1."""
         return arb(1)
 
     def excess(self, name: str, alpha: arb) -> arb:
@@ -71,17 +71,15 @@ def law_of(
     digits
         Number of digits, which determines the faster method.
     progress
-        Called for every zero of J0.
+        Called with each task and, for zeros of J0, with the index of each.
     """
     if not by_series(float(eta), reach, digits):
-        progress("oracle 1: integrals", 1, 1)
+        progress("Arb: integrals", 1, 1)
         return lambda _: Integrals(eta)
 
     def law(bits: int) -> BallLaw:
-        contact_points.prepare(
-            eta, reach, bits, lambda k, n: progress("oracle 1: zeros of J0", k, n)
-        )
-        progress("oracle 1: power series", 1, 1)
+        contact_points.prepare(eta, reach, bits, lambda k, n: progress("Arb: zeros of J0", k, n))
+        progress("Arb: power series", 1, 1)
         return contact_points.series(eta, reach, bits)
 
     return law
@@ -127,10 +125,11 @@ def integrals_seconds(digits: int) -> float:
 
 
 def _size(alpha: float, eta: float) -> tuple[float, float]:
-    """Return rho of an ellipse for L[sinc] in q, foci +-1, half the largest rate it allows.
+    """Return rho of the largest allowed ellipse for L[sinc] in q, foci +-1, and alpha B.
 
-    With half-axes A, B: |Im(alpha z)| <= alpha (sqrt(A^2 + 4 B^2) y + B) on the ray, which must be
-    below 1.8 y + ..., and <= alpha B x on the axis, which must be below 3.2 eta x.
+    With half-axes A and B, |Im(alpha z q)| <= alpha (sqrt(A^2 + 4 B^2) y + B) on the ray, where the
+    factor of y must be below 1.8, and <= alpha B x on the axis, where that of x must be below
+    3.2 eta.
     """
     low, high = 1.0, 1e3
     for _ in range(60):

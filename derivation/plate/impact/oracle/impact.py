@@ -33,7 +33,7 @@ _PIECES = (16, 256)
 
 
 class ImpactBalls(NamedTuple):
-    """Results of an impact, as balls."""
+    """Contact time [s], and largest indentation [m], force [N] and contact radius [m], as balls."""
 
     contact_time: arb
     max_indentation: arb
@@ -127,7 +127,7 @@ def impact(
     R: Exact, m: Exact, v0: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact, digits: int = 40,
     law: Callable[[int], BallLaw] | None = None,
 ) -> ImpactBalls:  # fmt: skip
-    """Return the conservative impact of a sphere of mass m at speed v0.
+    """Return the results of an elastic impact of a sphere of mass m [kg] at speed v0 [m/s].
 
     `law` returns the plate's law at a given precision in bits; the default is that of `law_for`.
 

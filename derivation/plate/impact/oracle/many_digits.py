@@ -36,7 +36,7 @@ UNITS = {
 }
 
 MOST = 1000
-"""Numbers of digits that can be requested."""
+"""Largest number of digits that can be requested."""
 
 _SPARE = 3
 """Additional digits of the computation; the stated radius is that of rounding to shown digits."""
@@ -104,7 +104,7 @@ class ImpactReference(NamedTuple):
 
     @property
     def quantities(self) -> Iterator[Quantity]:
-        """All numbers."""
+        """All quantities of the impact and of the law."""
         yield from self.impact
         for pressed in self.law:
             yield from pressed.quantities
@@ -192,9 +192,9 @@ def reference(motion: Motion, digits: int, progress: ball_law.Progress) -> Impac
             residue_law.indentation(a, R, h, b, digits),
             residue_law.stiffness(a, R, h, b, lam, mu, digits),
         )
-        laws.append(Pressed(a, _beside(("indentation", "stiffness"), both, again, digits)))
+        laws.append(Pressed(a, _compared(("indentation", "stiffness"), both, again, digits)))
     progress("mpmath: impact", 1, 1)
-    moved = _beside(found._fields, found, residue_law.impact(*motion, digits), digits)
+    moved = _compared(found._fields, found, residue_law.impact(*motion, digits), digits)
     return ImpactReference(motion, digits, moved, tuple(laws))
 
 
@@ -215,9 +215,10 @@ def expected_seconds(motion: Motion, radius: float, digits: int) -> float:
     return 1 + first + residue_law.seconds(h / b, radius / b, digits)
 
 
-def _beside(
+def _compared(
     names: Sequence[str], balls: Sequence[arb], others: Sequence[mpf], compared: int
 ) -> tuple[Quantity, ...]:
+    """Return the balls as quantities, each with its agreement with mpmath."""
     return tuple(
         Quantity(name, UNITS[name], ball, compared, shared(ball, other))
         for name, ball, other in zip(names, balls, others, strict=True)

@@ -14,7 +14,7 @@ from derivation.plate.impact.oracle import impact as contact_impact
 _GRID, _STEPS = 8, 12
 _LEAST = 14
 _NEXT = 13
-"""Distance from the turning point below which a power series is used, over the contact time."""
+"""A power series is used within 10^-13 of the contact time from the turning point."""
 
 Motion = tuple[Exact, Exact, Exact, Exact, Exact, Exact, Exact]
 """R, m, v0, h, b, lam and mu of an impact."""

@@ -62,7 +62,7 @@ def logarithmic(
 
 
 class _Shares(NamedTuple):
-    """Return d log E*/d log lam and d log E*/d log mu, and lam times the former's slope by lam."""
+    """d log E*/d log lam, d log E*/d log mu, and lam times the derivative by lam of the former."""
 
     lam: Fraction
     mu: Fraction
@@ -93,7 +93,7 @@ def impact_sensitivities(scene: Sequence[Any], digits: int) -> tuple[arb, ...]:
 
 
 def rounding(scene: Sequence[Any], values: Sequence[arb]) -> list[arb]:
-    """Return the sum of |x d/dx| over the scene for each sensitivity, here `values`."""
+    """Return, for each sensitivity in `values`, the sum of |x d/dx| over the scene's numbers x."""
     shares, found = _shares(scene), list[arb]()
     lam, mu, bend = map(to_ball, shares)
     with flint.ctx.workprec(4 * _STEP_DIGITS):

@@ -27,7 +27,7 @@ State = Callable[[Sequence[Any], int], tuple[arb, ...]]
 
 
 def rounding(state: State, given: Sequence[Any], values: Sequence[arb]) -> list[arb]:
-    """Return the sum of |x d/dx| over the arguments for each component of the state `values`."""
+    """Return, for each component of the state `values`, the sum of |x d/dx| over the arguments."""
     by_speed, by_radius = (state(_moved(given, place), _DIGITS) for place in (_SPEED, _RADIUS))
     lam, mu = (Fraction(x) for x in given[6:])
     share = lam * mu / ((lam + mu) * (lam + 2 * mu))

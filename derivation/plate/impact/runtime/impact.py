@@ -96,9 +96,9 @@ def impact(
     R : array_like
         sphere radius [m]; R > 0
     m : array_like
-        impact speed of the sphere [m/s]; v0 > 0
+        sphere mass [kg]; m > 0
     v0 : array_like
-        speed of approach [m/s]; v0 > 0
+        impact speed of the sphere [m/s]; v0 > 0
     h : array_like
         half the plate's thickness [m]; h > 0
     b : array_like
@@ -342,7 +342,7 @@ def _far_deepest(
     end, known = plates.far[owner], inner * near**5
 
     def rise(A: Double) -> Double:
-        """(E - E_near)/A^5."""
+        """Return (E - E_near)/A^5."""
         found = np.empty_like(A)
         for part in _parts(A.size, 2):
             mean = mean_work((near[part] / A[part])[:, None], A[part], cut(piece, part))[:, 0]

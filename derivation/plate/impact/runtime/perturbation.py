@@ -48,10 +48,10 @@ class PrintedMotion:
     ----------
     m
         Sphere mass [kg].
+    v0
         Impact speed of the sphere [m/s].
-        Speed of approach [m/s].
+    xi_2, xi_3
         Coefficients of (10), their sums truncated [N/m, N/m^(5/3)].
-        Coefficients of (10), their sums cut off [N/m, N/m^(5/3)].
     """
 
     m: float
@@ -100,7 +100,7 @@ class PrintedMotion:
 
     @property
     def share(self) -> float:
-        """Ratio of that time to t_c, the turning time of the linear motion [1]."""
+        """Ratio of `breaks_at` to t_c, the turning time of the linear motion [1]."""
         s = self.last
         return float(np.arctan2(s, cosine_at_end(self.excess, s))) / (np.pi / 2)
 

@@ -62,6 +62,11 @@ def force_by_series(
         P [N] in the arguments' broadcast shape; NaN outside the domain and for eps above a
         lower bound of the radius of convergence (Rouche's theorem).
 
+    Raises
+    ------
+    ValueError
+        If terms is less than 1.
+
     Examples
     --------
     >>> from generated import force_by_series
@@ -87,7 +92,7 @@ def force_by_series(
 
 
 def _reversed(plates: Plates, plate: int, terms: int) -> tuple[float, Double]:
-    """Return the radius of convergence r in eps, and p_n r^n for n < terms.
+    """Return a lower bound r of the radius of convergence in eps, and p_n r^n for n < terms.
 
     Within a circle on which |eps(A)| is at least e and 1 + F has no zero, eps(A) =
     A sqrt(1 + F) takes each value below e once. The circle with the largest e is sought.

@@ -64,10 +64,10 @@ class Plate(NamedTuple):
 
 
 class Estimate(NamedTuple):
-    """Contact time, peak indentation, peak force and contact radius, with relative error bounds.
+    """Contact time [s], peak indentation [m], force [N] and radius [m], with error bounds [1].
 
-    `law` bounds the error of the simplified law, `quadrature` that of the integral over time and
-    `rounding` all other errors; each applies to all four results.
+    `law` bounds the relative error by the simplified law, `quadrature` that by the integral over
+    time and `rounding` that by rounding; each applies to all four results.
     """
 
     contact_time: float
@@ -91,7 +91,7 @@ class _Scene(NamedTuple):
 
 
 def plate_of(eta: float) -> Plate:
-    """Return c_1 and K_3 of a plate h/b = eta, 1e-50 <= eta <= 1e50."""
+    """Return c_1 with its error bound, and a bound of K_3, for eta = h/b from 1e-50 to 1e50."""
     v = 1.0 / eta
     if v > THIN:
         return with_margins_of_thin(*thin_plate(v))
@@ -130,8 +130,8 @@ def hertz(
     Returns
     -------
     Estimate or None
-        None where no bound is proved: for a > b or a > R, for numbers outside the ordinary range,
-        and if the slope of the law may vanish.
+        None where no bound is proved: unless 1.02 a < b and 1.02 a < R, for numbers outside the
+        ordinary range, and if the slope of the law may vanish.
 
     Examples
     --------
@@ -236,7 +236,7 @@ def _relative(logarithm: float) -> float:
 def _scene(
     R: float, m: float, v0: float, h: float, b: float, lam: float, mu: float
 ) -> _Scene | None:
-    """Return Hertz's largest radius; None for extreme numbers."""
+    """Return the impact with Hertz's largest radius and E*; None for extreme numbers."""
     modulus, energy, work = sphere(R, m, v0, lam, mu)
     low, high = ORDINARY
     numbers = (R, m, v0, h, b, modulus, energy, energy / modulus, work)

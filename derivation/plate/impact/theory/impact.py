@@ -78,7 +78,7 @@ def motion() -> tuple[Formula, Formula]:
 
 
 def weight(n: int) -> sp.Expr:
-    """D_n: D_2 = 1, D_(2k-1) = c_(2k-3) (a_m/h)^(2k-3)."""
+    """Return D_n: D_2 = 1, D_(2k-1) = c_(2k-3) (a_m/h)^(2k-3)."""
     return sp.Integer(1) if n == 2 else D[n]
 
 
@@ -88,7 +88,7 @@ def orders(shown: int = SHOWN) -> tuple[int, ...]:
 
 
 def geometric(n: int, q: sp.Expr) -> sp.Expr:
-    """1 + q + ... + q^(n-1)."""
+    """Return 1 + q + ... + q^(n-1)."""
     return sp.Add(*(q**i for i in range(n)))
 
 

@@ -14,7 +14,7 @@ Substitution. Let l S_1 <= S <= u S_1 on [0, a_top], where S_1 > 0 and d log S_1
 -p and q. Then W lies between l W_1 and u W_1, pointwise, and so does its part between any a and
 a_m. At equal energy, with e = 5 - p the least elasticity of W_1,
 
-    u^(-1/e) <= a_m/a_1 <= l^(-1/e)                    if l^(-1/e) a_1 <= a_top,
+    u^(-1/e) <= a_m/a_1 <= l^(-1/e)                    if l^(-1/e) a_1 <= a_top.
 
 The force changes by the cube of this. Indentation and time have the additional factors [l, u] and
 [l/sqrt u, u/sqrt l] and change with a_m by `exponents`.
@@ -114,7 +114,7 @@ def one_sided() -> Formula:
 
 
 def exponents(fall: sp.Expr, rise: sp.Expr) -> Mapping[str, sp.Expr]:
-    """Exponents of `lemma` for -fall <= d log S_1/d log a <= rise.
+    """Return the exponents of `lemma` for -fall <= d log S_1/d log a <= rise.
 
     `energy` is the least elasticity of W_1, `depth` the largest of delta_1; the contact time of S_1
     decreases with a_m at most like a_m^-shorter and increases at most like a_m^longer.
@@ -241,7 +241,7 @@ def _on_ellipse(rho: flint.arb, turn: flint.arb, arcs: int) -> flint.acb:
 
 
 def _size(u: flint.acb, y: flint.arb) -> flint.arb:
-    """|f|."""
+    """Return |f|."""
     q = 1 - u * u
     fifth = 1 + q * (1 + q * (1 + q * (1 + q)))
     radicand = abs(6 * (1 - y) * fifth + 5 * y * (1 + q * fifth))

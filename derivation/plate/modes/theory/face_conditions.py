@@ -13,7 +13,7 @@ from derivation.plate.vocabulary import A_j, Formula, h, phi, z
 
 
 def tractions() -> dict[str, sp.Expr]:
-    """Return what must vanish on the faces: shear on both, S_zz below, S_zz - A_j above."""
+    """Return the expressions that vanish on the faces: shear, S_zz at -h, S_zz - A_j at +h."""
     stress = {formula.name: formula.expression for formula in modal_stresses()}
     return {
         "sigma_rz at z = +h": stress["S_rz"].subs(z, h),

@@ -29,7 +29,7 @@ def risen() -> Routine:
         ),
         (top / mean, steepness.subs(pressure, top)),
         (risen_pressure / mean, steepness.subs(pressure, risen_pressure)),
-        "Return mean pressure of a growing plastic zone over link 31's, and a^2/(R delta).",
+        "Return the mean pressure over that with the limit 1.6 Y, and a^2/(R delta).",
         {},
         sp.simplify,
     )
@@ -44,7 +44,7 @@ def beyond() -> Routine:
         (),
         (changed.force, changed.restitution),
         (changed.force, changed.restitution),
-        "Return force and restitution of an impact on a half-space over those of link 31.",
+        "Return force and restitution on a half-space over those with the limit 1.6 Y.",
         {},
     )
 

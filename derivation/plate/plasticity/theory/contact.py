@@ -29,7 +29,7 @@ _NEEDED = ("p", "P")
 
 
 class Loading(NamedTuple):
-    """Return contact radius squared and force on loading, over their values at the onset."""
+    """Contact radius squared and force on loading, over their values at the onset."""
 
     area: sp.Expr
     force: sp.Expr

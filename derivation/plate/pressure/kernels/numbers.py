@@ -74,12 +74,12 @@ def pressure_numbers() -> Numbers:
             Constant("CUBIC", cubic, "Factor of c_3 a^2/h^3 (x^2 + s^2) in N."),
             Constant("SQUARE", square, "Factor of x^2 + s^2 in the sum of the cosines."),
             Constant("MODES", modes, "Factor of the modes' weights in the kernel."),
-            Constant("NODES", nodes[0], "Collocation: t/a."),
-            Constant("WEIGHTS", nodes[1], "And weights of int_0^1 of an even function."),
-            Constant("WAVES", waves[0], "Thin plate: w h = T/2."),
-            Constant("WAVE_WEIGHTS", waves[1], "And (G(T) - 1)/pi dT."),
-            Constant("WALL", wall[0], "Lateral surface: y."),
-            Constant("WALL_WEIGHTS", wall[1], "And (4/pi^2) K0/I0 e^(2y) dy."),
+            Constant("NODES", nodes[0], "Collocation points t/a."),
+            Constant("WEIGHTS", nodes[1], "Weights of int_0^1 of an even function."),
+            Constant("WAVES", waves[0], "Wave numbers w h = T/2, thin plate."),
+            Constant("WAVE_WEIGHTS", waves[1], "Their weights (G(T) - 1)/pi dT."),
+            Constant("WALL", wall[0], "Nodes y of the lateral surface."),
+            Constant("WALL_WEIGHTS", wall[1], "Their weights (4/pi^2) K0/I0 e^(2y) dy."),
         ),
     )
 

@@ -160,14 +160,24 @@ def contact_results() -> Claims:
 
 
 def pressure_unit() -> Routine:
-    """Return the unit of the sums of -c'/x."""
+    """Return the routine of the unit of the sums of -c'/x."""
     unit = theory.results().centre_pressure / theory.centre
-    return _unit("pressure_unit", modulus / sp.pi * a / R, unit, "Unit of the pressure.")
+    return _unit(
+        "pressure_unit",
+        modulus / sp.pi * a / R,
+        unit,
+        "Return the unit of the pressure, E* a/(pi R).",
+    )
 
 
 def chi_unit() -> Routine:
-    """Return the unit of c."""
-    return _unit("chi_unit", modulus / sp.pi * a**2 / R, theory.results().chi, "Unit of chi.")
+    """Return the routine of the unit of c."""
+    return _unit(
+        "chi_unit",
+        modulus / sp.pi * a**2 / R,
+        theory.results().chi,
+        "Return the unit of chi, E* a^2/(pi R).",
+    )
 
 
 def _unit(name: str, value: sp.Expr, exact: sp.Expr, summary: str) -> Routine:

@@ -167,7 +167,7 @@ def contact(
     Parameters
     ----------
     plate : Plate
-        of `plate`
+        kernel returned by `plate`
     a : array_like
         contact radius [m]; 0 < a <= 0.95 b, a <= 7 h, a < R
     R : array_like

@@ -33,7 +33,7 @@ def viscous_number() -> Routine:
         (*MODERATE, rate),
         (PRODUCT(sp.Tuple(sp.Float(1.5), viscous_time, *rate.symbols)),),
         (number().expression,),
-        "Viscous number.",
+        "Return the viscous parameter x_v.",
         {},
         lambda e: sp.nsimplify(multiplied(e)),
     )

@@ -133,8 +133,8 @@ def viscous_logarithms(extremes: ImpactExtremes) -> tuple[float, float, float, f
     -------
     tuple of float
         Logarithms of the factors, not negative [1], for contact time, peak indentation, force,
-        contact radius and restitution. They are inf where no bound is proved: for epsilon >= 1,
-        or if the weight may prevent separation.
+        contact radius and restitution. They are inf where no bound is proved: for epsilon >= 1
+        or steepness epsilon >= 2, or if the weight may prevent separation.
     """
     epsilon, steepness, *_, energy = extremes
     if not (epsilon < 1.0 and steepness * epsilon < 2.0):

@@ -23,7 +23,7 @@ _C_p, _C_s, _D, _small = sp.symbols("C_p C_s D epsilon", positive=True)
 
 
 class ContactTime(NamedTuple):
-    """Return the retardation time of the contact from those of the bodies, and the proof."""
+    """Retardation time of the contact in terms of those of the bodies, and the proof."""
 
     expression: sp.Expr
     proof: Proof

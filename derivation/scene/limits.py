@@ -313,7 +313,7 @@ def hollow_warnings(model: Model) -> tuple[str, ...]:
 def pressure_warnings(
     pressure: float, yield_stress: float | None, viscous: bool = False, body: str = "plate"
 ) -> tuple[str, ...]:
-    """Return a warning if the body with the lower yield stress yields, if that is known."""
+    """Return a warning if the body with the lower yield stress yields, or may yield unchecked."""
     if yield_stress is not None and viscous:
         text = (
             f"yielding of the {body} is not checked: max_pressure is the elastic part, to which a "

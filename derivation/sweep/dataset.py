@@ -70,7 +70,7 @@ def check_memory(study: Study, what: str) -> None:
     if study.plan.size > MOST_IN_MEMORY:
         raise SceneError(
             f"{what}: expected at most {MOST_IN_MEMORY:,} points in memory, got "
-            f"{study.plan.size:,}; write a file instead, or use fewer points"
+            f"{study.plan.size:,}; use fewer points, or write a file by `platecontact sweep --out`"
         )
 
 

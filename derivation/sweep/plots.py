@@ -174,13 +174,13 @@ def _bars(axes: "Axes", data: "xr.Dataset", name: str) -> None:
     one = data.sel(result=name)
     keys = [str(key) for key in data["key"].values]
     places = np.arange(len(keys))
-    orders = (("first_order", -0.2, BLUE, "first order"), ("total_order", 0.2, BROWN, "total order"))
-    for order, shift, color, text in orders:
+    orders = (("first_order", -0.2, BLUE), ("total_order", 0.2, BROWN))
+    for order, shift, color in orders:
         index = one[order].values
         error = np.abs(np.array([one[f"{order}_low"].values, one[f"{order}_high"].values]) - index)
         axes.barh(
             places + shift, index, 0.36, xerr=error, color=color, ecolor="0.3", capsize=2,
-            label=text,
+            label=order.replace("_", " "),
         )  # fmt: skip
     if np.isnan(one["first_order"].values).all():
         axes.text(0.5, 0.5, "no scatter", transform=axes.transAxes, ha="center", va="center")

@@ -24,8 +24,8 @@ The modules in reading order:
    `plot` draws them, and `comparison` compares them with the paper's motion.
 10. `code` generates a module with the law and the impact of one scene.
 
-If something cannot be computed, a `SceneError` is raised. NaN occurs only as data: the restitution
-of an incomplete impact, or a point of an array outside the range.
+A scene that cannot be computed raises a `SceneError`. NaN occurs only as a value: the restitution
+of an incomplete impact, or a number of an array outside the range.
 
 `kernels` imports the generated package; the commands are in `derivation.commands`.
 
@@ -33,7 +33,7 @@ of an incomplete impact, or a point of an array outside the range.
     >>> result = simulate(load("scene.toml"))
     >>> contacts = indent(load("scene.toml"), force=[10.0, 100.0])
 
-Names are loaded when first used, so that the command line starts quickly.
+Names are loaded at their first use, to keep the start of the command line short.
 """
 
 from importlib import import_module
@@ -86,7 +86,7 @@ HOMES = {
     "simulate": "impact",
     "indent": "indentation",
 }
-"""Where a public name lives, if not in `scene`."""
+"""The module of each public name; the default is `scene`."""
 
 
 def __getattr__(name: str) -> Any:

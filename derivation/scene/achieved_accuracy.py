@@ -57,8 +57,8 @@ class AchievedAccuracy:
     rtol
         The requested tolerance [1]; None if there is none.
     law, quadrature, rounding
-        Parts of the bound: terms that the method omits from the contact law, truncation error of
-        the time integral, and rounding errors (including those of tables).
+        Parts of the bound: omitted terms of the contact law or omitted modes and wave branches,
+        truncation error of the integration in time, and rounding errors (including tables).
     effects
         Part of the bound: the effects omitted by the selection.
     outputs

@@ -1,4 +1,4 @@
-"""Collocation on an element of a contact in x = (t/T)^(1/6): nodes, Newton's step, polynomials."""
+"""Collocation on a time element in x = (t/T)^(1/6): nodes, Newton's step, polynomials."""
 
 import math
 from functools import cache
@@ -10,9 +10,10 @@ from numpy.polynomial.legendre import legder, leggauss, legroots, legval, legvan
 from derivation.scene.effects.effect import Array
 
 ONSET = 6
-"""t = T x^6: a half-space's onset goes by t^(1/2), a bent plate's by t^(1/3)."""
+"""Exponent in t = T x^6: at first contact, a is analytic in t^(1/2) on a half-space and in t^(1/3)
+on a plate that bends."""
 NEWTON = 30
-"""Steps of Newton's iteration at most."""
+"""Largest number of steps of Newton's iteration."""
 _CLOSE, _NEARLY, _NEXT = 1e-15, 1e-12, 1e-14
 _SAFETY = 0.9  # part of the length that the sizes of the coefficients allow
 _LEAST = 0.01  # least square of a continued row, over the square at the end of its element
@@ -22,10 +23,11 @@ _REAL = 1e-9  # largest imaginary part of a real root, due to rounding
 
 
 class Radau(NamedTuple):
-    """Nodes on (0, 1], the integral from 0 to each, and Legendre coefficients.
+    """Radau's nodes on (0, 1], and matrices that act on values at the nodes.
 
-    `values` gives values at the nodes from coefficients; `ahead` slope and curvature, in lengths
-    of the element, of the parabola through such values by least squares, at their end.
+    `integral` gives the integrals from 0 to each node, `analysis` the Legendre coefficients, and
+    `ahead` the linear and quadratic coefficient, at the end of the element, of a parabola fitted by
+    least squares. `values` gives values at the nodes from coefficients.
     """
 
     x: Array
@@ -37,7 +39,7 @@ class Radau(NamedTuple):
 
 @cache
 def radau(n: int) -> Radau:
-    """Radau's nodes, the right end among them, and what becomes of values at them."""
+    """Return Radau's rule with n nodes, of which the last is the right end."""
     last = np.zeros(n + 1)
     last[n - 1 :] = 1.0
     nodes = np.sort(-legroots(last))
@@ -57,16 +59,21 @@ def radau(n: int) -> Radau:
 def newton_step(
     system: Array, residual: Array, by_x: Array, a: Array
 ) -> tuple[Array, float] | None:
-    """Step of da/dx, so short that radii at most halve, and its own size; None if there is none.
+    """Return a step of da/dx, shortened so that no radius falls below half, and its full size.
 
     Parameters
     ----------
     system
-        What the residual falls by per da/dx.
+        Decrease of the residual per da/dx.
     by_x
-        Integrals to the nodes.
+        Matrix of the integrals to the nodes.
     a
-        Radii there.
+        Radii at the nodes.
+
+    Returns
+    -------
+    tuple or None
+        None if the system has no finite solution.
     """
     try:
         step = np.linalg.solve(system, residual)
@@ -81,19 +88,19 @@ def newton_step(
 
 
 def settled(size: float, before: float) -> bool:
-    """Whether steps of the radii are rounding: tiny, or small and no longer falling."""
+    """Return whether steps are due to rounding: tiny, or small and no longer decreasing."""
     return size <= _CLOSE or (size <= _NEARLY and size > 0.1 * before)
 
 
 def converged(size: float, before: float, order: int) -> bool:
-    """Whether the step after one of this size would be rounding.
+    """Return whether the step after one of this size would be due to rounding.
 
     Parameters
     ----------
     size, before
         Sizes of the last step and of the one before it, infinite if there was none.
     order
-        Order of convergence: 2 of Newton's iteration, 1 where its slope is approximate.
+        Order of convergence: 2 for Newton's iteration, 1 with an approximate derivative.
     """
     if settled(size, before):
         return True
@@ -113,7 +120,7 @@ def change_of_length(sizes: Array, tolerance: float) -> tuple[float, float]:
 
 
 class Element(NamedTuple):
-    """Legendre coefficients on [x, x + length], a row per quantity, and of the slope solved for."""
+    """Legendre coefficients on [x, x + length]: a row for each quantity, and the slope da/dx."""
 
     x: float
     length: float
@@ -121,17 +128,17 @@ class Element(NamedTuple):
     slope: Array
 
     def at(self, x: Array) -> Array:
-        """The rows at x."""
+        """Return the rows at x."""
         return np.asarray(self.rows @ self._basis(x), dtype=np.float64)
 
     def slope_at(self, x: Array) -> Array:
-        """That slope at x, within the element or somewhat beyond."""
+        """Return da/dx at x, within the element or slightly beyond it."""
         return np.asarray(self.slope @ self._basis(x), dtype=np.float64)
 
     def slope_beyond(self, row: int, x: Array) -> Array:
-        """Slope of a row beyond the element, whose square goes on like a parabola.
+        """Return the slope of a row beyond the element, its square extrapolated by a parabola.
 
-        The square of a radius is smooth where the contact closes too.
+        The square of the radius is smooth even at the end of contact.
         """
         rule, s = radau(self.slope.size), (x - self.x) / self.length - 1.0
         square = (rule.values @ self.rows[row]) ** 2
@@ -145,7 +152,7 @@ class Element(NamedTuple):
         return np.asarray(legvander(s, self.slope.size - 1).T, dtype=np.float64)
 
     def fall(self, row: int) -> float | None:
-        """Where a row first falls through zero, also if it rises again; None if it does not."""
+        """Return x where a row first falls through zero; None if it stays positive."""
         values = radau(self.slope.size).values @ self.rows[row]
         if values.min() > _LOW * values.max():
             return None
@@ -157,7 +164,7 @@ class Element(NamedTuple):
         return self.x + self.length if values[-1] <= 0.0 else None
 
     def end(self, row: int) -> float:
-        """Where a row that is positive before it and negative after it falls through zero."""
+        """Return x where a row with a single zero, positive before it, falls through zero."""
         low, high = self.x, self.x + self.length
         for _ in range(_HALVINGS):
             middle = 0.5 * (low + high)
@@ -166,13 +173,13 @@ class Element(NamedTuple):
         return low
 
     def zero_near_end(self, row: int) -> float:
-        """Where a row falls through zero, by Newton's step from the element's end."""
+        """Return x where a row falls through zero, by Newton's step from the end."""
         values = self.rows[row]
         rise = 2.0 / self.length * float(legval(1.0, legder(values)))
         return self.x + self.length - (float(values.sum()) / rise if rise < 0.0 else 0.0)
 
     def largest(self, row: int) -> float:
-        """The largest value of a row: at an end or where its slope is zero."""
+        """Return the largest value of a row: at an end or where its slope is zero."""
         inner = legroots(legder(self.rows[row]))
         inner = inner.real[(np.abs(inner.imag) < _REAL) & (np.abs(inner.real) < 1.0)]
         basis = legvander(np.concatenate(([-1.0, 1.0], inner)), self.slope.size - 1)

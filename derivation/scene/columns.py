@@ -1,4 +1,4 @@
-"""Scenes as columns of numbers, and each row of the columns as a scene of its own."""
+"""Scenes as columns of numbers, with one scene in each row."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
@@ -15,7 +15,7 @@ from derivation.scene.model import NUMBERS, Model, numbers_of
 from derivation.scene.scene import Scene
 
 Columns = Mapping[str, Array]
-"""Numbers in SI by key, `table.key` or `materials.NAME.key`: one array each, of equal lengths."""
+"""Numbers in SI units by key, `table.key` or `materials.NAME.key`: arrays of equal lengths."""
 _BODIES = ("sphere", "plate", "impact", OWN_MATERIALS)
 """Tables whose keys are numbers of the model."""
 
@@ -65,9 +65,9 @@ def models_of(scene: Scene, columns: Columns) -> tuple[Model, NDArray[np.bool_]]
     Parameters
     ----------
     scene
-        The scene of one of the rows: the keys that are given are those of all.
+        The scene of one of the rows; all rows give the same keys.
     columns
-        Columns of the bodies' numbers, each of which its key allows.
+        Columns of numbers of bodies and impact, all within the limits of their keys.
     """
     given: dict[str, dict[str, Any]] = {}
     for place, values in columns.items():

@@ -1,4 +1,4 @@
-"""A sphere on a plate with inertia: contact after contact, and free flight between them."""
+"""Simulates an impact with plate inertia: successive contacts, and free flight between them."""
 
 import math
 from dataclasses import dataclass, replace
@@ -18,40 +18,40 @@ from derivation.scene.yield_events import UncutError, next_branch
 from derivation.scene.yielding import Yielding
 
 FIRST, LONGEST, SHORTEST = 0.3, 0.3, 1e-13
-"""First, largest and least length of an element in x."""
+"""First, largest and smallest length of an element in x."""
 EARLY = 0.5
-"""How much faster elements may grow while they begin about at the onset."""
+"""Coefficient of the additional growth of elements near the onset."""
 TOLERANCE = 1e-11
-"""An element's last coefficients over the largest there are."""
+"""Last coefficients of an element over the largest ones so far [1]."""
 PHASE = 0.75
-"""Largest phase of an oscillator over an element, for each of its nodes."""
+"""Largest phase of a mode over an element, divided by the number of nodes [rad]."""
 CLOSED = 1e-5
-"""What is left of a contact when its end is taken in one step, over the time it took."""
+"""Remaining over elapsed time of a contact below which its end is computed in one step."""
 TOWARDS = 0.75
-"""How much of what is left of a contact an element may take."""
+"""Largest length of an element over the remaining time of the contact."""
 OWN = 1e3
-"""How much less exact the radius may be beside the largest of its element."""
+"""Factor of the tolerance for the radius, relative to the largest value in its own element."""
 ROUGH = 1e2
-"""How much less exact the force of a viscoelastic contact may be."""
+"""Factor of the tolerance for the force of a viscoelastic contact."""
 CONTACTS, ELEMENTS, WORK = 100, 20_000, 3e7
-"""How many contacts of an impact are followed, how many elements are tried in all, with how much
-work: elements and looks in flight weighted by the time that each takes."""
-TOLD = 50
+"""Largest numbers of contacts and of computed elements of an impact, and largest work: elements and
+evaluations in flight, weighted by the run time of each."""
+PROGRESS = 50
 """Elements after which the simulation reports its progress."""
 SHARP = 0.05
-"""How much of the slope of the gap is left where the plate is nearly as curved as the sphere."""
+"""Slope of the gap over that without vibration below which the contact is no longer circular."""
 STAYS = 20.0
-"""Contact time over half a swing on the resting plate from which a sphere is held to stay."""
+"""Contact time over half a period on the plate above which the weight holds the sphere on it."""
 LEFT = "no further contact is possible"
-"""Why a simulation ends."""
+"""End reason of a complete simulation."""
 
 
 class ContactRun(NamedTuple):
-    """A contact: when it began and ended, in units of the problem, its elements and states.
+    """A contact: start and end in units of the problem, time elements, states before and after.
 
-    `radius` is that at its beginning, not 0 where the face has not recovered from the last one.
-    `tried` counts its elements, those too that were tried and made shorter. `yielding` is the
-    branch of a contact that yields at its end.
+    `radius` is the contact radius at the start; it is above 0 if the face has not recovered from
+    the last contact. `tried` is the number of computed elements, including rejected ones.
+    `yielding` is the branch of a plastic contact at its end.
     """
 
     start: float
@@ -73,11 +73,11 @@ class ImpactHistory:
     reason
         Why the simulation ends.
     remedy
-        What to change so that it ends when the sphere has separated for good; empty if it does.
+        What to change so that the simulation becomes complete; empty if it is complete.
     work
-        What it took, in the units of `WORK`; if it is incomplete at most this.
+        Work in the units of `WORK`; an upper bound if the simulation is incomplete.
     tolerance
-        Tolerance of its elements [1].
+        Tolerance of the time elements [1].
     """
 
     problem: DynamicProblem
@@ -105,21 +105,21 @@ def impact_history(
     Parameters
     ----------
     tolerance
-        Of an element's last coefficients over the largest there are [1].
+        Largest ratio of the last coefficients of an element to the largest ones so far [1].
     work
-        What it may take.
+        Largest work, in the units of `WORK`.
     first
-        The first contact, if it is known.
+        The first contact, if it has been computed.
 
     Returns
     -------
     ImpactHistory
-        All contacts; those before, if one is not followed to its end.
+        All contacts; of an incomplete simulation, those before the one that has no end.
 
     Raises
     ------
     IncompleteError
-        If the first contact is not followed to its end.
+        If the first contact cannot be computed to its end.
     """
     t, radius, state, found = 0.0, 0.0, problem.begin(), list[ContactRun]()
     weight, tried, used = weight_of(problem, n), 0, 0.0
@@ -133,7 +133,7 @@ def impact_history(
             after, last = touching.after, touching.pieces[-1].radius
             if touching.yielding is not problem.yielding:
                 problem = replace(problem, yielding=touching.yielding)
-            # A sphere that would come back only by its weight has left: that is another impact.
+            # A sphere that would fall back only by its weight has left: that is another impact.
             weightless = replace(problem, weight=0.0) if problem.weight else problem
             wait, radius, looks = meeting(weightless, after, last, work - used)
             used += looks
@@ -153,12 +153,12 @@ def impact_history(
 
 
 def steps_of(problem: DynamicProblem, n: int, work: float = WORK) -> int:
-    """Elements of n nodes that may be tried: fewer, the more oscillators each has."""
+    """Return how many elements of n nodes may be computed; more modes allow fewer elements."""
     return int(min(ELEMENTS, max(work, 0.0) / weight_of(problem, n)))
 
 
 def weight_of(problem: DynamicProblem, n: int) -> float:
-    """Time that an element takes, in units of which two to three million pass in a second."""
+    """Return the work of an element: its run time in units of about 0.4 microseconds."""
     modes, degree = problem.contact.modes, len(problem.contact.table) - 1
     each = 0.3 * modes.omega.size + (0.1 + 0.003 * degree) * modes.phi.size
     return 2000.0 + n * each
@@ -176,7 +176,7 @@ def expected_work(problem: DynamicProblem, n: int, coarse: ImpactHistory) -> flo
 
 
 def _check_count(problem: DynamicProblem, found: list[ContactRun], t: float) -> None:
-    """End a simulation that has as many contacts as are followed."""
+    """Raise an error if the simulation has reached the largest number of contacts."""
     if len(found) >= CONTACTS:
         raise IncompleteError(
             f"the sphere had not separated for good after {len(found)} contacts and "
@@ -196,31 +196,31 @@ def contact(
     tried: int = 0,
     most: int = ELEMENTS,
 ) -> ContactRun:
-    """A contact, element by element, until the force is gone.
+    """Simulate a contact, element by element, until the force vanishes.
 
     Parameters
     ----------
     radius
-        At its beginning: above 0 where the face has not recovered from the contact before.
+        Contact radius at the start: above 0 if the face has not recovered from the last contact.
     tolerance
-        As `impact_history` takes it.
+        As for `impact_history`.
     tried, most
-        Elements that contacts before it tried, and how many may be tried in all.
+        Number of elements computed for earlier contacts, and the largest number in all.
 
     Raises
     ------
     IncompleteError
-        If it takes more elements, or cannot be followed.
+        If the contact needs more elements, or has no solution that can be found.
     """
     found: list[TimeElement] = []
     x, length, state, first = _begun(begin, radius), FIRST, begin, radius
     origin = start - x**ONSET
-    # Before a quantity has grown, what counts is how large it will be.
+    # At the start the tolerance refers to the expected size of each quantity.
     scale = np.full((LOST, 1), 0.1)
     for step in range(tried, most):
-        if step % TOLD == TOLD - 1:
+        if step % PROGRESS == PROGRESS - 1:
             now, count = problem.T * (origin + x**ONSET), problem.omega.size
-            announce(f"{now:.3g} s after first contact, {count} oscillators")
+            announce(f"{now:.3g} s after first contact, {count} modes")
         length = min(length, _longest(problem, n, x, state if found else None))
         if length < SHORTEST * max(x, 1.0):
             break
@@ -237,9 +237,9 @@ def contact(
         sizes = np.abs(made.element.rows[:LOST])
         largest = np.maximum(scale, sizes.max(axis=1, keepdims=True))
         unit = largest.copy()
-        # Where the contact closes its radius matters beside itself: it says when.
+        # At the end the radius determines the time of separation: it needs a relative accuracy.
         unit[A] = OWN * sizes[A].max()
-        # A force that depends on the rate of the radius is as rough as that; it is only integrated.
+        # A viscoelastic force is as rough as the rate of the radius; it is only integrated.
         if problem.retardation_time:
             unit[P] *= ROUGH
         error, change = change_of_length((sizes / unit).max(axis=0), tolerance)
@@ -264,7 +264,7 @@ def contact(
         x = made.element.x + made.element.length
         _check_weight(problem, x)
         state, radius, scale = made.end, made.radius, largest
-        # What limits it is even in time, but for the onset.
+        # Except near the onset, the allowed length is uniform in time, not in x.
         more = x**ONSET - made.element.x**ONSET
         more *= change * (1.0 + EARLY * more / x**ONSET)
         length = min(LONGEST, (x**ONSET + more) ** (1.0 / ONSET) - x)
@@ -280,11 +280,11 @@ def contact(
 
 
 def _begun(begin: ImpactState, radius: float) -> float:
-    """Where a contact begins in x: later than 0 if the face has not recovered.
+    """Return the start of a contact in x: above 0 if the face has not recovered.
 
-    Such a contact has no onset. Its times are regular if they are counted from when the sphere,
-    as fast as now, would have begun to press in the face by as much as it still is: later, they
-    are too coarse for the forces of a small radius.
+    Such a contact has no onset. Its time is counted from the moment at which the sphere, at its
+    present speed, would have first touched a face that had recovered. A later origin would make
+    the elements too coarse for the forces at a small radius.
     """
     if not radius or begin.separation_speed >= 0.0:
         return 1.0 if radius else 0.0
@@ -292,11 +292,11 @@ def _begun(begin: ImpactState, radius: float) -> float:
 
 
 def _onset(problem: DynamicProblem, n: int, length: float, meeting: float) -> Array:
-    """da/dx where a contact begins: the depth grows at the speed at which they meet."""
+    """Return da/dx at the nodes after first contact: the depth grows at the approach speed."""
     rule = radau(n)
     goal = meeting * (length * rule.x) ** ONSET
     a = np.sqrt(goal * problem.depth * problem.contact.R) / problem.a
-    for _ in range(NEWTON):  # depth grows faster than a^2: the iteration comes down
+    for _ in range(NEWTON):  # from above, because depth grows faster than a^2
         at = problem.at(problem.a * a)
         move = (at.depth / problem.depth - goal) / (at.depth_a * (problem.a / problem.depth))
         a = np.maximum(a - move, 0.5 * a)
@@ -306,7 +306,7 @@ def _onset(problem: DynamicProblem, n: int, length: float, meeting: float) -> Ar
 
 
 def _endless(problem: DynamicProblem, t: float, most: int) -> IncompleteError:
-    """A simulation that takes too many steps."""
+    """Return the error of a simulation with too many time steps."""
     return IncompleteError(
         f"the sphere was still in contact {problem.T * t:.6g} s after the first contact, when the "
         f"limit of {most} time steps was reached",
@@ -317,7 +317,7 @@ def _endless(problem: DynamicProblem, t: float, most: int) -> IncompleteError:
 def _lost(
     problem: DynamicProblem, state: ImpactState, radius: float, time: float
 ) -> IncompleteError:
-    """Why a contact cannot be followed any further."""
+    """Return the error of a contact without a solution: too wide, not circular, or extreme."""
     why, remedy = "has no solution that can be found", "use less extreme values"
     beyond = np.nextafter(problem.contact.top, 0.0) / problem.a
     if radius > 0.99 * beyond:
@@ -327,7 +327,7 @@ def _lost(
             else f"{WIDER:g} times what the impact on a plate that does not deflect reaches"
         )
         remedy = "reduce impact.speed or impact.gravity, or use a lighter sphere or a thicker plate"
-    for a in (radius, 1.2 * radius):  # where it is, and where it would go
+    for a in (radius, 1.2 * radius):  # the present radius, and a larger one
         at = problem.at(problem.a * np.array([min(a, beyond)]))
         bent = at.less_a[0] @ problem.contact.modes.by_shape(state.q)
         own = at.depth_a[0] / problem.depth
@@ -338,12 +338,12 @@ def _lost(
 
 
 def _left(state: ImpactState) -> float:
-    """How long a contact lasts if sphere and plate part as fast as now."""
+    """Return the remaining time of a contact at the present separation speed."""
     return state.approach / state.separation_speed if state.separation_speed > 0.0 else math.inf
 
 
 def _longest(problem: DynamicProblem, n: int, x: float, state: ImpactState | None) -> float:
-    """Length an element may have: by the fastest oscillator, and not beyond the release."""
+    """Return the largest length of an element by the fastest mode and the remaining time."""
     most = problem.fastest
     ahead = PHASE * n / most if most else math.inf
     if state is not None:
@@ -352,7 +352,7 @@ def _longest(problem: DynamicProblem, n: int, x: float, state: ImpactState | Non
 
 
 def _check_weight(problem: DynamicProblem, x: float) -> None:
-    """End with a sphere that its weight keeps on the plate: it stays far longer than it swings."""
+    """Raise an error if the contact lasts so long that the weight holds the sphere on the plate."""
     if not problem.weight:
         return
     swing = math.pi * math.sqrt(float(np.sum(problem.inverse_modal_mass / problem.omega**2)))
@@ -371,7 +371,7 @@ def _let_go(
     state: ImpactState,
     radius: float,
 ) -> TimeElement:
-    """The element that ends where its force does."""
+    """Return the element shortened to end where its force vanishes."""
     for _ in range(3):
         x = made.element.x
         guess = made.element.slope_at(x + (end - x) * radau(n).x)
@@ -383,7 +383,7 @@ def _let_go(
 
 
 def _released(problem: DynamicProblem, last: TimeElement, left: float) -> tuple[float, ImpactState]:
-    """The last of a contact, as a half-space's: the force falls by the power 3/2 of the time."""
+    """Return duration and state at the end of the last step, in which P falls as t^(3/2)."""
     state, force = last.end, float(np.sum(last.element.rows[P]))
     after = state
     for _ in range(3):

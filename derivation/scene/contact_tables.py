@@ -11,12 +11,14 @@ from derivation.scene.law import ContactLaw
 from derivation.scene.modal import ModalPlate, Modes
 
 DEGREE, RESOLVED = 32, 0.75
-"""Least degree of the tables, and by how much it grows with the largest wave number times a."""
+"""Smallest degree of the tables, and its increase per largest wave number times a."""
 
 
 class ContactSamples(NamedTuple):
-    """The contact at radii: contact force and the forces that drive the shapes [N], in columns,
-    quasi-static depth [m], of each shape its share in the depth less 1, and slopes by the radius.
+    """The contact at radii, with derivatives `_a` by the radius.
+
+    `forces` has the contact force and then the forces that drive the shapes [N], in columns;
+    `depth` is the quasi-static depth [m]; `less` is s_j - 1 of each shape [1].
     """
 
     forces: Array
@@ -33,7 +35,7 @@ class ContactSamples(NamedTuple):
 
     @property
     def force_a(self) -> Array:
-        """Slope of the contact force by the radius [N/m]."""
+        """Derivative of the contact force by the radius [N/m]."""
         return self.forces_a[:, 0]
 
     @property
@@ -44,10 +46,10 @@ class ContactSamples(NamedTuple):
 
 @dataclass(frozen=True)
 class ContactTables:
-    """Tables of a law with oscillators, up to a contact radius [m].
+    """Tables of a contact with dynamic modes, up to a contact radius `top` [m].
 
-    In x, the radius over the largest, they hold Chebyshev's coefficients of the forces over x^3, of
-    depth and shares over x^2, and of the slopes of both over x^2 and x.
+    With x the radius over `top`, they contain Chebyshev coefficients of the forces over x^3, of
+    depth and s_j - 1 over x^2, and of the derivatives of both over x^2 and x.
     """
 
     modes: Modes
@@ -57,7 +59,7 @@ class ContactTables:
     pointwise: bool = False
 
     def at(self, a: Array) -> ContactSamples:
-        """The contact at radii [m]; NaN below 0 and beyond the top."""
+        """Return the contact at radii [m]; NaN below 0 and above `top`."""
         x = np.where((a >= 0.0) & (a <= self.top), a / self.top, np.nan)
         found = chebyshev(2.0 * x - 1.0, self.table.shape[0] - 1) @ self.table
         x, count = x[:, None], found.shape[1] // 4
@@ -70,8 +72,16 @@ class ContactTables:
 
 
 def contact_of(law: ContactLaw, plate: ModalPlate, top: float, pointwise: bool) -> ContactTables:
-    """Tables of a law on the paper's edge with a plate's modes, up to a contact radius [m]."""
-    # sin(a phi) asks for a polynomial of a degree beyond half of a phi.
+    """Return the tables of a law with the paper's edge and the modes of a plate.
+
+    Parameters
+    ----------
+    top
+        Largest contact radius [m].
+    pointwise
+        Whether the indentation is defined at the axis: s_j = 1.
+    """
+    # sin(a phi) requires a polynomial of a degree above a phi/2.
     fastest = float(np.max(plate.less.phi, initial=0.0))
     x, analysis, mean = knots(max(DEGREE, int(16 + RESOLVED * top * fastest)))
     a = top * x
@@ -82,12 +92,12 @@ def contact_of(law: ContactLaw, plate: ModalPlate, top: float, pointwise: bool) 
     growth = (law.stiffness(a, shape) * slope * top / x**2)[:, None]
 
     def driven(modes: Modes) -> tuple[Array, Array]:
-        """P_j over x^3 and s_j - 1."""
+        """Return P_j over x^3, and s_j - 1."""
         less = modes.shares_less_one(a)
         return mean @ (analysis @ (growth * (1.0 + less))), 0.0 * less if pointwise else less
 
     def moved(modes: Modes) -> Array:
-        """Static deflection of modes over x^2."""
+        """Return the static deflection of modes over x^2."""
         felt, less = driven(modes)
         return np.asarray((felt * (1.0 + less)) @ modes.compliance * x, dtype=np.float64)
 

@@ -25,7 +25,7 @@ def balance_of(history: ImpactHistory) -> EnergyBalance:
         rebound_kinetic=0.5 * energy * last.velocity**2,
         viscous_loss=energy * lost,
         unrecovered_elastic=energy
-        * sum(_given_up(problem, touching) for touching in history.contacts),
+        * sum(_unrecovered(problem, touching) for touching in history.contacts),
         plate=energy * float(np.sum(problem.energies(last))),
         coupling_loss=energy * spurious,
         damping_loss=energy * _damping_loss(history),
@@ -52,7 +52,7 @@ def _damping_loss(history: ImpactHistory) -> float:
     return found
 
 
-def _given_up(problem: DynamicProblem, touching: ContactRun) -> float:
+def _unrecovered(problem: DynamicProblem, touching: ContactRun) -> float:
     """Return the energy over m v0^2 stored in a viscoelastic contact at its end, minus start."""
     if not problem.retardation_time:
         return 0.0

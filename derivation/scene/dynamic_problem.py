@@ -1,4 +1,4 @@
-"""An impact on a plate with inertia in units of a contact, and the states of sphere and plate."""
+"""The problem of an impact on a plate with inertia in units of a contact, and its states."""
 
 import math
 from dataclasses import dataclass
@@ -14,14 +14,14 @@ from derivation.scene.oscillators import FreeMotion
 from derivation.scene.yielding import Yielding
 
 PART = 32768
-"""Values of oscillators at the nodes that are computed at once, so that they stay in the cache."""
+"""Number of values of modes at nodes that are computed at once, so that they fit in the cache."""
 
 
 class ImpactState(NamedTuple):
     """Displacement and velocity of the sphere, deflection and velocity of the modes.
 
-    `approach` is the displacement of the sphere less the deflection of the plate. It is integrated
-    and not subtracted, as it may be far smaller than both.
+    `approach` is the displacement of the sphere less the deflection of the plate. It is integrated,
+    because a difference would be inaccurate if it is far smaller than both.
     """
 
     displacement: float
@@ -32,7 +32,7 @@ class ImpactState(NamedTuple):
 
     @property
     def separation_speed(self) -> float:
-        """Velocity of the plate less that of the sphere: positive while they separate."""
+        """Velocity of the plate less that of the sphere; positive if they separate."""
         return float(np.sum(self.q_dot)) - self.velocity
 
 
@@ -47,17 +47,17 @@ class DynamicProblem:
     a, T, m, v0
         Units of radius [m] and time [s], mass [kg] and speed [m/s].
     weight
-        What presses the sphere on, in units of v0/T.
+        Gravitational acceleration during contact, in units of v0/T.
     retardation_time
         A_v over T.
     heard
-        Time from which waves may return from the edge of a plate that is to have none.
+        Time after which waves may return from the edge, for an infinite plate; else infinite.
     damping_ratio
-        Damping ratio of every mode [1].
+        Damping ratio of each mode [1].
     yielding
-        The contact that yields, on the branch on which it is; None of an elastic one.
+        The current branch of a plastic contact; None without plasticity.
     range_end
-        Which limit of the contact law ends its tables; empty if none does.
+        The limit of the contact law at which its tables end, in words; empty if they end earlier.
     """
 
     contact: ContactTables
@@ -84,35 +84,35 @@ class DynamicProblem:
 
     @cached_property
     def omega(self) -> Array:
-        """Angular frequencies."""
+        """Angular frequencies of the modes, in units of 1/T."""
         return self.contact.modes.omega * self.T
 
     @cached_property
     def fastest(self) -> float:
-        """The largest of them, 0 if there is none."""
+        """Largest angular frequency, in units of 1/T; 0 without modes."""
         return float(np.max(self.omega, initial=0.0))
 
     @cached_property
     def inverse_modal_mass(self) -> Array:
-        """Acceleration of a mode by a unit force."""
+        """Acceleration of each mode by a unit force, in units of 1/m."""
         return self.contact.modes.inverse_modal_mass * self.m
 
     @cached_property
     def strength(self) -> Array:
-        """Deflection of a mode by a unit impulse, times its omega over its sine."""
+        """Amplitude of each mode after a unit impulse: inverse modal mass over omega."""
         return self.inverse_modal_mass / self.omega
 
     def parts(self, n: int) -> tuple["Part", ...]:
-        """The oscillators, so many at once that their values at n nodes stay in the cache."""
+        """Return the modes in parts, whose values at n nodes fit in the cache."""
         return tuple(map(Part._make, self.contact.modes.parts(max(1, PART // n))))
 
     @cached_property
     def by_speed(self) -> NDArray[np.intp]:
-        """Order of the oscillators, the slowest first."""
+        """Indices of the modes, the slowest first."""
         return np.argsort(self.omega, kind="stable")
 
     def at(self, a: Array) -> ContactSamples:
-        """The contact at radii [m], and what yielding adds to its depth."""
+        """Return the contact at radii [m], with the depth added by yielding."""
         found = self.contact.at(a)
         if self.yielding is None:
             return found
@@ -120,16 +120,16 @@ class DynamicProblem:
         return found._replace(depth=found.depth + depth, depth_a=found.depth_a + depth_a)
 
     def begin(self) -> ImpactState:
-        """Everything at the moment of first contact."""
+        """Return the state at first contact."""
         none = np.zeros_like(self.omega)
         return ImpactState(0.0, 1.0, none, none, 0.0)
 
     def energies(self, state: ImpactState) -> Array:
-        """Of each oscillator, over m v0^2."""
+        """Return the energy of each mode, in units of m v0^2."""
         return (state.q_dot**2 + (self.omega * state.q) ** 2) / (2.0 * self.inverse_modal_mass)
 
     def flight_loss(self, state: ImpactState, t: float) -> float:
-        """Energy that damping takes in free flight, over m v0^2."""
+        """Return the energy dissipated by damping in free flight, in units of m v0^2."""
         if not self.damping_ratio:
             return 0.0
         from generated.damping_kernels import free_loss
@@ -139,7 +139,7 @@ class DynamicProblem:
         return float(np.sum(lost / self.inverse_modal_mass))
 
     def flown(self, state: ImpactState, t: float) -> ImpactState:
-        """A state after free flight."""
+        """Return the state after free flight for a time."""
         free = FreeMotion(self.omega * t, self.damping_ratio)
         bent = state.q_dot * t * free.by_rate - state.q * free.by_q
         fallen = 0.5 * self.weight * t * t
@@ -167,8 +167,10 @@ class DynamicProblem:
 
 
 class Part(NamedTuple):
-    """Some shapes, all their oscillators, the shape of each, and the first of each, both counted
-    from the first of these.
+    """Some shapes with all their modes.
+
+    `shape` is the index of the shape of each mode, and `first` the index of the first mode of each
+    shape, both counted within the part.
     """
 
     shapes: slice
@@ -177,11 +179,11 @@ class Part(NamedTuple):
     first: NDArray[np.intp]
 
     def by_oscillator(self, values: Array) -> Array:
-        """Values of these shapes, for each oscillator."""
+        """Return the value of its shape for each mode."""
         return values if self.first.size == self.shape.size else values[..., self.shape]
 
     def by_shape(self, values: Array) -> Array:
-        """Sums over the oscillators of each shape."""
+        """Return the sum over the modes of each shape."""
         if self.first.size == self.shape.size:
             return values
         return np.asarray(np.add.reduceat(values, self.first, axis=-1), dtype=np.float64)

@@ -1,4 +1,4 @@
-"""The results of an impact on a plate with inertia, in SI, from the history of its contacts."""
+"""Converts the contacts of an impact on a plate with inertia into results in SI units."""
 
 import math
 from collections.abc import Sequence
@@ -20,7 +20,7 @@ UNKNOWN: Results = (math.inf, math.inf, math.inf, math.inf, math.inf)
 
 
 def dynamic_impact_of(law: ContactLaw, history: ImpactHistory) -> DynamicImpact:
-    """The results of an impact."""
+    """Return the results of an impact from its contacts."""
     problem, last = history.problem, history.contacts[-1].after
     energy = problem.m * problem.v0**2
     pieces = [piece for touching in history.contacts for piece in touching.pieces]
@@ -61,10 +61,11 @@ def dynamic_impact_of(law: ContactLaw, history: ImpactHistory) -> DynamicImpact:
 def _branches(
     law: ContactLaw, a: float, displacement: float, T: float, balance: EnergyBalance
 ) -> Results:
-    """Return the changes of the results by the omitted branches [1].
+    """Return the estimated change of each result by the omitted wave branches [1].
 
-    The work of the weight increases all of them except that of the displacement. What the contact
-    dissipates increases those of contact time and restitution, as if all of it were plastic.
+    It is 0 if all branches are included. The work of the weight increases all changes except that
+    of the displacement. What the contact dissipates increases those of contact time and
+    restitution, as if all of it were plastic.
     """
     model = law.model
     if model.inertia.branches == "all":
@@ -79,7 +80,7 @@ def _branches(
 
 
 def _touch(problem: DynamicProblem, touching: ContactRun) -> ContactInterval:
-    """A contact in SI."""
+    """Return a contact in SI units."""
     before, after = touching.before, touching.after
     lasted = touching.end - touching.start
     return ContactInterval(
@@ -92,9 +93,10 @@ def _touch(problem: DynamicProblem, touching: ContactRun) -> ContactInterval:
 
 
 def _largest(pieces: Sequence[TimeElement], row: int) -> float:
-    """The largest value of a row; elements whose coefficients say that it is not theirs are passed.
+    """Return the largest value of a row over all elements.
 
-    No Legendre polynomial exceeds 1.
+    The sum of the absolute coefficients is an upper bound, because no Legendre polynomial exceeds
+    1. Elements with a bound below the largest value found are skipped.
     """
     found = -math.inf
     bounds = [(float(np.sum(np.abs(piece.element.rows[row]))), piece) for piece in pieces]

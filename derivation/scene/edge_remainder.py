@@ -73,7 +73,7 @@ def edge_remainder(model: Model, a: float) -> float:
 
 
 def edge_remainders(model: Model, a: Array) -> Array:
-    """Return the same for many scenes, as columns; NaN where `edge_remainder` rejects the scene."""
+    """Return the model errors of many scenes as a column; NaN if `edge_remainder` rejects one."""
     kind = "supported" if model.edge == SUPPORTED else "clamped"
     nu = model.lam / (2.0 * (model.lam + model.mu))
     axes, places = _axes(), np.broadcast_arrays(model.eta, nu, a / model.b)

@@ -1,4 +1,4 @@
-"""Free flight between contacts: when sphere and plate meet again, if they do."""
+"""Free flight between contacts: the time of the next contact, if there is one."""
 
 import math
 from collections.abc import Callable
@@ -11,31 +11,37 @@ from derivation.scene.oscillators import FreeMotion
 from derivation.scene.scene import IncompleteError
 
 STEP, BLOCK, BLOCKS = 0.3, 256, 4000
-"""Phase of the fastest oscillator between looks in flight, looks at once, and how many times."""
+"""Phase of the fastest mode between evaluations, evaluations per block, and number of blocks."""
 AT_ONCE = 4_000_000
-"""Values of oscillators that are computed at once, to bound the memory."""
+"""Number of values of modes that are computed at once, to limit the memory."""
 FAST = 0.1
-"""Share of the gap that the amplitudes of fast oscillators may add up to, to be passed over."""
+"""Sum of the amplitudes of modes over the gap below which they cannot close it."""
 RECOVERED = 20.0
-"""Time over A_v after which a face counts as recovered: its depth has fallen to 2e-6."""
+"""Time over A_v after which a face counts as recovered: its depth has decayed to 2e-6."""
 LOOK, LOOKS = 0.06, 200.0
-"""Work of a look at an oscillator, and of a block of looks beside that."""
+"""Work of an evaluation of a mode, and additional work of a block of evaluations."""
 _HALVINGS = 80
 
 
 def meeting(
     problem: DynamicProblem, after: ImpactState, radius: float, most: float = math.inf
 ) -> tuple[float, float, float]:
-    """When sphere and plate meet again after a release, the radius of the face then, and the work.
+    """Return the time from separation to the next contact, its radius at the start, and the work.
 
-    The time is infinite if they never do. A viscoelastic contact ends at a radius above 0; the
-    face then recovers.
+    The time is infinite if no further contact is possible. A viscoelastic contact ends at a radius
+    above 0, and the face then recovers.
+
+    Parameters
+    ----------
+    after, radius
+        State and radius at separation.
+    most
+        Largest work; the first block may exceed it.
 
     Raises
     ------
     IncompleteError
-        If this is not found out within `BLOCKS` blocks of looks, or with so much work at most
-        beyond the first.
+        If neither is found within `BLOCKS` blocks or the largest work.
     """
     omega, state, begin = problem.omega, after, 0.0
     reach = float(np.sum(np.hypot(state.q, state.q_dot / omega)))
@@ -56,7 +62,7 @@ def meeting(
         opening -= problem.weight * t
         if problem.retardation_time:
             into -= _pressed(problem, np.add(begin, t), radius, np.add(state.q, bent))
-        turned = (opening[:-1] < 0.0) & (opening[1:] > 0.0)  # they come closest in between
+        turned = (opening[:-1] < 0.0) & (opening[1:] > 0.0)  # the gap is smallest in between
         for k in np.flatnonzero((into[1:] >= 0.0) | turned):
             low, high = begin + float(t[k]), begin + float(t[k + 1])
             if into[k + 1] < 0.0:
@@ -76,10 +82,10 @@ def meeting(
 
 
 def _clear(problem: DynamicProblem, state: ImpactState) -> float:
-    """A time for which sphere and plate certainly stay apart, by looks at the slow oscillators.
+    """Return a time in which sphere and plate cannot meet, from the slow modes.
 
-    The fast ones, whose amplitudes add up to a part of the gap, cannot close it. What a
-    viscoelastic face is still pressed in only widens the gap. Damping only reduces amplitudes.
+    The amplitudes of the fast modes add up to a fraction of the gap. The remaining depth of a
+    viscoelastic face only increases the gap, and damping only reduces amplitudes.
     """
     order, gap = problem.by_speed, -state.approach
     omega, q, rate = (x[order] for x in (problem.omega, state.q, state.q_dot))
@@ -92,13 +98,13 @@ def _clear(problem: DynamicProblem, state: ImpactState) -> float:
     free = FreeMotion(np.outer(t, omega), problem.damping_ratio)
     bent = free.sin @ (rate / omega) - free.by_q @ q
     into = state.approach + state.velocity * t + 0.5 * problem.weight * t * t - bent
-    # The fast ones may go from one end of their swing to the other.
+    # The fast modes may change by twice their amplitudes.
     near = np.flatnonzero(into + 2.0 * float(beyond[slow]) >= 0.0)
     return float(t[max(int(near[0]) - 1, 0)]) if near.size else float(t[-1])
 
 
 def _into(problem: DynamicProblem, after: ImpactState, t: float, radius: float) -> float:
-    """By how much the sphere is further than the face, a time after the release."""
+    """Return the overlap of sphere and face at a time after separation; negative for a gap."""
     state = problem.flown(after, t)
     if not problem.retardation_time:
         return state.approach
@@ -106,14 +112,14 @@ def _into(problem: DynamicProblem, after: ImpactState, t: float, radius: float) 
 
 
 def _pressed(problem: DynamicProblem, t: Array, radius: float, q: Array) -> Array:
-    """How deep the face of a viscoelastic contact is still pressed in."""
+    """Return the remaining depth of the face after a viscoelastic contact."""
     at = problem.at(problem.a * _recovered(problem, t, radius))
     moved = np.sum(at.less * problem.contact.modes.by_shape(q), axis=1)
     return at.depth / problem.depth + np.asarray(moved, dtype=np.float64)
 
 
 def _recovered(problem: DynamicProblem, t: Array, radius: float) -> Array:
-    """Radius at which the face is after a time without force: P_e falls like exp(-t/A_v)."""
+    """Return the radius of the face after a time without force: P_e decays as exp(-t/A_v)."""
     none = np.zeros_like(t)
     if not problem.retardation_time or not np.any(t < RECOVERED * problem.retardation_time):
         return none
@@ -128,7 +134,7 @@ def _recovered(problem: DynamicProblem, t: Array, radius: float) -> Array:
 
 
 def _where(before: Callable[[float], bool], low: float, high: float) -> float:
-    """Where a condition that holds at `low` ceases to."""
+    """Return the number between `low` and `high` up to which a condition is true."""
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
         if not low < middle < high:  # no number lies between them

@@ -112,7 +112,7 @@ class ContactLaw:
 
     @cached_property
     def other_edge(self) -> bool:
-        """Whether the plate's edge is another than the paper's."""
+        """Whether the edge of the plate differs from the paper's."""
         return any(effect.other_edge for effect in self.chosen)
 
     @cached_property
@@ -214,7 +214,7 @@ class ContactLaw:
         return float(self.centre_pressure(np.array([a]))[0])
 
     def centre_pressure(self, a: Array) -> Array:
-        """Do the same without non-Hertzian pressure, at one radius [m] or a column of radii."""
+        """Return the pressure at the centre [Pa] on a half-space, at one or many radii [m]."""
         found: Array = 2.0 / np.pi * self.modulus * (a / self.model.R)
         if not self.spherical:
             return found
@@ -265,7 +265,7 @@ class ContactLaw:
         return float(self.tensile_stresses(np.array([a]), np.array([force]), on_edge)[0])
 
     def tensile_stresses(self, a: Array, force: Array, on_edge: bool = True) -> Array:
-        """Return the same at one radius [m] and force [N], or at columns of them."""
+        """Return `max_tensile_stress` [Pa] for one radius [m] and force [N], or columns of them."""
         stresses = {
             edge.SUPPORTED: kernels.supported_far_stress,
             edge.CLAMPED: kernels.clamped_far_stress,
@@ -309,7 +309,7 @@ class ContactLaw:
         return Shape(one, 1.0 + part * share.depth, slope, slope)
 
     def _solved(self, a: Array) -> Shape:
-        """Do the same with non-Hertzian pressure; the edge contributes as under Hertz's."""
+        """Return the shape with non-Hertzian pressure; the edge contributes as under Hertz's."""
         # Near a = 0 the pressure is Hertzian.
         a = np.maximum(a, 1e-12 * min(self.model.h, self.model.b, self.model.R))
         found = self._contact(a)
@@ -350,7 +350,7 @@ class ContactLaw:
         return kernels.Sphere(*(np.ones_like(a),) * 3)
 
     def cancellation(self, a: Array) -> Array:
-        """Return the relative rounding error of the slope by cancellation.
+        """Return the relative rounding error of the slope by cancellation [1].
 
         Unless all plate effects are included, the contribution of an effect may be computed as that
         of the whole plate minus those of omitted effects, which may be much larger.

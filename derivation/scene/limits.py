@@ -24,7 +24,8 @@ ZENER_LIMIT = 0.006
 QUASI_STATIC_PERIODS = 10.0
 """Contact time over first bending period above which the plate responds quasi-statically."""
 DEFLECTION_LIMIT = 0.01
-"""Plate deflection over indentation below which the inertia of the plate is negligible."""
+"""Plate deflection over indentation below which, with a small Zener parameter, the inertia of the
+plate is negligible."""
 SOLID_LIMIT = 1 / 3
 """Sphere mass over that of a solid sphere of its material below which it may be hollow."""
 GRAZING = 1e-3
@@ -35,7 +36,7 @@ Values = TypeVar("Values", float, Array)
 MARGIN = 1e-3
 """Relative quadrature error of the largest possible speed, where a law is steep."""
 POINTS = 192
-"""Gauss points of the energy up to the law's limit, near which a sphere's slope is steep."""
+"""Number of Gauss points of the energy up to the limit, near which a sphere's slope is steep."""
 
 
 def check_radius(law: ContactLaw, a: float, key: str, remedy: str) -> None:
@@ -312,7 +313,7 @@ def hollow_warnings(model: Model) -> tuple[str, ...]:
 def pressure_warnings(
     pressure: float, yield_stress: float | None, viscous: bool = False, body: str = "plate"
 ) -> tuple[str, ...]:
-    """Return a warning if the body with the lower yield stress yields, if that is known."""
+    """Return a warning if the body with the lower yield stress yields, or may yield unchecked."""
     if yield_stress is not None and viscous:
         text = (
             f"yielding of the {body} is not checked: max_pressure is the elastic part, to which a "

@@ -1,18 +1,18 @@
-"""The plate as oscillators: its modes, and what of the contact law remains quasi-static.
+"""Dynamic modes of the plate, and the quasi-static remainder of the contact law.
 
-A mode has a shape along the radius and, at that shape, one oscillator for each branch of the
-plate's waves. With P_j = int_0^a P'(c) s_j(c) dc the part of the contact force that drives shape
-j, s_j its mean under a flat punch of radius a, and c_j the static compliance of its oscillators,
+Each radial shape has one mode for each wave branch of the plate. With P_j = int_0^a P'(c) s_j(c) dc
+the force that drives shape j, s_j the mean of the shape under a flat punch of radius a, and c_j the
+static compliance of its modes,
 
     z = delta(a) - sum c_j P_j s_j + sum s_j q_j,   q'' + omega^2 q = omega^2 c P_j
 
-s_j = dP_j/dP conserves energy for every law delta(a); s_j = 1 takes the deflection at the axis,
-as the paper defines the indentation.
+s_j = dP_j/dP conserves energy for every law delta(a); s_j = 1 refers to the deflection at the axis,
+as in the paper's definition of the indentation.
 
 On the paper's edge J0(phi_j r) is an exact mode of every branch. For a clamped or simply supported
 edge the lowest branch A0 has the modes of `generated.edge_modes`. The quasi-static remainder is
-that of the paper's edge: a remainder taken with the held edge's own law would know the edge before
-any wave has travelled there.
+that of the paper's edge: with the law of another edge it would depend on the edge before any wave
+has reached it.
 """
 
 import itertools
@@ -42,23 +42,23 @@ SMALL = 1e-6
 
 @dataclass(frozen=True)
 class Modes:
-    """Oscillators that the contact force drives, ordered by the shape that they share.
+    """Modes that the contact force drives, in the order of their shapes.
 
     Attributes
     ----------
     phi
         Wave numbers of the shapes [1/m], shape (shapes,).
     omega
-        Angular frequencies [1/s], shape (oscillators,).
+        Angular frequencies [rad/s], shape (modes,).
     inverse_modal_mass
-        Acceleration by a unit force [1/kg]; over omega^2 the static compliance.
+        Acceleration by a unit force [1/kg], shape (modes,); divided by omega^2 it is the static
+        compliance.
     first
-        Index of each shape's first oscillator, shape (shapes,).
+        Index of the first mode of each shape, shape (shapes,).
     held
-        The first shapes, if the edge is clamped or simply supported; the others are
-        J0(phi r).
+        The first shapes, if the edge is clamped or simply supported; the others are J0(phi r).
     b
-        Plate radius [m], by which `held` is scaled.
+        Plate radius [m], the unit of length of `held`.
     """
 
     phi: Array
@@ -70,12 +70,12 @@ class Modes:
 
     @property
     def compliance(self) -> Array:
-        """Static deflection at the axis by a unit force [m/N], of each shape."""
+        """Static deflection of each shape at the axis by a unit force [m/N]."""
         return self.by_shape(self.inverse_modal_mass / self.omega**2)
 
     @cached_property
     def shape(self) -> Indices:
-        """Index of the shape of each oscillator."""
+        """Index of the shape of each mode."""
         ends = np.append(self.first[1:], self.omega.size)
         return np.repeat(np.arange(self.first.size), ends - self.first)
 
@@ -84,7 +84,7 @@ class Modes:
         return {}
 
     def parts(self, most: int) -> Parts:
-        """Shapes with all their oscillators, about so many at once."""
+        """Return parts of whole shapes, each with about `most` modes."""
         if most not in self._parts:
             self._parts[most] = self._split(most)
         return self._parts[most]
@@ -104,13 +104,13 @@ class Modes:
         )
 
     def by_shape(self, values: Array) -> Array:
-        """Sums over the oscillators of each shape, along the last axis."""
+        """Return the sum over the modes of each shape, along the last axis."""
         if self.first.size == self.omega.size:
             return values
         return np.asarray(np.add.reduceat(values, self.first, axis=-1), dtype=np.float64)
 
     def shapes(self, r: Array) -> Array:
-        """Each shape at distances [m] over its value on the axis, shape (shapes, distances)."""
+        """Return each shape at distances [m] over its value on the axis: (shapes, distances)."""
         from generated.bessel import bessel_j0
 
         free = np.asarray(bessel_j0(np.outer(self.phi[self._held :], r)), dtype=np.float64)
@@ -121,7 +121,7 @@ class Modes:
         return np.concatenate((shape(self.held, r / self.b), free))
 
     def shares_less_one(self, a: Array) -> Array:
-        """s_j - 1 at contact radii [m], shape (radii, shapes)."""
+        """Return s_j - 1 at contact radii [m], shape (radii, shapes)."""
         y = np.outer(a, self.phi[self._held :])
         free = sine_less_one(np.sin(y), y)
         if self.held is None:
@@ -136,10 +136,10 @@ class Modes:
 
 
 class ModalPlate(NamedTuple):
-    """The plate of a contact: its oscillators, and the static shapes that stand in the law.
+    """The modes of the plate, and the modes that the quasi-static remainder depends on.
 
-    The quasi-static remainder is the law on the paper's edge less the deflection of `less`, which
-    are modes of that edge, plus that of `more`, which are modes of the scene's edge.
+    The remainder is the law with the paper's edge, minus the static deflection of `less` (modes of
+    that edge), plus the static deflection of `more` (modes of the edge of the scene).
     """
 
     modes: Modes
@@ -148,10 +148,10 @@ class ModalPlate(NamedTuple):
 
 
 def plate_of(law: ContactLaw, count: int) -> ModalPlate:
-    """The first modes of a law's plate on its edge.
+    """Return the plate of a law with a number of modes of the lowest branch A0.
 
-    On the paper's edge these are modes of every branch. If the scene asks for all branches, those
-    no faster than the last mode of A0 are taken.
+    If the scene includes all branches, their modes that are not faster than the last one of A0 are
+    added.
     """
     if not law.other_edge or law.model.edge not in (SUPPORTED, CLAMPED):
         modes = free_modes(law.model, count, law.viscous)
@@ -160,13 +160,13 @@ def plate_of(law: ContactLaw, count: int) -> ModalPlate:
 
 
 def free_modes(model: Model, count: int, lagging: bool = False) -> Modes:
-    """The first modes of a plate on the paper's edge.
+    """Return the modes of a plate with the paper's edge, `count` of them of the lowest branch.
 
     Parameters
     ----------
     lagging
-        Whether the contact is viscoelastic. Bending is not: modes then have a thin plate's
-        compliance alone, and all other static deflection stays with the contact.
+        Whether the contact is viscoelastic, but not the bending: each mode then has the static
+        compliance of a thin plate, and all other static deflection belongs to the contact.
     """
     found = _free(model, count, lagging)
     branches = model.inertia.branches == "all" and not lagging
@@ -174,7 +174,7 @@ def free_modes(model: Model, count: int, lagging: bool = False) -> Modes:
 
 
 class _Shapes(NamedTuple):
-    """Wave numbers times b of shapes, omega h/c_T, strength W rho h r, and first oscillators."""
+    """Wave numbers times b, omega h/c_T, strength W rho h r, and index of each first mode."""
 
     k: Array
     root: Array
@@ -183,13 +183,13 @@ class _Shapes(NamedTuple):
 
 
 def _free(model: Model, count: int, lagging: bool) -> _Shapes:
-    """A0 on the paper's edge."""
+    """Return the modes of A0 with the paper's edge."""
     return _free_shapes(model.eta, model.poissons_ratio, count, lagging)
 
 
 @lru_cache(maxsize=64)
 def _free_shapes(eta: float, nu: float, count: int, lagging: bool) -> _Shapes:
-    """The same for h/b and Poisson's ratio; models that differ in all else share it."""
+    """Return the modes of `_free`, which depend on h/b and Poisson's ratio alone."""
     from generated import inertia
     from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
 
@@ -202,27 +202,30 @@ def _free_shapes(eta: float, nu: float, count: int, lagging: bool) -> _Shapes:
 
 
 def _residue(x: Array, root: Array, residue: Array, nu: float, lagging: bool) -> Array:
-    """Of A0, or such that a mode has a thin plate's static compliance."""
+    """Return the residue of A0, or one with the static compliance of a thin plate."""
     if not lagging:
         return residue
     return 0.5 * (root / (x * x * math.sqrt(2.0 / (3.0 * (1.0 - nu))))) ** 2
 
 
 def _modes(model: Model, shapes: _Shapes, held: "Waves | None" = None) -> Modes:
-    """Modes in SI."""
+    """Return modes in SI units."""
     inverse_mass = shapes.strength / (model.density * model.h * model.b * model.b)
     omega = shapes.root * (model.shear_speed / model.h)
     return Modes(shapes.k / model.b, omega, inverse_mass, shapes.first, held, model.b)
 
 
 def _branches(model: Model, lowest: _Shapes, highest: float, without: int = 0) -> _Shapes:
-    """All branches of the paper's edge up to a frequency, but for A0 of the first shapes."""
+    """Return all branches with the paper's edge up to omega h/c_T = `highest`.
+
+    A0 of the first `without` shapes is omitted.
+    """
     from generated.bessel import bessel_j1_at_j0_zeros
     from generated.plate_waves import branches
 
     nu, x = model.poissons_ratio, lowest.k * model.eta
     weight = 1.0 / (np.pi * bessel_j1_at_j0_zeros(x.size)[:, None] ** 2)
-    # At x = 0 branches begin pi/2 apart or wider, and none of them falls by much.
+    # At x = 0 branches are at least pi/2 apart, and none of them decreases by much.
     count = math.ceil(highest / (math.pi / 2.0)) + 2
     bent, stretched = (branches(x, nu, count, kind) for kind in ("antisymmetric", "symmetric"))
     root = np.hstack((lowest.root[:, None], bent[0][:, 1:], stretched[0]))
@@ -236,11 +239,11 @@ def _branches(model: Model, lowest: _Shapes, highest: float, without: int = 0) -
 
 
 def _held_plate(law: ContactLaw, count: int) -> ModalPlate:
-    """A plate whose edge is clamped or simply supported.
+    """Return a plate with a clamped or simply supported edge.
 
-    Held modes exist below the cut-off of their evanescent partner; beyond it modes are those of
-    the paper's edge. The static deflection by a force on a point is that of the law: the first
-    mode takes the difference between the law and the sum over modes.
+    Its modes exist below the cut-off of their evanescent partner; above it, modes of the paper's
+    edge are used. The static deflection by a point force is that of the law, because the compliance
+    of the first mode includes the difference between the law and the sum over the modes.
     """
     model, lagging = law.model, law.viscous
     every = _waves(model)
@@ -269,25 +272,31 @@ def _held_plate(law: ContactLaw, count: int) -> ModalPlate:
 
 
 def _first(shapes: _Shapes, end: int, begin: int = 0) -> _Shapes:
-    """Some shapes of one oscillator each."""
+    """Return some shapes with one mode each."""
     part = slice(begin, end)
     k = shapes.k[part]
     return _Shapes(k, shapes.root[part], shapes.strength[part], np.arange(k.size))
 
 
 def _joined(one: _Shapes, other: _Shapes) -> _Shapes:
-    """Shapes of both, in this order."""
+    """Return the shapes of both, in this order."""
     k, root, strength = (np.concatenate(pair) for pair in zip(one[:3], other[:3], strict=True))
     return _Shapes(k, root, strength, np.concatenate((one.first, one.root.size + other.first)))
 
 
 def _some(waves: "Waves", part: slice) -> "Waves":
-    """Some of the held modes."""
+    """Return some of the modes of a clamped or simply supported plate."""
     return type(waves)(*(values[part] for values in waves))
 
 
 def _waves(model: Model) -> "Waves":
-    """All modes of the model's edge below the cut-off."""
+    """Return all modes of the edge of a model below the cut-off.
+
+    Raises
+    ------
+    SceneError
+        If the plate is too thick for a bending mode of this edge.
+    """
     from generated.edge_modes import THICKEST
 
     if model.eta > THICKEST:
@@ -300,7 +309,7 @@ def _waves(model: Model) -> "Waves":
 
 @lru_cache(maxsize=8)
 def _edge_waves(edge: str, eta: float, nu: float) -> "Waves":
-    """The same for h/b and Poisson's ratio; models that differ in all else share it."""
+    """Return the modes of `_waves`, which depend on edge, h/b and Poisson's ratio alone."""
     from generated.edge_modes import clamped_waves, cutoff, supported_waves
 
     count = math.ceil(cutoff(nu) / (math.pi * eta)) + 1
@@ -309,7 +318,7 @@ def _edge_waves(edge: str, eta: float, nu: float) -> "Waves":
 
 
 def _too_thick(model: Model) -> SceneError:
-    """A held plate so thick that no bending mode of it is known."""
+    """Return the error for a plate too thick for bending modes of its edge."""
     return SceneError(
         f"plate.edge: expected a {model.edge} plate with bending modes, h/b up to about 0.4, got "
         f'h/b = {model.eta:.3g}; write edge = "paper", or effects.inertia = false'
@@ -317,7 +326,7 @@ def _too_thick(model: Model) -> SceneError:
 
 
 def _edge_compliance(law: ContactLaw) -> float:
-    """What the edge adds to the static deflection at the axis by a force on a point [m/N]."""
+    """Return the static deflection per point force that the edge adds at the axis [m/N]."""
     model = law.model
     edge = kernels.supported_edge if model.edge == SUPPORTED else kernels.clamped_edge
     a = SMALL * min(model.h, model.b)
@@ -327,7 +336,7 @@ def _edge_compliance(law: ContactLaw) -> float:
 
 
 def sine_less_one(sine: Array, y: Array) -> Array:
-    """sin(y)/y - 1, given sin(y)."""
+    """Return sin(y)/y - 1 from sin(y)."""
     small = np.abs(y) < 0.1
     found = np.asarray(sine / np.where(small, 1.0, y) - 1.0, dtype=np.float64)
     z = y[small] ** 2

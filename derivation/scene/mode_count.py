@@ -1,4 +1,4 @@
-"""How many modes of a plate follow an impact, and when more of them are too dear."""
+"""Number of plate modes that an impact requires, and its limits."""
 
 import math
 from dataclasses import replace
@@ -12,32 +12,32 @@ from derivation.scene.modal import free_modes
 from derivation.scene.scene import SceneError
 
 PHASE = 12.5
-"""omega_M That/max(1, lambda^(2/3)) of the fastest oscillator, of the run that checks."""
+"""omega That/max(1, lambda^(2/3)) of the fastest mode in the first run."""
 FEWEST, MOST = 2, 3000
-"""Modes of the run that checks, to begin with; the one that counts has twice as many."""
+"""Limits of the number of modes in the first run; the second run has twice as many."""
 MODES, MANY = 6000, 30_000
-"""Most bending modes, and most oscillators of all branches, of the run that counts."""
+"""Largest numbers of bending modes, and of modes of all branches, in the final run."""
 WORK = 6.5e5
-"""Work of a course beyond which its modes are not doubled once more: that may take minutes."""
+"""Work of a run above which the modes are not doubled again: the next run may take minutes."""
 LAST, FURTHER = 8.0, 4.5
-"""Where the change with the modes is no more than this times what is small enough, once more may
-do, and all three limits are so much higher."""
+"""If the change with the number of modes is at most `LAST` times the accepted one, another doubling
+may be sufficient: the three limits are then multiplied by `FURTHER`."""
 
 
 def branching(law: ContactLaw, branches: str) -> ContactLaw:
-    """The same law with other branches."""
+    """Return the law with other wave branches."""
     inertia = replace(law.model.inertia, branches=branches)
     return replace(law, model=replace(law.model, inertia=inertia))
 
 
 @lru_cache(maxsize=64)
 def count_of(law: ContactLaw) -> int:
-    """How many oscillators the run that checks has."""
+    """Return the number of bending modes in the first run."""
     model = law.model
     if model.inertia.modes:
         return model.inertia.modes // 2
     highest = _highest(law)
-    # Modes are counted by their bending: of all branches there are far more oscillators.
+    # Only bending modes are counted; with all branches there are far more modes.
     model = replace(model, inertia=replace(model.inertia, branches="A0"))
     count = FEWEST
     while count < MOST and free_modes(model, count).omega[-1] < highest:
@@ -47,7 +47,7 @@ def count_of(law: ContactLaw) -> int:
 
 
 def _highest(law: ContactLaw) -> float:
-    """Angular frequency [1/s] of the fastest oscillator of the run that checks."""
+    """Return the angular frequency [1/s] that the fastest mode of the first run must reach."""
     model = law.model
     stiffness = 4.0 / 3.0 * law.modulus * math.sqrt(model.R)
     duration = math.pow(model.m / stiffness, 0.4) / math.pow(model.v0, 0.2)
@@ -55,7 +55,7 @@ def _highest(law: ContactLaw) -> float:
 
 
 def affordable(law: ContactLaw) -> int:
-    """How many bending modes the run that checks has: down to half where branches are too many."""
+    """Return the number of bending modes in the first run; up to half fewer with all branches."""
     count = count_of(law)
     if law.model.inertia.modes:
         return count
@@ -66,27 +66,27 @@ def affordable(law: ContactLaw) -> int:
 
 
 def fast(law: ContactLaw, count: int) -> bool:
-    """Whether so many bending modes are as fast as the contact.
+    """Return whether the fastest of a number of bending modes is as fast as the contact.
 
-    Slower ones agree with each other, whatever the truth is.
+    Runs with slower modes may agree although both are wrong.
     """
     lowest = branching(law, "A0").model
     return bool(free_modes(lowest, count).omega[-1] >= _highest(law))
 
 
 def followed(law: ContactLaw, count: int) -> bool:
-    """Whether so many modes are fast enough and can be afforded, or are what the scene says."""
+    """Return whether the modes are fast enough and not too many, or given by the scene."""
     afforded = oscillators(law, count) <= FURTHER * MANY
     return bool(law.model.inertia.modes) or (afforded and fast(law, count))
 
 
 def check_followed(law: ContactLaw, count: int) -> None:
-    """Refuse a contact so short that no affordable number of modes follows it.
+    """Raise an error if a contact is too short for the allowed number of modes.
 
     Raises
     ------
     SceneError
-        If the modes are too slow, and the scene does not say how many there are.
+        If the modes are too slow or too many, and the scene does not give their number.
     """
     inertia = law.model.inertia
     if followed(law, count):
@@ -101,10 +101,10 @@ def check_followed(law: ContactLaw, count: int) -> None:
 
 
 def oscillators(law: ContactLaw, count: int) -> float:
-    """How many oscillators so many bending modes come with, about.
+    """Return the estimated number of modes of all included branches up to the same frequency.
 
-    Of all branches those whose wave numbers along the plate and across it, of shear and of
-    pressure waves, lie within a quarter of a circle.
+    With all branches these are the modes whose wave numbers along and across the plate, of shear
+    and of pressure waves, lie within a quarter of a circle.
     """
     model = law.model
     if model.inertia.branches != "all":
@@ -114,15 +114,15 @@ def oscillators(law: ContactLaw, count: int) -> float:
     return count * (1.0 + 0.5 * highest * (1.0 + model.mu / (model.lam + 2.0 * model.mu)))
 
 
-def too_dear(law: ContactLaw, count: int, work: float, near: bool) -> bool:
-    """Whether twice as many bending modes are more than can be afforded.
+def beyond_limits(law: ContactLaw, count: int, work: float, near: bool) -> bool:
+    """Return whether doubling the number of bending modes exceeds a limit.
 
     Parameters
     ----------
     work
-        That of the course with so many.
+        Work of the run with `count` modes.
     near
-        Whether twice as many may be the last.
+        Whether another doubling may be sufficient, so that the limits are higher.
     """
     more = FURTHER if near else 1.0
     many = oscillators(law, 2 * count) > more * MANY or 2 * count > more * MODES

@@ -31,12 +31,12 @@ _SETTLED = 2e-14
 _STEPS = 60
 _NEWTON = 5
 _CLOSE = 1e-9
-"""A step whose square, the size of the next step, is far below rounding."""
+"""Step below which the next one, of the size of its square, is far below rounding."""
 _CLOSEST = 4e-16
-"""A step of the size of rounding: for non-Hertzian pressure, whose slope is not exact, with weight,
-and on a half-space, whose contact time is the unit of time of plates with inertia."""
+"""Step of the size of rounding, for laws that need it: with non-Hertzian pressure (the slope is not
+exact), with weight, and on a half-space (the contact time is a unit of time)."""
 _ROUNDED = 1e-12
-"""A step below which the iteration ends if the step is not smaller than the one before."""
+"""Step below which the iteration ends if the step is not smaller than the one before."""
 
 
 @dataclass(frozen=True)
@@ -97,20 +97,20 @@ class EnergyBalance:
 
 @dataclass(frozen=True)
 class Motion:
-    """An impact on a quasi-static plate.
+    """The results of an impact, here on a quasi-static plate.
 
     Attributes
     ----------
     contact_time, max_indentation, max_force, max_contact_radius
         Results [s], [m], [N] and [m].
     quadrature
-        Relative change of the results with half the nodes [1].
+        Relative change of the results since a run with fewer nodes [1].
     restitution
         Rebound speed over impact speed [1]; 1 for an elastic contact.
     energy_balance
         Energy balance; None for an elastic contact.
     dent
-        Depth of the dent left by plastic deformation [m].
+        Depth of the dent after a plastic contact [m]; 0 for an elastic one.
     """
 
     contact_time: float

@@ -161,8 +161,8 @@ def bound_of(state: LargestContact, effect: Effect, stretch: Numbers | None = No
 def _bound(state: LargestContact, effect: Effect, stretch: Numbers | None) -> Bound:
     """Compute the bound of an effect.
 
-    Damping acts over the whole contact; its bound is that on a quasi-static plate, and is one of
-    the results alone: of the law's slope nothing changes at any radius.
+    Damping does not change the slope of the law at any radius. Its bound is one of the results
+    alone, and is computed on a quasi-static plate.
     """
     if effect.damps and state.law.dynamic:
         still = state_of(state.law.only(lambda e: not (e.dynamic or e.damps)))
@@ -206,7 +206,7 @@ def error_of(state: LargestContact, effects: Sequence[Effect], outputs: Sequence
 
 
 def errors_of(state: LargestContact, effects: Sequence[Effect], outputs: Sequence[str]) -> Array:
-    """Return the same for one scene, or for many as a column."""
+    """Return the bounds of `error_of` for one scene, or for many as a column."""
     if not effects:
         return np.zeros_like(state.growth)
     lost = np.isnan(state.a)
@@ -291,7 +291,7 @@ def size_of(state: LargestContact, effect: Effect, outputs: Sequence[str]) -> fl
 
 
 def sizes_of(state: LargestContact, effect: Effect, outputs: Sequence[str]) -> Array:
-    """Return the same for one scene, or for many as a column."""
+    """Return the sizes of `size_of` for one scene, or for many as a column."""
     error = errors_of(state, [effect], outputs)
     if np.isfinite(error).all():
         return error

@@ -1,4 +1,4 @@
-"""Oscillators of a plate, damped or not: their free motion and their response to a force.
+"""Free motion of plate modes and their response to a force, with or without damping.
 
 With the damping ratio zeta, root^2 = 1 - zeta^2 and c, s the cosine and sine of root omega t,
 
@@ -7,8 +7,8 @@ With the damping ratio zeta, root^2 = 1 - zeta^2 and c, s the cosine and sine of
     impulse at time u    omega q(t) = moved_sin(t) drive_cos(u) - moved_cos(t) drive_sin(u),
                          q'(t) = rate_cos(t) drive_cos(u) + rate_sin(t) drive_sin(u).
 
-Without damping all of these are c and s, of which each is computed once. With damping they are
-those of `generated.damping_kernels`.
+Without damping all factors follow from c and s, each of which is computed once. With damping
+`generated.damping_kernels` computes them.
 """
 
 from dataclasses import dataclass
@@ -23,9 +23,9 @@ from derivation.scene.modal import sine_less_one
 
 @dataclass(frozen=True)
 class FreeMotion:
-    """Free motion by phases omega t, see above; no part loses digits at small phases.
+    """Factors of the free motion at phases omega t (see above), each computed at its first use.
 
-    Each part is computed when it is first asked for.
+    They are free of cancellation at small phases.
     """
 
     phase: Array
@@ -33,28 +33,29 @@ class FreeMotion:
 
     @cached_property
     def by_q(self) -> Array:
-        """1 - q/q_0 of a displacement."""
+        """1 - q/q_0 after an initial displacement [1]."""
         return -self._damped[0] if self.damping_ratio else self._turned[0]
 
     @cached_property
     def by_rate(self) -> Array:
-        """q/(t q_0') - 1 of a velocity."""
+        """q/(t q_0') - 1 after an initial velocity [1]."""
         if self.damping_ratio:
             return self._damped[1]
         return sine_less_one(self.sin, self.phase)
 
     @cached_property
     def sin(self) -> Array:
-        """omega q/q_0' of a velocity, and -q'/(omega q_0) of a displacement."""
+        """omega q/q_0' after an initial velocity; -q'/(omega q_0) after a displacement [1]."""
         return -self._damped[2] if self.damping_ratio else self._turned[1]
 
     @cached_property
     def cos(self) -> Array:
-        """q'/q_0' of a velocity."""
+        """q'/q_0' after an initial velocity [1]."""
         return self._damped[3] if self.damping_ratio else 1.0 - self._turned[0]
 
     @cached_property
     def _turned(self) -> tuple[Array, Array]:
+        """1 - cos and sin of the phase [1]."""
         return versed_and_sine(self.phase / 2.0)
 
     @cached_property
@@ -75,9 +76,9 @@ def versed_and_sine(half: Array) -> tuple[Array, Array]:
 
 
 class Response(NamedTuple):
-    """What makes up the response to an impulse, see above, shape (times, 2, oscillators).
+    """Factors of the response to an impulse (see above), shape (times, 2, modes).
 
-    `moved` holds moved_sin and -moved_cos, `rate` and `drive` their cosine and their sine.
+    `moved` contains moved_sin and -moved_cos; `rate` and `drive` contain their cosine and sine.
     """
 
     moved: Array
@@ -86,20 +87,20 @@ class Response(NamedTuple):
 
     @classmethod
     def empty(cls, shape: tuple[int, int], damping_ratio: float) -> Self:
-        """Room for values; without damping `rate` is `drive`."""
+        """Return factors without values; without damping `rate` and `drive` share memory."""
         times, oscillators = shape
         moved, *others = np.empty((3 if damping_ratio else 2, times, 2, oscillators))
         return cls(moved, others[0], others[-1])
 
     def of(self, part: slice) -> Self:
-        """The same of some oscillators."""
+        """Return views of the factors of some modes."""
         return type(self)(*(values[..., part] for values in self))
 
 
 def response_at(
     since: Array, omega: Array, damping_ratio: float, response: Response, part: slice
 ) -> tuple[Array, Array]:
-    """Fill in the response of some oscillators at times; return `by_q` and `by_rate` there."""
+    """Fill in the response of some modes at times; return `by_q` and `by_rate` at them."""
     of = response.of(part)
     if damping_ratio:
         from generated.damping_kernels import response as damped

@@ -41,12 +41,12 @@ class Rows:
     Attributes
     ----------
     results
-        By the names of `UNITS` (contact_time ... max_tensile_stress), in SI; NaN where there is
-        none.
+        Columns by the names of `UNITS` (contact_time ... max_tensile_stress), in SI units; NaN
+        without a result.
     bound
-        Bound of the relative error of each row [1]; NaN where there is none.
+        Bound on the relative error of each row [1]; NaN without a result.
     model_error
-        Largest relative error of the model itself [1], as of `Result`; NaN where there is none.
+        Largest relative error of the model itself [1], as in `Result`; NaN without a result.
     status
         "finished", "incomplete" or "refused".
     reason
@@ -71,23 +71,23 @@ def solve(
     Parameters
     ----------
     scene
-        Everything that the columns do not give.
+        The scene with all other keys.
     columns
-        Numbers in SI by key, `table.key` or `materials.NAME.key`: arrays of the same length, with
-        a row for each scene. A key replaces those that it stands in for, such as half_thickness
-        thickness.
+        Numbers in SI units by key, `table.key` or `materials.NAME.key`: arrays of the same length,
+        with a row for each scene. A key replaces the keys of the scene that it excludes: for
+        example, half_thickness replaces thickness.
     rtol
-        As `simulate` takes it.
+        Relative tolerance of the results [1], as for `simulate`.
 
     Returns
     -------
     Rows
-        What `simulate` returns for the scene of each row.
+        The results of `simulate` for the scene of each row; an invalid row is refused.
 
     Raises
     ------
     SceneError
-        If a key is none of a scene file, or the columns differ in length.
+        If a key is not a numeric key of a scene file, or the columns differ in length.
     """
     given = {place: np.asarray(values, dtype=np.float64) for place, values in columns.items()}
     lengths = {values.shape for values in given.values()}
@@ -211,7 +211,7 @@ class _Block:
             }
             known = np.all([np.isfinite(x) & (x > 0.0) for x in list(numbers.values())[:4]], axis=0)
             known &= np.broadcast_to(a < law.limit, a.shape)[:, 0]
-        if rtol is not None:  # others are refused, or nearly so
+        if rtol is not None:  # other rows do not meet the tolerance, or only just
             known &= bound <= rtol - ROUNDING
         model_error = np.zeros(len(rows))
         if law.other_edge:

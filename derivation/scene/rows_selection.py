@@ -65,9 +65,9 @@ def selected(
     wanted
         "auto", True or False by effect.
     rtol
-        What the effects omitted may change at most, of each row [1].
+        Largest relative change by the omitted effects, of each row [1].
     outputs
-        The results it applies to.
+        The results that the tolerance applies to.
     """
     found: list[Group] = []
     for rows in _alike(model, len(rtol)):
@@ -78,7 +78,7 @@ def selected(
             continue
         present = {effect.name for effect in given.present}
         if present & WHOLE_PLATE:
-            _ = part.correction  # known then to all parts of it
+            _ = part.correction  # cached, also for all parts of the model
         if present & WHOLE_PLATE and not present <= PAPER:  # the paper's law has its own function
             _ = part.plates
         if any(effect.other_edge for effect in given.present) and part.edge == SUPPORTED:
@@ -155,7 +155,7 @@ def _errors(
     state, open_ = state_of(law), given.left(law.effects)
     error, fine = errors_of(state, open_, outputs)[:, 0], np.ones(len(rtol))
     for effect in open_:
-        if effect.name in given.blocked:  # refused, as `check_omitted` may say
+        if effect.name in given.blocked:  # `check_omitted` may refuse such a row
             fine *= errors_of(state, [effect], outputs)[:, 0] <= rtol
     candidates = [effect for effect in open_ if effect.name not in given.blocked]
     if len(candidates) < 2 or (error <= rtol).all():

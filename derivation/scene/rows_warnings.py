@@ -49,11 +49,11 @@ def warnings_of_rows(
     law
         The law of all rows, with columns of numbers.
     results
-        By name, of all rows.
+        Columns of results by name, of all rows.
     strength
         Tensile strength of the plate [Pa], if it is given.
     rows
-        Numbers of the rows.
+        Indices of the rows.
     """
     known = _numbers(law.take(rows), {name: values[rows] for name, values in results.items()})
     known["strength"] = np.full(len(rows), np.inf)

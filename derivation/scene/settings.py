@@ -66,7 +66,8 @@ class Inertia(Table):
         "variational", the default: the indentation is a weighted mean of the gap, and energy is
         conserved; or "pointwise": the indentation is the gap at the axis.
     extent
-        "finite", the default: a plate with an edge; or "infinite": no wave returns from the edge.
+        "finite", the default: a plate with an edge; or "infinite": no wave returns from the edge,
+        and radius and edge of the plate have no effect.
 
     Examples
     --------

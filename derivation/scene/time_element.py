@@ -1,14 +1,14 @@
 """Time integration of one contact with plate inertia: a single collocation element.
 
-With z the sphere's displacement, q_j the sum of the oscillators of shape j (see `modal`) and A_v
-the retardation time of the contact,
+With z the displacement of the sphere, q_j the sum of the modes of shape j (see `modal`) and A_v the
+retardation time of the contact,
 
     m z'' = m g - P,   P = P_e + A_v dP_e/dt >= 0,   z = quasi-static(a) + sum s_j q_j
 
-On an element of x = (t/T)^(1/6), t since the contact began, da/dx is a polynomial through Radau's
-nodes. The response of a shape to its force is an integral over the sines of its oscillators. At
-the nodes this is a matrix, made once per element: no oscillator is stepped, and the only unknowns
-are the contact radii.
+On an element in x = (t/T)^(1/6), with t the time since first contact, da/dx is a polynomial through
+Radau's nodes. The response of a shape to its force is an integral over the sines of its modes. At
+the nodes it is a matrix, computed once per element: no mode is integrated in time steps, and the
+only unknowns are the contact radii.
 """
 
 import math
@@ -23,17 +23,17 @@ from derivation.scene.oscillators import Response, response_at
 from derivation.scene.yielding import Yielding
 
 A, V, Z, P, W, E, LOST, LEAK, DAMPED = range(9)
-"""Rows of an element: radius, velocity, displacement, force, the plate's deflection and energy, and
-per x the energy lost in the contact, by the pointwise coupling and by the plate's damping."""
+"""Rows of an element: radius, velocity, displacement, force, deflection and energy of the plate;
+per x the energies lost in the contact, by the pointwise coupling and by damping of the plate."""
 
 
 class Nodes(NamedTuple):
-    """An element's nodes, with what does not depend on its radii.
+    """The nodes of an element, with all quantities that do not depend on its radii.
 
-    x, times since the contact and since the element began, dt/dx; integrals from the element's
-    start to each node over x, over t and twice over t; the oscillators part by part, what makes up
-    their response, and their free motion; and of each shape the sum of its oscillators' free
-    motion, and what of it is even in time: position and velocity at the start.
+    x; times since the start of the contact and of the element; dt/dx; matrices of the integrals
+    from the start of the element over x, over t and twice over t; the modes in parts, their
+    response and their free motion less uniform motion; and for each shape the sum of that over its
+    modes, and the uniform motion from position and velocity at the start.
     """
 
     x: Array
@@ -51,7 +51,7 @@ class Nodes(NamedTuple):
 
 
 class Values(NamedTuple):
-    """What is at the nodes for a radius and its slope y; q and the forces of each shape."""
+    """Quantities at the nodes for radii a with slopes y; q and `felt` are those of each shape."""
 
     a: Array
     y: Array
@@ -69,9 +69,9 @@ class Values(NamedTuple):
 
 
 class TimeElement(NamedTuple):
-    """An element with its end: state, radius, and the force that drives each shape there.
+    """A time element, and at its end the state, the radius and the force that drives each shape.
 
-    `yielding` is the branch that a contact which yields was on.
+    `yielding` is the branch of a plastic contact in the element.
     """
 
     element: Element
@@ -82,7 +82,7 @@ class TimeElement(NamedTuple):
 
 
 def nodes_of(problem: DynamicProblem, n: int, x: float, length: float, start: ImpactState) -> Nodes:
-    """The nodes of an element."""
+    """Return the nodes of an element, with the response of the modes."""
     rule, modes = radau(n), problem.contact.modes
     xs = x + length * rule.x
     t, rate = xs**ONSET, ONSET * xs ** (ONSET - 1)
@@ -106,9 +106,9 @@ def nodes_of(problem: DynamicProblem, n: int, x: float, length: float, start: Im
 
 
 def _driven_waves(problem: DynamicProblem, nodes: Nodes, part: Part, driven: Array) -> Array:
-    """Cosine and sine of oscillators under forces of their shapes, shape (nodes, 2, oscillators).
+    """Return cosine and sine of modes under forces of their shapes, shape (nodes, 2, modes).
 
-    Their deflection is the sum of both times `moved`.
+    The deflection is the sum of both, each multiplied by `moved`.
     """
     n, some = nodes.t.size, part.oscillators
     force = part.by_oscillator(driven[:, part.shapes]) * problem.strength[some]
@@ -117,7 +117,7 @@ def _driven_waves(problem: DynamicProblem, nodes: Nodes, part: Part, driven: Arr
 
 
 def _bent(problem: DynamicProblem, nodes: Nodes, driven: Array) -> Array:
-    """Deflection of each shape at the nodes by forces there."""
+    """Return the deflection of each shape at the nodes by forces at the nodes."""
     found = np.empty_like(driven)
     for part in nodes.parts:
         waves = _driven_waves(problem, nodes, part, driven)
@@ -127,7 +127,7 @@ def _bent(problem: DynamicProblem, nodes: Nodes, driven: Array) -> Array:
 
 
 def _bent_by(problem: DynamicProblem, nodes: Nodes, share: Array, driven: Array) -> Array:
-    """Deflections at the nodes, each shape's times its share, per force at each of the nodes."""
+    """Return the sum of weighted deflections at each node, per contact force at each node."""
     n = nodes.t.size
     found = np.zeros((n, n))
     for part in nodes.parts:
@@ -142,7 +142,7 @@ def _bent_by(problem: DynamicProblem, nodes: Nodes, share: Array, driven: Array)
 def values_at(
     problem: DynamicProblem, nodes: Nodes, start: ImpactState, radius: float, y: Array
 ) -> Values:
-    """Forces, depths and deflections at the nodes, for a slope da/dx there."""
+    """Return forces, depths and deflections at the nodes for a slope da/dx at the nodes."""
     a = radius + nodes.by_x @ y
     at = problem.at(problem.a * a)
     load, load_a, load_y = (
@@ -159,7 +159,7 @@ def values_at(
     force, driven = load[:, 0], load[:, 1:]
     slowed = nodes.by_t @ force
     fallen = 0.5 * problem.weight * nodes.since**2 - nodes.twice @ force
-    # Uniform motion is taken apart: sphere and plate may part far slower than they move.
+    # Uniform motion is separated: the separation speed may be far below both speeds.
     bent = nodes.moved + _bent(problem, nodes, driven)
     q = nodes.even + bent
     return Values(
@@ -188,7 +188,7 @@ def element(
     radius: float,
     y: Array,
 ) -> TimeElement | None:
-    """An element, by Newton's iteration from a guess of da/dx; None if it does not converge."""
+    """Return an element by Newton's iteration from a guess of da/dx; None without convergence."""
     nodes, size, last = nodes_of(problem, n, x, length, start), math.inf, False
     order = 1 if problem.retardation_time else 2
     for _ in range(NEWTON):
@@ -209,7 +209,7 @@ def element(
 
 
 def _system(problem: DynamicProblem, nodes: Nodes, at: Values) -> Array:
-    """Slope of depth less displacement by da/dx at the nodes."""
+    """Return the derivative of depth less approach with respect to da/dx, at the nodes."""
 
     def by_load(load: Array) -> Array:
         moved = _bent_by(problem, nodes, at.share, load[:, 1:])
@@ -222,10 +222,10 @@ def _system(problem: DynamicProblem, nodes: Nodes, at: Values) -> Array:
 
 
 class Driven(NamedTuple):
-    """The oscillators under a force: deflections and velocities at the end of an element.
+    """The modes under a force: deflections and velocities at the end of an element.
 
-    At its nodes their energy, the power that damping takes and, where they are asked for, the
-    velocities of each shape; else 0.
+    At the nodes: energy of the modes, power dissipated by damping and, if requested, the velocity
+    of each shape.
     """
 
     q: Array
@@ -238,7 +238,7 @@ class Driven(NamedTuple):
 def _driven(
     problem: DynamicProblem, nodes: Nodes, start: ImpactState, felt: Array, by_shape: bool
 ) -> Driven:
-    """The oscillators under the forces of each shape."""
+    """Return the motion of the modes under the forces of each shape."""
     modes, (end, end_rate) = problem.contact.modes, np.empty((2, problem.omega.size))
     energy, damped = np.zeros((2, nodes.t.size))
     rates = np.empty(nodes.free.shape if by_shape else (1, 0))
@@ -272,7 +272,7 @@ def _driven(
 def _piece(
     problem: DynamicProblem, nodes: Nodes, at: Values, start: ImpactState, x: float, length: float
 ) -> TimeElement:
-    """The element as polynomials, and its end."""
+    """Return the element as polynomials, with its end."""
     force, viscous, pointwise = at.force, at.load_y is not None, problem.contact.pointwise
     driven = _driven(problem, nodes, start, at.felt, viscous or pointwise)
     lost, leak = np.zeros_like(force), np.zeros_like(force)
@@ -289,5 +289,5 @@ def _piece(
     end = ImpactState(
         float(at.z[-1]), float(at.v[-1]), driven.q, driven.q_dot, float(at.approach[-1])
     )
-    # A row of its own: a view of the last would keep all rows of the nodes in memory.
+    # A copy, because a view of the last row would keep all rows in memory.
     return TimeElement(made, end, float(at.a[-1]), at.felt[-1].copy(), problem.yielding)

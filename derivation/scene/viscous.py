@@ -78,7 +78,7 @@ class ViscousProblem:
     Attributes
     ----------
     curve, bending
-        The contact law, and its elastic part.
+        The contact law, and its elastic part, the bending of the plate.
     a, T
         Units of radius [m] and time [s]; those of velocity, depth and force are v0, v0 T and
         m v0/T.

@@ -42,7 +42,7 @@ class Curve:
 
 @dataclass(frozen=True)
 class TabulatedCurve(Curve):
-    """The same by polynomials of a/top for force/x^3 and depth/x^2, which are faster."""
+    """Force and indentation by faster polynomials of x = a/top, for force/x^3 and depth/x^2."""
 
     top: float
     table: Array
@@ -57,7 +57,7 @@ class TabulatedCurve(Curve):
 
 
 def tabulated(x: Array, *values: Array) -> Array:
-    """Return Chebyshev coefficients of polynomials through values at x in [0, 1], and of slopes."""
+    """Return Chebyshev coefficients of values at x in [0, 1] by least squares, and of slopes."""
     rows = np.array([chebfit(2.0 * x - 1.0, row, DEGREE) for row in values])
     slopes = np.zeros_like(rows)
     slopes[:, :-1] = 2.0 * chebder(rows, axis=1)

@@ -1,4 +1,4 @@
-"""The history of an impact on a plate with inertia: contacts, time histories, energy balance."""
+"""Results of an impact on a plate with inertia: contacts, time history, energy balance."""
 
 import math
 from collections.abc import Sequence
@@ -25,16 +25,16 @@ from derivation.scene.scene import OUTPUTS
 from derivation.scene.time_element import DAMPED, A, E, P, V, W, Z, nodes_of, values_at
 
 IRREGULAR = 2.0
-"""What modes left out may change, over what half of those there are did."""
+"""Estimated error of the omitted modes over the change since half as many modes [1]."""
 LOOKS = 2001
-"""Times at which a contact's force is looked at."""
+"""Number of times at which the force of a contact is evaluated."""
 FLIGHT = 129
-"""Times at which the plate is looked at while nothing touches it: a peak is missed by 1 %."""
+"""Number of times at which the plate is evaluated in flight; a peak is underestimated by 1 %."""
 HEADS = (
     "#start [s]", "#end [s]", "#impulse [N s]", "#peak force [N]",
     "#approach speed / impact speed",
 )  # fmt: skip
-"""Heads of the table of contacts."""
+"""Column heads of the table of contacts."""
 
 
 class ContactInterval(NamedTuple):
@@ -43,13 +43,13 @@ class ContactInterval(NamedTuple):
     Attributes
     ----------
     start, end
-        When, since the first contact began [s].
+        Times since first contact [s].
     impulse
-        Of the contact force [N s].
+        Impulse of the contact force [N s].
     peak_force
         Largest contact force [N].
     relative_approach_speed
-        Speed at which sphere and plate meet over the impact speed [1].
+        Speed at which sphere and plate meet, over the impact speed [1].
     """
 
     start: float
@@ -61,27 +61,28 @@ class ContactInterval(NamedTuple):
 
 @dataclass(frozen=True)
 class InertiaDetails:
-    """Results of an impact with plate inertia that no other impact has.
+    """Details of an impact with plate inertia.
 
     Attributes
     ----------
     contacts
-        Every contact, the first one first.
+        All contacts, in order.
     total_time
-        From the first contact to the last release [s].
+        Time from first contact to last separation [s].
     end_reason
-        Why the simulation ends there.
+        Why the simulation ends.
     remedy
-        What to change so that an incomplete simulation ends; empty if it is complete.
+        What to change so that an incomplete simulation becomes complete; empty if it is complete.
     modes
-        How many oscillators the plate has.
+        Number of dynamic modes, of all included branches.
     energies
-        Energy left in each of them [J].
+        Energy of each mode after the last separation [J].
     mode_convergence
-        Relative change of each result with the number of modes [1]; infinite if that says nothing,
-        as of modes that are slower than the contact.
+        Relative change of each result since the run with half as many modes [1]; infinite if there
+        is no estimate, for example if all modes are slower than the contact.
     omitted_branch_error
-        Estimated change of each result by the omitted wave branches [1].
+        Estimated relative change of each result by the omitted wave branches [1]; 0 if all
+        branches are included.
     """
 
     contacts: tuple[ContactInterval, ...]
@@ -99,7 +100,7 @@ class InertiaDetails:
         return not self.remedy
 
     def left(self, outputs: Sequence[str]) -> tuple[float, float]:
-        """What modes and branches left out may change, the worst of some results [1]."""
+        """Return the largest estimated errors of outputs by omitted modes and by branches [1]."""
         places = [OUTPUTS.index(name) for name in outputs]
         modes = max(self.mode_convergence[k] for k in places)
         return IRREGULAR * modes, max(self.omitted_branch_error[k] for k in places)
@@ -123,7 +124,7 @@ class DynamicImpact(Motion):
 
     @property
     def least(self) -> float:
-        """Smallest force between two maxima of a contact, over the largest; 1 if there is none."""
+        """Smallest force between two maxima in a contact, over the peak force [1]; 1 if none."""
         found = [1.0]
         for rows in self._touching:
             force = rows[P] / self.max_force
@@ -132,11 +133,11 @@ class DynamicImpact(Motion):
         return min(found)
 
     def largest_deflection(self, law: ContactLaw) -> float:
-        """Largest deflection of the plate at the axis [m], either way.
+        """Return the largest deflection of the plate at the axis [m], in either direction.
 
-        That of its modes, or while they touch the sphere's displacement less its indentation of
-        a half-space if that is more; also in flight, and for one period of the slowest mode
-        after the last contact.
+        During contact it is that of the modes or, if larger, the displacement of the sphere less
+        the local indentation. It includes flight, and one period of the slowest mode after the
+        last contact.
         """
         problem, found = self.impact_history.problem, 0.0
         slowest = float(np.min(problem.omega, initial=np.inf))
@@ -156,7 +157,7 @@ class DynamicImpact(Motion):
         return found
 
     def to_json(self) -> dict[str, Any]:
-        """Contacts, energies and error estimates under fixed keys."""
+        """Return contacts, energies and error estimates under fixed keys, in SI units."""
         inertia, balance = self.inertia, self.energy_balance
         return {
             "total_time": inertia.total_time,
@@ -174,11 +175,11 @@ class DynamicImpact(Motion):
         }
 
     def lines(self) -> list[tuple[str, ...]]:
-        """Start, end, impulse, peak force and relative approach speed of every contact."""
+        """Return the cells of each contact, under `HEADS`."""
         return [tuple(f"{value:.6g}" for value in touch) for touch in self.inertia.contacts]
 
     def notes(self) -> tuple[str, ...]:
-        """The energy balance and the end of the simulation in sentences."""
+        """Return the energy balance and the end of the simulation as sentences."""
         balance, inertia = self.energy_balance, self.inertia
         energies = (
             f"Final energy: {balance.in_words()} (of the initial kinetic energy); "
@@ -198,19 +199,19 @@ class DynamicImpact(Motion):
         return energies, ended + f"{counted(inertia.modes, 'mode')} ({branches}); {change}."
 
     def to_html(self) -> str:
-        """The contacts and where the energy went, for a notebook."""
+        """Return the contacts and the energy balance for a notebook."""
         notes = "".join(f"<p>{escape(note)}</p>" for note in self.notes())
         return html_table(HEADS, self.lines()) + notes
 
     _repr_html_ = to_html
 
     def history(self, law: ContactLaw, times: Array) -> tuple[Array, Array, Array, Array]:  # noqa: ARG002
-        """Way of the sphere [m], velocity [m/s], contact radius [m] and force [N] at times [s]."""
+        """Return indentation [m], velocity [m/s], contact radius [m] and force [N] at times [s]."""
         rows = self.rows(times)
         return rows[Z], rows[V], rows[A], rows[P]
 
     def rows(self, times: Array) -> Array:
-        """Everything at times [s], in SI: the rows of `time_element`, energies in J."""
+        """Return the rows of `time_element` at times [s]; in SI units without those of losses."""
         problem, t = self.impact_history.problem, np.asarray(times, dtype=np.float64)
         found = np.zeros((DAMPED + 1, t.size))
         starts = np.array([touching.start for touching in self.impact_history.contacts])
@@ -228,7 +229,7 @@ class DynamicImpact(Motion):
         return found * units[:, None]
 
     def profiles(self, times: Array, r: Array) -> Array:
-        """Deflection [m] of the plate's modes at times [s] (rows) and distances [m] (columns)."""
+        """Return deflections [m] of the modes at times [s] (rows) and distances [m] (columns)."""
         problem = self.impact_history.problem
         shapes = problem.contact.modes.shapes(r)
         found = [deflections(self.impact_history, float(t) / problem.T) @ shapes for t in times]
@@ -236,7 +237,7 @@ class DynamicImpact(Motion):
 
 
 def deflections(history: ImpactHistory, t: float) -> Array:
-    """Deflection of every shape at the axis at a time, in units of the problem."""
+    """Return the deflection of each shape at the axis at a time, in units of the problem."""
     problem = history.problem
     starts = [touching.start for touching in history.contacts]
     touching = history.contacts[max(int(np.searchsorted(starts, t, side="right")) - 1, 0)]
@@ -255,7 +256,7 @@ def deflections(history: ImpactHistory, t: float) -> Array:
 def oscillating(
     problem: DynamicProblem, found: Element, start: ImpactState, radius: float, x: float
 ) -> Array:
-    """Deflection of each shape at a place of an element, where a shorter one would end."""
+    """Return the deflection of each shape at x, computed as the end of a shorter element."""
     if x <= found.x:
         return problem.contact.modes.by_shape(start.q)
     length = min(x - found.x, found.length)
@@ -265,7 +266,7 @@ def oscillating(
 
 
 def rows_of(problem: DynamicProblem, touching: contact_sequence.ContactRun, t: Array) -> Array:
-    """The rows in a contact and in the flight after it, at times in units of the problem."""
+    """Return the rows in a contact and in the flight after it, at times in problem units."""
     found = np.zeros((DAMPED + 1, t.size))
     pieces, inside = touching.pieces, t <= touching.end
     starts, lengths = np.array([(one.element.x, one.element.length) for one in pieces]).T

@@ -1,10 +1,10 @@
-"""Impact on a plate with inertia: its oscillators, its contacts, and where the energy goes.
+"""Simulates an impact on a plate with inertia, with a sufficient number of modes and branches.
 
-The modes up to some frequency are oscillators (see `modal`), the others respond quasi-statically.
-With twice as many the impact is computed again, and that is the result: the difference is the
-estimated error of the omitted modes. Where the branches beyond the first are worth more than the
-tolerance, all of them oscillate. An infinite plate is one so large that no wave can return from
-its edge while the sphere is in contact.
+The modes up to some frequency are dynamic (see `modal`); the others respond quasi-statically. The
+impact is computed again with twice as many modes, and the second run is the result. The difference
+is the estimated error of the omitted modes. If the higher branches may change the results by more
+than the tolerance, all branches are dynamic. An infinite plate is one so large that no wave returns
+from its edge during the contacts.
 """
 
 import math
@@ -24,12 +24,12 @@ from derivation.scene.modal import ModalPlate, Modes, plate_of
 from derivation.scene.mode_count import (
     LAST,
     affordable,
+    beyond_limits,
     branching,
     check_followed,
     count_of,
     fast,
     followed,
-    too_dear,
 )
 from derivation.scene.model import Model
 from derivation.scene.scene import OUTPUTS, SceneError
@@ -37,26 +37,26 @@ from derivation.scene.wave_motion import DynamicImpact
 from derivation.scene.yielding import units_of, yielding_of
 
 NODES, MANY = (32, 24, 16), (500, 5000)
-"""Nodes of an element, and numbers of oscillators above which an element has fewer."""
+"""Nodes of an element, and numbers of modes above which an element has fewer nodes."""
 FEWER = 2
 """Difference in the number of nodes between a run and the coarser one that checks it."""
 WIDEST = 30.0
-"""How much larger than the first guess an infinite plate is made, to wait for a contact's end."""
+"""Largest radius that represents an infinite plate, over the first guess of `model_of`."""
 LOOSE, SHARE = 3e-4, 1.0 / 3.0
-"""Change with the number of modes that is small enough: where no tolerance is given [1], and of
-one that is given."""
+"""Largest accepted change with the number of modes: without a tolerance [1], and as a fraction of a
+tolerance."""
 HEAVY, IN_CONTACT = 10.0, 0.7
-"""Sphere mass over that of the plate's first mode above which the plate acts as a spring, and the
-least fraction of its half period in contact; random scenes have at least 0.77."""
+"""Sphere mass over mass of the first mode above which the plate acts as a spring, and the least
+fraction of half its period in contact; random scenes have at least 0.77."""
 INTEGRATION, GROWTH, ROUNDING = 10.0, 1e-12, 2e-12
-"""Tested bounds: error of the results over the tolerance of the time elements and the number of
-contacts; rounding that the contacts amplify over the cube of their number; other rounding [1]."""
+"""Tested bounds [1]: error of the results over the tolerance of the time elements and the number of
+contacts; rounding error amplified by contacts, over the cube of their number; other rounding."""
 WORK = 4e7
-"""Work of all runs of an impact, as `contact_sequence` counts that of one."""
+"""Largest work of all runs of an impact, in the units of `contact_sequence.WORK`."""
 
 
 def goal(rtol: float | None) -> float:
-    """How much the modes left out may change, of a tolerance of everything [1]."""
+    """Return the largest accepted change with the number of modes [1] for a tolerance."""
     return LOOSE if rtol is None else SHARE * rtol
 
 
@@ -76,9 +76,9 @@ def integration_error(history: ImpactHistory) -> float:
 
 
 def _integration_error(problem: DynamicProblem, tolerance: float, contacts: int = 1) -> float:
-    """Return that bound; elements may resolve the force of a viscoelastic contact less well.
+    """Return that bound; it is larger for the less accurate force of a viscoelastic contact.
 
-    Every contact adds errors, and a small change of one changes the next ones more.
+    Every contact adds errors, and each contact amplifies the errors of those before it.
     """
     viscous = problem.retardation_time > 0.0
     each = (contact_sequence.ROUGH if viscous else INTEGRATION) * tolerance
@@ -87,7 +87,7 @@ def _integration_error(problem: DynamicProblem, tolerance: float, contacts: int 
 
 @dataclass
 class Budget:
-    """Work that the runs of an impact may still take together."""
+    """Remaining work of all runs of an impact together, in the units of `WORK`."""
 
     left: float
 
@@ -96,23 +96,25 @@ class Budget:
 def impact(
     law: ContactLaw, goal: float = LOOSE, outputs: tuple[str, ...] = OUTPUTS
 ) -> DynamicImpact:
-    """The impact by a law with inertia.
+    """Return the impact by a law with inertia.
+
+    If a contact after the first cannot be computed to its end, the impact is incomplete.
 
     Parameters
     ----------
     goal
-        Relative change of the results with the number of modes that is small enough: while it
-        is larger the modes are doubled, unless the scene says how many there are. If the scene
-        leaves the branches open, all of them oscillate where those beyond the first are worth
-        more.
+        Largest accepted relative change of the results with the number of modes [1]. The number is
+        doubled while the change is larger, unless the scene gives the number. If the scene gives
+        no branches, all are included if the higher ones may change the results by more than the
+        goal leaves of the tolerance.
     outputs
-        The results that it applies to.
+        The results that the goal applies to.
 
     Raises
     ------
     SceneError
-        If an impact on a plate that does not deflect exceeds the law's range, or the first contact
-        cannot be followed to its end. If a later one cannot, the impact is incomplete.
+        If an impact on a plate that does not deflect exceeds the range of the law, the modes of the
+        plate are too slow or too many, or the first contact cannot be computed to its end.
     """
     _check_heavy(law)
     budget = Budget(WORK)
@@ -134,12 +136,13 @@ def impact(
 def _branched(
     law: ContactLaw, goal: float, outputs: tuple[str, ...], budget: Budget
 ) -> tuple[ContactLaw, DynamicImpact | None]:
-    """The law with all branches if those beyond the first may change more than the goal leaves.
+    """Return the law with all branches if the higher ones matter, else with the lowest branch.
 
-    A rough run tells, of the first branch alone, which is returned too if it is enough. What its
-    first contact says is less than the whole says. Besides the branches the tolerance covers the
-    modes, which take up the goal. Branches cannot be taken where the contact is so short that
-    there would be too many.
+    They matter if their estimated change exceeds what the goal for the modes leaves of the
+    tolerance. The estimate follows from a rough run with the lowest branch, and at first from its
+    first contact alone, which is a lower bound. The rough run is also returned if the lowest branch
+    is sufficient. If the contact is so short that there would be too many modes, the lowest branch
+    is used.
     """
     every, lowest, close = branching(law, "all"), branching(law, "A0"), time_tolerance(goal)
     if not followed(every, 2 * affordable(every)):
@@ -190,7 +193,7 @@ def _check_heavy(law: ContactLaw) -> None:
 
 
 def _edge_heard(found: DynamicImpact) -> bool:
-    """Whether a wave may have come back from the edge before the last contact ended."""
+    """Return whether a wave may have returned from the edge before the last contact ended."""
     model, problem = found.law.model, found.impact_history.problem
     return problem.T * found.impact_history.contacts[-1].end > echo_time(model)
 
@@ -202,14 +205,17 @@ def _converged(
     budget: Budget,
     known: DynamicImpact | None = None,
 ) -> DynamicImpact:
-    """The impact with as many modes as it takes, or as can be afforded.
+    """Return the impact with as many modes as the goal requires, or as the limits allow.
 
-    The run with the fewest may be known.
+    Parameters
+    ----------
+    known
+        The run with the fewest modes, if it has been computed.
     """
     count, close = affordable(law), time_tolerance(goal)
     check_followed(law, 2 * count)
     rough = known or _run(law, count, budget, close, FEWER)
-    if not rough.inertia.complete:  # and no finer run would be
+    if not rough.inertia.complete:  # a finer run would not be complete either
         return rough
     best: DynamicImpact | None = None
     while True:
@@ -218,7 +224,7 @@ def _converged(
         except SceneError:
             if best is None:
                 raise
-            return best  # with fewer modes it was followed to its end
+            return best  # the last run that was complete
         if not found.inertia.complete:
             return best or found
         best, count, rough = _judged(rough, found), 2 * count, found
@@ -228,18 +234,18 @@ def _converged(
         if law.model.inertia.modes:
             return _of_chosen_modes(best, law, count, budget)
         near = change <= LAST * enough
-        if change <= enough or too_dear(law, count, _work(best.impact_history), near):
+        if change <= enough or beyond_limits(law, count, _work(best.impact_history), near):
             return best
 
 
 def _work(history: ImpactHistory) -> float:
-    """Number of time elements, weighted by the run time of each."""
+    """Return the work of the accepted time elements, in the units of `WORK`."""
     pieces = [piece.element for touching in history.contacts for piece in touching.pieces]
     return len(pieces) * contact_sequence.weight_of(history.problem, pieces[0].slope.size)
 
 
 def problem_of(law: ContactLaw, count: int) -> DynamicProblem:
-    """An impact with so many bending modes, to be followed by `contact_sequence`."""
+    """Return the dynamic problem of a law with a number of bending modes."""
     return _problem(law, plate_of(law, count))
 
 
@@ -251,10 +257,19 @@ def _run(
     fewer_nodes: int = 0,
     coarse: ImpactHistory | None = None,
 ) -> DynamicImpact:
-    """The impact with so many bending modes by elements of a tolerance, or of fewer nodes too.
+    """Return the impact with a number of bending modes.
 
-    If with the contacts of a coarser run it would exceed its work, it is not begun, and those are
-    all that is known.
+    If the work estimated from a coarser run is too large, the coarser run is returned, marked as
+    incomplete.
+
+    Parameters
+    ----------
+    tolerance
+        Tolerance of the time elements [1].
+    fewer_nodes
+        Number of nodes by which the elements are reduced.
+    coarse
+        A run with fewer modes, if there is one.
     """
     problem = _problem(law, plate_of(law, count))
     n = nodes_for(problem) - fewer_nodes
@@ -270,7 +285,7 @@ def _run(
 
 
 def _unchecked(coarse: ImpactHistory, problem: DynamicProblem, fewer: int) -> ImpactHistory:
-    """A run that none with more modes can check, which fewer modes would meet: it is incomplete."""
+    """Return a run as incomplete, because a finer one for its error estimate is too much work."""
     return replace(
         coarse,
         reason=f"the error of {coarse.problem.omega.size} modes is unknown, because the "
@@ -291,10 +306,11 @@ def _judged(rough: DynamicImpact, found: DynamicImpact) -> DynamicImpact:
 def _of_chosen_modes(
     found: DynamicImpact, law: ContactLaw, count: int, budget: Budget
 ) -> DynamicImpact:
-    """A run with as many modes as the scene says, and what its error estimate is worth.
+    """Return a run with the number of modes of the scene, and a reliable error estimate.
 
-    Half as many that are slower than the contact may agree with it by chance: then a quarter as
-    many are asked too. If all of them are slower, no estimate is known.
+    If half as many modes are slower than the contact, their run may agree by chance: the larger
+    change since half and since a quarter as many modes then counts. If all modes are slower than
+    the contact, there is no estimate.
     """
     if fast(law, count // 2):
         return found
@@ -310,12 +326,12 @@ def _of_chosen_modes(
 
 
 def _unjudged(found: DynamicImpact) -> DynamicImpact:
-    """Return a run of whose omitted modes no error estimate is known."""
+    """Return a run without an error estimate for its omitted modes."""
     return replace(found, inertia=replace(found.inertia, mode_convergence=UNKNOWN))
 
 
 def _problem(law: ContactLaw, plate: ModalPlate) -> DynamicProblem:
-    """The scene in units of the impact on a plate that does not deflect."""
+    """Return the scene in units of the impact on a plate that does not deflect."""
     model, (a, T) = law.model, units_of(law)
     rest = law.only(lambda e: e.static and not e.other_edge)
     contact = contact_of(rest, plate, min(WIDER * a, law.limit), model.inertia.pointwise)
@@ -330,9 +346,10 @@ def _problem(law: ContactLaw, plate: ModalPlate) -> DynamicProblem:
 
 
 def echo_time(model: Model) -> float:
-    """Time [s] before which no wave returns from the edge: twice its way at the fastest speed.
+    """Return the time [s] before which no wave returns from the edge: 2 b over the largest speed.
 
-    Of A0 no group is faster than 1.1 times shear waves; of all branches none than pressure waves.
+    The group speed of A0 is at most 1.1 times that of shear waves; that of any branch is at most
+    that of pressure waves.
     """
     fastest = 1.1
     if model.inertia.branches == "all":

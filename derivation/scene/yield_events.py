@@ -1,4 +1,4 @@
-"""Where a contact begins or ceases to yield: time elements end there, another branch follows."""
+"""Events at which a contact begins or ceases to yield: time elements end at them."""
 
 import math
 from collections.abc import Callable
@@ -17,21 +17,21 @@ from derivation.scene.yielding import Yielding
 Made = TypeVar("Made")
 
 _TRIES, _CLOSE, _NEAR = 6, 1e-13, 1e-9
-"""How often an element is made anew to end at an event; distance from the event, over its length,
-that is sought, and that is enough."""
+"""Largest number of attempts to end an element at an event; intended and largest accepted distance
+from the event over the length of the element."""
 _REAL, _BEGUN, _BEYOND = 1e-7, 1e-9, 1.05
-"""Imaginary part that is rounding; how far from its start an element's event is, and how far beyond
-its end one is looked for when it has been cut, in its variable on [-1, 1]."""
+"""Largest imaginary part due to rounding; smallest distance of an event from the start of an
+element, and end of the search in a shortened element, in its variable on [-1, 1]."""
 
 
 class UncutError(ArithmeticError):
-    """An element could not be made to end at its event; a shorter one is needed."""
+    """The error of an element that cannot be shortened to end at its event."""
 
 
 def next_branch(
     problem: DynamicProblem, n: int, made: TimeElement, start: ImpactState, radius: float
 ) -> tuple[TimeElement, DynamicProblem]:
-    """Return the element, cut at its first event, and the problem on the branch after it.
+    """Return the element, shortened to its first event, and the problem on the next branch.
 
     Raises
     ------
@@ -61,24 +61,24 @@ def cut(
     element_of: Callable[[Made], Element],
     shorter: Callable[[float, Array], Made | None],
 ) -> Made | None:
-    """What an element was made into, made anew so that it ends at its first event.
+    """Return an element shortened to end at its first event; None without an event.
 
-    A contact that does not yield begins to where its radius exceeds the end of its branch; one
-    that yields ceases to where its radius is largest.
+    A contact begins to yield where its radius exceeds the end of its branch, and ceases to yield
+    where its radius is largest.
 
     Parameters
     ----------
+    branch
+        The branch of the element.
     unit
         Unit of the radii [m].
+    made
+        The element with its results.
     element_of
-        The element of what is made.
+        Function that returns the element from `made`.
     shorter
-        Makes it anew, of a length, from a guess of the slope at its nodes.
-
-    Returns
-    -------
-    Made or None
-        None if there is no event.
+        Function that computes the element with another length, from a guess of the slope at its
+        nodes; None without convergence.
 
     Raises
     ------
@@ -106,13 +106,13 @@ def cut(
 
 
 def branch_after(branch: Yielding, a: float, force: float) -> Yielding:
-    """The branch after an event at a radius of the law [m] and its force [N]."""
+    """Return the branch after an event at a radius of the elastic law [m] and its force [N]."""
     return branch.turned(a, force) if branch.loading else branch.begun()
 
 
 def _event(branch: Yielding, unit: float, found: Element, last: float) -> float | None:
-    """Where the first event of an element is, looked for up to `last` on its [-1, 1]."""
-    # What grows through zero at an event: -da/dx, or the radius less that at the branch's end.
+    """Return x of the first event of an element up to `last` on [-1, 1]; None without one."""
+    # At an event -da/dx, or the radius less that at the end of the branch, increases through zero.
     rising = -found.slope if branch.loading else found.rows[A].copy()
     if not branch.loading:
         rising[0] -= branch.end / unit

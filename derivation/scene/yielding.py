@@ -73,7 +73,7 @@ class Yielding:
 
     @property
     def work(self) -> float:
-        """Plastic work [J]."""
+        """Plastic work up to the last yielding [J]."""
         return self.onset_energy * float(worked(np.array(self.ratio))[0])
 
     @property

@@ -1,15 +1,15 @@
-"""Studies of many points: a grid or a sample of scenes, solved in batches that outlive the run.
+"""Studies of many points: a grid or a sample of scenes, simulated in batches that are kept.
 
-Read in this order:
+The modules in reading order:
 
-1. `plan`: the points, each made from its index: a `GridPlan`, a `SamplePlan` of `distributions`,
-   or a `SaltelliPlan` for sensitivities.
-2. `study`: what is computed, and the hash by which its points are known.
-3. `store`: the batches that are finished, as files beside the output.
-4. `run`: computes the batches that are missing, here or on a Dask cluster.
-5. `dataset` and `write`: the result as an xarray Dataset, and as a file, block by block.
-6. `sensitivity`, `forecast`, `plots`: variance-based indices, cost beforehand, pictures.
-7. `api`: `sweep`, which does it all.
+1. `plan`: the points, each computed from its index: a `GridPlan`, a `SamplePlan` of
+   `distributions`, or a `SaltelliPlan` for sensitivities.
+2. `study`: scene, points and tolerance, and the hash that identifies them.
+3. `store`: the finished batches, as files in a folder next to the output.
+4. `run`: computes the missing batches in processes or on a Dask cluster.
+5. `dataset` and `write`: the results as an xarray Dataset, and as a file, block by block.
+6. `sensitivity`, `forecast`, `plots`: variance-based indices, estimated run time, plots.
+7. `api`: the public function `sweep`.
 """
 
 from typing import TYPE_CHECKING, Any

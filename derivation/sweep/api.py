@@ -1,4 +1,4 @@
-"""Runs a study from Python: points in, a Dataset with units out, and files if wanted."""
+"""Runs a study from Python and returns its results as a Dataset with units."""
 
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -40,44 +40,48 @@ def sweep(
     Parameters
     ----------
     scene
-        The scene.
+        The scene; the varied keys take other values.
     vary
-        By key, like "plate.thickness": values in SI units or a text "first:last:count" of a grid;
-        of a sample a distribution, for instance
-        ``{"distribution": "uniform", "low": 4e-3, "high": 12e-3}``.
+        For each key, such as "plate.thickness", the values in SI units: for a grid a list, an array
+        or a text "first:last:count" (or "first:last:count:log"); for a sample a distribution, for
+        example ``{"distribution": "uniform", "low": 4e-3, "high": 12e-3}``.
     sample
-        Number of points of a sample; without it a grid. With `sensitivity` the number of base
-        points, a power of two, each of which makes one run per key and two more.
+        Number of points of a sample; by default a grid is computed. It must be a power of two with
+        the method "sobol" and with `sensitivity`. With `sensitivity` it is the number of base
+        points; each base point takes two simulations and one for each key.
     seed
         Random seed of the sample.
     method
-        "random", "latin-hypercube" or "sobol".
+        Method of the sample: "random", "latin-hypercube" or "sobol". With `sensitivity`, leave it
+        out.
     sensitivity
-        Whether to compute variance-based sensitivity indices.
+        Whether to compute variance-based sensitivity indices of a sample.
     rtol
-        Relative tolerance of the results [1], as `simulate` takes it.
+        Relative tolerance of the results [1], as for `simulate`.
     out
-        File to write: .nc, .zarr, .parquet or .csv. Finished batches stand in a folder beside it,
-        from which an interrupted study goes on.
+        File for the results at all points, without sensitivity indices: .nc, .zarr, .parquet or
+        .csv. An interrupted study continues from the finished batches in the folder
+        ``OUT.parts``.
     workers
-        Processes that share the work if it takes long. Each of several begins by importing the
-        main module: a script that asks for them has to guard what it runs.
+        Number of processes, used if the study takes long. Each process imports the main module, so
+        that a script must guard its main part with ``if __name__ == "__main__"``.
     scheduler
-        Address of a Dask scheduler whose workers do the work instead.
+        Address of a Dask scheduler, whose workers are used instead of processes.
     retry
-        Whether points that are finished without a result are computed again.
+        Whether to compute refused and incomplete points of a continued study again.
 
     Returns
     -------
     xarray.Dataset
         Results over the dimensions of the grid, named as its keys, or over `sample`; with
-        `status` and `reason` of each point, `bound`, `model_error` and `effects`.
+        `status` and `reason` of each point, `bound`, `model_error` and `effects`. With
+        `sensitivity`, also the indices over `result` and `key`.
 
     Raises
     ------
     SceneError
-        If a key, value or option is not valid, all points are refused, or there are more points
-        than a Dataset may hold.
+        If a key, value or option is not valid, all points are refused, there are more than two
+        million points, or, with `sensitivity`, a point has no result.
 
     Examples
     --------
@@ -109,7 +113,13 @@ def planned(
     method: str,
     sensitivity: bool,
 ) -> Plan:
-    """The points of a study, from what `sweep` takes."""
+    """Return the points of a study from arguments of `sweep`.
+
+    Raises
+    ------
+    SceneError
+        If an argument is not valid.
+    """
     if size is None:
         if sensitivity:
             raise SceneError("sensitivity: expected a sample, got a grid; give its size too")
@@ -127,7 +137,15 @@ def planned(
 
 
 def check(study: Study, out: Path | None) -> None:
-    """Refuse what can be refused before anything is computed."""
+    """Raise an error for an invalid tolerance or output, before anything is computed.
+
+    Raises
+    ------
+    SceneError
+        If the tolerance is out of range or the output has an unknown suffix.
+    OSError
+        If the output cannot be written.
+    """
     if study.rtol is not None:
         check_rtol(study.rtol)
     if out is not None:
@@ -142,7 +160,7 @@ def finish(
     Raises
     ------
     SceneError
-        If no point has a result, and for sensitivities if one has none.
+        If all points are refused or, for sensitivities, a point has no result.
     """
     _check_some(store)
     if out is not None:
@@ -151,7 +169,7 @@ def finish(
 
 
 def _check_some(store: Store) -> None:
-    """Refuse a study of which every point is refused."""
+    """Raise an error if every point is refused."""
     for start, _, table in store.tables(2**16):
         status = column(table, "status")
         if (status != "refused").any():

@@ -1,4 +1,4 @@
-"""The results of a study as an xarray Dataset, with units, names and what they belong to."""
+"""The results of a study as an xarray Dataset with units, labels, scene and version."""
 
 import json
 import re
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 MOST_IN_MEMORY = 2_000_000
-"""Points of a Dataset, plot or sensitivity at most, which are held in memory."""
+"""Largest number of points of a Dataset, plot or sensitivity study, which must fit in memory."""
 LABELS = {name: (name.replace("_", " "), unit) for name, unit in UNITS.items()} | {
     "bound": ("bound of the relative error", "1"),
     "model_error": ("largest relative error of the model", "1"),
@@ -32,7 +32,7 @@ TEXT_LABELS = {
 
 
 def labels(name: str) -> dict[str, str]:
-    """Attributes `long_name` and `units` of a result or a key."""
+    """Return the attributes `long_name` and, for a number with a unit, `units` of a name."""
     if name in TEXT_LABELS:
         return {"long_name": TEXT_LABELS[name]}
     if name in LABELS:
@@ -46,7 +46,7 @@ def labels(name: str) -> dict[str, str]:
 
 
 def attributes(study: Study) -> dict[str, Any]:
-    """What a study's results belong to: scene, version, and if there are any, seed and rtol."""
+    """Return scene and program version of a study, and seed and tolerance if it has them."""
     accuracy = study.scene.accuracy
     rtol = accuracy.rtol if study.rtol is None and accuracy is not None else study.rtol
     given = {"seed": study.plan.seed, "rtol": rtol}
@@ -55,27 +55,32 @@ def attributes(study: Study) -> dict[str, Any]:
 
 
 def check_memory(study: Study, what: str) -> None:
-    """Refuse more points than may be held in memory.
+    """Raise an error if the points of a study may not fit in memory.
+
+    Parameters
+    ----------
+    what
+        Purpose of the points, for the message.
 
     Raises
     ------
     SceneError
-        Naming what needs them.
+        If there are more than `MOST_IN_MEMORY` points.
     """
     if study.plan.size > MOST_IN_MEMORY:
         raise SceneError(
             f"{what}: expected at most {MOST_IN_MEMORY:,} points in memory, got "
-            f"{study.plan.size:,}; write a file instead, or use fewer points"
+            f"{study.plan.size:,}; use fewer points, or write a file by `platecontact sweep --out`"
         )
 
 
 def data_set(store: Store) -> "xr.Dataset":
-    """All results of a study.
+    """Return all results of a study as a Dataset.
 
     Raises
     ------
     SceneError
-        If there are more points than may be held in memory.
+        If there are more than `MOST_IN_MEMORY` points.
     """
     import xarray as xr
 
@@ -91,7 +96,7 @@ def data_set(store: Store) -> "xr.Dataset":
 
 
 def coordinates(study: Study) -> dict[str, Any]:
-    """The values of the keys: along their own dimension, or along the sample."""
+    """Return the values of the keys, each along its dimension of a grid or along the sample."""
     plan = study.plan
     if isinstance(plan, GridPlan):
         return {key: (key, np.array(axis), labels(key)) for key, axis in plan.axes.items()}
@@ -100,7 +105,7 @@ def coordinates(study: Study) -> dict[str, Any]:
 
 
 def column(table: Any, name: str) -> Any:
-    """A column as an array: doubles, or texts as objects."""
+    """Return a column of a table as an array of doubles, or of objects for texts."""
     if name in TEXTS:
         return np.array(table[name].to_pylist(), dtype=object)
     return table[name].to_numpy()

@@ -1,4 +1,4 @@
-"""Distributions of varied quantities, as a file or Python gives them."""
+"""Distributions of varied quantities, from a TOML file or from mappings."""
 
 import math
 import tomllib
@@ -26,11 +26,11 @@ PARAMETERS = {
     "normal": ("mean", "std"),
     "lognormal": ("mean", "std"),
 }
-"""Parameters of each distribution, in the unit of the quantity; those of `lognormal` too are the
-mean and the standard deviation of the quantity, not of its logarithm."""
+"""Parameters of each distribution, in the unit of the quantity; those of `lognormal` are mean and
+standard deviation of the quantity itself, not of its logarithm."""
 EXAMPLE = '"plate.thickness" = {distribution = "uniform", low = 4e-3, high = 12e-3}'
 LARGEST = 2**20
-"""Bytes of a file of distributions at most."""
+"""Largest size of a file of distributions [bytes]."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class Distribution:
     second: float
 
     def quantiles(self, shares: Array) -> Array:
-        """Values that the given shares, each in (0, 1), of all values lie below."""
+        """Return the quantiles of probabilities in (0, 1)."""
         from scipy import stats
 
         a, b = self.first, self.second
@@ -64,7 +64,7 @@ class Distribution:
         return np.asarray(stats.lognorm(spread, scale=a * math.exp(-(spread**2) / 2)).ppf(shares))
 
     def to_json(self) -> dict[str, Any]:
-        """The distribution as a file gives it."""
+        """Return the distribution with the keys of a file."""
         first, second = PARAMETERS[self.distribution]
         return {"distribution": self.distribution, first: self.first, second: self.second}
 
@@ -75,7 +75,7 @@ def load_distributions(path: Path) -> dict[str, Distribution]:
     Raises
     ------
     SceneError
-        If it cannot be read, or holds no valid distributions.
+        If it cannot be read, or does not contain valid distributions.
     """
     name = one_line(str(path), 200)
     try:
@@ -112,18 +112,18 @@ def _unquoted(given: Any) -> bool:
 
 
 def read_distributions(given: Mapping[str, Any]) -> dict[str, Distribution]:
-    """Make distributions by key from mappings of their parameters.
+    """Return distributions by key from mappings of their parameters.
 
     Raises
     ------
     SceneError
-        If a key, a distribution or a parameter is not known or out of range.
+        If a key, a distribution or a parameter is unknown or out of range.
     """
     return {".".join(number_key(key)): _distribution(key, given[key]) for key in given}
 
 
 def _distribution(key: str, given: Any) -> Distribution:
-    """The distribution of one key."""
+    """Return the distribution of one key."""
     if isinstance(given, Distribution):
         return given
     example = f"write for example {EXAMPLE}"
@@ -153,7 +153,7 @@ def _distribution(key: str, given: Any) -> Distribution:
 
 
 def _check_range(key: str, found: Distribution) -> None:
-    """Refuse parameters that make no distribution."""
+    """Raise an error if the parameters are out of range."""
     first, second = found.first, found.second
     spread = found.distribution in ("normal", "lognormal")
     fine = second > 0 if spread else first < second

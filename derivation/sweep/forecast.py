@@ -1,4 +1,4 @@
-"""Says beforehand what a study takes: points, effects and time."""
+"""Forecast of a study: number of points, included effects and run time."""
 
 import time
 from collections import Counter
@@ -16,33 +16,33 @@ from derivation.scene.scene import read
 from derivation.sweep.study import Study
 
 MOST_PROBES = 32
-"""Points whose effects are looked at."""
+"""Largest number of points whose effects are selected."""
 TIMED = (8, 64, 512, 4096)
-"""Points that are timed, more while they take less than `ENOUGH`."""
+"""Numbers of points that are timed, in turn, until a timing takes longer than `ENOUGH`."""
 ENOUGH = 0.5
 """Duration of a timing that is sufficient for the estimate [s]."""
 
 
 @dataclass(frozen=True)
 class Forecast:
-    """What a study takes.
+    """The forecast of a study.
 
     Attributes
     ----------
     points
         Number of points.
     probes
-        Points whose effects were looked at: corners of a grid, first points of a sample.
+        Number of tested points: corners of a grid, or first points of a sample.
     effects
-        At how many of them each effect is included.
+        Number of tested points at which each effect is included.
     refused
-        Why some of them are refused, each reason once.
+        Reasons why tested points are refused, each once.
     timed
-        Points that were simulated to learn the cost.
+        Number of points that were timed.
     seconds
-        Estimated time on one process [s].
+        Estimated run time in one process [s].
     workers
-        Processes that share it.
+        Number of processes.
     """
 
     points: int
@@ -54,11 +54,11 @@ class Forecast:
     workers: int
 
     def to_json(self) -> dict[str, Any]:
-        """All of it."""
+        """Return the forecast under fixed keys."""
         return {**vars(self), "refused": list(self.refused)}
 
     def to_text(self) -> str:
-        """The answer for a screen."""
+        """Return the forecast as text."""
         rows = [(name, f"{count} of {self.probes}") for name, count in self.effects.items()]
         shared = self.seconds / self.workers
         return (
@@ -70,12 +70,12 @@ class Forecast:
 
 
 def forecast(study: Study, workers: int) -> Forecast:
-    """Look at some points of a study, and simulate a few of them.
+    """Return the forecast of a study, from the effects of some points and the run time of others.
 
     Raises
     ------
     SceneError
-        If every point that is looked at is refused.
+        If every tested point is refused.
     """
     columns = study.plan.probes(MOST_PROBES)
     count = len(next(iter(columns.values())))
@@ -100,7 +100,7 @@ def forecast(study: Study, workers: int) -> Forecast:
 
 
 def _cost(study: Study) -> tuple[int, float]:
-    """Number of points that were timed, and the estimated seconds of all."""
+    """Return the number of timed points, and the estimated run time of all points [s]."""
     size = study.plan.size
     for most in TIMED:
         count = min(most, size)
@@ -116,7 +116,7 @@ def _cost(study: Study) -> tuple[int, float]:
 
 
 def _duration(seconds: float) -> str:
-    """A time to be read by people, to two digits."""
+    """Return a time [s] as text with one or two digits and a suitable unit."""
     for size, unit in ((86400.0, "days"), (3600.0, "h"), (60.0, "min")):
         if seconds >= 2 * size:
             return f"{seconds / size:,.{0 if seconds >= 10 * size else 1}f} {unit}"

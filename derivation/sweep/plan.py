@@ -1,4 +1,4 @@
-"""The points of a study, each made from its index, so that they are never held all at once."""
+"""The points of a study, each computed from its index, so that they need not fit in memory."""
 
 import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -25,14 +25,14 @@ MOST_LATIN = 10**6
 """Largest Latin hypercube, which is held in memory."""
 METHODS = ("random", "latin-hypercube", "sobol")
 BLOCK = 4096
-"""Points that one seed makes of a random sample."""
+"""Number of points of a random sample that are drawn from one seed."""
 LEAST_SHARE = 2.0**-40
-"""Shares of a distribution closer to 0 or 1 are moved here: a normal one has no value there."""
+"""Smallest distance of probabilities from 0 and 1, where a normal distribution has no value."""
 
 
 @dataclass(frozen=True)
 class GridPlan:
-    """Every combination of some values of each key.
+    """All combinations of the values of each key.
 
     Attributes
     ----------
@@ -50,7 +50,7 @@ class GridPlan:
 
     @property
     def dims(self) -> dict[str, int]:
-        """Names and lengths of the result's dimensions."""
+        """Names and lengths of the dimensions of the results."""
         return {key: len(values) for key, values in self.axes.items()}
 
     @property
@@ -59,7 +59,7 @@ class GridPlan:
         return prod(self.dims.values())
 
     def points(self, start: int, stop: int) -> dict[str, Array]:
-        """The values of each key at the points from `start` to before `stop`."""
+        """Return the values of each key at the points from `start` to `stop` (exclusive)."""
         places = np.unravel_index(np.arange(start, stop), tuple(self.dims.values()))
         return {
             key: np.asarray(values)[place]
@@ -67,20 +67,20 @@ class GridPlan:
         }
 
     def probes(self, most: int) -> dict[str, Array]:
-        """Some corners of the grid."""
+        """Return at most `most` corners of the grid, for a forecast."""
         ends = [sorted({0, length - 1}) for length in self.dims.values()]
         corners = np.array([corner for corner, _ in zip(product(*ends), range(most), strict=False)])
         columns = zip(self.axes.items(), corners.T, strict=True)
         return {key: np.asarray(values)[places] for (key, values), places in columns}
 
     def to_json(self) -> dict[str, Any]:
-        """The plan, for the hash of the study."""
+        """Return the plan as JSON data, from which the hash of the study follows."""
         return {"grid": {key: list(values) for key, values in self.axes.items()}}
 
 
 @dataclass(frozen=True)
 class SamplePlan:
-    """A sample of distributions of the keys.
+    """A sample of the distributions of the keys.
 
     Attributes
     ----------
@@ -89,7 +89,7 @@ class SamplePlan:
     size
         Number of points.
     seed
-        Random seed; the same seed makes the same points.
+        Random seed; points are reproducible.
     method
         One of `METHODS`.
     """
@@ -106,24 +106,24 @@ class SamplePlan:
 
     @property
     def dims(self) -> dict[str, int]:
-        """Names and lengths of the result's dimensions."""
+        """Names and lengths of the dimensions of the results."""
         return {"sample": self.size}
 
     def points(self, start: int, stop: int) -> dict[str, Array]:
-        """The values of each key at the points from `start` to before `stop`."""
+        """Return the values of each key at the points from `start` to `stop` (exclusive)."""
         return _values(self.distributions, self._shares(start, stop))
 
     def probes(self, most: int) -> dict[str, Array]:
-        """The first points."""
+        """Return the first points, at most `most`, for a forecast."""
         return self.points(0, min(most, self.size))
 
     def to_json(self) -> dict[str, Any]:
-        """The plan, for the hash of the study."""
+        """Return the plan as JSON data, from which the hash of the study follows."""
         found = {key: one.to_json() for key, one in self.distributions.items()}
         return {"vary": found, "sample": self.size, "seed": self.seed, "method": self.method}
 
     def _shares(self, start: int, stop: int) -> Array:
-        """Points in the unit cube, one row each."""
+        """Return points of the unit cube, one in each row."""
         if self.method == "latin-hypercube":
             return self._latin[start:stop]
         if self.method == "sobol":
@@ -133,7 +133,7 @@ class SamplePlan:
         return np.concatenate(blocks)[start - first * BLOCK : stop - first * BLOCK]
 
     def _block(self, number: int) -> Array:
-        """A block of random points, from a seed of its own."""
+        """Return a block of random points from its own seed."""
         seed = np.random.SeedSequence((self.seed, number))
         return np.random.default_rng(seed).random((BLOCK, len(self.keys)))
 
@@ -149,8 +149,8 @@ class SamplePlan:
 class SaltelliPlan:
     """Points for variance-based sensitivity indices (Saltelli et al. 2010).
 
-    Each of `base` points of a Sobol sequence in twice the dimensions makes d + 2 points: A, B, and
-    for each of d keys A with this key's value from B.
+    Each of `base` points of a Sobol sequence in 2 d dimensions, d being the number of keys, gives
+    d + 2 points: A, B, and for each key A with the value of that key from B.
 
     Attributes
     ----------
@@ -173,7 +173,7 @@ class SaltelliPlan:
 
     @property
     def each(self) -> int:
-        """Number of points that one base point makes."""
+        """Number of points for each base point."""
         return len(self.keys) + 2
 
     @property
@@ -183,11 +183,11 @@ class SaltelliPlan:
 
     @property
     def dims(self) -> dict[str, int]:
-        """Names and lengths of the result's dimensions."""
+        """Names and lengths of the dimensions of the results."""
         return {"sample": self.size}
 
     def points(self, start: int, stop: int) -> dict[str, Array]:
-        """The values of each key at the points from `start` to before `stop`."""
+        """Return the values of each key at the points from `start` to `stop` (exclusive)."""
         number, each = len(self.keys), self.each
         first = start // each
         both = _sobol(2 * number, self.seed, first, -(-stop // each))
@@ -199,11 +199,11 @@ class SaltelliPlan:
         return _values(self.distributions, shares)
 
     def probes(self, most: int) -> dict[str, Array]:
-        """The first points."""
+        """Return the first points, at most `most`, for a forecast."""
         return self.points(0, min(most, self.size))
 
     def to_json(self) -> dict[str, Any]:
-        """The plan, for the hash of the study."""
+        """Return the plan as JSON data, from which the hash of the study follows."""
         found = {key: one.to_json() for key, one in self.distributions.items()}
         return {"vary": found, "saltelli": self.base, "seed": self.seed}
 
@@ -212,13 +212,13 @@ Plan = GridPlan | SamplePlan | SaltelliPlan
 
 
 def grid(given: Mapping[str, Iterable[float] | str] | Sequence[str]) -> GridPlan:
-    """A grid from texts `table.key=first:last:count`, or from the values of each key.
+    """Return a grid from texts `table.key=first:last:count`, or from the values of each key.
 
     Raises
     ------
     SceneError
-        If a key is not known, comes twice or with one that it replaces, or there are too many
-        points.
+        If a key is unknown, given twice or given with a key that it excludes, a value is not finite
+        or given twice, or there are too many points.
     """
     if isinstance(given, Mapping):
         axes = [_axis(key, values) for key, values in given.items()]
@@ -237,12 +237,13 @@ def grid(given: Mapping[str, Iterable[float] | str] | Sequence[str]) -> GridPlan
 def sample(
     distributions: Mapping[str, Distribution], size: int, seed: int, method: str
 ) -> SamplePlan:
-    """A sample of distributions.
+    """Return a sample of distributions.
 
     Raises
     ------
     SceneError
-        If the method is not known, or does not make so many points.
+        If a key excludes another one, the seed is negative, the method is unknown, or the method
+        does not allow this number of points.
     """
     _check_keys(list(distributions))
     _check_seed(seed)
@@ -261,12 +262,13 @@ def sample(
 
 
 def saltelli(distributions: Mapping[str, Distribution], base: int, seed: int) -> SaltelliPlan:
-    """Points for sensitivities.
+    """Return the points for sensitivity indices.
 
     Raises
     ------
     SceneError
-        If the number of base points is not a power of two.
+        If a key excludes another one, the seed is negative, or the number of base points is not a
+        power of two or is too large.
     """
     _check_keys(list(distributions))
     _check_seed(seed)
@@ -277,7 +279,7 @@ def saltelli(distributions: Mapping[str, Distribution], base: int, seed: int) ->
 
 
 def _axis(key: str, values: Iterable[float] | str) -> tuple[str, tuple[float, ...]]:
-    """A key and its values, from a text or numbers."""
+    """Return a key and its values from a text or numbers."""
     if isinstance(values, str):
         found = parse(f"{key}={values}")
         return f"{found.table}.{found.key}", found.values
@@ -292,7 +294,7 @@ def _axis(key: str, values: Iterable[float] | str) -> tuple[str, tuple[float, ..
 
 
 def _check_keys(keys: list[str]) -> None:
-    """Refuse no key, one given twice, and keys of which one replaces another."""
+    """Raise an error without a key, for a key given twice, and for keys that exclude each other."""
     if not keys:
         raise SceneError("vary: expected a key to vary, got none; name one, like plate.thickness")
     for number, key in enumerate(keys):
@@ -315,7 +317,7 @@ def _check_size(size: int, remedy: str) -> None:
 
 
 def _check_power(size: int, what: str) -> None:
-    """Refuse numbers for which a Sobol sequence is not balanced."""
+    """Raise an error unless the size is a power of two, which balances a Sobol sequence."""
     if size & (size - 1) or size < 2:
         below = max(2, 2 ** (size.bit_length() - 1))
         raise SceneError(
@@ -324,7 +326,7 @@ def _check_power(size: int, what: str) -> None:
 
 
 def _values(distributions: Mapping[str, Distribution], shares: Array) -> dict[str, Array]:
-    """The quantities at points of the unit cube."""
+    """Return the values of the keys at points of the unit cube."""
     inside = np.clip(shares, LEAST_SHARE, 1 - LEAST_SHARE)
     columns = zip(distributions.items(), inside.T, strict=True)
     return {key: one.quantiles(column) for (key, one), column in columns}
@@ -332,14 +334,14 @@ def _values(distributions: Mapping[str, Distribution], shares: Array) -> dict[st
 
 @dataclass
 class _Sequence:
-    """A scrambled Sobol sequence that remembers where it is, as moving on takes time."""
+    """A scrambled Sobol sequence that keeps its position, because skipping points takes time."""
 
     dimensions: int
     seed: int
     engine: Any = field(default=None)
 
     def between(self, start: int, stop: int) -> Array:
-        """The points from `start` to before `stop`."""
+        """Return the points from `start` to `stop` (exclusive)."""
         from scipy.stats import qmc
 
         if self.engine is None or self.engine.num_generated > start:
@@ -356,11 +358,11 @@ _sequence = lru_cache(8)(_Sequence)
 
 
 def _sobol(dimensions: int, seed: int, start: int, stop: int) -> Array:
-    """Points of a scrambled Sobol sequence."""
+    """Return points of a scrambled Sobol sequence."""
     return _sequence(dimensions, seed).between(start, stop)
 
 
 def gaps(ranges: Iterable[tuple[int, int]], size: int) -> Iterator[tuple[int, int]]:
-    """The ranges of 0 to `size` that sorted ranges without overlap leave."""
+    """Return the ranges between 0 and `size` that are not covered by sorted, disjoint ranges."""
     ends = [0, *(end for pair in ranges for end in pair), size]
     return ((a, b) for number, (a, b) in enumerate(pairwise(ends)) if number % 2 == 0 and a < b)

@@ -1,4 +1,4 @@
-"""Draws a study: curves over one key, maps over two, sensitivities of many."""
+"""Draws a study: curves over one key, maps over two keys, or sensitivity indices."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
@@ -35,19 +35,19 @@ KEY_SYMBOLS = {
     "sphere.radius": "$R$",
     "sphere.youngs_modulus": "$E_1$",
 }
-"""Symbols of keys that have one."""
+"""Symbols of keys in axis labels."""
 TEX = {"δ": r"\delta", "σ": r"\sigma"}
 LARGEST_FIGURE = 3
-"""Panels beside each other."""
+"""Largest number of panels in a row."""
 
 
 def check_results(names: Sequence[str]) -> tuple[str, ...]:
-    """The results to draw: those named, or all.
+    """Return the names of the results to draw, by default all.
 
     Raises
     ------
     SceneError
-        If there is no such result.
+        If a name is unknown.
     """
     for name in names:
         if name not in UNITS:
@@ -59,7 +59,13 @@ def check_results(names: Sequence[str]) -> tuple[str, ...]:
 
 
 def check_plot(keys: int, sensitivity: bool) -> None:
-    """Refuse a study of which there is no drawing."""
+    """Raise an error if a study cannot be drawn.
+
+    Raises
+    ------
+    SceneError
+        If more than two keys vary and there are no sensitivity indices.
+    """
     if keys > 2 and not sensitivity:
         raise SceneError(
             f"--plot: expected one or two varied keys, or --sensitivity, got {keys} keys; "
@@ -68,21 +74,21 @@ def check_plot(keys: int, sensitivity: bool) -> None:
 
 
 def render(data: "xr.Dataset", keys: Sequence[str], results: Sequence[str], suffix: str) -> bytes:
-    """The drawing as the content of a file; parameters as `figure` takes them."""
+    """Return the figure as the content of a file; the arguments are those of `figure`."""
     return saved(figure(data, keys, results), suffix)
 
 
 def figure(data: "xr.Dataset", keys: Sequence[str], results: Sequence[str]) -> "Figure":
-    """Draw a study.
+    """Return a study as a Matplotlib figure.
 
     Parameters
     ----------
     data
-        Its results; with indices, these are drawn.
+        The results of the study; sensitivity indices are drawn if it contains them.
     keys
         The varied keys.
     results
-        The results that get a panel.
+        Names of the results, each of which has a panel.
     """
     from matplotlib.figure import Figure
 
@@ -109,7 +115,7 @@ def figure(data: "xr.Dataset", keys: Sequence[str], results: Sequence[str]) -> "
 
 
 def _notes(data: "xr.Dataset") -> str:
-    """What the drawing leaves out, and what its intervals are."""
+    """Return the title: omitted points, or the kind of the intervals."""
     if "first_order" in data:
         return "Sensitivity indices with 95 % confidence intervals (bootstrap)"
     status = data["status"].values
@@ -118,7 +124,7 @@ def _notes(data: "xr.Dataset") -> str:
 
 
 def _curve(axes: "Axes", data: "xr.Dataset", key: str, name: str) -> None:
-    """One result over one key, with its error band; gaps where there is no result."""
+    """Draw a result over one key, with its error band and gaps at points without a result."""
     order = np.argsort(data[key].values)
     x, x_label = _key(data[key].values[order], key)
     raw = data[name].values[order]
@@ -142,7 +148,7 @@ def _curve(axes: "Axes", data: "xr.Dataset", key: str, name: str) -> None:
 
 
 def _map(made: "Figure", axes: "Axes", data: "xr.Dataset", keys: Sequence[str], name: str) -> None:
-    """One result over two keys: an area per point of a grid, a dot per point of a sample."""
+    """Draw a result over two keys: an area for each grid point, a dot for each sample point."""
     raw = data[name].values
     finite = np.isfinite(raw)
     values = np.full_like(raw, np.nan)
@@ -164,36 +170,36 @@ def _map(made: "Figure", axes: "Axes", data: "xr.Dataset", keys: Sequence[str], 
 
 
 def _bars(axes: "Axes", data: "xr.Dataset", name: str) -> None:
-    """First-order and total indices of one result, a pair of bars per key."""
+    """Draw first-order and total indices of a result, a pair of bars for each key."""
     one = data.sel(result=name)
     keys = [str(key) for key in data["key"].values]
     places = np.arange(len(keys))
-    orders = (("first_order", -0.2, BLUE, "alone"), ("total_order", 0.2, BROWN, "with all others"))
-    for order, shift, color, text in orders:
+    orders = (("first_order", -0.2, BLUE), ("total_order", 0.2, BROWN))
+    for order, shift, color in orders:
         index = one[order].values
         error = np.abs(np.array([one[f"{order}_low"].values, one[f"{order}_high"].values]) - index)
         axes.barh(
             places + shift, index, 0.36, xerr=error, color=color, ecolor="0.3", capsize=2,
-            label=text,
+            label=order.replace("_", " "),
         )  # fmt: skip
     if np.isnan(one["first_order"].values).all():
         axes.text(0.5, 0.5, "no scatter", transform=axes.transAxes, ha="center", va="center")
         axes.set_xlim(0.0, 1.0)
     axes.set_yticks(places, [_words(key) for key in keys], fontsize=8)
     axes.set_ylim(len(keys) - 0.5, -0.5)
-    axes.set_xlabel("share of the variance [1]")
+    axes.set_xlabel("fraction of the variance [1]")
     _frame(axes)
 
 
 def _frame(axes: "Axes") -> None:
-    """A thin grid and no box; no line at zero, which may be far from all results."""
+    """Set a thin grid without a box, and without a line at zero, which may be far away."""
     axes.grid(visible=True, color="0.9", linewidth=0.6)
     axes.set_axisbelow(True)
     axes.spines[["top", "right"]].set_visible(False)
 
 
 def _scale(axis: Any) -> None:
-    """Logarithmic, with plain numbers at 1, 2 and 5."""
+    """Set a logarithmic axis with plain numbers at 1, 2 and 5."""
     from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
     axis.axes.set(**{f"{axis.axis_name}scale": "log"})
@@ -203,7 +209,7 @@ def _scale(axis: Any) -> None:
 
 
 def _logarithmic(values: Array) -> bool:
-    """Whether three or more values are spaced by a ratio."""
+    """Return whether there are three or more positive values with a constant ratio."""
     if len(values) < 3 or values.min() <= 0:
         return False
     ratios = values[1:] / values[:-1]
@@ -211,7 +217,7 @@ def _logarithmic(values: Array) -> bool:
 
 
 def _words(key: str) -> str:
-    """A key in words with its symbol, which says of which body it is."""
+    """Return the label of a key: its body if the description omits it, meaning and symbol."""
     table = key.rpartition(".")[0]
     text = labels(key)["long_name"].split(",")[0]
     if table in ("plate", "sphere") and table not in text:
@@ -221,7 +227,7 @@ def _words(key: str) -> str:
 
 
 def _key(values: Array, key: str) -> tuple[Array, str]:
-    """Values of a key in a handy multiple of their unit, and the label."""
+    """Return values of a key in a suitable multiple of their unit, and the axis label."""
     unit = labels(key).get("units", "1")
     if unit == "1" or unit.startswith("kg"):
         return values, f"{_words(key)} [{unit}]"
@@ -229,7 +235,7 @@ def _key(values: Array, key: str) -> tuple[Array, str]:
 
 
 def _result(values: Array, name: str) -> tuple[Array, str]:
-    """Values of a result in a handy multiple of their unit, and the label."""
+    """Return values of a result in a suitable multiple of their unit, and the axis label."""
     symbol = SYMBOLS[name]
     words = f"{name.replace('_', ' ')} ${TEX.get(symbol, symbol)}$"
     unit = UNITS[name]

@@ -1,4 +1,4 @@
-"""Computes the missing batches of a study: here, in processes, or on a Dask cluster."""
+"""Computes the missing batches of a study in this process, in several, or on a Dask cluster."""
 
 import logging
 import time
@@ -21,34 +21,34 @@ from derivation.sweep.plan import Array
 from derivation.sweep.store import PartFile, Store, packed
 
 FIRST, TRIED = 1, 1.0
-"""Points of the first batch; seconds of work after which it is judged how long the rest takes: the
-first batch loads libraries, and small ones take longer for each point."""
+"""Number of points of the first batch; run time [s] after which the remaining time is estimated.
+The first batch loads libraries, and small batches take longer for each point."""
 LARGEST = 2**16
-"""Points of a batch at most."""
+"""Largest number of points of a batch."""
 GROWTH = 8
-"""Times the points of the last batch that the next one has at most."""
+"""Largest ratio of the sizes of successive batches."""
 BATCH_SECONDS = 3.0
-"""What a batch is to take: what an interrupted run loses at most, for each process."""
+"""Intended run time of a batch [s], which an interrupted run loses in each process."""
 LEAST_SECONDS = 0.3
-"""What a batch is to take at least, as the files of very many small ones would take time too."""
+"""Smallest intended run time of a batch [s], because a file for each batch takes time too."""
 LONG = 6.0
-"""Seconds of work left from which other processes are worth their start."""
+"""Remaining run time [s] above which other processes are started."""
 PATIENCE = 30.0
-"""Seconds in which a scheduler has to answer and its first worker to be there."""
+"""Largest waiting time for a scheduler, and for its first worker [s]."""
 
 
 @dataclass(frozen=True)
 class Batch:
-    """Some points to compute.
+    """Points that are computed together.
 
     Attributes
     ----------
     start, stop
-        The range of points.
+        First point, and the point after the last one.
     renewed
-        The finished batch of which some points are computed again; None of new points.
+        The finished batch in which some points are computed again; None for new points.
     numbers
-        The points that are computed again.
+        Indices of the points that are computed again.
     """
 
     start: int
@@ -63,7 +63,7 @@ class Batch:
 
 
 class Queue:
-    """What is left to compute, cut into batches that take about `BATCH_SECONDS`."""
+    """The remaining points, in batches that take about `BATCH_SECONDS`."""
 
     def __init__(
         self, ranges: Iterable[tuple[int, int]], again: Iterable[tuple[PartFile, list[int]]]
@@ -77,7 +77,7 @@ class Queue:
         self._size, self._least, self.seconds_per_point = FIRST, 1, 0.0
 
     def next(self, workers: int = 1) -> Batch | None:
-        """The next batch; small enough that several workers end at about the same time."""
+        """Return the next batch, so small that several workers end at about the same time."""
         if self._again:
             batch = self._again.popleft()
         elif self._ranges:
@@ -93,7 +93,7 @@ class Queue:
         return batch
 
     def learn(self, points: int, seconds: float) -> None:
-        """Choose the size of the following batches by how long one took."""
+        """Set the size of the next batches from the run time of one [s]."""
         self.seconds_per_point = max(seconds, 1e-9) / points
         self._least = max(1, int(LEAST_SECONDS / self.seconds_per_point))
         wanted = int(BATCH_SECONDS / self.seconds_per_point)
@@ -103,20 +103,25 @@ class Queue:
 def compute(
     store: Store, workers: int, scheduler: str | None, retry: bool, progress: Progress
 ) -> int:
-    """Compute what is missing and keep it; returns the number of points computed.
+    """Compute the missing points of a study; return the number of points computed.
 
     Parameters
     ----------
     store
-        Where finished batches stand.
+        The finished batches, to which the new ones are added.
     workers
-        Processes that share the work if it takes long.
+        Number of processes, used if the study takes long.
     scheduler
-        Address of a Dask scheduler whose workers do the work instead.
+        Address of a Dask scheduler, whose workers are used instead of processes.
     retry
-        Whether points that are finished without a result are computed again.
+        Whether refused and incomplete points are computed again.
     progress
-        Called after each batch with the number of points that are done and of all.
+        Called first and after each batch with the index of the next point and the number of all.
+
+    Raises
+    ------
+    SceneError
+        If the processes, the scheduler or a worker fail, or a worker has another version.
     """
     queue = Queue(store.missing(), store.failed() if retry else ())
     todo, total, done = queue.left, store.study.plan.size, 0
@@ -145,7 +150,7 @@ Keep = Callable[[Batch, bytes, float], None]
 
 
 def _here(store: Store, queue: Queue, keep: Keep, workers: int) -> None:
-    """Compute batches in this process, until others are worth their start."""
+    """Compute batches in this process, until the remaining time justifies other processes."""
     spent, batches = 0.0, 0
     while batch := queue.next():
         content, seconds = solve_batch(*_task(store, batch))
@@ -157,7 +162,7 @@ def _here(store: Store, queue: Queue, keep: Keep, workers: int) -> None:
 
 
 def _on_cluster(store: Store, queue: Queue, keep: Keep, client: Any) -> None:
-    """Compute batches on the workers of a cluster, no more at once than they can begin soon."""
+    """Compute batches on the workers of a cluster, two at a time for each worker."""
     from distributed import KilledWorker, as_completed
 
     running: dict[str, Batch] = {}
@@ -199,7 +204,7 @@ Task = tuple[dict[str, Any], dict[str, Array], float | None, str]
 
 
 def _task(store: Store, batch: Batch) -> Task:
-    """What a batch is computed from, in terms that another machine understands."""
+    """Return the arguments of `solve_batch`, which can be sent to another machine."""
     study = store.study
     columns = study.plan.points(batch.start, batch.stop)
     if batch.renewed:
@@ -211,7 +216,7 @@ def _task(store: Store, batch: Batch) -> Task:
 def solve_batch(
     scene: dict[str, Any], columns: dict[str, Array], rtol: float | None, wanted: str
 ) -> tuple[bytes, float]:
-    """Solve some points; returns the content of their file and the seconds it took.
+    """Simulate some points; return the content of their file and the run time [s].
 
     Raises
     ------
@@ -231,7 +236,13 @@ def solve_batch(
 
 @contextmanager
 def _client(scheduler: str | None, workers: int) -> Iterator[Any]:
-    """A client of a scheduler, or of processes on this machine that end with the block."""
+    """Yield a client of a scheduler, or of processes on this machine, which end with the block.
+
+    Raises
+    ------
+    SceneError
+        If the processes do not start, or the scheduler or its first worker does not respond.
+    """
     from distributed import Client, LocalCluster
 
     logging.getLogger("distributed").setLevel(logging.CRITICAL)

@@ -1,4 +1,4 @@
-"""Variance-based sensitivities: which quantity's scatter the scatter of each result comes from."""
+"""Variance-based sensitivity indices: fraction of the variance of a result due to each key."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -16,9 +16,9 @@ if TYPE_CHECKING:
     import xarray as xr
 
 CONFIDENCE = 0.95
-"""Share of bootstrap samples that an interval covers."""
+"""Fraction of bootstrap samples that an interval covers."""
 RESAMPLES = 999
-"""Bootstrap samples."""
+"""Number of bootstrap samples."""
 ORDERS = ("first_order", "total_order")
 
 
@@ -33,12 +33,12 @@ class Sensitivities:
     runs
         Number of simulations.
     index
-        By "first_order" and "total_order": the share of a result's variance [1] that a key
-        causes alone, and with all others together.
+        "first_order" and "total_order": fraction of the variance of a result [1] due to a key
+        alone, and including its interactions with all other keys.
     low, high
-        Ends of the confidence intervals, likewise.
+        Ends of the confidence intervals of both.
 
-    A result whose scatter is within its error bound has NaN.
+    The indices are NaN if the scatter of a result is within its error bound.
     """
 
     keys: tuple[str, ...]
@@ -48,7 +48,7 @@ class Sensitivities:
     high: dict[str, Array]
 
     def to_text(self) -> str:
-        """A table for a screen."""
+        """Return the indices as a table."""
         heads = ["result", "key", "#first order", "#total order"]
         rows = [
             [
@@ -66,7 +66,7 @@ class Sensitivities:
         return f"{title}\n\n{aligned(heads, rows)}"
 
     def to_json(self) -> list[dict[str, Any]]:
-        """A row for each result and key; null where a result does not vary."""
+        """Return a row for each result and key; null if the scatter is within the error bound."""
         return [
             {"result": name, "key": key}
             | {
@@ -79,7 +79,7 @@ class Sensitivities:
         ]
 
     def add_to(self, data: "xr.Dataset") -> "xr.Dataset":
-        """The Dataset with the indices, over the dimensions `result` and `key`."""
+        """Return the Dataset with the indices, over the dimensions `result` and `key`."""
         made: dict[str, Any] = {}
         for order in ORDERS:
             words = order.replace("_", "-") + " sensitivity index"
@@ -100,7 +100,7 @@ def sensitivities(store: Store) -> Sensitivities:
     Raises
     ------
     SceneError
-        If a point has no result: indices of the others alone would be biased.
+        If a point has no result, because the indices of the others would be biased.
     """
     plan = store.study.plan
     assert isinstance(plan, SaltelliPlan)
@@ -117,7 +117,7 @@ def sensitivities(store: Store) -> Sensitivities:
 
 
 def _check_finished(table: Any) -> None:
-    """Refuse points without a result."""
+    """Raise an error if a point has no result."""
     status = column(table, "status")
     wrong = np.flatnonzero(status != "finished")
     if wrong.size:
@@ -130,9 +130,12 @@ def _check_finished(table: Any) -> None:
 
 
 def _with_intervals(values: Array) -> Array:
-    """Indices, low and high ends, of shape (3, order, result, key), by resampling base points.
+    """Return indices, low and high ends, shape (3, order, result, key), by resampling base points.
 
-    Values have the shape (result, base, d + 2).
+    Parameters
+    ----------
+    values
+        Results of shape (result, base, d + 2), d being the number of keys.
     """
     base, rng = values.shape[1], np.random.default_rng(0)
     again = [_indices(values[:, rng.integers(0, base, base)]) for _ in range(RESAMPLES)]
@@ -141,7 +144,7 @@ def _with_intervals(values: Array) -> Array:
 
 
 def _indices(values: Array) -> Array:
-    """First-order and total indices, of shape (order, result, key)."""
+    """Return first-order and total indices, of shape (order, result, key)."""
     from scipy.stats import sobol_indices
 
     count, base, each = values.shape

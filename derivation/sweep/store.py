@@ -1,4 +1,4 @@
-"""The finished batches of a study, each a file that is there whole or not at all."""
+"""The finished batches of a study as files, each written completely or not at all."""
 
 import json
 import os
@@ -20,14 +20,14 @@ from derivation.sweep.plan import gaps
 from derivation.sweep.study import Study
 
 FILE = re.compile(r"(\d+)-(\d+)-([0-9a-f]+)\.parquet")
-"""First point, the one behind the last, and hash of the points of a batch."""
+"""File name of a batch: first point, the point after the last one, and hash of the points."""
 TEXTS = ("status", "reason", "effects")
 NUMBERS = (*UNITS, "bound", "model_error")
 
 
 @dataclass(frozen=True)
 class PartFile:
-    """A finished batch: the points from `start` to before `stop`, and their file."""
+    """A finished batch: the points from `start` to `stop` (exclusive), and their file."""
 
     start: int
     stop: int
@@ -42,12 +42,12 @@ class Store:
     study
         The study.
     folder
-        Where the batches stand; made if it is not there.
+        Folder of the batches; it is created if it does not exist.
 
     Raises
     ------
     SceneError
-        If the folder holds another study.
+        If the folder contains another study.
     """
 
     def __init__(self, study: Study, folder: Path) -> None:
@@ -62,16 +62,16 @@ class Store:
 
     @property
     def done(self) -> int:
-        """Number of points that are finished."""
+        """Number of computed points, including refused and incomplete ones."""
         return sum(part.stop - part.start for part in self.parts)
 
     def missing(self) -> list[tuple[int, int]]:
-        """The ranges of points that are still to be computed."""
+        """Return the ranges of points that have not been computed."""
         ranges = [(part.start, part.stop) for part in self.parts]
         return list(gaps(ranges, self.study.plan.size))
 
     def failed(self) -> Iterator[tuple[PartFile, list[int]]]:
-        """The batches with points that are not finished, and the numbers of these points."""
+        """Yield each batch with refused or incomplete points, and the indices of these points."""
         for part in list(self.parts):
             status = np.array(self._read(part)["status"].to_pylist())
             wrong = (np.flatnonzero(status != "finished") + part.start).tolist()
@@ -79,7 +79,7 @@ class Store:
                 yield part, wrong
 
     def keep(self, start: int, stop: int, content: bytes, seconds: float) -> None:
-        """Keep the file of a batch whose points have not been computed before."""
+        """Write the file of a new batch, computed in a run time [s]."""
         points = self.study.plan.points(start, stop)
         name = f"{start:010d}-{stop:010d}-{self.study.points_hash(points)}.parquet"
         self._write(name, content)
@@ -87,7 +87,7 @@ class Store:
         self._note(start, stop, stop - start, seconds)
 
     def renew(self, part: PartFile, numbers: list[int], content: bytes, seconds: float) -> None:
-        """Replace some points of a batch."""
+        """Replace points of a batch, given by their indices and computed in a run time [s]."""
         import pyarrow as pa
 
         old = self._read(part)
@@ -99,11 +99,11 @@ class Store:
         self._note(part.start, part.stop, len(numbers), seconds)
 
     def settle(self) -> None:
-        """Order the batches, once all are there."""
+        """Sort the batches, after all points have been computed."""
         self.parts.sort(key=lambda part: part.start)
 
     def table(self, start: int, stop: int) -> Any:
-        """The results of the points from `start` to before `stop` as a table of pyarrow."""
+        """Return the results of the points from `start` to `stop` (exclusive), a pyarrow table."""
         import pyarrow as pa
 
         pieces = []
@@ -114,14 +114,20 @@ class Store:
         return pa.concat_tables(pieces).combine_chunks()
 
     def tables(self, size: int) -> Iterator[tuple[int, int, Any]]:
-        """All results in blocks of at most so many points: start, stop and table of each."""
+        """Yield all results in blocks of at most `size` points: start, stop and table of each."""
         total = self.study.plan.size
         for start in range(0, total, size):
             stop = min(start + size, total)
             yield start, stop, self.table(start, stop)
 
     def _claim(self) -> None:
-        """Write what is computed here, or see that it is this."""
+        """Write the description of the study into the folder, or compare it with the one there.
+
+        Raises
+        ------
+        SceneError
+            If the folder contains another study.
+        """
         own = self.folder / "study.json"
         if own.is_file():
             try:
@@ -139,7 +145,7 @@ class Store:
         self._write(own.name, text.encode())
 
     def _found(self) -> Iterator[PartFile]:
-        """The batches that are there; those whose points have another hash do not count."""
+        """Yield the batches in the folder, without those whose points have another hash."""
         reached = 0
         for path in sorted(self.folder.glob("*.parquet")):
             if not (known := FILE.fullmatch(path.name)):
@@ -152,13 +158,13 @@ class Store:
                 yield PartFile(start, stop, path)
 
     def _read(self, part: PartFile) -> Any:
-        """The table of a batch; the last one is remembered."""
+        """Return the table of a batch; the last one is cached."""
         if self._last is None or self._last[0] != part:
             self._last = part, _parsed(part.path.read_bytes())
         return self._last[1]
 
     def _write(self, name: str, content: bytes) -> None:
-        """Write a file whole or not at all, also if the machine goes down."""
+        """Write a file completely or not at all, even if the machine fails."""
         temporary = self.folder / f"{name}.temporary"
         with temporary.open("wb") as stream:
             stream.write(content)
@@ -167,13 +173,13 @@ class Store:
         temporary.replace(self.folder / name)
 
     def _note(self, start: int, stop: int, computed: int, seconds: float) -> None:
-        """Add a line to the journal of what has been computed."""
+        """Add a line to the journal of computed batches."""
         with (self.folder / "journal.txt").open("a") as stream:
             stream.write(f"{start} {stop} {computed} points {seconds:.3g} s\n")
 
 
 def packed(rows: Rows) -> bytes:
-    """Results as the content of a Parquet file."""
+    """Return results as the content of a Parquet file."""
     import pyarrow as pa
 
     numbers = rows.results | {"bound": rows.bound, "model_error": rows.model_error}
@@ -192,9 +198,10 @@ def _packed(table: Any) -> bytes:
 
 
 def _parsed(content: bytes) -> Any:
-    """The table of a file's content.
+    """Return the table in the content of a Parquet file.
 
-    A thread of pyarrow that reads one of Python's streams as Python ends would abort it.
+    No threads are used: a pyarrow thread that still reads a Python stream when Python exits would
+    abort the process.
     """
     import pyarrow as pa
     import pyarrow.parquet as pq
@@ -204,7 +211,13 @@ def _parsed(content: bytes) -> Any:
 
 @contextmanager
 def opened(study: Study, out: Path | None) -> Iterator[Store]:
-    """The store beside an output, or one for as long as the block runs."""
+    """Yield the store in the folder of an output, or without an output a temporary store.
+
+    Raises
+    ------
+    SceneError
+        If the output exists without its folder, or the folder contains another study.
+    """
     if out is not None:
         if out.exists() and not (parts_folder(out) / "study.json").is_file():
             raise SceneError(
@@ -218,5 +231,5 @@ def opened(study: Study, out: Path | None) -> Iterator[Store]:
 
 
 def parts_folder(out: Path) -> Path:
-    """The folder of the batches of an output."""
+    """Return the folder of the batches of an output: its name with `.parts` added."""
     return out.with_name(f"{out.name}.parts")

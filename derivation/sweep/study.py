@@ -1,4 +1,4 @@
-"""What a study computes, and the hash by which its points are known."""
+"""A study: scene, points and tolerance, with the hash that identifies them."""
 
 import hashlib
 import json
@@ -25,7 +25,7 @@ class Study:
     plan
         The points.
     rtol
-        Relative tolerance of the results [1], as `simulate` takes it.
+        Relative tolerance of the results [1], as for `simulate`.
     """
 
     scene: Scene
@@ -34,12 +34,12 @@ class Study:
 
     @cached_property
     def base(self) -> dict[str, Any]:
-        """What every point has in common: scene, tolerance, version of the program."""
+        """Data common to all points: scene, tolerance and program version."""
         common = {"scene": self.scene.to_json(), "rtol": self.rtol}
         return common | {"version": version("platecontact")}
 
     def to_json(self) -> dict[str, Any]:
-        """All of the study."""
+        """Return scene, tolerance, program version and points as JSON data."""
         return self.base | {"plan": self.plan.to_json()}
 
     @cached_property
@@ -47,7 +47,7 @@ class Study:
         return _canonical(self.base)
 
     def points_hash(self, columns: Mapping[str, Array]) -> str:
-        """Hash of the scenes of some points, in their order, with tolerance and version."""
+        """Return the hash of scene, tolerance, version and the values of some points, in order."""
         digest = hashlib.sha256(self._common)
         for key, values in columns.items():
             digest.update(key.encode() + b"\0")
@@ -56,7 +56,7 @@ class Study:
 
     @cached_property
     def name(self) -> str:
-        """Hash of all of the study."""
+        """Hash of the whole study."""
         return hashlib.sha256(_canonical(self.to_json())).hexdigest()
 
 

@@ -1,4 +1,4 @@
-"""The short answer of a study: how many points came out how, and the range of each result."""
+"""Summary of a study: number of points by status, and range of each result."""
 
 from collections import Counter
 from dataclasses import dataclass
@@ -14,31 +14,31 @@ from derivation.sweep.sensitivity import Sensitivities
 from derivation.sweep.store import Store
 
 BLOCK = 2**16
-"""Points that are looked at together."""
+"""Number of points that are read together."""
 DIGITS = 4
-"""Significant digits of a range."""
+"""Number of significant digits of a range."""
 MOST_WARNINGS = 5
-"""Different reasons that are kept."""
+"""Largest number of different reasons and warnings."""
 
 
 @dataclass(frozen=True)
 class Summary:
-    """The short answer of a study.
+    """The summary of a study.
 
     Attributes
     ----------
     points, computed
-        Number of points, and of those computed in this run.
+        Number of all points, and of those computed in this run.
     counts
         Number of points by status.
     ranges
-        Smallest and largest value of each result, in SI units; none without a result.
+        Smallest and largest value of each result, in SI units; results without values are missing.
     largest_bound
-        Largest bound of the relative error [1].
+        Largest bound on the relative error [1].
     warnings
-        The reasons and warnings of points, each once, with one of its points; the first ones.
+        The first different reasons and warnings, each with one of its points.
     found
-        Sensitivity indices, if wanted.
+        Sensitivity indices, if requested.
     """
 
     points: int
@@ -50,13 +50,13 @@ class Summary:
     found: Sensitivities | None
 
     def to_json(self) -> dict[str, Any]:
-        """All of it."""
+        """Return the summary under fixed keys, in SI units."""
         data = {key: value for key, value in vars(self).items() if key != "found"}
         data |= {"warnings": list(self.warnings)}
         return data | ({"sensitivities": self.found.to_json()} if self.found else {})
 
     def to_text(self) -> str:
-        """The answer for a screen."""
+        """Return the summary as text."""
         counts = ", ".join(f"{count:,} {status}" for status, count in self.counts.items())
         rows = []
         for name, ends in self.ranges.items():
@@ -73,7 +73,15 @@ class Summary:
 
 
 def summary(store: Store, computed: int, found: Sensitivities | None) -> Summary:
-    """Summarise a finished study, block by block."""
+    """Summarise a finished study, block by block.
+
+    Parameters
+    ----------
+    computed
+        Number of points computed in this run.
+    found
+        Sensitivity indices, if requested.
+    """
     counts, reasons = Counter[str](), dict[str, str]()
     low, high = dict.fromkeys(UNITS, np.inf), dict.fromkeys(UNITS, -np.inf)
     bound = 0.0
@@ -93,7 +101,7 @@ def summary(store: Store, computed: int, found: Sensitivities | None) -> Summary
 
 
 def _add_reasons(reasons: dict[str, str], store: Store, start: int, status: Any, new: Any) -> None:
-    """Add reasons that are not known yet, with the first point of each."""
+    """Add new reasons and warnings to `reasons`, each with its first point."""
     if len(reasons) >= MOST_WARNINGS:
         return
     for text, place in zip(*np.unique(new.astype(str), return_index=True), strict=True):

@@ -19,16 +19,16 @@ SUFFIXES = (".nc", ".zarr", ".parquet", ".csv")
 Dims = tuple[str, ...]
 Labels = dict[str, str]
 BLOCK = 2**16
-"""Points that are held in memory while a file is written."""
+"""Largest number of points that are in memory while a file is written."""
 
 
 def check_out(out: Path) -> None:
-    """Refuse an output that says no format or cannot be written.
+    """Raise an error if an output has no known suffix or cannot be written.
 
     Raises
     ------
     SceneError
-        If its name ends in none of `SUFFIXES`.
+        If its suffix is not one of `SUFFIXES`.
     OSError
         If it cannot be written.
     """
@@ -42,16 +42,16 @@ def check_out(out: Path) -> None:
 
 
 def write(store: Store, out: Path, progress: Progress) -> None:
-    """Write all results of a finished study; the file is there whole or not at all.
+    """Write all results of a finished study into a file, completely or not at all.
 
     Parameters
     ----------
     store
         The finished batches.
     out
-        The file, or folder of Zarr.
+        The file; for Zarr the folder.
     progress
-        Called after each block with the number of points that are written and of all.
+        Called after each block with the index of the next point and the number of all.
     """
     temporary = store.folder / f"{out.stem}.writing{out.suffix}"
     _remove(temporary)
@@ -95,7 +95,7 @@ def _csv(store: Store, path: Path, progress: Progress) -> None:
 
 
 def _plain() -> Any:
-    """Options of CSV: no heading, as pyarrow quotes it; quotes where they are needed."""
+    """Return CSV options: no head, which pyarrow would quote; quotes only where needed."""
     from pyarrow.csv import WriteOptions
 
     return WriteOptions(include_header=False, quoting_style="needed")
@@ -114,7 +114,7 @@ def _parquet(store: Store, path: Path, progress: Progress) -> None:
 
 
 def _with_points(store: Store, progress: Progress) -> Iterator[Any]:
-    """Tables of points and results, with units; numbers that there are not are null."""
+    """Yield tables of points and results with units; missing numbers are null."""
     import pyarrow as pa
 
     study = store.study
@@ -172,7 +172,7 @@ def _netcdf(store: Store, path: Path, progress: Progress) -> None:
 
 
 def _arrays(store: Store, create: Callable[..., Any], progress: Progress) -> None:
-    """Fill an array per result, over the dimensions of the study, and one per key."""
+    """Fill an array for each result, over the dimensions of the study, and one for each key."""
     study, plan = store.study, store.study.plan
     dims, shape = tuple(plan.dims), tuple(plan.dims.values())
     chunks = _chunks(shape)
@@ -200,9 +200,9 @@ Slices = tuple[slice, ...]
 
 
 def blocks(shape: tuple[int, ...]) -> Iterator[tuple[Slices, int, int]]:
-    """Pieces of an array of at most `BLOCK` elements that lie together in memory.
+    """Yield contiguous pieces of an array of at most `BLOCK` elements.
 
-    Yields the slices of each piece, its first element, and the one behind its last.
+    Each piece has its slices, the index of its first element, and the index after its last.
     """
     chunks = _chunks(shape)
     counts = tuple(-(-length // part) for length, part in zip(shape, chunks, strict=True))
@@ -219,13 +219,13 @@ def blocks(shape: tuple[int, ...]) -> Iterator[tuple[Slices, int, int]]:
 
 
 def _extent(shape: tuple[int, ...], place: Slices) -> tuple[int, ...]:
-    """Lengths of a piece."""
+    """Return the lengths of a piece."""
     pairs = zip(shape, place, strict=True)
     return tuple(len(range(*part.indices(length))) for length, part in pairs)
 
 
 def _chunks(shape: tuple[int, ...]) -> tuple[int, ...]:
-    """Lengths of the pieces: all of the last dimensions, part of one, 1 of the first."""
+    """Return the lengths of pieces: whole last dimensions, a part of one, 1 in the first ones."""
     found, room = list[int](), BLOCK
     for length in shape[::-1]:
         found.append(max(1, min(length, room)))

@@ -115,7 +115,7 @@ def test_a_viscoelastic_contact_begins_again_on_a_nearly_recovered_face(
 
 
 def test_a_long_run_says_how_far_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(contact_sequence, "TOLD", 1)
+    monkeypatch.setattr(contact_sequence, "PROGRESS", 1)
     law = ContactLaw(model_of(scene()), PAPER | {"inertia"})
     problem, told = waves.problem_of(law, 4), list[str]()
     with activity.heard(told.append):

@@ -20,8 +20,8 @@ from derivation.scene.effects.inertia import (
     PlateInertia,
     after_yield,
     dissipated,
-    late,
-    off_rest,
+    dynamic_deviation,
+    total_deviation,
     weight_share,
 )
 from derivation.scene.effects.plasticity import plastic_restitution
@@ -83,12 +83,12 @@ class Damping(Effect):
 
         def changed(phase: Array, rise: Numbers) -> Array:
             steady = np.minimum(VARIATION, np.minimum(phase * phase, TURNING / (phase * rise)))
-            ringing = late(phase, rise, viscous)
+            ringing = dynamic_deviation(phase, rise, viscous)
             return model.loss_factor * steady + np.minimum(
                 2.0 * ringing, model.loss_factor * ringing * phase
             )
 
-        off = force / context.depth * off_rest(model, a, T, changed)
+        off = force / context.depth * total_deviation(model, a, T, changed)
         logs: list[Numbers] = [factor * off for factor in SENSITIVITY]
         logs[0], logs[4] = heavier * logs[0], heavier * logs[4]
         logs = after_yield(logs, plastic_restitution(model, context))

@@ -106,7 +106,7 @@ Changes = tuple[Numbers, Numbers, Numbers, Numbers, Numbers]
 
 
 class Bound(NamedTuple):
-    """Bound on the change if an effect is omitted.
+    """Bound on the changes if an effect is omitted.
 
     Attributes
     ----------
@@ -118,7 +118,7 @@ class Bound(NamedTuple):
     radius
         Logarithm of the factor by which the contact radius may change in addition [1].
     results
-        The same for each output, in their order [1].
+        Logarithm of the factor by which each output may change in addition, in their order [1].
     """
 
     low: Array
@@ -170,7 +170,7 @@ class Effect:
     bends
         Whether the plate deflects in proportion to the force.
     other_edge
-        Whether the plate's edge is another than the paper's.
+        Whether the edge of the plate differs from the paper's.
     solved
         Whether the pressure follows from an integral equation, so that the law is not a sum of
         contributions.

@@ -33,13 +33,15 @@ MAX_DYNAMIC_FACTOR = 2.0
 """Largest deviation of a mode from its quasi-static response, over its static deflection: that of
 an undamped oscillator under a step force."""
 SMOOTH_FORCE = 16.0
-"""Bound on the same deviation, times omega^2 T T_rise, for a force with a smooth onset."""
+"""Bound on this deviation, times omega^2 T T_rise, for a force with a smooth onset."""
 STEP_FORCE = 5.0
-"""Bound on the same deviation, times omega T, for a force that rises suddenly."""
+"""Bound on this deviation, times omega T, for a force that rises suddenly."""
 HERTZ_ONSET = 2.0
-"""The same, times (omega T_rise)^(3/2), for a force that begins as t^(3/2), as by Hertz's law."""
+"""Bound on this deviation, times (omega T_rise)^(3/2) T/T_rise, for a force that begins as
+t^(3/2), as by Hertz's law."""
 VISCOUS_ONSET = 0.5
-"""The same, over x_v/sqrt(omega T), for a viscoelastic contact, whose force begins as t^(1/2)."""
+"""Bound on this deviation, over x_v/sqrt(omega T), for a viscoelastic force, which begins as
+t^(1/2)."""
 MOST_VISCOUS = 2.0
 """Largest x_v with a bound. Beyond it the sphere nearly stops in the contact, and the vibration of
 the plate may change the little that remains of its speed by any factor."""
@@ -54,9 +56,10 @@ CONTACT_DECAY, CONTACT_END = 3.0, 30.0
 RADIATION = (2.0, 1.0, 2.5, 0.9, 3.0)
 """Change of each result by the higher wave branches, over a/(c_T T): radiation of a half-space."""
 THICKNESS_RINGING = (6.0, 0.5, 40.0, 13.0, 2.0)
-"""The same over (a/H)^2 (H/(c_T T))^(3/2): resonance of the thickness under a wide contact."""
+"""Change of each result by the higher wave branches, over (a/H)^2 (H/(c_T T))^(3/2): thickness
+resonance under a wide contact."""
 HERTZ_TIME = 3.3
-"""Contact time over (m^2/(K^2 v0))^(1/5): 2.94 by Hertz's law, somewhat more with bending."""
+"""Contact time over (m^2/(K^2 v0))^(1/5): 2.94 by Hertz's law, slightly more with bending."""
 RISE_BY_ZENER = 3.0
 """Coefficient of the Zener parameter in the rise time of the force."""
 WIDER = 1.25
@@ -99,9 +102,9 @@ class PlateInertia(Effect):
         viscous = viscous_number(model)
 
         def deviation(phase: Array, rise: Numbers) -> Array:
-            return late(phase, rise, viscous)
+            return dynamic_deviation(phase, rise, viscous)
 
-        off = force / context.depth * off_rest(model, a, T, deviation)
+        off = force / context.depth * total_deviation(model, a, T, deviation)
         more = higher_branch_error(model, a, T) if np.all(model.density) else 5 * (0.0,)
         none = none_of(context.radii)
         logs: list[Numbers] = [
@@ -196,7 +199,7 @@ def _rise(model: Model) -> Numbers:
     return found
 
 
-def off_rest(
+def total_deviation(
     model: Model, a: Numbers, T: Numbers, deviation: Callable[[Array, Numbers], Array]
 ) -> Array:
     """Return a deviation from the quasi-static response to a unit force [m/N], of all modes.
@@ -267,7 +270,7 @@ def _number(x: Array) -> Numbers:
     return float(x) if x.ndim == 0 else x
 
 
-def late(phase: Array, rise: Numbers, viscous: Numbers = 0.0) -> Array:
+def dynamic_deviation(phase: Array, rise: Numbers, viscous: Numbers = 0.0) -> Array:
     """Return a mode's deviation from its quasi-static response over its static deflection.
 
     The deviation depends on P'', which is of the order of P/T^2 by Hertz's law, and of P/(T T_rise)

@@ -1,4 +1,4 @@
-"""A headless Chromium, driven by chromedriver's own protocol: JSON over HTTP."""
+"""A headless Chromium, controlled through chromedriver's protocol, JSON over HTTP."""
 
 import base64
 import contextlib
@@ -25,7 +25,7 @@ FLAGS = (
 
 
 def missing() -> str:
-    """Why there is no browser; empty if there is one."""
+    """Return the reason why there is no browser; empty if there is one."""
     absent = [name for name in ("chromium", "chromedriver") if shutil.which(name) is None]
     return f"needs {' and '.join(absent)}" if absent else ""
 
@@ -44,19 +44,19 @@ class Browser:
         self.session = f"session/{made['sessionId']}"
 
     def call(self, path: str, body: dict[str, Any] | None = None, method: str = "POST") -> Any:
-        """One command; its value."""
+        """Send a command of chromedriver; return the value of the answer."""
         data = None if body is None else json.dumps(body).encode()
         request = urllib.request.Request(f"{self.address}/{path}", data, method=method)
         with urllib.request.urlopen(request, timeout=120) as answer:
             return json.loads(answer.read())["value"]
 
     def tool(self, command: str, **arguments: Any) -> Any:
-        """A command of Chromium's own protocol."""
+        """Send a command of Chromium's DevTools protocol; return its result."""
         body = {"cmd": command, "params": arguments}
         return self.call(f"{self.session}/goog/cdp/execute", body)
 
     def open(self, path: Path, width: int, dark: bool = False) -> None:
-        """Show a file in a window of a width."""
+        """Open a file in a window of the given width [pixels], with light or dark colours."""
         self.tool(
             "Emulation.setDeviceMetricsOverride",
             width=width, height=900, deviceScaleFactor=1, mobile=False,
@@ -66,23 +66,23 @@ class Browser:
         self.call(f"{self.session}/url", {"url": path.resolve().as_uri()})
 
     def run(self, script: str) -> Any:
-        """What a script returns."""
+        """Run a script in the page; return its result."""
         return self.call(f"{self.session}/execute/sync", {"script": script, "args": []})
 
     def complaints(self) -> list[str]:
-        """What the console says since it was last asked."""
+        """Return the messages of the console since the last call."""
         log = self.call(f"{self.session}/se/log", {"type": "browser"})
         return [entry["message"] for entry in log]
 
     def picture(self) -> bytes:
-        """What is on the screen, as PNG."""
+        """Return a screenshot as PNG."""
         shot = self.call(f"{self.session}/screenshot", method="GET")
         return base64.b64decode(shot)
 
 
 @contextlib.contextmanager
 def browser(folder: Path) -> Iterator[Browser]:
-    """A browser with a profile of its own, ended when it is left."""
+    """Yield a browser with a separate profile; it is closed at the end of the block."""
     command = [str(shutil.which("chromedriver")), "--port=0"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as driver:
         try:

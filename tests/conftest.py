@@ -12,7 +12,7 @@ from hypothesis import settings
 from derivation.plate import derived
 from derivation.plate.vocabulary import Formula
 
-if TYPE_CHECKING:  # they load the generated package, without which its own tests have to run
+if TYPE_CHECKING:  # these modules import the generated package, which may be missing in a test
     from derivation.engine.measure.case import HardCase
     from derivation.engine.measure.suite import Known, Suite
 
@@ -28,7 +28,7 @@ def formulas() -> Mapping[str, Formula]:
 
 @pytest.fixture
 def no_warning() -> Iterator[None]:
-    """No warning is given."""
+    """Turn warnings into errors."""
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         yield
@@ -36,14 +36,14 @@ def no_warning() -> Iterator[None]:
 
 @pytest.fixture
 def silent(no_warning: None) -> Iterator[None]:  # noqa: ARG001
-    """Nor does any step of NumPy's overflow, underflow or have no value."""
+    """Turn warnings and all floating-point exceptions of NumPy into errors."""
     with np.errstate(all="raise"):
         yield
 
 
 @pytest.fixture(scope="session")
 def suite() -> "Suite":
-    """The hard cases with all that they are compared with."""
+    """Return the hard cases with their functions and references."""
     from derivation.plate.cases.suite import suite
 
     return suite()
@@ -51,13 +51,13 @@ def suite() -> "Suite":
 
 @pytest.fixture(scope="session")
 def cases(suite: "Suite") -> "tuple[HardCase, ...]":
-    """The hard cases."""
+    """Return the hard cases."""
     return suite.cases
 
 
 @pytest.fixture(scope="session")
 def references(cases: "tuple[HardCase, ...]") -> "dict[str, Known]":
-    """Their references, as recorded."""
+    """Return the recorded reference values of the hard cases, by key."""
     from derivation.engine.measure import hard
     from derivation.plate.paper import PAPER
 

@@ -1,4 +1,4 @@
-"""Where generated functions have a value: an example for every argument, and points outside."""
+"""Domains of the generated functions: an example of every argument, and points outside."""
 
 import re
 from collections.abc import Iterator, Mapping
@@ -32,11 +32,11 @@ OUTSIDE = {
     "finite_part": {"k": (2.5, 1e4)},
     "finite_part_ratio": {"k": (2.5,)},
 }
-"""What lies outside by a condition on the result, or for not being whole."""
+"""Arguments outside a domain because of a condition on the result, or because not integers."""
 
 
 def conditions(name: str) -> list[str]:
-    """The conditions of a domain that name nothing but arguments."""
+    """Return the conditions of a domain that contain only names of arguments."""
     row = ROWS[name]
     known = {*row["arguments"], "abs", "or", "e"}
     parts = row["domain"].split(", ")
@@ -48,7 +48,7 @@ def holds(condition: str, values: Values) -> bool:
 
 
 def breaking(name: str) -> Iterator[tuple[str, Values]]:
-    """Arguments that break each condition, and if possible no other one."""
+    """Yield, for each condition, points that violate it and as few others as possible."""
     names = ROWS[name]["arguments"]
     base = {key: EXAMPLE[key] for key in names}
     for condition in conditions(name):

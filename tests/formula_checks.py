@@ -1,7 +1,7 @@
-"""Checks of the chain's core formulas by what does not contain them, for `test_formula_mutants`.
+"""Checks of core formulas that do not contain the formulas themselves, for `test_formula_mutants`.
 
-An expression in the place of a formula passes if the equations hold that the formula solves, or
-if an oracle agrees that never reads the chain.
+An expression passes instead of a formula if it satisfies the equations that the formula solves, or
+if it agrees with an independent reference.
 """
 
 import random
@@ -27,7 +27,7 @@ from derivation.plate.waves import route as inertia_routes
 
 Numbers = Mapping[str, mp.mpf]
 Check = Callable[[sp.Expr], bool]
-"""Whether an expression in the place of a formula passes."""
+"""Function that returns whether an expression passes instead of a formula."""
 
 DIGITS = 30
 
@@ -52,7 +52,7 @@ def number(ball: object) -> mp.mpf:
 
 
 def drawn(names: set[str], seed: str, count: int = 2) -> list[Numbers]:
-    """Values between 1/4 and 9/4, doubles; pressures are negative."""
+    """Return random points of doubles between 1/4 and 9/4; the pressure A_j is negative."""
     generator = random.Random(seed)
     points = []
     for _ in range(count):
@@ -61,11 +61,11 @@ def drawn(names: set[str], seed: str, count: int = 2) -> list[Numbers]:
     return points
 
 
-# --- links 1 to 9: equations that the formula solves, and oracle 2
+# --- links 1 to 9: equations that the formula solves, and the mpmath reference
 
 
 def in_the_equations(name: str) -> Check:
-    """f_j and g_j with the other one as it is, in both equations of motion."""
+    """Check f_j or g_j in both equations of motion, with the other one unchanged."""
     other = chain()["g_j" if name == "f_j" else "f_j"].expression
 
     def passes(expression: sp.Expr) -> bool:
@@ -76,7 +76,7 @@ def in_the_equations(name: str) -> Check:
 
 
 def in_the_tractions(name: str) -> Check:
-    """One Omega beside the other three, in the tractions of both faces."""
+    """Check one Omega, with the other three unchanged, in the tractions of both faces."""
     own = {c: A_j * chain()[f"Omega_{k}"].expression for k, c in enumerate(CONSTANTS, start=1)}
     constant = CONSTANTS[int(name[-1]) - 1]
 
@@ -112,7 +112,7 @@ def zeros(count: int) -> tuple[Numbers, ...]:
 
 
 def summed(expression: sp.Expr, numbers: Numbers, count: int = 34) -> mp.mpf:
-    """One mode's share, added up; shares die like e^(-4 h j_n/b)."""
+    """Return the sum of an expression over the modes; its terms decay like e^(-4 h j_n/b)."""
     call = evaluator(expression)
     return mp.fsum(call({**numbers, **mode}) for mode in zeros(count))
 
@@ -121,7 +121,7 @@ ETAS = (Fraction(2, 5), Fraction(4, 5))
 
 
 def by_coefficient(name: str) -> Check:
-    """c_k of modes and side wall together, against oracle 1 of the contact law."""
+    """Check a part of c_k: the sum of both parts against the Arb reference of the contact law."""
     order, part = int(name.split("_")[1]), name.split("_")[2]
     true = [number(contact_balls.coefficient(order, eta, Fraction(1), 20)) for eta in ETAS]
     moment = {f"kappa_{order - 1}": number(contact_balls.kappa(order - 1, 25))}
@@ -140,7 +140,7 @@ def by_coefficient(name: str) -> Check:
 
 
 def by_departure(_: str) -> Check:
-    """The split's part of the modes: the whole less the side wall, by oracle 1."""
+    """Check the part of the modes against the Arb reference of the total without the side wall."""
     alphas = Fraction(1, 5), Fraction(1, 2)
     walls = [contact_balls.side_wall(alpha, 20) for alpha in alphas]
     points = [
@@ -152,7 +152,7 @@ def by_departure(_: str) -> Check:
 
 
 def by_the_law(_: str) -> Check:
-    """1 + c_1 A + ... at the coefficients of oracle 1, against its indentation at a small A."""
+    """Check 1 + c_1 A + ... against the Arb reference of the indentation at a small A."""
     eta, A = Fraction(1, 2), Fraction(1, 16)
     values = {str(c_A[n]): number(contact_balls.coefficient(n, eta, 1, 25)) for n in (1, 3, 5, 7)}
     at = values | {"a_ratio": mp.mpf(A.numerator) / A.denominator}
@@ -162,7 +162,7 @@ def by_the_law(_: str) -> Check:
 
 
 def by_inversion(name: str) -> Check:
-    """xi_k or p_n among their like: the law of a tiny contact, turned round term by term."""
+    """Check xi_k or p_n: with the others, they invert the contact law of a small contact."""
     formal = name.startswith("xi")
     family = [x for x in chain() if x.startswith(name[:-1]) and x[-1].isdigit()]
     gammas = [f"gamma_{k}" for k in range(2, len(family) + 2)]
@@ -192,7 +192,7 @@ def by_inversion(name: str) -> Check:
 
 
 def by_wall(_: str) -> Check:
-    """The side wall's integral by Gauss' rule, near 0 spread by y = u^3, against oracle 1."""
+    """Check the side wall's integral by a Gauss rule (y = u^3) against the Arb reference."""
     true = float(number(contact_balls.side_wall(Fraction(3, 5), 20)))
     nodes, weights = scipy.special.roots_legendre(300)
     u = 1.8 * (nodes + 1)
@@ -212,7 +212,7 @@ def by_wall(_: str) -> Check:
 
 
 def by_energy(name: str) -> Check:
-    """The integrand of the contact time and the work, by the energy at every place.
+    """Check the integrand of the contact time, and the work, against the energy integral.
 
     C = a_m = R = 1, m = 2: 2 u dx/dq over the root of the work between q = 1 - u^2 and 1.
     """
@@ -237,7 +237,7 @@ def by_energy(name: str) -> Check:
 
 
 def by_hertz_motion(_: str) -> Check:
-    """2 int_0^1 dx/sqrt(1 - x^(5/2)), x = 1 - u^2."""
+    """Check Hertz's contact time: 2 int_0^1 dx/sqrt(1 - x^(5/2)), with x = 1 - u^2."""
 
     def integrand(u: mp.mpf) -> mp.mpf:
         return 4 * u / mp.sqrt(-mp.expm1(mp.mpf("2.5") * mp.log1p(-(u**2))))
@@ -256,7 +256,7 @@ MOTION = {
 
 
 def by_motion(name: str) -> Check:
-    """Newton's equation under xi_2 delta + xi_3 delta^(5/3), its work by quadrature."""
+    """Check the motion with force xi_2 delta + xi_3 delta^(5/3), by quadrature of the work."""
 
     def force(at: mp.mpf) -> mp.mpf:
         return MOTION["xi_2"] * at + MOTION["xi_3"] * mp.cbrt(at) ** 5
@@ -269,7 +269,7 @@ def by_motion(name: str) -> Check:
 
 
 def by_linear_motion(_: str) -> Check:
-    """m x'' + xi_2 x = 0, x(0) = 0 and x'(0) = v0, differentiated in numbers."""
+    """Check m x'' + xi_2 x = 0, x(0) = 0 and x'(0) = v0, by numerical differentiation."""
     m, v0, stiff, at = (MOTION[key] for key in ("m", "v0", "xi_2", "t"))
 
     def passes(expression: sp.Expr) -> bool:
@@ -291,7 +291,7 @@ def by_linear_motion(_: str) -> Check:
 
 
 def by_profile(name: str) -> Check:
-    """Flat punches that fit a sphere (Sneddon 1965), by quadrature; dP = 2 E* a d delta."""
+    """Check the profile of a sphere from flat punches (Sneddon 1965), and dP = 2 E* a d delta."""
     numbers = drawn({"lam", "mu"}, name, 1)[0] | {"R": mp.mpf(3), "a": mp.mpf("1.7")}
     E = 2 / routes.value("C_half", {"phi": 1.0} | {k: float(numbers[k]) for k in ("lam", "mu")}, 20)
     R, a = numbers["R"], numbers["a"]
@@ -314,7 +314,7 @@ def by_profile(name: str) -> Check:
 
 
 def by_rim(name: str) -> Check:
-    """u at the rim, mean and first moment through the thickness, by oracle 2's mode."""
+    """Check mean and first moment of u at the edge against the mpmath reference of a mode."""
     numbers = drawn({"phi", "h", "b", "lam", "mu", "A_j", "J1"}, name, 1)[0]
     given = {key: float(numbers[key]) for key in ("phi", "h", "lam", "mu", "A_j")}
     h, b, turns = numbers["h"], numbers["b"], name == "edge_turn"
@@ -329,7 +329,7 @@ def by_rim(name: str) -> Check:
 
 
 def by_residues(name: str) -> Check:
-    """The edge's part of the law: its sum over the modes against oracle 2's sum over residues."""
+    """Check the edge's part of the contact law against the mpmath reference, a sum of residues."""
     kind = "indentation" if name == "F_edge" else "slope"
     lam, mu, alpha = 1.3, 0.7, 0.6
     nu = lam / (2 * (lam + mu))
@@ -361,7 +361,7 @@ def by_poissons_ratio(_: str) -> Check:
 
 
 def by_first_order_system(name: str) -> Check:
-    """The waves' influence against oracle 2: eigenvectors of the equations of first order."""
+    """Check the influence of waves against eigenvectors of the first-order equations (mpmath)."""
     places = [(1.5, 0.75, 0.25), (0.5, 0.125, 0.375)]
     h, mu = mp.mpf("0.3"), mp.mpf("1.7")
     true = []

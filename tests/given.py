@@ -1,4 +1,4 @@
-"""Models and scenes that tests begin with."""
+"""Models and scenes that several tests use."""
 
 import random
 from collections.abc import Iterator, Mapping
@@ -30,7 +30,7 @@ EXAMPLE = {
 
 
 def model(**changes: Any) -> Model:
-    """A steel-like ball on a plate of some softness, with changes."""
+    """Return the model of an elastic sphere on a plate, with some fields replaced."""
     values: dict[str, Any] = {
         "R": 0.1, "m": 3.0, "v0": 1.0, "h": 0.02, "b": 0.5, "lam": 2e9, "mu": 3e9,
         "sphere_modulus": 5e10, "gravity": 9.81, "edge": "simply-supported",
@@ -39,7 +39,7 @@ def model(**changes: Any) -> Model:
 
 
 def scene(**tables: Mapping[str, Any]) -> Any:
-    """The same as a scene, its sphere of glass, with keys replaced, or removed by None."""
+    """Return a similar scene with a glass sphere; keys are replaced, or removed by None."""
     made: dict[str, dict[str, Any]] = {
         "sphere": {"radius": 0.1, "mass": 3.0, "material": "glass"},
         "plate": {
@@ -56,12 +56,12 @@ def scene(**tables: Mapping[str, Any]) -> Any:
 
 
 def lame(ratio: float) -> tuple[float, float]:
-    """Lame's constants of a Poisson's ratio, over mu."""
+    """Return Lame's constants over mu, from Poisson's ratio."""
     return 2.0 * ratio / (1.0 - 2.0 * ratio), 1.0
 
 
 def material(ratio: float) -> Fraction:
-    """gam of a Poisson's ratio."""
+    """Return gam = mu/(lam + 2 mu), from Poisson's ratio."""
     return (1 - 2 * Fraction(ratio)) / (2 * (1 - Fraction(ratio)))
 
 
@@ -75,7 +75,7 @@ def random_models(count: int) -> Iterator[Model]:
 
 
 def changed(**tables: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
-    """The good scene, Hertz's pressure under a paraboloid, keys replaced or removed by None."""
+    """Return a valid scene with Hertz's pressure; keys are replaced, or removed by None."""
     made: dict[str, dict[str, Any]] = {
         "sphere": {"radius": 0.13, "mass": 72.0},
         "plate": {"radius": 1.0, "thickness": 0.2, "lame_lambda": 0.36e9, "lame_mu": 0.43e9},
@@ -88,5 +88,5 @@ def changed(**tables: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
 
 
 def thick(speed: float = 1.0, size: float = 1e6) -> Any:
-    """A plate so large that it is Hertz's half-space."""
+    """Return a scene with a plate so large that Hertz's law of the half-space applies."""
     return read(changed(plate={"radius": size, "thickness": 2 * size}, impact={"speed": speed}))

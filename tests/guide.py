@@ -1,4 +1,4 @@
-"""The worked examples of `docs/development`, typed in where they say."""
+"""The worked examples of `docs/development`, written into the files that they name."""
 
 import re
 from pathlib import Path
@@ -6,15 +6,15 @@ from pathlib import Path
 from derivation.engine.files import ROOT
 
 PAGES = ("effect", "formula", "subject", "function", "rule_and_case", "paper")
-"""The pages in the order in which they are typed in."""
+"""The pages, in the order in which their examples are written."""
 GUIDE = "\n".join((ROOT / "docs" / "development" / f"{page}.md").read_text() for page in PAGES)
 BLOCK = re.compile(r"```(?:python|toml|jinja)\n# (.+?)\n(.*?)```", re.DOTALL)
 PAPER = "FOLDER/"
-"""What the place of a block begins with that belongs to a paper of one's own."""
+"""Beginning of the file name of a block that belongs to another paper."""
 
 
 def type_examples(root: Path, *, paper: bool) -> int:
-    """Type every block for the sources, or for a paper, into a folder; returns how many."""
+    """Write all blocks for the sources, or for another paper, to a folder; return their number."""
     blocks = [block for block in BLOCK.findall(GUIDE) if block[0].startswith(PAPER) is paper]
     for place, text in blocks:
         _typed(place.removeprefix(PAPER), text, root)
@@ -22,7 +22,7 @@ def type_examples(root: Path, *, paper: bool) -> int:
 
 
 def _typed(place: str, text: str, root: Path) -> None:
-    """Do what a block's first line says."""
+    """Write a block into a file, as its first line says."""
     if place.startswith("new file: "):
         path = root / place.removeprefix("new file: ")
         assert not path.exists(), f"{path.name} is no new file"

@@ -1,7 +1,6 @@
-"""Generated modules with one thing wrong, in memory, judged by the hard cases of what uses them.
+"""Generated modules with one error, in memory, tested by the hard cases of all their users.
 
-Beside the hard cases with their references, a function has a value at its example, and NaN outside
-its domain.
+In addition, a function must have a value at its example, and return NaN outside its domain.
 """
 
 import ast
@@ -36,13 +35,13 @@ from derivation.plate.paper import PAPER
 
 CALLS = calls.__name__
 STEPS = {"impact": 8, "plate_arrays": 8, "plate_points": 8}
-"""Of Newton's iterations, which need no more: what converges slower is noticed."""
+"""Limits of the number of Newton iterations, so that a slower convergence is detected."""
 ROUNDED = 0.51
-"""ULP by which a reference may change when it is rounded to a double."""
+"""Largest change of a reference value when it is rounded to a double [ULP]."""
 
 
 class Judged(NamedTuple):
-    """A hard case with its true values, and how far results may be from them."""
+    """A hard case with its reference values, and the allowed differences from them."""
 
     case: HardCase
     references: list[Reference]
@@ -50,7 +49,7 @@ class Judged(NamedTuple):
     allowed: np.ndarray
 
     def holds(self, kernels: Mapping[str, Kernel]) -> bool:
-        """Whether the results are right, in type and shape too, and nothing warns."""
+        """Return whether values, type and shape of the results are correct, without warnings."""
         found, problem = hard._results(
             self.case, kernels[self.case.kernel], len(self.true), self.references
         )
@@ -62,7 +61,7 @@ class Judged(NamedTuple):
 
 
 class Domain(NamedTuple):
-    """A function at its example and outside its domain, point by point and all at once."""
+    """A function at its example and outside its domain, for single points and an array of them."""
 
     name: str
 
@@ -84,7 +83,7 @@ class Domain(NamedTuple):
 
 
 class Layouts(NamedTuple):
-    """Contacts in arrays of every layout: each is what it is alone."""
+    """Contacts in arrays of various layouts: each result must equal that of the single contact."""
 
     name: str = "indentation"
 
@@ -117,7 +116,7 @@ def code(name: str) -> CodeType:
 
 @cache
 def imports(name: str) -> frozenset[str]:
-    """The generated modules that one of them imports."""
+    """Return the generated modules that a generated module imports."""
     nodes = [node for node in ast.walk(ast.parse(source(name))) if isinstance(node, ast.ImportFrom)]
     packaged = {
         alias.name for node in nodes if node.level and not node.module for alias in node.names
@@ -127,7 +126,7 @@ def imports(name: str) -> frozenset[str]:
 
 @cache
 def users(name: str) -> tuple[str, ...]:
-    """The modules that depend on one, each after those that it depends on itself."""
+    """Return the modules that depend on a module, each after those on which it depends."""
     every = {path.stem for path in (ROOT / "generated").glob("*.py")} - {"__init__", "manifest"}
     found = {name}
     while more := {other for other in every - found if imports(other) & found}:
@@ -141,7 +140,7 @@ def users(name: str) -> tuple[str, ...]:
 
 @contextmanager
 def replaced(name: str, tree: ast.Module | str) -> Iterator[dict[str, Kernel]]:
-    """What hard cases call, with one module changed and all that depend on it made anew."""
+    """Yield the functions of the hard cases, with one module changed and its users reloaded."""
     with ExitStack() as stack:
         for one in (name, *users(name), CALLS):
             full = one if one == CALLS else f"{generated.__name__}.{one}"
@@ -163,11 +162,11 @@ def _rows() -> Iterator[Kernel]:
 
 @cache
 def judged() -> tuple[Judged, ...]:
-    """Every hard case."""
+    """Return every hard case with its reference values."""
     suite = hard_suite.suite()
-    truth = hard.committed(json.loads(PAPER.hard.read_text()), suite.cases)
+    references = hard.committed(json.loads(PAPER.hard.read_text()), suite.cases)
     return tuple(
-        _judged(case, suite.kernels[case.kernel], suite.results(case.kernel), truth[case.key])
+        _judged(case, suite.kernels[case.kernel], suite.results(case.kernel), references[case.key])
         for case in suite.cases
     )
 
@@ -186,7 +185,7 @@ def _judged(case: HardCase, kernel: Kernel, count: int, known: hard.Known) -> Ju
 
 
 def survivors(name: str) -> dict[str, list[str]]:
-    """By function or constant of a module, the mutants that nothing notices."""
+    """Return the mutants that no check detects, by function or constant of the module."""
     beneath = {name, *users(name)}
     known = hard_suite.kernels()
     checks: list[Check] = [x for x in judged() if known[x.case.kernel].module in beneath]
@@ -200,13 +199,13 @@ def survivors(name: str) -> dict[str, list[str]]:
         noticed = _noticed(name, mutant.tree, checks)
         if noticed is None:
             found.setdefault(mutant.home, []).append(mutant.change)
-        else:  # what has noticed one is likely to notice the next
+        else:  # the check that has detected one is likely to detect the next
             checks.insert(0, checks.pop(noticed))
     return found
 
 
 def _noticed(name: str, tree: ast.Module, checks: list[Check]) -> int | None:
-    """Which of the checks fails first, if any; a module that cannot be made fails the first."""
+    """Return the index of the first check that fails; 0 if the module cannot be loaded."""
     try:
         with replaced(name, tree) as kernels:
             return next((i for i, check in enumerate(checks) if not _holds(check, kernels)), None)
@@ -217,5 +216,5 @@ def _noticed(name: str, tree: ast.Module, checks: list[Check]) -> int | None:
 def _holds(check: Check, kernels: Mapping[str, Kernel]) -> bool:
     try:
         return check.holds(kernels)
-    except Exception:  # whatever is raised is noticed
+    except Exception:  # any exception counts as detected
         return False

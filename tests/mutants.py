@@ -1,4 +1,4 @@
-"""Systematic mutants, always the same: of a SymPy expression, and of a Python module's text."""
+"""Systematic mutants of a SymPy expression and of a Python module, equal in every run."""
 
 import ast
 import copy
@@ -14,17 +14,17 @@ SWAPPED = {
 
 
 class Mutant(NamedTuple):
-    """What was done where, and what came of it."""
+    """A changed expression, and a description of the change."""
 
     name: str
     expression: sp.Expr
 
 
 def of_expression(expression: sp.Expr) -> list[Mutant]:
-    """Every sign flipped, exponent raised, coefficient doubled or dropped, function swapped.
+    """Return mutants with one sign, exponent, coefficient or function changed.
 
-    One change each, at every place of the tree. What SymPy finds to be the same expression again
-    is left out, as cosh(-x); of several that are the same, all but the first.
+    Each node of the tree is changed in turn. Mutants that SymPy finds equal to the expression, such
+    as cosh(-x), and repeated mutants are omitted.
     """
     found = {expression: ""}
     for path, node in _places(expression):
@@ -77,7 +77,7 @@ Code = ast.expr | ast.AugAssign
 
 
 class CodeMutant(NamedTuple):
-    """The function or constant that was changed, how, and the whole module."""
+    """The name of the changed function or constant, the change, and the whole module."""
 
     home: str
     change: str
@@ -94,11 +94,11 @@ CALLS = {
 
 
 def of_module(text: str, skipped: Sequence[str] = ()) -> Iterator[CodeMutant]:
-    """Every number, sign, operator and function of NumPy's changed, one at a time.
+    """Yield mutants with one number, sign, operator or NumPy function changed.
 
     Numbers are doubled, 0 becomes 1, and an exponent is raised by one; + and -, * and / are
-    interchanged. Annotations, indices, and what is said of axes and shapes are no formulas, nor
-    the arguments of the functions that are to be skipped.
+    interchanged. Annotations, indices, axes and shapes are not changed, nor the arguments of the
+    skipped functions.
     """
     tree = ast.parse(text)
     for node in ast.walk(tree):  # docstrings take time to copy
@@ -125,7 +125,7 @@ SKIPPED = ("shape", "axis", "dtype", "reshape", "broadcast_to", "arange")
 
 
 def _formulas(tree: ast.Module, skipped: Sequence[str]) -> Iterator[_Position]:
-    """Arithmetic of all functions and of module constants."""
+    """Yield the arithmetic nodes of all functions and module constants."""
 
     def walk(node: ast.AST, home: str, parent: ast.AST, exponent: bool) -> Iterator[_Position]:
         if isinstance(node, ast.Subscript | ast.arguments):
@@ -176,7 +176,7 @@ def _rewritten(node: Code, exponent: bool) -> Iterator[Code]:
 
 
 def _put(tree: ast.Module, old: ast.AST, new: ast.AST) -> ast.Module:
-    """A copy of the tree with one node replaced; what is not on the way to it is shared."""
+    """Return a copy of the tree with one node replaced; unchanged branches are shared."""
 
     class Replace(ast.NodeTransformer):
         def visit(self, node: ast.AST) -> ast.AST:

@@ -1,4 +1,4 @@
-"""Generated modules with one thing wrong, in memory, and what is to notice it."""
+"""Generated modules with one error, in memory, and the tests that must detect it."""
 
 import ast
 import sys
@@ -17,33 +17,35 @@ import generated
 from derivation.engine.files import ROOT
 
 TOLERANCE = 1e-12
-"""Some thousand units in the last place: what is noticed is no rounding."""
+"""Relative tolerance, some thousand ULP, so that rounding errors are not detected."""
 
-GUARDS = "kept out of sight: what it gives is not used, or another guard says the same"
-START = "where an iteration starts, or how fast it converges: no slower than is said"
-SIZE = "how many are worked on at a time"
-FINE = "how finely something is resolved that is smooth"
-BEYOND_ALL = "beyond it nothing changes in double precision"
-MARGIN = "how far a bound is above what rounding takes, or a promise not used in the module"
+GUARDS = "a limit whose result is not used, or is the same as that of another limit"
+START = "start or convergence of an iteration, which does not exceed its stated number of steps"
+SIZE = "number of items that are processed at once"
+FINE = "resolution of a smooth function"
+BEYOND_ALL = "a value beyond which nothing changes in double precision"
+MARGIN = "margin of a bound above rounding errors, or a statement that the module does not use"
 
 May = Mapping[str, tuple[int, str]]
-"""How many mutants of a function or constant may pass at most, and why."""
+"""Largest number of mutants of a function or constant that may pass, and the reason."""
 ANYWHERE: May = {
-    **dict.fromkeys(("STEPS", "_STEPS"), (1, "replaced by how many steps are said to be enough")),
+    **dict.fromkeys(
+        ("STEPS", "_STEPS"), (1, "replaced by the number of steps that is stated to be sufficient")
+    ),
     **dict.fromkeys(("CLOSE", "_CLOSE"), (1, START)),
     **dict.fromkeys(("_BLOCK", "_MODE_BLOCK", "_SCENES"), (1, SIZE)),
 }
 
 
 class Expected(Protocol):
-    """What a module is to do."""
+    """A test of a module."""
 
     def holds(self, module: ModuleType) -> bool: ...
 
 
 @dataclass(frozen=True)
 class Answer:
-    """What a module says when asked, and what is true."""
+    """A call of a module, and the expected result."""
 
     ask: Callable[[ModuleType], Any]
     true: Any
@@ -58,7 +60,7 @@ class Answer:
 def close(
     found: np.ndarray, true: np.ndarray, tolerance: float = TOLERANCE, least: float = 0.0
 ) -> bool:
-    """Whether errors are within the tolerance of what is true, or of `least` if that is larger."""
+    """Return whether errors are within the tolerance times the true value, or times `least`."""
     if found.shape != true.shape:
         return False
     with np.errstate(invalid="ignore"):
@@ -68,10 +70,10 @@ def close(
 
 
 def compiled(tree: ast.Module | str, name: str, users: Sequence[str] = ()) -> ModuleType:
-    """A module of the package from changed text, beside the others as they are.
+    """Return a module of the package from changed text; other modules are not changed.
 
-    With users of it, the last of these, each made anew upon those before, whose functions it has
-    too.
+    With `users`, modules that use it are loaded again, each with the ones before. The last one is
+    returned, with the functions of all others.
     """
     module = ModuleType(f"generated.{name}")
     module.__package__ = generated.__name__
@@ -100,16 +102,16 @@ def source(name: str) -> str:
 
 @dataclass(frozen=True)
 class Judged:
-    """How the mutants of a module are judged.
+    """The tests of a module's mutants.
 
     Parameters
     ----------
     cases
-        What notices them.
+        Function that returns the tests.
     may_pass
-        What changes no result; every other mutant is noticed.
+        Numbers of mutants that change no result; all others must be detected.
     steps
-        How many of its iterations are said to be enough.
+        Number of iterations that is stated to be sufficient.
     """
 
     cases: Callable[[], Sequence[Expected]]
@@ -118,7 +120,7 @@ class Judged:
 
 
 def passes(tree: ast.Module | str, name: str, judged: Judged, cases: Sequence[Expected]) -> bool:
-    """Whether no case notices a module; one that raises an error is noticed."""
+    """Return whether a module passes all tests, without raising an error."""
     with np.errstate(all="ignore"):
         try:
             module = compiled(tree, name)
@@ -132,7 +134,7 @@ def passes(tree: ast.Module | str, name: str, judged: Judged, cases: Sequence[Ex
 
 
 def unnoticed(name: str, judged: Judged) -> dict[str, list[str]]:
-    """By function or constant, the mutants that pass where more of them do than may."""
+    """Return the mutants of each function or constant of which more pass than allowed."""
     text, cases = source(name), judged.cases()
     assert passes(text, name, judged, cases)
     found: dict[str, list[str]] = {}

@@ -1,16 +1,16 @@
-"""The sums of (10) by their definition, with mpmath."""
+"""The sums of the paper's equation (10) by their definition, in mpmath."""
 
 from mpmath import besseljzero, j1, mp, mpf, sinh
 from mpmath import pi as mp_pi
 
 
 def plate_factor(T: mpf) -> mpf:
-    """G(T)."""
+    """Return the plate factor G(T)."""
     return (sinh(2 * T) / 2 + T) / (sinh(T) ** 2 - T**2)
 
 
 def truncated_gamma(k: int, modes: int, case: tuple[float, ...]) -> mpf:
-    """gamma_k of (10) from its definition, K_j by the plate factor G(T) and zeros of J0."""
+    """Return gamma_k of equation (10), with K_j from the plate factor G(T) and zeros of J0."""
     R, _, _, h, b, lam, mu = map(mpf, case)
     modulus = 4 * mu * (lam + mu) / (lam + 2 * mu)
 

@@ -1,4 +1,4 @@
-"""What a function must give to some units in the last place, whichever module it is from."""
+"""Expected values of a function within some ULP, for several versions of its module."""
 
 from collections.abc import Callable, Sequence
 from types import ModuleType
@@ -8,7 +8,7 @@ import numpy as np
 
 
 class Sharp(NamedTuple):
-    """What a function gives: values of the type and shape here, within so many of their ULP."""
+    """A call, and the expected values with type and shape, and the allowed error in ULP."""
 
     call: Callable[[ModuleType], Any]
     true: np.ndarray
@@ -26,7 +26,7 @@ class Sharp(NamedTuple):
 def expected(
     name: str, points: Sequence[tuple[float, ...]], true: Sequence[Any], ulp: float
 ) -> list[Sharp]:
-    """All points at once, in single precision too, and every one as a scalar."""
+    """Return tests of a function at all points in one array, and at each point as scalars."""
     values = np.array([[float(x) for x in np.atleast_1d(row)] for row in true])
     values = values[:, 0] if values.shape[1] == 1 else values.T
     columns = [np.array(column, dtype=float) for column in zip(*points, strict=True)]

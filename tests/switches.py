@@ -1,7 +1,7 @@
-"""Which sides of their comparisons modules take, and how close to the switch: counted as they run.
+"""Record of the comparisons in modules: their outcomes, and how close the operands were.
 
-Functions keep their identity, so that it does not matter who holds them: only what they execute
-is replaced, by the same code with every comparison counted.
+The code of each function is replaced by the same code with recorded comparisons. The function
+objects remain the same, so that every reference to them is recorded.
 """
 
 import ast
@@ -26,7 +26,7 @@ OPERATORS: Mapping[type[ast.cmpop], Any] = {
 
 
 class Position(NamedTuple):
-    """A comparison: module and function, and the how manyth it is there."""
+    """A comparison: module and function, and its number there."""
 
     home: str
     number: int
@@ -34,15 +34,16 @@ class Position(NamedTuple):
 
 @dataclass
 class Sides:
-    """The relative distance of a comparison's operands, the least on either side; inf for none."""
+    """Smallest relative distance of a comparison's operands, for each outcome; inf for none."""
 
     true: float = math.inf
     false: float = math.inf
 
     def count(self, left: Any, right: Any, outcome: Any) -> None:
-        """Whole numbers that follow each other are close, as all are to 0; NaN is on no side.
+        """Record a comparison.
 
-        So are all counts and names.
+        The distance is zero between consecutive integers, from zero, and for operands that are not
+        floats. A comparison with NaN is not recorded.
         """
         left, right, outcome = np.broadcast_arrays(left, right, outcome)
         if left.dtype.kind not in "f" and right.dtype.kind not in "f":
@@ -60,12 +61,12 @@ class Sides:
 
 @dataclass
 class Watch:
-    """What the comparisons of modules have done."""
+    """The recorded comparisons of modules."""
 
     sides: dict[Position, Sides] = field(default_factory=dict)
 
     def beyond(self, reach: float) -> dict[Position, Sides]:
-        """The comparisons that have not come this close to both sides of the switch."""
+        """Return the comparisons that did not have both outcomes within a relative distance."""
         return {
             place: sides
             for place, sides in self.sides.items()
@@ -75,10 +76,10 @@ class Watch:
 
 @contextmanager
 def watched(texts: Mapping[ModuleType, str]) -> Iterator[Watch]:
-    """Count the comparisons of numbers in functions of modules with these texts.
+    """Record the comparisons of numbers in functions of modules, given with their texts.
 
-    Left out are conditions of `inside`, beyond which values are NaN, what refuses arguments,
-    what ends a loop, and tests for presence.
+    Arguments of `inside`, conditions that raise an error or end a loop, and operators like ``in``
+    are not recorded.
     """
     watch, found = Watch(), {}
     with ExitStack() as stack:
@@ -106,7 +107,7 @@ def _codes(code: CodeType) -> Iterator[CodeType]:
 
 
 class _Counting(ast.NodeTransformer):
-    """A module's comparisons, each turned into a call that counts it."""
+    """Replaces each comparison of a module by a call that records it."""
 
     def __init__(self, module: str, watch: Watch) -> None:
         self.home, self.watch = module, watch
@@ -141,7 +142,7 @@ class _Counting(ast.NodeTransformer):
         return ast.copy_location(call, node)
 
     def compared(self, home: str, number: int, *operands: Any) -> Any:
-        """The outcome of a comparison, each pair of a chained one counted separately."""
+        """Return the outcome of a comparison; pairs of a chained one are recorded separately."""
         outcome: Any = True
         for index, (left, right) in enumerate(pairwise(operands)):
             place = Position(home, number + index)

@@ -1,4 +1,4 @@
-"""House rules: layers, length and first lines of modules, nothing heavy at the door."""
+"""Rules of the code: layers, length and docstrings of modules, fast imports, names of classes."""
 
 import ast
 import re
@@ -55,7 +55,7 @@ def test_every_package_is_installed() -> None:
 
 
 def test_every_package_that_is_imported_is_installed_along() -> None:
-    """Tools that are compared with, in `plate/benchmark`, are used where they are found."""
+    """Programs with which `plate/benchmark` compares are optional."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     names = {re.split(r"[<>=!]", text)[0].lower() for text in project["dependencies"]}
     given = names | sys.stdlib_module_names | {"derivation", "generated", "flint", "pydantic_core"}
@@ -71,11 +71,11 @@ def test_every_package_that_is_imported_is_installed_along() -> None:
 
 
 SHARED = {"Formula": "the class of a paper's formulas has this name in every paper"}
-"""Names that several classes have, with the reason."""
+"""Names that several classes may have, with the reason."""
 
 
 def test_a_class_has_a_name_of_its_own() -> None:
-    """Beyond `scene` and the copied modules, which name what a user meets."""
+    """Except in `scene` and the copied modules, where the names are public."""
     found: dict[str, list[Path]] = {}
     for path in sorted((ROOT / "derivation").rglob("*.py")):
         if not {"scene", "runtime"} & set(path.parts):

@@ -1,1 +1,1 @@
-"""Source text from stable forms: NumPy modules rendered with Jinja2 and formatted by ruff."""
+"""Source code from stable forms: NumPy modules rendered with Jinja2 and formatted by ruff."""

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 ORDINARY = "value"
-"""Name of the rule for functions that no other rule names."""
+"""Name of the rule for functions that no other rule lists."""
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Budget:
     rule: str
 
     def notes(self, domain: str) -> tuple[str, ...]:
-        """Return lines for a docstring: the budget, and the domain outside which there is NaN."""
+        """Return lines for a docstring: the budget, and the domain to which it applies."""
         units = f"{self.ulp:g} unit{'' if self.ulp == 1 else 's'} in the last place (ULP)"
         limit = f"Tested error budget: {units} of {self.rule}."
         where = (
@@ -41,29 +41,37 @@ class Budget:
         return (*textwrap.wrap(limit, 84), *textwrap.wrap(where, 84, break_on_hyphens=False))
 
     def row(self) -> dict[str, object]:
-        """Return its parts under the manifest's keys."""
+        """Return the budget under the keys of the manifest."""
         return {"budget": self.ulp, "rule": self.rule}
 
 
 def read_budgets(file: Path) -> dict[str, Budget]:
-    """Read the committed budgets by function.
+    """Return the budgets by function from a TOML file; see `parse_budgets`.
 
     Raises
     ------
     ValueError
-        If a rule names a function without a number, or a function has two rules.
+        If a rule lists a function without a number, or a function has two rules.
     """
     return parse_budgets(tomllib.loads(file.read_text()))
 
 
 def read_stated_limits(file: Path, table: str) -> dict[str, float]:
-    """Read the relative errors of a table; they are measured, not proved."""
+    """Return the relative errors of a table in a TOML file; they are measured, not proved."""
     found: dict[str, float] = tomllib.loads(file.read_text())[table]
     return found
 
 
 def parse_budgets(data: Mapping[str, Any]) -> dict[str, Budget]:
-    """Return budgets by function from the tables `ulp` and `rule`."""
+    """Return budgets by function from the tables `ulp` and `rule`.
+
+    `ulp` contains a number for each function, and `rule` tables with ``text`` and ``kernels``.
+
+    Raises
+    ------
+    ValueError
+        If a rule lists a function without a number, or a function has two rules.
+    """
     numbers, rules = data["ulp"], data["rule"]
     named = [name for rule in rules.values() for name in rule.get("kernels", ())]
     unmatched = set(named) - set(numbers)

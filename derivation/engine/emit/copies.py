@@ -1,8 +1,8 @@
-"""Copies of handwritten modules in the generated package, and what these say about their functions.
+"""Copies of handwritten modules in the generated package, and descriptions of their functions.
 
-A copy has the lines of the original except for three changes: a header names the generator,
-imports from the package are relative, and the docstring of a function in the manifest also states
-its error budget and its domain.
+A copy has the lines of the original except for three changes: a header names the generator, imports
+from the package are relative, and docstrings state error budget and domain of the functions that
+the manifest lists, or given notes.
 """
 
 import ast
@@ -15,27 +15,27 @@ from derivation.engine.emit.budgets import Budget
 from derivation.engine.emit.kernels import ArgumentText
 
 MARK = "in_manifest"
-"""The decorator of the functions that the manifest lists, see `engine.runtime.arrays`."""
+"""The decorator of the functions that the manifest lists; see `engine.runtime.arrays`."""
 NO_NOTES: Mapping[str, Sequence[str]] = {}
 _UNIT = re.compile(r"\[([^\]]+)\]")
 
 
 @dataclass(frozen=True)
 class ListedFunction:
-    """What a handwritten function states about itself.
+    """The description of a handwritten function, from its docstring and decorator.
 
     Parameters
     ----------
     name
         Name of the function.
     arguments
-        Its arguments, as described in its docstring.
+        Its arguments, as described in the docstring.
     unit
         Units of its results, separated by commas.
     symbol, equation, domain, kernel
-        As given in its decorator.
+        As given in the decorator.
     meaning
-        The first line of its docstring, without "Compute the".
+        The first line of the docstring in lower case, without "Compute the" and period.
     """
 
     name: str
@@ -54,7 +54,7 @@ def listed_functions(file: Path) -> tuple[ListedFunction, ...]:
     Raises
     ------
     ValueError
-        Naming the function whose docstring or decorator is incomplete.
+        If a docstring or decorator is incomplete; the message states the function.
     """
     return tuple(_listed(node, mark, file) for node, mark in _marked(ast.parse(file.read_text())))
 
@@ -90,7 +90,7 @@ def copied(
     header
         Comment below the module's docstring.
     budgets
-        Error budgets by function.
+        Error budgets of the functions that the manifest lists, by name.
     notes
         Lines about errors, by function, for functions that the manifest does not list.
     """

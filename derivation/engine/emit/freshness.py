@@ -1,4 +1,4 @@
-"""Comparison of a folder with the files it should contain: missing, edited, surplus."""
+"""Comparison of a folder with the files that it should contain: missing, edited, surplus."""
 
 import difflib
 from collections.abc import Mapping
@@ -8,7 +8,7 @@ from pathlib import Path
 
 @dataclass(frozen=True)
 class Freshness:
-    """Differences between a folder and what would be written into it.
+    """Differences between the files of a folder and the expected ones.
 
     Parameters
     ----------
@@ -56,13 +56,13 @@ def compare(
     Parameters
     ----------
     folder
-        Folder to compare; it need not exist.
+        Folder to be compared; it need not exist.
     expected
         File contents by name relative to the folder.
     remedy
-        The command that would write them.
+        The command that writes the expected files.
     pattern
-        Pattern of the files that are compared.
+        Pattern of the files in the folder that are compared.
     """
     found = {
         str(path.relative_to(folder)): path.read_bytes()

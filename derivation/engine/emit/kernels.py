@@ -1,4 +1,4 @@
-"""Rows that describe generated functions, from formulas, forms and budgets."""
+"""Descriptions of generated functions (rows), from formulas, forms and budgets."""
 
 import re
 import textwrap
@@ -22,11 +22,11 @@ class Style:
     Parameters
     ----------
     tested
-        Conditions that limit a domain to the tested range, each with the arguments it contains.
+        Conditions that limit a domain to the tested range, each with the names of its arguments.
     remark
-        Function that returns the text to append to a formula's text.
+        Function from an expression to a text that is appended to the formula in the docstring.
     package
-        Import name of the package, for the examples; without it they import nothing.
+        Import name of the package in the examples; if it is empty, they import nothing.
     """
 
     tested: Mapping[str, Set[str]] = field(default_factory=dict)
@@ -64,7 +64,7 @@ class SwitchText:
 
 @dataclass(frozen=True)
 class ArgumentText:
-    """An argument as the docstring and the manifest name it."""
+    """An argument as described in the docstring and the manifest."""
 
     name: str
     unit: str
@@ -74,7 +74,7 @@ class ArgumentText:
 
 @dataclass(frozen=True)
 class EmittedKernel:
-    """A generated function: everything templates and manifest say about it."""
+    """A generated function: all data for its source code and the manifest."""
 
     name: str
     module: str
@@ -97,14 +97,14 @@ class EmittedKernel:
 
     @property
     def carried(self) -> tuple[str, ...]:
-        """If some arguments are unused: the last one that is used, followed by the unused ones."""
+        """Last argument that is used, and the unused ones; empty if all are used."""
         code = set(re.findall(r"\w+", repr((self.value, self.steps, self.switch))))
         idle = [x.name for x in self.arguments if x.name not in code and not self.modes]
         return ([x.name for x in self.arguments if x.name in code][-1], *idle) if idle else ()
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Lines of the docstring about error and domain."""
+        """Lines of the docstring about error budget and domain."""
         return self.budget.notes(self.domain)
 
     @property
@@ -143,8 +143,8 @@ def kernel(
 ) -> EmittedKernel:
     """Return the row of a function of the given arguments.
 
-    `result` is the exact value of its docstring's example, by default that of the formula, and
-    `modes` the number of modes summed in it.
+    `result` is the exact value of the example in the docstring, by default that of the formula;
+    `modes` is the number of modes that the example sums, and 0 if the function is no modal sum.
     """
     names = {x.name for x in arguments}
     where = conditions(arguments, formula.where, style)
@@ -180,7 +180,7 @@ def _example(
     modes: int,
     value: sp.Expr | None,
 ) -> tuple[str, ...]:
-    """Return lines of a doctest at the vocabulary's sample values, if all arguments have one.
+    """Return lines of a doctest at the vocabulary's sample values; empty if an argument has none.
 
     The expected number is evaluated by SymPy from the formula, not by the generated code.
     """
@@ -213,7 +213,7 @@ def argument_text(argument: Argument, names: set[str]) -> ArgumentText:
 def conditions(
     arguments: tuple[Argument, ...], extra: tuple[str, ...], style: Style
 ) -> tuple[str, ...]:
-    """Return every condition that contains no other names than those of the arguments."""
+    """Return the conditions that contain no other names than those of the arguments."""
     own = (condition for x in arguments for condition in x.domain)
     names = {x.name for x in arguments}
     tested = (text for text, used in style.tested.items() if used <= names)
@@ -228,8 +228,9 @@ def lines(steps: tuple[Step, ...]) -> tuple[Line, ...]:
 def switch_text(switch: Switch, *, whole: bool = False) -> SwitchText:
     """Return a switch point as text.
 
-    The branch above is evaluated at all points, guarded against those below. The branch below is
-    evaluated at its own points only: it selects them itself, or in a whole function is given them.
+    The branch above is evaluated at all points, with the variable limited to the switch point. The
+    branch below is evaluated at its own points only: it selects them, unless it is part of a whole
+    function, which is called with these points.
     """
     name = str(switch.variable)
     clamped = {switch.variable: f"np.maximum({name}, {float(switch.at)})"}
@@ -255,7 +256,7 @@ def _branch_text(branch: Branch, guards: Mapping[sp.Symbol, str], suffix: str) -
 
 @dataclass(frozen=True)
 class AsPrinted:
-    """A printed formula as a function."""
+    """A published formula as a function."""
 
     name: str
     summary: str

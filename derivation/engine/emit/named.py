@@ -1,4 +1,4 @@
-"""Routines that take their name and summary from the Python function that describes them."""
+"""Routines with the name and the docstring of the Python function that defines them."""
 
 from collections.abc import Callable, Sequence
 from functools import wraps
@@ -10,7 +10,7 @@ from derivation.engine.emit.routine import Facts, Routine, Statement, routine
 
 
 class Claims(NamedTuple):
-    """A function to print with its claimed results, the arguments of `routine`."""
+    """The definition of a routine: the arguments of `routine` except for name and summary."""
 
     arguments: tuple[sp.Symbol, ...]
     statements: Sequence[Statement]
@@ -21,7 +21,13 @@ class Claims(NamedTuple):
 
 
 def named(build: Callable[[], Claims]) -> Callable[[], Routine]:
-    """Turn a function that returns claims into one that builds the routine of its own name."""
+    """Return a function that builds the routine with the name and docstring of a definition.
+
+    Parameters
+    ----------
+    build
+        Function without arguments that returns the definition.
+    """
 
     @wraps(build)
     def make() -> Routine:

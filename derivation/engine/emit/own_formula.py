@@ -1,4 +1,4 @@
-"""Rewrite a formula given as text: its stable form, the NumPy module, and the test of that code."""
+"""Stable form of a formula given as text, as a tested NumPy module."""
 
 import keyword
 
@@ -13,18 +13,26 @@ from derivation.engine.rewrite.stabilise import Stable, stabilise
 from derivation.engine.rewrite.tested import CodeCheck
 
 MAX_TERMS = 5000
-"""Largest number of terms of an expanded formula that can be rewritten."""
+"""Largest estimated number of terms of an expanded formula that is rewritten."""
 SECONDS = 30
 """Largest processor time [s] for rewriting a formula."""
 
 
 def rewritten(text: str, variable: str = "x") -> tuple[Stable, str, CodeCheck]:
-    """Return the stable form of a formula, its NumPy module, and the result of testing it.
+    """Return the stable form of a formula, its NumPy module, and the result of testing the module.
+
+    Parameters
+    ----------
+    text
+        The formula in SymPy syntax; it is parsed, not executed.
+    variable
+        Name of its variable, a positive number.
 
     Raises
     ------
     ValueError
-        If the formula cannot be read, no rule applies, or it needs too much time or memory.
+        If the formula cannot be read, the rules do not find an accurate form, or a limit of time or
+        memory is reached.
     """
     if not variable.isidentifier() or keyword.iskeyword(variable) or variable in FUNCTIONS:
         raise ValueError(

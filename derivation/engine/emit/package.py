@@ -1,4 +1,4 @@
-"""Modules of a generated package, and their source text, from the forms of a paper."""
+"""Modules of a generated package, and their source code, from the forms of a paper."""
 
 import hashlib
 import math
@@ -40,7 +40,7 @@ Shape = tuple[tuple[Step, ...], sp.Expr | Switch]
 
 @dataclass(frozen=True)
 class Module:
-    """A file to be written: its template, the template's context, and the template's folder."""
+    """A module from a template: its name, template, context, and the template's folder."""
 
     name: str
     template: str
@@ -59,7 +59,7 @@ class Numbers:
 
 @dataclass(frozen=True)
 class Routines:
-    """A module of routines: its name, the first line of its docstring, and its imports.
+    """A module of routines.
 
     Parameters
     ----------
@@ -68,9 +68,9 @@ class Routines:
     routines
         Its functions, in order.
     imports
-        Names that the functions need from other modules of the package.
+        For each other module of the package, names that the functions may import from it.
     dialect
-        Whether the functions are for arrays or for single numbers.
+        The way in which expressions are printed: for arrays or for single numbers.
     """
 
     name: str
@@ -93,7 +93,7 @@ class Copy:
     package
         Import name of the package in the original.
     budgets
-        Error budgets by function.
+        Error budgets of the functions that the manifest lists, by name.
     notes
         Lines about errors, by function, for functions that the manifest does not list.
     """
@@ -110,7 +110,7 @@ Planned = Module | Numbers | Routines | Copy
 
 @dataclass(frozen=True)
 class Part:
-    """A module of printed formulas: its name, its first line, and the formulas' names."""
+    """A module of functions for formulas: its name, its first line, and the formulas' names."""
 
     name: str
     title: str
@@ -126,7 +126,7 @@ def _nothing(_: Mapping[str, Block]) -> Mapping[str, Shape]:
 
 @dataclass(frozen=True, eq=False)
 class Printing:
-    """Settings that turn formulas of a paper into a package.
+    """Settings for the generated package of a paper.
 
     Parameters
     ----------
@@ -135,15 +135,16 @@ class Printing:
     citation
         Citation in the manifest.
     parts
-        Its modules, in order.
+        The modules of the package, in order.
     budgets
         File with the error budget of every function.
     scales
-        Dimensionless variables of the formulas whose forms are found by the rules.
+        Dimensionless variables of the formulas whose forms are found by the rewriting rules.
     stated
-        Forms of the other formulas, from the building blocks; each is proved.
+        Function from the building blocks by name to the forms of the other formulas by name; each
+        form is proved.
     blocks
-        Building blocks of the forms.
+        Definitions of the building blocks.
     """
 
     summary: str
@@ -160,9 +161,9 @@ class Printing:
         Raises
         ------
         ProofError
-            Naming the form that differs from its formula.
+            If a form differs from its formula; the message states which.
         UnreachableError
-            Naming a formula for which the rules find no form, or no accurate one.
+            If the rules find no accurate form of a formula; the message states which.
         """
         known = built(self.blocks)
         stated = self.stated(known)
@@ -180,7 +181,7 @@ class Printing:
         )
 
     def files(self, formulas: Mapping[str, Record], forms: tuple[Form, ...]) -> dict[str, str]:
-        """Return the files of the package by name."""
+        """Return the contents of the package's files by name."""
         known, budgets = built(self.blocks), read_budgets(self.budgets)
         style = Style()
         kernels = tuple(kernel_of_form(f, formulas[f.name], budgets[f.name], style) for f in forms)
@@ -223,9 +224,9 @@ def kernel_modules(
 
 
 def written(planned: Sequence[Planned]) -> dict[str, str]:
-    """Return the files of a package by name; equal modules give equal bytes.
+    """Return the contents of a package's files by name; equal modules give equal bytes.
 
-    Copies keep their lines; all other files are formatted.
+    Copies keep their lines; all other files are formatted by ruff.
     """
     copied = {f"{part.name}.py": _copied(part) for part in planned if isinstance(part, Copy)}
     printed = {f"{part.name}.py": _text(part) for part in planned if not isinstance(part, Copy)}
@@ -253,7 +254,7 @@ def _routines_text(part: Routines) -> str:
     Raises
     ------
     ValueError
-        Naming what the routines need and no import provides.
+        If the routines use names that no import provides; the message states them.
     """
     needed = {name for r in part.routines for name in r.calls | r.constants}
     given = {name for names in part.imports.values() for name in names}
@@ -314,7 +315,7 @@ def kernel_row(k: EmittedKernel) -> dict[str, Any]:
 
 
 def fill(module: Module) -> str:
-    """Return a module's source (stage 3); the header states versions and a hash of the input."""
+    """Return a module's source code; the header states versions and a hash of the input."""
     source = repr(sorted(module.context.items()))
     source += (module.folder / f"{module.template}.py.j2").read_text()
     source += (TEMPLATES / "macros.j2").read_text()

@@ -1,4 +1,4 @@
-"""NumPy code for SymPy expressions: `np.` functions, and building blocks by name."""
+"""NumPy code for SymPy expressions: functions of `np`, and building blocks by name."""
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -60,7 +60,7 @@ class _Printer(NumPyPrinter):
         number, rest = expr.as_coeff_Add()
         if not (number > 0 and rest.is_Add and all(_fades(part) for part in rest.args)):
             return str(super()._print_Add(expr, order=order))
-        # Decaying terms are summed first, so that the total is rounded once where they are small.
+        # Decaying terms are summed first: where they are small, only the total is rounded.
         sign, rest = ("-", -rest) if rest.args[0].could_extract_minus_sign() else ("+", rest)
         return f"{self._print(number)} {sign} ({self._print(rest)})"
 
@@ -143,10 +143,10 @@ _SINGLE = _OfSingleNumbers({"allow_unknown_functions": True})
 
 
 def to_numpy(expression: sp.Basic) -> str:
-    """Return the source text of an expression, evaluated in the order printed."""
+    """Return the NumPy code of an expression; it is evaluated in the printed order."""
     return str(_PRINTER.doprint(expression))
 
 
 def to_math(expression: sp.Basic) -> str:
-    """Return the source text for single numbers, with exp, log, pi, sqrt of Python's `math`."""
+    """Return the code of an expression for single numbers, with functions of Python's `math`."""
     return str(_SINGLE.doprint(expression))

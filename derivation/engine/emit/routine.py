@@ -17,27 +17,28 @@ from derivation.engine.emit.printer import to_math, to_numpy
 from derivation.engine.formula.proof import Proof, prove
 
 GUARDED = sp.Function("np.minimum")
-"""Minimum with a guard value, which is not reached where the branch applies."""
+"""Minimum with a limit that is not reached where the branch applies; it is ignored in proofs."""
 RAISED = sp.Function("np.maximum")
-"""Maximum with a guard value, which is not reached where the branch applies."""
+"""Maximum with a limit that is not reached where the branch applies; it is ignored in proofs."""
 Facts = Mapping[sp.Basic, sp.Expr]
 """Meanings of symbols, or equalities that are valid on one side of a choice."""
 
 
 @dataclass(frozen=True)
 class Let:
-    """``symbol = expression  # comment``.
+    """Assignment ``symbol = expression  # comment``.
 
     Parameters
     ----------
     symbol, expression, comment
         The line of code.
     opaque
-        The claim does not depend on this value, such as a common scale.
+        Whether the claim does not depend on this value, such as a common scale.
     means
-        Its exact value: a lemma that is proved separately and then used.
+        Exact value of the expression, which is proved separately and then used in other proofs.
     within
-        The expression is written where it is used, once, so that NumPy works in place.
+        Whether the expression is printed where the symbol is used, once, so that NumPy needs no
+        further array.
     """
 
     symbol: sp.Symbol
@@ -50,7 +51,7 @@ class Let:
 
 @dataclass(frozen=True)
 class Several:
-    """``a, b = name(*arguments)``.
+    """Call ``a, b = name(*arguments)`` of a function with several results.
 
     Parameters
     ----------
@@ -70,7 +71,7 @@ class Several:
 
 @dataclass(frozen=True)
 class Choice:
-    """``symbol = np.where(condition, yes, no)``; equal conditions share one mask.
+    """Choice ``symbol = np.where(condition, yes, no)``; equal conditions share one mask.
 
     Parameters
     ----------
@@ -79,9 +80,9 @@ class Choice:
     if_yes, if_no
         Equalities that are valid on each side; only the proof of that side uses them.
     safe_yes, safe_no
-        Harmless values of symbols at the points of the other side.
+        Values of symbols, at the points of the other side, that cause no overflow or NaN.
     unclaimed
-        "yes" or "no" if that side is a guard and not part of the claim.
+        "yes" or "no" if that side is not part of the claim.
     reason
         Why that side is not claimed.
     """
@@ -110,9 +111,9 @@ class Choice:
 
 @dataclass(frozen=True)
 class Sums:
-    """``for items in rows:`` some steps, then ``symbol += term`` for each symbol.
+    """Loop ``for items in rows:`` with some steps, and ``symbol += term`` for each symbol.
 
-    A result may depend on the totals linearly; it is then proved for a single row.
+    Results must be linear in the totals; the proof then considers a single row.
 
     Parameters
     ----------
@@ -123,7 +124,7 @@ class Sums:
     items
         Names of the items of a row.
     steps
-        Statements that are computed first for each row.
+        Assignments at the beginning of each iteration.
     """
 
     symbols: tuple[sp.Symbol, ...]
@@ -133,7 +134,7 @@ class Sums:
     steps: tuple[Let, ...] = ()
 
     def of_one_row(self, value: sp.Expr) -> sp.Expr:
-        """Return a value with the totals of a single row."""
+        """Return a value with the totals replaced by the terms of a single row."""
         value = value.xreplace(dict(zip(self.symbols, self.terms, strict=True)))
         for step in reversed(self.steps):
             value = value.xreplace({step.symbol: step.expression})
@@ -145,7 +146,7 @@ Statement = Let | Several | Choice | Sums
 
 @dataclass(frozen=True)
 class Routine:
-    """A printed function, with the proof that its results equal the claims."""
+    """A function to be printed, with the proof that its results equal the claims."""
 
     name: str
     arguments: tuple[sp.Symbol, ...]
@@ -198,12 +199,12 @@ def _check_arguments(
     statements: tuple[Statement, ...],
     results: tuple[sp.Expr, ...],
 ) -> None:
-    """Refuse arguments that no statement uses.
+    """Reject arguments that no statement uses.
 
     Raises
     ------
     ValueError
-        Naming the unused arguments.
+        If there are unused arguments; the message states them.
     """
     expressions = (*results, *(e for s in statements for e in _used(s)))
     used = {x for e in expressions for x in e.free_symbols}
@@ -212,12 +213,12 @@ def _check_arguments(
 
 
 def _check_sums(name: str, statements: tuple[Statement, ...], results: tuple[sp.Expr, ...]) -> None:
-    """Refuse totals on which results do not depend linearly.
+    """Reject sums whose totals occur in statements, or not linearly in results.
 
     Raises
     ------
     ValueError
-        Naming the routine.
+        If there is such a sum.
     """
     totals = {x for s in statements if isinstance(s, Sums) for x in s.symbols}
     later = {x for s in statements for e in _used(s) for x in e.free_symbols}
@@ -241,18 +242,25 @@ def routine(
     Parameters
     ----------
     name, arguments, statements, results, summary
-        The function.
+        Name, arguments, statements, results and docstring of the function.
     claims
-        Each result as an expression of the theory; None for a sign or a mask.
+        Exact value of each result as an expression of the theory; None for a sign or a mask.
     meaning
-        Meaning of the arguments in the theory.
+        Expressions of the theory for the symbols of the routine.
     reduce
-        Function to a normal form of the subject, 0 for what vanishes.
+        Function that simplifies a residual; it must return 0 for a residual that vanishes.
+
+    Returns
+    -------
+    Routine
+        The routine with its proof.
 
     Raises
     ------
     ProofError
-        Naming the result and the choices, if it does not equal its claim.
+        If a result does not equal its claim; the message states the result and the choices.
+    ValueError
+        If an argument is not used, or results are not linear in the totals of a sum.
     """
     statements = tuple(statements)
     _check_arguments(name, arguments, statements, results)
@@ -310,14 +318,14 @@ def _undone(
 
 
 class _Written(sp.Symbol):
-    """Code in place of a symbol, in parentheses wherever an operation follows."""
+    """Code in place of a symbol, printed in parentheses inside an operation."""
 
     precedence = PRECEDENCE["Lambda"]
 
 
 @dataclass(frozen=True)
 class Dialect:
-    """The way expressions are written, and the type of numbers."""
+    """The function that prints expressions, and the type annotation of numbers."""
 
     write: Callable[[sp.Basic], str]
     number: str
@@ -329,11 +337,11 @@ class Dialect:
 
 
 ARRAYS = Dialect(to_numpy, "Double")
-"""NumPy's functions of arrays."""
+"""Functions of NumPy for arrays."""
 SCALARS = Dialect(to_math, "float")
-"""Python's functions of single numbers, which are much faster for these."""
+"""Functions of Python's `math` for single numbers, for which they are much faster."""
 QUIET_SCALARS = Dialect(to_numpy, "float")
-"""NumPy's functions of single numbers, which return NaN where Python's raise an error."""
+"""Functions of NumPy for single numbers, which return NaN where those of `math` raise an error."""
 
 
 def text(r: Routine, dialect: Dialect = ARRAYS) -> str:

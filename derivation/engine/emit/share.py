@@ -1,4 +1,4 @@
-"""Fraction of the arithmetic in a generated package that is printed, by module.
+"""Fraction of the arithmetic in a generated package that is printed from proved expressions.
 
 Operators, signs, in-place updates and calls of NumPy's numerical functions are counted in the
 syntax tree. Tables of numbers are not counted: `1 / 6` is a number.
@@ -25,7 +25,7 @@ class ModuleArithmetic:
     operations
         Number of operations.
     reason
-        What the operations are, if they are written by hand; empty if they are printed from proved
+        Description of operations that are written by hand; empty if they are printed from proved
         expressions.
     """
 
@@ -40,7 +40,7 @@ class ModuleArithmetic:
 
 
 def shares(sources: Mapping[str, str]) -> tuple[ModuleArithmetic, ...]:
-    """Return the arithmetic of every module that has some, from the source texts by name."""
+    """Return the arithmetic of the modules that contain any, from the source texts by name."""
     counted = ((name, operations(text), text) for name, text in sorted(sources.items()))
     return tuple(
         ModuleArithmetic(name, count, reason_of(text)) for name, count, text in counted if count
@@ -54,12 +54,12 @@ def printed_share(found: Sequence[ModuleArithmetic]) -> float:
 
 
 def expect_growth(found: Sequence[ModuleArithmetic], kept: float) -> None:
-    """Refuse a package whose printed fraction is smaller than before.
+    """Reject a package whose printed fraction is smaller than the committed one.
 
     Parameters
     ----------
     found
-        The arithmetic of its modules.
+        The arithmetic of the modules.
     kept
         The committed fraction [1].
 
@@ -109,7 +109,7 @@ def reason_of(text: str) -> str:
 
 
 def expect_reason(name: str, text: str) -> None:
-    """Refuse a handwritten module that does not state its arithmetic.
+    """Reject a handwritten module that does not state its arithmetic.
 
     Raises
     ------

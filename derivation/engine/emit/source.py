@@ -1,4 +1,4 @@
-"""Rendering of templates, and formatting by ruff; starts without SymPy."""
+"""Rendering of templates, and formatting by ruff; this module does not import SymPy."""
 
 import subprocess
 import sys
@@ -13,7 +13,7 @@ TEMPLATES = Path(__file__).parent / "templates"
 
 
 def filled(template: str, context: Mapping[str, Any], folder: Path = TEMPLATES) -> str:
-    """Return a rendered template; every name in it must be in the context.
+    """Return a rendered template; the context must contain every name in it.
 
     Parameters
     ----------
@@ -22,7 +22,7 @@ def filled(template: str, context: Mapping[str, Any], folder: Path = TEMPLATES) 
     context
         Values of its variables.
     folder
-        Folder that is searched first.
+        Folder that is searched before that of the engine.
     """
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader([folder, TEMPLATES]),
@@ -36,12 +36,12 @@ def filled(template: str, context: Mapping[str, Any], folder: Path = TEMPLATES) 
 
 
 def format_files(source: Mapping[str, str]) -> dict[str, str]:
-    """Return the files as formatted by ruff (stage 4).
+    """Return Python files by name, formatted by ruff, with sorted and used imports only.
 
     Raises
     ------
     RuntimeError
-        With ruff's message, if a file is not valid Python.
+        If ruff fails, for example because a file is not valid Python.
     """
     with tempfile.TemporaryDirectory() as folder:
         for name, text in source.items():

@@ -25,7 +25,7 @@ def standalone(stable: Stable) -> tuple[str, CodeCheck]:
     Raises
     ------
     UnreachableError
-        If the code is accurate in no useful range.
+        If the code is not accurate in any useful range.
     """
     x = stable.variable
     found = tested(stable, _compiled(_source(stable, *ENDS, "")))
@@ -40,7 +40,7 @@ def standalone(stable: Stable) -> tuple[str, CodeCheck]:
 
 def _compiled(source: str) -> Function:
     space: dict[str, Function] = {}
-    exec(compile(source, "f.py", "exec"), space)  # the printed module, of numbers and names only
+    exec(compile(source, "f.py", "exec"), space)  # generated from a parsed formula
     return space["f"]
 
 

@@ -41,7 +41,7 @@ def module_text(title: str, header: str, constants: Sequence[Constant]) -> str:
 
 
 def literal(value: object) -> str:
-    """Return a number, or nested tuples of numbers, as Python source.
+    """Return a number, a text, an array, or nested tuples of numbers as Python source.
 
     Raises
     ------

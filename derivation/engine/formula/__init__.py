@@ -1,4 +1,4 @@
-"""The lowest layer: formulas, their dimensions, their notation and their exact values.
+"""The lowest layer: formulas with their dimensions, notation, proofs and exact values.
 
 This module imports nothing, so that a simulation, which shares the parent package, starts without
 SymPy.

@@ -1,4 +1,4 @@
-"""Rigorous evaluation of exact expressions by Arb balls of increasing precision."""
+"""Certified evaluation of exact expressions by Arb balls of increasing precision."""
 
 from collections.abc import Callable, Mapping
 from fractions import Fraction
@@ -35,7 +35,7 @@ def enclose(expression: sp.Basic, values: Mapping[sp.Basic, flint.arb]) -> flint
     Raises
     ------
     NotImplementedError
-        For a SymPy function without a rigorous counterpart.
+        For a SymPy function that is not implemented in ball arithmetic.
     """
     memo: dict[sp.Basic, flint.arb] = dict(values)
 
@@ -50,7 +50,7 @@ def enclose(expression: sp.Basic, values: Mapping[sp.Basic, flint.arb]) -> flint
 
 @cache
 def enclosable(expression: sp.Basic) -> bool:
-    """Return whether `enclose` knows every function in the expression."""
+    """Return whether `enclose` can evaluate every function in the expression."""
     with flint.ctx.workprec(32):
         try:
             enclose(expression, {symbol: flint.arb(0.5) for symbol in expression.free_symbols})
@@ -77,8 +77,7 @@ def evaluate(
     Raises
     ------
     PrecisionError
-        If 65536 bits are not sufficient, which for these formulas means a value that is exactly
-        zero, or a singular point.
+        If 65536 bits are not sufficient; the value is then probably zero, or the point singular.
     """
     return refine(
         lambda: enclose(expression, {key: to_ball(value) for key, value in values.items()}),
@@ -90,9 +89,23 @@ def evaluate(
 def refine(
     compute: Callable[[], flint.arb], digits: int, what: object, most: int = MAX_BITS
 ) -> flint.arb:
-    """Repeat `compute` with doubled precision, up to `most` bits, until its ball is small enough.
+    """Repeat a computation with doubled precision until its ball is small enough.
 
-    An exact zero (a point ball) is accepted.
+    Parameters
+    ----------
+    compute
+        Function that returns a ball at the current precision; a ball of radius zero is accepted.
+    digits
+        Number of correct decimal digits.
+    what
+        Description of the value for the error message.
+    most
+        Largest precision in bits.
+
+    Raises
+    ------
+    PrecisionError
+        If `most` bits are not sufficient.
     """
     target = int(digits * LOG2_10) + 1
     bits = target + SPARE_BITS

@@ -17,7 +17,7 @@ Found = tuple[tuple[str, tuple[Record, ...]], ...]
 
 @dataclass(frozen=True)
 class Link:
-    """One link: its name, and the function that returns its proved formulas."""
+    """One link of a derivation: its name, and the function that returns its proved formulas."""
 
     name: str
     derive: Callable[[], tuple[Record, ...]]
@@ -30,9 +30,9 @@ class Chain:
     Parameters
     ----------
     name
-        Name of the paper, with which its cached results begin.
+        Name of the paper, with which the names of its cached results begin.
     vocabulary
-        Its symbols.
+        The symbols of the paper.
     links
         The links, in order.
     sources
@@ -54,7 +54,7 @@ class Chain:
         Raises
         ------
         ProofError
-            Naming the step whose proof fails.
+            If a proof fails; the message states the step.
         """
         return self.kept("chain", lambda: tuple((x.name, x.derive()) for x in self.links))
 
@@ -69,6 +69,18 @@ class Chain:
         *kinds: type,
         also: tuple[str | Path, ...] = (),
     ) -> Value:
-        """Return the result of `compute`, cached until the sources, or those in `also`, change."""
+        """Return the result of a function, cached until the sources, or those in `also`, change.
+
+        Parameters
+        ----------
+        what
+            Name of the result.
+        compute
+            Function that computes it; see `derivation.engine.cache.cached`.
+        kinds
+            Further dataclasses that the result contains.
+        also
+            Further sources on which it depends.
+        """
         every = (*self.kinds, Proof, *kinds)
         return cached(f"{self.name}-{what}", (*self.sources, *also), compute, *every)

@@ -10,7 +10,7 @@ import sympy as sp
 
 
 class DimensionError(ValueError):
-    """Terms of unlike dimension are added, or an exponent or argument is not dimensionless."""
+    """An error in dimensions; the message states the part of the expression."""
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ BASE = {
     "W": FORCE * LENGTH / TIME,
     "Pa": STRESS,
 }
-"""Units that define others."""
+"""Dimensions of the units from which others are composed."""
 
 _FACTOR = re.compile(r"(1|[A-Za-z]+)(?:\^(?:(\d+)|\((\d+/\d+)\)))?")
 _SLASH = re.compile(r"/(?!\d+\))")
@@ -60,9 +60,9 @@ _SLASH = re.compile(r"/(?!\d+\))")
 
 @cache
 def unit(text: str) -> Dimension:
-    """Return the dimension of a unit: factors with powers, and after at most one slash a divisor.
+    """Return the dimension of a unit: factors with powers, and at most one slash before a divisor.
 
-    A divisor of several factors is in brackets: ``m/N^(5/3)``, ``kg m/s^2``, ``J/(kg m)``.
+    A divisor of several factors needs brackets: ``m/N^(5/3)``, ``kg m/s^2``, ``J/(kg m)``.
 
     Raises
     ------
@@ -119,8 +119,8 @@ def dimension(expression: sp.Basic, known: Mapping[sp.Basic, Dimension]) -> Dime
     Raises
     ------
     DimensionError
-        Where unlike dimensions are added, or an exponent or a function's argument is not
-        dimensionless. The message names the part.
+        If terms of different dimensions are added, an exponent or a function's argument is not
+        dimensionless, or the dimension of a symbol is unknown. The message states the part.
     """
     if expression in known:
         return known[expression]

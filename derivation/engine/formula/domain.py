@@ -28,7 +28,7 @@ def holds(condition: str, values: Mapping[sp.Symbol, Fraction]) -> bool:
     Parameters
     ----------
     condition
-        One comparison of rational expressions, for instance ``3 * lam > -2 * mu``.
+        One comparison of rational expressions, such as ``3 * lam > -2 * mu``.
     values
         Exact values of all its symbols, in SI units.
 
@@ -58,7 +58,7 @@ def _parsed(condition: str) -> tuple[sp.Expr, Callable[[Fraction, int], bool]]:
 
 
 def _exactly(node: sp.Basic, values: Mapping[str, Fraction]) -> Fraction:
-    """Evaluate a rational expression at a point by Python's fractions, which are fast."""
+    """Return the value of a rational expression at a point, by Python's fast fractions."""
     if isinstance(node, sp.Symbol):
         return values[node.name]
     if isinstance(node, sp.Rational):
@@ -76,6 +76,6 @@ def _exactly(node: sp.Basic, values: Mapping[str, Fraction]) -> Fraction:
 
 
 def broken(conditions: Iterable[str], values: Mapping[sp.Symbol, Fraction]) -> list[str]:
-    """Return the conditions that are false at an exact point, without those of other symbols."""
+    """Return the false conditions at an exact point, without those that contain other symbols."""
     names = {symbol.name for symbol in values}
     return [c for c in conditions if symbols_of(c) <= names and not holds(c, values)]

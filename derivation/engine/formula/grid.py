@@ -1,8 +1,8 @@
 """Difficult points of any function, from the domains of its arguments; the same in every run.
 
-Each argument in turn takes decades from the smallest to the largest number, values next to the ends
-of its own domain, and both sides of the switch points of its forms. The other arguments are drawn
-at random inside their domains.
+Each argument in turn takes powers of ten of both signs from 1e-150 to 1e9, values next to the ends
+of its domain, and values on both sides of the switch points of its forms. The other arguments have
+random values inside their domains.
 """
 
 import math
@@ -15,12 +15,13 @@ from derivation.engine.formula.ulp import neighbours
 from derivation.engine.formula.vocabulary import Vocabulary
 
 EXPONENTS = (-150, -100, -50, -20, -12, -8, -5, -3, -2, -1, 0, 1, 2, 3, 6, 9)
-"""Decades that every argument takes, as far as its domain extends."""
+"""Exponents of the powers of ten that every argument takes, inside its domain."""
 FRACTIONS = (0.5, 1e-3, 1e-8, 1e-15)
 """Distances from the end of a domain, relative to the end."""
 DRAWN = 24
 """Number of points at which all arguments are random."""
 ATTEMPTS = 400
+"""Number of random points that are tried to find one in the domain."""
 
 
 def inside(vocabulary: Vocabulary, values: Mapping[str, float]) -> bool:
@@ -36,14 +37,14 @@ def domain_grid(
     vocabulary: Vocabulary,
     switches: Mapping[str, Sequence[float]],
 ) -> tuple[dict[str, float], ...]:
-    """Return points for a function.
+    """Return difficult points of a function, as arguments by name.
 
     Parameters
     ----------
     name
         Name of the function; it seeds the random values.
     arguments
-        Its arguments' names.
+        Names of its arguments.
     vocabulary
         The symbols with their domains.
     switches
@@ -77,7 +78,7 @@ def _random(generator: random.Random) -> float:
 
 
 def _candidates(domain: Sequence[str]) -> Iterator[float]:
-    """Return decades of both signs, and numbers next to those that the domain contains."""
+    """Yield powers of ten of both signs, and numbers next to the ends of the domain."""
     for exponent in EXPONENTS:
         yield from (10.0**exponent, -(10.0**exponent))
     for end in _ends(domain):
@@ -87,7 +88,7 @@ def _candidates(domain: Sequence[str]) -> Iterator[float]:
 
 
 def _ends(domain: Sequence[str]) -> Iterator[float]:
-    """Return the numbers in the conditions."""
+    """Yield the numbers in the conditions of a domain."""
     for condition in domain:
         for word in condition.split():
             try:
@@ -97,7 +98,7 @@ def _ends(domain: Sequence[str]) -> Iterator[float]:
 
 
 def _around(places: Sequence[float]) -> Iterator[float]:
-    """Return numbers, their neighbours, and the doubles at 32 ULP."""
+    """Yield numbers, their neighbours, and the doubles at a distance of 32 ULP."""
     for place in places:
         near = neighbours(place, 32)
         yield from (near[0], near[31], near[32], near[33], near[64])

@@ -1,4 +1,4 @@
-"""Hyperbolic functions instead of exponentials of one argument, factor by factor."""
+"""Conversion of exponentials of one argument to hyperbolic functions, factor by factor."""
 
 import sympy as sp
 

@@ -16,7 +16,7 @@ PLAIN = {
 
 
 class PaperPrinter(LatexPrinter):
-    """SymPy's LaTeX printer with J_0, J_1 as the paper writes them, and I_0, I_1 likewise."""
+    """SymPy's LaTeX printer, with Bessel functions as J_0, J_1, I_0 and I_1."""
 
     def _print_BesselJ(self, expr: sp.besselj, exp: str | None = None) -> str:
         return self._bessel("J", expr, exp)
@@ -36,7 +36,7 @@ class PaperPrinter(LatexPrinter):
 
 
 def positive_first(terms: list[sp.Expr]) -> list[sp.Expr]:
-    """Return the terms of a sum, those with a minus sign last, as written by hand."""
+    """Return the terms of a sum with those that have a minus sign last."""
     return sorted(terms, key=lambda term: bool(term.could_extract_minus_sign()))
 
 

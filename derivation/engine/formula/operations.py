@@ -1,6 +1,6 @@
-"""Table of operations: for each SymPy function its value in balls, and its derivatives.
+"""Operations of expressions: the value of each SymPy function in balls, and its derivatives.
 
-Balls of an expression, its gradient and its correctly rounded doubles all use this table.
+Balls of an expression, its gradient and its values in doubles use these operations.
 """
 
 from collections.abc import Callable
@@ -57,7 +57,7 @@ def operation(node: sp.Basic) -> Operation:
     Raises
     ------
     NotImplementedError
-        For a function or constant without a rigorous counterpart.
+        For a function or constant that is not implemented in ball arithmetic.
     """
     if isinstance(node, sp.Rational):
         number = flint.fmpq(int(node.p), int(node.q))

@@ -31,7 +31,7 @@ MAX_DEGREE = 1000
 
 
 class FormulaError(ValueError):
-    """A formula that cannot be used; the message states what is expected, the input, a remedy."""
+    """A formula or point that cannot be used; the message states what is expected, and a remedy."""
 
 
 _CONSTANTS: Mapping[str, sp.Basic] = {"pi": sp.pi, "EulerGamma": sp.EulerGamma}
@@ -69,12 +69,12 @@ def parse(text: str, vocabulary: Vocabulary, also: Mapping[str, sp.Basic] | None
     Parameters
     ----------
     text
-        For instance ``-sinh(x)/(2*mu*(sinh(2*x) + 2*x))``.
-        Decimal numbers are exact: ``0.1`` is 1/10.
+        The formula, such as ``-sinh(x)/(2*mu*(sinh(2*x) + 2*x))``. Decimal numbers are exact:
+        ``0.1`` is 1/10.
     vocabulary
         The symbols that may occur.
     also
-        Further names that may occur, with what they stand for.
+        Further names that may occur, with their expressions.
 
     Raises
     ------
@@ -125,7 +125,13 @@ def _checked(text: str) -> str:
 
 
 def check_nesting(text: str, opening: str, closing: str) -> None:
-    """Refuse brackets that are nested too deeply, or not in pairs."""
+    """Reject brackets that are nested too deeply, or not in pairs.
+
+    Raises
+    ------
+    FormulaError
+        If there are such brackets.
+    """
     depth = 0
     for mark in text:
         depth += (mark in opening) - (mark in closing)
@@ -139,7 +145,7 @@ def check_nesting(text: str, opening: str, closing: str) -> None:
 
 
 class _Reader:
-    """Builds the expression from a syntax tree, and refuses every unknown node."""
+    """Builds the expression from a syntax tree, and rejects every unknown node."""
 
     def __init__(self, text: str, vocabulary: Vocabulary, also: Mapping[str, sp.Basic]) -> None:
         self.text = text
@@ -224,7 +230,7 @@ class _Reader:
 
 
 def number(literal: str) -> sp.Rational:
-    """Return the exact rational that a decimal literal stands for."""
+    """Return the exact value of a decimal literal."""
     match = _NUMBER.fullmatch(literal)
     if match is None:
         raise FormulaError(f"expected a decimal number, got {_short(literal)}: write it like 0.25")
@@ -238,7 +244,13 @@ def number(literal: str) -> sp.Rational:
 
 
 def power(base: sp.Expr, exponent: sp.Expr, numbers: Set[sp.Symbol]) -> sp.Expr:
-    """Return base**exponent for a moderate rational exponent, or one in dimensionless symbols."""
+    """Return base**exponent, for a moderate rational exponent or one in dimensionless symbols.
+
+    Raises
+    ------
+    FormulaError
+        If the exponent is of another kind, or a number or an exponent is too large.
+    """
     if base == sp.E:
         _check_constant(exponent, "exp")
         return sp.exp(exponent)
@@ -268,7 +280,13 @@ def _bits(value: sp.Rational) -> int:
 
 
 def guarded(expression: sp.Expr, source: str) -> sp.Expr:
-    """Return the expression, if it is finite and real and its numbers are moderate."""
+    """Return the expression, if it is finite and real and its numbers are moderate.
+
+    Raises
+    ------
+    FormulaError
+        If it is not; the message contains the text `source`.
+    """
     if expression.has(sp.zoo, sp.nan, sp.oo, -sp.oo):
         raise FormulaError(f"{_short(source)} divides by zero or has no value: correct it")
     if expression.has(sp.I):
@@ -285,7 +303,7 @@ def guarded(expression: sp.Expr, source: str) -> sp.Expr:
 
 
 def _check_constant(argument: sp.Expr, name: str) -> None:
-    """Refuse a function of a constant whose argument is too large to be evaluated quickly."""
+    """Reject a function of a constant whose argument is too large to be evaluated quickly."""
     if not argument.is_number:
         return
     with flint.ctx.workprec(128):
@@ -336,4 +354,4 @@ FUNCTIONS: Mapping[str, Callable[..., sp.Expr]] = {
     "J0": lambda argument: bessel(sp.Integer(0), argument),
     "J1": lambda argument: bessel(sp.Integer(1), argument),
 }
-"""Functions a formula may call."""
+"""Functions that a formula may call, by name."""

@@ -1,6 +1,6 @@
 """Parse LaTeX of the paper and of this program's printer, with the checks of `parse`.
 
-The LaTeX is translated into the syntax of `parse`, which alone decides what is allowed.
+The LaTeX is translated into the syntax of `parse`, which checks the result.
 """
 
 import re
@@ -34,7 +34,7 @@ _GREEK = {r"\lambda": "lam", r"\mu": "mu", r"\phi": "phi", r"\varphi": "phi", r"
 _BRACKETS = {"(": ")", "[": "]", r"\{": r"\}", "{": "}"}
 _NAME = r"(?:\\[A-Za-z]+|[A-Za-z])(?: _ (?:\w+|\{ \w+ \}))?"
 _ARGUMENTS = re.compile(rf"[(\[] ({_NAME}(?: , {_NAME})*) [)\]]")
-"""Symbols alone in brackets, as tokens with a space between."""
+"""Only symbols in brackets, as tokens separated by spaces."""
 _PRODUCT = {r"\cdot", r"\times", "*"}
 
 
@@ -46,15 +46,14 @@ def parse_latex(
     Parameters
     ----------
     text
-        For instance ``\frac{1}{\phi_j} \sinh(\phi_j z)``. A product needs no
-        sign.
+        The formula, such as ``\frac{1}{\phi_j} \sinh(\phi_j z)``. A product needs no sign.
     vocabulary, also
         As in `derivation.engine.formula.parse.parse`.
 
     Raises
     ------
     FormulaError
-        Naming the token that is not recognised, or as `parse` does.
+        If a token is not recognised, or if `parse` raises it.
     """
     if not isinstance(text, str):
         raise FormulaError(f"expected a formula as text, got {type(text).__name__}")
@@ -90,7 +89,7 @@ def _tokens(text: str) -> list[str]:
 
 
 class _Translator:
-    """Recursive descent over the tokens; each method returns the text for its part."""
+    """Recursive-descent parser of the tokens; each method returns the text for its part."""
 
     def __init__(
         self, tokens: list[str], vocabulary: Vocabulary, allowed: Mapping[str, sp.Basic]
@@ -230,7 +229,7 @@ class _Translator:
         return name if name in self.allowed else self.vocabulary.name_of_latex.get(name, name)
 
     def _refuse_unknown_function(self, name: str) -> None:
-        """Refuse a symbol before symbols in brackets, which would be read as a product."""
+        """Reject a symbol before symbols in brackets, which would be read as a product."""
         if self.here in ("(", "[") and (
             found := _ARGUMENTS.match(" ".join(self.tokens[self.position :]))
         ):

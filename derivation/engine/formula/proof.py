@@ -1,4 +1,4 @@
-"""Proofs: a residual is reduced to zero by rewriting, or by balls at two precisions."""
+"""Proofs: residuals are reduced to zero symbolically, or contain zero in ball arithmetic."""
 
 import random
 from collections.abc import Callable, Iterable, Mapping
@@ -19,12 +19,12 @@ _POINTS = 12
 
 
 class ProofError(FailedError):
-    """A step of the derivation fails; the message names it and shows the residual."""
+    """A step of the derivation fails; the message states the step and the residual."""
 
 
 @dataclass(frozen=True)
 class Proof:
-    """Record of a proved step: its argument, and how its residuals were decided."""
+    """A proved step: its name, argument, names of residuals, and the method."""
 
     step: str
     argument: str
@@ -43,16 +43,21 @@ def prove(step: str, argument: str, residuals: Mapping[str, sp.Expr]) -> Proof:
     Parameters
     ----------
     step
-        Name of the step, stated in the error.
+        Name of the step.
     argument
-        The reasoning in a sentence: what was substituted where.
+        The reasoning in a sentence.
     residuals
-        Labelled expressions that must vanish identically.
+        Expressions that must vanish identically, by label.
+
+    Returns
+    -------
+    Proof
+        The step with its labels; its method is by balls if one of the residuals needed it.
 
     Raises
     ------
     ProofError
-        Naming step and label, with the residual.
+        If a residual does not vanish; the message states step, label and residual.
     """
     methods = set()
     for label, residual in residuals.items():
@@ -65,10 +70,10 @@ def prove(step: str, argument: str, residuals: Mapping[str, sp.Expr]) -> Proof:
 
 
 def decide_zero(expression: sp.Expr) -> str | None:
-    """Return how the expression was found to be identically zero, or None if it is not zero.
+    """Return the method by which an expression was found to be zero; None if it is not zero.
 
-    Balls come first: one that excludes zero decides at once and avoids the expansion of an
-    expression that is not zero.
+    Balls are evaluated first: if one excludes zero, the expansion, which can be slow, is avoided.
+    If the expansion does not give zero, but all balls contain zero, the method is `BY_BALLS`.
     """
     if expression.is_zero:
         return SYMBOLIC
@@ -92,7 +97,7 @@ def lower_bessel(expression: sp.Expr) -> sp.Expr:
 
 
 def _lowered(kind: type[sp.Function], sign: int) -> Callable[[sp.Expr, sp.Expr], sp.Expr]:
-    """Apply a Bessel function's recurrence; `sign` is that of Z_(n-2) minus 2 (n - 1)/x Z_(n-1)."""
+    """Return the function that lowers the order by Z_n = sign (Z_(n-2) - 2 (n - 1)/x Z_(n-1))."""
 
     def step(order: sp.Expr, x: sp.Expr) -> sp.Expr:
         if order.is_Integer and order < 0:
@@ -107,8 +112,8 @@ def _lowered(kind: type[sp.Function], sign: int) -> Callable[[sp.Expr, sp.Expr],
 def balls_contain_zero(expression: sp.Expr) -> bool:
     """Return whether every finite ball, at random points and both precisions, contains zero.
 
-    Points outside the expression's domain give no finite ball and are ignored; at least two points
-    must lie inside.
+    Points outside the expression's domain give no finite ball and are ignored; there must be finite
+    balls at two points or more.
     """
     inside = 0
     for values in sample_points(expression.free_symbols, _POINTS):

@@ -1,4 +1,4 @@
-"""The formula record: symbol, expression, unit, source and proof."""
+"""The class of proved formulas: symbol, expression, unit, sources and proof."""
 
 from dataclasses import dataclass
 from typing import ClassVar
@@ -18,9 +18,9 @@ class Record:
     Parameters
     ----------
     name
-        Name in code and on the command line, for instance ``Omega_1``.
+        Name in code and on the command line, such as ``Omega_1``.
     latex
-        The left-hand side as typeset.
+        LaTeX of the left-hand side.
     meaning
         Meaning of the quantity, in a few words.
     expression
@@ -28,13 +28,13 @@ class Record:
     unit
         SI unit; the expression's dimension is checked against it.
     equation
-        Number of the paper's equation it belongs to.
+        Number of the corresponding equation of the paper; empty if there is none.
     sources
-        Names of the formulas it was derived from.
+        Names of the formulas from which it was derived.
     proof
-        How it was proved.
+        The proof.
     summed
-        The quantity is the sum of `expression` over all terms.
+        Whether the quantity is the sum of `expression` over all terms.
     where
         Conditions on the arguments in addition to their own.
     stated
@@ -70,7 +70,7 @@ class Record:
 
     @property
     def arguments(self) -> tuple[Argument, ...]:
-        """The symbols that the expression depends on, in the order of the vocabulary."""
+        """The symbols on which the expression depends, in the order of the vocabulary."""
         return self.vocabulary.arguments_of(self.expression)
 
     @property
@@ -82,7 +82,7 @@ class Record:
 
     @property
     def sum_sign(self) -> str:
-        """LaTeX of the sum over the terms, if the formula is a sum."""
+        """LaTeX of the summation sign; empty if the formula is not a sum."""
         index = self.vocabulary.indices[:1]
         return rf"\sum_{{{index}=1}}^{{\infty}} " if self.summed else ""
 
@@ -93,7 +93,7 @@ class Record:
         return self.sum_sign + to_latex(shown, self.vocabulary)
 
     def to_json(self) -> dict[str, object]:
-        """Return the formula as plain text under fixed keys."""
+        """Return the formula as plain data under fixed keys."""
         return {
             "name": self.name,
             "meaning": to_plain(self.meaning),

@@ -52,9 +52,9 @@ def degree(expression: sp.Basic, memo: dict[sp.Basic, float]) -> float:
     Parameters
     ----------
     expression
-        For instance ``((x + 1)**9 + 1)**9``, whose degree is 81.
+        The expression; the degree of ``((x + 1)**9 + 1)**9`` is 81.
     memo
-        Degrees of known expressions; it is extended.
+        Degrees of known expressions, to which new ones are added.
     """
     if expression not in memo:
         inner = [degree(argument, memo) for argument in expression.args]

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import flint
 
 _GUARD_BITS = 128
-"""Additional bits of a difference, whose own rounding is then below 2^-128 ULP."""
+"""Additional bits of a difference, with which its rounding error is below 2^-128 ULP."""
 
 
 @dataclass(frozen=True)
@@ -21,7 +21,7 @@ class Format:
     Parameters
     ----------
     name
-        Its NumPy name.
+        Name in NumPy.
     precision
         Bits of the significand, including the implicit one.
     smallest
@@ -110,7 +110,7 @@ def distance(got: float, reference: flint.arb) -> flint.arb:
 
 
 def upper_float(ball: flint.arb) -> float:
-    """Return a double that is not below the ball's absolute value, the smallest one found."""
+    """Return the largest absolute value of the ball, rounded up to a double."""
     upper = ball.abs_upper()
     nearest = float(upper)
     return nearest if flint.arb(nearest) >= upper else math.nextafter(nearest, math.inf)

@@ -15,7 +15,7 @@ _LATEX_SYMBOL = re.compile(r"\\?([A-Za-z]+)(?:_(?:\{(\w+)\}|(\w)))?(?:\^\{\(\w+\
 
 @dataclass(frozen=True)
 class Argument:
-    """One symbol that formulas depend on.
+    """A symbol on which formulas depend.
 
     Parameters
     ----------
@@ -26,10 +26,10 @@ class Argument:
     latex
         LaTeX of the symbol.
     meaning
-        Its meaning, in a few words.
+        Meaning of the symbol, in a few words.
     domain
-        Conditions under which formulas in it are valid, each a comparison in Python syntax. One
-        that contains another symbol applies where that symbol is an argument too.
+        Conditions under which formulas that contain it are valid, each a comparison in Python
+        syntax. A condition with another symbol applies to formulas that contain this one too.
     """
 
     symbol: sp.Symbol
@@ -63,11 +63,11 @@ class Vocabulary:
     per_term
         Symbols with a different value in each term of a summed formula.
     indices
-        Letters that count these terms.
+        Letters for the index of these terms.
     values
-        Sample values [SI] by name, inside the domain; other values are found at random.
+        Sample values [SI] by name, as decimal text, inside the domain.
     within
-        Factors for random values of symbols that would otherwise lie outside the domain.
+        Factors by which random values of symbols are multiplied to lie inside the domain.
     """
 
     arguments: tuple[Argument, ...] = ()
@@ -87,7 +87,7 @@ class Vocabulary:
 
     @cached_property
     def names(self) -> dict[str, sp.Symbol]:
-        """The symbols by every name that may be typed for them."""
+        """The symbols by name, aliases included."""
         own = {name: argument.symbol for name, argument in self.by_name.items()}
         return {**own, **self.aliases}
 
@@ -125,7 +125,7 @@ class Vocabulary:
         return frozenset(argument.symbol for argument in self.arguments if argument.unit == "1")
 
     def arguments_of(self, expression: sp.Expr) -> tuple[Argument, ...]:
-        """Return the arguments that an expression depends on, in their fixed order.
+        """Return the arguments on which an expression depends, in the order of the vocabulary.
 
         Raises
         ------
@@ -149,5 +149,5 @@ def symbols_of(condition: str) -> set[str]:
 
 
 def applicable(conditions: Iterable[str], names: set[str]) -> tuple[str, ...]:
-    """Return the conditions that contain no names but the given arguments."""
+    """Return the conditions that contain no other names than the given ones."""
     return tuple(c for c in conditions if symbols_of(c) <= names)

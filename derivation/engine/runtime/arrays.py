@@ -14,10 +14,10 @@ Double = NDArray[np.float64]
 Function = TypeVar("Function", bound=Callable[..., object])
 
 quiet = np.errstate(over="ignore", under="ignore", divide="ignore")
-"""Decorator of public functions: floating-point settings that do not depend on the caller's.
+"""Decorator of public functions: no warnings of overflow, underflow and division by zero.
 
-Overflow rounds to infinity and underflow to zero without a warning, since contributions to a
-result may be negligibly small. Invalid operations keep their warning.
+Contributions to a result may be negligibly small or infinite. For invalid operations, the settings
+of the caller apply.
 """
 
 
@@ -33,7 +33,7 @@ def in_manifest(
     equation
         Number of its equation in the paper, if it has one.
     domain
-        Conditions on its arguments, separated by commas; outside the result is NaN.
+        Conditions on its arguments, separated by commas; outside the domain the result is NaN.
     kernel
         Whether it is listed with the printed formulas.
     """
@@ -44,8 +44,9 @@ def in_manifest(
 def as_doubles(*arguments: ArrayLike) -> tuple[np.dtype, list[Double]]:
     """Return the arguments as arrays of doubles, and the type of the result.
 
-    If all arguments are float32, so is the result, computed in double precision; otherwise it is
-    double. Infinite arguments become NaN, which every function propagates.
+    If NumPy's common type of the arguments is float32 or float16, the result is float32, computed
+    in double precision; otherwise it is float64. Infinite arguments become NaN, which every
+    function propagates.
 
     Raises
     ------
@@ -64,7 +65,7 @@ def as_doubles(*arguments: ArrayLike) -> tuple[np.dtype, list[Double]]:
 
 
 def refuse_masked(*arguments: ArrayLike) -> None:
-    """Refuse masked arrays, because the mask would be lost and masked numbers would be used.
+    """Reject masked arrays, because the mask would be lost and masked numbers would be used.
 
     Raises
     ------
@@ -92,7 +93,7 @@ def whole(count: int, what: str) -> int:
 
 
 def inside(arguments: list[Double], *conditions: NDArray[np.bool_]) -> list[Double]:
-    """Return the arguments where all conditions are met, NaN elsewhere."""
+    """Return the arguments where all conditions are met, and NaN elsewhere."""
     holds: NDArray[np.bool_] = np.asarray(True)
     for condition in conditions:
         holds = np.logical_and(holds, condition)
@@ -100,7 +101,7 @@ def inside(arguments: list[Double], *conditions: NDArray[np.bool_]) -> list[Doub
 
 
 def as_result(value: Double, kind: np.dtype) -> np.ndarray:
-    """Return the value in the requested type; a scalar if all arguments are scalars."""
+    """Return the value in the given type, as a NumPy scalar if it has no dimensions."""
     return np.asarray(value, dtype=kind)[()]
 
 
@@ -110,9 +111,10 @@ def patched(
     function: Callable[..., np.ndarray],
     arguments: list[Double],
 ) -> Double:
-    """Return the value, replaced by the function's own where the variable is below a switch point.
+    """Return the value, replaced by the function's result where a mask is true.
 
-    The function calls this; for arguments that are all below the switch point it does not.
+    A function passes itself, and is called for the points below its switch point only. It then
+    evaluates its branch below directly, so that the recursion ends.
     """
     if not below.any():
         return value

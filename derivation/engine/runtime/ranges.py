@@ -1,4 +1,4 @@
-"""Products and roots whose factors may leave the range of doubles though the result does not.
+"""Products and roots whose factors may leave the range of doubles although the result does not.
 
 Arithmetic: products, quotients and roots of mantissas, with exponents of 2 kept separately; sums
 with compensation of rounding errors.
@@ -22,10 +22,10 @@ def product(factors: Factors, divisors: Factors = ()) -> Double:
 
 
 def times(value: Double, *powers: tuple[Double, int]) -> Double:
-    """Return value times base^power for every pair, as if only the result were rounded.
+    """Return value times base^power for every pair; products are rounded, but do not overflow.
 
-    Bases and their powers may leave the range of doubles; the factors are multiplied in the
-    given order.
+    Powers of bases and intermediate products may leave the range of doubles. Factors are multiplied
+    in the given order.
     """
     total, exponent = np.frexp(value)
     for base, power in powers:
@@ -38,7 +38,7 @@ def times(value: Double, *powers: tuple[Double, int]) -> Double:
 
 
 def times_closely(value: Double, *powers: tuple[Double, int]) -> Double:
-    """Return the same product with compensation of the rounding errors of intermediate products."""
+    """Return the product of `times`, with compensation of the rounding errors."""
     total, exponent = np.frexp(value)
     rest: Double = np.zeros(())
     with np.errstate(invalid="ignore"):  # infinities have no rounding error
@@ -64,7 +64,7 @@ def times_closely(value: Double, *powers: tuple[Double, int]) -> Double:
 
 
 def sum_closely(*parts: Double | float) -> Double:
-    """Return the sum of the parts, the last of them small, as if only the result were rounded."""
+    """Return the sum of the parts, with compensation of rounding errors; the last part is small."""
     total, rest = np.asarray(parts[0]), parts[-1]
     for part in parts[1:-1]:
         before, total = total, total + part
@@ -75,7 +75,7 @@ def sum_closely(*parts: Double | float) -> Double:
 
 
 def moderate(first: Double, second: Double) -> tuple[Double, Double]:
-    """Return both divided by the power of two above the larger, so that sums stay in range."""
+    """Return both numbers over the power of two above the larger one, to keep sums in range."""
     _, power = np.frexp(np.maximum(np.abs(first), np.abs(second)))
     return np.ldexp(first, -power), np.ldexp(second, -power)
 
@@ -95,7 +95,7 @@ def lost(a: Double, b: Double) -> Double:
 
 
 def lost_by_halves(a: tuple[Double, Double], b: tuple[Double, Double], product: Double) -> Double:
-    """Return the same by halves of both numbers (Dekker); its own error is negligible."""
+    """Return the rounding error of a product from the halves of both numbers (Dekker)."""
     (a_high, a_low), (b_high, b_low) = a, b
     missing: Double = a_high * b_high
     missing -= product
@@ -106,13 +106,13 @@ def lost_by_halves(a: tuple[Double, Double], b: tuple[Double, Double], product: 
 
 
 def halves(x: Double) -> tuple[Double, Double]:
-    """Return the upper and the lower half of a number's digits."""
+    """Return a number as two parts with at most 27 bits each."""
     high: Double = (x.view(np.int64) & -(2**27)).view(np.float64)
     return high, x - high
 
 
 def root(degree: int, factors: Factors, divisors: Factors = ()) -> Double:
-    """Return the square, cube or fifth root of such a product, which is not negative."""
+    """Return the square, cube or fifth root of a non-negative product (see `product`)."""
     result: Double = np.ldexp(*_root(degree, factors, divisors))
     return result
 
@@ -120,7 +120,7 @@ def root(degree: int, factors: Factors, divisors: Factors = ()) -> Double:
 def root_factors(
     degree: int, factors: Factors, divisors: Factors = ()
 ) -> tuple[Double, Double, Double]:
-    """Return that root as factors, which represent it even where it leaves the range of doubles."""
+    """Return the root of `root` as three factors, also if it leaves the range of doubles."""
     value, power = _root(degree, factors, divisors)
     half = np.clip(power // 2, -1000, 1000)
     return value, np.ldexp(1.0, half), np.ldexp(1.0, np.clip(power - half, -1000, 1000))

@@ -1,1 +1,1 @@
-"""A small paper as a start: an elastic film on a rigid base under the pressure p J0(k r)."""
+"""A small working paper to start from: an elastic film on a rigid base, pressure p J0(k r)."""

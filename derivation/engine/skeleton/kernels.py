@@ -17,23 +17,24 @@ x = sp.Symbol("x", positive=True)
 COSH_MINUS = Definition(
     "cosh_minus", T, 2 * sp.exp(-T) * (sp.cosh(T) - 1), 2, 2, "2 e^(-T) (cosh T - 1)"
 )
-"""Return a building block of this paper: it cancels for thin films."""
+"""A building block of this paper: a sum that cancels for thin films."""
 
 SCALES = Scales((Scale(T, T, T), Scale(2 * k * H, T, H, k)))
 REWRITTEN = ("F_slipping", "C_slipping")
-"""Formulas whose forms are found by the rules."""
+"""Formulas whose forms are found by the rewriting rules."""
 
 
 def stated(known: Mapping[str, Block]) -> dict[str, Shape]:
-    """Return the bonded film's form: 2 (kappa sinh T - T) as two positive parts, kappa = 1 + 2 s.
+    """Return the form of the bonded film: 2 (kappa sinh T - T) is a sum of two positive parts.
 
-    The form by the rules would lose digits for small s, a nearly incompressible film.
+    kappa is 1 + 2 s. For small s, a nearly incompressible film, the form that the rules find is
+    less accurate.
     """
     difference, kappa = known["sinh_minus"], 1 + 2 * s
     above = difference.near(x) ** 3 * difference(x) - 2 * s * expm1(-2 * x)
     below = kappa * (1 + sp.exp(-2 * x)) + sp.exp(-x) * (1 + kappa**2 + x**2)
     return {
-        "F_bonded": ((Step(x, held(T, FAR), "beyond, nothing changes"),), above / below),
+        "F_bonded": ((Step(x, held(T, FAR), "constant for larger values"),), above / below),
     }
 
 

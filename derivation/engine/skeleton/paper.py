@@ -1,4 +1,4 @@
-"""The `Paper` object, which the program loads."""
+"""The object `PAPER`, which the program loads."""
 
 from pathlib import Path
 
@@ -33,7 +33,7 @@ CHAIN = Chain(
 
 
 def easy(point: Point) -> bool:
-    """Return whether the second reference is fast: a film that is neither very thin nor thick."""
+    """Return whether the second reference method is fast: for films neither thin nor thick."""
     v = point.values
     thickness = v["T"] if "T" in v else 2 * v.get("k", 1 / v["H"]) * v["H"]
     return 1e-3 < thickness < 20

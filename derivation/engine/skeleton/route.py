@@ -1,7 +1,7 @@
 """The mpmath reference: the film as a system of four differential equations.
 
-Nothing here uses the derivation. With k = G = 1 the state (U, W, shear, normal stress) obeys
-y' = A y, so that y at the top is e^(A H) times y at the base.
+It is independent of the derivation. With k = G = 1, the state y = (U, W, shear, normal stress)
+satisfies y' = A y, so that y at the top is e^(A H) times y at the base.
 """
 
 from mpmath import matrix, mp, mpf

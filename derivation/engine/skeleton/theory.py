@@ -1,4 +1,4 @@
-"""Derivation: a film that is bonded to its base or slides on it, under a unit pressure p J0(k r).
+"""Derivation: a film that is bonded to its base or slides on it, under the pressure J0(k r).
 
 The displacements are u = U(z) J1(k r) and w = W(z) J0(k r).
 """
@@ -22,7 +22,7 @@ def stresses(U: sp.Expr, W: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
 
 
 def balance(U: sp.Expr, W: sp.Expr) -> dict[str, sp.Expr]:
-    """Return the residuals of Navier's axial and radial equation."""
+    """Return the residuals of Navier's axial and radial equations."""
     dilatation = sp.diff(W, z) + k * U
     return {
         "axial": G * (sp.diff(W, z, 2) - k**2 * W) + (LAME + G) * sp.diff(dilatation, z),
@@ -50,7 +50,7 @@ def shapes() -> tuple[sp.Expr, sp.Expr]:
 
 
 def closed_forms() -> dict[str, sp.Expr]:
-    """Return the deflection divided by that of a half-space, by the condition at the base."""
+    """Return the deflection over that of a half-space, for each condition at the base."""
     kappa = 1 + 2 * s
     bonded = (2 * kappa * sp.sinh(T) - 2 * T) / (2 * kappa * sp.cosh(T) + 1 + kappa**2 + T**2)
     return {"bonded": bonded, "slipping": (sp.cosh(T) - 1) / (sp.sinh(T) + T)}
@@ -78,7 +78,7 @@ def film() -> tuple[Formula, ...]:
 
 
 def _influence(name: str, conditions: dict[str, sp.Expr]) -> tuple[Formula, Formula]:
-    """Return the deflection per pressure, and the same divided by a half-space's."""
+    """Return the deflection per pressure, and the deflection over that of a half-space."""
     U, W = shapes()
     e = sp.Symbol("e", positive=True)  # e^(k H), which makes the equations rational
     plain = {sp.cosh(k * H): (e + 1 / e) / 2, sp.sinh(k * H): (e - 1 / e) / 2}

@@ -36,7 +36,7 @@ from derivation.scene.viscous_law import bending_of
 COEFFICIENTS = 16
 """Number of coefficients of a polynomial."""
 CONVERGED, NARROWEST = 5e-14, 1e-3
-"""Ratio of the last coefficients to the largest that is small enough; smallest panel width [1]."""
+"""Largest accepted ratio of the last coefficients to the largest; smallest panel width [1]."""
 POINTS, SMALL = 60, 1e-5
 """Number of contact radii at which code and law are compared, and the smallest over the limit."""
 TOLERANCES = {"force": 1e-10, "stiffness": 1e-6, "contact_radius": 1e-10, "impact": 1e-10}

@@ -94,7 +94,7 @@ def check_followed(law: ContactLaw, count: int) -> None:
     remedy = 'branches = "A0", or ' if inertia.branches == "all" else ""
     remedy += "effects.inertia = false" if inertia.infinite_plate else 'extent = "infinite"'
     raise SceneError(
-        f"inertia.modes: expected a contact that {count} modes can follow, got one that needs "
+        f"inertia.modes: expected a contact that {count} modes can resolve, got one that needs "
         f"frequencies up to {_highest(law) / (2.0 * math.pi):.3g} Hz; use a smaller or thinner "
         f"plate, or set {remedy}"
     )

@@ -118,7 +118,7 @@ class Model:
 
     @cached_property
     def supports(self) -> Supports:
-        """What a simple support adds, of many plates, for contacts up to about Hertz's largest."""
+        """Contribution of simple supports of many plates, up to about Hertz's largest radius."""
         modulus = self.modulus / (1.0 + self.softness)
         plate = (self.h, self.b, self.lam, self.mu)
         with np.errstate(all="ignore"):  # extreme scenes give NaN, which is checked

@@ -73,7 +73,7 @@ def _switch(description: str, example: bool = True) -> Any:
 
 
 class Effects(Table):
-    """Which effects are included; "auto" lets the tolerance decide.
+    """Selection of the effects; with "auto", the tolerance decides.
 
     Parameters
     ----------

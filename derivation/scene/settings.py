@@ -52,7 +52,7 @@ class Accuracy(Table):
 
 
 class Inertia(Table):
-    """How the inertia of the plate is computed, if it is included.
+    """Settings for the inertia of the plate, used if it is included.
 
     Parameters
     ----------

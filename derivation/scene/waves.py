@@ -61,7 +61,7 @@ def goal(rtol: float | None) -> float:
 
 
 def nodes_for(problem: DynamicProblem) -> int:
-    """Return the number of nodes of an element: fewer for many oscillators, to save time."""
+    """Return the number of nodes of an element: fewer for many modes, to save time."""
     return NODES[int(np.searchsorted(MANY, problem.omega.size))]
 
 

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from derivation.scene.law import ContactLaw
 
 NO_BOUND = 10.0
-"""Smallest bound on a relative change that is not useful and is shown as 'no bound'."""
+"""Bound on a relative change from which it is not useful and is shown as 'no bound'."""
 Array = NDArray[np.float64]
 Numbers = kernels.Numbers
 
@@ -100,9 +100,9 @@ class BoundContext:
 
 
 Results = tuple[float, float, float, float, float]
-"""A number for each of the outputs."""
+"""A number for each output, in the order of `OUTPUTS`."""
 Changes = tuple[Numbers, Numbers, Numbers, Numbers, Numbers]
-"""The same for one scene or for many."""
+"""A number for each output of one scene, or a column for each output of many scenes."""
 
 
 class Bound(NamedTuple):

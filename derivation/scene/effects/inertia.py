@@ -63,7 +63,7 @@ HERTZ_TIME = 3.3
 RISE_BY_ZENER = 3.0
 """Coefficient of the Zener parameter in the rise time of the force."""
 WIDER = 1.25
-"""Largest contact radius that is computed for, over that on a plate that does not deflect: a later
+"""Largest radius of contact tables over that on a plate that does not deflect, because a later
 contact may be faster than the first."""
 SLOWEST = 2.9
 """Contact time times speed over indentation: 2.94 by Hertz's law, 3.14 of a linear spring."""

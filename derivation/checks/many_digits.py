@@ -24,7 +24,7 @@ def reference(known: Result, digits: int, progress: Progress) -> oracle.ImpactRe
         return oracle.reference(_motion(known), digits, progress)
     except ArithmeticError as error:  # an interval too wide, a zero not certified, no convergence
         raise ValueError(
-            f"--digits: {digits} digits cannot be reached for this scene ({error}); use fewer"
+            f"digits: {digits} digits cannot be reached for this scene ({error}); use fewer"
         ) from None
 
 

@@ -51,12 +51,14 @@ def rewrite(
         data, source = {"rows": [asdict(account) for account in accounts]}, ""
     if put_json(lambda: plain(data), json):
         rows = [
-            (name, a.rule, a.cause, *(f"{x:.3g}" for x in (*a.operations, *a.worst)))
+            (name, a.rule, a.cause, *(f"{without:.3g}/{with_:.3g}" for without, with_ in
+             (a.operations, a.worst)))
             for name, a in found
-        ]
-        heads = ("formula", "rule", "prevents", "#ops without", "#ops with",
-                 "#ULP without", "#ULP with")  # fmt: skip
-        table("Effect of each rule", heads, rows)
+        ]  # fmt: skip
+        heads = ("formula", "rule", "prevents", "#operations", "#error [ULP]")
+        first = 1 if formula else 0
+        title = "Each rule: operations and largest error without/with it"
+        table(title, heads[first:], [row[first:] for row in rows])
         OUT.say(source)
 
 

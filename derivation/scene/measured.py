@@ -130,7 +130,13 @@ def _solved(tables: dict[str, Any], key: str, goal: float, close: float) -> floa
         )
 
     def above(x: float) -> float:
-        return _simulated(tables, key, math.exp(x)).restitution - goal
+        try:
+            return _simulated(tables, key, math.exp(x)).restitution - goal
+        except SceneError as error:
+            raise SceneError(
+                f"measured.restitution: expected a value that can be computed, got {goal:.6g}; "
+                f"with plate.{key} = {math.exp(x):.6g} {UNITS[key]} the simulation fails: {error}"
+            ) from None
 
     first = lossless.max_pressure if key == "yield_stress" else EARLY * lossless.contact_time
     more = -math.log(FACTOR) if key == "yield_stress" else math.log(FACTOR)

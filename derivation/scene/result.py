@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -201,9 +201,9 @@ class Result:
         Raises
         ------
         SceneError
-            If a time is not between 0 and `total_time`.
+            If a time is not a number between 0 and `total_time`.
         """
-        chosen = tuple(float(time) for time in np.atleast_1d(cast(Any, times)))
+        chosen = _times(times)
         for time in chosen:
             if not 0 <= time <= self.total_time:
                 raise SceneError(
@@ -398,3 +398,18 @@ UNITS = {
     "max_pressure": "Pa",
     "max_tensile_stress": "Pa",
 }
+
+
+def _times(times: Any) -> tuple[float, ...]:
+    """Return times as a tuple of numbers; raise SceneError if they are anything else."""
+    try:
+        iterated = isinstance(times, Iterable) and not isinstance(times, np.ndarray)
+        given = list(times) if iterated else times
+        numbers = np.atleast_1d(np.asarray(given, dtype=np.float64))
+    except (TypeError, ValueError):
+        numbers = np.empty((0, 0))
+    if numbers.ndim != 1:
+        raise SceneError(
+            f"times: expected a number or a sequence of numbers [s], got {times!r:.100}; use a list"
+        )
+    return tuple(numbers.tolist())

@@ -71,7 +71,8 @@ def _energies(axes: "Axes", result: Result, t: Array, rows: Array) -> None:
     sphere, plate = (rows[V] / v0) ** 2, 2.0 * rows[E] / m / v0**2
     contact = np.maximum(1.0 - sphere - plate, 0.0)
     names = ["sphere", "plate", "contact"]
-    if result.effects.law.gravity or result.effects.law.viscous:
+    law = result.effects.law
+    if law.gravity or law.viscous or law.plastic or law.damping_ratio:
         names[2] = "contact and dissipated"
     axes.stackplot(t, sphere, plate, contact, labels=names, colors=(BLUE, BROWN, GREEN), alpha=0.75)
     axes.legend(frameon=True, loc="center right")

@@ -68,7 +68,7 @@ def check_plot(keys: int, sensitivity: bool) -> None:
     """
     if keys > 2 and not sensitivity:
         raise SceneError(
-            f"--plot: expected one or two varied keys, or --sensitivity, got {keys} keys; "
+            f"plot: expected one or two varied keys, or --sensitivity, got {keys} keys; "
             "vary fewer, or add --sensitivity"
         )
 

@@ -35,8 +35,7 @@ def check_out(out: Path) -> None:
     if out.suffix not in SUFFIXES:
         meant = did_you_mean(out.suffix, SUFFIXES).rstrip() or "change the file name"
         raise SceneError(
-            f"--out {out}: expected a file name with the suffix {' or '.join(SUFFIXES)}, "
-            f"got {out.suffix or 'no suffix'}; {meant}"
+            f"out: expected a file name with the suffix {' or '.join(SUFFIXES)}, got {out}; {meant}"
         )
     (expect_folder if out.suffix == ".zarr" else expect_writable)(out)
 

@@ -54,7 +54,7 @@ def test_a_table_or_json_but_not_both_on_the_screen(command: str, capsys: Captur
 def test_a_formula_of_ones_own_is_shown_as_code_that_runs(capsys: Captured) -> None:
     assert main(["rewrite", "(1 - cos(x))/x**2"]) == 0
     shown = capsys.readouterr().out
-    assert "Effect of each rule" in shown
+    assert "Each rule: operations" in shown
     names: dict[str, Any] = {}
     exec(compile(shown[shown.index('"""') :], "rewritten", "exec"), names)
     true = [0.5, 0.5, (1 - math.cos(1.0)), (1 - math.cos(5.0)) / 25]

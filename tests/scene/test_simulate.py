@@ -64,7 +64,9 @@ def test_history_at_times_asked_for() -> None:
     assert found.history().time.tolist() == times
     assert found.history(5).time.shape == (5,)
     assert whole.history().time.shape == (201,)
-    for bad in ([-1e-9], [2 * whole.contact_time], [math.nan], [math.inf]):
+    assert simulate(scene, times=(time for time in times)).times == found.times
+    table: Any = [times, times]
+    for bad in ([-1e-9], [2 * whole.contact_time], [math.nan], [math.inf], table):
         with pytest.raises(SceneError, match=r"^times: "):
             simulate(scene, times=bad)
     with pytest.raises(SceneError, match=r"^n: .*2"):

@@ -35,9 +35,7 @@ def rewritten(text: str, variable: str = "x") -> tuple[Stable, str, CodeCheck]:
         memory is reached.
     """
     if not variable.isidentifier() or keyword.iskeyword(variable) or variable in FUNCTIONS:
-        raise ValueError(
-            f"--variable: expected a name such as x, got {variable!r}; use another name"
-        )
+        raise ValueError(f"variable: expected a name such as x, got {variable!r}; use another name")
     symbol = sp.Symbol(variable, positive=True)
 
     def work() -> tuple[Stable, str, CodeCheck]:

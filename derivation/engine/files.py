@@ -205,7 +205,7 @@ def _explained(path: Path) -> Iterator[None]:
 def sources(*rooms: str | Path) -> Iterator[Path]:
     """Yield source files (``.py``, ``.j2`` and ``.toml``) in a fixed order.
 
-    Text names a folder or a file of this package, or is a pattern like ``plate/*/theory*``; other
+    Text names a folder or a file of this package, or is a pattern like ``mathematics/*/theory*``; other
     folders and files are given by path.
     """
     for room in rooms:

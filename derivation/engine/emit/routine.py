@@ -199,13 +199,7 @@ def _check_arguments(
     statements: tuple[Statement, ...],
     results: tuple[sp.Expr, ...],
 ) -> None:
-    """Reject arguments that no statement uses.
-
-    Raises
-    ------
-    ValueError
-        If there are unused arguments; the message states them.
-    """
+    """Raise ValueError if there are arguments that no statement uses."""
     expressions = (*results, *(e for s in statements for e in _used(s)))
     used = {x for e in expressions for x in e.free_symbols}
     if idle := [str(x) for x in arguments if x not in used]:
@@ -213,13 +207,7 @@ def _check_arguments(
 
 
 def _check_sums(name: str, statements: tuple[Statement, ...], results: tuple[sp.Expr, ...]) -> None:
-    """Reject sums whose totals occur in statements, or not linearly in results.
-
-    Raises
-    ------
-    ValueError
-        If there is such a sum.
-    """
+    """Raise ValueError if totals of sums occur in statements, or not linearly in results."""
     totals = {x for s in statements if isinstance(s, Sums) for x in s.symbols}
     later = {x for s in statements for e in _used(s) for x in e.free_symbols}
     slopes = (sp.diff(value, total) for value in results for total in totals)

@@ -1,4 +1,4 @@
-"""Random impacts on plates that move -> the report's table of how their bounds held."""
+"""Table of the report: error bounds of random impacts with plate inertia."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -7,7 +7,7 @@ from derivation.engine.report.latex import escape
 
 
 def inertia_context(data: Mapping[str, Any]) -> dict[str, Any]:
-    """What the template shows of the measurement."""
+    """Return the values of the template from the measurement."""
     refused = data["refused"]
     return {
         "drawn": data["drawn"],
@@ -21,7 +21,7 @@ def inertia_context(data: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _row(side: Mapping[str, Any]) -> str:
-    """Cells of a side of the selection threshold."""
+    """Return the cells of one side of the selection threshold."""
     cells = ["included" if side["included"] else "omitted", str(side["scenes"])]
     cells += [f"{side[key]:.2f}" for key in ("ratio", "tightest", "price")]
     return " & ".join([*cells, escape(side["quantity"].replace("_", " "))])

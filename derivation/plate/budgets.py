@@ -39,7 +39,7 @@ def read_printed_share() -> float:
 
 
 def read_stated_limits(table: str = "impact") -> dict[str, float]:
-    """Return the committed relative errors of a table; they are measured, not proved."""
+    """Return the committed relative errors of a table; they are tested, not proved."""
     return budgets.read_stated_limits(BUDGETS, table)
 
 

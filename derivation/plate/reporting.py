@@ -93,7 +93,7 @@ def material() -> Material:
 
 
 def report_parts(shown: Sequence[str]) -> Parts:
-    """The report's LaTeX in parts, with the named sections.
+    """Return the report's LaTeX in parts, with the named sections.
 
     Raises
     ------

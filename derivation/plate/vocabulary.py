@@ -41,7 +41,7 @@ xi_k = {k: sp.Symbol(f"xi_{k}", positive=k == 2, real=True) for k in range(2, 7)
 
 
 class PlateRoot(sp.Function):
-    """Return T_n, the n-th root of sinh T = +-T in the first quadrant, by imaginary part."""
+    """T_n, the n-th root of sinh T = +-T in the first quadrant, by imaginary part."""
 
     nargs = 1
     is_complex = True

@@ -43,7 +43,7 @@ def _finite_part(A: mpf) -> mpf:
 
 
 def _roots(eta: mpf, A: mpf) -> mpf:
-    """pi Im sum (-1)^n g(A T/2) (1 + sqrt(1 + T^2)) H/J0 at T/(2 eta)."""
+    """Return pi Im sum (-1)^n g(A T/2) (1 + sqrt(1 + T^2)) H/J0 at T/(2 eta)."""
     total = mpf(0)
     for n in range(1, edge_routes.MOST):
         T = edge_routes.root(n)

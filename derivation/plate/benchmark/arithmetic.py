@@ -60,7 +60,7 @@ class Arithmetic:
 
     @property
     def bits(self) -> int:
-        """Return the precision of constants, with a margin."""
+        """Precision of constants [bits], with a margin."""
         return math.ceil(LOG2_10 * (self.constants + 10)) + 24
 
     def context(self) -> AbstractContextManager[Any]:

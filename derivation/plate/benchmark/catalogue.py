@@ -1,4 +1,4 @@
-"""Every method compared, the order of their simplicity, and how to choose among them."""
+"""Every method that is compared, their order of simplicity, and the choice by family."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -16,23 +16,23 @@ SIMPLEST = (
     "reversed series", "Chebyshev surrogate", "table of cubics", "split",
     "split, y = u^3", "Levin u", "direct sum", "printed sum",
 )  # fmt: skip
-"""Families by how little they ask of their user; among ties the first is the winner."""
+"""Families, the simplest to use first; among ties the first one is the winner."""
 
 DEEP = (30, 50, 100)
 """Digits of the methods in wide arithmetic."""
 
 DEEPEST = 1000
-"""Digits of the deepest of them, in the paper's regime only."""
+"""Largest number of digits, in the paper's test case only."""
 
 TERMS = {30: 16, 50: 25, 100: 47, DEEPEST: 448}
-"""Terms of the small-a series that the paper's contacts take for so many digits."""
+"""Number of terms of the small-a series in the paper's test case, by number of digits."""
 
 NODES = {30: 84, 50: 156, 100: 360}
-"""Nodes of the side wall's integral for so many digits."""
+"""Number of nodes of the finite-radius integral, by number of digits."""
 
 
 def law_methods() -> list[Method]:
-    """Indentation over contact radius."""
+    """Return the methods for the indentation as a function of the contact radius."""
     found = [hertz("law"), shipped.called(), shipped.prepared(), shipped.called(SINGLE)]
     found += [sums.printed(n) for n in (10, 100, 1000)]
     found += [sums.direct(n, quick=n <= 10_000) for n in (100, 1000, 10_000, 100_000)]
@@ -51,7 +51,7 @@ def law_methods() -> list[Method]:
 
 
 def _wide_laws() -> list[Method]:
-    """The same beyond double precision."""
+    """Return the methods for the indentation in more than double precision."""
     found = []
     if HAS_LONG:
         found += [polynomials.small_contacts(24, LONG), sums.split(64, 5, LONG, quick=False)]
@@ -65,7 +65,7 @@ def _wide_laws() -> list[Method]:
 
 
 def _deepest_laws() -> list[Method]:
-    """The same at DEEPEST digits; what would take too long is named with the reason."""
+    """Return those with DEEPEST digits; methods that would take too long state the reason."""
 
     def elsewhere(regime: Regime) -> str | None:
         if regime == PAPER:
@@ -79,7 +79,7 @@ def _deepest_laws() -> list[Method]:
     for ar in (Mpmath(DEEPEST), BallArithmetic(DEEPEST)):
         small = polynomials.small_contacts(TERMS[DEEPEST], ar, quick=False)
         found.append(replace(small, fails=elsewhere))
-        # 1.7 digits for each node over the logarithm of all.
+        # The number of digits is about 1.7 nodes/log(nodes).
         split = sums.split(5000, 0.2 * DEEPEST, ar, quick=False)
         dear = f"nodes, weights and zeros of J0 to {DEEPEST} digits take minutes, a point seconds"
         found.append(refused(split, dear))
@@ -89,7 +89,7 @@ def _deepest_laws() -> list[Method]:
 
 
 def inversion_methods() -> list[Method]:
-    """Force over indentation."""
+    """Return the methods for the force as a function of the indentation."""
     found = [hertz("inversion"), shipped.newton(), shipped.newton(SINGLE)]
     found += [inversion.reversed_series(n) for n in (2, 4, 8, 12, 16, 24)]
     found += [inversion.reversed_series(12, SINGLE)]
@@ -103,7 +103,7 @@ def inversion_methods() -> list[Method]:
 
 
 def impact_methods() -> list[Method]:
-    """Contact time over speed."""
+    """Return the methods for the contact time as a function of the impact speed."""
     found = [hertz("impact"), shipped.bounce(), shipped.bounce(SINGLE)]
     found += [motion.linear(n) for n in (25, 100, 400)]
     found += [motion.perturbation(corrected) for corrected in (False, True)]
@@ -124,7 +124,7 @@ def impact_methods() -> list[Method]:
 
 
 def methods(names: Sequence[str] = (), quick: bool = False) -> list[Method]:
-    """Every method, or those of the families named.
+    """Return every method, or those of the named families.
 
     Raises
     ------
@@ -146,5 +146,5 @@ def methods(names: Sequence[str] = (), quick: bool = False) -> list[Method]:
 
 
 def simplicity(family: str) -> int:
-    """Place in the order of simplicity; those not named there come last."""
+    """Return the position of a family in SIMPLEST; families not listed come last."""
     return SIMPLEST.index(family) if family in SIMPLEST else len(SIMPLEST)

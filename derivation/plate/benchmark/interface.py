@@ -31,7 +31,7 @@ class Regime:
     low, high
         a/h of the smallest and largest contact of the law [1].
     speed
-        Largest speed of approach of an impact [m/s].
+        Largest impact speed [m/s].
     m
         Sphere mass [kg].
     lam, mu
@@ -136,12 +136,12 @@ class Method:
 
     @property
     def arithmetic(self) -> str:
-        """Return the name of the arithmetic."""
+        """Name of the arithmetic."""
         return self.ar.name
 
     @property
     def one_by_one(self) -> bool:
-        """Return whether numbers are evaluated one by one, by the method or by its arithmetic."""
+        """Whether numbers are evaluated one by one, by the method or by its arithmetic."""
         return self.scalar or self.ar.wide
 
     def ready(self, regime: Regime, ar: Arithmetic | None = None) -> Call:
@@ -152,6 +152,6 @@ class Method:
 
     @property
     def name(self) -> str:
-        """Return family, setting and, unless it is double precision, arithmetic."""
+        """Family, setting and, unless it is double precision, arithmetic."""
         parts = [self.family, self.setting, "" if self.arithmetic == "float64" else self.arithmetic]
         return ", ".join(part for part in parts if part)

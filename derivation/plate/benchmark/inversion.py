@@ -18,10 +18,13 @@ from generated.reversed_series import _reversed
 
 
 def reversed_series(terms: int, ar: Arithmetic = DOUBLE) -> Method:
-    """Lagrange's inversion cut off, NaN beyond its radius of convergence."""
+    """Return the method of Lagrange's truncated inversion, NaN beyond its convergence radius."""
 
     def prepare(regime: Regime, ar: Arithmetic) -> Call:
-        """(4/3) E* sqrt(R delta) delta (p_0 + p_1 eps + ...), eps = sqrt(R delta)/(h radius)."""
+        """Return (4/3) E* sqrt(R delta) delta (p_0 + p_1 eps + ...) as a function of delta.
+
+        eps = sqrt(R delta)/(h radius).
+        """
         radius = radius_of(regime)
         p, R = list(ar.array(reversed_balls(regime, terms, radius, ar))), ar.number(regime.R)
         reach = ar.number(regime.h) * ar.number(radius)
@@ -47,13 +50,13 @@ def reversed_series(terms: int, ar: Arithmetic = DOUBLE) -> Method:
 
 
 def radius_of(regime: Regime) -> float:
-    """Radius of convergence in sqrt(R delta)/h."""
+    """Return a lower bound of the radius of convergence in sqrt(R delta)/h."""
     radius, _ = _reversed(contact_series.plates_of(np.array([regime.eta])), 0, 1)
     return float(radius)
 
 
 def reversed_balls(regime: Regime, terms: int, radius: float, ar: Arithmetic) -> list[arb]:
-    """Coefficients of (A/x)^3 in x/radius, A the inverse of x = A sqrt(1 + F)."""
+    """Return the coefficients of (A/x)^3 in x/radius, A the inverse of x = A sqrt(1 + F)."""
     before = flint.ctx.cap
     with flint.ctx.workprec(ar.bits):
         lifted = [arb(1)]
@@ -69,7 +72,7 @@ def reversed_balls(regime: Regime, terms: int, radius: float, ar: Arithmetic) ->
 
 
 def table(knots: int, ar: Arithmetic = DOUBLE) -> Method:
-    """Cubics in ln(R delta/h^2) of ln(a/h): equal steps serve all sizes of contact."""
+    """Return the method of cubics for ln(a/h) in ln(R delta/h^2), with equal steps."""
 
     def prepare(regime: Regime, ar: Arithmetic) -> Call:
         r, top = regime, deepest(regime)
@@ -98,15 +101,15 @@ class GeneratedLaw:
         self.regime = regime
 
     def share(self, delta: Array) -> Array:
-        """A at indentations above 0."""
+        """Return A = a/h at indentations [m] above 0."""
         r = self.regime
         return contact_law.contact_radius(delta, r.R, r.h, r.b) / r.h
 
     def lift(self, A: Array) -> Array:
-        """1 + F."""
+        """Return 1 + F."""
         return 1 + correction(self.regime, DOUBLE, A)[0]
 
     def slope(self, A: Array) -> Array:
-        """S = 1 + F + A F'/2."""
+        """Return S = 1 + F + A F'/2."""
         F, rise = correction(self.regime, DOUBLE, A)
         return 1 + F + rise / 2

@@ -18,7 +18,7 @@ STEPS = 60
 
 
 def diverges(regime: Regime) -> str | None:
-    """Why the series does not serve a regime's impacts, or None."""
+    """Return why the series cannot be used for a test case's impacts, or None."""
     radius, most = min(4.0, 2 / regime.eta), deepest(regime) / regime.h
     return None if most < radius else f"diverges: a/h up to {most:.3g}, its radius is {radius:g}"
 
@@ -43,15 +43,15 @@ class SeriesLaw:
         self.e = [5 * s / (2 * k + 6) for k, s in enumerate(self.s)]
 
     def lift(self, A: Array) -> Array:
-        """delta R/a^2 = 1 + F."""
+        """Return delta R/a^2 = 1 + F."""
         return 1 + A * horner(self.c, A * A)
 
     def slope(self, A: Array) -> Array:
-        """S = (R/2a) d delta/da."""
+        """Return S = (R/2a) d delta/da."""
         return 1 + A * horner(self.s, A * A)
 
     def quotient(self, A: Array, q: Array) -> Array:
-        """(1 - W(q A)/W(A))/(1 - q) of the stored energy W.
+        """Return (1 - W(q A)/W(A))/(1 - q) of the stored energy W.
 
         With W = q^5 + sum e q^(2k+6) its terms are sums of the e that follow.
         """
@@ -64,7 +64,7 @@ class SeriesLaw:
         return (1 + q * (1 + q * (1 + q * (1 + q)))) + q**5 * rest / (1 + tails[0])
 
     def share(self, delta: Array) -> Array:
-        """A at indentations above 0."""
+        """Return A = a/h at indentations [m] above 0."""
         goal = delta * self.R / (self.h * self.h)
 
         def miss(A: Array) -> tuple[Array, Array]:
@@ -73,12 +73,12 @@ class SeriesLaw:
         return self._root(np.sqrt(goal), miss)
 
     def force(self, delta: Array) -> Array:
-        """P = 4 E* a^3/(3 R)."""
+        """Return P = 4 E* a^3/(3 R) at indentations [m]."""
         a = self.share(delta) * self.h
         return 4 * self.modulus * a * a * a / (3 * self.R)
 
     def largest(self, v0: Array) -> Array:
-        """A where a sphere of speed v0 stops: its energy is stored."""
+        """Return A = a/h at which a sphere of speed v0 [m/s] stops."""
         h5 = self.h * self.h * self.h * self.h * self.h
         goal = 3 * self.m * v0 * v0 * self.R * self.R / (16 * self.modulus * h5)
 
@@ -90,7 +90,7 @@ class SeriesLaw:
         return self._root((5 * goal) ** 0.2, miss)
 
     def _root(self, start: Array, miss: Callable[[Array], tuple[Array, Array]]) -> Array:
-        """Newton's iteration, from no more than the largest contact there is."""
+        """Return a root by Newton's iteration, limited to the largest contact."""
         A = np.minimum(start, self.top)
         for _ in range(STEPS):
             value, slope = miss(A)
@@ -101,7 +101,7 @@ class SeriesLaw:
         return A
 
     def duration(self, nodes: int, ar: Arithmetic) -> Call:
-        """Contact time over speed by so many Gauss-Legendre nodes.
+        """Return the contact time as a function of speed, by this number of Gauss-Legendre nodes.
 
         At a contact radius q a_m, q = 1 - u^2, and with W(q) the energy stored there,
         T = 8 h^2 A^2/(R v0) int_0^1 q S(q A)/sqrt(H(q)) du, H = (1 - W(q)/W(1))/(1 - q).
@@ -121,7 +121,7 @@ class SeriesLaw:
 
 
 def newton(terms: int, ar: Arithmetic = DOUBLE) -> Method:
-    """Newton's iteration on the series."""
+    """Return the method of Newton's iteration on the power series."""
 
     def prepare(regime: Regime, ar: Arithmetic) -> Call:
         return SeriesLaw(regime, ar, terms).force
@@ -131,7 +131,7 @@ def newton(terms: int, ar: Arithmetic = DOUBLE) -> Method:
 
 
 def gauss(nodes: int, terms: int, ar: Arithmetic = DOUBLE) -> Method:
-    """Gauss-Legendre on the series."""
+    """Return the method of Gauss-Legendre quadrature on the power series."""
 
     def prepare(regime: Regime, ar: Arithmetic) -> Call:
         return SeriesLaw(regime, ar, terms).duration(nodes, ar)

@@ -28,10 +28,10 @@ MOST_STEPS = 80_000
 
 
 def linear(modes: int) -> Method:
-    """The paper's linear term (15), whose contact time does not know the speed."""
+    """Return the method of the paper's linear term (15); its contact time is independent of v0."""
 
     def prepare(regime: Regime, ar: Arithmetic) -> Call:
-        """pi sqrt(m gamma_2), gamma_2 = R/(4 E*) sum phi^3 K."""
+        """Return pi sqrt(m gamma_2), gamma_2 = R/(4 E*) sum phi^3 K, for any speed."""
         h, b, m, lam, mu = (
             ar.number(x) for x in (regime.h, regime.b, regime.m, regime.lam, regime.mu)
         )
@@ -45,13 +45,13 @@ def linear(modes: int) -> Method:
 
 
 def paper_motion(regime: Regime, v0: float, *, corrected: bool) -> PrintedMotion:
-    """The paper's motion in a regime at a speed [m/s]."""
+    """Return the paper's motion in a test case at a speed [m/s]."""
     r = regime
     return printed_motion(r.R, r.m, v0, r.h, r.b, r.lam, r.mu, MODES, corrected=corrected)
 
 
 def perturbation(corrected: bool) -> Method:
-    """The paper's correction (16) with xi_3 as printed or corrected: twice the turning point."""
+    """Return the method of the paper's correction (16): twice the time of the turning point."""
     kind = "corrected" if corrected else "as printed"
 
     def fails(regime: Regime) -> str:
@@ -72,7 +72,7 @@ def perturbation(corrected: bool) -> Method:
 
 
 def gauss(nodes: int) -> Method:
-    """The generated code's integrand for the contact time with another number of nodes."""
+    """Return the method of the generated integrand with another number of nodes."""
 
     def prepare(regime: Regime, ar: Arithmetic) -> Call:
         if ar is not DOUBLE:
@@ -99,9 +99,10 @@ def gauss(nodes: int) -> Method:
 
 
 def scalar_force(regime: Regime) -> Callable[[float], float]:
-    """Force over indentation for one number, fast in plain Python: Newton's iteration for a/h.
+    """Return a function that computes the force [N] at one indentation [m] in plain Python.
 
-    It starts from the last contact radius found, as steps are small.
+    Newton's iteration for a/h starts from the last contact radius found, because steps are
+    small.
     """
     plates = contact_series.plates_of(np.array([regime.eta]))
     pieces = [(plates.first, float(plates.reach[0]))]
@@ -115,7 +116,7 @@ def scalar_force(regime: Regime) -> Callable[[float], float]:
     last = 0.0
 
     def share(A: float) -> tuple[float, float]:
-        """F and A F'."""
+        """Return F and A F'."""
         row, middle, inverse, _ = next((r for r in rows if r[3] >= A), rows[-1])
         t = (A * A - middle) * inverse
         value, slope = 0.0, 0.0
@@ -129,7 +130,7 @@ def scalar_force(regime: Regime) -> Callable[[float], float]:
         if delta <= 0:
             return 0.0
         target = delta * regime.R / regime.h**2
-        # Hertz's radius may lie beyond the polynomials' end, where they mean nothing.
+        # Hertz's radius may lie beyond the end of the polynomials.
         A = last or min(math.sqrt(target), rows[-1][3])
         for _ in range(60):
             F, rise = share(A)
@@ -144,7 +145,7 @@ def scalar_force(regime: Regime) -> Callable[[float], float]:
 
 
 def solver(name: str, rtol: float, share: float | None = None, quick: bool = True) -> Method:
-    """SciPy's solve_ivp up to the turning point; `share` of the contact bounds its steps."""
+    """Return the method of SciPy's solve_ivp up to the turning point; `share` limits its steps."""
     limited = "" if share is None else f", steps below T/{1 / share:g}"
 
     def one(regime: Regime, v0: float) -> float:
@@ -175,7 +176,7 @@ def solver(name: str, rtol: float, share: float | None = None, quick: bool = Tru
 
 
 def verlet(steps: int, quick: bool = True, ar: Floats = DOUBLE) -> Method:
-    """Velocity Verlet as particle codes use it: a fixed step, Hertz's contact time over `steps`.
+    """Return the method of velocity Verlet with the fixed step of Hertz's contact time/`steps`.
 
     All speeds advance together; the end is interpolated linearly in the last step.
     """
@@ -201,7 +202,7 @@ def verlet(steps: int, quick: bool = True, ar: Floats = DOUBLE) -> Method:
 
 
 def _verlet(v0: Array, dt: Array, m: Any, force: Callable[[Array], Array]) -> Array:
-    """Contact times for speeds; those still open when steps run out are NaN."""
+    """Return contact times for speeds; NaN for contacts that last longer than MOST_STEPS."""
     v, x, acceleration, ended = v0, 0 * v0, 0 * v0, 0 * v0
     touching = np.ones(v0.shape, bool)
     for step in range(MOST_STEPS):

@@ -1,4 +1,4 @@
-"""Measures the panels: every method of a task in a regime, first its errors, then its time."""
+"""Panels: errors, then times, of every method for a task in a test case."""
 
 import math
 from collections.abc import Sequence
@@ -14,18 +14,18 @@ from derivation.plate.benchmark.problems import Problem, problem
 from derivation.plate.benchmark.rows import BenchmarkRow
 
 SLOW = 0.05
-"""Time of a single result from which it is timed but once, where it is judged [s]."""
+"""Time of a single result above which a method is timed only once [s]."""
 
 SLOW_ARRAY = 500
 """Points of the array for such methods."""
 
 NO_DIGITS = 0.5
-"""Digits below which a method has failed."""
+"""Number of correct digits below which a method fails."""
 
 
 @dataclass(frozen=True)
 class BenchmarkPanel:
-    """Rows of a task in a regime, and how calm the machine was (None: nothing was timed)."""
+    """Rows of a task in a test case, and the timing sessions; None if nothing was timed."""
 
     rows: tuple[BenchmarkRow, ...]
     vector: Session | None
@@ -33,12 +33,12 @@ class BenchmarkPanel:
 
 
 def panel(task: Task, regime: Regime, methods: Sequence[Method], quick: bool) -> BenchmarkPanel:
-    """Judge and time the methods of a task in a regime."""
+    """Measure errors and run times of the methods for a task in a test case."""
     wanted = [method for method in methods if method.task == task]
     if not wanted:
         return BenchmarkPanel((), None, None)
     set_task = problem(task, regime, quick)
-    # Floats may overflow: their calls need not turn off the warning each time.
+    # Suppressed once, so that methods that overflow need not do it in every call.
     with np.errstate(all="ignore"):
         judged = [judged_row(method, set_task) for method in wanted]
         rows, calls = [row for row, _ in judged], [call for _, call in judged]
@@ -46,7 +46,7 @@ def panel(task: Task, regime: Regime, methods: Sequence[Method], quick: bool) ->
 
 
 def judged_row(method: Method, problem: Problem) -> tuple[BenchmarkRow, Judged | None]:
-    """A method's row without times, and what to time unless it fails."""
+    """Return the row of a method without times, and what to time unless the method fails."""
     reason = method.fails(problem.regime)
     row = BenchmarkRow(
         method.task, problem.regime.name, method.family, method.setting, method.arithmetic, reason
@@ -69,7 +69,7 @@ def judged_row(method: Method, problem: Problem) -> tuple[BenchmarkRow, Judged |
 
 
 def _once(call: Call, array: Doubles) -> Timing:
-    """Time of a single call with an array."""
+    """Return the time of a single call with an array."""
     begin = CPU()
     call(array)
     return Timing((CPU() - begin) / array.size, array.size, 1.0, 1)
@@ -82,7 +82,7 @@ def _timed(
     problem: Problem,
     effort: Effort,
 ) -> BenchmarkPanel:
-    """The rows with times, arrays and single calls each in turns of their own."""
+    """Return the rows with times, measured in interleaved rounds for arrays and single calls."""
     known = [(place, judged) for place, judged in enumerate(calls) if judged is not None]
     if not known:
         return BenchmarkPanel(tuple(rows), None, None)

@@ -1,4 +1,4 @@
-"""The cheapest method for so many digits, the ties, and its cost over that of three digits."""
+"""Fastest method for each number of digits, its ties, and its time over that for three digits."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -15,20 +15,20 @@ DOUBTFUL = (1.15, 1.25)
 
 @dataclass(frozen=True)
 class Winner:
-    """The cheapest method of a panel that reaches some digits.
+    """Fastest method of a panel that has a number of correct digits.
 
     Attributes
     ----------
     task, regime, digits, kind
-        The panel, what is to be reached, and whether in arrays or by single calls.
+        The panel, the number of correct digits, and whether for arrays or single calls.
     family, setting, seconds
         The simplest among the ties, and its time per point [s].
     relative
-        That time over the cheapest method's of the panel, with three digits at least.
+        That time over the fastest method's of the panel that has at least three digits.
     ties
         Other families within a factor of 1.2 of the fastest.
     doubtful
-        Families, the winner too, so near to that factor that another run may decide otherwise.
+        Families, also the winner, for which another run may decide otherwise about a tie.
     """
 
     task: str
@@ -44,7 +44,7 @@ class Winner:
 
 
 def winners(rows: Sequence[BenchmarkRow]) -> list[Winner]:
-    """Winners of every panel, for arrays and for single calls; none where nothing reaches."""
+    """Return the fastest methods of every panel, for arrays and for single calls."""
     panels = dict.fromkeys((row.task, row.regime) for row in rows)
     return [
         found

@@ -18,13 +18,13 @@ from derivation.plate.contact.oracle import balls as contact_balls
 from generated import contact_series
 
 SURE_DIGITS = 32
-"""Of the law that a surrogate interpolates: a truncation below them is not seen."""
+"""Digits of the law that a surrogate interpolates; smaller errors are not resolved."""
 
 
 def polynomial(
     regime: Regime, ar: Arithmetic, found: list[arb], middle: float = 0.0, scale: float = 1.0
 ) -> Call:
-    """(a^2/R) (1 + A (c_0 + c_1 t + ...)), A = a/h, t = scale (A^2 - middle)."""
+    """Return (a^2/R) (1 + A (c_0 + c_1 t + ...)) as a function of a; t = scale (A^2 - middle)."""
     R, h, c = ar.number(regime.R), ar.number(regime.h), list(ar.array(found))
     start, factor = ar.number(middle), ar.number(scale)
 
@@ -46,7 +46,7 @@ def polynomial(
 
 
 def small_contacts(count: int, ar: Arithmetic = DOUBLE, quick: bool = True) -> Method:
-    """Power series in a/h with coefficients for this h/b."""
+    """Return the method of the power series in a/h with coefficients for this h/b."""
 
     def fails(regime: Regime) -> str | None:
         radius = min(4.0, 2 / regime.eta)
@@ -61,7 +61,7 @@ def small_contacts(count: int, ar: Arithmetic = DOUBLE, quick: bool = True) -> M
 
 
 def thin_plate(count: int) -> Method:
-    """The thin plate's closed form, in powers of a/h too."""
+    """Return the method of the thin plate's closed form, also a power series in a/h."""
 
     def fails(regime: Regime) -> str | None:
         return f"diverges: a/h up to {regime.high:g}, its radius is 4" if regime.high >= 4 else None
@@ -73,7 +73,7 @@ def thin_plate(count: int) -> Method:
 
 
 def chebyshev(degree: int, ar: Arithmetic = DOUBLE) -> Method:
-    """Interpolation of F/A in A^2 between the smallest and the largest contact."""
+    """Return the method of interpolation of F/A in A^2 between smallest and largest contact."""
 
     def prepare(regime: Regime, ar: Arithmetic) -> Call:
         low, high = regime.low**2, regime.high**2
@@ -88,7 +88,7 @@ def chebyshev(degree: int, ar: Arithmetic = DOUBLE) -> Method:
 def interpolant(
     regime: Regime, degree: int, middle: float, scale: float, bits: int
 ) -> list[arb]:  # fmt: skip
-    """Coefficients of the polynomial in t through F/A near Chebyshev's nodes."""
+    """Return the coefficients of the polynomial in t that interpolates F/A at Chebyshev nodes."""
     nodes = np.cos(math.pi * (np.arange(degree + 1) + 0.5) / (degree + 1))
     radii = (np.sqrt(middle + nodes / scale) * regime.h).tolist()
     with flint.ctx.workprec(bits):
@@ -105,7 +105,7 @@ def _departure(a: float, h: float, b: float) -> arb:
 
 
 def table(knots: int) -> Method:
-    """Cubics between knots at equal steps of A^2, through the values and slopes of F/A."""
+    """Return the method of cubics through values and slopes of F/A at equal steps of A^2."""
 
     def prepare(regime: Regime, ar: Arithmetic) -> Call:
         R, h = ar.number(regime.R), ar.number(regime.h)
@@ -128,7 +128,7 @@ def table(knots: int) -> Method:
 
 
 def correction(regime: Regime, ar: Arithmetic, A: Array) -> tuple[Array, Array]:
-    """F and A F' = 2 ((R/2a) d delta/da - 1 - F) at a/h = A: generated, or the oracle's."""
+    """Return F and A F' at A = a/h, from the generated code or, in wide arithmetic, from Arb."""
     if not ar.wide:
         plates = contact_series.plates_of(np.array([regime.eta]))
         F, rise = contact_series.correction_with_slope(A, plates, None)
@@ -149,9 +149,9 @@ def _corrections(a: Fraction, h: float, b: float) -> tuple[arb, arb]:
 def hermite(
     ar: Arithmetic, ends: tuple[float, float], knots: int, node: Callable[[Array], Any]
 ) -> Call:
-    """The piecewise cubic through values and slopes at equidistant knots.
+    """Return the piecewise cubic through values and slopes at equidistant knots.
 
-    Floats have a table of them; objects find those they ask for.
+    Floats use a table of the knots; wide arithmetic computes the knots that are needed.
     """
     start, last = (ar.number(end) for end in ends)
     # Not the difference of two knots, whose rounding would grow with their number.

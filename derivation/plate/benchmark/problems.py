@@ -1,4 +1,4 @@
-"""Where methods are judged: arguments with certified results, and arrays to time them on."""
+"""Arguments with certified results to judge methods, and arrays to time them."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -18,28 +18,28 @@ from generated.contact_law import indentation
 
 SEED = 7
 ARRAY = 10_000
-"""Points of an array that methods are timed on: its intermediates stay in the cache."""
+"""Number of points of an array for timings; intermediate results fit in the cache."""
 
 LAW_DIGITS, QUICK_DIGITS = 120, 45
 MANY_DIGITS = 1030
-"""Of the law in the paper's regime, by a certified power series instead of integrals."""
+"""Digits of the law in the paper's test case, by a certified power series, not integrals."""
 
 INVERSION_DIGITS, IMPACT_DIGITS = 40, 40
 
 SPAN = 100.0
-"""Largest contact radius of a regime's impacts over the smallest one looked at."""
+"""Largest contact radius of a test case's impacts over the smallest one that is used."""
 
 
 @dataclass(frozen=True)
 class Problem:
-    """A task in a regime.
+    """Points and reference values of a task in a test case.
 
     Attributes
     ----------
     points, reference_values, digits
-        Arguments, the results there as balls, and how many digits of these are sure.
+        Arguments, the results there as balls, and the number of certified digits.
     sample
-        Arguments of the same kind, to time.
+        Arguments of the same kind for timings.
     """
 
     task: Task
@@ -51,7 +51,7 @@ class Problem:
 
 
 def problem(task: Task, regime: Regime, quick: bool) -> Problem:
-    """The problem of a task in a regime."""
+    """Return the points and reference values of a task in a test case."""
     makers: Mapping[Task, Callable[[Regime, bool], Problem]] = {
         "law": _law,
         "inversion": _inversion,
@@ -61,7 +61,7 @@ def problem(task: Task, regime: Regime, quick: bool) -> Problem:
 
 
 def _spread(low: float, high: float, count: int, seed: int) -> Doubles:
-    """Random numbers, their logarithms uniform, with both ends."""
+    """Return both ends and random numbers between them with uniform logarithms."""
     random = np.random.default_rng(seed)
     inner = np.exp(random.uniform(math.log(low), math.log(high), count))
     return np.concatenate([[low, high], inner])
@@ -83,7 +83,7 @@ def _law(regime: Regime, quick: bool) -> Problem:
 
 
 def _many_digits(radii: Doubles, regime: Regime) -> tuple[arb, ...]:
-    """Indentations to MANY_DIGITS."""
+    """Return indentations with MANY_DIGITS digits."""
     r, reach = regime, float(radii.max()) / regime.b
     law = ball_law.law_of(ratio_of(r.h, r.b), reach * (1 + 1e-9), MANY_DIGITS)
     return tuple(
@@ -92,7 +92,7 @@ def _many_digits(radii: Doubles, regime: Regime) -> tuple[arb, ...]:
 
 
 def _inversion(regime: Regime, quick: bool) -> Problem:
-    """Indentations of known radii, rounded, and the certified force there."""
+    """Return rounded indentations of known radii, with certified forces."""
     top = deepest(regime)
     radii = _spread(top / SPAN, 0.999 * top, 6 if quick else 14, SEED)
     R, h, b = regime.R, regime.h, regime.b

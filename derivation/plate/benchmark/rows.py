@@ -1,4 +1,4 @@
-"""One row of the comparison: a method in a regime, its digits and its times, or why it fails."""
+"""Row of the comparison: digits and times of a method in a test case, or why it fails."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -12,20 +12,20 @@ Kind = Literal["vector", "single"]
 
 @dataclass(frozen=True)
 class BenchmarkRow:
-    """A method in a regime.
+    """Results of a method in a test case.
 
     Attributes
     ----------
     task, regime, family, setting, arithmetic
-        Which method, and where.
+        Method, arithmetic and test case.
     fails
-        Why it gives nothing there, or None.
+        Reason why it fails, or None.
     errors
-        Its digits.
+        Its correct digits, or None if it was not evaluated.
     vector, single
-        Its times in an array and by a call of its own.
+        Its times in an array and in single calls, or None.
     setup
-        Time to prepare it [s]; constants that an earlier method has found are not found anew.
+        Time of preparation [s]; constants cached by an earlier method do not count.
     """
 
     task: Task
@@ -40,6 +40,6 @@ class BenchmarkRow:
     setup: float | None = None
 
     def seconds(self, kind: Kind) -> float | None:
-        """Time per point [s], if the method does not fail."""
+        """Return the time per point [s], or None if the method fails or was not timed."""
         timing = self.vector if kind == "vector" else self.single
         return None if timing is None or self.fails is not None else timing.seconds

@@ -1,4 +1,4 @@
-"""The whole measurement: panels, winners, scaling, headline and other tools, as plain data."""
+"""The complete measurement as plain data: panels, winners, scaling, headline, other programs."""
 
 import os
 from collections.abc import Sequence
@@ -25,10 +25,10 @@ from derivation.plate.judge import PACKAGE
 def scene_regime(
     R: float, m: float, v0: float, h: float, b: float, lam: float, mu: float
 ) -> Regime:  # fmt: skip
-    """A scene as a regime, in the place of the paper's.
+    """Return a scene as the test case that replaces the paper's.
 
-    The law is looked at from a thirteenth of the impact's largest contact to twice it, if that
-    is within the plate and the sphere.
+    The law is evaluated from 1/13 of the impact's largest contact radius to twice that radius,
+    at most to 0.95 min(b, R) unless the impact goes further.
 
     Raises
     ------
@@ -47,7 +47,7 @@ def scene_regime(
 
 
 def regimes(scene: Regime | None) -> tuple[Regime, ...]:
-    """Every regime, with a scene in the place of the paper's."""
+    """Return every test case, with a scene in place of the paper's if one is given."""
     return tuple(scene if scene and regime is PAPER else regime for regime in REGIMES)
 
 
@@ -55,7 +55,7 @@ def measure(
     names: Sequence[str] = (), quick: bool = False, scene: Regime | None = None,
     progress: Progress = quiet,
 ) -> dict[str, Any]:  # fmt: skip
-    """Measure everything, or the methods named; seconds when quick, else minutes.
+    """Measure all methods, or those named; a quick run takes seconds, a full one minutes.
 
     Raises
     ------
@@ -64,14 +64,14 @@ def measure(
     """
     chosen, places = methods(names, quick), regimes(scene)
     studies = scaling.studies(quick)
-    told = _Progress(progress, len(TASKS) * len(places) + len(studies) + 2)
+    report = _Progress(progress, len(TASKS) * len(places) + len(studies) + 2)
     effort = QUICK if quick else FULL
     before = os.getloadavg()[0]
     rows: list[BenchmarkRow] = []
     sessions: list[dict[str, Any]] = []
     for regime in places:
         for task in TASKS:
-            told(f"{task}, {regime.name}")
+            report(f"{task}, {regime.name}")
             found = panel(task, regime, chosen, quick)
             rows += found.rows
             sessions += [
@@ -81,11 +81,11 @@ def measure(
             ]
     growths = []
     for what, study in studies:
-        told(f"scaling with {what}")
+        report(f"scaling with {what}")
         growths += study()
-    told("headline")
+    report("headline")
     against = headline(scene or PAPER, quick)
-    told("other tools")
+    report("other tools")
     data = {
         "provenance": provenance(QUICK_DIGITS if quick else LAW_DIGITS, PACKAGE),
         "machine": dict(machine()),
@@ -113,7 +113,7 @@ def _session(session: Session) -> dict[str, Any]:
 
 
 class _Progress:
-    """Counts the parts of the work and tells whoever wants to know."""
+    """Counter of the parts of the work that reports each part to a callback."""
 
     def __init__(self, progress: Progress, total: int) -> None:
         self.progress, self.total, self.number = progress, total, 0

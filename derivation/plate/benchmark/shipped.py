@@ -23,19 +23,19 @@ from generated.impact import impact
 
 
 def hertz_law(regime: Regime, ar: Arithmetic) -> Call:
-    """delta = a^2/R."""
+    """Return delta = a^2/R as a function of a."""
     R = ar.number(regime.R)
     return lambda a: a * a / R
 
 
 def hertz_force(regime: Regime, ar: Arithmetic) -> Call:
-    """P = (4/3) E* sqrt(R) delta^(3/2)."""
+    """Return P = (4/3) E* sqrt(R) delta^(3/2) as a function of delta."""
     stiff = stiffness(regime, ar)
     return lambda delta: stiff * (delta * np.sqrt(delta))
 
 
 def hertz_time(regime: Regime, ar: Arithmetic) -> Call:
-    """Contact times on a half-space [s] for speeds [m/s]."""
+    """Return the contact time on a half-space [s] as a function of speed [m/s]."""
     with flint.ctx.workprec(ar.bits):
         root, tenth = arb.pi().sqrt(), arb(1) / 10
         factor = ar.number(4 * root * (4 * tenth).gamma() / (5 * (9 * tenth).gamma()))
@@ -44,13 +44,13 @@ def hertz_time(regime: Regime, ar: Arithmetic) -> Call:
 
 
 def stiffness(regime: Regime, ar: Arithmetic) -> Array:
-    """(4/3) E* sqrt(R) [N/m^(3/2)]."""
+    """Return (4/3) E* sqrt(R) [N/m^(3/2)]."""
     R, lam, mu = (ar.number(x) for x in (regime.R, regime.lam, regime.mu))
     return 16 * mu * (lam + mu) / (3 * (lam + 2 * mu)) * np.sqrt(R)
 
 
 def hertz(task: Task) -> Method:
-    """Return the reason that the plate is omitted."""
+    """Return the method of Hertz's formulas, which omit the plate."""
     made = {"law": hertz_law, "inversion": hertz_force, "impact": hertz_time}
     return Method(task, "Hertz", "", made[task])
 
@@ -65,7 +65,7 @@ def plate(regime: Regime, ar: Floats) -> list[Array]:
 
 
 def called(ar: Floats = DOUBLE) -> Method:
-    """`indentation` as users call it: domain and plate are checked in every call."""
+    """Return the method `indentation` as users call it, with all checks in every call."""
 
     def prepare(regime: Regime, _: Arithmetic) -> Call:
         R, h, b, *_elastic = plate(regime, ar)
@@ -75,7 +75,7 @@ def called(ar: Floats = DOUBLE) -> Method:
 
 
 def prepared() -> Method:
-    """The same polynomials with the plate prepared once and without checks of the arguments."""
+    """Return the method of the same polynomials, with the plate prepared and without checks."""
 
     def prepare(regime: Regime, _: Arithmetic) -> Call:
         plates = contact_series.plates_of(np.array([regime.eta]))
@@ -95,7 +95,7 @@ def prepared() -> Method:
 
 
 def newton(ar: Floats = DOUBLE) -> Method:
-    """`force`, the generated code's Newton iteration."""
+    """Return the method `force`, the generated code's Newton iteration."""
 
     def prepare(regime: Regime, _: Arithmetic) -> Call:
         others = plate(regime, ar)
@@ -105,7 +105,7 @@ def newton(ar: Floats = DOUBLE) -> Method:
 
 
 def bounce(ar: Floats = DOUBLE) -> Method:
-    """`impact` as called, with its 24 nodes, 20 digits of truncation, and all four results."""
+    """Return the method `impact` as called: 24 nodes, and all four results."""
 
     def prepare(regime: Regime, _: Arithmetic) -> Call:
         R, *others = plate(regime, ar)
@@ -119,7 +119,7 @@ def bounce(ar: Floats = DOUBLE) -> Method:
 
 
 def oracle(task: Task, digits: int, quick: bool = True) -> Method:
-    """Balls that enclose the reference value; common quantities are computed at set-up."""
+    """Return the method of certified balls; common quantities are computed at set-up."""
     family = {
         "law": "contour integrals", "inversion": "enclosed root", "impact": "integrals in balls",
     }  # fmt: skip

@@ -85,7 +85,7 @@ class SpeedTiming:
 def interleaved(
     candidates: Sequence[Callable[[], object]], rounds: int
 ) -> tuple[list[float], float]:
-    """Lower quartile of each candidate's times [s], and the largest spread."""
+    """Return the lower quartile of each candidate's times [s], and the largest spread."""
     times = np.empty((rounds, len(candidates)))
     for row in times:
         for index, candidate in enumerate(candidates):
@@ -98,13 +98,13 @@ def interleaved(
 
 def ratio(name: str, one: Callable[[], object], base: Callable[[], object], limit: float,
           rounds: int = ROUNDS) -> SpeedTiming:  # fmt: skip
-    """How many times as long as the base one takes."""
+    """Measure how many times as long as the base a function takes."""
     (mine, other), spread = interleaved((one, base), rounds)
     return SpeedTiming(name, mine / other, "times", limit, spread, mine / other <= limit)
 
 
 def law_over_exp(top: float, limit: float) -> SpeedTiming:
-    """The contact law of one plate over numpy.exp of the same array, a/h uniform up to `top`."""
+    """Measure the contact law of one plate over numpy.exp of the same array, a/h up to `top`."""
     a = np.random.default_rng(1).uniform(1e-3, top, POINTS)
     name = f"contact law over numpy.exp, {POINTS:.0e} points, h/b = {ETA}, a/h up to {top}"
     return ratio(name, lambda: indentation(a, 100.0, 1.0, 1 / ETA), lambda: np.exp(a), limit)
@@ -115,7 +115,7 @@ def _naive_G(x: Any) -> Any:
 
 
 def _as_kernel(naive: Callable[[Any], Any]) -> Callable[[Any], Any]:
-    """A naive form with what every kernel does to arguments and result."""
+    """Return a textbook form with the checks and conversions of every generated function."""
 
     def call(x: Any) -> Any:
         kind, [x] = as_doubles(x)
@@ -129,7 +129,7 @@ NAIVE_POINTS = 10_000
 
 
 def _field(name: str) -> tuple[Callable[[Any], Any], Callable[[Any], Any]]:
-    """A field of a mode and its naive form, both of x = phi h, from face to face."""
+    """Return a field of a mode and its textbook form, as functions of x = phi h."""
     stable, depths = getattr(mode_shapes, name), np.linspace(-1.0, 1.0, NAIVE_POINTS)
     return (
         lambda x: stable(depths, x, 1.0, 1.2, 0.8, -1.0),
@@ -160,11 +160,10 @@ NAIVE_RIGHT = (2.0, 80.0)
 
 
 def stable_over_naive(name: str) -> SpeedTiming:
-    """A stable kernel over its naive form, where the latter is right.
+    """Measure a stable function over its textbook form, where the latter is accurate.
 
-    Arrays stay in the cache. A large one is made and given back first, as any larger
-    program has done: before that the C library returns memory after every call, and
-    what is timed is the operating system.
+    Arrays fit in the cache. A large array is created and released first, because until then the
+    C library returns memory to the operating system after every call.
     """
     np.ones(4_000_000)
     stable, naive = NAIVE[name]
@@ -174,7 +173,7 @@ def stable_over_naive(name: str) -> SpeedTiming:
 
 
 def scenes(low: float, high: float, count: int = SCENES) -> dict[str, Any]:
-    """Arguments of `impact` for different spheres, plates and speeds, a_m/h about low to high."""
+    """Return arguments of `impact` for different spheres, plates and speeds, a_m/h low to high."""
     random = np.random.default_rng(2)
     eta, h = 10 ** random.uniform(-3.0, -0.8, count), 10 ** random.uniform(-3.0, 0.0, count)
     b = h / eta
@@ -187,7 +186,7 @@ def scenes(low: float, high: float, count: int = SCENES) -> dict[str, Any]:
 
 
 def impact_rate(low: float, high: float, limit: float) -> SpeedTiming:
-    """Impacts per second in one batch of different scenes."""
+    """Measure impacts per second in one batch of different scenes."""
     arguments = scenes(low, high)
     (duration,), spread = interleaved((lambda: impact(**arguments),), 5)
     rate = SCENES / duration
@@ -196,21 +195,21 @@ def impact_rate(low: float, high: float, limit: float) -> SpeedTiming:
 
 
 def cold_start(command: str, scene: Path, limit: float) -> SpeedTiming:
-    """A command over the imports of the libraries it builds on, as processes."""
+    """Measure a command over the imports of the libraries that it uses, as processes."""
     name = f"platecontact {command} {scene.name}, cold, over its libraries' imports"
     return ratio(name, process(COMMAND, command, str(scene), "--json", "-"), process(LIBRARIES),
                  limit, COLD_ROUNDS)  # fmt: skip
 
 
 def process(code: str, *arguments: str) -> Callable[[], object]:
-    """Python code with arguments in a process of its own, which keeps its bytecode as usual."""
+    """Return a function that runs Python code in a new process, with its usual bytecode cache."""
     call = [sys.executable, "-c", code, *arguments]
     usual = {k: value for k, value in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
     return lambda: subprocess.run(call, check=True, capture_output=True, env=usual)
 
 
 def hertz_alone(scene: Path, limit: float) -> SpeedTiming:
-    """A scene where Hertz's law is enough, over the same with every other effect switched off."""
+    """Measure a scene for which Hertz's law suffices, over the same with other effects off."""
     with tempfile.TemporaryDirectory() as folder:
         plain = Path(folder) / scene.name
         keys = "".join(f"{name} = false\n" for name in SWITCHES)
@@ -228,7 +227,7 @@ def measure(
     progress: Progress = quiet,
     further: Sequence[tuple[str, Callable[[], SpeedTiming]]] = (),
 ) -> list[SpeedTiming]:
-    """Every comparison, one after the other.
+    """Measure all comparisons, one after the other.
 
     Parameters
     ----------
@@ -265,12 +264,12 @@ def measure(
 
 
 def as_data(timings: Sequence[SpeedTiming]) -> dict[str, Any]:
-    """The timings as plain data, with the machine and its load."""
+    """Return the timings as plain data, with the machine and its load."""
     return {"machine": dict(machine()), "rows": [asdict(timing) for timing in timings]}
 
 
 def machine() -> Mapping[str, str]:
-    """What the times were taken on: the processor, and what NumPy uses of it for exp."""
+    """Return the processor, the load, and the instructions that NumPy uses for exp."""
     info = Path("/proc/cpuinfo")
     lines = info.read_text().splitlines() if info.is_file() else []
     model = next((line.partition(":")[2].strip() for line in lines if "model name" in line), "")

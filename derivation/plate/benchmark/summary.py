@@ -1,4 +1,4 @@
-"""A measurement in a few lines: the cheapest methods and the headline."""
+"""Summary of a measurement: the fastest methods and the headline."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -7,14 +7,14 @@ from derivation.plate.benchmark.headline import DIGITS
 
 COLUMNS = ("task", "#digits", "method", "#ns a point", "#relative time", "ties")
 CASES = ("paper", "scene")
-"""Regimes shown: the paper's, or the scene in its place."""
+"""Test cases shown: the paper's, or the scene in its place."""
 
 WANTED = 12
-"""Digits that the direct sum is to reach in the headline."""
+"""Number of digits required of the direct sum in the headline."""
 
 
 def cells(data: Mapping[str, Any]) -> list[tuple[str, ...]]:
-    """Rows of the table of winners in arrays, in the case asked for."""
+    """Return the rows of the table of fastest methods for arrays, in the paper's case or scene."""
     return [
         (
             found["task"], str(found["digits"]),
@@ -27,7 +27,7 @@ def cells(data: Mapping[str, Any]) -> list[tuple[str, ...]]:
 
 
 def headline(data: Mapping[str, Any]) -> str:
-    """The generated law against direct summation."""
+    """Return a comparison of the generated law with direct summation as text."""
     found = data["headline"]
     if not found["reached"]:
         return (

@@ -18,16 +18,16 @@ _MODES, _ELEMENTS = 4096, 65536
 """Modes and array elements that are processed at a time, so that they fit into the cache."""
 
 OVERFLOW = 709.78
-"""Exponent from which e^x is no double."""
+"""Exponent above which e^x exceeds the largest double."""
 
 TURN = 2 * math.pi / 3
-"""Phase between two samples of Levin's partial sums: a third of a circle separates them best."""
+"""Phase between two samples of Levin's partial sums, a third of a circle."""
 
 MOST_MODES = 100_000
 
 
 def modal(ar: Arithmetic, phi: Array, weights: Array) -> Call:
-    """sum_j weights_j s(phi_j a), the block of the last modes first: their terms are small."""
+    """Return sum_j weights_j s(phi_j a) as a function of a; small terms are added first."""
 
     def call(a: Array) -> Array:
         total = a * 0
@@ -52,7 +52,7 @@ def _direct(modes: int, is_printed: bool, regime: Regime, ar: Arithmetic) -> Cal
 
 
 def printed(modes: int) -> Method:
-    """The paper's sum (6) with its own plate factor, in doubles."""
+    """Return the method of the paper's sum (6) with its published plate factor, in doubles."""
 
     def fails(regime: Regime) -> str | None:
         most = 8 * math.pi * modes * regime.eta
@@ -67,7 +67,7 @@ def printed(modes: int) -> Method:
 
 
 def direct(modes: int, ar: Arithmetic = DOUBLE, quick: bool = True) -> Method:
-    """The same sum with a plate factor that neither overflows nor cancels."""
+    """Return the method of that sum with a plate factor without overflow and cancellation."""
     return Method(
         "law", "direct sum", f"{modes:g} modes", partial(_direct, modes, False), ar,
         "long" if modes > WIDE_MODES and ar is not LONG else "wide", quick=quick,
@@ -78,9 +78,10 @@ def direct(modes: int, ar: Arithmetic = DOUBLE, quick: bool = True) -> Method:
 
 
 def levin(samples: int) -> Method:
-    """s(y) = Im (1 - i y) e^(iy): complex partial sums, sampled and extrapolated.
+    """Return the method of Levin's u transformation of sampled complex partial sums.
 
-    The head, y < TURN, is summed as s itself, since (1 - i y) e^(iy) cancels there.
+    s(y) = Im (1 - i y) e^(iy). The terms with y < TURN are summed as s itself, because
+    (1 - i y) e^(iy) cancels there.
     """
 
     def fails(regime: Regime) -> str | None:
@@ -112,15 +113,15 @@ def levin(samples: int) -> Method:
 
 
 def stride_at(alpha: float) -> int:
-    """Modes between two samples."""
+    """Return the number of modes between two samples."""
     return max(1, round(TURN / (alpha * math.pi)))
 
 
 def u_transform(sums: Array, estimates: Array, places: Array) -> Array:
-    """Levin's transformation: partial sums and estimates of their remainders at given places.
+    """Return Levin's limit of partial sums, from estimates of their remainders.
 
-    The k-th divided differences of places^(k-1) sums/estimates and places^(k-1)/estimates,
-    their quotient.
+    It is the quotient of the k-th divided differences of places^(k-1) sums/estimates and
+    places^(k-1)/estimates.
     """
     k = len(sums) - 1
     binomials = np.array([(-1.0) ** i * math.comb(k, i) for i in range(k + 1)])
@@ -128,15 +129,15 @@ def u_transform(sums: Array, estimates: Array, places: Array) -> Array:
     return (weights * sums).sum() / weights.sum()
 
 
-# --- split: Hertz's term, the side wall by n nodes, the thickness by m modes
+# --- split: Hertz's term, the finite-radius integral by n nodes, the thickness term by m modes
 
 
 @cache
 def wall_nodes(count: int, digits: int, double_exponential: bool, bits: int) -> list[list[arb]]:
-    """Nodes y, and weights times K0/(I0 y^3), of the side wall's integral, good for alpha <= 1.
+    """Return nodes y and weights times K0/(I0 y^3) of the finite-radius integral, alpha <= 1.
 
-    Double exponential: trapezoidal rule in t, y = exp(t - exp(-t)), which does away with
-    K0's logarithm at 0. Otherwise Gauss-Legendre in u, y = u^3.
+    Double exponential: the trapezoidal rule in t, y = exp(t - exp(-t)), which removes the
+    logarithm of K0 at 0. Otherwise Gauss-Legendre in u, y = u^3.
     """
     with flint.ctx.workprec(bits):
         if double_exponential:
@@ -159,7 +160,7 @@ def wall_nodes(count: int, digits: int, double_exponential: bool, bits: int) -> 
 
 
 def modes_of(regime: Regime, share: float) -> int:
-    """Modes of the thickness' part, which decays like e^(-4 pi n h/b)."""
+    """Return the number of modes of the thickness term, which decays like e^(-4 pi n h/b)."""
     return max(1, math.ceil(share / regime.eta))
 
 
@@ -167,8 +168,8 @@ def split(
     nodes: int, share: float, ar: Arithmetic = DOUBLE, double_exponential: bool = True,
     quick: bool = True,
 ) -> Method:  # fmt: skip
-    """Hertz's term less the side wall's integral plus the thickness' sum of share b/h modes."""
-    end = ar.digits + 1  # digits to which the integral's ends are chosen, in any arithmetic
+    """Return the method of Hertz's term minus the radius integral plus a sum of share b/h modes."""
+    end = ar.digits + 1  # digits for the ends of the integral
 
     def fails(regime: Regime) -> str | None:
         modes = modes_of(regime, share)

@@ -1,4 +1,4 @@
-"""How long the public calls of the contact law and the impact take, as a user makes them."""
+"""Times of the public functions of the contact law and the impact, called as by a user."""
 
 from collections.abc import Callable
 from functools import partial
@@ -11,7 +11,7 @@ from generated.impact import impact
 from generated.prepared_plate import prepare
 
 REPEATS = 200
-"""Calls in a block whose time is taken."""
+"""Number of calls in a timed block."""
 MICRO = 1e6
 PLATE = 0.1, 1.0
 """h and b [m] of the plate."""
@@ -30,7 +30,7 @@ Planned = tuple[str, Callable[[], SpeedTiming]]
 def per_call(
     name: str, call: Callable[[], object], limit: float, repeats: int = REPEATS
 ) -> SpeedTiming:
-    """The time of one call [us], at most `limit`, of so many in a block."""
+    """Measure the time of one call [us] in blocks of `repeats` calls."""
 
     def block() -> None:
         for _ in range(repeats):
@@ -42,7 +42,7 @@ def per_call(
 
 
 def several_plates(own_axis_last: bool, limit: float) -> SpeedTiming:
-    """The indentation for ten plates over that for one, of the same points."""
+    """Measure the indentation for ten plates over that for one, at the same points."""
     radii = np.random.default_rng(1).uniform(1e-3, 0.03, (PLATES, POINTS // PLATES))
     h, b = np.linspace(0.08, 0.12, PLATES)[:, None], PLATE[1]
     if own_axis_last:
@@ -58,7 +58,7 @@ def several_plates(own_axis_last: bool, limit: float) -> SpeedTiming:
 
 
 def planned() -> tuple[Planned, ...]:
-    """The comparisons, none of them made yet: what each is about, and the measurement."""
+    """Return the names of the comparisons, each with the function that measures it."""
     plate = prepare(*PLATE)
     delta = float(plate.indentation(A, R))
     small = np.linspace(0.1 * A, A, SMALL)

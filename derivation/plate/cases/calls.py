@@ -1,4 +1,4 @@
-"""Kernels that hard cases call in a form of their own, and those that state their own errors."""
+"""Functions that hard cases call in a special form, or that state their own errors."""
 
 from collections.abc import Callable
 from functools import partial
@@ -27,7 +27,7 @@ _SCENE = ("R", "m", "v0", "h", "b", "lam", "mu")
 
 
 def others() -> tuple[Kernel, ...]:
-    """Contacts with the true pressure, simple impacts, the paper's motion, sensitivities."""
+    """Return functions for non-Hertzian contacts, simple impacts, the paper's motion and waves."""
     error = read_stated_limits("pressure")["error"] * _ULP
     contact = ("a", "R", "h", "b", "modulus")
     motion = ("t", "m", "v0", "xi_2", "xi_3")
@@ -53,7 +53,7 @@ def others() -> tuple[Kernel, ...]:
 
 
 def _each(function: Callable[..., Any]) -> Callable[..., Any]:
-    """A function of plain numbers, of one result or several, as one of arrays."""
+    """Return a function of plain numbers as a function of arrays."""
 
     def call(*arguments: Any) -> Any:
         shape = np.broadcast_shapes(*(np.shape(x) for x in arguments))
@@ -98,7 +98,7 @@ def _bend_error(eta: float) -> float:
 
 
 def _of_waves() -> list[Kernel]:
-    """One branch by its index, counted from 0."""
+    """Return functions of a single wave branch by its index, counted from 0."""
     found = []
     for parity in ("antisymmetric", "symmetric"):
         for part, (name, allowed) in enumerate((("frequency", _FREQUENCY), ("residue", _RESIDUE))):
@@ -109,7 +109,7 @@ def _of_waves() -> list[Kernel]:
 
 
 def _of_held_waves() -> list[Kernel]:
-    """One mode of a held plate with a thickness, and the loaded face of a mode by its numbers."""
+    """Return functions of a single mode of a clamped or supported plate, and of its face."""
     stated_limits = read_stated_limits("edge_modes")
     face = stated_limits.pop("face")
     found = [
@@ -144,7 +144,7 @@ def _branch(parity: str, part: int, x: Any, nu: Any, index: Any) -> Any:
 
 
 def _picked(table: Any, place: Any) -> Any:
-    """Entries of a table's last axis, broadcast with all others."""
+    """Return entries of a table's last axis by index, broadcast with all other axes."""
     index = np.asarray(place, dtype=int)[..., None]
     shape = np.broadcast_shapes(table.shape[:-1], index.shape[:-1])
     wide = np.broadcast_to(table, (*shape, table.shape[-1]))
@@ -159,7 +159,7 @@ class _Estimates(NamedTuple):
 
 
 def _estimates(law: Callable[..., simple_impact.Estimate | None]) -> _Estimates:
-    """A simple law taken apart; NaN where it shows nothing."""
+    """Return the results of a simple law and its stated errors; NaN where no bound is proved."""
 
     def results(*scene: float) -> tuple[float, ...]:
         found = law(*scene)

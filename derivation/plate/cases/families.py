@@ -1,7 +1,6 @@
-"""Hard cases that come in families: every switch point, and the constants that are counted.
+"""Families of hard cases: every switch point, and the constants with an index.
 
-Where the switch points are is asked of the rewrite's own data, so that one that moves takes
-its cases along.
+The switch points are read from the data of the rewriting rules, so that the cases follow them.
 """
 
 import math
@@ -29,8 +28,8 @@ LAST_KAPPA, LAST_FINITE_PART = 196, 99
 
 
 def families() -> tuple[HardCase, ...]:
-    """Every systematic case; kept until what they follow from changes."""
-    rooms = (
+    """Return every systematic case, cached until the sources it depends on change."""
+    folders = (
         "engine/cache.py",
         "engine/formula",
         "plate/*.py",
@@ -45,7 +44,7 @@ def families() -> tuple[HardCase, ...]:
     )
     cases = ("engine/measure/case.py", "engine/measure/places.py")
     own = (*cases, "plate/grids.py", "plate/cases", "plate/*/cases*")
-    return cached("hard_families", (*rooms, *own), _families, HardCase)
+    return cached("hard_families", (*folders, *own), _families, HardCase)
 
 
 def _families() -> tuple[HardCase, ...]:
@@ -171,7 +170,7 @@ def _moments() -> Iterator[HardCase]:
 
 
 def _contact_switches() -> Iterator[HardCase]:
-    """Ends of the polynomials in a/h: lengths are such that h is 1, and a therefore a/h."""
+    """Yield cases at the ends of the polynomials in a/h, with h = 1."""
     group = "switch points of the contact law"
     for b in (1e3, 10.0, 5.0, 2.0, 0.25):
         reach = min(float(contact_tables.REACH), b)
@@ -200,7 +199,7 @@ def _contact_switches() -> Iterator[HardCase]:
 
 
 def _thickness_switches() -> Iterator[HardCase]:
-    """Ends of the cells in b/h, of both polynomials: h is 1, and b therefore b/h."""
+    """Yield cases at the ends of the cells in b/h, for both polynomials, with h = 1."""
     ends = {float(end) for cell in contact_tables.CELLS for end in cell[:2]}
     far_ends = {float(end) for cell in contact_tables.FAR_CELLS for end in cell[:2]}
     far_ends -= {float(contact_tables.REACH)}  # such a plate has no second polynomial
@@ -220,7 +219,7 @@ def _thickness_switches() -> Iterator[HardCase]:
 
 
 def _thinnest() -> Iterator[HardCase]:
-    """The thinnest plate whose modes are summed directly, 1e-5: b is 1."""
+    """Yield cases at h/b = 1e-5, the thinnest plate whose modes are summed directly; b = 1."""
     for offset in OFFSETS:
         given = exactly(a=6.5e-5, R=1e-2, h=beside(1e-5, offset), b=1.0)
         cause = f"{offset:+d} ULP from h/b = 1e-5, below which no sum is taken for a > 6 h."
@@ -231,7 +230,7 @@ def _thinnest() -> Iterator[HardCase]:
 
 
 def _impact_switches() -> Iterator[HardCase]:
-    """Speeds at which the contact just grows to 3 h, in a thin plate and in the paper's."""
+    """Yield cases at speeds that just reach a = 3 h, in a thin plate and in the paper's."""
     for b in (100.0, 10.0):
         place = float(contact_tables.REACH)
         energy = float(contact_impact.stored_energy(place, 50.0, 1.0, b, LAM, MU, 30))

@@ -33,7 +33,7 @@ _MODES = (1, 2, 3)
 
 
 def scene_families() -> Iterator[HardCase]:
-    """Every one of them; lengths are such that the plate's radius or half-thickness is 1."""
+    """Yield the cases; the plate's radius or half-thickness is 1."""
     return chain(_edge(), _back_face(), _sphere(), _pressure())
 
 
@@ -42,21 +42,21 @@ def _zero(mode: int) -> float:
 
 
 def _beside(group: str, kernels: tuple[str, ...], why: str, given: Inputs) -> Iterator[HardCase]:
-    """A case for each kernel, with the doubles about a place."""
+    """Yield a case for each function, with the doubles around a place."""
     return (about(group, kernel, why, given) for kernel in kernels)
 
 
 def _one_by_one(
     group: str, kernels: tuple[str, ...], place: float, why: str, moved: str, same: dict[str, float]
 ) -> Iterator[HardCase]:
-    """Cases with one double each: several in a call would share what the least of them takes."""
+    """Yield cases with one double each, because all in one call share the number of modes."""
     for kernel, offset in product(kernels, OFFSETS):
         given = exactly(**{**same, moved: beside(place, offset)})
         yield HardCase(group, kernel, f"{offset:+d} ULP from {why}.", given)
 
 
 def _last_mode(faded: int, mode: int) -> float:
-    """h/b beyond which a mode more is left out."""
+    """Return h/b above which one mode less is summed."""
     return faded / (2 * math.pi * mode)
 
 
@@ -92,13 +92,13 @@ def _edge() -> Iterator[HardCase]:
 def _last(
     group: str, kernels: tuple[str, ...], end: float, why: str, same: dict[str, float]
 ) -> Iterator[HardCase]:
-    """About the end of a domain in a, beyond which NaN is expected."""
+    """Yield cases around the end of a domain in a; NaN is expected beyond it."""
     for case in _one_by_one(group, kernels, end, why, "a", same):
         yield replace(case, expect="nan") if case.numbers["a"][0] > end else case
 
 
 def _shape(group: str, kernels: tuple[str, ...], more: dict[str, float]) -> Iterator[HardCase]:
-    """Where g(y) of the modes' sums changes branches."""
+    """Yield cases at the switch point of g(y) in the modal sums."""
     for mode, place in product(_MODES[:2], switches()["y"]):
         a = around(place / _zero(mode))
         given = exactly(**more, a=a, h=0.4, b=1.0, **_STEEL)

@@ -19,7 +19,7 @@ WRITTEN = Path(__file__).with_name("hard_cases.toml")
 
 
 def suite() -> Suite:
-    """All of it."""
+    """Return the suite of all hard cases with functions and references."""
     return Suite(
         cases(),
         kernels(),
@@ -33,13 +33,13 @@ def suite() -> Suite:
 
 
 def cases() -> tuple[HardCase, ...]:
-    """Every hard case, those written by hand first."""
+    """Return every hard case, those written by hand first."""
     return (*read_cases(WRITTEN), *families())
 
 
 @cache
 def kernels() -> dict[str, Kernel]:
-    """Everything a hard case can be about, by name."""
+    """Return every function that a hard case can test, by name."""
     manifest = importlib.import_module("generated.manifest")
     found = {kernel.name: kernel for kernel in generated_kernels()}
     for row in manifest.CONTACT:

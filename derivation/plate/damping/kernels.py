@@ -55,7 +55,7 @@ def _reduced(expression: sp.Expr) -> sp.Expr:
 
 
 def free() -> Routine:
-    """Return the motion from an initial displacement and velocity, minus the uniform motion."""
+    """Return the routine of the free motion from an initial displacement, and from a velocity."""
     late, later, gone, less = sp.symbols("late later gone less", positive=True)
     y = sp.Symbol("y", positive=True)
     of_turn = _series(1 - sp.sin(y) / y, y, 2, 2, 18)
@@ -97,7 +97,7 @@ def free() -> Routine:
             sp.diff(moved.rate, q_j) / omega,
             sp.diff(moved.rate, q_rate),
         ),
-        "Return (q - q_0)/q_0 and (q - q_0)/(t q_0'), and q'/(omega q_0) and q'/q_0', free motion.",
+        "Return q/q_0 - 1, q/(t q_0') - 1, q'/(omega q_0), q'/q_0' for q_0 or q_0' alone.",
         MEANING,
         _reduced,
     )
@@ -125,7 +125,7 @@ def response() -> Routine:
             growth * sine,
         ),
         (*of.moved, *of.rate, *of.drive),
-        "Return factors of omega g(t - s), a difference, and g'(t - s), a sum: of t, of t, of s.",
+        "Return the factors of t in omega g(t - s) and in g'(t - s), and those of s in both.",
         MEANING,
         _reduced,
     )

@@ -85,7 +85,7 @@ def _equation(q: sp.Expr) -> sp.Expr:
 
 
 class Separated(NamedTuple):
-    """Return omega g(t - s) as a difference and g'(t - s) as a sum of two products, of t and of s.
+    """Factors of omega g(t - s), a difference of two products, and of g'(t - s), a sum of two.
 
     The response at all times to a force at all times is then a product of matrices. The factors
     of s increase, but stay moderate if t is counted from a time shortly before.

@@ -170,7 +170,10 @@ def _profile(test: int, curvature: mpf, goal: int) -> mpf:
 def _solve(
     case: tuple[Fraction, Fraction, Fraction, Fraction], sizes: tuple[int, ...], digits: int
 ) -> list[RouteState]:
-    """Yield sizes of the basis; the matrices are as ill-conditioned as for Bernstein's powers."""
+    """Return the contact for each size of the basis.
+
+    The matrices are as ill-conditioned as for Bernstein's powers.
+    """
     a_ratio, eta, curvature, share = case
     most = max(sizes)
     goal = digits + 10 + most + math.ceil(max(0.0, -2 * math.log10(float(eta))))

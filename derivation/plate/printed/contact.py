@@ -26,7 +26,7 @@ def printed(
     kind: type[Printed] = Printed,
     **more: Any,
 ) -> Printed:
-    """A formula of the paper; the time that functions are applied to is not written in symbols."""
+    """Return a formula of the paper; (t) after a function is not part of its expression."""
     expression = parse_latex(latex.replace("(t)", ""), PLATE, _NAMES)
     return kind(name, equation, symbol, latex, expression, **more)
 

@@ -23,7 +23,7 @@ class PrintedPower(Printed):
 
 
 def _gamma(index: int) -> Printed:
-    """gamma_k of the line below (10), for one k."""
+    """Return gamma_k of the line below (10) for one k."""
     order, sign = 2 * index - 1, "-" if index % 2 else ""
     return printed(
         "10", f"gamma_{index}", rf"\gamma_{index}",

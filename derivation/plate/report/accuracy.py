@@ -1,4 +1,4 @@
-"""What accuracy costs as the report shows it: tables from the committed measurement."""
+"""Tables of the report on accuracy and run time, from the committed measurement."""
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
@@ -14,11 +14,11 @@ Data = Mapping[str, Any]
 
 UNITS = ((1.0, "s"), (1e-3, "ms"), (1e-6, r"$\mu$s"), (1e-9, "ns"))
 WANTED = 12
-"""Digits that the direct sum is to reach."""
+"""Number of digits required of the direct sum."""
 
 
 def accuracy_context(data: Data) -> dict[str, Any]:
-    """Everything the section shows."""
+    """Return the values for the template of this section."""
     return {
         "tasks": [
             {
@@ -43,7 +43,7 @@ def accuracy_context(data: Data) -> dict[str, Any]:
 
 
 def duration(seconds: float | None) -> str:
-    """A time to two figures, in the unit that fits."""
+    """Return a time with two or three digits in a suitable unit."""
     if seconds is None:
         return ""
     size, unit = next(((s, u) for s, u in UNITS if seconds >= 0.9995 * s), UNITS[-1])
@@ -52,7 +52,7 @@ def duration(seconds: float | None) -> str:
 
 
 def factor(ratio: float | str) -> str:
-    """A ratio to two or three figures."""
+    """Return a ratio with three digits, large ones as powers of ten."""
     value = float(ratio)
     if value != value:
         return ""
@@ -60,7 +60,7 @@ def factor(ratio: float | str) -> str:
 
 
 def winners(data: Data, task: str) -> Iterator[dict[str, Any]]:
-    """Rows of the cheapest methods for each regime: digits, then arrays, then single calls."""
+    """Yield the tables of fastest methods by test case: digits, arrays, single calls."""
     for regime in data["regimes"]:
         mine = [w for w in data["pareto"] if (w["task"], w["regime"]) == (task, regime["name"])]
         rows = []
@@ -72,7 +72,7 @@ def winners(data: Data, task: str) -> Iterator[dict[str, Any]]:
 
 
 def winner_cells(found: Data | None) -> tuple[str, str, str]:
-    """Method with its ties, time, and time over the cheapest."""
+    """Return the method with its ties, its time, and that time relative to the fastest."""
     if found is None:
         return "", "", ""
     name = escape(", ".join(part for part in (found["family"], found["setting"]) if part))
@@ -86,7 +86,7 @@ def winner_cells(found: Data | None) -> tuple[str, str, str]:
 
 
 def error_rows(data: Data) -> Iterator[str]:
-    """Every method of the second regime: digits by their cause, set-up and times."""
+    """Yield the methods of the second test case: digits by cause, set-up and times."""
     regime = data["regimes"][1]["name"]
     for row in data["rows"]:
         if row["regime"] != regime or row["fails"] or not row["errors"]:
@@ -98,10 +98,7 @@ def error_rows(data: Data) -> Iterator[str]:
 
 
 def reasons(data: Data, key: Literal["unsplit", "remark"]) -> Iterator[str]:
-    """Why truncation and rounding are not told apart, or what is to be said of how they are.
-
-    Of which families, and in which regimes.
-    """
+    """Yield reasons why errors are not separated, or remarks, with families and test cases."""
     groups: dict[str, dict[str, dict[str, None]]] = {}
     for row in data["rows"]:
         reason = (row["errors"] or {}).get(key)
@@ -114,7 +111,7 @@ def reasons(data: Data, key: Literal["unsplit", "remark"]) -> Iterator[str]:
 
 
 def method_name(row: Data) -> str:
-    """Family, setting and arithmetic unless double."""
+    """Return family, setting and, unless it is double precision, arithmetic."""
     arithmetic = "" if row["arithmetic"] == "float64" else row["arithmetic"]
     parts = [row["family"], row["setting"], arithmetic]
     if row["setting"] and row["setting"] in arithmetic:
@@ -123,12 +120,12 @@ def method_name(row: Data) -> str:
 
 
 def digits(value: float | str | None) -> str:
-    """Digits to one decimal."""
+    """Return digits to one decimal."""
     return "" if value is None else f"{float(value):.1f}"
 
 
 def failures(rows: Sequence[Data]) -> Iterator[str]:
-    """Failing methods: task, family, regime, settings, and the reason of the last."""
+    """Yield failing methods: task, family, test case, settings, and the reason of the last."""
     groups: dict[tuple[str, str, str], list[Data]] = {}
     for row in rows:
         if row["fails"]:
@@ -140,7 +137,7 @@ def failures(rows: Sequence[Data]) -> Iterator[str]:
 
 
 def scaling_row(growth: Data) -> str:
-    """What grows, of which method, its slope, where the line ends and why, memory."""
+    """Return the cells of a study: size, method, slope, end of the line, reason, memory."""
     leaves = "" if growth["leaves"] is None else factor(growth["leaves"])
     memory = growth["peak_bytes"]
     cells = [
@@ -151,7 +148,7 @@ def scaling_row(growth: Data) -> str:
 
 
 def tool_rows(tools: Sequence[Data]) -> Iterator[str]:
-    """Problem, setting, error, time and, once for each tool, what it cannot do; or its absence."""
+    """Yield the rows of other programs; what a program cannot compute is stated once."""
     said = ""
     for tool in tools:
         name = escape(f"{tool['name']} {tool['version']}".strip())
@@ -169,7 +166,7 @@ def tool_rows(tools: Sequence[Data]) -> Iterator[str]:
 
 
 def headline(found: Data) -> dict[str, Any]:
-    """The generated law against direct summation, in numbers."""
+    """Return the comparison of the generated law with direct summation as numbers."""
     best = found["reached"][-1]
     return {
         "radius": f"{1e3 * found['contact_radius']:.2f}",
@@ -193,7 +190,7 @@ def headline(found: Data) -> dict[str, Any]:
 
 
 def run(data: Data) -> dict[str, Any]:
-    """How the measurement was made, and how calm the machine was."""
+    """Return how the measurement was made, and how much load the machine had."""
     busy = [s for s in data["sessions"] if s["contended"]]
     found = data["run"]
     return {

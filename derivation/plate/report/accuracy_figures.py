@@ -33,7 +33,7 @@ Row = Mapping[str, Any]
 
 
 def accuracy_figures(data: Mapping[str, Any]) -> dict[str, Figure]:
-    """Every figure by name; the same for the same data."""
+    """Return every figure by name; the same data give the same figures."""
     found = {
         f"work_precision_{task}_{kind}": work_precision(data, task, kind)
         for task in TASKS
@@ -43,7 +43,7 @@ def accuracy_figures(data: Mapping[str, Any]) -> dict[str, Figure]:
 
 
 def work_precision(data: Mapping[str, Any], task: str, kind: str) -> Figure:
-    """A panel for each regime, time per point against digits, and the legend."""
+    """Draw a panel for each test case, digits against time per point, and the legend."""
     rows = [row for row in data["rows"] if row["task"] == task]
     families = list(dict.fromkeys(row["family"] for row in rows))
     colours = dict(zip(families, COLOURS, strict=False))
@@ -70,14 +70,14 @@ def work_precision(data: Mapping[str, Any], task: str, kind: str) -> Figure:
 
 
 def drawn(row: Row, kind: str) -> bool:
-    """Whether a row has digits and a time to show."""
+    """Return whether a row has digits and a time to show."""
     return row["fails"] is None and row["errors"] is not None and row[kind] is not None
 
 
 def draw_panel(
     ax: Axes, rows: Sequence[Row], kind: str, colours: Mapping[str, Any]
 ) -> None:  # fmt: skip
-    """Points of each family, those in doubles joined in the order of their settings; the front."""
+    """Draw the points of each family, those in doubles joined by lines, and the Pareto front."""
     front = np.array(pareto_front(rows, kind))
     if front.size:
         ax.step(front[:, 0], front[:, 1], where="post", color="0.8", lw=3, zorder=0)
@@ -99,19 +99,19 @@ def draw_panel(
 
 
 def height(digits: Any) -> Any:
-    """Place of digits on the axis."""
+    """Return the position of digits on the axis."""
     beyond = DOUBLE * (1 + np.log(np.maximum(digits, DOUBLE) / DOUBLE) / 2)
     return np.where(digits > DOUBLE, beyond, digits)
 
 
 def digits_at(place: Any) -> Any:
-    """Digits at a place of the axis."""
+    """Return the digits at a position on the axis."""
     beyond = DOUBLE * np.exp(2 * (np.maximum(place, DOUBLE) / DOUBLE - 1))
     return np.where(place > DOUBLE, beyond, place)
 
 
 def series(rows: Sequence[Row], kind: str) -> dict[tuple[str, str], list[tuple[float, float]]]:
-    """Time and digits by family and kind of arithmetic, in the order measured."""
+    """Return time and digits by family and kind of arithmetic, in the order measured."""
     found: dict[tuple[str, str], list[tuple[float, float]]] = {}
     for row in rows:
         arithmetic = row["arithmetic"].split(",")[0]
@@ -121,7 +121,7 @@ def series(rows: Sequence[Row], kind: str) -> dict[tuple[str, str], list[tuple[f
 
 
 def pareto_front(rows: Sequence[Row], kind: str) -> list[tuple[float, float]]:
-    """Times and digits that nothing faster reaches."""
+    """Return times and digits of the methods that no faster method surpasses."""
     front: list[tuple[float, float]] = []
     for time, digits in sorted((row[kind]["seconds"], row["errors"]["total"]) for row in rows):
         if not front or digits > front[-1][1]:
@@ -130,7 +130,7 @@ def pareto_front(rows: Sequence[Row], kind: str) -> list[tuple[float, float]]:
 
 
 def keys(rows: Sequence[Row], colours: Mapping[str, Any]) -> Iterator[Line2D]:
-    """Entries of the legend: families by colour, kinds of arithmetic by marker, the front."""
+    """Yield the entries of the legend: families, kinds of arithmetic, and the front."""
     for family, colour in colours.items():
         yield Line2D([], [], color=colour, marker="o", ms=3, label=family)
     used = {row["arithmetic"].split(",")[0] for row in rows}
@@ -141,7 +141,7 @@ def keys(rows: Sequence[Row], colours: Mapping[str, Any]) -> Iterator[Line2D]:
 
 
 def scaling(data: Mapping[str, Any]) -> Figure:
-    """Time over points, thinness, digits and scenes, with the straight part's slope."""
+    """Draw time against points, thinness, digits and scenes."""
     titles = list(dict.fromkeys(growth["what"] for growth in data["scaling"]))
     with mpl.rc_context(STYLE | {"font.size": 8}):
         figure = Figure(figsize=(6.5, 4.6), layout="constrained")
@@ -159,7 +159,7 @@ def scaling(data: Mapping[str, Any]) -> Figure:
 
 
 def draw_growth(ax: Axes, growth: Mapping[str, Any]) -> None:
-    """Times, and the line through the last three."""
+    """Draw the times, and the line through the last three."""
     x, seconds = np.array(growth["x"]), np.array(growth["seconds"])
     middle = np.exp(np.log(seconds[-3:]).mean() - growth["slope"] * np.log(x[-3:]).mean())
     (line,) = ax.plot(x, seconds, "o-", ms=3, label=growth["method"])

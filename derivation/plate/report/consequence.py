@@ -1,7 +1,7 @@
-"""What a misprint costs in numbers, in the paper's own case: the print beside the derived formula.
+"""Consequence of a misprint in the paper's case: printed and derived formula as numbers.
 
-Both are evaluated at the largest contact by the law that holds; what belongs to a mode at the
-first one, what is a sum over all of them to MODES.
+Both are evaluated at the largest contact of the corrected law: formulas of a mode for the first
+mode, sums over the first MODES modes.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -25,7 +25,7 @@ from generated.impact import impact
 
 MODES = 400
 CUTS = (100, MODES)
-"""Where sums that diverge are cut off."""
+"""Numbers of modes after which divergent sums are truncated."""
 Point = Mapping[sp.Symbol, float]
 
 
@@ -54,7 +54,7 @@ class Consequences:
         self.points: dict[int, Point] = {}
 
     def point(self, j: int) -> Point:
-        """Values of every symbol in the j-th mode, from 1."""
+        """Return the values of every symbol in the j-th mode, counted from 1."""
         if j not in self.points:
             self.points[j] = self._mode(j)
         return self.points[j]
@@ -69,15 +69,15 @@ class Consequences:
         return found
 
     def value(self, expression: sp.Expr) -> float:
-        """Value of a formula without modes."""
+        """Return the value of a formula without modes."""
         return evaluated(expression, self.fixed)
 
     def summed(self, expression: sp.Expr, modes: int) -> float:
-        """Value of a sum over modes, cut off."""
+        """Return the value of a sum truncated after a number of modes."""
         return float(mpmath.fsum(evaluated(expression, self.point(j)) for j in range(1, modes + 1)))
 
     def of(self, finding: Finding) -> str:
-        """The consequence of a misprint in a sentence of LaTeX."""
+        """Return the consequence of a misprint as LaTeX."""
         printed, derived = finding.diagnosis.given, finding.diagnosis.derived
         unit = in_latex(finding.formula.unit)
         if isinstance(finding.printed, PrintedPower):
@@ -101,7 +101,7 @@ class Consequences:
         )
 
     def _power(self, printed: sp.Expr, derived: sp.Expr) -> str:
-        """What another leading power does at half the largest indentation."""
+        """Return the effect of another leading power at half the largest indentation."""
         powers = [sp.Rational(e.subs(k, 2)) for e in (printed, derived)]
         shares = [0.5 ** float(power) for power in powers]
         deep = float(self.fixed[BY_NAME["delta"].symbol])
@@ -111,7 +111,7 @@ class Consequences:
         )
 
     def context(self) -> dict[str, str]:
-        """The point in words."""
+        """Return the numbers of the point as text."""
         case = self.case
         return {
             "R": f"{case.R:g}", "v0": f"{case.v0:g}", "b": f"{case.b:g}",
@@ -121,12 +121,12 @@ class Consequences:
 
 
 def misprinted(findings: Sequence[Finding]) -> set[str]:
-    """Names of the formulas with a misprint."""
+    """Return the names of the formulas with a misprint."""
     return {finding.printed.name for finding in findings if finding.is_misprint}
 
 
 def misprints_context(findings: Sequence[Finding], cost: Consequences) -> dict[str, Any]:
-    """Every comparison, with what a misprint costs in the paper's case."""
+    """Return every comparison, with the consequence of a misprint in the paper's case."""
     wrong = sum(finding.is_misprint for finding in findings)
     return {
         "findings": [
@@ -139,12 +139,12 @@ def misprints_context(findings: Sequence[Finding], cost: Consequences) -> dict[s
 
 
 def times(ratio: float) -> str:
-    """A ratio to four figures, large ones as powers of ten."""
+    """Return a ratio with four digits, large ones as powers of ten."""
     return f"${ratio:.4g}$" if 1e-2 <= abs(ratio) < 1e4 else number(ratio)
 
 
 def evaluated(expression: sp.Expr, point: Point) -> float:
-    """Value of an expression at a point, in numbers whose range does not end.
+    """Return the value of an expression at a point, in mpmath, without overflow.
 
     Raises
     ------
@@ -161,6 +161,6 @@ def evaluated(expression: sp.Expr, point: Point) -> float:
 
 @cache
 def _function(expression: sp.Expr, free: tuple[sp.Symbol, ...]) -> Callable[..., Any]:
-    """The expression as a function, made once."""
+    """Return the expression as an mpmath function, cached."""
     made: Callable[..., Any] = sp.lambdify(free, expression, "mpmath")
     return made

@@ -27,7 +27,7 @@ ROOT_DIGITS = 12
 
 
 def navier() -> list[str]:
-    """Navier's equations of a field u(r, z), w(r, z): what Hooke's law leaves of the balance."""
+    """Return Navier's equations of a field u(r, z), w(r, z), from Hooke's law and the balance."""
     u, w = (sp.Function(name)(r, z) for name in "uw")
     rows = []
     for force in force_balance(hooke(u, w)):
@@ -38,7 +38,7 @@ def navier() -> list[str]:
 
 
 def roots_context(formulas: Mapping[str, Record]) -> dict[str, Any]:
-    """The first roots, and what they add to the closed form of c_1, computed in balls."""
+    """Return the first roots, and their contributions to the closed form of c_1 as balls."""
     closed, M_2 = formulas["c_1_thin"].expression, finite_part(2, ROOT_DIGITS)
     rows = []
     for ratio in ("1/20", "1/10", "1/5", "1/3", "1/2", "1"):
@@ -54,7 +54,7 @@ def roots_context(formulas: Mapping[str, Record]) -> dict[str, Any]:
 
 
 def root_text(n: int) -> str:
-    """T_n to a few digits."""
+    """Return T_n with six digits."""
     T = root(n)
     return rf"{T.real.str(6, radius=False)} + {T.imag.str(6, radius=False)}\,\mathrm{{i}}"
 
@@ -68,12 +68,12 @@ def published_errors(rows: Sequence[Data], wrong: set[str]) -> Iterator[tuple[Da
 
 
 def loses(row: Data) -> bool:
-    """Whether a function overflows, or loses half of the digits of a double, at some point."""
+    """Return whether a function overflows or loses half of its digits at some point."""
     return bool(row["double"]["not_finite"]) or float(row["double"]["max_ulp"]) > HALF
 
 
 def cancellation_rows(rows: Sequence[Data], wrong: set[str]) -> Iterator[str]:
-    """Cells of the correct formulas that lose their digits only if evaluated as published."""
+    """Yield the cells of correct formulas that lose digits only if evaluated as published."""
     for published, generated in published_errors(rows, wrong):
         errors = published["double"]
         worst = r"$\infty$" if errors["not_finite"] else number(errors["max_ulp"])
@@ -82,7 +82,7 @@ def cancellation_rows(rows: Sequence[Data], wrong: set[str]) -> Iterator[str]:
 
 
 def module_rows(rows: Sequence[Data]) -> Iterator[str]:
-    """Cells of each module: functions, points, largest error and where, largest share used."""
+    """Yield the cells of each module: functions, points, largest error, fraction used."""
     modules: dict[str, list[Data]] = {}
     for row in rows:
         if row["passed"] is not None:
@@ -95,7 +95,7 @@ def module_rows(rows: Sequence[Data]) -> Iterator[str]:
 
 
 def rule_rows(rows: Sequence[Data]) -> Iterator[str]:
-    """Cells of each rule: what it prevents, formulas, largest error without and with it."""
+    """Yield the cells of each rule: cause, formulas, largest error without and with it."""
     rules: dict[tuple[str, str], list[list[float]]] = {}
     for row in rows:
         for applied in row["applied"]:
@@ -108,13 +108,13 @@ def rule_rows(rows: Sequence[Data]) -> Iterator[str]:
 
 
 def contact_row(row: Data) -> str:
-    """Cells of a row of the contact law's errors."""
+    """Return the cells of a row of the contact law's errors."""
     cells = [code(row["kernel"]), str(row["points"]), str(row["digits"])]
     return " & ".join([*cells, number(row["max_error"]), number(row["p99_error"])])
 
 
 def contact_impacts(rows: Sequence[Data]) -> dict[str, str]:
-    """Over what the measured impacts reach: c_1 A, h/b and a/h."""
+    """Return the ranges of c_1 A, h/b and a/h of the measured impacts."""
     cases = [case for row in rows for case in row["cases"]]
     ends = {}
     for key in ("c1_A", "h_over_b", "a_over_h"):

@@ -37,19 +37,19 @@ class Extremes:
 
 
 def corrected_impact(case: Model) -> Extremes:
-    """By the corrected law."""
+    """Return the extremes by the corrected law."""
     found = impact(case.R, case.m, case.v0, case.h, case.b, case.lam, case.mu)
     return Extremes(float(found.contact_time), float(found.max_force))
 
 
 def linear_impact(case: Model, modes: int) -> Extremes:
-    """By the published linear term, its sum truncated: half a period of a spring."""
+    """Return the extremes by the published linear term: half a period of a spring."""
     time = printed_motion(*case.numbers, modes).contact_time
     return Extremes(time, pi * case.m * case.v0 / time)
 
 
 def figures(case: Model, impact_of: Result, gamma_2: float) -> dict[str, Figure]:
-    """Every figure of the paper's case by name.
+    """Return every figure of the paper's case by name.
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ def _drawn(draw: Callable[[Figure, Model], None], case: Model) -> Figure:
 
 
 def draw_history(figure: Figure, case: Model) -> None:
-    """Figure 1: indentation against time, as published at two truncations, and corrected."""
+    """Draw figure 1: indentation over time, as published with two truncations, and corrected."""
     axes = figure.subplots(1, 2, sharey=True)
     reference = impact(case.R, case.m, case.v0, case.h, case.b, case.lam, case.mu)
     t = np.linspace(0.0, float(reference.contact_time), 400)
@@ -104,7 +104,7 @@ def draw_history(figure: Figure, case: Model) -> None:
 
 
 def draw_contact_time(figure: Figure, case: Model) -> None:
-    """Figure 2: contact time against h/b for several truncations, the corrected law and Hertz."""
+    """Draw figure 2: contact time over h/b for truncations, corrected law and Hertz's law."""
     ax = figure.subplots()
     plates = [replace(case, h=case.b * ratio) for ratio in THICKNESS]
     for modes in TRUNCATIONS:
@@ -118,7 +118,7 @@ def draw_contact_time(figure: Figure, case: Model) -> None:
 
 
 def draw_peaks(figure: Figure, case: Model) -> None:
-    """Largest force and indentation against h/b, over Hertz's."""
+    """Draw largest force and indentation over h/b, relative to Hertz's."""
     ax = figure.subplots()
     right = _impacts(case, THICKNESS)
     force, indentation = hertz_peaks(case)
@@ -132,7 +132,7 @@ def draw_peaks(figure: Figure, case: Model) -> None:
 
 
 def draw_law(figure: Figure, case: Model) -> None:
-    """Indentation and force over those on a half-space, against the contact radius."""
+    """Draw indentation and force relative to the half-space's over the contact radius."""
     axes = figure.subplots(1, 2)
     for ratio in PLATES:
         h = ratio * case.b
@@ -146,25 +146,25 @@ def draw_law(figure: Figure, case: Model) -> None:
 
 
 def _impacts(case: Model, ratios: NDArray[np.float64]) -> Impact:
-    """Impacts by the corrected law for several h/b at once."""
+    """Return impacts by the corrected law for several h/b at once."""
     return impact(case.R, case.m, case.v0, ratios * case.b, case.b, case.lam, case.mu)
 
 
 def hertz_peaks(case: Model) -> tuple[float, float]:
-    """Largest force [N] and indentation [m] on a half-space, P = (4/3) E* sqrt(R) delta^(3/2)."""
+    """Return largest force [N] and indentation [m] on a half-space."""
     K = 4 / 3 * case.modulus * np.sqrt(case.R)
     indentation = (5 * case.m * case.v0**2 / (4 * K)) ** 0.4
     return float(K * indentation**1.5), float(indentation)
 
 
 def hertz_contact_time(case: Model) -> float:
-    """Contact time on a half-space [s]: (2 sqrt(pi) Gamma(2/5)/(5/2 Gamma(9/10))) delta_max/v0."""
+    """Return the contact time on a half-space [s]."""
     _, indentation = hertz_peaks(case)
     return 4 * sqrt(pi) * gamma(0.4) / (5 * gamma(0.9)) * indentation / case.v0
 
 
 def draw_divergence(figure: Figure, case: Model, gamma_2: float) -> None:
-    """The published coefficient of the force in the indentation against the number of modes."""
+    """Draw the published coefficient gamma_2 over the number of modes."""
     ax = figure.subplots()
     times = [linear_impact(case, int(modes)).contact_time for modes in COUNTS]
     ax.plot(COUNTS, (np.array(times) / pi) ** 2 / case.m, "o-", ms=3, label="published sum")
@@ -174,7 +174,7 @@ def draw_divergence(figure: Figure, case: Model, gamma_2: float) -> None:
 
 
 def motion_context(case: Model) -> dict[str, Any]:
-    """The paper's case in numbers: as published at several truncations, and corrected."""
+    """Return the paper's case in numbers: as published with truncations, and corrected."""
     found = impact(case.R, case.m, case.v0, case.h, case.b, case.lam, case.mu)
     corrected = corrected_impact(case)
     hertz = Extremes(hertz_contact_time(case), hertz_peaks(case)[0])
@@ -201,7 +201,7 @@ def motion_context(case: Model) -> dict[str, Any]:
 
 
 def _compared(law: Extremes, corrected: Extremes) -> list[str]:
-    """Cells of an impact: contact time and force, each beside its ratio to the corrected one."""
+    """Return the cells of an impact: contact time and force, with ratios to the corrected ones."""
     return [
         f"{1e3 * law.contact_time:.3f}", f"{law.contact_time / corrected.contact_time:.3f}",
         f"{1e-3 * law.force:.2f}", f"{law.force / corrected.force:.3f}",
@@ -209,7 +209,7 @@ def _compared(law: Extremes, corrected: Extremes) -> list[str]:
 
 
 def _real_until(case: Model, modes: int) -> list[str]:
-    """Times until which the published correction is real, as published and with xi_3 corrected."""
+    """Return the times until which the correction (16) is real, for both forms of xi_3."""
     if not modes:
         return ["", ""]
     both = (printed_motion(*case.numbers, modes, corrected=fixed) for fixed in (False, True))

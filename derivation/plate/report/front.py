@@ -30,7 +30,7 @@ def front_context(
     sources: Mapping[str, str],
     case: Model,
 ) -> dict[str, Any]:
-    """The findings in numbers, the results of each stage, and the versions used."""
+    """Return the findings in numbers, the results of each stage, and the versions."""
     provenance = measured["check"]["provenance"]
     versions = sorted((k, v) for k, v in provenance.items() if k not in ("digits", "generated"))
     return {
@@ -83,7 +83,7 @@ def stages(
     measured: Mapping[str, Data],
     sources: Mapping[str, str],
 ) -> Iterator[tuple[str, str]]:
-    """Command, and its outcome in numbers."""
+    """Yield each command with its outcome in numbers."""
     formulas = [formula for _, found in links for formula in found]
     residuals = {(f.proof.step, name) for f in formulas for name in f.proof.residuals}
     yield (
@@ -111,7 +111,7 @@ def stages(
 
 
 def checks(measured: Mapping[str, Data]) -> Iterator[tuple[str, str]]:
-    """Measurements: what was held against the reference value, and how near the limit it came."""
+    """Yield the checks: number of comparisons, and the largest fraction of a limit used."""
     rows = [row for row in measured["check"]["rows"] if row["passed"] is not None]
     yield (
         code("check"),
@@ -164,5 +164,5 @@ def checks(measured: Mapping[str, Data]) -> Iterator[tuple[str, str]]:
 
 
 def used(ratio: float, what: str = "allowed error") -> str:
-    """How much of a limit was used."""
+    """Return the fraction of a limit that was used, as text."""
     return f"at most {100 * ratio:.0f}" + rf"\,\% of the {what} used"

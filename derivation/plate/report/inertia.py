@@ -1,4 +1,4 @@
-"""The report's table of error bounds in random impacts on plates with inertia."""
+"""Table of the report: error bounds of random impacts with plate inertia."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -7,7 +7,7 @@ from derivation.engine.report.latex import escape
 
 
 def inertia_context(data: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the values of the template."""
+    """Return the values of the template from the measurement."""
     refused = data["refused"]
     return {
         "drawn": data["drawn"],

@@ -21,7 +21,7 @@ LAW = {"_forces": "plate_arrays", "_contact": "plate_arrays"}
 
 
 def listings_context(sources: Mapping[str, str], formulas: Mapping[str, Record]) -> dict[str, Any]:
-    """Each function with the formula above it.
+    """Return each function with its formula.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ def listings_context(sources: Mapping[str, str], formulas: Mapping[str, Record])
 
 
 def source_of(text: str, name: str) -> str:
-    """A function's source without its docstring.
+    """Return the source of a function without its docstring.
 
     Raises
     ------
@@ -62,7 +62,7 @@ def source_of(text: str, name: str) -> str:
 
 
 def _lines(text: str, function: ast.FunctionDef) -> Iterator[str]:
-    """The function's lines, but for those of its docstring."""
+    """Yield the lines of a function except those of its docstring."""
     first = function.body[0]
     documented = ast.get_docstring(function) is not None
     skipped = range(first.lineno, (first.end_lineno or 0) + 1) if documented else range(0)

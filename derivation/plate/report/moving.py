@@ -1,4 +1,4 @@
-"""What accuracy costs on a plate that moves, from the committed measurement: figure and rows."""
+"""Error over run time for a plate with inertia, from the committed measurement."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
@@ -31,12 +31,12 @@ KNOBS = {
 
 
 def worst(row: Mapping[str, Any]) -> float:
-    """The largest error of a row's results."""
+    """Return the largest error of a row's results."""
     return max(map(float, row["errors"].values()))
 
 
 def moving_costs(data: Mapping[str, Any]) -> Figure:
-    """Error over time of integrators; and of modes and branches."""
+    """Draw error over time of integrators, and of modes and branches."""
     rows = data["rows"]
     with mpl.rc_context(STYLE | {"font.size": 8, "lines.linewidth": 1.0}):
         figure = Figure(figsize=(6.5, 2.9), layout="constrained")
@@ -62,7 +62,7 @@ def _line(ax: Any, rows: Sequence[Mapping[str, Any]], style: str, label: str) ->
 
 
 def moving_context(data: Mapping[str, Any]) -> dict[str, Any]:
-    """What the section says: scene, rows, and how much faster elements are."""
+    """Return the values of the section: scene, rows, and relative times."""
     shared = next(row for row in data["rows"] if row["study"] == "integrator")
     plate, ball = data["scene"]["plate"], data["scene"]["sphere"]
     return {
@@ -81,23 +81,23 @@ def moving_context(data: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def gain(data: Mapping[str, Any]) -> str:
-    """How many times as long the other integrators take to as many digits as they reach."""
+    """Return the times of other integrators relative to elements, at their smallest errors."""
     own = next(row for row in data["rows"] if row["method"] == "elements, tolerance")
-    told = []
+    parts = []
     for method in ("DOP853", "velocity Verlet"):
         best = min((row for row in data["rows"] if row["method"] == method), key=worst)
         times = best["seconds"] / own["seconds"]
-        told.append(f"{LINES[method]} takes {times:.0f} times as long for {rounded(worst(best))}")
-    return f"{'; '.join(told)}; elements reach {rounded(worst(own))}."
+        parts.append(f"{LINES[method]} takes {times:.0f} times as long for {rounded(worst(best))}")
+    return f"{'; '.join(parts)}; elements reach {rounded(worst(own))}."
 
 
 def _typeset(cell: str) -> str:
-    """A cell of the table; errors as powers of ten."""
+    """Return a cell of the table, with errors as powers of ten."""
     return rounded(float(cell)) if "e-" in cell and " " not in cell else escape(cell)
 
 
 def moving_rows(data: Mapping[str, Any]) -> Iterator[dict[str, str]]:
-    """The table's rows as text: study, method, oscillators, milliseconds, error and bound."""
+    """Yield the rows of the table: study, method, oscillators, milliseconds, error and bound."""
     for row in data["rows"]:
         method, setting = row["method"], f"{row['setting']:g}"
         if row["study"] == "integrator":

@@ -23,7 +23,7 @@ SHOWN = {
 
 
 def overview(pane: Scene, data: Mapping[str, Any]) -> Figure:
-    """Contact force over time, and digits over the time of a point."""
+    """Draw contact force over time, and digits over time per point."""
     with mpl.rc_context(STYLE | {"font.size": 8}):
         figure = Figure(figsize=(7.2, 2.7), layout="constrained")
         left, right = figure.subplots(1, 2)
@@ -33,7 +33,7 @@ def overview(pane: Scene, data: Mapping[str, Any]) -> Figure:
 
 
 def _draw_force(ax: Any, pane: Scene) -> None:
-    """Of a half-space, of a quasi-static pane, and of the pane with inertia."""
+    """Draw the force for a half-space, a quasi-static plate and a plate with inertia."""
     stiff = dict.fromkeys(("bending", "finite_thickness", "finite_radius", "edge"), False)
     for label, effects in (
         ("half-space (Hertz)", stiff | {"inertia": False}),
@@ -50,7 +50,7 @@ def _draw_force(ax: Any, pane: Scene) -> None:
 
 
 def _draw_digits(ax: Any, data: Mapping[str, Any]) -> None:
-    """Of the contact law in the paper's case, in arrays."""
+    """Draw correct digits of the contact law over time per point, in arrays."""
     paper = data["regimes"][0]["name"]
     rows = [
         row
@@ -72,6 +72,6 @@ def _draw_digits(ax: Any, data: Mapping[str, Any]) -> None:
 
 
 def rounded(values: Any) -> Any:
-    """Numbers to a few places of the largest."""
+    """Return numbers rounded to PLACES digits after the leading digit of the largest."""
     unit = 10.0 ** (np.floor(np.log10(np.max(np.abs(values)))) - PLACES)
     return np.round(values / unit) * unit

@@ -28,7 +28,7 @@ DIGITS = 16
 def reproducibility_context(
     data: Mapping[str, bytes], measured: Mapping[str, Mapping[str, Any]]
 ) -> dict[str, Any]:
-    """A row for each file, and what each says of its origin."""
+    """Return a row for each file, and the provenance that each states."""
     return {
         "files": [file_row(name, content) for name, content in sorted(data.items())],
         "provenance": [
@@ -40,7 +40,7 @@ def reproducibility_context(
 
 
 def file_row(name: str, content: bytes) -> str:
-    """Name, command, size and hash."""
+    """Return name, command, size and hash."""
     command = escape(RENEWED.get(name, "")).replace("--", "-{}-")
     digest = hashlib.sha256(content).hexdigest()[:DIGITS]
     shown = rf"\texttt{{{command}}}" if command else "see CONTRIBUTING.md"

@@ -13,7 +13,7 @@ HEADS = ("effect", "parameter", "value", "max. change", "status", "reason")
 
 
 def effects_context(scenes: Mapping[str, Scene]) -> dict[str, Any]:
-    """What effects there are, and what each scene calls for."""
+    """Return all effects, and the selection for each scene."""
     return {
         "effects": [" & ".join([code(e.name), prose(e.adds), source(e.source)]) for e in EFFECTS],
         "heads": HEADS,
@@ -22,7 +22,7 @@ def effects_context(scenes: Mapping[str, Scene]) -> dict[str, Any]:
 
 
 def scene_context(name: str, scene: Scene) -> dict[str, Any]:
-    """The effects table of a scene and the decision in a sentence."""
+    """Return the effects table of a scene, and the decision as a sentence."""
     found = explain(scene)
     rows = [
         " & ".join(
@@ -39,7 +39,7 @@ def scene_context(name: str, scene: Scene) -> dict[str, Any]:
 
 
 def cell(text: str) -> str:
-    """A number of the table; small ones as powers of ten."""
+    """Return a number of the table; small ones as powers of ten."""
     mantissa, e, power = text.partition("e")
     if not (e and power.lstrip("+-").isdigit()):
         return text
@@ -47,7 +47,7 @@ def cell(text: str) -> str:
 
 
 def sentence(text: str) -> str:
-    """Words with effects' names in typewriter, and numbers as powers of ten."""
+    """Return a text with effect names in typewriter and numbers as powers of ten."""
     head, stop, rest = text.partition(". ")
     label, _, names = head.partition(": ")
     shown = ", ".join(code(name) for name in names.split(", "))
@@ -55,10 +55,10 @@ def sentence(text: str) -> str:
 
 
 def capital(text: str) -> str:
-    """A text that begins a sentence."""
+    """Return a text with a capital first letter."""
     return text[:1].upper() + text[1:]
 
 
 def source(text: str) -> str:
-    """Who derived it."""
+    """Return the source of an effect as LaTeX."""
     return escape(text)

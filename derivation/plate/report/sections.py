@@ -185,7 +185,7 @@ PLAN = Plan(tuple(CONTEXTS)[:7], tuple(CONTEXTS)[7:])
 
 
 def parts(material: Material, shown: Sequence[str]) -> Parts:
-    """The named sections' LaTeX, a pure function of theory, generated code and measurements."""
+    """Return the LaTeX of the named sections; it depends on theory, code and measurements only."""
     made = environment(TEMPLATES)
     front = made.get_template("front.tex.j2").render(
         title=TITLE,

@@ -19,7 +19,7 @@ LABELS = {
 
 
 def draw_setup(figure: Figure, _: Any) -> None:
-    """Sphere and plate in section; not to scale."""
+    """Draw sphere and plate in section, not to scale."""
     ax = figure.subplots()
     lowest = HALF - DEPTH
     centre = lowest + RADIUS
@@ -52,7 +52,7 @@ def draw_setup(figure: Figure, _: Any) -> None:
 
 
 def _face(r: Any) -> Any:
-    """Height of the contact face: the sphere's inside the contact, smooth at its edge."""
+    """Return the height of the contact face: the sphere's in the contact, smooth at its edge."""
     distance = np.abs(r)
     inside = HALF - DEPTH + RADIUS - np.sqrt(RADIUS**2 - np.minimum(distance, CONTACT) ** 2)
     slope = CONTACT / np.sqrt(RADIUS**2 - CONTACT**2)

@@ -20,7 +20,7 @@ FORMULAS = (
 
 
 def law_context(formulas: Mapping[str, Record]) -> dict[str, Any]:
-    """Formulas of the law, which call the plate factor by its name, and its limits."""
+    """Return the formulas of the law, and its limits."""
     factor = formulas[FACTOR]
     shown = [(formulas[name], None if name == FACTOR else factor) for name in FORMULAS]
     return {
@@ -38,7 +38,7 @@ def law_context(formulas: Mapping[str, Record]) -> dict[str, Any]:
 
 
 def limit_rows() -> list[str]:
-    """Parameter, limit, what happens beyond it and the reason; the limits are those of the code."""
+    """Return parameter, limit, consequence beyond it and reason; limits are those of the code."""
     open_, held = f"{non_hertzian_pressure.MAX_A_OVER_H:g}", f"{edge.MAX_A_OVER_B:g}"
     curved = f"{spherical_profile.MAX_A_OVER_R:g}"
     thin, thick = (rounded(ratio) for ratio in PLATES)

@@ -1,8 +1,8 @@
-"""Where the search looks: points at random in every kernel's domain.
+"""Random points in the domain of every function, for the search.
 
-What matters is dimensionless: x = phi h, y = a phi, h/b, a/h, z/h, r/b, nu. Each is
-drawn uniformly over the floats themselves, not over the numbers, so that every
-decade gets its share, and is turned into arguments in units drawn at random.
+The dimensionless variables x = phi h, y = a phi, h/b, a/h, z/h, r/b, nu are drawn. Most are
+uniform over the floats, not over the numbers, so that all decades are equally likely, and
+they are converted to arguments in random units.
 """
 
 import math
@@ -17,29 +17,29 @@ from derivation.plate.impact.oracle.agreement import FIRST
 from derivation.plate.impact.oracle.impact import stored_energy
 
 WHOLE = ("count", "n", "k")
-"""Arguments that are whole numbers."""
+"""Arguments that are integers."""
 
 LAW = ("indentation", "contact_radius", "stiffness", "force_of_radius", "impact")
-"""Kernels of the contact law; the others stand in the manifest."""
+"""Functions of the contact law, which are not in the manifest."""
 
 WAVES = 1e-150, 1e6
-"""phi h and a phi."""
+"""Range of phi h and a phi."""
 
 THICKNESSES = 1e-4, 1e2
-"""h/b."""
+"""Range of h/b."""
 
 CONTACTS = 1e-8, 6.0
-"""a/h."""
+"""Range of a/h."""
 
 NEAR = 1e3, 10.0
-"""Half of what is drawn lies within these factors of 1: where the branches meet."""
+"""Factors around 1, near the switch points, within which about 2/3 of the points lie."""
 
 LENGTH, STRESS, MASS, FORCE = 9.0, 12.0, 9.0, 12.0
 """Decades to either side of 1 from which units and magnitudes are drawn."""
 
 MOST_MODES = 60
 LAST = {"kappa": 200.0, "finite_part": 105.0, "bessel": 1e5}
-"""Largest indices: beyond the first two no double holds the value, tables become long."""
+"""Largest indices: above the first two the value is no double; above the last tables are long."""
 
 _SEARCHED = (
     "1e-150 <= phi * h <= 1e6",
@@ -63,19 +63,19 @@ _DIGITS = 20
 def domain_of(
     name: str, arguments: Sequence[str], modes: bool, conditions: Sequence[str]
 ) -> Domain:
-    """The domain of a kernel within what is searched."""
+    """Return the domain of a function within the searched ranges."""
     whole = arguments[0] in WHOLE
     return Domain(name, tuple(arguments), modes, (*conditions, *_SEARCHED), whole)
 
 
 def domain_of_row(row: Any) -> Domain:
-    """The domain a row of the manifest states."""
+    """Return the domain that a row of the manifest states."""
     conditions = tuple(part.strip() for part in row["domain"].split(",") if part.strip())
     return domain_of(row["name"], row["arguments"], bool(row["modes"]), conditions)
 
 
 def domain_of_law(name: str, arguments: Sequence[str]) -> Domain:
-    """The domain of a kernel of the contact law."""
+    """Return the domain of a function of the contact law."""
     return domain_of(name, arguments, False, _OF_LAW)
 
 
@@ -83,12 +83,12 @@ def domain_of_law(name: str, arguments: Sequence[str]) -> Domain:
 
 
 def draw(domain: Domain, generator: Random) -> Point:
-    """A point of the domain.
+    """Return a random point of the domain.
 
     Raises
     ------
     ValueError
-        If none is found: then the conditions contradict each other.
+        If no point is found after _TRIES trials.
     """
     for _ in range(_TRIES):
         values = _values(domain, generator)
@@ -117,7 +117,7 @@ def _values(domain: Domain, generator: Random) -> dict[str, float]:
 
 
 def _index(name: str, generator: Random) -> float:
-    """A whole number, small ones as likely as large ones."""
+    """Return an integer index; small ones are as likely as large ones."""
     first = 2 if name.startswith("finite_part") else 0 if name.startswith("kappa") else 1
     last = next((end for start, end in LAST.items() if name.startswith(start)), 1e6)
     if name.endswith("_ratio"):
@@ -126,7 +126,7 @@ def _index(name: str, generator: Random) -> float:
 
 
 def _sizes(generator: Random, of_mode: bool) -> dict[str, float]:
-    """Every quantity that may be an argument; of a single mode a and h do not know each other."""
+    """Return every quantity that may be an argument; for a mode, phi follows from h or a."""
     wave, b = _between(generator, *WAVES), _unit(generator, LENGTH)
     h = b * _between(generator, *THICKNESSES)
     widest = min(CONTACTS[1] * h, b)
@@ -157,7 +157,7 @@ def _sizes(generator: Random, of_mode: bool) -> dict[str, float]:
 
 
 def _between(generator: Random, low: float, high: float) -> float:
-    """A float of a range, each as likely as the other; often one nearer to 1, if 1 is inside."""
+    """Return a float of a range, uniform over the floats; often one near 1 if 1 is inside."""
     parts = [(low, high)]
     parts += [(max(low, 1 / w), min(high, w)) for w in NEAR if low < 1 < high]
     first, last = generator.choice(parts)
@@ -165,13 +165,13 @@ def _between(generator: Random, low: float, high: float) -> float:
 
 
 def _share(generator: Random) -> float:
-    """A number in (0, 1): any, or a float near 0, or one as near to 1."""
+    """Return a number in (0, 1): any, a float near 0, or one near 1."""
     near = from_ordinal(generator.randint(ordinal(2.0**-53), ordinal(0.5)))
     return generator.choice((generator.uniform(2.0**-20, 1.0), near, 1.0 - near))
 
 
 def _poisson(generator: Random) -> float:
-    """Poisson's ratio in (-1, 1/2), its ends and zero as likely as the middle."""
+    """Return Poisson's ratio in (-1, 1/2); its ends and 0 are as likely as the middle."""
     near = from_ordinal(generator.randint(ordinal(2.0**-52), ordinal(0.25)))
     signed = generator.choice((-1, 1)) * near
     return generator.choice((generator.uniform(-1.0, 0.5), -1.0 + near, 0.5 - near, signed))

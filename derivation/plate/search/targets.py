@@ -70,7 +70,7 @@ def targets(names: Sequence[str] = ()) -> tuple[Target, ...]:
 
 
 def recorded(check: Path, contact: Path) -> tuple[dict[str, float], dict[str, list[str]]]:
-    """By kernel, worst ratios of the committed check, and worst arguments of the contact law."""
+    """Return the worst ratios of the committed check, and worst arguments of the contact law."""
     rows = json.loads(check.read_text())["rows"] if check.is_file() else []
     ratios = {row["kernel"]: row["double"]["ratio"] for row in rows}
     worst = json.loads(contact.read_text())["rows"] if contact.is_file() else []
@@ -85,7 +85,7 @@ def recorded(check: Path, contact: Path) -> tuple[dict[str, float], dict[str, li
 
 
 def closed_target(domain: Domain, kernel: Kernel) -> Target:
-    """A kernel of the manifest, held to its budget and what conditioning allows."""
+    """Return the target of a function of the manifest, with its budget and conditioning."""
     share, every = _SHARES.get(kernel.name, _SHARE_OF_SUMS if kernel.modes else _SHARE)
     return target.closed_target(JUDGE, domain, kernel, draw, share, every)
 
@@ -94,7 +94,7 @@ def closed_target(domain: Domain, kernel: Kernel) -> Target:
 
 
 def _law_target(name: str) -> Target:
-    """A kernel of the contact law, held to so many ULP of its largest part."""
+    """Return the target of a function of the contact law, with ULP_OF_LAW as tolerance."""
     module = importlib.import_module(f"generated.{'impact' if name == 'impact' else 'contact_law'}")
     function = getattr(module, name)
     parameters = inspect.signature(function).parameters.values()

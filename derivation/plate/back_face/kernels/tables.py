@@ -10,7 +10,7 @@ THIN = sp.Rational(1, 20)
 WIDE = 1 / THIN
 """a/h above which the series of a wide contact is used; below, a/b < 1 where h/b is THIN."""
 FADED = 46
-"""T - T_1 above which modes are omitted: T^3 e^(-T) is below 1e-15 there."""
+"""T minus T of the first mode, above which modes are omitted: T^3 e^(-T) is below 1e-15."""
 
 
 def numbers() -> Numbers:
@@ -19,8 +19,12 @@ def numbers() -> Numbers:
         "back_face_numbers",
         "Constants of the back face: limits of the methods for its stress.",
         (
-            Constant("THIN", float(THIN), "h/b below which another plate's sum is used."),
+            Constant("THIN", float(THIN), "h/b below which the sum for this h/b is used."),
             Constant("WIDE", float(WIDE), "a/h above which a series in (2 h/a)^2 is used."),
-            Constant("FADED", float(FADED), "T beyond which modes are omitted."),
+            Constant(
+                "FADED",
+                float(FADED),
+                "T minus T of the first mode, beyond which modes are omitted.",
+            ),
         ),
     )

@@ -48,8 +48,8 @@ def effect_numbers() -> Numbers:
         "effect_numbers",
         "Constants of the effects: power series, bounds for the finite radius, factors.",
         (
-            Constant("WALL_DEPTH", rows[0], "Finite radius: -F/alpha in powers of alpha^2."),
-            Constant("WALL_SLOPE", rows[1], "Finite radius: -S/alpha in powers of alpha^2."),
+            Constant("WALL_DEPTH", rows[0], "-F/alpha of the finite radius in powers of alpha^2."),
+            Constant("WALL_SLOPE", rows[1], "-S/alpha of the finite radius in powers of alpha^2."),
             Constant("ZENER", factors[0], "Factor of Zener's parameter."),
             Constant("PERIOD", factors[1], "Factor of the bending period."),
             Constant(
@@ -68,8 +68,8 @@ def effect_numbers() -> Numbers:
             Constant(
                 "WALL_GROWTH",
                 above(wall_growth_ball()),
-                "And (s^2 - 1) WALL_GROWTH alpha^3 more if the radius grows from a to s a, "
-                "s alpha < 1.",
+                "If a grows to s a < b, S changes by at most "
+                "(s^2 - 1) (K A^3 + WALL_GROWTH alpha^3).",
             ),
         ),
     )

@@ -1,4 +1,4 @@
-"""Formulas of the effects as code computes them, each proved equal to one of its link."""
+"""Formulas of the effects as the code computes them, each proved equal to that of the theory."""
 
 import sympy as sp
 
@@ -71,7 +71,7 @@ def sphere() -> Routine:
 
 @named
 def bent_plate() -> Claims:
-    """Return the contribution of bending to F and S."""
+    """Return the contributions of bending to F and S."""
     part, over, depth = sp.symbols("part over depth", positive=True)
     share = bending().expression
     return Claims(

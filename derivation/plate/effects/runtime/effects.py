@@ -82,7 +82,7 @@ def side_wall(alpha: ArrayLike) -> Contribution:
 
     Returns
     -------
-    Share
+    Contribution
         Contributions to F and S [1], both negative, in the shape of the argument; NaN outside
         the domain.
 
@@ -117,7 +117,7 @@ def bending(a_ratio: ArrayLike, eta: ArrayLike) -> Contribution:
 
     Returns
     -------
-    Share
+    Contribution
         Contributions to F and S [1], in the arguments' broadcast shape; NaN outside the domain.
 
     Examples
@@ -155,7 +155,7 @@ def zener_number(
     m : array_like
         sphere mass [kg]; m > 0
     v0 : array_like
-        speed of approach [m/s]; v0 > 0
+        impact speed of the sphere [m/s]; v0 > 0
     lam, mu : array_like
         Lame constants of the plate [Pa]; mu > 0, 3 lam > -2 mu
     rho : array_like
@@ -220,7 +220,7 @@ def bending_period(
 @in_manifest("T_e", domain="h > 0, 3 * lam > -2 * mu, mu > 0, rho > 0")
 @quiet
 def echo_time(h: ArrayLike, lam: ArrayLike, mu: ArrayLike, rho: ArrayLike) -> np.ndarray:
-    """Compute the time of two reflections of a pressure wave through the thickness.
+    """Compute the time of two round trips of a pressure wave through the thickness.
 
     Formula, H = 2h::
 

@@ -28,7 +28,7 @@ _NEAREST = 2**10
 
 
 def wave_families() -> Iterator[HardCase]:
-    """Yield all of them."""
+    """Yield the hard cases of the plate's waves."""
     return chain(
         _lowest_switches(), _influence_switches(), _branch_switches(), _lowest(),
         _influence(), _branches(), _shapes(),
@@ -189,7 +189,7 @@ def _shapes() -> Iterator[HardCase]:
 
 
 def _same() -> dict[str, Inputs]:
-    """Functions of a wave number, and their other arguments."""
+    """Return the other arguments of each function of a wave number."""
     found = {kernel: exactly(nu=0.25) for kernel in LOWEST}
     found[INFLUENCE] = exactly(kap=2.5, nu=0.25)
     return found | {kernel: exactly(nu=0.25, index=2.0) for kernel in BRANCHES}

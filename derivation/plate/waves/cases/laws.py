@@ -13,7 +13,7 @@ from derivation.plate.waves import oracle as inertia_balls
 
 _STEP, _DIGITS = Fraction(1, 2**40), 30
 _AT_REST = Fraction(1, 2**60)
-"""Frequency for the condition numbers of a static load, where it has no effect."""
+"""kap over min(x^2, x^4) for condition numbers of a static load, where it has no effect."""
 
 
 def differences(values: Values, *places: int) -> Callable[[Given, Sequence[arb]], Sequence[arb]]:
@@ -40,7 +40,7 @@ def differences(values: Values, *places: int) -> Callable[[Given, Sequence[arb]]
 
 
 def _of_lowest(function: Callable[..., arb], root: bool = False) -> HardLaw:
-    """Return a quantity of A0 at x and nu, or its square root."""
+    """Return the reference of a quantity of A0 at x and nu, or of its square root."""
 
     def values(given: Given, digits: int) -> tuple[arb]:
         found = function(*given, digits=digits)
@@ -67,7 +67,7 @@ def _conditions(given: Given, values: Sequence[arb]) -> list[arb]:
 
 
 def _of_branch(kind: str, function: Callable[..., arb], root: bool = False) -> HardLaw:
-    """Return frequency or residue of a branch, counted from 0."""
+    """Return the reference of a branch's frequency or residue; branches are counted from 0."""
 
     def values(given: Given, digits: int) -> tuple[arb]:
         x, nu, index = given

@@ -29,7 +29,7 @@ _BY_KAP = {over: sp.Integer(1), level: -gam, m: sp.Integer(-1)}
 
 
 class SlopeOfShc(sp.Function):
-    """Return (cosh p - sinh(p)/p)/(2 p^2) as a function of p^2."""
+    """(cosh p - sinh(p)/p)/(2 p^2) as a function of p^2."""
 
 
 class Shc(sp.Function):

@@ -133,7 +133,7 @@ def whole_less_one() -> Routine:
         statements,
         (-above / ((1 + fading_p) * (1 + fading_q)),),
         (exact - 1,),
-        "E - 1, E = (sinh S - S shc d)/(cosh S + cosh d).",
+        "Return E - 1, E = (sinh S - S shc d)/(cosh S + cosh d).",
         WAVE,
         reduce_exponentials,
     )
@@ -151,7 +151,7 @@ def residue(is_shallow: bool) -> Routine:
         (Let(root, x * own),),
         (value,),
         (-1 / sp.diff(with_roots(stiffness(True)), kap),),
-        "-1/Ba' at A0.",
+        "Return -1/Ba' at A0.",
         {**WAVE, steep: steepness_anywhere()},
         lambda e: at_zero(e, True),
     )
@@ -187,7 +187,7 @@ def plate() -> Routine:
         (),
         ((sp.Rational(1, 2) - nu) / (1 - nu), 1 / (2 * (1 - nu))),
         (gam, 1 - gam),
-        "gam = mu/(lam + 2 mu), and 1 - gam.",
+        "Return gam = mu/(lam + 2 mu), and 1 - gam.",
         {nu: (1 - 2 * gam) / (2 * (1 - gam))},
     )
 
@@ -200,7 +200,7 @@ def wave_numbers() -> Routine:
         (Let(xi, slope * x * x), Let(left, 1 - xi)),
         (xi, left, sp.sqrt(1 - gam * xi), sp.sqrt(left)),
         tuple(WAVE[part] for part in (xi, left, P, Q)),
-        "xi = kap/x^2, 1 - xi, p/x and q/x.",
+        "Return xi = kap/x^2, 1 - xi, p/x and q/x.",
         WAVE,
         in_p_and_q,
     )

@@ -34,7 +34,7 @@ def numbers() -> Numbers:
             Constant("SMALL", float(SMALL), "x below which the fraction is 1 minus a difference."),
             Constant("NEAR", float(NEAR), "S below which F is a power series, for kap <= x^2."),
             Constant("CLOSE", float(CLOSE), "p^2 below which differences are power series."),
-            Constant("STEPS", STEPS, "Newton steps from a starting error of a tenth."),
+            Constant("STEPS", STEPS, "Newton steps from a starting error of 10 %."),
             Constant("RAYLEIGH", rayleigh_polynomial(), "Rayleigh's xi as a polynomial in gam."),
             Constant("FACTORIALS", factorials, "1/(2n + 3)!: coefficients of F in S^2 and d^2."),
         ),

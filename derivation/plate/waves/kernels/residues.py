@@ -46,7 +46,6 @@ class _Parts:
     """
 
     def __init__(self, bends: bool) -> None:
-        """Insert the parts."""
         shear = 4 * square
         self.scale: Facts = {}
         if bends:

@@ -79,7 +79,7 @@ def product_at_zero() -> Routine:
         (),
         ((1 + left) ** 2 * sp.tanh(x * P) / sp.tanh(x * Q),),
         (4 * p * q / x_h**2,),
-        "4 P Q at A0.",
+        "Return 4 P Q at A0.",
         WAVE,
         lambda e: at_zero(e, True),
     )

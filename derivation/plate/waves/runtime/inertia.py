@@ -82,14 +82,14 @@ def bending_frequency(x: ArrayLike, nu: ArrayLike) -> np.ndarray:
     Formula::
 
         Omega = sqrt(kap),   Ba(kap) = 0,   0 < kap < x^2
-        Omega -> x^2 sqrt(4/(3 (1 - nu)) / 2) = phi^2 sqrt(D/(rho H)) h/c_T for x -> 0
+        Omega -> x^2 sqrt(2/(3 (1 - nu))) = phi^2 sqrt(D/(rho H)) h/c_T for x -> 0
 
     Parameters
     ----------
     x : array_like
-        Wave number times half-thickness, phi h [1].
+        Wave number times half-thickness, phi h [1]; 1e-90 <= x <= 1e90.
     nu : array_like
-        Poisson's ratio [1].
+        Poisson's ratio [1]; -1 < nu < 0.5.
 
     Returns
     -------
@@ -118,9 +118,9 @@ def bending_residue(x: ArrayLike, nu: ArrayLike) -> np.ndarray:
     Parameters
     ----------
     x : array_like
-        Wave number times half-thickness, phi h [1].
+        Wave number times half-thickness, phi h [1]; 1e-90 <= x <= 1e90.
     nu : array_like
-        Poisson's ratio [1].
+        Poisson's ratio [1]; -1 < nu < 0.5.
 
     Returns
     -------
@@ -149,9 +149,9 @@ def bending_share(x: ArrayLike, nu: ArrayLike) -> np.ndarray:
     Parameters
     ----------
     x : array_like
-        Wave number times half-thickness, phi h [1].
+        Wave number times half-thickness, phi h [1]; 1e-90 <= x <= 1e90.
     nu : array_like
-        Poisson's ratio [1].
+        Poisson's ratio [1]; -1 < nu < 0.5.
 
     Returns
     -------
@@ -296,11 +296,11 @@ def dynamic_influence(x: ArrayLike, kap: ArrayLike, nu: ArrayLike) -> tuple[np.n
     Parameters
     ----------
     x : array_like
-        Wave number times half-thickness, phi h [1].
+        Wave number times half-thickness, phi h [1]; 1e-40 <= x <= 1e40.
     kap : array_like
-        (omega h/c_T)^2 [1]; 0 is a static load.
+        (omega h/c_T)^2 [1]; 0 <= kap <= 1e80, 0 for a static load.
     nu : array_like
-        Poisson's ratio [1].
+        Poisson's ratio [1]; -1 < nu < 0.5.
 
     Returns
     -------

@@ -59,7 +59,7 @@ FELT = P * 3 * SINE_MINUS / (a * phi) ** 3
 
 @cache
 def growing_contact() -> Proof:
-    """Return the modal force of a growing contact, and prove that Hertz pressure is one."""
+    """Prove the modal force of a growing contact, and that Hertz pressure is that of one."""
     flat_punch()
     c, depth = sp.symbols("c u_1", positive=True)
     step = sp.diff(P * (c / a) ** 3, c)

@@ -28,7 +28,7 @@ _RIGIDITY_OVER_MASS = PLANE_STRAIN_MODULUS * (2 * h) ** 2 / (12 * rho)
 
 @cache
 def bending_waves() -> Proof:
-    """Return the equation of motion for w = J0(phi r), with the Laplacian applied twice."""
+    """Prove the frequency of J0(phi r), and the velocity w' of an infinite plate under a force."""
     shape = sp.besselj(0, phi * r)
 
     def laplacian(w: sp.Expr) -> sp.Expr:

@@ -135,14 +135,14 @@ def accuracy(
     ------
     ValueError
         If a method is unknown, the scene cannot be used, or `update` is combined with `methods`,
-        `scene` or `out`.
+        `quick`, `scene` or `out`.
     OSError
         If the file cannot be written.
     """
-    if update and (methods or scene is not None or out is not None):
+    if update and (methods or quick or scene is not None or out is not None):
         raise ValueError(
             "--update replaces the whole committed measurement and cannot be combined with "
-            "--method, --scene or --out; remove --update, or these options"
+            "--method, --quick, --scene or --out; remove --update, or these options"
         )
     path = recorded_in(MEASURED_ACCURACY, update, out)
     regime = None

@@ -205,8 +205,8 @@ def _explained(path: Path) -> Iterator[None]:
 def sources(*rooms: str | Path) -> Iterator[Path]:
     """Yield source files (``.py``, ``.j2`` and ``.toml``) in a fixed order.
 
-    Text names a folder or a file of this package, or is a pattern like ``mathematics/*/theory*``; other
-    folders and files are given by path.
+    Text names a folder or a file of this package, or is a pattern like
+    ``mathematics/*/theory*``; other folders and files are given by path.
     """
     for room in rooms:
         for place in sorted(PACKAGE.glob(room)) if isinstance(room, str) else [room]:

@@ -114,7 +114,9 @@ class Record:
 
     def _repr_markdown_(self) -> str:
         """Return the formula with meaning and proof, for a notebook."""
-        what = f"{to_markdown(self.meaning)} [{self.unit}], equation ({self.equation})"
+        what = f"{to_markdown(self.meaning)} [{self.unit}]"
+        if self.equation:
+            what += f", equation ({self.equation})"
         return f"{self._repr_latex_()}\n\n{what}\n\n{self.proof._repr_markdown_()}"
 
     def _repr_latex_(self) -> str:

@@ -156,12 +156,12 @@ def digits(quick: bool) -> list[Growth]:
     return [
         Growth(
             "digits", "small-a series in balls, set-up", tuple(asked), tuple(setups), *setup_slope,
-            "zeros of J0 to that precision: more of them, and each dearer", None,
+            "zeros of J0 to that precision: more of them, each with a longer run time", None,
         ),
         growth(
             "digits", "small-a series in balls, one point", asked,
             [partial(call, a) for call in balls],
-            "as many more terms as digits; the interpreter's share of a term outweighs its bits",
+            "the terms grow with the digits; the interpreter takes most of the time of each",
         ),
         growth(
             "digits", "small-a series in mpmath, one point", asked,

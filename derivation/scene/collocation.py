@@ -13,7 +13,9 @@ ONSET = 6
 """t = T x^6: a half-space's onset goes by t^(1/2), a bent plate's by t^(1/3)."""
 NEWTON = 30
 """Steps of Newton's iteration at most."""
-_CLOSE, _NEARLY, _NEXT = 1e-15, 1e-12, 1e-14
+_CLOSE, _NEARLY = 1e-15, 1e-12
+NEXT = 1e-14
+"""Size of a step of Newton's iteration, of the radii, that is rounding."""
 _SAFETY = 0.9  # part of the length that the sizes of the coefficients allow
 _LEAST = 0.01  # least square of a continued row, over the square at the end of its element
 _HALVINGS = 60
@@ -85,8 +87,8 @@ def settled(size: float, before: float) -> bool:
     return size <= _CLOSE or (size <= _NEARLY and size > 0.1 * before)
 
 
-def converged(size: float, before: float, order: int) -> bool:
-    """Whether the step after one of this size would be rounding.
+def converged(size: float, before: float, order: int, enough: float = NEXT) -> bool:
+    """Whether the step after one of this size would be rounding, or small enough.
 
     Parameters
     ----------
@@ -94,10 +96,12 @@ def converged(size: float, before: float, order: int) -> bool:
         Sizes of the last step and of the one before it, infinite if there was none.
     order
         Order of convergence: 2 of Newton's iteration, 1 where its slope is approximate.
+    enough
+        Size of a step that is small enough.
     """
     if settled(size, before):
         return True
-    return size < before < math.inf and size * (size / before) ** order <= _NEXT
+    return size < before < math.inf and size * (size / before) ** order <= enough
 
 
 def change_of_length(sizes: Array, tolerance: float) -> tuple[float, float]:

@@ -10,9 +10,13 @@ from derivation.scene.quadrature import gauss
 
 
 def chebyshev(s: Array, degree: int) -> Array:
-    """Return the Chebyshev polynomials up to a degree at points of [-1, 1], along a last axis."""
-    angle = np.arccos(s)[..., None]
-    return np.asarray(np.cos(angle * np.arange(degree + 1)), dtype=np.float64)
+    """Return the Chebyshev polynomials up to a degree at points of [-1, 1], along a last axis.
+
+    The cosines follow from the tangent of half the angle, which NumPy may compute faster.
+    """
+    t = np.tan(np.arccos(s)[..., None] * (0.5 * np.arange(degree + 1)))
+    square = t * t
+    return np.asarray((1.0 - square) / (1.0 + square), dtype=np.float64)
 
 
 def by_growth(table: Array) -> Array:

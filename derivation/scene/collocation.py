@@ -14,7 +14,9 @@ ONSET = 6
 on a plate that bends."""
 NEWTON = 30
 """Largest number of steps of Newton's iteration."""
-_CLOSE, _NEARLY, _NEXT = 1e-15, 1e-12, 1e-14
+_CLOSE, _NEARLY = 1e-15, 1e-12
+NEXT = 1e-14
+"""Relative step of Newton's iteration that is due to rounding [1]."""
 _SAFETY = 0.9  # part of the length that the sizes of the coefficients allow
 _LEAST = 0.01  # least square of a continued row, over the square at the end of its element
 _HALVINGS = 60
@@ -92,8 +94,8 @@ def settled(size: float, before: float) -> bool:
     return size <= _CLOSE or (size <= _NEARLY and size > 0.1 * before)
 
 
-def converged(size: float, before: float, order: int) -> bool:
-    """Return whether the step after one of this size would be due to rounding.
+def converged(size: float, before: float, order: int, enough: float = NEXT) -> bool:
+    """Return whether the step after one of this size would be due to rounding, or small enough.
 
     Parameters
     ----------
@@ -101,10 +103,12 @@ def converged(size: float, before: float, order: int) -> bool:
         Sizes of the last step and of the one before it, infinite if there was none.
     order
         Order of convergence: 2 for Newton's iteration, 1 with an approximate derivative.
+    enough
+        Size of a step that is small enough.
     """
     if settled(size, before):
         return True
-    return size < before < math.inf and size * (size / before) ** order <= _NEXT
+    return size < before < math.inf and size * (size / before) ** order <= enough
 
 
 def change_of_length(sizes: Array, tolerance: float) -> tuple[float, float]:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from derivation.engine.activity import announce
-from derivation.scene.collocation import NEWTON, ONSET, change_of_length, radau
+from derivation.scene.collocation import NEWTON, NEXT, ONSET, change_of_length, radau
 from derivation.scene.dynamic_problem import DynamicProblem, ImpactState
 from derivation.scene.effects.effect import Array
 from derivation.scene.effects.inertia import WIDER
@@ -31,6 +31,8 @@ TOWARDS = 0.75
 """Largest length of an element over the remaining time of the contact."""
 OWN = 1e3
 """Factor of the tolerance for the radius, relative to the largest value in its own element."""
+SOLVED = 1e-3
+"""Tolerance of Newton's iteration over that of the element, if its derivative is exact."""
 ROUGH = 1e2
 """Factor of the tolerance for the force of a viscoelastic contact."""
 CONTACTS, ELEMENTS, WORK = 100, 20_000, 3e7
@@ -159,7 +161,7 @@ def steps_of(problem: DynamicProblem, n: int, work: float = WORK) -> int:
 
 def weight_of(problem: DynamicProblem, n: int) -> float:
     """Return the work of an element: its run time in units of about 0.4 microseconds."""
-    modes, degree = problem.contact.modes, len(problem.contact.table) - 1
+    modes, degree = problem.contact.modes, problem.contact.degree
     each = 0.3 * modes.omega.size + (0.1 + 0.003 * degree) * modes.phi.size
     return 2000.0 + n * each
 
@@ -215,6 +217,9 @@ def contact(
     found: list[TimeElement] = []
     x, length, state, first = _begun(begin, radius), FIRST, begin, radius
     origin = start - x**ONSET
+    # Yield events are located more closely than the tolerance of an element.
+    exact = not (problem.retardation_time or problem.yielding)
+    enough = max(NEXT, SOLVED * tolerance) if exact else NEXT
     # At the start the tolerance refers to the expected size of each quantity.
     scale = np.full((LOST, 1), 0.1)
     for step in range(tried, most):
@@ -228,9 +233,9 @@ def contact(
             guess = found[-1].element.slope_beyond(A, x + length * radau(n).x)
         else:
             guess = np.zeros(n) if first else _onset(problem, n, length, -begin.separation_speed)
-        made = element(problem, n, x, length, state, radius, guess)
+        made = element(problem, n, x, length, state, radius, guess, enough)
         if made is None and found:  # an oscillating slope is no guess beyond its own element
-            made = element(problem, n, x, length, state, radius, np.zeros(n))
+            made = element(problem, n, x, length, state, radius, np.zeros(n), enough)
         if made is None:
             length *= 0.5
             continue
@@ -255,7 +260,7 @@ def contact(
         # A viscoelastic contact separates before it is flat, and may meet again within an element.
         ending = problem.retardation_time or float(made.element.rows[P].sum()) <= 0.0
         if ending and (end := made.element.fall(P)) is not None:
-            last = _let_go(problem, n, made, end, state, radius)
+            last = _let_go(problem, n, made, end, state, radius, enough)
             ended = origin + (last.element.x + last.element.length) ** ONSET
             pieces = (*found, last)
             tries = step + 1 - tried
@@ -370,12 +375,13 @@ def _let_go(
     end: float,
     state: ImpactState,
     radius: float,
+    enough: float = NEXT,
 ) -> TimeElement:
     """Return the element shortened to end where its force vanishes."""
     for _ in range(3):
         x = made.element.x
         guess = made.element.slope_at(x + (end - x) * radau(n).x)
-        shorter = element(problem, n, x, end - x, state, radius, guess)
+        shorter = element(problem, n, x, end - x, state, radius, guess, enough)
         if shorter is None:
             break
         made, end = shorter, shorter.element.zero_near_end(P)

@@ -48,8 +48,9 @@ class ContactSamples(NamedTuple):
 class ContactTables:
     """Tables of a contact with dynamic modes, up to a contact radius `top` [m].
 
-    With x the radius over `top`, they contain Chebyshev coefficients of the forces over x^3, of
-    depth and s_j - 1 over x^2, and of the derivatives of both over x^2 and x.
+    With x the radius over `top`, `table` contains Chebyshev coefficients of the forces over x^3, of
+    depth and s_j - 1 over x^2, and of the derivatives of both over x^2 and x: four tables with a
+    row for each polynomial.
     """
 
     modes: Modes
@@ -58,17 +59,30 @@ class ContactTables:
     table: Array
     pointwise: bool = False
 
+    @property
+    def degree(self) -> int:
+        """Degree of the polynomials."""
+        return int(self.table.shape[1]) - 1
+
     def at(self, a: Array) -> ContactSamples:
         """Return the contact at radii [m]; NaN below 0 and above `top`."""
-        x = np.where((a >= 0.0) & (a <= self.top), a / self.top, np.nan)
-        found = chebyshev(2.0 * x - 1.0, self.table.shape[0] - 1) @ self.table
-        x, count = x[:, None], found.shape[1] // 4
-        powers = x**3, x**2, x * x / self.top, x / self.top
-        parts = (found[:, k * count : (k + 1) * count] * powers[k] for k in range(4))
-        forces, squares, forces_a, squares_a = parts
+        x = self._places(a)
+        powers = np.array([x**3, x**2, x * x / self.top, x / self.top])
+        # There are fewer polynomials to scale than values.
+        scaled = powers[..., None] * chebyshev(2.0 * x - 1.0, self.degree)
+        forces, squares, forces_a, squares_a = scaled @ self.table
         return ContactSamples(
             forces, forces_a, squares[:, 0], squares_a[:, 0], squares[:, 1:], squares_a[:, 1:]
         )
+
+    def forces(self, a: Array) -> Array:
+        """Return only the forces of `at`."""
+        x = self._places(a)
+        return np.asarray((x**3)[:, None] * chebyshev(2.0 * x - 1.0, self.degree) @ self.table[0])
+
+    def _places(self, a: Array) -> Array:
+        """Return radii [m] over `top`; NaN below 0 and above it."""
+        return np.where((a >= 0.0) & (a <= self.top), a / self.top, np.nan)
 
 
 def contact_of(law: ContactLaw, plate: ModalPlate, top: float, pointwise: bool) -> ContactTables:
@@ -111,5 +125,5 @@ def contact_of(law: ContactLaw, plate: ModalPlate, top: float, pointwise: bool) 
     count = table.shape[1] // 2
     growths[:, :count] += 3.0 * table[:, :count]  # d(x^3 f)/dx = x^2 (3 f + x f')
     growths[:, count:] += 2.0 * table[:, count:]
-    whole = np.concatenate((table, growths), axis=1)
-    return ContactTables(plate.modes, law.model.R, top, whole, pointwise)
+    tables = (table[:, :count], table[:, count:], growths[:, :count], growths[:, count:])
+    return ContactTables(plate.modes, law.model.R, top, np.array(tables), pointwise)

@@ -16,7 +16,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from derivation.scene.collocation import NEWTON, ONSET, Element, converged, newton_step, radau
+from derivation.scene.collocation import (
+    NEWTON,
+    NEXT,
+    ONSET,
+    Element,
+    converged,
+    newton_step,
+    radau,
+)
+from derivation.scene.contact_tables import ContactSamples
 from derivation.scene.dynamic_problem import DynamicProblem, ImpactState, Part
 from derivation.scene.effects.effect import Array
 from derivation.scene.oscillators import Response, response_at
@@ -61,11 +70,7 @@ class Values(NamedTuple):
     approach: Array
     force: Array
     felt: Array
-    load_a: Array
     load_y: Array | None
-    depth: Array
-    depth_a: Array
-    share: Array
 
 
 class TimeElement(NamedTuple):
@@ -139,43 +144,70 @@ def _bent_by(problem: DynamicProblem, nodes: Nodes, share: Array, driven: Array)
     return found * nodes.by_t
 
 
-def values_at(
-    problem: DynamicProblem, nodes: Nodes, start: ImpactState, radius: float, y: Array
-) -> Values:
-    """Return forces, depths and deflections at the nodes for a slope da/dx at the nodes."""
+class _Load(NamedTuple):
+    """Contact force and forces of each shape, in columns, at radii a with slopes y = da/dx.
+
+    `by_a` has the derivatives with respect to a; `by_y` those with respect to y, of a viscoelastic
+    contact.
+    """
+
+    a: Array
+    y: Array
+    forces: Array
+    by_a: Array
+    by_y: Array | None
+
+
+def _load_at(
+    problem: DynamicProblem, nodes: Nodes, a: Array, y: Array, at: ContactSamples
+) -> _Load:
+    """Return the forces at the nodes for contact radii and their slopes."""
+    load = at.forces / problem.force
+    load_a = at.forces_a * (problem.a / problem.force)
+    if not problem.retardation_time:
+        return _Load(a, y, load, load_a, None)
+    # The pressure keeps its shape: the retarded part drives each shape in the same proportion.
+    share = problem.retardation_time / nodes.rate * load_a[:, 0] / load[:, 0]
+    load_y = share[:, None] * load
+    load = load + load_y * y[:, None]
+    load_a = load_a + 2.0 * load_y * (y / a)[:, None]  # d2P/da2 is nearly (2/a) dP/da
+    return _Load(a, y, load, load_a, load_y)
+
+
+def _forces_at(problem: DynamicProblem, nodes: Nodes, radius: float, y: Array) -> _Load:
+    """Return the forces at the nodes without their derivatives, for a slope da/dx."""
     a = radius + nodes.by_x @ y
-    at = problem.at(problem.a * a)
-    load, load_a, load_y = (
-        at.forces / problem.force,
-        at.forces_a * (problem.a / problem.force),
-        None,
-    )
     if problem.retardation_time:
-        # The pressure keeps its shape: the retarded part drives each shape in the same proportion.
-        share = problem.retardation_time / nodes.rate * load_a[:, 0] / load[:, 0]
-        load_y = share[:, None] * load
-        load = load + load_y * y[:, None]
-        load_a = load_a + 2.0 * load_y * (y / a)[:, None]  # d2P/da2 is nearly (2/a) dP/da
-    force, driven = load[:, 0], load[:, 1:]
+        return _load_at(problem, nodes, a, y, problem.contact.at(problem.a * a))
+    forces = problem.contact.forces(problem.a * a) / problem.force
+    return _Load(a, y, forces, np.empty((0, 0)), None)
+
+
+def deflections_at(problem: DynamicProblem, nodes: Nodes, radius: float, y: Array) -> Array:
+    """Return the deflection of each shape at the nodes for a slope da/dx there."""
+    load = _forces_at(problem, nodes, radius, y)
+    return nodes.even + nodes.moved + _bent(problem, nodes, load.forces[:, 1:])
+
+
+def _values(
+    problem: DynamicProblem, nodes: Nodes, start: ImpactState, load: _Load, bent: Array
+) -> Values:
+    """Return the values at the nodes for the forces there and the deflections that they cause."""
+    force = load.forces[:, 0]
     slowed = nodes.by_t @ force
     fallen = 0.5 * problem.weight * nodes.since**2 - nodes.twice @ force
     # Uniform motion is separated: the separation speed may be far below both speeds.
-    bent = nodes.moved + _bent(problem, nodes, driven)
-    q = nodes.even + bent
+    bent = nodes.moved + bent
     return Values(
-        a,
-        y,
+        load.a,
+        load.y,
         start.velocity + problem.weight * nodes.since - slowed,
         start.displacement + start.velocity * nodes.since + fallen,
-        q,
+        nodes.even + bent,
         start.approach - start.separation_speed * nodes.since + (fallen - bent.sum(axis=1)),
         force,
-        driven,
-        load_a,
-        load_y,
-        at.depth / problem.depth + np.vecdot(at.less, q),
-        (at.depth_a / problem.depth + np.vecdot(at.less_a, q)) * problem.a,
-        1.0 + at.less,
+        load.forces[:, 1:],
+        load.by_y,
     )
 
 
@@ -187,49 +219,63 @@ def element(
     start: ImpactState,
     radius: float,
     y: Array,
+    enough: float = NEXT,
 ) -> TimeElement | None:
-    """Return an element by Newton's iteration from a guess of da/dx; None without convergence."""
+    """Return an element by Newton's iteration from a guess of da/dx; None without convergence.
+
+    The iteration ends when a step would change the radii by at most `enough`, relative to the
+    largest of them.
+    """
     nodes, size, last = nodes_of(problem, n, x, length, start), math.inf, False
     order = 1 if problem.retardation_time else 2
     for _ in range(NEWTON):
-        at = values_at(problem, nodes, start, radius, y)
-        if not at.a.min() > 0.0:
-            return None
         if last:
-            return _piece(problem, nodes, at, start, x, length)
-        system = _system(problem, nodes, at) / nodes.t[:, None]
-        step = newton_step(system, (at.approach - at.depth) / nodes.t, nodes.by_x, at.a)
+            return _piece(problem, nodes, start, radius, y, x, length)
+        a = radius + nodes.by_x @ y
+        if not a.min() > 0.0:
+            return None
+        at = problem.at(problem.a * a)
+        load = _load_at(problem, nodes, a, y, at)
+        values = _values(problem, nodes, start, load, _bent(problem, nodes, load.forces[:, 1:]))
+        depth = at.depth / problem.depth + np.vecdot(at.less, values.q)
+        system = _system(problem, nodes, at, load, values.q) / nodes.t[:, None]
+        step = newton_step(system, (values.approach - depth) / nodes.t, nodes.by_x, a)
         if step is None:
             return None
         y, before, size = y + step[0], size, step[1]
         if size > max(1.0, before):
             return None
-        last = converged(size, before, order)
+        last = converged(size, before, order, enough)
     return None
 
 
-def _system(problem: DynamicProblem, nodes: Nodes, at: Values) -> Array:
+def _system(
+    problem: DynamicProblem, nodes: Nodes, at: ContactSamples, load: _Load, q: Array
+) -> Array:
     """Return the derivative of depth less approach with respect to da/dx, at the nodes."""
+    share = 1.0 + at.less
 
-    def by_load(load: Array) -> Array:
-        moved = _bent_by(problem, nodes, at.share, load[:, 1:])
-        return np.asarray(nodes.twice * load[:, 0] + moved, dtype=np.float64)
+    def by_load(by: Array) -> Array:
+        moved = _bent_by(problem, nodes, share, by[:, 1:])
+        return np.asarray(nodes.twice * by[:, 0] + moved, dtype=np.float64)
 
-    found = by_load(at.load_a)
-    found.flat[:: nodes.t.size + 1] += at.depth_a
+    found = by_load(load.by_a)
+    depth_a = (at.depth_a / problem.depth + np.vecdot(at.less_a, q)) * problem.a
+    found.flat[:: nodes.t.size + 1] += depth_a
     found = found @ nodes.by_x
-    return found if at.load_y is None else found + by_load(at.load_y)
+    return found if load.by_y is None else found + by_load(load.by_y)
 
 
 class Driven(NamedTuple):
     """The modes under a force: deflections and velocities at the end of an element.
 
-    At the nodes: energy of the modes, power dissipated by damping and, if requested, the velocity
-    of each shape.
+    At the nodes: deflection of each shape by the forces, energy of the modes, power dissipated by
+    damping and, if requested, the velocity of each shape.
     """
 
     q: Array
     q_dot: Array
+    bent: Array
     energy: Array
     damped: Array
     rates: Array
@@ -241,6 +287,7 @@ def _driven(
     """Return the motion of the modes under the forces of each shape."""
     modes, (end, end_rate) = problem.contact.modes, np.empty((2, problem.omega.size))
     energy, damped = np.zeros((2, nodes.t.size))
+    bent = np.empty_like(felt)
     rates = np.empty(nodes.free.shape if by_shape else (1, 0))
     for part in nodes.parts:
         some = part.oscillators
@@ -252,6 +299,7 @@ def _driven(
         rate += q_dot * of.rate[:, 0, some] - q_0 * omega * of.moved[:, 0, some]
         waves *= of.moved[..., some]
         q = waves[:, 0] + waves[:, 1]
+        bent[:, part.shapes] = part.by_shape(q)
         q += q_0 + nodes.since[:, None] * q_dot
         q += nodes.free[:, some]
         end[some], end_rate[some] = q[-1], rate[-1]
@@ -266,15 +314,27 @@ def _driven(
         q *= omega
         q *= q
         energy += (rate + q) @ (0.5 / inverse_mass)
-    return Driven(end, end_rate, energy, damped, modes.by_shape(rates) if by_shape else rates)
+    rates = modes.by_shape(rates) if by_shape else rates
+    return Driven(end, end_rate, bent, energy, damped, rates)
 
 
 def _piece(
-    problem: DynamicProblem, nodes: Nodes, at: Values, start: ImpactState, x: float, length: float
-) -> TimeElement:
-    """Return the element as polynomials, with its end."""
-    force, viscous, pointwise = at.force, at.load_y is not None, problem.contact.pointwise
-    driven = _driven(problem, nodes, start, at.felt, viscous or pointwise)
+    problem: DynamicProblem,
+    nodes: Nodes,
+    start: ImpactState,
+    radius: float,
+    y: Array,
+    x: float,
+    length: float,
+) -> TimeElement | None:
+    """Return the element as polynomials, with its end; None if a radius is not positive."""
+    load, pointwise = _forces_at(problem, nodes, radius, y), problem.contact.pointwise
+    if not load.a.min() > 0.0:
+        return None
+    by_shape = load.by_y is not None or pointwise
+    driven = _driven(problem, nodes, start, load.forces[:, 1:], by_shape)
+    at = _values(problem, nodes, start, load, driven.bent)
+    force = at.force
     lost, leak = np.zeros_like(force), np.zeros_like(force)
     if at.load_y is not None:
         felt = at.load_y[:, 1:] / at.load_y[:, :1]

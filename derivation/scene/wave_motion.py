@@ -22,7 +22,7 @@ from derivation.scene.limits import local_indentation
 from derivation.scene.motion import EnergyBalance, Motion
 from derivation.scene.quantity import counted
 from derivation.scene.scene import OUTPUTS
-from derivation.scene.time_element import DAMPED, A, E, P, V, W, Z, nodes_of, values_at
+from derivation.scene.time_element import DAMPED, A, E, P, V, W, Z, deflections_at, nodes_of
 
 IRREGULAR = 2.0
 """Estimated error of the omitted modes over the change since half as many modes [1]."""
@@ -261,7 +261,7 @@ def oscillating(
         return problem.contact.modes.by_shape(start.q)
     length = min(x - found.x, found.length)
     nodes = nodes_of(problem, found.slope.size, found.x, length, start)
-    q = values_at(problem, nodes, start, radius, found.slope_at(nodes.x)).q
+    q = deflections_at(problem, nodes, radius, found.slope_at(nodes.x))
     return np.asarray(q[-1], dtype=np.float64)
 
 

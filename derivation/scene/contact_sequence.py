@@ -14,7 +14,7 @@ from derivation.scene.effects.inertia import WIDER
 from derivation.scene.flight import meeting
 from derivation.scene.scene import IncompleteError
 from derivation.scene.time_element import LOST, A, P, TimeElement, element
-from derivation.scene.yield_events import UncutError, next_branch
+from derivation.scene.yield_events import UncutError, next_branch, turned
 from derivation.scene.yielding import Yielding
 
 FIRST, LONGEST, SHORTEST = 0.3, 0.3, 1e-13
@@ -332,13 +332,15 @@ def _lost(
             else f"{WIDER:g} times what the impact on a plate that does not deflect reaches"
         )
         remedy = "reduce impact.speed or impact.gravity, or use a lighter sphere or a thicker plate"
-    for a in (radius, 1.2 * radius):  # the present radius, and a larger one
-        at = problem.at(problem.a * np.array([min(a, beyond)]))
-        bent = at.less_a[0] @ problem.contact.modes.by_shape(state.q)
-        own = at.depth_a[0] / problem.depth
-        if a > 0.0 and not own + bent > SHARP * own:
-            why = "is not circular, because the plate is more curved than the sphere"
-            remedy = "use a smaller sphere or a thicker plate"
+    bent = problem.contact.modes.by_shape(state.q)
+    # The present radius and a larger one, of a plastic contact also where unloading begins.
+    for branch in (problem, turned(problem, radius)):
+        for a in (radius, 1.2 * radius):
+            at = branch.at(problem.a * np.array([min(a, beyond)]))
+            own = at.depth_a[0] / problem.depth
+            if a > 0.0 and not own + at.less_a[0] @ bent > SHARP * own:
+                why = "is not circular, because the plate is more curved than the sphere"
+                remedy = "use a smaller sphere or a thicker plate"
     return IncompleteError(f"the contact at {time:.6g} s {why}", remedy)
 
 

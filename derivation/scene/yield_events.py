@@ -1,12 +1,11 @@
 """Events at which a contact begins or ceases to yield: time elements end at them."""
 
-import math
 from collections.abc import Callable
 from dataclasses import replace
 from typing import TypeVar
 
 import numpy as np
-from numpy.polynomial.legendre import legder, legroots, legval
+from numpy.polynomial.legendre import legder, legroots, legtrim, legval
 
 from derivation.scene.collocation import Element, radau
 from derivation.scene.dynamic_problem import DynamicProblem, ImpactState
@@ -19,6 +18,11 @@ Made = TypeVar("Made")
 _TRIES, _CLOSE, _NEAR = 6, 1e-13, 1e-9
 """Largest number of attempts to end an element at an event; intended and largest accepted distance
 from the event over the length of the element."""
+_SAME, _HIGHER = 1e-12, 3e-13
+"""Relative change of the radius up to the event that is accepted at any distance from it, and by
+which the radius must exceed the end of its branch, so that rounding is no event."""
+_ROUNDING = 1e-15
+"""Size of coefficients that are rounding, over the largest."""
 _REAL, _BEGUN, _BEYOND = 1e-7, 1e-9, 1.05
 """Largest imaginary part due to rounding; smallest distance of an event from the start of an
 element, and end of the search in a shortened element, in its variable on [-1, 1]."""
@@ -52,6 +56,15 @@ def next_branch(
     sunk = (after.dent - branch.dent) / problem.depth
     end = found.end._replace(approach=found.end.approach - sunk)
     return found._replace(end=end), replace(problem, yielding=after)
+
+
+def turned(problem: DynamicProblem, radius: float) -> DynamicProblem:
+    """Return the problem on the branch of unloading that begins at a radius, in its unit."""
+    branch = problem.yielding
+    if branch is None or not branch.loading or not radius:
+        return problem
+    force = problem.contact.at(np.array([problem.a * radius])).force[0]
+    return replace(problem, yielding=branch.turned(problem.a * radius, float(force)))
 
 
 def cut(
@@ -89,20 +102,30 @@ def cut(
     place, nodes = _event(branch, unit, first, 1.0), radau(first.slope.size).x
     if place is None:
         return None
-    off = math.inf
+    close = False
     for _ in range(_TRIES):
         length = place - first.x
         remade = shorter(length, element_of(made).slope_at(first.x + length * nodes))
         if remade is None:
             raise UncutError
         made, again = remade, _event(branch, unit, element_of(remade), _BEYOND)
-        off = 0.0 if again is None else abs(again - place) / length
-        if again is None or off <= _CLOSE:
+        if again is None:
+            return made
+        off = abs(again - place) / length
+        # Where the radius is largest, it hardly depends on the place, which rounding changes.
+        close = off <= _NEAR or _radius_change(element_of(made), again) <= _SAME
+        if off <= _CLOSE:
             break
         place = again
-    if off > _NEAR:
+    if not close:
         raise UncutError
     return made
+
+
+def _radius_change(found: Element, x: float) -> float:
+    """Return the relative change of the radius from the end of an element to a place nearby."""
+    radius = legval([1.0, 2.0 * (x - found.x) / found.length - 1.0], found.rows[A])
+    return abs(float(radius[1] / radius[0]) - 1.0)
 
 
 def branch_after(branch: Yielding, a: float, force: float) -> Yielding:
@@ -115,9 +138,12 @@ def _event(branch: Yielding, unit: float, found: Element, last: float) -> float 
     # At an event -da/dx, or the radius less that at the end of the branch, increases through zero.
     rising = -found.slope if branch.loading else found.rows[A].copy()
     if not branch.loading:
-        rising[0] -= branch.end / unit
-    if float(np.sum(np.abs(rising[1:]))) < -float(rising[0]):  # below zero on [-1, 1]
+        rising[0] -= branch.end * (1.0 + _HIGHER) / unit
+    below = float(np.sum(np.abs(rising[1:]))) < -float(rising[0])  # zero, on [-1, 1]
+    if below and last <= 1.0:
         return None
+    # Coefficients that are rounding would make the roots of the companion matrix inaccurate.
+    rising = legtrim(rising, _ROUNDING * float(np.max(np.abs(rising))))
     roots = legroots(rising)
     real = np.sort(roots.real[np.abs(roots.imag) < _REAL])
     inside = real[(real > _BEGUN - 1.0) & (real <= last)]

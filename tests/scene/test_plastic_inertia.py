@@ -1,8 +1,15 @@
 """Plate inertia in plastic contacts: the change by what is omitted never exceeds its bound."""
 
+import math
+from random import Random
 from typing import Any
 
-from derivation.scene import read, simulate
+import pytest
+
+from derivation.checks import inertia as inertia_check
+from derivation.scene import read, simulate, waves
+from derivation.scene.law import ContactLaw
+from derivation.scene.model import InertiaSettings, Model
 from derivation.scene.result import Result
 from derivation.scene.scene import OUTPUTS
 
@@ -45,3 +52,38 @@ def test_the_bound_on_omitted_branches_covers_the_plastic_loss() -> None:
         for branches in ("A0", "all")
     )
     assert 1e-6 < largest_difference(found, reference) <= 0.5 * found.accuracy.bound
+
+
+ENDED_EARLY = (210, 213, 224, 243, 336, 395, 409, 452)
+"""Scenes of `plastic_model` in which loading ended before the largest radius by 1e-7 of a step."""
+
+
+def plastic_model(number: int) -> Model:
+    """Return a random steel plate under a sphere that yields strongly."""
+    generator = Random(f"rob {number}")
+
+    def spread(low: float, high: float) -> float:
+        return low * (high / low) ** generator.random()
+
+    h, E = 0.05, 2e11
+    b, nu = h * spread(1.5, 8.0), generator.uniform(0.0, 0.45)
+    mu = E / 2.0 / (1.0 + nu)
+    R, density, speed = h * spread(0.05, 3.0), 7800.0 * spread(0.3, 3.0), spread(1e-2, 10.0)
+    stress = E * (density * speed**2 / E) ** 0.2 * spread(0.01, 0.3)
+    branches = generator.choice(["A0", "all"])
+    settings = InertiaSettings(modes=generator.choice([6, 12, 20]), branches=branches)
+    return Model(
+        R=R, m=density * 4.0 / 3.0 * math.pi * R**3, v0=speed, h=h, b=b,
+        lam=2.0 * mu * nu / (1.0 - 2.0 * nu), mu=mu, density=7800.0, edge="paper",
+        yield_stress=stress, inertia=settings,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("number", [*ENDED_EARLY, *range(12)])
+def test_a_plastic_contact_on_a_vibrating_plate_is_followed_to_its_end(number: int) -> None:
+    model = plastic_model(number)
+    effects = inertia_check.present(model) - {"non_hertzian_pressure"}
+    found = waves.impact(ContactLaw(model, effects), 1e-4)
+    assert found.inertia.complete
+    assert 0.0 < found.restitution < 1.0
+    assert abs(found.energy_balance.residual) < 1e-6

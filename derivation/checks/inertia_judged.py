@@ -41,7 +41,7 @@ class InertiaRow:
         Relative difference from the reference's total time [1]: of the total time, or of the
         contact time if inertia is omitted.
     price, alone, worth
-        Stated bound on the change if inertia is omitted [1], largest actual change [1], and the
+        Stated bound on the change if inertia and damping are omitted [1], largest actual change [1], and the
         result that changes most.
     contacts, modes, oscillators
         Numbers of contacts, wave numbers and modes (of all branches) of the reference.
@@ -200,10 +200,9 @@ def _side(rows: Sequence[InertiaRow]) -> Side:
 
 
 COLUMNS = (
-    "dissipation", "inertia", "#scenes", "#largest error/rtol", "result", "#error/bound",
-    "#change/bound if omitted",
+    "dissipation", "inertia", "#scenes", "#error/rtol", "#error/bound", "#change/bound",
 )  # fmt: skip
-"""Column heads of the table of sides."""
+"""Column heads of the table of sides; `Side` describes the ratios, the largest of its scenes."""
 
 
 def as_data(judged: InertiaJudged, seed: int) -> dict[str, Any]:
@@ -225,7 +224,7 @@ def result(judged: InertiaJudged, seed: int) -> CheckResult:
     """Return the table of sides, and the reasons why scenes were rejected or skipped."""
     cells = [
         (side.dissipation, "included" if side.included else "omitted", side.scenes,
-         f"{side.ratio:.3f}", side.quantity, f"{side.tightest:.3f}", f"{side.price:.3f}")
+         *(f"{x:.3f}" for x in (side.ratio, side.tightest, side.price)))
         for side in sides(judged.rows)
     ]  # fmt: skip
     reasons = {"rejected": judged.refused, "skipped": judged.passed_over}

@@ -89,6 +89,13 @@ def newton_step(
     return np.asarray(shorter, dtype=np.float64), size
 
 
+def _falls(row: Array) -> Array:
+    """Return the places in [-1, 1] where a Legendre series falls through zero, ascending."""
+    roots = legroots(row)
+    inner = np.sort(roots.real[(np.abs(roots.imag) < _REAL) & (np.abs(roots.real) <= 1.0)])
+    return np.asarray(inner[legval(inner, legder(row)) < 0.0])
+
+
 def settled(size: float, before: float) -> bool:
     """Return whether steps are due to rounding: tiny, or small and no longer decreasing."""
     return size <= _CLOSE or (size <= _NEARLY and size > 0.1 * before)
@@ -155,17 +162,22 @@ class Element(NamedTuple):
         s = 2.0 * (x - self.x) / self.length - 1.0
         return np.asarray(legvander(s, self.slope.size - 1).T, dtype=np.float64)
 
-    def fall(self, row: int) -> float | None:
-        """Return x where a row first falls through zero; None if it stays positive."""
+    def fall(self, row: int, least: float = 0.0) -> float | None:
+        """Return x where a row first falls through zero; None if it stays positive.
+
+        A row that begins at zero may fall below it by `least`, its error, without a fall.
+        """
         values = radau(self.slope.size).values @ self.rows[row]
         if values.min() > _LOW * values.max():
             return None
-        roots = legroots(self.rows[row])
-        inner = np.sort(roots.real[(np.abs(roots.imag) < _REAL) & (np.abs(roots.real) <= 1.0)])
-        falls = inner[legval(inner, legder(self.rows[row])) < 0.0]
+        falls = _falls(self.rows[row])
+        if least:
+            shifted = self.rows[row].copy()
+            shifted[0] += least
+            falls = falls[falls <= min(_falls(shifted), default=-2.0)][-1:]
         if falls.size:
             return self.x + self.length * (1.0 + float(falls[0])) / 2.0
-        return self.x + self.length if values[-1] <= 0.0 else None
+        return self.x + self.length if values[-1] <= -least else None
 
     def end(self, row: int) -> float:
         """Return x where a row with a single zero, positive before it, falls through zero."""

@@ -259,7 +259,10 @@ def contact(
                 continue
         # A viscoelastic contact separates before it is flat, and may meet again within an element.
         ending = problem.retardation_time or float(made.element.rows[P].sum()) <= 0.0
-        if ending and (end := made.element.fall(P)) is not None:
+        # At first the force is smaller than its error, and must not seem to vanish.
+        onset = problem.retardation_time and not x
+        least = ROUGH * tolerance * float(largest[P, 0]) if onset else 0.0
+        if ending and (end := made.element.fall(P, least)) is not None:
             last = _let_go(problem, n, made, end, state, radius, enough)
             ended = origin + (last.element.x + last.element.length) ** ONSET
             pieces = (*found, last)

@@ -1,10 +1,15 @@
 """Plate inertia in viscoelastic contacts: its omission never changes more than is stated."""
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
-from derivation.scene import read, simulate
+from derivation.checks import inertia as inertia_check
+from derivation.checks import inertia_judged as random_scenes
+from derivation.scene import read, simulate, waves
+from derivation.scene.law import ContactLaw
+from derivation.scene.model import InertiaSettings, model_of
 from derivation.scene.scene import OUTPUTS
 
 SOFT_BLOCK: dict[str, Any] = {
@@ -28,3 +33,13 @@ def test_results_at_a_loose_tolerance_are_within_their_bound(
     for name in OUTPUTS:
         off = abs(getattr(found, name) / getattr(reference, name) - 1.0)
         assert off <= found.accuracy.bound + reference.accuracy.bound
+
+
+@pytest.mark.parametrize(("number", "modes"), [(183, 8), (1017, 32)])
+def test_the_error_of_the_force_at_the_onset_is_no_separation(number: int, modes: int) -> None:
+    """A first contact of 1e-18 s was stated, followed by the whole impact as a second one."""
+    data, _ = random_scenes.scene(number, seed=3)
+    model = replace(model_of(read(data)), inertia=InertiaSettings(modes=modes, branches="A0"))
+    found = waves.impact(ContactLaw(model, inertia_check.present(model)), 1e-4)
+    assert len(found.inertia.contacts) == 1
+    assert 0.5 < found.contact_time * model.v0 / found.max_indentation < 50.0

@@ -41,8 +41,8 @@ class InertiaRow:
         Relative difference from the reference's total time [1]: of the total time, or of the
         contact time if inertia is omitted.
     price, alone, worth
-        Stated bound on the change if inertia and damping are omitted [1], largest actual change [1], and the
-        result that changes most.
+        Stated bound on the change if inertia and damping are omitted [1], largest actual change
+        [1], and the result that changes most.
     contacts, modes, oscillators
         Numbers of contacts, wave numbers and modes (of all branches) of the reference.
     """

@@ -16,7 +16,7 @@ RENEWED = {
     "effects": "platecontact check effects -n 3000 --update",
     "elastodynamics": "python -m derivation.checks.finite_elements",
     "hard": "platecontact check hard-cases --update",
-    "inertia": "platecontact check inertia -n 500 --seed 3 --update",
+    "inertia": "platecontact check inertia -n 600 --seed 3 --update",
     "moving": "platecontact benchmark --dynamic --update",
     "rewrite": "platecontact rewrite --update",
     "speed": "platecontact check timing --update",

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 # The coefficients below are fitted, with no value from the literature unless one is named. Tested:
 # `check inertia` compares the bounds that follow from them with simulations of random scenes;
-# reports/data/inertia.json holds 500 of them.
+# reports/data/inertia.json contains 600 of them.
 MAX_DYNAMIC_FACTOR = 2.0
 """Largest deviation of a mode from its quasi-static response, over its static deflection: that of
 an undamped oscillator under a step force."""

@@ -1,4 +1,4 @@
-"""Work of a simulation: a looser tolerance does not need slower functions or more iterations."""
+"""Run time of a simulation: a looser tolerance needs no slower functions and no more steps."""
 
 from collections import Counter
 from typing import Any

@@ -27,7 +27,7 @@ PLATE = Plate(0.1, 0.02, 70e9, 0.3, 2700.0)
 COARSE = Grading(contact=5, thickness=1.0, far=2.0, edge=0)
 FINE = Grading(contact=10)
 SMALL = ElementCase("small", "small", PLATE, Sphere(0.01, 0.002, 5.0))
-"""A light ball: its contact ends before the edge can be felt."""
+"""A light sphere, whose contact ends before waves return from the edge."""
 
 
 def system(case: ElementCase, grading: Grading = COARSE, reach: float = 1.1) -> System:

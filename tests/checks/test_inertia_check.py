@@ -26,7 +26,7 @@ from derivation.scene.scene import OUTPUTS, read
 SLOW = Model(
     R=0.05, m=0.4, v0=2e-3, h=0.05, b=0.15, lam=40e9, mu=27e9, density=2700.0, edge="clamped"
 )
-"""A ball laid on a thick disc, nearly."""
+"""A sphere that hits a thick disc very slowly."""
 
 
 def gate_of(model: Model, rtol: float) -> SelectedEffects:

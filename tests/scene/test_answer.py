@@ -27,7 +27,7 @@ from derivation.scene.result import Result
 Captured = pytest.CaptureFixture[str]
 POWERS = {prefix: 10.0**power for power, prefix in PREFIXES.items()}
 LINES = 25
-"""Most lines of an answer with its warnings."""
+"""Largest number of lines of a summary with its warnings."""
 every_example = pytest.mark.parametrize(
     "example", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.stem
 )

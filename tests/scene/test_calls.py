@@ -22,7 +22,7 @@ BOUNDS = {
     "bending", "sphere_contact", "supported_edge_bound", "clamped_edge_bound", "plate_of",
     "law_errors",
 }  # fmt: skip
-"""What the gate's bounds take, for the table of what is out too."""
+"""Kernels that the bounds call, also those of omitted effects in the table."""
 WHOLE = {"contact_plates", "plate_share"}
 ZEROS = {"bessel_j0_zeros", "bessel_j1_at_j0_zeros"}
 ALONE: dict[str, set[str]] = {
@@ -37,7 +37,7 @@ ALONE: dict[str, set[str]] = {
     "edge": ZEROS | {"supported_edge", "supported_edge_slope"},
     "non_hertzian_pressure": ZEROS | {"contact", "plate"},
 }
-"""What the impact of each effect alone, beside Hertz's, calls."""
+"""Functions that an impact calls for Hertz's contact and one more effect."""
 
 
 @pytest.fixture

@@ -1,4 +1,4 @@
-"""Impacts on a damped plate: limits, causality, energy, refusals, and what omitting it changes."""
+"""Impacts on a damped plate: limits, causality, energy, rejected scenes and the error bound."""
 
 import math
 from itertools import pairwise
@@ -165,7 +165,7 @@ def test_more_damping_leaves_less_in_the_plate() -> None:
     assert all(later < earlier for earlier, later in pairwise(energies))
 
 
-# --- what a scene may say
+# --- scene keys
 
 
 def row(tables: dict[str, Any]) -> Any:
@@ -199,7 +199,7 @@ def test_damping_is_included_where_it_matters_and_can_be_disabled() -> None:
     assert {"inertia", "damping"} <= asked.effects.law.effects
 
 
-# --- the bound
+# --- the error bound
 
 
 NEARLY_STATIC = [

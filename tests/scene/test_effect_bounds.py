@@ -19,7 +19,7 @@ from derivation.scene.model import Model
 from derivation.scene.motion import Motion
 
 TINY = 1e-12
-"""Rounding of bounds and shares."""
+"""Rounding error of bounds and contributions."""
 
 
 def applicable(m: Model) -> frozenset[str]:
@@ -79,7 +79,7 @@ CLOSE: list[tuple[str, float, dict[str, Any]]] = [
     ("non_hertzian_pressure", 0.5, {"h": 0.01, "b": 1.0}),
     ("non_hertzian_pressure", 0.5, {}),
 ]
-"""An effect, how much of its bound of some output is used at least, and a scene."""
+"""An effect, the least ratio of change to bound for some output, and a scene."""
 
 
 @pytest.mark.parametrize(("name", "used", "changes"), CLOSE)

@@ -268,7 +268,7 @@ def test_a_sphere_that_stays_on_a_light_plate_is_refused_before_any_step() -> No
 def test_a_heavy_sphere_is_in_contact_for_most_of_its_half_period(
     mass: float, edge: str, speed: float
 ) -> None:
-    """The half-period is a good estimate of the contact time, which is used to reject scenes."""
+    """The contacts last longer than the check that rejects heavy spheres assumes."""
     plate = {"radius": 0.02, "thickness": 0.001, "material": "glass", "edge": edge}
     scene = read(tables({"radius": 0.01, "mass": mass, "material": "steel"}, plate,
                         impact={"speed": speed}, effects={"inertia": True}))  # fmt: skip

@@ -28,7 +28,7 @@ GIVEN = {
     "inertia.coupling": "pointwise",
     "inertia.extent": "infinite",
 }
-"""A value of each key that has an old name, which is not its default."""
+"""A value other than the default for each key that has an old name."""
 OLD = [(old, new, GIVEN[new], GIVEN[new]) for old, new in KEYS.items()] + [
     (new, new, value, known) for (new, value), known in VALUES.items()
 ]

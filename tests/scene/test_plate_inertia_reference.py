@@ -23,7 +23,7 @@ EXAMPLES = Path(derivation.scene.__file__).parent / "examples"
 EDGES = ("paper", "simply-supported", "clamped")
 DATA = json.loads((measurements() / "elastodynamics.json").read_text())
 JUDGED = tuple(name for name in OUTPUTS if name != "max_contact_radius")
-"""Results that the elements know: their contact radius is that of a node."""
+"""Results that are compared: finite elements give the contact radius only to a node."""
 
 
 def pane(b: float, thickness: float, **plate: Any) -> Mapping[str, Any]:

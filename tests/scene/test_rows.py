@@ -1,4 +1,4 @@
-"""Many scenes at once: every row is what `simulate` returns for its scene."""
+"""Many scenes at once: each row is what `simulate` returns for its scene."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -18,7 +18,7 @@ from derivation.scene.scene import Scene
 from generated import simple_impact
 
 ROUNDING = 1e-13
-"""Relative difference of a row from its own simulation."""
+"""Relative difference between a row and the simulation of its scene."""
 STEEL_ON_GLASS: dict[str, dict[str, Any]] = {
     "sphere": {"radius": 0.01, "material": "steel"},
     "plate": {"radius": 0.3, "thickness": 0.05, "material": "glass"},

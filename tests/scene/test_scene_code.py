@@ -297,7 +297,7 @@ MARKS = {
     "viscosity": {"RETARDATION_TIME", "elastic_force", "elastic_rate", "_extrapolated"},
     "spherical_profile": {"FORCE"},
 }
-"""Names that stand for an effect, of scenes that hold nothing else which needs them."""
+"""Names in the code that occur only if an effect needs them."""
 
 
 @pytest.mark.parametrize("case", CASES)

@@ -1,4 +1,4 @@
-"""Finite-element impacts: statics, natural frequencies, conservation, convergence, causality."""
+"""Finite-element impacts: statics, frequencies, conservation laws, convergence, causality."""
 
 import itertools
 import math
@@ -27,7 +27,7 @@ PLATE = Plate(0.1, 0.02, 70e9, 0.3, 2700.0)
 COARSE = Grading(contact=5, thickness=1.0, far=2.0, edge=0)
 FINE = Grading(contact=10)
 SMALL = ElementCase("small", "small", PLATE, Sphere(0.01, 0.002, 5.0))
-"""A light ball: its contact ends before the edge can be felt."""
+"""A light sphere, whose contact ends before waves return from the edge."""
 
 
 def system(case: ElementCase, grading: Grading = COARSE, reach: float = 1.1) -> System:
@@ -37,7 +37,7 @@ def system(case: ElementCase, grading: Grading = COARSE, reach: float = 1.1) -> 
 
 @pytest.mark.parametrize("edge", EDGES)
 def test_hertz_on_a_thick_block(edge: str) -> None:
-    """On a block 2000 times as thick as the contact is wide the force is Hertz's."""
+    """The static force on a block of thickness 2000 a (contact radius a) is Hertz's."""
     block, a, R = Plate(1.0, 1.0, 70e9, 0.3, 2700.0, edge), 5e-4, 0.01
     mesh = graded(1.0, 1.0, 1.25 * a, Grading(contact=12))
     _, forces = pressed(System(block, mesh), Sphere(R, 1.0, 1.0), a * a / R)
@@ -55,7 +55,7 @@ def test_static_force_on_the_papers_edge(ratio: float, nu: float) -> None:
 
 
 def test_contact_converges() -> None:
-    """Four times as many nodes, and the error of the static force falls by more than five."""
+    """Four times as many nodes reduce the error of the static force by more than a factor of 5."""
     a, R = 1e-3, 0.02
     depths = a * a / R * np.linspace(0.5, 1.0, 5)
     law = force(depths, R, 0.01, PLATE.radius, PLATE.lam, PLATE.mu)
@@ -69,7 +69,7 @@ def test_contact_converges() -> None:
 
 @pytest.mark.parametrize(("ratio", "nu"), [(0.02, 0.3), (0.3, 0.0), (0.3, 0.45)])
 def test_frequencies_of_the_papers_edge(ratio: float, nu: float) -> None:
-    """Modes J0(phi_j r) across the whole thickness are exact there."""
+    """Natural frequencies are the exact ones, because J0(phi_j r) satisfies this edge condition."""
     plate = Plate(1.0, ratio, 1.0, nu, 1.0)
     found = System(plate, resting(1.0, ratio, 1, 6)).bending_frequencies(4)
     exact = bending_frequency(bessel_j0_zeros(4) * ratio / 2, nu) * plate.shear_wave_speed
@@ -77,7 +77,7 @@ def test_frequencies_of_the_papers_edge(ratio: float, nu: float) -> None:
 
 
 def test_thin_clamped_plate() -> None:
-    """Frequencies approach those of a thin plate from below: lambda^2 sqrt(D/(rho H))/b^2."""
+    """Frequencies are just below those of a thin plate, lambda^2 sqrt(D/(rho H))/b^2."""
     ratio, nu = 0.01, 0.3
     found = System(
         Plate(1.0, ratio, 1.0, nu, 1.0, "clamped"), resting(1.0, ratio, 2, 4)
@@ -88,14 +88,14 @@ def test_thin_clamped_plate() -> None:
 
 
 def test_hertzian_contact_time() -> None:
-    """2.943 times the indentation over the speed."""
+    """Hertz's contact time is 2.943 times the largest indentation divided by the speed."""
     x = np.sin(np.linspace(0.0, math.pi / 2, 200001)) ** 0.8
     speed = np.sqrt(1.0 - np.minimum(x, 1.0 - 1e-16) ** 2.5)
     assert 2.0 * np.trapezoid(1.0 / speed[:-1], x[:-1]) == pytest.approx(HERTZ, rel=1e-3)
 
 
 def test_touching_is_the_one_solution() -> None:
-    """Against every set of touching nodes there is."""
+    """The solution is the only admissible one among all sets of touching nodes."""
     generator = np.random.default_rng(1)
     for _ in range(20):
         roots = generator.normal(size=(5, 5))
@@ -114,7 +114,7 @@ def test_touching_is_the_one_solution() -> None:
 
 
 def test_energy_and_impulse() -> None:
-    """Energy is kept, better with shorter steps; the force's impulse is what turns the ball."""
+    """The energy error falls with the time step; the impulse is the sphere's change of momentum."""
     plate, losses = system(SMALL), []
     for steps in (100, 200):
         history = struck(plate, SMALL.sphere, SMALL.time / steps, 100.0 * SMALL.time)
@@ -127,7 +127,7 @@ def test_energy_and_impulse() -> None:
 
 
 def test_momentum_before_the_edge_is_reached() -> None:
-    """What the ball loses the plate has, until waves reach the support."""
+    """The momentum of sphere and plate is constant until waves reach the support."""
     case = SMALL
     plate = system(case)
     step = case.time / 100
@@ -168,7 +168,7 @@ def test_results_converge_with_mesh_and_steps() -> None:
 
 
 def test_several_contacts_keep_the_energy() -> None:
-    """A light ball on a thin plate is struck again; flights are computed in longer steps."""
+    """Several contacts conserve energy; between contacts the time step is longer."""
     plate = Plate(0.03, 0.001, 70e9, 0.3, 2700.0, "clamped")
     case = ElementCase("thin", "thin", plate, Sphere(0.01, 0.001, 1.0))
     made = system(case, Grading(contact=4, thickness=1.0, far=3.0, edge=0))

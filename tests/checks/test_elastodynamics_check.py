@@ -1,4 +1,4 @@
-"""The record of finite-element impacts: resumed, compared with the program, shown in the report."""
+"""The record of finite-element impacts: its update, its comparison and its part of the report."""
 
 import json
 from dataclasses import replace
@@ -32,7 +32,7 @@ PLATE = Plate(1.0, 0.1, 1.0, 0.3, 1.0)
 
 @pytest.fixture
 def few(monkeypatch: pytest.MonkeyPatch) -> list[str]:
-    """Two cases and a plate, whose rows are counted instead of computed."""
+    """Replace the record by two cases and one plate, and list the rows that are requested."""
     made: list[str] = []
 
     def row(case: ElementCase) -> dict[str, Any]:
@@ -83,24 +83,24 @@ def test_every_case_is_another_one() -> None:
     impacts = cases.impacts()
     assert len({case.name for case in impacts}) == len(impacts) >= 40
     for case in impacts:
-        read_scene(record.inputs(case)["scene"])  # a scene as the program takes it
+        read_scene(record.inputs(case)["scene"])  # raises an error for an invalid scene
 
 
 def test_a_row(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A row has every result with its error; the fine mesh grows until it holds the contact."""
+    """A row has each result with its error; the fine mesh grows until it covers the contact."""
     for name in ("BEST", "COARSER", "LONGER"):
         monkeypatch.setattr(record, name, COARSE)
     monkeypatch.setattr(record, "SPREAD", (0.6, 2.0))
     row = record.impact_row(CASE)
     assert row["elements"].keys() == row["errors"].keys() == set(RESULTS)
     assert all(0.0 < row["errors"][name] < 0.1 for name in RESULTS)
-    assert row["errors"]["max_indentation"] == record.LEAST_ERROR  # the same thing three times
+    assert row["errors"]["max_indentation"] == record.LEAST_ERROR  # three equal settings
     assert abs(row["energy_error"]) < 1e-3
     assert (row["contacts"], row["scene"]["plate"]["edge"]) == (1, "paper")
 
 
 def test_the_program_against_elements() -> None:
-    """On the paper's edge program and elements agree to 0.2 % on a coarse mesh."""
+    """For the paper's edge the program agrees with a coarse finite-element mesh within 0.2 %."""
     pane = cases.impacts()[0]
     assert pane.plate.edge == "paper"
     setting = ElementSetting(Grading(contact=6, thickness=1.0, far=3.0, edge=0), 150)
@@ -112,7 +112,7 @@ def test_the_program_against_elements() -> None:
 
 
 def row(name: str, contact_time: float, bound: float = 1e-3) -> dict[str, Any]:
-    """A row whose contact time alone the program has different."""
+    """Return a row in which only the contact time differs between program and elements."""
     elements = dict.fromkeys(RESULTS, 1.0)
     program = {"values": elements | {"contact_time": contact_time}, "bound": bound,
                "model_error": 1e-3, "contacts": 1, "rtol": 1e-3}  # fmt: skip
@@ -183,7 +183,7 @@ def test_the_report_shows_the_record() -> None:
 
 
 def test_the_record() -> None:
-    """Its own errors are small, and the elements have the exact frequencies of the paper's edge."""
+    """The recorded errors are small, and frequencies for the paper's edge are the exact ones."""
     data = read()
     assert len(data["impacts"]) >= 40
     for item in data["impacts"]:

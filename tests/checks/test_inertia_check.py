@@ -1,4 +1,4 @@
-"""Inertia: bounds against twice the modes and all branches, on both sides of the threshold."""
+"""The check on plate inertia: error bounds compared with more modes and all branches."""
 
 import json
 import math
@@ -26,18 +26,18 @@ from derivation.scene.scene import OUTPUTS, read
 SLOW = Model(
     R=0.05, m=0.4, v0=2e-3, h=0.05, b=0.15, lam=40e9, mu=27e9, density=2700.0, edge="clamped"
 )
-"""A ball laid on a thick disc, nearly."""
+"""A sphere that hits a thick disc very slowly."""
 
 
 def gate_of(model: Model, rtol: float) -> SelectedEffects:
-    """With every other effect in."""
+    """Return the effect selection for inertia, with all other effects included."""
     others = inertia_check.present(model) - {"inertia", "hertz"}
     return decide(model, dict.fromkeys(others, True) | {"inertia": "auto"}, rtol)
 
 
 @pytest.mark.parametrize("changes", [{}, {"gravity": 9.81, "v0": 4e-3}, {"R": 0.02, "v0": 0.01}])
 def test_both_sides_of_the_threshold(changes: dict[str, Any]) -> None:
-    """At its bound inertia may stay out, just below it comes in; what it changes is below that."""
+    """Inertia is included just below its bound, and its change of the results is within it."""
     model = replace(SLOW, **changes)
     every = inertia_check.present(model)
     price = gate_of(model, 1.0).error
@@ -51,7 +51,7 @@ def test_both_sides_of_the_threshold(changes: dict[str, Any]) -> None:
 
 
 def test_a_weight_makes_inertia_matter_more() -> None:
-    """A ball that its weight drives into the plate loses more of what it brought."""
+    """A sphere pressed into the plate by its weight loses a larger part of its energy."""
     heavy = replace(SLOW, v0=1e-3, gravity=9.81)
     light = replace(heavy, gravity=0.0)
     prices = [gate_of(model, 1.0).error for model in (light, heavy)]
@@ -67,7 +67,7 @@ def test_a_weight_makes_inertia_matter_more() -> None:
         lost.append(1.0 - moving.restitution)
     assert lost[1] > 2.0 * lost[0]
     assert lost[1] <= prices[1]
-    # And of what branches may change the speed after has more too.
+    # The bound on the omitted branches grows with the weight too.
     found = waves.impact(ContactLaw(heavy, every[1]), 1e-3)
     a, time = found.max_contact_radius, found.contact_time
     assert found.inertia.omitted_branch_error[-1] > share * higher_branch_error(heavy, a, time)[-1]
@@ -170,21 +170,21 @@ def test_the_command_shows_both_sides(
 
 
 def changed(**tables: dict[str, Any]) -> dict[str, Any]:
-    """An elastic scene that is looked at, with some keys of its tables changed."""
+    """Return an elastic scene that is not skipped, with some keys of its tables changed."""
     data = measure.scene(1)[0]
     del data["plate"]["retardation_time"]
     return {**data, **{name: {**data[name], **keys} for name, keys in tables.items()}}
 
 
 def test_scenes_are_passed_over_for_what_they_are() -> None:
-    """By hand: the work 2 g delta over v^2, delta of the impact, at least the quasi-static one."""
+    """Scenes are skipped for their weight, Zener parameter, speed or number of modes."""
     assert inertia_check.pass_over(changed()) == ""
     slow = changed(impact={"speed": 1e-3, "gravity": 9.81})
     assert "weight over the initial kinetic energy above 100" in inertia_check.pass_over(slow)
     still = inertia_check.quasi_static(model_of(read(slow)))
     assert still is not None
     assert 2.0 * 9.81 * still.max_indentation / 1e-6 > inertia_check.FALLEN
-    # Zener's number goes with the mass to the power 3/5 and is 5 in between.
+    # Zener's parameter is proportional to mass^(3/5); the limit 5 is between the two values.
     heavy, light = (changed(sphere={"density": rho}) for rho in (1e7, 1e3))
     assert inertia_check.pass_over(heavy) == "Zener parameter above 5"
     assert inertia_check.pass_over(light) == ""
@@ -198,7 +198,7 @@ def test_scenes_are_passed_over_for_what_they_are() -> None:
 
 
 def test_scenes_out_of_reach_are_refused_by_name(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A reference of too many modes; an impact beyond the law's range."""
+    """A skipped scene is reported with its reason: too many modes, or speed out of range."""
     data, place = measure.scene(9)
     found = inertia_check.solve(9, data, place)
     assert isinstance(found, InertiaRow)

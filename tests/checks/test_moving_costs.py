@@ -1,4 +1,4 @@
-"""What accuracy costs on a plate that moves: three integrators on one problem, and what is told."""
+"""Run time against accuracy for plates with inertia: three integrators, and the shown table."""
 
 import json
 import math
@@ -19,7 +19,7 @@ def _few_oscillators(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_three_integrators_agree() -> None:
-    """Collocation, an explicit Runge-Kutta method of order 8, and equal steps of order 2."""
+    """Collocation agrees with a Runge-Kutta method (order 8) and equal steps (order 2)."""
     elements = moving_costs.by_elements(16, 1e-11).numbers
     assert moving_costs.by_elements(8, 1e-11).numbers == pytest.approx(elements, rel=1e-12)
     assert moving_costs.by_runge_kutta(1e-11).numbers == pytest.approx(elements, rel=2e-12)

@@ -1,4 +1,4 @@
-"""`check scenes`: realistic scenes, each run counted for what became of it."""
+"""`check scenes`: realistic scenes, whose runs are counted by outcome."""
 
 import json
 from dataclasses import replace
@@ -93,7 +93,7 @@ def test_what_fails_and_what_does_not() -> None:
     assert passed([*many, outcome("rejected")])
     assert passed([*many, outcome("incomplete"), outcome("rejected")])
     assert not passed([*many, *[outcome("rejected")] * 4])
-    # Runs without a tolerance repeat rejected scenes: they neither count nor make up for them.
+    # Runs without a tolerance repeat rejected scenes; they do not change the verdict.
     freed = [replace(outcome(kind), rtol=None) for kind in ("rejected", *["finished"] * 9)]
     assert passed([*many, *freed])
     assert not passed([*many, *[outcome("rejected")] * 4, *freed])

@@ -1,4 +1,4 @@
-"""The answer of a simulation: short, first, in prefixed SI units, and never wider than a screen."""
+"""The summary of a simulation: printed first, short, in prefixed SI units, fitting a screen."""
 
 import math
 import os
@@ -27,7 +27,7 @@ from derivation.scene.result import Result
 Captured = pytest.CaptureFixture[str]
 POWERS = {prefix: 10.0**power for power, prefix in PREFIXES.items()}
 LINES = 25
-"""Most lines of an answer with its warnings."""
+"""Largest number of lines of a summary with its warnings."""
 every_example = pytest.mark.parametrize(
     "example", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.stem
 )
@@ -55,7 +55,7 @@ def result_of(example: Path) -> Result:
 
 
 def value_of(text: str, unit: str, plain: str) -> float:
-    """A number with a prefixed unit in the unit without prefix."""
+    """Convert a number with a prefixed unit to the unit without prefix."""
     return float(text) * POWERS[unit.removesuffix(plain)]
 
 
@@ -101,7 +101,7 @@ def test_values_in_a_column_share_a_prefix(values: list[float], digits: int) -> 
     assert multiples.max() < 10.0 ** min(digits, IN_FRONT) * (1.0 + 1e-14)
 
 
-# --- the answer
+# --- the summary
 
 
 @every_example
@@ -160,7 +160,7 @@ def test_a_notebook_shows_the_answer_first_and_folds_details(example: Path) -> N
 
 
 def shown(*arguments: str, **places: str) -> str:
-    """What a command writes to a pipe."""
+    """Return what a command writes to a pipe."""
     run = subprocess.run(
         [sys.executable, "-m", "derivation.cli", *arguments], capture_output=True, text=True,
         check=True, env={**os.environ, "PYTHONPATH": str(ROOT), **places},
@@ -246,7 +246,7 @@ def test_several_contacts_are_counted(tmp_path: Path) -> None:
 
 
 def tables() -> dict[str, Callable[[], str]]:
-    """Tables of several rows, with numbers as wide as they come."""
+    """Return functions that print tables of several rows with wide numbers."""
     pane = load(EXAMPLES / "glass_pane.toml")
     span = sweep.parse("plate.half_thickness=0.1:0.2:3")
     compared = PAPER.read_text().replace("[effects]", "[effects]\ncompare_paper_motion = true")

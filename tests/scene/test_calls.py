@@ -1,4 +1,4 @@
-"""What an effect that is out costs: no call, no zeros of J0, no import; shown by counting."""
+"""Omitted effects cause no calls of kernels, no zeros of J0 and no imports."""
 
 import math
 import subprocess
@@ -22,7 +22,7 @@ BOUNDS = {
     "bending", "sphere_contact", "supported_edge_bound", "clamped_edge_bound", "plate_of",
     "law_errors",
 }  # fmt: skip
-"""What the gate's bounds take, for the table of what is out too."""
+"""Kernels that the bounds call, also those of omitted effects in the table."""
 WHOLE = {"contact_plates", "plate_share"}
 ZEROS = {"bessel_j0_zeros", "bessel_j1_at_j0_zeros"}
 ALONE: dict[str, set[str]] = {
@@ -37,12 +37,12 @@ ALONE: dict[str, set[str]] = {
     "edge": ZEROS | {"supported_edge", "supported_edge_slope"},
     "non_hertzian_pressure": ZEROS | {"contact", "plate"},
 }
-"""What the impact of each effect alone, beside Hertz's, calls."""
+"""Functions that an impact calls for Hertz's contact and one more effect."""
 
 
 @pytest.fixture
 def calls(monkeypatch: pytest.MonkeyPatch) -> set[str]:
-    """Names of the kernels called, and of what gives zeros of J0."""
+    """Record the names of called kernels and of functions that return zeros of J0."""
     found: set[str] = set()
 
     def count(home: Any, name: str) -> None:
@@ -107,7 +107,7 @@ def test_out_is_to_the_last_bit_as_if_the_scene_had_none(name: str, without: Any
 
 
 def test_a_half_space_calls_bounds_and_its_closed_form_alone(calls: set[str]) -> None:
-    """Everything on "auto", and nothing needed: the gate's bounds, and Hertz's impact."""
+    """If all effects are omitted automatically, only bounds and Hertz's impact are evaluated."""
     block = {"half_thickness": 1e4, "radius": 1e4}
     auto = {"inertia": "auto"}
     result = simulate(scene(plate=block, sphere={"material": None}, effects=auto), rtol=0.02)
@@ -121,7 +121,7 @@ def test_a_half_space_calls_bounds_and_its_closed_form_alone(calls: set[str]) ->
 
 
 def test_what_is_out_is_not_called(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A half-space's impact calls no kernel of the plate's law, of the profile or of zeros."""
+    """An impact on a half-space calls no kernel of the plate's contact law."""
     calls: list[str] = []
     for name in ("indentation", "indentation_slope", "impact", "leading", "side_wall"):
         monkeypatch.setattr(

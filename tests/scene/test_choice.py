@@ -1,4 +1,4 @@
-"""The choice of a method by tolerance: bounds that hold, switches, monotony, what is said."""
+"""Selection of a method by tolerance: bounds, switches, monotonicity and messages."""
 
 import json
 import math
@@ -40,7 +40,7 @@ def paper(**changes: float) -> Model:
     return Model(**values)
 
 
-# --- the bounds hold
+# --- bounds
 
 
 def test_bounds_hold_in_a_hundred_scenes() -> None:
@@ -50,7 +50,7 @@ def test_bounds_hold_in_a_hundred_scenes() -> None:
     rows = bounds.judge(chosen)
     assert {row.method for row in rows} == set(METHODS)
     assert [row for row in rows if not row.kept] == []
-    assert {row.method: row.ratio > 0.1 for row in rows}["leading"]  # and are no mere caution
+    assert {row.method: row.ratio > 0.1 for row in rows}["leading"]  # the bound is tight
 
 
 def test_committed_rows_are_those_of_all_references() -> None:
@@ -82,7 +82,7 @@ def test_a_bound_that_does_not_hold_is_noticed(monkeypatch: pytest.MonkeyPatch) 
 
 
 def test_no_error_is_below_the_references_own_radius() -> None:
-    """Of a reference value known to so many digits nothing is told apart that lies nearer."""
+    """The error of a result includes the uncertainty of the reference value."""
     true = bounds.SceneReference((), ("1", "1"))
     exact, off = bounds.errors((1.0, 1.0 + 2.0**-52), true)
     assert exact >= 10.0**-bounds.DIGITS
@@ -123,7 +123,7 @@ def test_the_laws_slope_lies_between_the_bounds(eta: float) -> None:
 
 @pytest.mark.parametrize("factor", [0.93, 0.99, 1.01, 1.5])
 def test_the_lemma_holds_for_a_law_times_a_number(factor: float) -> None:
-    """S = c S_1, Hertz's S_1 = 1: radius, force, depth and time change by known powers of c."""
+    """If the slope is c times Hertz's, each result changes by a known power of c."""
     low, up = max(0.0, 1 - factor), max(0.0, factor - 1)
     said = simple_impact.law_error(low, up, 0.0, 0.0)
     for power in (-1 / 5, -3 / 5, 3 / 5, 3 / 5):
@@ -144,7 +144,7 @@ def test_the_lemmas_exponents_are_the_theorys() -> None:
 
 def test_nothing_is_claimed_where_nothing_is_shown() -> None:
     assert simple_impact.law_error(1.0, 0.0, 0.0, 0.0) == math.inf
-    assert simple_impact.law_error(0.1, 0.0, 0.0, 0.0) == math.inf  # radius beyond 1.02 times
+    assert simple_impact.law_error(0.1, 0.0, 0.0, 0.0) == math.inf  # radius error above 2 %
     assert simple_impact.law_error(math.nan, 0.0, 0.0, 0.0) == math.inf
     run: Callable[..., Any]
     for run in (simple_impact.hertz, simple_impact.leading):
@@ -154,7 +154,7 @@ def test_nothing_is_claimed_where_nothing_is_shown() -> None:
 
 @pytest.mark.parametrize("x", [-0.499, -0.1, 1e-9, 1.0, 1e3, 1e10])
 def test_quadrature_of_the_first_correction(x: float) -> None:
-    """Against twice the nodes, for S_1 = 1 + x q."""
+    """The quadrature for S_1 = 1 + x q agrees with that of more nodes."""
     u, weights = np.polynomial.legendre.leggauss(60)
     q = 1 - ((1 + u) / 2) ** 2
     fifth = 1 + q * (1 + q * (1 + q * (1 + q)))
@@ -168,7 +168,7 @@ def test_quadrature_of_the_first_correction(x: float) -> None:
 
 
 def test_measured_rounding_covers_the_budget_with_its_conditioning() -> None:
-    """8 ULP of `impact` plus half the sum of the arguments' condition numbers."""
+    """The rounding bound covers the budget of `impact` and half the sum of condition numbers."""
     points = np.array([true.point for true in bounds.committed_references()])
     slopes = impact_sensitivities(*points.T)
     ulp = budgets.read_budgets()["impact"].ulp + 0.5 * np.abs(slopes).sum(axis=1)
@@ -178,13 +178,13 @@ def test_measured_rounding_covers_the_budget_with_its_conditioning() -> None:
 
 
 def test_half_the_nodes_keep_their_stated_limit_with_room() -> None:
-    """In thin plates with deep contacts, where the integrand is the hardest."""
+    """Half the nodes use a fifth of the stated limit at most, also for thin plates."""
     arguments = scenes(0.01, 5.9, 5000)
     coarse, full = (impact(**arguments, coarse=flag).contact_time for flag in (True, False))
     assert np.nanmax(np.abs(coarse / full - 1)) < kernels.COARSE_QUADRATURE / 5
 
 
-# --- the choice
+# --- selection
 
 
 def methods(model: Model) -> list[str]:
@@ -230,7 +230,7 @@ def test_the_paper_case_takes_each_method_in_turn() -> None:
     assert "hertz" not in methods(paper())
 
 
-# --- what is said
+# --- messages
 
 
 def test_without_a_tolerance_the_full_method_and_its_bound() -> None:

@@ -1,4 +1,4 @@
-"""Impacts on a damped plate: limits, causality, energy, refusals, and what omitting it changes."""
+"""Impacts on a damped plate: limits, causality, energy, rejected scenes and the error bound."""
 
 import math
 from itertools import pairwise
@@ -60,18 +60,18 @@ def test_the_undamped_plate_is_the_limit_to_first_order(plate: dict[str, Any]) -
         for eta in (1e-7, 1e-6, 2e-6)
     )
     assert np.all(np.isfinite(first))
-    # The slope is the same from afar, but for what is of second order.
+    # Extrapolating two finite differences removes the term of second order.
     assert 2 * second - third == pytest.approx(first, rel=1e-3, abs=1e-3)
 
 
 def test_the_energy_lost_is_that_of_perturbation_theory() -> None:
-    """To first order 2 zeta omega q'^2 over the modal mass, of the undamped motion."""
+    """To first order it is the integral of 2 zeta omega q'^2 times modal mass, without damping."""
     eta, wide = 1e-6, {"radius": 0.15}
     elastic = struck(None, plate=wide)
     assert elastic.dynamics is not None
     history, balance = elastic.dynamics.impact_history, elastic.dynamics.energy_balance
     problem, [touching] = history.problem, history.contacts
-    # Closer where the contact begins, whose force is a power of time.
+    # The times are denser at the onset, where the force is a power of time.
     t = touching.end * np.linspace(0.0, 1.0, 2001) ** 2
     q = CubicSpline(t, [deflections(history, float(x)) for x in t])
     rate = q(t, 1)
@@ -91,10 +91,11 @@ def test_static_contacts_are_not_damped() -> None:
 
 
 def test_before_the_first_echo_only_the_local_damping_counts() -> None:
-    """The contact has ended before a wave returns from the edge of these plates.
+    """Before a wave returns from the edge, the results do not depend on radius and support.
 
-    Equal ratios for all modes act on the paper's edge as a local damping (of the curvature's rate).
-    On held edges they act at a distance too, by well below 1 % of what damping changes.
+    Equal damping ratios of all modes act as a local damping (of the rate of curvature) for the
+    paper's edge. For the other supports they also act at a distance, by less than 0.5 % of the
+    change that damping makes.
     """
 
     def wide(eta: float | None, edge: str, b: float) -> np.ndarray:
@@ -137,7 +138,7 @@ EVERYWHERE: dict[str, dict[str, Any]] = {
 @pytest.mark.parametrize("name", EVERYWHERE)
 @pytest.mark.parametrize("eta", [0.01, 1.0])
 def test_energy_is_accounted_for(name: str, eta: float) -> None:
-    """What damping takes is an integral of its own, so that the residual tells."""
+    """The energy balance closes; the damping loss is a separate integral, so this is a test."""
     found = struck(eta, **EVERYWHERE[name])
     assert found.complete
     assert found.dynamics is not None
@@ -164,7 +165,7 @@ def test_more_damping_leaves_less_in_the_plate() -> None:
     assert all(later < earlier for earlier, later in pairwise(energies))
 
 
-# --- what a scene may say
+# --- scene keys
 
 
 def row(tables: dict[str, Any]) -> Any:
@@ -198,7 +199,7 @@ def test_damping_is_included_where_it_matters_and_can_be_disabled() -> None:
     assert {"inertia", "damping"} <= asked.effects.law.effects
 
 
-# --- the bound
+# --- the error bound
 
 
 NEARLY_STATIC = [
@@ -228,7 +229,7 @@ def test_no_bound_is_stated_where_inertia_has_none() -> None:
 
 
 def test_it_is_omitted_where_the_plate_is_nearly_at_rest() -> None:
-    """Its bound then enters the stated error."""
+    """The bound of the omitted damping is then part of the stated error."""
     tables = scene(1e-4, plate={"radius": 0.02}, impact={"speed": 0.001}, sphere={"density": 1e6})
     del tables["inertia"]
     found = explain(read(tables), rtol=0.5)

@@ -1,4 +1,4 @@
-"""Bounds of effects: honest one by one, on both sides of every threshold, and no mere caution."""
+"""Error bounds of omitted effects: they cover the change of each effect and are close to it."""
 
 import math
 import random
@@ -19,11 +19,11 @@ from derivation.scene.model import Model
 from derivation.scene.motion import Motion
 
 TINY = 1e-12
-"""Rounding of bounds and shares."""
+"""Rounding error of bounds and contributions."""
 
 
 def applicable(m: Model) -> frozenset[str]:
-    """Effects of a quasi-static plate."""
+    """Return the effects that apply to a quasi-static plate."""
     return frozenset(name for name in ALL if not BY_NAME[name].not_applicable_reason(m))
 
 
@@ -33,16 +33,16 @@ def impact(m: Model, effects: frozenset[str]) -> Motion:
 
 
 def apart(one: Motion, other: Motion) -> float:
-    """Largest relative difference of the four results, from the second."""
+    """Return the largest difference of the results, relative to the second impact."""
     return max(abs(x / y - 1) for x, y in zip(one.numbers, other.numbers, strict=True))
 
 
-# --- one by one
+# --- single effects
 
 
 @pytest.mark.parametrize("name", sorted(n for n in ALL if isinstance(BY_NAME[n], PlateEffect)))
 def test_a_share_of_the_slope_lies_within_its_bound_at_every_radius(name: str) -> None:
-    """In plates of any thickness, Poisson's ratio and edge; of all smaller radii too."""
+    """The bounds never decrease with the radius, so they cover all smaller radii too."""
     generator, effect = random.Random(name), BY_NAME[name]
     assert isinstance(effect, PlateEffect)
     nearest = math.inf
@@ -52,7 +52,7 @@ def test_a_share_of_the_slope_lies_within_its_bound_at_every_radius(name: str) -
         m = model(b=1.0, h=h, lam=2 * 3e9 * nu / (1 - 2 * nu), edge=edge)
         a = np.geomspace(1e-4, 0.89, 60) * min(1.0, 6 * h)
         bound, slope = effect.bound(m, BoundContext(a)), effect.contribution(m, a).slope
-        # Parts are what is left of larger ones: their rounding is of these.
+        # Contributions are differences of larger terms, whose rounding errors they inherit.
         room = TINY * (1 + np.abs(slope) + BY_NAME["bending"].bound(m, BoundContext(a)).up)
         assert (slope <= bound.up + room).all()
         assert (-slope <= bound.low + room).all()
@@ -79,14 +79,14 @@ CLOSE: list[tuple[str, float, dict[str, Any]]] = [
     ("non_hertzian_pressure", 0.5, {"h": 0.01, "b": 1.0}),
     ("non_hertzian_pressure", 0.5, {}),
 ]
-"""An effect, how much of its bound of some output is used at least, and a scene."""
+"""An effect, the least ratio of change to bound for some output, and a scene."""
 
 
 @pytest.mark.parametrize(("name", "used", "changes"), CLOSE)
 def test_what_an_effect_changes_is_within_its_bound_and_near_it(
     name: str, used: float, changes: dict[str, Any]
 ) -> None:
-    """Everything on against everything but one, which the effects table has a bound for."""
+    """Compare impacts with all effects and with all but one; the change is within the bound."""
     m = model(**changes)
     every = applicable(m) - (
         set() if name == "non_hertzian_pressure" else {"non_hertzian_pressure"}
@@ -108,7 +108,7 @@ def test_what_an_effect_changes_is_within_its_bound_and_near_it(
 
 @pytest.mark.parametrize("name", ["sphere_elasticity", "gravity", "edge"])
 def test_prices_hold_under_the_true_pressure(name: str) -> None:
-    """There the contact radius grows faster than Hertz's radius of the force."""
+    """With non-Hertzian pressure the contact radius grows faster than Hertz's at equal force."""
     b = 1.76595204337641
     m = model(
         R=1.8971866830973843, m=41077.25867811576, v0=0.42665213036895394, b=b,
@@ -119,14 +119,14 @@ def test_prices_hold_under_the_true_pressure(name: str) -> None:
     selected = decide(m, AT_REST | wanted, 1.0)
     bound = {row.name: row.bound for row in selected.rows}[name]
     assert 0.2 < apart(impact(m, ALL - {name}), impact(m, ALL)) / bound <= 1
-    # What the profile adds is known under Hertz's pressure alone.
+    # The bound of the spherical profile is known for Hertz's pressure only.
     flat = decide(m, AT_REST | wanted | {"spherical_profile": False}, 1.0)
     assert {row.name: row.bound for row in flat.rows}["spherical_profile"] == math.inf
 
 
 @pytest.mark.parametrize("edge", ["simply-supported", "clamped"])
 def test_what_is_in_is_priced_too(edge: str) -> None:
-    """What leaving one out of all would change, by the table of the law with all."""
+    """The effects table also bounds the change if an included effect were omitted."""
     m = model(h=5.0, b=5.0, v0=0.3, edge=edge, sphere_modulus=1e13)
     every = applicable(m) - {"non_hertzian_pressure"}
     selected = decide(m, AT_REST | {"non_hertzian_pressure": False}, 0.0)
@@ -137,7 +137,7 @@ def test_what_is_in_is_priced_too(edge: str) -> None:
             assert 0.03 * row.bound < change <= 1.02 * row.bound
 
 
-# --- together
+# --- several effects
 
 
 SCENES: dict[str, dict[str, Any]] = {
@@ -153,7 +153,7 @@ SCENES: dict[str, dict[str, Any]] = {
 
 @pytest.mark.parametrize("name", SCENES)
 def test_both_sides_of_every_threshold(name: str) -> None:
-    """From all effects out to all in: what is left out stays within the bound on both sides."""
+    """Tighten the tolerance from no effect to all; the error stays within each bound."""
     m = model(**SCENES[name])
     whole, rtol, before = impact(m, applicable(m)), 10.0, frozenset[str]()
     while True:
@@ -178,7 +178,7 @@ def test_both_sides_of_every_threshold(name: str) -> None:
     ],
 )
 def test_bounds_of_what_is_left_out_together_add_up(one: str, other: str, edge: str) -> None:
-    """To leading order, what may go wrong of either may go wrong of both, in the same direction."""
+    """To leading order the errors of two omitted effects add up, as they may have the same sign."""
     m = model(h=5.0, b=5.0, v0=0.3, gravity=0.01, edge=edge)
 
     def error(*out: str) -> float:

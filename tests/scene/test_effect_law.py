@@ -1,4 +1,4 @@
-"""The law that effects make and impacts by it, against other routes and known answers."""
+"""The contact law with its effects, and its impacts, against independent and exact solutions."""
 
 import math
 from typing import Any
@@ -37,7 +37,7 @@ def test_parts_of_the_plate_add_up() -> None:
 
 @pytest.mark.parametrize("left_out", [set(), {"non_hertzian_pressure"}], ids=["solved", "hertz"])
 def test_force_is_the_derivative_of_the_energy(left_out: set[str]) -> None:
-    """Virtual work: dU = P d delta, and the stiffness is dP/d delta, with all effects in."""
+    """The stiffness dP/d delta and the slope d delta/da agree with finite differences."""
     law, a, step = ContactLaw(model(), ALL - left_out), np.linspace(0.005, 0.09, 9), 1e-5
 
     def at(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -56,7 +56,7 @@ def test_force_is_the_derivative_of_the_energy(left_out: set[str]) -> None:
 
 
 def test_a_sphere_as_soft_as_its_plate_halves_the_modulus() -> None:
-    """On a half-space; the bending of a plate stays what it was at the same force."""
+    """On a half-space only the local indentation depends on the sphere, not the plate bending."""
     m = model(sphere_modulus=model().modulus, gravity=0.0)
     soft, rigid = (
         ContactLaw(m, frozenset({"hertz", "sphere_elasticity"})),
@@ -75,7 +75,7 @@ def test_a_sphere_as_soft_as_its_plate_halves_the_modulus() -> None:
 
 
 def test_flat_spheres_tend_to_hertz() -> None:
-    """delta at a force grows by (a/R)^2/15, and the pressure in the middle is Hertz's."""
+    """At equal force delta exceeds Hertz's by (a/R)^2/15; the central pressure tends to Hertz's."""
     m = model(h=1e3, b=1e4)
     curved, flat = (
         ContactLaw(m, frozenset({"hertz", "spherical_profile"})),
@@ -93,7 +93,7 @@ def test_flat_spheres_tend_to_hertz() -> None:
 
 
 def test_pressure_in_the_middle_by_the_solved_equation() -> None:
-    """Of a steep sphere on a block: the punches' sum against the Fredholm equation's pressure."""
+    """The sum over flat punches agrees with the Fredholm equation for a steep sphere on a block."""
     m = model(h=1e3, b=1e4, sphere_modulus=math.inf)
     summed = ContactLaw(m, frozenset({"hertz", "spherical_profile"}))
     solved = ContactLaw(m, WHOLE_PLATE | {"hertz", "spherical_profile", "non_hertzian_pressure"})
@@ -103,7 +103,7 @@ def test_pressure_in_the_middle_by_the_solved_equation() -> None:
 
 
 def by_steps(law: ContactLaw) -> tuple[float, float, float, float]:
-    """The same impact by an adaptive integration in time, contact radius by bisection."""
+    """Return results of the impact by adaptive integration in time, with Newton's iteration."""
     m = law.model
     radii = np.geomspace(1e-9, 0.9 * law.limit, 4000)
     depths = law.indentation(radii, law.at(radii))
@@ -138,7 +138,7 @@ def by_steps(law: ContactLaw) -> tuple[float, float, float, float]:
 
 
 def test_impact_by_time_steps() -> None:
-    """Curved, elastic sphere under weight on a bending plate, against DOP853."""
+    """The impact of a heavy elastic sphere on a bending plate agrees with DOP853."""
     law = ContactLaw(
         model(v0=0.2),
         frozenset({"hertz", "sphere_elasticity", "spherical_profile", "bending", "gravity"}),
@@ -161,7 +161,7 @@ def test_impact_of_the_whole_plate_is_the_generated_one() -> None:
     [("simply-supported", lambda nu: (3 + nu) / (2 * (1 + nu))), ("clamped", lambda _: 0.5)],
 )
 def test_deflection_of_thin_plates_by_their_edge(edge: str, ratio: Any) -> None:
-    """Over that of the paper's edge, at equal force; the contact itself is next to nothing."""
+    """The ratio to the deflection with the paper's edge at equal force is that of plate theory."""
     for nu in (-0.3, 0.0, 0.3, 0.45):
         m = model(h=1e-5, b=1.0, lam=2 * 3e9 * nu / (1 - 2 * nu), edge=edge)
         a, base = np.array([1e-5]), frozenset({"hertz", *WHOLE_PLATE})
@@ -172,7 +172,7 @@ def test_deflection_of_thin_plates_by_their_edge(edge: str, ratio: Any) -> None:
 
 @pytest.mark.parametrize(("bent", "factor"), [(False, 2.5), (True, 2.0)])
 def test_peak_of_a_slow_sphere_under_its_weight(bent: bool, factor: float) -> None:
-    """v0 -> 0: int P d delta = m g delta gives 5/2 m g for Hertz and 2 m g for a linear spring."""
+    """For v0 -> 0, int P d delta = m g delta gives 5/2 m g (Hertz) and 2 m g (linear spring)."""
     effects = {"hertz", "gravity"} | ({"bending"} if bent else set())
     m = model(v0=1e-9, h=1e-5 if bent else 0.02, b=5.0, mu=3e12, lam=2e12)
     found = motion.impact(ContactLaw(m, frozenset(effects)))
@@ -196,7 +196,7 @@ def test_history_keeps_the_energy_with_every_effect() -> None:
 
 
 def test_history_of_a_slow_and_heavy_sphere_keeps_the_energy() -> None:
-    """It starts all at once beside the time it takes: 32 nodes in time leave 5e-5 of v0^2."""
+    """The onset is short compared with the contact, so the time quadrature needs many nodes."""
     law = ContactLaw(
         model(v0=1e-3), frozenset({"hertz", "bending", "gravity", "spherical_profile"})
     )
@@ -211,7 +211,7 @@ def test_history_of_a_slow_and_heavy_sphere_keeps_the_energy() -> None:
 def test_an_impact_is_followed_until_twice_the_nodes_change_nothing(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """Of a slow and heavy sphere, where fewer nodes in time leave more, and say so."""
+    """For a slow and heavy sphere fewer nodes give a larger error, within its estimate."""
     law = ContactLaw(
         model(v0=1e-5), frozenset({"hertz", "bending", "gravity", "spherical_profile"})
     )
@@ -223,7 +223,7 @@ def test_an_impact_is_followed_until_twice_the_nodes_change_nothing(
 
 
 def test_a_history_moves_as_fast_as_it_says() -> None:
-    """Differences of the indentation over a hundred-thousandth of the contact are the velocity."""
+    """Central differences of the indentation agree with the velocity."""
     law = ContactLaw(model(), frozenset({"hertz", "bending", "gravity", "spherical_profile"}))
     found = motion.impact(law)
     T = found.contact_time
@@ -234,7 +234,7 @@ def test_a_history_moves_as_fast_as_it_says() -> None:
 
 
 def test_at_rest_under_a_force() -> None:
-    """A force of m g gives the static state; both bodies' modulus, the exact profile."""
+    """The static contact on a very thick plate is Hertz's with the modulus of both bodies."""
     [row] = indent(scene(plate={"half_thickness": 1e3, "radius": 1e4}), force=30.0)
     E1, E2 = model_of(scene()).modulus, model_of(scene()).sphere_modulus
     E = 1 / (1 / E1 + 1 / E2)

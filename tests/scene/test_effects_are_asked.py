@@ -1,4 +1,4 @@
-"""Outside of their own files effects are asked, and never told apart by their names."""
+"""Modules outside `effects` call methods of effects and never compare their names."""
 
 import ast
 from collections.abc import Iterator
@@ -14,7 +14,7 @@ FILES = sorted(path for path in SCENE.rglob("*.py") if path.parent.name != "effe
 
 
 def told_apart(source: str) -> Iterator[str]:
-    """Effects' names that are compared, looked up, listed in a set or read from `[effects]`."""
+    """Yield names of effects that are compared, looked up, put in a set or read from `effects`."""
     for node in ast.walk(ast.parse(source)):
         inside: list[ast.AST] = []
         match node:

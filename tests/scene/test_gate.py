@@ -1,4 +1,4 @@
-"""The gate: honest bounds, decisions, what is out is not computed, and what is said of it."""
+"""Effect selection: bounds, decisions, omitted effects that are not computed, and output."""
 
 import json
 import math
@@ -32,7 +32,7 @@ Captured = pytest.CaptureFixture[str]
 def test_bounds_hold_in_random_scenes() -> None:
     rows = measure.judge(25)
     assert [row for row in rows if not row.kept] == []
-    assert max(row.tightest for row in rows) > 0.5  # and are no mere caution
+    assert max(row.tightest for row in rows) > 0.5  # at least one bound is tight
     included = [row.included for row in rows]
     assert included == sorted(included)
 
@@ -55,7 +55,7 @@ def test_a_looser_tolerance_takes_in_no_more() -> None:
 
 
 def test_both_sides_of_a_threshold() -> None:
-    """At the bound itself the effects may stay out; just below it one more is taken in."""
+    """The same effects are selected at the bound, and at least one more just below it."""
     for m in random_models(4):
         for rtol in (1e-2, 1e-4):
             found = decide(m, AT_REST, rtol)
@@ -71,7 +71,7 @@ def test_both_sides_of_a_threshold() -> None:
 
 
 def test_weight_under_the_true_pressure_moves_the_radius_within_the_bound() -> None:
-    """There the contact radius grows up to 3.5 times as fast as Hertz's radius of the force."""
+    """With non-Hertzian pressure the radius grows up to 3.5 times as fast as Hertz's."""
     data = measure.scene(226)
     whole = measure.everything(data)
     values, effects, bound = measure.selected_impact(data, 1e-2)
@@ -102,7 +102,7 @@ def test_forced_choices_are_honoured_and_priced() -> None:
 def test_pressure_and_inertia_need_the_whole_plate() -> None:
     off = decide(model(), {"bending": False, "inertia": False}, 1e-6)
     assert "non_hertzian_pressure" not in off.law.effects
-    # What cannot be included counts in the bound like all that is omitted.
+    # An effect that cannot be included adds to the bound like any omitted effect.
     assert off.error >= {row.name: row.bound for row in off.rows}["non_hertzian_pressure"] > 1e-6
     for name in ("non_hertzian_pressure", "inertia"):
         with pytest.raises(SceneError, match=r"effects\.bending = false"):
@@ -135,14 +135,14 @@ def test_numbers_are_those_of_the_largest_contact() -> None:
     for name, value in true.items():
         assert rows[name].parameter_value == pytest.approx(value, rel=0.02)
     assert rows["finite_radius"].parameter_value == pytest.approx(0.37 * a / m.b, rel=0.01)
-    # The static plate's: supported over hinged is (3 + nu)/(2 (1 + nu)).
+    # Static deflection, simply supported over the paper's edge: (3 + nu)/(2 (1 + nu)).
     nu = m.lam / (2 * (m.lam + m.mu))
     share = rows["bending"].parameter_value * ((3 + nu) / (2 * (1 + nu)) - 1)
     assert rows["edge"].parameter_value == pytest.approx(share, rel=0.15)
 
 
 def test_outputs_that_do_not_matter_take_in_nothing() -> None:
-    """The sphere's profile moves the contact radius half as much again as the force."""
+    """The spherical profile is omitted for the force and included for the contact radius."""
     m = model(sphere_modulus=math.inf, gravity=0.0, h=1e3, b=1e4, v0=0.1, edge="paper")
     worst = decide(m, AT_REST, 0.0, OUTPUTS)
     assert "spherical_profile" in worst.law.effects
@@ -173,7 +173,7 @@ def test_the_scenes_outputs_are_those_the_tolerance_applies_to() -> None:
 
 
 def test_the_paper_scene_without_any_choice() -> None:
-    """Deciding what is unnecessary does not cost the whole law's time in calls of its kernels."""
+    """On a very thick plate only Hertz's contact is included."""
     thick = scene(plate={"half_thickness": 1e3, "radius": 1e4}, sphere={"material": None})
     result = simulate(thick, rtol=1e-2)
     assert result.accuracy.method == "hertz"
@@ -209,7 +209,7 @@ def test_explain_simulates_nothing_and_says_why(capsys: Captured, tmp_path: Path
 
 
 def test_the_reference_knows_the_papers_law_alone(tmp_path: Path) -> None:
-    """What it refuses, it says how to write, and then takes."""
+    """The message on a rejected scene lists keys with which the scene is accepted."""
     example = EXAMPLES / "glass_pane.toml"
     called = sorted(explain(load(example)).effects.law.effects - WHOLE_PLATE - {"hertz"})
     assert {"edge", "gravity", "inertia", "sphere_elasticity"} <= set(called)
@@ -248,7 +248,7 @@ def test_rows_are_shown_in_every_output() -> None:
 
 
 def test_a_row_tells_not_applicable_from_omitted_without_a_bound() -> None:
-    """Of inertia without a density no parameter is known, whether it is disabled or omitted."""
+    """An effect that does not apply is "n/a"; an omitted one without a bound is "no bound"."""
     found = decide(model(gravity=0.0), {"inertia": False}, 1e-3)
     cells = {
         line[0]: dict(zip(effect_selection.HEADS, line, strict=True)) for line in found.lines()

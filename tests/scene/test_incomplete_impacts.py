@@ -1,4 +1,4 @@
-"""Impacts whose contacts are followed in part: what was found is kept, and shown as incomplete."""
+"""Impacts simulated in part: the results so far are kept and shown as incomplete."""
 
 import json
 import math
@@ -100,7 +100,7 @@ def test_an_incomplete_impact_is_shown_as_one(
 
 
 def test_contacts_before_a_late_refusal_are_handed_over(capsys: Any, tmp_path: Path) -> None:
-    """The glass of a phone under a ball of 130 g: in a later contact it bends round the ball."""
+    """Contacts before an error are kept: here phone glass bends too much in a later contact."""
     file = tmp_path / "phone.toml"
     file.write_text(PHONE)
     assert main(["simulate", str(file), "--json", "-"]) == 1
@@ -113,7 +113,7 @@ def test_contacts_before_a_late_refusal_are_handed_over(capsys: Any, tmp_path: P
     assert len(contacts) > 1
     assert data["max_force"] == max(touch["peak_force"] for touch in contacts)
     assert data["contact_time"] == contacts[0]["end"]
-    # What was followed is an impact up to there: energy and momentum are kept.
+    # The simulated part conserves energy and momentum.
     balance = dynamics["energy_balance"]
     assert abs(balance["residual"]) <= 1e-10
     speed = math.sqrt(2.0 * balance["rebound_kinetic"] / 0.13)
@@ -141,7 +141,7 @@ def test_a_flight_without_end_keeps_to_its_work() -> None:
 
 
 def test_a_run_beyond_its_work_is_not_begun(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The coarser run, whose error nobody knows, is handed over as incomplete."""
+    """The coarser run, which has no error estimate, is returned as incomplete."""
     wide = replace(BALL, b=1.5, inertia=InertiaSettings(branches="A0"))
     law = ContactLaw(wide, EFFECTS)
     waves.impact.cache_clear()
@@ -168,7 +168,7 @@ def test_a_run_beyond_its_work_is_not_begun(monkeypatch: pytest.MonkeyPatch) -> 
     assert math.isnan(part.restitution)
     assert part.contact_time == pytest.approx(whole.contact_time, rel=0.05)
     assert "limit of work" in part.inertia.end_reason
-    # What it says makes it run.
+    # The impact is complete with the setting that the remedy proposes.
     given = re.search(r"inertia.modes = (\d+)", part.inertia.remedy)
     assert given
     fewer = replace(wide, inertia=InertiaSettings(modes=int(given[1]), branches="A0"))

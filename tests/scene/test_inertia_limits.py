@@ -1,4 +1,4 @@
-"""A plate that moves: its limits, its conservation laws, and what its oscillators converge to."""
+"""Impacts with plate inertia: limiting cases, conservation laws and convergence of the modes."""
 
 import math
 import tracemalloc
@@ -35,11 +35,13 @@ REST = WHOLE_PLATE | {"hertz"}
 BALL = Model(R=0.02, m=0.25, v0=1.0, h=0.02, b=0.15, lam=40e9, mu=27e9, density=2700.0)
 
 
-# --- an endless plate
+# --- an infinite plate
 
 
 def zener(number: float) -> tuple[float, float]:
-    """Restitution and contact time over That of m z'' = -P, z = P^(2/3) + w, w' = lambda P."""
+    """Return the restitution and the normalised contact time of Zener's equation.
+
+    The dimensionless equations are z'' = -P, z = P^(2/3) + w, w' = lambda P."""
 
     def rate(s: float, state: np.ndarray) -> Any:
         P = max(state[0] - state[2], 0.0) ** 1.5
@@ -56,16 +58,17 @@ def zener(number: float) -> tuple[float, float]:
 
 
 def thin_plate(number: float, count: int, phase: float) -> tuple[float, float]:
-    """The same of Kirchhoff's modes J_0(j_n r/b), and how far the contact reaches over 1/phi_M.
+    """Return the restitution for Kirchhoff's modes J_0(j_n r/b), and a phi_M (contact radius a).
 
-    `phase` is omega_M That. With it the first mode's period goes like count^2/phase, and the
-    plate is endless where that is long; the contact's radius follows from Zener's number.
+    `phase` is omega_M That for the highest mode M. The period of the first mode is proportional to
+    count^2/phase; if it is long, the plate behaves as an infinite one. Zener's number determines
+    the contact radius.
     """
     j, h = jn_zeros(0, count), 1e-5
     plate = Model(R=1.0, m=1.0, v0=1.0, h=h, b=1.0, lam=1.0, mu=1.0, density=1.0)
     bending, mass = plate.modulus * (2.0 * h) ** 3 / 12.0, 2.0 * h
     That = phase / j[-1] ** 2 * math.sqrt(mass / bending)
-    # lambda = m/(8 That sqrt(D rho H)) and m = K sqrt(v0) That^(5/2) say how wide it is.
+    # lambda = m/(8 That sqrt(D rho H)) and m = K sqrt(v0) That^(5/2) give the contact radius.
     a = number * 8.0 * math.sqrt(bending * mass) / That / (4.0 / 3.0 * plate.modulus)
     speed = a * a / That
     model = replace(plate, v0=speed, m=4.0 / 3.0 * plate.modulus * math.sqrt(speed) * That**2.5)
@@ -86,10 +89,10 @@ def test_zeners_equation_of_an_endless_plate(number: float) -> None:
 
 @pytest.mark.parametrize("number", [0.02, 0.3, 1.0, 2.0])
 def test_a_wide_plate_is_zeners(number: float) -> None:
-    """200 modes up to 200 times the contact's own frequency: no echo is back before the end."""
+    """With 200 modes and omega_M That = 200, no wave returns from the edge during contact."""
     true, _ = zener(number)
     found, reach = thin_plate(number, 200, 200.0)
-    assert reach < 1e-6  # the contact is a point to every mode
+    assert reach < 1e-6  # much smaller than the shortest wavelength of the modes
     assert found == pytest.approx(true, abs=2e-7)
 
 
@@ -101,14 +104,14 @@ def test_what_modes_left_at_rest_change_falls_like_the_cube_of_their_frequency()
 
 
 def test_a_narrow_plate_gives_some_of_it_back() -> None:
-    """With the first mode's period no longer than the contact echoes are back before its end."""
+    """Waves return from the edge during contact if the first mode's period is the contact time."""
     true, lasts = zener(1.0)
     first, last = jn_zeros(0, 20)[[0, -1]]
     found, _ = thin_plate(1.0, 20, 2.0 * math.pi / lasts * (last / first) ** 2)
     assert found > true + 0.05
 
 
-# --- its oscillators
+# --- modes
 
 
 def history(
@@ -124,19 +127,19 @@ def restitution(found: contact_sequence.ImpactHistory) -> float:
 
 
 def test_every_branch_converges_with_the_modes() -> None:
-    """Above Rayleigh's waves what modes left at rest change falls as their number grows."""
+    """The restitution converges as the number of modes grows, with all Lamb-wave branches."""
     every = replace(BALL, inertia=InertiaSettings(branches="all"))
     found = [restitution(history(every, free_modes(every, count))) for count in (4, 8, 16, 32)]
     steps = np.abs(np.diff(found))
     assert steps[2] < 0.6 * steps[1] < 0.6 * steps[0]
     assert steps[2] < 1e-5
-    # And not to where the first branch alone goes.
+    # The limit differs from that of the lowest branch alone.
     first = restitution(history(BALL, free_modes(BALL, 32)))
     assert abs(first - found[-1]) > 2.0 * steps[2]
 
 
 def test_branches_converge() -> None:
-    """The same wave numbers with branches up to an ever higher frequency."""
+    """The restitution converges as branches up to higher frequencies are added."""
     lowest, found = modal._free(BALL, 12, lagging=False), []
     for highest in (1.0, 2.0, 4.0, 8.0):
         shapes = modal._branches(BALL, lowest, highest * float(lowest.root[-1]))
@@ -155,7 +158,7 @@ def test_branches_converge() -> None:
 def test_many_contacts_are_the_same_at_another_resolution(
     changes: dict[str, Any], contacts: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Zener's number 8 to 10: by other nodes, and again by shorter elements and a tolerance."""
+    """Results do not depend on nodes, element length and tolerance (lambda = 8 to 10)."""
     model = replace(BALL, R=0.04, **changes)
     assert 8.0 < zener_number(model) < 10.0
     modes = free_modes(model, 8)
@@ -171,7 +174,7 @@ def test_many_contacts_are_the_same_at_another_resolution(
             assert one.after.velocity == pytest.approx(two.after.velocity, abs=1e-9)
 
 
-# --- what is conserved
+# --- conservation laws
 
 
 @settings(max_examples=25)
@@ -184,7 +187,7 @@ def test_energy_and_momentum_are_kept(
     eta: float, size: float, heavy: float, speed: float, nu: float, gravity: float,
     pointwise: bool, edge: str,
 ) -> None:  # fmt: skip
-    """In random scenes: energy balance, impulse, restitution, and the order of the contacts."""
+    """Random scenes conserve energy and momentum, and their contacts follow each other in time."""
     b, mu, density = 0.2, 5e9, 2000.0
     R = b * 10**size
     model = Model(
@@ -197,7 +200,7 @@ def test_energy_and_momentum_are_kept(
     assume(mode_count.count_of(law) <= 12)
     try:
         found = waves.impact(law, math.inf)
-    except SceneError:  # kept down by its weight, or bent too sharply
+    except SceneError:  # the weight keeps the sphere on the plate, or the plate bends too sharply
         assume(False)
     contacts = found.inertia.contacts
     assert abs(found.energy_balance.residual) <= 1e-11
@@ -212,7 +215,7 @@ def test_energy_and_momentum_are_kept(
     assert impulse == pytest.approx(model.m * given_up, rel=1e-10)
 
 
-# --- what it takes
+# --- memory and tables
 
 
 def test_an_element_keeps_the_state_at_its_end_alone() -> None:

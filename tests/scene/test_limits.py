@@ -1,4 +1,4 @@
-"""What is warned of, from both sides of each limit and with its number."""
+"""Warnings, on both sides of each limit, and the numbers that they state."""
 
 import math
 import re
@@ -21,11 +21,11 @@ Tables = dict[str, dict[str, Any]]
 def either_side(
     make: Callable[[float], Tables], words: str, silent: float, loud: float
 ) -> tuple[Result, Result, str]:
-    """Results 1e-6 apart in a number of the scene, without and with a warning, and its text."""
+    """Return results just below and just above a warning's limit, and the text of the warning."""
 
     def run(x: float) -> tuple[Result, str]:
         result = simulate(read(make(x)))
-        assert all(words in text for text in result.warnings)  # and none but this one
+        assert all(words in text for text in result.warnings)  # no other warning is printed
         return result, "".join(result.warnings)
 
     (below, nothing), (above, text) = run(silent), run(loud)
@@ -65,7 +65,7 @@ def test_hertz_pressure_is_warned_of_above_0_15_thicknesses() -> None:
 def test_the_error_said_of_hertz_pressure_is_that_beside_the_true_one(
     edge: str, rtol: float
 ) -> None:
-    """Of the indentation at the same force, whatever else is computed or left out."""
+    """The stated error is that of the indentation at the same force, for each set of effects."""
     tables = changed(plate={"radius": 0.2, "thickness": 0.02, "edge": edge}, impact={"speed": 0.12})
     result = simulate(read(tables), rtol=rtol)
     said = float(re.findall(r"about (\S+) %", result.warnings[0])[0]) / 100
@@ -77,14 +77,14 @@ def test_the_error_said_of_hertz_pressure_is_that_beside_the_true_one(
 
 
 def test_a_half_space_has_no_deflection_to_warn_of() -> None:
-    """What the exact profile adds to a^2/R is no deflection of the plate."""
+    """What the spherical profile adds to a^2/R is not counted as deflection of the plate."""
     block = {"radius": 50.0, "thickness": 100.0, "density": 2000.0}
     tables = changed(plate=block, impact={"speed": 20.0}, effects={"spherical_profile": True})
     assert "inertia" not in "".join(simulate(read(tables)).warnings)
 
 
 def test_a_paraboloid_is_warned_of_above_0_3_sphere_radii() -> None:
-    """With the size of the error: the exact profile's indentation at the same force."""
+    """The stated error is the change of the indentation at equal force by the spherical profile."""
     block = {"radius": 1e6, "thickness": 2e6}
 
     def at(v: float, curved: bool = False) -> Tables:
@@ -127,7 +127,7 @@ def test_yield_is_warned_of_above_1_6_yield_stresses() -> None:
 
 
 def steel_on_glass(thickness: float, density: float) -> Tables:
-    """A steel ball, rigid, on a plate as stiff as glass."""
+    """Return a scene: a rigid sphere with the mass of steel on a plate as stiff as glass."""
     plate = {
         "radius": 0.5, "thickness": thickness, "lame_lambda": None, "lame_mu": None,
         "youngs_modulus": 70e9, "poissons_ratio": 0.2, "density": density,
@@ -136,12 +136,12 @@ def steel_on_glass(thickness: float, density: float) -> Tables:
 
 
 def motion_numbers(result: Result) -> tuple[float, float, float]:
-    """Zener's number, contact time over first bending period, share of the deflection."""
+    """Return Zener's number, contact time / first bending period, and fraction of deflection."""
     R, m, v0, h, b, _, _ = result.model.numbers
     E, H, rho = 70e9 / (1 - 0.2**2), 2 * h, result.model.density
     D = E * H**3 / 12
     That = (m**2 / ((4 / 3 * E * math.sqrt(R)) ** 2 * v0)) ** 0.2
-    omega = 5.783185962946785 / b**2 * math.sqrt(D / (rho * H))  # of the paper's edge
+    omega = 5.783185962946785 / b**2 * math.sqrt(D / (rho * H))  # for the paper's edge
     share = 1 - result.max_contact_radius**2 / R / result.max_indentation
     zener = m / (8 * That * math.sqrt(D * rho * H))
     return zener, result.contact_time * omega / (2 * math.pi), share
@@ -159,7 +159,7 @@ def motion_numbers(result: Result) -> tuple[float, float, float]:
 def test_inertia_is_warned_of_on_one_side_of_each_number(
     make: Any, silent: float, loud: float, limits: tuple[float | None, ...]
 ) -> None:
-    """Above lambda = 0.006, or 1 % of deflection, if the contact takes less than ten periods."""
+    """The limits are lambda = 0.006, ten bending periods and a deflection of 1 %."""
     below, above, text = either_side(make, "inertia", silent, loud)
     said = re.findall(r"Zener parameter (\S+) .* period (\S+) .* deflection (\S+) %", text)
     for result in (below, above):
@@ -212,7 +212,7 @@ def test_yield_is_warned_of_on_one_side_only() -> None:
 
 
 def test_warning_where_the_pressure_is_not_hertz(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The cost is (5/3) c3 (a/h)^3 of a^2/R, here in a made-up law with c1 and c3."""
+    """The error is (5/3) c3 (a/h)^3 of a^2/R, here for an invented law with c1 and c3."""
     m = model_of(read(changed()))
     c3 = -0.09
 
@@ -227,7 +227,7 @@ def test_warning_where_the_pressure_is_not_hertz(monkeypatch: pytest.MonkeyPatch
     [text] = limits.warnings_at(ContactLaw(m, PAPER), 0.0301, delta)
     assert "a/H = 0.15" in text
     assert f"{100 * cost:+.2g} %" in text
-    # 5/3 c3 A^3 = x (1 + 8 A + c3 A^3) at a leading term of x.
+    # A leading term x means 5/3 c3 A^3 = x (1 + 8 A + c3 A^3).
     for leading, words in ((-0.299, "about -30 %"), (-0.301, "no reliable error estimate")):
         c3 = leading * (1 + 8 * 0.35) / 0.35**3 / (5 / 3 - leading)
         [loud] = limits.warnings_at(ContactLaw(m, PAPER), 0.035, law(0.035, m.R, m.h, m.b))
@@ -243,7 +243,7 @@ def test_warning_reaches_the_result() -> None:
 
 
 def test_profile_correction_is_that_of_the_exact_profile() -> None:
-    """Sneddon's sphere and the paraboloid pressed by the same force into a half-space."""
+    """The correction is Sneddon's sphere against a paraboloid at equal force on a half-space."""
     m = model_of(thick())
     t = 0.2
     log = math.log((1 + t) / (1 - t))

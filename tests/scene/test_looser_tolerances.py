@@ -1,4 +1,4 @@
-"""Work of a simulation: a looser tolerance does not need slower functions or more iterations."""
+"""Run time of a simulation: a looser tolerance needs no slower functions and no more steps."""
 
 from collections import Counter
 from typing import Any
@@ -44,7 +44,7 @@ def scenes(draw: st.DrawFn, disabled: tuple[str, ...] = ()) -> Scene:
 @given(scenes())
 @settings(max_examples=40)
 def test_the_whole_plate_is_not_reduced_by_small_parts(scene: Scene) -> None:
-    """The difference of the whole plate and a part is slower than the whole plate."""
+    """A part of the plate is not subtracted from the whole plate, which would be slower."""
     included = [frozenset[str]()]
     for rtol in TOLERANCES:
         found = selected_effects(scene, rtol)[1]
@@ -78,7 +78,7 @@ def test_a_disabled_part_of_the_plate_stays_disabled() -> None:
 @given(scenes())
 @settings(max_examples=25)
 def test_a_looser_tolerance_calls_no_further_functions(scene: Scene) -> None:
-    """Count the functions of the plate and the sphere by which the impact itself is computed."""
+    """The contact law calls no more functions of plate and sphere at a looser tolerance."""
     before = Counter[str]()
     for rtol in TOLERANCES[::3]:
         law = selected_effects(scene, rtol)[1].law

@@ -1,4 +1,4 @@
-"""The map of a scene draws what the effect selection decides, and so what `explain` says."""
+"""The map of a scene agrees with the effect selection, and so with `explain`."""
 
 import math
 from itertools import pairwise
@@ -19,7 +19,7 @@ from derivation.scene.selection import select
 
 @pytest.fixture
 def coarse(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A map of few points beside the scene's own."""
+    """Reduce the map to few points and that of the scene."""
     monkeypatch.setattr(map_, "THICKNESSES", np.geomspace(1e-3, 10.0, 5))
     monkeypatch.setattr(map_, "RADII", np.geomspace(1e-3, 6.0, 5))
 
@@ -44,7 +44,7 @@ def test_the_star_is_on_the_side_that_explain_says(example: Path) -> None:
 
 
 def test_every_point_of_the_map_is_a_scene_of_its_own() -> None:
-    """At the speed that a point stands for the selection decides as the map shows."""
+    """At the speed of a point the effect selection agrees with the map."""
     result = simulate(given.scene())
     wanted, outputs = result.scene.effects.model_dump(), result.effects.outputs
     for width, eta in ((0.01, 0.02), (0.3, 0.1)):
@@ -63,7 +63,7 @@ def test_every_point_of_the_map_is_a_scene_of_its_own() -> None:
 @pytest.mark.usefixtures("coarse")
 @pytest.mark.parametrize("name", ["glass_pane", "block", "paper", "impact_echo"])
 def test_explain_agrees_on_both_sides_of_every_line(name: str) -> None:
-    """By scenes of the thickness and speed of the nearest points, selected as `explain` does."""
+    """For the points next to each line, the selection of `explain` agrees with the map."""
     result = simulate(load(EXAMPLES / f"{name}.toml"))
     found = map_.grid(result, result.effects.rtol)
     names = [row.name for row in result.effects.rows if row.name in found.ratios]
@@ -83,7 +83,7 @@ def test_explain_agrees_on_both_sides_of_every_line(name: str) -> None:
 
 
 def _scene_at(result: Result, found: map_.Grid, row: int, column: int) -> Scene:
-    """The scene of a point of the map: another thickness, and the speed that belongs to it."""
+    """Return the scene of a point of the map, with its thickness and speed."""
     data, model = result.scene.to_json(), result.model
     eta, width = float(found.thicknesses[column]), float(found.radii[row])
     speed, plate = model.v0, map_.replace(model, h=eta * model.b)
@@ -101,7 +101,7 @@ def _scene_at(result: Result, found: map_.Grid, row: int, column: int) -> Scene:
 @pytest.mark.usefixtures("coarse")
 @pytest.mark.parametrize("name", ["glass_pane", "block"])
 def test_ticks_point_to_the_side_where_the_effect_matters(name: str) -> None:
-    """Left of a line's direction, where the ticks are, Matplotlib has the larger ratios."""
+    """Ticks are on the left of a line, where the ratio of the effect is above 1."""
     result = simulate(load(EXAMPLES / f"{name}.toml"))
     made = map_.figure(result, result.effects.rtol)
     ticked = [x for x in made.axes[0].collections if x.get_path_effects()]

@@ -1,4 +1,4 @@
-"""Materials of sphere and plate: the catalogue, a scene's own, and what a contact takes of both."""
+"""Materials of sphere and plate: the catalogue, own materials, and the contact of two bodies."""
 
 import json
 import math
@@ -174,7 +174,7 @@ def test_the_contact_s_time_lies_between_the_bodies_and_knows_no_order(
 def test_two_bodies_in_series_have_that_time_to_first_order(
     plate: float, sphere: float, softness: float
 ) -> None:
-    """Their complex stiffness at a frequency w: what differs falls with w^2."""
+    """The complex stiffness at frequency w differs from the exact one by a term of order w^2."""
     mean = retardation_of_two(plate, sphere, softness)
     for w in (1e-2 / max(plate, sphere), 1e-3 / max(plate, sphere)):
         series = (1 + softness) / (1 / (1 + 1j * w * plate) + softness / (1 + 1j * w * sphere))
@@ -220,8 +220,8 @@ SCENES: dict[str, Tables] = {
         {"radius": 0.01, "thickness": 0.0007, "material": "phone glass",
          "edge": "simply-supported"},
     ),
-    # Mass and radius: the Rules of Golf. The modulus gives, by Hertz's law, the half millisecond
-    # of contact of a drive (Cochran and Stobbs, The Search for the Perfect Swing, 1968).
+    # Mass and radius are from the Rules of Golf. With this modulus Hertz's law gives the contact
+    # time of a drive, 0.5 ms (Cochran and Stobbs, The Search for the Perfect Swing, 1968).
     "golf ball on a titanium face, 15 m/s": tables(
         {"radius": 0.02134, "mass": 0.04593, "youngs_modulus": 97e6, "poissons_ratio": 0.45},
         {"radius": 0.04, "thickness": 0.003, "material": "Ti-6Al-4V", "edge": "clamped"},
@@ -240,7 +240,7 @@ def test_what_engineers_bring_runs_at_one_percent(name: str) -> None:
 
 
 def test_a_drive_is_refused_at_once_with_what_to_do() -> None:
-    """At 45 m/s a golf ball flattens to more than half of its radius."""
+    """At 45 m/s, above the largest speed of the law, a golf ball is rejected within one second."""
     drive = SCENES["golf ball on a titanium face, 15 m/s"] | {"impact": {"speed": 45.0}}
     start = time.process_time()
     with pytest.raises(SceneError, match=r"speed"):
@@ -249,7 +249,7 @@ def test_a_drive_is_refused_at_once_with_what_to_do() -> None:
 
 
 def test_a_sphere_that_stays_on_a_light_plate_is_refused_before_any_step() -> None:
-    """130 g on phone glass of 140 mm: the remedy runs, and gives the swing that is predicted."""
+    """The proposed remedy runs, and its contact time is the one that the message predicts."""
     phone = SCENES["130 g of steel on phone glass"]
     wide = phone | {"plate": phone["plate"] | {"radius": 0.07}}
     with pytest.raises(
@@ -268,7 +268,7 @@ def test_a_sphere_that_stays_on_a_light_plate_is_refused_before_any_step() -> No
 def test_a_heavy_sphere_is_in_contact_for_most_of_its_half_period(
     mass: float, edge: str, speed: float
 ) -> None:
-    """So that scenes are rejected only if they need more time steps than are allowed."""
+    """The contacts last longer than the check that rejects heavy spheres assumes."""
     plate = {"radius": 0.02, "thickness": 0.001, "material": "glass", "edge": edge}
     scene = read(tables({"radius": 0.01, "mass": mass, "material": "steel"}, plate,
                         impact={"speed": speed}, effects={"inertia": True}))  # fmt: skip

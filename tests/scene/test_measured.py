@@ -1,4 +1,4 @@
-"""A measured restitution: the value that it tells gives it back."""
+"""Parameters from a measured restitution: simulations with them give it back."""
 
 import math
 from typing import Any
@@ -21,7 +21,7 @@ BLOCK: dict[str, Any] = {
 
 
 def measured(**keys: object) -> Any:
-    """The scene with a measurement."""
+    """Return the scene with a measurement."""
     return read(BLOCK | {"measured": keys})
 
 

@@ -1,4 +1,4 @@
-"""A plate that moves, as a scene asks for it: refusals, results, pictures, held edges."""
+"""Scenes with plate inertia: rejected scenes, results, figures and supported edges."""
 
 import csv
 import io
@@ -56,7 +56,7 @@ def test_the_density_is_asked_for_where_inertia_is() -> None:
         with pytest.raises(SceneError, match=r"^plate\.density: .*effects\.inertia"):
             simulate(read(bare | {"effects": {"inertia": wanted}}))
     assert simulate(read(bare | {"effects": {"inertia": False}})).restitution == 1.0
-    # A thick block does not move, whatever its density.
+    # Inertia of a thick block is negligible for any density.
     block = own | {"radius": 1.0, "thickness": 1.0}
     known = read({**bare, "plate": block, "impact": {"speed": 1e-3}})
     assert known.effects.inertia == "auto"
@@ -72,7 +72,7 @@ def test_the_whole_plate_has_to_move() -> None:
 
 @pytest.mark.parametrize("part", ["finite_radius", "finite_thickness"])
 def test_a_small_static_part_that_is_disabled_does_not_stop_the_plate(part: str) -> None:
-    """Its own bound covers what it changes: the plate still takes most of the energy."""
+    """Disabling a small static part keeps inertia, and its bound covers the change."""
     whole, without = (simulate(scene(effects=e)) for e in ({}, {part: False}))
     assert "inertia" in without.effects.law.effects
     size = next(row.bound for row in without.effects.rows if row.name == part)
@@ -162,7 +162,7 @@ def test_zeners_curve_begins_as_its_series() -> None:
 @pytest.mark.parametrize(("edge", "factor"), [("paper", 1.0), ("clamped", 0.5),
                                               ("simply-supported", 3.3 / 2.6)])  # fmt: skip
 def test_modes_of_a_thin_plate_add_up_to_its_deflection_at_rest(edge: str, factor: float) -> None:
-    """P b^2/(8 pi D) of the paper's edge, half of it clamped, (3 + nu)/(2 (1 + nu)) supported."""
+    """The sum is P b^2/(8 pi D) times 1, 1/2 (clamped) or (3 + nu)/(2 (1 + nu)) (supported)."""
     thin = scene(plate={"thickness": 2e-4, "edge": edge})
     model = replace(model_of(thin), h=1e-4)
     law = ContactLaw(model, WHOLE_PLATE | {"hertz", "edge"} if edge != "paper" else WHOLE_PLATE)

@@ -1,4 +1,4 @@
-"""A contact that lags on a plate that moves: its limits, its convergence, and what is refused."""
+"""Viscoelastic contacts on a plate with inertia: limiting cases, convergence, rejected scenes."""
 
 from itertools import pairwise
 from typing import Any
@@ -38,9 +38,10 @@ def values(found: Result) -> list[float]:
 
 
 def test_without_mass_the_plate_is_at_rest_under_a_contact_that_lags() -> None:
-    """Bending follows without lag in both engines; at rest it takes no heed of the contact's size.
+    """A light plate gives the results of the quasi-static one, in which bending is elastic too.
 
-    What that is worth falls like the square of the contact's radius, here at two speeds.
+    The quasi-static bending neglects the size of the contact. The difference is proportional to the
+    square of the contact radius, as the two speeds show.
     """
     off = []
     for speed in (0.3, 0.01):
@@ -54,7 +55,7 @@ def test_without_mass_the_plate_is_at_rest_under_a_contact_that_lags() -> None:
 
 
 def test_modes_beyond_bending_stay_with_the_contact_and_its_lag() -> None:
-    """Each doubling of the modes changes less, by far more than if they took all they deflect."""
+    """The change of the results falls by more than a factor of ten at the second doubling."""
     found = [values(pad(modes=n)) for n in (10, 20, 40)]
     first, second = (
         max(abs(x / y - 1) for x, y in zip(one, two, strict=True)) for one, two in pairwise(found)
@@ -84,7 +85,7 @@ def test_other_branches_do_not_move_under_a_contact_that_lags() -> None:
 def test_contacts_that_begin_again_on_a_face_still_pressed_in_are_followed(
     mass: float, material: str, thickness: float, radius: float, time: float
 ) -> None:
-    """To their end, and no energy is lost on the way."""
+    """The impact is complete and its energy balance closes."""
     plate = {
         "radius": radius,
         "thickness": thickness,

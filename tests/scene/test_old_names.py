@@ -1,4 +1,4 @@
-"""Old names of scene keys and values: the same scene, one notice each, never both, never shown."""
+"""Old names of scene keys and values: read with one notice each, and never written."""
 
 import json
 import re
@@ -28,7 +28,7 @@ GIVEN = {
     "inertia.coupling": "pointwise",
     "inertia.extent": "infinite",
 }
-"""A value of each key that has an old name, which is not its default."""
+"""A value other than the default for each key that has an old name."""
 OLD = [(old, new, GIVEN[new], GIVEN[new]) for old, new in KEYS.items()] + [
     (new, new, value, known) for (new, value), known in VALUES.items()
 ]
@@ -37,7 +37,7 @@ IDS = [f"{old} {value}" for old, _, value, _ in OLD]
 
 
 def scene(key: str, value: object) -> Tables:
-    """Tables with a key, on a plate with inertia where it is about that."""
+    """Return tables with a key, with plate inertia if the key is in `inertia`."""
     table, name = key.split(".")
     tables = changed(effects={"spherical_profile": None, "non_hertzian_pressure": None})
     if table == "inertia":
@@ -172,7 +172,7 @@ def test_a_caller_of_load_is_told_once_even_where_warnings_are_errors(tmp_path: 
 
 
 def keys_and_values(found: object) -> Iterator[tuple[str, object]]:
-    """Every key of a JSON value with what it holds, at any depth."""
+    """Yield each key of a JSON value with its value, at any depth."""
     if isinstance(found, dict):
         for key, value in found.items():
             yield key, value
@@ -183,7 +183,7 @@ def keys_and_values(found: object) -> Iterator[tuple[str, object]]:
 
 
 def old_names_in(tables: object) -> list[str]:
-    """Old keys and values in tables of a scene."""
+    """Return the old keys and values in the tables of a scene."""
     assert isinstance(tables, dict)
     given = {f"{t}.{key}": value for t, keys in tables.items() for key, value in keys.items()}
     texts = {key: value for key, value in given.items() if isinstance(value, str)}
@@ -227,7 +227,7 @@ def test_a_result_names_nothing_old() -> None:
         found: Scene = read(tables)
     made = json.loads(json.dumps(simulate(found).to_json()))
     assert old_names_in(made["scene"]) == []
-    names = {old.partition(".")[2] for old in KEYS} - {"plate"}  # of the energy balance
+    names = {old.partition(".")[2] for old in KEYS} - {"plate"}  # a key of the energy balance
     assert not {key for key, _ in keys_and_values(made)} & names
     assert not {row["name"] for row in made["effects"]} & names
 

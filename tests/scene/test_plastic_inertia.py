@@ -1,4 +1,4 @@
-"""Plate inertia in plastic contacts: the change by what is omitted never exceeds its bound."""
+"""Plate inertia in plastic contacts: omissions change results by no more than their bound."""
 
 import math
 from random import Random
@@ -36,7 +36,7 @@ def largest_difference(found: Result, reference: Result) -> float:
 
 
 def test_the_bound_on_omitted_inertia_covers_the_plastic_loss() -> None:
-    """Without the plastic loss in the bound, 5.7e-4 was stated for a change of 6.1e-4."""
+    """The bound includes the plastic loss; without it, it was 5.7e-4 for a change of 6.1e-4."""
     others = dict.fromkeys(("bending", "finite_thickness", "edge", "non_hertzian_pressure"), True)
     found = simulate(read(DISC | {"effects": others | {"inertia": "auto"}}), rtol=0.01)
     assert found.energy_balance is not None
@@ -46,7 +46,7 @@ def test_the_bound_on_omitted_inertia_covers_the_plastic_loss() -> None:
 
 
 def test_the_bound_on_omitted_branches_covers_the_plastic_loss() -> None:
-    """Without the plastic loss in the bound, 1.3e-6 was stated for a change of 2.0e-6."""
+    """The bound includes the plastic loss; without it, it was 1.3e-6 for a change of 2.0e-6."""
     found, reference = (
         simulate(read(BLOCK | {"effects": {"inertia": True}, "inertia": {"branches": branches}}))
         for branches in ("A0", "all")

@@ -1,4 +1,4 @@
-"""Impacts with plate inertia against causality, an infinite plate and finite elements."""
+"""Impacts with plate inertia compared with infinite plates and finite elements."""
 
 import json
 import tomllib
@@ -23,7 +23,7 @@ EXAMPLES = Path(derivation.scene.__file__).parent / "examples"
 EDGES = ("paper", "simply-supported", "clamped")
 DATA = json.loads((measurements() / "elastodynamics.json").read_text())
 JUDGED = tuple(name for name in OUTPUTS if name != "max_contact_radius")
-"""Results that the elements know: their contact radius is that of a node."""
+"""Results that are compared: finite elements give the contact radius only to a node."""
 
 
 def pane(b: float, thickness: float, **plate: Any) -> Mapping[str, Any]:
@@ -50,7 +50,7 @@ def test_no_edge_is_felt_before_a_wave_returns_from_it(b: float, thickness: floa
 
 
 def test_an_infinite_plate_does_not_depend_on_the_radius() -> None:
-    """It is what every plate is before a wave returns, with the pressure solved for or not."""
+    """An infinite plate gives the same results as a finite one before a wave returns."""
     ball = {"radius": 0.005, "density": 7850.0}
     for pressure in ("auto", False):
         found = []
@@ -65,7 +65,7 @@ def test_an_infinite_plate_does_not_depend_on_the_radius() -> None:
 
 @pytest.mark.parametrize("row", DATA["impacts"], ids=lambda row: row["name"])
 def test_recorded_elements_are_within_what_the_program_states(row: Mapping[str, Any]) -> None:
-    """Bound, model error and the elements' own error, for every result."""
+    """Differences are at most the sum of bound, model error and finite-element error."""
     program = row["program"]
     assert "values" in program, program["refused"]
     for name in JUDGED:
@@ -85,7 +85,7 @@ def test_the_record_covers_what_the_model_error_is_stated_for() -> None:
 
 @pytest.mark.parametrize("number", range(0, len(DATA["impacts"]), 9))
 def test_the_program_is_still_the_one_compared(number: int) -> None:
-    """Some cases are simulated anew: nearer to the record than to its bound."""
+    """Every ninth case is simulated again and agrees with the record within its bound."""
     row = DATA["impacts"][number]
     effects = {"spherical_profile": row["spherical_profile"], "inertia": True}
     found = simulate(read({**row["scene"], "effects": effects}))
@@ -103,7 +103,7 @@ HELD = [row for row in DATA["plates"] if row["edge"] != "paper"]
 
 @pytest.mark.parametrize("row", HELD, ids=_plate)
 def test_frequencies_are_those_of_three_dimensions(row: Mapping[str, Any]) -> None:
-    """The first three within 0.3 % up to H/b = 0.2, and 1 % at 0.3."""
+    """The first three frequencies agree within 0.3 % for H/b <= 0.2, and 1 % for thicker plates."""
     run = clamped_waves if row["edge"] == "clamped" else supported_waves
     eta = row["thickness_over_radius"] / 2.0
     found = run(3, eta, row["poissons_ratio"]).root / eta
@@ -114,7 +114,7 @@ def test_frequencies_are_those_of_three_dimensions(row: Mapping[str, Any]) -> No
 
 @pytest.mark.parametrize("edge", EDGES[1:])
 def test_a_light_held_plate_follows_its_static_law(edge: str) -> None:
-    """Its modes swing many times in a contact, and add up to the law's deflection."""
+    """The results of a very light plate are those of the quasi-static plate."""
     plate = {"radius": 0.1, "thickness": 0.01, "youngs_modulus": 7e10, "poissons_ratio": 0.3,
              "density": 0.1, "edge": edge}  # fmt: skip
     data = dict(pane(0.1, 0.01), plate=plate, inertia={"modes": 4, "branches": "A0"})
@@ -122,7 +122,7 @@ def test_a_light_held_plate_follows_its_static_law(edge: str) -> None:
         simulate(read(data | {"effects": {"inertia": inertia, "non_hertzian_pressure": False}}))
         for inertia in (True, False)
     )
-    # The force still rings by a percent; the other results average over that.
+    # The force still oscillates by about 1 %; the other results are averages over time.
     for name in ("contact_time", "max_indentation", "restitution"):
         assert getattr(light, name) == pytest.approx(getattr(still, name), rel=2e-3)
 
@@ -135,7 +135,7 @@ def test_rough_contacts_have_a_larger_model_error() -> None:
 
 
 def test_contacts_that_would_be_wide_on_a_half_space_are_rough() -> None:
-    """The membrane's contact is narrow, but the elements' peak force is 1 % off the program's."""
+    """The larger model error applies if the contact radius on a half-space would be above 0.3 H."""
     for row in DATA["impacts"]:
         place, model = row["parameters"], model_of(read(row["scene"]))
         wide = place["contact_radius_over_thickness"] > 0.3
@@ -150,7 +150,7 @@ def test_plates_too_thick_for_held_modes_are_refused() -> None:
 
 
 def test_bending_that_lengthens_a_contact_does_not_calm_the_thickness() -> None:
-    """The membrane's force rises in a thirtieth of its contact, and makes the thickness ring."""
+    """The force rises in 1/30 of the contact time and excites through-thickness reflections."""
     scene = tomllib.loads((EXAMPLES / "membrane.toml").read_text())
     lowest = simulate(read(scene))
     del scene["accuracy"]
@@ -160,7 +160,7 @@ def test_bending_that_lengthens_a_contact_does_not_calm_the_thickness() -> None:
 
 
 def test_a_bound_of_chosen_modes_covers_what_more_modes_change() -> None:
-    """The membrane's peak force is the same with 90 and 180 modes by chance, not with 340."""
+    """The bound covers 340 modes, although 90 and 180 modes agree on the peak force by chance."""
     scene = tomllib.loads((EXAMPLES / "membrane.toml").read_text())
     del scene["accuracy"]
     few, more = (
@@ -173,7 +173,7 @@ def test_a_bound_of_chosen_modes_covers_what_more_modes_change() -> None:
 
 
 def test_a_contact_too_short_for_the_modes_of_its_plate_is_refused() -> None:
-    """Modes that do not swing during the contact agree among themselves, and are wrong together."""
+    """A scene is rejected if its modes are too slow for the contact, which makes them wrong."""
     scene = pane(6.4, 0.09) | {
         "sphere": {"radius": 0.0043, "mass": 7e-5},
         "impact": {"speed": 37.0},
@@ -181,7 +181,7 @@ def test_a_contact_too_short_for_the_modes_of_its_plate_is_refused() -> None:
     }
     with pytest.raises(SceneError, match=r"inertia\.modes: .* frequencies up to .*infinite"):
         simulate(read(scene))
-    # Without edges, thicknesses from which no echo returns in time give the same.
+    # Infinite plates agree if no through-thickness reflection returns during the contact.
     found = []
     for thickness in (0.05, 0.06):
         scene["plate"] = pane(6.4, thickness)["plate"]
@@ -191,7 +191,7 @@ def test_a_contact_too_short_for_the_modes_of_its_plate_is_refused() -> None:
 
 
 def test_all_branches_of_a_thick_block_are_computed() -> None:
-    """By finite elements and by radiation into a half-space e = 0.9907; thousands of modes."""
+    """Finite elements and radiation into a half-space both give a restitution of 0.9907."""
     scene = tomllib.loads((EXAMPLES / "impact_echo.toml").read_text())
     found = simulate(read(scene | {"inertia": {"branches": "all"}}))
     assert found.dynamics is not None
@@ -200,7 +200,7 @@ def test_all_branches_of_a_thick_block_are_computed() -> None:
 
 
 def test_branches_are_included_if_the_tolerance_needs_them() -> None:
-    """At 1 % the lowest one is enough; at 0.1 % the others are computed, and both are true."""
+    """A tolerance of 0.1 % needs more modes than one of 3 %, and both results are within bounds."""
     scene = pane(0.1, 0.02) | {"impact": {"speed": 1.0}}
     fine = simulate(read(scene | {"inertia": {"branches": "all"}}))
     rough, exact = (simulate(read(scene), rtol=rtol) for rtol in (3e-2, 1e-3))

@@ -1,4 +1,4 @@
-"""What is refused, from both sides of each limit: radii, speeds, materials, tolerances, edges."""
+"""Rejected scenes, on both sides of each limit: radii, speeds, materials, tolerances, edges."""
 
 import json
 import math
@@ -25,7 +25,7 @@ Tables = dict[str, dict[str, Any]]
 
 
 def refused_from(make: Callable[[float], Any], fine: float, bad: float) -> tuple[float, str]:
-    """The value from which on a scene is refused, to 1e-6, and the words."""
+    """Return the limit value from which a scene is rejected (within 1e-6), and the message."""
     make(fine)
     text = ""
     while abs(bad / fine - 1) > 1e-6 or not text:
@@ -65,7 +65,7 @@ def refused_from(make: Callable[[float], Any], fine: float, bad: float) -> tuple
     ids=["sphere", "plate", "steep", "held", "solved", "annulus"],
 )
 def test_contact_radii_are_refused_from_the_limit_on(tables: Tables, limit: float) -> None:
-    """a = min(b, R), somewhat before it where more is computed; three thicknesses if solved."""
+    """The limit is min(b, R) or a little less; three thicknesses for non-Hertzian pressure."""
     given = read(changed(**tables))
     found, text = refused_from(lambda a: indent(given, contact_radius=a), 0.5 * limit, 2 * limit)
     assert found == pytest.approx(limit, rel=3e-6)
@@ -74,7 +74,7 @@ def test_contact_radii_are_refused_from_the_limit_on(tables: Tables, limit: floa
 
 
 def test_a_contact_is_refused_where_it_opens_in_its_middle() -> None:
-    """The pressure in the middle falls to nothing there; a sphere's does before a/H = 3."""
+    """A contact is rejected where the central pressure vanishes, for a sphere before a/H = 3."""
     tables = {
         "plate": {"thickness": 0.02},
         "effects": {"spherical_profile": True, "non_hertzian_pressure": True},
@@ -94,7 +94,7 @@ def test_a_contact_is_refused_where_it_opens_in_its_middle() -> None:
     [(None, False), (9.81, False), (9.81, True)],
 )
 def test_impacts_are_refused_from_the_speed_named(gravity: float | None, solved: bool) -> None:
-    """The weight of a heavy sphere takes a good part of what the contact can store."""
+    """The limit of the speed takes the work of a heavy sphere's weight into account."""
 
     def run(v: float) -> Result:
         return simulate(
@@ -176,7 +176,7 @@ def test_the_edges_remainder_is_that_measured_or_refused_above_one_percent() -> 
         m = model(
             b=1.0, h=row["h_over_b"], lam=2 * 3e9 * nu / (1 - 2 * nu), edge=EDGES[row["support"]]
         )
-        # Ratios that are a rounding error off count as between two points of the table.
+        # A ratio with a rounding error is treated as lying between two points of the table.
         if share < 0.0099:
             assert edge_remainder(m, row["a_over_b"]) == pytest.approx(share, rel=0.9)
         elif share > 0.01:
@@ -224,10 +224,10 @@ def test_beyond_the_law_is_refused_with_its_limit() -> None:
 
 
 def test_the_contact_opens_near_three_thicknesses() -> None:
-    """Of a rigid paraboloid on a thin plate; a sphere's pressure is steeper and opens before."""
+    """A paraboloid does not lose contact at the centre up to a/H = 3; a sphere does before."""
     m = model(sphere_modulus=math.inf, h=0.001, R=10.0, edge="paper")
     limit = ContactLaw(m, ALL - {"spherical_profile", "edge", "gravity"}).limit
-    assert limit == 6 * m.h  # 3.01 thicknesses are beyond the law's own limit
+    assert limit == 6 * m.h  # three thicknesses, the limit of the law
     steep = ContactLaw(model(h=0.02), ALL).limit
     assert 0.04 < steep < 0.12
     shape = ContactLaw(model(h=0.02), ALL).at(np.array([0.999 * steep]))
@@ -248,7 +248,7 @@ def test_impact_beyond_the_law_is_refused_at_the_speed_named(plate: dict[str, fl
 
 
 def test_energy_of_a_sphere_close_to_its_limit_by_another_quadrature() -> None:
-    """Sneddon's force along his indentation, steep there, up to 0.99 R."""
+    """The energy is that of Sneddon's law, integrated by SciPy up to the largest radius."""
     m = model(sphere_modulus=math.inf, h=1e3, b=1e4)
     law = ContactLaw(m, frozenset({"hertz", "spherical_profile"}))
     E, R, last = m.modulus, m.R, limits.last_radius(law)
@@ -282,7 +282,7 @@ def test_energy_is_the_integral_of_the_force() -> None:
 def test_an_impact_beyond_the_law_is_an_error_of_the_speed(
     run: Callable[[ContactLaw], object], effects: frozenset[str]
 ) -> None:
-    """Every solver fails in the same way."""
+    """Each solver raises the same error."""
     m = replace(model_of(read(changed())), v0=1e6, retardation_time=1e-6, density=2700.0)
     with pytest.raises(SceneError, match=r"^impact\.speed: "):
         run(ContactLaw(m, effects))

@@ -1,4 +1,4 @@
-"""Many scenes at once: every row is what `simulate` returns for its scene."""
+"""Many scenes at once: each row is what `simulate` returns for its scene."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -18,7 +18,7 @@ from derivation.scene.scene import Scene
 from generated import simple_impact
 
 ROUNDING = 1e-13
-"""Relative difference of a row from its own simulation."""
+"""Relative difference between a row and the simulation of its scene."""
 STEEL_ON_GLASS: dict[str, dict[str, Any]] = {
     "sphere": {"radius": 0.01, "material": "steel"},
     "plate": {"radius": 0.3, "thickness": 0.05, "material": "glass"},
@@ -28,13 +28,13 @@ STEEL_ON_GLASS: dict[str, dict[str, Any]] = {
 
 
 def scene_with(**tables: Mapping[str, Any]) -> Scene:
-    """Steel on glass with other keys."""
+    """Return the scene of steel on glass with some keys changed."""
     return read({n: {**STEEL_ON_GLASS.get(n, {}), **tables.get(n, {})} for n in
                  STEEL_ON_GLASS.keys() | tables.keys()})  # fmt: skip
 
 
 def check(scene: Scene, columns: Mapping[str, Array], rtol: float | None = None) -> Rows:
-    """Solve rows, and compare each with its own simulation."""
+    """Solve rows, and compare each with the simulation of its scene."""
     found = solve(scene, columns, rtol)
     for row in range(len(found.bound)):
         one, said = simulated(row_of(scene, columns, row), rtol)
@@ -55,7 +55,7 @@ def check(scene: Scene, columns: Mapping[str, Array], rtol: float | None = None)
 
 
 def simulated(tables: Mapping[str, Any], rtol: float | None) -> tuple[Result | None, str]:
-    """The simulation of a scene, or why it is refused."""
+    """Return the simulation of a scene, or the message of its error."""
     try:
         return simulate(read(tables), rtol=rtol), ""
     except SceneError as error:
@@ -63,12 +63,12 @@ def simulated(tables: Mapping[str, Any], rtol: float | None) -> tuple[Result | N
 
 
 def never(*_: object, **__: object) -> None:
-    """Instead of the simulation of one scene."""
+    """Fail if a single scene is simulated."""
     raise AssertionError("a row was not solved in arrays")
 
 
 def in_arrays(monkeypatch: pytest.MonkeyPatch, *given: Any) -> None:
-    """See that no row needs a simulation of its own."""
+    """Assert that no row is simulated separately."""
     monkeypatch.setattr(many, "simulate", never)
     assert set(solve(*given).status) == {"finished"}
 
@@ -100,7 +100,7 @@ def test_rows_of_any_law_are_simulations(
         "sphere.radius": chance.uniform(0.005, 0.015, 6),
     }
     check(scene, columns, rtol)
-    if edge != "clamped":  # there the bound takes in a pressure that is solved for
+    if edge != "clamped":  # its bound needs the non-Hertzian pressure
         in_arrays(monkeypatch, scene, columns, rtol)
 
 
@@ -161,7 +161,7 @@ def test_rows_do_not_depend_on_their_number(monkeypatch: pytest.MonkeyPatch) -> 
 
 @pytest.mark.parametrize("length", [1e-3, 1e3])
 def test_rows_in_other_units_of_length_are_the_same_impacts(length: float) -> None:
-    """Lengths, Pa = N/m^2 with N = kg m/s^2: the results scale as their units do."""
+    """The results scale with the unit of length as their dimensions require."""
     paper = load(PAPER).to_json()
     speeds = np.linspace(0.2, 1.5, 4)
     here = solve(load(PAPER), {"impact.speed": speeds})

@@ -1,4 +1,4 @@
-"""Random scenes with every combination of static effects: each row equals its own simulation."""
+"""Random scenes with every combination of static effects: each row equals its simulation."""
 
 from typing import Any
 
@@ -77,7 +77,7 @@ def studies(draw: st.DrawFn) -> Study:
         if draw(st.integers(0, 9)) == 0:
             columns[key][draw(st.integers(0, ROWS - 1))] = draw(st.sampled_from(EXTREME))
     rtol = draw(st.sampled_from(TOLERANCES))
-    if rtol is not None and draw(st.booleans()):  # of the scene, for some of the results
+    if rtol is not None and draw(st.booleans()):  # in the scene
         outputs = draw(st.lists(st.sampled_from(OUTPUTS), min_size=1, max_size=2, unique=True))
         data["accuracy"] = {"rtol": rtol, "outputs": outputs}
         rtol = None

@@ -1,4 +1,4 @@
-"""Scene files: what is read, what is refused and in which words."""
+"""Scene files: valid and rejected files, and the messages on errors."""
 
 import json
 import math
@@ -32,7 +32,7 @@ speed = 1
 LAME = "lame_lambda = 0.36e9\nlame_mu = 0.43e9"
 ALL = "sphere: |plate: |impact: "
 
-# What stands in the good scene, what stands there instead, and words of the message.
+# Text of the valid scene, its replacement, and words of the message.
 BAD = [
     ("thickness = 0.2", "thicknes = 0.2", "plate.thicknes: |thickness?"),
     ("thickness = 0.2", "half-thickness = 0.1", "half_thickness?"),
@@ -173,7 +173,7 @@ def test_good_scenes_are_read_alike(tmp_path: Path) -> None:
 def test_named_materials_hold_what_their_standards_say(
     name: str, E: float, nu: float, density: float
 ) -> None:
-    """In a plate, and in a sphere that gets its mass from it."""
+    """A material gives the constants of plate and sphere, and the mass of the sphere."""
     keys = {"lame_lambda": None, "lame_mu": None, "material": name}
     model = model_of(read(changed(plate=keys, sphere={"mass": None, "material": name})))
     shear, bulk = E / (2 * (1 + nu)), E / (3 * (1 - 2 * nu))
@@ -217,7 +217,7 @@ def test_data_that_are_no_tables(data: Any) -> None:
 
 
 def test_any_damage_is_a_scene_error(tmp_path: Path) -> None:
-    """Random edits of a good scene either load or are refused in words; nothing else happens."""
+    """A randomly edited scene either loads or raises a SceneError."""
     chance = random.Random(7)
     text, refused = GOOD, 0
     path = tmp_path / "scene.toml"

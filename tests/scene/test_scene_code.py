@@ -1,4 +1,4 @@
-"""The code of one scene: alone with NumPy it repeats the scene's law and impact."""
+"""The generated code of a scene needs only NumPy and reproduces its law and impact."""
 
 import ast
 import json
@@ -78,7 +78,7 @@ assert not {"sympy", "flint", "mpmath", "scipy"} & set(sys.modules)
 
 @cache
 def scene_of(case: str) -> Any:
-    """A scene whose plate is quasi-static."""
+    """Return a scene with a quasi-static plate."""
     if case in RANDOM:
         number, rtol = RANDOM[case]
         data = random_scene(number) | {"accuracy": {"rtol": rtol}}
@@ -103,13 +103,13 @@ def names_of(case: str) -> dict[str, Any]:
 
 
 def static_of(case: str) -> Callable[..., Any]:
-    """The relaxed force of a contact."""
+    """Return the function of the relaxed (elastic) force."""
     names = names_of(case)
     return names.get("elastic_force", names["force"])
 
 
 def radii(case: str) -> np.ndarray:
-    """From small to the code's last one."""
+    """Return contact radii up to the largest one of the code."""
     shares = np.concatenate((np.geomspace(1e-5, 1e-2, 20), np.linspace(0.02, 1.0, 50)))
     return shares * names_of(case)["LIMIT"]
 
@@ -131,7 +131,7 @@ def test_alone_with_numpy_it_repeats_law_and_impact(case: str, tmp_path: Path) -
     told = json.loads(run.stdout)
     np.testing.assert_allclose(told["force"], law.force(a, shape), rtol=1e-13)
     np.testing.assert_allclose(told["contact_radius"], a, rtol=1e-12)
-    # Where a sphere is steep the law's own stiffness, the pressure solved for, is less exact.
+    # Near the limit the law's stiffness (non-Hertzian pressure) is less accurate.
     mild = a < 0.9 * law.limit
     np.testing.assert_allclose(
         np.array(told["stiffness"])[mild], law.stiffness(a, shape)[mild], rtol=2e-11
@@ -165,7 +165,7 @@ def test_stiffness_is_the_force_s_derivative(case: str) -> None:
     names, force = names_of(case), static_of(case)
     delta = np.geomspace(1e-6, 0.99, 40) * names["MAX_INDENTATION"]
     step = 1e-3 * delta
-    # Central differences of three steps, extrapolated.
+    # Extrapolate central differences with three steps.
     once, twice, thrice = (
         (force(delta + n * step) - force(delta - n * step)) / (2 * n * step) for n in (1, 2, 3)
     )
@@ -297,7 +297,7 @@ MARKS = {
     "viscosity": {"RETARDATION_TIME", "elastic_force", "elastic_rate", "_extrapolated"},
     "spherical_profile": {"FORCE"},
 }
-"""Names that stand for an effect, of scenes that hold nothing else which needs them."""
+"""Names in the code that occur only if an effect needs them."""
 
 
 @pytest.mark.parametrize("case", CASES)

@@ -1,4 +1,4 @@
-"""The panels of polynomials that the code of a scene holds."""
+"""The piecewise polynomials in the generated code of a scene."""
 
 import numpy as np
 
@@ -6,5 +6,5 @@ from derivation.scene.code import _powers
 
 
 def test_a_polynomial_keeps_its_length_where_its_highest_terms_vanish() -> None:
-    """What a fit leaves there is rounding, or on some machines nothing at all."""
+    """The highest coefficients of a fit may be exactly zero on some machines."""
     assert _powers(np.array([1.0, 2.0, 1.0, 0.0, 0.0])).tolist() == [0.0, 2.0, 2.0, 0.0, 0.0]

@@ -1,4 +1,4 @@
-"""What simulate refuses, warns of and shows at the ends of its range, as a user meets it."""
+"""Errors, warnings and output of `simulate` at the limits of its range."""
 
 import json
 import math
@@ -62,7 +62,7 @@ def moving(**tables: Mapping[str, Any]) -> Any:
 
 @pytest.fixture
 def file(tmp_path: Path) -> Path:
-    """The scene as a file."""
+    """Write the scene to a file."""
     path = tmp_path / "scene.toml"
     tables = (
         f"[{table}]\n" + "".join(f"{key} = {json.dumps(value)}\n" for key, value in keys.items())
@@ -72,7 +72,7 @@ def file(tmp_path: Path) -> Path:
     return path
 
 
-# --- on the screen
+# --- text output
 
 
 def test_simulate_tells_of_contacts_and_of_the_far_face(file: Path, capsys: Captured) -> None:
@@ -139,7 +139,7 @@ def test_a_bound_names_the_outputs_it_is_of() -> None:
 
 
 def test_the_far_face_of_a_block_is_that_of_the_papers_edge() -> None:
-    """Thicker than what the supports' model is measured for, it would turn to compression."""
+    """The block is thicker than the range of the supports' model, so the paper's edge is used."""
     assert max(key[1] for key in edge_remainder._table()) == THICK
     block, soft = (
         simulate(given.scene(plate={"half_thickness": 0.9, "edge": edge}, impact={"speed": 0.01}))
@@ -226,7 +226,7 @@ def test_beyond_the_laws_range_there_is_no_moving_impact() -> None:
 
 
 def test_oscillators_beyond_the_limit_are_not_added(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The last run that can be afforded counts, with the change that it made as its error."""
+    """The last run within the limit is returned, with its change as the estimated error."""
     every = law(inertia=InertiaSettings(branches="all"))
     fine = waves.impact(every, 1e-7)
     monkeypatch.setattr(mode_count, "MANY", fine.inertia.modes // 2)
@@ -257,7 +257,7 @@ def test_code_that_errs_is_not_given_out() -> None:
         code.errors(recipe, made)
 
 
-# --- contacts that are not followed
+# --- contacts that cannot be simulated
 
 
 def law(effects: frozenset[str] = MOVING, **changes: Any) -> ContactLaw:
@@ -289,7 +289,7 @@ def test_why_a_contact_is_lost() -> None:
 
 
 def test_a_sphere_too_heavy_to_come_off_is_refused() -> None:
-    """After a contact far longer than the plate swings, which without weight means nothing."""
+    """A very long contact is rejected if the sphere has weight, and allowed if it has none."""
     heavy = waves.problem_of(law(MOVING | {"gravity"}, gravity=9.81), 8)
     light = waves.problem_of(law(), 8)
     contact_sequence._check_weight(heavy, 1.0)
@@ -311,7 +311,7 @@ def test_a_viscous_contact_that_is_not_followed(
 
 
 def test_an_element_that_cannot_be_shortened_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A contact that lags ends within its last element, wherever that itself ends."""
+    """A viscoelastic contact ends within its last element, whose own end may lie later."""
     found = waves.impact(law(MOVING | {"viscosity"}, retardation_time=1e-4))
     problem, touching = found.impact_history.problem, found.impact_history.contacts[0]
     last, before = touching.pieces[-1], touching.pieces[-2]
@@ -336,7 +336,7 @@ def test_a_guess_without_numbers_leads_nowhere() -> None:
 
 
 def test_a_course_is_the_same_by_the_finest_rule(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The rule is the first that gives the contact time: the rounding of finer ones adds up."""
+    """The first rule that reproduces the contact time gives the history of the finest rule."""
     result = simulate(given.scene())
     first = result.history(41)
     monkeypatch.setattr(motion, "HISTORY_TOLERANCE", -1.0)
@@ -348,13 +348,13 @@ def test_a_course_is_the_same_by_the_finest_rule(monkeypatch: pytest.MonkeyPatch
 
 @pytest.mark.parametrize("number", [0.02, 0.3, 1.5])
 def test_a_thin_infinite_plate_gives_back_what_zener_says(number: float) -> None:
-    """Zener's equation is the limit of a thin plate and a contact small beside its thickness."""
+    """Zener's equation is the limit of a contact small compared with the thickness."""
     plate = {"radius": 0.1, "thickness": 0.01, "youngs_modulus": 7e10, "poissons_ratio": 0.2,
              "density": 2500.0}  # fmt: skip
     data = {"sphere": {"radius": 1e-3, "mass": 1e-3}, "plate": plate, "impact": {"speed": 1e-6},
             "inertia": {"extent": "infinite"}}  # fmt: skip
     unit = limits.zener_number(model_of(read(data)))
-    # The number goes with m^(3/5): the slower, the smaller is the contact.
+    # Zener's number is proportional to m^(3/5); a low speed makes the contact small.
     data["sphere"]["mass"] = 1e-3 * (number / unit) ** (5.0 / 3.0)  # type: ignore[index]
     found = simulate(read(data))
     assert limits.zener_number(found.model) == pytest.approx(number, rel=1e-6)
@@ -362,7 +362,7 @@ def test_a_thin_infinite_plate_gives_back_what_zener_says(number: float) -> None
 
 
 def test_a_face_that_lags_recovers_between_contacts() -> None:
-    """Without force the elastic part, as a^3, falls like exp(-t/viscous time)."""
+    """Without force the elastic part, like a^3, decays as exp(-t/retardation time)."""
     lagging = law(MOVING | {"viscosity"}, retardation_time=1e-4)
     found = waves.impact(lagging)
     contacts, problem = found.impact_history.contacts, found.impact_history.problem
@@ -376,7 +376,7 @@ def test_a_face_that_lags_recovers_between_contacts() -> None:
 
 
 def test_modes_slower_than_the_contact_have_no_bound() -> None:
-    """They agree with each other whatever the truth is: as few as these differ by a third."""
+    """Too few modes give wrong results although they agree with fewer, so no bound is stated."""
     few, many = (simulate(moving(inertia={"modes": count})) for count in (4, 60))
     assert math.isinf(few.accuracy.bound)
     assert few.dynamics is not None

@@ -1,4 +1,4 @@
-"""Results of scenes are whole: every warning is given, no NaN is written, no drawing loses one."""
+"""Complete results: all warnings are given, no NaN is written, failed drawings lose nothing."""
 
 import json
 import math
@@ -46,7 +46,7 @@ def scene(**tables: Any) -> Any:
 
 
 def write(folder: Path, data: Any) -> str:
-    """A scene as a file."""
+    """Write a scene to a file and return its path."""
     lines = (
         f"[{table}]\n" + "".join(f"{key} = {json.dumps(value)}\n" for key, value in keys.items())
         for table, keys in data.to_json().items()
@@ -60,7 +60,7 @@ def write(folder: Path, data: Any) -> str:
 
 
 def test_the_deflection_of_a_plate_with_inertia_is_that_of_its_history() -> None:
-    """It is largest at another time than the contact radius, and after the last contact too."""
+    """The largest deflection is found at any time, during contacts and after the last one."""
     result = simulate(scene())
     assert result.dynamics is not None
     history = result.history(4001)
@@ -73,7 +73,7 @@ def test_the_deflection_of_a_plate_with_inertia_is_that_of_its_history() -> None
     problem = result.dynamics.impact_history.problem
     later = np.linspace(1.0, 1.2, 200) * result.total_time
     assert found >= 0.98 * np.max(np.abs(result.dynamics.profiles(later, np.zeros(1))))
-    assert problem.contact.modes.phi.size == 24  # with "auto" some have two branches
+    assert problem.contact.modes.phi.size == 24  # wave numbers; some have two branches
 
 
 def test_plates_with_inertia_keep_every_warning() -> None:
@@ -88,7 +88,7 @@ def test_plates_with_inertia_keep_every_warning() -> None:
 
 
 def test_the_largest_deflection_is_warned_of_at_whatever_time_it_is() -> None:
-    """Here well before the largest indentation."""
+    """The warning applies to the largest deflection at any time of the impact."""
     plate = {"radius": 0.08, "yield_stress": 3e8, "tensile_strength": None}
     result = simulate(scene(plate=plate, impact={"speed": 3.0}))
     assert result.dynamics is not None
@@ -110,7 +110,7 @@ def test_tension_is_compared_with_what_is_given() -> None:
 
 
 def test_shapes_of_modes_with_many_nodes_are_finite() -> None:
-    """I_0 alone is beyond the doubles, but no deflection is, and the edge is held."""
+    """The shapes are finite and vanish at the edge, although I_0 alone would overflow."""
     with np.errstate(all="raise", under="ignore"):
         waves = edge_modes.clamped_waves(400, 1e-4, 0.3)
         found = edge_modes.shape(waves, np.linspace(0.0, 1.0, 11))
@@ -127,7 +127,7 @@ def test_many_modes_of_a_clamped_plate_are_drawn(monkeypatch: pytest.MonkeyPatch
         sphere={"radius": 0.0025},
         plate={"edge": "clamped"},
         inertia={"modes": 300},
-        effects={"plasticity": False},  # such a contact cannot be followed with so many modes
+        effects={"plasticity": False},  # cannot be simulated with so many modes
     )
     modes = plate_of(
         ContactLaw(model_of(data), WHOLE_PLATE | {"hertz", "edge", "inertia"}), 300
@@ -140,7 +140,7 @@ def test_many_modes_of_a_clamped_plate_are_drawn(monkeypatch: pytest.MonkeyPatch
 def test_no_drawing_loses_the_result(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Captured
 ) -> None:
-    """Frames that are not finite, and whatever else a drawing may raise."""
+    """All other results are written if a frame is not finite or a drawing raises an error."""
     file = write(tmp_path, scene())
 
     def fails(*_: Any) -> Any:
@@ -162,7 +162,7 @@ def test_no_drawing_loses_the_result(
     assert not (tmp_path / "a.gif").exists()
 
 
-# --- numbers that are none
+# --- NaN
 
 
 @pytest.mark.parametrize(
@@ -171,7 +171,7 @@ def test_no_drawing_loses_the_result(
 def test_a_rate_of_zero_leaves_no_hole_in_the_history(
     radius: float, edge: str, speed: float
 ) -> None:
-    """Where Newton's slope is exactly 0, which a step of it would divide by."""
+    """The history is finite where the derivative in Newton's iteration is exactly 0."""
     data = read(
         {
             "sphere": {"radius": radius, "material": "glass"},
@@ -202,7 +202,7 @@ def test_json_of_nan_is_refused() -> None:
         json_text({"x": math.nan})
 
 
-# --- spheres that no speed can save
+# --- spheres that are too heavy at any speed
 
 
 def test_a_sphere_that_is_too_heavy_is_told_so() -> None:
@@ -217,7 +217,7 @@ def test_a_sphere_that_is_too_heavy_is_told_so() -> None:
     data.pop("inertia")
     with pytest.raises(SceneError, match=r"^impact\.gravity: .*kg"):
         simulate(read(data))
-    data["impact"]["speed"] = 1e-9  # no speed corrects it
+    data["impact"]["speed"] = 1e-9  # the sphere is too heavy at any speed
     with pytest.raises(SceneError, match=r"^impact\.gravity: "):
         simulate(read(data))
     data["effects"]["gravity"] = False

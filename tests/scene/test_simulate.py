@@ -92,7 +92,7 @@ def test_json_keys_and_notebook_table() -> None:
 
 @pytest.mark.parametrize(("moves", "rel"), [(False, 1e-13), (True, 1e-11)])
 def test_units_do_not_matter(moves: bool, rel: float) -> None:
-    """Millimetre, tonne, second: stress in MPa, force in N; dimensionless results agree."""
+    """Results in mm, tonne and s (stress in MPa, force in N) agree with those in SI units."""
     metre = simulate(read(changed(plate={"density": 2400.0}, effects={"inertia": moves})))
     millimetre = simulate(read({
         "sphere": {"radius": 130.0, "mass": 0.072},
@@ -215,9 +215,9 @@ def test_indent_refuses(given: dict[str, Any], says: str) -> None:
 @pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.stem)
 def test_examples_run(path: Path) -> None:
     result = simulate(load(path))
-    # Each other one is near some limit.
+    # All other examples have a warning.
     calm = {"paper", "concrete_floor", "membrane", "pad"}
-    # In its first contact the membrane all but leaves the ball, and comes back.
+    # The membrane almost separates from the sphere during the first contact.
     told = [text for text in result.warnings if path.stem != "membrane" or "grazing" not in text]
     assert (told == []) == (path.stem in calm)
     assert result.contact_time > 0
@@ -239,7 +239,7 @@ def test_public_names() -> None:
 
 @pytest.mark.parametrize("n", [*NODES, *MORE_TIMES])
 def test_gauss_integrates_polynomials(n: int) -> None:
-    """By NumPy's nodes and by SciPy's, up to the last degree for which the rule is exact."""
+    """The rule with n nodes is exact up to the degree 2 n - 1."""
     x, weights = gauss(n)
     assert x.shape == weights.shape == (n,)
     assert np.all(np.diff(x) > 0)

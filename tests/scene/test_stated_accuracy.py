@@ -1,4 +1,4 @@
-"""What is stated of a result's accuracy holds: tolerances, digits, rounding, steps."""
+"""The stated accuracy of results: tolerances, digits, rounding errors and time steps."""
 
 import math
 from collections.abc import Mapping
@@ -45,7 +45,7 @@ def test_digits_are_those_that_bound_and_model_error_support() -> None:
     result = simulate(scene())
     error = result.accuracy.bound + result.model_error
     rows = {name: float(value) for name, value, _ in map(str.split, plain(result).splitlines())}
-    # The last digit shown is not finer than the error, nor ten times as coarse.
+    # Rounding to the shown digits changes the value by at most ten times the error.
     shown = rows["max_force"]
     assert abs(shown / result.max_force - 1.0) <= 10.0 * error
     exact = replace(result, accuracy=replace(result.accuracy, law=result.accuracy.rounding))
@@ -64,7 +64,7 @@ def test_what_a_scene_disables_is_named_with_its_bound() -> None:
 
 
 def test_rounding_of_a_small_part_beside_much_bending_is_within_the_bound() -> None:
-    """In other units only rounding differs: of the plate's share less bending, which is huge."""
+    """Other units change only rounding, here of a small difference of large terms."""
 
     def run(f: float) -> Result:
         return simulate(
@@ -91,7 +91,7 @@ def test_rounding_of_a_small_part_beside_much_bending_is_within_the_bound() -> N
 def test_a_viscoelastic_contact_begins_again_on_a_nearly_recovered_face(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """When the face counts as recovered does not matter, once it is all but flat."""
+    """Results do not depend on the threshold from which the surface counts as recovered."""
     given = read(
         {
             "sphere": {"radius": 0.02, "mass": 1.0},
@@ -128,7 +128,7 @@ def test_a_long_run_says_how_far_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_slow_oscillators_alone_say_when_contact_is_impossible() -> None:
-    """By looks at every oscillator sphere and plate meet at the same time, or never."""
+    """No contact occurs within the time for which the slow modes exclude it."""
     law = ContactLaw(replace(model_of(scene()), h=0.001, m=0.05), frozenset(
         {"hertz", "bending", "finite_thickness", "finite_radius", "inertia"}))  # fmt: skip
     problem = waves.problem_of(law, 40)

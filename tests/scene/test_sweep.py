@@ -1,4 +1,4 @@
-"""Sweeps: every row is the simulation of its value; what is refused says why and stops nothing."""
+"""Sweeps: each row is the simulation of its value; rejected values do not stop the sweep."""
 
 import csv
 import json
@@ -118,7 +118,7 @@ def test_processes_share_a_long_sweep_and_change_nothing(monkeypatch: pytest.Mon
 
 @pytest.mark.skipif(not hasattr(signal, "pthread_sigmask"), reason="signals cannot be held")
 def test_processes_do_not_hear_of_ctrl_c_even_while_they_begin() -> None:
-    """They would show a traceback of their own if it met them while they import."""
+    """Ctrl-C is blocked in starting processes, which would otherwise print a traceback."""
     ask = "import signal; print(signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, ()))"
 
     def deaf() -> str:

@@ -64,7 +64,7 @@ def test_results_differ_by_no_more_than_the_tolerance_of_the_elements_says(
         for tolerance in (loose, contact_sequence.TOLERANCE)
         for n in (waves.NODES[0], waves.NODES[-1])
     ]
-    # By far shorter elements, of other nodes.
+    # The reference has much shorter elements with another number of nodes.
     monkeypatch.setattr(contact_sequence, "PHASE", 0.3)
     monkeypatch.setattr(contact_sequence, "LONGEST", 0.1)
     fine = numbers(law, contact_sequence.impact_history(problem, 20))
@@ -75,7 +75,7 @@ def test_results_differ_by_no_more_than_the_tolerance_of_the_elements_says(
 
 @pytest.mark.parametrize("name", [name for name in CASES if "viscoelastic" in name])
 def test_a_viscoelastic_contact_never_pulls(name: str) -> None:
-    """The force stays positive within every element, however long the elements are."""
+    """The force is non-negative within each element, up to 1e-6 of the unit of force."""
     _, problem = case(name)
     for n, tolerance in ((16, 1e-11), (32, 1e-8)):
         for touching in contact_sequence.impact_history(problem, n, tolerance).contacts:
@@ -85,7 +85,7 @@ def test_a_viscoelastic_contact_never_pulls(name: str) -> None:
 
 
 def test_branches_change_at_their_yield_events_whatever_the_nodes_of_the_elements() -> None:
-    """Elements that cannot be made to end at an event are halved until one of them can."""
+    """Elements are halved until one of them can end at the yield event."""
     sheet = {
         "radius": 0.017677098253298388, "thickness": 0.0005362909745948016,
         "youngs_modulus": 1888493742.7203, "poissons_ratio": 0.35142186843123463,

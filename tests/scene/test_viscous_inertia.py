@@ -1,4 +1,4 @@
-"""Plate inertia in viscoelastic contacts: its omission never changes more than is stated."""
+"""Plate inertia in viscoelastic contacts: omitting it changes no result beyond the bound."""
 
 from dataclasses import replace
 from typing import Any
@@ -25,7 +25,7 @@ SOFT_BLOCK: dict[str, Any] = {
 def test_results_at_a_loose_tolerance_are_within_their_bound(
     retardation_time: float, rtol: float
 ) -> None:
-    """Strongly viscoelastic: the vibration of the plate doubles the rest of the sphere's speed."""
+    """The bound also covers strongly viscoelastic contacts, where inertia changes much."""
     plate = SOFT_BLOCK["plate"] | {"retardation_time": retardation_time}
     scene = SOFT_BLOCK | {"plate": plate, "effects": {"inertia": "auto"}}
     with_inertia = scene | {"effects": {"inertia": True}}
@@ -37,7 +37,7 @@ def test_results_at_a_loose_tolerance_are_within_their_bound(
 
 @pytest.mark.parametrize(("number", "modes"), [(183, 8), (1017, 32)])
 def test_the_error_of_the_force_at_the_onset_is_no_separation(number: int, modes: int) -> None:
-    """A first contact of 1e-18 s was stated, followed by the whole impact as a second one."""
+    """There is one contact; an earlier version stated a separate first one of 1e-18 s."""
     data, _ = random_scenes.scene(number, seed=3)
     model = replace(model_of(read(data)), inertia=InertiaSettings(modes=modes, branches="A0"))
     found = waves.impact(ContactLaw(model, inertia_check.present(model)), 1e-4)

@@ -1,4 +1,4 @@
-"""Impacts on a plate that moves against an independent integrator, and a limit."""
+"""Impacts with plate inertia compared with an independent integrator and with the static law."""
 
 import math
 from dataclasses import replace
@@ -31,17 +31,17 @@ def history(model: Model, n: int = 16, modes: int = MODES) -> contact_sequence.I
 
 
 def felt(y: np.ndarray) -> np.ndarray:
-    """g(y) = 3 (sin y - y cos y)/y^3."""
+    """Return g(y) = 3 (sin y - y cos y)/y^3, the normalised modal force."""
     large = np.maximum(y, 0.05)
     closed = 3.0 * (np.sin(large) - large * np.cos(large)) / large**3
     return np.where(y < 0.05, 1.0 - y * y / 10.0 * (1.0 - y * y / 28.0), closed)
 
 
 def integrated(model: Model, end: float) -> tuple[float, float, float]:
-    """First contact's end [s], its largest force [N], and the velocity after, by DOP853.
+    """Return end [s] and peak force [N] of the first contact, and the velocity [m/s], by DOP853.
 
-    In s = sqrt(t), in which the onset is smooth, with the square of the contact radius among the
-    unknowns: the depth's slope by the radius says how that grows.
+    The variable s = sqrt(t) makes the onset smooth. The square of the contact radius is one of the
+    unknowns; its rate follows from the derivative of the indentation with respect to the radius.
     """
     modes = free_modes(model, MODES)
     count, compliance, phi = (
@@ -54,7 +54,7 @@ def integrated(model: Model, end: float) -> tuple[float, float, float]:
         return float(force_of_radius(math.sqrt(max(square, 0.0)), model.R, model.lam, model.mu))
 
     def slope(a: float, q: np.ndarray) -> float:
-        """(R/2a) times the slope of rest less the shares of what the oscillators miss there."""
+        """Return R/(2 a) times the static slope less the deviation of the modes from statics."""
         y, P = a * phi, force(a * a)
         share = np.sinc(y / np.pi)
         turned = np.cos(y) - share
@@ -121,7 +121,7 @@ def test_an_independent_integrator_agrees(changes: dict[str, Any]) -> None:
 
 @pytest.mark.parametrize("h", [0.02, 0.005, 0.002])
 def test_nodes_do_not_matter_and_the_ledger_closes(h: float) -> None:
-    """Several contacts where the plate is thin; the sphere never lies below the free face."""
+    """Results do not depend on the number of nodes, and bodies do not overlap between contacts."""
     model = replace(BALL, h=h)
     fine, coarse = (history(model, n) for n in (16, 14))
     assert len(fine.contacts) == len(coarse.contacts)
@@ -149,7 +149,7 @@ def test_the_axis_leaks_what_it_is_said_to() -> None:
 
 
 def test_a_plate_without_mass_is_at_rest() -> None:
-    """As the density falls the impact tends to that on the static law, restitution to 1."""
+    """The impact approaches that of the static law as the density tends to zero."""
     calm = motion.impact(ContactLaw(BALL, WHOLE_PLATE | {"hertz"}))
     errors = []
     for density in (2.7, 0.27):
@@ -158,7 +158,7 @@ def test_a_plate_without_mass_is_at_rest() -> None:
         pairs = zip(found.numbers, calm.numbers, strict=True)
         errors.append([abs(x / y - 1.0) for x, y in pairs])
     assert all(late < 0.4 * early for early, late in zip(*errors, strict=True))
-    # The force rings with the square root of the density, what it moves hardly.
+    # The force oscillates with an amplitude like sqrt(density); the displacement hardly does.
     time, way, force, radius, speed = errors[-1]
     assert force < 0.03
     assert radius < 0.01

@@ -1,4 +1,4 @@
-"""A scene that is quick to simulate, and a run of the command in a process of its own."""
+"""A scene that is fast to simulate, and helpers that run and inspect a sweep."""
 
 import os
 import subprocess
@@ -18,12 +18,12 @@ NORMAL = {"distribution": "normal", "mean": 1.0, "std": 0.1}
 
 
 def scene() -> Any:
-    """The scene."""
+    """Return the scene."""
     return pc.load(QUICK)
 
 
 def begin(*arguments: str) -> "subprocess.Popen[str]":
-    """The command `sweep` of the scene in a process of its own."""
+    """Start the command `sweep` for the scene in a separate process."""
     command = [sys.executable, "-m", "derivation.cli", "sweep", str(QUICK), *arguments]
     return subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=ROOT,
@@ -32,12 +32,12 @@ def begin(*arguments: str) -> "subprocess.Popen[str]":
 
 
 def parts(out: Path) -> list[Path]:
-    """The files of finished batches beside an output."""
+    """Return the files of finished batches that belong to an output file."""
     return sorted(out.with_name(f"{out.name}.parts").glob("*.parquet"))
 
 
 def counts(out: Path, size: int) -> np.ndarray:
-    """How many finished batches have each point."""
+    """Count the finished batches that contain each point."""
     found = np.zeros(size, dtype=int)
     for path in parts(out):
         known = FILE.fullmatch(path.name)
@@ -47,7 +47,7 @@ def counts(out: Path, size: int) -> np.ndarray:
 
 
 def journal(out: Path, size: int) -> np.ndarray:
-    """How often each point was computed and kept, by the journal."""
+    """Count from the journal how often each point was computed and stored."""
     found = np.zeros(size, dtype=int)
     for line in (out.with_name(f"{out.name}.parts") / "journal.txt").read_text().splitlines():
         start, stop, computed, *_ = line.split()

@@ -1,4 +1,4 @@
-"""Points of a study: made from their index alone, distributed as they are to be."""
+"""Points of a study: each depends on its index only, and has the given distribution."""
 
 import itertools
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Runs that are killed or interrupted, and runs on a cluster that loses a worker."""
+"""Sweeps that are killed or interrupted, and sweeps on a cluster that loses a worker."""
 
 import json
 import random
@@ -25,7 +25,7 @@ PATIENCE = 100.0
 
 
 def wait(condition: Callable[[], object]) -> None:
-    """Wait until something is so."""
+    """Wait until a condition is true."""
     end = time.monotonic() + PATIENCE
     while not condition():
         assert time.monotonic() < end, "waited in vain"
@@ -33,7 +33,7 @@ def wait(condition: Callable[[], object]) -> None:
 
 
 def whole(path: Path) -> bytes:
-    """The file of the study without interruption."""
+    """Return the content of the output file of an uninterrupted study."""
     pc.sweep(scene(), {"impact.speed": f"0.5:2:{POINTS}"}, out=path)
     return path.read_bytes()
 
@@ -70,7 +70,7 @@ def test_an_interrupted_run_says_how_it_goes_on(tmp_path: Path) -> None:
 
 @contextmanager
 def ended(*commands: list[str]) -> Iterator[list["subprocess.Popen[bytes]"]]:
-    """Processes that end with the block."""
+    """Start processes and end them when the block ends."""
     made = [
         subprocess.Popen(
             [sys.executable, "-m", "distributed.cli." + command[0], *command[1:]], cwd=ROOT,

@@ -1,4 +1,4 @@
-"""What a study gives: every point is its simulation, in every format, and nothing is redone."""
+"""Output of a sweep: each point equals its simulation in each format; none is repeated."""
 
 import csv
 import gc
@@ -26,7 +26,7 @@ GRID = {"impact.speed": [0.8, 1.0, 1.3], "plate.thickness": "0.15:0.25:2"}
 
 
 class Formula:
-    """Stands in for the simulation: quick, of known values, with failures, and counts points."""
+    """Replacement of the simulation: fast, with known values and failures; counts points."""
 
     def __init__(self) -> None:
         self.calls = 0
@@ -77,7 +77,7 @@ def test_every_point_is_its_simulation() -> None:
 
 
 def opened(path: Path) -> xr.Dataset:
-    """The Dataset in a file."""
+    """Return the Dataset stored in a file."""
     if path.suffix == ".nc":
         return xr.load_dataset(path)
     return xr.open_zarr(path).load()
@@ -256,7 +256,7 @@ def test_explain_computes_a_few_points_alone(
 
 @pytest.fixture
 def collected() -> Iterator[None]:
-    """Collect cycles of objects often: how long they are kept depends on Python's version."""
+    """Run the garbage collector often, because its schedule depends on Python's version."""
     usual = gc.get_threshold()
     gc.set_threshold(200, 2, 2)
     yield
@@ -268,9 +268,9 @@ def collected() -> Iterator[None]:
 def test_memory_does_not_grow_with_the_study(
     formula: Formula, tmp_path: Path, suffix: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Arrays of NumPy and Python's objects; pyarrow holds a block of its own.
+    """Peak memory of Python, NumPy and pyarrow does not grow with the number of points.
 
-    The first study imports what writes the file.
+    The first study is not compared, because it imports the modules that write the file.
     """
     import tracemalloc
 

@@ -1,4 +1,4 @@
-"""Sensitivity indices: those of functions whose indices are known."""
+"""Sensitivity indices of functions whose indices are known."""
 
 import json
 from dataclasses import replace
@@ -19,7 +19,7 @@ KEYS = ("impact.speed", "sphere.radius", "plate.radius")
 
 
 def rows(_: object, columns: dict[str, np.ndarray], __: object = None) -> Rows:
-    """Results that are a sum, a product, a constant, and noise below the bound."""
+    """Return results that include a sum, a product, a constant, and noise below the bound."""
     x, y, z = (columns[key] for key in KEYS)
     made = [x + 2 * y, (x - 1.5) * (y - 1.5) + z, 0 * x + 1, 1 + 1e-9 * x, x, y, z]
     texts = [np.full(len(x), text, dtype=object) for text in ("", "hertz")]

@@ -1,4 +1,4 @@
-"""Algorithms written by hand with one thing wrong, in memory: hard cases notice it."""
+"""Mutation tests of hand-written algorithms: hard cases detect each error in the code."""
 
 from collections.abc import Mapping
 

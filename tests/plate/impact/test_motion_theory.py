@@ -80,7 +80,7 @@ def test_contact_time_integral_is_the_motions(
         return mp.fsum(n * d * q ** (n - 1) for n, d in pairs) / mp.sqrt(work)
 
     with mp.workdps(40):
-        # The root at q = 1 costs half the digits: what is left out there is 2 rate sqrt(1e-30).
+        # The square root at q = 1 halves the digits: the omitted part is about 2 rate sqrt(1e-30).
         expected = mp.quad(rate, [0, 0.5, 0.9, 0.999, 1 - mp.mpf("1e-30")])
         assert abs(contact_integral(motion, law) / expected - 1) < mp.mpf("1e-12")
 

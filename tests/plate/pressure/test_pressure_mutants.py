@@ -77,7 +77,7 @@ def solved(a: float, v: float, R: float, share: float, sphere: bool, compliance:
 
 
 def distribution(a: float, v: float, R: float, share: float, sphere: bool) -> Sharp:
-    """Return the case of the pressure distribution: values at two places, total force, NaN outside."""
+    """Return the case of the pressure: total force, two reference values, NaN outside."""
     true, own = state(a, v, R, share, sphere), share * E
     width, radius = a * H, R * H
     nodes, weights = np.polynomial.legendre.leggauss(40)

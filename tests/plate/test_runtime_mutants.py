@@ -117,7 +117,7 @@ def wall_cases() -> list[Sharp]:
 
 
 SOLID = (0.36e9, 0.43e9), (-0.6, 1.0), (-0.66, 1.0), (-0.3, 0.5), (-1.3, 2.0)
-"""Lame's constants; 3 lam is above -2 mu."""
+"""Lame constants of valid solids, 3 lam > -2 mu."""
 NO_SOLID = (-0.67, 1.0), (-0.8, 1.0), (-0.4, 0.5), (-1.4, 2.0), (1.0, 0.0), (1.0, -0.4)
 
 

@@ -281,7 +281,7 @@ SPLITS = {
         (motion.verlet(20, ar=SINGLE), 3.3, 7),
     ),
 }
-"""Methods with their digits of truncation and of rounding, about."""
+"""Methods with their approximate numbers of correct digits: truncation, rounding."""
 
 
 @pytest.mark.parametrize("task", SPLITS)

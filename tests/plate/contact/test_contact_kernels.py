@@ -19,7 +19,7 @@ THICK = (0.34, 0.4, 0.5302, 1.0, 3.0, 10.0, 100.0)
 SWITCHES = [float(np.nextafter(1 / v, side)) for v in (3, 4, 6, 11) for side in (0, 1)]
 ETAS = (1e-3, 0.01, 0.05, 0.08, *SWITCHES, 0.1, 0.14, 0.17, 0.2, 0.25, 0.3, *THICK)
 HERTZ_TIME = 2.9432751843247046
-"""2 int_0^1 dx/sqrt(1 - x^(5/2)), from theory: twice 1.4716375921623523."""
+"""2 int_0^1 dx/sqrt(1 - x^(5/2)), which is twice 1.4716375921623523."""
 
 
 PLATES = (1e-3, 0.05, 0.0908, 0.0911, 0.2, 0.3332, 0.3335, 0.5302, 1.0, 10.0)
@@ -115,7 +115,7 @@ def test_many_plates_are_as_one() -> None:
     assert np.abs(together / alone - 1).max() < 1e-15
 
 
-# Impact.
+# --- impact
 
 
 @pytest.mark.parametrize(("b", "end"), [(2.0, 2.0), (6.0, 3.6)])

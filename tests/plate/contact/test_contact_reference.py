@@ -115,7 +115,7 @@ def test_thin_plate_bends_as_kirchhoffs(eta: float) -> None:
 
 
 def test_impact_of_a_half_space_is_hertzs() -> None:
-    """For a contact much smaller than the plate the time is 2 * 1.4716375921623523 delta/v0."""
+    """For a small contact the contact time is Hertz's, 2 * 1.4716375921623523 delta/v0."""
     R, m, v0, lam, mu = 1.0, 1.0, 1e-40, 0.0, 0.5
     found = contact_impact.impact(R, m, v0, 1.0, 1.0, lam, mu, 20)
     constant = float(found.contact_time * flint.arb(v0) / found.max_indentation)

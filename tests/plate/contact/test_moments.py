@@ -24,7 +24,7 @@ from generated import finite_part, finite_part_ratio, kappa, kappa_ratio
 BITS = 80
 BUDGET = 0.51
 LAST_N, LAST_K = 196, 99
-"""The largest indices whose value a double holds."""
+"""The largest indices whose values do not overflow a double."""
 LARGE = (300, 999, 1000, 4097, 10**4, 10**5, 123457, 10**6)
 KERNELS = (kappa, kappa_ratio, finite_part, finite_part_ratio)
 FIRST = {kappa: 0, kappa_ratio: 0, finite_part: 2, finite_part_ratio: 2}

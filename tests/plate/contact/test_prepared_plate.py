@@ -14,12 +14,12 @@ from generated.prepared_plate import PreparedPlate, prepare
 
 LAM, MU = 0.36e9, 0.43e9
 CLOSE = 4e-15
-"""Twice the error that the check of the contact law allows of a result of moderate condition."""
+"""Twice the error limit of the contact-law check for a well-conditioned result."""
 CONTACTS = [
     (0.002, 0.01, 1.0), (0.02, 0.01, 1.0), (0.0301, 0.01, 1.0), (0.041, 0.01, 1.0),
     (0.0599, 0.01, 1.0), (0.0395, 0.01, 0.04), (0.05, 0.05, 0.3), (0.1, 9.0, 1.0),
 ]  # fmt: skip
-"""a, h and b: every polynomial of thin, medium and thick plates."""
+"""Values of a, h and b that use every polynomial of thin, medium and thick plates."""
 
 
 def number(value: Any) -> float:

@@ -18,9 +18,12 @@ from derivation.plate.vocabulary import Formula, PlateRoot, a_ratio, eta
 DIGITS = 42
 ETAS = ("0.05", "0.2", "1/3", "0.5302", "0.9", "2")
 POINTS = (("0.1", "0.05"), ("4.5", "0.2"), ("1", "1/3"), ("0.5", "0.9"), ("0.2", "3"))
-"""a/h and h/b; the second beyond the radius of Phi's power series, the last in a thick plate."""
+"""Values of a/h and h/b.
+
+The second point is outside the convergence radius of Phi's series; the last plate is thick.
+"""
 DROPS = {"sinh T = T": lambda n: 2 * n - 1, "sinh T = -T": lambda n: 2 * n}
-"""Families of roots that may be forgotten, by the index that is left."""
+"""Family of roots to omit, with the indices of the remaining roots."""
 
 
 @pytest.fixture(scope="module")

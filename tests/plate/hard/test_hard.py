@@ -64,7 +64,7 @@ GROUPS = {
     "waves of held plates": 12,
     "waves of the plate": 100,
 }
-"""What the suite must hold, and at least how many cases of it."""
+"""Groups of hard cases, with the least number of cases in each."""
 
 
 @pytest.fixture(scope="module")

@@ -79,7 +79,7 @@ MAY_PASS: Mapping[str, Mapping[str, tuple[int, str]]] = {
     "sensitivity": {"_near_sums": (4, SHAPE)},
     "series_constants": {"_looked_up": (1, GUARDS)},
 }
-"""By module and function or constant, how many mutants may pass at most, and why."""
+"""Largest number of undetected mutants by module and function or constant, with the reason."""
 
 
 @pytest.mark.parametrize("name", MAY_PASS)

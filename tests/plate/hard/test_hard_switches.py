@@ -18,7 +18,7 @@ from derivation.engine.measure.kernels import Kernel
 from derivation.engine.measure.suite import Suite
 
 CLOSE = 1e-12
-"""Relative distance to the switch: of what is compared, which may be the result of a sum."""
+"""Largest relative difference of two compared numbers that counts as close to a switch."""
 
 GUARD = "a guard against what is outside the domain, or what no input reaches"
 LOOP = "keeps an iteration within its bracket"
@@ -66,7 +66,7 @@ MAY_STAY: Mapping[str, tuple[int, str]] = {
     "simple_impact.leading": (1, GUARD),
     "viscosity.viscous_logarithms": (4, ELSEWHERE),
 }
-"""How many comparisons of a function may stay on one side, or far from the switch, and why."""
+"""Largest number of comparisons by function without close cases on both sides, and why."""
 
 
 def modules() -> list[ModuleType]:

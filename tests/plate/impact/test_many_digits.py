@@ -279,7 +279,7 @@ def test_digits_shared_are_no_more_than_the_ball_has() -> None:
 def test_every_result_is_held_to_the_second_oracle(
     name: str, monkeypatch: pytest.MonkeyPatch, capsys: Captured
 ) -> None:
-    """An error of 1e-12 in one result of the second reference is reported for that result only."""
+    """An error of 1e-12 in one function of the second reference shows in its results only."""
     right = getattr(residue_law, name)
 
     def off(*arguments: Any) -> Any:

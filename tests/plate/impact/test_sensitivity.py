@@ -29,9 +29,9 @@ from generated.sensitivity import PARAMETERS, RESULTS, impact_sensitivities, ind
 LAM, MU = 6e10, 8e10
 SCENE = (0.05, 0.03, 10.0, 0.001, 0.05, LAM, MU)
 THICK = (1e3, 2.0, 0.0022, 1.0, 0.01, LAM, MU)
-"""h/b is 100."""
+"""Scene with h/b = 100."""
 ROOT = 0.5301974990742511
-"""The double nearest to the h/b at which c_1 passes zero."""
+"""The double nearest to the h/b at which c_1 = 0."""
 BELOW, ABOVE = 1 - 1e-9, 1 + 1e-9
 BITS = 128
 LIMIT = 2e-15

@@ -28,7 +28,7 @@ NO_MOTION: Sequence[Point] = [
     (PAPER[0], 0.0, *PAPER[2:]),
 ]  # fmt: skip
 MOTIONS: Sequence[Point] = [(72.2, 1.0, 3e7, 4e8), (0.5, 3.0, 2e5, 8e3), (2.0, 0.01, 30.0, 5e5)]
-"""m, v0, xi_2, xi_3: from a small correction to one that counts more than the linear term."""
+"""Values of m, v0, xi_2 and xi_3, for corrections from small to above the linear term."""
 
 
 @cache

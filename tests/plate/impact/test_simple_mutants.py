@@ -40,14 +40,14 @@ class Bounded:
 
 
 ETAS = (0.17, 0.3, 1.0, 5.0, 1 / 6.5, 1 / 13, 1 / 40)
-"""h/b: by modes, and by the closed forms."""
+"""Values of h/b for the sum over modes and for the closed forms."""
 SIMPLE: Sequence[Point] = [
     (1.0, 2.0, 3e-4, 0.6, 2.0, 3.6e4, 4.3e4), (1.0, 2.0, 0.05, 0.6, 2.0, 3.6e4, 4.3e4),
     (0.9, 2.0, 0.02, 0.5, 0.5, -0.5e4, 0.8e4), (30.0, 0.5, 1e-3, 0.02, 0.8, 3.6e4, 4.3e4),
     (0.01, 2.0, 0.1, 0.6, 2.0, 3.6e4, 4.3e4),
     (1.0, 2e-60, 0.05, 0.6, 2.0, 3.6e-56, 4.3e-56),
 ]  # fmt: skip
-"""One wide for its sphere, and one in other units."""
+"""Scenes, among them a contact wide compared with its sphere, and one in other units."""
 NO_ESTIMATE: Sequence[Point] = [
     (1.0, 2.0, 1e3, 0.3, 1.0, 3.6e4, 4.3e4), (1e-3, 2.0, 0.05, 0.3, 1.0, 3.6e4, 4.3e4),
     (1.0, 1e-101, 0.05, 0.3, 1.0, 3.6e4, 4.3e4), (1.0, 2.0, 0.05, 0.3, 1e51, 3.6e4, 4.3e4),

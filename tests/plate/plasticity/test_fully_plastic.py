@@ -17,7 +17,7 @@ from generated.plasticity import plastic_restitution
 from generated.plasticity_kernels import beyond, risen
 
 PRESSURE = 2.0 / math.pi
-"""1.6 Y where a_y, R and E* are 1."""
+"""The pressure limit 1.6 Y in units with a_y = R = E* = 1."""
 YIELD = PRESSURE / 1.6
 SCENE = {
     "sphere": {"radius": 0.01, "density": 7850.0},

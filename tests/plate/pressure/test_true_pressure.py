@@ -25,7 +25,7 @@ from generated.pressure_numbers import ERROR, THIN, WIDEST, WIDEST_SHARE
 
 R, E = 1e3, 7e10
 OPEN = 3.012493
-"""a/H, H = 2 h, at which the contact opens, in every thin plate."""
+"""a/H, with H = 2 h, at which every thin plate loses contact at the centre."""
 
 
 pytestmark = pytest.mark.usefixtures("no_warning")
@@ -296,7 +296,10 @@ def test_the_contact_opens_at_three_thicknesses() -> None:
 
 
 def test_in_thin_plates_the_shape_of_the_pressure_depends_on_the_thickness_alone() -> None:
-    """In a thin plate b/h adds only terms t^2 + s^2 to the kernel, a change of curvature."""
+    """In thin plates the pressure profile depends on a/h and not on b/h.
+
+    b/h changes the kernel only by terms t^2 + s^2, which act like a curvature of the sphere.
+    """
     places = np.linspace(0.0, 3.0, 7)
     shapes = [
         pressure(places, of, 3.0, R, E) / contact(of, 3.0, R, E).mean_pressure

@@ -1,4 +1,4 @@
-"""Core formulas with one thing wrong: what proves them, or an oracle, notices every one."""
+"""Mutation tests of core formulas: a proof or a reference detects each changed formula."""
 
 from collections.abc import Callable, Mapping
 from functools import cache
@@ -59,7 +59,7 @@ def mutants(name: str) -> list[Mutant]:
 
 
 def noticed(passes: checks.Check, expression: sp.Expr) -> bool:
-    """Whether a mutant fails; one that has no value, or no real one, does."""
+    """Return whether a mutant fails; one without a real value fails too."""
     try:
         return not passes(expression)
     except (ArithmeticError, ValueError, TypeError):
@@ -68,7 +68,7 @@ def noticed(passes: checks.Check, expression: sp.Expr) -> bool:
 
 @pytest.mark.parametrize("name", TARGETS)
 def test_every_mutant_of_a_core_formula_is_noticed(name: str) -> None:
-    """Those that are not are the same function, written otherwise."""
+    """A mutant that passes is equal to the formula."""
     expression = chain()[name].expression
     passes = TARGETS[name](name)
     assert passes(expression)

@@ -1,4 +1,4 @@
-"""The printed equations, and what comparison with the derived ones finds."""
+"""Test the published equations and the findings of their comparison with the derived ones."""
 
 import json
 from collections.abc import Mapping

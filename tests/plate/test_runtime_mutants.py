@@ -1,4 +1,4 @@
-"""Algorithms written by hand with one thing wrong, in memory: independent values notice it."""
+"""Mutation tests of hand-written algorithms: independent values detect each error."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -20,7 +20,7 @@ NAN = math.nan
 
 
 def bessel_cases() -> list[Sharp]:
-    """Both sides of every method, beside zeros, and arguments as large as there are."""
+    """Return cases at both sides of each switch point, near zeros, and at very large arguments."""
     inside = [0.0, 1e-300, 1e-5, 0.5, 1.841, 5.0, 11.7, ASYMPTOTIC_START - 1e-9, 17.0]
     beside = [2.404825557695773, 3.8317059702075125, 14.930917708487787, 30.634606468431976]
     beyond = [ASYMPTOTIC_START, 26.0, 31.0, 1e3, 123456.789, 1e10, 3e13]
@@ -39,7 +39,7 @@ def bessel_cases() -> list[Sharp]:
 
 
 def single(name: str, true: float) -> Sharp:
-    """In single precision."""
+    """Return the case of a function in single precision."""
     return Sharp(lambda m: getattr(m, name)(np.float32(5)), np.asarray(np.float32(true)), 0.0)
 
 
@@ -64,7 +64,7 @@ def counted(name: str, row: tuple[float, ...]) -> Sharp:
 
 
 def elastic(lam: float, mu: float) -> mpf:
-    """E* of a plate."""
+    """Return E* of a plate."""
     return 4 * mpf(mu) * (mpf(lam) + mu) / (mpf(lam) + 2 * mpf(mu))
 
 
@@ -117,7 +117,7 @@ def wall_cases() -> list[Sharp]:
 
 
 SOLID = (0.36e9, 0.43e9), (-0.6, 1.0), (-0.66, 1.0), (-0.3, 0.5), (-1.3, 2.0)
-"""Lame's constants; 3 lam is above -2 mu."""
+"""Lame constants of valid solids, 3 lam > -2 mu."""
 NO_SOLID = (-0.67, 1.0), (-0.8, 1.0), (-0.4, 0.5), (-1.4, 2.0), (1.0, 0.0), (1.0, -0.4)
 
 
@@ -128,7 +128,7 @@ def in_domain(
     positive: Sequence[int],
     ulp: float,
 ) -> list[Sharp]:
-    """At solids, and NaN for what is none, or where one of the other arguments is not positive."""
+    """Return cases for valid solids, and NaN for invalid solids or non-positive arguments."""
     points = [of(*elasticity) for elasticity in SOLID]
     outside = [of(*elasticity) for elasticity in NO_SOLID]
     for place in positive:
@@ -160,7 +160,7 @@ def motion_cases() -> list[Sharp]:
     ]  # fmt: skip
 
 
-# --- viscous contact
+# --- viscoelastic contact
 
 
 def viscosity_cases() -> list[Sharp]:
@@ -195,11 +195,11 @@ EXTREMES = (
     (0.9, 2.3, 0.0, 0.2, 0.8, 0.4, 1.0),
     (0.5, 3.9, 0.0, 0.2, 0.8, 0.4, 1.0),
 )
-"""Weak to strong, with a weight, and where nothing is shown."""
+"""Weak to strong viscosity, with gravity, and without a finite bound."""
 
 
 def logarithms(extremes: tuple[float, ...]) -> Sharp:
-    """The bounds of link 24 as its text has them."""
+    """Return the case of the bounds of derivation step 24, as stated in its text."""
     epsilon, n, fall, rise, depth, radius, u = map(mpf, extremes)
     true = [mp.inf] * 5
     if epsilon < 1 and n * epsilon < 2:

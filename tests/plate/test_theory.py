@@ -1,4 +1,4 @@
-"""The derived formulas against independent truth: limits, quadrature, plate theory, the PDE."""
+"""Test the derived formulas against limits, quadrature, plate theory and Navier's equations."""
 
 from collections.abc import Mapping
 
@@ -22,7 +22,7 @@ def _digits():
 
 
 def value(expression: sp.Expr, **more: object) -> mp.mpf:
-    """An expression at the point, by SymPy's own evaluation: not by the project's."""
+    """Return an expression at the point, evaluated by SymPy and not by this project."""
     numbers = {name: sp.Rational(text) for name, text in POINT.items()} | more
     by_name = {symbol: numbers[str(symbol)] for symbol in expression.free_symbols}
     return mp.mpf(str(expression.subs(by_name).evalf(45)))
@@ -59,7 +59,7 @@ def test_flipped_constant_breaks_a_traction(constant: sp.Symbol) -> None:
 
 
 def test_interior_satisfies_navier_on_a_patch(formulas: Formulas) -> None:
-    """Navier's equations, differentiated numerically at a point, in mpmath throughout."""
+    """The displacements satisfy Navier's equations, by numerical derivatives in mpmath."""
     lam_v, mu_v, phi_v = (mp.mpf(POINT[name]) for name in ("lam", "mu", "phi"))
     constants = {C1: 1, C2: -2, C3: 3, C4: 5}
     numbers = constants | {phi: sp.Rational(POINT["phi"])}
@@ -88,7 +88,7 @@ def test_interior_satisfies_navier_on_a_patch(formulas: Formulas) -> None:
 
 
 def test_stresses_are_differences_of_displacements(formulas: Formulas) -> None:
-    """S_rz = mu phi (g' - f) and the J0 part of sigma_zz, by numerical differentiation."""
+    """S_rz = mu phi (g' - f) and the J0 part of sigma_zz agree with numerical derivatives."""
     f_j, g_j = (
         sp.lambdify(z, loaded(formulas[n].expression).subs(_numbers(A_j=3)), "mpmath")
         for n in ("f_j", "g_j")
@@ -108,7 +108,7 @@ def _numbers(**more: object) -> dict[sp.Symbol, sp.Expr]:
 
 
 def test_thin_plate_limit_is_kirchhoffs(formulas: Formulas) -> None:
-    """C_top -> 1/(D phi^4) as phi h -> 0, D = E H^3/(12 (1 - nu^2))."""
+    """C_top tends to Kirchhoff's 1/(D phi^4) as phi h tends to 0, D = E H^3/(12 (1 - nu^2))."""
     lam_v, mu_v, phi_v = (mp.mpf(POINT[name]) for name in ("lam", "mu", "phi"))
     E = mu_v * (3 * lam_v + 2 * mu_v) / (lam_v + mu_v)
     nu = lam_v / (2 * (lam_v + mu_v))
@@ -119,7 +119,7 @@ def test_thin_plate_limit_is_kirchhoffs(formulas: Formulas) -> None:
 
 
 def test_plate_factor_limits(formulas: Formulas) -> None:
-    """G -> 6/T^3 for thin plates, 1 for thick ones; G_m dies; leading terms by hand."""
+    """G and G_m tend to 6/T^3 for thin plates; for thick plates G tends to 1 and G_m to 0."""
     G, G_m = formulas["G"].expression, formulas["G_m"].expression
     assert sp.limit(G * T**3, T, 0) == 6
     assert sp.limit(G_m * T**3, T, 0) == 6
@@ -136,10 +136,10 @@ def test_sonine_by_quadrature(formulas: Formulas) -> None:
 
 
 def test_hertz_contact_closes_under_the_sphere(formulas: Formulas) -> None:
-    """Half-space, Boussinesq: the pressure's own displacement leaves no gap inside the contact.
+    """On a half-space the displacement due to the pressure closes the gap inside the contact.
 
-    Surface displacement of a point force is 1/(pi E* d); at the centre and
-    halfway out it is integrated directly, without any transform.
+    The surface displacement of a point force is 1/(pi E* d) (Boussinesq). It is integrated
+    directly, without a transform, at the centre and at half the contact radius.
     """
     a, R = mp.mpf(POINT["a"]), mp.mpf(POINT["R"])
     lam_v, mu_v = mp.mpf(POINT["lam"]), mp.mpf(POINT["mu"])
@@ -150,7 +150,7 @@ def test_hertz_contact_closes_under_the_sphere(formulas: Formulas) -> None:
 
     def ring(at: mp.mpf) -> mp.mpf:
         def along(theta: mp.mpf) -> mp.mpf:
-            """int p ds along a ray from the point at `at`: a half-ellipse's piece."""
+            """Return int p ds along a ray from the point at `at`, part of a half-ellipse."""
             c = at * mp.cos(theta)
             chord = mp.sqrt(a**2 - (at * mp.sin(theta)) ** 2)
             return (chord**2 * (mp.pi / 2 + mp.asin(c / chord)) + c * mp.sqrt(chord**2 - c**2)) / 2
@@ -162,7 +162,7 @@ def test_hertz_contact_closes_under_the_sphere(formulas: Formulas) -> None:
 
 
 def test_pressure_series_returns_the_pressure(formulas: Formulas) -> None:
-    """Fourier-Bessel series with A_j rebuilds p(r), inside the contact and outside it."""
+    """The Fourier-Bessel series with A_j gives p(r) inside and outside the contact."""
     a, b = (mp.mpf(POINT[name]) for name in ("a", "b"))
     force = value(formulas["P"].expression)
     expression = formulas["A_j"].expression
@@ -183,7 +183,7 @@ def test_pressure_series_returns_the_pressure(formulas: Formulas) -> None:
 
 
 def test_contact_law_is_minus_the_deflection(formulas: Formulas) -> None:
-    """K_j s(a phi) = -A_j C_top, and the printed prefactor 8 G/(pi R b^2 phi^4 J1^2)."""
+    """K_j s(a phi) = -A_j C_top, and K_j is the published 8 G/(pi R b^2 phi^4 J1^2)."""
     J1 = sp.Rational("0.34")
     K = value(formulas["K_j"].expression, J1=J1)
     G = value(formulas["G"].expression, T=2 * sp.Rational(POINT["phi"]) * sp.Rational(POINT["h"]))

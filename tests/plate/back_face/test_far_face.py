@@ -1,4 +1,4 @@
-"""The stress on the back face: theory, oracles, kernels, known limits, and does the pane break?"""
+"""Test the stress on the back face: theory, references, functions, limits, predicted failure."""
 
 import math
 import re
@@ -41,7 +41,7 @@ pytestmark = pytest.mark.usefixtures("silent")
 
 
 def scaled(stress: np.ndarray, P: float, h: float, ratio: float) -> float:
-    """The sum that the stress is, over (1 + nu) P/(2 pi H^2)."""
+    """Return the stress divided by (1 + nu) P/(2 pi H^2)."""
     return float(stress) * 8 * math.pi * h * h / (P * (1 + ratio))
 
 
@@ -65,7 +65,11 @@ def test_another_factor_is_refused() -> None:
 
 @pytest.mark.parametrize(("wave", "ratio"), [(0.03, 0.3), (1.7, -0.8), (9.0, 0.49)])
 def test_factor_against_tractions_solved_in_numbers(wave: float, ratio: float) -> None:
-    """sigma_rr = S_rr - mu phi u on the axis, -(1 + nu)/2 B of a unit pressure coefficient."""
+    """The factor agrees with the mpmath solution of a mode's traction conditions.
+
+    On the axis sigma_rr = S_rr - mu phi u, which is -(1 + nu)/2 times the factor for a unit
+    pressure coefficient.
+    """
     first, second = lame(ratio)
     factor = evaluate(
         derived.formulas()["far_factor"].expression, {T: Fraction(2 * Fraction(wave))}, 30
@@ -78,7 +82,7 @@ def test_factor_against_tractions_solved_in_numbers(wave: float, ratio: float) -
             assert abs(factor / arb(mp.nstr(stress, 35)) - 1) < 1e-25
 
 
-# --- oracles
+# --- references
 
 
 @pytest.mark.parametrize(("thickness", "width"), [(0.02, 0.3), (0.1, 0.01), (0.1, 0.9), (0.3, 0.5)])
@@ -105,11 +109,11 @@ def test_oracle_refuses_what_has_no_meaning() -> None:
         back_face_balls.far_sum(1.0, 0.1, 1.0)
 
 
-# --- generated kernels
+# --- generated functions
 
 
 def test_thin_plates_differ_by_a_logarithm() -> None:
-    """Down to h/b = 1e-50: the ball of h/b = 1/64 with the same a/h, and 3 log(1/(64 h/b))."""
+    """At equal a/h the sum for a smaller h/b exceeds that for h/b = 1/64 by 3 log(1/(64 h/b))."""
     for A in (1e-30, 0.25, 6.0, 19.0, 21.0, 60.0):
         with flint.ctx.workprec(BITS):
             start = back_face_balls.far_sum(A / 64, 1 / 64, 1, 25)
@@ -135,10 +139,12 @@ def test_domain() -> None:
 
 
 def test_kirchhoffs_plate_under_a_wide_load() -> None:
-    """3 P/(2 pi H^2) [(1 + nu) <log b/r> + (1 - nu)/2 (1 - <r^2>/b^2)] of a supported plate.
+    """The stress of a very thin plate is that of Kirchhoff's theory.
 
-    Of Hertz's pressure <log a/r> = 4/3 - log 2 and <r^2> = 2 a^2/5; clamped, the last term is
-    -(1 + nu)/2 (1 - <r^2>/b^2).
+    For a simply supported plate it is
+    3 P/(2 pi H^2) [(1 + nu) <log b/r> + (1 - nu)/2 (1 - <r^2>/b^2)]. For a clamped plate the
+    last term is -(1 + nu)/2 (1 - <r^2>/b^2). The means over Hertz's pressure are
+    <log a/r> = 4/3 - log 2 and <r^2> = 2 a^2/5.
     """
     nu, h, a = 0.3, 1e-8, 0.2
     mean = math.log(1 / a) + 4 / 3 - math.log(2)
@@ -150,7 +156,11 @@ def test_kirchhoffs_plate_under_a_wide_load() -> None:
 
 
 def test_small_loads_against_westergaard_and_timoshenko() -> None:
-    """Westergaard's equivalent radius 0.325 H; Nadai in Timoshenko's Plates and Shells, (97)."""
+    """The stress under a small load agrees with two published formulas.
+
+    Westergaard uses the equivalent radius 0.325 H. Nadai's formula is equation (97) of
+    Timoshenko's Theory of Plates and Shells.
+    """
     nu = 0.3
     for h in (0.05, 0.01):
         H = 2 * h
@@ -226,7 +236,7 @@ def test_it_breaks_on_one_side_of_its_strength_only() -> None:
 
 
 def test_effects_left_out_change_the_force_alone() -> None:
-    """The stress of a given force is the whole plate's; the edge alone can be switched off."""
+    """At a given force, omitted effects do not change the stress; only `on_edge` changes it."""
     whole = simulate(pane(), rtol=1e-9)
     law, a, force = whole.effects.law, whole.max_contact_radius, whole.max_force
     loose = simulate(pane(), rtol=0.5).effects.law

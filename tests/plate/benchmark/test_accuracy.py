@@ -1,4 +1,4 @@
-"""What accuracy costs: methods, committed data, what report and README say, commands."""
+"""Test the benchmark of run time and accuracy: committed data, report, README, commands."""
 
 import json
 import os
@@ -37,7 +37,7 @@ def test_data_have_rows_of_every_kind(committed: dict[str, Any]) -> None:
     for entry in committed["rows"]:
         assert entry.keys() == set(BenchmarkRow.__dataclass_fields__)
         assert entry["fails"] or (entry["errors"] and entry["vector"] and entry["single"])
-        # Of no method that works is truncation not told from rounding.
+        # For every method that works, the rounding error is known separately.
         assert entry["fails"] or entry["errors"]["rounding"] is not None
     assert {entry["task"] for entry in committed["rows"]} == {"law", "inversion", "impact"}
     assert {g["what"] for g in committed["scaling"]} == {"points", "b/h", "digits", "scenes"}
@@ -90,7 +90,7 @@ def test_the_readmes_block_is_found_by_its_markers(committed: dict[str, Any]) ->
 
 @pytest.fixture
 def brief(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Leave out what takes seconds and is tested above."""
+    """Disable slow parts of the benchmark that other tests cover."""
     monkeypatch.setattr(run, "tools", list)
     monkeypatch.setattr(scaling, "studies", lambda quick: ())  # noqa: ARG005
     monkeypatch.setattr(run, "REGIMES", (PAPER,))
@@ -201,7 +201,7 @@ sys.exit(cli.main(["accuracy", "--quick", "--out", sys.argv[1]]))
 
 
 def test_report_names_what_is_not_split_with_the_reason_and_what_is_with_its_remark() -> None:
-    """A reason once, with families and regimes; rows that fail, or have none, are not named."""
+    """Each reason is listed once with families and test cases; other rows are not listed."""
     why = "no long J0 here"
     row = {"family": "a_b", "regime": "thin", "fails": None, "errors": {"unsplit": why}}
     rows = [

@@ -1,4 +1,4 @@
-"""Where methods fail and why; panels, winners, how cost grows, and other programs."""
+"""Test failures of methods, benchmark groups, fastest methods, run-time growth and tools."""
 
 import json
 import math
@@ -44,7 +44,7 @@ Patch = pytest.MonkeyPatch
 
 @pytest.mark.skipif(not HAS_LONG, reason="recorded with long doubles")
 def test_methods_fail_in_the_regimes_recorded_and_for_the_reason_recorded() -> None:
-    """What no method says of itself beforehand was found by judging its numbers."""
+    """Each recorded failure is predicted by the method or was found by evaluating its numbers."""
     rows = json.loads(pipeline.MEASURED_ACCURACY.read_text())["rows"]
     names = "task", "regime", "family", "setting", "arithmetic"
     recorded = {tuple(row[name] for name in names): row["fails"] for row in rows}
@@ -96,7 +96,7 @@ def test_without_long_doubles_all_other_methods_are_compared(monkeypatch: Patch)
 
 
 def test_without_long_doubles_the_headline_is_told_in_doubles(monkeypatch: Patch) -> None:
-    """What a direct sum reaches is no more than doubles hold, and grows with the modes."""
+    """The accuracy of a direct sum in doubles increases with the number of modes."""
     monkeypatch.setattr(headline, "HAS_LONG", False)
     monkeypatch.setattr(headline, "QUICK_MODES", 1 << 19)
     monkeypatch.setattr(headline, "POINTS", 1000)
@@ -126,11 +126,11 @@ def test_a_plate_of_no_ordinary_size_is_not_prepared() -> None:
         shipped.prepared().ready(replace(PAPER, R=1e-300, h=1e-300, b=1e-299))
 
 
-# --- panels
+# --- benchmark groups
 
 
 def method(values: Callable[[Any], Any], **others: Any) -> Method:
-    """A method of the law by a function of the radii."""
+    """Return a method for the contact law that evaluates `values` at the radii."""
     return Method("law", "m", "", lambda *_: values, split="all", **others)
 
 
@@ -148,7 +148,10 @@ def fewer_digits(monkeypatch: Patch) -> None:
 
 @pytest.mark.usefixtures("fewer_digits")
 def test_what_fails_is_named_and_not_timed() -> None:
-    """NaN in part, no digit, or by its own word; nothing is timed where all of them fail."""
+    """A method fails by partial NaN, no correct digit or its own statement.
+
+    If all methods fail without usable numbers, nothing is timed.
+    """
     partly = method(lambda a: np.where(a > np.median(a), right(a), np.nan))
     found = panels.panel("law", PAPER, [partly, method(right, fails=lambda _: "too thin")], True)
     assert (found.vector, found.single) == (None, None)
@@ -159,7 +162,7 @@ def test_what_fails_is_named_and_not_timed() -> None:
     assert [row.vector for row in found.rows] == [None, None]
     [row] = panels.panel("law", PAPER, [method(lambda a: 9.0 * right(a))], True).rows
     assert row.fails == "no digit right: relative error up to 8"
-    assert row.vector is not None  # timed all the same: it gives numbers
+    assert row.vector is not None  # it is timed because it returns numbers
     assert list(pareto._panel([found.rows[0]], "vector")) == []
 
 
@@ -225,7 +228,7 @@ def test_the_front_holds_what_nothing_beats() -> None:
     assert pareto_front(rows, "vector") == [(1.0, 5), (4.0, 9)]
 
 
-# --- growth
+# --- growth of run time
 
 
 def test_a_line_and_where_it_is_left() -> None:
@@ -237,7 +240,7 @@ def test_a_line_and_where_it_is_left() -> None:
 
 
 def test_growth_is_of_calls_on_a_clock(monkeypatch: Patch) -> None:
-    """Lower quartile of seven, of one alone where that takes long; memory of the last."""
+    """The run time is the lower quartile of seven calls, or one call if it is slow."""
     now, calls = [0.0], list[float]()
     monkeypatch.setattr(scaling, "CPU", lambda: now[0])
 
@@ -247,13 +250,13 @@ def test_growth_is_of_calls_on_a_clock(monkeypatch: Patch) -> None:
 
     sizes = [1, 10, 100]
     grown = scaling.growth("points", "m", sizes, [partial(work, x / 100) for x in sizes], "why")
-    assert [calls.count(x / 100) for x in sizes] == [8, 8, 3]  # the last is traced too
+    assert [calls.count(x / 100) for x in sizes] == [8, 8, 3]  # last: one call, then memory
     assert grown.seconds == pytest.approx((0.01, 0.1, 3.0))
     assert 8e6 <= scaling.peak(lambda: np.ones(1_000_000)) < 9e6
 
 
 def test_studies_time_calls_that_agree(monkeypatch: Patch) -> None:
-    """Points, plates and scenes by each method; sizes and calls are as many."""
+    """The methods that a study times agree on their results."""
     monkeypatch.setattr(scaling, "growth", lambda what, _, x, calls, why: (what, x, calls, why))
     monkeypatch.setattr(scaling, "ARRAY", scaling.SPLIT_POINTS)
     for one, other in (scaling.points(), scaling.thinness()):

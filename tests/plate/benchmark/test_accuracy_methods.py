@@ -1,4 +1,4 @@
-"""Methods compared: what each reaches, against oracles, and truncation told from rounding."""
+"""Test the compared methods against references, and the split into truncation and rounding."""
 
 import math
 from dataclasses import replace
@@ -47,7 +47,7 @@ RADII = np.array([0.002, 0.01, 0.03])
 
 @pytest.fixture(scope="module")
 def law() -> Problem:
-    """The paper's law at three radii."""
+    """Return the problem of the paper's law at three radii."""
     reference_values = [
         contact_balls.indentation(float(a), PAPER.R, PAPER.h, PAPER.b, 40) for a in RADII
     ]
@@ -56,7 +56,7 @@ def law() -> Problem:
 
 @pytest.fixture(scope="module")
 def pressed() -> Problem:
-    """Inversion in the thick plate at two indentations."""
+    """Return the inversion problem of the thick plate at two indentations."""
     depths = np.array([1e-4, 0.1])
     found = [contact_balls.contact_radius(d, THICK.R, THICK.h, THICK.b, 40) for d in depths]
     with flint.ctx.workprec(160):
@@ -75,18 +75,18 @@ def bounce(regime) -> Problem:
 
 @pytest.fixture(scope="module")
 def bounced() -> Problem:
-    """The paper's impact."""
+    """Return the problem of the paper's impact."""
     return bounce(PAPER)
 
 
 @pytest.fixture(scope="module")
 def deep() -> Problem:
-    """The impact of large contacts."""
+    """Return the problem of the impact with a large contact."""
     return bounce(LARGE)
 
 
 def judged(method: Method, task: Problem) -> BenchmarkErrors:
-    """Errors whose parts are known and add up."""
+    """Return the errors, and check that both parts are known and add up to the total."""
     with np.errstate(all="ignore"):
         found = judge(method, task, lambda: 0.0).errors
     assert found.unsplit is None
@@ -148,7 +148,7 @@ def test_float32_goes_in_and_comes_out() -> None:
 
 @pytest.mark.parametrize(("h", "order"), [(0.1, 1), (0.01, 5), (0.45, 23)])
 def test_coefficients_are_the_oracles(h: float, order: int) -> None:
-    """To as many digits as their terms have in the sum at a/h = 0.5; h = 0.01 is thin."""
+    """The coefficients agree with the reference to 1e-30 of the sum at a/h = 0.5."""
     found = coefficients(replace(PAPER, h=h, speed=1e-3), 12, 30)[order // 2]
     true = contact_balls.coefficient(order, h, 1.0, 32)
     with flint.ctx.workprec(160):
@@ -157,13 +157,13 @@ def test_coefficients_are_the_oracles(h: float, order: int) -> None:
 
 @pytest.mark.parametrize("double_exponential", [True, False])
 def test_the_side_walls_nodes_by_either_rule_give_its_moments(double_exponential: bool) -> None:
-    """int y^n K0/I0 dy by oracle 1; weights are for that over y^3."""
+    """The nodes and weights, which include 1/y^3, integrate y^n K0/I0 as the Arb reference does."""
     nodes, weights = sums.wall_nodes(64, 16, double_exponential, 120)
     y, w = (np.array([float(x) for x in column]) for column in (nodes, weights))
     for n in (0, 2, 4):
         true = float(contact_balls.kappa(n, 20))
         off = abs((w * y ** (n + 3)).sum() / true - 1)
-        assert off < (1e-13 if double_exponential else 1e-8)  # K0's logarithm at 0 is felt
+        assert off < (1e-13 if double_exponential else 1e-8)  # limited by the logarithm of K0 at 0
 
 
 def test_levins_transformation_sums_an_alternating_series() -> None:
@@ -202,7 +202,7 @@ def test_steps_that_run_out_give_no_time(monkeypatch: pytest.MonkeyPatch) -> Non
     assert np.isnan(motion.verlet(100).ready(PAPER)(np.array([1.0]))).all()
 
 
-# --- the law that stands for the exact one
+# --- the law used as exact reference
 
 
 @pytest.mark.parametrize("regime", [THIN, PAPER, LARGE], ids=lambda r: r.name)
@@ -281,7 +281,7 @@ SPLITS = {
         (motion.verlet(20, ar=SINGLE), 3.3, 7),
     ),
 }
-"""Methods with their digits of truncation and of rounding, about."""
+"""Methods with their approximate numbers of correct digits: truncation, rounding."""
 
 
 @pytest.mark.parametrize("task", SPLITS)
@@ -305,7 +305,10 @@ def test_long_sums_truncate_like_those_in_more_digits(law: Problem) -> None:
 
 
 def test_other_units_tell_what_longer_numbers_do(law, pressed, bounced) -> None:
-    """Of methods that can be split both ways; where truncation is below rounding it is a bound."""
+    """Splitting errors by other units or by more digits gives the same parts.
+
+    If truncation is below rounding, the estimate is only a bound.
+    """
     for method, where in (
         (sums.split(16, 2), law), (polynomials.small_contacts(4), law),
         (polynomials.small_contacts(16), law), (inversion.reversed_series(12), pressed),
@@ -364,11 +367,11 @@ def test_digits_of_no_number_and_of_exact_ones() -> None:
     assert digits(1.001, one, 30) == pytest.approx(3, abs=0.01)
 
 
-# --- balls
+# --- Arb intervals
 
 
 def test_a_balls_radius_is_rounding_whatever_is_left_out(bounced, monkeypatch) -> None:
-    """Without the bounds of what is left out the radii are the same."""
+    """The radius of an interval is unchanged without the bounds of omitted terms."""
     p, made, asked = PAPER, contact_sums._panels, []
 
     def computed() -> list[arb]:

@@ -1,4 +1,4 @@
-"""The generated contact law and impact: coefficients, inverses, limits, energy along the course."""
+"""Test the generated contact law and impact: coefficients, inverses, limits, energy balance."""
 
 from functools import cache
 
@@ -19,7 +19,7 @@ THICK = (0.34, 0.4, 0.5302, 1.0, 3.0, 10.0, 100.0)
 SWITCHES = [float(np.nextafter(1 / v, side)) for v in (3, 4, 6, 11) for side in (0, 1)]
 ETAS = (1e-3, 0.01, 0.05, 0.08, *SWITCHES, 0.1, 0.14, 0.17, 0.2, 0.25, 0.3, *THICK)
 HERTZ_TIME = 2.9432751843247046
-"""2 int_0^1 dx/sqrt(1 - x^(5/2)), from theory: twice 1.4716375921623523."""
+"""2 int_0^1 dx/sqrt(1 - x^(5/2)), which is twice 1.4716375921623523."""
 
 
 PLATES = (1e-3, 0.05, 0.0908, 0.0911, 0.2, 0.3332, 0.3335, 0.5302, 1.0, 10.0)
@@ -34,7 +34,7 @@ def departure(alpha: float, eta: float) -> arb:
 @pytest.mark.parametrize("fmt", [DOUBLE, SINGLE], ids=lambda fmt: fmt.name)
 def test_coefficients_give_the_correction(eta: float, fmt: Format) -> None:
     kind = np.dtype(fmt.name).type
-    eta = float(np.float32(eta))  # for both, so that they share their reference values
+    eta = float(np.float32(eta))  # rounded for both formats, which then share the reference values
     rows = contact_series.plate_coefficients(kind(eta))
     assert rows.dtype == fmt.name
     with flint.ctx.workprec(200):
@@ -75,7 +75,7 @@ def test_reversed_series_within_its_radius_and_not_beyond() -> None:
     reversed_force = reversed_series.force_by_series
     for b in (5.0, 20.0, 1000.0, 1.5):
         c1 = float(plate_coefficients(1 / b)[0])
-        limit = 2 / (3 * np.sqrt(3) * abs(c1))  # of c1 alone
+        limit = 2 / (3 * np.sqrt(3) * abs(c1))  # convergence radius of the series with c_1 alone
         eps = np.array([0.1, 0.3, 0.5]) * min(limit, 0.9 * min(3.0, b))
         delta = eps**2 / 1e6
         exact = law.force(delta, 1e6, 1.0, b, LAM, MU)
@@ -88,7 +88,10 @@ def test_reversed_series_within_its_radius_and_not_beyond() -> None:
 
 
 def test_the_law_holds_from_the_thinnest_plate_to_the_widest_contact() -> None:
-    """Up to six half-thicknesses, within rounding; c_1 of a thin plate is 1/(4 pi eta^2)."""
+    """The law covers 1e-90 < h/b < 1e90 and contact radii up to 6 h, and gives NaN beyond.
+
+    For a thin plate c_1 is 1/(4 pi eta^2).
+    """
     first = contact_series.plate_coefficients([1.5e-90, 0.9e-90, 0.9e90, 1.1e90])[:, 0]
     assert np.isnan(first).tolist() == [False, True, False, True]
     assert abs(first[0] * 4 * np.pi * 1.5e-90**2 - 1) < 1e-12
@@ -112,12 +115,12 @@ def test_many_plates_are_as_one() -> None:
     assert np.abs(together / alone - 1).max() < 1e-15
 
 
-# Impact.
+# --- impact
 
 
 @pytest.mark.parametrize(("b", "end"), [(2.0, 2.0), (6.0, 3.6)])
 def test_an_impact_up_to_where_the_law_ends(b: float, end: float) -> None:
-    """As wide as the plate, or as six half-thicknesses: no wider, and there is no other limit."""
+    """An impact can reach the limit of the contact law, which is a = b or a = 6 h."""
     R, m, h = 20.0, 3e7, 0.6
     energy = contact_impact.stored_energy(np.nextafter(end, 0.0), R, h, b, LAM, MU, digits=18)
     found = impact.impact(R, m, np.sqrt(2 * float(energy) / m), h, b, LAM, MU)

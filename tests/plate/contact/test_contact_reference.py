@@ -1,4 +1,4 @@
-"""The oracles of the corrected contact law: known constants, limits, and each other."""
+"""Test the two references of the corrected contact law: constants, limits, agreement."""
 
 import json
 import math
@@ -68,7 +68,10 @@ def test_first_coefficient_passes_zero() -> None:
 
 
 def test_thin_plates_coefficients_are_the_closed_forms() -> None:
-    """Up to e^(-4.2/eta), 10^-91 here: c_1 with M_2, c_3 with M_3, c_5 with M_4."""
+    """For a thin plate c_1, c_3 and c_5 have closed forms with M_2, M_3 and M_4.
+
+    The error is of order e^(-4.2/eta), which is 10^-91 here.
+    """
     eta = 0.02
     with mp.workdps(60):
         log = mp.euler - mp.log(4 * mpf(eta))
@@ -83,7 +86,7 @@ def test_thin_plates_coefficients_are_the_closed_forms() -> None:
 
 
 def test_series_is_the_law() -> None:
-    """Six terms at a/h = 1/100."""
+    """Six terms of the series give the law at a/h = 1/100."""
     a, h, b = 0.002, 0.2, 1.0
     with flint.ctx.workprec(300):
         ratio = flint.arb(a) / flint.arb(h)
@@ -105,14 +108,14 @@ def test_thick_plate_is_a_half_space_with_a_rim() -> None:
 
 @pytest.mark.parametrize("eta", [1e-3, 1e-4])
 def test_thin_plate_bends_as_kirchhoffs(eta: float) -> None:
-    """F (a/h)^-1 -> 1/(4 pi eta^2), which is P b^2/(8 pi D)."""
+    """F/(a/h) tends to 1/(4 pi eta^2), Kirchhoff's deflection P b^2/(8 pi D)."""
     a = 1e-2 * eta
     far = float(contact_balls.departure(a, eta, 1.0, 30))
     assert far / (a / eta) * 4 * math.pi * eta**2 == pytest.approx(1.0, abs=60 * eta**2)
 
 
 def test_impact_of_a_half_space_is_hertzs() -> None:
-    """2 * 1.4716375921623523 delta/v0 as the contact shrinks against the plate."""
+    """For a small contact the contact time is Hertz's, 2 * 1.4716375921623523 delta/v0."""
     R, m, v0, lam, mu = 1.0, 1.0, 1e-40, 0.0, 0.5
     found = contact_impact.impact(R, m, v0, 1.0, 1.0, lam, mu, 20)
     constant = float(found.contact_time * flint.arb(v0) / found.max_indentation)
@@ -154,7 +157,11 @@ def test_history_ends_at_half_the_contact_time() -> None:
 
 
 def test_states_about_the_turning_point_keep_the_energy_and_meet() -> None:
-    """By a series next to it, by Newton's iteration farther off: the rate goes with the time."""
+    """States near the turning point conserve energy, and two methods agree on the speed.
+
+    The state is computed by a series next to the turning point and by Newton's iteration
+    farther away. The speed is proportional to the time from the turning point.
+    """
     case = (0.01, 0.03, 1.0, 0.1, 1.0, 1.2e11, 8e10)
     whole = contact_impact.impact(*case, digits=60).contact_time
     shares = (-4e-13, -5e-14, 2e-16, 5e-14, 4e-13)
@@ -171,7 +178,7 @@ def test_states_about_the_turning_point_keep_the_energy_and_meet() -> None:
             assert abs(contact_forces.force_of_radius(at, R, lam, mu) / load - 1) < 1e-38
             rates.append(speed / (whole / 2 - arb(t)))
     with flint.ctx.workprec(300):
-        # What the iteration knows of the rate there, it knows by the energy that is left.
+        # The iteration obtains the speed from the remaining energy, with fewer correct digits.
         assert all(abs(rate / rates[2] - 1) < 1e-15 for rate in rates)
         assert all(abs(rate / rates[2] - 1) < 1e-22 for rate in rates[1:4])
 
@@ -199,7 +206,7 @@ def test_edge_of_the_plate_is_refused() -> None:
         contact_routes.indentation(1.0, 2.0, 0.5, 1.0)
 
 
-# --- both oracles
+# --- agreement of both references
 
 
 def test_oracles_agree_on_the_law() -> None:
@@ -216,7 +223,7 @@ def test_oracles_agree_on_the_inversion() -> None:
 
 
 def reaching(a: float, h: float) -> contact_grid.ContactShape:
-    """The impact whose largest contact radius is about a, in a plate of radius 1."""
+    """Return the impact with a largest contact radius of about a on a plate of radius 1."""
     return contact_grid.ContactShape(a, R=40.0, h=h, b=1.0, lam=3e9, mu=2e9, m=0.5)
 
 
@@ -232,7 +239,7 @@ def reaching(a: float, h: float) -> contact_grid.ContactShape:
 def test_oracles_agree_on_impacts(
     where: tuple[float, ...] | contact_grid.ContactShape, bending: float
 ) -> None:
-    """To 24 digits each; c_1 A says how far from Hertz's the impact is."""
+    """Both references agree to 24 digits; c_1 A measures the deviation from Hertz's impact."""
     found = contact_reference.reference_value(("impact", where))
     assert found.digits >= 24
     assert found.bend == pytest.approx(bending, rel=1e-3)
@@ -250,7 +257,7 @@ def test_disagreement_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_an_error_in_either_oracle_of_impacts_is_caught(
     monkeypatch: pytest.MonkeyPatch, oracle: ModuleType, part: str
 ) -> None:
-    """10^-20 of the elastic modulus, which moves the results by less than itself."""
+    """A relative error of 1e-20 in one reference is detected, though the results change less."""
     right = getattr(oracle, part)
 
     def wrong(*arguments: float) -> flint.arb | mpf:
@@ -270,11 +277,11 @@ def test_energy_is_what_the_impact_brings() -> None:
     assert float(energy) == pytest.approx(m * v0**2 / 2, rel=1e-14)
 
 
-# --- the check of kernels
+# --- the check of generated functions
 
 
 def rounded(*point: Any) -> float:
-    """The true value of numbers, or of arrays of one."""
+    """Return the rounded reference value for numbers or arrays of one number."""
     return float(contact_balls.indentation(*(np.asarray(x).item() for x in point), 25))
 
 
@@ -291,7 +298,11 @@ def test_a_rounded_reference_passes_and_a_wrong_one_does_not() -> None:
 
 
 def test_contacts_are_judged_in_units_of_their_format() -> None:
-    """P = 16 mu (lam + mu) a^3/(3 R (lam + 2 mu)), conditions 3, 1 and 1 for both moduli."""
+    """The error of a force is compared with the resolution of its floating-point format.
+
+    P = 16 mu (lam + mu) a^3/(3 R (lam + 2 mu)) has the condition numbers 3 (a), 1 (R) and 1
+    (both moduli together).
+    """
     point = (0.25, 2.0, 0.0, 0.75)
     true = contact_reference.reference_value(("force_of_radius", point))
     total = contact_judge.conditioning(contact_law.force_of_radius, point)
@@ -308,7 +319,7 @@ def test_contacts_are_judged_in_units_of_their_format() -> None:
         assert kept.max_ulp <= 0.5
         broken = contact_judge.judge(partial(off, ulps=11), [true], 8.0, fmt)
         assert not broken.kept(fmt)
-        assert 10.0 < broken.needed <= 11.5  # a constant: nothing conditions it
+        assert 10.0 < broken.needed <= 11.5  # a constant function has no condition number
     nan = contact_judge.judge(lambda *_: np.float64(math.nan), [true], 8.0)
     assert nan.ratio == math.inf
     always_double = contact_judge.judge(contact_law.force_of_radius, [true], 8.0, SINGLE)
@@ -344,9 +355,9 @@ def test_several_processes_answer_as_one() -> None:
 
 
 def test_committed_measurements_cover_what_is_stated() -> None:
-    """Every kernel within its budget and 2e-15 of what both oracles share, in both formats.
+    """Every function is within its budget in both formats, and within 2e-15 of both references.
 
-    Impacts from -0.369 to 1e10.
+    The impacts have c_1 A from -0.369 to 1e10.
     """
     measured = json.loads(MEASURED_CONTACT.read_text())
     rows = {row["kernel"]: row for row in measured["rows"]}

@@ -1,4 +1,4 @@
-"""The contact law from its sums: divergence, split, coefficients, thin plates, inversion."""
+"""Test the contact law from its sums: divergence, split, coefficients, inversion."""
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
@@ -40,7 +40,7 @@ def motion() -> Mapping[str, Formula]:
 
 @cache
 def zeros(count: int) -> tuple[tuple[mp.mpf, mp.mpf], ...]:
-    """(j_n, J1(j_n)) to 40 digits: Newton's iteration from McMahon's first terms."""
+    """Return (j_n, J1(j_n)) to 40 digits by Newton's iteration from McMahon's first terms."""
     found = []
     with flint.ctx.workprec(160), mp.workdps(40):
         for n in range(1, count + 1):
@@ -58,13 +58,13 @@ def G(T: mp.mpf) -> mp.mpf:
 
 @cache
 def wall_moment(n: int) -> mp.mpf:
-    """kappa_n by plain quadrature, the logarithm at 0 spread by y = u^3."""
+    """Return kappa_n by quadrature; y = u^3 weakens the logarithmic singularity at 0."""
     with mp.workdps(20):
         return wall_integral(lambda y: y**n, "1e-6")
 
 
 def wall_integral(density: Callable[[mp.mpf], mp.mpf], start: str = "1e-3") -> mp.mpf:
-    """int_0^oo density(y) K0(y)/I0(y) dy, but for y < start^3, to 20 digits."""
+    """Return int density(y) K0(y)/I0(y) dy from y = start^3 to infinity, to 20 digits."""
 
     def spread(u: mp.mpf) -> mp.mpf:
         y = u**3
@@ -75,12 +75,12 @@ def wall_integral(density: Callable[[mp.mpf], mp.mpf], start: str = "1e-3") -> m
 
 
 def count_for(ratio: mp.mpf) -> int:
-    """Modes after which G(2 eta j) - 1 is below 1e-18."""
+    """Return the number of modes after which G(2 eta j) - 1 is below 1e-18."""
     return int(mp.mpf("3.5") / ratio) + 12
 
 
 def c_by_sum(k: int, ratio: mp.mpf) -> mp.mpf:
-    """c_(2k-3), its sum and integral typed by hand."""
+    """Return c_(2k-3) from its sum and integral, written here independently."""
     total = mp.fsum(
         j ** (2 * k - 5) * (G(2 * ratio * j) - 1) / J**2 for j, J in zeros(count_for(ratio))
     )
@@ -90,7 +90,7 @@ def c_by_sum(k: int, ratio: mp.mpf) -> mp.mpf:
 
 
 def recorded(motion: Mapping[str, Formula], k: int, ratio: str) -> mp.mpf:
-    """c_(2k-3) from the chain's two parts, the sum evaluated by mpmath."""
+    """Return c_(2k-3) from the two derived parts, with the sum evaluated by mpmath."""
     order = 2 * k - 3
     mode = sp.lambdify((eta, j_n, J1), motion[f"c_{order}_modes"].expression, "mpmath")
     side = sp.lambdify((eta, kappa[2 * k - 4]), motion[f"c_{order}_side"].expression, "mpmath")
@@ -106,7 +106,7 @@ def ball(value: flint.arb, digits: int = 25) -> mp.mpf:
 
 @pytest.mark.parametrize("eta_text", ETAS)
 def test_influence_at_infinity(motion: Mapping[str, Formula], eta_text: str) -> None:
-    """phi^3 K_j at the 300th mode, straight from its closed form, next to 4/(R b)."""
+    """phi^3 K_j from its closed form at the 300th mode agrees with the limit."""
     b_v, R_v = mp.mpf("1.7"), mp.mpf("0.4")
     j = mp.besseljzero(0, 300)
     K = 8 * G(2 * mp.mpf(eta_text) * j) / (mp.pi * R_v * b_v**2 * (j / b_v) ** 4)
@@ -117,7 +117,7 @@ def test_influence_at_infinity(motion: Mapping[str, Formula], eta_text: str) -> 
 
 @pytest.mark.parametrize("k", [2, 3])
 def test_truncated_gamma_grows_as_told(motion: Mapping[str, Formula], k: int) -> None:
-    """Partial sums of 400 modes against the leading growth, thickness 0.3, all else 1."""
+    """The partial sum of 400 modes has the derived leading growth, for h = 0.3 and the rest 1."""
     point = {"a": 1, "P": 1, "R": 1, "b": 1}
     formula = motion[f"gamma_{k}_truncated"].expression
     modes = {str(s): s for s in formula.free_symbols}
@@ -144,7 +144,7 @@ def test_divergence_is_decided_by_the_terms() -> None:
 
 
 def calmed(terms: Sequence[mp.mpf]) -> mp.mpf:
-    """Sum of a slowly oscillating series: running means of its partial sums, thrice."""
+    """Return the sum of a slowly oscillating series by three running means of partial sums."""
     sums = [mp.mpf(0)]
     for term in terms:
         sums.append(sums[-1] + term)
@@ -160,7 +160,7 @@ def calmed(terms: Sequence[mp.mpf]) -> mp.mpf:
 
 @pytest.mark.parametrize("ratio", ["0.2", "0.9", "1.6"])
 def test_sum_identity_with_sonine(ratio: str) -> None:
-    """sum s(alpha j)/(j^4 J1^2): the sum itself, its waves calmed, against the two integrals."""
+    """sum s(alpha j)/(j^4 J1^2), summed directly, equals the expression with the integral."""
     with mp.workdps(30):
         r = mp.mpf(ratio)
         terms = [(mp.sin(r * j) - r * j * mp.cos(r * j)) / (j**4 * J**2) for j, J in zeros(800)]
@@ -179,7 +179,7 @@ def test_zeros_in_balls_are_mpmaths() -> None:
 
 
 def split_of(motion: Mapping[str, Formula], r: mp.mpf, e: mp.mpf) -> mp.mpf:
-    """F(alpha, eta) from the chain's two parts."""
+    """Return F(alpha, eta) from the two derived parts."""
     integrand, (y, *_) = motion["F_wall"].expression.args
     weight = sp.besselk(0, y) / sp.besseli(0, y)
     density = sp.lambdify((alpha, y), integrand / weight, "mpmath")
@@ -190,7 +190,7 @@ def split_of(motion: Mapping[str, Formula], r: mp.mpf, e: mp.mpf) -> mp.mpf:
 
 @pytest.mark.parametrize(("ratio", "eta_text"), [("0.3", "0.2"), ("0.7", "0.4")])
 def test_split_is_the_modal_sum(motion: Mapping[str, Formula], ratio: str, eta_text: str) -> None:
-    """The paper's own sum over 800 modes, its waves calmed, against 1 + F."""
+    """The averaged sum of the paper over 800 modes agrees with 1 + F."""
     with mp.workdps(30):
         r, e = mp.mpf(ratio), mp.mpf(eta_text)
         terms = [
@@ -214,7 +214,7 @@ def test_coefficients(motion: Mapping[str, Formula], k: int, eta_text: str) -> N
 
 
 def test_series_returns_the_split(motion: Mapping[str, Formula]) -> None:
-    """1 + c_1 A + ... + c_7 A^7 at a/h = 0.2, against the split by quadrature and sum."""
+    """c_1 A + ... + c_7 A^7 at a/h = 0.2 agrees with F from quadrature and sum."""
     with mp.workdps(30):
         r, e = mp.mpf("0.08"), mp.mpf("0.4")
         values = {c_A[2 * k - 3]: recorded(motion, k, "0.4") for k in range(2, 6)}
@@ -231,7 +231,7 @@ def test_c1_vanishes_near_h_over_b_0_5302() -> None:
 
 
 def test_thick_plates_keep_the_side_wall_alone() -> None:
-    """delta R/a^2 = 1 - 0.36953 a/b + ... for h >> b."""
+    """For h >> b only the side wall remains: delta R/a^2 = 1 - 0.36953 a/b + ..."""
     _, side = plate_series.coefficient(2).by_plate_radius
     value = side.subs(kappa[0], sp.Float(plate_series.kappa_ball(0, 20).str(20, radius=False)))
     assert abs(float(value) + 0.36953) < 5e-6
@@ -258,7 +258,7 @@ def test_finite_parts(k: int) -> None:
     assert got.rel_accuracy_bits() > 99
     with mp.workdps(30):
         assert abs(ball(got, 28) / mp.mpf(PUBLISHED[k]) - 1) < mp.mpf("1e-22")
-        # Another route: the Mellin transform continued by subtracting on (0, 2) instead.
+        # Independent method: continue the Mellin transform by subtracting terms on (0, 2).
         cut = mp.mpf(2)
         inner = mp.quad(
             lambda T: T ** (2 * k - 4) * (G(T) - 6 / T**3 - mp.mpf(6) / 5 / T),
@@ -275,7 +275,7 @@ def test_finite_parts(k: int) -> None:
 @pytest.mark.parametrize("k", [2, 3, 4])
 @pytest.mark.parametrize(("eta_text", "error"), [("0.1", "1e-16"), ("0.2", "1e-8")])
 def test_thin_plates(motion: Mapping[str, Formula], k: int, eta_text: str, error: str) -> None:
-    """Exponentially close to the exact coefficient: e^(-42) at 0.1, e^(-21) at 0.2."""
+    """The error of the thin-plate form is of order e^(-42) at eta = 0.1 and e^(-21) at 0.2."""
     with mp.workdps(30):
         exact = c_by_sum(k, mp.mpf(eta_text))
         formula = motion[f"c_{2 * k - 3}_thin"].expression
@@ -287,14 +287,17 @@ def test_thin_plates(motion: Mapping[str, Formula], k: int, eta_text: str, error
 
 
 def test_bending_is_kirchhoffs(motion: Mapping[str, Formula]) -> None:
-    """c_1's first term is P b^2/(8 pi D) over a^3/(R h), D = E* (2h)^3/12, P = 4 E* a^3/(3 R)."""
+    """The first term of c_1 is Kirchhoff's deflection P b^2/(8 pi D) divided by a^3/(R h).
+
+    Here D = E* (2h)^3/12 and P = 4 E* a^3/(3 R).
+    """
     leading = sp.limit(motion["c_1_thin"].expression * eta**2, eta, 0)
     stiffness = sp.Rational(8, 12)
     assert leading == sp.Rational(4, 3) / (8 * sp.pi * stiffness)
 
 
 def test_formal_inversion_in_numbers(motion: Mapping[str, Formula]) -> None:
-    """P from delta(P), P small, by the xi_k: the error is of the order left out."""
+    """For small P the series with the xi_k inverts delta(P) up to the omitted order."""
     texts = {2: "0.7", 3: "-0.3", 4: "0.2", 5: "-1", 6: "2"}
     numbers = {f"gamma_{k}": sp.Rational(text) for k, text in texts.items()}
 
@@ -322,7 +325,7 @@ def test_xi_3_has_the_power_eight_thirds(motion: Mapping[str, Formula]) -> None:
 
 @pytest.mark.parametrize("law", [(1.0,), (-0.3,), (8.0, -0.05, 0.002), (0.5, -0.1, 0.02)])
 def test_force_series_converges_inside_its_radius_alone(law: tuple[float, ...]) -> None:
-    """The root test on the coefficients themselves, 90 of them in balls of one size."""
+    """The root test on 90 coefficients gives the convergence radius."""
     values = {c_A[2 * i + 1]: sp.Rational(str(value)) for i, value in enumerate(law)}
     plain = [sp.Integer(1)] + [
         values.get(c_A.get(n, sp.Integer(0)), sp.Integer(0)) for n in range(1, 91)
@@ -331,14 +334,14 @@ def test_force_series_converges_inside_its_radius_alone(law: tuple[float, ...]) 
         abs(reversion.power_series(plain, sp.Rational(-(n + 3), 2), n + 1)[n]) * 3 / (n + 3)
         for n in (60, 61, 62, 88, 89, 90)
     ]
-    # p_n ~ n^(-3/2) radius^(-n), with a bounded wave where the nearest points are complex.
+    # p_n ~ n^(-3/2) radius^(-n), with a bounded oscillation for complex nearest singularities.
     early, late = (max(float(sp.log(s)) for s in part) for part in (sizes[:3], sizes[3:]))
     estimate = -(late - early + 1.5 * float(mp.log(mp.mpf(90) / 62))) / 28
     assert estimate == pytest.approx(float(mp.log(reversion.radius(law))), abs=0.04)
 
 
 def test_force_series_inside_its_radius() -> None:
-    """P from eps by p_n against the law solved for A by mpmath's root finder."""
+    """P from eps by the p_n agrees with the law solved for A by mpmath's root finder."""
     law = {c_A[1]: 2, c_A[3]: sp.Rational(-1, 5), c_A[5]: sp.Rational(1, 50)}
     rest = {c_A[n]: 0 for n in (7, 9)}
     p = [value.subs(law | rest) for value in reversion.force_coefficients()]

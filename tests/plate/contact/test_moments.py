@@ -1,4 +1,4 @@
-"""kappa_n and M_k: the generated kernels and their expansions against certified integrals."""
+"""Test kappa_n and M_k: generated functions and their expansions against certified integrals."""
 
 from collections.abc import Callable
 from fractions import Fraction
@@ -24,7 +24,7 @@ from generated import finite_part, finite_part_ratio, kappa, kappa_ratio
 BITS = 80
 BUDGET = 0.51
 LAST_N, LAST_K = 196, 99
-"""The largest indices whose value a double holds."""
+"""The largest indices whose values do not overflow a double."""
 LARGE = (300, 999, 1000, 4097, 10**4, 10**5, 123457, 10**6)
 KERNELS = (kappa, kappa_ratio, finite_part, finite_part_ratio)
 FIRST = {kappa: 0, kappa_ratio: 0, finite_part: 2, finite_part_ratio: 2}
@@ -35,7 +35,7 @@ pytestmark = pytest.mark.usefixtures("silent")
 
 
 def errors(kernel: Callable, number: Callable[[int, int], arb], indices: list[int]) -> list[float]:
-    """Errors in ULP at the indices, which are asked for in one array."""
+    """Return the errors in ULP at the indices, which are evaluated as one array."""
     got = kernel(np.array(indices, dtype=float)).tolist()
     return [ulp_error(g, number(i, BITS)) for g, i in zip(got, indices, strict=True)]
 
@@ -67,7 +67,7 @@ def test_finite_parts_of_every_index() -> None:
 
 
 def test_signs_and_known_values() -> None:
-    """M_2, M_3, M_4 to the digits found by hand-checked sums; all others are positive."""
+    """M_2, M_3 and M_4 have known values; M_2 is the only negative number of both tables."""
     assert finite_part([2, 3, 4]).tolist() == [
         -1.12648392978257645242944,
         7.72386466370692885870034,
@@ -93,7 +93,7 @@ def test_ratios_tend_to_one(kernel: Callable) -> None:
 
 
 def test_ratios_and_values_agree() -> None:
-    """n!/2^(n+1) in floating point costs a few units."""
+    """The values are the ratios times their factorial factors, within a few rounding errors."""
     n = np.arange(160)
     factorials = np.array([float(sp.factorial(i)) for i in range(160)])
     np.testing.assert_allclose(
@@ -120,7 +120,7 @@ def test_single_precision_overflows_to_nan(kernel: Callable, last: int) -> None:
 
 
 def test_quotient_is_that_of_the_phase() -> None:
-    """log(K0/I0) follows from the phase of J0 and Y0 on the imaginary axis: another route."""
+    """The expansion of K0/I0 follows independently from the phase of J0 and Y0."""
     terms = 9
     t = sp.Symbol("t")
     shift = phase_shift(0, 5).coefficients
@@ -131,7 +131,7 @@ def test_quotient_is_that_of_the_phase() -> None:
 
 
 def test_hankel_coefficients() -> None:
-    """Printed in the Digital Library of Mathematical Functions, 10.17.1, with nu = 0."""
+    """The coefficients are those of equation 10.17.1 of the NIST DLMF for nu = 0."""
     assert theory.hankel(4) == (1, sp.Rational(1, 8), sp.Rational(9, 128), sp.Rational(75, 1024))
     ratio = power(theory.hankel(4), sp.Integer(-1), 4)
     assert ratio[1] == -sp.Rational(1, 8)
@@ -151,7 +151,7 @@ def test_bound_of_the_quotient_holds_everywhere(y: float) -> None:
 
 
 def test_bound_of_the_quotient_with_one_term() -> None:
-    """By hand: (1 + 1/(2y)) (3 a_1/y + e^-y (4/5 (1 + y) + 3/2)), a_1 = 1/8."""
+    """The bound is (1 + 1/(2y)) (3 a_1/y + e^-y (4/5 (1 + y) + 3/2)) with a_1 = 1/8."""
     plain, fading = theory.quotient_bound(1)
     assert plain == {-1: Fraction(3, 8), -2: Fraction(3, 16)}
     assert fading == {1: Fraction(4, 5), 0: Fraction(27, 10), -1: Fraction(23, 20)}
@@ -159,12 +159,12 @@ def test_bound_of_the_quotient_with_one_term() -> None:
 
 @pytest.mark.parametrize("y", [1e-6, 0.01, 0.4, 1.0, 3.0, 30.0])
 def test_inequalities_behind_the_bound(y: float) -> None:
-    """The scaled I0 from below, and the parts of its remainder that fade with e^-y."""
+    """The lower bound of the scaled I0 and the bounds of its terms of order e^-y hold."""
     with flint.ctx.workprec(200):
         point, half = arb(y), arb(1) / 2
         scaled = (2 * arb.pi() * point).sqrt() * (-point).exp() * point.bessel_i(arb(0))
         assert 1 / scaled <= 1 + 1 / (2 * point)
-        # u = 2 - v^2 takes the root's end away: below e^-y times the integral from u = 1.
+        # The substitution u = 2 - v^2 removes the square-root singularity at u = 2.
         edge = flint.acb.integral(
             lambda v, _: (
                 2 * flint.acb(2).sqrt() * (-point * (2 - v * v)).exp() / (2 - v * v).sqrt()
@@ -220,7 +220,7 @@ def test_a_wrong_coefficient_is_refused(monkeypatch: pytest.MonkeyPatch) -> None
         theory.wall_constant.__wrapped__(12)
 
 
-# --- tables and oracles
+# --- tables and references
 
 
 def test_switches_are_where_the_bound_says() -> None:
@@ -233,7 +233,7 @@ def test_switches_are_where_the_bound_says() -> None:
 
 
 def test_trapezoids_are_right_far_beyond_a_double() -> None:
-    """To 2^-_WARRANTED, which the roundings of the tables rely on."""
+    """The relative error is below 2^-_WARRANTED, which the rounding of the tables requires."""
     assert tables._WARRANTED >= 90
     limit = arb(2) ** -tables._WARRANTED
     with flint.ctx.workprec(200):
@@ -244,7 +244,7 @@ def test_trapezoids_are_right_far_beyond_a_double() -> None:
 
 
 def test_generated_steps_are_those_of_the_theory() -> None:
-    """The last ones are too small to be seen in any value."""
+    """The steps are compared directly because the last ones change no rounded value."""
     expected = [float(a) for a in theory.kappa_steps(tables.TERMS)]
     assert list(generated.series_numbers.KAPPA_STEPS) == expected
 

@@ -1,4 +1,4 @@
-"""Newton's iterations: they end after as many steps as is said, and converge on the way."""
+"""Test Newton's iterations: the stated number of steps is sufficient, and they converge."""
 
 from collections.abc import Callable
 from types import ModuleType
@@ -23,7 +23,7 @@ def radius() -> Any:
 
 
 def radius_alone() -> Any:
-    """Of plain numbers."""
+    """Return contact radii from scalar calls."""
     plate = prepare(0.1, 1.0)
     return np.array([plate.contact_radius(float(depth), 0.13) for depth in DEPTHS[:, 0]])
 
@@ -33,7 +33,7 @@ def largest() -> Any:
 
 
 def wide() -> Any:
-    """Contacts of two to six half-thicknesses, beyond the first polynomial."""
+    """Return impacts with a > 2 h, some beyond the range of the first polynomial."""
     speeds = np.geomspace(6.0, 140.0, 20)
     found = impact.impact(20.0, 72.0, speeds, 0.05, *PLATE)
     assert np.all(found.max_contact_radius > 2 * 0.05)
@@ -52,7 +52,7 @@ def breaks() -> Any:
 
 
 def indented() -> Any:
-    """By the full law of an elastic sphere, which has no inverse of its own."""
+    """Return radii by the full law of an elastic sphere, which has no generated inverse."""
     found = indent(scene(), force=[1.0, 1e3, 1e5])
     return np.array([contact.contact_radius for contact in found])
 
@@ -72,7 +72,7 @@ def indented() -> Any:
 def test_steps_that_are_said_to_be_enough_are(
     module: ModuleType, results: Callable[[], Any], needed: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """To the last bit with as many, and the first converge faster than in proportion."""
+    """The stated number of steps gives the result to the last bit; convergence is superlinear."""
     exact = results()
     assert np.all(np.isfinite(exact))
     errors = []

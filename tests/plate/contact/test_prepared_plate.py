@@ -1,4 +1,4 @@
-"""A plate prepared once gives what the oracle says, in plain numbers as in arrays of any layout."""
+"""Test that a prepared plate agrees with the reference for numbers and arrays of any layout."""
 
 import math
 from collections.abc import Callable
@@ -14,12 +14,12 @@ from generated.prepared_plate import PreparedPlate, prepare
 
 LAM, MU = 0.36e9, 0.43e9
 CLOSE = 4e-15
-"""Twice the error that the check of the contact law allows of a result of moderate condition."""
+"""Twice the error limit of the contact-law check for a well-conditioned result."""
 CONTACTS = [
     (0.002, 0.01, 1.0), (0.02, 0.01, 1.0), (0.0301, 0.01, 1.0), (0.041, 0.01, 1.0),
     (0.0599, 0.01, 1.0), (0.0395, 0.01, 0.04), (0.05, 0.05, 0.3), (0.1, 9.0, 1.0),
 ]  # fmt: skip
-"""a, h and b: every polynomial of thin, medium and thick plates."""
+"""Values of a, h and b that use every polynomial of thin, medium and thick plates."""
 
 
 def number(value: Any) -> float:
@@ -60,7 +60,7 @@ def as_called(name: str, x: Any, R: Any, h: Any, b: Any) -> np.ndarray:
 
 @pytest.mark.parametrize("name", ["indentation", "contact_radius", "force", "stiffness"])
 def test_every_layout_is_every_point_alone(name: str) -> None:
-    """Single plates, a few with many points each along either axis, many, and plates repeated."""
+    """Each array element equals the scalar result, for one, few, many and repeated plates."""
     generator = np.random.default_rng(5)
     few, many = np.array([0.05, 0.02, 0.2]), generator.uniform(0.01, 0.5, 1200)
     grid = generator.uniform(1e-3, 0.02, (700, 3))
@@ -99,7 +99,7 @@ def test_points_outside_the_domain_are_nan_in_silence() -> None:
 
 
 def test_numbers_too_large_for_plain_arithmetic_keep_their_digits() -> None:
-    """The same contact in units of length of 2^900."""
+    """A contact with all lengths times 2^900 has the same relative accuracy."""
     unit, a, R, h, b = 2.0**900, 0.004, 0.13, 0.1, 1.0
     small = number(prepare(h, b).indentation(a, R))
     large = number(prepare(h * unit, b * unit).indentation(a * unit, R * unit))

@@ -1,4 +1,4 @@
-"""The thin plate's closed form and its sum over roots: together exact, each part in its place."""
+"""Test that the closed form of a thin plate plus its sum over roots is exact."""
 
 from collections.abc import Callable, Mapping
 from fractions import Fraction
@@ -18,9 +18,12 @@ from derivation.plate.vocabulary import Formula, PlateRoot, a_ratio, eta
 DIGITS = 42
 ETAS = ("0.05", "0.2", "1/3", "0.5302", "0.9", "2")
 POINTS = (("0.1", "0.05"), ("4.5", "0.2"), ("1", "1/3"), ("0.5", "0.9"), ("0.2", "3"))
-"""a/h and h/b; the second beyond the radius of Phi's power series, the last in a thick plate."""
+"""Values of a/h and h/b.
+
+The second point is outside the convergence radius of Phi's series; the last plate is thick.
+"""
 DROPS = {"sinh T = T": lambda n: 2 * n - 1, "sinh T = -T": lambda n: 2 * n}
-"""Families of roots that may be forgotten, by the index that is left."""
+"""Family of roots to omit, with the indices of the remaining roots."""
 
 
 @pytest.fixture(scope="module")
@@ -50,7 +53,7 @@ def agree(got: flint.arb, expected: flint.arb, digits: int) -> bool:
 
 @cache
 def newton(n: int) -> mp.mpc:
-    """T_n by mpmath from the asymptotic start, in the family its index belongs to."""
+    """Return T_n by mpmath from its asymptotic value, in the family given by the index."""
     with mp.workdps(50):
         height = (n + mp.mpf(1) / 2) * mp.pi
         start = mp.mpc(mp.log(2 * height), height - mp.log(2 * height) / height)
@@ -78,14 +81,17 @@ def test_roots_are_enclosed(n: int) -> None:
 
 
 def test_the_roots_are_those_known_from_semi_infinite_strips() -> None:
-    """2.25073 + 4.21239 i and 2.76868 + 7.49768 i, the first eigenvalues of both kinds."""
+    """The first roots of both kinds are the published eigenvalues of a semi-infinite strip."""
     assert abs(complex(thin_roots.root(1)) - (2.250728611601870 + 4.212392230490660j)) < 1e-14
     assert abs(complex(thin_roots.root(2)) - (2.768678282987320 + 7.497676277776390j)) < 1e-14
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 6])
 def test_no_root_is_missed(count: int) -> None:
-    """The argument principle on 1/4 < Re T < 12, 1/4 < Im T < pi count + 3 pi/4, in balls."""
+    """The argument principle in Arb counts the roots.
+
+    The region is 1/4 < Re T < 12, 1/4 < Im T < pi count + 3 pi/4.
+    """
 
     def density(T: flint.acb, _: bool) -> flint.acb:
         return 2 * (T.sinh() * T.cosh() - T) / (T.sinh() ** 2 - T * T)
@@ -110,7 +116,7 @@ def test_a_root_that_is_none_is_refused() -> None:
 
 @pytest.mark.parametrize("n", [1, 2, 3, 8])
 def test_residue_is_the_contour_integral(n: int) -> None:
-    """The mean of G (T - T_n) over a circle, which no other root is near."""
+    """The residue is the mean of G (T - T_n) over a circle without another root."""
     with mp.workdps(40):
         centre, count = newton(n), 160
         circle = [mp.mpf(1) / 2 * mp.expjpi(mp.mpf(2 * i) / count) for i in range(count)]
@@ -144,7 +150,7 @@ def test_law_is_exact(radius: str, ratio: str) -> None:
 @pytest.mark.parametrize("k", [2, 3, 4])
 @pytest.mark.parametrize("ratio", ["0.05", "0.2"])
 def test_closed_form_misses_by_the_first_root(k: int, ratio: str) -> None:
-    """By the first root's share, whose size is that of exp(-4.2124 b/h)."""
+    """The error of the closed form is the first root's term, of size exp(-4.2124 b/h)."""
     with mp.workdps(60), flint.ctx.workprec(400):
         e = mp.mpf(ratio)
         miss = number(oracle(k, ratio) - closed(k, ratio), 20)
@@ -155,7 +161,7 @@ def test_closed_form_misses_by_the_first_root(k: int, ratio: str) -> None:
 
 
 def share(k: int, T: mp.mpc, ratio: mp.mpf) -> mp.mpc:
-    """A root's share of c_(2k-3), typed by hand from G's residue coth(u/2)^2/2, u = asinh T."""
+    """Return a root's term in c_(2k-3), from the residue coth(u/2)^2/2 of G, u = asinh T."""
     size = (-1) ** k * mp.mpf(2 * k - 2) / mp.factorial(2 * k - 1)
     residue = mp.coth(mp.asinh(T) / 2) ** 2 / 2
     return 8 * size * (T / 2) ** (2 * k - 4) * residue / 2 * wave(T, ratio)
@@ -172,7 +178,7 @@ def check_bounds(
     quotient: Callable[[int], flint.arb],
     ratio: flint.arb,
 ) -> flint.arb:
-    """In place of the sum over the roots: its terms against what is said to bound them."""
+    """Compare the terms of the sum over the roots with their bounds (replaces the sum)."""
     for n in range(1, 20):
         if not n * flint.arb.pi() > 8 * ratio:
             continue
@@ -186,7 +192,7 @@ def check_bounds(
 
 def test_tails_are_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(thin_remainder, "_sum_over_roots", check_bounds)
-    digits = 600  # K0 cancels where its argument is neither small nor large
+    digits = 600  # K0 loses digits by cancellation for arguments of moderate size
     for ratio in ("0.05", "0.9", "3"):
         for k in (2, 3, 5):
             thin_remainder.coefficient_remainder_ball(k, Fraction(ratio), digits)
@@ -198,7 +204,7 @@ def test_tails_are_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def stated_sum(formula: Formula, values: Mapping[sp.Symbol, mp.mpf], count: int) -> mp.mpf:
-    """The SymPy sum of a record, its first terms evaluated by mpmath."""
+    """Return the recorded SymPy sum, with its first `count` terms evaluated by mpmath."""
     (total,) = formula.expression.atoms(sp.Sum)
     function, (index, *_) = total.args
     T = sp.Symbol("T_n")
@@ -226,7 +232,7 @@ def test_recorded_sum_of_the_law(motion: Mapping[str, Formula]) -> None:
 
 @pytest.mark.parametrize("A", [0.25, 3.0, 6.0])
 def test_universal_part(motion: Mapping[str, Formula], A: float) -> None:
-    """Phi by plain quadrature of the recorded integrand, from where it is negligible."""
+    """Phi agrees with the quadrature of the recorded integrand, negligible below T = 1e-4."""
     integrand, (T, *_) = motion["Phi"].expression.args
     with mp.workdps(30):
         density = sp.lambdify((T, a_ratio), integrand, "mpmath")
@@ -240,7 +246,7 @@ def test_law_is_refused_outside_the_plate(radius: str, ratio: str) -> None:
         thin_remainder.law_remainder_ball(Fraction(radius), Fraction(ratio))
 
 
-# --- what is wrong is caught
+# --- errors are detected
 
 
 WRONG: dict[str, Callable[[sp.Expr, sp.Expr], sp.Expr]] = {
@@ -252,7 +258,7 @@ WRONG: dict[str, Callable[[sp.Expr, sp.Expr], sp.Expr]] = {
 
 @pytest.mark.parametrize("slip", WRONG)
 def test_wrong_residue_is_refused_by_the_proofs(monkeypatch: pytest.MonkeyPatch, slip: str) -> None:
-    thin_remainder.residue_at_roots()  # kept, so that those built on it reach their own residuals
+    thin_remainder.residue_at_roots()  # fill the cache for the dependent proofs
     monkeypatch.setattr(thin_remainder, "residue", WRONG[slip])
     with pytest.raises(ProofError, match="residue"):
         thin_remainder.residue_at_roots.__wrapped__()

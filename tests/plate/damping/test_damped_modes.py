@@ -1,4 +1,4 @@
-"""Damped oscillators: the printed functions against exact numbers, and what is known of them."""
+"""Test the functions of damped modes against exact numbers and known properties."""
 
 import math
 
@@ -17,7 +17,7 @@ ulp = 2.0**-52
 
 
 def exactly(phase: float, zeta: float) -> tuple[mpf, mpf, mpf, mpf, mpf]:
-    """zeta, root, exp(-zeta phase), and cosine and sine of the damped phase."""
+    """Return zeta, root, exp(-zeta phase), and the cosine and sine of the damped phase."""
     ratio, turn = mpf(zeta), mpf(phase)
     root = mp.sqrt((1 - ratio) * (1 + ratio))
     return ratio, root, mp.exp(-ratio * turn), mp.cos(root * turn), mp.sin(root * turn)
@@ -30,7 +30,7 @@ def test_the_formulas_are_proved() -> None:
 
 @pytest.mark.parametrize("zeta", RATIOS)
 def test_free_motion_loses_no_digits(zeta: float) -> None:
-    """Also where both displacements are nearly those of a uniform motion."""
+    """No digits are lost, even if the motion is nearly uniform."""
     by_q, by_rate, sine, cosine = free_motion(PHASES, np.asarray(zeta))
     with mp.workdps(50):
         for k, phase in enumerate(PHASES):
@@ -50,7 +50,7 @@ def test_free_motion_loses_no_digits(zeta: float) -> None:
 def test_factors_make_up_the_response_to_an_impulse(
     late: float, early: float, zeta: float, omega: float
 ) -> None:
-    """Also of an earlier time, which collocation needs."""
+    """The factors give the impulse response, also at the earlier times that collocation needs."""
     sine, cosine, rate_c, rate_s, _, _ = response(np.array([late]), np.asarray(zeta))
     *_, first, second = response(np.array([early]), np.asarray(zeta))
     moved, rate = sine * first - cosine * second, rate_c * first + rate_s * second
@@ -73,7 +73,7 @@ def test_factors_make_up_the_response_to_an_impulse(
 def test_what_is_lost_is_what_the_energy_falls_by(
     phase: float, zeta: float, swing: float, speed: float
 ) -> None:
-    """And it is never negative, nor is anything lost without damping."""
+    """The loss equals the decrease of energy, is never negative, and is zero without damping."""
     at, ratio = np.array([phase]), np.asarray(zeta)
     by_q, by_rate, sine, cosine = free_motion(at, ratio)
     q = swing * (1 + by_q) + speed * phase * (1 + by_rate)
@@ -87,7 +87,10 @@ def test_what_is_lost_is_what_the_energy_falls_by(
 
 
 def test_logarithmic_decrement_and_loss_in_a_cycle() -> None:
-    """A cycle leaves exp(-2 pi zeta/root); a loss factor takes 2 pi times itself of the energy."""
+    """A cycle reduces the amplitude by exp(-2 pi zeta/root).
+
+    For a small loss factor the energy lost per cycle is 2 pi times that factor.
+    """
     zeta = 0.02
     root = math.sqrt(1 - zeta**2)
     cycle = np.array([2 * math.pi / root])

@@ -1,4 +1,4 @@
-"""The clamped edge: theory, measured constants, oracles, kernels, bound and known limits."""
+"""Test the clamped edge: theory, measured constants, references, functions, bound, limits."""
 
 import itertools
 import json
@@ -40,7 +40,7 @@ def test_every_formula_is_proved_symbolically() -> None:
 
 
 def test_strip_that_thins_as_a_plate_does_bears_pressure() -> None:
-    """The plate thins by both curvatures, the strip by one: that is what a clamp forbids."""
+    """The proof fails if the strip has the thinning of a plate with two curvatures."""
     wrong = (lam + 2 * mu) * states()[1].w.diff(z) + lam * z
     with pytest.raises(ProofError, match="faces"):
         prove("Strip", "", {"faces": wrong})
@@ -66,12 +66,12 @@ def test_fits_are_what_is_measured_on_the_strip() -> None:
         chi, level = clamp_balls.constants(n)
         assert float(chi / n**2) == pytest.approx(row["turn"], rel=2e-3)
         assert float(level) == pytest.approx(row["level"], rel=2e-3)
-        # The end's shear, for small n.
+        # shear at the end of the strip, to first order in n
         assert abs(row["shear"] - float(clamp.SHEAR)) < 1e-3 + 0.16 * abs(row["n"])
 
 
 def test_strip_is_measured_as_recorded() -> None:
-    """Coarser elements, and no end that is felt: shear at n = 0 between its neighbours."""
+    """Coarser elements reproduce the recorded constants and a rigid motion of the strip."""
     pytest.importorskip("scipy")
     from derivation.plate.edge.strip import Strip
 
@@ -79,14 +79,17 @@ def test_strip_is_measured_as_recorded() -> None:
     (row,) = (row for row in strip_record() if row["n"] == 0.25)
     for got, name in zip(strip.constants(), ("turn", "level", "shear"), strict=True):
         assert got == pytest.approx(row[name], rel=2e-3)
-    # A rigid motion of the end is one of the whole strip.
+    # A rigid motion of the end is a rigid motion of the whole strip.
     turn, level = strip.rigid(0.3 * strip.z, 0.0 * strip.z + 0.2)
     assert turn == pytest.approx(0.3, abs=1e-9)
     assert level == pytest.approx(0.2, abs=1e-9)
 
 
 def test_law_against_three_dimensional_elements() -> None:
-    """c_1 of a clamped plate: its measured error in units of Kirchhoff's P b^2/(16 pi D)."""
+    """The error against 3-D finite elements is small relative to Kirchhoff's deflection.
+
+    Kirchhoff's deflection of a clamped plate is P b^2/(16 pi D).
+    """
     rows = json.loads((measurements() / "edge_remainder.json").read_text())["rows"]
     limits = {0.02: 1e-4, 0.05: 1e-4, 0.1: 3e-4, 0.2: 1.5e-3, 0.3: 3.5e-3}
     tested = 0
@@ -108,7 +111,10 @@ def test_law_against_three_dimensional_elements() -> None:
 @pytest.mark.parametrize("ratio", [-0.5, 0.0, 0.3, 0.45])
 @pytest.mark.parametrize("h", [0.01, 0.1, 0.25])
 def test_small_contacts(h: float, ratio: float) -> None:
-    """Of P b^2/D: -[(1 - s)^2 + 2 chi eta + eta^3/5 + (16/3) n^2 eta^4]/(16 pi)."""
+    """For a small contact the clamp changes the deflection by a known multiple of P b^2/D.
+
+    The factor is -[(1 - s)^2 + 2 chi eta + eta^3/5 + (16/3) n^2 eta^4]/(16 pi).
+    """
     n = ratio / (1 - ratio)
     chi = n * n / (7.436 + 3.168 * n - 0.976 * n**2 + 0.204 * n**3)
     s = 2 * n * (1 - 2 / (7.638 + 0.801 * n - 0.316 * n**2 + 0.255 * n**3)) * h**2
@@ -120,20 +126,20 @@ def test_small_contacts(h: float, ratio: float) -> None:
 
 
 def test_turn_is_the_kernels_own() -> None:
-    """The constant that other modules of the package may use."""
+    """`turn_of_clamp`, which other generated modules use, equals the reference constant."""
     n = np.array([-0.4, 0.0, 0.3, 0.9])
     true = [float(clamp_balls.constants(Fraction(x))[0]) for x in n]
     np.testing.assert_allclose(turn_of_clamp(n), true, rtol=1e-15)
 
 
 def test_a_clamp_is_stiffer_than_a_thin_plates_theory() -> None:
-    """The end forbids thinning: chi > 0 on both sides of nu = 0, where it vanishes."""
+    """The clamp prevents thinning, so chi > 0 except at nu = 0, where chi = 0."""
     chi = turn_of_clamp(np.array([-0.45, -0.1, 0.0, 0.1, 0.99]))
     assert (chi[[0, 1, 3, 4]] > 0).all()
     assert chi[2] == 0
 
 
-# --- oracles
+# --- references
 
 
 @pytest.mark.parametrize("kind", ["indentation", "slope"])
@@ -165,7 +171,7 @@ def test_oracle_refuses_what_has_no_meaning() -> None:
         clamp_balls.clamp_part("slope", 1.0, 0.1, 1.0, 1.0, 1.0)
 
 
-# --- generated kernels
+# --- generated functions
 
 
 @pytest.mark.parametrize("size", [1e-90, 1e90])
@@ -178,11 +184,11 @@ def test_nothing_overflows(size: float) -> None:
 
 
 def test_bound_holds_and_is_near_for_thin_plates() -> None:
-    """0 <= slope <= bound for every smaller contact, and the bound grows with the contact."""
+    """0 < -slope <= bound holds for random contacts, and the bound increases with the contact."""
     random = np.random.default_rng(5)
     for _ in range(3000):
         h, ratio = 10 ** random.uniform(-2, 1), random.uniform(-0.99, 0.499)
-        if random.random() < 0.3:  # 1 - s near 0, where the slope falls below that of a = 0
+        if random.random() < 0.3:  # 1 - s near 0: slope below its a = 0 value
             h = (0.75 * 2 * abs(ratio) / (1 - ratio) + 1e-9) ** -0.5 * random.uniform(0.8, 1.2)
         width = np.sort(random.uniform(0, 0.9, 4))
         taken = -kernels.clamped_edge_slope(width, h, 1.0, *lame(ratio))

@@ -1,4 +1,4 @@
-"""The edge that users mean: resultants, oracles, generated kernels, bound and limits."""
+"""Test simply supported and clamped edges: resultants, references, functions, bound, limits."""
 
 import itertools
 import math
@@ -47,14 +47,17 @@ def test_every_formula_of_the_link_is_proved_symbolically() -> None:
 
 
 def test_another_plate_state_is_refused() -> None:
-    """Without the thinning lam z^2/(lam + 2 mu) the faces bear pressure."""
+    """The proof fails without the thinning lam z^2/(lam + 2 mu): the faces would have pressure."""
     stress = edge.hooke(edge.r * edge.z, (b**2 - edge.r**2) / 2)
     with pytest.raises(ProofError, match="pressure"):
         prove("Bending", "", {"pressure": stress.zz})
 
 
 def test_thin_plates_deflect_as_the_theory_of_plates_says() -> None:
-    """P b^2/(8 pi D) of the paper's edge times (3 + nu)/(2 (1 + nu)); X is half of it."""
+    """A simple support multiplies the thin-plate deflection by (3 + nu)/(2 (1 + nu)).
+
+    The deflection with the paper's edge is P b^2/(8 pi D), and X is half of it.
+    """
     soft = alpha / eta**3 / (4 * sp.pi)
     (thin,) = (f.expression for f in edge_sums.thin_edge() if f.name == "F_edge_thin")
     share = sp.limit(sp.limit((thin / soft), eta, 0), alpha, 0)
@@ -64,12 +67,15 @@ def test_thin_plates_deflect_as_the_theory_of_plates_says() -> None:
 
 
 def test_moment_at_the_edge_of_a_thin_plate() -> None:
-    """(1 - nu) P/(8 pi) per length, for a small contact; sum 1/(j^3 J1) = 1/8."""
+    """The edge moment per length of a thin plate is (1 - nu) P/(8 pi) for a small contact.
+
+    This uses sum 1/(j^3 J1) = 1/8.
+    """
     moment = {f.name: f.expression for f in edge.edge_resultants()}["edge_moment"]
     thin = sp.limit(moment, h, 0).subs(A_j, pressure_coefficient().expression)
     point = sp.limit(thin / a**3, a, 0)
     plain = edge_sums.closed(edge_sums.indentation_kernel).plain.subs(alpha, 0)
-    # One mode goes with 1/(phi^3 J1) = b^3/(j^3 J1).
+    # The moment of a mode is proportional to 1/(phi^3 J1) = b^3/(j^3 J1).
     total = sp.simplify(point * phi**3 * J1 * b**3 * plain)
     force = contact_radius().expression / a**3
     assert sp.simplify((total / force - (1 - nu) / (8 * sp.pi)).subs(lam, LAM_OF_NU)) == 0
@@ -78,7 +84,7 @@ def test_moment_at_the_edge_of_a_thin_plate() -> None:
 
 @pytest.mark.parametrize(("wave", "ratio"), [(0.03, 0.3), (1.7, -0.8), (9.0, 0.49)])
 def test_resultants_against_integrals_over_the_thickness(wave: float, ratio: float) -> None:
-    """Fields from tractions solved in mpmath, integrated by Gauss' rule."""
+    """The resultants equal integrals over the thickness of fields solved with mpmath."""
     values = {f.name: f.expression for f in edge.edge_resultants()}
     first, second = lame(ratio)
     radius, slope = 2.4 / wave, 0.52
@@ -103,7 +109,7 @@ def test_resultants_against_integrals_over_the_thickness(wave: float, ratio: flo
             assert abs(enclose(values[name], balls) / arb(mp.nstr(value, 35)) - 1) < 1e-28
 
 
-# --- oracles
+# --- references
 
 
 @pytest.mark.parametrize("kind", ["indentation", "slope"])
@@ -136,12 +142,12 @@ def test_tables_and_oracle_integrate_alike() -> None:
                 assert abs(edge_tables.alternating_sum(kernel, to_ball(width)) - oracle) < 1e-34
 
 
-# --- generated kernels
+# --- generated functions
 
 
 @pytest.mark.parametrize("support", ["supported", "clamped"])
 def test_slope_is_the_indentations(support: str) -> None:
-    """(R/2a) d(a^2 X/R)/da by differences."""
+    """The slope equals (R/2a) d(a^2 X/R)/da by finite differences."""
     plate = (0.2, 1.0, *lame(0.3))
     function, its_slope = (getattr(kernels, f"{support}_edge{part}") for part in ("", "_slope"))
     for width in (0.05, 0.4, 0.85):
@@ -152,14 +158,17 @@ def test_slope_is_the_indentations(support: str) -> None:
 
 
 def test_edge_is_linear_in_the_force() -> None:
-    """a^2/R X at fixed a goes with 1/R as P does; doubling both constants changes nothing."""
+    """X is unchanged if both Lame constants are doubled: force and stiffness scale together."""
     plate = (0.01, 0.05, 1.0, *lame(0.3))
     for function in (kernels.supported_edge, kernels.clamped_edge):
         assert function(*plate) == function(*plate[:3], *(2 * x for x in plate[3:]))
 
 
 def test_thin_plates_against_the_law() -> None:
-    """Centre deflections: halved by a clamp, times (3 + nu)/(2 (1 + nu)) by a support."""
+    """A clamp halves the centre deflection of the paper's edge.
+
+    A simple support multiplies it by (3 + nu)/(2 (1 + nu)).
+    """
     plate, ratio = (1e-5, 1e-5, 1.0), 0.3
     soft = float(contact_law.indentation(1e-5, 1e3, *plate[1:])) * 1e3 / 1e-10 - 1
     clamped = float(kernels.clamped_edge(*plate, *lame(ratio)))
@@ -223,7 +232,7 @@ def test_oracle_refuses_what_has_no_meaning() -> None:
 
 
 def test_contact_radius_of_the_law_is_untouched() -> None:
-    """What the edge adds is zero at a = 0 and grows with a: the Hertz term stays the first."""
+    """The edge term is proportional to a for small a, so the Hertz term stays the leading one."""
     small = kernels.supported_edge(np.array([1e-9, 1e-6]), 0.1, 1.0, *lame(0.3))
     assert math.isclose(float(small[1] / small[0]), 1e3, rel_tol=1e-9)
     true = contact_balls.slope(1e-9, 1.0, 0.1, 1.0, 12)

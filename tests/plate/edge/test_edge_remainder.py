@@ -1,4 +1,4 @@
-"""The measured remainder of the edge: convergence, linearity, and what the record says."""
+"""Test the measured remainder of the edge law: convergence, linearity and the record."""
 
 import json
 from functools import partial
@@ -45,7 +45,7 @@ def test_meshes_fill_the_plate(h: float) -> None:
 
 
 def test_modes_at_the_rim_are_many_enough() -> None:
-    """Their sum at both faces and within, against a quarter of the modes."""
+    """With a quarter of the modes the edge displacement changes by less than 1e-6."""
     case, z = RemainderCase("supported", 0.2, 0.3), np.array([-0.2, 0.0, 0.1, 0.2])
     values = rim_displacement(case, 0.1, z)
     fewer = rim_displacement(case, 0.1, z, modes=1500)
@@ -54,7 +54,7 @@ def test_modes_at_the_rim_are_many_enough() -> None:
 
 @pytest.mark.parametrize("support", SUPPORTS)
 def test_states_and_elements_are_the_whole_difference(support: str) -> None:
-    """Elasticity alone, without the states, gives what states and elements give together."""
+    """Finite elements without the edge states give the same total as states plus elements."""
     case = RemainderCase(support, 0.2, 0.3)
     whole = Field(case, COARSE).depths(WIDTHS, states=False)
     rest = Field(case, COARSE).depths(WIDTHS)
@@ -72,14 +72,14 @@ def test_remainder_converges() -> None:
 
 
 def test_record() -> None:
-    """Every case is there, converged, and small where a plate is a plate."""
+    """The record contains every case, has converged, and is small for sufficiently thin plates."""
     record = json.loads((measurements() / "edge_remainder.json").read_text())
     rows = record["rows"]
     assert len(rows) == len(SUPPORTS) * len(SIZES) * len(POISSON) * len(WIDTHS)
     assert [mesh["degree"] for mesh in record["meshes"]] == [mesh.degree for mesh in MESHES]
     for row in rows:
         share = abs(row["share_of_indentation"])
-        # A clamp's corners are singular; a support's are not.
+        # The corners of a clamped edge are singular; those of a supported edge are not.
         floor = 1e-7 if row["support"] == "supported" else 3e-5
         assert abs(row["lower_degree"]) + abs(row["fewer_layers"]) < 0.01 * share + floor
         assert share < 0.03
@@ -90,7 +90,7 @@ def test_record() -> None:
 
 
 def test_rows_are_shares_and_their_changes(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Coarser elements come close to the record; both changes are to another mesh."""
+    """Coarser meshes agree with the record, and each row states its changes with two meshes."""
     meshes = (COARSE, RemainderMesh(degree=5, layers=4), RemainderMesh(degree=6, layers=3))
     monkeypatch.setattr(edge_remainder, "MESHES", meshes)
     monkeypatch.setattr(edge_remainder, "SIZES", (1.0,))
@@ -117,7 +117,7 @@ def test_rows_are_shares_and_their_changes(monkeypatch: pytest.MonkeyPatch) -> N
 
 @pytest.mark.parametrize("h", [0.22213133, *np.geomspace(0.01, 9.0, 60)])
 def test_no_element_is_a_sliver(h: float) -> None:
-    """At the axis, where halving ends, it is no thinner than a fifth of its neighbour."""
+    """The element at the axis is at least 0.19 times as wide as its neighbour."""
     for layers in range(2, 8):
         r = radii(h, layers)
         assert (r[0], r[-1]) == (0.0, 1.0)

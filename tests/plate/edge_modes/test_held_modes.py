@@ -1,4 +1,4 @@
-"""Modes of thin held plates: theory, the two references, the mean under a flat punch."""
+"""Test modes of thin clamped or supported plates: theory, references, flat-punch mean."""
 
 import math
 from fractions import Fraction
@@ -79,7 +79,7 @@ def test_bound_of_bessels_integral_as_a_sum(steps: int, largest: int) -> None:
         modified_bessel.sum_bound(10, Fraction(9))
 
 
-# --- oracles
+# --- references
 
 
 @pytest.mark.parametrize(
@@ -106,7 +106,7 @@ def test_oracles_refuse_what_has_no_meaning() -> None:
 
 @pytest.mark.parametrize("contact", ["0.01", "0.4", "0.9"])
 def test_mean_under_a_flat_punch(contact: str) -> None:
-    """r = a sin t has the weight sin t dt under it."""
+    """The modal weight is the mean of a mode under a flat punch (weight sin t dt, r = a sin t)."""
     with mp.workdps(25):
         k, a = mpf("9.4394991378764"), mpf(contact)
         part = mp.besselj(0, k) / mp.besseli(0, k)

@@ -1,4 +1,4 @@
-"""Printed routines of held plates: proved, and refused where a step is wrong."""
+"""Test that routines for clamped or supported plates are proved, and wrong steps rejected."""
 
 from typing import Any
 

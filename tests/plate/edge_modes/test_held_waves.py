@@ -1,4 +1,4 @@
-"""Waves of held plates with a thickness: theory, oracles, kernels in ULP, limits, sums, shapes."""
+"""Test modes of clamped or supported plates of finite thickness: theory, functions, limits."""
 
 import math
 from collections.abc import Callable
@@ -93,7 +93,7 @@ def test_bound_of_bessels_integral_of_order_two(steps: int, largest: int) -> Non
         modified_bessel.fourth_bound(12, Fraction(9))
 
 
-# --- oracles
+# --- references
 
 
 @pytest.mark.parametrize(
@@ -130,7 +130,7 @@ def test_roots_that_are_not_found_are_refused(monkeypatch: pytest.MonkeyPatch) -
         held_wave_routes.wave("clamped", 0.1, 0.3, 3.1, 5)
 
 
-# --- generated kernels
+# --- generated functions
 
 
 @pytest.mark.parametrize("nu", RATIOS)
@@ -174,7 +174,7 @@ def test_impossible_arguments_are_refused(of: Callable[..., Waves]) -> None:
 
 @pytest.mark.parametrize("edge", WAVES_OF)
 def test_results_change_smoothly(edge: str) -> None:
-    """Across the switch of I0 at k2 = 31.7, and along nu."""
+    """Results change smoothly across the switch point of I0 at k2 = 31.7, and along nu."""
     lines = [
         [WAVES_OF[edge](12, eta, 0.3) for eta in np.linspace(0.01, 0.02, 201)],
         [WAVES_OF[edge](2, 0.1, nu) for nu in np.linspace(-0.99, 0.4999, 401)],
@@ -193,7 +193,10 @@ def test_results_change_smoothly(edge: str) -> None:
 @pytest.mark.parametrize("nu", RATIOS)
 @pytest.mark.parametrize("eta", [1e-6, 0.03, 0.1, 0.2, 0.35, 0.5])
 def test_turn_over_bend_grows_between_zeros(eta: float, nu: float) -> None:
-    """From -oo, or 1/2, to oo, S/Gam grows: it passes any beta once, that of chi = 1 too."""
+    """Between zeros of J0, S/Gam increases from -oo (or 1/2) to oo, so it equals beta once.
+
+    This includes the beta of chi = 1.
+    """
     ends = np.concatenate(([0.0], bessel_j0_zeros(8)))
     top = min(cutoff(nu) / eta, ends[-1])
     for low, high in pairwise(ends):
@@ -201,7 +204,7 @@ def test_turn_over_bend_grows_between_zeros(eta: float, nu: float) -> None:
             break
         inside = np.linspace(low, min(high, top), 402)[1:-1]
         ratio = turn_over_bend(inside, eta, nu)[0]
-        # Near k = 0 the growth is like k^4: below what doubles tell.
+        # Near k = 0 the increase is of order k^4, below the rounding error.
         assert (np.diff(ratio) > (0.0 if low else -1e-12)).all()
         assert ratio[0] < (-1.0 if low else 0.5 + 1e-5)
         if high <= top:
@@ -209,7 +212,7 @@ def test_turn_over_bend_grows_between_zeros(eta: float, nu: float) -> None:
 
 
 def turn_over_bend(k: Any, eta: float, nu: float, kap: Any = None) -> tuple[Any, ...]:
-    """S/Gam, k2, g1 and g2 of A0's kap or another, by SciPy."""
+    """Return S/Gam, k2, g1 and g2 by SciPy, for the kap of A0 if none is given."""
     x, slack = k * eta, (6 - nu) / 5
     kap = bending_frequency(x, nu) ** 2 if kap is None else kap
     k2 = np.sqrt(k**2 - kap / eta**2 * (slack + (1 - nu) / 2))
@@ -222,14 +225,14 @@ def turn_over_bend(k: Any, eta: float, nu: float, kap: Any = None) -> tuple[Any,
 
 
 def mindlin_kap(x: float, nu: float) -> float:
-    """Of Mindlin's lower branch: the smaller root of the quadratic."""
+    """Return kap of Mindlin's lower branch, the smaller root of the quadratic."""
     slack, n = (6 - nu) / 5, (1 - nu) / 2
     half = (3 * n + (slack + n) * x**2) / 2
     return 2 * half / (2 * slack * n) * (1 - math.sqrt(1 - slack * n * x**4 / half**2))
 
 
 def fields(k: Any, eta: float, nu: float, r: Any, kap: Any = None) -> tuple[Any, Any]:
-    """w and psi at distances."""
+    """Return w and psi at the radii r."""
     _, k2, g1, g2 = (np.asarray(x)[..., None] for x in turn_over_bend(k, eta, nu, kap))
     k = np.asarray(k)[..., None]
     c = j0(k) / iv(0, k2)
@@ -240,7 +243,7 @@ def fields(k: Any, eta: float, nu: float, r: Any, kap: Any = None) -> tuple[Any,
 @pytest.mark.parametrize("nu", [0.0, 0.45])
 @pytest.mark.parametrize("edge", WAVES_OF)
 def test_modes_are_orthogonal_and_have_their_norm(edge: str, nu: float) -> None:
-    """Mindlin's own modes exactly; with A0's frequencies nearly."""
+    """Mindlin's modes are orthogonal; modes with the frequencies of A0 are so approximately."""
     eta = 0.12
     found = WAVES_OF[edge](4, eta, nu)
     chi = float(theory.CLAMP.subs(poisson, nu)) * eta
@@ -271,7 +274,10 @@ def test_modes_are_orthogonal_and_have_their_norm(edge: str, nu: float) -> None:
 
 @pytest.mark.parametrize("eta", [1e-80, 1e-20, 1e-9])
 def test_thin_plates(eta: float) -> None:
-    """Link 29's modes; and Leissa, Vibration of Plates (1969), tables 2.1 and 2.5."""
+    """Thin plates have the modes of derivation step 29.
+
+    They agree with Leissa, Vibration of Plates (1969), tables 2.1 and 2.5.
+    """
     for edge, nu, k_squared in (
         ("clamped", 0.3, [10.2158, 39.771, 89.104]),
         ("supported", 0.3, [4.9351, 29.7200, 74.1561]),
@@ -284,7 +290,7 @@ def test_thin_plates(eta: float) -> None:
                 value = float(getattr(true, name))
                 assert getattr(found, name)[n - 1] == pytest.approx(
                     value,
-                    rel=1e-14 + 0.1 * eta,  # of the clamp's compliance
+                    rel=1e-14 + 0.1 * eta,  # the compliance of the clamp
                 )
         np.testing.assert_allclose(found.k2, found.k, rtol=1e-15)
         np.testing.assert_allclose(found.residue, 0.5, rtol=1e-15)
@@ -299,7 +305,10 @@ def test_thin_plates(eta: float) -> None:
 @pytest.mark.parametrize("nu", [-0.3, 0.0, 0.3, 0.45])
 @pytest.mark.parametrize(("eta", "most"), [(0.02, 5e-4), (0.05, 3e-4), (0.1, 5e-4), (0.16, 5e-3)])
 def test_sums_are_the_differences_at_rest(edge: str, nu: float, eta: float, most: float) -> None:
-    """Held less paper's edge, mode by mode up to the cut-off, beyond which they are alike."""
+    """The sum over modes of the difference to the paper's edge is the static difference.
+
+    Beyond the cut-off the modes of both edges are assumed equal.
+    """
     known = derived.formulas()[f"{edge}_rest"].expression
     value = float(known.subs({poisson: nu, thickness: eta}))
     held = WAVES_OF[edge](1000, eta, nu)
@@ -308,11 +317,11 @@ def test_sums_are_the_differences_at_rest(edge: str, nu: float, eta: float, most
     weight = 1 / (np.pi * bessel_j1_at_j0_zeros(count) ** 2)
     paper = bending_residue(x, nu) * weight / bending_frequency(x, nu) ** 2
     each = held.residue * held.weight / held.root**2 - paper
-    rigidity = 4 / (3 * (1 - nu)) * eta**4  # D over mu h^3, (h/b)^2 and h^2 more of rho h b^2
+    rigidity = 4 / (3 * (1 - nu)) * eta**4  # D/(mu h^3) times eta^4 for the other units
     assert math.fsum(each) * rigidity == pytest.approx(value, rel=most)
 
 
-# --- the loaded face
+# --- the contact face
 
 
 def test_shape_and_its_mean_under_a_flat_punch() -> None:
@@ -329,7 +338,7 @@ def test_shape_and_its_mean_under_a_flat_punch() -> None:
             plain = (j0(k * r) - c * iv(0, k2 * r)) / (1 - c)
             np.testing.assert_allclose(found, plain, atol=2e-13)
             for a in (0.05, 0.5, 0.9):
-                # r = a sin t has the weight sin t dt under the punch.
+                # With r = a sin t the punch pressure has the weight sin t dt.
                 mean = shape(waves, a * np.sin(t)) @ (np.sin(t) * weights * np.pi / 4)
                 share = shares_less_one(waves, a)
                 assert share.shape == (1, waves.k.size), edge
@@ -341,7 +350,7 @@ def test_small_punches_and_high_modes() -> None:
     assert waves.k2[-1] > 745
     assert waves.c[-1] == 0.0
     edge = shape(waves, [0.0, 0.9, 1.0, 1.1, -0.1, math.nan])
-    np.testing.assert_allclose(edge[:, 2], 0.0, atol=1e-4)  # t is not 1 for waves this short
+    np.testing.assert_allclose(edge[:, 2], 0.0, atol=1e-4)  # t differs from 1 for waves this short
     assert np.isnan(edge[:, 3:]).all()
     np.testing.assert_allclose(edge[-1, 1], j0(0.9 * waves.k[-1]), atol=1e-12)
     a = 1e-6

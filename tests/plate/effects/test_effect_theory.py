@@ -1,4 +1,4 @@
-"""The links of the effects and their kernels, by integrals and definitions."""
+"""Test the derivations of the effects and their functions, by integrals and definitions."""
 
 import math
 from typing import Any
@@ -47,7 +47,10 @@ def test_growth_of_the_side_wall_by_another_quadrature() -> None:
 
 
 def test_sphere_on_a_half_space_by_sneddons_integrals() -> None:
-    """delta = a int f'/sqrt(a^2 - r^2) dr and P = 2 E* int r^2 f'/sqrt(...) dr, r = a sin t."""
+    """Indentation and force of a sphere on a half-space agree with Sneddon's integrals.
+
+    delta = a int f'/sqrt(a^2 - r^2) dr and P = 2 E* int r^2 f'/sqrt(...) dr, r = a sin t.
+    """
     with mp.workdps(30):
         for rho in (mpf("1e-6"), mpf("0.1"), mpf("0.7"), mpf("0.98")):
 
@@ -74,14 +77,17 @@ def test_sphere_kernel_within_its_budget() -> None:
             force = mpf(3) / 4 * ((1 + x * x) * arc - x) / x**3 if rho > 1e-5 else 1 + 2 * x * x / 5
             depth, edge = arc / x, 1 / (1 - x * x)
             reference = (force, depth, (depth + edge) / 2)
-            # Condition numbers: of the edge at most 2 x^2/(1 - x^2).
+            # The condition number of `edge` is at most 2 x^2/(1 - x^2).
             allowed = 8 + float(x * x / (1 - x * x))
             for value, true in zip(sphere_contact(rho), reference, strict=True):
                 assert abs(mpf(float(value)) - true) < allowed * float(np.spacing(float(true)))
 
 
 def test_side_wall_within_its_budget() -> None:
-    """Against the integral itself, y = u^3, at 40 digits since its numerator cancels."""
+    """The side-wall correction agrees with its integral, and its slope is below the bound.
+
+    The integral (with y = u^3) takes 40 digits because its numerator cancels.
+    """
     with mp.workdps(40):
         for alpha in (0.01, 0.3, 0.999):
             a = mpf(alpha)
@@ -103,7 +109,7 @@ def test_side_wall_within_its_budget() -> None:
 
 
 def test_bending_is_that_of_a_thin_plate() -> None:
-    """delta = P b^2/(8 pi D), D = E* H^3/12."""
+    """The bending deflection is that of a thin plate, P b^2/(8 pi D) with D = E* H^3/12."""
     a, R, h, b, E = 0.01, 0.3, 0.02, 0.7, 3e9
     P, D = 4 / 3 * E * a**3 / R, E * (2 * h) ** 3 / 12
     share = P * b**2 / (8 * math.pi * D) * R / a**2

@@ -1,4 +1,4 @@
-"""The hard cases: complete as a suite, true in their references, well-formed."""
+"""Test that the hard cases are complete, well-formed, and have correct references."""
 
 import dataclasses
 import json
@@ -64,7 +64,7 @@ GROUPS = {
     "waves of held plates": 12,
     "waves of the plate": 100,
 }
-"""What the suite must hold, and at least how many cases of it."""
+"""Groups of hard cases, with the least number of cases in each."""
 
 
 @pytest.fixture(scope="module")
@@ -73,7 +73,7 @@ def data() -> dict[str, Any]:
     return found
 
 
-# --- what is in it
+# --- contents
 
 
 def test_every_group_is_there(cases: tuple[HardCase, ...]) -> None:
@@ -127,7 +127,7 @@ def test_causes_are_sentences_and_inputs_are_exact(cases: tuple[HardCase, ...]) 
             assert all(text.lstrip("-").startswith(("0x", "nan", "inf")) for text in texts)
 
 
-# --- what is true
+# --- references
 
 
 def test_references_have_40_digits(references: dict[str, Known]) -> None:
@@ -189,18 +189,21 @@ def test_the_second_oracle_agrees(suite: Suite, references: dict[str, Known]) ->
 def test_references_follow_from_the_expressions_as_they_are(
     suite: Suite, references: dict[str, Known]
 ) -> None:
-    """Those of closed formulas; what balls come to does not change with their oracle's text."""
+    """The references of closed formulas were computed from the present expressions.
+
+    Laws are excluded: changing the code of their Arb reference does not change a correct value.
+    """
     closed = {case.kernel: case for case in suite.cases if case.kernel not in LAWS}
     assert {name: references[case.key].origin for name, case in closed.items()} == {
         name: suite.origin(name) for name in closed
     }
 
 
-# --- how they are found
+# --- computing the references
 
 
 def test_an_origin_changes_with_code_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Not with words about it, nor with the engine; a module of its own that is imported counts."""
+    """The origin depends on code, also of imported modules of the paper, but not on comments."""
     monkeypatch.syspath_prepend(tmp_path)
     engine = "from derivation.engine.formula.ball import to_ball\n"
     texts = {
@@ -229,7 +232,7 @@ def test_an_origin_changes_with_code_alone(tmp_path: Path, monkeypatch: pytest.M
 def test_a_stopped_record_goes_on_where_it_was(
     suite: Suite, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """What was saved is not sought again, unless it follows from something else by now."""
+    """Saved references are not computed again, unless their origin has changed."""
     recorded, part = tmp_path / "hard.json", tmp_path / "hard.part.json"
     given = [case for case in suite.cases if case.kernel == "G" and case.expect == "value"][:4]
     few, references = dataclasses.replace(suite, cases=tuple(given)), Suite.references
@@ -264,7 +267,7 @@ def test_a_stopped_record_goes_on_where_it_was(
     assert sought == [case.key for case in given[:2]]
 
 
-# --- how cases are written
+# --- format of the cases
 
 
 @pytest.mark.parametrize(

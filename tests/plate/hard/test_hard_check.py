@@ -1,4 +1,4 @@
-"""The check of hard cases: all are kept, damage is noticed, and what the command says."""
+"""Test the check of hard cases: all pass, defects are detected, and the command reports."""
 
 import dataclasses
 import importlib
@@ -19,13 +19,13 @@ from derivation.engine.measure.suite import Known, Suite
 from derivation.engine.paper import Paper
 from derivation.plate.paper import PAPER
 
-# --- who keeps it
+# --- results of the check
 
 
 def checked(
     suite: Suite, chosen: Iterable[HardCase], references: dict[str, Known]
 ) -> tuple[hard.HardRow, ...]:
-    """What becomes of some of the cases."""
+    """Return the results of checking the chosen cases."""
     return hard.check(dataclasses.replace(suite, cases=tuple(chosen)), references)
 
 
@@ -100,7 +100,7 @@ def test_every_kind_of_damage_is_noticed(suite: Suite, references: dict[str, Kno
 def test_a_reference_is_of_the_modules_its_oracle_is_made_of(
     suite: Suite, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Words about the code do not count; the code of those imported does."""
+    """An origin ignores comments and includes the code of imported modules."""
     place = hard_origin._file("derivation.plate.contact.oracle.forces")
     before = {name: suite.origin(name) for name in ("indentation", "force", "bessel_j0")}
     assert len(set(before.values())) == 3
@@ -123,7 +123,7 @@ def test_a_reference_is_of_the_modules_its_oracle_is_made_of(
     assert {name for name in before if other[name] != before[name]} == {"force"}
 
 
-# --- how it is asked
+# --- the command
 
 
 def test_a_missing_reference_is_refused(
@@ -148,8 +148,8 @@ def test_command_shows_every_case(capsys: pytest.CaptureFixture[str]) -> None:
     status = main(["check", "hard-cases", "--json", "-"])
     shown, known = json.loads(capsys.readouterr().out), json.loads(PAPER.hard.read_text())
     assert status == (0 if all(row["kept"] for row in shown["cases"]) else 1)
-    # Where matrices are multiplied or equations solved, rounding follows the library for linear
-    # algebra, and of several results another one may be the nearest to what is allowed.
+    # Rounding of matrix products and linear solvers depends on the linear-algebra library, so
+    # another result may be the closest to its limit.
     for row in (*shown["cases"], *known["cases"]):
         if row["kernel"] in ("pressure", "contact", "supported_waves"):
             del row["error"], row["allowed"]

@@ -1,4 +1,4 @@
-"""What hard cases of laws are held to: by a second oracle, and what kernels state themselves."""
+"""Test the references and error limits of hard cases of laws, and stated error bounds."""
 
 import dataclasses
 import math
@@ -28,7 +28,7 @@ from generated.impact import history
 def test_the_second_oracle_agrees(
     cases: tuple[HardCase, ...], references: dict[str, Known]
 ) -> None:
-    """At the first point of a case; nothing of it is in units."""
+    """The second reference agrees at the first point of a case."""
 
     def first(kernel: str) -> tuple[dict[str, float], flint.arb]:
         case = next(c for c in cases if c.kernel == kernel)
@@ -76,7 +76,7 @@ def test_who_states_an_error_is_held_to_it(suite: Suite, references: dict[str, K
 
 
 def test_rounding_of_a_state_is_what_the_arguments_change() -> None:
-    """Differences of the generated code say what moving every argument does, added up."""
+    """The conditioning is the sum of the changes due to each argument, by finite differences."""
     given, step = (7e-3, 0.13, 72.2, 1.0, 0.1, 1.0, 0.36e9, 0.43e9), 1e-4
     total = np.zeros(4)
     for place in range(len(given)):
@@ -94,7 +94,7 @@ def test_rounding_of_a_state_is_what_the_arguments_change() -> None:
 def test_stress_below_a_clamped_edge_is_what_is_recorded_with_fewer_digits(
     cases: tuple[HardCase, ...], references: dict[str, Known]
 ) -> None:
-    """And another than on the paper's edge."""
+    """It agrees with the recorded value, which differs from the stress with the paper's edge."""
     for kernel in ("clamped_far_stress", "far_stress"):
         case = next(case for case in cases if case.kernel == "clamped_far_stress")
         [given] = [tuple(case.points[0].values())]
@@ -104,7 +104,10 @@ def test_stress_below_a_clamped_edge_is_what_is_recorded_with_fewer_digits(
 
 
 def test_a_force_is_excused_as_its_contact_radius_is() -> None:
-    """Of a thick plate, where the plate's part has a size of its own."""
+    """The error limit of a force has the same scale as that of its contact radius.
+
+    The plate is thick, so the plate term sets a scale above 1.
+    """
     a, R, h, b = 0.4, 1.0, 1.0, 1.0
     delta = float(contact_balls.indentation(a, R, h, b, 20))
     of_radius, of_force = (LAWS[name].scale for name in ("contact_radius", "force"))
@@ -117,7 +120,7 @@ def test_a_force_is_excused_as_its_contact_radius_is() -> None:
 
 
 def test_a_supported_mode_of_no_bending_share_is_judged_without_conditioning() -> None:
-    """Next to nu = -1 the condition number of nu excuses nothing; a little further on it does."""
+    """The condition number of nu is not used next to nu = -1, but at nu = -1 + 1e-6 it is."""
     law = LAWS["supported_waves"]
     assert law.slopes is not None
     for nu, free in ((math.nextafter(-1.0, 0.0), True), (-1.0 + 1e-6, False)):
@@ -128,7 +131,7 @@ def test_a_supported_mode_of_no_bending_share_is_judged_without_conditioning() -
 
 @pytest.mark.parametrize("name", ["hertz", "leading"])
 def test_a_simple_law_shows_nothing_beyond_its_range(name: str, suite: Suite) -> None:
-    """A sphere a thousand times too fast; what it states is NaN where its results are."""
+    """Results and stated errors are not finite for an impact far beyond the law's range."""
     known = suite.kernels[name]
     assert isinstance(known, Stating)
     paper = (0.13, 72.2, 1.0, 0.1, 1.0, 0.36e9, 0.43e9)

@@ -1,4 +1,4 @@
-"""Algorithms written by hand with one thing wrong, in memory: hard cases notice it."""
+"""Mutation tests of hand-written algorithms: hard cases detect each error in the code."""
 
 from collections.abc import Mapping
 
@@ -79,7 +79,7 @@ MAY_PASS: Mapping[str, Mapping[str, tuple[int, str]]] = {
     "sensitivity": {"_near_sums": (4, SHAPE)},
     "series_constants": {"_looked_up": (1, GUARDS)},
 }
-"""By module and function or constant, how many mutants may pass at most, and why."""
+"""Largest number of undetected mutants by module and function or constant, with the reason."""
 
 
 @pytest.mark.parametrize("name", MAY_PASS)

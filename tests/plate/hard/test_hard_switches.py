@@ -1,4 +1,4 @@
-"""Where generated code compares numbers, hard cases come close to the switch from both sides."""
+"""Test that hard cases are close to both sides of each comparison in generated code."""
 
 import importlib
 import pkgutil
@@ -18,7 +18,7 @@ from derivation.engine.measure.kernels import Kernel
 from derivation.engine.measure.suite import Suite
 
 CLOSE = 1e-12
-"""Relative distance to the switch: of what is compared, which may be the result of a sum."""
+"""Largest relative difference of two compared numbers that counts as close to a switch."""
 
 GUARD = "a guard against what is outside the domain, or what no input reaches"
 LOOP = "keeps an iteration within its bracket"
@@ -66,18 +66,18 @@ MAY_STAY: Mapping[str, tuple[int, str]] = {
     "simple_impact.leading": (1, GUARD),
     "viscosity.viscous_logarithms": (4, ELSEWHERE),
 }
-"""How many comparisons of a function may stay on one side, or far from the switch, and why."""
+"""Largest number of comparisons by function without close cases on both sides, and why."""
 
 
 def modules() -> list[ModuleType]:
-    """The generated package but for its table of contents."""
+    """Return the modules of the generated package except its manifest."""
     names = (found.name for found in pkgutil.iter_modules(generated.__path__))
     return [importlib.import_module(f"generated.{x}") for x in names if x != "manifest"]
 
 
 @pytest.fixture(scope="module")
 def seen(suite: Suite) -> Watch:
-    """What all comparisons do in the hard cases."""
+    """Return the record of all comparisons that the hard cases evaluate."""
     with watched({m: Path(str(m.__file__)).read_text() for m in modules()}) as watch:
         for case in suite.cases:
             kernel = suite.kernels[case.kernel]
@@ -92,7 +92,7 @@ def seen(suite: Suite) -> Watch:
 
 
 def ways(case: HardCase, kernel: Kernel) -> Iterator[list[Any]]:
-    """A case's arguments as they are; of the contact law as plain numbers and as arrays too."""
+    """Yield the arguments of a case; for the contact law also as arrays and as numbers."""
     arguments = handed_over(case, kernel.arguments)
     yield arguments
     if kernel.module == "contact_law":
@@ -102,7 +102,7 @@ def ways(case: HardCase, kernel: Kernel) -> Iterator[list[Any]]:
 
 
 def test_every_switch_has_cases_close_to_both_sides(seen: Watch) -> None:
-    """A new one in the code needs hard cases, as described in docs/development."""
+    """A new switch point in the code needs hard cases; see docs/development."""
     far = seen.beyond(CLOSE)
     count = Counter(place.home for place in far)
     most = {home: limit for home, (limit, _) in MAY_STAY.items()}

@@ -1,4 +1,4 @@
-"""Impacts in arrays of any size and shape are each what it is alone."""
+"""Test that arrays of impacts of any size and shape give the results of single impacts."""
 
 import tracemalloc
 
@@ -9,7 +9,7 @@ from generated.impact import _BATCH, impact
 
 
 def test_a_batch_is_every_impact_alone() -> None:
-    """Across the ends of what is solved at a time, with contacts beyond 3 h among them."""
+    """Results agree at both sides of a batch boundary, also for contacts wider than 3 h."""
     given = scenes(0.01, 5.9, _BATCH + 600)
     found = np.stack(impact(**given))
     for place in (0, 511, 512, _BATCH - 1, _BATCH, _BATCH + 1, _BATCH + 599):
@@ -18,7 +18,7 @@ def test_a_batch_is_every_impact_alone() -> None:
 
 
 def test_a_batch_broadcasts_what_is_given() -> None:
-    """Speeds along one axis and plates along the other, more than are solved at a time."""
+    """Speeds along one axis broadcast with plates along the other, for more than one batch."""
     v0, h = np.linspace(0.1, 1.0, _BATCH // 4)[:, None], np.array([0.1, 0.12, 0.2, 0.1, 0.5])
     found = np.stack(impact(0.13, 72.2, v0, h, 1.0, 0.36e9, 0.43e9))
     assert found.shape == (4, v0.size, h.size)
@@ -28,7 +28,7 @@ def test_a_batch_broadcasts_what_is_given() -> None:
 
 
 def test_memory_grows_by_little_more_than_the_results() -> None:
-    """These have 32 bytes an impact."""
+    """The peak memory grows by less than 100 bytes per impact; the results take 32 bytes."""
 
     def peak(count: int) -> int:
         given = {name: x[:count] for name, x in every.items()}

@@ -1,4 +1,4 @@
-"""The law to any number of digits: both oracles, honest bounds, and the command."""
+"""Test the law with any number of digits: both references, error bounds, and the command."""
 
 import json
 import math
@@ -61,7 +61,7 @@ DEPTHS = [
 
 @pytest.mark.parametrize(("eta", "alpha", "digits"), DEPTHS)
 def test_the_second_oracle_lies_in_the_ball(eta: float, alpha: float, digits: int) -> None:
-    """As balls: the second oracle's number, blurred by what it is asked to be exact to."""
+    """The Arb interval overlaps the second reference, widened by its requested accuracy."""
     R, lam, mu = 2.0, 0.36e9, 0.43e9
     law = ball_law.law_of(ratio_of(eta, 1.0), alpha, digits)
     balls = ball_law.pressed(alpha, R, 1.0, lam, mu, law, digits + 3)
@@ -80,7 +80,7 @@ def test_the_second_oracle_lies_in_the_ball(eta: float, alpha: float, digits: in
     [(0.1, 1.0, 60), (0.1, 1.0, 120), (0.5, 30.0, 60), (0.02, 0.1, 30), (0.1, 600.0, 30)],
 )
 def test_both_oracles_of_an_impact(h: float, v0: float, digits: int) -> None:
-    """From a = h/7 to a = 5 h, where the powers of both oracles cancel."""
+    """Both references of an impact agree from a = h/7 to a = 5 h, where their series cancel."""
     motion = (2.0, 1000.0, v0, h, 1.0, 0.36e9, 0.43e9)
     found = many_digits.reference(motion, digits, lambda *_: None)
     assert [quantity.compared for quantity in found.quantities] == [digits] * 10
@@ -88,7 +88,7 @@ def test_both_oracles_of_an_impact(h: float, v0: float, digits: int) -> None:
 
 
 def test_no_digit_depends_on_the_scale_of_the_powers(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Half as many digits again, and another reach: what is left out is below the digits asked."""
+    """More digits and another range of the series change nothing within the requested digits."""
     motion, digits = (2.0, 72.0, 1.0, 0.1, 1.0, 0.36e9, 0.43e9), 40
     near = residue_law.impact(*motion, digits)
     monkeypatch.setattr(residue_law, "SHALLOW", 0.9)
@@ -120,7 +120,7 @@ def test_nodes_of_the_impacts_rule() -> None:
 
 @pytest.mark.parametrize("share", [1 / 8, 1 / 12, 1 / 16])
 def test_bound_of_the_trapezoidal_rule_is_honest(share: float) -> None:
-    """Half the step changes the integral by less than the bound, for the fastest g allowed."""
+    """For the fastest growing g, halving the step changes the integral by less than the bound."""
     with flint.ctx.workprec(400):
         sums = []
         for step in (arb(share), arb(share) / 2):
@@ -134,7 +134,7 @@ def test_bound_of_the_trapezoidal_rule_is_honest(share: float) -> None:
 
 
 def test_bound_on_the_shifted_line_holds() -> None:
-    """Against plain quadrature of the largest integrand allowed."""
+    """The bound is 1 to 3 times the quadrature of the largest allowed integrand."""
     with mp.workdps(20):
         shift = mp.mpc(0, contact_wall.SHIFT)
 
@@ -193,7 +193,10 @@ def test_series_refuses_what_it_does_not_reach() -> None:
 def test_a_ball_across_a_zero_of_the_bessel_function_gives_no_bound(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """Shifted to where y = 2 i sin d passes near i j_1, and covered by one wide ball."""
+    """One wide interval contains a zero of I0, so no bound is available.
+
+    On the shifted line y = 2 i sin d passes near i j_1.
+    """
     monkeypatch.setattr(contact_wall, "PIECES", 1)
     with pytest.raises(PrecisionError, match="1/I0"):
         contact_wall.shifted_bound.__wrapped__()
@@ -276,7 +279,7 @@ def test_digits_shared_are_no_more_than_the_ball_has() -> None:
 def test_every_result_is_held_to_the_second_oracle(
     name: str, monkeypatch: pytest.MonkeyPatch, capsys: Captured
 ) -> None:
-    """One of its routes is off in the thirteenth digit: so is what it gives, and no more."""
+    """An error of 1e-12 in one function of the second reference shows in its results only."""
     right = getattr(residue_law, name)
 
     def off(*arguments: Any) -> Any:

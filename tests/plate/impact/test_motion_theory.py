@@ -1,4 +1,4 @@
-"""The motion: energy, contact time, linearisation, and the printed equations (9) to (18)."""
+"""Test the motion: energy, contact time, linearisation, and the published (9) to (18)."""
 
 import json
 from collections.abc import Mapping
@@ -48,11 +48,11 @@ def test_every_formula_is_proved_without_numerics(motion: Mapping[str, Formula])
 
 
 def test_energy_is_conserved_along_a_computed_motion(motion: Mapping[str, Formula]) -> None:
-    """(11) integrated by mpmath's Taylor solver; the velocity must be that of (13)."""
+    """The velocity from integrating (11) with mpmath's Taylor solver agrees with (13)."""
     numbers = {m: 2, v0: 3, xi_k[2]: 5, xi_k[3]: sp.Rational(7, 10)}
     acceleration = sp.lambdify(delta, motion["acceleration"].expression.subs(numbers), "mpmath")
     speed = sp.lambdify(delta, motion["speed"].expression.subs(numbers), "mpmath")
-    # From a positive start: delta^(5/3) has no Taylor series at 0.
+    # The integration starts at delta > 0 because delta^(5/3) has no Taylor series at 0.
     start = mp.mpf("0.3")
     solve = mp.odefun(lambda _, y: [y[1], acceleration(y[0])], 0, [start, speed(start)])
     place, velocity = solve(mp.mpf("0.5"))
@@ -61,7 +61,7 @@ def test_energy_is_conserved_along_a_computed_motion(motion: Mapping[str, Formul
 
 
 def contact_integral(motion: Mapping[str, Formula], law: tuple[float, ...]) -> mp.mpf:
-    """The recorded integrand's, for a law with given D_3, D_5, D_7."""
+    """Return the integral of the recorded integrand for a law with given D_3, D_5, D_7."""
     values = dict.fromkeys((D[3], D[5], D[7]), sp.Integer(0))
     values |= {D[2 * i + 3]: sp.Rational(value) for i, value in enumerate(law)}
     integrand = sp.lambdify(u_t, motion["contact_integrand"].expression.subs(values), "mpmath")
@@ -72,7 +72,7 @@ def contact_integral(motion: Mapping[str, Formula], law: tuple[float, ...]) -> m
 def test_contact_time_integral_is_the_motions(
     motion: Mapping[str, Formula], law: tuple[float, ...]
 ) -> None:
-    """int d delta/velocity with its root at the end, by mpmath, for a law with given D_3, ..."""
+    """The contact-time integral equals int d delta/velocity by mpmath, for given D_3, D_5, D_7."""
     pairs = [(2, mp.mpf(1)), *((2 * i + 3, mp.mpf(value)) for i, value in enumerate(law))]
 
     def rate(q: mp.mpf) -> mp.mpf:
@@ -80,7 +80,7 @@ def test_contact_time_integral_is_the_motions(
         return mp.fsum(n * d * q ** (n - 1) for n, d in pairs) / mp.sqrt(work)
 
     with mp.workdps(40):
-        # The root at q = 1 costs half the digits: what is left out there is 2 rate sqrt(1e-30).
+        # The square root at q = 1 halves the digits: the omitted part is about 2 rate sqrt(1e-30).
         expected = mp.quad(rate, [0, 0.5, 0.9, 0.999, 1 - mp.mpf("1e-30")])
         assert abs(contact_integral(motion, law) / expected - 1) < mp.mpf("1e-12")
 
@@ -91,7 +91,7 @@ def test_hertz_contact_time(motion: Mapping[str, Formula]) -> None:
     assert abs(value - mp.mpf("2.94327518")) < 1e-8
     direct = mp.quad(lambda u: 2 * u / mp.sqrt(-mp.expm1(2.5 * mp.log1p(-(u**2)))), [0, 0.5, 1])
     assert abs(value / 2 - direct) < 1e-12
-    # And by the general integral: half the time is sqrt(2/5) I delta_max/v0.
+    # The general integral I agrees too: half the contact time is sqrt(2/5) I delta_max/v0.
     general = contact_integral(motion, ())
     assert abs(general * mp.sqrt(mp.mpf(2) / 5) - value / 2) < 1e-14
 
@@ -112,7 +112,7 @@ def test_linear_motion_turns_where_the_radicand_is_negative(
 def test_linearised_equation_predicts_the_difference(
     motion: Mapping[str, Formula], name: str
 ) -> None:
-    """eta' + F eta + G = 0 is the difference of two exact velocities to second order in eta."""
+    """eta' + F eta + G = 0 is accurate to second order in eta for two exact velocities."""
     F, G = (motion[f"{x}_{name or 1}"].expression for x in ("F", "G"))
     values = {"m": 2, "v0": 3, "xi_2": 5, "xi_3": 0.7, "lam": 1.1, "mu": 0.4, "R": 0.8, "h": 2}
     values |= {"c_1": 0.3}
@@ -156,7 +156,7 @@ def test_order_is_the_papers() -> None:
     equations = [int(record.equation) for record in PRINTED_MOTION]
     assert equations == sorted(equations)
     compared = set(map(str, equations))
-    # The others are premises, or only name things; (16) is proved with (17).
+    # The other equations are assumptions or definitions; (16) is proved with (17).
     assert compared | {"9", "12", "14", "16"} == {str(n) for n in range(9, 19)}
 
 

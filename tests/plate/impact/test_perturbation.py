@@ -1,4 +1,4 @@
-"""The paper's own motion: its coefficients, (15), (16) to (18), where they break, and scenes."""
+"""Test the paper's motion: coefficients, (15) to (18), range of validity, and scenes."""
 
 import json
 import math
@@ -55,7 +55,7 @@ def test_the_sums_do_not_settle() -> None:
 
 
 def theory(motion: PrintedMotion) -> tuple[Real, Real, mpf, mpf]:
-    """F and G of the records as functions of delta_0, and peak and rate of (15)."""
+    """Return the derived F and G as functions of delta_0, and amplitude and frequency of (15)."""
     values = {m: motion.m, v0: motion.v0, xi_k[2]: motion.xi_2, xi_k[3]: motion.xi_3}
     exact = {key: sp.Float(value, 40) for key, value in values.items()}
     F, G = (
@@ -67,7 +67,7 @@ def theory(motion: PrintedMotion) -> tuple[Real, Real, mpf, mpf]:
 
 
 def correction(motion: PrintedMotion, t: mpf) -> mpf:
-    """(16) as it stands, an integral over time of one over time."""
+    """Return (16) by direct quadrature, a double integral over time."""
     F, G, peak, rate = theory(motion)
 
     def before(end: mpf) -> mpf:
@@ -91,7 +91,7 @@ def test_correction_is_16_with_the_F_and_G_of_the_theory(corrected: bool) -> Non
 
 @pytest.mark.parametrize("share", [0.2, 0.9])
 def test_the_oracle_in_balls_says_the_same(share: float) -> None:
-    """Collocation in space against the integrals over time, and the generated code against it."""
+    """The Arb reference agrees with the direct integrals over time and the generated code."""
     motion = printed_motion(*PAPER, 100, corrected=True)
     t = share * motion.breaks_at
     numbers = (motion.m, motion.v0, motion.xi_2, motion.xi_3)
@@ -117,7 +117,7 @@ def test_the_oracle_in_balls_ends_where_the_radicand_does() -> None:
 @pytest.mark.parametrize("name", CASES)
 @pytest.mark.parametrize("corrected", [False, True])
 def test_eta_solves_its_equation_up_to_where_it_breaks(name: str, corrected: bool) -> None:
-    """eta' + F eta + G = 0 by differences that grow as fine as the end comes near."""
+    """eta' + F eta + G = 0 holds, by finite differences with smaller steps near the end."""
     motion = printed_motion(*CASES[name], 100, corrected=corrected)
     F, G, _, _ = theory(motion)
     for left in (0.5, 0.1, 1e-2):
@@ -141,7 +141,7 @@ def test_linear_motion_is_15() -> None:
     )
     assert motion.contact_time == pytest.approx(math.pi * math.sqrt(motion.m / motion.xi_2))
     assert motion.linear(motion.contact_time / 2) == pytest.approx(motion.max_indentation)
-    # A spring knows no speed: only its depth does.
+    # For a linear spring only the indentation depends on the speed.
     faster = printed_motion(*PAPER[:2], 3.0, *PAPER[3:], 50)
     assert faster.contact_time == motion.contact_time
     assert faster.max_indentation == pytest.approx(3 * motion.max_indentation, rel=1e-15)
@@ -159,14 +159,14 @@ def test_breaks_before_the_turning_point(name: str, modes: int, corrected: bool)
     assert used / (motion.m * motion.v0**2) == pytest.approx(1, rel=1e-13)
     times = np.linspace(0, motion.breaks_at, 401)
     found = motion.corrected(times)
-    assert (np.diff(found) > 0).all()  # no turning point of its own
+    assert (np.diff(found) > 0).all()  # the corrected motion has no turning point
     assert (found <= motion.linear(times) + 1e-16 * motion.max_indentation).all()
     assert np.isnan(motion.corrected(np.nextafter(motion.breaks_at, np.inf)))
     assert np.isnan(motion.corrected(-1e-9))
 
 
 def test_printed_exponent_depends_on_the_units() -> None:
-    """Millimetre, tonne, second: the derived motion is the same, the printed one another."""
+    """In mm, t and s the derived motion is the same, but the published motion changes."""
     R, mass, speed, h, b, lam, mu = PAPER
     other = 1e3 * R, 1e-3 * mass, 1e3 * speed, 1e3 * h, 1e3 * b, 1e-6 * lam, 1e-6 * mu
     ours, theirs = (printed_motion(*x, 100, corrected=True) for x in (PAPER, other))
@@ -218,7 +218,7 @@ def test_comparison_is_the_generated_motion_beside_the_result() -> None:
 @pytest.mark.parametrize("rtol", [None, 1e-1, 1e-6])
 def test_it_changes_no_result(name: str, rtol: float | None) -> None:
     data = load(EXAMPLES / f"{name}.toml").to_json()
-    if rtol == 1e-6 or name == "paper":  # tighter than what a plate that moves can meet
+    if rtol == 1e-6 or name == "paper":  # too small a tolerance for a plate with inertia
         data["effects"] = {**data.get("effects", {}), "inertia": False}
     without = simulate(read(data), rtol=rtol)
     data["effects"] = {**data.get("effects", {}), "compare_paper_motion": True}
@@ -236,9 +236,9 @@ def test_it_changes_no_result(name: str, rtol: float | None) -> None:
 
 
 def test_it_is_no_effect() -> None:
-    """It stands in no table of effects, and changes neither a static contact nor the reference."""
+    """The comparison is not an effect: table, static contact and reference stay unchanged."""
     asked, plain = read(compared(compare_paper_motion=True)), read(compared())
-    assert repr(explain(asked).effects) == repr(explain(plain).effects)  # NaN is like NaN
+    assert repr(explain(asked).effects) == repr(explain(plain).effects)  # NaN != NaN
     assert indent(asked, force=[10.0]) == indent(plain, force=[10.0])
     wanted = compared(compare_paper_motion=True), compared()
     one, other = (derivation.checks.effects.everything(data) for data in wanted)
@@ -307,7 +307,7 @@ for name in ("derivation.scene.comparison", "generated.perturbation"):
 @pytest.mark.parametrize("size", [1e-200, 1e-60, 1e60])
 @pytest.mark.filterwarnings("error")
 def test_what_is_no_number_is_null(size: float) -> None:
-    """Where the sums leave the doubles, whatever the result."""
+    """The motion is null in JSON where its sums exceed the double range."""
     made = compare(Model(size, 1.0, 1.0, size, size, 1.0, 1.0), 1.0, 1.0).to_json()
     assert json.loads(json.dumps(made, allow_nan=False)) == made
 

@@ -1,4 +1,4 @@
-"""Slope of the contact law and sensitivities of an impact: references, limits, scaling."""
+"""Test the slope of the contact law and the sensitivities of an impact."""
 
 import math
 from fractions import Fraction
@@ -29,9 +29,9 @@ from generated.sensitivity import PARAMETERS, RESULTS, impact_sensitivities, ind
 LAM, MU = 6e10, 8e10
 SCENE = (0.05, 0.03, 10.0, 0.001, 0.05, LAM, MU)
 THICK = (1e3, 2.0, 0.0022, 1.0, 0.01, LAM, MU)
-"""h/b is 100."""
+"""Scene with h/b = 100."""
 ROOT = 0.5301974990742511
-"""The double nearest to the h/b at which c_1 passes zero."""
+"""The double nearest to the h/b at which c_1 = 0."""
 BELOW, ABOVE = 1 - 1e-9, 1 + 1e-9
 BITS = 128
 LIMIT = 2e-15
@@ -50,7 +50,10 @@ def test_the_slope_of_the_plate_factor_is_its_derivative_and_no_other() -> None:
 
 
 def test_exponents_of_hertz() -> None:
-    """Peaks go with Y^(1/5), the contact time with Y^(-1/10) beside sqrt(m/(E* h))."""
+    """The contact time of a Hertz impact has the known exponents.
+
+    It is proportional to Y^(-1/10) sqrt(m/(E* h)), with Y the energy number.
+    """
     table = theory.exponents()
     own, energy = (table[name] for name in ("contact_time", "energy"))
     total = [a - sp.Rational(1, 10) * e for a, e in zip(own, energy, strict=True)]
@@ -76,14 +79,17 @@ def test_slope_and_stiffness_are_one() -> None:
 
 
 def test_stiffness_where_the_second_polynomial_is_short() -> None:
-    """Its range ends at alpha = 1, just beyond A = 3 if 1/eta is just beyond 3."""
+    """The range of the second polynomial is short if 1/eta slightly exceeds 3.
+
+    It starts at A = 3 and ends at alpha = 1, that is A = 1/eta.
+    """
     for v, A in ((3.0012, 3.0006), (3.0001, 3.00005), (3.0001, 2.9999), (2.999, 2.9987)):
         got = contact_law.stiffness(A, 1e3, 1.0, v, LAM, MU)
         true = contact_balls.stiffness(A, 1e3, 1.0, v, LAM, MU, 22)
         assert abs(float(got) - true) < LIMIT * true
 
 
-# --- sensitivities against the oracle
+# --- sensitivities against the reference
 
 
 def test_more_digits_begin_with_the_fewer() -> None:
@@ -96,7 +102,7 @@ def test_more_digits_begin_with_the_fewer() -> None:
 
 
 def test_rounding_is_what_the_parameters_change() -> None:
-    """Differences of the generated code say what moving every parameter does, added up."""
+    """The conditioning is the sum of the changes due to each parameter, by finite differences."""
     scene, step = THICK, 1e-4
     total = np.zeros((len(RESULTS), len(PARAMETERS)))
     for index in range(len(PARAMETERS)):
@@ -111,7 +117,7 @@ def test_rounding_is_what_the_parameters_change() -> None:
 
 
 def test_a_second_route_says_the_same() -> None:
-    """Differences of the oracle in mpmath; the step is exact in v0 = 5."""
+    """Finite differences of the mpmath reference agree; the step of v0 = 5 is exact."""
     scene, step = (1e3, 2.0, 5.0, 1.0, 3.5, LAM, MU), 2.0**-20
     upper, lower = (
         residue_law.impact(*scene[:2], 5.0 * (1 + x), *scene[3:], digits=20) for x in (step, -step)
@@ -123,10 +129,10 @@ def test_a_second_route_says_the_same() -> None:
 
 
 def peaks_by_energy(a: float, h: float, b: float) -> tuple[flint.arb, flint.arb]:
-    """Of indentation and contact radius to the energy, at a largest radius: exact, no differences.
+    """Return the exact sensitivities of indentation and radius to energy, at a largest radius.
 
-    d E = P d delta: the radius follows from (2/5) (1 + work)/(2 (1 + sinc)) in terms of the
-    sums of `contact.oracle.sums`.
+    With dE = P d delta, that of the radius is (1 + work)/(5 (1 + sinc)) in terms of the sums
+    of `contact.oracle.sums`.
     """
     with flint.ctx.workprec(BITS):
         eta, alpha = ratio_of(h, b), to_ball(ratio_of(a, b))
@@ -135,7 +141,7 @@ def peaks_by_energy(a: float, h: float, b: float) -> tuple[flint.arb, flint.arb]
 
 
 def peaks_by_thickness(a: float, h: float, b: float) -> tuple[flint.arb, flint.arb]:
-    """Of delta R/h^2 and a/h to h/b at a fixed energy number, at a largest radius."""
+    """Return the sensitivities of delta R/h^2 and a/h to h/b at a fixed energy number."""
     ratio = ratio_of(a, h)
 
     def results(factor: Fraction) -> tuple[flint.arb, flint.arb]:
@@ -151,12 +157,12 @@ def peaks_by_thickness(a: float, h: float, b: float) -> tuple[flint.arb, flint.a
 
 @pytest.mark.parametrize(("v", "A"), [(3.01, 3 * BELOW), (4 * BELOW, 3.5), (1 / ROOT, 1.0)])
 def test_peaks_against_exact_balls(v: float, A: float) -> None:
-    """From work and slope of the law themselves, without an impact."""
+    """The sensitivities of the peaks follow from work and slope of the law, without an impact."""
     energy = stored_energy(A, 1e3, 1.0, v, LAM, MU, 22)
     got = impact_sensitivities(1e3, 2.0, math.sqrt(float(energy)), 1.0, v, LAM, MU)
     by_energy = peaks_by_energy(A, 1.0, v)
     by_eta = peaks_by_thickness(A, 1.0, v)
-    # Energy is rounded to a double here, hence the margin of one digit.
+    # The energy is rounded to a double, which explains the larger limit.
     for row, energy_ball, eta_ball in zip((1, 3), by_energy, by_eta, strict=True):
         assert abs(energy_ball - float(got[row, 2]) / 2) < LIMIT
         assert abs(eta_ball + float(got[row, 4])) < 2 * LIMIT
@@ -178,7 +184,10 @@ def test_hertz_limit() -> None:
 
 
 def test_linear_spring_limit() -> None:
-    """P b^2/(8 pi D) with D = (2/3) E* h^3: the sphere's radius and speed leave the time alone."""
+    """In the limit of a linear spring the time is independent of sphere radius and speed.
+
+    The deflection is P b^2/(8 pi D) with D = (2/3) E* h^3.
+    """
     got = impact_sensitivities(1e3, 1e-9, 1e-3, 1e-8, 10.0, LAM, MU)
     third = 1 / 3
     expected = [
@@ -208,7 +217,7 @@ def scene_of(shape: tuple[float, float, float, float]) -> tuple[float, ...]:
     a = min(6.0 * h, b) * min(10**width, 0.98)
     R, m, mu = 50.0 * b, 2.0, 3e9
     lam = ratio * mu
-    # Work of the half-space or of the bent plate, whichever leads less far: a/h stays below.
+    # 40 % of the work of the half-space law, so that the largest radius stays within the range.
     modulus = 4 * mu * (lam + mu) / (lam + 2 * mu)
     energy = 8 / 15 * modulus * a**5 / R**2 * 0.4
     return R, m, math.sqrt(2 * energy / m), h, b, lam, mu
@@ -239,7 +248,7 @@ def test_differences_of_the_impact(shape: tuple[float, float, float, float], ind
 
 
 def test_mass_and_speed_count_as_energy() -> None:
-    """v0 counts twice as m in the peaks; the contact time has sqrt(m) besides."""
+    """Peaks depend on m and v0 only by m v0^2; the contact time has an extra factor sqrt(m)."""
     got = impact_sensitivities(*SCENE)
     assert np.abs(got[1:, 2] - 2 * got[1:, 1]).max() < 1e-15
     assert abs(got[0, 1] - 0.5 - got[0, 2] / 2) < 1e-15
@@ -273,7 +282,7 @@ def test_sensitivities_domain_and_types() -> None:
 
 
 def test_many_scenes_are_as_one() -> None:
-    speed = np.geomspace(1e-3, 3e3, 1200)  # more than are worked on at a time, beyond A = 3 too
+    speed = np.geomspace(1e-3, 3e3, 1200)  # more than one batch, also beyond A = 3
     h = np.resize([1e-3, 2e-3, 5e-3, 0.02, 0.7], 1200)
     together = impact_sensitivities(*SCENE[:2], speed, h, *SCENE[4:])
     for index in (0, 511, 512, 1100, 1199):

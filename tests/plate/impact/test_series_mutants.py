@@ -1,4 +1,4 @@
-"""The paper's motion with one thing wrong, in memory: definitions notice it."""
+"""Mutation tests of the paper's motion: independent definitions detect each error."""
 
 import math
 from collections.abc import Sequence
@@ -17,7 +17,7 @@ from generated.perturbation import PrintedMotion
 Point = tuple[float, ...]
 LAME = 0.36e9, 0.43e9
 
-# --- the paper's own motion
+# --- the paper's motion
 
 PAPER: Point = (0.13, 72.2, 1.0, 0.1, 1.0, *LAME)
 OTHERS: Sequence[Point] = [
@@ -28,7 +28,7 @@ NO_MOTION: Sequence[Point] = [
     (PAPER[0], 0.0, *PAPER[2:]),
 ]  # fmt: skip
 MOTIONS: Sequence[Point] = [(72.2, 1.0, 3e7, 4e8), (0.5, 3.0, 2e5, 8e3), (2.0, 0.01, 30.0, 5e5)]
-"""m, v0, xi_2, xi_3: from a small correction to one that counts more than the linear term."""
+"""Values of m, v0, xi_2 and xi_3, for corrections from small to above the linear term."""
 
 
 @cache
@@ -54,7 +54,7 @@ def by_sums(scene: Point, corrected: bool) -> list[float]:
 
 
 def by_motion(numbers: Point) -> Answer:
-    """All that is said of a motion: its ends, (15), and (16) on the way and outside."""
+    """Return the case of a motion: end values, (15), and (16) within and outside its range."""
     m, v0, xi_2, xi_3 = map(mpf, numbers)
     shares = (0.01, 0.11, 0.5, 0.93)
     with mp.workdps(30):
@@ -86,8 +86,8 @@ def by_motion(numbers: Point) -> Answer:
 
 
 def at_the_end(motion: Point) -> Answer:
-    """Where the radicand vanishes: what (16) tends to, like a square root."""
-    end = PrintedMotion(*motion).breaks_at  # which `by_motion` tests
+    """Return the case of (16) at the zero of the radicand, approached like a square root."""
+    end = PrintedMotion(*motion).breaks_at  # tested by `by_motion`
     true = float(motion_balls.corrected(end * (1 - 1e-10), *motion, digits=12))
 
     def ask(module: ModuleType) -> float:

@@ -1,4 +1,4 @@
-"""Impacts by simple laws with one thing wrong, in memory: the theory notices it."""
+"""Mutation tests of impacts by simple laws: independent evaluations detect each error."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -27,7 +27,7 @@ LAME = 0.36e9, 0.43e9
 
 @dataclass(frozen=True)
 class Bounded:
-    """A bound that a module states: above what it is of, and hardly above what is proved."""
+    """Bound stated by a module: at least the proved value `true`, and hardly larger."""
 
     ask: Callable[[ModuleType], Any]
     true: Any
@@ -40,14 +40,14 @@ class Bounded:
 
 
 ETAS = (0.17, 0.3, 1.0, 5.0, 1 / 6.5, 1 / 13, 1 / 40)
-"""h/b: by modes, and by the closed forms."""
+"""Values of h/b for the sum over modes and for the closed forms."""
 SIMPLE: Sequence[Point] = [
     (1.0, 2.0, 3e-4, 0.6, 2.0, 3.6e4, 4.3e4), (1.0, 2.0, 0.05, 0.6, 2.0, 3.6e4, 4.3e4),
     (0.9, 2.0, 0.02, 0.5, 0.5, -0.5e4, 0.8e4), (30.0, 0.5, 1e-3, 0.02, 0.8, 3.6e4, 4.3e4),
     (0.01, 2.0, 0.1, 0.6, 2.0, 3.6e4, 4.3e4),
     (1.0, 2e-60, 0.05, 0.6, 2.0, 3.6e-56, 4.3e-56),
 ]  # fmt: skip
-"""One wide for its sphere, and one in other units."""
+"""Scenes, among them a contact wide compared with its sphere, and one in other units."""
 NO_ESTIMATE: Sequence[Point] = [
     (1.0, 2.0, 1e3, 0.3, 1.0, 3.6e4, 4.3e4), (1e-3, 2.0, 0.05, 0.3, 1.0, 3.6e4, 4.3e4),
     (1.0, 1e-101, 0.05, 0.3, 1.0, 3.6e4, 4.3e4), (1.0, 2.0, 0.05, 0.3, 1e51, 3.6e4, 4.3e4),
@@ -98,7 +98,7 @@ def nowhere(module: ModuleType) -> list[bool]:
 
 @cache
 def plate(eta: float) -> tuple[float, float]:
-    """c_1 by its ball, and K_3 as the theory of the substitution has it."""
+    """Return c_1 from Arb and K_3 from the theory of the substitution."""
     c_1, c_3 = (contact_balls.coefficient(n, eta, 1.0, 25) for n in (1, 3))
     if eta < 1 / tables.THIN:
         return float(c_1), float(-5 * c_3 / 2) + numbers.WALL_CUBIC * eta**3
@@ -111,7 +111,7 @@ def plate(eta: float) -> tuple[float, float]:
 
 
 def lemma(low: Any, up: Any, fall: Any, rise: Any, energy: Any = 0) -> list[mpf]:
-    """Bounds of time, indentation, force and radius as the theory says the lemma, in products."""
+    """Return the bounds of time, indentation, force and radius by the lemma, as products."""
     with mp.workdps(25):
         least, most, fall, rise, more = (
             1 - mpf(low),
@@ -132,7 +132,7 @@ def lemma(low: Any, up: Any, fall: Any, rise: Any, energy: Any = 0) -> list[mpf]
 
 
 def simple(scene: Point, corrected: bool) -> tuple[list[float], float]:
-    """Results by delta = a^2/R (1 + c_1 a/h) or by Hertz's law, and how far that may be off."""
+    """Return results by delta = a^2/R (1 + c_1 a/h) or Hertz's law, and their error bound."""
     c_1, K_3 = plate(scene[3] / scene[4])
     with mp.workdps(25):
         R, m, v0, h, _, lam, mu = map(mpf, scene)

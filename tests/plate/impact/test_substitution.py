@@ -1,4 +1,4 @@
-"""Link 18: the law between two simple ones, and the numbers that the bounds are made of."""
+"""Test derivation step 18: a law between two simple laws, and the constants of its bounds."""
 
 import flint
 import numpy as np
@@ -30,7 +30,7 @@ def test_wall_rest_is_the_series_beyond_its_first_term() -> None:
 
 
 def test_generated_wall_bounds_are_the_integrals_rounded_up() -> None:
-    """Against plain quadrature: all powers of sinh y beyond the first, and beyond the third."""
+    """The bounds slightly exceed the integrals of sinh y without its first one or two terms."""
 
     def share(y: float, taken: float) -> float:
         rising = special.k0e(y) / special.i0e(y) * np.exp(-2 * y) / y

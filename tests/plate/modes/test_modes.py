@@ -1,4 +1,4 @@
-"""The fields of a mode and their sums where they were once wrong, and in any units."""
+"""Test the fields of a mode and their sums at arguments of former errors, and in any units."""
 
 import itertools
 import math
@@ -21,7 +21,7 @@ SUMS = ("delta", "u", "w", "sigma_rr", "sigma_tt", "sigma_zz", "sigma_rz")
 TARGETS = {target.name: target for target in targets((*MODES, *SUMS))}
 
 WORST = (
-    # Both faces' shares cancel in the middle of a plate somewhat thicker than T = 2.
+    # The terms of both faces cancel at mid-plane of a plate somewhat thicker than T = 2.
     (
         "mode_g",
         (
@@ -36,7 +36,7 @@ WORST = (
             "-0x1.4a57783c9cfa7p+24 0x1.f623209cdd675p+24 0x1.7c7a9147fb691p+4"
         ),
     ),
-    # Close to where it crosses zero.
+    # Close to a zero of the function.
     (
         "mode_tt",
         (
@@ -44,7 +44,7 @@ WORST = (
             "0x1.3ae88d2a55b84p+32 0x1.7408dfd8d3e12p+35 -0x1.e280e3a08a1acp+29"
         ),
     ),
-    # On the loaded face, where S_zz is A_j itself.
+    # On the contact face, where S_zz equals A_j.
     (
         "mode_zz",
         (
@@ -67,7 +67,7 @@ WORST = (
             "-0x1.cca081b5f1168p-14 0x1.c277199f04dcfp-13 -0x1.30cdfd0566cf2p-38"
         ),
     ),
-    # Products of small numbers on the way to moderate ones.
+    # Intermediate products underflow although the result is of moderate size.
     (
         "mode_rz",
         (
@@ -89,7 +89,7 @@ WORST = (
             "0x1p+0 0x1p+0 0x1p+0"
         ),
     ),
-    # On the far face, where the half-space's deflection is not the largest part.
+    # On the back face, where the half-space deflection is not the largest term.
     (
         "mode_f",
         (
@@ -97,7 +97,7 @@ WORST = (
             "0x1.0e8b6a1971cd2p+26 0x1.7501d3eedfbd9p+9 -0x1.2ea19df5466adp-23"
         ),
     ),
-    # Mid-plane, where -2 nu/4 is nearly all there is in a thin plate.
+    # Mid-plane of a thin plate, where -2 nu/4 is nearly the whole value.
     (
         "mode_g",
         (
@@ -105,7 +105,7 @@ WORST = (
             "0x1.e388e938df3b6p+4 0x1.c71d95e394817p-9 0x1.42d8b0fe2bd82p-17"
         ),
     ),
-    # Where bending and stretching of a thin plate cancel.
+    # Bending and stretching of a thin plate cancel.
     (
         "mode_tt",
         (
@@ -113,16 +113,16 @@ WORST = (
             "-0x1.32b6fd1790247p-7 0x1.781293401c817p+22 -0x1.f361615044907p+54"
         ),
     ),
-    # Mid-plane, where a square of phi h is of the order of the smallest double.
+    # Mid-plane, where the square of phi h is close to the smallest double.
     (
         "mode_rr",
         "0x0p+0 0x1p-402 0x1p+0 -0x1p-8 0x1p-7 0x1.3p+0",
     ),
 )
-"""Kernels and arguments."""
+"""Names of functions, and arguments."""
 
 WORST_SUMS = (
-    # Near the far face of a thick plate, where Poisson's ratio of almost -1 leaves little.
+    # Near the back face of a thick plate, where the terms nearly cancel for nu close to -1.
     (
         "sigma_rr",
         (
@@ -141,18 +141,18 @@ WORST_SUMS = (
         ),
         49,
     ),
-    # Powers of phi that undo each other.
+    # Powers of phi cancel each other.
     (
         "delta",
         ("0x1.0f2ca29f6631ep-20 0x1.a8bdf5e016cd4p-24 0x1.17014e9652908p+3 0x1.306c8fffe8cd9p-24"),
         1,
     ),
 )
-"""Sums, arguments and numbers of modes."""
+"""Names of sums, arguments, and numbers of modes."""
 
 
 def ratio(target: Target, point: Point) -> float | None:
-    """Error over what is allowed, no warning being raised; None where nothing can be judged."""
+    """Return the error over its limit, or None if it cannot be evaluated; raise on warnings."""
     with np.errstate(all="raise"):
         (got,) = target.call([point])
     found = target.measure(point, got)
@@ -175,7 +175,7 @@ LENGTHS, STRESSES = ("r", "z", "h", "b", "R", "a"), ("lam", "mu", "A_j")
 
 @pytest.mark.parametrize("name", [*MODES, *SUMS])
 def test_units_do_not_matter(name: str) -> None:
-    """Lengths and stresses in units 2^-400 and 2^400 times as large."""
+    """The error limits hold for lengths and stresses scaled by 2^-400, 1 and 2^400."""
     target, generator, judged = TARGETS[name], Random(name), 0
     for length, stress in itertools.product((-400, 0, 400), repeat=2):
         powers = dict.fromkeys(LENGTHS, length) | dict.fromkeys(STRESSES, stress)
@@ -195,7 +195,7 @@ def test_units_do_not_matter(name: str) -> None:
 
 @pytest.mark.parametrize("name", list(sections()))
 def test_sections_are_right_up_to_their_end(name: str) -> None:
-    """To two units in the last place, from 0 on."""
+    """Each truncated Taylor series is accurate to two ULP from 0 to the end of its range."""
     section = sections()[name]
     (square,) = section.arguments
     inner = np.random.default_rng(3).uniform(0.0, float(END) ** 2, 300)

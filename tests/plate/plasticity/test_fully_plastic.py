@@ -1,4 +1,4 @@
-"""What the limit of 1.6 Y leaves out far beyond the onset: against Johnson, and integrated."""
+"""Test the estimated error of the pressure limit 1.6 Y far above the onset of yielding."""
 
 import itertools
 import math
@@ -17,7 +17,7 @@ from generated.plasticity import plastic_restitution
 from generated.plasticity_kernels import beyond, risen
 
 PRESSURE = 2.0 / math.pi
-"""1.6 Y where a_y, R and E* are 1."""
+"""The pressure limit 1.6 Y in units with a_y = R = E* = 1."""
 YIELD = PRESSURE / 1.6
 SCENE = {
     "sphere": {"radius": 0.01, "density": 7850.0},
@@ -28,18 +28,18 @@ SCENE = {
 
 
 def pressure(a: float) -> float:
-    """Mean pressure of a plastic zone that grows like a cavity, up to 3 Y."""
+    """Return the mean pressure of a plastic zone that grows like a cavity, at most 3 Y."""
     return min(3.0 * YIELD, 2.0 / 3.0 * (PRESSURE + YIELD * math.log(a)))
 
 
 def depth(a: float) -> float:
-    """From a^2/R at the onset to a^2/(2 R) in the fully plastic contact."""
+    """Return the indentation: a^2/R at the onset, a^2/(2 R) in the fully plastic contact."""
     begun = 2.0 / 3.0 * PRESSURE
     return a * a / (1.0 + (pressure(a) - begun) / (3.0 * YIELD - begun))
 
 
 def energy(a: float) -> float:
-    """What loading takes: int P d delta = P delta - int delta dP, and Hertz's up to the onset."""
+    """Return the work of loading: Hertz's up to the onset, then P delta - int delta dP."""
     knee = math.exp(1.5 * (3.0 - 3.2 / 3.0))
     ends = [1.0, *([knee] if knee < a else []), a]
 
@@ -54,7 +54,11 @@ def energy(a: float) -> float:
 
 @pytest.mark.parametrize("ratio", [1.5, 3.0, 10.0, 30.0, 100.0, 1000.0])
 def test_estimate_agrees_with_the_impact_of_a_risen_pressure(ratio: float) -> None:
-    """By speed over the yield speed; unloading is Hertz's with a flattened radius."""
+    """The estimate agrees with an integrated impact whose mean pressure rises to 3 Y.
+
+    It is a function of impact speed over yield speed. Unloading follows Hertz's law with the
+    radius of the flattened sphere.
+    """
     brought = 8.0 / 15.0 * ratio**2
     a = float(brentq(lambda c: energy(c) - brought, 1.0, 1e3))
     force = math.pi * a * a * pressure(a)
@@ -67,7 +71,7 @@ def test_estimate_agrees_with_the_impact_of_a_risen_pressure(ratio: float) -> No
 
 
 def test_fully_plastic_contact_is_johnsons() -> None:
-    """e = 3.74 (Y/E*)^(1/2) (m v^2/2/(Y R^3))^(-1/8); his book prints 3.8."""
+    """The restitution is 3.74 (Y/E*)^(1/2) (m v^2/2/(Y R^3))^(-1/8); Johnson's book has 3.8."""
     ratio = 3e4
     brought = 8.0 / 15.0 * ratio**2
     johnson = math.sqrt(0.3 * math.pi**1.25 * 4**0.75 * 3 * YIELD)

@@ -1,4 +1,4 @@
-"""A contact that yields: against Thornton's closed form, two other integrators, and its limits."""
+"""Test plastic contact against Thornton's formula, two other integrations, and its limits."""
 
 import itertools
 import math
@@ -39,24 +39,24 @@ DROP = {
 
 
 def thornton(ratio: float) -> float:
-    """Restitution by v_y/v0 (Thornton 1997, equation 20)."""
+    """Return the restitution at the ratio v_y/v0 (Thornton 1997, equation 20)."""
     part = ratio / (ratio + 2.0 * math.sqrt(1.2 - 0.2 * ratio**2))
     return math.sqrt(1.2 * math.sqrt(3.0) * (1.0 - ratio**2 / 6.0)) * part**0.25
 
 
 def at_speeds(ratio: float) -> Model:
-    """The ball at a multiple of the speed at which it begins to yield."""
+    """Return the model with an impact speed of `ratio` times the yield speed."""
     speed = float(yield_speed(BALL.R, BALL.m, BALL.lam, BALL.mu, BALL.yield_stress))
     return replace(BALL, v0=ratio * speed)
 
 
 def drop(effects: dict[str, object] | None = None, **plate: object) -> dict[str, object]:
-    """The ball drop on another plate."""
+    """Return the ball-drop scene with other effects or plate keys."""
     return DROP | {"plate": DROP["plate"] | plate, "effects": effects or {}}
 
 
 def test_onset_is_where_shear_under_a_ball_reaches_its_limit() -> None:
-    # On the axis of Hertz's contact, for Poisson's ratio 0.3: Johnson (1985), equation 3.45.
+    # Stresses on the axis of Hertz's contact for nu = 0.3: Johnson (1985), equation 3.45.
     def difference(z: float) -> float:
         radial = -1.3 * (1.0 - z * math.atan(1.0 / z)) + 0.5 / (1.0 + z * z)
         return -abs(radial + 1.0 / (1.0 + z * z))
@@ -93,7 +93,7 @@ def test_slow_impact_is_hertzs() -> None:
 
 
 def test_fast_impacts_of_steel_on_steel_follow_the_fourth_root() -> None:
-    # Johnson (1985), section 11.5: e goes with v^(-1/4) where the contact is fully plastic.
+    # Johnson (1985), section 11.5: e is proportional to v^(-1/4) in a fully plastic contact.
     speeds = np.geomspace(1.0, 100.0, 5)
     found = [moved(ContactLaw(replace(BALL, v0=v), HALF_SPACE)).restitution
              for v in speeds.tolist()]  # fmt: skip
@@ -153,14 +153,14 @@ def test_plate_that_bends_agrees_with_energy_and_quadrature(gravity: float) -> N
 
 
 class Marched:
-    """A first contact on a moving plate by a Runge-Kutta method, the dent found step by step."""
+    """First contact on a plate with inertia by a Runge-Kutta method, with a dent kept per step."""
 
     def __init__(self, problem: DynamicProblem, onset: float) -> None:
         self.problem, self.onset, self.top = problem, onset, onset
         self.y = np.concatenate(([0.0, 1.0], np.zeros(2 * problem.omega.size)))
 
     def added(self, a: float) -> float:
-        """Indentation times R that yielding adds."""
+        """Return the plastic part of the indentation times R."""
         onset, top = self.onset, self.top
         if a > top:
             return (2.0 * a**3 / onset + onset**2) / 3.0 - a * a
@@ -168,7 +168,7 @@ class Marched:
         return wide**2 * (1.0 - (top / wide) ** 3) - (1.0 - top / wide) * a * a
 
     def radius(self, y: np.ndarray) -> float:
-        """Radius at which the depth is the sphere's displacement."""
+        """Return the radius at which the indentation equals the displacement of the sphere."""
         problem, shapes = self.problem, self.problem.contact.modes
         q = shapes.by_shape(np.split(y[2:], 2)[0])
 
@@ -187,7 +187,7 @@ class Marched:
         return np.concatenate(([y[1], -float(at.force[0]) / problem.force], q_dot, pull))
 
     def step(self, t: float, dt: float) -> float:
-        """The force after a step [N]."""
+        """Integrate one step and return the force after it [N]."""
         made = solve_ivp(self.rate, (t, t + dt), self.y, rtol=1e-9, atol=1e-12)
         self.y = made.y[:, -1]
         a = self.radius(self.y)
@@ -216,7 +216,7 @@ def test_moving_plate_agrees_with_another_integrator() -> None:
         problem.force * float(pieces[k].element.at(np.array([one]))[P, 0])
         for k, one in zip(place, x, strict=True)
     ]
-    # The largest radius is known to a step: its square, to first order.
+    # The largest radius is updated once per step, so its square has an error of first order.
     assert marched.top > 1.5 * branch.onset
     assert np.max(np.abs(found - expected)) < 2e-4 * max(found)
 
@@ -241,7 +241,7 @@ def test_hard_plate_returns_the_elastic_results() -> None:
 
 
 def test_plates_agree_before_the_echo() -> None:
-    # A contact that ends before a wave returns from the edge cannot know how that is held.
+    # The contact ends before a wave returns from the edge, so the edge condition has no effect.
     found = [
         simulate(read({
             "sphere": {"radius": 0.005, "material": "steel"},
@@ -299,7 +299,7 @@ def test_stated_bounds_hold_with_plasticity(seed: int) -> None:
 
 @pytest.mark.parametrize("ratio", [1.15, 1.3])
 def test_bounds_hold_on_plates_that_move(ratio: float) -> None:
-    """With a yield stress at which Hertz's pressure is so many times the limit."""
+    """The bounds hold where Hertz's pressure is slightly larger than the pressure limit."""
     scene = drop({"non_hertzian_pressure": False}, edge="paper", thickness=0.05)
     elastic = simulate(read(scene | {"effects": scene["effects"] | {"plasticity": False}}),
                        rtol=0.02)  # fmt: skip
@@ -336,7 +336,7 @@ def test_static_contact_on_loading() -> None:
     [less] = indent(scene, indentation=large.indentation * (1 - step))
     slope = (more.force - less.force) / (2 * step * large.indentation)
     assert large.stiffness == pytest.approx(slope, rel=1e-7)
-    # The mean pressure grows towards the limit, and cannot pass it.
+    # The mean pressure approaches the pressure limit from below.
     mean = 5000.0 / (math.pi * large.contact_radius**2)
     assert 2 / 3 * large.max_pressure < mean < large.max_pressure == 1.6 * 240e6
 

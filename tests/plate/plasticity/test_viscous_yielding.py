@@ -1,4 +1,4 @@
-"""A viscoelastic contact that yields: another integrator, energy, and its limits."""
+"""Test a viscoelastic contact that yields: another integrator, energy balance and limits."""
 
 import math
 from dataclasses import replace
@@ -32,13 +32,13 @@ DROP = {
 
 
 def drop(effects: dict[str, Any] | None = None, **plate: Any) -> dict[str, Any]:
-    """The ball drop, on a plate that is quasi-static unless the effects say otherwise."""
+    """Return the ball-drop scene; plate inertia is off unless `effects` includes it."""
     wanted = {"inertia": False, "viscosity": True, "plasticity": True} | (effects or {})
     return DROP | {"plate": DROP["plate"] | plate, "effects": wanted}
 
 
 def integrated(model: Model) -> list[float]:
-    """Force, restitution, dent and time of a half-space, by Runge-Kutta in the indentation."""
+    """Return force, restitution, dent and time on a half-space, by a Runge-Kutta method."""
     modulus, R, m, lag = model.modulus, model.R, model.m, model.retardation_time
     onset = float(yield_radius(R, model.lam, model.mu, model.yield_stress))
     unit = 4.0 / 3.0 * modulus / R
@@ -103,7 +103,7 @@ def test_a_hard_plate_returns_the_viscoelastic_results() -> None:
 
 
 def test_without_viscosity_it_returns_the_yielding_results() -> None:
-    """What a short time changes goes with the time."""
+    """The change of the results is proportional to a short retardation time."""
     calm = numbers(simulate(read(drop({"viscosity": False}))))
     off = []
     for time in (1e-7, 1e-8):

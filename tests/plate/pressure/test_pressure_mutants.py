@@ -1,4 +1,4 @@
-"""The solution of the pressure with one thing wrong, in memory: independent values notice it."""
+"""Mutation tests of the pressure solution: independent values detect each error in the code."""
 
 import math
 from functools import cache
@@ -46,7 +46,7 @@ def state(a: float, v: float, R: float, share: float, sphere: bool) -> pressure_
 
 
 def solved(a: float, v: float, R: float, share: float, sphere: bool, compliance: float) -> Sharp:
-    """Force, indentation, stiffness, slope, both pressures, and the nodes' sum of chi."""
+    """Return the case of force, indentation, stiffness, slope, pressures and chi at the nodes."""
     true, own = state(a, v, R, share, sphere), share * E
     width, radius = a * H, R * H
     force = own * width**3 / radius * float(true.force)
@@ -65,7 +65,7 @@ def solved(a: float, v: float, R: float, share: float, sphere: bool, compliance:
     ]
 
     def call(m: ModuleType) -> list[float]:
-        radii = np.full(9, width)  # more than are worked on at a time
+        radii = np.full(9, width)  # more than one batch
         every = m.contact(
             m.plate(H, v * H), radii, radius, own, E, sphere=sphere, compliance=compliance
         )
@@ -77,7 +77,7 @@ def solved(a: float, v: float, R: float, share: float, sphere: bool, compliance:
 
 
 def distribution(a: float, v: float, R: float, share: float, sphere: bool) -> Sharp:
-    """The pressure's distribution: against the oracle, or that it carries the force."""
+    """Return the case of the pressure: total force, two reference values, NaN outside."""
     true, own = state(a, v, R, share, sphere), share * E
     width, radius = a * H, R * H
     nodes, weights = np.polynomial.legendre.leggauss(40)
@@ -98,7 +98,7 @@ def distribution(a: float, v: float, R: float, share: float, sphere: bool) -> Sh
 
 
 def work(a: float, v: float, R: float, share: float, sphere: bool) -> Sharp:
-    """dU = P d delta along a."""
+    """Return the case that dU = P d delta holds along a."""
     width, radius = a * H, R * H
     nodes, weights = np.polynomial.legendre.leggauss(30)
 
@@ -112,7 +112,7 @@ def work(a: float, v: float, R: float, share: float, sphere: bool) -> Sharp:
 
 
 def in_other_units(unit: float) -> Sharp:
-    """Force and pressure go with E*, however small it is."""
+    """Return the case that force and pressure are proportional to E*."""
 
     def call(m: ModuleType) -> list[float]:
         of = m.plate(H, 2 * H)
@@ -126,7 +126,7 @@ def in_other_units(unit: float) -> Sharp:
 
 
 def refused() -> list[Sharp]:
-    """Where there is no contact, or no plate."""
+    """Return the case of NaN results for an invalid contact or plate."""
     within = 0.1, 1.0, 50.0, 1.0, 1.0
     outside = [
         (0.0, *within[1:]), (-0.1, *within[1:]), (0.951, *within[1:]), (0.1, 1.0, 0.1, 1.0, 1.0),

@@ -1,4 +1,4 @@
-"""The contact with the pressure solved for: theory, both oracles, generated code, limits."""
+"""Test the contact with non-Hertzian pressure: theory, references, generated code, limits."""
 
 import itertools
 import math
@@ -25,7 +25,7 @@ from generated.pressure_numbers import ERROR, THIN, WIDEST, WIDEST_SHARE
 
 R, E = 1e3, 7e10
 OPEN = 3.012493
-"""a/H, H = 2 h, at which the contact opens, in every thin plate."""
+"""a/H, with H = 2 h, at which every thin plate loses contact at the centre."""
 
 
 pytestmark = pytest.mark.usefixtures("no_warning")
@@ -61,7 +61,7 @@ def test_a_wall_share_that_is_too_small_is_refused(monkeypatch: pytest.MonkeyPat
 
 
 def law(case: pressure_balls.Case) -> tuple[float, float]:
-    """Hertz's radius of the force over the plate's half-thickness, and delta R/a_H^2."""
+    """Return the Hertz radius of the force over the contact radius, and delta R/a_H^2."""
     state = pressure_balls.solve(case)
     cube = 0.75 * state.force
     ratio = float(cube) ** (1 / 3)
@@ -70,14 +70,17 @@ def law(case: pressure_balls.Case) -> tuple[float, float]:
 
 @pytest.mark.parametrize("eta", [4.0, 0.53, 0.2, 0.05, 0.003])
 def test_bounds_hold_and_are_positive(eta: float) -> None:
-    """S_T = 2 E* a_H/K; both differences lie within the bounds, and are not eightfold."""
+    """The differences of slope and indentation are below their bounds, by a factor of at most 8.
+
+    The slope of the non-Hertzian law is S_T = 2 E* a_H/K.
+    """
     slope_bound, depth_bound = (f.expression for f in bound.pressure_bound())
     third = contact_balls.coefficient(3, eta, 1)
     assert third < 0
     most = min((5 * (0.08 * eta**3 - 7.5 * float(third))) ** (-1 / 3), 0.4 / eta)
     for share in (0.3, 0.97):
         a = share * most
-        # The Hertz radius of what is solved at a is a little less than a.
+        # The Hertz radius of the solution at contact radius a is slightly smaller than a.
         case = pressure_balls.case(a, 1, 1 / eta)
         state = pressure_balls.solve(case)
         ratio, depth = law(case)
@@ -90,7 +93,7 @@ def test_bounds_hold_and_are_positive(eta: float) -> None:
             assert abs(moved) < float(most_of.subs(values)) < 8 * abs(moved)
 
 
-# --- oracles
+# --- references
 
 
 AGREE = [
@@ -127,7 +130,7 @@ def test_oracles_refuse_what_they_do_not_reach() -> None:
         pressure_balls.case(2.0, 1.0, 1.0)
 
 
-# --- generated code against the oracle
+# --- generated code against the reference
 
 
 def test_the_stated_limit_is_the_committed_one() -> None:
@@ -150,7 +153,10 @@ def test_sphere_and_its_elasticity_against_the_oracle(a: float, v: float, sphere
 
 
 def test_the_kernel_is_the_slope_of_the_law() -> None:
-    """N from the polynomials of the contact law, F = A sum S_k (A/reach)^(2k), and nothing else."""
+    """The integral equation's kernel follows from the series of the contact law alone.
+
+    The series is F = A sum S_k (A/reach)^(2k).
+    """
     nodes, weights = np.polynomial.legendre.leggauss(40)
     x, w = np.append(nodes[20:], 1.0), weights[20:]
     for v, a in ((1.5, 0.7), (2.5, 1.2), (5.0, 1.4), (30.0, 1.5), (1e4, 1.5)):
@@ -168,7 +174,7 @@ def test_the_kernel_is_the_slope_of_the_law() -> None:
         depth = omega[-1] / psi[-1]
         force = 2 * (depth * psi - omega)[:20] @ w
         got = contact(plate(1.0, v), a, R, E)
-        # Nothing is split off here: digits are lost to the thin plate's constant.
+        # This direct solution loses digits by cancellation against the constant of a thin plate.
         loss = 1e-13 + 1e-16 * v**2
         assert abs(force * E * a**3 / R / got.force - 1) < loss
         assert abs(got.indentation / (a**2 / R * depth) - 1) < loss
@@ -194,7 +200,7 @@ def test_curvature_is_that_of_sneddon_on_the_half_space(share: float) -> None:
     got = contact(plate(1.0, 1.0), a, radius, E, sphere=True)
     logarithm = 2 * math.atanh(share)
     assert abs(got.indentation / (a / 2 * logarithm) - 1) < 1e-8
-    if share > 0.01:  # the closed form cancels
+    if share > 0.01:  # the closed form loses digits by cancellation for smaller values
         force = E * ((a**2 + radius**2) / 2 * logarithm - a * radius)
         assert abs(got.force / force - 1) < 1e-8
 
@@ -210,7 +216,10 @@ def test_curvature_fades_like_its_square() -> None:
 
 @pytest.mark.parametrize("eta", [0.02, 0.2, 0.8])
 def test_first_order_at_given_force(eta: float) -> None:
-    """(delta R/a_H^2 - 1 - c_1 A)/A^3 -> (8/3) c_3 and (a_H/a - 1)/A^3 -> (5/3) c_3."""
+    """The leading terms at a given force have the coefficients (8/3) c_3 and (5/3) c_3.
+
+    (delta R/a_H^2 - 1 - c_1 A)/A^3 -> (8/3) c_3 and (a_H/a - 1)/A^3 -> (5/3) c_3.
+    """
     first, third = (contact_balls.coefficient(n, eta, 1, 30) for n in (1, 3))
     found = []
     for a in (Fraction(1, 50), Fraction(1, 100)):
@@ -224,7 +233,7 @@ def test_first_order_at_given_force(eta: float) -> None:
         assert abs(limit / (factor * float(third)) - 1) < 1e-5
 
 
-# --- what any contact must satisfy
+# --- general properties of a contact
 
 
 CONTACTS = [(0.5, 1.2), (2.0, 8.0), (3.5, 40.0), (5.5, 1e4), (0.8, 0.9), (5.8, 12.0)]
@@ -245,7 +254,7 @@ def test_the_pressure_carries_the_force_and_chi_ends_at_nothing(a: float, v: flo
 
 @pytest.mark.parametrize(("a", "v"), CONTACTS)
 def test_work_and_stiffness(a: float, v: float) -> None:
-    """dU = P d delta and dP = K d delta along a, the compliance of a support included."""
+    """dU = P d delta and dP = K d delta hold along a, also with a compliant support."""
     of, compliance = plate(1.0, v), 3e-11
     nodes, weights = np.polynomial.legendre.leggauss(60)
     x, w = a * (1 + nodes) / 2, a * weights / 2
@@ -268,7 +277,7 @@ def test_a_support_adds_its_compliance() -> None:
 
 
 def test_the_contact_opens_at_three_thicknesses() -> None:
-    """p(0)/p_mean falls from 1.5 to 0, and vanishes at the same a/h in all thin plates."""
+    """p(0)/p_mean decreases with a and reaches 0 at the same a/h in all thin plates."""
     for v in (10.0, 15.9, 16.1, 100.0, 1e4):
         of = plate(1.0, v)
         a = np.linspace(0.1, WIDEST, 1400)
@@ -287,7 +296,10 @@ def test_the_contact_opens_at_three_thicknesses() -> None:
 
 
 def test_in_thin_plates_the_shape_of_the_pressure_depends_on_the_thickness_alone() -> None:
-    """A kernel of t^2 + s^2 bends the plate like a change of the sphere's curvature."""
+    """In thin plates the pressure profile depends on a/h and not on b/h.
+
+    b/h changes the kernel only by terms t^2 + s^2, which act like a curvature of the sphere.
+    """
     places = np.linspace(0.0, 3.0, 7)
     shapes = [
         pressure(places, of, 3.0, R, E) / contact(of, 3.0, R, E).mean_pressure

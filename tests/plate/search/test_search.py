@@ -1,4 +1,4 @@
-"""The search for worse: it repeats, finds what is planted, and writes what the suite can read."""
+"""Test the search for larger errors: repeatable, finds a planted defect, writes valid cases."""
 
 import dataclasses
 import json
@@ -46,7 +46,7 @@ def fast() -> tuple[Target, ...]:
 
 @pytest.fixture(scope="module")
 def planted() -> Target:
-    """J0, wrong by 20 ULP where 1 < x < 1.001."""
+    """Return the target J0 with an added error of 20 ULP for 1 < x < 1.001."""
     kernel = next(k for k in generated_kernels() if k.name == "bessel_j0")
 
     def wrong(x: Any) -> Any:
@@ -91,7 +91,7 @@ def test_time_alone_ends_a_search_too(fast: tuple[Target, ...]) -> None:
 def test_every_target_draws_inside_its_domain() -> None:
     generator = random.Random(1)
     for target in targets():
-        if target.name in ("contact_radius", "impact"):  # their arguments come from the oracle
+        if target.name in ("contact_radius", "impact"):  # their arguments need the reference
             continue
         for _ in range(20):
             point = target.draw(target.domain, generator)
@@ -105,7 +105,7 @@ def test_a_planted_defect_is_found_and_refined(caught: Search) -> None:
     assert standing.evaluations == 3000
     assert standing.worst is not None
     assert 1.0 < standing.worst.point.values["x"] < 1.001
-    # Refined: beyond the 20 planted, the kernel's own error is in it too.
+    # The local search also adds the error of the function to the planted 20 ULP.
     assert standing.worst.error.ulp > 20.5
     assert not kept(caught)
 
@@ -139,7 +139,7 @@ def test_what_is_worse_than_recorded_or_allowed_is_new(caught: Search, planted: 
 
 
 def test_a_case_of_two_points_in_company(fast: tuple[Target, ...], tmp_path: Path) -> None:
-    """A kernel that is wrong for arrays only: the case holds both points, as an array."""
+    """The case of a function that is wrong only for arrays contains both points, as an array."""
     kernel = next(k for k in generated_kernels() if k.name == "bessel_j1")
 
     def wrong(*arguments: Any) -> Any:
@@ -210,7 +210,7 @@ def test_a_case_with_other_arguments_is_refused(fast: Sequence[Target], tmp_path
     with pytest.raises(ValueError, match="p takes r, a, P"):
         Book(path, fast, {}, {})
     path.write_text(to_toml([(dataclasses.replace(case, group="seams"), None)]))
-    with pytest.raises(ValueError, match="--out FILE"):  # somebody's own cases
+    with pytest.raises(ValueError, match="--out FILE"):  # a file written by the user
         Book(path, fast, {}, {})
 
 

@@ -1,4 +1,4 @@
-"""The search in the contact law: points, references, tolerances, and points without references."""
+"""Test the search in the contact law: points, references, error limits, missing references."""
 
 import dataclasses
 import json
@@ -38,17 +38,17 @@ def law() -> dict[str, Target]:
 
 @pytest.fixture(autouse=True)
 def _quiet() -> Iterator[None]:
-    """As the search itself has it."""
+    """Ignore floating-point warnings, as the search does."""
     with np.errstate(all="ignore"):
         yield
 
 
-# --- points, reference value, allowance
+# --- points, reference value, error limit
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_law_is_judged_alone_and_in_company(name: str, law: dict[str, Target]) -> None:
-    """What is right keeps its allowance, in an array too; a digit off does not."""
+    """A correct value is within its error limit, also in an array; an error of 1e-10 is not."""
     target, generator = law[name], random.Random(4)
     points = [draw(target.domain, generator) for _ in range(2)]
     assert all(target.domain.holds(point) for point in points)
@@ -69,7 +69,7 @@ def test_law_is_judged_alone_and_in_company(name: str, law: dict[str, Target]) -
 
 
 def test_drawn_depths_and_speeds_lead_to_contacts_within_the_law(law: dict[str, Target]) -> None:
-    """Back from the argument to the contact radius by the generated law."""
+    """The generated law maps each drawn argument to a contact radius within its range."""
     generator = random.Random(9)
     for _ in range(3):
         values = draw(law["contact_radius"].domain, generator).values
@@ -83,7 +83,7 @@ def test_drawn_depths_and_speeds_lead_to_contacts_within_the_law(law: dict[str, 
 
 
 def test_what_the_law_does_not_stated_limit_is_not_judged(law: dict[str, Target]) -> None:
-    """A contact beyond the plate's edge; forces that no double holds."""
+    """A contact beyond the plate edge and an overflowing force are not evaluated."""
     beyond = Point({"delta": 2.0, "R": 1.0, "h": 0.5, "b": 1.0})
     assert law["contact_radius"].measure(beyond, (1.0,)) is None
     huge = Point({"a": 1e100, "R": 1e-200, "lam": 1e100, "mu": 1e100})
@@ -96,7 +96,7 @@ def test_what_the_law_does_not_stated_limit_is_not_judged(law: dict[str, Target]
 def test_a_contact_wider_than_stated_has_no_reference(
     a: float, R: float, judged: bool, law: dict[str, Target]
 ) -> None:
-    """Up to six half-thicknesses, here 0.6, and a sphere's own radius."""
+    """References exist up to a = 6 h (here 0.6) and up to the radius of the sphere."""
     delta = float(contact_balls.indentation(a, R, 0.1, 1.0, 20))
     point = Point({"delta": delta, "R": R, "h": 0.1, "b": 1.0})
     found = law["contact_radius"].measure(point, (a,))
@@ -110,11 +110,11 @@ def test_a_kernel_with_too_many_results_is_no_kernel() -> None:
         contact_judge.judge(lambda *_: (1.0, 2.0), [true], 1.0)
 
 
-# --- where there is nothing to judge, or nowhere to go
+# --- no reference, or no neighbour
 
 
 def plain(name: str, arguments: tuple[str, ...], conditions: tuple[str, ...]) -> Target:
-    """A target whose error is its first argument's size; every result is 0."""
+    """Return a target with result 0 and an error equal to the size of its first argument."""
 
     def call(points: Sequence[Point]) -> list[Numbers]:
         return [(0.0,)] * len(points)
@@ -134,7 +134,7 @@ def test_points_without_reference_are_counted_and_no_worst_is_made_up() -> None:
 
 
 def test_a_climb_leaves_a_zero_alone_and_stays_in_the_domain() -> None:
-    """Next to zero are numbers of no size; of the other argument no neighbour is left."""
+    """The local search does not move an argument that is 0, nor leave the domain."""
     seen = list[Point]()
     target = plain("zero", ("x", "y"), ("y == 1.0 or y > 4.0",))
     target = dataclasses.replace(
@@ -155,7 +155,7 @@ def test_conditions_that_contradict_each_other_are_said_to() -> None:
         draw(domain_of("never", ("x",), False, ("x > 1.0", "x < 1.0")), random.Random(1))
 
 
-# --- the book of cases
+# --- the file of cases
 
 
 def test_cases_of_kernels_not_searched_now_stay_in_the_file(tmp_path: Path) -> None:
@@ -173,7 +173,7 @@ def test_cases_of_kernels_not_searched_now_stay_in_the_file(tmp_path: Path) -> N
 
 
 def test_what_the_contact_laws_check_found_is_not_new(law: dict[str, Target]) -> None:
-    """The committed worst arguments are measured anew, and only what is worse is a case."""
+    """The committed worst error is measured again, and only a larger one is a new case."""
     target = law["force_of_radius"]
     rows = json.loads(pipeline.MEASURED_CONTACT.read_text())["rows"]
     [texts] = [row["worst"] for row in rows if row["kernel"] == target.name]
@@ -194,7 +194,10 @@ def test_the_search_as_json_is_nothing_else(
     off: float, status: int, tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str],
 ) -> None:  # fmt: skip
-    """Beyond the allowance the status is 1; a new case is said beside, on standard error."""
+    """Standard output is JSON only, messages go to standard error.
+
+    The exit status is 1 if an error exceeds its limit.
+    """
     target = dataclasses.replace(plain("size", ("x",), ()), measure=lambda *_: Error(off, 1.0))
     found = search.search([target], 1, evaluations=20)
     book = Book(tmp_path / "cases.toml", [target], {}, {})

@@ -1,4 +1,4 @@
-"""A viscous contact: against its spiral, its series, another integrator, and its energy."""
+"""Test the viscoelastic contact against an exact ODE, a series, SciPy and the energy balance."""
 
 import math
 from dataclasses import replace
@@ -32,17 +32,20 @@ def moves(law: ContactLaw) -> Motion:
 
 
 def with_number(x: float, model: Model = BALL) -> Model:
-    """The scene with a viscous time that gives a viscous number."""
+    """Return the model with the retardation time at which the viscous parameter is x."""
     one = replace(model, retardation_time=1.0)
     return replace(model, retardation_time=x / BY_NAME["viscosity"].value(one, 0.0))
 
 
 def spiral(x: float) -> tuple[float, float]:
-    """Restitution and time, over that without viscosity, of Hertz's contact: link 24 in phi."""
+    """Return the restitution of a Hertz contact, and its time over the elastic contact time.
+
+    Integrate the polar form of derivation step 24 over the angle phi.
+    """
     top = 0.8**0.4 * x
 
     def rates(u: float, state: np.ndarray) -> list[float]:
-        # phi = u^5 takes the singularity out of the time's onset.
+        # The substitution phi = u^5 removes the singularity of the time at phi = 0.
         phi, radius = u**5, state[0]
         epsilon = top * max(radius * math.sin(phi), 0.0) ** 0.2
         turning = 1.0 + epsilon * math.sin(phi) * math.cos(phi)
@@ -75,7 +78,10 @@ def test_hertz_contact_runs_along_the_spiral(x: float) -> None:
 
 
 def test_restitution_of_weak_viscosity_is_the_published_series() -> None:
-    """Schwager and Poeschel (2008): 1 - 1.153449 x + 0.798267 x^2 + (4/15) x^(5/2) + ..."""
+    """For small x the restitution has the series of Schwager and Poeschel (2008).
+
+    The series is 1 - 1.153449 x + 0.798267 x^2 + (4/15) x^(5/2) + ...
+    """
     with mp.workdps(30):
         c = mpf("0.8") ** mpf("0.4") * beta(mpf("0.6"), mpf("1.5"))
         assert float(restitution_weak(0.25)) == pytest.approx(
@@ -86,7 +92,7 @@ def test_restitution_of_weak_viscosity_is_the_published_series() -> None:
     for x in (1e-3, 4e-3):
         weak = float(restitution_weak(x))
         rest.append((moves(ContactLaw(with_number(x), HERTZ)).restitution - weak) / x**2.5)
-    # What follows is of order sqrt(x) more.
+    # The next term is smaller by a factor of order sqrt(x).
     assert 2 * rest[0] - rest[1] == pytest.approx(4 / 15, rel=0.01)
 
 
@@ -101,18 +107,21 @@ def test_viscous_number_is_that_of_the_scene() -> None:
 
 
 def by_scipy(law: ContactLaw) -> tuple[float, float, float, float]:
-    """Time, indentation, force and restitution with a bent plate, as an ODE in z, v and a."""
+    """Return time, indentation, force and restitution with plate bending.
+
+    SciPy integrates an ODE for the displacement z, the speed v and the contact radius a.
+    """
     model = law.model
     bent = replace(law, effects=law.effects & {"bending", "edge"})
     R, A = model.R, model.retardation_time
 
     def state(y: np.ndarray) -> tuple[float, float, float]:
-        """Force, its elastic part and that part's slope by a."""
+        """Return the force, its elastic part and the derivative of the elastic part by a."""
         z, _, a = y
         shape = law.at(np.array([a]))
         elastic, depth = law.force(a, shape)[0], law.indentation(a, shape)[0]
         slope = law.stiffness(a, shape)[0] * 2 * a / R * shape.slope[0]
-        # w(P) - w(P_e) = z - delta_e, bending being linear in the force.
+        # Bending is linear in the force, so w(P) - w(P_e) = z - delta_e.
         radius = np.array([1e-3 * model.h])
         compliance = (radius / R * bent.deflection(radius).depth * radius)[0]
         compliance /= 4 / 3 * law.modulus * radius[0] ** 3 / R
@@ -150,7 +159,7 @@ def test_bent_plate_against_another_integrator() -> None:
     time, depth, force, restitution = by_scipy(law)
     assert found.contact_time == pytest.approx(time, rel=1e-7)
     assert found.restitution == pytest.approx(restitution, rel=1e-8)
-    # The other's are those of its steps, near the turning point.
+    # SciPy gives the largest values at its steps only, so they are slightly too small.
     assert depth <= found.max_indentation == pytest.approx(depth, rel=1e-3)
     assert force <= found.max_force * (1 + 1e-9)
     assert found.max_force == pytest.approx(force, rel=1e-3)
@@ -210,12 +219,12 @@ def test_little_viscosity_is_none() -> None:
 
 
 def test_bending_takes_nothing() -> None:
-    """The softer the plate, the less of the motion is the contact's, which alone lags."""
+    """Only the local contact dissipates, so a more compliant plate loses less energy."""
     thin = [replace(BALL, h=h, retardation_time=1e-5) for h in (0.01, 0.004, 0.002, 0.001)]
     lost = [1.0 - moves(ContactLaw(model, PLATE)).restitution for model in thin]
     assert lost == sorted(lost, reverse=True)
     assert lost[-1] < 0.02 * lost[0]
-    # Where bending has no part the plate lags with the contact: nothing is left out.
+    # If bending is omitted, its deflection is part of the viscoelastic contact law.
     thick = replace(BALL, h=1.0, retardation_time=1e-5)
     whole, local = moves(ContactLaw(thick, PLATE)), moves(ContactLaw(thick, PLATE - {"bending"}))
     assert whole.numbers == pytest.approx(local.numbers, rel=1e-2)
@@ -239,7 +248,7 @@ def test_course_meets_the_results() -> None:
     assert depth[-1] > 0.0
     peaks = found.max_indentation, found.max_force, found.max_contact_radius
     assert (depth.max(), force.max(), radius.max()) == pytest.approx(peaks, rel=1e-6)
-    # Momentum and velocity by Simpson's rule, which knows nothing of the elements.
+    # Simpson's rule integrates the speed independently of the time elements.
     step = found.contact_time / 4000
     travelled = step / 3 * (speed[0] + speed[-1] + 4 * speed[1::2].sum() + 2 * speed[2:-1:2].sum())
     assert travelled == pytest.approx(depth[-1], rel=1e-7)
@@ -249,7 +258,10 @@ EXTREMES = ImpactExtremes(0.1, 1.0, 0.0, 0.2, 0.8, 0.4, 1.0)
 
 
 def test_logarithms_hold_for_hertz() -> None:
-    """epsilon = (4/5)^(2/5) x, log Omega/log s = 1/5, delta ~ s^(4/5) and a ~ s^(2/5)."""
+    """The bounds of viscosity hold for a Hertz contact and are not too wide.
+
+    There epsilon = (4/5)^(2/5) x, log Omega/log s = 1/5, delta ~ s^(4/5) and a ~ s^(2/5).
+    """
     assert viscous_logarithms(EXTREMES._replace(epsilon=1.0)) == (math.inf,) * 5
     calm = moves(ContactLaw(BALL, frozenset({"hertz"}))).numbers
     for x in (1e-4, 0.01, 0.3, 0.9):
@@ -257,7 +269,7 @@ def test_logarithms_hold_for_hertz() -> None:
         most = viscous_logarithms(EXTREMES._replace(epsilon=0.8**0.4 * x, rise=0.2))
         changes = [abs(math.log(new / old)) for new, old in zip(found, calm, strict=True)]
         assert all(change <= bound for change, bound in zip(changes, most, strict=True))
-        # Not ten times too wide either, but for the force, where only e^2 is lost.
+        # Each bound is below 10 times the change, except for the force (change of order epsilon^2).
         wide = [bound / change for change, bound in zip(changes, most, strict=True)]
         assert max(wide[:2] + wide[3:]) < 10.0
 
@@ -267,7 +279,7 @@ def test_logarithms_hold_for_hertz() -> None:
 def test_each_output_of_a_heavy_sphere_is_within_its_bound(
     output: str, retardation_time: float
 ) -> None:
-    """A sphere that falls in by its weight takes longer to leave if it leaves more slowly."""
+    """The bound covers a heavy, slow sphere, whose weight prolongs a slow rebound."""
     model = Model(
         R=0.1, m=32.9, v0=1e-3, h=10.0, b=10.0, lam=2.3e7, mu=1.54e7,
         gravity=9.81, retardation_time=retardation_time,
@@ -282,14 +294,17 @@ def test_each_output_of_a_heavy_sphere_is_within_its_bound(
         true = moves(replace(selected.law, effects=selected.law.effects | {"viscosity"})).numbers[
             place
         ]
-    except SceneError:  # it stays
+    except SceneError:  # the sphere does not rebound
         assert bound == math.inf
     else:
         assert abs(moves(selected.law).numbers[place] / true - 1.0) <= bound
 
 
 def test_bending_stays_with_an_edge_that_does_not_lag() -> None:
-    """Without it the edge would lag, which changes more than bending itself does."""
+    """Bending is included with the edge: otherwise the edge correction would be viscoelastic.
+
+    This would change the results more than bending itself does.
+    """
     model = replace(BALL, h=0.5, edge="simply-supported", retardation_time=2e-6)
     for row in decide(model, AT_REST | {"edge": True, "viscosity": True}, 0.1).rows:
         assert row.name != "bending" or row.included

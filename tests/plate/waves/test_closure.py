@@ -1,4 +1,4 @@
-"""The closure beside oscillators: its proofs, its energy along computed motions, its static law."""
+"""Test the contact-plate coupling with modes: proofs, energy of a motion, static law."""
 
 from collections.abc import Callable
 
@@ -33,7 +33,7 @@ def test_every_formula_of_the_link_is_proved_symbolically() -> None:
 
 
 def test_another_energy_or_weight_is_refused() -> None:
-    """Without the energy of the gap, or with it where the depth is taken at the axis."""
+    """The proof fails without the energy of the gap, and with it for pointwise indentation."""
     none = sp.Integer(0)
     stored = sp.Add(
         *(
@@ -49,7 +49,10 @@ def test_another_energy_or_weight_is_refused() -> None:
 
 @pytest.mark.parametrize("y", ["0.3", "2", "11"])
 def test_means_under_punch_and_sphere_by_quadrature(y: str) -> None:
-    """r = sin t: a flat punch's pressure has the weight sin t dt, Hertz's 3 sin t cos^2 t dt."""
+    """The closed forms are weighted means of J0(y r) under a flat punch and a sphere.
+
+    With r = sin t the weights are sin t dt (flat punch) and 3 sin t cos^2 t dt (Hertz).
+    """
     with mp.workdps(25):
         for weight, name in ((mp.sin, "mode_share"), (_hertz, "mode_force")):
 
@@ -78,13 +81,13 @@ def of_sphere(y: np.ndarray) -> np.ndarray:
 
 
 class Ledger:
-    """P = a^3 on an odd law delta = a^2 + a^4 sin(a)/2, beside three oscillators."""
+    """Contact with P = a^3 and an arbitrary law delta = a^2 + a^4 sin(a)/2, and three modes."""
 
     def __init__(self, axis: bool, lag: float) -> None:
         self.axis, self.lag = axis, lag
 
     def at(self, a: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, float, float]:
-        """Forces felt, weights, their slopes, D and its slope, of the radius."""
+        """Return modal forces, modal weights and their derivatives, and D and its derivative."""
         y = a * PHI
         felt, own = a**3 * of_sphere(y), sinc(y)
         tilt = PHI * (np.cos(y) - own) / y
@@ -96,13 +99,13 @@ class Ledger:
         return felt, share, bend, float(depth), float(rise)
 
     def growth(self, y: np.ndarray) -> float:
-        """da/dt."""
+        """Return da/dt."""
         a, v, q, rate = y[0], y[1], y[2:5], y[5:8]
         _, share, bend, _, rise = self.at(a)
         return float((v - share @ rate) / (rise + bend @ q))
 
     def rates(self, _: float, y: np.ndarray) -> np.ndarray:
-        """Of a, v, q, q', the work int P dD, and what the closure is to lose."""
+        """Return the rates of a, v, q, q', the work int P dD, and the loss of the coupling."""
         a, q, rate = y[0], y[2:5], y[5:8]
         felt, _, bend, _, rise = self.at(a)
         own, grown = sinc(a * PHI), self.growth(y)
@@ -115,7 +118,7 @@ class Ledger:
         return np.array([grown, -load / MASS, *rate, *acceleration, a**3 * rise * grown, lost])
 
     def energy(self, y: np.ndarray) -> float:
-        """Sphere, contact and modes."""
+        """Return the energy of sphere, contact and modes."""
         a, v, q, rate, work = y[0], y[1], y[2:5], y[5:8], y[8]
         felt, share, *_ = self.at(a)
         gap = 0.0 if self.axis else q @ (a**3 * share - felt)
@@ -148,7 +151,7 @@ def test_energy_along_a_computed_motion(axis: bool, lag: float) -> None:
 
 
 def variational(a: float, h: float, b: float) -> float:
-    """By the mean of the plate's part over [0, 2a], for R = 1."""
+    """Return the variational indentation, from the mean of the plate part over [0, 2 a]."""
     x, weights = leggauss(40)
     x = a * (1.0 + x)
     plate = contact_law.indentation(x, 1e3, h, b) - x**2 / 1e3
@@ -161,13 +164,13 @@ def test_mean_over_twice_the_radius_is_the_sum_over_modes(a: float, h: float) ->
     j, J1 = generated.bessel_j0_zeros(count), generated.bessel_j1_at_j0_zeros(count)
     y = a * j
     shares = generated.K_j(j, h, 1.0, 1e3, J1) * (np.sin(y) - y * np.cos(y)) * sinc(y)
-    # K_j tends to 4/(R phi^3) and the product of waves to -(y/2) sin(2y)/y: the rest is small.
+    # The omitted modes add little: K_j tends to 4/(R phi^3), the other factors to -sin(2 y)/2.
     total = float(shares.sum()) + a**2 / 3e3
     assert variational(a, h, 1.0) == pytest.approx(total, rel=2e-9)
 
 
 def test_variational_law_has_the_true_pressures_third_coefficient() -> None:
-    """At equal force: it misses the true pressure's law by far less than the one at the axis."""
+    """At equal force the variational law is closer to the non-Hertzian one than the axis law."""
     h, b, R = 0.2, 1.0, 1e3
     misses = []
     for A in (0.05, 0.1):
@@ -180,12 +183,12 @@ def test_variational_law_has_the_true_pressures_third_coefficient() -> None:
     third = abs(float(derived_third(h, b)))
     assert small[1] == pytest.approx(5 / 3 * third * 0.05**3, rel=0.2)
     assert small[0] < 1e-4 * small[1]
-    assert large[0] / small[0] > 40  # of order A^6, the other's A^3
+    assert large[0] / small[0] > 40  # errors of order A^6 (first) and A^3
     assert 6 < large[1] / small[1] < 9
 
 
 def derived_third(h: float, b: float) -> float:
-    """c_3 from the generated coefficients of 1 + F in powers of A over their reach."""
+    """Return c_3 from the generated coefficients, which multiply powers of A/reach."""
     reach = min(3.0, b / h)
     return float(plate_coefficients(h / b)[1]) / reach**2
 

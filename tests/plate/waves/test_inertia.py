@@ -1,4 +1,4 @@
-"""The plate's own motion: its theory, and the oracles against each other and at their limits."""
+"""Test the theory of plate inertia, and its two references against each other and limits."""
 
 import itertools
 from collections.abc import Callable
@@ -50,7 +50,7 @@ def test_steps_are_proved_symbolically(step: Callable[[], object]) -> None:
 
 
 def test_another_influence_is_refused() -> None:
-    """Both faces loaded by all of A_j would answer twice as much."""
+    """The proof fails for twice the influence, which full loads A_j on both faces would give."""
     p, q = dynamic_modes.p, dynamic_modes.q
     printed = dynamic_modes.in_p_and_q(dynamic_modes.stiffness(sp.tanh(p), sp.tanh(q)))
     part = dynamic_modes.loaded_wave(bends=True).f.subs(dynamic_modes.z, 1)
@@ -73,7 +73,7 @@ def test_influence_against_tractions_solved_in_numbers(x: float, load: float, nu
 
 
 def test_thin_plate_series_of_any_order() -> None:
-    """Each order takes x^2 of the error more: against A0 in balls."""
+    """Each order of the series reduces the error by about x^2, compared with A0 from Arb."""
     x, nu = 0.125, 0.3
     slopes, residues = bending_branch.thin_powers(12)
     with flint.ctx.workprec(BITS):
@@ -97,7 +97,7 @@ def test_rayleighs_cubic() -> None:
     assert abs(speed - (2 - 2 / sp.sqrt(3))) < 1e-18
 
 
-# --- oracles
+# --- references
 
 
 @pytest.mark.parametrize(
@@ -131,7 +131,11 @@ def test_oracles_agree_on_the_lowest_branch(x: float, nu: float) -> None:
 
 @pytest.mark.parametrize("x", [1e-3, 0.7, 30.0])
 def test_oracle_encloses_its_limits(x: float) -> None:
-    """At rest the plate factor tells, and at kap = x^2, where q = 0, the other oracle beside it."""
+    """The Arb reference encloses two limits.
+
+    At kap = 0 the expected value follows from the static plate factor. At kap = x^2, where
+    q = 0, it is the mpmath reference at a nearby kap.
+    """
     still = inertia_balls.influence(x, 0.0, 0.3, 25)
     turn = inertia_balls.influence(x, Fraction(x) ** 2, 0.3, 25)
     with flint.ctx.workprec(200):
@@ -148,7 +152,7 @@ def test_oracle_encloses_its_limits(x: float) -> None:
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_oracle_far_out(kind: str) -> None:
-    """A branch keeps between its poles in plates of any thickness, also where B has no room."""
+    """The first higher branch lies between its poles in very thin and very thick plates."""
     for x in (1e-40, 1e40):
         kap_1 = inertia_balls.zero(x, 0.3, kind, 1, DIGITS)
         with flint.ctx.workprec(1000):
@@ -158,6 +162,6 @@ def test_oracle_far_out(kind: str) -> None:
 
 
 def test_oracle_says_when_it_cannot_tell() -> None:
-    """At p = 0 the expression has no value, though it has a limit."""
+    """The reference raises an error at p = 0, where the expression is undefined but has a limit."""
     with pytest.raises(PrecisionError, match="digits"):
         inertia_balls.influence(1.0, 1.5, -0.5)

@@ -1,4 +1,4 @@
-"""The generated kernels of the plate's own motion: budgets by balls, limits and known answers."""
+"""Test the generated functions of plate inertia: Arb error budgets, limits, known values."""
 
 import math
 
@@ -24,7 +24,7 @@ def test_load_at_rest_is_the_limit() -> None:
     x, nu = np.geomspace(1e-6, 200.0, 40), 0.3
     still, slow = (np.stack(dynamic_influence(x, load, nu)) for load in (0.0, 1e-40))
     np.testing.assert_allclose(slow, still, rtol=1e-13)
-    # Neither side of kap = x^2 differs, nor of gam kap = x^2, where Bs has a pole.
+    # The values agree on both sides of kap = x^2 and of gam kap = x^2, where Bs has a pole.
     for place in (1.0, 1 / float(material(nu))):
         load = 0.49 * place * np.array([1 - 1e-12, 1 + 1e-12])
         below, above = np.stack(dynamic_influence(0.7, load, nu)).T
@@ -33,7 +33,7 @@ def test_load_at_rest_is_the_limit() -> None:
 
 @pytest.mark.parametrize(("x", "nu"), [(0.2, 0.31), (2.4, 0.1), (1.7, -0.63), (6.0, 0.44)])
 def test_no_branch_is_missed(x: float, nu: float) -> None:
-    """B changes its sign at zeros and poles alone, one by one: counted on a fine grid."""
+    """On a fine grid, B changes its sign only at the computed zeros and the known poles."""
     count = 40
     lines = [branches(x, nu, count, kind)[0] for kind in KINDS]
     most = min(line[-1] for line in lines) * 0.999
@@ -52,7 +52,10 @@ def test_no_branch_is_missed(x: float, nu: float) -> None:
 
 
 def test_branches_that_no_pressure_moves() -> None:
-    """S0 of nu = 0 is a rod's wave: no deflection. Lame's waves have kap = 2 x^2."""
+    """Two kinds of branches have known frequencies, and S0 for nu = 0 has no deflection.
+
+    S0 for nu = 0 is a longitudinal rod wave. Lame's waves have kap = 2 x^2.
+    """
     x = np.array([0.01, 0.3, 1.5])
     frequency, residue = branches(x, 0.0, 1, "symmetric")
     np.testing.assert_allclose(frequency[:, 0], math.sqrt(2) * x, rtol=1e-15)
@@ -81,7 +84,10 @@ def test_shapes_and_refusals() -> None:
 
 
 def test_thin_plates_bend_as_kirchhoffs() -> None:
-    """omega = phi^2 sqrt(D/(rho H)), r = 1/(rho H), and all of the deflection."""
+    """In thin plates A0 has Kirchhoff's frequency and carries the whole deflection.
+
+    Here omega = phi^2 sqrt(D/(rho H)) and r = 1/(rho H).
+    """
     x, nu = 1e-5, np.array([-0.9, 0.0, 0.3, 0.499])
     rigidity = 2.0 * 2.0**3 / (12.0 * (1.0 - nu))  # D/(mu h^3), E = 2 mu (1 + nu)
     assert bending_frequency(x, nu) == pytest.approx(x * x * np.sqrt(rigidity / 2), rel=1e-9)
@@ -90,7 +96,7 @@ def test_thin_plates_bend_as_kirchhoffs() -> None:
 
 
 def test_short_waves_are_rayleighs() -> None:
-    """Poisson's solid: c_R/c_T = 0.9194 (Rayleigh, 1885), exactly sqrt(2 - 2/sqrt 3)."""
+    """Short waves have the Rayleigh speed: for nu = 1/4, c_R/c_T = sqrt(2 - 2/sqrt 3) = 0.9194."""
     speed = bending_frequency(300.0, 0.25) / 300.0
     assert speed == pytest.approx(0.9194, abs=5e-5)
     assert speed == pytest.approx(math.sqrt(2 - 2 / math.sqrt(3)), rel=1e-15)
@@ -101,9 +107,10 @@ def test_short_waves_are_rayleighs() -> None:
 
 
 def test_cut_offs_are_resonances_through_the_thickness() -> None:
-    """At x = 0 shear waves resonate at n pi/2 and pressure waves at n pi/2 over sqrt gam.
+    """The cut-off frequencies are n pi/2 for shear and n pi/(2 sqrt gam) for pressure waves.
 
-    Bending takes n odd of shear, even of pressure: A1 begins at pi/2. Stretching the others.
+    Bending branches have odd n for shear and even n for pressure waves, so A1 begins at pi/2.
+    Extensional branches have the other n.
     """
     nu, x = 0.25, 1e-9
     pressure = math.sqrt(2 * (1 - nu) / (1 - 2 * nu))
@@ -116,7 +123,7 @@ def test_cut_offs_are_resonances_through_the_thickness() -> None:
 
 
 def test_thin_plates_stretch() -> None:
-    """S0: omega = phi sqrt(E*/rho)."""
+    """In thin plates S0 has the frequency omega = phi sqrt(E*/rho)."""
     x, nu = 1e-6, np.array([-0.9, 0.0, 0.4])
     assert branches(x, nu, 1, "symmetric")[0][:, 0] == pytest.approx(x * np.sqrt(2 / (1 - nu)))
 
@@ -125,7 +132,7 @@ def test_thin_plates_stretch() -> None:
 @pytest.mark.parametrize("nu", [-0.5, 0.0, 0.25, 0.49])
 @pytest.mark.parametrize("parity", KINDS)
 def test_branches_carry_the_load_at_rest(x: float, nu: float, parity: str) -> None:
-    """sum r/kap is 1/B at kap = 0; what N branches lack goes with 1/N."""
+    """sum r/kap converges to the static 1/B; N branches omit a part proportional to 1/N."""
     whole = float(dynamic_influence(x, 0.0, nu)[KINDS.index(parity)])
     frequency, residue = branches(x, nu, 400, parity)
     shares = residue / frequency**2 / whole
@@ -141,5 +148,5 @@ def test_branches_carry_the_load_at_rest(x: float, nu: float, parity: str) -> No
 
 
 def test_share_of_the_lowest_branch() -> None:
-    """98 % of the deflection at rest at x = 0.5, 79 % at x = 1, for nu = 1/4."""
+    """For nu = 1/4, A0 carries 98 % of the static deflection at x = 0.5 and 79 % at x = 1."""
     assert bending_share([0.5, 1.0], 0.25) == pytest.approx([0.9765, 0.7945], abs=5e-5)

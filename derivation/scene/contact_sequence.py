@@ -8,13 +8,13 @@ import numpy as np
 
 from derivation.engine.activity import announce
 from derivation.scene.collocation import NEWTON, NEXT, ONSET, change_of_length, radau
+from derivation.scene.contact_errors import endless, lost
 from derivation.scene.dynamic_problem import DynamicProblem, ImpactState
 from derivation.scene.effects.effect import Array
-from derivation.scene.effects.inertia import WIDER
 from derivation.scene.flight import meeting
 from derivation.scene.scene import IncompleteError
 from derivation.scene.time_element import LOST, A, P, TimeElement, element
-from derivation.scene.yield_events import UncutError, next_branch, turned
+from derivation.scene.yield_events import UncutError, next_branch
 from derivation.scene.yielding import Yielding
 
 FIRST, LONGEST, SHORTEST = 0.3, 0.3, 1e-13
@@ -40,8 +40,6 @@ CONTACTS, ELEMENTS, WORK = 100, 20_000, 3e7
 evaluations in flight, weighted by the run time of each."""
 PROGRESS = 50
 """Elements after which the simulation reports its progress."""
-SHARP = 0.05
-"""Slope of the gap over that without vibration below which the contact is no longer circular."""
 STAYS = 20.0
 """Contact time over half a period on the plate above which the weight holds the sphere on it."""
 LEFT = "no further contact is possible"
@@ -283,8 +281,8 @@ def contact(
             tries, pieces = step + 1 - tried, tuple(found)
             return ContactRun(start, ended, first, pieces, begin, after, tries, problem.yielding)
     else:
-        raise _endless(problem, origin + x**ONSET, most)
-    raise _lost(problem, state, radius, problem.T * (origin + x**ONSET))
+        raise endless(problem, origin + x**ONSET, most)
+    raise lost(problem, state, radius, problem.T * (origin + x**ONSET))
 
 
 def _begun(begin: ImpactState, radius: float) -> float:
@@ -311,40 +309,6 @@ def _onset(problem: DynamicProblem, n: int, length: float, meeting: float) -> Ar
         if np.max(np.abs(move) / a) < 1e-3:
             break
     return np.asarray(np.linalg.solve(length * rule.integral, a), dtype=np.float64)
-
-
-def _endless(problem: DynamicProblem, t: float, most: int) -> IncompleteError:
-    """Return the error of a simulation with too many time steps."""
-    return IncompleteError(
-        f"the sphere was still in contact {problem.T * t:.6g} s after the first contact, when the "
-        f"limit of {most} time steps was reached",
-        "reduce inertia.modes, increase accuracy.rtol, or set effects.inertia = false",
-    )
-
-
-def _lost(
-    problem: DynamicProblem, state: ImpactState, radius: float, time: float
-) -> IncompleteError:
-    """Return the error of a contact without a solution: too wide, not circular, or extreme."""
-    why, remedy = "has no solution that can be found", "use less extreme values"
-    beyond = np.nextafter(problem.contact.top, 0.0) / problem.a
-    if radius > 0.99 * beyond:
-        why = f"grows wider than {problem.a * beyond:.4g} m, " + (
-            f"the largest radius of the contact law: {problem.range_end}"
-            if problem.range_end
-            else f"{WIDER:g} times what the impact on a plate that does not deflect reaches"
-        )
-        remedy = "reduce impact.speed or impact.gravity, or use a lighter sphere or a thicker plate"
-    bent = problem.contact.modes.by_shape(state.q)
-    # The present radius and a larger one, of a plastic contact also where unloading begins.
-    for branch in (problem, turned(problem, radius)):
-        for a in (radius, 1.2 * radius):
-            at = branch.at(problem.a * np.array([min(a, beyond)]))
-            own = at.depth_a[0] / problem.depth
-            if a > 0.0 and not own + at.less_a[0] @ bent > SHARP * own:
-                why = "is not circular, because the plate is more curved than the sphere"
-                remedy = "use a smaller sphere or a thicker plate"
-    return IncompleteError(f"the contact at {time:.6g} s {why}", remedy)
 
 
 def _left(state: ImpactState) -> float:

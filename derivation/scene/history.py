@@ -1,11 +1,12 @@
 """Time histories of an impact and pressure of a contact: arrays, CSV, tables for notebooks."""
 
-from collections.abc import Mapping
-from typing import NamedTuple
+from collections.abc import Iterable, Mapping
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from derivation.scene.errors import SceneError
 from derivation.scene.html import html_table
 
 Array = NDArray[np.float64]
@@ -120,3 +121,24 @@ class Pressures(NamedTuple):
     distance: Array
     pressure: Array
     hertz: Array
+
+
+def times_of(times: Any) -> tuple[float, ...]:
+    """Return times [s] as a tuple of numbers.
+
+    Raises
+    ------
+    SceneError
+        If they are not a number or a sequence of numbers.
+    """
+    try:
+        iterated = isinstance(times, Iterable) and not isinstance(times, np.ndarray)
+        given = list(times) if iterated else times
+        numbers = np.atleast_1d(np.asarray(given, dtype=np.float64))
+    except (TypeError, ValueError):
+        numbers = np.empty((0, 0))
+    if numbers.ndim != 1:
+        raise SceneError(
+            f"times: expected a number or a sequence of numbers [s], got {times!r:.100}; use a list"
+        )
+    return tuple(numbers.tolist())

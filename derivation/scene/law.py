@@ -13,12 +13,13 @@ modulus E* of the contact over that of the plate. For a paraboloid p = D_sphere 
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from derivation.scene import kernels
+from derivation.scene.closed_contact import closed_up_to
 from derivation.scene.effects import BY_NAME, PAPER, WHOLE_PLATE, edge
 from derivation.scene.effects.effect import Array, Contribution, Effect, PlateEffect, Reach
 from derivation.scene.effects.finite_thickness import plate_contribution
@@ -32,7 +33,6 @@ THICK = 1.0
 """Largest h/b for which the model of simply supported and clamped edges was measured."""
 CANCELLED = 8 * np.finfo(np.float64).eps
 """Relative rounding error of the contribution of the plate, tested."""
-_HALVINGS = 30
 
 
 class Shape(NamedTuple):
@@ -163,7 +163,7 @@ class ContactLaw:
         high: float = np.minimum(widest, thickness * model.h)
         if not self.solved:
             return high
-        return _closed_up_to(
+        return closed_up_to(
             model.h, model.b, model.R, self.modulus, model.modulus, self.spherical, float(high)
         )
 
@@ -391,30 +391,3 @@ class ContactLaw:
     def _beyond_whole_plate(self) -> tuple[PlateEffect, ...]:
         """Effects that add to the deflection of the whole plate with the paper's edge."""
         return tuple(e for e in self.plate_effects if e.name not in WHOLE_PLATE)
-
-
-@lru_cache(maxsize=32)
-def _closed_up_to(
-    h: float, b: float, R: float, modulus: float, plate_modulus: float, spherical: bool, high: float
-) -> float:
-    """Return the radius [m], at most `high`, up to which a contact is closed at its centre.
-
-    The pressure is non-Hertzian; several laws of a scene share the result.
-    """
-    from generated import non_hertzian_pressure
-
-    plate = non_hertzian_pressure.plate(h, b)
-
-    def closed(a: float) -> bool:
-        found = non_hertzian_pressure.contact(
-            plate, np.array([a]), R, modulus, plate_modulus, sphere=spherical
-        )
-        return bool(np.isfinite(found.force[0]))
-
-    if closed(high):
-        return high
-    low = 0.0
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if closed(middle) else (low, middle)
-    return low

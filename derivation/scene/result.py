@@ -13,7 +13,7 @@ from derivation.scene import answer, kernels, measured
 from derivation.scene.achieved_accuracy import AchievedAccuracy
 from derivation.scene.effect_selection import SelectedEffects
 from derivation.scene.effects.effect import NO_BOUND
-from derivation.scene.history import POINTS, DynamicHistory, History, Pressures
+from derivation.scene.history import POINTS, DynamicHistory, History, Pressures, times_of
 from derivation.scene.method_selection import dynamic_impact, moved
 from derivation.scene.model import Model
 from derivation.scene.quantity import counted
@@ -203,7 +203,7 @@ class Result:
         SceneError
             If a time is not a number between 0 and `total_time`.
         """
-        chosen = _times(times)
+        chosen = times_of(times)
         for time in chosen:
             if not 0 <= time <= self.total_time:
                 raise SceneError(
@@ -398,18 +398,3 @@ UNITS = {
     "max_pressure": "Pa",
     "max_tensile_stress": "Pa",
 }
-
-
-def _times(times: Any) -> tuple[float, ...]:
-    """Return times as a tuple of numbers; raise SceneError if they are anything else."""
-    try:
-        iterated = isinstance(times, Iterable) and not isinstance(times, np.ndarray)
-        given = list(times) if iterated else times
-        numbers = np.atleast_1d(np.asarray(given, dtype=np.float64))
-    except (TypeError, ValueError):
-        numbers = np.empty((0, 0))
-    if numbers.ndim != 1:
-        raise SceneError(
-            f"times: expected a number or a sequence of numbers [s], got {times!r:.100}; use a list"
-        )
-    return tuple(numbers.tolist())

@@ -102,7 +102,7 @@ def test_completion_is_offered_and_completes() -> None:
         (["report", "--check", "--fragment", "K_j"], "--check"),
         (["report", "--section", "law", "--fragment", "K_j"], "--section"),
         (["rewrite", "x", "--update"], "FORMULA"),
-        (["rewrite", "x", "--variable", "1"], "--variable"),
+        (["rewrite", "x", "--variable", "1"], "variable: "),
         (["generate", "--out", PAPER], "paper.toml"),
         (["report", "--out", PAPER], "paper.toml"),
         (["simulate", PAPER, "--csv", "/dev/null"], "/dev/null"),

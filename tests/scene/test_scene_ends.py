@@ -18,6 +18,7 @@ from derivation.scene import (
     SceneError,
     animation,
     code,
+    contact_errors,
     contact_sequence,
     edge_remainder,
     explain,
@@ -283,7 +284,7 @@ def test_a_first_contact_that_does_not_end_is_refused(
 def test_why_a_contact_is_lost() -> None:
     problem = waves.problem_of(law(), 8)
     widest = problem.contact.top / problem.a
-    told = contact_sequence._lost(problem, problem.begin(), widest, 0.0)
+    told = contact_errors.lost(problem, problem.begin(), widest, 0.0)
     assert f"grows wider than {problem.contact.top:.4g} m" in told.why
     assert "impact.speed" in told.remedy
 

@@ -10,9 +10,8 @@ reach = min(REACH, 1/eta) F/A is one polynomial in (A/reach)^2, up to A = FAR_RE
 and beyond that the modal sum is used. The coefficients come from tables. For eta >= 1/REACH they
 are an exact linear map of the first weights w_n; below, the thin-plate form plus a remainder.
 
-Arithmetic: Horner's rule, computed in place because blocks of points fit in the cache; for one
-sphere on one plate a polynomial of a with coefficients computed once; the scaling of the
-polynomials' variables to their ranges; and the number of modes in the direct sum.
+Arithmetic: Horner's rule in place, as blocks of points fit in the cache; for one sphere on a plate
+a polynomial of a; the scaling of the variables; and the number of modes in the direct sum.
 """
 
 from typing import NamedTuple

@@ -73,6 +73,39 @@ def in_arrays(monkeypatch: pytest.MonkeyPatch, *given: Any) -> None:
     assert set(solve(*given).status) == {"finished"}
 
 
+@pytest.mark.parametrize(
+    ("key", "values"),
+    [
+        ("plate.thickness", [0.03, 0.08]),
+        ("plate.yield_stress", [3e8, 1e9, 1e12]),
+        ("impact.speed", [1e-3, 0.1, 3.0]),
+    ],
+)
+@pytest.mark.parametrize("rtol", [None, 0.3])
+def test_rows_that_may_yield_on_a_plate_with_inertia_are_simulations(
+    key: str, values: list[float], rtol: float | None
+) -> None:
+    scene = read({
+        "sphere": {"radius": 0.01, "material": "steel"},
+        "plate": {"radius": 0.3, "thickness": 0.05, "material": "steel", "yield_stress": 3e8},
+        "impact": {"speed": 1.0},
+    })  # fmt: skip
+    check(scene, {key: np.array(values)}, rtol)
+
+
+def test_rows_with_a_yield_stress_may_omit_inertia(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In slow impacts on a thick plate neither inertia nor yield is included."""
+    scene = read({
+        "sphere": {"radius": 0.01, "material": "steel"},
+        "plate": {"radius": 0.3, "thickness": 0.3, "material": "steel", "yield_stress": 3e9},
+        "impact": {"speed": 1e-5},
+    })  # fmt: skip
+    columns = {"impact.speed": np.array([1e-5, 2e-5])}
+    found = check(scene, columns, 0.5)
+    assert not any({"inertia", "plasticity"} & set(names.split()) for names in found.effects)
+    in_arrays(monkeypatch, scene, columns, 0.5)
+
+
 @pytest.mark.parametrize("rtol", [None, 1e-1, 1e-2, 1e-6, 1e-13])
 def test_rows_of_the_paper_are_simulations(
     rtol: float | None, monkeypatch: pytest.MonkeyPatch

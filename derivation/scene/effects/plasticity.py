@@ -1,5 +1,6 @@
 """Plasticity: the lower yield stress limits the contact pressure, and a dent remains."""
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -31,19 +32,18 @@ class Plasticity(Effect):
 
     def value(self, model: Model, a: float) -> float:
         """Return Hertz's pressure over 1.6 Y at a contact radius [m]."""
-        return a / _onset(model) / (1.0 + model.softness)
+        return float(a / _onset(model) / (1.0 + model.softness))
 
     def bound(self, model: Model, context: BoundContext) -> Bound:
         """Return the bound on a half-space, where S is xi on loading and c on unloading.
 
         An elastic plate decreases the change.
         """
-        from generated.plasticity_kernels import unloaded, worked
+        from generated.plasticity_kernels import unloaded
 
         ratio = _over_onset(model, context)
-        largest = np.maximum(ratio[-1], 1.0)
-        flat = float(unloaded(largest)[0])
-        slower = -float(np.log(worked(largest)[1]))
+        flat = float(unloaded(np.maximum(ratio[-1], 1.0))[0])
+        slower = -math.log(float(_restitution(ratio)[0]))
         return Bound(
             np.full_like(ratio, 1.0 - flat),
             np.maximum(ratio - 1.0, 0.0),
@@ -60,10 +60,14 @@ def plastic_restitution(model: Model, context: BoundContext) -> Numbers:
     """Return the restitution of the plastic contact on a half-space [1]; 1 of an elastic one."""
     if not np.any(np.isfinite(model.yield_stress)):
         return 1.0
+    return _restitution(_over_onset(model, context))
+
+
+def _restitution(ratio: Array) -> Array:
+    """Return the restitution for the last of Hertz's radii over that at the onset of yield [1]."""
     from generated.plasticity_kernels import worked
 
-    largest = np.maximum(_over_onset(model, context)[..., -1:], 1.0)
-    found: Numbers = worked(largest)[1]
+    found: Array = worked(np.maximum(ratio[..., -1:], 1.0))[1]
     return found
 
 
@@ -78,8 +82,8 @@ def _over_onset(model: Model, context: BoundContext) -> Array:
     return np.minimum(context.radii / onset, _LARGEST)
 
 
-def _onset(model: Model) -> float:
+def _onset(model: Model) -> Numbers:
     """Return Hertz's radius at the onset of yield for a rigid sphere [m]."""
     from generated.plasticity import yield_radius
 
-    return float(yield_radius(model.R, model.lam, model.mu, model.yield_stress))
+    return yield_radius(model.R, model.lam, model.mu, model.yield_stress)

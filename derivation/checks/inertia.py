@@ -39,6 +39,8 @@ OSCILLATORS = 1200
 ANY, MUCH = 1.0, 0.3
 """Tolerance with which the bound on the change by inertia is computed, and the value of that bound
 from which inertia is included [1]."""
+DYNAMIC = frozenset(e.name for e in EFFECTS if "inertia" in (e.name, e.within))
+"""Effects that a quasi-static plate lacks: plate inertia and its damping."""
 MET, TIGHT = 3.0, 1e-4
 """Factor of the bound on the omitted branches, and summand, of the smallest tolerance [1]."""
 
@@ -89,7 +91,7 @@ def placed(data: Scene, place: float) -> tuple[Scene, float]:
     model = model_of(read(data))
     still = quasi_static(model)
     assert still is not None  # such scenes are skipped
-    others = dict.fromkeys(present(model) - {"inertia", "damping", "hertz"}, True)
+    others = dict.fromkeys(present(model) - DYNAMIC - {"hertz"}, True)
     price = decide(model, others | {"inertia": "auto"}, ANY).error
     radiated = max(
         map(float, higher_branch_error(model, still.max_contact_radius, still.contact_time))
@@ -129,8 +131,7 @@ def solve(number: int, data: Scene, place: float) -> InertiaRow | str:
         return "reference: incomplete"
     still = quasi_static(model)
     assert still is not None  # such scenes are skipped
-    # A plate without inertia has no damping either.
-    price = sum(row.bound for row in selected.rows if row.name in {"inertia", "damping"})
+    price = sum(row.bound for row in selected.rows if row.name in DYNAMIC)
     total = used.inertia.total_time if used is not None else values[0]
     error, quantity = largest_change(values, reference.numbers)
     alone, worth = largest_change(still.numbers, reference.numbers)
@@ -150,7 +151,7 @@ def bending(model: Model) -> Model:
 def quasi_static(model: Model) -> motion.Motion | None:
     """Return the impact with every effect of a quasi-static plate; None outside its range."""
     try:
-        return moved(ContactLaw(model, present(model) - {"inertia", "damping"}))
+        return moved(ContactLaw(model, present(model) - DYNAMIC))
     except SceneError:
         return None
 

@@ -17,8 +17,12 @@ from derivation.engine.measure.result import CheckResult, all_kept
 from derivation.engine.outputs import json_by_line, plain_rows
 
 SEED = 1
-EFFECTS = ("viscosity", "plasticity", "damping")
-"""Effects that dissipate energy, and that half of the scenes have."""
+KEYS = {
+    "viscosity": "retardation_time",
+    "plasticity": "yield_stress",
+    "damping": "loss_factor",
+}
+"""Effects that dissipate energy, which half of the scenes have, and their keys of the plate."""
 ELASTIC, SEVERAL = "none", "several"
 """Names of scenes without such an effect, and with more than one."""
 
@@ -161,7 +165,7 @@ def _add_dissipation(tables: dict[str, dict[str, Any]], generator: random.Random
     sphere, plate, v0 = tables["sphere"], tables["plate"], tables["impact"]["speed"]
     E = plate["youngs_modulus"]
     speed = sphere["density"] * v0 * v0 / E
-    for name in generator.sample(EFFECTS, generator.choice([1, 1, 1, 2])):
+    for name in generator.sample(tuple(KEYS), generator.choice([1, 1, 1, 2])):
         if name == "viscosity":
             plate["retardation_time"] = sphere["radius"] / v0 * speed**0.4 * spread(1e-3, 3.0)
             tables["inertia"]["branches"] = "A0"
@@ -173,14 +177,13 @@ def _add_dissipation(tables: dict[str, dict[str, Any]], generator: random.Random
 
 def dissipation_of(data: Mapping[str, Mapping[str, Any]]) -> str:
     """Return the effect of a scene that dissipates energy; "none", or "several"."""
-    keys = ("retardation_time", "yield_stress", "loss_factor")
-    found = [name for name, key in zip(EFFECTS, keys, strict=True) if key in data["plate"]]
+    found = [name for name, key in KEYS.items() if key in data["plate"]]
     return (found or [ELASTIC])[0] if len(found) < 2 else SEVERAL
 
 
 def sides(rows: Sequence[InertiaRow]) -> tuple[Side, ...]:
     """Return the sides of the threshold on which there are scenes, by dissipation."""
-    kinds = itertools.product((ELASTIC, *EFFECTS, SEVERAL), (True, False))
+    kinds = itertools.product((ELASTIC, *KEYS, SEVERAL), (True, False))
     parted = ([row for row in rows if (row.dissipation, row.included) == kind] for kind in kinds)
     return tuple(_side(part) for part in parted if part)
 

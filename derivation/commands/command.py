@@ -1,4 +1,4 @@
-"""Base classes of the commands: reject repeated options, accept former names of options."""
+"""Base classes of the commands: check and name options, accept their former names."""
 
 from collections.abc import Iterator, Sequence
 from itertools import takewhile
@@ -19,11 +19,21 @@ RENAMED = {
 
 
 class Command(TyperCommand):
-    """A command that rejects repeated options, unless several values are allowed."""
+    """A command that rejects repeated options, and names options as typed in error messages."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Replace former names and reject repeated options before the arguments are parsed."""
         return super().parse_args(ctx, prepared(self, ctx, args))
+
+    def invoke(self, ctx: Any) -> Any:
+        """Run the command; an error of an argument names the option as it was typed."""
+        try:
+            return super().invoke(ctx)
+        except ValueError as error:
+            name = str(error).partition(":")[0]
+            if not any(name == option.name for option in typed(self, ctx)):
+                raise
+            raise ValueError(f"--{error}") from None
 
 
 class Group(TyperGroup):
@@ -64,6 +74,14 @@ def prepared(command: Any, ctx: Any, args: list[str]) -> list[str]:
             problem = f"expected once, got {count} times; remove all but one"
             raise BadParameter(problem, ctx=ctx, param=option)
     return args
+
+
+def typed(command: Any, ctx: Any) -> Iterator[TyperOption]:
+    """Yield the options that stand in the command line."""
+    for option in command.params:
+        source = ctx.get_parameter_source(option.name)
+        if isinstance(option, TyperOption) and source is not None and source.name == "COMMANDLINE":
+            yield option
 
 
 def given(command: Any, ctx: Any, args: Sequence[str]) -> list[TyperOption]:

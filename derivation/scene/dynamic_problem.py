@@ -140,30 +140,33 @@ class DynamicProblem:
 
     def flown(self, state: ImpactState, t: float) -> ImpactState:
         """Return the state after free flight for a time."""
-        free = FreeMotion(self.omega * t, self.damping_ratio)
-        bent = state.q_dot * t * free.by_rate - state.q * free.by_q
+        bent, q_dot = self._vibrated(state, t)
         fallen = 0.5 * self.weight * t * t
         return ImpactState(
             state.displacement + state.velocity * t + fallen,
             state.velocity + self.weight * t,
             state.q + state.q_dot * t + bent,
-            state.q_dot * free.cos - state.q * self.omega * free.sin,
+            q_dot,
             state.approach - state.separation_speed * t + (fallen - float(np.sum(bent))),
         )
 
     def flights(self, state: ImpactState, t: Array) -> Array:
-        """Velocity, displacement, deflection of the plate and its energy after free flights.
+        """Return velocity, displacement, plate deflection and plate energy after free flights.
 
-        Shape (4, times); the state after one of them is `flown`.
+        Shape (4, times). `flown` returns the whole state after one of them.
         """
-        free = FreeMotion(np.multiply.outer(t, self.omega), self.damping_ratio)
-        bent = state.q_dot * t[:, None] * free.by_rate - state.q * free.by_q
-        q = state.q + state.q_dot * t[:, None] + bent
-        q_dot = state.q_dot * free.cos - state.q * self.omega * free.sin
-        energies = (q_dot**2 + (self.omega * q) ** 2) / (2.0 * self.inverse_modal_mass)
+        bent, q_dot = self._vibrated(state, t[:, None])
+        after = state._replace(q=state.q + state.q_dot * t[:, None] + bent, q_dot=q_dot)
         velocity = state.velocity + self.weight * t
-        displacement = state.displacement + state.velocity * t + 0.5 * self.weight * t * t
-        return np.array([velocity, displacement, np.sum(q, axis=1), np.sum(energies, axis=1)])
+        displacement = state.displacement + (state.velocity + velocity) / 2.0 * t
+        energy = np.sum(self.energies(after), axis=-1)
+        return np.array([velocity, displacement, np.sum(after.q, axis=-1), energy])
+
+    def _vibrated(self, state: ImpactState, t: float | Array) -> tuple[Array, Array]:
+        """Return q - q_0 - q_0' t and q' of each mode after free vibration; t may be a column."""
+        free = FreeMotion(t * self.omega, self.damping_ratio)
+        bent = state.q_dot * t * free.by_rate - state.q * free.by_q
+        return bent, state.q_dot * free.cos - state.q * self.omega * free.sin
 
 
 class Part(NamedTuple):

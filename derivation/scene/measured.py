@@ -134,8 +134,10 @@ def _solved(tables: dict[str, Any], key: str, goal: float, close: float) -> floa
             return _simulated(tables, key, math.exp(x)).restitution - goal
         except SceneError as error:
             raise SceneError(
-                f"measured.restitution: expected a value that can be computed, got {goal:.6g}; "
-                f"with plate.{key} = {math.exp(x):.6g} {UNITS[key]} the simulation fails: {error}"
+                "measured.restitution: expected a value that can be computed, got "
+                f"{goal:.6g}, for which the simulation of the measurement fails with plate.{key} = "
+                f"{math.exp(x):.6g} {UNITS[key]} ({str(error).partition(';')[0]}); correct "
+                "measured.restitution or measured.target"
             ) from None
 
     first = lossless.max_pressure if key == "yield_stress" else EARLY * lossless.contact_time

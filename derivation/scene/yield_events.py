@@ -18,9 +18,11 @@ Made = TypeVar("Made")
 _TRIES, _CLOSE, _NEAR = 6, 1e-13, 1e-9
 """Largest number of attempts to end an element at an event; intended and largest accepted distance
 from the event over the length of the element."""
-_SAME, _HIGHER = 1e-12, 3e-13
-"""Relative change of the radius up to the event that is accepted at any distance from it, and by
-which the radius must exceed the end of its branch, so that rounding is no event."""
+_SAME = 1e-13
+"""Relative change of the radius between the end of an element and its event for which the distance
+from the event does not matter."""
+_HIGHER = 3e-13
+"""Relative excess of the radius over the end of its branch that is due to rounding."""
 _ROUNDING = 1e-15
 """Size of coefficients that are rounding, over the largest."""
 _REAL, _BEGUN, _BEYOND = 1e-7, 1e-9, 1.05

@@ -269,7 +269,7 @@ def _client(scheduler: str | None, workers: int) -> Iterator[Any]:
         client.wait_for_workers(1, timeout=PATIENCE)
     except (OSError, ValueError):  # an address that is none is a ValueError
         raise SceneError(
-            f"scheduler {scheduler}: expected a Dask scheduler with a worker, got none within "
+            f"scheduler: expected a Dask scheduler with a worker, got none at {scheduler} within "
             f"{PATIENCE:.0f} s; start them with `dask scheduler` and `dask worker ADDRESS`"
         ) from None
     with client:

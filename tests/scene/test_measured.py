@@ -68,6 +68,12 @@ def test_more_than_waves_leave_is_refused() -> None:
         simulate(measured(restitution=0.99, solve_for="yield_stress", target="plate"))
 
 
+def test_a_restitution_too_small_to_be_computed_is_refused_by_its_own_key() -> None:
+    """The tolerance of the simulation in the message is not one that the user gave."""
+    with pytest.raises(SceneError, match=r"^measured\.restitution: .*; correct measured\.rest"):
+        simulate(measured(restitution=1e-9, solve_for="retardation_time"))
+
+
 def test_a_value_is_given_once() -> None:
     plate = BLOCK["plate"] | {"yield_stress": 1e8}
     with pytest.raises(SceneError, match=r"measured\.solve_for: .*plate\.yield_stress"):

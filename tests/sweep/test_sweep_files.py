@@ -195,7 +195,7 @@ def test_a_killed_write_leaves_the_old_file(
         (["--result", "max_force"], "--plot"),
         (["--rtol", "2"], "1e-13"),
         (["--vary", "plate.radius=1:2:2", "--vary", "sphere.radius=1:2:2", "--plot", "a.png"],
-         "plot: "),
+         "--plot: "),
     ],
 )  # fmt: skip
 def test_what_is_refused_before_anything_is_computed(

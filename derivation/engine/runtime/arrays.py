@@ -113,8 +113,8 @@ def patched(
 ) -> Double:
     """Return the value, replaced by the function's result where a mask is true.
 
-    A function passes itself, and is called for the points below its switch point only. It then
-    evaluates its branch below directly, so that the recursion ends.
+    A function passes itself as `function`. It is called again for the points below its switch point
+    alone, and evaluates the branch below directly, so that the recursion ends.
     """
     if not below.any():
         return value

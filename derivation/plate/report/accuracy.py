@@ -17,6 +17,11 @@ WANTED = 12
 """Number of digits required of the direct sum."""
 
 
+def case(data: Data) -> str:
+    """Return the name of the test case shown: the paper's, unless a scene replaces it."""
+    return str(data["regimes"][1]["name"])
+
+
 def accuracy_context(data: Data) -> dict[str, Any]:
     """Return the values for the template of this section."""
     return {
@@ -30,7 +35,7 @@ def accuracy_context(data: Data) -> dict[str, Any]:
         ],
         "regimes": len(data["regimes"]),
         "tie": f"{100 * (TIE - 1):.0f}",
-        "case": data["regimes"][1]["name"],
+        "case": case(data),
         "errors": list(error_rows(data)),
         "unsplit": list(reasons(data, "unsplit")),
         "remarks": list(reasons(data, "remark")),
@@ -86,8 +91,8 @@ def winner_cells(found: Data | None) -> tuple[str, str, str]:
 
 
 def error_rows(data: Data) -> Iterator[str]:
-    """Yield the methods of the second test case: digits by cause, set-up and times."""
-    regime = data["regimes"][1]["name"]
+    """Yield the methods of the test case shown: digits by cause, set-up and times."""
+    regime = case(data)
     for row in data["rows"]:
         if row["regime"] != regime or row["fails"] or not row["errors"]:
             continue

@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from derivation.engine.report.figures import STYLE
+from derivation.plate.report.accuracy import case
 from derivation.plate.report.accuracy_figures import pareto_front
 from derivation.scene.impact import simulate
 from derivation.scene.scene import Scene, read
@@ -52,7 +53,7 @@ def _draw_force(ax: Any, pane: Scene) -> None:
 
 def _draw_digits(ax: Any, data: Mapping[str, Any]) -> None:
     """Draw correct digits of the contact law over time per point, in arrays."""
-    paper = data["regimes"][1]["name"]
+    paper = case(data)
     rows = [
         row
         for row in data["rows"]

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from textwrap import wrap
 from typing import Any
 
-from derivation.plate.report.accuracy import duration
+from derivation.plate.report.accuracy import case, duration
 
 Data = Mapping[str, Any]
 
@@ -40,11 +40,6 @@ def lines(data: Data) -> Iterator[str]:
     yield "| method of `simulate` | one impact | each of many | number of impacts |"
     yield "|---|---|---|---|"
     yield from impacts(data)
-
-
-def case(data: Data) -> str:
-    """Return the name of the test case shown: the paper's, unless a scene replaces it."""
-    return str(data["regimes"][1]["name"])
 
 
 def headline(data: Data) -> str:

@@ -173,7 +173,7 @@ def test_evaluation_points_are_parsed_or_rejected() -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "says"),
+    ("arguments", "expected"),
     [
         (["G", "--formula", "T", "--at", "T=-1"], "T > 0"),
         (["G", "--formula", "T", "--at", "T=1,T=2"], "twice"),
@@ -182,9 +182,9 @@ def test_evaluation_points_are_parsed_or_rejected() -> None:
     ],
 )
 def test_command_rejects_input_without_a_traceback(
-    arguments: list[str], says: str, capsys: pytest.CaptureFixture[str]
+    arguments: list[str], expected: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["diagnose", *arguments]) == 2
     message = capsys.readouterr().err
-    assert says in message
+    assert expected in message
     assert "Traceback" not in message

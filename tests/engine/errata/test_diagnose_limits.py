@@ -89,10 +89,10 @@ def test_factor_counted_twice_is_reported_only_for_a_factor_of_the_other(
 
 
 def test_superfluous_term_is_removed(formulas: Formulas) -> None:
-    right = formulas["Omega_1"].expression
-    found = diagnose("Omega_1", right + h * phi, formulas)
+    correct = formulas["Omega_1"].expression
+    found = diagnose("Omega_1", correct + h * phi, formulas)
     assert found.repair == "leave out the term h*phi"
-    assert found.repaired == right
+    assert found.repaired == correct
 
 
 def test_misprint_in_one_of_two_equal_factors_is_corrected() -> None:
@@ -115,9 +115,9 @@ def test_correction_must_fit_at_every_sample_point() -> None:
     given, reference, other = sp.sinh(phi * h), sp.cosh(phi * h), a * b
     with flint.ctx.workprec(300):
         search = search_for(given * a * b, reference)
-        right = search.points.values(reference)
-        assert single_edits(Position(given), right, search)
-        mixed = [right[0], *search.points.values(other)[1:]]
+        exact = search.points.values(reference)
+        assert single_edits(Position(given), exact, search)
+        mixed = [exact[0], *search.points.values(other)[1:]]
         assert not single_edits(Position(given), mixed, search)
 
 
@@ -193,7 +193,7 @@ def test_displacements_in_equilibrium_need_no_change_of_sign(
     (printed,) = (record for record in PRINTED if record.name == "u")
     assert balance.signs_that_balance(["u"]) == ("u",)
     assert "if one sign is reversed" in misprints._balance_remark(printed)
-    right = [replace(r, expression=-r.expression) if r.name == "u" else r for r in PRINTED]
-    monkeypatch.setattr(balance, "PRINTED", right)
+    balanced = [replace(r, expression=-r.expression) if r.name == "u" else r for r in PRINTED]
+    monkeypatch.setattr(balance, "PRINTED", balanced)
     assert balance.signs_that_balance(["u", "w", "f_j", "g_j"]) == ()
     assert misprints._balance_remark(printed) == ""

@@ -51,30 +51,30 @@ class ZeroNewtonSteps(int):
 
 
 @pytest.mark.parametrize(
-    ("find", "shown", "says"),
+    ("find", "check", "message"),
     [
         (zeros.j0_zero, "first_zero_is_first", "no zero below 3 pi/4"),
         (zeros.j1_zero, "first_zero_of_j1_is_first", "no zero up to 5 pi/4 - 1/8"),
     ],
 )
 def test_numbering_of_zeros_needs_a_certified_first_zero(
-    find: Any, shown: str, says: str, monkeypatch: pytest.MonkeyPatch
+    find: Any, check: str, message: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(zeros, shown, lambda: False)
-    with pytest.raises(zeros.ZeroError, match=says):
+    monkeypatch.setattr(zeros, check, lambda: False)
+    with pytest.raises(zeros.ZeroError, match=message):
         find.__wrapped__(1, 60)
 
 
 @pytest.mark.parametrize(
-    ("guess", "says"),
+    ("guess", "message"),
     [(5.5201, "is outside the interval of zero 1"), (2.4, "does not change its sign")],
 )
 def test_value_that_is_no_zero_of_j0_is_not_certified(
-    guess: float, says: str, monkeypatch: pytest.MonkeyPatch
+    guess: float, message: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """5.5201 is close to the second zero, 2.4 next to the first."""
     monkeypatch.setattr(zeros, "_newton", lambda *_: arb(guess))
-    with pytest.raises(zeros.ZeroError, match=says):
+    with pytest.raises(zeros.ZeroError, match=message):
         zeros.j0_zero.__wrapped__(1, 60)
 
 

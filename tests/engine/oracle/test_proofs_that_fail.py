@@ -108,13 +108,13 @@ def test_power_series_has_no_value_where_its_tail_has_no_bound(
 
 
 @pytest.mark.parametrize(
-    ("power", "says"), [(1, "grow like j"), (2, "grow like j^2"), (-2, "decrease like j^(-2)")]
+    ("power", "message"), [(1, "grow like j"), (2, "grow like j^2"), (-2, "decrease like j^(-2)")]
 )
-def test_tail_of_a_sum_is_described_by_its_power(power: int, says: str) -> None:
+def test_tail_of_a_sum_is_described_by_its_power(power: int, message: str) -> None:
     found = divergence.tail(phi**power)
     assert found.exponent == power
     assert found.kind == (divergence.CONVERGENT if power < -1 else divergence.DIVERGENT)
-    assert found.says.split(", ")[0].endswith(says)
+    assert found.says.split(", ")[0].endswith(message)
 
 
 def test_validity_statement_follows_from_the_sign_of_gamma(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -177,14 +177,14 @@ def test_mixed_odd_and_even_powers_are_rejected() -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "says"),
+    ("text", "message"),
     [
         ("+".join(["a"] * 300), "nested deeper than 200 levels: split it"),
         (f"sinh({','.join(['a'] * 4000)})", "more than 6000 parts: split it"),
     ],
 )
-def test_excessively_long_formulas_are_rejected(text: str, says: str) -> None:
-    with pytest.raises(FormulaError, match=says):
+def test_excessively_long_formulas_are_rejected(text: str, message: str) -> None:
+    with pytest.raises(FormulaError, match=message):
         parse(text, PLATE)
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from given import PAPER
+from shared_scenes import PAPER
 
 from derivation.cli import main
 from derivation.scene import load, schema, simulate

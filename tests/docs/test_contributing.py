@@ -11,7 +11,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from guide import type_examples
+from guide import apply_examples
 
 from derivation.engine import build
 from derivation.engine.files import ROOT
@@ -33,7 +33,7 @@ def copy(tmp_path_factory: pytest.TempPathFactory) -> Path:
         ignored = shutil.ignore_patterns("__pycache__")
         shutil.copytree(ROOT / folder, root / folder, ignore=ignored)
     shutil.copy(ROOT / "pyproject.toml", root)
-    assert type_examples(root, paper=False) >= 30
+    assert apply_examples(root, paper=False) >= 30
     return root
 
 

@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from guide import type_examples
+from guide import apply_examples
 
 from derivation.engine import build
 from derivation.engine.errata.findings import CORRECT
@@ -28,7 +28,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Build a paper from the examples of the guide; all commands share a cache next to it."""
     place = tmp_path_factory.mktemp("own") / "my film"
     run("new", str(place), home=place.parent)
-    assert type_examples(place, paper=True) >= 15
+    assert apply_examples(place, paper=True) >= 15
     shown = run("build", "--paper", str(place), home=place.parent)
     timed = re.findall(r"✓ (\w+) +[\d.]+ s", shown)
     assert timed == ["derive", "rewrite", "generate", "misprints", "check", "report"]

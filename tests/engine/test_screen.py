@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
-from given import PAPER
+from shared_scenes import PAPER
 
 from derivation.cli import main
 from derivation.engine.console import MOST, UNREAD, listing, table, warn

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 from mutants import of_module
-from mutated_code import BEYOND_ALL, May, compiled, source
+from mutated_code import BEYOND_ALL, Allowed, compiled, source
 
 from derivation.engine.measure.judge import PointReference, measured
 from derivation.engine.measure.kernels import Kernel
@@ -22,7 +22,7 @@ SHOWN_BY = {
 SMALL = "the last terms of a series are smaller than rounding errors"
 BRANCHES = "reduces errors within the effect of rounding the input, or both branches are accurate"
 LENGTHS = [f"Omega_{k}{scaled}" for k in (1, 2, 3, 4) for scaled in ("", "_scaled")]
-MAY_PASS: May = {
+MAY_PASS: Allowed = {
     **dict.fromkeys((*LENGTHS, "sonine", "A_j"), (2, BEYOND_ALL)),
     "mode_f": (7, BRANCHES),
     "mode_g": (13, BRANCHES),

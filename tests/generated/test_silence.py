@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from domains import EXAMPLE, OUTSIDE, POINTWISE, ROWS, TABLES, Values, breaking, conditions, holds
+from domains import EXAMPLE, OUTSIDE, POINTWISE, ROWS, TABLES, Values, conditions, holds, violations
 
 from derivation.engine.formula.dimension import unit as dimension_of
 from derivation.engine.formula.ulp import DOUBLE, SINGLE
@@ -237,7 +237,7 @@ NOT_FINITE = (math.nan, math.inf, -math.inf)
 def test_results_outside_the_domain_are_nan(name: str) -> None:
     names, kernel = ROWS[name]["arguments"], function(name)
     base = {key: EXAMPLE[key] for key in names}
-    cases = [(condition, dict(moved)) for condition, moved in breaking(name)]
+    cases = [(condition, dict(moved)) for condition, moved in violations(name)]
     cases += [
         (f"{key} = {invalid}", base | {key: invalid}) for key in names for invalid in NOT_FINITE
     ]

@@ -250,7 +250,7 @@ def test_browser_shows_page_without_errors_or_overflow(html: str, tmp_path: Path
         for width in (400, 1400):
             for dark in (False, True):
                 window.open(path, width, dark)
-                assert window.complaints() == []
+                assert window.console_messages() == []
                 inner, wide = window.run(
                     "return [innerWidth, document.documentElement.scrollWidth]"
                 )

@@ -16,21 +16,15 @@ import sympy as sp
 
 from derivation.engine.formula.ball import LOG2_10, Exact, enclose, refine, to_ball
 from derivation.engine.formula.proof import prove
-from derivation.plate.contact.theory.plate_series import FIRST, LAST, sine_coefficient
+from derivation.plate.contact.theory.plate_series import LAST, sine_coefficient
 from derivation.plate.contact.theory.thin_plate import (
-    excess_for_large,
     finite_part_ball,
-    plate_excess,
-    plate_factor_at_zero,
-    regular_part,
     thin_coefficient,
 )
 from derivation.plate.modes.theory.plate_factor import plate_factors
 from derivation.plate.vocabulary import Formula, M, T, a_ratio, eta
 
 _y = sp.Symbol("y", positive=True)
-SERIES_REACH = 4
-"""|y| below which the kernel is computed by its power series."""
 
 
 def sine_kernel(y: sp.Expr) -> sp.Expr:
@@ -74,62 +68,6 @@ def universal_part() -> Formula:
     )
 
 
-@cache
-def _kernel_series(bits: int) -> tuple[flint.acb_poly, flint.arb]:
-    """Return (s(y)/y^3 - 1/3 + y^2/30)/y^4 in powers of y^2, and its truncation error for |y| <= 4.
-
-    Coefficients are below 1/(2m+6)!, and each term is less than half of the previous one.
-    """
-    count = 4
-    while flint.arb(SERIES_REACH) ** (2 * count) / flint.arb.fac_ui(2 * count + 6) > (
-        flint.arb(2) ** -bits
-    ):
-        count += 1
-    values = [sine_coefficient(m + 4) for m in range(count)]
-    terms = flint.acb_poly([flint.fmpq(int(q.p), int(q.q)) for q in values])
-    return terms, 2 * flint.arb(SERIES_REACH) ** (2 * count) / flint.arb.fac_ui(2 * count + 6)
-
-
-def _kernel(y: flint.acb) -> flint.acb:
-    """Return (s(y)/y^3 - 1/3 + y^2/30)/y^4 on a complex ball."""
-    if y.abs_upper() < SERIES_REACH:
-        series, rest = _kernel_series(flint.ctx.prec)
-        spread = flint.arb(0, rest.upper())
-        return series(y * y) + flint.acb(spread, spread)
-    return ((y.sin() - y * y.cos()) / y**3 - flint.acb(1) / 3 + y * y / 30) / y**4
-
-
-@cache
-def universal_ball(A: Exact, digits: int = 30) -> flint.arb:
-    """Return a ball around Phi(A), A > 0, with a relative radius below 10^-digits.
-
-    The form that ball arithmetic evaluates is Phi = A^5/(8 pi) int T^4 (kernel/y^4) (G - 1) dT.
-    """
-    excess_for_large()
-    universal_part()
-    g = plate_factor_at_zero()
-    third, first = (int(g.at(-3)), flint.fmpq(int(g.at(-1).p), int(g.at(-1).q)))
-
-    def compute() -> flint.arb:
-        half = to_ball(A) / 2
-        end = flint.arb(int(0.6 * flint.ctx.prec) + 20)
-
-        def near(x: flint.acb, _: bool) -> flint.acb:
-            return _kernel(half * x) * (third * x + first * x**3 + x**4 * (regular_part(x) - 1))
-
-        def far(x: flint.acb, _: bool) -> flint.acb:
-            return _kernel(half * x) * x**4 * plate_excess(x)
-
-        total = flint.acb.integral(near, flint.acb(0), flint.acb(1)).real
-        total += flint.acb.integral(far, flint.acb(1), flint.acb(end)).real
-        # |kernel| <= 1/840, and G - 1 <= 16 T^2 e^(-2T) for T >= 2; from T = 6 on
-        # the logarithm of the integrand decreases by at least 1 per unit of T.
-        rest = 16 * end**6 * (-2 * end).exp() / 840
-        return 2 * half**5 * 2 / flint.arb.pi() * (total + flint.arb(0, rest.upper()))
-
-    return refine(compute, digits, f"Phi({A})")
-
-
 def thin_coefficient_ball(k: int, ratio: Exact, digits: int = 30) -> flint.arb:
     """Return a ball around c_(2k-3) of a thin plate at h/b = ratio.
 
@@ -147,15 +85,3 @@ def thin_coefficient_ball(k: int, ratio: Exact, digits: int = 30) -> flint.arb:
         return enclose(expression, {eta: to_ball(ratio), M[k]: finite})
 
     return refine(compute, digits, f"thin plate's c_{2 * k - 3} at {ratio}")
-
-
-def thin_law_ball(A: Exact, ratio: Exact, digits: int = 30) -> flint.arb:
-    """Return a ball around c_1 A + c_3 A^3 + Phi(A), the thin plate's F."""
-
-    def compute() -> flint.arb:
-        more = int(flint.ctx.prec / LOG2_10) + 1
-        radius = to_ball(A)
-        low = (thin_coefficient_ball(k, ratio, more) * radius ** (2 * k - 3) for k in (FIRST, 3))
-        return sum(low, universal_ball(A, more))
-
-    return refine(compute, digits, f"thin plate's F at {A, ratio}")

@@ -310,32 +310,3 @@ def coefficient_remainder_ball(k: int, ratio: Exact, digits: int = 30) -> flint.
         return total * flint.arb(flint.fmpq(int(size.p), int(size.q)))
 
     return refine(compute, digits, f"the roots' share of c_{2 * k - 3} at {ratio}")
-
-
-def law_remainder_ball(A: Exact, ratio: Exact, digits: int = 30) -> flint.arb:
-    """Return a ball around F - c_1 A - c_3 A^3 - Phi(A), its relative radius below 10^-digits.
-
-    Terms are below A^3/4 e^(-pi n (2 - alpha)/(2 eta)), by |s(y)/y^3| <= e^|Im y|/3.
-
-    Raises
-    ------
-    ValueError
-        Unless 0 < a/b < 1, a/b = A ratio.
-    """
-    if not 0 < to_ball(A) * to_ball(ratio) < 1:
-        raise ValueError(f"the law has meaning for 0 < a/b < 1, got a/h = {A}, h/b = {ratio}")
-
-    def compute() -> flint.arb:
-        radius, eta_ball = to_ball(A), to_ball(ratio)
-        decay = (-flint.arb.pi() * (1 / eta_ball - radius / 2)).exp()
-
-        def weight(at: flint.acb) -> flint.acb:
-            y = radius * at / 2
-            return (y.sin() - y * y.cos()) / at**5
-
-        total = _sum_over_roots(
-            weight, lambda n: radius**3 / 4 * decay**n, lambda _: decay, eta_ball
-        )
-        return 16 / radius**2 * total
-
-    return refine(compute, digits, f"the roots' share of F at {A, ratio}")

@@ -81,8 +81,3 @@ def root(n: int, bits: int = 128) -> flint.acb:
             raise ArithmeticError(f"root {n} of sinh T = +-T is not shown to be near {x}")
         radius = flint.arb(0, error.upper())
         return x + flint.acb(radius, radius)
-
-
-def height(n: int, digits: int = 30) -> flint.arb:
-    """Return Im T_n; T_n contributes terms of the order exp(-Im T_n b/h) to the coefficients."""
-    return root(n, int(3.33 * digits) + 8).imag

@@ -10,7 +10,6 @@ from functools import cache
 import sympy as sp
 
 from derivation.engine.formula.proof import Proof, prove
-from derivation.plate.contact.theory.divergence import truncated_gamma
 from derivation.plate.contact.theory.hertz import contact_radius
 from derivation.plate.contact.theory.reversion import force_formulas
 from derivation.plate.vocabulary import D, Formula, R, a, delta, delta_0, h, m, t, u_t, v0, xi_k
@@ -345,22 +344,6 @@ def linearisation_about_hertz() -> tuple[Formula, Formula]:
             proof,
         ),
     )
-
-
-def validity() -> str:
-    """Return the range of real values of (16) to (18), from the radicand at the turning point.
-
-    The sign of xi_3 = -gamma_3/gamma_2^(8/3) is that of -gamma_3, for any number of modes.
-    """
-    negative = truncated_gamma(3).expression.is_negative
-    x = sp.Symbol("x", positive=negative, negative=not negative)
-    if linearisation()[2].expression.subs(xi_k[3], x).is_negative:
-        return (
-            "xi_3 is positive, so the radicand of (17) and (18) is negative at the linear "
-            "motion's turning point: it vanishes before, at the smallest delta_0 with "
-            f"{sp.sstr(formal_speed_squared())} = 0, and beyond there is no real correction"
-        )
-    return "the radicand of (17) and (18) stays positive up to the linear motion's turning point"
 
 
 def impact() -> tuple[Formula, ...]:

@@ -61,7 +61,6 @@ RESULTS = {
 _p, _q, _y = sp.symbols("p q y", positive=True)
 _A = sp.Symbol("A_m", positive=True)
 _MODULUS = sp.Symbol("E", positive=True)
-Change = Callable[[int], sp.Expr]
 
 
 def reduced_modulus() -> sp.Expr:

@@ -4,6 +4,8 @@ import math
 
 import flint
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from derivation.engine.formula.ulp import SINGLE
 from derivation.engine.measure.judge import judge
@@ -48,7 +50,7 @@ def test_error_of_values_that_are_not_finite_is_zero_or_infinite() -> None:
 
 def test_budget_is_multiplied_by_the_scale_of_the_reference() -> None:
     error = judge(1.0 + 2.0**-50, unsized(flint.arb(1), 3.0), 2.0)
-    assert (error.ulp, error.allowed, error.needed) == (4.0, 6.0, 4.0)
+    assert (error.ulp, error.allowed, error.needed) == (4.0, 6.0, pytest.approx(4 / 3))
 
 
 def test_magnitude_of_a_sum_is_that_of_its_modes() -> None:
@@ -56,3 +58,17 @@ def test_magnitude_of_a_sum_is_that_of_its_modes() -> None:
     found = reference("w", values, 30, 3)
     assert found.value == 0
     assert found.magnitude < flint.arb(2) ** -1000
+
+
+@given(st.floats(0.0, 1e6), st.floats(1e-3, 1e3), st.floats(1.0, 1e6), st.floats(0.5, 100.0))
+def test_the_needed_budget_allows_the_error_and_none_smaller_does(
+    ulps: float, value: float, scale: float, factor: float
+) -> None:
+    """With that budget the ratio of error to allowance is 1, whatever the reference's scale."""
+    exact = unsized(flint.arb(value), scale)
+    got = value + ulps * math.ulp(value)
+    needed = judge(got, exact, 1.0).needed
+    if needed > 0:
+        assert judge(got, exact, needed).ratio == pytest.approx(1.0)
+        assert judge(got, exact, needed / (1 + factor)).ratio > 1
+        assert judge(got, exact, needed * (1 + factor)).ratio < 1

@@ -38,7 +38,7 @@ def whole(path: Path) -> bytes:
     return path.read_bytes()
 
 
-def test_a_run_killed_at_any_moment_goes_on_where_it_was(tmp_path: Path) -> None:
+def test_killed_run_is_continued(tmp_path: Path) -> None:
     out, chance = tmp_path / "rows.csv", random.Random(1)
     for _ in range(2):
         before = len(parts(out))
@@ -55,7 +55,7 @@ def test_a_run_killed_at_any_moment_goes_on_where_it_was(tmp_path: Path) -> None
     assert out.read_bytes() == whole(tmp_path / "whole.csv")
 
 
-def test_an_interrupted_run_says_how_it_goes_on(tmp_path: Path) -> None:
+def test_interrupted_run_states_how_to_continue(tmp_path: Path) -> None:
     out = tmp_path / "rows.csv"
     process = begin("--vary", "impact.speed=0.5:2:20000", "--out", str(out))
     wait(lambda: parts(out))
@@ -86,7 +86,7 @@ def ended(*commands: list[str]) -> Iterator[list["subprocess.Popen[bytes]"]]:
             process.wait()
 
 
-def test_a_cluster_that_loses_a_worker_loses_nothing(
+def test_loss_of_a_cluster_worker_loses_no_results(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("PYTHONPATH", str(ROOT))
@@ -110,7 +110,7 @@ def test_a_cluster_that_loses_a_worker_loses_nothing(
         first.kill()
 
 
-def test_a_scheduler_that_is_not_there(
+def test_missing_scheduler_is_reported(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(run, "PATIENCE", 1.0)
@@ -122,13 +122,13 @@ def test_a_scheduler_that_is_not_there(
         assert "Traceback" not in said
 
 
-def test_workers_of_another_version_are_refused() -> None:
+def test_workers_of_another_version_are_rejected() -> None:
     columns = {"impact.speed": np.ones(1)}
     with pytest.raises(pc.SceneError, match=r"expected version 0\.0\.1 of platecontact"):
         run.solve_batch(scene().to_json(), columns, None, "0.0.1")
 
 
-def test_batches_take_about_the_time_that_they_are_to_take() -> None:
+def test_batches_take_about_the_requested_time() -> None:
     queue = run.Queue([(0, 10_000), (20_000, 120_000)], [])
     done = np.zeros(120_000, dtype=int)
     while batch := queue.next(4):

@@ -69,7 +69,7 @@ def indented() -> Any:
         (indentation, indented, 10),
     ],
 )
-def test_steps_that_are_said_to_be_enough_are(
+def test_stated_number_of_steps_is_sufficient(
     module: ModuleType, results: Callable[[], Any], needed: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The stated number of steps gives the result to the last bit; convergence is superlinear."""

@@ -27,7 +27,7 @@ from generated.effects import (
 )
 
 
-def test_links_are_proved_and_proofs_can_fail() -> None:
+def test_formulas_are_proved_and_wrong_ones_rejected() -> None:
     for link in (curvature_theory.curvature, effects_theory.effects, plate_motion.plate_motion):
         for formula in link():
             assert formula.proof.residuals
@@ -36,7 +36,7 @@ def test_links_are_proved_and_proofs_can_fail() -> None:
         curvature_theory.prove("Sphere", "", {"halved": slope - slope / 2})
 
 
-def test_growth_of_the_side_wall_by_another_quadrature() -> None:
+def test_growth_of_the_side_wall_agrees_with_another_quadrature() -> None:
     with mp.workdps(20):
         found = 4 / mp.pi**2 * mp.quad(
             lambda y: (y * mp.cosh(y) - mp.sinh(y)) / (2 * y) * mp.besselk(0, y) / mp.besseli(0, y),
@@ -46,7 +46,7 @@ def test_growth_of_the_side_wall_by_another_quadrature() -> None:
     assert found < kernels.WALL_GROWTH < 1.01 * found
 
 
-def test_sphere_on_a_half_space_by_sneddons_integrals() -> None:
+def test_sphere_on_a_half_space_agrees_with_sneddon() -> None:
     """Indentation and force of a sphere on a half-space agree with Sneddon's integrals.
 
     delta = a int f'/sqrt(a^2 - r^2) dr and P = 2 E* int r^2 f'/sqrt(...) dr, r = a sin t.
@@ -69,7 +69,7 @@ def test_sphere_on_a_half_space_by_sneddons_integrals() -> None:
             assert abs(found.force * mpf(4) / 3 * exact**3 / force - 1) < 1e-13
 
 
-def test_sphere_kernel_within_its_budget() -> None:
+def test_sphere_function_is_within_its_budget() -> None:
     with mp.workdps(40):
         for rho in (1e-150, 1e-9, 0.1, 0.4999999, 0.5, 0.5000001, 0.9, 0.99, 1 - 2.0**-40):
             x = mpf(rho)
@@ -83,7 +83,7 @@ def test_sphere_kernel_within_its_budget() -> None:
                 assert abs(mpf(float(value)) - true) < allowed * float(np.spacing(float(true)))
 
 
-def test_side_wall_within_its_budget() -> None:
+def test_side_wall_is_within_its_budget() -> None:
     """The side-wall correction agrees with its integral, and its slope is below the bound.
 
     The integral (with y = u^3) takes 40 digits because its numerator cancels.
@@ -108,7 +108,7 @@ def test_side_wall_within_its_budget() -> None:
     assert (-side_wall(alpha).slope <= WALL_LINEAR * alpha + WALL_CUBIC * alpha**3).all()
 
 
-def test_bending_is_that_of_a_thin_plate() -> None:
+def test_bending_agrees_with_thin_plate_theory() -> None:
     """The bending deflection is that of a thin plate, P b^2/(8 pi D) with D = E* H^3/12."""
     a, R, h, b, E = 0.01, 0.3, 0.02, 0.7, 3e9
     P, D = 4 / 3 * E * a**3 / R, E * (2 * h) ** 3 / 12
@@ -119,7 +119,7 @@ def test_bending_is_that_of_a_thin_plate() -> None:
     )
 
 
-def test_plate_motion_numbers_by_their_definitions() -> None:
+def test_parameters_of_plate_motion_agree_with_their_definitions() -> None:
     R, m, v0, h, b, lam, mu, rho = 0.01, 0.03, 2.0, 0.004, 0.5, 2e10, 3e10, 2500.0
     E, H = 4 * mu * (lam + mu) / (lam + 2 * mu), 2 * h
     D, K = E * H**3 / 12, 4 / 3 * E * math.sqrt(R)

@@ -25,14 +25,14 @@ COMPLIANCE = np.array([0.4, 0.1, 0.03])
 MASS = 1.7
 
 
-def test_every_formula_of_the_link_is_proved_symbolically() -> None:
+def test_formulas_are_verified_symbolically() -> None:
     link = closure.closure()
     assert {f.name for f in link} <= set(derived.formulas())
     assert len(link) == 6
     assert {formula.proof.method for formula in link} == {SYMBOLIC}
 
 
-def test_another_energy_or_weight_is_refused() -> None:
+def test_wrong_energy_or_weight_is_rejected() -> None:
     """The proof fails without the energy of the gap, and with it for pointwise indentation."""
     none = sp.Integer(0)
     stored = sp.Add(
@@ -48,7 +48,7 @@ def test_another_energy_or_weight_is_refused() -> None:
 
 
 @pytest.mark.parametrize("y", ["0.3", "2", "11"])
-def test_means_under_punch_and_sphere_by_quadrature(y: str) -> None:
+def test_means_under_punch_and_sphere_agree_with_quadrature(y: str) -> None:
     """The closed forms are weighted means of J0(y r) under a flat punch and a sphere.
 
     With r = sin t the weights are sin t dt (flat punch) and 3 sin t cos^2 t dt (Hertz).
@@ -127,7 +127,7 @@ class Ledger:
 
 
 @pytest.mark.parametrize(("axis", "lag"), [(False, 0.0), (True, 0.0), (False, 0.03)])
-def test_energy_along_a_computed_motion(axis: bool, lag: float) -> None:
+def test_computed_motion_conserves_energy(axis: bool, lag: float) -> None:
     ledger = Ledger(axis, lag)
     start = np.array([0.05, 0.9, *(0.01, -0.02, 0.0), *(0.1, 0.05, -0.2), 0.0, 0.0])
 
@@ -159,7 +159,7 @@ def variational(a: float, h: float, b: float) -> float:
 
 
 @pytest.mark.parametrize(("a", "h"), [(0.05, 0.1), (0.2, 0.07), (0.3, 0.8)])
-def test_mean_over_twice_the_radius_is_the_sum_over_modes(a: float, h: float) -> None:
+def test_mean_over_twice_the_radius_equals_the_sum_over_modes(a: float, h: float) -> None:
     count = 40000
     j, J1 = generated.bessel_j0_zeros(count), generated.bessel_j1_at_j0_zeros(count)
     y = a * j
@@ -169,7 +169,7 @@ def test_mean_over_twice_the_radius_is_the_sum_over_modes(a: float, h: float) ->
     assert variational(a, h, 1.0) == pytest.approx(total, rel=2e-9)
 
 
-def test_variational_law_has_the_true_pressures_third_coefficient() -> None:
+def test_variational_law_has_the_third_coefficient_of_the_non_hertzian_law() -> None:
     """At equal force the variational law is closer to the non-Hertzian one than the axis law."""
     h, b, R = 0.2, 1.0, 1e3
     misses = []

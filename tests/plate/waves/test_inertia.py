@@ -29,7 +29,7 @@ pytestmark = pytest.mark.usefixtures("silent")
 # --- theory
 
 
-def test_every_formula_of_both_links_is_proved_symbolically() -> None:
+def test_formulas_are_verified_symbolically() -> None:
     found = dict(derived.chain())
     formulas = (*found["dynamic modes"], *found["bending branch"])
     assert len(formulas) == 18
@@ -45,11 +45,11 @@ def test_every_formula_of_both_links_is_proved_symbolically() -> None:
         bending_branch.rise_anywhere,
     ],
 )
-def test_steps_are_proved_symbolically(step: Callable[[], object]) -> None:
+def test_steps_are_verified_symbolically(step: Callable[[], object]) -> None:
     assert step().method == SYMBOLIC
 
 
-def test_another_influence_is_refused() -> None:
+def test_wrong_influence_is_rejected() -> None:
     """The proof fails for twice the influence, which full loads A_j on both faces would give."""
     p, q = dynamic_modes.p, dynamic_modes.q
     printed = dynamic_modes.in_p_and_q(dynamic_modes.stiffness(sp.tanh(p), sp.tanh(q)))
@@ -62,7 +62,9 @@ def test_another_influence_is_refused() -> None:
 @pytest.mark.parametrize(
     ("x", "load", "nu"), [(0.3, 0.02, 0.25), (1.3, 1.1, -0.7), (4.0, 9.0, 0.4)]
 )
-def test_influence_against_tractions_solved_in_numbers(x: float, load: float, nu: float) -> None:
+def test_influence_agrees_with_numerical_traction_conditions(
+    x: float, load: float, nu: float
+) -> None:
     formula = derived.formulas()["dynamic_influence"].expression
     values = {x_h: x, kap: load, gam: material(nu), h: 1, mu: 1}
     ball = evaluate(formula, values, 25)
@@ -88,7 +90,7 @@ def test_thin_plate_series_of_any_order() -> None:
             assert all(after < 0.1 * before for before, after in itertools.pairwise(errors))
 
 
-def test_rayleighs_cubic() -> None:
+def test_rayleigh_cubic() -> None:
     cubic = bending_branch.rayleigh()[0].expression
     (speed,) = (
         root for root in sp.Poly(cubic.subs(gam, sp.Rational(1, 3)), xi_R).nroots(20)
@@ -104,7 +106,7 @@ def test_rayleighs_cubic() -> None:
     ("x", "load", "nu"),
     [(0.3, 0.01, 0.25), (1.0, 1.4, -0.5), (2.0, 30.0, 0.4), (0.01, 1e-9, 0.3), (40.0, 700.0, 0.1)],
 )
-def test_oracles_agree_on_the_influence(x: float, load: float, nu: float) -> None:
+def test_references_agree_on_the_influence(x: float, load: float, nu: float) -> None:
     balls = inertia_balls.influence(x, load, nu, 25)
     with mp.workdps(40):
         routes = inertia_routes.influence(x, load, nu, 25)
@@ -114,7 +116,7 @@ def test_oracles_agree_on_the_influence(x: float, load: float, nu: float) -> Non
 
 
 @pytest.mark.parametrize(("x", "nu"), [(1e-3, 0.3), (0.9, -0.9), (3.0, 0.49), (60.0, 0.25)])
-def test_oracles_agree_on_the_lowest_branch(x: float, nu: float) -> None:
+def test_references_agree_on_the_lowest_branch(x: float, nu: float) -> None:
     digits = 12
     oracles = zip(
         (inertia_balls.zero, inertia_balls.residue, inertia_balls.share),
@@ -130,7 +132,7 @@ def test_oracles_agree_on_the_lowest_branch(x: float, nu: float) -> None:
 
 
 @pytest.mark.parametrize("x", [1e-3, 0.7, 30.0])
-def test_oracle_encloses_its_limits(x: float) -> None:
+def test_reference_encloses_its_limits(x: float) -> None:
     """The Arb reference encloses two limits.
 
     At kap = 0 the expected value follows from the static plate factor. At kap = x^2, where
@@ -151,7 +153,7 @@ def test_oracle_encloses_its_limits(x: float) -> None:
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_oracle_far_out(kind: str) -> None:
+def test_reference_for_very_thin_and_thick_plates(kind: str) -> None:
     """The first higher branch lies between its poles in very thin and very thick plates."""
     for x in (1e-40, 1e40):
         kap_1 = inertia_balls.zero(x, 0.3, kind, 1, DIGITS)
@@ -161,7 +163,7 @@ def test_oracle_far_out(kind: str) -> None:
         assert inertia_balls.residue(x, 0.3, kind, 1, DIGITS) > 0
 
 
-def test_oracle_says_when_it_cannot_tell() -> None:
+def test_reference_raises_an_error_if_undefined() -> None:
     """The reference raises an error at p = 0, where the expression is undefined but has a limit."""
     with pytest.raises(PrecisionError, match="digits"):
         inertia_balls.influence(1.0, 1.5, -0.5)

@@ -131,8 +131,8 @@ def test_number_of_modes_agrees_with_the_law_of_weyl() -> None:
     for eta, modes in ((0.3, 24), (0.06, 80)):
         model = replace(SLOW, h=eta * SLOW.b, edge="paper",
                         inertia=InertiaSettings(modes=modes, branches="all"))  # fmt: skip
-        true = free_modes(model, modes).omega.size
-        assert inertia_check.oscillators_of(model) == pytest.approx(true, rel=0.15)
+        reference = free_modes(model, modes).omega.size
+        assert inertia_check.oscillators_of(model) == pytest.approx(reference, rel=0.15)
 
 
 def test_recorded_scenes_are_within_their_bounds() -> None:

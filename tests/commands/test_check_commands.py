@@ -245,7 +245,9 @@ def test_references_are_saved_while_they_are_computed(
     path, computed = tmp_path / "bounds.json", list[Any]()
     monkeypatch.setattr(bounds, "MEASURED", path)
     monkeypatch.setattr(bounds, "KEPT_EVERY", 2)
-    reference_values = {bounds.scene(number): true for number, true in enumerate(known)}
+    reference_values = {
+        bounds.scene(number): exact_value for number, exact_value in enumerate(known)
+    }
 
     def reference(point: Any) -> Any:
         if len(computed) == 4:

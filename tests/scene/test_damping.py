@@ -195,8 +195,8 @@ def test_damping_is_selected_if_needed_and_can_be_disabled() -> None:
     assert out.disabled
     elastic = values(struck(None))
     assert values(struck(0.1, effects={"damping": False})).tolist() == elastic.tolist()
-    asked = explain(read(scene(0.1, effects={"damping": True})))
-    assert {"inertia", "damping"} <= asked.effects.law.effects
+    enabled = explain(read(scene(0.1, effects={"damping": True})))
+    assert {"inertia", "damping"} <= enabled.effects.law.effects
 
 
 # --- the error bound

@@ -187,6 +187,6 @@ def test_no_code_is_generated_for_a_plate_with_inertia() -> None:
 
 
 def test_explain_states_plate_inertia() -> None:
-    told = explain(scene())
-    assert any("inertia" in note for note in told.notes)
-    assert told.evaluation_times["inertia"] > 0.0
+    explanation = explain(scene())
+    assert any("inertia" in note for note in explanation.notes)
+    assert explanation.evaluation_times["inertia"] > 0.0

@@ -21,8 +21,8 @@ def test_all_parts_of_the_plate_give_the_contact_law() -> None:
     m = model()
     law, a = ContactLaw(m, WHOLE_PLATE | {"hertz"}), np.geomspace(1e-8, 0.099, 40)
     shape = law.at(a)
-    true = contact_law.indentation(a, m.R, m.h, m.b)
-    np.testing.assert_allclose(law.indentation(a, shape), true, rtol=4e-15)
+    exact = contact_law.indentation(a, m.R, m.h, m.b)
+    np.testing.assert_allclose(law.indentation(a, shape), exact, rtol=4e-15)
     stiff = contact_law.stiffness(a, m.R, m.h, m.b, m.lam, m.mu)
     np.testing.assert_allclose(law.stiffness(a, shape), stiff, rtol=4e-15)
 

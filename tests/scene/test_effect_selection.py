@@ -126,13 +126,13 @@ def test_parameters_are_those_of_the_largest_contact() -> None:
     found = motion.impact(ContactLaw(m, ALL))
     a, rows = found.max_contact_radius, {row.name: row for row in decide(m, AT_REST, 0.0).rows}
     depth = a * a / m.R
-    true = {
+    exact = {
         "hertz": a / m.R, "spherical_profile": a / m.R, "non_hertzian_pressure": a / (2 * m.h),
         "sphere_elasticity": m.modulus / m.sphere_modulus,
         "gravity": m.m * m.gravity * depth / (m.m * m.v0**2 / 2),
         "bending": 2 / math.pi * a * m.b**2 / (2 * m.h) ** 3,
     }  # fmt: skip
-    for name, value in true.items():
+    for name, value in exact.items():
         assert rows[name].parameter_value == pytest.approx(value, rel=0.02)
     assert rows["finite_radius"].parameter_value == pytest.approx(0.37 * a / m.b, rel=0.01)
     # Static deflection, simply supported over the paper's edge: (3 + nu)/(2 (1 + nu)).

@@ -60,10 +60,10 @@ def test_former_name_gives_the_same_scene_and_one_warning(
         found = read(scene(old, value))
     assert found == plain
     assert found.to_json() == plain.to_json()
-    [said] = notices(list(caught))
-    assert old in said
-    assert new in said
-    assert said.endswith(REMOVED)
+    [notice] = notices(list(caught))
+    assert old in notice
+    assert new in notice
+    assert notice.endswith(REMOVED)
     assert caught[0].filename == __file__
 
 
@@ -139,9 +139,9 @@ def test_file_with_former_names_gives_the_same_output(
         shown.append(capsys.readouterr())
     assert shown[0].out == shown[1].out
     assert json.loads(shown[0].out)["scene"]["plate"]["edge"] == "paper"
-    told = [line for line in shown[0].err.splitlines() if REMOVED in line]
-    assert len(told) == len(set(told)) == 7
-    assert all(line.startswith("note: ") for line in told)
+    notes = [line for line in shown[0].err.splitlines() if REMOVED in line]
+    assert len(notes) == len(set(notes)) == 7
+    assert all(line.startswith("note: ") for line in notes)
     assert REMOVED not in shown[1].err
 
 

@@ -58,7 +58,7 @@ modes = 24
 
 
 @pytest.mark.parametrize(
-    ("name", "value", "says"),
+    ("name", "value", "message"),
     [
         ("CONTACTS", 1, "after 1 contacts"),
         ("BLOCKS", 0, "without contact"),
@@ -66,7 +66,7 @@ modes = 24
     ],
 )
 def test_contacts_before_an_endless_one_are_kept(
-    name: str, value: int, says: str, monkeypatch: pytest.MonkeyPatch
+    name: str, value: int, message: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     problem = waves.problem_of(ContactLaw(BALL, EFFECTS), 8)
     whole = contact_sequence.impact_history(problem, 10)
@@ -79,7 +79,7 @@ def test_contacts_before_an_endless_one_are_kept(
     assert not part.complete
     assert len(part.contacts) == 1
     assert part.contacts[0].end == whole.contacts[0].end
-    assert re.search(says, part.reason)
+    assert re.search(message, part.reason)
 
 
 def test_incomplete_impact_is_marked(
@@ -124,8 +124,8 @@ def test_contacts_before_a_later_error_are_kept(capsys: Any, tmp_path: Path) -> 
 
 
 def test_error_with_partial_results_can_be_pickled() -> None:
-    told = pickle.loads(pickle.dumps(IncompleteError("it ends", "mend it")))
-    assert str(told) == "effects.inertia: it ends; mend it"
+    restored = pickle.loads(pickle.dumps(IncompleteError("it ends", "mend it")))
+    assert str(restored) == "effects.inertia: it ends; mend it"
 
 
 def test_search_in_a_long_flight_respects_the_work_limit() -> None:

@@ -90,25 +90,25 @@ def test_infinite_plate_satisfies_the_equation_of_zener(number: float) -> None:
 @pytest.mark.parametrize("number", [0.02, 0.3, 1.0, 2.0])
 def test_wide_plate_agrees_with_zener(number: float) -> None:
     """With 200 modes and omega_M That = 200, no wave returns from the edge during contact."""
-    true, _ = zener(number)
+    exact, _ = zener(number)
     found, reach = thin_plate(number, 200, 200.0)
     assert reach < 1e-6  # much smaller than the shortest wavelength of the modes
-    assert found == pytest.approx(true, abs=2e-7)
+    assert found == pytest.approx(exact, abs=2e-7)
 
 
 def test_error_of_quasi_static_modes_decreases_with_cubed_frequency() -> None:
-    true, _ = zener(1.0)
-    errors = [abs(thin_plate(1.0, 100, phase)[0] - true) for phase in (25.0, 50.0, 100.0)]
+    exact, _ = zener(1.0)
+    errors = [abs(thin_plate(1.0, 100, phase)[0] - exact) for phase in (25.0, 50.0, 100.0)]
     for early, late in pairwise(errors):
         assert 6.0 < early / late < 10.0
 
 
 def test_narrow_plate_returns_energy() -> None:
     """Waves return from the edge during contact if the first mode's period is the contact time."""
-    true, lasts = zener(1.0)
+    exact, lasts = zener(1.0)
     first, last = jn_zeros(0, 20)[[0, -1]]
     found, _ = thin_plate(1.0, 20, 2.0 * math.pi / lasts * (last / first) ** 2)
-    assert found > true + 0.05
+    assert found > exact + 0.05
 
 
 # --- modes

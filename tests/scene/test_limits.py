@@ -33,9 +33,9 @@ def either_side(
     assert text
     while abs(loud / silent - 1) > 1e-6:
         middle = math.sqrt(silent * loud)
-        found, said = run(middle)
-        if said:
-            loud, above, text = middle, found, said
+        found, warning = run(middle)
+        if warning:
+            loud, above, text = middle, found, warning
         else:
             silent, below = middle, found
     return below, above, text
@@ -68,12 +68,12 @@ def test_stated_error_of_hertz_pressure_is_the_difference_to_the_exact_one(
     """The stated error is that of the indentation at the same force, for each set of effects."""
     tables = changed(plate={"radius": 0.2, "thickness": 0.02, "edge": edge}, impact={"speed": 0.12})
     result = simulate(read(tables), rtol=rtol)
-    said = float(re.findall(r"about (\S+) %", result.warnings[0])[0]) / 100
+    stated = float(re.findall(r"about (\S+) %", result.warnings[0])[0]) / 100
     solved = tables | {"effects": {"spherical_profile": False, "non_hertzian_pressure": True}}
-    one, true = (
+    one, exact = (
         indent(read(data), force=result.max_force)[0].indentation for data in (tables, solved)
     )
-    assert said == pytest.approx(true / one - 1, rel=0.2)
+    assert stated == pytest.approx(exact / one - 1, rel=0.2)
 
 
 def test_no_warning_of_deflection_on_a_half_space() -> None:
@@ -94,9 +94,9 @@ def test_warning_of_the_paraboloid_above_0_3_sphere_radii() -> None:
     for result in (below, above):
         assert result.max_contact_radius / 0.13 == pytest.approx(0.3, rel=3e-6)
     assert "a/R = 0.3 " in text
-    said = float(re.findall(r"about (\S+) %", text)[0]) / 100
-    [true] = indent(read(at(1.0, True)), force=above.max_force)
-    assert said == pytest.approx(true.indentation / above.max_indentation - 1, rel=0.1)
+    stated = float(re.findall(r"about (\S+) %", text)[0]) / 100
+    [exact] = indent(read(at(1.0, True)), force=above.max_force)
+    assert stated == pytest.approx(exact.indentation / above.max_indentation - 1, rel=0.1)
     assert simulate(read(at(50.0, True))).warnings == ()
 
 
@@ -161,12 +161,12 @@ def test_warning_of_inertia_on_one_side_of_each_limit(
 ) -> None:
     """The limits are lambda = 0.006, ten bending periods and a deflection of 1 %."""
     below, above, text = either_side(make, "inertia", silent, loud)
-    said = re.findall(r"Zener parameter (\S+) .* period (\S+) .* deflection (\S+) %", text)
+    numbers = re.findall(r"Zener parameter (\S+) .* period (\S+) .* deflection (\S+) %", text)
     for result in (below, above):
         for found, limit in zip(motion_numbers(result), limits, strict=True):
             assert limit is None or found == pytest.approx(limit, rel=3e-6)
     zener, slow, share = motion_numbers(above)
-    shown = [float(x) for x in said[0]]
+    shown = [float(x) for x in numbers[0]]
     assert shown == [pytest.approx(x, rel=0.06) for x in (zener, slow, 100 * share)]
 
 
@@ -180,13 +180,13 @@ def test_warning_of_reflections_below_four_transit_times() -> None:
 
 def test_no_warning_of_reflections_if_branches_include_them() -> None:
     slab = model_of(read(steel_on_glass(0.6, 2500.0)))
-    for inertia, told in (
+    for inertia, is_warned in (
         (InertiaSettings(), True),
         (InertiaSettings(branches="all"), False),
         (InertiaSettings(branches="all", infinite_plate=True), True),
     ):
         texts = limits.motion_warnings(replace(slab, inertia=inertia), 1e-5, 0.0, dynamic=True)
-        assert any("4 H/c_P" in text for text in texts) is told
+        assert any("4 H/c_P" in text for text in texts) is is_warned
     held = replace(slab, inertia=InertiaSettings(branches="all"))
     assert any("4 H/c_P" in text for text in limits.motion_warnings(held, 1e-5, 0.0))
 

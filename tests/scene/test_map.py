@@ -70,16 +70,16 @@ def test_explain_agrees_on_both_sides_of_each_line(name: str) -> None:
     auto = [x for x in names if getattr(result.scene.effects, x) == "auto"]
     included = np.array([found.ratios[x] > 1.0 for x in auto])
     known = np.isfinite(found.ratios[auto[0]])
-    asked = 0
+    compared = 0
     for row, column in np.argwhere(known[:-1] & known[1:]):
         if (included[:, row, column] != included[:, row + 1, column]).any():
             for place in ((row, column), (row + 1, column)):
-                asked_scene = _scene_at(result, found, *place)
-                _, told = selected_effects(asked_scene, result.accuracy.rtol)
+                point_scene = _scene_at(result, found, *place)
+                _, selection = selected_effects(point_scene, result.accuracy.rtol)
                 shown = [x for k, x in enumerate(auto) if included[(k, *place)]]
-                assert [x for x in told.included if x in auto] == shown, place
-                asked += 1
-    assert asked >= 2
+                assert [x for x in selection.included if x in auto] == shown, place
+                compared += 1
+    assert compared >= 2
 
 
 def _scene_at(result: Result, found: map_.Grid, row: int, column: int) -> Scene:
@@ -144,6 +144,6 @@ def test_marker_is_at_the_contact_of_the_scene() -> None:
 def test_map_lists_effects_that_matter_everywhere_or_nowhere() -> None:
     result = simulate(shared_scenes.scene())
     (legend,) = map_.figure(result, 1e-300).legends
-    told = [text.get_text() for text in legend.get_texts()]
-    assert any(text.startswith("everywhere: ") for text in told), told
-    assert not any(text.startswith("nowhere: ") for text in told), told
+    legend_texts = [text.get_text() for text in legend.get_texts()]
+    assert any(text.startswith("everywhere: ") for text in legend_texts), legend_texts
+    assert not any(text.startswith("nowhere: ") for text in legend_texts), legend_texts

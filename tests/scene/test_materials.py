@@ -125,11 +125,11 @@ BAD: list[tuple[Tables, str]] = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("scene", "says"), BAD)
-def test_invalid_material_gives_one_message(scene: Tables, says: str) -> None:
+@pytest.mark.parametrize(("scene", "message"), BAD)
+def test_invalid_material_gives_one_message(scene: Tables, message: str) -> None:
     with pytest.raises(SceneError) as caught:
         read(scene)
-    for words in says.split("|"):
+    for words in message.split("|"):
         assert words in str(caught.value)
 
 
@@ -254,9 +254,9 @@ def test_sphere_that_stays_on_a_light_plate_is_rejected_before_the_first_step() 
     wide = phone | {"plate": phone["plate"] | {"radius": 0.07}}
     with pytest.raises(
         SceneError, match=r"effects\.inertia: .* set effects\.inertia = false"
-    ) as told:
+    ) as error:
         simulate(read(wide), rtol=0.01)
-    predicted = float(re.search(r"about ([\d.e-]+) s", str(told.value))[1])
+    predicted = float(re.search(r"about ([\d.e-]+) s", str(error.value))[1])
     found = simulate(read(wide | {"effects": {"inertia": False}}), rtol=0.01)
     assert found.contact_time == pytest.approx(predicted, rel=0.1)
 

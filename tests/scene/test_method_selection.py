@@ -66,35 +66,35 @@ def test_recorded_references_belong_to_the_random_scenes() -> None:
 
 
 def test_violated_bound_is_detected(monkeypatch: pytest.MonkeyPatch) -> None:
-    [true] = bounds.committed_references()[:1]
-    exact = [float(text) for text in true.values]
+    [reference] = bounds.committed_references()[:1]
+    exact = [float(text) for text in reference.values]
     off = [exact[0], exact[1], 1.01 * exact[2], exact[3]]
     monkeypatch.setattr(bounds, "simulated", lambda _, rtol: (off, "hertz", rtol / 2))
-    [row] = bounds.judge([true], [1e-3])
+    [row] = bounds.judge([reference], [1e-3])
     assert (row.kept, row.quantity) == (False, "max_force")
     assert row.ratio == pytest.approx(20, rel=1e-3)
     monkeypatch.setattr(bounds, "simulated", lambda _, rtol: ([math.nan] * 4, "hertz", rtol))
-    [row] = bounds.judge([true], [1e-3])
+    [row] = bounds.judge([reference], [1e-3])
     assert not row.kept
     monkeypatch.setattr(bounds, "simulated", lambda *_: (exact, "hertz", 2e-3))
     with pytest.raises(ValueError, match="states"):
-        bounds.judge([true], [1e-3])
+        bounds.judge([reference], [1e-3])
 
 
 def test_error_is_at_least_the_uncertainty_of_the_reference() -> None:
     """The error of a result includes the uncertainty of the reference value."""
-    true = bounds.SceneReference((), ("1", "1"))
-    exact, off = bounds.errors((1.0, 1.0 + 2.0**-52), true)
+    reference = bounds.SceneReference((), ("1", "1"))
+    exact, off = bounds.errors((1.0, 1.0 + 2.0**-52), reference)
     assert exact >= 10.0**-bounds.DIGITS
     assert off >= 2.0**-52 + 10.0**-bounds.DIGITS
     assert exact < 1.001 * 10.0**-bounds.DIGITS
 
 
 def test_references_are_computed_once(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    asked: list[bounds.Point] = []
+    computed: list[bounds.Point] = []
 
     def oracle(point: bounds.Point) -> bounds.SceneReference:
-        asked.append(point)
+        computed.append(point)
         return bounds.SceneReference(point, ("1", "1", "1", "1"))
 
     monkeypatch.setattr(bounds, "reference", oracle)
@@ -103,7 +103,7 @@ def test_references_are_computed_once(monkeypatch: pytest.MonkeyPatch, tmp_path:
     bounds.MEASURED.write_text(bounds.to_json(first, ()))
     again = bounds.committed_references()
     assert list(bounds.reference_values(4, again))[:3] == first == again
-    assert asked == [bounds.scene(number) for number in range(4)]
+    assert computed == [bounds.scene(number) for number in range(4)]
 
 
 @pytest.mark.parametrize("eta", [1e-3, 0.1, 0.1666, 0.1667, 0.3, 0.53, 0.6, 1.0, 4.0, 50.0])
@@ -125,9 +125,9 @@ def test_slope_of_the_law_is_within_its_bounds(eta: float) -> None:
 def test_lemma_holds_for_a_multiple_of_the_law(factor: float) -> None:
     """If the slope is c times Hertz's, each result changes by a known power of c."""
     low, up = max(0.0, 1 - factor), max(0.0, factor - 1)
-    said = simple_impact.law_error(low, up, 0.0, 0.0)
+    bound = simple_impact.law_error(low, up, 0.0, 0.0)
     for power in (-1 / 5, -3 / 5, 3 / 5, 3 / 5):
-        assert abs(factor**-power - 1) <= said
+        assert abs(factor**-power - 1) <= bound
 
 
 def test_exponents_of_the_lemma_agree_with_the_theory() -> None:
@@ -169,7 +169,7 @@ def test_quadrature_of_the_first_correction_is_accurate(x: float) -> None:
 
 def test_measured_rounding_covers_the_budget_with_its_conditioning() -> None:
     """The rounding bound covers the budget of `impact` and half the sum of condition numbers."""
-    points = np.array([true.point for true in bounds.committed_references()])
+    points = np.array([reference.point for reference in bounds.committed_references()])
     slopes = impact_sensitivities(*points.T)
     ulp = budgets.read_budgets()["impact"].ulp + 0.5 * np.abs(slopes).sum(axis=1)
     assert np.isfinite(ulp).all()
@@ -192,7 +192,7 @@ def methods(model: Model) -> list[str]:
 
 
 def test_smaller_tolerance_selects_no_faster_method() -> None:
-    models = [Model(*true.point) for true in bounds.committed_references()[:40]]
+    models = [Model(*reference.point) for reference in bounds.committed_references()[:40]]
     for model in [paper(), *models]:
         ranks = [COST[name] for name in methods(model)]
         assert ranks == sorted(ranks, reverse=True)
@@ -273,7 +273,7 @@ def test_excessive_speed_is_rejected_at_every_tolerance() -> None:
 def test_every_output_states_method_and_bound(tmp_path: Path, capsys: Captured) -> None:
     wanted = ["simulate", str(PAPER), "--rtol", "1e-3", "--json", f"{tmp_path}/r.json"]
     assert main([*wanted, "--details"]) == 0
-    said = " ".join(capsys.readouterr().out.split())
+    output = " ".join(capsys.readouterr().out.split())
     data = json.loads((tmp_path / "r.json").read_text())["accuracy"]
     assert data["method"] == "leading"
     assert data["rtol"] == 1e-3
@@ -283,7 +283,7 @@ def test_every_output_states_method_and_bound(tmp_path: Path, capsys: Captured) 
         "rounding": "rounding_analysis",
     }  # fmt: skip
     result = simulate(load(PAPER), rtol=1e-3)
-    assert str(result.accuracy) in said
+    assert str(result.accuracy) in output
     assert str(result.accuracy).replace("'", "&#x27;") in result._repr_html_()
     for words in (
         "Method: leading",
@@ -292,7 +292,7 @@ def test_every_output_states_method_and_bound(tmp_path: Path, capsys: Captured) 
         "(proved)",
         "rounding analysis",
     ):
-        assert words in said
+        assert words in output
     full = simulate(load(PAPER)).accuracy.to_json()["parts"]
     assert full["quadrature"]["basis"] == full["rounding"]["basis"] == "tested"
 

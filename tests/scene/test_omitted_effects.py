@@ -168,5 +168,5 @@ def test_only_required_modules_are_imported(
         [sys.executable, "-c", COUNT, str(place)],
         cwd=Path(derivation.__file__).parent.parent, capture_output=True, text=True, check=True,
     )  # fmt: skip
-    asked = ("non_hertzian_pressure", "viscosity", "inertia", "inertia")
-    assert run.stdout.split() == [str(x in effects) for x in asked for _ in range(2)]
+    requested = ("non_hertzian_pressure", "viscosity", "inertia", "inertia")
+    assert run.stdout.split() == [str(x in effects) for x in requested for _ in range(2)]

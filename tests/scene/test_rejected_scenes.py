@@ -257,8 +257,8 @@ def test_energy_of_a_sphere_close_to_its_limit_agrees_with_scipy() -> None:
         log = math.log((R + a) / (R - a))
         return E * ((a * a + R * R) / 2 * log - a * R) * (log / 2 + a * R / (R * R - a * a))
 
-    true, _ = quad(power, 0.0, last, epsrel=1e-12, limit=200)
-    assert limits.energy_of(law, last) == pytest.approx(true, rel=1e-9)
+    exact, _ = quad(power, 0.0, last, epsrel=1e-12, limit=200)
+    assert limits.energy_of(law, last) == pytest.approx(exact, rel=1e-9)
 
 
 def test_energy_is_the_integral_of_the_force() -> None:

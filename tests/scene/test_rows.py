@@ -37,9 +37,9 @@ def check(scene: Scene, columns: Mapping[str, Array], rtol: float | None = None)
     """Solve rows, and compare each with the simulation of its scene."""
     found = solve(scene, columns, rtol)
     for row in range(len(found.bound)):
-        one, said = simulated(row_of(scene, columns, row), rtol)
+        one, reason = simulated(row_of(scene, columns, row), rtol)
         if one is None:
-            assert (found.status[row], found.reason[row]) == ("refused", said)
+            assert (found.status[row], found.reason[row]) == ("refused", reason)
             assert found.effects[row] == ""
             assert all(np.isnan(values[row]) for values in found.results.values())
             continue

@@ -91,8 +91,8 @@ BAD = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("old", "new", "says"), BAD)
-def test_invalid_scene_gives_one_message(old: str, new: str, says: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize(("old", "new", "expected"), BAD)
+def test_invalid_scene_gives_one_message(old: str, new: str, expected: str, tmp_path: Path) -> None:
     assert GOOD.count(old) == 1
     path = tmp_path / "scene.toml"
     path.write_text(GOOD.replace(old, new))
@@ -100,7 +100,7 @@ def test_invalid_scene_gives_one_message(old: str, new: str, says: str, tmp_path
         load(path)
     message = str(caught.value)
     assert message.startswith(f"{path}: ")
-    for words in says.split("|"):
+    for words in expected.split("|"):
         assert words in message
     assert len(message) < 1200
     assert "pydantic" not in message

@@ -60,12 +60,12 @@ spec.loader.exec_module(module)
 asked = json.load(sys.stdin)
 delta = np.array(asked["delta"])
 static = getattr(module, "elastic_force", module.force)
-told = {f.__name__: f(delta).tolist() for f in (module.stiffness, module.contact_radius)}
-told["force"] = static(delta).tolist()
-told["impact"] = list(module.impact()) if hasattr(module, "impact") else None
+results = {f.__name__: f(delta).tolist() for f in (module.stiffness, module.contact_radius)}
+results["force"] = static(delta).tolist()
+results["impact"] = list(module.impact()) if hasattr(module, "impact") else None
 foreign = {"generated", "derivation", "scipy", "sympy"} & set(sys.modules)
 assert not foreign, foreign
-print(json.dumps(told))
+print(json.dumps(results))
 """
 
 COMMAND = """
@@ -128,21 +128,21 @@ def test_code_reproduces_law_and_impact_with_only_numpy(case: str, tmp_path: Pat
         capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert run.returncode == 0, run.stderr
-    told = json.loads(run.stdout)
-    np.testing.assert_allclose(told["force"], law.force(a, shape), rtol=1e-13)
-    np.testing.assert_allclose(told["contact_radius"], a, rtol=1e-12)
+    results = json.loads(run.stdout)
+    np.testing.assert_allclose(results["force"], law.force(a, shape), rtol=1e-13)
+    np.testing.assert_allclose(results["contact_radius"], a, rtol=1e-12)
     # Near the limit the law's stiffness (non-Hertzian pressure) is less accurate.
     mild = a < 0.9 * law.limit
     np.testing.assert_allclose(
-        np.array(told["stiffness"])[mild], law.stiffness(a, shape)[mild], rtol=2e-11
+        np.array(results["stiffness"])[mild], law.stiffness(a, shape)[mild], rtol=2e-11
     )
-    if told["impact"] is None:
+    if results["impact"] is None:
         assert case == "viscous, stiff"
         return
-    assert told["impact"] == pytest.approx(moved_numbers(law), rel=3e-12, abs=1e-12)
+    assert results["impact"] == pytest.approx(moved_numbers(law), rel=3e-12, abs=1e-12)
     names = ("contact_time", "max_indentation", "max_force", "max_contact_radius")
     numbers = [f"{getattr(result, name):.6g}" for name in names]
-    assert [f"{x:.6g}" for x in told["impact"][:4]] == numbers
+    assert [f"{x:.6g}" for x in results["impact"][:4]] == numbers
 
 
 def moved_numbers(law: ContactLaw) -> list[float]:
@@ -227,8 +227,8 @@ def test_viscoelastic_force_depends_on_indentation_and_rate() -> None:
     )
     lag = law.model.retardation_time
     rate = np.array([-1e9, -0.1, 0.0, 0.1])
-    told = names["force"](delta, rate)
-    assert told == pytest.approx([0.0, *(P + lag * k * rate[1:])], rel=1e-12)
+    forces = names["force"](delta, rate)
+    assert forces == pytest.approx([0.0, *(P + lag * k * rate[1:])], rel=1e-12)
     assert names["force"](-delta, 1.0) == 0.0
     assert names["force"](delta) == pytest.approx(P, rel=1e-13)
     assert names["force"](np.full((2, 1), delta), rate).shape == (2, 4)
@@ -366,7 +366,7 @@ def test_command_writes_the_same_file_without_sympy(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "says"),
+    ("arguments", "message"),
     [
         (["absent.toml", "--out", "x.py"], "absent.toml: cannot read the scene file"),
         (["fast.toml", "--out", "x.py"], "impact.speed: expected less than"),
@@ -380,7 +380,7 @@ def test_command_writes_the_same_file_without_sympy(tmp_path: Path) -> None:
 )
 def test_invalid_input_gives_one_message_and_writes_no_file(
     arguments: list[str],
-    says: str,
+    message: str,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
@@ -392,6 +392,6 @@ def test_invalid_input_gives_one_message_and_writes_no_file(
     before = {path: path.read_bytes() for path in Path().iterdir()}
     assert main(["generate", "--scene", *arguments]) == 2
     shown = capsys.readouterr().err
-    assert says in shown
+    assert message in shown
     assert shown.startswith("platecontact: ")
     assert {path: path.read_bytes() for path in Path().iterdir()} == before

@@ -80,11 +80,11 @@ def test_plates_with_inertia_keep_every_warning() -> None:
     fast = {"impact": {"speed": 6.0}}
     for effects in ({"inertia": False}, {"inertia": True}):
         result = simulate(scene(**fast, effects=effects | {"plasticity": False}))
-        said = " ".join(result.warnings)
-        assert f"exceeds {STRETCH_LIMIT}" in said
-        assert f"exceeds {YIELD_LIMIT}" in said
-        assert "times the strength" in said
-        assert "times the yield stress" in said
+        output = " ".join(result.warnings)
+        assert f"exceeds {STRETCH_LIMIT}" in output
+        assert f"exceeds {YIELD_LIMIT}" in output
+        assert "times the strength" in output
+        assert "times the yield stress" in output
 
 
 def test_warning_of_the_largest_deflection_at_any_time() -> None:

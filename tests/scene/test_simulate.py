@@ -188,7 +188,7 @@ def test_indent_accepts_a_single_number() -> None:
 
 
 @pytest.mark.parametrize(
-    ("given", "says"),
+    ("given", "message"),
     [
         ({}, "exactly one of contact_radius, force and indentation, got none"),
         ({"force": 1.0, "indentation": 1e-3}, "got force and indentation"),
@@ -207,8 +207,8 @@ def test_indent_accepts_a_single_number() -> None:
     ],
 )
 @pytest.mark.filterwarnings("error")
-def test_indent_rejects_invalid_values(given: dict[str, Any], says: str) -> None:
-    with pytest.raises(SceneError, match=says):
+def test_indent_rejects_invalid_values(given: dict[str, Any], message: str) -> None:
+    with pytest.raises(SceneError, match=message):
         indent(read(changed()), **given)
 
 
@@ -218,8 +218,10 @@ def test_examples_can_be_simulated(path: Path) -> None:
     # All other examples have a warning.
     calm = {"paper", "concrete_floor", "membrane", "pad"}
     # The membrane almost separates from the sphere during the first contact.
-    told = [text for text in result.warnings if path.stem != "membrane" or "grazing" not in text]
-    assert (told == []) == (path.stem in calm)
+    reported = [
+        text for text in result.warnings if path.stem != "membrane" or "grazing" not in text
+    ]
+    assert (reported == []) == (path.stem in calm)
     assert result.contact_time > 0
 
 

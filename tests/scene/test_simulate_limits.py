@@ -127,8 +127,8 @@ def test_html_animation_contains_its_frames(monkeypatch: pytest.MonkeyPatch) -> 
 
 
 def test_infinite_plate_is_stated() -> None:
-    told = explain(moving(inertia={"extent": "infinite", "modes": "auto"}))
-    assert any("no wave returns" in note for note in told.notes)
+    explanation = explain(moving(inertia={"extent": "infinite", "modes": "auto"}))
+    assert any("no wave returns" in note for note in explanation.notes)
 
 
 def test_bound_names_its_outputs() -> None:
@@ -164,7 +164,7 @@ def test_compressive_stress_predicts_no_failure() -> None:
 
 
 @pytest.mark.parametrize(
-    ("speeds", "least", "says"),
+    ("speeds", "least", "message"),
     [
         (
             [1.0, GRAZING / 2],
@@ -179,9 +179,9 @@ def test_compressive_stress_predicts_no_failure() -> None:
         ([1.0], 1.0, ""),
     ],
 )
-def test_grazing_recontact_gives_a_warning(speeds: list[float], least: float, says: str) -> None:
-    assert says in "".join(limits.contact_warnings(speeds, least))
-    assert bool(limits.contact_warnings(speeds, least)) == bool(says)
+def test_grazing_recontact_gives_a_warning(speeds: list[float], least: float, message: str) -> None:
+    assert message in "".join(limits.contact_warnings(speeds, least))
+    assert bool(limits.contact_warnings(speeds, least)) == bool(message)
 
 
 def test_pressure_warning_of_a_viscoelastic_contact() -> None:
@@ -201,7 +201,7 @@ def test_material_without_density_gives_no_mass() -> None:
 
 
 @pytest.mark.parametrize(
-    ("scene", "rtol", "says"),
+    ("scene", "rtol", "message"),
     [
         (
             moving(inertia={"modes": 60}),
@@ -212,11 +212,11 @@ def test_material_without_density_gives_no_mass() -> None:
     ],
 )
 def test_unattainable_tolerance_is_rejected_with_the_smallest_one(
-    scene: Any, rtol: float, says: str
+    scene: Any, rtol: float, message: str
 ) -> None:
-    with pytest.raises(SceneError, match=r"rtol: expected at least \S+ " + says) as told:
+    with pytest.raises(SceneError, match=r"rtol: expected at least \S+ " + message) as error:
         simulate(scene, rtol=rtol)
-    (least,) = re.findall(r"at least (\S+)", str(told.value))
+    (least,) = re.findall(r"at least (\S+)", str(error.value))
     assert simulate(scene, rtol=1.01 * float(least)).accuracy.bound <= 1.01 * float(least)
 
 
@@ -270,27 +270,27 @@ def law(effects: frozenset[str] = MOVING, **changes: Any) -> ContactLaw:
 
 
 @pytest.mark.parametrize(
-    ("name", "value", "says"),
+    ("name", "value", "message"),
     [
         ("SHORTEST", 10.0, "the contact at 0 s has no solution"),
         ("ELEMENTS", 4, "still in contact .* limit of 4 time steps"),
     ],
 )
 def test_first_contact_without_end_is_rejected(
-    name: str, value: float, says: str, monkeypatch: pytest.MonkeyPatch
+    name: str, value: float, message: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     problem = waves.problem_of(law(), 8)
     monkeypatch.setattr(contact_sequence, name, value)
-    with pytest.raises(SceneError, match=rf"effects\.inertia: .*{says}"):
+    with pytest.raises(SceneError, match=rf"effects\.inertia: .*{message}"):
         contact_sequence.impact_history(problem, 10)
 
 
 def test_reasons_for_a_failed_contact() -> None:
     problem = waves.problem_of(law(), 8)
     widest = problem.contact.top / problem.a
-    told = contact_errors.lost(problem, problem.begin(), widest, 0.0)
-    assert f"grows wider than {problem.contact.top:.4g} m" in told.why
-    assert "impact.speed" in told.remedy
+    failure = contact_errors.lost(problem, problem.begin(), widest, 0.0)
+    assert f"grows wider than {problem.contact.top:.4g} m" in failure.why
+    assert "impact.speed" in failure.remedy
 
 
 def test_sphere_too_heavy_to_rebound_is_rejected() -> None:

@@ -117,14 +117,14 @@ def test_recontact_does_not_depend_on_the_recovery_threshold(
 def test_long_run_reports_progress(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(contact_sequence, "PROGRESS", 1)
     law = ContactLaw(model_of(scene()), PAPER | {"inertia"})
-    problem, told = waves.problem_of(law, 4), list[str]()
-    with activity.heard(told.append):
+    problem, reported = waves.problem_of(law, 4), list[str]()
+    with activity.heard(reported.append):
         contact_sequence.impact_history(problem, 10)
-    assert told
-    count = len(told)
-    assert all("after first contact" in text for text in told)
+    assert reported
+    count = len(reported)
+    assert all("after first contact" in text for text in reported)
     contact_sequence.impact_history(problem, 10)
-    assert len(told) == count
+    assert len(reported) == count
 
 
 def test_slow_modes_exclude_contact_for_a_time() -> None:

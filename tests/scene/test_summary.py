@@ -135,14 +135,14 @@ def test_summary_has_the_results_with_their_significant_digits(example: Path) ->
 @every_example
 def test_summary_states_accuracy_and_effects(example: Path) -> None:
     result = result_of(example)
-    said = " ".join(str(result).split())
-    assert result.accuracy.summary in said
-    assert result.effects.summary in said
+    output = " ".join(str(result).split())
+    assert result.accuracy.summary in output
+    assert result.effects.summary in output
     bound = float(re.search(r"at most (\S+)", result.accuracy.summary)[1])  # type: ignore[index]
     assert result.accuracy.bound <= bound <= 1.1 * result.accuracy.bound
-    assert ("model error" in said) == bool(result.model_error)
+    assert ("model error" in output) == bool(result.model_error)
     for row in result.effects.rows:
-        assert not row.disabled or row.name in said
+        assert not row.disabled or row.name in output
     assert set(result.effects.included) == {r.name for r in result.effects.rows if r.included}
 
 
@@ -207,9 +207,9 @@ def test_quiet_output_has_only_name_value_and_unit(tmp_path: Path, capsys: Captu
 )
 def test_mutually_exclusive_options_are_rejected(options: list[str], capsys: Captured) -> None:
     assert main(["simulate", str(PAPER), *options]) == 2
-    said = capsys.readouterr().err
-    assert "cannot be combined with" in said
-    assert all(option in said for option in options if option.startswith("--"))
+    output = capsys.readouterr().err
+    assert "cannot be combined with" in output
+    assert all(option in output for option in options if option.startswith("--"))
 
 
 def test_summary_of_an_incomplete_impact_states_it_first(

@@ -76,9 +76,9 @@ def test_sweep_of_only_rejected_values_fails_and_writes_no_file(
     csv_file, json_file = tmp_path / "rows.csv", tmp_path / "rows.json"
     arguments = ["simulate", str(PAPER), "--sweep", "impact.speed=-3:-1:3"]
     assert main([*arguments, "--csv", str(csv_file), "--json", str(json_file)]) == 2
-    said = capsys.readouterr().err
-    assert "impact.speed = -3" in said
-    assert "all 3" in said
+    output = capsys.readouterr().err
+    assert "impact.speed = -3" in output
+    assert "all 3" in output
     assert list(tmp_path.iterdir()) == []
 
 

@@ -89,7 +89,7 @@ def test_another_seed_gives_other_points() -> None:
 
 
 @pytest.mark.parametrize(
-    ("wrong", "said"),
+    ("wrong", "message"),
     [
         (["plate.thicknes=1:2:3"], "did you mean plate.thickness?"),
         (["plate.thickness=1:2:3", "plate.thickness=1:2:3"], "got it twice"),
@@ -99,14 +99,14 @@ def test_another_seed_gives_other_points() -> None:
         ([f"{k}=1:2:99999" for k in ("impact.speed", "sphere.radius")], "expected 1 to"),
     ],
 )
-def test_invalid_grids_are_rejected(wrong: list[str], said: str) -> None:
+def test_invalid_grids_are_rejected(wrong: list[str], message: str) -> None:
     with pytest.raises(SceneError, match="expected") as error:
         plan.grid(wrong)
-    assert said in str(error.value)
+    assert message in str(error.value)
 
 
 @pytest.mark.parametrize(
-    ("line", "said"),
+    ("line", "message"),
     [
         ('"impact.speed" = {distribution = "unifrom", low = 1, high = 2}', "did you mean uniform"),
         ('"impact.speed" = {distribution = "uniform", low = 2, high = 1}', "expected low < high"),
@@ -116,12 +116,12 @@ def test_invalid_grids_are_rejected(wrong: list[str], said: str) -> None:
         ("impact.speed = [", "not valid TOML"),
     ],
 )
-def test_invalid_distributions_are_rejected(tmp_path: Path, line: str, said: str) -> None:
+def test_invalid_distributions_are_rejected(tmp_path: Path, line: str, message: str) -> None:
     place = tmp_path / "vary.toml"
     place.write_text(f"[vary]\n{line}\n")
     with pytest.raises(SceneError) as error:
         load_distributions(place)
-    assert said in str(error.value)
+    assert message in str(error.value)
     assert "vary.toml" in str(error.value)
 
 

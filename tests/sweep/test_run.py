@@ -60,11 +60,11 @@ def test_interrupted_run_states_how_to_continue(tmp_path: Path) -> None:
     process = begin("--vary", "impact.speed=0.5:2:20000", "--out", str(out))
     wait(lambda: parts(out))
     process.send_signal(signal.SIGINT)
-    _, said = process.communicate(timeout=PATIENCE)
+    _, output = process.communicate(timeout=PATIENCE)
     assert process.returncode == 2
-    assert "Traceback" not in said
-    assert "of 20,000 points" in said
-    assert "run the same command again" in " ".join(said.split())
+    assert "Traceback" not in output
+    assert "of 20,000 points" in output
+    assert "run the same command again" in " ".join(output.split())
     assert not out.exists()
 
 
@@ -103,8 +103,8 @@ def test_loss_of_a_cluster_worker_loses_no_results(
             process = begin(*study)
             wait(lambda: len(parts(out)) >= 2)
             workers[0].kill()
-            _, said = process.communicate(timeout=PATIENCE)
-            assert process.returncode == 0, said
+            _, output = process.communicate(timeout=PATIENCE)
+            assert process.returncode == 0, output
             assert (journal(out, POINTS) == 1).all()
             assert out.read_bytes() == whole(tmp_path / "whole.csv")
         first.kill()
@@ -117,9 +117,9 @@ def test_missing_scheduler_is_reported(
     for address in ("tcp://127.0.0.1:9", "nowhere:x"):
         arguments = ["--out", str(tmp_path / "rows.csv"), "--scheduler", address]
         assert main(["sweep", str(QUICK), *STUDY, *arguments]) == 2
-        said = capsys.readouterr().err
-        assert "expected a Dask scheduler with a worker" in said
-        assert "Traceback" not in said
+        output = capsys.readouterr().err
+        assert "expected a Dask scheduler with a worker" in output
+        assert "Traceback" not in output
 
 
 def test_workers_of_another_version_are_rejected() -> None:

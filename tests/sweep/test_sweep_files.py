@@ -186,7 +186,7 @@ def test_interrupted_write_leaves_the_old_file(
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "output"),
     [
         (["--out", "rows.xls"], ".xls"),
         (["--sample", "10"], "--vary"),
@@ -200,11 +200,11 @@ def test_interrupted_write_leaves_the_old_file(
 )  # fmt: skip
 def test_invalid_studies_are_rejected_before_the_computation(
     formula: Formula, tmp_path: Path, capsys: Captured, monkeypatch: pytest.MonkeyPatch,
-    arguments: list[str], said: str,
+    arguments: list[str], output: str,
 ) -> None:  # fmt: skip
     monkeypatch.chdir(tmp_path)
     assert main(["sweep", str(QUICK), "--vary", "impact.speed=1:2:3", *arguments]) == 2
-    assert said in capsys.readouterr().err
+    assert output in capsys.readouterr().err
     assert not formula.calls
     assert not list(tmp_path.iterdir())
 

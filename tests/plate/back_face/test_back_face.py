@@ -118,10 +118,10 @@ def test_thin_plates_differ_by_a_logarithm() -> None:
         with flint.ctx.workprec(BITS):
             start = back_face_balls.far_sum(A / 64, 1 / 64, 1, 25)
             for power in (-10, -170):
-                true = start + 3 * (arb(2) ** (-power) / 64).log()
+                exact = start + 3 * (arb(2) ** (-power) / 64).log()
                 h = 2.0**power
                 got = scaled(kernels.far_stress(1.0, A * h, h, 1.0, 0.0, 1.0), 1.0, h, 0.0)
-                assert abs(got / float(true) - 1) < 3e-15, (A, power)
+                assert abs(got / float(exact) - 1) < 3e-15, (A, power)
 
 
 def test_results_are_nan_outside_the_domain() -> None:
@@ -229,8 +229,8 @@ def test_failure_is_predicted_on_one_side_of_the_strength() -> None:
     stress = simulate(pane()).max_tensile_stress
     for factor, breaks in ((0.999, True), (1.001, False)):
         result = simulate(pane(tensile_strength=factor * stress))
-        said = [text for text in result.warnings if "predicted to fail" in text]
-        assert bool(said) is breaks
+        failures = [text for text in result.warnings if "predicted to fail" in text]
+        assert bool(failures) is breaks
         assert bool(result.strength_note) is not breaks
     assert simulate(pane()).strength_note == ""
 

@@ -151,7 +151,7 @@ def test_contact_too_small_for_a_direct_sum_is_measured(
 
 
 @pytest.mark.parametrize(
-    ("arguments", "says"),
+    ("arguments", "expected"),
     [
         (["--method", "nonsense"], "nonsense"),
         (["--scene", "/nowhere/scene.toml"], "/nowhere/scene.toml"),
@@ -159,12 +159,12 @@ def test_contact_too_small_for_a_direct_sum_is_measured(
     ],
 )
 def test_invalid_input_gives_one_message(
-    arguments: list[str], says: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    arguments: list[str], expected: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     out = [] if "--out" in arguments else ["--out", str(tmp_path / "x.json")]
     assert main(["accuracy", *arguments, *out]) == 2
     message = capsys.readouterr().err
-    assert says in message
+    assert expected in message
     assert "Traceback" not in message
     assert list(tmp_path.iterdir()) == []
 

@@ -48,7 +48,7 @@ def test_methods_fail_as_recorded() -> None:
     rows = json.loads(pipeline.MEASURED_ACCURACY.read_text())["rows"]
     names = "task", "regime", "family", "setting", "arithmetic"
     recorded = {tuple(row[name] for name in names): row["fails"] for row in rows}
-    told = 0
+    reported = 0
     for method in catalogue.methods():
         for regime in REGIMES:
             key = method.task, regime.name, method.family, method.setting, method.arithmetic
@@ -57,9 +57,9 @@ def test_methods_fail_as_recorded() -> None:
                 assert known is None or known.startswith(("no digit right", "gives no number"))
             else:
                 assert reason == known
-                told += 1
+                reported += 1
     assert recorded == {}
-    assert told > 20
+    assert reported > 20
 
 
 @pytest.mark.parametrize("regime", REGIMES, ids=lambda r: r.name)
@@ -265,10 +265,10 @@ def test_timed_methods_of_a_study_agree(monkeypatch: Patch) -> None:
             np.testing.assert_allclose(first(), second(), rtol=1e-12)
     found = dict(zip(METHODS, scaling.scenes(quick=True), strict=True))
     results = {name: growth[2][1]() for name, growth in found.items()}
-    true = results["full"].contact_time
-    np.testing.assert_allclose(results["coarse"].contact_time, true, rtol=1e-8)
+    reference = results["full"].contact_time
+    np.testing.assert_allclose(results["coarse"].contact_time, reference, rtol=1e-8)
     for name in ("hertz", "leading"):
-        known = [(x, t) for x, t in zip(results[name], true, strict=True) if x is not None]
+        known = [(x, t) for x, t in zip(results[name], reference, strict=True) if x is not None]
         assert known
         assert all(abs(x.contact_time / t - 1) <= x.law + 1e-12 for x, t in known)
     assert list(dict(scaling.studies(quick=True))) == ["points", "b/h", "digits", "scenes"]
@@ -291,14 +291,14 @@ def test_results_of_programs_are_read_or_reported_missing(monkeypatch: Patch) ->
 
 
 @pytest.mark.parametrize(
-    ("python", "says"),
+    ("python", "message"),
     [
         (sys.executable, "not installed: ModuleNotFoundError"),
         ("/nowhere/python", "not installed: /nowhere/python: No such file or directory"),
     ],
 )
-def test_program_that_cannot_start_is_reported_missing(python: str, says: str) -> None:
-    assert (tools.run("LAMMPS", {tools.VARIABLE: python})[0].missing or "").startswith(says)
+def test_program_that_cannot_start_is_reported_missing(python: str, message: str) -> None:
+    assert (tools.run("LAMMPS", {tools.VARIABLE: python})[0].missing or "").startswith(message)
 
 
 def test_program_that_fails_or_hangs_is_reported_missing(monkeypatch: Patch) -> None:

@@ -110,8 +110,8 @@ def test_arithmetics_agree_with_interval_arithmetic(ar, right: float) -> None:
         y = ar.array(given)
         balls = exact.array([as_ball(x) for x in y])
         for name in ("shape", "wall_shape", "excess"):
-            values, true = getattr(ar, name)(y), getattr(exact, name)(balls)
-            assert min(map(digits, values, true, [60] * len(y))) > right, name
+            values, reference = getattr(ar, name)(y), getattr(exact, name)(balls)
+            assert min(map(digits, values, reference, [60] * len(y))) > right, name
         turned = [as_ball(x.imag) for x in ar.turned(y)]
         assert min(map(digits, turned[1:], exact.shape(balls)[1:], [60] * 4)) > right - 1.5
 
@@ -131,9 +131,9 @@ def test_zeros_agree_with_certified_ones(ar, number: int) -> None:
 def test_constants_of_long_doubles_have_full_precision() -> None:
     for ar in [Mpmath(30), *([LONG] if HAS_LONG else [])]:
         (found,) = sums.split(72, 6, ar).ready(PAPER)(RADII[-1:])
-        true = contact_balls.indentation(0.03, PAPER.R, PAPER.h, PAPER.b, 40)
+        reference = contact_balls.indentation(0.03, PAPER.R, PAPER.h, PAPER.b, 40)
         with flint.ctx.workprec(160):
-            assert digits(found, true, 40) > min(ar.digits - 2, 27)
+            assert digits(found, reference, 40) > min(ar.digits - 2, 27)
 
 
 def test_single_precision_is_kept() -> None:
@@ -150,9 +150,9 @@ def test_single_precision_is_kept() -> None:
 def test_coefficients_agree_with_the_reference(h: float, order: int) -> None:
     """The coefficients agree with the reference to 1e-30 of the sum at a/h = 0.5."""
     found = coefficients(replace(PAPER, h=h, speed=1e-3), 12, 30)[order // 2]
-    true = contact_balls.coefficient(order, h, 1.0, 32)
+    reference = contact_balls.coefficient(order, h, 1.0, 32)
     with flint.ctx.workprec(160):
-        assert abs(found - true) / 2**order < 1e-30
+        assert abs(found - reference) / 2**order < 1e-30
 
 
 @pytest.mark.parametrize("double_exponential", [True, False])
@@ -161,8 +161,8 @@ def test_both_quadrature_rules_give_the_moments_of_the_side_wall(double_exponent
     nodes, weights = sums.wall_nodes(64, 16, double_exponential, 120)
     y, w = (np.array([float(x) for x in column]) for column in (nodes, weights))
     for n in (0, 2, 4):
-        true = float(contact_balls.kappa(n, 20))
-        off = abs((w * y ** (n + 3)).sum() / true - 1)
+        reference = float(contact_balls.kappa(n, 20))
+        off = abs((w * y ** (n + 3)).sum() / reference - 1)
         assert off < (1e-13 if double_exponential else 1e-8)  # limited by the logarithm of K0 at 0
 
 
@@ -237,8 +237,8 @@ def test_law_of_the_paper_agrees_with_another_reference_to_many_digits(
     set_task = problems.problem("law", PAPER, quick=False)
     assert set_task.digits == 40
     for a, value in list(zip(set_task.points, set_task.reference_values, strict=True))[:3]:
-        true = contact_balls.indentation(float(a), PAPER.R, PAPER.h, PAPER.b, 42)
-        assert digits(value, true, 50) > 39
+        reference = contact_balls.indentation(float(a), PAPER.R, PAPER.h, PAPER.b, 42)
+        assert digits(value, reference, 50) > 39
 
 
 # --- truncation and rounding
@@ -372,7 +372,7 @@ def test_digits_of_nan_and_of_exact_values() -> None:
 
 def test_radius_of_an_interval_is_rounding(bounced, monkeypatch) -> None:
     """The radius of an interval is unchanged without the bounds of omitted terms."""
-    p, made, asked = PAPER, contact_sums._panels, []
+    p, made, called_with = PAPER, contact_sums._panels, []
 
     def computed() -> list[arb]:
         return [
@@ -382,14 +382,14 @@ def test_radius_of_an_interval_is_rounding(bounced, monkeypatch) -> None:
 
     def without(*arguments):
         panels, _ = made(*arguments)
-        asked.append(arguments)
+        called_with.append(arguments)
         return tuple(panel._replace(bound=arb(0)) for panel in panels), arb(0)
 
     whole = computed()
     monkeypatch.setattr(contact_sums, "_panels", without)
     for ball, bare in zip(whole, computed(), strict=True):
         assert float(bare.rad() / ball.rad()) == pytest.approx(1, rel=1e-6)
-    assert asked
+    assert called_with
     monkeypatch.undo()
     found = judge(shipped.oracle("impact", 30), bounced, lambda: 0.0).errors
     assert (found.truncation, found.unsplit) == (None, None)

@@ -304,27 +304,27 @@ def test_errors_are_in_units_of_the_format() -> None:
     (both moduli together).
     """
     point = (0.25, 2.0, 0.0, 0.75)
-    true = contact_reference.reference_value(("force_of_radius", point))
+    exact = contact_reference.reference_value(("force_of_radius", point))
     total = contact_judge.conditioning(contact_law.force_of_radius, point)
     assert total == pytest.approx([5.0], rel=1e-8)
     for fmt in (DOUBLE, SINGLE):
         kind = np.dtype(fmt.name).type
-        right = kind(float(flint.arb(true.values[0])))
+        right = kind(float(flint.arb(exact.values[0])))
 
         def off(*_: float, ulps: int = 0, right: Any = right) -> Any:
             return right + ulps * np.spacing(right)
 
-        kept = contact_judge.judge(off, [true], 8.0, fmt)
+        kept = contact_judge.judge(off, [exact], 8.0, fmt)
         assert kept.kept(fmt)
         assert kept.max_ulp <= 0.5
-        broken = contact_judge.judge(partial(off, ulps=11), [true], 8.0, fmt)
+        broken = contact_judge.judge(partial(off, ulps=11), [exact], 8.0, fmt)
         assert not broken.kept(fmt)
         assert 10.0 < broken.needed <= 11.5  # a constant function has no condition number
-    nan = contact_judge.judge(lambda *_: np.float64(math.nan), [true], 8.0)
+    nan = contact_judge.judge(lambda *_: np.float64(math.nan), [exact], 8.0)
     assert nan.ratio == math.inf
-    always_double = contact_judge.judge(contact_law.force_of_radius, [true], 8.0, SINGLE)
+    always_double = contact_judge.judge(contact_law.force_of_radius, [exact], 8.0, SINGLE)
     assert always_double.kept(SINGLE)
-    wrong_type = contact_judge.judge(lambda *_: np.float64(0.1), [true], 8.0, SINGLE)
+    wrong_type = contact_judge.judge(lambda *_: np.float64(0.1), [exact], 8.0, SINGLE)
     assert not wrong_type.kept(SINGLE)
     assert wrong_type.dtype == "float64"
 
@@ -348,10 +348,10 @@ def test_grids_are_inside_the_plate() -> None:
 
 def test_several_processes_give_the_same_result() -> None:
     jobs = [("stiffness", shape) for shape in contact_grid.grid("stiffness")[100:102]]
-    told: list[tuple[str, int, int]] = []
+    reported: list[tuple[str, int, int]] = []
     alone = contact_reference.reference_values(jobs)
-    assert contact_reference.reference_values(jobs, 2, lambda *what: told.append(what)) == alone
-    assert told == [("stiffness", 1, 2), ("stiffness", 2, 2)]
+    assert contact_reference.reference_values(jobs, 2, lambda *what: reported.append(what)) == alone
+    assert reported == [("stiffness", 1, 2), ("stiffness", 2, 2)]
 
 
 def test_record_covers_the_stated_range() -> None:

@@ -128,8 +128,8 @@ def test_clamp_changes_small_contacts_by_a_known_factor(h: float, ratio: float) 
 def test_generated_edge_rotation_equals_the_reference() -> None:
     """`turn_of_clamp`, which other generated modules use, equals the reference constant."""
     n = np.array([-0.4, 0.0, 0.3, 0.9])
-    true = [float(clamp_balls.constants(Fraction(x))[0]) for x in n]
-    np.testing.assert_allclose(turn_of_clamp(n), true, rtol=1e-15)
+    reference = [float(clamp_balls.constants(Fraction(x))[0]) for x in n]
+    np.testing.assert_allclose(turn_of_clamp(n), reference, rtol=1e-15)
 
 
 def test_clamp_is_stiffer_than_in_thin_plate_theory() -> None:
@@ -212,6 +212,6 @@ def test_generated_bound_agrees_with_the_formula() -> None:
     for h, ratio in itertools.product((0.003, 0.4, 1.7), (-0.7, 0.2, 0.45)):
         first, second = lame(ratio)
         numbers = {alpha: 0.3, eta: h, lam: first, mu: second}
-        true = float(evaluate(expression, {s: Fraction(x) for s, x in numbers.items()}, 20))
+        reference = float(evaluate(expression, {s: Fraction(x) for s, x in numbers.items()}, 20))
         got = float(kernels.clamped_edge_bound(0.3, h, 1.0, first, second))
-        assert got == pytest.approx(true, rel=1e-14)
+        assert got == pytest.approx(reference, rel=1e-14)

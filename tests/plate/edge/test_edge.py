@@ -199,10 +199,10 @@ def test_generated_bound_agrees_with_the_formula() -> None:
         first, second = lame(ratio)
         numbers = {alpha: 0.3, eta: thickness, lam: first, mu: second}
         with flint.ctx.workprec(BITS):
-            true = enclose(formula.expression, {s: to_ball(x) for s, x in numbers.items()})
-            true *= to_ball(edge_balls.support_ratio(first, second))
+            exact = enclose(formula.expression, {s: to_ball(x) for s, x in numbers.items()})
+            exact *= to_ball(edge_balls.support_ratio(first, second))
         got = float(kernels.supported_edge_bound(0.3, thickness, 1.0, first, second))
-        assert abs(true - got) < 1e-15 * got * (8 + 4 * abs(thickness))
+        assert abs(exact - got) < 1e-15 * got * (8 + 4 * abs(thickness))
 
 
 def test_constant_of_the_bound_exceeds_the_sum() -> None:
@@ -235,5 +235,5 @@ def test_edge_term_does_not_change_the_leading_term() -> None:
     """The edge term is proportional to a for small a, so the Hertz term stays the leading one."""
     small = kernels.supported_edge(np.array([1e-9, 1e-6]), 0.1, 1.0, *lame(0.3))
     assert math.isclose(float(small[1] / small[0]), 1e3, rel_tol=1e-9)
-    true = contact_balls.slope(1e-9, 1.0, 0.1, 1.0, 12)
-    assert abs(true / 2e-9 - 1) < 1e-6
+    exact = contact_balls.slope(1e-9, 1.0, 0.1, 1.0, 12)
+    assert abs(exact / 2e-9 - 1) < 1e-6

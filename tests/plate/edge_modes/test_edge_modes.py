@@ -285,9 +285,9 @@ def test_modes_of_thin_plates_agree_with_plate_theory(eta: float) -> None:
     ):
         found = WAVES_OF[edge](3, eta, nu)
         for n in (1, 2, 3):
-            true = held_balls.mode(edge, n, nu, 25)  # type: ignore[arg-type]
-            for name in true._fields:
-                value = float(getattr(true, name))
+            exact = held_balls.mode(edge, n, nu, 25)  # type: ignore[arg-type]
+            for name in exact._fields:
+                value = float(getattr(exact, name))
                 assert getattr(found, name)[n - 1] == pytest.approx(
                     value,
                     rel=1e-14 + 0.1 * eta,  # the compliance of the clamp

@@ -79,8 +79,10 @@ def test_sphere_function_is_within_its_budget() -> None:
             reference = (force, depth, (depth + edge) / 2)
             # The condition number of `edge` is at most 2 x^2/(1 - x^2).
             allowed = 8 + float(x * x / (1 - x * x))
-            for value, true in zip(sphere_contact(rho), reference, strict=True):
-                assert abs(mpf(float(value)) - true) < allowed * float(np.spacing(float(true)))
+            for value, exact_value in zip(sphere_contact(rho), reference, strict=True):
+                assert abs(mpf(float(value)) - exact_value) < allowed * float(
+                    np.spacing(float(exact_value))
+                )
 
 
 def test_side_wall_is_within_its_budget() -> None:
@@ -97,8 +99,8 @@ def test_side_wall_is_within_its_budget() -> None:
                 * mp.besselk(0, u**3) / mp.besseli(0, u**3),
                 [mpf("1e-6"), 0.1, 0.5, 1, 2, 3, 4.4],
             )  # fmt: skip
-            true = -8 / (mp.pi**2 * a**2) * integral
-            assert abs(mpf(float(side_wall(alpha).depth)) / true - 1) < 1e-14
+            exact_value = -8 / (mp.pi**2 * a**2) * integral
+            assert abs(mpf(float(side_wall(alpha).depth)) / exact_value - 1) < 1e-14
     alpha = np.linspace(0.01, 0.99, 50)
     step = 1e-5
     low, high = (side_wall(alpha * f).depth * (alpha * f) ** 2 for f in (1 - step, 1 + step))
@@ -124,8 +126,8 @@ def test_parameters_of_plate_motion_agree_with_their_definitions() -> None:
     E, H = 4 * mu * (lam + mu) / (lam + 2 * mu), 2 * h
     D, K = E * H**3 / 12, 4 / 3 * E * math.sqrt(R)
     T = (m**2 / (K**2 * v0)) ** 0.2
-    true = m / (8 * T * math.sqrt(D * rho * H))
-    assert zener_number(R, m, v0, h, lam, mu, rho) == pytest.approx(true, rel=1e-14)
+    exact_value = m / (8 * T * math.sqrt(D * rho * H))
+    assert zener_number(R, m, v0, h, lam, mu, rho) == pytest.approx(exact_value, rel=1e-14)
     omega = 2.404825557695773**2 / b**2 * math.sqrt(D / (rho * H))
     period = bending_period(h, b, lam, mu, rho)
     assert period == pytest.approx(2 * math.pi / omega, rel=1e-14)

@@ -222,11 +222,11 @@ def test_origin_changes_only_with_code(tmp_path: Path, monkeypatch: pytest.Monke
 
     def origins() -> list[str]:
         hard_origin.of_modules.cache_clear()
-        names = ("plain", "said", "other")
+        names = ("plain", "documented", "other")
         return [hard_origin.of_modules((f"some_paper.{name}",)) for name in names]
 
-    plain, said, other = before = origins()
-    assert plain == said != other
+    plain, documented, other = before = origins()
+    assert plain == documented != other
     (package / "part.py").write_text("def g(x):\n    return 2 * x\n")
     assert not set(before) & set(origins())
 
@@ -238,12 +238,12 @@ def test_interrupted_record_is_continued(
     recorded, part = tmp_path / "hard.json", tmp_path / "hard.part.json"
     given = [case for case in suite.cases if case.kernel == "G" and case.expect == "value"][:4]
     few, references = dataclasses.replace(suite, cases=tuple(given)), Suite.references
-    sought: list[str] = []
+    computed: list[str] = []
 
     def seek(self: Suite, case: HardCase) -> list[Stored]:
-        if len(sought) == 2:
+        if len(computed) == 2:
             raise KeyboardInterrupt
-        sought.append(case.key)
+        computed.append(case.key)
         return references(self, case)
 
     def found() -> dict[str, Known]:
@@ -252,28 +252,28 @@ def test_interrupted_record_is_continued(
     monkeypatch.setattr(Suite, "references", seek)
     with pytest.raises(KeyboardInterrupt):
         found()
-    assert sought == [case.key for case in given[:2]]
-    sought.clear()
+    assert computed == [case.key for case in given[:2]]
+    computed.clear()
     assert list(found()) == [case.key for case in given]
-    assert sought == [case.key for case in given[2:]]
+    assert computed == [case.key for case in given[2:]]
     part.rename(recorded)
-    sought.clear()
+    computed.clear()
     whole = found()
-    assert not sought
+    assert not computed
     assert [list(whole[case.key].references) for case in given] == [
         references(suite, case) for case in given
     ]
     monkeypatch.setattr(Suite, "origin", lambda *_: "something else")
     with pytest.raises(KeyboardInterrupt):
         found()
-    assert sought == [case.key for case in given[:2]]
+    assert computed == [case.key for case in given[:2]]
 
 
 # --- format of the cases
 
 
 @pytest.mark.parametrize(
-    ("change", "says"),
+    ("change", "message"),
     [
         ({"form": "curled"}, "form"),
         ({"expect": "luck"}, "expect must be"),
@@ -283,10 +283,10 @@ def test_interrupted_record_is_continued(
         ({"form": "float32", "inputs": {"T": ("0x1.0000000000001p+0",)}}, "single"),
     ],
 )
-def test_invalid_cases_are_rejected(change: dict[str, Any], says: str) -> None:
+def test_invalid_cases_are_rejected(change: dict[str, Any], message: str) -> None:
     sound = HardCase("group", "G", "A sentence.", {"T": ("0x1p+0",)})
     assert checked(sound) == sound
-    with pytest.raises(ValueError, match=says):
+    with pytest.raises(ValueError, match=message):
         checked(dataclasses.replace(sound, **change))
 
 

@@ -111,7 +111,7 @@ def test_origin_includes_the_modules_of_the_reference(
             patched.setattr(
                 Path,
                 "read_text",
-                lambda path, **said: changed if path == place else read(path, **said),
+                lambda path, **options: changed if path == place else read(path, **options),
             )
             hard_origin.of_modules.cache_clear()
             return {name: suite.origin(name) for name in before}

@@ -290,10 +290,10 @@ def test_every_result_is_compared_with_the_second_reference(
 
     monkeypatch.setattr(residue_law, name, off)
     assert main(["reference", str(PAPER), "--digits", "15"]) == 1
-    said = capsys.readouterr().out
+    output = capsys.readouterr().out
     wrong = 4 if name == "impact" else 3
-    assert len(re.findall(r"agrees to 1\d of 15 digits", said)) == 10
-    assert said.count("agrees to 15 of 15 digits") == 10 - wrong
+    assert len(re.findall(r"agrees to 1\d of 15 digits", output)) == 10
+    assert output.count("agrees to 15 of 15 digits") == 10 - wrong
 
 
 def test_unavailable_reference_gives_a_message(

@@ -237,13 +237,13 @@ def test_comparison_changes_no_result(name: str, rtol: float | None) -> None:
 
 def test_comparison_is_not_an_effect() -> None:
     """The comparison is not an effect: table, static contact and reference stay unchanged."""
-    asked, plain = read(compared(compare_paper_motion=True)), read(compared())
-    assert repr(explain(asked).effects) == repr(explain(plain).effects)  # NaN != NaN
-    assert indent(asked, force=[10.0]) == indent(plain, force=[10.0])
+    requested, plain = read(compared(compare_paper_motion=True)), read(compared())
+    assert repr(explain(requested).effects) == repr(explain(plain).effects)  # NaN != NaN
+    assert indent(requested, force=[10.0]) == indent(plain, force=[10.0])
     wanted = compared(compare_paper_motion=True), compared()
     one, other = (derivation.checks.effects.everything(data) for data in wanted)
     assert one == other is not None
-    assert in_doubles(asked).contact_time == in_doubles(plain).contact_time
+    assert in_doubles(requested).contact_time == in_doubles(plain).contact_time
 
 
 def test_fast_methods_are_used_with_the_comparison(monkeypatch: pytest.MonkeyPatch) -> None:

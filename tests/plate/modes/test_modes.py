@@ -203,5 +203,5 @@ def test_truncated_series_are_accurate_up_to_the_end_of_their_range(name: str) -
     found = getattr(generated_blocks, name)(points)
     with flint.ctx.workprec(3000):
         for point, got in zip(points.tolist(), found.tolist(), strict=True):
-            true = float(enclose(section.total, {square: flint.arb(point)}))
-            assert abs(got - true) <= 2.0 * math.ulp(true)
+            exact = float(enclose(section.total, {square: flint.arb(point)}))
+            assert abs(got - exact) <= 2.0 * math.ulp(exact)

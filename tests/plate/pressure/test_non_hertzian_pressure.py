@@ -143,15 +143,15 @@ def test_stated_limit_is_the_recorded_one() -> None:
 def test_sphere_and_its_elasticity_agree_with_the_reference(
     a: float, v: float, sphere: float
 ) -> None:
-    true = pressure_balls.solve(pressure_balls.case(a, 1.0, v, sphere, 0.75), 20)
+    exact = pressure_balls.solve(pressure_balls.case(a, 1.0, v, sphere, 0.75), 20)
     got = contact(plate(1.0, v), a, sphere, 0.75 * E, E, sphere=True)
     scale = 0.75 * E
     for value, ball in (
-        (got.force * sphere / (scale * a**3), true.force),
-        (got.indentation * sphere / a**2, true.depth),
-        (got.stiffness / (scale * a), true.stiffness),
-        (got.slope * sphere / a, true.slope),
-        (got.centre_pressure * sphere / (scale * a), true.centre),
+        (got.force * sphere / (scale * a**3), exact.force),
+        (got.indentation * sphere / a**2, exact.depth),
+        (got.stiffness / (scale * a), exact.stiffness),
+        (got.slope * sphere / a, exact.slope),
+        (got.centre_pressure * sphere / (scale * a), exact.centre),
     ):
         assert abs(float(value) - ball) < ERROR * abs(float(ball))
 

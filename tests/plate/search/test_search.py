@@ -185,7 +185,7 @@ def test_durations() -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "says"),
+    ("arguments", "expected"),
     [
         (["search", "--time", "soon"], "30s, 5m or 1h"),
         (["search", "--function", "nonsense"], "bessel_j1"),
@@ -193,11 +193,11 @@ def test_durations() -> None:
     ],
 )
 def test_invalid_input_is_rejected(
-    arguments: list[str], says: str, capsys: pytest.CaptureFixture[str]
+    arguments: list[str], expected: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     before = (ROOT / "pyproject.toml").read_bytes()
     assert main(["check", *arguments]) == 2
-    assert says in capsys.readouterr().err
+    assert expected in capsys.readouterr().err
     assert (ROOT / "pyproject.toml").read_bytes() == before
 
 

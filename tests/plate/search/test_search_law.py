@@ -105,9 +105,9 @@ def test_contact_wider_than_stated_has_no_reference(
 
 
 def test_function_with_too_many_results_is_rejected() -> None:
-    true = reference_value(("max_pressure", (0.1, 1.0, 1e9, 1e9)))
+    exact = reference_value(("max_pressure", (0.1, 1.0, 1e9, 1e9)))
     with pytest.raises(ValueError, match="2 results at "):
-        contact_judge.judge(lambda *_: (1.0, 2.0), [true], 1.0)
+        contact_judge.judge(lambda *_: (1.0, 2.0), [exact], 1.0)
 
 
 # --- no reference, or no neighbour

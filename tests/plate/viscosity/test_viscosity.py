@@ -291,13 +291,13 @@ def test_outputs_of_a_heavy_sphere_are_within_their_bounds(
     bound = {row.name: row.bound for row in selected.rows}["viscosity"]
     place = OUTPUTS.index(output)
     try:
-        true = moves(replace(selected.law, effects=selected.law.effects | {"viscosity"})).numbers[
+        exact = moves(replace(selected.law, effects=selected.law.effects | {"viscosity"})).numbers[
             place
         ]
     except SceneError:  # the sphere does not rebound
         assert bound == math.inf
     else:
-        assert abs(moves(selected.law).numbers[place] / true - 1.0) <= bound
+        assert abs(moves(selected.law).numbers[place] / exact - 1.0) <= bound
 
 
 def test_bending_is_included_with_the_edge() -> None:
@@ -319,10 +319,10 @@ def test_error_is_within_the_bound_on_both_sides_of_the_threshold(
 ) -> None:
     model = replace(BALL, edge=edge, gravity=gravity, h=0.008, retardation_time=3e-8)
     others = dict.fromkeys(ALL - {"hertz", "viscosity"}, True)
-    price = {row.name: row.bound for row in decide(model, AT_REST | others, 1e-12).rows}[
+    error_bound = {row.name: row.bound for row in decide(model, AT_REST | others, 1e-12).rows}[
         "viscosity"
     ]
-    for rtol, included in ((price / 2, True), (price * 1.05, False)):
+    for rtol, included in ((error_bound / 2, True), (error_bound * 1.05, False)):
         selected = decide(model, AT_REST | others, rtol)
         assert ("viscosity" in selected.law.effects) is included
         whole = moves(

@@ -174,11 +174,11 @@ def test_variational_law_has_the_third_coefficient_of_the_non_hertzian_law() -> 
     h, b, R = 0.2, 1.0, 1e3
     misses = []
     for A in (0.05, 0.1):
-        true = non_hertzian_pressure.contact(non_hertzian_pressure.plate(h, b), A * h, R, 2.0)
+        exact = non_hertzian_pressure.contact(non_hertzian_pressure.plate(h, b), A * h, R, 2.0)
         # E* = 2 with lam = 0, mu = 1: Hertz's radius of the same force.
-        a = float((0.75 * true.force * R / 2.0) ** (1 / 3))
+        a = float((0.75 * exact.force * R / 2.0) ** (1 / 3))
         laws = np.array([variational(a, h, b), contact_law.indentation(a, R, h, b)])
-        misses.append(laws / float(true.indentation) - 1.0)
+        misses.append(laws / float(exact.indentation) - 1.0)
     small, large = np.abs(misses)
     third = abs(float(derived_third(h, b)))
     assert small[1] == pytest.approx(5 / 3 * third * 0.05**3, rel=0.2)

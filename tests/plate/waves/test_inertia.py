@@ -81,11 +81,11 @@ def test_thin_plate_series_of_any_order() -> None:
     with flint.ctx.workprec(BITS):
         reference = inertia_balls.zero(x, nu, digits=25) / arb(x) ** 4
         answer = inertia_balls.residue(x, nu, digits=25)
-        for row, true in ((slopes, reference), (residues, answer)):
+        for row, exact in ((slopes, reference), (residues, answer)):
             total, errors = arb(0), []
             for n, coefficient in enumerate(row):
                 total += evaluate(coefficient, {gam: material(nu)}, 30) * arb(x) ** (2 * n)
-                errors.append(float(abs(total / true - 1)))
+                errors.append(float(abs(total / exact - 1)))
             assert errors[-1] < 1e-15
             assert all(after < 0.1 * before for before, after in itertools.pairwise(errors))
 

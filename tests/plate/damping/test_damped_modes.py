@@ -8,7 +8,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mpmath import mp, mpf
 
-from derivation.plate.damping import theory
 from generated.damping_kernels import free_loss, free_motion, power_lost, response
 
 RATIOS = [0.0, 1e-12, 1e-3, 0.05, 0.5, 0.99]
@@ -21,11 +20,6 @@ def exactly(phase: float, zeta: float) -> tuple[mpf, mpf, mpf, mpf, mpf]:
     ratio, turn = mpf(zeta), mpf(phase)
     root = mp.sqrt((1 - ratio) * (1 + ratio))
     return ratio, root, mp.exp(-ratio * turn), mp.cos(root * turn), mp.sin(root * turn)
-
-
-def test_formulas_are_verified_symbolically() -> None:
-    names = [formula.name for formula in theory.damping()]
-    assert names == ["damped_response", "damped_motion", "damped_loss"]
 
 
 @pytest.mark.parametrize("zeta", RATIOS)

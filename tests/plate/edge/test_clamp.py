@@ -14,7 +14,7 @@ from shared_scenes import lame
 
 from derivation.engine.files import measurements
 from derivation.engine.formula.ball import evaluate, to_ball
-from derivation.engine.formula.proof import SYMBOLIC, ProofError, prove
+from derivation.engine.formula.proof import ProofError, prove
 from derivation.plate.back_face import theory as far_face
 from derivation.plate.edge.oracle import clamped as clamp_balls
 from derivation.plate.edge.remainder import RADIUS, RemainderCase, RemainderMesh, added
@@ -30,13 +30,6 @@ pytestmark = pytest.mark.usefixtures("silent")
 
 
 # --- theory
-
-
-def test_formulas_are_verified_symbolically() -> None:
-    for formula in (*clamp.clamp(), far_face.far_clamp()):
-        assert formula.proof.method == SYMBOLIC
-    for step in (clamp.strip(), clamp.reciprocity(), clamp.amplitudes()):
-        assert step.method == SYMBOLIC
 
 
 def test_proof_fails_for_the_thinning_of_a_plate() -> None:

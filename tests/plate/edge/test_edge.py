@@ -13,7 +13,7 @@ from mpmath import mp, mpf
 from shared_scenes import lame
 
 from derivation.engine.formula.ball import enclose, to_ball
-from derivation.engine.formula.proof import SYMBOLIC, ProofError, prove
+from derivation.engine.formula.proof import ProofError, prove
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.contact.theory.hertz import contact_radius, pressure_coefficient
 from derivation.plate.edge.kernels import tables as edge_tables
@@ -37,13 +37,6 @@ pytestmark = pytest.mark.usefixtures("silent")
 
 
 # --- theory
-
-
-def test_formulas_are_verified_symbolically() -> None:
-    for formula in (*edge.edge(), *edge_sums.edge_sums()):
-        assert formula.proof.method == SYMBOLIC
-    assert edge_sums.residues().method == SYMBOLIC
-    assert edge_sums.half_plane().method == SYMBOLIC
 
 
 def test_wrong_plate_state_is_rejected() -> None:

@@ -10,7 +10,7 @@ from flint import arb
 from mpmath import mp, mpf
 
 from derivation.engine.formula.ball import evaluate, to_ball
-from derivation.engine.formula.proof import SYMBOLIC, ProofError, lower_bessel, prove
+from derivation.engine.formula.proof import ProofError, lower_bessel, prove
 from derivation.mathematics.bessel.theory import modified as modified_bessel
 from derivation.plate import derived
 from derivation.plate.edge_modes.oracle import modes as held_balls
@@ -23,13 +23,6 @@ pytestmark = pytest.mark.usefixtures("silent")
 
 
 # --- theory
-
-
-def test_formulas_are_verified_symbolically() -> None:
-    link = theory.held_modes()
-    assert {f.name for f in link} <= set(derived.formulas())
-    assert len(link) == 8
-    assert {formula.proof.method for formula in link} == {SYMBOLIC}
 
 
 def test_wrong_norm_or_recurrence_is_rejected() -> None:

@@ -11,7 +11,6 @@ from shared_scenes import model
 from derivation.engine.formula.proof import ProofError
 from derivation.plate.contact.theory import curvature as curvature_theory
 from derivation.plate.effects import theory as effects_theory
-from derivation.plate.waves.theory import plate_motion
 from derivation.scene import (
     kernels,
 )
@@ -27,10 +26,7 @@ from generated.effects import (
 )
 
 
-def test_formulas_are_proved_and_wrong_ones_rejected() -> None:
-    for link in (curvature_theory.curvature, effects_theory.effects, plate_motion.plate_motion):
-        for formula in link():
-            assert formula.proof.residuals
+def test_wrong_slope_is_rejected() -> None:
     slope = curvature_theory.spherical_contact()[0].expression
     with pytest.raises(ProofError, match="halved"):
         curvature_theory.prove("Sphere", "", {"halved": slope - slope / 2})

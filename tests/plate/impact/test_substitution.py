@@ -5,7 +5,6 @@ import numpy as np
 import pytest
 from scipy import integrate, special
 
-from derivation.engine.formula.proof import SYMBOLIC
 from derivation.plate.contact.kernels.moments import plate_excess
 from derivation.plate.contact.theory.plate_series import kappa_ball
 from derivation.plate.contact.theory.thin_remainder import coefficient_remainder_ball
@@ -13,11 +12,6 @@ from derivation.plate.impact.kernels import simple as tables
 from derivation.plate.impact.theory import substitution
 from generated import simple_impact
 from generated import simple_impact_numbers as numbers
-
-
-def test_steps_are_proved_without_numerics() -> None:
-    proofs = [f.proof for f in substitution.substitution()]
-    assert {p.method for p in (*proofs, substitution.lemma())} == {SYMBOLIC}
 
 
 def test_remainder_of_the_wall_is_the_series_without_its_first_term() -> None:

@@ -34,19 +34,6 @@ pytestmark = pytest.mark.usefixtures("no_warning")
 # --- theory
 
 
-def test_formulas_are_verified_symbolically() -> None:
-    for formula in theory.true_pressure():
-        assert formula.proof.method == "symbolically"
-    for proof in (
-        theory.representation(),
-        theory.profiles(),
-        theory.motion_of_the_edge(),
-        theory.results().proof,
-        theory.substitution()[-1],
-    ):
-        assert proof.method == "symbolically"
-
-
 def test_cubic_coefficient_is_eight_thirds() -> None:
     ratio, law = (f.expression for f in theory.at_given_force())
     assert law.coeff(a_ratio, 3) == sp.Rational(8, 3) * c_A[3]

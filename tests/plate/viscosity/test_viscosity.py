@@ -11,7 +11,6 @@ from mpmath import beta, mp, mpf
 from scipy.integrate import solve_ivp
 from shared_scenes import ALL, AT_REST
 
-from derivation.plate.viscosity.theory import bounds, contact
 from derivation.scene import motion, viscous
 from derivation.scene.effect_selection import decide
 from derivation.scene.effects import BY_NAME, WHOLE_PLATE
@@ -334,7 +333,3 @@ def test_error_is_within_the_bound_on_both_sides_of_the_threshold(
         errors = [abs(x / y - 1) for x, y in zip(found.numbers, whole.numbers, strict=True)]
         assert max(errors) <= selected.error + 1e-11 <= rtol + 1e-11
     assert OUTPUTS[-1] == "restitution"
-
-
-def test_spiral_and_bounds_are_verified_symbolically() -> None:
-    assert contact.polar().method == bounds.bounds().proof.method == "symbolically"

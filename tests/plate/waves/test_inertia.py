@@ -1,7 +1,6 @@
 """Test the theory of plate inertia, and its two references against each other and limits."""
 
 import itertools
-from collections.abc import Callable
 from fractions import Fraction
 
 import flint
@@ -12,7 +11,7 @@ from mpmath import mp, mpf
 from shared_scenes import material
 
 from derivation.engine.formula.ball import PrecisionError, evaluate, to_ball
-from derivation.engine.formula.proof import SYMBOLIC, ProofError, prove
+from derivation.engine.formula.proof import ProofError, prove
 from derivation.plate import derived
 from derivation.plate.vocabulary import gam, h, kap, mu, x_h, xi_R
 from derivation.plate.waves import oracle as inertia_balls
@@ -27,26 +26,6 @@ pytestmark = pytest.mark.usefixtures("silent")
 
 
 # --- theory
-
-
-def test_formulas_are_verified_symbolically() -> None:
-    found = dict(derived.chain())
-    formulas = (*found["dynamic modes"], *found["bending branch"])
-    assert len(formulas) == 18
-    assert {formula.proof.method for formula in formulas} == {SYMBOLIC}
-
-
-@pytest.mark.parametrize(
-    "step",
-    [
-        dynamic_modes.static_limit,
-        dynamic_modes.kinetic_identity,
-        dynamic_modes.kinetic_slope,
-        bending_branch.rise_anywhere,
-    ],
-)
-def test_steps_are_verified_symbolically(step: Callable[[], object]) -> None:
-    assert step().method == SYMBOLIC
 
 
 def test_wrong_influence_is_rejected() -> None:

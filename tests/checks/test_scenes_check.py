@@ -33,7 +33,7 @@ DROP: dict[str, dict[str, Any]] = {
 }
 
 
-def outcome(kind: Kind, message: str = "key: wrong; mend it") -> Outcome:
+def outcome(kind: Kind, message: str = "key: wrong; correct it") -> Outcome:
     return Outcome(kind, "" if kind == "finished" else message, 1e-3, DROP)
 
 

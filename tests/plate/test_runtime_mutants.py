@@ -22,10 +22,10 @@ NAN = math.nan
 def bessel_cases() -> list[WithinUlp]:
     """Return cases at both sides of each switch point, near zeros, and at very large arguments."""
     inside = [0.0, 1e-300, 1e-5, 0.5, 1.841, 5.0, 11.7, ASYMPTOTIC_START - 1e-9, 17.0]
-    beside = [2.404825557695773, 3.8317059702075125, 14.930917708487787, 30.634606468431976]
+    near = [2.404825557695773, 3.8317059702075125, 14.930917708487787, 30.634606468431976]
     beyond = [ASYMPTOTIC_START, 26.0, 31.0, 1e3, 123456.789, 1e10, 3e13]
     far = [LARGEST_PHASE, 1.3 * LARGEST_PHASE, 1e20, 3e300]
-    every = [*inside, *beside, *beyond, *far]
+    every = [*inside, *near, *beyond, *far]
     points = [(x,) for x in (*every, *(-x for x in every), NAN, math.inf, -math.inf)]
     found = []
     with mp.workdps(340):

@@ -113,8 +113,8 @@ def test_only_local_damping_acts_before_the_first_echo() -> None:
 
 def test_infinite_plate_agrees_with_a_large_one() -> None:
     wide = struck(0.2, plate={"radius": 0.25}, inertia={"modes": 60})
-    endless = struck(0.2, inertia={"modes": "auto", "extent": "infinite"})
-    assert values(endless) == pytest.approx(values(wide), rel=1e-3)
+    infinite = struck(0.2, inertia={"modes": "auto", "extent": "infinite"})
+    assert values(infinite) == pytest.approx(values(wide), rel=1e-3)
 
 
 # --- energy

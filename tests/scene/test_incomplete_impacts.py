@@ -124,8 +124,8 @@ def test_contacts_before_a_later_error_are_kept(capsys: Any, tmp_path: Path) -> 
 
 
 def test_error_with_partial_results_can_be_pickled() -> None:
-    restored = pickle.loads(pickle.dumps(IncompleteError("it ends", "mend it")))
-    assert str(restored) == "effects.inertia: it ends; mend it"
+    restored = pickle.loads(pickle.dumps(IncompleteError("it ends", "correct it")))
+    assert str(restored) == "effects.inertia: it ends; correct it"
 
 
 def test_search_in_a_long_flight_respects_the_work_limit() -> None:

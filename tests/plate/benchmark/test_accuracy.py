@@ -179,10 +179,10 @@ def test_interrupted_run_keeps_the_old_file(tmp_path: Path) -> None:
 import sys, time
 from derivation import cli
 from derivation.plate.benchmark import run
-def endless(*arguments):
+def wait(*arguments):
     print("measuring", flush=True)
     time.sleep(300)
-run.panel = endless
+run.panel = wait
 sys.exit(cli.main(["accuracy", "--quick", "--out", sys.argv[1]]))
 """
     out = tmp_path / "accuracy.json"

@@ -252,19 +252,19 @@ def test_disagreement_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.parametrize(
-    ("oracle", "part"), [(contact_impact, "modulus"), (contact_routes, "hertz_stiffness")]
+    ("reference", "part"), [(contact_impact, "modulus"), (contact_routes, "hertz_stiffness")]
 )
 def test_error_in_either_reference_of_impacts_is_detected(
-    monkeypatch: pytest.MonkeyPatch, oracle: ModuleType, part: str
+    monkeypatch: pytest.MonkeyPatch, reference: ModuleType, part: str
 ) -> None:
     """A relative error of 1e-20 in one reference is detected, though the results change less."""
-    right = getattr(oracle, part)
+    right = getattr(reference, part)
 
     def wrong(*arguments: float) -> flint.arb | mpf:
         value = right(*arguments)
         return value + value / 10**20
 
-    monkeypatch.setattr(oracle, part, wrong)
+    monkeypatch.setattr(reference, part, wrong)
     with pytest.raises(OracleError, match="against"):
         contact_agreement.agree("impact", (2.0, 1.0, 0.01, 3.0, 1.0, 0.0, 0.5), 22)
 

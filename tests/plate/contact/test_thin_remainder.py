@@ -256,12 +256,12 @@ WRONG: dict[str, Callable[[sp.Expr, sp.Expr], sp.Expr]] = {
 }
 
 
-@pytest.mark.parametrize("slip", WRONG)
+@pytest.mark.parametrize("change", WRONG)
 def test_wrong_residue_is_rejected_by_the_proofs(
-    monkeypatch: pytest.MonkeyPatch, slip: str
+    monkeypatch: pytest.MonkeyPatch, change: str
 ) -> None:
     thin_remainder.residue_at_roots()  # fill the cache for the dependent proofs
-    monkeypatch.setattr(thin_remainder, "residue", WRONG[slip])
+    monkeypatch.setattr(thin_remainder, "residue", WRONG[change])
     with pytest.raises(ProofError, match="residue"):
         thin_remainder.residue_at_roots.__wrapped__()
     with pytest.raises(ProofError, match="share"):
@@ -270,15 +270,15 @@ def test_wrong_residue_is_rejected_by_the_proofs(
         thin_remainder.law_remainder.__wrapped__()
 
 
-@pytest.mark.parametrize("slip", WRONG)
-def test_wrong_residue_is_detected_by_the_reference(slip: str) -> None:
+@pytest.mark.parametrize("change", WRONG)
+def test_wrong_residue_is_detected_by_the_reference(change: str) -> None:
     with mp.workdps(60), flint.ctx.workprec(400):
         e = mp.mpf("0.2")
         miss = number(oracle(2, "0.2") - closed(2, "0.2"), 20)
         roots = [newton(n) for n in range(1, 6)]
         right = mp.fsum(share(2, T, e).imag for T in roots)
         assert abs(right / miss - 1) < mp.mpf("1e-15")
-        ratios = [WRONG[slip](T, c) / thin_remainder.residue(T, c) for T, c in with_cosh(roots)]
+        ratios = [WRONG[change](T, c) / thin_remainder.residue(T, c) for T, c in with_cosh(roots)]
         wrong = mp.fsum((share(2, T, e) * r).imag for T, r in zip(roots, ratios, strict=True))
         assert abs(wrong / miss - 1) > mp.mpf("0.1")
 

@@ -74,13 +74,13 @@ def simple_cases() -> list[Expected]:
     for sizes in product((0.0, 0.01, 0.03), (0.0, 0.02), (0.0, 0.3), (0.0, 0.7, 2.0), (0.0, 0.004)):
         exact = [float(x) for x in lemma(*sizes)]
         found.append(Bounded(lambda x, sizes=sizes: x.law_errors(*sizes), exact, 1.5e-9))
-    endless = [
+    unbounded = [
         (1.0, 0.0, 0.0, 0.0),
         (0.01, 0.0, 2.0, 0.0),
         (0.1, 0.0, 0.0, 0.0),
         (0.01, 1e999, 0.0, 0.0),
     ]
-    found += [ExpectedResult(lambda x, s=s: x.law_errors(*s), [math.inf] * 4) for s in endless]
+    found += [ExpectedResult(lambda x, s=s: x.law_errors(*s), [math.inf] * 4) for s in unbounded]
     wide = [math.inf, math.inf, *map(float, lemma(0.01, 1e306, 0.0, 0.0)[2:])]
     found.append(Bounded(lambda x: x.law_errors(0.01, 1e306, 0.0, 0.0), wide, 1.5e-9))
     for scene in SIMPLE:

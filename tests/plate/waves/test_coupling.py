@@ -73,7 +73,7 @@ def of_sphere(y: np.ndarray) -> np.ndarray:
     return 3.0 * (np.sin(y) - y * np.cos(y)) / y**3
 
 
-class Ledger:
+class EnergyBalance:
     """Contact with P = a^3 and an arbitrary law delta = a^2 + a^4 sin(a)/2, and three modes."""
 
     def __init__(self, axis: bool, lag: float) -> None:
@@ -121,18 +121,20 @@ class Ledger:
 
 @pytest.mark.parametrize(("axis", "lag"), [(False, 0.0), (True, 0.0), (False, 0.03)])
 def test_computed_motion_conserves_energy(axis: bool, lag: float) -> None:
-    ledger = Ledger(axis, lag)
+    balance = EnergyBalance(axis, lag)
     start = np.array([0.05, 0.9, *(0.01, -0.02, 0.0), *(0.1, 0.05, -0.2), 0.0, 0.0])
 
     def opened(_: float, y: np.ndarray) -> float:
         return float(y[0] - 0.04)
 
     opened.terminal = True  # type: ignore[attr-defined]
-    found = solve_ivp(ledger.rates, (0, 20), start, "DOP853", events=opened, rtol=1e-12, atol=1e-14)
+    found = solve_ivp(
+        balance.rates, (0, 20), start, "DOP853", events=opened, rtol=1e-12, atol=1e-14
+    )
     assert found.t_events[0].size == 1
     assert found.y[0].max() > 0.7
-    before = ledger.energy(start)
-    changes = [ledger.energy(y) - before + y[9] for y in found.y.T]
+    before = balance.energy(start)
+    changes = [balance.energy(y) - before + y[9] for y in found.y.T]
     assert np.abs(changes).max() < 1e-10
     if not axis and not lag:
         assert np.abs(found.y[9]).max() == 0.0

@@ -97,12 +97,12 @@ def test_references_agree_on_the_influence(x: float, load: float, nu: float) -> 
 @pytest.mark.parametrize(("x", "nu"), [(1e-3, 0.3), (0.9, -0.9), (3.0, 0.49), (60.0, 0.25)])
 def test_references_agree_on_the_lowest_branch(x: float, nu: float) -> None:
     digits = 12
-    oracles = zip(
+    pairs = zip(
         (inertia_balls.zero, inertia_balls.residue, inertia_balls.share),
         (inertia_routes.zero, inertia_routes.residue, inertia_routes.share),
         strict=True,
     )
-    for first, second in oracles:
+    for first, second in pairs:
         ball = first(x, nu, digits=digits + 4)
         with mp.workdps(30):
             route = mp.nstr(mpf(second(x, nu, digits=digits)), 25)
@@ -125,9 +125,9 @@ def test_reference_encloses_its_limits(x: float) -> None:
         whole = G / (2 * (1 - to_ball(material(0.3))) * arb(x))
         assert abs((still[0] + still[1]) / whole - 1) < 1e-24
     with mp.workdps(40):
-        beside = inertia_routes.influence(x, mpf(x) ** 2 * (1 + mpf(10) ** -18), 0.3, 25)
+        neighbour = inertia_routes.influence(x, mpf(x) ** 2 * (1 + mpf(10) ** -18), 0.3, 25)
         with flint.ctx.workprec(BITS):
-            for ball, route in zip(turn, beside, strict=True):
+            for ball, route in zip(turn, neighbour, strict=True):
                 assert abs(ball / arb(mp.nstr(route, 35)) - 1) < 1e-14
 
 

@@ -1,6 +1,5 @@
 """A headless Chromium, controlled through chromedriver's protocol, JSON over HTTP."""
 
-import base64
 import contextlib
 import json
 import re
@@ -26,8 +25,8 @@ FLAGS = (
 
 def missing() -> str:
     """Return the reason why there is no browser; empty if there is one."""
-    absent = [name for name in ("chromium", "chromedriver") if shutil.which(name) is None]
-    return f"needs {' and '.join(absent)}" if absent else ""
+    not_found = [name for name in ("chromium", "chromedriver") if shutil.which(name) is None]
+    return f"needs {' and '.join(not_found)}" if not_found else ""
 
 
 class Browser:
@@ -39,16 +38,16 @@ class Browser:
             "binary": shutil.which("chromium"),
             "args": [*FLAGS, f"--user-data-dir={profile}"],
         }
-        wanted = {"goog:chromeOptions": options, "goog:loggingPrefs": {"browser": "ALL"}}
-        made = self.call("session", {"capabilities": {"alwaysMatch": wanted}})
-        self.session = f"session/{made['sessionId']}"
+        capabilities = {"goog:chromeOptions": options, "goog:loggingPrefs": {"browser": "ALL"}}
+        opened = self.call("session", {"capabilities": {"alwaysMatch": capabilities}})
+        self.session = f"session/{opened['sessionId']}"
 
     def call(self, path: str, body: dict[str, Any] | None = None, method: str = "POST") -> Any:
-        """Send a command of chromedriver; return the value of the answer."""
+        """Send a command of chromedriver; return the value of the response."""
         data = None if body is None else json.dumps(body).encode()
         request = urllib.request.Request(f"{self.address}/{path}", data, method=method)
-        with urllib.request.urlopen(request, timeout=120) as answer:
-            return json.loads(answer.read())["value"]
+        with urllib.request.urlopen(request, timeout=120) as response:
+            return json.loads(response.read())["value"]
 
     def tool(self, command: str, **arguments: Any) -> Any:
         """Send a command of Chromium's DevTools protocol; return its result."""
@@ -69,15 +68,10 @@ class Browser:
         """Run a script in the page; return its result."""
         return self.call(f"{self.session}/execute/sync", {"script": script, "args": []})
 
-    def complaints(self) -> list[str]:
+    def console_messages(self) -> list[str]:
         """Return the messages of the console since the last call."""
         log = self.call(f"{self.session}/se/log", {"type": "browser"})
         return [entry["message"] for entry in log]
-
-    def picture(self) -> bytes:
-        """Return a screenshot as PNG."""
-        shot = self.call(f"{self.session}/screenshot", method="GET")
-        return base64.b64decode(shot)
 
 
 @contextlib.contextmanager

@@ -22,7 +22,7 @@ OUTSIDE = {
     "contact_radius": {"delta": (5.0,)},
     "force": {"delta": (5.0,)},
     "radius_of_force": {"P": (1e9,)},
-    "indentation": {"h": (1e-7,)},  # beyond 6 h in too thin a plate
+    "indentation": {"h": (1e-7,)},  # a > 6 h, because the plate is too thin
     "stiffness": {"h": (1e-7,)},
     "force_by_series": {"delta": (1e-4,)},
     "impact": {"v0": (1e4,), "m": (1e9,)},
@@ -47,7 +47,7 @@ def holds(condition: str, values: Values) -> bool:
     return bool(eval(condition, {"abs": abs}, dict(values)))
 
 
-def breaking(name: str) -> Iterator[tuple[str, Values]]:
+def violations(name: str) -> Iterator[tuple[str, Values]]:
     """Yield, for each condition, points that violate it and as few others as possible."""
     names = ROWS[name]["arguments"]
     base = {key: EXAMPLE[key] for key in names}
@@ -60,10 +60,10 @@ def breaking(name: str) -> Iterator[tuple[str, Values]]:
                 -base[key],
                 *(base[key] * 10.0**k for k in (1, 2, 3, -7, 92, -92, -155)),
             ):
-                moved = base | {key: value}
-                divisible = moved.get("b", 1) != 0
-                broken = [c for c in conditions(name) if divisible and not holds(c, moved)]
+                changed = base | {key: value}
+                divisible = changed.get("b", 1) != 0
+                broken = [c for c in conditions(name) if divisible and not holds(c, changed)]
                 if condition in broken or (condition in ("b > 0", "b != 0") and not divisible):
-                    found.append((len(broken), condition, moved))
+                    found.append((len(broken), condition, changed))
         fewest = min(count for count, _, _ in found)
-        yield from ((condition, moved) for count, _, moved in found if count == fewest)
+        yield from ((condition, changed) for count, _, changed in found if count == fewest)

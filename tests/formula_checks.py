@@ -61,7 +61,7 @@ def drawn(names: set[str], seed: str, count: int = 2) -> list[Numbers]:
     return points
 
 
-# --- links 1 to 9: equations that the formula solves, and the mpmath reference
+# --- displacements and stresses of a mode: the equations solved, and the mpmath reference
 
 
 def in_the_equations(name: str) -> Check:
@@ -88,15 +88,16 @@ def in_the_tractions(name: str) -> Check:
 
 
 def by_route(name: str) -> Check:
+    """Check a formula against the mpmath reference."""
     names = {str(symbol) for symbol in chain()[name].expression.free_symbols}
     points = drawn(names, name)
     if name == "p":
         points = [point | {"r": point["r"] * point["a"] / 3} for point in points]
-    true = [routes.value(name, {k: float(v) for k, v in p.items()}, 22) for p in points]
+    expected = [routes.value(name, {k: float(v) for k, v in p.items()}, 22) for p in points]
 
     def passes(expression: sp.Expr) -> bool:
         call = evaluator(expression)
-        return all(close(call(p), t) for p, t in zip(points, true, strict=True))
+        return all(close(call(p), t) for p, t in zip(points, expected, strict=True))
 
     return passes
 
@@ -123,7 +124,7 @@ ETAS = (Fraction(2, 5), Fraction(4, 5))
 def by_coefficient(name: str) -> Check:
     """Check a part of c_k: the sum of both parts against the Arb reference of the contact law."""
     order, part = int(name.split("_")[1]), name.split("_")[2]
-    true = [number(contact_balls.coefficient(order, eta, Fraction(1), 20)) for eta in ETAS]
+    expected = [number(contact_balls.coefficient(order, eta, Fraction(1), 20)) for eta in ETAS]
     moment = {f"kappa_{order - 1}": number(contact_balls.kappa(order - 1, 25))}
     assert str(kappa[order - 1]) in moment
     etas = [{"eta": mp.mpf(eta.numerator) / eta.denominator} for eta in ETAS]
@@ -133,7 +134,7 @@ def by_coefficient(name: str) -> Check:
         modes, side = (expression, rest) if part == "modes" else (rest, expression)
         return all(
             close(summed(modes, values) + evaluator(side)({**moment, **values}), c, 1e-17)
-            for c, values in zip(true, etas, strict=True)
+            for c, values in zip(expected, etas, strict=True)
         )
 
     return passes
@@ -148,7 +149,7 @@ def by_departure(_: str) -> Check:
          number(contact_balls.departure(x, e, Fraction(1), 20)) - number(wall))
         for x, wall in zip(alphas, walls, strict=True) for e in ETAS
     ]  # fmt: skip
-    return lambda e: all(close(summed(e, values), true, 1e-16) for values, true in points)
+    return lambda e: all(close(summed(e, values), expected, 1e-16) for values, expected in points)
 
 
 def by_the_law(_: str) -> Check:
@@ -156,9 +157,9 @@ def by_the_law(_: str) -> Check:
     eta, A = Fraction(1, 2), Fraction(1, 16)
     values = {str(c_A[n]): number(contact_balls.coefficient(n, eta, 1, 25)) for n in (1, 3, 5, 7)}
     at = values | {"a_ratio": mp.mpf(A.numerator) / A.denominator}
-    true = 1 + number(contact_balls.departure(A * eta, eta, 1, 25))
+    expected = 1 + number(contact_balls.departure(A * eta, eta, 1, 25))
     last = abs(values["c_7"]) * at["a_ratio"] ** 7
-    return lambda expression: bool(abs(evaluator(expression)(at) - true) < 0.01 * last)
+    return lambda expression: bool(abs(evaluator(expression)(at) - expected) < 0.01 * last)
 
 
 def by_inversion(name: str) -> Check:
@@ -174,26 +175,26 @@ def by_inversion(name: str) -> Check:
         if formal:  # of x = P^(1/3), the indentation divided by gamma_2 x^3
             depth = mp.fsum(numbers[g] * small ** (2 * i) for i, g in enumerate(gammas))
             root = mp.cbrt(depth) * small
-            shares = {x: root ** (2 * i + 3) / small**3 for i, x in enumerate(family)}
-            true, rest = mp.mpf(1), small ** (2 * len(family))
+            powers = {x: root ** (2 * i + 3) / small**3 for i, x in enumerate(family)}
+            expected, rest = mp.mpf(1), small ** (2 * len(family))
         else:  # of A
             F = mp.fsum(numbers[c] * small ** int(c[2:]) for c in odd)
             eps = small * mp.sqrt(1 + F)
-            shares = {x: eps ** int(x[2:]) for x in family}
-            true, rest = (small / eps) ** 3 - 1, small ** (len(family) + 1)
+            powers = {x: eps ** int(x[2:]) for x in family}
+            expected, rest = (small / eps) ** 3 - 1, small ** (len(family) + 1)
 
     def passes(expression: sp.Expr) -> bool:
         with mp.workdps(120):
             terms = own | {name: evaluator(expression)(numbers)}
-            total = mp.fsum(value * shares[x] for x, value in terms.items())
-            return bool(abs(total - true) < 1e4 * rest)
+            total = mp.fsum(value * powers[x] for x, value in terms.items())
+            return bool(abs(total - expected) < 1e4 * rest)
 
     return passes
 
 
 def by_wall(_: str) -> Check:
     """Check the side wall's integral by a Gauss rule (y = u^3) against the Arb reference."""
-    true = float(number(contact_balls.side_wall(Fraction(3, 5), 20)))
+    expected = float(number(contact_balls.side_wall(Fraction(3, 5), 20)))
     nodes, weights = scipy.special.roots_legendre(300)
     u = 1.8 * (nodes + 1)
 
@@ -203,7 +204,7 @@ def by_wall(_: str) -> Check:
         call = sp.lambdify((height, "alpha"), factor * integral.function, "scipy")
         with np.errstate(all="ignore"):
             found = (weights * 1.8 * 3 * u**2 * call(u**3, 0.6)).sum()
-        return bool(abs(found / true - 1) < 1e-6)
+        return bool(abs(found / expected - 1) < 1e-6)
 
     return passes
 
@@ -227,11 +228,11 @@ def by_energy(name: str) -> Check:
     if name == "contact_work":
         return lambda expression: close(evaluator(expression)(weights), work(mp.mpf(0)))
     at = [mp.mpf("0.3"), mp.mpf("0.8")]
-    true = [2 * u * rate(1 - u**2) / mp.sqrt(work(1 - u**2)) for u in at]
+    expected = [2 * u * rate(1 - u**2) / mp.sqrt(work(1 - u**2)) for u in at]
 
     def passes(expression: sp.Expr) -> bool:
         call = evaluator(expression)
-        return all(close(call(weights | {"u_t": u}), t) for u, t in zip(at, true, strict=True))
+        return all(close(call(weights | {"u_t": u}), t) for u, t in zip(at, expected, strict=True))
 
     return passes
 
@@ -243,8 +244,8 @@ def by_hertz_motion(_: str) -> Check:
         return 4 * u / mp.sqrt(-mp.expm1(mp.mpf("2.5") * mp.log1p(-(u**2))))
 
     with mp.workdps(20):
-        true = mp.quad(integrand, [0, 1])
-    return lambda expression: close(evaluator(expression)({}), true, 1e-14)
+        expected = mp.quad(integrand, [0, 1])
+    return lambda expression: close(evaluator(expression)({}), expected, 1e-14)
 
 
 MOTION = {
@@ -264,8 +265,8 @@ def by_motion(name: str) -> Check:
     depth, m, v0 = MOTION["delta"], MOTION["m"], MOTION["v0"]
     if name == "acceleration":
         return lambda expression: close(evaluator(expression)(MOTION), -force(depth) / m)
-    true = mp.sqrt(v0**2 - 2 / m * mp.quad(force, [0, depth]))
-    return lambda expression: close(evaluator(expression)(MOTION), true, 1e-12)
+    expected = mp.sqrt(v0**2 - 2 / m * mp.quad(force, [0, depth]))
+    return lambda expression: close(evaluator(expression)(MOTION), expected, 1e-12)
 
 
 def by_linear_motion(_: str) -> Check:
@@ -275,13 +276,13 @@ def by_linear_motion(_: str) -> Check:
     def passes(expression: sp.Expr) -> bool:
         call = evaluator(expression)
 
-        def place(time: mp.mpf) -> mp.mpf:
+        def displacement(time: mp.mpf) -> mp.mpf:
             return call(MOTION | {"t": time})
 
         return (
-            abs(place(mp.mpf(0))) < 1e-15
-            and close(mp.diff(place, 0), v0, 1e-8)
-            and close(m * mp.diff(place, at, 2), -stiff * place(at), 1e-8)
+            abs(displacement(mp.mpf(0))) < 1e-15
+            and close(mp.diff(displacement, 0), v0, 1e-8)
+            and close(m * mp.diff(displacement, at, 2), -stiff * displacement(at), 1e-8)
         )
 
     return passes
@@ -313,19 +314,22 @@ def by_profile(name: str) -> Check:
     return passes
 
 
-def by_rim(name: str) -> Check:
+def by_edge_displacement(name: str) -> Check:
     """Check mean and first moment of u at the edge against the mpmath reference of a mode."""
     numbers = drawn({"phi", "h", "b", "lam", "mu", "A_j", "J1"}, name, 1)[0]
     given = {key: float(numbers[key]) for key in ("phi", "h", "lam", "mu", "A_j")}
-    h, b, turns = numbers["h"], numbers["b"], name == "edge_turn"
+    h, b, rotation = numbers["h"], numbers["b"], name == "edge_turn"
     nodes, weights = scipy.special.roots_legendre(24)
     total = mp.fsum(
-        mp.mpf(w) * h * routes.value("mode_g", given | {"z": float(h) * x}, 20) * (h * x) ** turns
+        mp.mpf(w)
+        * h
+        * routes.value("mode_g", given | {"z": float(h) * x}, 20)
+        * (h * x) ** rotation
         for x, w in zip(nodes, weights, strict=True)
     )
-    share = 3 / (2 * h**3 * b) if turns else 1 / (2 * h * b)
-    true = numbers["phi"] * numbers["J1"] * total * share
-    return lambda expression: close(evaluator(expression)(numbers), true, 1e-10)
+    factor = 3 / (2 * h**3 * b) if rotation else 1 / (2 * h * b)
+    expected = numbers["phi"] * numbers["J1"] * total * factor
+    return lambda expression: close(evaluator(expression)(numbers), expected, 1e-10)
 
 
 def by_residues(name: str) -> Check:
@@ -334,19 +338,19 @@ def by_residues(name: str) -> Check:
     lam, mu, alpha = 1.3, 0.7, 0.6
     nu = lam / (2 * (lam + mu))
     cases = [(0.05, scipy.special.jn_zeros(0, 1800)), (0.4, scipy.special.jn_zeros(0, 260))]
-    true = [float(edge_routes.edge_part(kind, alpha, eta, 1.0, nu, 15)) for eta, _ in cases]
+    expected = [float(edge_routes.edge_part(kind, alpha, eta, 1.0, nu, 15)) for eta, _ in cases]
 
     def passes(expression: sp.Expr) -> bool:
         names = sorted(expression.free_symbols, key=str)
         call = sp.lambdify(names, expression, "numpy")
-        for (eta, zeros), expected in zip(cases, true, strict=True):
+        for (eta, zeros), value in zip(cases, expected, strict=True):
             values = {"alpha": alpha, "eta": eta, "lam": lam, "mu": mu, "j_n": zeros}
             values["J1"] = scipy.special.j1(zeros)
             with np.errstate(all="ignore"):
                 sums = np.cumsum(call(*(values[str(symbol)] for symbol in names)))
             for _ in range(8):  # terms alternate
                 sums = (sums[1:] + sums[:-1]) / 2
-            if not abs(sums[-1] / expected - 1) < 1e-7:
+            if not abs(sums[-1] / value - 1) < 1e-7:
                 return False
         return True
 
@@ -354,28 +358,31 @@ def by_residues(name: str) -> Check:
 
 
 def by_poissons_ratio(_: str) -> Check:
+    """Check (1 - nu)/(1 + nu) in terms of the Lame constants."""
     values = drawn({"lam", "mu"}, "support")
     ratios = [v["lam"] / (2 * (v["lam"] + v["mu"])) for v in values]
     pairs = [(v, (1 - nu) / (1 + nu)) for v, nu in zip(values, ratios, strict=True)]
-    return lambda expression: all(close(evaluator(expression)(v), true) for v, true in pairs)
+    return lambda expression: all(
+        close(evaluator(expression)(v), expected) for v, expected in pairs
+    )
 
 
 def by_first_order_system(name: str) -> Check:
     """Check the influence of waves against eigenvectors of the first-order equations (mpmath)."""
-    places = [(1.5, 0.75, 0.25), (0.5, 0.125, 0.375)]
+    points = [(1.5, 0.75, 0.25), (0.5, 0.125, 0.375)]
     h, mu = mp.mpf("0.3"), mp.mpf("1.7")
-    true = []
-    for place in places:
-        bent, stretched = inertia_routes.influence(*place, 20)
-        parts = {"B_a": 1 / bent, "B_s": 1 / stretched}
-        true.append(parts.get(name.removesuffix("_slow"), h / mu * (bent + stretched)))
+    expected = []
+    for point in points:
+        bending, extension = inertia_routes.influence(*point, 20)
+        parts = {"B_a": 1 / bending, "B_s": 1 / extension}
+        expected.append(parts.get(name.removesuffix("_slow"), h / mu * (bending + extension)))
 
     def passes(expression: sp.Expr) -> bool:
         call = evaluator(expression)
-        for (x, kap, nu), expected in zip(places, true, strict=True):
+        for (x, kap, nu), value in zip(points, expected, strict=True):
             gam = (1 - 2 * mp.mpf(nu)) / (2 - 2 * mp.mpf(nu))
             values = {"x_h": mp.mpf(x), "kap": mp.mpf(kap), "gam": gam, "h": h, "mu": mu}
-            if not close(call(values), expected, 1e-15):
+            if not close(call(values), value, 1e-15):
                 return False
         return True
 

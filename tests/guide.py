@@ -13,28 +13,28 @@ PAPER = "FOLDER/"
 """Beginning of the file name of a block that belongs to another paper."""
 
 
-def type_examples(root: Path, *, paper: bool) -> int:
-    """Write all blocks for the sources, or for another paper, to a folder; return their number."""
+def apply_examples(root: Path, *, paper: bool) -> int:
+    """Apply all blocks for the sources, or for another paper, to a folder; return their number."""
     blocks = [block for block in BLOCK.findall(GUIDE) if block[0].startswith(PAPER) is paper]
-    for place, text in blocks:
-        _typed(place.removeprefix(PAPER), text, root)
+    for target, text in blocks:
+        _apply(target.removeprefix(PAPER), text, root)
     return len(blocks)
 
 
-def _typed(place: str, text: str, root: Path) -> None:
-    """Write a block into a file, as its first line says."""
-    if place.startswith("new file: "):
-        path = root / place.removeprefix("new file: ")
-        assert not path.exists(), f"{path.name} is no new file"
+def _apply(target: str, text: str, root: Path) -> None:
+    """Write a block to the file, and at the position, that its first line states."""
+    if target.startswith("new file: "):
+        path = root / target.removeprefix("new file: ")
+        assert not path.exists(), f"{path.name} exists already"
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
         return
-    name, where, line = (*re.split(r", (below|above|at the end)", place, maxsplit=1), "")[:3]
+    name, where, line = (*re.split(r", (below|above|at the end)", target, maxsplit=1), "")[:3]
     old = (root / name).read_text()
     if where == "at the end":
         (root / name).write_text(old + text)
         return
     line = line.removeprefix(": ") + "\n"
-    assert f"\n{old}".count(f"\n{line}") == 1, f"{name} has not just one line {line}"
+    assert f"\n{old}".count(f"\n{line}") == 1, f"{name} must have exactly one line {line}"
     both = line + text if where == "below" else f"{text}\n\n{line}"
     (root / name).write_text(old.replace(line, both))

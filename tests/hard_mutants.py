@@ -17,7 +17,7 @@ from typing import NamedTuple
 from unittest.mock import patch
 
 import numpy as np
-from domains import EXAMPLE, OUTSIDE, POINTWISE, ROWS, breaking
+from domains import EXAMPLE, OUTSIDE, POINTWISE, ROWS, violations
 from mutants import of_module
 from mutated_code import source
 
@@ -40,24 +40,26 @@ ROUNDED = 0.51
 """Largest change of a reference value when it is rounded to a double [ULP]."""
 
 
-class Judged(NamedTuple):
+class CaseCheck(NamedTuple):
     """A hard case with its reference values, and the allowed differences from them."""
 
     case: HardCase
     references: list[Reference]
-    true: np.ndarray
+    expected: np.ndarray
     allowed: np.ndarray
 
     def holds(self, kernels: Mapping[str, Kernel]) -> bool:
         """Return whether values, type and shape of the results are correct, without warnings."""
         found, problem = hard._results(
-            self.case, kernels[self.case.kernel], len(self.true), self.references
+            self.case, kernels[self.case.kernel], len(self.expected), self.references
         )
-        if problem or found.shape != self.true.shape or found.dtype != self.case.format.name:
+        if problem or found.shape != self.expected.shape or found.dtype != self.case.format.name:
             return False
         with np.errstate(all="ignore"):
-            near = np.abs(found - self.true) <= self.allowed
-        return bool((near | (found == self.true) | (np.isnan(found) & np.isnan(self.true))).all())
+            near = np.abs(found - self.expected) <= self.allowed
+        return bool(
+            (near | (found == self.expected) | (np.isnan(found) & np.isnan(self.expected))).all()
+        )
 
 
 class Domain(NamedTuple):
@@ -68,7 +70,7 @@ class Domain(NamedTuple):
     def holds(self, kernels: Mapping[str, Kernel]) -> bool:
         names, call = ROWS[self.name]["arguments"], kernels[self.name].call
         own = OUTSIDE.get(self.name, {}).items()
-        outside = [dict(moved) for _, moved in breaking(self.name)]
+        outside = [dict(moved) for _, moved in violations(self.name)]
         outside += [{key: bad} for key, several in own for bad in several]
         given = [tuple((EXAMPLE | point)[key] for key in names) for point in (*outside, {})]
         more = {"modes": 5} if ROWS[self.name].get("modes") else {}
@@ -105,7 +107,7 @@ class Layouts(NamedTuple):
         return True
 
 
-Check = Judged | Domain | Layouts
+Check = CaseCheck | Domain | Layouts
 
 
 @cache
@@ -161,34 +163,38 @@ def _rows() -> Iterator[Kernel]:
 
 
 @cache
-def judged() -> tuple[Judged, ...]:
+def case_checks() -> tuple[CaseCheck, ...]:
     """Return every hard case with its reference values."""
     suite = hard_suite.suite()
     references = hard.committed(json.loads(PAPER.hard.read_text()), suite.cases)
     return tuple(
-        _judged(case, suite.kernels[case.kernel], suite.results(case.kernel), references[case.key])
+        _case_check(
+            case, suite.kernels[case.kernel], suite.results(case.kernel), references[case.key]
+        )
         for case in suite.cases
     )
 
 
-def _judged(case: HardCase, kernel: Kernel, count: int, known: hard.Known) -> Judged:
-    true, allowed = [restored(row) for row in known.references], []
-    values = [float(one.value) for one in true]
-    for one, value, budget in zip(true, values, hard._budgets(case, kernel, true), strict=True):
+def _case_check(case: HardCase, kernel: Kernel, count: int, known: hard.Known) -> CaseCheck:
+    references, allowed = [restored(row) for row in known.references], []
+    values = [float(one.value) for one in references]
+    for one, value, budget in zip(
+        references, values, hard._budgets(case, kernel, references), strict=True
+    ):
         error = 0.0
         if math.isfinite(value):
             ulps = judge(value, one, budget, case.format).allowed + ROUNDED
             error = ulps * math.ldexp(1.0, spacing_exponent(one.value, case.format))
         allowed.append(error)
     shape = (count, *case.shape)
-    return Judged(case, true, np.reshape(values, shape), np.reshape(allowed, shape))
+    return CaseCheck(case, references, np.reshape(values, shape), np.reshape(allowed, shape))
 
 
 def survivors(name: str) -> dict[str, list[str]]:
     """Return the mutants that no check detects, by function or constant of the module."""
     beneath = {name, *users(name)}
     known = hard_suite.kernels()
-    checks: list[Check] = [x for x in judged() if known[x.case.kernel].module in beneath]
+    checks: list[Check] = [x for x in case_checks() if known[x.case.kernel].module in beneath]
     checks += [Domain(x) for x in POINTWISE if ROWS[x]["module"] in beneath]
     checks += [Layouts()] if "contact_law" in users(name) else []
     assert checks
@@ -196,15 +202,15 @@ def survivors(name: str) -> dict[str, list[str]]:
         assert all(check.holds(kernels) for check in checks)
     found: dict[str, list[str]] = {}
     for mutant in of_module(source(name)):
-        noticed = _noticed(name, mutant.tree, checks)
-        if noticed is None:
+        detecting = _detecting_check(name, mutant.tree, checks)
+        if detecting is None:
             found.setdefault(mutant.home, []).append(mutant.change)
         else:  # the check that has detected one is likely to detect the next
-            checks.insert(0, checks.pop(noticed))
+            checks.insert(0, checks.pop(detecting))
     return found
 
 
-def _noticed(name: str, tree: ast.Module, checks: list[Check]) -> int | None:
+def _detecting_check(name: str, tree: ast.Module, checks: list[Check]) -> int | None:
     """Return the index of the first check that fails; 0 if the module cannot be loaded."""
     try:
         with replaced(name, tree) as kernels:

@@ -23,12 +23,12 @@ GUARDS = "a limit whose result is not used, or is the same as that of another li
 START = "start or convergence of an iteration, which does not exceed its stated number of steps"
 SIZE = "number of items that are processed at once"
 FINE = "resolution of a smooth function"
-BEYOND_ALL = "a value beyond which nothing changes in double precision"
+BEYOND_ALL = "a limit above which the result does not change in double precision"
 MARGIN = "margin of a bound above rounding errors, or a statement that the module does not use"
 
-May = Mapping[str, tuple[int, str]]
+Allowed = Mapping[str, tuple[int, str]]
 """Largest number of mutants of a function or constant that may pass, and the reason."""
-ANYWHERE: May = {
+ANYWHERE: Allowed = {
     **dict.fromkeys(
         ("STEPS", "_STEPS"), (1, "replaced by the number of steps that is stated to be sufficient")
     ),
@@ -44,29 +44,29 @@ class Expected(Protocol):
 
 
 @dataclass(frozen=True)
-class Answer:
+class ExpectedResult:
     """A call of a module, and the expected result."""
 
-    ask: Callable[[ModuleType], Any]
-    true: Any
+    call: Callable[[ModuleType], Any]
+    expected: Any
     tolerance: float = TOLERANCE
     least: float = 0.0
 
     def holds(self, module: ModuleType) -> bool:
-        found = np.asarray(self.ask(module), dtype=float)
-        return close(found, np.asarray(self.true, dtype=float), self.tolerance, self.least)
+        found = np.asarray(self.call(module), dtype=float)
+        return close(found, np.asarray(self.expected, dtype=float), self.tolerance, self.least)
 
 
 def close(
-    found: np.ndarray, true: np.ndarray, tolerance: float = TOLERANCE, least: float = 0.0
+    found: np.ndarray, expected: np.ndarray, tolerance: float = TOLERANCE, least: float = 0.0
 ) -> bool:
-    """Return whether errors are within the tolerance times the true value, or times `least`."""
-    if found.shape != true.shape:
+    """Return whether errors are within the tolerance times the expected value, or times `least`."""
+    if found.shape != expected.shape:
         return False
     with np.errstate(invalid="ignore"):
-        allowed = tolerance * np.maximum(np.abs(true), least)
-        near = np.isfinite(true) & (np.abs(found - true) <= allowed)
-    return bool((near | (found == true) | (np.isnan(found) & np.isnan(true))).all())
+        allowed = tolerance * np.maximum(np.abs(expected), least)
+        near = np.isfinite(expected) & (np.abs(found - expected) <= allowed)
+    return bool((near | (found == expected) | (np.isnan(found) & np.isnan(expected))).all())
 
 
 def compiled(tree: ast.Module | str, name: str, users: Sequence[str] = ()) -> ModuleType:
@@ -101,7 +101,7 @@ def source(name: str) -> str:
 
 
 @dataclass(frozen=True)
-class Judged:
+class ModuleTests:
     """The tests of a module's mutants.
 
     Parameters
@@ -115,34 +115,36 @@ class Judged:
     """
 
     cases: Callable[[], Sequence[Expected]]
-    may_pass: May = field(default_factory=dict)
+    may_pass: Allowed = field(default_factory=dict)
     steps: int | None = None
 
 
-def passes(tree: ast.Module | str, name: str, judged: Judged, cases: Sequence[Expected]) -> bool:
+def passes(
+    tree: ast.Module | str, name: str, tests: ModuleTests, cases: Sequence[Expected]
+) -> bool:
     """Return whether a module passes all tests, without raising an error."""
     with np.errstate(all="ignore"):
         try:
             module = compiled(tree, name)
-            if judged.steps is not None:
+            if tests.steps is not None:
                 limit = "_STEPS" if "_STEPS" in vars(module) else "STEPS"
                 assert limit in vars(module)
-                vars(module)[limit] = judged.steps
+                vars(module)[limit] = tests.steps
             return all(case.holds(module) for case in cases)
         except (ArithmeticError, LookupError, TypeError, ValueError, NameError, AttributeError):
             return False
 
 
-def unnoticed(name: str, judged: Judged) -> dict[str, list[str]]:
+def undetected(name: str, tests: ModuleTests) -> dict[str, list[str]]:
     """Return the mutants of each function or constant of which more pass than allowed."""
-    text, cases = source(name), judged.cases()
-    assert passes(text, name, judged, cases)
+    text, cases = source(name), tests.cases()
+    assert passes(text, name, tests, cases)
     found: dict[str, list[str]] = {}
     homes = set()
     for mutant in of_module(text):
         homes.add(mutant.home)
-        if passes(mutant.tree, name, judged, cases):
+        if passes(mutant.tree, name, tests, cases):
             found.setdefault(mutant.home, []).append(mutant.change)
-    assert judged.may_pass.keys() <= homes, "a name that the module does not have"
-    most = {home: count for home, (count, _) in (ANYWHERE | judged.may_pass).items()}
-    return {home: those for home, those in found.items() if len(those) > most.get(home, 0)}
+    assert tests.may_pass.keys() <= homes, "the module does not contain these names"
+    most = {home: count for home, (count, _) in (ANYWHERE | tests.may_pass).items()}
+    return {home: changes for home, changes in found.items() if len(changes) > most.get(home, 0)}

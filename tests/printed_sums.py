@@ -14,11 +14,11 @@ def truncated_gamma(k: int, modes: int, case: tuple[float, ...]) -> mpf:
     R, _, _, h, b, lam, mu = map(mpf, case)
     modulus = 4 * mu * (lam + mu) / (lam + 2 * mu)
 
-    def share(n: int) -> mpf:
+    def term(n: int) -> mpf:
         j = besseljzero(0, n)
         K = 8 * plate_factor(2 * h * j / b) / (mp_pi * R * b**2 * (j / b) ** 4 * j1(j) ** 2)
         return (j / b) ** (2 * k - 1) * K
 
-    total = mp.fsum(share(n) for n in range(1, modes + 1))
+    total = mp.fsum(term(n) for n in range(1, modes + 1))
     scale = mpf((-1) ** k * (2 * k - 2)) / mp.factorial(2 * k - 1)
     return scale * (3 * R / (4 * modulus)) ** (mpf(2 * k - 1) / 3) * total

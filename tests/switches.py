@@ -49,14 +49,14 @@ class Sides:
         if left.dtype.kind not in "f" and right.dtype.kind not in "f":
             left = right = np.zeros(left.shape)
         with np.errstate(all="ignore"):
-            apart = np.abs(np.subtract(left, right, dtype=float))
-            whole = (left == np.rint(left)) & (right == np.rint(right)) & (apart <= 1)
-            gap = apart / np.maximum(np.abs(left), np.abs(right))
-            gap = np.where(whole | (left == 0) | (right == 0) | (left == right), 0.0, gap)
-        gap[np.isnan(left) | np.isnan(right)] = np.inf
-        gap[np.isnan(gap)] = 1.0  # infinities
-        self.true = min(self.true, gap[outcome].min(initial=np.inf))
-        self.false = min(self.false, gap[~outcome].min(initial=np.inf))
+            distance = np.abs(np.subtract(left, right, dtype=float))
+            whole = (left == np.rint(left)) & (right == np.rint(right)) & (distance <= 1)
+            relative = distance / np.maximum(np.abs(left), np.abs(right))
+            relative = np.where(whole | (left == 0) | (right == 0) | (left == right), 0.0, relative)
+        relative[np.isnan(left) | np.isnan(right)] = np.inf
+        relative[np.isnan(relative)] = 1.0  # infinities
+        self.true = min(self.true, relative[outcome].min(initial=np.inf))
+        self.false = min(self.false, relative[~outcome].min(initial=np.inf))
 
 
 @dataclass
@@ -68,8 +68,8 @@ class Watch:
     def beyond(self, reach: float) -> dict[Position, Sides]:
         """Return the comparisons that did not have both outcomes within a relative distance."""
         return {
-            place: sides
-            for place, sides in self.sides.items()
+            position: sides
+            for position, sides in self.sides.items()
             if not max(sides.true, sides.false) <= reach
         }
 
@@ -133,7 +133,7 @@ class _Counting(ast.NodeTransformer):
         self.generic_visit(node)
         if not all(type(op) in OPERATORS for op in node.ops):
             return node
-        number = sum(place.home == self.home for place in self.kinds)
+        number = sum(position.home == self.home for position in self.kinds)
         for index, op in enumerate(node.ops):
             self.kinds[Position(self.home, number + index)] = OPERATORS[type(op)]
             self.watch.sides[Position(self.home, number + index)] = Sides()
@@ -145,9 +145,9 @@ class _Counting(ast.NodeTransformer):
         """Return the outcome of a comparison; pairs of a chained one are recorded separately."""
         outcome: Any = True
         for index, (left, right) in enumerate(pairwise(operands)):
-            place = Position(home, number + index)
-            outcome = self.kinds[place](left, right)
-            self.watch.sides[place].count(left, right, outcome)
+            position = Position(home, number + index)
+            outcome = self.kinds[position](left, right)
+            self.watch.sides[position].count(left, right, outcome)
             if index + 2 < len(operands) and not outcome:
                 break
         return outcome

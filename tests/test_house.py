@@ -1,4 +1,4 @@
-"""Rules of the code: layers, length and docstrings of modules, fast imports, names of classes."""
+"""Rules of the code: layers, modules, imports, packaging, names of classes, and version."""
 
 import ast
 import re
@@ -13,7 +13,7 @@ from importlinter.cli import lint_imports
 from derivation.engine.files import ROOT
 
 HAND_WRITTEN = sorted(
-    path for room in ("derivation", "tests") for path in (ROOT / room).rglob("*.py")
+    path for folder in ("derivation", "tests") for path in (ROOT / folder).rglob("*.py")
 )
 
 
@@ -22,13 +22,13 @@ def test_layers(monkeypatch: pytest.MonkeyPatch) -> None:
     assert lint_imports(config_filename=str(ROOT / "pyproject.toml"), no_cache=True) == 0
 
 
-def test_modules_say_what_they_are_and_are_not_long() -> None:
+def test_modules_have_docstrings_and_at_most_400_lines() -> None:
     texts = {str(path.relative_to(ROOT)): path.read_text() for path in HAND_WRITTEN}
     assert not [name for name, text in texts.items() if not ast.get_docstring(ast.parse(text))]
     assert not [name for name, text in texts.items() if len(text.splitlines()) > 400]
 
 
-def test_the_door_is_light() -> None:
+def test_command_line_imports_no_slow_package() -> None:
     program = """
 import sys
 import tomllib
@@ -47,18 +47,20 @@ def test_every_package_is_installed() -> None:
         listed = set(tomllib.load(stream)["tool"]["setuptools"]["packages"])
     found = {
         ".".join(path.parent.relative_to(ROOT).parts)
-        for room in ("derivation", "generated")
-        for path in (ROOT / room).rglob("__init__.py")
+        for folder in ("derivation", "generated")
+        for path in (ROOT / folder).rglob("__init__.py")
     }
     # The public API is installed under the distribution's name.
     assert listed == found - {"derivation.api"} | {"derivation.data", "platecontact"}
 
 
-def test_every_package_that_is_imported_is_installed_along() -> None:
-    """Programs with which `plate/benchmark` compares are optional."""
+def test_every_imported_package_is_a_dependency() -> None:
+    """Other programs with which `plate/benchmark` compares are optional."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     names = {re.split(r"[<>=!]", text)[0].lower() for text in project["dependencies"]}
-    given = names | sys.stdlib_module_names | {"derivation", "generated", "flint", "pydantic_core"}
+    allowed = (
+        names | sys.stdlib_module_names | {"derivation", "generated", "flint", "pydantic_core"}
+    )
     assert {"python-flint", "pydantic"} <= names
     for path in (ROOT / "derivation").rglob("*.py"):
         if "benchmark" in path.parts:
@@ -67,15 +69,15 @@ def test_every_package_that_is_imported_is_installed_along() -> None:
             found = [a.name for a in node.names] if isinstance(node, ast.Import) else []
             if isinstance(node, ast.ImportFrom) and not node.level:
                 found = [node.module or ""]
-            assert {name.partition(".")[0] for name in found} <= given, path
+            assert {name.partition(".")[0] for name in found} <= allowed, path
 
 
 SHARED = {"Formula": "the class of a paper's formulas has this name in every paper"}
 """Names that several classes may have, with the reason."""
 
 
-def test_a_class_has_a_name_of_its_own() -> None:
-    """Except in `scene` and the copied modules, where the names are public."""
+def test_class_names_are_unique() -> None:
+    """Public names in `scene` and names in the copied modules are excluded."""
     found: dict[str, list[Path]] = {}
     for path in sorted((ROOT / "derivation").rglob("*.py")):
         if not {"scene", "runtime"} & set(path.parts):
@@ -85,7 +87,7 @@ def test_a_class_has_a_name_of_its_own() -> None:
     assert {name for name, paths in found.items() if len(paths) > 1} == set(SHARED)
 
 
-def test_the_citation_names_the_version() -> None:
+def test_citation_states_the_version() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     lines = (ROOT / "CITATION.cff").read_text().splitlines()
     assert f"title: {project['name']}" in lines

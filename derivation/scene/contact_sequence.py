@@ -29,6 +29,8 @@ CLOSED = 1e-5
 """Remaining over elapsed time of a contact below which its end is computed in one step."""
 TOWARDS = 0.75
 """Largest length of an element over the remaining time of the contact."""
+WITHIN = 0.5
+"""Remaining time by the approach over that by the radius below which the latter is used."""
 OWN = 1e3
 """Factor of the tolerance for the radius, relative to the largest value in its own element."""
 SOLVED = 1e-3
@@ -224,7 +226,7 @@ def contact(
         if step % PROGRESS == PROGRESS - 1:
             now, count = problem.T * (origin + x**ONSET), problem.omega.size
             announce(f"{now:.3g} s after first contact, {count} modes")
-        length = min(length, _longest(problem, n, x, state if found else None))
+        length = min(length, _longest(problem, n, x, _left(found[-1]) if found else math.inf))
         if length < SHORTEST * max(x, 1.0):
             break
         if found:
@@ -274,7 +276,7 @@ def contact(
         more = x**ONSET - made.element.x**ONSET
         more *= change * (1.0 + EARLY * more / x**ONSET)
         length = min(LONGEST, (x**ONSET + more) ** (1.0 / ONSET) - x)
-        left = _left(state)
+        left = _left(made)
         if left < CLOSED * x**ONSET and not problem.retardation_time:
             more, after = _released(problem, made, left)
             ended = start + x**ONSET + more
@@ -311,17 +313,27 @@ def _onset(problem: DynamicProblem, n: int, length: float, meeting: float) -> Ar
     return np.asarray(np.linalg.solve(length * rule.integral, a), dtype=np.float64)
 
 
-def _left(state: ImpactState) -> float:
-    """Return the remaining time of a contact at the present separation speed."""
-    return state.approach / state.separation_speed if state.separation_speed > 0.0 else math.inf
+def _left(last: TimeElement) -> float:
+    """Return the remaining time of a contact at the present separation speed.
+
+    At its end the square of the radius vanishes linearly in time. If fast modes bend the plate more
+    than the sphere is curved, the approach vanishes long before: the radius then tells the time.
+    """
+    state, x = last.end, last.element.x + last.element.length
+    if state.separation_speed <= 0.0:
+        return math.inf
+    left = state.approach / state.separation_speed
+    narrowing = -2.0 * float(np.sum(last.element.slope)) / (ONSET * x ** (ONSET - 1))
+    if left * narrowing > WITHIN * last.radius:
+        return left
+    return last.radius / narrowing if narrowing > 0.0 else math.inf
 
 
-def _longest(problem: DynamicProblem, n: int, x: float, state: ImpactState | None) -> float:
+def _longest(problem: DynamicProblem, n: int, x: float, left: float) -> float:
     """Return the largest length of an element by the fastest mode and the remaining time."""
     most = problem.fastest
     ahead = PHASE * n / most if most else math.inf
-    if state is not None:
-        ahead = min(ahead, TOWARDS * _left(state))
+    ahead = min(ahead, TOWARDS * left)
     return float((x**ONSET + ahead) ** (1.0 / ONSET) - x)
 
 

@@ -24,6 +24,7 @@ from derivation.scene.model import model_of
 from derivation.scene.model_error import inertia_error
 from derivation.scene.result import Result
 from derivation.scene.scene import OUTPUTS, TIGHTEST, Scene
+from derivation.scene.selection import check_enabled
 from derivation.scene.yield_warnings import impact_warnings
 
 if TYPE_CHECKING:
@@ -175,14 +176,17 @@ def selected_effects(
     Raises
     ------
     SceneError
-        If the tolerance is not between 1e-13 and 1, or a required effect cannot be computed.
+        If the tolerance is not between 1e-13 and 1, or a required or enabled effect cannot be
+        computed.
     """
     outputs = OUTPUTS
     if scene.accuracy is not None:
         outputs = scene.accuracy.outputs
         rtol = scene.accuracy.rtol if rtol is None else rtol
     wanted, tolerance = scene.effects.model_dump(), selection_tolerance(rtol)
-    return rtol, decide(model_of(scene), wanted, tolerance, outputs, default=rtol is None)
+    model = model_of(scene)
+    check_enabled(scene, model)
+    return rtol, decide(model, wanted, tolerance, outputs, default=rtol is None)
 
 
 def selection_tolerance(rtol: float | None) -> float:

@@ -26,6 +26,7 @@ from derivation.scene.limits import (
 from derivation.scene.messages import shown
 from derivation.scene.model import model_of
 from derivation.scene.scene import Scene, SceneError
+from derivation.scene.selection import check_enabled
 from derivation.scene.yield_warnings import static_warnings
 from derivation.scene.yielding import yielding_of
 
@@ -147,6 +148,7 @@ def indent(
 def static_law(scene: Scene) -> ContactLaw:
     """Return the law with every effect that applies to a static contact and is not disabled."""
     model, wanted = model_of(scene), scene.effects.model_dump()
+    check_enabled(scene, model)
     present = (
         effect.name
         for effect in EFFECTS

@@ -25,9 +25,10 @@ from derivation.scene.effects.effect import Array, Contribution, Effect, PlateEf
 from derivation.scene.effects.finite_thickness import plate_contribution
 from derivation.scene.model import Model
 from derivation.scene.quadrature import NODES, gauss
+from derivation.scene.solved_contact import contact_at, plate_of
 
 if TYPE_CHECKING:
-    from generated.non_hertzian_pressure import Contact, Plate
+    from generated.non_hertzian_pressure import Contact
 
 THICK = 1.0
 """Largest h/b for which the model of simply supported and clamped edges was measured."""
@@ -237,8 +238,9 @@ class ContactLaw:
         if self.solved:
             from generated import non_hertzian_pressure
 
+            plate = plate_of(self.model.h, self.model.b)
             found: Array = non_hertzian_pressure.pressure(
-                r, self._solved_plate, a, R, self.modulus, self.model.modulus, sphere=self.spherical
+                r, plate, a, R, self.modulus, self.model.modulus, sphere=self.spherical
             )
             return found
         x, weights = gauss(NODES[2])
@@ -329,19 +331,8 @@ class ContactLaw:
 
     def _contact(self, a: Array) -> "Contact":
         """Return the contact with non-Hertzian pressure."""
-        from generated import non_hertzian_pressure
-
-        model = self.model
-        return non_hertzian_pressure.contact(
-            self._solved_plate, a, model.R, self.modulus, model.modulus, sphere=self.spherical
-        )
-
-    @cached_property
-    def _solved_plate(self) -> "Plate":
-        """The plate in the integral equation of the pressure."""
-        from generated import non_hertzian_pressure
-
-        return non_hertzian_pressure.plate(self.model.h, self.model.b)
+        m = self.model
+        return contact_at(a, m.h, m.b, m.R, self.modulus, m.modulus, self.spherical)
 
     def _sphere(self, a: Array) -> kernels.Sphere:
         """Return force, indentation and slope on a half-space."""

@@ -22,6 +22,7 @@ from derivation.scene.result import UNITS
 from derivation.scene.rows_selection import Group, selected
 from derivation.scene.rows_warnings import warnings_of_rows
 from derivation.scene.scene import OUTPUTS, Scene, SceneError, read
+from derivation.scene.selection import check_enabled
 from derivation.scene.static_rows import impacts_of
 
 BLOCK = 2**15
@@ -175,6 +176,10 @@ class _Block:
             return
         rows, model = rows[sound], model.take(sound)
         if not len(rows) or (model.inertia.infinite_plate and np.any(model.density)):
+            return
+        try:
+            check_enabled(scene, model.take(0))
+        except SceneError:
             return
         wanted = scene.effects.model_dump()
         for group in selected(model, wanted, np.full(len(rows), share), outputs):

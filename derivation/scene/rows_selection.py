@@ -23,7 +23,7 @@ from derivation.scene.selection import Candidates, candidates_of
 
 NEAR = 1e-9
 """Relative distance from a tolerance at which the row is simulated singly."""
-TOGETHER = 1024
+TOGETHER = 2048
 """Number of rows whose bounds are computed together, so that they fit into the cache."""
 Rows = NDArray[np.intp]
 

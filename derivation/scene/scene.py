@@ -79,7 +79,7 @@ class Effects(Table):
     ----------
     sphere_elasticity, spherical_profile, non_hertzian_pressure, plasticity, viscosity, gravity
         Effects of sphere and contact: "auto", the default, to include the effect if the tolerance
-        requires it; True to include it if it applies to the scene; False to disable it.
+        requires it; True to include it, which requires its key; False to disable it.
     bending, finite_thickness, finite_radius, edge, inertia, damping
         Effects of the plate, with the same values.
     compare_paper_motion

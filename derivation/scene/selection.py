@@ -8,6 +8,7 @@ order does not depend on the tolerance; a larger tolerance therefore never inclu
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from derivation.scene.effects import EFFECTS
@@ -15,7 +16,8 @@ from derivation.scene.effects.effect import Effect
 from derivation.scene.law import ContactLaw
 from derivation.scene.model import Model
 from derivation.scene.omission_bounds import LargestContact, error_of, size_of, state_of
-from derivation.scene.scene import OUTPUTS, SceneError
+from derivation.scene.scene import OUTPUTS, Scene, SceneError
+from derivation.scene.table import in_words
 
 
 @dataclass(frozen=True)
@@ -90,6 +92,28 @@ class Candidates:
     def left(self, included: frozenset[str]) -> list[Effect]:
         """Return the effects that the selection decides on and that are not yet included."""
         return [effect for effect in self.open_ if effect.name not in included]
+
+
+def check_enabled(scene: Scene, model: Model) -> None:
+    """Reject a scene that enables an effect without the key that this effect needs.
+
+    Raises
+    ------
+    SceneError
+        With all such effects; a key with a value that changes nothing, such as 0, is accepted.
+    """
+    wanted, found = scene.effects.model_dump(), list[str]()
+    for effect in EFFECTS:
+        if not effect.selectable or wanted.get(effect.name) is not True:
+            continue
+        reason = effect.not_applicable_reason(model)
+        if reason and not effect.without_change(scene):
+            found.append(
+                f"effects.{effect.name} = true does not apply: {reason}; {effect.remedy}, or "
+                f"remove effects.{effect.name}"
+            )
+    if found:
+        raise SceneError(in_words([partial(str, text) for text in found]))
 
 
 def candidates_of(model: Model, wanted: Mapping[str, Any]) -> Candidates:

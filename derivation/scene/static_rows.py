@@ -13,7 +13,7 @@ from derivation.scene.method_selection import rounding_of, whole_law
 from derivation.scene.motion import closeness, largest_radii, results_at, settled
 from derivation.scene.quadrature import MORE_TIMES, NODES
 
-TOGETHER = 1024
+TOGETHER = 2048
 """Number of rows whose quadratures are computed together, so that they fit into the cache."""
 NEAR = 1e-9
 """Relative distance from a tolerance at which the row is simulated singly."""

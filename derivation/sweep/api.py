@@ -8,7 +8,7 @@ from derivation.engine.activity import Progress, quiet
 from derivation.scene.errors import SceneError
 from derivation.scene.method_selection import check_rtol
 from derivation.scene.scene import Scene
-from derivation.sweep.dataset import check_memory, column, data_set
+from derivation.sweep.dataset import check_memory, column, data_set, fits_in_memory
 from derivation.sweep.distributions import read_distributions
 from derivation.sweep.plan import Plan, grid, saltelli, sample
 from derivation.sweep.run import compute
@@ -19,6 +19,9 @@ from derivation.sweep.write import check_out, write
 
 if TYPE_CHECKING:
     import xarray as xr
+
+READ_AS_NEEDED = (".nc", ".zarr")
+"""Suffixes of files from which a Dataset reads blocks as needed."""
 
 
 def sweep(
@@ -75,13 +78,15 @@ def sweep(
     xarray.Dataset
         Results over the dimensions of the grid, named as its keys, or over `sample`; with
         `status` and `reason` of each point, `bound`, `model_error` and `effects`. With
-        `sensitivity`, also the indices over `result` and `key`.
+        `sensitivity`, also the indices over `result` and `key`. More than two million points are
+        not held in memory: the Dataset then reads blocks of the file `out` as Dask arrays.
 
     Raises
     ------
     SceneError
-        If a key, value or option is not valid, all points are refused, there are more than two
-        million points, or, with `sensitivity`, a point has no result.
+        If a key, value or option is not valid, all points are refused, or, with `sensitivity`, a
+        point has no result; for more than two million points with `sensitivity`, or without `out`
+        as .nc or .zarr.
 
     Examples
     --------
@@ -98,12 +103,20 @@ def sweep(
     study = Study(scene, planned(vary, sample, seed, method, sensitivity), rtol)
     place = None if out is None else Path(out)
     check(study, place)
-    check_memory(study, "sweep")
+    if sensitivity or place is None or place.suffix not in READ_AS_NEEDED:
+        check_memory(study, "sweep")
     with opened(study, place) as store:
         compute(store, workers, scheduler, retry, quiet)
         found = finish(store, place, sensitivity, quiet)
-        data = data_set(store)
+        data = data_set(store) if place is None or fits_in_memory(study) else _of_file(place)
     return data if found is None else found.add_to(data)
+
+
+def _of_file(path: Path) -> "xr.Dataset":
+    """Return the Dataset in a file, whose blocks are read as needed."""
+    import xarray as xr
+
+    return xr.open_dataset(path, chunks={})
 
 
 def planned(

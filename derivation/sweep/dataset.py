@@ -67,11 +67,17 @@ def check_memory(study: Study, what: str) -> None:
     SceneError
         If there are more than `MOST_IN_MEMORY` points.
     """
-    if study.plan.size > MOST_IN_MEMORY:
+    if not fits_in_memory(study):
         raise SceneError(
             f"{what}: expected at most {MOST_IN_MEMORY:,} points in memory, got "
-            f"{study.plan.size:,}; use fewer points, or write a file by `platecontact sweep --out`"
+            f"{study.plan.size:,}; use fewer points, or write them to a .nc or .zarr file, which "
+            "is read as needed"
         )
+
+
+def fits_in_memory(study: Study) -> bool:
+    """Return whether all points of a study may be held in memory."""
+    return study.plan.size <= MOST_IN_MEMORY
 
 
 def data_set(store: Store) -> "xr.Dataset":

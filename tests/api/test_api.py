@@ -1,4 +1,4 @@
-"""`import platecontact`: every public name is there, documented, and its examples run."""
+"""`import platecontact`: public names, their documentation and examples, and imported modules."""
 
 import doctest
 import importlib
@@ -12,39 +12,36 @@ import pytest
 from derivation.scene.example_scenes import copy
 
 
-def test_an_installed_copy_needs_no_other_name() -> None:
-    """There the package's folder is called `platecontact`, not `derivation/api`."""
-    place = Path(platecontact.__file__).parent
-    for path in place.glob("*.py"):
+def test_package_does_not_import_itself_as_derivation_api() -> None:
+    """In an installed copy the folder is named `platecontact`, not `derivation/api`."""
+    folder = Path(platecontact.__file__).parent
+    for path in folder.glob("*.py"):
         assert "derivation.api" not in path.read_text(), path
 
 
-def test_names_complete_and_resolve() -> None:
+def test_public_names_are_listed_and_documented() -> None:
     assert dir(platecontact) == sorted(platecontact.__all__)
     for name in platecontact.__all__:
         assert getattr(platecontact, name).__doc__, name
 
 
-def test_an_unknown_name_is_no_attribute() -> None:
+def test_unknown_name_raises_an_attribute_error() -> None:
     with pytest.raises(AttributeError, match="'platecontact' has no attribute 'simulat'"):
         platecontact.simulat  # noqa: B018
 
 
 @pytest.mark.parametrize("module", ["platecontact", "derivation.scene.export"])
-def test_examples_of_modules_run(module: str) -> None:
+def test_examples_of_modules_pass(module: str) -> None:
     found = doctest.testmod(importlib.import_module(module))
     assert found.attempted > 0
     assert found.failed == 0
 
 
 @pytest.mark.parametrize("name", platecontact.__all__)
-def test_each_public_name_has_an_example_that_runs(
+def test_each_public_name_has_an_example_that_passes(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """In a folder with the example scene that the examples read.
-
-    The examples of a class include those of its methods.
-    """
+    """The examples of a class include those of its methods; some read `glass_pane.toml`."""
     copy(["glass_pane"], tmp_path)
     monkeypatch.chdir(tmp_path)
     found = getattr(platecontact, name)
@@ -56,19 +53,19 @@ def test_each_public_name_has_an_example_that_runs(
     assert runner.failures == 0
 
 
-def test_the_schema_describes_each_table_in_one_line() -> None:
-    """Not with the parameters and examples of its class."""
-    made = platecontact.schema()
-    texts = {name: entry["description"] for name, entry in made["$defs"].items()}
-    texts["Scene"] = made["description"]
+def test_schema_describes_each_table_in_one_line() -> None:
+    """The description is the first line of the class docstring."""
+    schema = platecontact.schema()
+    texts = {name: entry["description"] for name, entry in schema["$defs"].items()}
+    texts["Scene"] = schema["description"]
     assert {"Scene", "Sphere", "Plate", "Measured"} <= texts.keys()
     for name, text in texts.items():
         assert text == getattr(platecontact, name).__doc__.partition("\n")[0]
         assert text.endswith(".")
 
 
-def test_a_simulation_loads_no_sympy(tmp_path: Path) -> None:
-    """From a folder that is not the checkout."""
+def test_simulation_does_not_import_slow_packages(tmp_path: Path) -> None:
+    """The program runs in a folder outside the checkout."""
     program = (
         "import sys, platecontact as pc\n"
         "scene = pc.read({'sphere': {'radius': 0.01, 'material': 'steel'},\n"

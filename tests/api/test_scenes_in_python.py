@@ -1,4 +1,4 @@
-"""Scenes from Python without files: the messages of a file, and results for pandas and xarray."""
+"""Scenes built in Python: same messages as for files, and results as pandas and xarray objects."""
 
 import json
 from collections.abc import Mapping
@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-GOOD: dict[str, dict[str, Any]] = {
+VALID: dict[str, dict[str, Any]] = {
     "sphere": {"radius": 0.01, "material": "steel"},
     "plate": {"radius": 0.3, "thickness": 0.05, "material": "glass"},
     "impact": {"speed": 1.0},
@@ -20,7 +20,7 @@ CLASSES: dict[str, Any] = {
     "sphere": pc.Sphere, "plate": pc.Plate, "impact": pc.Impact, "effects": pc.Effects,
     "inertia": pc.Inertia, "accuracy": pc.Accuracy,
 }  # fmt: skip
-WORDS = st.sampled_from([*GOOD["plate"], "mass", "density", "sped", "rtol", "", "a b"])
+WORDS = st.sampled_from([*VALID["plate"], "mass", "density", "sped", "rtol", "", "a b"])
 VALUES = st.one_of(
     st.none(), st.booleans(), st.integers(-3, 3), st.floats(), st.text(max_size=4),
     st.sampled_from(["steel", "tennis ball", "paper"]), st.lists(st.integers(), max_size=2),
@@ -29,7 +29,7 @@ VALUES = st.one_of(
 
 
 def message(make: Any, *args: Any, **keys: Any) -> str:
-    """What a call is refused with; empty if it is not."""
+    """Return the message of the error that a call raises; empty if it raises none."""
     try:
         make(*args, **keys)
     except pc.SceneError as error:
@@ -38,15 +38,15 @@ def message(make: Any, *args: Any, **keys: Any) -> str:
 
 
 def by_classes(tables: Mapping[str, Mapping[str, Any]]) -> pc.Scene:
-    made = {name: CLASSES[name](**keys) for name, keys in tables.items()}
-    return pc.Scene(**made)
+    objects = {name: CLASSES[name](**keys) for name, keys in tables.items()}
+    return pc.Scene(**objects)
 
 
-def test_classes_dictionaries_and_a_file_s_tables_make_the_same_scene() -> None:
-    scene = by_classes(GOOD)
-    assert scene == pc.Scene(**GOOD) == pc.read(GOOD)  # type: ignore[arg-type]
-    assert scene.to_json() == GOOD
-    assert pc.simulate(scene).contact_time == pc.simulate(pc.read(GOOD)).contact_time
+def test_classes_and_dictionaries_give_the_same_scene() -> None:
+    scene = by_classes(VALID)
+    assert scene == pc.Scene(**VALID) == pc.read(VALID)  # type: ignore[arg-type]
+    assert scene.to_json() == VALID
+    assert pc.simulate(scene).contact_time == pc.simulate(pc.read(VALID)).contact_time
 
 
 @given(
@@ -56,22 +56,22 @@ def test_classes_dictionaries_and_a_file_s_tables_make_the_same_scene() -> None:
         max_size=5,
     )
 )
-def test_whatever_is_wrong_the_messages_are_those_of_a_file(tables: dict[str, Any]) -> None:
-    wrong = {**GOOD, **tables}
+def test_messages_equal_those_for_a_file(tables: dict[str, Any]) -> None:
+    wrong = {**VALID, **tables}
     given = {name: keys for name, keys in wrong.items() if keys is not None}
     assert message(pc.Scene, **wrong) == message(pc.read, given)
 
 
 @given(st.sampled_from([*CLASSES]), st.dictionaries(WORDS, VALUES, max_size=4))
-def test_a_table_s_problems_are_those_it_has_in_a_scene(table: str, keys: dict[str, Any]) -> None:
-    """But for the hint that an unknown key belongs to another table, of which it knows nothing."""
-    said, *more = message(CLASSES[table], **keys).removeprefix(f"{table}: ").splitlines() or [""]
-    whole = message(pc.read, {**GOOD, table: keys})
-    for line in more or [said]:
+def test_messages_of_a_table_equal_those_in_a_scene(table: str, keys: dict[str, Any]) -> None:
+    """Hints after the semicolon may differ: a single table does not know the keys of others."""
+    first, *more = message(CLASSES[table], **keys).removeprefix(f"{table}: ").splitlines() or [""]
+    whole = message(pc.read, {**VALID, table: keys})
+    for line in more or [first]:
         assert line.partition(";")[0] in whole
 
 
-def test_all_problems_are_told_at_once() -> None:
+def test_all_problems_are_reported_at_once() -> None:
     text = message(
         pc.Scene,
         sphere={"radius": -1},
@@ -83,28 +83,28 @@ def test_all_problems_are_told_at_once() -> None:
     assert message(pc.Sphere, radius=-1, mass=1).startswith("sphere.radius: ")
 
 
-def test_numbers_of_numpy_are_numbers() -> None:
+def test_numpy_numbers_are_accepted() -> None:
     sphere = pc.Sphere(radius=np.float32(0.5), mass=np.int64(2))
     assert (sphere.radius, sphere.mass) == (0.5, 2.0)
     assert type(sphere.radius) is float
-    scene = pc.read(GOOD | {"impact": {"speed": np.float64(2.0)}})
+    scene = pc.read(VALID | {"impact": {"speed": np.float64(2.0)}})
     assert json.dumps(scene.to_json())
     assert "got true" in message(pc.Impact, speed=True)
     assert "got nan" in message(pc.Impact, speed=np.float64("nan"))
 
 
-def test_old_names_are_accepted_with_a_notice() -> None:
+def test_former_names_are_accepted_with_a_warning() -> None:
     with pytest.warns(FutureWarning, match=r"plate\.retardation_time"):
-        scene = pc.Scene(**GOOD | {"plate": GOOD["plate"] | {"viscous_time": 1e-6}})  # type: ignore[arg-type]
+        scene = pc.Scene(**VALID | {"plate": VALID["plate"] | {"viscous_time": 1e-6}})  # type: ignore[arg-type]
     assert scene.plate.retardation_time == 1e-6
 
 
 @pytest.fixture(scope="module", params=[False, "auto"], ids=["quasi-static", "dynamic"])
 def result(request: pytest.FixtureRequest) -> pc.Result:
-    return pc.simulate(pc.read(GOOD | {"effects": {"inertia": request.param}}), rtol=1e-2)
+    return pc.simulate(pc.read(VALID | {"effects": {"inertia": request.param}}), rtol=1e-2)
 
 
-def test_a_data_set_holds_results_and_history_with_units(result: pc.Result) -> None:
+def test_xarray_data_set_has_results_and_history_with_units(result: pc.Result) -> None:
     data, history = result.to_xarray(), result.history()
     assert float(data["max_force"]) == result.max_force
     assert data["max_force"].attrs == {"long_name": "max force", "units": "N"}
@@ -119,7 +119,7 @@ def test_a_data_set_holds_results_and_history_with_units(result: pc.Result) -> N
     assert pc.read(json.loads(data.attrs["scene"])) == result.scene
 
 
-def test_a_data_frame_holds_the_history_over_time(result: pc.Result) -> None:
+def test_pandas_data_frame_has_the_history(result: pc.Result) -> None:
     frame = result.to_pandas(50)
     assert len(frame) == 50
     assert frame.index.name == "time"
@@ -128,7 +128,7 @@ def test_a_data_frame_holds_the_history_over_time(result: pc.Result) -> None:
     assert frame["force"].max() == pytest.approx(result.max_force, rel=1e-2)
 
 
-def test_a_plot_is_a_figure_to_be_saved(result: pc.Result) -> None:
+def test_plot_returns_a_figure(result: pc.Result) -> None:
     from matplotlib.figure import Figure
 
     figure = result.plot()

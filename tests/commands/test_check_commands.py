@@ -1,4 +1,4 @@
-"""The parts of `check`: what each shows, gives as JSON and records, and its exit status."""
+"""The subcommands of `check`: table, JSON, record and exit status."""
 
 import dataclasses
 import json
@@ -45,30 +45,30 @@ def rows_of(path: Path) -> list[dict[str, Any]]:
 
 
 @pytest.fixture
-def spoilt(monkeypatch: Patch, tmp_path: Path) -> Callable[[float], Path]:
-    """Have `check` measure J0 alone, times a factor; gives where that is recorded."""
+def install_j0(monkeypatch: Patch, tmp_path: Path) -> Callable[[float], Path]:
+    """Let `check` measure only J0, multiplied by a factor; return the path of the record."""
     path = tmp_path / "check.json"
     monkeypatch.setattr(plate_paper, "PAPER", dataclasses.replace(PAPER, records=tmp_path))
 
-    def of(factor: float) -> Path:
-        [right] = [kernel for kernel in generated_kernels() if kernel.name == "bessel_j0"]
-        wrong = dataclasses.replace(right, call=lambda x: right.call(x) * x.dtype.type(factor))
-        silent = dataclasses.replace(wrong, module="as_printed", budget=None)
+    def install(factor: float) -> Path:
+        [exact] = [kernel for kernel in generated_kernels() if kernel.name == "bessel_j0"]
+        wrong = dataclasses.replace(exact, call=lambda x: exact.call(x) * x.dtype.type(factor))
+        without_budget = dataclasses.replace(wrong, module="as_printed", budget=None)
         monkeypatch.setattr(
             measure, "check",
-            lambda _, digits, progress: plate_judge.check(digits, [wrong, silent], progress),
+            lambda _, digits, step: plate_judge.check(digits, [wrong, without_budget], step),
         )  # fmt: skip
         return path
 
-    return of
+    return install
 
 
-def test_a_fresh_measurement_is_recorded_as_it_was(
-    spoilt: Callable[[float], Path], capsys: Captured
+def test_measurement_agrees_with_the_record(
+    install_j0: Callable[[float], Path], capsys: Captured
 ) -> None:
     every = rows_of(pipeline.measurements() / "check.json")
     committed = [row for row in every if row["kernel"] == "bessel_j0"]
-    path = spoilt(1.0)
+    path = install_j0(1.0)
     assert main(["check", "--json", "-"]) == 0
     first, second = json.loads(capsys.readouterr().out)["rows"]
     assert [first] == committed
@@ -78,20 +78,20 @@ def test_a_fresh_measurement_is_recorded_as_it_was(
     assert rows_of(path) == [first, second]
     shown = capsys.readouterr().out
     assert "Errors against 50 digits" in shown
-    said = [line for line in shown.splitlines() if line.startswith("bessel_j0: ")]
+    listed = [line for line in shown.splitlines() if line.startswith("bessel_j0: ")]
     exact = " ".join(f"{name}={x}" for name, x, _ in committed[0]["double"]["worst"]["arguments"])
-    assert said == [f"bessel_j0: {exact}"]  # where nothing is promised, nothing is listed
+    assert listed == [f"bessel_j0: {exact}"]  # a function without a budget is not listed
 
 
-def test_a_formula_that_is_off_fails_and_the_verdict_names_it(
-    spoilt: Callable[[float], Path], capsys: Captured
+def test_function_above_its_budget_fails_and_is_named(
+    install_j0: Callable[[float], Path], capsys: Captured
 ) -> None:
-    path = spoilt(1.0)
+    path = install_j0(1.0)
     paper = plate_paper.PAPER
-    sound = build.check(paper, update=True)
+    correct = build.check(paper, update=True)
     before = path.read_bytes()
-    assert build.verdict(paper, sound) == ["all errors are within their budgets"]
-    spoilt(1.0 + 1e-13)
+    assert build.verdict(paper, correct) == ["all errors are within their budgets"]
+    install_j0(1.0 + 1e-13)
     assert main(["check"]) == 1
     assert "NO" in capsys.readouterr().out
     assert build.verdict(paper, build.check(paper)) == [
@@ -100,7 +100,9 @@ def test_a_formula_that_is_off_fails_and_the_verdict_names_it(
     ]
     assert path.read_bytes() == before
     path.unlink()
-    assert build.verdict(paper, sound) == ["all errors are within their budgets"]  # none saved
+    assert build.verdict(paper, correct) == [
+        "all errors are within their budgets"
+    ]  # there is no record to compare with
 
 
 # --- contact law
@@ -108,7 +110,7 @@ def test_a_formula_that_is_off_fails_and_the_verdict_names_it(
 
 @pytest.fixture
 def few_contacts(monkeypatch: Patch, tmp_path: Path) -> Path:
-    """Forces of a radius alone, in this process; gives where they are recorded."""
+    """Measure only two functions, in this process; return the path of the record."""
     path = tmp_path / "contact.json"
     monkeypatch.setattr(pipeline, "MEASURED_CONTACT", path)
     monkeypatch.setattr(pipeline, "KERNELS", ("force_of_radius", "max_pressure"))
@@ -116,9 +118,9 @@ def few_contacts(monkeypatch: Patch, tmp_path: Path) -> Path:
     return path
 
 
-def test_contact_law_is_recorded_as_it_was(few_contacts: Path, capsys: Captured) -> None:
-    kept = {r["kernel"]: r for r in rows_of(pipeline.measurements() / "contact.json")}
-    known = [kept["force_of_radius"], kept["max_pressure"]]
+def test_contact_law_agrees_with_the_record(few_contacts: Path, capsys: Captured) -> None:
+    recorded = {r["kernel"]: r for r in rows_of(pipeline.measurements() / "contact.json")}
+    known = [recorded["force_of_radius"], recorded["max_pressure"]]
     assert main(["check", "contact-law", "--json", "-"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["rows"] == known
@@ -131,28 +133,28 @@ def test_contact_law_is_recorded_as_it_was(few_contacts: Path, capsys: Captured)
     assert main(["check", "contact-law", "--suggest-budgets", "--json", "-"]) == 0
     suggested = json.loads(capsys.readouterr().out)["suggested_budgets"]
     for name, ulp in suggested.items():
-        assert kept[name]["double"]["needed"] < ulp < kept[name]["budget"]
+        assert recorded[name]["double"]["needed"] < ulp < recorded[name]["budget"]
 
 
-def test_a_contact_law_that_is_off_fails(
+def test_contact_law_that_returns_nan_fails(
     few_contacts: Path, monkeypatch: Patch, capsys: Captured
 ) -> None:
-    right = pipeline.contact_law.max_pressure
+    exact = pipeline.contact_law.max_pressure
     monkeypatch.setattr(
         pipeline, "contact_law",
         SimpleNamespace(
             force_of_radius=lambda *given: math.nan * given[0],
-            max_pressure=lambda *given: right(*given),
+            max_pressure=lambda *given: exact(*given),
         ),
     )  # fmt: skip
     assert main(["check", "contact-law", "--json", "-"]) == 1
-    wrong, sound = json.loads(capsys.readouterr().out)["rows"]
-    assert (wrong["passed"], sound["passed"]) == (False, True)
+    wrong, correct = json.loads(capsys.readouterr().out)["rows"]
+    assert (wrong["passed"], correct["passed"]) == (False, True)
     assert wrong["max_error"] == "inf"
     assert not few_contacts.exists()
 
 
-def test_a_law_of_another_shape_is_no_measurement() -> None:
+def test_law_with_two_results_is_rejected() -> None:
     point = {"max_pressure": [(0.1, 1.0, 1e9, 1e9)]}
     with pytest.raises(ValueError, match="2 results"):
         contact.check({"max_pressure": lambda *_: (1.0, 2.0)}, point)
@@ -163,7 +165,10 @@ def test_a_law_of_another_shape_is_no_measurement() -> None:
 
 @pytest.fixture
 def few_cases(monkeypatch: Patch, tmp_path: Path) -> tuple[Path, list[dict[str, Any]]]:
-    """Four hard cases with their committed references, of which only the first stands."""
+    """Use four hard cases, of which only the first has a valid reference in the record.
+
+    Return the path of the record, and the committed references.
+    """
     everything = json.loads(PAPER.hard.read_text())["cases"]
     every = [c for c in hard_suite.cases() if c.kernel == "bessel_j0"]
     wanted = [*(c for c in every if c.expect == "value")][:3]
@@ -177,22 +182,22 @@ def few_cases(monkeypatch: Patch, tmp_path: Path) -> tuple[Path, list[dict[str, 
     return path, rows
 
 
-def test_references_are_found_anew_as_they_were(
+def test_missing_references_are_computed_and_equal_the_committed_ones(
     few_cases: tuple[Path, list[dict[str, Any]]], monkeypatch: Patch
 ) -> None:
     path, committed = few_cases
-    sought, find = list[str](), Suite.references
+    computed, find = list[str](), Suite.references
     monkeypatch.setattr(
-        Suite, "references", lambda self, case: sought.append(case.key) or find(self, case)
+        Suite, "references", lambda self, case: computed.append(case.key) or find(self, case)
     )
     monkeypatch.setattr(suite, "SAVED_EVERY", -1.0)
     assert main(["check", "hard-cases", "--update"]) == 0
     assert json.loads(path.read_text())["cases"] == committed
-    assert sought == [row["key"] for row in committed[1:]]  # the first still stands
+    assert computed == [row["key"] for row in committed[1:]]  # the first is still valid
     assert [p.name for p in path.parent.iterdir()] == ["hard.json"]
 
 
-def test_a_search_for_references_that_was_stopped_goes_on(
+def test_interrupted_computation_of_references_is_continued(
     few_cases: tuple[Path, list[dict[str, Any]]], monkeypatch: Patch, capsys: Captured
 ) -> None:
     path, committed = few_cases
@@ -211,50 +216,50 @@ def test_a_search_for_references_that_was_stopped_goes_on(
     assert [r["key"] for r in json.loads(part.read_text())["cases"]] == [
         row["key"] for row in committed[:2]
     ]
-    sought = list[str]()
+    computed = list[str]()
     monkeypatch.setattr(
-        Suite, "references", lambda self, case: sought.append(case.key) or find(self, case)
+        Suite, "references", lambda self, case: computed.append(case.key) or find(self, case)
     )
     assert main(["check", "hard-cases", "--update"]) == 0
-    assert sought == [row["key"] for row in committed[2:]]
+    assert computed == [row["key"] for row in committed[2:]]
     assert json.loads(path.read_text())["cases"] == committed
     assert not part.exists()
 
 
-def test_a_hard_case_that_stands_there_twice_is_refused(monkeypatch: Patch) -> None:
+def test_repeated_hard_case_is_rejected(monkeypatch: Patch) -> None:
     once = tuple(read_cases(hard_suite.WRITTEN))
     monkeypatch.setattr(hard_suite, "cases", lambda: (*once, once[0]))
-    with pytest.raises(ValueError, match="twice") as refused:
+    with pytest.raises(ValueError, match="twice") as error:
         hard_suite.suite()
-    assert once[0].key in str(refused.value)
+    assert once[0].key in str(error.value)
 
 
 # --- bounds in random scenes
 
 
-def test_references_are_kept_as_they_come(
+def test_references_are_saved_while_they_are_computed(
     monkeypatch: Patch, tmp_path: Path, capsys: Captured
 ) -> None:
-    """Those on record are not sought again, nor lost by a look at fewer, nor by a stop."""
+    """Recorded references are reused, and kept after an interruption or a shorter run."""
     known = bounds.committed_references()[:7]
-    path, sought = tmp_path / "bounds.json", list[Any]()
+    path, computed = tmp_path / "bounds.json", list[Any]()
     monkeypatch.setattr(bounds, "MEASURED", path)
     monkeypatch.setattr(bounds, "KEPT_EVERY", 2)
     reference_values = {bounds.scene(number): true for number, true in enumerate(known)}
 
     def reference(point: Any) -> Any:
-        if len(sought) == 4:
+        if len(computed) == 4:
             raise KeyboardInterrupt
-        sought.append(point)
+        computed.append(point)
         return reference_values[point]
 
     monkeypatch.setattr(bounds, "reference", reference)
     assert main(["check", "error-bounds", "-n", "7", "--update"]) == 2
     assert "interrupted" in capsys.readouterr().err
     assert bounds.committed_references() == known[:4]
-    sought[:] = [None]
+    computed[:] = [None]
     assert main(["check", "error-bounds", "-n", "7", "--update"]) == 0
-    assert sought == [None, *map(bounds.scene, range(4, 7))]
+    assert computed == [None, *map(bounds.scene, range(4, 7))]
     assert bounds.committed_references() == known
     whole = rows_of(path)
     assert sum(row["runs"] for row in whole) == 7 * len(bounds.TOLERANCES)
@@ -266,12 +271,12 @@ def test_references_are_kept_as_they_come(
     assert all(row["method"] in shown for row in whole)
     data = json.loads(path.read_text()) | {"digits": bounds.DIGITS + 1}
     path.write_text(json.dumps(data))
-    assert bounds.committed_references() == []  # of other digits
+    assert (
+        bounds.committed_references() == []
+    )  # references with another number of digits are not used
 
 
-def test_a_result_that_is_no_number_is_json_all_the_same(
-    monkeypatch: Patch, capsys: Captured
-) -> None:
+def test_nan_gives_valid_json(monkeypatch: Patch, capsys: Captured) -> None:
     monkeypatch.setattr(bounds, "simulated", lambda _, rtol: ([math.nan] * 4, "hertz", rtol))
     assert main(["check", "error-bounds", "-n", "1", "--json", "-"]) == 1
     [row] = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
@@ -284,10 +289,10 @@ def test_a_result_that_is_no_number_is_json_all_the_same(
 ONES = [1.0] * 4
 
 
-def test_effects_are_shown_and_recorded(
+def test_check_of_effects_is_printed_and_recorded(
     monkeypatch: Patch, tmp_path: Path, capsys: Captured
 ) -> None:
-    """Two of six scenes beyond the models, a tolerance out of reach in one of the others."""
+    """Two of six scenes are outside the models; one of the others cannot reach one tolerance."""
     path, scenes = tmp_path / "effects.json", list[Any]()
 
     def everything(data: Any) -> Any:
@@ -295,8 +300,8 @@ def test_effects_are_shown_and_recorded(
         return None if len(scenes) in (2, 5) else (ONES, ["hertz", "gravity"])
 
     def selected(_: Any, rtol: float) -> Any:
-        refused = len(scenes) == 3 and rtol == TOLERANCES[-1]
-        return None if refused else ([*ONES[1:], 1.0 + rtol / 4], ["hertz"], rtol / 2)
+        rejected = len(scenes) == 3 and rtol == TOLERANCES[-1]
+        return None if rejected else ([*ONES[1:], 1.0 + rtol / 4], ["hertz"], rtol / 2)
 
     monkeypatch.setattr(effects_check, "MEASURED", path)
     monkeypatch.setattr(effects_check, "everything", everything)
@@ -322,12 +327,12 @@ def test_effects_are_shown_and_recorded(
     assert not path.exists()
 
 
-def test_scenes_that_are_passed_over_are_listed(monkeypatch: Patch, capsys: Captured) -> None:
-    passed, solved = iter(["too heavy", "", ""]), iter(["rtol"])
+def test_skipped_and_rejected_scenes_are_listed(monkeypatch: Patch, capsys: Captured) -> None:
+    skipped, solved = iter(["too heavy", "", ""]), iter(["rtol"])
     row = InertiaRow(
         2, 1e-2, "none", True, 1e-3, 0.0, "max_force", 0.0, 1e-3, 0.0, "max_force", 1, 4, 8
     )
-    monkeypatch.setattr(inertia_check, "pass_over", lambda _: next(passed))
+    monkeypatch.setattr(inertia_check, "pass_over", lambda _: next(skipped))
     monkeypatch.setattr(inertia_check, "solve", lambda *_: next(solved, row))
     assert main(["check", "inertia", "-n", "1"]) == 0
     shown = capsys.readouterr().out
@@ -345,12 +350,12 @@ def test_scenes_that_are_passed_over_are_listed(monkeypatch: Patch, capsys: Capt
 # --- speed
 
 
-@pytest.mark.parametrize(("kept", "status"), [(True, 0), (False, 1)])
-def test_speed_is_shown_and_recorded(
-    kept: bool, status: int, monkeypatch: Patch, tmp_path: Path, capsys: Captured
+@pytest.mark.parametrize(("within_limit", "status"), [(True, 0), (False, 1)])
+def test_timings_are_printed_and_recorded(
+    within_limit: bool, status: int, monkeypatch: Patch, tmp_path: Path, capsys: Captured
 ) -> None:
     given, path = list[Any](), tmp_path / "speed.json"
-    timing = SpeedTiming("law over exp", 2.25, "times", 2.0, 1.1, kept)
+    timing = SpeedTiming("law over exp", 2.25, "times", 2.0, 1.1, within_limit)
 
     def measured(examples: Any, solved: Any, progress: Any, calls: Any) -> list[SpeedTiming]:
         progress("law", 1, 1)

@@ -1,4 +1,4 @@
-"""The command line: results, exit status, and one clear message for whatever goes wrong."""
+"""The command line: results, exit status, and one message for each error."""
 
 import json
 import os
@@ -14,25 +14,25 @@ from derivation.cli import main
 from derivation.engine.files import ROOT
 from derivation.plate.vocabulary import Formula
 
-RIGHT = "(2*T + sinh(2*T))/(2*(sinh(T) - T)*(sinh(T) + T))"
+CORRECT = "(2*T + sinh(2*T))/(2*(sinh(T) - T)*(sinh(T) + T))"
 
 
 def test_public_python_interface() -> None:
     found = formula("G")
     assert isinstance(found, Formula)
     assert found._repr_latex_().startswith("$")
-    assert diagnose("G", RIGHT, at="T=3").verdict == "equal"
+    assert diagnose("G", CORRECT, at="T=3").verdict == "equal"
     with pytest.raises(KeyError, match="K_j"):
         formula("nonsense")
 
 
 def test_diagnose_equal_and_different(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["diagnose", "G", "--formula", RIGHT, "--at", "T=3", "--json", "-"]) == 0
+    assert main(["diagnose", "G", "--formula", CORRECT, "--at", "T=3", "--json", "-"]) == 0
     equal = json.loads(capsys.readouterr().out)
     assert equal["verdict"] == "equal"
     assert equal["given"] == equal["derived"]
     assert len(equal["given"].replace(".", "").lstrip("0")) == 50
-    wrong = RIGHT.replace("2*T +", "2*T -")
+    wrong = CORRECT.replace("2*T +", "2*T -")
     assert main(["diagnose", "G", "--formula", wrong, "--json", "-"]) == 1
     different = json.loads(capsys.readouterr().out)
     assert {"verdict", "repair", "ratio", "given", "derived"} <= different.keys()
@@ -46,7 +46,7 @@ def test_diagnose_reads_latex(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "says"),
+    ("arguments", "expected"),
     [
         (["diagnose", "Omega_9", "--formula", "phi"], "Omega_1"),
         (["diagnose", "G", "--formula", "sinh(T"], "platecontact:"),
@@ -64,13 +64,13 @@ def test_diagnose_reads_latex(capsys: pytest.CaptureFixture[str]) -> None:
         (["report", "--fragment", "Kj"], "K_j"),
     ],
 )
-def test_bad_input_is_one_message_and_status_2(
-    arguments: list[str], says: str, capsys: pytest.CaptureFixture[str]
+def test_invalid_input_gives_one_message_and_status_2(
+    arguments: list[str], expected: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(arguments) == 2
     captured = capsys.readouterr()
     message = captured.err
-    assert says in message
+    assert expected in message
     assert "Traceback" not in message + captured.out
 
 
@@ -81,7 +81,7 @@ def test_generate_check_and_out(tmp_path: Path, capsys: pytest.CaptureFixture[st
     assert f"platecontact generate --out {out}" in capsys.readouterr().out
     assert main(["generate", "--out", str(out)]) == 0
     assert main(["generate", "--check", "--out", str(out)]) == 0
-    (out / "stray.py").write_text("")
+    (out / "unknown.py").write_text("")
     assert main(["generate", "--check", "--out", str(out)]) == 1
 
 
@@ -95,17 +95,17 @@ def test_derive_and_misprints_as_json(tmp_path: Path) -> None:
     assert {f["verdict"] for f in findings} == {"equal", "different"}
 
 
-def test_interrupted_run_leaves_nothing_half_written(tmp_path: Path) -> None:
-    """Ctrl-C while deriving: a message, status 2, and no file in the target."""
+def test_interrupted_command_leaves_no_incomplete_files(tmp_path: Path) -> None:
+    """Ctrl-C during `derive` gives a message and status 2, and no file is written."""
     program = """
 import sys, time
 from derivation import cli
 from derivation.plate import derived
 from derivation.engine.formula.chain import Link
-def endless():
+def wait():
     print("deriving", flush=True)
     time.sleep(300)
-object.__setattr__(derived.CHAIN, "links", (Link("endless", endless),))
+object.__setattr__(derived.CHAIN, "links", (Link("wait", wait),))
 sys.exit(cli.main(["generate", "--out", sys.argv[1]]))
 """
     environment = {**os.environ, "XDG_CACHE_HOME": str(tmp_path / "cache")}

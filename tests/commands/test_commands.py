@@ -1,4 +1,4 @@
-"""What the commands show and write, seldom asked: build, rewrite, report with README, accuracy."""
+"""Output of `derive`, `misprints`, `rewrite`, `build`, `report` and `benchmark --dynamic`."""
 
 import json
 import math
@@ -40,7 +40,7 @@ Patch = pytest.MonkeyPatch
 
 
 @pytest.mark.parametrize("command", ["derive", "misprints"])
-def test_a_table_or_json_but_not_both_on_the_screen(command: str, capsys: Captured) -> None:
+def test_table_or_json_is_printed_but_not_both(command: str, capsys: Captured) -> None:
     assert main([command, "--json", "-"]) == 0
     rows = json.loads(capsys.readouterr().out)
     assert main([command]) == 0
@@ -51,20 +51,20 @@ def test_a_table_or_json_but_not_both_on_the_screen(command: str, capsys: Captur
     assert not shown.lstrip().startswith("[")
 
 
-def test_a_formula_of_ones_own_is_shown_as_code_that_runs(capsys: Captured) -> None:
+def test_rewrite_prints_code_that_runs(capsys: Captured) -> None:
     assert main(["rewrite", "(1 - cos(x))/x**2"]) == 0
     shown = capsys.readouterr().out
     assert "Each rule: operations" in shown
     names: dict[str, Any] = {}
     exec(compile(shown[shown.index('"""') :], "rewritten", "exec"), names)
-    true = [0.5, 0.5, (1 - math.cos(1.0)), (1 - math.cos(5.0)) / 25]
-    assert names["f"]([1e-150, 1e-9, 1.0, 5.0]).tolist() == pytest.approx(true, rel=1e-15)
+    exact = [0.5, 0.5, (1 - math.cos(1.0)), (1 - math.cos(5.0)) / 25]
+    assert names["f"]([1e-150, 1e-9, 1.0, 5.0]).tolist() == pytest.approx(exact, rel=1e-15)
 
 
-def test_accounts_of_the_papers_formulas_are_recorded_as_they_are(
+def test_rewrite_report_is_written_without_changes(
     monkeypatch: Patch, tmp_path: Path, capsys: Captured
 ) -> None:
-    """The committed ones, read back: an infinite error is text in JSON, and a number before."""
+    """The committed rows are read and written again; infinite errors are text in JSON."""
     kept = json.loads(PAPER.rewritten.read_text())["rows"]
     assert any("inf" in applied["worst"] for row in kept for applied in row["applied"])
     found = tuple(account_of(row) for row in kept)
@@ -81,7 +81,7 @@ def test_accounts_of_the_papers_formulas_are_recorded_as_they_are(
 
 
 def account_of(row: dict[str, Any]) -> Account:
-    """A row of the record as it was before it was written."""
+    """Return the result from which a row of the record was written."""
     applied = (
         Applied(a["rule"], a["cause"], tuple(a["operations"]), tuple(float(x) for x in a["worst"]))  # type: ignore[arg-type]
         for a in row["applied"]
@@ -89,7 +89,7 @@ def account_of(row: dict[str, Any]) -> Account:
     return Account(row["name"], row["variable"], tuple(applied), row["worst"])
 
 
-# --- the main job
+# --- build
 
 
 def rows_of(passed: bool) -> tuple[Row, ...]:
@@ -98,22 +98,22 @@ def rows_of(passed: bool) -> tuple[Row, ...]:
     return (Row("P", "pressure", 1.0, errors, errors, 2, passed=passed),)
 
 
-@pytest.mark.parametrize(("kept", "pdf"), [(True, True), (False, True), (True, False)])
-def test_build_goes_through_every_stage(
-    kept: bool, pdf: bool, monkeypatch: Patch, tmp_path: Path, capsys: Captured
+@pytest.mark.parametrize(("within_budget", "pdf"), [(True, True), (False, True), (True, False)])
+def test_build_runs_all_stages(
+    within_budget: bool, pdf: bool, monkeypatch: Patch, tmp_path: Path, capsys: Captured
 ) -> None:
-    """The package is written before it is checked; without LaTeX all else is there."""
-    made = list[str]()
+    """The package is written before the check; without LaTeX, only the PDF is missing."""
+    stages_run = list[str]()
 
     def checked(_: Paper, update: bool, progress: Any) -> tuple[Row, ...]:
         progress("P", 1, 1)
-        made.append("check")
-        assert not update  # of the plate it is committed
+        stages_run.append("check")
+        assert not update  # the record of the plate is committed
         assert (tmp_path / "generated" / "pressure.py").is_file()
-        return rows_of(kept)
+        return rows_of(within_budget)
 
     def reported(_: Paper, out: Path | None, compiled: bool) -> Sequence[Path]:
-        made.append("report")
+        stages_run.append("report")
         assert out == tmp_path / "reports"
         assert not compiled
         return write_files({out / "report.tex": "", out / "figures" / "overview.pdf": ""})
@@ -126,23 +126,23 @@ def test_build_goes_through_every_stage(
     monkeypatch.setattr(build, "check", checked)
     monkeypatch.setattr(build, "report", reported)
     monkeypatch.setattr(tex, "compile_pdf", typeset)
-    assert main(["build", "--out", str(tmp_path)]) == (0 if kept else 1)
-    assert made == ["check", "report"]
+    assert main(["build", "--out", str(tmp_path)]) == (0 if within_budget else 1)
+    assert stages_run == ["check", "report"]
     written = {path.name: path.read_text() for path in (tmp_path / "generated").iterdir()}
     assert written == files_of(PAPER.chain, PAPER.package())
-    said = capsys.readouterr().err
-    stages = re.findall(r"✓ (\w+) +[\d.]+ s", said)
+    output = capsys.readouterr().err
+    stages = re.findall(r"✓ (\w+) +[\d.]+ s", output)
     assert stages == ["derive", "rewrite", "generate", "misprints", "check", "report"]
-    assert ("the PDF was not written, all other files were: no latexmk" in said) is not pdf
-    assert ("above their budget: P" in said) is not kept
-    assert "different from the saved check.json: P" in said  # these errors are made up
-    listed = said.partition("files written:\n")[2].splitlines()
+    assert ("the PDF was not written, all other files were: no latexmk" in output) is not pdf
+    assert ("above their budget: P" in output) is not within_budget
+    assert "different from the saved check.json: P" in output  # the errors above are invented
+    listed = output.partition("files written:\n")[2].splitlines()
     assert sorted(listed) == sorted(str(p) for p in tmp_path.rglob("*") if p.is_file())
 
 
-def test_an_installed_copy_builds_into_a_folder_named(monkeypatch: Patch, capsys: Captured) -> None:
+def test_build_needs_a_folder_outside_a_checkout(monkeypatch: Patch, capsys: Captured) -> None:
     monkeypatch.setattr(outputs, "in_checkout", lambda: False)
-    monkeypatch.setattr(build, "derive", lambda _: pytest.fail("derived all the same"))
+    monkeypatch.setattr(build, "derive", lambda _: pytest.fail("the formulas were derived"))
     assert main(["build"]) == 2
     assert "add --out DIR" in capsys.readouterr().err
 
@@ -150,7 +150,7 @@ def test_an_installed_copy_builds_into_a_folder_named(monkeypatch: Patch, capsys
 # --- the report
 
 
-def test_a_missing_measurement_is_named_with_its_command(
+def test_missing_record_is_named_with_its_command(
     monkeypatch: Patch, tmp_path: Path, capsys: Captured
 ) -> None:
     for path in PAPER.records.glob("*.json"):
@@ -161,14 +161,14 @@ def test_a_missing_measurement_is_named_with_its_command(
     assert "hard.json; run `platecontact check hard-cases --update`" in capsys.readouterr().err
 
 
-def test_the_whole_report_takes_readme_and_picture_along(tmp_path: Path) -> None:
-    """The README's block, emptied, becomes again what is committed; sections leave it alone."""
+def test_complete_report_updates_readme_and_overview(tmp_path: Path) -> None:
+    """The measured block of the README is written with the complete report, not with sections."""
     committed = (ROOT / reporting.README).read_text()
     begin, end = reporting.readme.BEGIN, reporting.readme.END
     emptied = committed.partition(begin)[0] + begin + end + committed.partition(end)[2]
     plan = Plan(("speed",), ("code",))
-    one = replace(reporting.report_parts(plan.names), front="")  # it refers to other sections
-    short = replace(PAPER.report(), plan=plan, parts=lambda _: one, figures=dict)
+    parts = replace(reporting.report_parts(plan.names), front="")  # it refers to other sections
+    short = replace(PAPER.report(), plan=plan, parts=lambda _: parts, figures=dict)
     paper = replace(PAPER, folder=tmp_path, report=lambda: short)
     readme, picture = tmp_path / reporting.README, tmp_path / reporting.PICTURE
     readme.write_text(emptied)
@@ -184,36 +184,36 @@ def test_the_whole_report_takes_readme_and_picture_along(tmp_path: Path) -> None
     ]  # fmt: skip
 
 
-def test_the_picture_shows_what_the_plate_and_its_motion_change() -> None:
-    """Hertz's impact on the half-space by hand; the pane yields, the longer and the less."""
+def test_overview_shows_three_models_and_the_fastest_methods() -> None:
+    """The half-space curve agrees with Hertz impact theory; the plate lowers and lengthens it."""
     costs = reporting.measured_accuracy()
     left, right = overview(load(reporting.PANE), costs).axes
     case = model_of(load(reporting.PANE))
-    half_space, rest, moves = (np.array(line.get_data()) for line in left.lines)
-    peaks = [1e3 * line[1].max() for line in (half_space, rest, moves)]
+    half_space, static, dynamic = (np.array(line.get_data()) for line in left.lines)
+    peaks = [1e3 * line[1].max() for line in (half_space, static, dynamic)]
     assert peaks[0] > peaks[1] > 0.0
-    ends = [line[0].max() for line in (half_space, rest)]
+    ends = [line[0].max() for line in (half_space, static)]
     assert ends[0] < ends[1]
-    # A half-space's impact is over after 2.943 times the largest indentation over the speed, and
-    # by energy that is 5/4 m v0^2 over the largest force.
-    depth = 1.25 * case.m * case.v0**2 / peaks[0]
-    assert 1e-6 * ends[0] == pytest.approx(2.943275 * depth / case.v0, rel=1e-3)
+    # In Hertz impact theory the contact time is 2.943 delta_max/v0, and by the energy balance
+    # delta_max is 5/4 m v0^2/P_max.
+    indentation = 1.25 * case.m * case.v0**2 / peaks[0]
+    assert 1e-6 * ends[0] == pytest.approx(2.943275 * indentation / case.v0, rel=1e-3)
     assert [line.get_label() for line in right.lines[:-1]] == list(SHOWN.values())
-    cheapest = np.array(right.lines[-1].get_data())
-    assert (np.diff(cheapest[0]) > 0).all()
-    assert (np.diff(cheapest[1]) > 0).all()
-    for line in right.lines[:-1]:  # nothing lies beyond the front
+    front = np.array(right.lines[-1].get_data())
+    assert (np.diff(front[0]) > 0).all()
+    assert (np.diff(front[1]) > 0).all()
+    for line in right.lines[:-1]:  # no method is better than the front
         for seconds, digits in zip(*line.get_data(), strict=True):
-            assert digits <= cheapest[1][cheapest[0] <= seconds].max(initial=-math.inf)
+            assert digits <= front[1][front[0] <= seconds].max(initial=-math.inf)
 
 
-# --- what accuracy costs where the plate moves
+# --- benchmark of plates with inertia
 
 
-def test_moving_costs_are_measured_and_written(
+def test_dynamic_benchmark_is_measured_and_written(
     monkeypatch: Patch, tmp_path: Path, capsys: Captured
 ) -> None:
-    """Errors are those between two results, and what is timed is computed anew each time."""
+    """Errors are differences from the reference; the timed function is called in each round."""
     calls = list[str]()
 
     def outcome(name: str, *numbers: float) -> Any:
@@ -241,10 +241,10 @@ def test_moving_costs_are_measured_and_written(
     assert (first["bound"], second["bound"], first["oscillators"]) == (None, 0.1, 7)
     assert calls.count("slow") > moving_costs.ROUNDS
     assert str(path) in capsys.readouterr().err.replace("\n", "")
-    told = list[Any]()
-    again, kept = moving_costs.record(path, lambda *given: told.append(given))
-    assert kept == path
-    assert told == [("integrator: slow", 1, 3), ("modes: A0", 2, 3), ("times", 3, 3)]
+    reported = list[Any]()
+    again, written = moving_costs.record(path, lambda *given: reported.append(given))
+    assert written == path
+    assert reported == [("integrator: slow", 1, 3), ("modes: A0", 2, 3), ("times", 3, 3)]
     assert [row["errors"] for row in again["rows"]] == [row["errors"] for row in data["rows"]]
-    assert moving_costs.measure()["scene"] == moving_costs.SCENE  # and with nobody to tell
+    assert moving_costs.measure()["scene"] == moving_costs.SCENE  # without reports of progress
     assert data["truth"]["modes"] == moving_costs.MOST

@@ -1,4 +1,4 @@
-"""The command `derive`: a table of 80 columns, and all about one formula."""
+"""The command `derive`: the table of all formulas, and the details of one formula."""
 
 import json
 
@@ -13,7 +13,7 @@ from derivation.plate.paper import PAPER
 Captured = pytest.CaptureFixture[str]
 
 
-def test_every_formula_is_in_the_table_with_its_meaning(
+def test_table_has_every_formula_with_its_meaning(
     capsys: Captured, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("COLUMNS", "200")
@@ -29,8 +29,8 @@ def test_every_formula_is_in_the_table_with_its_meaning(
         assert to_plain(formula.meaning).replace(" ", "") in cells.replace(" ", "")
 
 
-def test_one_formula_is_shown_with_what_diagnose_accepts(capsys: Captured) -> None:
-    """The equation printed as text is read again and is equal to the derived one."""
+def test_printed_formula_is_accepted_by_diagnose(capsys: Captured) -> None:
+    """The equation printed as text is equal to the derived one."""
     assert main(["derive", "K_j"]) == 0
     shown = capsys.readouterr().out
     formula = formulas(PAPER)["K_j"]
@@ -43,7 +43,7 @@ def test_one_formula_is_shown_with_what_diagnose_accepts(capsys: Captured) -> No
         assert name in shown
 
 
-def test_its_place_in_the_chain_is_data_too(capsys: Captured) -> None:
+def test_sources_and_uses_of_a_formula_are_in_the_json(capsys: Captured) -> None:
     assert main(["derive", "K_j", "--json", "-"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["name"] == "K_j"
@@ -59,14 +59,14 @@ def test_its_place_in_the_chain_is_data_too(capsys: Captured) -> None:
 def test_formulas_of_every_kind_are_shown(name: str, capsys: Captured) -> None:
     assert main(["derive", name]) == 0
     shown = capsys.readouterr().out
-    of = about(PAPER, name)
-    assert f": {of.link}\n" in shown
-    assert all(source.partition(",")[0] in shown for source in of.references)
-    assert ("is the sum of" in shown) is of.formula.summed
+    details = about(PAPER, name)
+    assert f": {details.link}\n" in shown
+    assert all(source.partition(",")[0] in shown for source in details.references)
+    assert ("is the sum of" in shown) is details.formula.summed
 
 
-def test_an_unknown_formula_is_told_the_nearest(capsys: Captured) -> None:
+def test_similar_name_is_suggested_for_an_unknown_formula(capsys: Captured) -> None:
     assert main(["derive", "Kj"]) == 2
-    said = capsys.readouterr()
-    assert "K_j" in said.err.replace("Kj", "")
-    assert said.out == ""
+    shown = capsys.readouterr()
+    assert "K_j" in shown.err.replace("Kj", "")
+    assert shown.out == ""

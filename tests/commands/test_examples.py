@@ -1,4 +1,4 @@
-"""The command `examples`: every example in a line, copies that load, nothing replaced unasked."""
+"""The command `examples`: the list, copies of the files, and protection of existing files."""
 
 import json
 import tomllib
@@ -15,7 +15,7 @@ Captured = pytest.CaptureFixture[str]
 NAMES = sorted(path.stem for path in FOLDER.glob("*.toml"))
 
 
-def test_each_example_is_a_line_with_its_first_comment(capsys: Captured) -> None:
+def test_each_example_is_listed_with_its_first_comment(capsys: Captured) -> None:
     assert len(NAMES) >= 9
     assert main(["examples"]) == 0
     lines = capsys.readouterr().out.splitlines()
@@ -23,7 +23,7 @@ def test_each_example_is_a_line_with_its_first_comment(capsys: Captured) -> None
     for name in NAMES:
         [line] = [line for line in lines if line.startswith(f"{name} ")]
         description = line.removeprefix(name).strip()
-        assert description.endswith("."), "a whole sentence"
+        assert description.endswith("."), "not a complete sentence"
         assert (FOLDER / f"{name}.toml").read_text().startswith(f"# {description}\n")
 
 
@@ -35,7 +35,7 @@ def test_json_names_files_that_load(capsys: Captured) -> None:
         load(Path(row["file"]))
 
 
-def test_copies_are_the_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_copies_equal_the_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert main(["examples", *NAMES, "--out", str(tmp_path / "new" / "scenes")]) == 0
     monkeypatch.chdir(tmp_path)
     assert main(["examples", "paper.toml"]) == 0
@@ -45,19 +45,21 @@ def test_copies_are_the_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -
     assert Path("paper.toml").read_bytes() == (FOLDER / "paper.toml").read_bytes()
 
 
-def test_a_file_that_exists_is_kept_unless_forced(tmp_path: Path, capsys: Captured) -> None:
+def test_existing_file_is_kept_without_force(tmp_path: Path, capsys: Captured) -> None:
     (tmp_path / "paper.toml").write_text("mine")
     both = ["examples", "block", "paper", "--out", str(tmp_path)]
     assert main(both) == 2
     assert str(tmp_path / "paper.toml") in capsys.readouterr().err
-    assert [path.name for path in tmp_path.iterdir()] == ["paper.toml"], "all or none"
+    assert [path.name for path in tmp_path.iterdir()] == ["paper.toml"], (
+        "only some files were written"
+    )
     assert (tmp_path / "paper.toml").read_text() == "mine"
     assert main([*both, "--force"]) == 0
     assert load(tmp_path / "paper.toml") == load(FOLDER / "paper.toml")
 
 
 @pytest.mark.parametrize(
-    ("arguments", "says"),
+    ("arguments", "expected"),
     [
         (["glas_pane"], "glass_pane?"),
         (["block", "qqqq"], "`platecontact examples` lists them"),
@@ -65,23 +67,23 @@ def test_a_file_that_exists_is_kept_unless_forced(tmp_path: Path, capsys: Captur
         (["--out", "."], "--out"),
     ],
 )
-def test_a_wrong_name_is_one_line_and_writes_nothing(
-    arguments: list[str], says: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+def test_unknown_name_gives_one_line_and_writes_no_file(
+    arguments: list[str], expected: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
     capsys: Captured,
 ) -> None:  # fmt: skip
     monkeypatch.chdir(tmp_path)
     assert main(["examples", *arguments]) == 2
     [line] = capsys.readouterr().err.strip().splitlines()
-    assert says in line
+    assert expected in line
     assert list(tmp_path.iterdir()) == []
 
 
-def test_an_installed_copy_has_them() -> None:
-    """The patterns of the package data reach the examples and the markers of types."""
+def test_examples_are_in_the_package_data() -> None:
+    """Examples and `py.typed` files match the patterns of the package data."""
     data = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["setuptools"]
     package = ROOT / "derivation"
-    taken = {
+    included = {
         path for pattern in data["package-data"]["derivation"] for path in package.glob(pattern)
     }
-    assert {example.file for example in examples().values()} <= taken
+    assert {example.file for example in examples().values()} <= included
     assert all("py.typed" in data["package-data"][name] for name in ("derivation", "platecontact"))

@@ -1,4 +1,4 @@
-"""Former names of options and commands: accepted with a notice, or answered with the new one."""
+"""Former names of options and commands: accepted with a notice, or rejected with the new name."""
 
 import json
 
@@ -16,7 +16,7 @@ Captured = pytest.CaptureFixture[str]
 
 @pytest.mark.parametrize("option", MOVED)
 @pytest.mark.parametrize("form", ["{}", "{}=3", "--digits 30 {} 3", "{} --record"])
-def test_a_former_option_of_check_names_its_subcommand(
+def test_former_option_of_check_is_rejected_with_the_new_command(
     option: str, form: str, capsys: Captured
 ) -> None:
     assert main(["check", *form.format(option).split()]) == 2
@@ -26,7 +26,7 @@ def test_a_former_option_of_check_names_its_subcommand(
     assert shown.out == ""
 
 
-def test_what_is_named_exists() -> None:
+def test_new_commands_and_options_exist() -> None:
     for command in MOVED.values():
         name, *options = command.split()
         known = get_command(app).commands["check"].commands[name]  # type: ignore[attr-defined]
@@ -35,13 +35,13 @@ def test_what_is_named_exists() -> None:
     assert {command.split()[0] for command in MOVED.values()} == set(SUBCOMMANDS)
 
 
-def test_a_former_option_works_and_says_so_once(
+def test_former_option_is_accepted_with_one_notice(
     monkeypatch: pytest.MonkeyPatch, capsys: Captured
 ) -> None:
-    asked = list[object]()
+    calls = list[object]()
 
     def account(_: object, update: bool, __: object) -> tuple[()]:
-        asked.append(update)
+        calls.append(update)
         return ()
 
     monkeypatch.setattr(build, "account", account)
@@ -52,25 +52,25 @@ def test_a_former_option_works_and_says_so_once(
     assert "--update" in shown.err
     assert main(["rewrite", "--update", "--json", "-"]) == 0
     assert "--record" not in capsys.readouterr().err
-    assert asked == [True, True]
+    assert calls == [True, True]
 
 
-def test_a_former_option_with_a_value(monkeypatch: pytest.MonkeyPatch) -> None:
-    asked = list[object]()
+def test_former_option_with_a_value_is_accepted(monkeypatch: pytest.MonkeyPatch) -> None:
+    calls = list[object]()
 
     def search(time: str, seed: int, functions: list[str], *_: object) -> None:
-        asked.append((time, seed, functions))
+        calls.append((time, seed, functions))
         raise ValueError
 
     monkeypatch.setattr(pipeline, "search_worse", search)
     assert main(["check", "search", "--kernel", "G", "--kernel=P", "--seed", "4"]) == 2
-    assert asked == [("60s", 4, ["G", "P"])]
+    assert calls == [("60s", 4, ["G", "P"])]
 
 
 @pytest.mark.parametrize(
     "arguments", [["simulate", "x.toml", "--record"], ["check", "scenes", "-n", "1", "--record"]]
 )
-def test_only_commands_that_have_the_new_option_take_the_former_one(
+def test_former_option_is_rejected_without_the_new_option(
     arguments: list[str], capsys: Captured
 ) -> None:
     assert main(arguments) == 2
@@ -94,7 +94,7 @@ def test_former_names_are_not_in_any_help(capsys: Captured) -> None:
         (["nonsense"], ""),
     ],
 )
-def test_a_mistyped_command_is_told_its_own_help(
+def test_mistyped_command_refers_to_its_help(
     arguments: list[str], command: str, capsys: Captured
 ) -> None:
     assert main(arguments) == 2

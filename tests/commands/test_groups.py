@@ -1,4 +1,4 @@
-"""The help of the command line: every command once, each line whole."""
+"""The help of the command line: groups of commands, width of lines, version, and `-h`."""
 
 import tomllib
 
@@ -17,7 +17,7 @@ def test_every_command_is_in_one_group() -> None:
 
 
 @pytest.mark.parametrize("command", ["", "check"])
-def test_no_line_is_cut(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_help_is_complete_in_80_columns(command: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main([*command.split(), "--help"]) == 0
     shown = capsys.readouterr().out
     assert "..." not in shown.partition("Options:")[2]
@@ -26,14 +26,14 @@ def test_no_line_is_cut(command: str, capsys: pytest.CaptureFixture[str]) -> Non
         assert f"{title}:" in shown
 
 
-def test_the_version_is_that_of_the_distribution(capsys: pytest.CaptureFixture[str]) -> None:
+def test_version_is_that_of_the_distribution(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--version"]) == 0
     name, number = capsys.readouterr().out.split()
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     assert (name, number) == (project["name"], project["version"])
 
 
-def test_without_a_command_the_help_is_the_result(capsys: pytest.CaptureFixture[str]) -> None:
+def test_help_is_printed_without_a_command(capsys: pytest.CaptureFixture[str]) -> None:
     assert main([]) == 0
     shown = capsys.readouterr()
     assert main(["--help"]) == 0
@@ -44,7 +44,7 @@ def test_without_a_command_the_help_is_the_result(capsys: pytest.CaptureFixture[
 
 
 @pytest.mark.parametrize("command", ["", "simulate", "check", "check timing", "examples"])
-def test_the_short_option_shows_the_same_help(
+def test_short_option_prints_the_same_help(
     command: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main([*command.split(), "-h"]) == 0

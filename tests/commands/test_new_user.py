@@ -1,4 +1,4 @@
-"""A new user's wrong turns: no leave to write, a full disk, Ctrl-C, mistyped commands; and help."""
+"""Help, mistyped commands, missing write permission, a full disk, and Ctrl-C."""
 
 import json
 import os
@@ -32,7 +32,7 @@ from derivation.plate import reporting
 
 
 def commands(group: Any, prefix: str = "") -> Iterator[tuple[str, Any]]:
-    """Commands with their names, subcommands included; without former names."""
+    """Yield all commands and subcommands with their names, except hidden former names."""
     for name, command in group.commands.items():
         if not command.hidden:
             yield prefix + name, command
@@ -43,7 +43,7 @@ COMMANDS = dict(commands(get_command(app)))
 PAPER = str(ROOT / "derivation" / "scene" / "examples" / "paper.toml")
 NOBODY = 65534
 LOADED = moving_costs, reporting, report_files
-"""What the commands below import, while nobody may not have leave to read Python's library."""
+"""Modules of the commands below, imported before the process gives up its permissions."""
 Captured = pytest.CaptureFixture[str]
 
 
@@ -58,14 +58,14 @@ def test_help_is_complete_with_an_example(command: str, capsys: Captured) -> Non
     example = re.search(rf"Example: platecontact {command}(.*)", shown)
     assert example is not None
     for option in re.findall(r"--[a-z-]+", example[1]):
-        assert option in shown.replace(example[0], ""), "the example's options are explained"
+        assert option in shown.replace(example[0], ""), "an option of the example is not explained"
     assert all(len(line) <= 80 for line in shown.splitlines())
     for parameter in COMMANDS[command].params:
         if parameter.name not in {"more", "help"}:
             assert parameter.help, f"{parameter.name} is not explained"
 
 
-def test_completion_is_offered_and_completes() -> None:
+def test_completion_script_is_printed_and_completes() -> None:
     module = [sys.executable, "-m", "derivation.cli"]
     known = {
         **os.environ,
@@ -73,18 +73,20 @@ def test_completion_is_offered_and_completes() -> None:
         "_TYPER_COMPLETE_TEST_DISABLE_SHELL_DETECTION": "1",
     }
 
-    def said(*arguments: str, **places: str) -> str:
+    def printed(*arguments: str, **variables: str) -> str:
         return subprocess.run(
-            [*module, *arguments], env=known | places, capture_output=True, text=True, check=True
+            [*module, *arguments], env=known | variables, capture_output=True, text=True, check=True
         ).stdout
 
-    script = said("--show-completion", "bash")
+    script = printed("--show-completion", "bash")
     assert "complete -o default -F _platecontact_completion platecontact" in script
     if shell := shutil.which("bash"):
         subprocess.run([shell, "-n"], input=script, text=True, check=True)
-    asked = {"_PLATECONTACT_COMPLETE": "complete_bash"}
-    assert said(**asked, COMP_WORDS="platecontact sim", COMP_CWORD="1").split() == ["simulate"]
-    options = said(**asked, COMP_WORDS="platecontact simulate --p", COMP_CWORD="2")
+    variables = {"_PLATECONTACT_COMPLETE": "complete_bash"}
+    assert printed(**variables, COMP_WORDS="platecontact sim", COMP_CWORD="1").split() == [
+        "simulate"
+    ]
+    options = printed(**variables, COMP_WORDS="platecontact simulate --p", COMP_CWORD="2")
     assert options.split() == ["--plot"]
 
 
@@ -92,7 +94,7 @@ def test_completion_is_offered_and_completes() -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "says"),
+    ("arguments", "expected"),
     [
         (["simulat", PAPER], "simulate'?"),
         (["simulate", PAPER, "--plt", "x.svg"], "--plot"),
@@ -110,23 +112,23 @@ def test_completion_is_offered_and_completes() -> None:
         (["derive", "--json", str(ROOT)], str(ROOT)),
     ],
 )
-def test_a_wrong_turn_is_one_line_and_status_2(
-    arguments: list[str], says: str, capsys: Captured
+def test_mistyped_command_gives_one_line_and_status_2(
+    arguments: list[str], expected: str, capsys: Captured
 ) -> None:
     assert main(arguments) == 2
     shown = capsys.readouterr()
     [line] = shown.err.strip().splitlines()
     assert line.startswith("platecontact: ")
-    assert says in line
+    assert expected in line
     assert shown.out == ""
 
 
-# --- no leave to write
+# --- no permission to write
 
 
 @pytest.fixture
-def locked() -> Iterator[Path]:
-    """A folder that this process may not write into; the superuser is nobody meanwhile."""
+def read_only() -> Iterator[Path]:
+    """Yield a folder without write permission; a superuser becomes another user for the test."""
     folder = Path(tempfile.mkdtemp())
     folder.chmod(0o555)
     root = os.geteuid() == 0
@@ -172,13 +174,13 @@ def locked() -> Iterator[Path]:
     ],
     ids=lambda arguments: " ".join(a for a in arguments if a != PAPER),
 )
-def test_without_leave_to_write_nothing_is_computed(
-    arguments: list[str], locked: Path, monkeypatch: pytest.MonkeyPatch, capsys: Captured
+def test_missing_permission_is_reported_before_the_computation(
+    arguments: list[str], read_only: Path, monkeypatch: pytest.MonkeyPatch, capsys: Captured
 ) -> None:
-    """At once, whatever would take minutes to compute."""
-    monkeypatch.chdir(locked)
+    """Some of these commands would otherwise run for minutes."""
+    monkeypatch.chdir(read_only)
     assert main(arguments) == 2
-    _refused(capsys)
+    _expect_permission_error(capsys)
 
 
 @pytest.mark.parametrize(
@@ -192,32 +194,32 @@ def test_without_leave_to_write_nothing_is_computed(
         (["inertia", "-n", "500"], inertia_check, "MEASURED"),
     ],
 )
-def test_what_cannot_be_recorded_is_not_measured(
-    options: list[str], module: object, name: str, locked: Path,
+def test_missing_permission_for_a_record_is_reported_before_the_check(
+    options: list[str], module: object, name: str, read_only: Path,
     monkeypatch: pytest.MonkeyPatch, capsys: Captured,
 ) -> None:  # fmt: skip
-    monkeypatch.setattr(module, name, locked / "x.json")
+    monkeypatch.setattr(module, name, read_only / "x.json")
     assert main(["check", *options, "--update"]) == 2
-    _refused(capsys)
+    _expect_permission_error(capsys)
 
 
 @pytest.mark.parametrize("command", ["check", "rewrite"])
-def test_what_a_paper_cannot_keep_is_not_measured(
-    command: str, locked: Path, monkeypatch: pytest.MonkeyPatch, capsys: Captured
+def test_missing_permission_for_records_of_a_paper_is_reported_at_once(
+    command: str, read_only: Path, monkeypatch: pytest.MonkeyPatch, capsys: Captured
 ) -> None:
-    monkeypatch.setattr(plate_paper, "PAPER", replace(plate_paper.PAPER, records=locked))
+    monkeypatch.setattr(plate_paper, "PAPER", replace(plate_paper.PAPER, records=read_only))
     assert main([command, "--update"]) == 2
-    _refused(capsys)
+    _expect_permission_error(capsys)
 
 
-def _refused(capsys: Captured) -> None:
+def _expect_permission_error(capsys: Captured) -> None:
     lines = [line for line in capsys.readouterr().err.splitlines() if line.strip()]
     assert len(lines) == 1, lines
     assert lines[0].startswith("platecontact: cannot write ")
     assert "Permission denied; obtain permission to write there, or name another folder" in lines[0]
 
 
-def test_an_installed_copy_records_nothing(
+def test_records_are_written_only_in_a_checkout(
     monkeypatch: pytest.MonkeyPatch, capsys: Captured
 ) -> None:
     monkeypatch.setattr(outputs, "in_checkout", lambda: False)
@@ -225,20 +227,22 @@ def test_an_installed_copy_records_nothing(
     assert "--json FILE" in capsys.readouterr().err
 
 
-def test_a_read_only_file_stays_as_it_is(locked: Path, capsys: Captured) -> None:
-    """Though its folder may be written into."""
-    with tempfile.TemporaryDirectory() as folder:  # nobody's, if there is a superuser
+def test_read_only_file_is_not_replaced(read_only: Path, capsys: Captured) -> None:
+    """This holds even if its folder is writable."""
+    with (
+        tempfile.TemporaryDirectory() as folder
+    ):  # owned by the other user if the test runs as superuser
         path = Path(folder) / "x.json"
         path.write_text("mine")
         path.chmod(0o444)
         Path(folder).chmod(0o777)
         assert main(["schema", "--out", str(path)]) == 2
         assert path.read_text() == "mine"
-        assert list(locked.parent.joinpath(folder).iterdir()) == [path]
-    _refused(capsys)
+        assert list(read_only.parent.joinpath(folder).iterdir()) == [path]
+    _expect_permission_error(capsys)
 
 
-def test_a_link_is_followed(tmp_path: Path) -> None:
+def test_symbolic_link_is_followed(tmp_path: Path) -> None:
     (tmp_path / "link.json").symlink_to(tmp_path / "real.json")
     assert main(["schema", "--out", str(tmp_path / "link.json")]) == 0
     assert (tmp_path / "link.json").is_symlink()
@@ -249,15 +253,15 @@ def test_a_link_is_followed(tmp_path: Path) -> None:
 
 
 @pytest.fixture
-def small(tmp_path: Path) -> Iterator[Path]:
-    """A disk of 64 kB with 44 kB left."""
+def small_disk(tmp_path: Path) -> Iterator[Path]:
+    """Mount a file system of 64 kB with 44 kB of free space."""
     disk = tmp_path / "disk"
     disk.mkdir()
     mounted = ["mount", "-t", "tmpfs", "-o", "size=64k", "none", str(disk)]
     try:
         subprocess.run(mounted, check=True, capture_output=True)
     except (OSError, subprocess.CalledProcessError):
-        pytest.skip("a disk can be mounted by the superuser only")
+        pytest.skip("only a superuser can mount a file system")
     (disk / "filled").write_bytes(bytes(20 * 1024))
     yield disk
     subprocess.run(["umount", str(disk)], check=True)
@@ -272,13 +276,17 @@ def small(tmp_path: Path) -> Iterator[Path]:
     ],
     ids=["simulate", "report", "schema"],
 )
-def test_a_full_disk_is_left_as_it_was(
-    arguments: list[str], last: str, small: Path, monkeypatch: pytest.MonkeyPatch, capsys: Captured
+def test_full_disk_is_left_unchanged(
+    arguments: list[str],
+    last: str,
+    small_disk: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: Captured,
 ) -> None:
-    """Not even those files are written for which there was room."""
-    monkeypatch.chdir(small)
-    if last == "x.json":  # no room at all
-        Path("more").write_bytes(bytes(shutil.disk_usage(small).free))
+    """No file is written, not even those for which there is enough space."""
+    monkeypatch.chdir(small_disk)
+    if last == "x.json":  # no free space at all
+        Path("more").write_bytes(bytes(shutil.disk_usage(small_disk).free))
     before = sorted(Path().iterdir())
     assert main(arguments) == 2
     lines = capsys.readouterr().err.strip().splitlines()
@@ -287,7 +295,7 @@ def test_a_full_disk_is_left_as_it_was(
     assert sorted(Path().iterdir()) == before
 
 
-def test_a_full_standard_output_is_an_error() -> None:
+def test_full_device_as_standard_output_is_an_error() -> None:
     with Path("/dev/full").open("w") as full:
         run = subprocess.run(
             [sys.executable, "-m", "derivation.cli", "schema"],
@@ -327,8 +335,10 @@ sys.exit(main(sys.argv[1:]))
     ],
     ids=["sweep", "search"],
 )
-def test_ctrl_c_ends_every_process_and_leaves_no_file(arguments: list[str], tmp_path: Path) -> None:
-    """As a terminal sends it: to all processes of the command."""
+def test_ctrl_c_ends_all_processes_and_leaves_no_incomplete_file(
+    arguments: list[str], tmp_path: Path
+) -> None:
+    """The signal is sent to all processes of the command, as a terminal does."""
     run = subprocess.Popen(
         [sys.executable, "-c", READY, *arguments], cwd=tmp_path, text=True,
         env={**os.environ, "PYTHONPATH": str(ROOT)}, start_new_session=True,
@@ -337,13 +347,13 @@ def test_ctrl_c_ends_every_process_and_leaves_no_file(arguments: list[str], tmp_
     )  # fmt: skip
     assert run.stdout is not None
     assert run.stdout.readline() == "ready\n"
-    time.sleep(6.0)  # whatever it is at then: importing, beginning other processes, at work
+    time.sleep(6.0)  # the command imports, starts processes or computes at that time
     assert run.poll() is None
     os.killpg(run.pid, signal.SIGINT)
-    said, message = run.communicate(timeout=60)  # so every process has let go of the pipes
+    output, message = run.communicate(timeout=60)  # returns when all processes have ended
     assert run.returncode == 2
     assert "interrupted" in message
-    assert "Traceback" not in said + message
-    for path in tmp_path.iterdir():  # what a search has found so far, whole
+    assert "Traceback" not in output + message
+    for path in tmp_path.iterdir():  # cases that the search has found until then
         assert (json.loads if path.suffix == ".json" else tomllib.loads)(path.read_text())
     assert "--sweep" not in arguments or not list(tmp_path.iterdir())

@@ -1,4 +1,4 @@
-"""The commands `simulate` and `indent`: files, exit status, messages, and a quick start."""
+"""The commands `simulate` and `indent`: files, exit status, messages, and imported modules."""
 
 import csv
 import json
@@ -9,14 +9,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from given import PAPER
+from shared_scenes import PAPER
 
 from derivation.cli import main
 from derivation.scene import load, schema, simulate
 from derivation.scene.answer import quantities
 from derivation.scene.plot import figure, render, scaled
 
-START = {b"\x89PNG": ".png", b"%PDF": ".pdf", b"<?xml": ".svg"}
+SIGNATURES = {b"\x89PNG": ".png", b"%PDF": ".pdf", b"<?xml": ".svg"}
 MODULES = """
 import json, sys
 from derivation.cli import main
@@ -33,7 +33,7 @@ def scene(tmp_path: Path) -> Path:
     return path
 
 
-def test_simulate_shows_the_answer(scene: Path, capsys: Captured) -> None:
+def test_simulate_prints_the_result(scene: Path, capsys: Captured) -> None:
     assert main(["simulate", str(scene)]) == 0
     shown = capsys.readouterr()
     result = simulate(load(scene))
@@ -43,7 +43,7 @@ def test_simulate_shows_the_answer(scene: Path, capsys: Captured) -> None:
     assert shown.err == ""
 
 
-def test_simulate_json_on_the_screen_is_the_python_result(scene: Path, capsys: Captured) -> None:
+def test_printed_json_equals_the_python_result(scene: Path, capsys: Captured) -> None:
     assert main(["simulate", str(scene), "--json", "-"]) == 0
     assert json.loads(capsys.readouterr().out) == simulate(load(scene)).to_json()
 
@@ -65,24 +65,24 @@ def test_simulate_writes_all_files(scene: Path) -> None:
 def test_schema_is_written_and_printed(tmp_path: Path, capsys: Captured) -> None:
     assert main(["schema", "--out", str(tmp_path / "scene.schema.json")]) == 0
     assert main(["schema"]) == 0
-    made = json.loads(capsys.readouterr().out)
-    assert made == json.loads((tmp_path / "scene.schema.json").read_text()) == schema()
+    printed = json.loads(capsys.readouterr().out)
+    assert printed == json.loads((tmp_path / "scene.schema.json").read_text()) == schema()
 
 
 @pytest.mark.parametrize("suffix", [".png", ".svg", ".pdf", ".PNG"])
-def test_plot_is_the_same_every_time(
-    suffix: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_plot_is_reproducible(suffix: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     result = simulate(load(PAPER))
-    for name, moment in (("one", "0"), ("two", "1000000000")):
-        monkeypatch.setenv("SOURCE_DATE_EPOCH", moment)
+    for name, time in (("one", "0"), ("two", "1000000000")):
+        monkeypatch.setenv("SOURCE_DATE_EPOCH", time)
         (tmp_path / f"{name}{suffix}").write_bytes(render(result, suffix))
     content = (tmp_path / f"one{suffix}").read_bytes()
     assert content == (tmp_path / f"two{suffix}").read_bytes()
-    assert [kind for start, kind in START.items() if content.startswith(start)] == [suffix.lower()]
+    assert [kind for signature, kind in SIGNATURES.items() if content.startswith(signature)] == [
+        suffix.lower()
+    ]
 
 
-def test_plot_shows_what_was_computed() -> None:
+def test_plot_shows_the_computed_curves() -> None:
     result = simulate(load(PAPER))
     axes = figure(result).axes
     labels = [(panel.get_xlabel(), panel.get_ylabel()) for panel in axes]
@@ -112,8 +112,8 @@ def test_plot_shows_what_was_computed() -> None:
     ],
 )
 def test_scaled_labels(value: float, factor: float, label: str) -> None:
-    values, said = scaled(np.array([0.0, value]), "x", "m")
-    assert said == label
+    values, scaled_label = scaled(np.array([0.0, value]), "x", "m")
+    assert scaled_label == label
     assert values[1] == pytest.approx(value * factor, rel=1e-15)
 
 
@@ -126,7 +126,7 @@ def test_scaled_labels(value: float, factor: float, label: str) -> None:
         ["--force=10", "100,1e3"],
     ],
 )
-def test_indent_takes_several_values(values: list[str], scene: Path, capsys: Captured) -> None:
+def test_indent_accepts_several_values(values: list[str], scene: Path, capsys: Captured) -> None:
     assert main(["indent", str(scene), *values, "--json", "-"]) == 0
     rows = json.loads(capsys.readouterr().out)
     assert [row["force"] for row in rows] == [10, 100, 1000]
@@ -135,18 +135,18 @@ def test_indent_takes_several_values(values: list[str], scene: Path, capsys: Cap
     ]  # fmt: skip
 
 
-def test_indent_takes_the_scene_last(scene: Path, capsys: Captured) -> None:
+def test_indent_accepts_the_scene_as_last_argument(scene: Path, capsys: Captured) -> None:
     assert main(["indent", "--json", "-", "--force", "10", str(scene)]) == 0
     assert [row["force"] for row in json.loads(capsys.readouterr().out)] == [10]
 
 
 @pytest.mark.parametrize("option", ["contact-radius", "indentation"])
-def test_indent_shows_a_table(option: str, scene: Path, capsys: Captured) -> None:
+def test_indent_prints_a_table(option: str, scene: Path, capsys: Captured) -> None:
     assert main(["indent", str(scene), f"--{option}", "0.00125"]) == 0
     assert "0.00125" in capsys.readouterr().out
 
 
-def test_warning_goes_to_the_screen_beside_the_result(scene: Path, capsys: Captured) -> None:
+def test_warnings_are_printed_in_addition_to_the_result(scene: Path, capsys: Captured) -> None:
     scene.write_text(scene.read_text().replace("half_thickness = 0.1", "half_thickness = 0.01"))
     assert main(["simulate", str(scene), "--json", "-"]) == 0
     shown = capsys.readouterr()
@@ -158,7 +158,7 @@ def test_warning_goes_to_the_screen_beside_the_result(scene: Path, capsys: Captu
 
 
 @pytest.mark.parametrize(
-    ("arguments", "says"),
+    ("arguments", "expected"),
     [
         (["simulate", "absent.toml"], "absent.toml: "),
         (["simulate"], "SCENE.toml"),
@@ -189,9 +189,9 @@ def test_warning_goes_to_the_screen_beside_the_result(scene: Path, capsys: Captu
         (["indent", "scene.toml", "--force", "5", "--json", "scene.toml"], "scene.toml: "),
     ],
 )
-def test_bad_input_is_one_message_status_2_and_touches_nothing(
+def test_invalid_input_gives_one_message_and_changes_no_file(
     arguments: list[str],
-    says: str,
+    expected: str,
     scene: Path,
     monkeypatch: pytest.MonkeyPatch,
     capsys: Captured,
@@ -203,7 +203,7 @@ def test_bad_input_is_one_message_status_2_and_touches_nothing(
     outputs = ["--json", "out.json"] if "--json" not in arguments else []
     assert main([*arguments, *outputs]) == 2
     shown = capsys.readouterr()
-    assert says in shown.err
+    assert expected in shown.err
     assert shown.err.startswith("platecontact: ")
     assert "Traceback" not in shown.err
     assert {path: path.read_bytes() for path in Path().iterdir()} == before
@@ -218,24 +218,24 @@ def test_bad_input_is_one_message_status_2_and_touches_nothing(
         ["simulate", str(PAPER), "--csv", "history.csv"],
     ],
 )
-def test_starts_without_what_is_slow(arguments: list[str], tmp_path: Path) -> None:
+def test_simulation_does_not_import_slow_packages(arguments: list[str], tmp_path: Path) -> None:
     loaded = _modules(arguments, tmp_path)
     assert not loaded & {"sympy", "flint", "mpmath", "jinja2", "matplotlib", "scipy"}
     assert {"numpy", "pydantic", "generated"} <= loaded
 
 
-def test_plot_loads_matplotlib_but_no_sympy(tmp_path: Path) -> None:
+def test_plot_imports_matplotlib_but_not_sympy(tmp_path: Path) -> None:
     loaded = _modules(["simulate", str(PAPER), "--plot", "x.svg"], tmp_path)
     assert "matplotlib" in loaded
     assert not loaded & {"sympy", "flint", "mpmath", "jinja2"}
 
 
-def test_other_commands_do_not_load_the_scene(tmp_path: Path) -> None:
+def test_help_does_not_import_the_scene_package(tmp_path: Path) -> None:
     assert not _modules(["--help"], tmp_path) & {"numpy", "pydantic", "generated"}
 
 
 def _modules(arguments: list[str], folder: Path) -> set[str]:
-    """Packages a fresh interpreter has loaded after a command."""
+    """Return the packages that a new interpreter has imported after a command."""
     run = subprocess.run(
         [sys.executable, "-c", MODULES, *arguments],
         cwd=folder,

@@ -1,4 +1,4 @@
-"""The worked examples of `docs/development`, typed into a copy of the sources and followed."""
+"""The worked examples of `docs/development`, applied to a copy of the sources and executed."""
 
 import json
 import math
@@ -11,7 +11,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from guide import type_examples
+from guide import apply_examples
 
 from derivation.engine import build
 from derivation.engine.files import ROOT
@@ -22,34 +22,34 @@ from derivation.plate.paper import PAPER
 
 SCENE = ROOT / "derivation" / "scene" / "examples" / "paper.toml"
 NEW = ("p_mean", "imprint_volume", "dynamic_hardness", "rayleigh_speed")
-"""Functions of the examples."""
+"""Functions that the examples add."""
 
 
 @pytest.fixture(scope="module")
 def copy(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The sources with every example typed in."""
+    """Return a copy of the sources to which all examples are applied."""
     root = tmp_path_factory.mktemp("copy")
     for folder in ("derivation", "generated", "reports/data"):
         ignored = shutil.ignore_patterns("__pycache__")
         shutil.copytree(ROOT / folder, root / folder, ignore=ignored)
     shutil.copy(ROOT / "pyproject.toml", root)
-    assert type_examples(root, paper=False) >= 30
+    assert apply_examples(root, paper=False) >= 30
     return root
 
 
 def run(copy: Path, program: str, *arguments: str, expect: int = 0) -> str:
-    """What a program in the copy prints."""
-    places = {"PYTHONPATH": str(copy), "XDG_CACHE_HOME": str(copy / "cache"), "COLUMNS": "200"}
+    """Return what a program in the copy prints."""
+    variables = {"PYTHONPATH": str(copy), "XDG_CACHE_HOME": str(copy / "cache"), "COLUMNS": "200"}
     done = subprocess.run(
         [sys.executable, "-c", program, *arguments],
-        cwd=copy, env=os.environ | places, capture_output=True, text=True, check=False,
+        cwd=copy, env=os.environ | variables, capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert done.returncode == expect, done.stdout + done.stderr
     return done.stdout + done.stderr
 
 
 COMMAND = "import sys; from derivation.cli import main; sys.exit(main(sys.argv[1:]))"
-# The whole chain takes half a minute: of its links those that the example rests on.
+# All derivation steps take half a minute; only those that the example needs are run.
 SHORT_CHAIN = """
 import sys
 from derivation.cli import main
@@ -58,7 +58,7 @@ chain.LINKS = tuple(link for link in chain.LINKS if link[0] == "Hertz")
 chain.MOTION_LINKS = tuple(link for link in chain.MOTION_LINKS if link[0] == "mean pressure")
 """
 DERIVE = f"{SHORT_CHAIN}sys.exit(main(sys.argv[1:]))"
-# What the checkout has derived, and what is new: all of the guide, without half an hour.
+# The new formulas are derived, all others are taken from the checkout: this saves half an hour.
 WHOLE = """
 import pickle
 import sys
@@ -84,7 +84,7 @@ package.forms_of = lambda *_: made
 from derivation.cli import main
 """
 GENERATE = f"{WHOLE}sys.exit(main(['generate']))"
-# As `check --update` and `check hard-cases --update`, of the functions and cases that are new.
+# Like `check --update` and `check hard-cases --update`, for the new functions and cases only.
 CHECK = WHOLE
 CHECK += """
 import json
@@ -119,40 +119,40 @@ REPORT = f"{WHOLE}sys.exit(main(['report', '--no-pdf', '--out', sys.argv[2]]))"
 TESTS = "import sys, pytest; sys.exit(pytest.main(['-q', '-o', 'addopts=', *sys.argv[1:]]))"
 
 
-def test_the_new_effect_has_its_row(copy: Path) -> None:
+def test_new_effect_is_in_the_table(copy: Path) -> None:
     def row(scene: Path) -> dict[str, object]:
         found = json.loads(run(copy, COMMAND, "explain", str(scene), "--json", "-"))
         assert found["effects"][-1]["name"] == "drag"
         return dict(found["effects"][-1])
 
-    asked = copy / "asked.toml"
-    asked.write_text(SCENE.read_text().replace("[effects]", "[effects]\ndrag = true"))
+    enabled = copy / "enabled.toml"
+    enabled.write_text(SCENE.read_text().replace("[effects]", "[effects]\ndrag = true"))
     assert row(SCENE)["parameter_value"] is None
-    shown = row(asked)
+    shown = row(enabled)
     assert 1e-9 < float(str(shown["parameter_value"])) < 1e-5
     assert 0 < float(str(shown["bound"])) < 1e-5
 
 
-def test_the_new_formula_is_derived_with_its_proof(copy: Path) -> None:
+def test_new_formula_is_derived_with_its_proof(copy: Path) -> None:
     found = json.loads(run(copy, DERIVE, "derive", "--json", "-").split("✓")[0])
     [formula] = [f for f in found if f["name"] == "p_mean"]
     assert formula["proof"]["step"] == "Mean pressure"
     assert formula["proof"]["method"] == "symbolically"
 
 
-def test_without_a_proof_there_is_no_formula(copy: Path) -> None:
+def test_formula_without_a_proof_is_rejected(copy: Path) -> None:
     path = copy / "derivation" / "plate" / "contact" / "theory" / "mean_pressure.py"
-    right = path.read_text()
-    path.write_text(right.replace("P / (sp.pi * a**2)", "2 * P / (sp.pi * a**2)"))
+    original = path.read_text()
+    path.write_text(original.replace("P / (sp.pi * a**2)", "2 * P / (sp.pi * a**2)"))
     try:
-        said = run(copy, DERIVE, "derive", expect=1)
+        output = run(copy, DERIVE, "derive", expect=1)
     finally:
-        path.write_text(right)
-    assert "Mean pressure: force leaves the residual" in said
+        path.write_text(original)
+    assert "Mean pressure: force leaves the residual" in output
 
 
-def test_what_is_new_is_generated_checked_and_reported(copy: Path) -> None:
-    """The formula, the subject, the function and the hard case, to the last step of the guide."""
+def test_additions_are_generated_checked_and_reported(copy: Path) -> None:
+    """All steps of the guide for a formula, a subject, a function and a hard case."""
     known = copy / "known.pickle"
     known.write_bytes(
         pickle.dumps(
@@ -165,22 +165,22 @@ def test_what_is_new_is_generated_checked_and_reported(copy: Path) -> None:
     assert mean == pytest.approx(12 / math.pi, rel=1e-15)
     assert volume == pytest.approx(math.pi / 4 * 1e-16, rel=1e-8)
     assert "3 passed" in run(copy, TESTS, "tests/plate/waves/test_rayleigh.py")
-    said = run(copy, CHECK, str(known), *NEW)
-    assert "no reference for 4 hard cases" in said
-    checked = json.loads(next(line for line in said.splitlines() if line.startswith("{")))
+    output = run(copy, CHECK, str(known), *NEW)
+    assert "no reference for 4 hard cases" in output
+    checked = json.loads(next(line for line in output.splitlines() if line.startswith("{")))
     assert checked["functions"] == [
         ["p_mean", "pressure", True, 2],
         ["imprint_volume", "imprint", True, 2],
         ["dynamic_hardness", "imprint", True, 2],
     ]
     assert {row[0] for row in checked["cases"]} == {*NEW[1:], "G"}
-    for kernel, kept, error, allowed in checked["cases"]:
-        assert kept, kernel
+    for kernel, passed, error, allowed in checked["cases"]:
+        assert passed, kernel
         assert error <= allowed
     run(copy, REPORT, str(known), str(copy / "report"))
     documents = copy / "report"
     text = "".join((documents / f"{name}.tex").read_text() for name in ("report", "appendices"))
-    assert r"\subsection{Mean pressure}" in text  # of which nobody wrote a word
+    assert r"\subsection{Mean pressure}" in text  # a section that is written automatically
     assert r"\subsection{Imprint}" in text
     for name in NEW:
         assert name.replace("_", r"\_") in text, name
@@ -189,15 +189,15 @@ def test_what_is_new_is_generated_checked_and_reported(copy: Path) -> None:
     assert "dynamic hardness of the plate" in page
 
 
-def test_the_new_rule_acts(copy: Path) -> None:
-    said = run(copy, COMMAND, "rewrite", "1 - cos(x)", "--json", "-").split("✓")[0]
-    found = json.loads(said)
+def test_new_rule_is_applied(copy: Path) -> None:
+    output = run(copy, COMMAND, "rewrite", "1 - cos(x)", "--json", "-")
+    found = json.loads(output.split("✓")[0])
     assert "half angle" in [applied["rule"] for applied in found["applied"]]
     assert "sin" in found["source"]
     assert "cos" not in found["source"].split("return")[-1]
 
 
-def test_the_version_is_in_the_changelog() -> None:
+def test_version_is_in_the_changelog() -> None:
     version = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["version"]
     assert f"\n## {version}\n" in (ROOT / "CHANGELOG.md").read_text()
     assert f"git tag -a v{version} " in (ROOT / "CONTRIBUTING.md").read_text()

@@ -1,4 +1,4 @@
-"""The page of known cases: its last table has every case."""
+"""The page of known cases: its last table lists every case."""
 
 import re
 
@@ -7,7 +7,7 @@ from derivation.engine.files import ROOT
 TEXT = (ROOT / "docs" / "guides" / "known_cases.md").read_text()
 
 
-def test_every_case_is_in_the_last_table() -> None:
+def test_last_table_lists_every_case() -> None:
     cases, _, table = TEXT.partition("## All cases")
     numbers = re.findall(r"^## (\d+)\. ", cases, re.M)
     assert numbers == [str(number + 1) for number in range(len(numbers))]

@@ -1,4 +1,4 @@
-"""The example notebook: it runs from top to bottom, and what it shows is rich, not text."""
+"""The example notebook: all cells run, and their outputs have HTML, LaTeX or images."""
 
 import os
 from pathlib import Path
@@ -16,7 +16,7 @@ RICH = {"text/html", "text/markdown", "text/latex", "image/svg+xml"}
 
 @pytest.fixture(scope="module")
 def executed(tmp_path_factory: pytest.TempPathFactory) -> list[Any]:
-    """Code cells with the outputs of a fresh kernel, which leaves nothing behind."""
+    """Return the code cells as executed by a new kernel with its settings in another folder."""
     home = tmp_path_factory.mktemp("jupyter")
     notebook = nbformat.read(NOTEBOOK, as_version=4)
     places = ("IPYTHONDIR", "JUPYTER_RUNTIME_DIR", "JUPYTER_CONFIG_DIR", "JUPYTER_DATA_DIR")
@@ -28,29 +28,29 @@ def executed(tmp_path_factory: pytest.TempPathFactory) -> list[Any]:
 
 
 def _shown(cells: list[Any], source: str) -> dict[str, str]:
-    """By type, what the cell shows that ends in a line of the source."""
+    """Return the output, by type, of the cell whose last line is `source`."""
     [cell] = [cell for cell in cells if cell.source.splitlines()[-1] == source]
     [output] = cell.outputs
     return dict(output.data)
 
 
-def test_it_is_committed_without_outputs() -> None:
+def test_notebook_is_committed_without_outputs() -> None:
     notebook = nbformat.read(NOTEBOOK, as_version=4)
     nbformat.validate(notebook)
     for cell in notebook.cells:
         assert cell.cell_type == "markdown" or (not cell.outputs and cell.execution_count is None)
 
 
-def test_every_cell_shows_one_thing_richly(executed: list[Any]) -> None:
+def test_every_cell_has_one_formatted_output(executed: list[Any]) -> None:
     assert len(executed) > 10
     for cell in executed:
         assert [output.output_type for output in cell.outputs] == ["execute_result"], cell.source
-        if "np.round" not in cell.source:  # an array is text
+        if "np.round" not in cell.source:  # arrays are shown as text
             assert RICH & set(cell.outputs[0].data), cell.source
 
 
 @pytest.mark.parametrize(
-    ("source", "kind", "says"),
+    ("source", "kind", "expected"),
     [
         ('formula("G")', "text/markdown", ("G(T)", "plate factor of the contact face", "to zero")),
         ('formula("G")', "text/latex", (r"$\displaystyle G(T) = ",)),
@@ -62,12 +62,14 @@ def test_every_cell_shows_one_thing_richly(executed: list[Any]) -> None:
         ("result.history()", "text/html", ("plate energy [J]", "12 of 201 times")),
     ],
 )
-def test_what_is_shown(source: str, kind: str, says: tuple[str, ...], executed: list[Any]) -> None:
+def test_output_of_cells(
+    source: str, kind: str, expected: tuple[str, ...], executed: list[Any]
+) -> None:
     shown = _shown(executed, source)[kind]
-    assert [text for text in says if text not in shown] == [], shown
+    assert [text for text in expected if text not in shown] == [], shown
 
 
-def test_comparisons_say_what_corrects_the_print(executed: list[Any]) -> None:
+def test_output_of_diagnose_shows_the_correction(executed: list[Any]) -> None:
     [own] = [cell for cell in executed if cell.source.startswith("diagnose(")]
     shown = own.outputs[0].data["text/markdown"]
     assert r"Omega\_3: different" in shown
@@ -77,7 +79,7 @@ def test_comparisons_say_what_corrects_the_print(executed: list[Any]) -> None:
     assert "derived -" in shown
 
 
-def test_contacts_and_code_are_shown(executed: list[Any]) -> None:
+def test_output_of_static_contacts_and_of_generated_code(executed: list[Any]) -> None:
     contacts = _shown(executed, "indent(scene, force=[10, 100, 1000])")["text/html"]
     assert contacts.count("<tr>") == 4
     assert "<td>100</td>" in contacts
@@ -85,5 +87,5 @@ def test_contacts_and_code_are_shown(executed: list[Any]) -> None:
     assert "def impact(" in code["text/plain"] or "impact" in code["text/html"]
 
 
-def test_the_notebook_is_where_the_reports_are() -> None:
+def test_reports_folder_has_one_notebook() -> None:
     assert sorted(path.name for path in Path(NOTEBOOK.parent).glob("*.ipynb")) == [NOTEBOOK.name]

@@ -1,7 +1,7 @@
 """Every block of README, CONTRIBUTING and the documentation site is executed.
 
-Commands and Python print what the page says, where `...` stands for what is left out. The blocks of
-`docs/development` that are typed into the sources are followed by `test_contributing.py`.
+Commands and Python code must print the output on the page, in which `...` matches any text.
+`test_contributing.py` executes the examples of `docs/development`.
 """
 
 import doctest
@@ -36,13 +36,13 @@ def name(page: Path) -> str:
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    """A folder in which the example scenes are found."""
+    """Return a folder that contains the example scenes at their path in the checkout."""
     (tmp_path / "derivation").symlink_to(ROOT / "derivation")
     return tmp_path
 
 
 def run(command: str, folder: Path) -> tuple[int, str]:
-    """Exit status of a command, and what it prints on standard output."""
+    """Return the exit status of a command, and its standard output."""
     path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
     done = subprocess.run(
         command, shell=True, cwd=folder, stdout=subprocess.PIPE, text=True, check=False,
@@ -52,37 +52,37 @@ def run(command: str, folder: Path) -> tuple[int, str]:
 
 
 @pytest.mark.parametrize("page", COMMANDS, ids=name)
-def test_commands_print_what_the_page_says(page: Path, folder: Path) -> None:
+def test_commands_print_the_output_on_the_page(page: Path, folder: Path) -> None:
     for kind, text in BLOCK.findall(page.read_text()):
         if kind == "toml" and NAMED.match(text):
             (folder / text.partition("\n")[0].removeprefix("# ")).write_text(text)
         if kind == "console":
             for piece in re.split(r"^\$ ", text, flags=re.MULTILINE)[1:]:
-                command, said = _split(piece)
+                command, expected = _split(piece)
                 status, printed = run(command, folder)
-                matches = OutputChecker().check_output(said, printed, ELLIPSIS)
-                assert matches or said == "...\n", printed
-                assert status == ("Omega_3: different" in said), command
+                matches = OutputChecker().check_output(expected, printed, ELLIPSIS)
+                assert matches or expected == "...\n", printed
+                assert status == ("Omega_3: different" in expected), command
 
 
 def _split(piece: str) -> tuple[str, str]:
-    """Return a command, which a backslash continues on the next line, and what it prints."""
+    """Return a command, including lines continued by a backslash, and its expected output."""
     lines = piece.splitlines(keepends=True)
     last = next(i for i, line in enumerate(lines) if not line.endswith("\\\n"))
     return "".join(lines[: last + 1]), "".join(lines[last + 1 :])
 
 
 @pytest.mark.parametrize("page", PYTHON, ids=name)
-def test_python_prints_what_the_page_says(page: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("PYTHONPATH", str(ROOT))  # for the workers that a page starts
+def test_python_prints_the_output_on_the_page(page: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PYTHONPATH", str(ROOT))  # for worker processes
     found = doctest.testfile(str(page), module_relative=False, optionflags=ELLIPSIS)
     assert not found.failed
     assert found.attempted == page.read_text().count("\n>>> ")
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name)
-def test_no_block_is_left_out(page: Path) -> None:
-    """Console and Python are executed above; these are the others that a page may have."""
+def test_every_block_is_tested_or_of_an_accepted_kind(page: Path) -> None:
+    """Console and Python blocks are executed above; the others have rules of their own."""
     for kind, text in BLOCK.findall(page.read_text()):
         if page.stem in guide.PAGES and page.parent.name == "development":
             assert guide.BLOCK.match(f"```{kind}\n{text}```"), text
@@ -90,18 +90,18 @@ def test_no_block_is_left_out(page: Path) -> None:
             assert text.startswith(">>> "), text
         elif kind == "toml":
             assert tomllib.loads(text), text
-            assert NAMED.match(text) or page.name == "README.md", "a scene that no command reads"
+            assert NAMED.match(text) or page.name == "README.md", "a scene without a file name"
         elif kind == "sh":
             assert page.parent == ROOT
             for line in text.splitlines():
                 assert line in CI or line.split()[0] in ("apt-get", "python3"), line
         elif kind == "text":
-            assert "$ " not in text, "a command is set as console"
+            assert "$ " not in text, "a command must be in a console block"
         else:
             assert kind in ("console", "python", "toml", "{toctree}"), kind
 
 
-def test_the_scene_of_the_readme_is_the_example() -> None:
+def test_scene_in_the_readme_equals_the_example() -> None:
     scene = (ROOT / "derivation" / "scene" / "examples" / "glass_pane.toml").read_text()
     [block] = [text for kind, text in BLOCK.findall(PAGES[0].read_text()) if kind == "toml"]
     assert tomllib.loads(block) == tomllib.loads(scene)

@@ -1,6 +1,6 @@
-"""The documentation site: what its generated parts hold, and that its hooks find what is wrong.
+"""The documentation site: content of its generated parts, and detection of defects by its hooks.
 
-CI builds the whole site with warnings as errors (`.ci/run`): that takes too long for a test.
+The complete site is built by `.ci/run`, with warnings as errors, because this takes too long here.
 """
 
 import re
@@ -29,24 +29,24 @@ def test_every_part_is_used_once() -> None:
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
-def test_a_link_to_a_page_leads_to_one(page: Path) -> None:
+def test_links_between_pages_have_targets(page: Path) -> None:
     for link in LINK.findall(CODE.sub("", PAGES[page])):
         if not re.match(r"https?:|#", link):
             assert (page.parent / link.partition("#")[0]).is_file(), link
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
-def test_a_page_is_in_a_table_of_contents(page: Path) -> None:
+def test_every_page_is_in_a_table_of_contents(page: Path) -> None:
     if page.parent != ROOT / "docs":
         assert f"\n{page.stem}\n" in PAGES[page.parent / "index.md"] or page.stem == "index"
 
 
-def test_scene_keys_are_those_that_a_scene_accepts() -> None:
+def test_scene_keys_equal_those_of_the_model() -> None:
     text = part("scene_keys")
     shown = set(re.findall(r"\{#key-(\w+)-([\w-]+)\}", text))
     for name, table in (("sphere", pc.Sphere), ("plate", pc.Plate), ("accuracy", pc.Accuracy)):
         accepted = {key.replace("_", "-") for key in table.model_fields}
-        assert {key for of, key in shown if of == name} == accepted
+        assert {key for table_name, key in shown if table_name == name} == accepted
     row = next(line for line in text.splitlines() if "{#key-plate-poissons-ratio}" in line)
     assert "> -1, < 0.5" in row
     row = next(line for line in text.splitlines() if "{#key-impact-speed}" in line)
@@ -54,7 +54,7 @@ def test_scene_keys_are_those_that_a_scene_accepts() -> None:
     assert "`m/s`" in row
 
 
-def test_every_effect_and_material_has_its_place() -> None:
+def test_every_effect_and_material_is_described() -> None:
     table, entries, choice = part("effects_table"), part("effects"), part("effect_choice")
     for effect in EFFECTS:
         anchor = f"effect-{effect.name}".replace("_", "-")
@@ -66,7 +66,7 @@ def test_every_effect_and_material_has_its_place() -> None:
         assert f"| `{name}` |" in part("materials")
 
 
-def test_every_command_and_function_has_its_place() -> None:
+def test_every_command_and_function_is_described() -> None:
     commands = part("commands")
     for name in ("simulate", "check hard-cases", "diagnose"):
         assert f"`platecontact {name}`" in commands
@@ -78,7 +78,7 @@ def test_every_command_and_function_has_its_place() -> None:
         assert f"| `{status}` |" in part("exit_status")
 
 
-def test_a_wrong_link_and_a_foreign_file_are_found(tmp_path: Path) -> None:
+def test_broken_links_and_external_files_are_found(tmp_path: Path) -> None:
     (tmp_path / "a.html").write_text(
         '<script src="https://example.org/x.js"></script><p id="here"></p>'
         '<a href="#here"></a><a href="#there"></a><a href="b.html"></a>'
@@ -88,50 +88,48 @@ def test_a_wrong_link_and_a_foreign_file_are_found(tmp_path: Path) -> None:
     assert all(text in found for text in ("x.js", "#there", "b.html"))
 
 
-def test_a_name_more_than_two_clicks_away_is_found(tmp_path: Path) -> None:
+def test_names_more_than_two_clicks_away_are_found(tmp_path: Path) -> None:
     (tmp_path / "index.html").write_text('<a href="a.html"></a><p id="here"></p>')
     (tmp_path / "a.html").write_text('<a href="b.html#two"></a><p id="one"></p>')
     (tmp_path / "b.html").write_text('<p id="two"></p><p id="three"></p>')
     assert list(far(tmp_path, ("here", "one", "two", "three"))) == ["three: more than two clicks"]
 
 
-def test_the_index_has_every_name() -> None:
+def test_index_has_every_name() -> None:
     rows = part("names").splitlines()
     assert any("`plate.loss_factor`](#key-plate-loss-factor)" in row for row in rows)
-    for place in ("generated.influence.G", "platecontact.simulate"):
-        assert any(f"{{py:obj}}`~{place}`" in row for row in rows)
-    shown = {
-        place.rpartition(".")[2] for place in names.anchors() if place.startswith("generated.")
-    }
+    for name in ("generated.influence.G", "platecontact.simulate"):
+        assert any(f"{{py:obj}}`~{name}`" in row for row in rows)
+    shown = {name.rpartition(".")[2] for name in names.anchors() if name.startswith("generated.")}
     assert {kernel["name"] for kernel in KERNELS} <= shown
     assert set(package.__all__) <= shown
     assert len(rows) == 2 + len(list(names.anchors()))
 
 
-def test_a_table_says_which_keys_exclude_one_another() -> None:
+def test_mutually_exclusive_keys_are_stated() -> None:
     text = part("scene_keys")
     assert "Exactly one of these is required: `half_thickness`, or `thickness`." in text
 
 
 @pytest.mark.parametrize("script", gallery.scripts(), ids=lambda script: script.stem)
-def test_a_figure_has_curves_with_units(script: Path) -> None:
+def test_figures_have_curves_with_units(script: Path) -> None:
     axes = runpy.run_path(str(script))["figure"].axes
     assert axes
-    for drawn in axes:
-        if drawn.get_label() == "<colorbar>":
-            assert "[" in drawn.get_ylabel()
+    for panel in axes:
+        if panel.get_label() == "<colorbar>":
+            assert "[" in panel.get_ylabel()
             continue
-        assert all(np.isfinite(line.get_ydata()).all() for line in drawn.lines)
-        assert drawn.lines or drawn.collections
-        assert "[" in drawn.get_xlabel()
-        assert "[" in drawn.get_ylabel()
+        assert all(np.isfinite(line.get_ydata()).all() for line in panel.lines)
+        assert panel.lines or panel.collections
+        assert "[" in panel.get_xlabel()
+        assert "[" in panel.get_ylabel()
 
 
-def test_the_gallery_is_varied() -> None:
+def test_gallery_has_at_least_15_figures() -> None:
     assert len(gallery.scripts()) >= 15
 
 
-def test_bars_are_kept() -> None:
+def test_vertical_bars_are_escaped_in_docstrings() -> None:
     lines = ["of |F| and |x J_1(x)/J_0(x)|", "    |code|", "``|set|``"]
     escape_bars(None, "", "", None, None, lines)  # type: ignore[arg-type]
     assert lines == ["of ``|F|`` and ``|x J_1(x)/J_0(x)|``", "    |code|", "``|set|``"]

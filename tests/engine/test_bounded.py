@@ -1,4 +1,4 @@
-"""Work on a formula ends within limits of time and memory, whatever the formula asks for."""
+"""Work on a formula is stopped at limits of time, memory and recursion depth."""
 
 import time
 
@@ -10,42 +10,42 @@ from derivation.engine import bounded as module
 from derivation.engine.bounded import LimitError, bounded
 
 
-def test_results_and_errors_come_back() -> None:
+def test_results_and_errors_are_returned() -> None:
     assert bounded(lambda: {"x": [1, 2.5]}, "this") == {"x": [1, 2.5]}
     with pytest.raises(KeyError, match="nothing"):
         bounded(lambda: {}["nothing"], "this")
 
 
 def test_time_is_limited() -> None:
-    def endless() -> None:
+    def loop() -> None:
         while True:
             pass
 
     with pytest.raises(LimitError, match="this takes more than 1 s: simplify"):
-        bounded(endless, "this", seconds=1)
+        bounded(loop, "this", seconds=1)
 
 
-def test_waiting_is_limited(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_elapsed_time_is_limited(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "PATIENCE", 0.1)
     with pytest.raises(LimitError, match="more than 1 s"):
         bounded(lambda: time.sleep(100), "this", seconds=1)
 
 
 def test_memory_is_limited_in_python_and_in_libraries() -> None:
-    for greedy in (lambda: [0] * 10**9, lambda: flint.fmpz(3) ** (10**11) and None):
+    for allocate in (lambda: [0] * 10**9, lambda: flint.fmpz(3) ** (10**11) and None):
         with pytest.raises(LimitError, match="this takes more than 200 MB"):
-            bounded(greedy, "this", megabytes=200)
+            bounded(allocate, "this", megabytes=200)
 
 
 def test_depth_is_limited() -> None:
-    def deeper() -> None:
-        deeper()
+    def recursive() -> None:
+        recursive()
 
     with pytest.raises(LimitError, match="nest the formula less"):
-        bounded(deeper, "this")
+        bounded(recursive, "this")
 
 
-def test_what_cannot_be_limited_is_done_all_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_work_is_done_without_limits_if_fork_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delattr(module.os, "fork")
     assert bounded(lambda: 3, "this") == 3
 
@@ -56,21 +56,19 @@ for _ in range(20):
 HARD = {
     "nested powers": NESTED,
     "wide powers": "(" + " + ".join(f"sin({k}*x)" for k in range(1, 40)) + ")**90",
-    "a tower": "9**9**9**9",
+    "power tower": "9**9**9**9",
     "nested functions": "sin(" * 45 + "x" + ")" * 45,
     "many factors": "*".join(f"(exp({k}*x) + x + {k})" for k in range(1, 9)) + "**99",
-    "a product of sums": "*".join(["(1 + x + sin(x) + exp(x) + cos(2*x))"] * 30),
+    "product of sums": "*".join(["(1 + x + sin(x) + exp(x) + cos(2*x))"] * 30),
 }
 
 
-@pytest.mark.parametrize("what", HARD)
-def test_hard_formulas_are_refused_in_one_message(
-    what: str, capsys: pytest.CaptureFixture[str]
-) -> None:
-    for command in (["rewrite", HARD[what]], ["diagnose", "G", "--formula", HARD[what]]):
+@pytest.mark.parametrize("case", HARD)
+def test_expensive_formulas_give_one_message(case: str, capsys: pytest.CaptureFixture[str]) -> None:
+    for command in (["rewrite", HARD[case]], ["diagnose", "G", "--formula", HARD[case]]):
         if command[0] == "diagnose":
             command[-1] = command[-1].replace("exp", "EXP").replace("x", "T").replace("EXP", "exp")
         status = main(command)
-        said = capsys.readouterr().err
-        assert "Traceback" not in said
+        message = capsys.readouterr().err
+        assert "Traceback" not in message
         assert status == 2 or (command[0] == "diagnose" and status == 1)

@@ -1,4 +1,4 @@
-"""The cache: plain data that is right or is not used, and that runs nothing."""
+"""The cache stores plain data, verifies it before use, and never executes it."""
 
 import json
 import os
@@ -25,12 +25,13 @@ VALUE = {"first": (1, None, True, "text"), "second": (x**2 + sp.Rational(1, 3), 
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A cache of its own."""
+    """Use an empty cache in a temporary folder."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     return tmp_path / "platecontact"
 
 
 def counting(value: object) -> tuple[Callable[[], Any], list[int]]:
+    """Return a function that returns `value`, and a list with one entry for each call."""
     calls = list[int]()
 
     def compute() -> object:
@@ -40,13 +41,13 @@ def counting(value: object) -> tuple[Callable[[], Any], list[int]]:
     return compute, calls
 
 
-def again(value: object, *kinds: type) -> Any:
-    """The value as a file would give it back."""
+def restored(value: object, *kinds: type) -> Any:
+    """Convert a value to JSON and back."""
     known = {kind.__name__: kind for kind in kinds}
     return from_plain(json.loads(json.dumps(to_plain(value, known))), known)
 
 
-def test_what_is_kept_is_computed_once(folder: Path) -> None:
+def test_cached_value_is_computed_once(folder: Path) -> None:
     compute, calls = counting(VALUE)
     assert cached("x", (), compute) == cached("x", (), compute) == VALUE
     assert len(calls) == 1
@@ -54,10 +55,10 @@ def test_what_is_kept_is_computed_once(folder: Path) -> None:
     json.loads(path.read_bytes().partition(b"\n")[2])
 
 
-def test_the_projects_own_results_come_back_as_they_are(formulas: Mapping[str, Formula]) -> None:
+def test_results_of_the_project_are_restored(formulas: Mapping[str, Formula]) -> None:
     kinds = (*derived.CHAIN.kinds, Proof, Form, Step, Branch, Switch, Block)
     for value in (formulas, build.rewrite(PAPER), blocks()):
-        found = again(value, *kinds)
+        found = restored(value, *kinds)
         assert found == value
         assert repr(found) == repr(value)
 
@@ -71,19 +72,19 @@ def test_the_projects_own_results_come_back_as_they_are(formulas: Mapping[str, F
         sp.E, sp.EulerGamma, sp.Rational(-7, 10**40), sp.exp(-x), sp.Function("f")(x),
     ],
 )  # fmt: skip
-def test_expressions_come_back(value: sp.Basic) -> None:
-    assert again(value) == value
-    assert sp.srepr(again(value)) == sp.srepr(value)
+def test_expressions_are_restored(value: sp.Basic) -> None:
+    assert restored(value) == value
+    assert sp.srepr(restored(value)) == sp.srepr(value)
 
 
 @pytest.mark.parametrize("value", [{1}, 0.5, b"x", [1], {1: 2}, object(), Step(x, x), x > 1])
-def test_what_cannot_be_kept_is_refused(value: object, folder: Path) -> None:
+def test_values_that_cannot_be_stored_are_rejected(value: object, folder: Path) -> None:
     with pytest.raises(TypeError, match="expected"):
         cached("x", (), lambda: value)
     assert not list(folder.glob("*"))
 
 
-def test_no_changed_digit_comes_back(folder: Path) -> None:
+def test_damaged_file_is_not_used(folder: Path) -> None:
     compute, calls = counting(VALUE)
     cached("x", (), compute)
     [path] = folder.iterdir()
@@ -92,11 +93,11 @@ def test_no_changed_digit_comes_back(folder: Path) -> None:
     for number, damaged in enumerate([*changed, b"", whole[:-1], whole[65:]], start=1):
         path.write_bytes(damaged)
         assert cached("x", (), compute) == VALUE
-        assert len(calls) == number + 1, "read all the same"
+        assert len(calls) == number + 1, "the damaged file was used"
         assert path.read_bytes() == whole
 
 
-def test_a_file_of_another_key_is_not_taken(folder: Path) -> None:
+def test_file_of_another_key_is_not_used(folder: Path) -> None:
     cached("x", (), lambda: 1)
     [one] = folder.iterdir()
     cached("y", (), lambda: 2)
@@ -105,8 +106,8 @@ def test_a_file_of_another_key_is_not_taken(folder: Path) -> None:
     assert cached("y", (), lambda: 2) == 2
 
 
-class Planted:
-    """What a pickle can do."""
+class CreatesFile:
+    """An object that creates a file when it is unpickled."""
 
     def __init__(self, trace: Path) -> None:
         self.trace = trace
@@ -115,12 +116,12 @@ class Planted:
         return Path.touch, (self.trace,)
 
 
-def test_a_planted_pickle_runs_nothing(folder: Path, tmp_path: Path) -> None:
+def test_pickle_in_the_cache_is_not_executed(folder: Path, tmp_path: Path) -> None:
     trace = tmp_path / "ran"
     cached("x", (), lambda: 1)
     [path] = folder.iterdir()
     for name in (path, path.with_suffix(".pickle")):
-        name.write_bytes(pickle.dumps(Planted(trace)))
+        name.write_bytes(pickle.dumps(CreatesFile(trace)))
     assert cached("x", (), lambda: 1) == 1
     assert not trace.exists()
 
@@ -133,14 +134,12 @@ def test_a_planted_pickle_runs_nothing(folder: Path, tmp_path: Path) -> None:
         {"Symbol": [1, {}]}, {"Function": [["f"], {}, []]}, {"__loader__": []}, 1.5, {},
     ],
 )  # fmt: skip
-def test_nothing_but_expressions_is_built(plain: Any) -> None:
+def test_other_names_than_those_of_expressions_are_rejected(plain: Any) -> None:
     with pytest.raises((TypeError, ValueError)):
         from_plain(plain, {})
 
 
-def test_a_relative_folder_counts_for_nothing(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_relative_cache_folder_is_ignored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     home = tmp_path / "home"
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("HOME", str(home))
@@ -154,14 +153,14 @@ def test_a_relative_folder_counts_for_nothing(
     assert not Path("relative").exists()
 
 
-def test_a_folder_of_everybodys_is_not_used(folder: Path) -> None:
+def test_folder_writable_by_others_is_not_used(folder: Path) -> None:
     folder.mkdir()
     folder.chmod(0o777)
     assert cached("x", (), lambda: 1) == 1
     assert list(folder.iterdir()) == []
 
 
-def test_a_device_or_a_huge_file_is_not_read(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_pipe_or_large_file_is_not_read(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     cached("x", (), lambda: 1)
     [path] = folder.iterdir()
     path.unlink()

@@ -1,6 +1,6 @@
-"""Files and folders written in one step: whatever kills a run, they are whole, and nothing is left.
+"""Files and folders are replaced atomically, even if the process is killed.
 
-Runs are killed for certain at every step that touches the disk, not at random moments.
+The process is killed once at every step that accesses the disk, not at random times.
 """
 
 import contextlib
@@ -23,40 +23,40 @@ STEPS = {
     "open", "os.chmod", "os.chown", "os.fsync", "os.link", "os.listdir", "os.mkdir", "os.remove",
     "os.rename", "os.rmdir", "os.scandir", "fcntl.flock", "shutil.rmtree",
 }  # fmt: skip
-OLD = {"a.py": "old a", "b.py": "old b", "stray.py": "of somebody's"}
+OLD = {"a.py": "old a", "b.py": "old b", "unrelated.py": "not generated"}
 NEW = {"a.py": "new a", "b.py": "new b", "c.py": "new c"}
-Act = Callable[[], object]
+Action = Callable[[], object]
 needs_fork = pytest.mark.skipif(not hasattr(os, "fork"), reason="no processes can be forked")
 
 
-def killed(step: int, act: Act) -> bool:
-    """Act in a child that is killed before its n-th step; False if it has fewer."""
+def is_killed(step: int, action: Action) -> bool:
+    """Return whether the action, in a child process, reaches its n-th step and is killed there."""
     child = os.fork()
     if child == 0:
-        left = step
+        remaining = step
 
         def kill(event: str, _: Any = ()) -> None:
-            nonlocal left
-            left -= event in STEPS
-            if left == 0:
-                left = -1  # to kill is a step too
+            nonlocal remaining
+            remaining -= event in STEPS
+            if remaining == 0:
+                remaining = -1  # os.kill is an audited step, too
                 os.kill(os.getpid(), signal.SIGKILL)
 
-        settle = os.fsync
-        os.fsync = lambda handle: (kill("os.fsync"), settle(handle))[1]
+        fsync = os.fsync
+        os.fsync = lambda handle: (kill("os.fsync"), fsync(handle))[1]
         sys.addaudithook(kill)
         with contextlib.suppress(BaseException):
-            act()
+            action()
         os._exit(0)
     _, status = os.waitpid(child, 0)
     return os.WIFSIGNALED(status)
 
 
-def kills(act: Act, prepare: Act) -> Iterator[None]:
-    """One round per step: prepared, and killed there."""
+def killed_at_every_step(action: Action, prepare: Action) -> Iterator[None]:
+    """Prepare, and kill the action at step 1, 2, ...; yield after each."""
     for step in count(1):
         prepare()
-        if not killed(step, act):
+        if not is_killed(step, action):
             assert step > 10
             return
         yield
@@ -66,82 +66,83 @@ def content(folder: Path) -> Mapping[str, str]:
     return {path.name: path.read_text() for path in folder.iterdir()} if folder.exists() else {}
 
 
-# --- kill -9
+# --- processes that are killed
 
 
 @needs_fork
 @pytest.mark.parametrize("exchange", [True, False])
-def test_a_folder_is_old_or_new_wherever_a_run_is_killed(
+def test_folder_is_old_or_new_after_a_kill(
     exchange: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """At once if the system exchanges folders, from the next start on if it does not."""
+    """This holds at once if the system can exchange folders, else after `recover`."""
     if not exchange:
         monkeypatch.setattr(staging, "_exchange", lambda *_: False)
     elif not exchanges(tmp_path):
         pytest.skip("the system does not exchange folders")
-    place = tmp_path / "here" / "package"
+    package_folder = tmp_path / "parent" / "package"
     either = [OLD, OLD | NEW]
 
     def prepare() -> None:
-        write_folder(place, {**OLD})
-        (place / "c.py").unlink(missing_ok=True)
+        write_folder(package_folder, {**OLD})
+        (package_folder / "c.py").unlink(missing_ok=True)
 
     prepare()
-    for _ in kills(lambda: write_folder(place, NEW), prepare):
+    for _ in killed_at_every_step(lambda: write_folder(package_folder, NEW), prepare):
         if exchange:
-            assert content(place) in either
-        recover(place)
-        assert content(place) in either
-        write_folder(place, NEW)
-        assert content(place) == OLD | NEW
-        assert list(place.parent.iterdir()) == [place]
+            assert content(package_folder) in either
+        recover(package_folder)
+        assert content(package_folder) in either
+        write_folder(package_folder, NEW)
+        assert content(package_folder) == OLD | NEW
+        assert list(package_folder.parent.iterdir()) == [package_folder]
 
 
 @needs_fork
-def test_a_new_folder_is_whole_or_not_there(tmp_path: Path) -> None:
-    place = tmp_path / "package"
+def test_new_folder_is_complete_or_absent_after_a_kill(tmp_path: Path) -> None:
+    package_folder = tmp_path / "package"
 
     def prepare() -> None:
-        for path in place.glob("*"):
+        for path in package_folder.glob("*"):
             path.unlink()
-        if place.exists():
-            place.rmdir()
+        if package_folder.exists():
+            package_folder.rmdir()
 
-    for _ in kills(lambda: write_folder(place, NEW), prepare):
-        assert content(place) in ({}, NEW)
-        write_folder(place, NEW)
-        assert list(tmp_path.iterdir()) == [place]
+    for _ in killed_at_every_step(lambda: write_folder(package_folder, NEW), prepare):
+        assert content(package_folder) in ({}, NEW)
+        write_folder(package_folder, NEW)
+        assert list(tmp_path.iterdir()) == [package_folder]
 
 
 @needs_fork
-def test_files_are_whole_and_what_a_killed_run_leaves_is_removed(tmp_path: Path) -> None:
+def test_files_are_complete_and_leftovers_are_removed_after_a_kill(tmp_path: Path) -> None:
     files = {tmp_path / name: text for name, text in NEW.items()}
-    for _ in kills(
+    for _ in killed_at_every_step(
         lambda: write_files(files), lambda: write_files({tmp_path / k: v for k, v in OLD.items()})
     ):
         for path, text in files.items():
             assert not path.exists() or path.read_text() in (OLD.get(path.name), text)
-        write_file(tmp_path / "another.py", "written where the others were to be")
+        write_file(tmp_path / "another.py", "written to the same folder")
         assert {path.name for path in tmp_path.iterdir()} <= {*OLD, *NEW, "another.py"}
 
 
-def test_a_package_is_swapped_whole(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """By `generate`: a broken folder of a killed run comes back before it is compared."""
+def test_package_is_replaced_as_a_whole(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """`generate --check` first restores a folder that an interrupted run has moved aside."""
     monkeypatch.setattr(package, "files_of", lambda *_: dict(NEW))
-    place = tmp_path / "package"
-    assert main(["generate", "--out", str(place)]) == 0
-    before = place.stat().st_ino
-    assert main(["generate", "--out", str(place)]) == 0
-    assert place.stat().st_ino != before, "written into piece by piece"
-    place.rename(staging._aside(place))
-    assert main(["generate", "--check", "--out", str(place)]) == 0
-    assert list(tmp_path.iterdir()) == [place]
+    package_folder = tmp_path / "package"
+    assert main(["generate", "--out", str(package_folder)]) == 0
+    before = package_folder.stat().st_ino
+    assert main(["generate", "--out", str(package_folder)]) == 0
+    assert package_folder.stat().st_ino != before, "files were replaced one by one"
+    package_folder.rename(staging._aside(package_folder))
+    assert main(["generate", "--check", "--out", str(package_folder)]) == 0
+    assert list(tmp_path.iterdir()) == [package_folder]
 
 
-# --- what has to stay
+# --- what must not be changed
 
 
 def exchanges(folder: Path) -> bool:
+    """Return whether the system can exchange two folders."""
     one, other = folder / "one", folder / "other"
     one.mkdir()
     other.mkdir()
@@ -151,16 +152,16 @@ def exchanges(folder: Path) -> bool:
     return able
 
 
-def test_a_temporary_that_is_being_written_is_no_leftover(tmp_path: Path) -> None:
-    held = Temporary(tmp_path)
+def test_temporary_file_in_use_is_not_removed(tmp_path: Path) -> None:
+    temporary = Temporary(tmp_path)
     remove_leftovers(tmp_path)
-    assert list(tmp_path.iterdir()) == [held.path]
-    held.close()
+    assert list(tmp_path.iterdir()) == [temporary.path]
+    temporary.close()
     remove_leftovers(tmp_path)
     assert list(tmp_path.iterdir()) == []
 
 
-def test_leftovers_are_told_by_their_name_and_links_are_not_followed(tmp_path: Path) -> None:
+def test_only_files_with_the_name_of_leftovers_are_removed(tmp_path: Path) -> None:
     mine, folder = tmp_path / ".hidden.tmp", tmp_path / "folder"
     mine.write_text("mine")
     folder.mkdir()
@@ -172,41 +173,41 @@ def test_leftovers_are_told_by_their_name_and_links_are_not_followed(tmp_path: P
     assert mine.is_file()
 
 
-@pytest.mark.parametrize("why", ["cwd", "folder"])
-def test_a_folder_that_cannot_be_moved_is_written_into(
-    why: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize("reason", ["cwd", "folder"])
+def test_files_are_written_one_by_one_if_the_folder_cannot_be_moved(
+    reason: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The one in which the process works, and one with folders of its own."""
-    place = tmp_path / "package"
-    write_folder(place, {**OLD})
-    known = place.stat().st_ino
-    if why == "cwd":
-        monkeypatch.chdir(place)
+    """The current folder is not moved, nor a folder that contains other folders."""
+    package_folder = tmp_path / "package"
+    write_folder(package_folder, {**OLD})
+    inode = package_folder.stat().st_ino
+    if reason == "cwd":
+        monkeypatch.chdir(package_folder)
     else:
-        (place / "folder").mkdir()
-    written = write_folder(Path() if why == "cwd" else place, {**NEW})
+        (package_folder / "folder").mkdir()
+    written = write_folder(Path() if reason == "cwd" else package_folder, {**NEW})
     assert [path.name for path in written] == list(NEW)
-    assert place.stat().st_ino == known
-    assert {path.name for path in place.iterdir()} - {"folder"} == {*OLD, *NEW}
-    assert list(tmp_path.iterdir()) == [place]
+    assert package_folder.stat().st_ino == inode
+    assert {path.name for path in package_folder.iterdir()} - {"folder"} == {*OLD, *NEW}
+    assert list(tmp_path.iterdir()) == [package_folder]
 
 
-def test_rights_and_links_of_a_folder_stay(tmp_path: Path) -> None:
-    place, link = tmp_path / "package", tmp_path / "link"
-    write_folder(place, {**OLD})
-    place.chmod(0o750)
-    link.symlink_to(place)
+def test_permissions_and_symbolic_links_are_kept(tmp_path: Path) -> None:
+    package_folder, link = tmp_path / "package", tmp_path / "link"
+    write_folder(package_folder, {**OLD})
+    package_folder.chmod(0o750)
+    link.symlink_to(package_folder)
     write_folder(link, {**NEW})
     assert link.is_symlink()
-    assert place.stat().st_mode & 0o777 == 0o750
-    assert content(place) == OLD | NEW
+    assert package_folder.stat().st_mode & 0o777 == 0o750
+    assert content(package_folder) == OLD | NEW
 
 
-def test_if_a_swap_fails_half_way_the_old_folder_is_put_back(
+def test_files_are_written_one_by_one_if_the_exchange_fails(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    place, rename = tmp_path / "package", Path.rename
-    write_folder(place, {**OLD})
+    package_folder, rename = tmp_path / "package", Path.rename
+    write_folder(package_folder, {**OLD})
 
     def fail(self: Path, target: Path) -> Path:
         if self.name.endswith(staging.TEMPORARY):
@@ -215,15 +216,15 @@ def test_if_a_swap_fails_half_way_the_old_folder_is_put_back(
 
     monkeypatch.setattr(staging, "_exchange", lambda *_: False)
     monkeypatch.setattr(Path, "rename", fail)
-    write_folder(place, {**NEW})  # one by one then
-    assert content(place) == OLD | NEW
-    assert list(tmp_path.iterdir()) == [place]
+    write_folder(package_folder, {**NEW})
+    assert content(package_folder) == OLD | NEW
+    assert list(tmp_path.iterdir()) == [package_folder]
 
 
 # --- reading
 
 
-def test_only_files_of_a_sane_size_are_read(tmp_path: Path) -> None:
+def test_only_regular_files_up_to_a_size_are_read(tmp_path: Path) -> None:
     path, loop, pipe = tmp_path / "file", tmp_path / "loop", tmp_path / "pipe"
     path.write_bytes(b"12345")
     assert read_file(path, 5) == b"12345"

@@ -1,4 +1,4 @@
-"""A paper outside the checkout, begun by `new`: every stage, in processes of their own."""
+"""All stages for a paper of the user outside the checkout, each in a separate process."""
 
 import json
 import os
@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from guide import type_examples
+from guide import apply_examples
 
 from derivation.engine import build
 from derivation.engine.errata.findings import CORRECT
@@ -25,18 +25,18 @@ WORDS = re.compile(r"\b(plates?|spheres?)\b", re.IGNORECASE)
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A paper with the guide's examples, built; beside it the cache that its processes share."""
+    """Build a paper from the examples of the guide; all commands share a cache next to it."""
     place = tmp_path_factory.mktemp("own") / "my film"
     run("new", str(place), home=place.parent)
-    assert type_examples(place, paper=True) >= 15
-    said = run("build", "--paper", str(place), home=place.parent)
-    timed = re.findall(r"✓ (\w+) +[\d.]+ s", said)
+    assert apply_examples(place, paper=True) >= 15
+    shown = run("build", "--paper", str(place), home=place.parent)
+    timed = re.findall(r"✓ (\w+) +[\d.]+ s", shown)
     assert timed == ["derive", "rewrite", "generate", "misprints", "check", "report"]
     return place
 
 
 def run(*arguments: str, home: Path, status: int = 0) -> str:
-    """What a command prints in a process of its own, outside the checkout."""
+    """Return what a command prints in a separate process outside the checkout."""
     done = subprocess.run(
         [sys.executable, "-m", "derivation.cli", *arguments],
         cwd=home, capture_output=True, text=True, check=False,
@@ -46,18 +46,18 @@ def run(*arguments: str, home: Path, status: int = 0) -> str:
     return done.stdout + done.stderr
 
 
-def test_it_derives(folder: Path) -> None:
+def test_derive_lists_all_formulas(folder: Path) -> None:
     found = json.loads(
         run("derive", "--paper", str(folder), "--json", "-", home=folder.parent).split("✓")[0]
     )
     assert {row["name"] for row in found} == {
         "w_thin",
-        *(f"{letter}_{held}" for letter in "CF" for held in ("bonded", "slipping")),
+        *(f"{letter}_{base}" for letter in "CF" for base in ("bonded", "slipping")),
     }
     assert all(row["proof"]["residuals"] for row in found)
 
 
-def test_its_package_is_fresh_and_stands_alone(folder: Path, tmp_path: Path) -> None:
+def test_package_is_up_to_date_and_needs_only_numpy(folder: Path, tmp_path: Path) -> None:
     assert "up to date" in run("generate", "--check", "--paper", str(folder), home=folder.parent)
     shutil.copytree(folder / "generated", tmp_path / "elastic_film")
     program = (
@@ -74,7 +74,7 @@ def test_its_package_is_fresh_and_stands_alone(folder: Path, tmp_path: Path) -> 
     assert f"{float(done.stdout):.12f}" in diagnosed
 
 
-def test_both_references_check_it(folder: Path) -> None:
+def test_functions_pass_with_both_references(folder: Path) -> None:
     data = json.loads((folder / "reports" / "check.json").read_text())
     assert [row["kernel"] for row in data["rows"]] == [
         "F_bonded",
@@ -85,7 +85,7 @@ def test_both_references_check_it(folder: Path) -> None:
     assert all(row["passed"] and row["oracles"] == 2 for row in data["rows"])
 
 
-def test_a_misprint_is_found_and_the_cache_notices_edits(folder: Path) -> None:
+def test_misprints_are_found_again_after_an_edit(folder: Path) -> None:
     def findings() -> dict[str, str]:
         shown = run("misprints", "--paper", str(folder), "--json", "-", home=folder.parent)
         return {row["name"]: row["kind"] for row in json.loads(shown.split("✓")[0])}
@@ -100,16 +100,16 @@ def test_a_misprint_is_found_and_the_cache_notices_edits(folder: Path) -> None:
     finally:
         printed.write_text(wrong)
     theory = folder / "theory.py"
-    right = theory.read_text()
+    original = theory.read_text()
     try:
-        theory.write_text(right.replace("(sp.sinh(T) + T)", "(sp.sinh(T) + 2 * T)"))
+        theory.write_text(original.replace("(sp.sinh(T) + T)", "(sp.sinh(T) + 2 * T)"))
         shown = run("derive", "--paper", str(folder), home=folder.parent, status=1)
         assert "Film, slipping: closed form leaves the residual" in shown
     finally:
-        theory.write_text(right)
+        theory.write_text(original)
 
 
-def test_its_report_holds_what_was_found(folder: Path) -> None:
+def test_report_contains_misprints_and_formulas(folder: Path) -> None:
     text = (folder / "reports" / "report.tex").read_text()
     assert MISPRINT in text
     assert "Reverse the sign of the term" in text
@@ -119,16 +119,16 @@ def test_its_report_holds_what_was_found(folder: Path) -> None:
     page = (folder / "reports" / "report.html").read_text()
     assert "A film on a rigid base" in page
     for name in ("report", "appendices"):
-        made = (folder / "reports" / f"{name}.pdf").is_file()
-        assert made == (shutil.which("pdflatex") is not None)
+        written = (folder / "reports" / f"{name}.pdf").is_file()
+        assert written == (shutil.which("pdflatex") is not None)
 
 
-def test_its_report_is_compared_and_taken_in_pieces(folder: Path, tmp_path: Path) -> None:
-    own = "--paper", str(folder)
-    assert "up to date" in run("report", "--check", *own, home=folder.parent)
-    pasted = run("report", "--fragment", "F_slipping", *own, home=folder.parent)
-    assert r"\label{eq:F_slipping}" in pasted
-    run("report", "--section", "misprints", "--no-pdf", "--out", str(tmp_path), *own,
+def test_report_check_fragment_and_section(folder: Path, tmp_path: Path) -> None:
+    paper = "--paper", str(folder)
+    assert "up to date" in run("report", "--check", *paper, home=folder.parent)
+    fragment = run("report", "--fragment", "F_slipping", *paper, home=folder.parent)
+    assert r"\label{eq:F_slipping}" in fragment
+    run("report", "--section", "misprints", "--no-pdf", "--out", str(tmp_path), *paper,
         home=folder.parent)  # fmt: skip
     names = sorted(path.name for path in tmp_path.iterdir())
     assert names == ["report-misprints.html", "report-misprints.tex", "report.bib"]
@@ -136,23 +136,23 @@ def test_its_report_is_compared_and_taken_in_pieces(folder: Path, tmp_path: Path
     assert MISPRINT in text
     assert r"\label{eq:C_bonded}" not in text
     edited = folder / "reports" / "report.tex"
-    right = edited.read_text()
+    original = edited.read_text()
     try:
-        edited.write_text(right + "% by hand")
-        said = run("report", "--check", *own, home=folder.parent, status=1)
+        edited.write_text(original + "% by hand")
+        shown = run("report", "--check", *paper, home=folder.parent, status=1)
     finally:
-        edited.write_text(right)
-    assert f"platecontact report --paper {folder}" in said
+        edited.write_text(original)
+    assert f"platecontact report --paper {folder}" in shown
 
 
-def test_rules_are_accounted_for_and_kept(folder: Path) -> None:
+def test_rewrite_report_is_written(folder: Path) -> None:
     shown = run("rewrite", "--paper", str(folder), "--update", home=folder.parent)
     assert "F_slipping" in shown
     rows = json.loads((folder / "reports" / "rewrite.json").read_text())["rows"]
     assert "F_slipping" in [row["name"] for row in rows]
 
 
-def test_tighter_budgets_are_suggested(folder: Path) -> None:
+def test_smaller_budgets_are_suggested_but_not_written(folder: Path) -> None:
     before = (folder / "budgets.toml").read_text()
     shown = run("check", "--paper", str(folder), "--suggest-budgets", "--json", "-",
                 home=folder.parent)  # fmt: skip
@@ -162,7 +162,7 @@ def test_tighter_budgets_are_suggested(folder: Path) -> None:
     assert (folder / "budgets.toml").read_text() == before
 
 
-def test_what_is_no_paper_is_refused(folder: Path, tmp_path: Path) -> None:
+def test_invalid_papers_are_rejected(folder: Path, tmp_path: Path) -> None:
     assert "expected a folder with a file paper.py" in run(
         "derive", "--paper", str(tmp_path), home=tmp_path, status=2
     )
@@ -170,18 +170,18 @@ def test_what_is_no_paper_is_refused(folder: Path, tmp_path: Path) -> None:
     assert "expected a paper with hard cases, got none" in run(
         "check", "hard-cases", "--paper", str(folder), home=tmp_path, status=2
     )
-    for text, says in (
+    for text, message in (
         ("import nothing_of_that_name", "paper.py, line 1: ModuleNotFoundError: No module"),
         ("PAPER = 1 +", "cannot be imported: SyntaxError"),
         ("", "AttributeError: .* has no attribute 'PAPER'"),
         ("PAPER = 1", "expected PAPER to be a Paper, got int"),
     ):
         (tmp_path / "paper.py").write_text(text)
-        with pytest.raises(PaperError, match=says):
+        with pytest.raises(PaperError, match=message):
             load(tmp_path)
 
 
-def test_what_is_missing_is_named(tmp_path: Path) -> None:
+def test_missing_files_are_named(tmp_path: Path) -> None:
     begin(tmp_path / "film")
     paper = load(tmp_path / "film")
     with pytest.raises(FileNotFoundError, match="run `platecontact generate`"):
@@ -192,7 +192,7 @@ def test_what_is_missing_is_named(tmp_path: Path) -> None:
         build.report(paper, sections=["law"])
 
 
-def test_grids_stay_inside_the_domain(folder: Path) -> None:
+def test_grids_are_inside_the_domain_and_reproducible(folder: Path) -> None:
     paper = load(folder)
     judge = paper.judge()
     for kernel in generated_kernels(paper.package().target):
@@ -203,15 +203,15 @@ def test_grids_stay_inside_the_domain(folder: Path) -> None:
             assert min(point.values[name] for point in points) <= 1e-50
 
 
-def test_the_plate_is_a_paper_too() -> None:
+def test_paper_of_the_project_uses_the_same_interface() -> None:
     assert build.formulas(PAPER)["G"].unit == "1"
     assert build.diagnose(PAPER, "G", "G").verdict == "equal"
     assert PAPER.judge().package == PAPER.package().target == "generated"
     assert "law" in PAPER.report().plan.sections
 
 
-def test_the_engine_speaks_of_no_paper() -> None:
-    """Its templates included."""
+def test_engine_does_not_mention_plate_or_sphere() -> None:
+    """This includes its templates."""
     found = [path for path in (ROOT / "derivation" / "engine").rglob("*") if path.is_file()]
     assert len(found) > 100
     for path in found:

@@ -1,4 +1,4 @@
-"""Every public function of the generated package has an example, and all examples run."""
+"""Every public function of the generated package has an example, and all examples pass."""
 
 import doctest
 import importlib
@@ -20,7 +20,7 @@ def test_every_public_function_has_an_example(name: str) -> None:
 
 
 @pytest.mark.parametrize("module", WITH_EXAMPLES)
-def test_examples_run(module: str) -> None:
+def test_examples_pass(module: str) -> None:
     found = doctest.testmod(importlib.import_module(f"generated.{module}"))
     assert found.attempted
     assert not found.failed

@@ -1,4 +1,4 @@
-"""Generated functions at the ends of what they take: no sign of zero, no mask, no tiny products."""
+"""Generated functions at the limits of their input: signed zeros, masks, tiny products, units."""
 
 import importlib
 import math
@@ -40,7 +40,7 @@ def call(row: Any, values: Any) -> Any:
 
 
 @pytest.mark.parametrize("row", ROWS.values(), ids=ROWS)
-def test_zero_has_no_sign(row: Any) -> None:
+def test_sign_of_zero_has_no_effect(row: Any) -> None:
     for name in row["arguments"]:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
@@ -49,8 +49,8 @@ def test_zero_has_no_sign(row: Any) -> None:
 
 
 @pytest.mark.parametrize("row", ROWS.values(), ids=ROWS)
-def test_masked_arrays_are_refused(row: Any) -> None:
-    """A mask is lost on the way: what comes back would be numbers in its place."""
+def test_masked_arrays_are_rejected(row: Any) -> None:
+    """The functions do not propagate masks, so that masked values would become results."""
     for name in row["arguments"]:
         masked = np.ma.masked_array([EXAMPLE[name]] * 2, mask=[False, True])
         with pytest.raises(TypeError, match="without a mask"):
@@ -59,21 +59,26 @@ def test_masked_arrays_are_refused(row: Any) -> None:
 
 @pytest.mark.parametrize("row", TINY.values(), ids=TINY)
 def test_products_below_the_tested_range_give_nan(row: Any) -> None:
-    """In silence; inside it there is a number, and at its end too."""
-    for product, there in ((1.01e-151, True), (0.99e-151, False), (1e-200, False), (0.0, False)):
+    """No warning is issued; inside the tested range, up to its end, the result is a number."""
+    for product, is_number in (
+        (1.01e-151, True),
+        (0.99e-151, False),
+        (1e-200, False),
+        (0.0, False),
+    ):
         half = np.sqrt(product)
         values = EXAMPLE | {"T": product, "phi": half, "h": half, "z": 0.3 * half}
-        if product == 0.0:  # by underflow alone
+        if product == 0.0:  # the product underflows
             values |= {"phi": 1e-200, "h": 1e-200, "z": 0.0}
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             found = call(row, values)
-        assert bool(np.isnan(found)) != there, (row["name"], product)
+        assert bool(np.isnan(found)) != is_number, (row["name"], product)
 
 
 @pytest.mark.parametrize("target", WITH_UNITS.values(), ids=WITH_UNITS)
-def test_no_choice_of_units_gives_a_wrong_number(target: Target) -> None:
-    """Where the value is subnormal the allowance counts in the smallest number there is."""
+def test_results_are_within_the_budget_in_any_units(target: Target) -> None:
+    """Finite results are within the budget; the unit of subnormal values is the smallest double."""
     generator = Random(f"units of {target.name}")
     for _ in range(8 if target.domain.modes or target.every > 1 or target.share < 48 else 24):
         point = draw(target.domain, generator)
@@ -81,23 +86,23 @@ def test_no_choice_of_units_gives_a_wrong_number(target: Target) -> None:
         powers = {name: power * length for name, power in LENGTHS.items()}
         powers |= dict.fromkeys(STRESSES, stress) | {"P": force}
         values = {name: _scaled(value, powers.get(name, 0)) for name, value in point.values.items()}
-        there = Point(values, point.modes)
+        scaled = Point(values, point.modes)
         with np.errstate(all="ignore"):
-            (found,) = target.call([there])[0]
-        if math.isfinite(found) and target.domain.holds(there):
-            error = target.measure(there, (found,))
-            assert error is None or error.ratio <= 1.0, (there, found)
+            (found,) = target.call([scaled])[0]
+        if math.isfinite(found) and target.domain.holds(scaled):
+            error = target.measure(scaled, (found,))
+            assert error is None or error.ratio <= 1.0, (scaled, found)
 
 
 def _scaled(value: float, power: int) -> float:
-    """The value times a power of two; infinite beyond the doubles."""
+    """Return the value times a power of two; infinite if it overflows."""
     try:
         return math.ldexp(value, power)
     except OverflowError:
         return math.inf
 
 
-def test_there_are_such_functions() -> None:
+def test_number_of_tested_functions() -> None:
     assert len(TINY) >= 20
     assert len(WITH_UNITS) >= 30
     assert contact_law.contact_radius(-0.0, 0.1, 0.01, 1.0) == 0.0
@@ -108,10 +113,10 @@ SUMS = ("delta", "u", "w", "sigma_rr", "sigma_tt", "sigma_zz", "sigma_rz")
 
 @pytest.mark.parametrize("name", SUMS)
 @pytest.mark.parametrize("power", [-530, -300, 300, 500])
-def test_a_power_of_two_as_unit_of_length_changes_no_bit(name: str, power: int) -> None:
-    """Intermediate results leave the normal numbers no earlier than the result does."""
+def test_scaling_of_lengths_by_a_power_of_two_is_exact(name: str, power: int) -> None:
+    """Intermediate values neither overflow nor underflow if the result does not."""
     values = EXAMPLE | {"lam": 3.6e5, "mu": 4.3e5}
-    there = {n: math.ldexp(x, power * LENGTHS.get(n, 0)) for n, x in values.items()}
+    scaled = {n: math.ldexp(x, power * LENGTHS.get(n, 0)) for n, x in values.items()}
     displacement = power if name in ("delta", "u", "w") else 0
-    found, expected = call(ROWS[name], there), call(ROWS[name], values)
+    found, expected = call(ROWS[name], scaled), call(ROWS[name], values)
     np.testing.assert_array_equal(found, np.ldexp(expected, displacement))

@@ -1,4 +1,4 @@
-"""What generated code refuses or answers with NaN: wrong types, counts, and plates it has not."""
+"""Input that generated functions reject, or for which they return NaN."""
 
 import numpy as np
 import pytest
@@ -7,23 +7,23 @@ from generated import G, simple_impact
 from generated.reversed_series import force_by_series
 
 
-def test_complex_arguments_are_refused() -> None:
+def test_complex_arguments_are_rejected() -> None:
     with pytest.raises(TypeError, match=r"real numbers .*complex128"):
         G(np.array([1.0 + 0.0j]))
 
 
-def test_a_series_has_a_term() -> None:
+def test_series_needs_at_least_one_term() -> None:
     with pytest.raises(ValueError, match="expected at least one term, got terms=0"):
         force_by_series(1e-4, 0.13, 0.1, 1.0, 1e9, 1e9, terms=0)
 
 
-def test_a_plate_out_of_range_has_no_series() -> None:
+def test_series_is_nan_for_an_invalid_plate() -> None:
     found = force_by_series(1e-5, 0.13, [0.1, np.nan, -1.0], 1.0, 1e9, 1e9, terms=3)
     assert np.isnan(found).tolist() == [False, True, True]
 
 
-def test_simple_impacts_where_none_is_simple() -> None:
-    """c_1 a/h of a thick block is -0.96 a/b or so: a contact as wide as that is no correction."""
+def test_leading_correction_is_none_for_wide_contacts() -> None:
+    """For a thick block c_1 a/h is about -0.96 a/b, which is not small for a wide contact."""
     narrow, wide = (
         simple_impact.leading(0.1, 3.0, v0, 1.0, 0.05, 2e9, 3e9) for v0 in (10.0, 300.0)
     )
@@ -32,9 +32,9 @@ def test_simple_impacts_where_none_is_simple() -> None:
     assert all(np.isnan(x) for x in simple_impact.plate_of(np.nan))
 
 
-def test_a_largest_radius_is_sought_where_the_first_correction_is_small() -> None:
-    """Up to y s = -2/3, where s^5 (1 + y s) = 1 has the root s = 3^(1/5)."""
-    last = -2.0 / 3.0 / 3.0**0.2
-    share = simple_impact._share(0.9 * last)
-    assert share**5 * (1.0 + 0.9 * last * share) == pytest.approx(1.0, rel=1e-13)
-    assert np.isnan(simple_impact._share(1.02 * last))
+def test_maximum_radius_exists_only_for_small_corrections() -> None:
+    """s^5 (1 + y s) = 1 has a root up to y s = -2/3, where s = 3^(1/5)."""
+    limit = -2.0 / 3.0 / 3.0**0.2
+    root = simple_impact._share(0.9 * limit)
+    assert root**5 * (1.0 + 0.9 * limit * root) == pytest.approx(1.0, rel=1e-13)
+    assert np.isnan(simple_impact._share(1.02 * limit))

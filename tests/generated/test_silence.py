@@ -1,6 +1,6 @@
-"""Inside its domain every kernel is silent under all="raise"; outside it gives NaN, nothing else.
+"""Functions raise no floating-point exception inside their domain and return NaN outside it.
 
-A true value beyond the doubles is an infinity or zero there, and silent too.
+This includes results that overflow to infinity or underflow to zero.
 """
 
 import importlib
@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from domains import EXAMPLE, OUTSIDE, POINTWISE, ROWS, TABLES, Values, breaking, conditions, holds
+from domains import EXAMPLE, OUTSIDE, POINTWISE, ROWS, TABLES, Values, conditions, holds, violations
 
 from derivation.engine.formula.dimension import unit as dimension_of
 from derivation.engine.formula.ulp import DOUBLE, SINGLE
@@ -27,11 +27,11 @@ UNBOUNDED = [
     for name in POINTWISE
     if ROWS[name] in CONTACT or ROWS[name]["module"] in ("bessel", "series_constants")
 ]
-"""Kernels whose forms hold for every double, not only for moderate phi h and a phi."""
+"""Functions whose domain is not limited to moderate phi h and a phi."""
 
 
 def function(name: str) -> Callable[..., np.ndarray]:
-    """A kernel that takes its arguments alone, gives one array, and may not warn."""
+    """Return a function with one array as result, which raises an error instead of warnings."""
     row = ROWS[name]
     kernel = getattr(importlib.import_module(f"generated.{row['module']}"), name)
     extra = {"modes": 5} if row.get("modes") else {}
@@ -49,7 +49,7 @@ def function(name: str) -> Callable[..., np.ndarray]:
 
 @pytest.mark.parametrize("kernel", generated_kernels(), ids=lambda kernel: kernel.name)
 @pytest.mark.parametrize("fmt", [DOUBLE, SINGLE], ids=lambda fmt: fmt.name)
-def test_hard_points_are_silent(kernel: Any, fmt: Any) -> None:
+def test_grid_points_raise_no_exception(kernel: Any, fmt: Any) -> None:
     points = list(grid(kernel.name, kernel.arguments, kernel.modes))
     if fmt is SINGLE:
         points = [single for point in points if (single := to_single(point)) is not None]
@@ -62,7 +62,7 @@ def test_hard_points_are_silent(kernel: Any, fmt: Any) -> None:
 
 
 @pytest.mark.parametrize("name", POINTWISE)
-def test_every_layout_is_silent(name: str) -> None:
+def test_every_layout_raises_no_exception(name: str) -> None:
     kernel, values = function(name), [EXAMPLE[key] for key in ROWS[name]["arguments"]]
     expected, rtol = np.asarray(kernel(*values)), 2e-15 if ROWS[name] in CONTACT else 0.0
     assert np.isfinite(expected).all()
@@ -82,7 +82,7 @@ def test_every_layout_is_silent(name: str) -> None:
         shape = np.broadcast_shapes(*(np.shape(x) for x in arguments))
         if name == "plate_coefficients":
             shaped = np.broadcast_to(expected, (*shape, expected.size))
-        else:  # a kernel of several results gives them along a first axis
+        else:  # several results of a function are along the first axis
             several = np.expand_dims(expected, tuple(range(-len(shape), 0)))
             shaped = np.broadcast_to(several, (*expected.shape, *shape))
         np.testing.assert_allclose(found, shaped, rtol=rtol, err_msg=layout)
@@ -92,7 +92,7 @@ def test_every_layout_is_silent(name: str) -> None:
     np.testing.assert_allclose(single, expected, rtol=2e-5)
 
 
-def test_whole_numbers_are_numbers() -> None:
+def test_integers_are_accepted_as_arguments() -> None:
     whole = {
         "r": 1, "z": 1, "phi": 1, "h": 1, "T": 2, "b": 9, "R": 8, "a": 2, "lam": 3, "mu": 2,
         "P": 5, "A_j": -4, "J1": 1, "x": 3, "n": 7, "k": 4, "delta": 1, "m": 2, "v0": 1, "t": 1,
@@ -100,7 +100,7 @@ def test_whole_numbers_are_numbers() -> None:
         "yield_stress": 1, "xi_y": 2, "viscous_time": 1, "x_v": 2, "kap": 2, "nu": 0,
     }  # fmt: skip
     for name in POINTWISE:
-        if name == "force_by_series":  # its radius is smaller
+        if name == "force_by_series":  # it converges for smaller contacts only
             whole = whole | {"R": 8000, "h": 700, "b": 900}
         arguments = [whole[key] for key in ROWS[name]["arguments"]]
         found = function(name)(*arguments)
@@ -110,7 +110,7 @@ def test_whole_numbers_are_numbers() -> None:
 
 
 def shapes() -> list[dict[str, float]]:
-    """Contacts of every thickness and width, with what belongs to them."""
+    """Return contacts of many thicknesses and widths, with values for all other arguments."""
     found = [shape._asdict() for shape in contact_grid.grid("indentation")]
     law = function("indentation")
     for i, values in enumerate(found):
@@ -137,7 +137,7 @@ def shapes() -> list[dict[str, float]]:
     "row", [row for row in CONTACT if row["name"] in POINTWISE], ids=lambda row: row["name"]
 )
 @pytest.mark.parametrize("kind", [np.float64, np.float32])
-def test_contacts_are_silent(row: dict[str, Any], kind: type) -> None:
+def test_contacts_raise_no_exception(row: dict[str, Any], kind: type) -> None:
     some = shapes()[:: 16 if row["name"] == "force_by_series" else 1]
     columns = [np.array([v[key] for v in some], dtype=kind) for key in row["arguments"]]
     found = function(row["name"])(*columns)
@@ -145,7 +145,7 @@ def test_contacts_are_silent(row: dict[str, Any], kind: type) -> None:
     if "a <= 0.9 * b" in row["domain"]:
         a, b = (columns[row["arguments"].index(key)].astype(float) for key in ("a", "b"))
         np.testing.assert_array_equal(np.isnan(found), a > 0.9 * b)
-    elif row["name"] != "force_by_series":  # NaN beyond its radius
+    elif row["name"] != "force_by_series":  # NaN beyond its radius of convergence
         known = np.isfinite(found)
         assert known.mean() > 0.9 if kind == np.float32 else known.all()
 
@@ -168,7 +168,7 @@ SCALES = [
 
 
 def power(unit: str, length: int, stress: int, time: int) -> int:
-    """The exponent of two that a quantity is multiplied by in such units."""
+    """Return the exponent of two by which a change of units multiplies a quantity."""
     of = dimension_of(unit)
     return int(of.mass * (length + stress + 2 * time) + of.length * length + of.time * time)
 
@@ -177,10 +177,10 @@ def power(unit: str, length: int, stress: int, time: int) -> int:
 @pytest.mark.parametrize(
     "name", [*CLOSED, *(row["name"] for row in CONTACT if row["module"] in LAW)]
 )
-def test_units_do_not_matter_however_extreme(name: str) -> None:
-    """To the last bit of closed formulas and a few roundings of others; silent everywhere.
+def test_results_do_not_depend_on_extreme_units(name: str) -> None:
+    """Results of closed formulas are equal, others agree to rounding; no exception is raised.
 
-    Wherever arguments and results are normal doubles.
+    Only arguments and results that are normal doubles are compared.
     """
     names, kernel = ROWS[name]["arguments"], function(name)
     if name in CLOSED:
@@ -189,7 +189,7 @@ def test_units_do_not_matter_however_extreme(name: str) -> None:
         some = shapes()[:: 40 if name == "force_by_series" else 7]
     base = {key: np.array([v[key] for v in some]) for key in names}
     expected = np.atleast_2d(kernel(*base.values()))
-    judged = 0
+    compared = 0
     for scale in SCALES[:: 2 if name == "force_by_series" else 1]:
         columns = {key: np.ldexp(base[key], power(BY_NAME[key].unit, *scale)) for key in names}
         inside = np.all([normal(column) | (base[key] == 0) for key, column in columns.items()], 0)
@@ -198,13 +198,13 @@ def test_units_do_not_matter_however_extreme(name: str) -> None:
         found = np.atleast_2d(kernel(*(column[inside] for column in columns.values())))
         units = ROWS[name]["unit"].split(", ")
         for got, want, unit in zip(found, expected[:, inside], units, strict=False):
-            right = np.ldexp(want, power(unit, *scale))
-            fit = (normal(want) & normal(right)) | ((want == 0) & (name not in CLOSED))
+            exact = np.ldexp(want, power(unit, *scale))
+            fit = (normal(want) & normal(exact)) | ((want == 0) & (name not in CLOSED))
             rtol = 0.0 if name in CLOSED else 2e-15
-            np.testing.assert_allclose(got[fit], right[fit], rtol=rtol, err_msg=str(scale))
-            judged += int(fit.sum())
+            np.testing.assert_allclose(got[fit], exact[fit], rtol=rtol, err_msg=str(scale))
+            compared += int(fit.sum())
             assert not np.isnan(got[~np.isnan(want)]).any()
-    assert judged > 4 * len(some)
+    assert compared > 4 * len(some)
 
 
 def normal(values: np.ndarray) -> np.ndarray:
@@ -216,7 +216,7 @@ ENDS = (5e-324, 1e-300, 1e-150, 1e150, 1e300, 1.7e308)
 
 
 @pytest.mark.parametrize("name", UNBOUNDED)
-def test_extreme_arguments_alone_and_in_pairs_are_silent(name: str) -> None:
+def test_extreme_arguments_alone_and_in_pairs_raise_no_exception(name: str) -> None:
     names = ROWS[name]["arguments"]
     ends = (1e-300, 1e300) if name == "force_by_series" else ENDS
     cases = [
@@ -230,18 +230,20 @@ def test_extreme_arguments_alone_and_in_pairs_are_silent(name: str) -> None:
 
 # --- outside
 
-BAD = (math.nan, math.inf, -math.inf)
+NOT_FINITE = (math.nan, math.inf, -math.inf)
 
 
 @pytest.mark.parametrize("name", POINTWISE)
-def test_outside_the_domain_everything_is_nan(name: str) -> None:
+def test_results_outside_the_domain_are_nan(name: str) -> None:
     names, kernel = ROWS[name]["arguments"], function(name)
     base = {key: EXAMPLE[key] for key in names}
-    cases = [(condition, dict(moved)) for condition, moved in breaking(name)]
-    cases += [(f"{key} = {bad}", base | {key: bad}) for key in names for bad in BAD]
+    cases = [(condition, dict(moved)) for condition, moved in violations(name)]
+    cases += [
+        (f"{key} = {invalid}", base | {key: invalid}) for key in names for invalid in NOT_FINITE
+    ]
     own = OUTSIDE.get(name, {})
-    cases += [(f"{key} = {bad}", base | {key: bad}) for key in own for bad in own[key]]
-    for what, values in cases:
+    cases += [(f"{key} = {invalid}", base | {key: invalid}) for key in own for invalid in own[key]]
+    for condition, values in cases:
         for kind in (np.float64, np.float32):
             with np.errstate(all="ignore"):
                 arguments = [kind(values[key]) for key in names]
@@ -249,14 +251,14 @@ def test_outside_the_domain_everything_is_nan(name: str) -> None:
             if kind == np.float32 and all(
                 holds(c, exact) for c in conditions(name) if exact.get("b", 1)
             ):
-                continue  # rounded into the domain
-            assert np.isnan(kernel(*arguments)).all(), (what, values)
+                continue  # rounding has moved the point into the domain
+            assert np.isnan(kernel(*arguments)).all(), (condition, values)
     everything = [np.array([values[key] for _, values in cases]) for key in names]
     assert np.isnan(kernel(*everything)).all()
 
 
 @pytest.mark.parametrize("name", TABLES)
-def test_tables_of_no_length_are_empty_and_others_refused(name: str) -> None:
+def test_table_of_length_zero_is_empty_and_invalid_lengths_are_rejected(name: str) -> None:
     table, others = function(name), [EXAMPLE[key] for key in ROWS[name]["arguments"][1:]]
     assert table(0, *others).size == 0
     for count in (-1, 1.5, math.nan, math.inf):
@@ -265,7 +267,7 @@ def test_tables_of_no_length_are_empty_and_others_refused(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["impact", "history", "impact_sensitivities"])
-def test_an_impact_beyond_the_edge_of_a_thick_plate_is_silent(name: str) -> None:
-    """At b = 2 h the range of the law's second polynomial would have no width."""
+def test_impact_beyond_the_edge_of_a_thick_plate_is_nan_without_warning(name: str) -> None:
+    """At b = 2 h, the interval of the second polynomial of the contact law has zero width."""
     given = EXAMPLE | {"h": 0.1, "b": 0.2, "R": 2.0, "m": 3e4, "v0": 1.6, "t": 1e-3}
     assert np.isnan(function(name)(*(given[key] for key in ROWS[name]["arguments"]))).all()

@@ -1,4 +1,4 @@
-"""Closed formulas where products of their arguments leave the doubles: the limits."""
+"""Closed formulas return their limits if products of arguments overflow or underflow."""
 
 import math
 
@@ -13,7 +13,7 @@ CLOSED = {kernel.name: kernel for kernel in generated_kernels()}
 @pytest.mark.parametrize(
     "phi_h", [(1e-151, 1.0), (1e-75, 1e-75), (1e-300, 1e150), (1e154, 1e154), (1e300, 1e300)]
 )
-def test_products_beyond_the_doubles_give_the_limits(phi_h: tuple[float, float]) -> None:
+def test_overflow_and_underflow_of_products_give_the_limits(phi_h: tuple[float, float]) -> None:
     phi, h = phi_h
     thick = phi > 1.0
     with np.errstate(all="raise"):
@@ -25,7 +25,7 @@ def test_products_beyond_the_doubles_give_the_limits(phi_h: tuple[float, float])
 
 
 @pytest.mark.parametrize("T", [1e-151, 1e-120, 1e154, 1e300, 1.7e308])
-def test_plate_factors_at_the_ends_of_the_doubles(T: float) -> None:
+def test_plate_factors_at_very_small_and_large_arguments(T: float) -> None:
     thick = T > 1.0
     with np.errstate(all="raise"):
         assert CLOSED["G"].call(T) == (1.0 if thick else math.inf)

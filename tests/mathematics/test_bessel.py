@@ -1,4 +1,4 @@
-"""The generated Bessel functions against Arb: value, zeros, switch points, types."""
+"""The generated Bessel functions against Arb: values, zeros, switch points, types."""
 
 import importlib
 import math
@@ -20,24 +20,25 @@ from derivation.mathematics.bessel.theory.zeros import zero_bound, zero_correcti
 
 BITS = 256
 VALUE_BUDGET = 2.25
-"""ULP beyond half the condition number."""
-RAW_BUDGET = 2.75
+"""Largest error in ULP, minus half the condition number."""
+BUDGET_NEAR_ZEROS = 2.75
+"""Largest error in ULP close to the first zeros, condition number included."""
 ZERO_BUDGET = 0.51
-"""Of the zeros and of J1 there, whose argument, an index, is exact."""
+"""Largest error in ULP of the zeros, and of J1 at them."""
 INDICES = (*range(1, 61), 64, 77, 100, 1000, 10**4, 10**5, 10**6)
 
 
 @pytest.fixture(scope="module")
 def bessel() -> ModuleType:
-    """The generated module, whose freshness another test ascertains."""
+    """Return the generated module; another test checks that it is up to date."""
     return importlib.import_module("generated.bessel")
 
 
 def excess(function, order: int, points: np.ndarray) -> tuple[float, float]:
-    """Largest error in ULP beyond half the condition number, and the argument where it is."""
+    """Return the largest error in ULP minus half the condition number, and its argument."""
     worst = (-math.inf, math.nan)
     for x, got in zip(points.tolist(), function(points).tolist(), strict=True):
-        # x, held exactly, may be as large as 2^1024.
+        # The precision is sufficient for the exact x, which may be as large as 2^1024.
         with flint.ctx.workprec(BITS + max(0, 2 * math.frexp(x)[1])):
             ball = flint.arb(x)
             j0, j1 = ball.bessel_j(0), ball.bessel_j(1)
@@ -52,13 +53,13 @@ def excess(function, order: int, points: np.ndarray) -> tuple[float, float]:
 
 
 def around(points, count: int = 32) -> np.ndarray:
-    """The points and their neighbours in double precision."""
+    """Return the points and their neighbours in double precision."""
     near = [n for x in points for n in neighbours(float(x), count)]
     return np.array([x for x in near if x >= 0])
 
 
 def arguments(where: str) -> np.ndarray:
-    """Arguments by the region they test."""
+    """Return arguments in a region."""
     random = np.random.default_rng(7)
     start = tables.taylor_table().switches[-1]
     if where == "taylor":
@@ -69,7 +70,7 @@ def arguments(where: str) -> np.ndarray:
         return start + random.uniform(0, 200, 3000)
     if where == "large":
         return 10 ** random.uniform(2, 15, 2000)
-    if where == "seams":
+    if where == "switches":
         return around(tables.switches())
     with flint.ctx.workprec(BITS):
         zeros = [tables.bessel_zero(n, i) for n in (0, 1) for i in (*range(1, 31), 1000, 10**6)]
@@ -77,8 +78,8 @@ def arguments(where: str) -> np.ndarray:
 
 
 @pytest.mark.parametrize("order", [0, 1])
-@pytest.mark.parametrize("where", ["taylor", "tiny", "phase", "large", "seams", "zeros"])
-def test_value_within_conditioning(bessel: ModuleType, order: int, where: str) -> None:
+@pytest.mark.parametrize("where", ["taylor", "tiny", "phase", "large", "switches", "zeros"])
+def test_values_are_within_the_budget(bessel: ModuleType, order: int, where: str) -> None:
     function = (bessel.bessel_j0, bessel.bessel_j1)[order]
     error, x = excess(function, order, arguments(where))
     assert error <= VALUE_BUDGET, f"{error} ULP at {x.hex()}"
@@ -92,15 +93,15 @@ def test_huge_arguments(bessel: ModuleType, order: int) -> None:
 
 
 @pytest.mark.parametrize("order", [0, 1])
-def test_below_the_asymptotic_range_zeros_cost_no_digits(bessel: ModuleType, order: int) -> None:
+def test_no_digits_are_lost_close_to_the_first_zeros(bessel: ModuleType, order: int) -> None:
     function = (bessel.bessel_j0, bessel.bessel_j1)[order]
     with flint.ctx.workprec(BITS):
         zeros = [float(tables.bessel_zero(order, index)) for index in range(1, 10)]
     points = around(zeros)
     with flint.ctx.workprec(BITS):
         reference_values = [flint.arb(x).bessel_j(order) for x in points.tolist()]
-    raw = max(map(ulp_error, function(points).tolist(), reference_values))
-    assert raw <= RAW_BUDGET
+    error = max(map(ulp_error, function(points).tolist(), reference_values))
+    assert error <= BUDGET_NEAR_ZEROS
 
 
 def test_zeros_and_slopes(bessel: ModuleType) -> None:
@@ -124,8 +125,8 @@ def test_zeros_of_j1(bessel: ModuleType) -> None:
 
 
 @pytest.mark.parametrize("order", [0, 1])
-def test_expansion_of_zeros_keeps_its_bound(order: int) -> None:
-    """At the switch and at the first zero of all, where the bound is larger."""
+def test_expansion_of_zeros_is_within_its_bound(order: int) -> None:
+    """The bound is tested at the switch point, and below it, where it is larger."""
     for index in (2, 3, tables.mcmahon_start(order), 50):
         with flint.ctx.workprec(BITS):
             beta = (4 * flint.arb(index) + 2 * order - 1) / 4 * flint.arb.pi()
@@ -142,7 +143,7 @@ def test_expansion_of_zeros_keeps_its_bound(order: int) -> None:
     assert zero_bound(order, tables.TERMS, sp.Rational(1, 3)) == sp.oo
 
 
-def test_a_zero_of_j1_is_certified_or_refused() -> None:
+def test_zeros_of_j1_are_certified_and_counted_from_one() -> None:
     with flint.ctx.workprec(200):
         for index in (1, 2, 7):
             assert j1_zero(index, 150).overlaps(tables.bessel_zero(1, index))
@@ -151,7 +152,7 @@ def test_a_zero_of_j1_is_certified_or_refused() -> None:
 
 
 @pytest.mark.parametrize("count", [0, 1, 5, 7, 8, 9, 10, 11, 12, 13, 40])
-def test_counts_are_prefixes_of_each_other(bessel: ModuleType, count: int) -> None:
+def test_shorter_tables_are_the_beginning_of_longer_ones(bessel: ModuleType, count: int) -> None:
     for function in (bessel.bessel_j0_zeros, bessel.bessel_j1_zeros, bessel.bessel_j1_at_j0_zeros):
         assert function(count).shape == (count,)
         np.testing.assert_array_equal(function(count), function(64)[:count])
@@ -159,13 +160,13 @@ def test_counts_are_prefixes_of_each_other(bessel: ModuleType, count: int) -> No
 
 
 @pytest.mark.parametrize("count", [-1, 2.5, math.nan, math.inf])
-def test_impossible_counts_are_refused(bessel: ModuleType, count: float) -> None:
+def test_invalid_counts_are_rejected(bessel: ModuleType, count: float) -> None:
     for function in (bessel.bessel_j0_zeros, bessel.bessel_j1_zeros, bessel.bessel_j1_at_j0_zeros):
         with pytest.raises(ValueError, match="integer >= 0"):
             function(count)
 
 
-def test_even_and_odd(bessel: ModuleType) -> None:
+def test_j0_is_even_and_j1_is_odd(bessel: ModuleType) -> None:
     x = np.array([0.0, 1e-300, 0.3, 5.0, 31.0, 77.7, 1e16])
     np.testing.assert_array_equal(bessel.bessel_j0(-x), bessel.bessel_j0(x))
     np.testing.assert_array_equal(bessel.bessel_j1(-x), -bessel.bessel_j1(x))
@@ -192,13 +193,13 @@ def test_shapes_and_types(bessel: ModuleType) -> None:
             function(1j)
 
 
-def test_blocks_do_not_show(bessel: ModuleType) -> None:
+def test_values_do_not_depend_on_blocks(bessel: ModuleType) -> None:
     x = np.random.default_rng(3).uniform(0, 60, 3 * bessel._BLOCK + 5)
     for function in (bessel.bessel_j0, bessel.bessel_j1):
         np.testing.assert_array_equal(function(x)[::997], [function(v) for v in x[::997]])
 
 
-def test_not_finite_gives_nan_and_nothing_warns(bessel: ModuleType) -> None:
+def test_arguments_that_are_not_finite_give_nan_without_warning(bessel: ModuleType) -> None:
     x = np.array([np.nan, np.inf, -np.inf, 0.0, 5e-324, 3.0, 1e3, 1e16, 1.7e308])
     with warnings.catch_warnings(), np.errstate(all="raise"):
         warnings.simplefilter("error")
@@ -207,14 +208,14 @@ def test_not_finite_gives_nan_and_nothing_warns(bessel: ModuleType) -> None:
             assert np.isnan(function(np.inf))
 
 
-def test_tables_are_repeatable() -> None:
+def test_tables_are_reproducible() -> None:
     first = tables.bessel_numbers()
     tables.taylor_table.cache_clear()
     tables.low_zeros.cache_clear()
     assert tables.bessel_numbers() == first
 
 
-def test_centres_are_the_zeros_to_twice_double_precision() -> None:
+def test_centres_of_series_are_zeros_in_twice_double_precision() -> None:
     table = tables.taylor_table()
     for order in (0, 1):
         rows = [i for i, row in enumerate(table.rows[order]) if row[0] == 0 and table.high[i] > 0]
@@ -225,13 +226,13 @@ def test_centres_are_the_zeros_to_twice_double_precision() -> None:
                 assert abs(tables.bessel_zero(order, index) / centre - 1) < 2.0**-100
 
 
-def test_nearest_double_refuses_an_undecided_ball() -> None:
+def test_nearest_double_of_a_wide_interval_is_rejected() -> None:
     with pytest.raises(ArithmeticError, match="nearest doubles"):
         tables.nearest_double(flint.arb(1, 2.0**-40))
 
 
 @pytest.mark.parametrize("order", [0, 1])
-def test_modulus_bound_holds_where_the_method_begins(order: int) -> None:
+def test_modulus_bound_holds_at_the_start_of_the_asymptotic_range(order: int) -> None:
     start = sp.Rational(tables.asymptotic_start())
     with flint.ctx.workprec(BITS):
         x = flint.arb(float(start))
@@ -242,7 +243,7 @@ def test_modulus_bound_holds_where_the_method_begins(order: int) -> None:
     assert bound / 2 < float(error) <= bound
 
 
-def test_phase_bound_is_close_to_the_first_omitted_term_and_infinite_near_zero() -> None:
+def test_phase_bound_is_close_to_the_first_omitted_term() -> None:
     start = sp.Rational(tables.asymptotic_start())
     omitted = abs(theory.phase_shift(0, tables.TERMS + 1).term(tables.TERMS, start))
     assert 1 <= theory.phase_bound(0, tables.TERMS, start) / omitted < 1.1
@@ -250,7 +251,7 @@ def test_phase_bound_is_close_to_the_first_omitted_term_and_infinite_near_zero()
 
 
 def test_known_coefficients() -> None:
-    """Printed in the Digital Library of Mathematical Functions, 10.18.17, 10.18.18, 10.21.19."""
+    """Digital Library of Mathematical Functions, equations 10.18.17, 10.18.18 and 10.21.19."""
     third = sp.Rational(1, 3)
     assert theory.modulus_squared(0, 3).coefficients == (
         1,
@@ -270,10 +271,13 @@ def test_known_coefficients() -> None:
     )
 
 
-def test_a_wrong_constant_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
-    right = theory.phase_shift(0, 12)
+def test_wrong_coefficient_is_detected(monkeypatch: pytest.MonkeyPatch) -> None:
+    correct = theory.phase_shift(0, 12)
     wrong = theory.Expansion(
-        right.name, right.first, (right.coefficients[0] * 2, *right.coefficients[1:]), right.proof
+        correct.name,
+        correct.first,
+        (correct.coefficients[0] * 2, *correct.coefficients[1:]),
+        correct.proof,
     )
     monkeypatch.setattr(theory, "phase_shift", lambda *_: wrong)
     monkeypatch.setattr(theory, "phase_bound", lambda *_: sp.Rational(1, 10**9))
@@ -281,5 +285,5 @@ def test_a_wrong_constant_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
         theory._contains(0, sp.Integer(20), 12)
 
 
-def test_the_equation_tells_orders_apart() -> None:
+def test_equation_of_another_order_is_not_satisfied() -> None:
     assert decide_zero(theory.equation(sp.besselj(0, theory.x), sp.Integer(1))) is None

@@ -7,8 +7,8 @@ from functools import cache
 import numpy as np
 import pytest
 from mpmath import mp, mpf
-from mutated_code import Judged, unnoticed
-from sharp import Sharp, expected
+from mutated_code import ModuleTests, undetected
+from within_ulp import WithinUlp, expected
 
 from derivation.plate.contact.oracle import balls as contact_balls
 from generated.bessel_numbers import ASYMPTOTIC_START, LARGEST_PHASE
@@ -19,7 +19,7 @@ NAN = math.nan
 # --- Bessel functions
 
 
-def bessel_cases() -> list[Sharp]:
+def bessel_cases() -> list[WithinUlp]:
     """Return cases at both sides of each switch point, near zeros, and at very large arguments."""
     inside = [0.0, 1e-300, 1e-5, 0.5, 1.841, 5.0, 11.7, ASYMPTOTIC_START - 1e-9, 17.0]
     beside = [2.404825557695773, 3.8317059702075125, 14.930917708487787, 30.634606468431976]
@@ -38,9 +38,9 @@ def bessel_cases() -> list[Sharp]:
     return found
 
 
-def single(name: str, true: float) -> Sharp:
+def single(name: str, true: float) -> WithinUlp:
     """Return the case of a function in single precision."""
-    return Sharp(lambda m: getattr(m, name)(np.float32(5)), np.asarray(np.float32(true)), 0.0)
+    return WithinUlp(lambda m: getattr(m, name)(np.float32(5)), np.asarray(np.float32(true)), 0.0)
 
 
 @cache
@@ -56,8 +56,8 @@ def zeros(count: int) -> list[tuple[str, tuple[float, ...]]]:
     ]
 
 
-def counted(name: str, row: tuple[float, ...]) -> Sharp:
-    return Sharp(lambda m: getattr(m, name)(len(row)), np.array(row), 0.6)
+def counted(name: str, row: tuple[float, ...]) -> WithinUlp:
+    return WithinUlp(lambda m: getattr(m, name)(len(row)), np.array(row), 0.6)
 
 
 # --- single effects
@@ -68,12 +68,12 @@ def elastic(lam: float, mu: float) -> mpf:
     return 4 * mpf(mu) * (mpf(lam) + mu) / (mpf(lam) + 2 * mpf(mu))
 
 
-def effect_cases() -> list[Sharp]:
+def effect_cases() -> list[WithinUlp]:
     with mp.workdps(40):
         return [*profile_cases(), *wall_cases(), *motion_cases()]
 
 
-def profile_cases() -> list[Sharp]:
+def profile_cases() -> list[WithinUlp]:
     def sneddon(x: float) -> tuple[mpf, ...]:
         x, logarithm = mpf(x), mp.log((1 + mpf(x)) / (1 - mpf(x)))
         depth = logarithm / (2 * x)
@@ -94,7 +94,7 @@ def profile_cases() -> list[Sharp]:
     ]
 
 
-def wall_cases() -> list[Sharp]:
+def wall_cases() -> list[WithinUlp]:
     balls = [contact_balls.kappa(2 * k, 20).mid() for k in range(20)]
     kappas = [mpf(ball.str(24, radius=False)) for ball in balls]
 
@@ -127,7 +127,7 @@ def in_domain(
     of: Callable[[float, float], tuple[float, ...]],
     positive: Sequence[int],
     ulp: float,
-) -> list[Sharp]:
+) -> list[WithinUlp]:
     """Return cases for valid solids, and NaN for invalid solids or non-positive arguments."""
     points = [of(*elasticity) for elasticity in SOLID]
     outside = [of(*elasticity) for elasticity in NO_SOLID]
@@ -138,7 +138,7 @@ def in_domain(
     return expected(name, [*points, *outside], values, ulp)  # fmt: skip
 
 
-def motion_cases() -> list[Sharp]:
+def motion_cases() -> list[WithinUlp]:
     def zener(*numbers: mpf) -> mpf:
         R, m, v0, h, lam, mu, rho = numbers
         K = 4 * elastic(lam, mu) * mp.sqrt(R) / 3
@@ -163,7 +163,7 @@ def motion_cases() -> list[Sharp]:
 # --- viscoelastic contact
 
 
-def viscosity_cases() -> list[Sharp]:
+def viscosity_cases() -> list[WithinUlp]:
     with mp.workdps(40):
 
         def number(*numbers: mpf) -> mpf:
@@ -198,7 +198,7 @@ EXTREMES = (
 """Weak to strong viscosity, with gravity, and without a finite bound."""
 
 
-def logarithms(extremes: tuple[float, ...]) -> Sharp:
+def logarithms(extremes: tuple[float, ...]) -> WithinUlp:
     """Return the case of the bounds of derivation step 24, as stated in its text."""
     epsilon, n, fall, rise, depth, radius, u = map(mpf, extremes)
     true = [mp.inf] * 5
@@ -213,26 +213,26 @@ def logarithms(extremes: tuple[float, ...]) -> Sharp:
             turned = mp.pi / 4 * epsilon
             force = max(mp.log(1 + epsilon**2) / 2, (1 + rise) * turned)
             true = [max(longer, shorter) + slower, depth * turned, force, radius * turned, rebound]
-    return Sharp(
+    return WithinUlp(
         lambda m: m.viscous_logarithms(m.ImpactExtremes(*extremes)),
         np.array([float(x) for x in true]),
         32.0,
     )
 
 
-JUDGED = {
-    "bessel": Judged(
+TESTS = {
+    "bessel": ModuleTests(
         bessel_cases,
         {
             "_modulus_phase": (3, "a sign; and which multiple of pi is taken off"),
             "bessel_j1_at_j0_zeros": (1, "a sign"),
         },
     ),
-    "effects": Judged(effect_cases),
-    "viscosity": Judged(viscosity_cases),
+    "effects": ModuleTests(effect_cases),
+    "viscosity": ModuleTests(viscosity_cases),
 }
 
 
-@pytest.mark.parametrize("name", JUDGED)
+@pytest.mark.parametrize("name", TESTS)
 def test_every_mutant_is_noticed_or_may_pass(name: str) -> None:
-    assert unnoticed(name, JUDGED[name]) == {}
+    assert undetected(name, TESTS[name]) == {}

@@ -12,9 +12,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from given import EXAMPLES, PAPER
 from hypothesis import given
 from hypothesis import strategies as st
+from shared_scenes import EXAMPLES, PAPER
 
 from derivation.cli import main
 from derivation.engine.files import ROOT

@@ -9,7 +9,7 @@ from types import FunctionType
 from typing import Any
 
 import pytest
-from given import ALL, EXAMPLES, model, scene
+from shared_scenes import ALL, EXAMPLES, model, scene
 
 import derivation
 from derivation.scene import kernels, motion, simulate

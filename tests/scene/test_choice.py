@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given import PAPER
+from shared_scenes import PAPER
 
 from derivation.checks import bounds
 from derivation.cli import main

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given import ALL, AT_REST, model
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from shared_scenes import ALL, AT_REST, model
 
 from derivation.scene import motion
 from derivation.scene.effect_selection import OUTPUTS, decide

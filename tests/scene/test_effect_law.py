@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given import ALL, model, scene
 from scipy.integrate import solve_ivp
+from shared_scenes import ALL, model, scene
 
 import derivation.checks.effects
 import derivation.scene

@@ -7,7 +7,7 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
-from given import ALL, AT_REST, EXAMPLES, model, random_models, scene
+from shared_scenes import ALL, AT_REST, EXAMPLES, model, random_models, scene
 
 from derivation.checks import effects as measure
 from derivation.checks import paper_law

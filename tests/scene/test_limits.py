@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
-from given import changed, scene, thick
+from shared_scenes import changed, scene, thick
 
 from derivation.scene import indent, kernels, limits, read, simulate
 from derivation.scene.effects import PAPER

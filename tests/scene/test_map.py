@@ -4,10 +4,10 @@ import math
 from itertools import pairwise
 from pathlib import Path
 
-import given
 import numpy as np
 import pytest
-from given import EXAMPLES
+import shared_scenes
+from shared_scenes import EXAMPLES
 
 from derivation.cli import main
 from derivation.scene import Scene, load, read, simulate
@@ -45,7 +45,7 @@ def test_the_star_is_on_the_side_that_explain_says(example: Path) -> None:
 
 def test_every_point_of_the_map_is_a_scene_of_its_own() -> None:
     """At the speed of a point the effect selection agrees with the map."""
-    result = simulate(given.scene())
+    result = simulate(shared_scenes.scene())
     wanted, outputs = result.scene.effects.model_dump(), result.effects.outputs
     for width, eta in ((0.01, 0.02), (0.3, 0.1)):
         model = map_.replace(result.model, h=eta * result.model.b)
@@ -134,7 +134,7 @@ def test_the_map_marks_the_scene(tmp_path: Path) -> None:
 
 @pytest.mark.usefixtures("coarse")
 def test_the_star_on_the_map_is_the_scenes_contact() -> None:
-    result = simulate(given.scene())
+    result = simulate(shared_scenes.scene())
     [star] = [x for x in map_.figure(result, 1e-3).axes[0].lines if x.get_marker() == "*"]
     place = 0.02 / 0.5, result.max_contact_radius / 0.02
     assert np.ravel(star.get_data()) == pytest.approx(place, rel=1e-12)
@@ -142,7 +142,7 @@ def test_the_star_on_the_map_is_the_scenes_contact() -> None:
 
 @pytest.mark.usefixtures("coarse")
 def test_a_map_says_what_counts_everywhere_or_nowhere() -> None:
-    result = simulate(given.scene())
+    result = simulate(shared_scenes.scene())
     (legend,) = map_.figure(result, 1e-300).legends
     told = [text.get_text() for text in legend.get_texts()]
     assert any(text.startswith("everywhere: ") for text in told), told

@@ -4,7 +4,7 @@ from itertools import pairwise
 from typing import Any
 
 import pytest
-from given import ALL, EXAMPLES
+from shared_scenes import ALL, EXAMPLES
 
 from derivation.scene import SceneError, load, read, simulate
 from derivation.scene.result import Result

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from given import EXAMPLES, changed
+from shared_scenes import EXAMPLES, changed
 
 from derivation.cli import main
 from derivation.engine.files import ROOT

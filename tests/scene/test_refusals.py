@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given import ALL, changed, model, scene, thick
 from scipy.integrate import quad
+from shared_scenes import ALL, changed, model, scene, thick
 
 from derivation.engine.files import measurements
 from derivation.scene import SceneError, indent, limits, motion, read, simulate, viscous, waves

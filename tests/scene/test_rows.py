@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given import PAPER
+from shared_scenes import PAPER
 
 from derivation.scene import SceneError, load, read, simulate
 from derivation.scene import rows as many

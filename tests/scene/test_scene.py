@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from given import changed
+from shared_scenes import changed
 
 from derivation.scene import (
     SceneError,

@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given import AT_REST, EXAMPLES, PAPER, changed
 from scipy.integrate import solve_ivp
+from shared_scenes import AT_REST, EXAMPLES, PAPER, changed
 
 from derivation.checks.effects import scene as random_scene
 from derivation.cli import main

@@ -9,9 +9,9 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-import given
 import numpy as np
 import pytest
+import shared_scenes
 
 from derivation.cli import main
 from derivation.scene import (
@@ -143,7 +143,9 @@ def test_the_far_face_of_a_block_is_that_of_the_papers_edge() -> None:
     """The block is thicker than the range of the supports' model, so the paper's edge is used."""
     assert max(key[1] for key in edge_remainder._table()) == THICK
     block, soft = (
-        simulate(given.scene(plate={"half_thickness": 0.9, "edge": edge}, impact={"speed": 0.01}))
+        simulate(
+            shared_scenes.scene(plate={"half_thickness": 0.9, "edge": edge}, impact={"speed": 0.01})
+        )
         for edge in ("clamped", "paper")
     )
     m, a, force = block.model, block.max_contact_radius, block.max_force
@@ -153,7 +155,7 @@ def test_the_far_face_of_a_block_is_that_of_the_papers_edge() -> None:
 
 def test_a_face_without_tension_holds() -> None:
     plate = {"half_thickness": 400.0, "tensile_strength": 1e6}
-    found = simulate(given.scene(plate=plate, impact={"speed": 0.01}))
+    found = simulate(shared_scenes.scene(plate=plate, impact={"speed": 0.01}))
     assert found.max_tensile_stress == 0.0
     assert found.strength_note.endswith("no tensile stress under the axis")
 
@@ -206,7 +208,7 @@ def test_a_material_without_density_gives_no_mass() -> None:
             1e-9,
             ".*1e-09.*inertia.modes",
         ),
-        (given.scene(), 1e-13, r".*a/R = 0\.\d+.*1e-13"),
+        (shared_scenes.scene(), 1e-13, r".*a/R = 0\.\d+.*1e-13"),
     ],
 )
 def test_tolerances_out_of_reach_say_what_is_in_reach(scene: Any, rtol: float, says: str) -> None:
@@ -239,7 +241,7 @@ def test_oscillators_beyond_the_limit_are_not_added(monkeypatch: pytest.MonkeyPa
 
 
 def test_code_that_errs_is_not_given_out() -> None:
-    recipe = code.recipe(given.scene())
+    recipe = code.recipe(shared_scenes.scene())
     law, limit = recipe.law, float(recipe.numbers["LIMIT"])
     a = np.linspace(0.0, limit, 4001)[1:]
     table = law.indentation(a, law.at(a))
@@ -338,7 +340,7 @@ def test_a_guess_without_numbers_leads_nowhere() -> None:
 
 def test_a_course_is_the_same_by_the_finest_rule(monkeypatch: pytest.MonkeyPatch) -> None:
     """The first rule that reproduces the contact time gives the history of the finest rule."""
-    result = simulate(given.scene())
+    result = simulate(shared_scenes.scene())
     first = result.history(41)
     monkeypatch.setattr(motion, "HISTORY_TOLERANCE", -1.0)
     for ours, finest in zip(first, result.history(41), strict=True):

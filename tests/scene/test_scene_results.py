@@ -6,9 +6,9 @@ import re
 from pathlib import Path
 from typing import Any
 
-import given
 import numpy as np
 import pytest
+import shared_scenes
 
 from derivation.cli import main
 from derivation.engine.console import json_text
@@ -230,4 +230,4 @@ def test_a_law_without_energy_is_told_so(monkeypatch: pytest.MonkeyPatch) -> Non
 
     monkeypatch.setattr(limits, "energy_of", lambda *_: 0.0)
     with pytest.raises(SceneError, match=r"^scene: .*\[effects\]"):
-        check_energy(ContactLaw(given.model(gravity=0.0), frozenset({"hertz"})))
+        check_energy(ContactLaw(shared_scenes.model(gravity=0.0), frozenset({"hertz"})))

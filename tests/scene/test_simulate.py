@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given import EXAMPLES, changed, thick
+from shared_scenes import EXAMPLES, changed, thick
 
 import derivation.checks.effects
 import derivation.scene

@@ -10,7 +10,7 @@ from functools import partial
 from pathlib import Path
 
 import pytest
-from given import PAPER
+from shared_scenes import PAPER
 
 from derivation.cli import main
 from derivation.scene import SceneError, load, read, simulate, sweep

@@ -16,7 +16,7 @@ from derivation.cli import main
 from derivation.scene.result import UNITS
 from derivation.scene.rows import Rows
 from derivation.scene.scene import Scene
-from derivation.sweep import plan, run, store, write
+from derivation.sweep import dataset, plan, run, store, write
 from derivation.sweep.dataset import data_set
 from derivation.sweep.distributions import read_distributions
 from derivation.sweep.study import Study
@@ -297,3 +297,26 @@ def test_memory_does_not_grow_with_the_study(
     assert peaks[2] < 1.5 * peaks[1]
     assert journal(tmp_path / f"{2**13}", 2**13).max() == 1
     assert formula.calls == 2**10 + 2**11 + 2**13
+
+
+@pytest.mark.parametrize("suffix", [".nc", ".zarr"])
+def test_more_points_than_fit_in_memory_are_read_from_the_file(
+    suffix: str, formula: Formula, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Without a file that can be read in blocks, they are refused before any is computed."""
+    held = pc.sweep(scene(), GRID)
+    calls = formula.calls
+    monkeypatch.setattr(dataset, "MOST_IN_MEMORY", 5)
+    for out in (None, tmp_path / "rows.csv"):
+        with pytest.raises(pc.SceneError, match=r"at most 5 points .*\.nc or \.zarr"):
+            pc.sweep(scene(), GRID, out=out)
+    assert formula.calls == calls
+    with pc.sweep(scene(), GRID, out=tmp_path / f"rows{suffix}") as read:
+        assert all(array.chunks for array in read.data_vars.values())
+        assert read.sizes == held.sizes
+        for name in held.variables:
+            if name in UNITS or name in held.coords:
+                np.testing.assert_array_equal(read[name], held[name])
+                assert read[name].units == held[name].units
+            else:
+                assert read[name].values.tolist() == held[name].values.tolist()

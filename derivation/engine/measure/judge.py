@@ -82,8 +82,9 @@ def judge(got: float, reference: Reference, budget: float, fmt: Format = DOUBLE)
     with flint.ctx.workprec(128):
         rounding = upper_float(reference.total * flint.arb(2) ** (-fmt.precision - spacing))
     ulp = ulp_error(got, value, fmt)
-    needed = max(0.0, (ulp - rounding) / unit) if math.isfinite(ulp) else math.inf
-    return Error(ulp, budget * reference.scale * unit + rounding, needed)
+    counted = reference.scale * unit
+    needed = max(0.0, (ulp - rounding) / counted) if math.isfinite(ulp) else math.inf
+    return Error(ulp, budget * counted + rounding, needed)
 
 
 def largest(errors: Iterable[Error]) -> Error:

@@ -1,10 +1,10 @@
-"""Correct digits of a method, and whether truncation or rounding limits them.
+"""Correct digits of a method, separated into truncation and rounding errors.
 
-Rounding is the difference of a method from the same method in 60 digits or more, or in long doubles
-where that would take minutes. Methods that integrate in time, in doubles alone, are repeated in
-other units of length and time, which change nothing but rounding (stochastic arithmetic after
-Vignes, 1993). Units do not change rounding in ratios of lengths, so that this is not used for sums
-and polynomials.
+The rounding error is the difference between the results of a method in its own arithmetic and in at
+least 60 digits; long doubles are used instead if 60 digits would take minutes. Methods that
+integrate in time exist in double precision only. They are repeated in other units of length and
+time, which change only the rounding errors (stochastic arithmetic, Vignes 1993). This is not
+applied to sums and polynomials: they depend on ratios of lengths, which units do not change.
 """
 
 import math
@@ -22,7 +22,7 @@ from derivation.plate.benchmark.interface import Call, Method
 from derivation.plate.benchmark.problems import Problem
 
 RUNS, SEED = 5, 5
-"""Number of runs in other units, and the seed of these units."""
+"""Number of runs in other units, and the seed for these units."""
 
 ESTIMATE = (
     "an estimate: rounding is the spread of runs in other units of length and of time, which "
@@ -32,22 +32,23 @@ ESTIMATE = (
 
 @dataclass(frozen=True)
 class BenchmarkErrors:
-    """Correct digits of the worst point: -log10 of the relative error; None if it was not measured.
+    """Correct digits at the worst point, -log10 of the relative error.
 
     Attributes
     ----------
     total
-        The method compared with the reference value; minus infinity if it gives no number.
+        From the difference between method and reference value; minus infinity for NaN.
     truncation
-        The same truncated method without rounding, compared with the reference value.
+        From the difference between the method without rounding and the reference value, or None.
     rounding
-        The method compared with the same without rounding; the total if nothing is truncated.
+        From the difference between the method with and without rounding, or None. Equal to the
+        total if the method truncates nothing.
     worst
         Argument of the worst point, in hexadecimal.
     unsplit
-        Why truncation and rounding are not separated, or None.
+        Reason why truncation and rounding are not separated, or None.
     remark
-        Remark on how they are separated, or None.
+        Remark on the method of separation, or None.
     """
 
     total: float
@@ -60,7 +61,7 @@ class BenchmarkErrors:
 
 @dataclass(frozen=True)
 class Judged:
-    """A prepared method with its errors; time of set-up, and of the first call per point [s]."""
+    """A prepared method with its errors, its set-up time, and the time per point of a call [s]."""
 
     call: Call
     errors: BenchmarkErrors
@@ -83,10 +84,10 @@ def judge(method: Method, problem: Problem, clock: Callable[[], float]) -> Judge
 
 
 def certified(method: Method, problem: Problem, values: Sequence[arb]) -> BenchmarkErrors:  # noqa: ARG001
-    """Return the radii of balls, which are rounding.
+    """Return the errors of a method in interval arithmetic: the radii, which are rounding errors.
 
-    A radius contains a bound of the truncation error too, but the references truncate less than the
-    last bit at each precision.
+    The radii also include a bound on the truncation error. It is negligible, because at each
+    precision the references are truncated below the last bit.
     """
     with flint.ctx.workprec(64):
         worst = max(float((x.rad() / abs(x).abs_lower()).log()) for x in values)
@@ -95,7 +96,10 @@ def certified(method: Method, problem: Problem, values: Sequence[arb]) -> Benchm
 
 
 def split(method: Method, problem: Problem, values: Sequence[Any]) -> BenchmarkErrors:
-    """Return total, truncation and rounding; as errors, total <= truncation + rounding."""
+    """Return the errors of a method, separated according to `Method.split`.
+
+    The total error is at most the sum of truncation and rounding error.
+    """
     most, truncation, unsplit, same = problem.digits, None, None, None
     with flint.ctx.workprec(math.ceil(most * LOG2_10) + 128):
         total = [digits(v, t, most) for v, t in zip(values, problem.reference_values, strict=True)]
@@ -108,17 +112,17 @@ def split(method: Method, problem: Problem, values: Sequence[Any]) -> BenchmarkE
         if same is not None:
             truncation = min(map(digits, same, problem.reference_values, [most] * len(same)))
             rounding = min(map(digits, values, same, [most] * len(same)))
-    place = int(np.argmin(total))
+    index = int(np.argmin(total))
     remark = ESTIMATE if method.split == "units" and same is not None else None
-    worst = float(problem.points[place]).hex()
-    return BenchmarkErrors(total[place], truncation, rounding, worst, unsplit, remark)
+    worst = float(problem.points[index]).hex()
+    return BenchmarkErrors(total[index], truncation, rounding, worst, unsplit, remark)
 
 
 def without_rounding(method: Method, problem: Problem) -> list[arb]:
-    """Return results almost without rounding, or the mean of runs in random units.
+    """Return results with negligible rounding errors, or the mean of runs in random units.
 
-    The radius of a mean is the standard deviation of a single run. In exact arithmetic all runs
-    would be equal; in each run different numbers are rounded.
+    In exact arithmetic all runs would be equal. Because each run rounds other numbers, their
+    standard deviation estimates the rounding error of a run; it is the radius of the mean.
     """
     if method.split == "long" and not HAS_LONG:
         raise NotImplementedError("the platform's long double is no longer than double")
@@ -131,7 +135,7 @@ def without_rounding(method: Method, problem: Problem) -> list[arb]:
         call = method.ready(problem.regime.in_units(length, time))
         factor = {"law": arb(length), "inversion": arb(length) / arb(time) ** 2,
                   "impact": arb(time)}[method.task]  # fmt: skip
-        # The points are scaled in doubles, which is rounding too.
+        # The scaled points are rounded to doubles, which contributes to the spread.
         runs.append([factor * as_ball(value) for value in call(problem.points * given)])
     found = [spread(list(values)) for values in zip(*runs, strict=True)]
     if not all(ball.is_finite() for ball in found):
@@ -140,14 +144,14 @@ def without_rounding(method: Method, problem: Problem) -> list[arb]:
 
 
 def spread(values: list[arb]) -> arb:
-    """Return the mean of some values, with the standard deviation of one of them as its radius."""
+    """Return the mean of values as a ball; its radius is their standard deviation."""
     mean = sum(values, arb(0)) / len(values)
     square = sum(((x - mean) ** 2 for x in values), arb(0)) / (len(values) - 1)
     return mean + arb(0, square.sqrt().abs_upper())
 
 
 def digits(value: Any, true: arb, most: float) -> float:
-    """Return -log10 of a relative error, at most the number of digits of the reference value."""
+    """Return -log10 of the relative error, at most the digits `most` of the reference value."""
     ball = as_ball(value)
     if not ball.is_finite():
         return -math.inf

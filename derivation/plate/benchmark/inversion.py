@@ -63,7 +63,7 @@ def reversed_balls(regime: Regime, terms: int, radius: float, ar: Arithmetic) ->
         for c in coefficients(regime, max(1, terms // 2), ar.constants):
             lifted += [c, arb(0)]
         try:
-            flint.ctx.cap = terms + 1  # what series are cut off at
+            flint.ctx.cap = terms + 1  # the number of terms of the truncated series
             x = arb_series([0, 1])
             cube = ((x * arb_series(lifted).sqrt()).reversion() / x) ** 3
         finally:

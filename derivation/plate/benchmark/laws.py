@@ -1,7 +1,7 @@
-"""Inversion and impact by the law's power series in a/h, in any arithmetic.
+"""Inversion and impact from the power series of the contact law in a/h, in any arithmetic.
 
-With A = a/h, delta = (h^2/R) A^2 (1 + F), F = A (c_1 + c_3 A^2 + ...). Cut off, these are methods
-by themselves; with all terms, in long numbers, they stand for the law without rounding.
+With A = a/h, delta = (h^2/R) A^2 (1 + F), F = A (c_1 + c_3 A^2 + ...). The truncated series is a
+method of the benchmark. With all terms and many digits, it represents the law without rounding.
 """
 
 from collections.abc import Callable
@@ -24,7 +24,7 @@ def diverges(regime: Regime) -> str | None:
 
 
 class SeriesLaw:
-    """The law of a regime's plate in an arithmetic, made in its context, and its inverses.
+    """The contact law of a test case in an arithmetic, and its inverse functions.
 
     Without a number of terms it is the whole law, to forty digits.
     """

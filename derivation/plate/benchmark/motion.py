@@ -1,4 +1,4 @@
-"""The contact time of an impact: the paper's formulas, quadrature, and steps."""
+"""The contact time of an impact: published formulas, quadrature, and time integration."""
 
 import math
 from collections.abc import Callable
@@ -18,13 +18,13 @@ from generated.perturbation import PrintedMotion, printed_motion
 from generated.ranges import product
 
 MODES = 100
-"""Where the paper's divergent sums are cut off for its perturbation."""
+"""Number of modes of the divergent sums in the perturbation of the paper."""
 
 LONGEST = 40.0
-"""Contact times over Hertz's up to which fixed steps of his time are tried."""
+"""Contact time, relative to Hertz theory, up to which fixed time steps are used."""
 
 MOST_STEPS = 80_000
-"""Enough for 1000 steps of the longest of these, twice over."""
+"""Largest number of steps: twice 1000 steps per Hertz contact time up to LONGEST."""
 
 
 def linear(modes: int) -> Method:
@@ -55,7 +55,7 @@ def perturbation(corrected: bool) -> Method:
     kind = "corrected" if corrected else "as printed"
 
     def fails(regime: Regime) -> str:
-        # Everywhere: both xi_3 are sums of positive terms.
+        # In every test case, because both forms of xi_3 are sums of positive terms.
         share = paper_motion(regime, regime.speed, corrected=corrected).share
         return f"root of a negative number in (17), (18) from {share:.3g} of the way to the top on"
 
@@ -82,7 +82,7 @@ def gauss(nodes: int) -> Method:
         R, m, h, b, lam, mu = (np.asarray(y, float) for y in (r.R, r.m, r.h, r.b, r.lam, r.mu))
 
         def call(v0: Array) -> Array:
-            with np.errstate(all="ignore"):  # as `impact` itself
+            with np.errstate(all="ignore"):  # as in `impact`
                 found, _, depth, _, _ = _solve(R, m, v0, h, b, lam, mu)
                 integral = np.empty_like(found.A)
                 for part in _parts(found.A.size):

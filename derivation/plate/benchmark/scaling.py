@@ -1,4 +1,4 @@
-"""Run time by number of points, thinness, digits and scenes: slopes, memory, linearity."""
+"""Run time and memory as functions of the number of points, b/h, digits and number of scenes."""
 
 import math
 import tracemalloc
@@ -18,36 +18,39 @@ from generated.impact import impact
 from generated.simple_impact import hertz, leading
 
 REPEATS = 7
+"""Number of measurements of each time."""
+
 LONG = 0.5
-"""A call that takes longer is timed once [s]."""
+"""Time above which a call is measured only once [s]."""
 
 OFF = 1.5
-"""Factor by which a time differs from the straight line at its end."""
+"""Factor by which a time may differ from the fitted power law."""
 
 DIGITS_PER_TERM = 2.2
-"""Digits per term of the small-a series at a/h = 0.3: 2 log10(4/0.3)."""
+"""Digits gained with each term of the small-a series at a/h = 0.3: 2 log10(4/0.3)."""
 
 SPLIT_POINTS = 64
+"""Number of points for the split sum, which is slower than the generated law."""
 
 
 @dataclass(frozen=True)
 class Growth:
-    """Times as a function of a size.
+    """Run time as a function of a size, and the power law fitted to it.
 
     Attributes
     ----------
     what, method
-        The varied size, and the method.
+        Name of the varied size, and of the method.
     x, seconds
-        Sizes, and total times [s].
+        The sizes, and the time for each [s].
     slope
-        Slope of log(time) over log(size) along the straight part, at the upper end.
+        Exponent of the power law through the last three sizes.
     leaves
-        Largest size at which the time differs from that line by a factor of OFF, if any.
+        Largest size at which the time differs from the power law by more than `OFF`, or None.
     why
-        What takes the time there.
+        The reason for that difference, or for the exponent.
     peak_bytes
-        Peak memory of the last call, its result included; None if not measured.
+        Peak memory of the last call, including its result; None if not measured.
     """
 
     what: str
@@ -63,14 +66,14 @@ class Growth:
 def growth(
     what: str, method: str, x: Sequence[float], calls: Sequence[Callable[[], object]], why: str
 ) -> Growth:
-    """Return the time of each call, and the memory of the last."""
+    """Measure the time of each call, and the memory of the last."""
     seconds = tuple(_lowest(call) for call in calls)
     slope, leaves = line(x, seconds)
     return Growth(what, method, tuple(x), seconds, slope, leaves, why, peak(calls[-1]))
 
 
 def line(x: Sequence[float], seconds: Sequence[float]) -> tuple[float, float | None]:
-    """Return the slope through the last three points, and the largest size off that line."""
+    """Fit a power law to the last three points; return its exponent and `Growth.leaves`."""
     logs, times = np.log(x), np.log(seconds)
     slope, start = np.polyfit(logs[-3:], times[-3:], 1)
     off = np.flatnonzero(np.abs(times - (start + slope * logs)) > math.log(OFF))
@@ -87,7 +90,7 @@ def peak(call: Callable[[], object]) -> int:
 
 
 def _lowest(call: Callable[[], object]) -> float:
-    """Return the lower quartile of the times of a few calls [s]."""
+    """Return the lower quartile of the times of `REPEATS` calls [s]."""
     call()
     times = []
     for _ in range(REPEATS):
@@ -100,7 +103,7 @@ def _lowest(call: Callable[[], object]) -> float:
 
 
 def points() -> list[Growth]:
-    """Return times of the law by number of points, including and excluding the plate's set-up."""
+    """Measure the contact law by number of points, including and excluding per-plate set-up."""
     sizes = [10**k for k in range(8)]
     radii = np.random.default_rng(1).uniform(1e-3, 0.03, sizes[-1])
     ready = shipped.prepared().ready(PAPER)
@@ -118,14 +121,14 @@ def points() -> list[Growth]:
 
 
 def thinness() -> list[Growth]:
-    """Return times of the law by b/h: a call with 10 000 points, and the set-up with a few."""
+    """Measure the contact law by b/h: the public function, and the split sum with its set-up."""
     ratios = [10.0**k for k in range(5)]
-    shares = np.random.default_rng(1).uniform(0.01, 0.9, ARRAY)
+    fractions = np.random.default_rng(1).uniform(0.01, 0.9, ARRAY)
     plates = [replace(PAPER, R=100.0, h=1 / ratio) for ratio in ratios]
 
     def calls(method: Method, count: int) -> list[Callable[[], object]]:
-        made = [(method.ready(plate), shares[:count] * plate.h) for plate in plates]
-        return [partial(call, a) for call, a in made]
+        prepared = [(method.ready(plate), fractions[:count] * plate.h) for plate in plates]
+        return [partial(call, a) for call, a in prepared]
 
     flat = "flat: coefficients come from tables in h/b, the points see polynomials only"
     modes = "grows with the modes, 4 b/h of them; for thick plates the wall's 48 nodes count"
@@ -142,29 +145,29 @@ def thinness() -> list[Growth]:
 
 
 def digits(quick: bool) -> list[Growth]:
-    """Return times of the small-a series by digits: set-up, and one point in balls and mpmath."""
-    asked = [30, 50, 100] if quick else [30, 50, 100, 200, 300, 500, 1000]
+    """Measure the small-a series by digits: set-up, and one point in Arb and in mpmath."""
+    counts = [30, 50, 100] if quick else [30, 50, 100, 200, 300, 500, 1000]
     setups, balls, numbers = [], [], []
-    for count in asked:
+    for count in counts:
         terms = math.ceil(count / DIGITS_PER_TERM) + 3
         begin = CPU()
         balls.append(polynomials.small_contacts(terms, BallArithmetic(count)).ready(PAPER))
         setups.append(CPU() - begin)
-        # The same coefficients, so that they are not computed again.
+        # This uses the cached coefficients of the line above.
         numbers.append(polynomials.small_contacts(terms, Mpmath(count)).ready(PAPER))
-    a, setup_slope = np.array([0.3 * PAPER.h]), line(asked, setups)
+    a, setup_slope = np.array([0.3 * PAPER.h]), line(counts, setups)
     return [
         Growth(
-            "digits", "small-a series in balls, set-up", tuple(asked), tuple(setups), *setup_slope,
+            "digits", "small-a series in balls, set-up", tuple(counts), tuple(setups), *setup_slope,
             "zeros of J0 to that precision: more of them, each with a longer run time", None,
         ),
         growth(
-            "digits", "small-a series in balls, one point", asked,
+            "digits", "small-a series in balls, one point", counts,
             [partial(call, a) for call in balls],
             "the terms grow with the digits; the interpreter takes most of the time of each",
         ),
         growth(
-            "digits", "small-a series in mpmath, one point", asked,
+            "digits", "small-a series in mpmath, one point", counts,
             [partial(call, a) for call in numbers],
             "the same terms; products of so many bits count earlier",
         ),
@@ -172,7 +175,7 @@ def digits(quick: bool) -> list[Growth]:
 
 
 def scenes(quick: bool) -> list[Growth]:
-    """Return times of impacts of different scenes by each method of `simulate`."""
+    """Measure impacts by number of scenes, with each method of `simulate`."""
     sizes = [10**k for k in range(5 if quick else 6)]
     batches = [speed.scenes(0.01, 2.9, n) for n in sizes]
     rows = [list(zip(*(x.tolist() for x in s.values()), strict=True)) for s in batches]
@@ -193,12 +196,12 @@ def scenes(quick: bool) -> list[Growth]:
 
 
 def _each(method: Callable[..., object], scenes: Sequence[Sequence[float]]) -> list[object]:
-    """Call a method of single scenes for each of them."""
+    """Call a method that computes single scenes for each scene."""
     return [method(*scene) for scene in scenes]
 
 
 def studies(quick: bool) -> tuple[tuple[str, Callable[[], list[Growth]]], ...]:
-    """Return every study by its varied size; a quick one has fewer digits."""
+    """Return each study with its name; quick studies have fewer sizes."""
     return (
         ("points", points),
         ("b/h", thinness),

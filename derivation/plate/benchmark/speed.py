@@ -1,8 +1,8 @@
-"""How fast the contact law, the impact and a cold start are: times side by side, as ratios.
+"""Run times of the contact law, impacts, stable functions and commands, with their limits.
 
-Candidates take turns in one process, so that whatever else the machine does
-meets all of them; of each the lower quartile counts, and the spread up to the
-upper quartile is kept as a sign of contention.
+Most results are ratios of two times. Both are measured in alternation, so that other load of the
+machine affects both. The lower quartile of each is used; the ratio of upper to lower quartile is
+recorded as a measure of the load.
 """
 
 import os
@@ -37,11 +37,15 @@ from generated.contact_law import force_of_radius, indentation
 from generated.impact import impact
 
 POINTS = 1_000_000
+"""Number of contact radii for the contact law."""
 SCENES = 100_000
+"""Number of scenes in a batch of impacts."""
 ROUNDS = 25
+"""Number of measurements of each time."""
 COMMAND = "from derivation.cli import main; main()"
 START, SOLVED_START, EXPLAINED = 2.0, 4.0, 1.3
-"""Cold starts of simulate, of one that solves for the pressure, and of explain: at most."""
+"""Limits for a command in a new process, relative to the imports of its libraries: `simulate`,
+`simulate` with a pressure from the integral equation, and `explain`."""
 SWITCHES = (
     "spherical_profile",
     "bending",
@@ -49,8 +53,9 @@ SWITCHES = (
     "finite_radius",
     "non_hertzian_pressure",
 )
-"""Effects of `block.toml` that can be off."""
+"""Effects of `block.toml` that can be disabled."""
 COLD_ROUNDS = 9
+"""Number of measurements of a process."""
 LIBRARIES = "import numpy, scipy.special, pydantic, typer, rich"
 ETA = 0.1
 """h/b of the paper's plate."""
@@ -58,7 +63,7 @@ ETA = 0.1
 
 @dataclass(frozen=True)
 class SpeedTiming:
-    """One comparison.
+    """The result of a comparison.
 
     Parameters
     ----------
@@ -71,7 +76,7 @@ class SpeedTiming:
     spread
         Largest ratio of upper to lower quartile among its times.
     kept
-        Whether the limit is met.
+        Whether the result is within the limit.
     """
 
     name: str
@@ -85,7 +90,7 @@ class SpeedTiming:
 def interleaved(
     candidates: Sequence[Callable[[], object]], rounds: int
 ) -> tuple[list[float], float]:
-    """Return the lower quartile of each candidate's times [s], and the largest spread."""
+    """Return the lower quartile of the times of each function [s], and the largest spread."""
     times = np.empty((rounds, len(candidates)))
     for row in times:
         for index, candidate in enumerate(candidates):
@@ -98,13 +103,13 @@ def interleaved(
 
 def ratio(name: str, one: Callable[[], object], base: Callable[[], object], limit: float,
           rounds: int = ROUNDS) -> SpeedTiming:  # fmt: skip
-    """Measure how many times as long as the base a function takes."""
+    """Measure the time of a function relative to that of another."""
     (mine, other), spread = interleaved((one, base), rounds)
     return SpeedTiming(name, mine / other, "times", limit, spread, mine / other <= limit)
 
 
 def law_over_exp(top: float, limit: float) -> SpeedTiming:
-    """Measure the contact law of one plate over numpy.exp of the same array, a/h up to `top`."""
+    """Measure the contact law for one plate, a/h up to `top`, relative to `numpy.exp`."""
     a = np.random.default_rng(1).uniform(1e-3, top, POINTS)
     name = f"contact law over numpy.exp, {POINTS:.0e} points, h/b = {ETA}, a/h up to {top}"
     return ratio(name, lambda: indentation(a, 100.0, 1.0, 1 / ETA), lambda: np.exp(a), limit)
@@ -115,7 +120,7 @@ def _naive_G(x: Any) -> Any:
 
 
 def _as_kernel(naive: Callable[[Any], Any]) -> Callable[[Any], Any]:
-    """Return a textbook form with the checks and conversions of every generated function."""
+    """Add the argument checks and type conversions of a generated function to a textbook form."""
 
     def call(x: Any) -> Any:
         kind, [x] = as_doubles(x)
@@ -126,6 +131,7 @@ def _as_kernel(naive: Callable[[Any], Any]) -> Callable[[Any], Any]:
 
 
 NAIVE_POINTS = 10_000
+"""Number of arguments for functions of a mode; arrays of this size fit in the cache."""
 
 
 def _field(name: str) -> tuple[Callable[[Any], Any], Callable[[Any], Any]]:
@@ -153,27 +159,27 @@ NAIVE: Mapping[str, tuple[Callable[..., Any], Callable[..., Any]]] = {
         lambda x: as_printed.K_j(x, 1.0, 1.0, 2.0, 0.5),
     ),
 } | {name: _field(name) for name in FIELDS}
-"""Stable kernels and their naive forms, printed ones where the print is right but for factors."""
+"""Stable functions and their textbook forms: as published, if that is correct up to a factor."""
 
 NAIVE_RIGHT = (2.0, 80.0)
-"""Where naive forms neither cancel by more than a factor of two nor overflow."""
+"""Arguments at which textbook forms do not overflow and lose at most one bit by cancellation."""
 
 
 def stable_over_naive(name: str) -> SpeedTiming:
-    """Measure a stable function over its textbook form, where the latter is accurate.
+    """Measure a stable function relative to its textbook form, at arguments accurate for both.
 
-    Arrays fit in the cache. A large array is created and released first, because until then the
-    C library returns memory to the operating system after every call.
+    A large array is allocated and released first. Otherwise the C library would return memory to
+    the operating system after every call, and allocation would dominate the times.
     """
     np.ones(4_000_000)
     stable, naive = NAIVE[name]
     x = np.random.default_rng(3).uniform(*NAIVE_RIGHT, NAIVE_POINTS)
-    said = f"{name} over its naive form, {NAIVE_POINTS:.0e} points from 2 to 80"
-    return ratio(said, lambda: stable(x), lambda: naive(x), 3.0, 20 * ROUNDS)
+    title = f"{name} over its naive form, {NAIVE_POINTS:.0e} points from 2 to 80"
+    return ratio(title, lambda: stable(x), lambda: naive(x), 3.0, 20 * ROUNDS)
 
 
 def scenes(low: float, high: float, count: int = SCENES) -> dict[str, Any]:
-    """Return arguments of `impact` for different spheres, plates and speeds, a_m/h low to high."""
+    """Return random arguments of `impact` whose largest a/h lies between `low` and `high`."""
     random = np.random.default_rng(2)
     eta, h = 10 ** random.uniform(-3.0, -0.8, count), 10 ** random.uniform(-3.0, 0.0, count)
     b = h / eta
@@ -186,7 +192,7 @@ def scenes(low: float, high: float, count: int = SCENES) -> dict[str, Any]:
 
 
 def impact_rate(low: float, high: float, limit: float) -> SpeedTiming:
-    """Measure impacts per second in one batch of different scenes."""
+    """Measure the number of impacts per second in one batch of different scenes."""
     arguments = scenes(low, high)
     (duration,), spread = interleaved((lambda: impact(**arguments),), 5)
     rate = SCENES / duration
@@ -195,7 +201,7 @@ def impact_rate(low: float, high: float, limit: float) -> SpeedTiming:
 
 
 def cold_start(command: str, scene: Path, limit: float) -> SpeedTiming:
-    """Measure a command over the imports of the libraries that it uses, as processes."""
+    """Measure a command in a new process, relative to a process that only imports its libraries."""
     name = f"platecontact {command} {scene.name}, cold, over its libraries' imports"
     return ratio(name, process(COMMAND, command, str(scene), "--json", "-"), process(LIBRARIES),
                  limit, COLD_ROUNDS)  # fmt: skip
@@ -209,7 +215,11 @@ def process(code: str, *arguments: str) -> Callable[[], object]:
 
 
 def hertz_alone(scene: Path, limit: float) -> SpeedTiming:
-    """Measure a scene for which Hertz's law suffices, over the same with other effects off."""
+    """Measure a scene for which the program selects Hertz theory alone.
+
+    The reference is the same scene with all other effects disabled, so that the ratio is the run
+    time of the automatic selection.
+    """
     with tempfile.TemporaryDirectory() as folder:
         plain = Path(folder) / scene.name
         keys = "".join(f"{name} = false\n" for name in SWITCHES)
@@ -227,18 +237,18 @@ def measure(
     progress: Progress = quiet,
     further: Sequence[tuple[str, Callable[[], SpeedTiming]]] = (),
 ) -> list[SpeedTiming]:
-    """Measure all comparisons, one after the other.
+    """Measure all comparisons in sequence.
 
     Parameters
     ----------
     examples
-        The scene files of the cold starts, one of them `block.toml`, where Hertz is enough.
+        Scene files whose start is timed; `block.toml` is also compared with Hertz theory alone.
     solved
-        Those among them for which the pressure is solved for.
+        Those of the scene files whose pressure is computed from the integral equation.
     progress
-        Called before each with its name, number and how many there are.
+        Called before each comparison with its name, its number and the total number.
     further
-        More comparisons, each with its name.
+        Additional comparisons, each with its name.
     """
     planned: tuple[tuple[str, Callable[[], SpeedTiming]], ...] = (
         ("small contacts", lambda: law_over_exp(0.3, 6.0)),
@@ -264,7 +274,7 @@ def measure(
 
 
 def as_data(timings: Sequence[SpeedTiming]) -> dict[str, Any]:
-    """Return the timings as plain data, with the machine and its load."""
+    """Return the results as plain data, with the machine and its load."""
     return {"machine": dict(machine()), "rows": [asdict(timing) for timing in timings]}
 
 

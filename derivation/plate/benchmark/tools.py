@@ -1,8 +1,9 @@
-"""Results of other programs for the parts of the problem that they can solve.
+"""Comparison with other programs on an elastic half-space.
 
-None computes a plate with an edge. They are compared on a half-space, for which Hertz's formulas
-are exact. For the generated code h and b are so large that the plate's contribution is below
-rounding. `half_space` runs them; `PLATECONTACT_TOOLS` names the Python that has them.
+None of these programs can compute a plate with an edge. On a half-space, Hertz theory gives the
+exact reference values. The generated code is called with h and b so large that the compliance of
+the plate is below rounding errors. The script `half_space` runs the other programs; the environment
+variable `PLATECONTACT_TOOLS` names the Python interpreter in which they are installed.
 """
 
 import json
@@ -28,7 +29,7 @@ LIMIT = 120
 """Time limit for a program [s]."""
 
 FAR = 1e20
-"""Half-thickness and radius of the plate over the contact radius, for the generated code."""
+"""h/a and b/a of the plate that represents the half-space in the generated code."""
 
 
 @dataclass(frozen=True)
@@ -38,15 +39,15 @@ class Tool:
     Attributes
     ----------
     name, version
-        The program.
+        Name and version of the program.
     problem, setting
-        The problem, and the settings.
+        The problem solved, and the settings of the program.
     error, seconds
-        Relative error, and time of one result [s].
+        Relative error of the result, and its run time [s].
     cannot
-        The parts of the contact of a sphere and a plate that it cannot compute.
+        What the program cannot compute of the impact of a sphere on a plate.
     missing
-        Why it is not available, if it is not.
+        Reason why there is no result, or None.
     """
 
     name: str
@@ -60,12 +61,12 @@ class Tool:
 
 
 def tools() -> list[Tool]:
-    """Return the results of every program, and of the generated code for the same problems."""
+    """Return the results of the generated code and of all other programs for the same problems."""
     return own() + [row for name in half_space.PROGRAMS for row in run(name, os.environ)]
 
 
 def run(name: str, environment: Mapping[str, str]) -> list[Tool]:
-    """Return the results of one program; SciPy runs in this Python."""
+    """Run one program in a separate process; SciPy runs in the current interpreter."""
     python = sys.executable if name.startswith("SciPy") else environment.get(VARIABLE)
     if python is None:
         return [Tool(name, missing=f"not installed: {VARIABLE} names no Python that has it")]
@@ -86,25 +87,27 @@ def run(name: str, environment: Mapping[str, str]) -> list[Tool]:
 
 
 def own() -> list[Tool]:
-    """Return the results of the generated code for the same problems."""
+    """Return the results of the generated code for indentation and contact time."""
     far = Regime("half-space", 1.0, 0.1 * FAR, 0.1 * FAR, 0.0, 0.0, 1.0)
-    r, a, made = far, 0.1, f"h = b = {FAR:g} a"
-    depth, law = _timed(lambda: float(indentation(a, r.R, r.h, r.b)))
-    lasted, motion = _timed(
+    r, a, setting = far, 0.1, f"h = b = {FAR:g} a"
+    delta, law_time = _timed(lambda: float(indentation(a, r.R, r.h, r.b)))
+    contact_time, impact_time = _timed(
         lambda: float(impact(r.R, r.m, r.speed, r.h, r.b, r.lam, r.mu).contact_time)
     )
-    off = [
-        abs(depth / hertz_law(r, DOUBLE)(a) - 1), abs(lasted / hertz_time(r, DOUBLE)(r.speed) - 1)
+    errors = [
+        abs(delta / hertz_law(r, DOUBLE)(a) - 1),
+        abs(contact_time / hertz_time(r, DOUBLE)(r.speed) - 1),
     ]  # fmt: skip
     return [
-        Tool("platecontact", "", "indentation of a half-space", made, float(off[0]), law,
-             "pressure other than Hertz's"),
-        Tool("platecontact", "", "contact time on a half-space", made, float(off[1]), motion,
-             "motion of the plate itself"),
+        Tool("platecontact", "", "indentation of a half-space", setting, float(errors[0]),
+             law_time, "pressure other than Hertz's"),
+        Tool("platecontact", "", "contact time on a half-space", setting, float(errors[1]),
+             impact_time, "motion of the plate itself"),
     ]  # fmt: skip
 
 
 def _timed(call: Callable[[], float]) -> tuple[float, float]:
+    """Return the result of a call, and the lower quartile of its times [s]."""
     times = []
     for _ in range(50):
         begin = time.perf_counter()

@@ -15,13 +15,13 @@ from generated.perturbation import PrintedMotion
 from generated.plate_waves import branches
 
 _ULP = 2.0**52
-"""A relative error of 1 in units in the last place, at least so many."""
+"""Smallest number of ULP that corresponds to a relative error of 1."""
 
 _INTEGRALS = 1e-14
-"""Of the largest indentation: what `PrintedMotion.corrected` says of its integrals."""
+"""Stated error of the integrals in `PrintedMotion.corrected`, over the largest indentation."""
 
 _FREQUENCY, _RESIDUE = 8.0, 1e-12 * _ULP
-"""In ULP, and in those of the largest residue: what `plate_waves` says of its branches."""
+"""Stated errors of `plate_waves`: of a frequency, and of a residue over the largest one [ULP]."""
 
 _SCENE = ("R", "m", "v0", "h", "b", "lam", "mu")
 
@@ -152,7 +152,7 @@ def _picked(table: Any, place: Any) -> Any:
 
 
 class _Estimates(NamedTuple):
-    """A simple law's four results, and the errors it states for them."""
+    """The functions for the four results of a simple law and for their stated errors."""
 
     results: Callable[..., tuple[float, ...]]
     errors: Callable[..., tuple[float, ...]]
@@ -169,7 +169,7 @@ def _estimates(law: Callable[..., simple_impact.Estimate | None]) -> _Estimates:
         found = law(*scene)
         if found is None:
             return (np.nan,) * 4
-        # Relative ones, of what is true: at least that share of the results.
+        # The stated error is relative to the exact value, which is at least x/(1 + relative).
         relative = sum(found[4:])
         return tuple(x * relative / (1 + relative) for x in found[:4])
 

@@ -24,7 +24,7 @@ from derivation.plate.subjects import handed_in
 
 INDICES = (1, 2, 10, 100, 1000, 10**4, 10**5, 10**6)
 LAST_KAPPA, LAST_FINITE_PART = 196, 99
-"""The last that doubles hold."""
+"""Largest indices whose value does not overflow in double precision."""
 
 
 def families() -> tuple[HardCase, ...]:
@@ -86,8 +86,8 @@ _OF_SWITCH: dict[str, tuple[tuple[str, Callable[[float], Inputs]], ...]] = {
         ("A_j", lambda y: exactly(phi=y, b=10.0, R=3.0, a=1.0, lam=LAM, mu=MU, J1=0.25)),
     ),
 }
-"""Kernels that pass through a switch point in T = 2 phi h or y = a phi, and arguments
-by which they come to it: lengths are 1."""
+"""Functions with switch points in T = 2 phi h or y = a phi, and their arguments at given T or y;
+lengths are 1."""
 
 
 def _block_switches() -> Iterator[HardCase]:

@@ -1,4 +1,4 @@
-"""Hard cases at the switch points of what scenes are made of: edge, back face, sphere, pressure."""
+"""Hard cases at the switch points of edge, back face, spherical profile and pressure."""
 
 import math
 from collections.abc import Iterator
@@ -29,34 +29,40 @@ FAR_EDGES = ("supported_far_stress", "clamped_far_stress")
 _STEEL: dict[str, float] = {"lam": LAM, "mu": MU}
 _FORCE = 1e3
 _MODES = (1, 2, 3)
-"""Modes at whose switch points cases lie: all go through the same code."""
+"""Modes whose switch points are tested; all modes use the constants code."""
 
 
 def scene_families() -> Iterator[HardCase]:
-    """Yield the cases; the plate's radius or half-thickness is 1."""
+    """Yield all cases; radius or half-thickness of the plate is 1 m."""
     return chain(_edge(), _back_face(), _sphere(), _pressure())
 
 
 def _zero(mode: int) -> float:
+    """Return the zero j_n of J0 as a double."""
     return float(j0_zero(mode, 80))
 
 
 def _beside(group: str, kernels: tuple[str, ...], why: str, given: Inputs) -> Iterator[HardCase]:
-    """Yield a case for each function, with the doubles around a place."""
+    """Yield a case for each function, with an array of doubles around a switch point."""
     return (about(group, kernel, why, given) for kernel in kernels)
 
 
 def _one_by_one(
-    group: str, kernels: tuple[str, ...], place: float, why: str, moved: str, same: dict[str, float]
+    group: str,
+    kernels: tuple[str, ...],
+    switch: float,
+    why: str,
+    argument: str,
+    constants: dict[str, float],
 ) -> Iterator[HardCase]:
-    """Yield cases with one double each, because all in one call share the number of modes."""
+    """Yield cases with one double each, because all points of a call use equally many modes."""
     for kernel, offset in product(kernels, OFFSETS):
-        given = exactly(**{**same, moved: beside(place, offset)})
+        given = exactly(**{**constants, argument: beside(switch, offset)})
         yield HardCase(group, kernel, f"{offset:+d} ULP from {why}.", given)
 
 
 def _last_mode(faded: int, mode: int) -> float:
-    """Return h/b above which one mode less is summed."""
+    """Return h/b above which the sum has one mode less."""
     return faded / (2 * math.pi * mode)
 
 
@@ -64,62 +70,64 @@ def _last_mode(faded: int, mode: int) -> float:
 
 
 def _edge() -> Iterator[HardCase]:
+    """Yield cases at the switch points of the sums over the modes of the edge."""
     for width in (0.1, 0.5, 0.8):
-        place = float((1 - Fraction(width)) / edge_tables.THIN)
-        given = exactly(a=width, h=around(place), b=1.0, **_STEEL)
+        switch = float((1 - Fraction(width)) / edge_tables.THIN)
+        given = exactly(a=width, h=around(switch), b=1.0, **_STEEL)
         why = f"b - a = {float(edge_tables.THIN):g} h, from which on a closed form stands alone"
         yield from _beside(EDGE, SUMS, f"{why}; a = {width:g} b", given)
         more = exactly(P=_FORCE) | given
         yield from _beside(EDGE, FAR_EDGES[:1], f"{why}; a = {width:g} b", more)
     for mode in _MODES:
-        place = edge_tables.SWITCH / (2 * _zero(mode))
-        given = exactly(a=0.3, h=around(place), b=1.0, **_STEEL)
+        switch = edge_tables.SWITCH / (2 * _zero(mode))
+        given = exactly(a=0.3, h=around(switch), b=1.0, **_STEEL)
         why = f"T = {edge_tables.SWITCH} of mode {mode}, where Q - 3 ceases to be a power series"
         yield from _beside(EDGE, SUMS, why, given)
     for mode in (1, 10):
-        place = _last_mode(edge_tables.FADED, mode)
-        same = {"a": 0.3, "b": 1.0, **_STEEL}
-        why = f"h/b = {place:.4g}, beyond which the sum takes a mode less"
-        yield from _one_by_one(EDGE, SUMS[1:], place, why, "h", same)
+        switch = _last_mode(edge_tables.FADED, mode)
+        constants = {"a": 0.3, "b": 1.0, **_STEEL}
+        why = f"h/b = {switch:.4g}, beyond which the sum takes a mode less"
+        yield from _one_by_one(EDGE, SUMS[1:], switch, why, "h", constants)
     yield from _shape(EDGE, SUMS[:1], {})
     yield from _materials()
-    widest, same = float(edge_tables.WIDEST), {"h": 0.3, "b": 1.0, **_STEEL}
+    widest, constants = float(edge_tables.WIDEST), {"h": 0.3, "b": 1.0, **_STEEL}
     why = f"a = {widest:g} b, the tables' end"
-    yield from _last(EDGE, (SUMS[1], CLAMPED[0]), widest, why, same)
-    yield from _last(EDGE, FAR_EDGES[:1], widest, why, {"P": _FORCE, **same})
+    yield from _last(EDGE, (SUMS[1], CLAMPED[0]), widest, why, constants)
+    yield from _last(EDGE, FAR_EDGES[:1], widest, why, {"P": _FORCE, **constants})
 
 
 def _last(
-    group: str, kernels: tuple[str, ...], end: float, why: str, same: dict[str, float]
+    group: str, kernels: tuple[str, ...], end: float, why: str, constants: dict[str, float]
 ) -> Iterator[HardCase]:
-    """Yield cases around the end of a domain in a; NaN is expected beyond it."""
-    for case in _one_by_one(group, kernels, end, why, "a", same):
+    """Yield cases at the largest contact radius of a domain; above it NaN is expected."""
+    for case in _one_by_one(group, kernels, end, why, "a", constants):
         yield replace(case, expect="nan") if case.numbers["a"][0] > end else case
 
 
 def _shape(group: str, kernels: tuple[str, ...], more: dict[str, float]) -> Iterator[HardCase]:
-    """Yield cases at the switch point of g(y) in the modal sums."""
-    for mode, place in product(_MODES[:2], switches()["y"]):
-        a = around(place / _zero(mode))
+    """Yield cases at the switch point of the function g(y) in modal sums."""
+    for mode, switch in product(_MODES[:2], switches()["y"]):
+        a = around(switch / _zero(mode))
         given = exactly(**more, a=a, h=0.4, b=1.0, **_STEEL)
-        why = f"y = {place:g} of mode {mode}, where g(y) ceases to be a power series"
+        why = f"y = {switch:g} of mode {mode}, where g(y) ceases to be a power series"
         yield from _beside(group, kernels, why, given)
 
 
 def _materials() -> Iterator[HardCase]:
+    """Yield cases at zeros and switch points that depend on the elastic constants."""
     why = "lam = mu, where the other of the two becomes the unit"
     for kernels, more in (((*SUMS, *CLAMPED, *BOUNDS), {}), (FAR_EDGES, {"P": _FORCE})):
         given = exactly(**more, a=0.3, h=0.2, b=1.0, lam=around(MU), mu=MU)
         yield from _beside(EDGE, kernels, why, given)
-    place = math.sqrt((LAM + 2 * MU) / (2 * LAM))
-    given = exactly(a=0.3, h=around(place), b=1.0, **_STEEL)
-    why = f"h/b = {place:.4g}, where 1 - 2 n eta^2, which goes with bending, passes zero"
+    switch = math.sqrt((LAM + 2 * MU) / (2 * LAM))
+    given = exactly(a=0.3, h=around(switch), b=1.0, **_STEEL)
+    why = f"h/b = {switch:.4g}, where 1 - 2 n eta^2, which goes with bending, passes zero"
     yield from _beside(EDGE, (*SUMS, *BOUNDS[:1]), why, given)
     n = LAM / (LAM + 2 * MU)
     level = 1000 / sum(c * n**i for i, c in enumerate(LEVEL))
-    place = math.sqrt(1 / (2 * n * (1 - 2 * level)))
-    given = exactly(a=0.3, h=around(place), b=1.0, **_STEEL)
-    why = f"h/b = {place:.4g}, where 1 - s, which goes with a clamp's bending, passes zero"
+    switch = math.sqrt(1 / (2 * n * (1 - 2 * level)))
+    given = exactly(a=0.3, h=around(switch), b=1.0, **_STEEL)
+    why = f"h/b = {switch:.4g}, where 1 - s, which goes with a clamp's bending, passes zero"
     yield from _beside(EDGE, (*CLAMPED, *BOUNDS[1:]), why, given)
 
 
@@ -127,6 +135,7 @@ def _materials() -> Iterator[HardCase]:
 
 
 def _back_face() -> Iterator[HardCase]:
+    """Yield cases at the switch points of the stress on the back face."""
     every = ("far_stress", *FAR_EDGES)
     thin, wide = float(back_face_tables.THIN), float(back_face_tables.WIDE)
     for width in (1e-3, 0.3, 0.89):
@@ -139,46 +148,48 @@ def _back_face() -> Iterator[HardCase]:
         yield from _beside(FAR, every if h == 2.0**-5 else every[:1], why, given)
     pair = float(blocks()["sinh_pair"].value.at)
     for mode in _MODES:
-        place = pair / (2 * _zero(mode))
-        given = exactly(P=_FORCE, a=0.3, h=around(place), b=1.0, **_STEEL)
+        switch = pair / (2 * _zero(mode))
+        given = exactly(P=_FORCE, a=0.3, h=around(switch), b=1.0, **_STEEL)
         why = f"T = {pair:g} of mode {mode}, where B(T) ceases to be a power series"
         yield from _beside(FAR, every if mode == 1 else every[:1], why, given)
     for mode in (1, 10):
-        place = _last_mode(back_face_tables.FADED, mode)
-        same = {"P": _FORCE, "a": 0.3, "b": 1.0, **_STEEL}
-        why = f"h/b = {place:.4g}, beyond which the sum takes a mode less"
-        yield from _one_by_one(FAR, every[:1], place, why, "h", same)
+        switch = _last_mode(back_face_tables.FADED, mode)
+        constants = {"P": _FORCE, "a": 0.3, "b": 1.0, **_STEEL}
+        why = f"h/b = {switch:.4g}, beyond which the sum takes a mode less"
+        yield from _one_by_one(FAR, every[:1], switch, why, "h", constants)
     yield from _shape(FAR, every, {"P": _FORCE})
 
 
-# --- the sphere, the true pressure
+# --- spherical profile and non-Hertzian pressure
 
 
 def _sphere() -> Iterator[HardCase]:
-    place = math.sqrt(effect_tables.NEAR)
+    """Yield cases at the switch point of the contact with a spherical profile."""
+    switch = math.sqrt(effect_tables.NEAR)
     why = f"(a/R)^2 = {float(effect_tables.NEAR):g}, where a series hands over to the logarithm"
-    yield from _beside(SPHERE, ("sphere_contact",), why, exactly(a_over_R=around(place)))
+    yield from _beside(SPHERE, ("sphere_contact",), why, exactly(a_over_R=around(switch)))
 
 
 def _pressure() -> Iterator[HardCase]:
-    same: dict[str, float] = {"R": 1e3, "modulus": 7e10}
+    """Yield cases at the switch points of the integral equation for the pressure."""
+    constants: dict[str, float] = {"R": 1e3, "modulus": 7e10}
     thin = float(pressure_tables.THIN)
     for a in (0.01, 1.0, 3.0, 5.9):
-        given = exactly(a=a, h=1.0, b=around(thin), **same)
+        given = exactly(a=a, h=1.0, b=around(thin), **constants)
         why = f"b = {thin:g} h, beyond which a thin plate's integral serves; a = {a:g} h"
         yield from _beside(PRESSURE, ("contact",), why, given)
         yield from _beside(PRESSURE, ("pressure",), why, exactly(r=0.75 * a) | given)
     for mode in (1, 20):
-        place = _last_mode(pressure_tables.FADED, mode)
-        given = exactly(a=0.3, h=around(place), b=1.0, **same)
-        why = f"h/b = {place:.4g}, beyond which the kernel takes a mode less"
+        switch = _last_mode(pressure_tables.FADED, mode)
+        given = exactly(a=0.3, h=around(switch), b=1.0, **constants)
+        why = f"h/b = {switch:.4g}, beyond which the kernel takes a mode less"
         yield from _beside(PRESSURE, ("contact",), why, given)
     low = pressure_tables.LOW
-    places = [y for y in pressure_tables.wall_places() if low / y < 0.9]
-    for y in (places[0], places[len(places) // 2], places[-1]):
-        given = exactly(a=around(low / y), h=1.0, b=1.0, **same)
+    nodes = [y for y in pressure_tables.wall_places() if low / y < 0.9]
+    for y in (nodes[0], nodes[len(nodes) // 2], nodes[-1]):
+        given = exactly(a=around(low / y), h=1.0, b=1.0, **constants)
         why = f"y a/b = {low:g} at y = {y:.4g}, where sinh(x)/x ceases to be a power series"
         yield from _beside(PRESSURE, ("contact",), why, given)
     widest = float(pressure_tables.WIDEST_SHARE)
     why = f"a = {widest:g} b, the widest contact that is solved"
-    yield from _last(PRESSURE, ("contact",), widest, why, {"h": 1.0, "b": 1.0, **same})
+    yield from _last(PRESSURE, ("contact",), widest, why, {"h": 1.0, "b": 1.0, **constants})

@@ -1,4 +1,4 @@
-"""The material of hard cases in which it does not matter."""
+"""Elastic constants for hard cases that do not depend on the material."""
 
 LAM, MU = 1.2e11, 8.1e10
 """Steel [Pa]."""

@@ -1,4 +1,4 @@
-"""The plate's hard cases: those written by hand, the families, and what they are compared with."""
+"""The hard cases of the plate: written cases, generated families, functions and references."""
 
 import importlib
 from functools import cache

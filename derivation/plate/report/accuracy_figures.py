@@ -1,4 +1,4 @@
-"""Figures of what accuracy costs, from the committed measurement: digits over time, and scaling."""
+"""Figures of the benchmark from its record: correct digits against run time, and scaling."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
@@ -19,13 +19,13 @@ TASKS = {
 }
 KINDS = {"vector": "in arrays", "single": "by single calls"}
 TICKS = (0, 3, 6, 9, 12, 15, 30, 100, 1000)
-"""Digits marked on the axis: they are logarithms themselves, so up to DOUBLE it is even."""
+"""Tick marks of the axis of digits, which is linear up to `DOUBLE`."""
 
 DOUBLE = 16.0
-"""Digits of a double; beyond, the axis is logarithmic."""
+"""Digits of double precision; above this value the axis is logarithmic."""
 
 MARKERS = {"float32": "s", "float64": "o", "long double": "D", "mpmath": "^", "Arb": "v"}
-"""Markers; only doubles are joined by lines and filled."""
+"""Markers by arithmetic; only those of doubles are filled and connected by lines."""
 
 COLOURS = (*mpl.color_sequences["tab10"], *mpl.color_sequences["Dark2"])
 
@@ -33,7 +33,7 @@ Row = Mapping[str, Any]
 
 
 def accuracy_figures(data: Mapping[str, Any]) -> dict[str, Figure]:
-    """Return every figure by name; the same data give the same figures."""
+    """Return all figures of the benchmark by name."""
     found = {
         f"work_precision_{task}_{kind}": work_precision(data, task, kind)
         for task in TASKS
@@ -43,7 +43,7 @@ def accuracy_figures(data: Mapping[str, Any]) -> dict[str, Figure]:
 
 
 def work_precision(data: Mapping[str, Any], task: str, kind: str) -> Figure:
-    """Draw a panel for each test case, digits against time per point, and the legend."""
+    """Draw digits against time per point, one panel for each test case, and the legend."""
     rows = [row for row in data["rows"] if row["task"] == task]
     families = list(dict.fromkeys(row["family"] for row in rows))
     colours = dict(zip(families, COLOURS, strict=False))
@@ -51,8 +51,8 @@ def work_precision(data: Mapping[str, Any], task: str, kind: str) -> Figure:
         figure = Figure(figsize=(6.5, 4.5), layout="constrained")
         *axes, legend = figure.subplots(2, 3, sharex=True).flat
         for ax, regime in zip(axes, data["regimes"], strict=True):
-            mine = [row for row in rows if row["regime"] == regime["name"] and drawn(row, kind)]
-            draw_panel(ax, mine, kind, colours)
+            shown = [row for row in rows if row["regime"] == regime["name"] and drawn(row, kind)]
+            draw_panel(ax, shown, kind, colours)
             ax.set_title(f"{regime['name']}, h/b = {regime['h'] / regime['b']:g}", fontsize=8)
         for ax in axes[2:]:
             ax.tick_params(labelbottom=True)
@@ -70,14 +70,14 @@ def work_precision(data: Mapping[str, Any], task: str, kind: str) -> Figure:
 
 
 def drawn(row: Row, kind: str) -> bool:
-    """Return whether a row has digits and a time to show."""
+    """Return whether a row has both digits and a time."""
     return row["fails"] is None and row["errors"] is not None and row[kind] is not None
 
 
 def draw_panel(
     ax: Axes, rows: Sequence[Row], kind: str, colours: Mapping[str, Any]
 ) -> None:  # fmt: skip
-    """Draw the points of each family, those in doubles joined by lines, and the Pareto front."""
+    """Draw the results of each family of methods, and the Pareto front."""
     front = np.array(pareto_front(rows, kind))
     if front.size:
         ax.step(front[:, 0], front[:, 1], where="post", color="0.8", lw=3, zorder=0)
@@ -99,19 +99,19 @@ def draw_panel(
 
 
 def height(digits: Any) -> Any:
-    """Return the position of digits on the axis."""
+    """Transform digits to positions on the axis."""
     beyond = DOUBLE * (1 + np.log(np.maximum(digits, DOUBLE) / DOUBLE) / 2)
     return np.where(digits > DOUBLE, beyond, digits)
 
 
-def digits_at(place: Any) -> Any:
-    """Return the digits at a position on the axis."""
-    beyond = DOUBLE * np.exp(2 * (np.maximum(place, DOUBLE) / DOUBLE - 1))
-    return np.where(place > DOUBLE, beyond, place)
+def digits_at(position: Any) -> Any:
+    """Transform positions on the axis to digits; the inverse of `height`."""
+    beyond = DOUBLE * np.exp(2 * (np.maximum(position, DOUBLE) / DOUBLE - 1))
+    return np.where(position > DOUBLE, beyond, position)
 
 
 def series(rows: Sequence[Row], kind: str) -> dict[tuple[str, str], list[tuple[float, float]]]:
-    """Return time and digits by family and kind of arithmetic, in the order measured."""
+    """Return times and digits by family and arithmetic, in the order of the record."""
     found: dict[tuple[str, str], list[tuple[float, float]]] = {}
     for row in rows:
         arithmetic = row["arithmetic"].split(",")[0]
@@ -121,7 +121,7 @@ def series(rows: Sequence[Row], kind: str) -> dict[tuple[str, str], list[tuple[f
 
 
 def pareto_front(rows: Sequence[Row], kind: str) -> list[tuple[float, float]]:
-    """Return times and digits of the methods that no faster method surpasses."""
+    """Return times and digits of the methods that are more accurate than all faster ones."""
     front: list[tuple[float, float]] = []
     for time, digits in sorted((row[kind]["seconds"], row["errors"]["total"]) for row in rows):
         if not front or digits > front[-1][1]:
@@ -130,7 +130,7 @@ def pareto_front(rows: Sequence[Row], kind: str) -> list[tuple[float, float]]:
 
 
 def keys(rows: Sequence[Row], colours: Mapping[str, Any]) -> Iterator[Line2D]:
-    """Yield the entries of the legend: families, kinds of arithmetic, and the front."""
+    """Yield the entries of the legend: families, arithmetics, and the Pareto front."""
     for family, colour in colours.items():
         yield Line2D([], [], color=colour, marker="o", ms=3, label=family)
     used = {row["arithmetic"].split(",")[0] for row in rows}
@@ -141,7 +141,7 @@ def keys(rows: Sequence[Row], colours: Mapping[str, Any]) -> Iterator[Line2D]:
 
 
 def scaling(data: Mapping[str, Any]) -> Figure:
-    """Draw time against points, thinness, digits and scenes."""
+    """Draw run time against number of points, b/h, digits and number of scenes."""
     titles = list(dict.fromkeys(growth["what"] for growth in data["scaling"]))
     with mpl.rc_context(STYLE | {"font.size": 8}):
         figure = Figure(figsize=(6.5, 4.6), layout="constrained")
@@ -150,7 +150,7 @@ def scaling(data: Mapping[str, Any]) -> Figure:
                 if growth["what"] == what:
                     draw_growth(ax, growth)
             ax.set(xscale="log", yscale="log", xlabel=what, ylabel="time [s]")
-            if what == "digits":  # not a decade: the sizes themselves, or labels overlap
+            if what == "digits":  # tick labels at powers of ten would overlap with minor ones
                 sizes = sorted({x for g in data["scaling"] if g["what"] == what for x in g["x"]})
                 ax.set_xticks(sizes, [f"{x:g}" for x in sizes])
                 ax.xaxis.set_minor_locator(NullLocator())
@@ -159,7 +159,7 @@ def scaling(data: Mapping[str, Any]) -> Figure:
 
 
 def draw_growth(ax: Axes, growth: Mapping[str, Any]) -> None:
-    """Draw the times, and the line through the last three."""
+    """Draw the times, and the power law fitted to the last three."""
     x, seconds = np.array(growth["x"]), np.array(growth["seconds"])
     middle = np.exp(np.log(seconds[-3:]).mean() - growth["slope"] * np.log(x[-3:]).mean())
     (line,) = ax.plot(x, seconds, "o-", ms=3, label=growth["method"])

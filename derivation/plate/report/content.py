@@ -1,4 +1,4 @@
-"""Formulas, findings and committed measurements -> what the report's templates show."""
+"""Values of the templates of the report from formulas, misprints and recorded measurements."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
@@ -21,9 +21,9 @@ from derivation.plate.vocabulary import PLATE, M, eta, r, z
 Data = Mapping[str, Any]
 
 HALF = 2.0**26
-"""Error [ULP] that is half of the bits of a double."""
+"""Error at which half of the digits of a double are lost [ULP]."""
 ROOT_DIGITS = 12
-"""Digits certified of what the roots add, more than are shown."""
+"""Number of certified digits of the contributions of the roots; fewer are printed."""
 
 
 def navier() -> list[str]:

@@ -28,7 +28,7 @@ SHOWN = 0.3
 
 
 def elastodynamics_context(data: Row) -> dict[str, Any]:
-    """Return what the template shows: rows of both tables and what they amount to."""
+    """Return the values of the template: rows of both tables, and largest differences."""
     rows = list(_compared(data))
     rejected = [row for row in data["impacts"] if "refused" in row.get("program", {})]
     own = [row["errors"][name] for row in rows for name in RESULTS]
@@ -45,7 +45,7 @@ def elastodynamics_context(data: Row) -> dict[str, Any]:
 
 
 def elastodynamics_figure(data: Row) -> Figure:
-    """Draw the largest difference over what is stated, and over the time of an edge echo."""
+    """Draw the largest difference over the stated error, and over contact time/edge echo."""
     rows = list(_compared(data))
     with mpl.rc_context(STYLE | {"font.size": 8}):
         figure = Figure(figsize=(6.5, 2.9), layout="constrained")
@@ -84,13 +84,13 @@ def _stated(row: Row) -> float:
 
 
 def _excess(row: Row) -> float:
-    """Return the largest difference over what is stated and the elements' own error [1]."""
+    """Return the largest difference relative to stated error plus error of the elements [1]."""
     stated = _stated(row)
     return max(x / (stated + float(row["errors"][name])) for name, x in _differences(row).items())
 
 
 def _impact_row(row: Row) -> str:
-    """Return the cells of an impact: differences in 1/1000 beside the elements' own errors."""
+    """Return the cells of an impact: differences, and errors of the elements, in 1/1000."""
     values, elements = row["program"]["values"], row["elements"]
     cells = [escape(row["name"]), f"{row['contacts']}/{row['program']['contacts']}"]
     for name in RESULTS:

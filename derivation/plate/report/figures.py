@@ -20,12 +20,13 @@ from generated.impact import Impact, history, impact
 from generated.perturbation import printed_motion
 
 TRUNCATIONS = (25, 50, 100, 200, 400)
+"""Numbers of modes of the published sums that are compared."""
 COUNTS = np.unique(np.geomspace(5, 1000, 25).astype(int))
 """Numbers of modes in the figure of the divergent sum."""
 THICKNESS = np.geomspace(0.04, 1.0, 49)
-"""h/b of figure 2 and of the peaks."""
+"""h/b in the figures of contact time and of largest force and indentation."""
 PLATES = (0.02, 0.05, 0.1, 0.2, 0.53, 2.0)
-"""h/b of the law's figure; at 0.53 the first correction changes sign."""
+"""h/b in the figure of the contact law; at 0.53 the coefficient c_1 changes sign."""
 
 
 @dataclass(frozen=True)
@@ -37,28 +38,29 @@ class Extremes:
 
 
 def corrected_impact(case: Model) -> Extremes:
-    """Return the extremes by the corrected law."""
+    """Return contact time and largest force according to the corrected law."""
     found = impact(case.R, case.m, case.v0, case.h, case.b, case.lam, case.mu)
     return Extremes(float(found.contact_time), float(found.max_force))
 
 
 def linear_impact(case: Model, modes: int) -> Extremes:
-    """Return the extremes by the published linear term: half a period of a spring."""
+    """Return the same for the published linear term: half a period of a linear oscillator."""
     time = printed_motion(*case.numbers, modes).contact_time
     return Extremes(time, pi * case.m * case.v0 / time)
 
 
 def figures(case: Model, impact_of: Result, gamma_2: float) -> dict[str, Figure]:
-    """Return every figure of the paper's case by name.
+    """Return all figures of the example of the paper by name.
 
     Parameters
     ----------
     case
-        The paper's case.
+        The example of the paper.
     impact_of
-        Its simulation.
+        The result of its simulation.
     gamma_2
-        The convergent coefficient of the force in the indentation [m/N].
+        Coefficient of the linear term of the indentation as a function of the force, from a
+        convergent sum [m/N].
     """
     drawings: dict[str, Callable[[Figure, Model], None]] = {
         "figure1": draw_history,
@@ -74,6 +76,7 @@ def figures(case: Model, impact_of: Result, gamma_2: float) -> dict[str, Figure]
 
 
 def _drawn(draw: Callable[[Figure, Model], None], case: Model) -> Figure:
+    """Return a figure in the style of the report, drawn by a function."""
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(6.3, 3.1), layout="constrained")
         draw(figure, case)
@@ -81,16 +84,19 @@ def _drawn(draw: Callable[[Figure, Model], None], case: Model) -> Figure:
 
 
 def draw_history(figure: Figure, case: Model) -> None:
-    """Draw figure 1: indentation over time, as published with two truncations, and corrected."""
+    """Draw the indentation over time as published, for two truncations, and as corrected.
+
+    This corresponds to figure 1 of the paper.
+    """
     axes = figure.subplots(1, 2, sharey=True)
     reference = impact(case.R, case.m, case.v0, case.h, case.b, case.lam, case.mu)
     t = np.linspace(0.0, float(reference.contact_time), 400)
-    right = history(t, case.R, case.m, case.v0, case.h, case.b, case.lam, case.mu)
+    corrected = history(t, case.R, case.m, case.v0, case.h, case.b, case.lam, case.mu)
     for ax, modes in zip(axes, (100, 400), strict=True):
         motion = printed_motion(*case.numbers, modes)
         early = np.linspace(0.0, motion.contact_time, 4001)
         half = early[early <= motion.contact_time / 2]
-        ax.plot(1e3 * t, 1e3 * right.indentation, "k", label="corrected law")
+        ax.plot(1e3 * t, 1e3 * corrected.indentation, "k", label="corrected law")
         ax.plot(1e3 * early, 1e3 * motion.linear(early), "--", label="linear term (15)")
         ax.plot(1e3 * half, 1e3 * motion.corrected(half), label="correction (16), as published")
         fixed = printed_motion(*case.numbers, modes, corrected=True)
@@ -104,27 +110,33 @@ def draw_history(figure: Figure, case: Model) -> None:
 
 
 def draw_contact_time(figure: Figure, case: Model) -> None:
-    """Draw figure 2: contact time over h/b for truncations, corrected law and Hertz's law."""
+    """Draw the contact time over h/b as published, for several truncations, and as corrected.
+
+    This corresponds to figure 2 of the paper; the Hertz theory is shown, too.
+    """
     ax = figure.subplots()
     plates = [replace(case, h=case.b * ratio) for ratio in THICKNESS]
     for modes in TRUNCATIONS:
         times = [printed_motion(*plate.numbers, modes).contact_time for plate in plates]
         ax.plot(THICKNESS, 1e3 * np.array(times), "--", lw=0.9, label=f"published, {modes} modes")
-    right = _impacts(case, THICKNESS)
-    ax.plot(THICKNESS, 1e3 * right.contact_time, "k", label="corrected law")
+    corrected = _impacts(case, THICKNESS)
+    ax.plot(THICKNESS, 1e3 * corrected.contact_time, "k", label="corrected law")
     ax.axhline(1e3 * hertz_contact_time(case), color="tab:red", lw=0.9, label="Hertz")
     ax.set(xscale="log", xlabel="h/b", ylabel="contact time [ms]")
     ax.legend(fontsize=7)
 
 
 def draw_peaks(figure: Figure, case: Model) -> None:
-    """Draw largest force and indentation over h/b, relative to Hertz's."""
+    """Draw largest force and indentation over h/b, relative to Hertz theory."""
     ax = figure.subplots()
-    right = _impacts(case, THICKNESS)
+    corrected = _impacts(case, THICKNESS)
     force, indentation = hertz_peaks(case)
-    ax.plot(THICKNESS, right.max_force / force, "k", label="maximum force / Hertz's")
+    ax.plot(THICKNESS, corrected.max_force / force, "k", label="maximum force / Hertz's")
     ax.plot(
-        THICKNESS, right.max_indentation / indentation, "k--", label="maximum indentation / Hertz's"
+        THICKNESS,
+        corrected.max_indentation / indentation,
+        "k--",
+        label="maximum indentation / Hertz's",
     )
     ax.axhline(1.0, color="tab:red", lw=0.9)
     ax.set(xscale="log", yscale="log", xlabel="h/b")
@@ -132,21 +144,21 @@ def draw_peaks(figure: Figure, case: Model) -> None:
 
 
 def draw_law(figure: Figure, case: Model) -> None:
-    """Draw indentation and force relative to the half-space's over the contact radius."""
+    """Draw indentation and force over a/h, relative to a half-space."""
     axes = figure.subplots(1, 2)
     for ratio in PLATES:
         h = ratio * case.b
         a = np.geomspace(1e-3 * h, min(6.0 * h, case.b), 200)
-        depth = indentation(a, case.R, h, case.b) * case.R / a**2
-        axes[0].plot(a / h, depth, label=f"h/b = {ratio:g}")
-        axes[1].plot(a / h, depth**-1.5, label=f"h/b = {ratio:g}")
+        ratio_to_hertz = indentation(a, case.R, h, case.b) * case.R / a**2
+        axes[0].plot(a / h, ratio_to_hertz, label=f"h/b = {ratio:g}")
+        axes[1].plot(a / h, ratio_to_hertz**-1.5, label=f"h/b = {ratio:g}")
     for ax, what in zip(axes, ("indentation", "force"), strict=True):
         ax.set(xscale="log", yscale="log", xlabel="a/h", title=f"{what} / Hertz's")
     axes[0].legend(fontsize=7)
 
 
 def _impacts(case: Model, ratios: NDArray[np.float64]) -> Impact:
-    """Return impacts by the corrected law for several h/b at once."""
+    """Return impacts according to the corrected law for several h/b."""
     return impact(case.R, case.m, case.v0, ratios * case.b, case.b, case.lam, case.mu)
 
 
@@ -174,7 +186,7 @@ def draw_divergence(figure: Figure, case: Model, gamma_2: float) -> None:
 
 
 def motion_context(case: Model) -> dict[str, Any]:
-    """Return the paper's case in numbers: as published with truncations, and corrected."""
+    """Return the values of the template: example of the paper as published and as corrected."""
     found = impact(case.R, case.m, case.v0, case.h, case.b, case.lam, case.mu)
     corrected = corrected_impact(case)
     hertz = Extremes(hertz_contact_time(case), hertz_peaks(case)[0])
@@ -201,7 +213,7 @@ def motion_context(case: Model) -> dict[str, Any]:
 
 
 def _compared(law: Extremes, corrected: Extremes) -> list[str]:
-    """Return the cells of an impact: contact time and force, with ratios to the corrected ones."""
+    """Return table cells of an impact: contact time and force, with ratios to corrected values."""
     return [
         f"{1e3 * law.contact_time:.3f}", f"{law.contact_time / corrected.contact_time:.3f}",
         f"{1e-3 * law.force:.2f}", f"{law.force / corrected.force:.3f}",
@@ -209,7 +221,7 @@ def _compared(law: Extremes, corrected: Extremes) -> list[str]:
 
 
 def _real_until(case: Model, modes: int) -> list[str]:
-    """Return the times until which the correction (16) is real, for both forms of xi_3."""
+    """Return table cells: times up to which the correction (16) is real, for both forms of xi_3."""
     if not modes:
         return ["", ""]
     both = (printed_motion(*case.numbers, modes, corrected=fixed) for fixed in (False, True))

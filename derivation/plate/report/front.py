@@ -1,4 +1,4 @@
-"""The report's title page: what was run, what came out, and with which versions."""
+"""The first page of the report: main findings, results of each stage, and versions."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
@@ -17,7 +17,7 @@ from derivation.scene.model import Model
 from generated.manifest import KERNELS
 
 ENDS = (TRUNCATIONS[0], TRUNCATIONS[-1])
-"""Fewest and most modes of the published sums that the summary states."""
+"""Smallest and largest number of modes of the published sums in the summary."""
 TITLE = "Contact of a rigid sphere with an elastic plate"
 SUBTITLE = "Misprints of the paper, corrected contact law, accuracy"
 Data = Mapping[str, Any]
@@ -30,7 +30,7 @@ def front_context(
     sources: Mapping[str, str],
     case: Model,
 ) -> dict[str, Any]:
-    """Return the findings in numbers, the results of each stage, and the versions."""
+    """Return the values of the template."""
     provenance = measured["check"]["provenance"]
     versions = sorted((k, v) for k, v in provenance.items() if k not in ("digits", "generated"))
     return {
@@ -45,6 +45,7 @@ def front_context(
 
 
 def _misprints_in_short(findings: Sequence[Finding], case: Model) -> dict[str, Any]:
+    """Return the number of misprints, and their effect on the example of the paper."""
     corrected, first, last = corrected_impact(case), *(linear_impact(case, n) for n in ENDS)
     return {
         "wrong": sum(finding.is_misprint for finding in findings),
@@ -61,6 +62,7 @@ def _misprints_in_short(findings: Sequence[Finding], case: Model) -> dict[str, A
 
 
 def _stability_in_short(findings: Sequence[Finding], rows: Sequence[Data]) -> dict[str, Any]:
+    """Return the number of formulas that lose digits as published, and the budget used [%]."""
     published = list(published_errors(rows, misprinted(findings)))
     used = max(row["double"]["ratio"] for row in rows if row["passed"] is not None)
     lost = [loses(row) and not loses(generated) for row, generated in published]
@@ -68,6 +70,7 @@ def _stability_in_short(findings: Sequence[Finding], rows: Sequence[Data]) -> di
 
 
 def _cost_in_short(found: Data) -> dict[str, Any]:
+    """Return digits and run time of the generated law, and of the best direct sum."""
     best = found["reached"][-1]
     return {
         "called": duration(found["called"]),
@@ -83,7 +86,7 @@ def stages(
     measured: Mapping[str, Data],
     sources: Mapping[str, str],
 ) -> Iterator[tuple[str, str]]:
-    """Yield each command with its outcome in numbers."""
+    """Yield table rows: each command with the numbers of its result."""
     formulas = [formula for _, found in links for formula in found]
     residuals = {(f.proof.step, name) for f in formulas for name in f.proof.residuals}
     yield (
@@ -111,7 +114,7 @@ def stages(
 
 
 def checks(measured: Mapping[str, Data]) -> Iterator[tuple[str, str]]:
-    """Yield the checks: number of comparisons, and the largest fraction of a limit used."""
+    """Yield table rows of the checks: number of comparisons, and largest fraction of a limit."""
     rows = [row for row in measured["check"]["rows"] if row["passed"] is not None]
     yield (
         code("check"),
@@ -164,5 +167,5 @@ def checks(measured: Mapping[str, Data]) -> Iterator[tuple[str, str]]:
 
 
 def used(ratio: float, what: str = "allowed error") -> str:
-    """Return the fraction of a limit that was used, as text."""
+    """Return the used fraction of a limit as text."""
     return f"at most {100 * ratio:.0f}" + rf"\,\% of the {what} used"

@@ -1,4 +1,4 @@
-"""Generated functions as they are, without their docstrings, cut out of the package's source."""
+"""Source code of generated functions for the report, without docstrings."""
 
 import ast
 from collections.abc import Iterator, Mapping
@@ -17,7 +17,7 @@ SHOWN = {
 }
 """Short functions of one formula each, and the module of `generated` that holds them."""
 LAW = {"_forces": "plate_arrays", "_contact": "plate_arrays"}
-"""What no formula states: the inverse law, which solves for the contact radius."""
+"""Functions without a formula: the inverse law, which solves for the contact radius."""
 
 
 def listings_context(sources: Mapping[str, str], formulas: Mapping[str, Record]) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""The README's picture: an impact on a pane, and what digits of the law cost."""
+"""The figure of the README: force of an impact, and digits of the contact law over run time."""
 
 from collections.abc import Mapping
 from typing import Any

@@ -1,4 +1,4 @@
-"""What the report says of the plate's links, and what the plate's derivation builds on."""
+"""Texts of the report about derivation steps, and the bibliography."""
 
 from pathlib import Path
 
@@ -6,7 +6,7 @@ from derivation.engine.report.references import References
 from derivation.plate.subjects import handed_in
 
 FACTOR = "G"
-"""The plate factor, by whose name it is called in formulas after its own link."""
+"""The plate factor, which is printed as a function after the step that derives it."""
 REFERENCES = References(Path(__file__).with_name("references.toml"))
 ABOUT = {link: text for about in handed_in("prose", "ABOUT") for link, text in about.items()}
-"""A few sentences by link, as the subjects hand them in."""
+"""Text about each derivation step, from the `prose` of the subjects."""

@@ -1,4 +1,4 @@
-"""What accuracy costs, from the committed measurement: for the README's block and for the site."""
+"""Accuracy and run time from the benchmark record, for the README and the documentation site."""
 
 from collections.abc import Iterator, Mapping
 from textwrap import wrap
@@ -15,12 +15,12 @@ DIGITS = (3, 6, 9, 12, 15)
 
 
 def renewed(text: str, data: Data) -> str:
-    """Return a README with the block between its markers written anew.
+    """Return the text of a README with a new block between its markers.
 
     Raises
     ------
     ValueError
-        If the markers are not there, once each and in order.
+        If the two markers do not occur once each, in this order.
     """
     before, begin, rest = text.partition(BEGIN)
     _, end, after = rest.partition(END)
@@ -30,7 +30,7 @@ def renewed(text: str, data: Data) -> str:
 
 
 def lines(data: Data) -> Iterator[str]:
-    """Yield the headline, the law's fastest methods, and the run time of an impact."""
+    """Yield the lines of the comparison, the fastest methods, and the run time of an impact."""
     yield from wrap(headline(data), 95)
     yield ""
     yield f"| digits of the contact law, {case(data)} | fastest method for arrays | per point |"

@@ -1,4 +1,4 @@
-"""Where the report's numbers come from: the measurements' files, and what they were made with."""
+"""Table of the report: files of measurements, their commands, and their provenance."""
 
 import hashlib
 from collections.abc import Iterator, Mapping
@@ -21,7 +21,7 @@ RENEWED = {
     "rewrite": "platecontact rewrite --update",
     "speed": "platecontact check timing --update",
 }
-"""The command that renews a measurement."""
+"""Command that repeats a measurement."""
 DIGITS = 16
 
 

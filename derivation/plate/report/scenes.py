@@ -1,4 +1,4 @@
-"""The effects tables of scenes as the report shows them, by the selection of every simulation."""
+"""Tables of the report: the effect selection for example scenes."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -9,7 +9,7 @@ from derivation.scene.effects import EFFECTS
 from derivation.scene.scene import Scene
 
 HEADS = ("effect", "parameter", "value", "max. change", "status", "reason")
-"""Heads of the effects table, shorter than on the screen."""
+"""Headings of the table, shorter than those of `platecontact explain`."""
 
 
 def effects_context(scenes: Mapping[str, Scene]) -> dict[str, Any]:
@@ -22,7 +22,7 @@ def effects_context(scenes: Mapping[str, Scene]) -> dict[str, Any]:
 
 
 def scene_context(name: str, scene: Scene) -> dict[str, Any]:
-    """Return the effects table of a scene, and the decision as a sentence."""
+    """Return the table of effects of a scene, and a sentence that states the selection."""
     found = explain(scene)
     rows = [
         " & ".join(

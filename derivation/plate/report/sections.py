@@ -1,4 +1,4 @@
-"""The report's sections in order, and what each one's template is filled with."""
+"""The sections of the report in order, and the values for their templates."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -37,26 +37,26 @@ from derivation.scene.scene import Scene
 
 @dataclass(frozen=True)
 class Material:
-    """All that the report is a function of.
+    """The input of the report.
 
     Attributes
     ----------
     links
-        The chain's links with their formulas.
+        The derivation steps with their formulas.
     findings
-        Every printed formula against the derived one.
+        The comparison of each published formula with the derived one.
     data
-        Contents of the committed measurements' files by name.
+        Contents of the files of recorded measurements by name.
     measured
-        The same, read.
+        The same, parsed.
     case
-        The paper's case.
+        The example of the paper.
     scenes
         Example scenes by name.
     sources
         Text of the generated modules by name.
     version, citation
-        Of this program, and the paper's title.
+        Version of this program, and title of the paper.
     """
 
     links: Sequence[tuple[str, Sequence[Record]]]
@@ -71,7 +71,7 @@ class Material:
 
     @cached_property
     def formulas(self) -> dict[str, Record]:
-        """Every formula by name."""
+        """All formulas by name."""
         return {formula.name: formula for _, found in self.links for formula in found}
 
 
@@ -180,14 +180,14 @@ CONTEXTS: dict[str, Callable[[Material], dict[str, Any]]] = {
     "reproducibility": lambda m: {"reproducibility": reproducibility_context(m.data, m.measured)},
     "cases": lambda m: {"hard": hard_context(m.measured["hard"])},
 }
-"""What fills `templates/sections/NAME.tex.j2`, by name, in the report's order."""
+"""Functions for the values of `templates/sections/NAME.tex.j2`, in the order of the report."""
 PLAN = Plan(tuple(CONTEXTS)[:7], tuple(CONTEXTS)[7:])
 
 
 def parts(material: Material, shown: Sequence[str]) -> Parts:
     """Return the LaTeX of the named sections; it depends on theory, code and measurements only."""
-    made = environment(TEMPLATES)
-    front = made.get_template("front.tex.j2").render(
+    templates = environment(TEMPLATES)
+    front = templates.get_template("front.tex.j2").render(
         title=TITLE,
         version=material.version,
         citation=material.citation,
@@ -196,7 +196,7 @@ def parts(material: Material, shown: Sequence[str]) -> Parts:
         ),
     )
     sections = {
-        name: made.get_template(f"sections/{name}.tex.j2").render(**CONTEXTS[name](material))
+        name: templates.get_template(f"sections/{name}.tex.j2").render(**CONTEXTS[name](material))
         for name in shown
     }
     return Parts(TITLE, front, sections, REFERENCES)

@@ -1,4 +1,4 @@
-"""The set-up as a drawing: sphere and plate in section, with coordinates and lengths."""
+"""Figure of the report: section through sphere and plate, with coordinates and lengths."""
 
 from math import pi
 from typing import Any

@@ -1,4 +1,4 @@
-"""The contact law in the report: its formulas, where it holds, and a map of what it calls for."""
+"""Values of the template: formulas of the contact law, and its range of validity."""
 
 from collections.abc import Mapping
 from typing import Any

@@ -27,6 +27,7 @@ from derivation.scene.effects.inertia import (
 from derivation.scene.effects.plasticity import plastic_restitution
 from derivation.scene.effects.viscosity import viscous_number
 from derivation.scene.model import Model
+from derivation.scene.scene import Scene
 
 if TYPE_CHECKING:
     from derivation.scene.law import ContactLaw
@@ -52,12 +53,17 @@ class Damping(Effect):
     static = False
     damps = True
     takes_rows = False
+    remedy = "give plate.loss_factor and plate.density [kg/m^3]"
 
     def not_applicable_reason(self, model: Model) -> str:
         """Return a reason if the loss factor or the density is missing."""
         if not model.loss_factor:
             return "no plate.loss_factor"
         return "" if model.density else "no plate.density, so that the plate has no inertia"
+
+    def without_change(self, scene: Scene) -> bool:
+        """Return whether the given loss factor is 0."""
+        return scene.plate.loss_factor == 0.0
 
     def value(self, model: Model, a: float) -> float:  # noqa: ARG002
         """Return the loss factor."""

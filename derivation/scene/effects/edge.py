@@ -13,6 +13,7 @@ from derivation.scene.effects.effect import (
     none_of,
 )
 from derivation.scene.model import Model
+from derivation.scene.scene import Scene
 from derivation.scene.support_series import support_share
 
 SUPPORTED, CLAMPED = "simply-supported", "clamped"
@@ -33,12 +34,17 @@ class Edge(PlateEffect):
     equation = "F = (1 - nu)/(1 + nu) X supported, -X_c clamped"
     parameter = "upper bound of c_1 a/h of the edge"
     source = "polynomial states of bending and in-plane extension; step 19"
+    remedy = 'set plate.edge to "simply-supported" or "clamped"'
     reach = Reach(plate=MAX_A_OVER_B)
     other_edge = True
 
     def not_applicable_reason(self, model: Model) -> str:
         """Return a reason if the plate has the paper's edge, which the law already contains."""
         return "" if model.edge in (SUPPORTED, CLAMPED) else "the plate has the paper's edge"
+
+    def without_change(self, scene: Scene) -> bool:
+        """Return whether the plate has another edge, which no wave reaches if it is infinite."""
+        return scene.plate.edge in (SUPPORTED, CLAMPED)
 
     def value(self, model: Model, a: float) -> float:
         """Return an upper bound of its contribution to the indentation over Hertz's."""

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from derivation.scene import kernels
 from derivation.scene.model import Model
+from derivation.scene.scene import Scene
 
 if TYPE_CHECKING:
     from derivation.scene.law import ContactLaw
@@ -186,6 +187,8 @@ class Effect:
         Whether `bound` accepts many scenes at once.
     within
         Name of an effect that it is a part of; if the scene disables that, it does not apply.
+    remedy
+        What to add to a scene to which it does not apply.
     """
 
     name: ClassVar[str]
@@ -210,10 +213,15 @@ class Effect:
     damps: ClassVar[bool] = False
     takes_rows: ClassVar[bool] = True
     within: ClassVar[str] = ""
+    remedy: ClassVar[str] = ""
 
     def not_applicable_reason(self, model: Model) -> str:  # noqa: ARG002
         """Return why the effect does not apply to a scene; empty if it applies."""
         return "" if self.selectable else "shown only if the scene requests it"
+
+    def without_change(self, scene: Scene) -> bool:  # noqa: ARG002
+        """Return whether a scene gives the key of the effect, with a value that changes nothing."""
+        return False
 
     def softness(self, model: Model) -> float:  # noqa: ARG002
         """Return what it adds to E* of the plate over that of the sphere [1]."""

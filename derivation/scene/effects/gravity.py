@@ -4,6 +4,7 @@ import numpy as np
 
 from derivation.scene.effects.effect import Bound, BoundContext, Effect, none_of
 from derivation.scene.model import Model
+from derivation.scene.scene import Scene
 
 
 class Gravity(Effect):
@@ -16,10 +17,15 @@ class Gravity(Effect):
     source = "energy balance; step 22"
     static = False
     hertzian = True
+    remedy = "give impact.gravity [m/s^2]"
 
     def not_applicable_reason(self, model: Model) -> str:
         """Return a reason if the scene gives no gravity."""
         return "" if model.gravity else "no impact.gravity"
+
+    def without_change(self, scene: Scene) -> bool:
+        """Return whether the given acceleration is 0."""
+        return scene.impact.gravity == 0.0
 
     def gravity(self, model: Model) -> float:
         """Return the gravitational acceleration of the scene."""

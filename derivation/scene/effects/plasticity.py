@@ -25,6 +25,7 @@ class Plasticity(Effect):
     hertzian = True
     plastic = True
     takes_rows = False
+    remedy = "give plate.yield_stress or sphere.yield_stress [Pa]"
 
     def not_applicable_reason(self, model: Model) -> str:
         """Return a reason if no yield stress is given."""

@@ -16,6 +16,7 @@ class SphereElasticity(Effect):
     parameter = "E*/E_1*"
     source = "Hertz 1881; step 22"
     hertzian = True
+    remedy = "give sphere.material, or sphere.youngs_modulus and sphere.poissons_ratio"
 
     def not_applicable_reason(self, model: Model) -> str:
         """Return a reason if the sphere is rigid."""

@@ -27,6 +27,7 @@ class Viscosity(Effect):
     hertzian = True
     viscous = True
     takes_rows = False
+    remedy = "give plate.retardation_time or sphere.retardation_time [s]"
 
     def not_applicable_reason(self, model: Model) -> str:
         """Return a reason if no retardation time is given."""

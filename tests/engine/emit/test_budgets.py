@@ -1,4 +1,4 @@
-"""Budgets only ever tighten: against what is required, and against every version committed."""
+"""Error budgets never increase: below fixed limits, and compared with every committed version."""
 
 import dataclasses
 import subprocess
@@ -34,11 +34,11 @@ REQUIRED = {
 """Largest budgets allowed."""
 
 RELATIVE = 9.0
-"""ULP of the relative error 2e-15, the contact law's promise in versions without numbers for it."""
+"""Relative error 2e-15 in ULP: once the common budget of all functions of the contact law."""
 
 
 def git(*arguments: str) -> str | None:
-    """What git says, or None if it, or the history, is not there."""
+    """Return the output of git, or None if git or the history is not available."""
     try:
         done = subprocess.run(
             ["git", *arguments], cwd=ROOT, capture_output=True, text=True, check=False
@@ -54,9 +54,9 @@ DOMAINS = {row["name"]: row["domain"] for row in (*KERNELS, *CONTACT)}
 def looser(
     now: dict[str, Any], before: dict[str, Any], domains: Mapping[str, str] = DOMAINS
 ) -> list[str]:
-    """Kernels that promise less than before: more ULP, or a smaller domain.
+    """Return the functions with more ULP or a smaller domain than before, and larger impact errors.
 
-    That a domain ends where the tests do was true before it was said.
+    Conditions that only state the tested range (`TESTED`) do not count as a smaller domain.
     """
     found = []
     former = {row["name"]: RELATIVE for row in CONTACT} | before["ulp"]
@@ -74,7 +74,7 @@ def looser(
     return found + wider
 
 
-def test_budgets_are_within_what_is_required() -> None:
+def test_budgets_are_within_the_fixed_limits() -> None:
     found = read_budgets()
     assert {name for name, limit in REQUIRED.items() if found[name].ulp > limit} == set()
 
@@ -82,7 +82,7 @@ def test_budgets_are_within_what_is_required() -> None:
 @pytest.mark.parametrize(
     "file", [BUDGETS, *sorted(BUDGETS.parent.glob("*/budgets.toml"))], ids=lambda f: f.parent.name
 )
-def test_no_budget_was_ever_tighter(file: Path) -> None:
+def test_no_budget_has_increased(file: Path) -> None:
     versions = git("log", "--format=%H", "--", file.relative_to(ROOT).as_posix())
     if not versions:
         pytest.skip("no history to compare with")
@@ -93,7 +93,9 @@ def test_no_budget_was_ever_tighter(file: Path) -> None:
             assert looser(now, tomllib.loads(text)) == [], version
 
 
-def test_a_second_budget_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_second_budget_for_a_function_is_rejected(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(budgets, "BUDGETS", tmp_path / "budgets.toml")
     text = '[ulp]\nG = 4.0\n[domain]\nG = "T > 0"\n'
     (tmp_path / "budgets.toml").write_text(text)
@@ -103,7 +105,7 @@ def test_a_second_budget_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPa
         read_tables()
 
 
-def test_what_is_looser_is_noticed() -> None:
+def test_increased_budgets_and_smaller_domains_are_found() -> None:
     now = read_tables()
     first = {"ulp": {name: u for name, u in now["ulp"].items() if name not in REQUIRED}}
     assert looser(now, first) == []
@@ -118,7 +120,7 @@ def test_what_is_looser_is_noticed() -> None:
     assert looser(now, {**now, "domain": DOMAINS | {"G": "T > 0, T >= 1e-151, T < 9"}}) == []
 
 
-def test_every_kernel_has_a_number_and_one_rule() -> None:
+def test_every_function_has_a_budget_and_one_rule() -> None:
     data = read_tables()
     assert set(parse_budgets(data)) == {row["name"] for row in (*KERNELS, *CONTACT)}
     with pytest.raises(ValueError, match="correct delta"):
@@ -138,7 +140,7 @@ class Measured:
 
 @dataclasses.dataclass(frozen=True)
 class Line:
-    """What a suggestion looks at in a row."""
+    """The attributes of a row that a suggestion depends on."""
 
     kernel: str
     budget: float | None
@@ -152,7 +154,7 @@ class Line:
     [(8.0, 3.0, 3.75), (8.0, 3.01, 4.0), (3.75, 3.0, None), (2.0, 9.0, None), (0.51, 0.1, 0.5),
      (4.0, 0.0, 0.5), (4.0, float("inf"), None)],
 )  # fmt: skip
-def test_a_suggestion_is_the_worst_and_a_margin_in_quarters(
+def test_suggested_budget_is_the_largest_error_with_a_margin(
     budget: float, needed: float, suggested: float | None
 ) -> None:
     assert tighter(budget, needed) == suggested
@@ -160,7 +162,7 @@ def test_a_suggestion_is_the_worst_and_a_margin_in_quarters(
     assert LEAST == 0.5
 
 
-def test_suggestions_can_be_pasted_and_leave_out_what_failed() -> None:
+def test_suggestions_are_valid_toml_without_failed_functions() -> None:
     rows = [
         Line("G", 4.0, Measured(1.0), Measured(2.0), True),
         Line("P", 1.0, Measured(0.9), None, True),
@@ -171,7 +173,7 @@ def test_suggestions_can_be_pasted_and_leave_out_what_failed() -> None:
     assert suggestions(rows[1:]) == []
 
 
-def test_the_command_prints_suggestions_and_writes_nothing(
+def test_command_prints_suggestions_and_writes_no_file(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     worst = Worst((), None, ("", ""), "", 0.1, 1.0)

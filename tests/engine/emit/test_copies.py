@@ -1,4 +1,4 @@
-"""Copies of modules written by hand: the lines of the original, and what its functions promise."""
+"""Copied modules have the lines of the original; budget and domain are added to docstrings."""
 
 import ast
 import difflib
@@ -44,19 +44,18 @@ def twice(x: Double) -> Double:
 
 
 @pytest.mark.parametrize("name", ORIGINALS)
-def test_a_copy_has_the_lines_of_its_original(name: str) -> None:
-    """But for the header, imports from the package, and notes in docstrings."""
+def test_copy_has_the_lines_of_its_original(name: str) -> None:
+    """Only the header, imports from the package, and notes in docstrings differ."""
     original = ORIGINALS[name].read_text().splitlines()
     copy = (ROOT / "generated" / f"{name}.py").read_text().splitlines()
-    changes = [line for line in difflib.ndiff(original, copy) if line[0] in "+-"]
-    gone = [line[2:] for line in changes if line[0] == "-"]
-    assert all(line.startswith("from ") for line in gone)
+    removed = [line[2:] for line in difflib.ndiff(original, copy) if line[0] == "-"]
+    assert all(line.startswith("from ") for line in removed)
     text, source = (ROOT / "generated" / f"{name}.py").read_text(), ORIGINALS[name].read_text()
     assert _code(text) == _code(source)
 
 
 def _code(text: str) -> str:
-    """The syntax tree without docstrings and imports."""
+    """Return the syntax tree without docstrings and `from` imports."""
     tree = ast.parse(text)
     for node in ast.walk(tree):
         if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef):
@@ -66,7 +65,7 @@ def _code(text: str) -> str:
     return ast.dump(tree)
 
 
-def test_a_copy_promises_the_budget_and_the_domain(tmp_path: Path) -> None:
+def test_docstring_of_a_copy_states_budget_and_domain(tmp_path: Path) -> None:
     file = tmp_path / "double.py"
     file.write_text(MODULE)
     text = copied(file, "generated", "# From here.", {"twice": Budget(2.0, "the value")})
@@ -77,7 +76,7 @@ def test_a_copy_promises_the_budget_and_the_domain(tmp_path: Path) -> None:
     assert "Domain: x > 0." in docstring
 
 
-def test_a_copy_says_of_other_functions_what_it_is_told(tmp_path: Path) -> None:
+def test_notes_are_added_to_functions_without_a_budget(tmp_path: Path) -> None:
     file = tmp_path / "double.py"
     file.write_text(MODULE.replace('@in_manifest(r"2\\,x", domain="x > 0")\n', ""))
     text = copied(file, "generated", "# From here.", {}, {"twice": ("Exact.",)})
@@ -85,16 +84,16 @@ def test_a_copy_says_of_other_functions_what_it_is_told(tmp_path: Path) -> None:
     assert docstring.endswith("Notes\n-----\nExact.")
 
 
-def test_what_the_manifest_says_comes_from_the_function(tmp_path: Path) -> None:
+def test_manifest_is_read_from_the_docstring(tmp_path: Path) -> None:
     file = tmp_path / "double.py"
     file.write_text(MODULE)
     (found,) = listed_functions(file)
     (x,) = found.arguments
     assert (x.name, x.unit, x.meaning) == ("x", "m", "A length")
     assert (found.symbol, found.unit, found.meaning) == (r"2\,x", "m", "twice a length")
-    for gone, message in (("A length [m].", "unit in brackets for the argument x"),
+    for removed, message in (("A length [m].", "unit in brackets for the argument x"),
                           ("Twice as much [m].", "units of its results")):  # fmt: skip
-        file.write_text(MODULE.replace(gone, gone.partition(" [")[0]))
+        file.write_text(MODULE.replace(removed, removed.partition(" [")[0]))
         with pytest.raises(ValueError, match=message):
             listed_functions(file)
 
@@ -103,5 +102,5 @@ NUMBERS = st.one_of(st.integers(-9, 9), st.floats(allow_nan=False, allow_infinit
 
 
 @given(st.recursive(NUMBERS, lambda part: st.lists(part, max_size=30).map(tuple), max_leaves=60))
-def test_tables_read_back_as_they_were(value: object) -> None:
+def test_printed_tables_evaluate_to_the_original(value: object) -> None:
     assert ast.literal_eval(literal(value)) == value

@@ -1,4 +1,4 @@
-"""The generated package: deterministic, fresh, and standalone."""
+"""The generated package is reproducible, up to date, and needs only NumPy."""
 
 import importlib
 import os
@@ -22,33 +22,33 @@ from generated.manifest import CONTACT, KERNELS
 KERNEL = {row["name"]: row for row in KERNELS}
 
 
-def test_package_is_fresh() -> None:
+def test_package_is_up_to_date() -> None:
     freshness = build.check_generated(PAPER, None, "platecontact generate")
     assert freshness.fresh, str(freshness)
 
 
-@pytest.mark.parametrize("deed", ["delete", "edit", "add"])
-def test_every_tampering_is_seen_and_the_remedy_named(deed: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize("change", ["delete", "edit", "add"])
+def test_changed_files_are_reported_with_the_remedy(change: str, tmp_path: Path) -> None:
     copy = tmp_path / "generated"
     shutil.copytree(ROOT / "generated", copy, ignore=shutil.ignore_patterns("__pycache__"))
     expected = files_of(PAPER.chain, PAPER.package())
     assert compare(copy, expected, "regenerate").fresh
-    if deed == "delete":
+    if change == "delete":
         (copy / "omega.py").unlink()
-    elif deed == "edit":
+    elif change == "edit":
         text = (copy / "omega.py").read_text()
         (copy / "omega.py").write_text(text.replace("np.exp(", "np.cos(", 1))
     else:
         (copy / "extra.py").write_text("")
     found = compare(copy, expected, "regenerate")
     assert not found.fresh
-    remedy = "rm " if deed == "add" else "regenerate"
+    remedy = "rm " if change == "add" else "regenerate"
     assert f"run: {remedy}" in str(found)
-    assert ("+" in found.diffs["omega.py"]) if deed == "edit" else not found.diffs
+    assert ("+" in found.diffs["omega.py"]) if change == "edit" else not found.diffs
 
 
-def test_package_needs_numpy_alone(tmp_path: Path) -> None:
-    """A copy under another name, in a process that sees NumPy but not this project."""
+def test_package_needs_only_numpy(tmp_path: Path) -> None:
+    """Import a copy under another name in a process that cannot import this project."""
     shutil.copytree(ROOT / "generated", tmp_path / "plate")
     program = """
 import sys
@@ -69,14 +69,14 @@ print(float(plate.G(1.0)), float(plate.delta(0.01, 0.1, 0.13, 0.004, modes=50)))
     assert values == [generated.G(1.0), generated.delta(0.01, 0.1, 0.13, 0.004, modes=50)]
 
 
-def test_every_kernel_has_a_budget_and_every_budget_a_kernel() -> None:
+def test_budgets_and_functions_have_the_same_names() -> None:
     assert set(read_budgets()) == {row["name"] for row in (*KERNELS, *CONTACT)}
     contact = {row["name"] for row in CONTACT if row["module"] != "impact"}
     assert set(generated.__all__) == set(KERNEL) | contact
 
 
 @pytest.mark.parametrize("row", [*KERNELS, *CONTACT], ids=lambda row: row["name"])
-def test_manifest_and_docstring_show_the_whole_budget(row: dict) -> None:
+def test_manifest_and_docstring_state_the_budget(row: dict) -> None:
     budget = read_budgets()[row["name"]]
     assert (row["budget"], row["rule"]) == (budget.ulp, budget.rule)
     kernel = getattr(importlib.import_module(f"generated.{row['module']}"), row["name"])
@@ -86,23 +86,23 @@ def test_manifest_and_docstring_show_the_whole_budget(row: dict) -> None:
     assert f"Domain: {row['domain'] or 'all real numbers'}." in shown
 
 
-def test_blocks_of_modes_leave_no_switch() -> None:
-    """Sums across the block boundary equal the sum of single-mode differences."""
+def test_sums_do_not_depend_on_the_blocks_of_modes() -> None:
+    """Sums with the number of modes around the block size equal the sum of the single modes."""
     arguments = (0.01, 0.1, 0.13, 0.004)
     sums = [generated.delta(*arguments, modes=n) for n in (127, 128, 129, 257)]
     j, J1 = generated.bessel_j0_zeros(257), generated.bessel_j1_at_j0_zeros(257)
     h, b, R, a = arguments
     K = generated.K_j(j / b, h, b, R, J1)
     y = a * j / b
-    shares = K * (np.sin(y) - y * np.cos(y))
-    expected = [shares[:n].sum() for n in (127, 128, 129, 257)]
+    terms = K * (np.sin(y) - y * np.cos(y))
+    expected = [terms[:n].sum() for n in (127, 128, 129, 257)]
     np.testing.assert_allclose(sums, expected, rtol=1e-14)
 
 
-def test_a_broken_package_is_written_anew_the_same(tmp_path: Path) -> None:
-    """Derived from nothing in a process with a hash seed of its own.
+def test_broken_package_is_generated_again(tmp_path: Path) -> None:
+    """The result is the same without a cache and with another hash seed.
 
-    Nothing on the way to generation imports what was generated before.
+    Code generation must not import the generated package, whose files are invalid here.
     """
     ignore = shutil.ignore_patterns("__pycache__")
     for part in ("derivation", "generated"):
@@ -123,8 +123,8 @@ def test_a_broken_package_is_written_anew_the_same(tmp_path: Path) -> None:
     assert found.fresh, str(found)
 
 
-def test_the_kept_package_follows_its_templates_and_budgets() -> None:
-    """An edit of a template is not answered with the package as it was before."""
+def test_cached_package_depends_on_templates_and_budgets() -> None:
+    """The cache is invalid after a change of a template, a budget or a copied module."""
     plate = PACKAGE / "plate"
     needed = {*plate.rglob("*.py.j2"), *plate.rglob("budgets.toml"), *plate.rglob("runtime/*.py")}
     assert {path.name for path in needed} >= {"inertia.py", "budgets.toml"}

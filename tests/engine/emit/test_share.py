@@ -1,4 +1,4 @@
-"""What is counted as arithmetic, and which of it counts as printed."""
+"""The count of arithmetic operations, and the fraction printed from proved expressions."""
 
 import pytest
 
@@ -27,12 +27,12 @@ def f(x):
 
 def test_operations_are_counted() -> None:
     assert operations("y = -a * b + np.exp(c)\ny += 2\nz: int | None = -1\n") == 5
-    assert operations("third = -1 / 3\n") == 0, "a number"
+    assert operations("third = -1 / 3\n") == 0, "a constant is not an operation"
 
 
-def test_what_is_written_by_hand_says_so() -> None:
+def test_hand_written_module_is_recognised_by_its_docstring() -> None:
     found = shares({"by_hand": BY_HAND, "printed": "y = a * b\n", "none": "y = 1\n"})
-    assert [(part.module, part.operations, part.printed) for part in found] == [
+    assert [(module.module, module.operations, module.printed) for module in found] == [
         ("by_hand", 2, False), ("printed", 1, True),
     ]  # fmt: skip
     assert found[0].reason == "one product and one sum."
@@ -42,15 +42,17 @@ def test_what_is_written_by_hand_says_so() -> None:
         expect_growth(found, 0.4)
 
 
-def test_a_module_with_arithmetic_gives_a_reason() -> None:
+def test_module_with_arithmetic_must_give_a_reason() -> None:
     expect_reason("sums", BY_HAND)
     expect_reason("names", '"""No arithmetic."""\n')
     with pytest.raises(ValueError, match=r"sums: expected a docstring paragraph .* 'Arithmetic:'"):
         expect_reason("sums", BY_HAND.replace("Arithmetic", "Sums"))
 
 
-def test_the_committed_share_is_that_of_the_package() -> None:
+def test_committed_fraction_agrees_with_the_package() -> None:
     files = PAPER.package_folder.glob("*.py")
     sources = {path.stem: path.read_text() for path in files}
-    share = printed_share(shares(counted(sources)))
-    assert read_printed_share() <= share < read_printed_share() + 0.01, "raise the committed share"
+    fraction = printed_share(shares(counted(sources)))
+    assert read_printed_share() <= fraction < read_printed_share() + 0.01, (
+        "raise `[package] printed` in budgets.toml"
+    )

@@ -1,4 +1,4 @@
-"""Every quantity that `diagnose` offers, against simple, right and foreign formulas: no crash."""
+"""`diagnose` accepts every comparable quantity; rejected input gives a message, not a crash."""
 
 import random
 from collections.abc import Mapping
@@ -18,20 +18,20 @@ from derivation.plate.elastic import RELATIONS, diagnose_text, lame, relations
 from derivation.plate.vocabulary import ARGUMENTS, PLATE, A_j, E, Formula, P, a, b, lam, mu, nu
 
 CHAIN: Mapping[str, Formula] = derived_formulas()
-OFFERED = comparable(CHAIN)
+COMPARABLE = comparable(CHAIN)
 
 
-@pytest.mark.parametrize("name", OFFERED)
-def test_every_offered_quantity_equals_its_own_expression(name: str) -> None:
+@pytest.mark.parametrize("name", COMPARABLE)
+def test_quantity_equals_its_own_expression(name: str) -> None:
     found = diagnose_text(name, str(CHAIN[name].expression), CHAIN)
     assert found.verdict == "equal"
     assert found.given_value == found.derived_value
     assert (found.compared is not None) == CHAIN[name].summed
 
 
-@pytest.mark.parametrize("name", OFFERED)
-def test_every_offered_quantity_differs_from_a_number(name: str) -> None:
-    """Of a sum over the modes a number is no contribution of one mode: that is refused."""
+@pytest.mark.parametrize("name", COMPARABLE)
+def test_quantity_differs_from_a_number(name: str) -> None:
+    """For a sum over the modes, a number is rejected: it is not the contribution of one mode."""
     per_mode = CHAIN[name].expression.free_symbols & PLATE.per_term
     if CHAIN[name].summed and per_mode:
         with pytest.raises(FormulaError, match="contribution of one mode"):
@@ -43,9 +43,9 @@ def test_every_offered_quantity_differs_from_a_number(name: str) -> None:
         assert (found.verdict, found.given_value) == ("different", "2")
 
 
-@pytest.mark.parametrize("name", OFFERED)
+@pytest.mark.parametrize("name", COMPARABLE)
 @pytest.mark.parametrize("text", ["2*width", "E**2 + 1"])
-def test_a_foreign_symbol_is_refused_or_compared(name: str, text: str) -> None:
+def test_formulas_with_other_symbols_are_rejected_or_compared(name: str, text: str) -> None:
     elastic = CHAIN[name].expression.free_symbols & {lam, mu, nu, P, A_j}
     if text.startswith("E") and elastic and not CHAIN[name].summed:
         assert diagnose_text(name, text, CHAIN).verdict == "different"
@@ -54,8 +54,8 @@ def test_a_foreign_symbol_is_refused_or_compared(name: str, text: str) -> None:
             diagnose_text(name, text, CHAIN)
 
 
-def test_what_is_not_offered_is_refused_with_the_reason() -> None:
-    others = set(CHAIN) - set(OFFERED)
+def test_quantities_that_cannot_be_compared_are_rejected() -> None:
+    others = set(CHAIN) - set(COMPARABLE)
     assert {"radial_ode", "F_wall", "c_1_roots"} <= others
     for name in others:
         with pytest.raises(FormulaError, match="cannot be compared"):
@@ -87,7 +87,7 @@ def test_formulas_in_young_s_modulus_are_compared(name: str, text: str) -> None:
     assert diagnose_text(name, wrong, CHAIN).verdict == "different"
 
 
-def test_the_point_may_be_given_by_young_s_modulus() -> None:
+def test_evaluation_point_may_contain_young_s_modulus() -> None:
     text, at = "4*a**3*E/(3*R*(1 - nu**2))", {"E": "70e9", "nu": "0.25", "a": "0.001", "R": "0.01"}
     found = diagnose_text("P", text, CHAIN, at=at, digits=20)
     with mpmath.workdps(40):
@@ -101,7 +101,7 @@ def test_the_point_may_be_given_by_young_s_modulus() -> None:
 
 
 def test_elastic_constants_are_related_as_in_hooke_s_law() -> None:
-    """A rod under tension: E and nu from lam and mu by the zero of the lateral stress."""
+    """E and nu follow from lam and mu for a bar in uniaxial tension: the lateral stress is zero."""
     draw = random.Random(3)
     for _ in range(5):
         first, shear = Fraction(draw.randint(1, 99), 7), Fraction(draw.randint(1, 99), 11)
@@ -132,7 +132,7 @@ def test_elastic_constants_are_related_as_in_hooke_s_law() -> None:
         (r"\sum_{j=1}^{\infty} \frac{16}{\pi R b^2} \sin(a \phi_j)", True),
     ],
 )
-def test_a_sum_is_compared_by_its_terms(text: str, latex: bool) -> None:
+def test_sums_are_compared_term_by_term(text: str, latex: bool) -> None:
     found = diagnose_text("delta", text, CHAIN, latex=latex)
     assert found.verdict == ("different" if latex else "equal")
     assert found.compared is not None
@@ -150,7 +150,7 @@ def test_conditions_are_tested_exactly() -> None:
             holds(wrong, {a: third})
 
 
-def test_a_point_without_a_real_value_is_passed_over_unless_it_was_given() -> None:
+def test_default_point_moves_to_a_real_value_but_a_given_point_does_not() -> None:
     found = diagnose_text("partner_wave", "k_n*sqrt(1 - kap*(17 - 7*nu)/(10*eta**2*k_n**2))", CHAIN)
     assert found.verdict == "equal"
     assert found.given_value == found.derived_value
@@ -163,7 +163,7 @@ def test_a_point_without_a_real_value_is_passed_over_unless_it_was_given() -> No
         diagnose_text("partner_wave", "k_n", CHAIN, at=far)
 
 
-def test_points_are_read_or_refused() -> None:
+def test_evaluation_points_are_parsed_or_rejected() -> None:
     assert parse_point(" phi = 2.5, h=0.1,") == {"phi": "2.5", "h": "0.1"}
     for text in ("phi", "phi=", "=1", "phi=1,phi=1", "phi=1, phi =2"):
         with pytest.raises(FormulaError, match="--at: expected"):
@@ -173,7 +173,7 @@ def test_points_are_read_or_refused() -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "says"),
+    ("arguments", "expected"),
     [
         (["G", "--formula", "T", "--at", "T=-1"], "T > 0"),
         (["G", "--formula", "T", "--at", "T=1,T=2"], "twice"),
@@ -181,10 +181,10 @@ def test_points_are_read_or_refused() -> None:
         (["G", "--formula", "+".join(["(T + 1)"] * 9) + "**9" * 2], "lower"),
     ],
 )
-def test_the_command_refuses_in_one_message(
-    arguments: list[str], says: str, capsys: pytest.CaptureFixture[str]
+def test_command_rejects_input_without_a_traceback(
+    arguments: list[str], expected: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["diagnose", *arguments]) == 2
     message = capsys.readouterr().err
-    assert says in message
+    assert expected in message
     assert "Traceback" not in message

@@ -1,4 +1,4 @@
-"""How far the search for slips goes: what it corrects inside powers, and where it stops."""
+"""The search for misprints: equal factors, rejected candidates, and limits of its effort."""
 
 import itertools
 from collections.abc import Iterable, Mapping, Sequence
@@ -27,7 +27,7 @@ Formulas = Mapping[str, Formula]
 
 
 def search_for(given: sp.Expr, reference: sp.Expr) -> VariantSearch:
-    """What the search is given for a comparison of two expressions."""
+    """Return the search for corrections that turn `given` into `reference`."""
     points = sample.sample([given, reference], {}, {})
     for expression in (given, reference, *factor_pool((given, reference))):
         points.learn(expression)
@@ -35,15 +35,16 @@ def search_for(given: sp.Expr, reference: sp.Expr) -> VariantSearch:
 
 
 def corrected(given: sp.Expr, reference: sp.Expr) -> Iterable[repairs.Repair]:
+    """Yield the corrections that turn `given` into `reference`."""
     with flint.ctx.workprec(300):
         search = search_for(given, reference)
         yield from repairs.repairs(given, search.points.values(reference), search)
 
 
-# --- equal, or not to be told
+# --- comparison
 
 
-def test_what_is_too_long_to_expand_is_compared_in_balls(formulas: Formulas) -> None:
+def test_long_expressions_are_compared_in_interval_arithmetic(formulas: Formulas) -> None:
     one = (sp.cosh(T) ** 2 - sp.sinh(T) ** 2) ** 12
     found = diagnose("G", formulas["G"].expression * one, formulas)
     assert (found.verdict, found.method) == (compare.EQUAL, compare.BY_BALLS)
@@ -51,54 +52,58 @@ def test_what_is_too_long_to_expand_is_compared_in_balls(formulas: Formulas) -> 
     assert (short.verdict, short.method) == (compare.EQUAL, SYMBOLIC)
 
 
-def test_symbols_and_functions_that_nobody_knows(formulas: Formulas) -> None:
+def test_unknown_symbols_and_functions_are_rejected(formulas: Formulas) -> None:
     with pytest.raises(FormulaError, match="unknown symbols height, width: expected some of r, z"):
         diagnose("G", sp.Symbol("height") * sp.Symbol("width"), formulas)
     with pytest.raises(FormulaError, match=r"airyai.*: write it with other functions"):
         diagnose("G", sp.airyai(T), formulas)
 
 
-def test_few_candidates_are_examined(formulas: Formulas, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Each is held against the derived formula; what corrects nothing is not reported."""
-    asked = itertools.count()
+def test_number_of_examined_candidates_is_limited(
+    formulas: Formulas, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Candidates that do not give the derived formula are examined, but not reported."""
+    candidates = itertools.count()
 
-    def endless(*_: object) -> Iterable[repairs.Repair]:
-        for index in asked:
+    def unlimited(*_: object) -> Iterable[repairs.Repair]:
+        for index in candidates:
             yield repairs.Repair("sign", "read T", T + index, 1)
 
-    monkeypatch.setattr(compare, "repairs", endless)
+    monkeypatch.setattr(compare, "repairs", unlimited)
     found = diagnose("G", T, formulas)
     assert (found.verdict, found.kind, found.repaired) == ("different", "unexplained", None)
-    assert next(asked) <= 7
+    assert next(candidates) <= 7
 
 
-def test_a_factor_that_another_does_not_hold_is_not_counted_twice(formulas: Formulas) -> None:
-    """A_j is derived from P, but what it lacks is no part of P; G is not derived from it."""
+def test_factor_counted_twice_is_reported_only_for_a_factor_of_the_other(
+    formulas: Formulas,
+) -> None:
+    """P A_j in place of K_j, and A_j G in place of sonine, do not count a factor twice."""
     for name, given in (("K_j", P * formulas["A_j"].expression), ("sonine", A_j * sp.Symbol("G"))):
         found = diagnose(name, given, formulas)
         assert found.verdict == "different"
         assert found.kind != TWICE
 
 
-# --- slips
+# --- misprints
 
 
-def test_a_term_too_many_is_left_out(formulas: Formulas) -> None:
-    right = formulas["Omega_1"].expression
-    found = diagnose("Omega_1", right + h * phi, formulas)
+def test_superfluous_term_is_removed(formulas: Formulas) -> None:
+    correct = formulas["Omega_1"].expression
+    found = diagnose("Omega_1", correct + h * phi, formulas)
     assert found.repair == "leave out the term h*phi"
-    assert found.repaired == right
+    assert found.repaired == correct
 
 
-def test_a_slip_in_one_of_two_equal_factors_is_corrected() -> None:
-    """SymPy writes (a + b) (a + b) as a power."""
+def test_misprint_in_one_of_two_equal_factors_is_corrected() -> None:
+    """SymPy stores (a + b) (a + b) as one power, so the factors must be separated first."""
     reference = (a + b) * (a - b) * h
     first = next(iter(corrected((a + b) ** 2 * h, reference)))
     assert first.edits == 1
     assert sp.expand(first.expression - reference) == 0
 
 
-def test_a_slip_in_an_equal_factor_and_another_one_are_corrected() -> None:
+def test_misprints_in_an_equal_factor_and_in_another_are_corrected() -> None:
     reference = (a + b) * (a - b) * (lam + mu)
     found = list(corrected((a + b) ** 2 * (lam - mu), reference))
     assert found
@@ -106,17 +111,17 @@ def test_a_slip_in_an_equal_factor_and_another_one_are_corrected() -> None:
     assert all(sp.expand(repair.expression - reference) == 0 for repair in found)
 
 
-def test_a_slip_that_fits_one_point_alone_is_none() -> None:
+def test_correction_must_fit_at_every_sample_point() -> None:
     given, reference, other = sp.sinh(phi * h), sp.cosh(phi * h), a * b
     with flint.ctx.workprec(300):
         search = search_for(given * a * b, reference)
-        right = search.points.values(reference)
-        assert single_edits(Position(given), right, search)
-        mixed = [right[0], *search.points.values(other)[1:]]
+        exact = search.points.values(reference)
+        assert single_edits(Position(given), exact, search)
+        mixed = [exact[0], *search.points.values(other)[1:]]
         assert not single_edits(Position(given), mixed, search)
 
 
-def test_long_formulas_are_searched_for_single_slips_or_not_at_all(
+def test_search_for_pairs_and_for_single_misprints_stops_at_a_length(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     reference = a**3 * sp.sinh(phi * h) * sp.cosh(phi * b) / R
@@ -131,18 +136,18 @@ def test_long_formulas_are_searched_for_single_slips_or_not_at_all(
     assert not list(corrected(one, reference))
 
 
-def test_three_terms_that_nothing_corrects() -> None:
+def test_no_correction_is_reported_for_an_unrelated_formula() -> None:
     assert not list(corrected(a**2 + b * h + sp.sin(phi * h), sp.cosh(phi * b) * lam))
 
 
-def test_groups_are_taken_out_of_short_sums_alone() -> None:
+def test_groups_of_terms_are_edited_only_in_short_sums() -> None:
     short, long = (sp.Add(*(phi**k for k in range(1, n + 1))) for n in (3, position.MAX_TERMS + 1))
     roles = [[part.role for part in inner(Position(total))] for total in (short, long)]
     assert (roles[0].count(TERM), roles[0].count(TERMS)) == (3, 3)
     assert roles[1] == [TERM] * (position.MAX_TERMS + 1)
 
 
-def test_one_of_equal_factors_is_replaced_alone() -> None:
+def test_one_of_several_equal_factors_can_be_replaced() -> None:
     (factor,) = (part for part in inner(Position(1 / (a + b) ** 3)) if part.role == FACTOR)
     assert factor.put(a - b) == 1 / ((a + b) ** 2 * (a - b))
 
@@ -150,7 +155,7 @@ def test_one_of_equal_factors_is_replaced_alone() -> None:
 # --- numbers
 
 
-def test_constants_are_fractions_times_powers_of_pi() -> None:
+def test_constants_are_rational_multiples_of_powers_of_pi() -> None:
     with flint.ctx.workprec(200):
         pi, two = flint.acb.pi(), flint.acb(2)
         assert sample.constant([3 * pi**2 / 7] * 2) == sp.Rational(3, 7) * sp.pi**2
@@ -161,7 +166,7 @@ def test_constants_are_fractions_times_powers_of_pi() -> None:
     assert sample.rational(float("nan"), 4) is None
 
 
-def test_units_with_a_time_are_spelt_out() -> None:
+def test_unit_names_contain_pascals_or_base_units() -> None:
     assert unit_name(Dimension(mass=Fraction(1), length=Fraction(-1), time=Fraction(-2))) == "Pa"
     assert unit_name(Dimension(mass=Fraction(1), time=Fraction(-1))) == "kg s^-1"
 
@@ -170,23 +175,25 @@ def test_units_with_a_time_are_spelt_out() -> None:
     ("text", "digits", "values"),
     [("{} - 1", 5, ("0",)), ("5/2*{}", 1, ("2", "3")), ("5/2*{}", 2, ("2.5",))],
 )
-def test_a_value_of_zero_and_one_on_a_tie(
+def test_values_of_zero_and_ties_in_rounding_are_printed(
     text: str, digits: int, values: Sequence[str], formulas: Formulas
 ) -> None:
-    """No number of digits tells cosh^2 - sinh^2 from 1."""
+    """No working precision separates cosh^2 - sinh^2 from 1, so either rounding is accepted."""
     given = text.format("(cosh(T)**2 - sinh(T)**2)")
     found = diagnose_text("G", given, formulas, at={"T": "1.5"}, digits=digits)
     assert found.given_value in values
 
 
-# --- the printed pair
+# --- the published pair u and w
 
 
-def test_a_pair_that_balances_needs_no_sign(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_displacements_in_equilibrium_need_no_change_of_sign(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     (printed,) = (record for record in PRINTED if record.name == "u")
     assert balance.signs_that_balance(["u"]) == ("u",)
     assert "if one sign is reversed" in misprints._balance_remark(printed)
-    right = [replace(r, expression=-r.expression) if r.name == "u" else r for r in PRINTED]
-    monkeypatch.setattr(balance, "PRINTED", right)
+    balanced = [replace(r, expression=-r.expression) if r.name == "u" else r for r in PRINTED]
+    monkeypatch.setattr(balance, "PRINTED", balanced)
     assert balance.signs_that_balance(["u", "w", "f_j", "g_j"]) == ()
     assert misprints._balance_remark(printed) == ""

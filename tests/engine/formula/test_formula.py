@@ -1,4 +1,4 @@
-"""The ground floor: dimensions, hyperbolic rewriting, balls, proofs."""
+"""Dimensions, hyperbolic form, interval evaluation, proofs, units and vocabulary."""
 
 import flint
 import pytest
@@ -16,7 +16,7 @@ KNOWN = {x.symbol: unit(x.unit) for x in ARGUMENTS}
 x = sp.Symbol("x", positive=True)
 
 
-def test_dimension_of_sound_expressions() -> None:
+def test_dimension_of_consistent_expressions() -> None:
     assert dimension(lam + 2 * mu, KNOWN) == STRESS
     assert dimension(sp.sqrt(a * h), KNOWN) == LENGTH
     assert dimension(a * sp.sin(a * phi), KNOWN) == LENGTH
@@ -26,12 +26,14 @@ def test_dimension_of_sound_expressions() -> None:
     ("expression", "names"),
     [(lam + a, r"lam.*a|a.*lam"), (sp.sin(a), "a in sin"), (sp.exp(phi), "phi in exp")],
 )
-def test_dimension_refuses_and_names_the_part(expression: sp.Expr, names: str) -> None:
+def test_inconsistent_dimensions_are_rejected_and_the_part_is_named(
+    expression: sp.Expr, names: str
+) -> None:
     with pytest.raises(DimensionError, match=names):
         dimension(expression, KNOWN)
 
 
-def test_record_refuses_a_wrong_unit_and_an_unknown_symbol() -> None:
+def test_formula_rejects_a_wrong_unit_and_an_unknown_symbol() -> None:
     proof = Proof("", "", (), "")
     with pytest.raises(DimensionError, match=r"\[m\], expected \[Pa\]"):
         Formula("f", "f", "", a, "Pa", "", (), proof)
@@ -57,13 +59,13 @@ def test_hyperbolic_form_is_equal_and_free_of_exponentials(expression: sp.Expr) 
         assert abs(difference) < 1e-25
 
 
-def test_hyperbolic_refuses_what_is_not_balanced() -> None:
+def test_expression_without_hyperbolic_form_is_rejected() -> None:
     with pytest.raises(ValueError, match="remains"):
         to_hyperbolic(sp.exp(x) * (sp.exp(2 * x) + 1), x)
 
 
-def test_evaluate_sees_through_cancellation() -> None:
-    """Sin x - x cos x at 1e-20 is x^3/3 to forty digits; a fixed precision would say 0."""
+def test_evaluation_raises_the_precision_until_cancellation_is_resolved() -> None:
+    """At x = 1e-20, sin x - x cos x is x^3/3 to forty digits; in double precision it is 0."""
     ball = evaluate(sp.sin(x) - x * sp.cos(x), {x: 1e-20}, 50)
     with flint.ctx.workprec(400):
         exact = flint.arb(1e-20) ** 3 / 3
@@ -71,12 +73,12 @@ def test_evaluate_sees_through_cancellation() -> None:
     assert ball.rel_accuracy_bits() >= 166
 
 
-def test_evaluate_refuses_an_exact_zero() -> None:
+def test_evaluation_of_an_exact_zero_is_rejected() -> None:
     with pytest.raises(PrecisionError):
         evaluate(sp.sin(x) ** 2 + sp.cos(x) ** 2 - 1, {x: 0.5}, 20)
 
 
-def test_zero_is_decided_and_nonzero_is_not() -> None:
+def test_zero_is_recognised_and_small_values_are_not() -> None:
     assert decide_zero(sp.sinh(2 * x) - 2 * sp.sinh(x) * sp.cosh(x)) == SYMBOLIC
     assert decide_zero(sp.sin(x) ** 2 + sp.cos(x) ** 2 - 1) == BY_BALLS
     assert decide_zero(sp.sinh(2 * x) - 2 * sp.sinh(x)) is None
@@ -95,20 +97,20 @@ def test_zero_is_decided_and_nonzero_is_not() -> None:
         ("N/m^(11/3)", "m^-8/3 kg s^-2"),
     ],
 )
-def test_units_are_read(text: str, expected: str) -> None:
+def test_units_are_parsed(text: str, expected: str) -> None:
     assert str(unit(text)) == expected
 
 
 @pytest.mark.parametrize(
     "text", ["", "q", "m^", "m^-1", "m/s/s", "J/kg m", "m//s", "1/", "/m", "(m)", "m  s", "m^(1/2"]
 )
-def test_what_is_no_unit_is_refused(text: str) -> None:
+def test_invalid_units_are_rejected(text: str) -> None:
     with pytest.raises(ValueError, match="use the units 1, m, kg, s, N, J, W, Pa"):
         unit(text)
 
 
-def test_a_vocabulary_names_its_symbols_in_latex_too() -> None:
-    words = Vocabulary(
+def test_vocabulary_finds_symbols_by_their_latex() -> None:
+    vocabulary = Vocabulary(
         (
             Argument(a, "m", "a_0", "", ()),
             Argument(mu, "1", r"\varkappa", "", ()),
@@ -116,9 +118,9 @@ def test_a_vocabulary_names_its_symbols_in_latex_too() -> None:
         ),
         indices="j",
     )
-    assert words.name_of_latex == {"a_0": "a", "varkappa": "mu", "H_1": "h"}
-    read = parse_latex(r"a_0 \varkappa + H_1^{(j)}", words)
+    assert vocabulary.name_of_latex == {"a_0": "a", "varkappa": "mu", "H_1": "h"}
+    read = parse_latex(r"a_0 \varkappa + H_1^{(j)}", vocabulary)
     assert read == a * mu + h
-    assert words.numbers == {mu}
+    assert vocabulary.numbers == {mu}
     with pytest.raises(KeyError, match="without unit and domain: lam"):
-        words.arguments_of(a * lam)
+        vocabulary.arguments_of(a * lam)

@@ -1,4 +1,4 @@
-"""Formulas typed by strangers: right ones are read exactly, all else is refused at once."""
+"""Parsers for formulas in Python syntax and in LaTeX: exact results; other text is rejected."""
 
 from contextlib import suppress
 from functools import partial
@@ -69,7 +69,7 @@ ACCEPTED = {
     "+h - -h": 2 * h,
 }
 
-REFUSED = {
+REJECTED = {
     "__import__('os')": "quoted text",
     "__import__(os)": "unknown function",
     "().__class__": "expected numbers",
@@ -163,37 +163,37 @@ REFUSED = {
 }
 
 
-def refused(read: object, text: object, reason: str) -> None:
+def expect_error(read: object, text: object, reason: str) -> None:
     with pytest.raises(FormulaError, match=reason):
         read(text)  # type: ignore[operator]
 
 
 @pytest.mark.parametrize("text", ACCEPTED)
-def test_formulas_are_read_exactly(text: str) -> None:
+def test_formulas_are_parsed_exactly(text: str) -> None:
     assert parse(text) == ACCEPTED[text]
 
 
-@pytest.mark.parametrize("text", REFUSED, ids=lambda text: repr(text[:30]))
-def test_all_else_is_refused(text: str) -> None:
-    refused(parse, text, REFUSED[text])
+@pytest.mark.parametrize("text", REJECTED, ids=lambda text: repr(text[:30]))
+def test_other_text_is_rejected(text: str) -> None:
+    expect_error(parse, text, REJECTED[text])
 
 
-def test_text_is_expected() -> None:
-    refused(parse, 3, "as text")
-    refused(parse_latex, None, "as text")
+def test_input_must_be_text() -> None:
+    expect_error(parse, 3, "as text")
+    expect_error(parse_latex, None, "as text")
 
 
 def test_allowed_names_can_be_chosen() -> None:
     K = sp.Symbol("K")
     assert plain.parse("2*K", NOTHING, {"K": K}) == 2 * K
-    refused(
+    expect_error(
         lambda text: plain.parse(text, NOTHING, {"K": K}), "h", "expected one of EulerGamma, K, pi"
     )
 
 
 @settings(max_examples=300)
 @given(st.text(alphabet="ah phi019.+-*/(),eE^_[]{}'\\=:", max_size=40))
-def test_any_text_is_read_or_refused(text: str) -> None:
+def test_random_text_is_parsed_or_rejected(text: str) -> None:
     for read in (parse, parse_latex):
         with suppress(FormulaError):
             assert isinstance(read(text), sp.Expr)
@@ -230,7 +230,7 @@ LATEX = {
     r"v_0 A \Gamma(3) I_0(\phi_j r)": 2 * v0 * a_ratio * sp.besseli(0, phi * r),
 }
 
-LATEX_REFUSED = {
+LATEX_REJECTED = {
     r"\delta(t)": "which would be read as a product",
     r"\frac{a^2}{R} \left(1 + h\left(\phi_j, b\right)\right)": "which would be read as a product",
     r"\int_0^a r": r"\\\\int",
@@ -260,20 +260,20 @@ LATEX_REFUSED = {
 
 
 @pytest.mark.parametrize("text", LATEX)
-def test_latex_is_read(text: str) -> None:
+def test_latex_is_parsed(text: str) -> None:
     assert parse_latex(text) == LATEX[text]
 
 
-@pytest.mark.parametrize("text", LATEX_REFUSED, ids=lambda text: repr(text[:30]))
-def test_other_latex_is_refused(text: str) -> None:
-    refused(parse_latex, text, LATEX_REFUSED[text])
+@pytest.mark.parametrize("text", LATEX_REJECTED, ids=lambda text: repr(text[:30]))
+def test_other_latex_is_rejected(text: str) -> None:
+    expect_error(parse_latex, text, LATEX_REJECTED[text])
 
 
-def test_own_latex_of_the_whole_chain_is_read_back() -> None:
-    read = 0
+def test_printed_latex_of_all_formulas_is_parsed_to_the_same() -> None:
+    count = 0
     for formula in derive().values():
         if not formula.expression.atoms(sp.Derivative):
             back = parse_latex(to_latex(formula.expression, PLATE))
             assert decide_zero(back - formula.expression) is not None, formula.name
-            read += 1
-    assert read > 30
+            count += 1
+    assert count > 30

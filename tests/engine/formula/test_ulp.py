@@ -1,4 +1,4 @@
-"""ULP primitives against NumPy's spacing and nextafter, and against exact fractions."""
+"""ULP functions against spacing and nextafter of NumPy, and against exact fractions."""
 
 import itertools
 import math
@@ -34,17 +34,17 @@ def exact(number: Fraction) -> flint.arb:
 
 
 @given(finite)
-def test_spacing_is_pythons(x: float) -> None:
+def test_spacing_agrees_with_python(x: float) -> None:
     assert spacing(x) == math.ulp(x)
 
 
 @given(singles.filter(lambda x: abs(x) < 3e38))
-def test_single_spacing_is_numpys(x: float) -> None:
+def test_spacing_in_single_precision_agrees_with_numpy(x: float) -> None:
     assert spacing(x, SINGLE) == np.spacing(np.float32(abs(x)))
 
 
 @pytest.mark.parametrize("x", [0.0, TINY, 2.0**-1022, 1.0, 2.0, LARGEST])
-def test_spacing_at_the_switches_of_the_format(x: float) -> None:
+def test_spacing_at_the_limits_of_the_format(x: float) -> None:
     assert spacing(x) == math.ulp(x)
 
 
@@ -61,12 +61,12 @@ def test_error_is_the_exact_quotient(got: float, near: float) -> None:
         assert error == pytest.approx(float(expected), rel=1e-13)
 
 
-def test_error_next_to_a_power_of_two_uses_the_unit_below_it() -> None:
+def test_unit_below_a_power_of_two_is_half_the_unit_above() -> None:
     assert ulp_error(1.0, flint.arb(math.nextafter(1.0, 0.0))) == 1.0
     assert ulp_error(math.nextafter(1.0, 0.0), flint.arb(1.0)) == 0.5
 
 
-def test_ball_around_a_power_of_two_counts_as_that_power() -> None:
+def test_interval_around_a_power_of_two_has_the_unit_of_that_power() -> None:
     with flint.ctx.workprec(200):
         third = flint.arb(3) / flint.arb(3)
         below = third - flint.arb(2) ** -190
@@ -75,12 +75,12 @@ def test_ball_around_a_power_of_two_counts_as_that_power() -> None:
     assert ulp_error(1.0, clearly_below) == 2.0**-7
 
 
-def test_value_that_is_not_finite_is_infinitely_wrong() -> None:
+def test_error_of_a_value_that_is_not_finite_is_infinite() -> None:
     for got in (math.nan, math.inf, -math.inf):
         assert ulp_error(got, flint.arb(1)) == math.inf
 
 
-def test_infinity_is_right_where_the_reference_overflows() -> None:
+def test_infinity_is_correct_if_the_reference_overflows() -> None:
     huge = flint.arb(2) ** 1024
     assert overflows(huge)
     assert ulp_error(math.inf, huge) == 0.0
@@ -99,7 +99,7 @@ def test_overflow_begins_half_a_unit_above_the_largest_number() -> None:
     assert overflows(flint.arb(2) ** 128, SINGLE)
 
 
-def test_below_the_smallest_number_errors_count_in_subnormals() -> None:
+def test_unit_below_the_smallest_number_is_the_smallest_subnormal() -> None:
     reference = flint.arb(2) ** -1080
     assert ulp_error(0.0, reference) == 2.0**-6
     assert ulp_error(TINY, reference) == 1 - 2.0**-6
@@ -137,13 +137,13 @@ def test_next_float_has_the_next_ordinal(x: float) -> None:
     assert ordinal(float(np.nextafter(x, np.inf))) == ordinal(x) + 1
 
 
-def test_ordinal_refuses_what_has_no_neighbours() -> None:
+def test_ordinal_of_nan_and_infinity_is_rejected() -> None:
     for x in (math.nan, math.inf):
         with pytest.raises(ValueError, match="finite number"):
             ordinal(x)
 
 
-def test_neighbours_cross_zero_once() -> None:
+def test_neighbours_of_zero_contain_zero_once() -> None:
     assert neighbours(0.0, 2) == (-2 * TINY, -TINY, 0.0, TINY, 2 * TINY)
 
 
@@ -153,7 +153,7 @@ def test_neighbours_stop_at_the_largest_number() -> None:
 
 
 @given(finite.filter(lambda x: abs(x) < 1e300))
-def test_neighbours_are_nextafter_repeated(x: float) -> None:
+def test_neighbours_agree_with_repeated_nextafter(x: float) -> None:
     around = neighbours(x, 3, DOUBLE)
     assert around[3] == x
     for left, right in itertools.pairwise(around):

@@ -1,4 +1,4 @@
-"""Times side by side: per point, relative to a reference, noted where the machine was busy."""
+"""Timing per point, relative to a reference workload, and detection of a busy machine."""
 
 from collections.abc import Callable, Iterator
 from itertools import cycle
@@ -12,7 +12,7 @@ from derivation.engine.measure.clock import Candidate, Effort
 
 
 class FakeClock:
-    """A clock that work moves on."""
+    """A clock that advances only while simulated work runs."""
 
     def __init__(self) -> None:
         self.now = 0.0
@@ -26,7 +26,7 @@ class FakeClock:
 
         return call
 
-    def uneven(self, seconds: Iterator[float]) -> Callable[[Any], None]:
+    def work_in_turn(self, seconds: Iterator[float]) -> Callable[[Any], None]:
         def call(array: Any) -> None:  # noqa: ARG001
             self.now += next(seconds)
 
@@ -44,21 +44,21 @@ def test_times_are_per_point_and_relative_to_the_reference(
     assert (found.attempts, found.contended, found.spread) == (1, False, 1.0)
 
 
-def test_a_busy_machine_is_tried_again_and_noted(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_timing_on_a_busy_machine_is_repeated_and_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     fake, array, load = FakeClock(), np.zeros(1), cycle([1.0] * 6 + [9.0] * 6)
 
-    monkeypatch.setattr(clock, "reference", lambda: Candidate(fake.uneven(load), array, 1))
+    monkeypatch.setattr(clock, "reference", lambda: Candidate(fake.work_in_turn(load), array, 1))
     found = clock.session([Candidate(fake.work(1.0), array, 1)], Effort(4, 3), fake)
     assert found.attempts == 3
     assert (found.contended, found.spread) == (True, 9.0)
-    hopeless = clock.session([Candidate(fake.work(1.0), array, 1)], Effort(4, 1), fake)
-    assert hopeless.attempts == 1
+    once = clock.session([Candidate(fake.work(1.0), array, 1)], Effort(4, 1), fake)
+    assert once.attempts == 1
 
 
-def test_no_time_is_below_the_least_there_was(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_reported_time_is_not_below_the_shortest_measured(monkeypatch: pytest.MonkeyPatch) -> None:
     fake, array, load = FakeClock(), np.zeros(1), cycle([1.0] * 3 + [100.0] * 9)
 
-    monkeypatch.setattr(clock, "reference", lambda: Candidate(fake.uneven(load), array, 1))
+    monkeypatch.setattr(clock, "reference", lambda: Candidate(fake.work_in_turn(load), array, 1))
     found = clock.session([Candidate(fake.work(2.0), array, 1)], Effort(8, 1), fake)
     assert found.timings[0].seconds == 2.0
 
@@ -67,12 +67,12 @@ def test_spread_is_upper_over_lower_quartile(monkeypatch: pytest.MonkeyPatch) ->
     fake, array, load = FakeClock(), np.zeros(1), cycle([1.0, 1.0, 3.0, 3.0])
 
     monkeypatch.setattr(clock, "reference", lambda: Candidate(fake.work(1.0), array, 1))
-    found = clock.session([Candidate(fake.uneven(load), array, 1)], Effort(8, 1), fake)
+    found = clock.session([Candidate(fake.work_in_turn(load), array, 1)], Effort(8, 1), fake)
     assert found.timings[0].seconds == 1.0
     assert found.timings[0].spread == 3.0
 
 
-def test_rounds_are_shuffled_and_repeat(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_order_of_the_rounds_is_random_but_reproducible(monkeypatch: pytest.MonkeyPatch) -> None:
     fake, array, order = FakeClock(), np.zeros(1), []
 
     def named(name: int) -> Candidate:
@@ -91,7 +91,7 @@ def test_rounds_are_shuffled_and_repeat(monkeypatch: pytest.MonkeyPatch) -> None
     assert sorted(first[:6]) == [0, 0, 0, 1, 2, 3]
 
 
-def test_a_block_grows_with_the_array_until_it_is_dear() -> None:
+def test_array_is_as_large_as_the_time_limit_allows() -> None:
     fake, sample = FakeClock(), np.zeros(10_000)
 
     def linear(array: Any) -> None:

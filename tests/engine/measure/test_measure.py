@@ -1,4 +1,4 @@
-"""The harness itself: right kernels pass, damaged ones of every kind do not."""
+"""The accuracy measurement: accurate functions pass, and each kind of defect is detected."""
 
 import dataclasses
 import json
@@ -30,7 +30,7 @@ G_PRINTED = "(sinh(T)*cosh(T) + T) / (sinh(T)**2 - T**2)"
 
 
 def rounded(formula: str) -> Callable[..., Any]:
-    """A kernel that computes with ample digits and rounds once: right, but slow."""
+    """Return a function that computes in extended precision and rounds the result once."""
     code = compile(formula, "formula", "eval")
 
     def one(number: float) -> float:
@@ -50,7 +50,7 @@ def references_of_G() -> list[PointReference]:
     return reference_values("G", grid("G", ("T",)), 50)
 
 
-def test_right_kernel_passes() -> None:
+def test_accurate_function_passes() -> None:
     (row,) = check(50, [kernel_G()])
     assert row.passed is True
     assert row.double.points >= 60
@@ -64,7 +64,7 @@ def test_right_kernel_passes() -> None:
 NAMES_F = ("z", "phi", "h", "lam", "mu", "A_j")
 
 
-def test_printed_form_in_doubles_fails(references_of_G: list[PointReference]) -> None:
+def test_published_form_in_double_precision_fails(references_of_G: list[PointReference]) -> None:
     def naive(T: Any) -> Any:
         with np.errstate(all="ignore"):
             return (np.sinh(T) * np.cosh(T) + T) / (np.sinh(T) ** 2 - T**2)
@@ -75,11 +75,11 @@ def test_printed_form_in_doubles_fails(references_of_G: list[PointReference]) ->
     assert errors.max_ulp > 1e12
 
 
-def test_one_nan_is_enough_to_fail(references_of_G: list[PointReference]) -> None:
-    right = kernel_G().call
+def test_single_nan_fails(references_of_G: list[PointReference]) -> None:
+    accurate = kernel_G().call
 
     def with_nan(T: Any) -> Any:
-        result = right(T)
+        result = accurate(T)
         result[37] = np.nan
         return result
 
@@ -91,27 +91,27 @@ def test_one_nan_is_enough_to_fail(references_of_G: list[PointReference]) -> Non
 
 
 def test_wrong_dtype_and_warnings_fail() -> None:
-    right = kernel_G().call
+    accurate = kernel_G().call
 
     def always_double(T: Any) -> Any:
-        return right(T).astype(np.float64)
+        return accurate(T).astype(np.float64)
 
     def noisy(T: Any) -> Any:
         warnings.warn("overflow encountered", RuntimeWarning, stacklevel=1)
-        return right(T)
+        return accurate(T)
 
     for call in (always_double, noisy):
         (row,) = check(30, [dataclasses.replace(kernel_G(), call=call)])
         assert row.passed is False
 
 
-def test_wrong_shape_is_refused(references_of_G: list[PointReference]) -> None:
+def test_wrong_shape_is_rejected(references_of_G: list[PointReference]) -> None:
     kernel = dataclasses.replace(kernel_G(), call=lambda T: np.float64(1.0))  # noqa: ARG005
     with pytest.raises(ValueError, match="gave shape"):
         measured(kernel, references_of_G)
 
 
-def test_formulas_as_printed_are_measured_but_not_judged() -> None:
+def test_published_formulas_are_measured_without_a_budget() -> None:
     kernel = dataclasses.replace(kernel_G(), module="as_printed", budget=None)
     wrong = dataclasses.replace(kernel, call=rounded("-" + G_PRINTED))
     for chosen, largest in ((kernel, 0.0), (wrong, 1e15)):
@@ -121,18 +121,18 @@ def test_formulas_as_printed_are_measured_but_not_judged() -> None:
         assert row.double.max_ulp >= largest
 
 
-def test_contradicting_oracles_stop_the_check(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_contradicting_references_stop_the_check(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(routes.ROUTES, "G", lambda v: 2 * v["T"])
     with pytest.raises(OracleError):
         check(30, [kernel_G()])
 
 
-def test_too_few_digits_are_refused() -> None:
+def test_too_few_digits_are_rejected() -> None:
     with pytest.raises(ValueError, match="at least 20 digits"):
         check(10, [])
 
 
-def test_table_of_zeros_is_judged_entry_by_entry() -> None:
+def test_table_of_zeros_is_measured_entry_by_entry() -> None:
     def zeros(count: int) -> Any:
         return np.array([float(j0_zero(n, 80)) for n in range(1, count + 1)])
 
@@ -150,18 +150,18 @@ def test_modal_sum_is_called_once_per_number_of_modes() -> None:
     found = reference_values("delta", points, 30)
     calls = []
 
-    def right(*columns: Any, modes: int) -> Any:
+    def exact(*columns: Any, modes: int) -> Any:
         calls.append(modes)
         rows = zip(*columns, strict=True)
         values = (dict(zip(arguments, map(float, row), strict=True)) for row in rows)
         return np.array([float(reference("delta", v, 30, modes).value) for v in values])
 
-    kernel = Kernel("delta", "modal_sum", arguments, right, 1.0, modes=True)
+    kernel = Kernel("delta", "modal_sum", arguments, exact, 1.0, modes=True)
     assert measured(kernel, found).max_ulp <= 0.5
     assert len(calls) == len(set(calls)) > 3
 
     def one_mode_short(*columns: Any, modes: int) -> Any:
-        return right(*columns, modes=max(1, modes - 1))
+        return exact(*columns, modes=max(1, modes - 1))
 
     assert measured(dataclasses.replace(kernel, call=one_mode_short), found).ratio > 1e3
 
@@ -180,7 +180,7 @@ def test_modal_sum_is_called_once_per_number_of_modes() -> None:
         ("w", ("r", "z", "h", "b", "R", "a", "lam", "mu"), True),
     ],
 )
-def test_points_lie_in_the_domain_and_repeat(
+def test_points_are_in_the_domain_and_reproducible(
     name: str, arguments: tuple[str, ...], modes: bool
 ) -> None:
     points = grid(name, arguments, modes)
@@ -200,36 +200,36 @@ def test_points_lie_in_the_domain_and_repeat(
             assert v["r"] < v["a"]
 
 
-def test_grid_of_a_mode_holds_its_hard_places() -> None:
+def test_grid_of_a_mode_contains_extreme_arguments() -> None:
     values = [point.values for point in grid("mode_f", NAMES_F)]
     heights = {v["z"] / v["h"] for v in values}
     assert {1.0, -1.0, 0.0} <= heights
     assert any(v["z"] == math.nextafter(v["h"], 0) for v in values)
-    depths = [v["phi"] * v["h"] for v in values]
-    assert min(depths) < 1e-149
-    assert max(depths) > 9e5
+    phi_h = [v["phi"] * v["h"] for v in values]
+    assert min(phi_h) < 1e-149
+    assert max(phi_h) > 9e5
     assert any(v["lam"] == 0 for v in values)
     assert any(v["lam"] < 0 for v in values)
 
 
-def test_both_sides_of_every_switch_are_in_the_grid() -> None:
+def test_both_sides_of_every_switch_point_are_in_the_grid() -> None:
     assert set(switches()) == {"T", "y"}
     in_T = {point.values["T"] for point in grid("G", ("T",))}
-    for place in switches()["T"]:
-        assert {place, math.nextafter(place, 0), math.nextafter(place, 9)} <= in_T
+    for switch in switches()["T"]:
+        assert {switch, math.nextafter(switch, 0), math.nextafter(switch, 9)} <= in_T
     in_y = {p.values["phi"] * p.values["a"] for p in grid("sonine", ("phi", "a"))}
-    for place in switches()["y"]:
-        assert {place, math.nextafter(place, 0), math.nextafter(place, 9)} <= in_y
+    for switch in switches()["y"]:
+        assert {switch, math.nextafter(switch, 0), math.nextafter(switch, 9)} <= in_y
 
 
-def test_zeros_of_s_are_in_the_grid() -> None:
-    """tan y = y has its first root at 4.493409457909064."""
+def test_zeros_of_the_sonine_function_are_in_the_grid() -> None:
+    """The first two positive roots of tan y = y are used."""
     in_y = [p.values["phi"] * p.values["a"] for p in grid("sonine", ("phi", "a"))]
     assert min(abs(y - 4.493409457909064) for y in in_y) < 1e-15
     assert min(abs(y - 7.725251836937707) for y in in_y) < 2e-15
 
 
-def test_single_precision_keeps_a_point_what_it_is() -> None:
+def test_points_without_an_equivalent_in_single_precision_are_omitted() -> None:
     assert to_single(Point({"T": 0.1})) == Point({"T": float(np.float32(0.1))})
     assert to_single(Point({"T": 1e-60})) is None
     assert to_single(Point({"T": 1e60})) is None
@@ -248,26 +248,26 @@ def row() -> Row:
 
 def test_kernel_of_a_row_is_the_generated_function() -> None:
     module = pytest.importorskip("generated.arrays")
-    made = kernel_of_row(
+    kernel = kernel_of_row(
         {"name": "inside", "module": "arrays", "arguments": ("T",), "budget": 8, "modes": False}
     )
-    assert made.call is module.inside
-    assert made.budget == 8.0
+    assert kernel.call is module.inside
+    assert kernel.budget == 8.0
 
 
-def test_progress_is_told_about_every_kernel() -> None:
-    told: list[tuple[str, int, int]] = []
-    check(30, [kernel_G()], lambda *news: told.append(news))
-    assert told == [("G", 1, 1)]
+def test_progress_is_reported_for_every_function() -> None:
+    reported: list[tuple[str, int, int]] = []
+    check(30, [kernel_G()], lambda *step: reported.append(step))
+    assert reported == [("G", 1, 1)]
 
 
-def test_cells_match_the_columns(row: Row) -> None:
+def test_table_row_matches_the_columns(row: Row) -> None:
     assert len(cells(row)) == len(COLUMNS)
     assert cells(row)[0] == "G"
     assert cells(row)[-1] == "yes"
 
 
-def test_json_repeats_and_names_its_provenance(row: Row) -> None:
+def test_json_is_reproducible_and_states_its_provenance(row: Row) -> None:
     text = to_json([row], 30, "generated")
     assert text == to_json(check(30, [kernel_G()]), 30, "generated")
     data = json.loads(text)
@@ -278,14 +278,12 @@ def test_json_repeats_and_names_its_provenance(row: Row) -> None:
     assert data["rows"][0]["double"]["points"] == row.double.points
 
 
-def test_infinities_are_text_in_json(row: Row) -> None:
+def test_infinity_is_text_in_json(row: Row) -> None:
     broken = dataclasses.replace(row, double=dataclasses.replace(row.double, ratio=math.inf))
     assert as_data([broken], 30, "generated")["rows"][0]["double"]["ratio"] == "inf"
 
 
-def test_files_are_written_wholly_or_not_at_all(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_failed_write_leaves_the_old_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     target = tmp_path / "accuracy.json"
     write_file(target, "before")
 

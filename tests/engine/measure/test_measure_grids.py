@@ -1,4 +1,4 @@
-"""What kernels are measured at leads to the contacts drawn; where there is nothing to measure."""
+"""Test points of the contact law, and errors raised if there is nothing to measure."""
 
 import importlib
 from types import SimpleNamespace
@@ -15,8 +15,8 @@ from generated.impact import impact
 
 
 @pytest.mark.parametrize("name", contact.KERNELS)
-def test_arguments_lead_to_the_contact_they_were_made_for(name: str) -> None:
-    """By the generated law, back to contact radius, force or mean pressure by hand."""
+def test_arguments_describe_the_drawn_contact(name: str) -> None:
+    """The generated law gives the contact radius, force and pressure of Hertz theory."""
     for shape in contact_grid.grid(name)[:30:6]:
         given = contact_grid.arguments(name, shape, 20)
         a, R, lam, mu = shape.a, shape.R, shape.lam, shape.mu
@@ -35,7 +35,7 @@ def test_arguments_lead_to_the_contact_they_were_made_for(name: str) -> None:
             found = impact(*given).max_contact_radius
         else:
             found = getattr(contact_law, name)(*given)
-        if name == "stiffness":  # of the indentation's argument, by a central difference
+        if name == "stiffness":  # dP/d(delta) from central differences
             ends = [
                 (contact_law.force_of_radius(x, R, lam, mu),
                  contact_law.indentation(x, R, shape.h, shape.b))
@@ -47,14 +47,14 @@ def test_arguments_lead_to_the_contact_they_were_made_for(name: str) -> None:
             assert found == pytest.approx(expected[name], rel=1e-9)
 
 
-def test_grids_repeat_and_impacts_have_their_own() -> None:
+def test_grid_of_impacts_is_reproducible_and_has_the_listed_ratios() -> None:
     assert contact_grid.grid("impact") == contact_grid.grid("impact")
     assert len(contact_grid.grid("impact")) == len(contact_grid.IMPACTS)
     ratios = [(s.h / s.b, s.a / s.h) for s in contact_grid.grid("impact")]
     np.testing.assert_allclose(ratios, contact_grid.IMPACTS, rtol=1e-12)
 
 
-def test_without_a_point_there_is_nothing_to_measure() -> None:
+def test_measurement_without_points_is_rejected() -> None:
     with pytest.raises(ValueError, match="no point to measure force at"):
         contact.check({"force": contact_law.force}, {"force": []})
     [kernel] = [kernel for kernel in generated_kernels() if kernel.name == "G"]
@@ -62,17 +62,17 @@ def test_without_a_point_there_is_nothing_to_measure() -> None:
         judge.measured(kernel, [], 3)
 
 
-def test_errors_that_are_all_zero_have_no_size() -> None:
+def test_root_mean_square_of_zeros_and_of_large_numbers() -> None:
     assert judge._rms([0.0, 0.0]) == judge._rms([]) == 0.0
     assert judge._rms([3e200, 4e200]) == pytest.approx(5e200 / 2**0.5, rel=1e-15)
 
 
-def test_a_package_without_files_is_to_be_generated(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A folder of that name is a package to Python, though nothing is in it."""
-    true = importlib.import_module
+def test_package_without_files_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Python imports an empty folder as a namespace package, which has no file."""
+    original = importlib.import_module
     monkeypatch.setattr(
         record.importlib, "import_module",
-        lambda name: SimpleNamespace(__file__=None) if name == "generated" else true(name),
+        lambda name: SimpleNamespace(__file__=None) if name == "generated" else original(name),
     )  # fmt: skip
     with pytest.raises(FileNotFoundError, match="run `platecontact generate`"):
         record.generated_hash("generated")

@@ -1,4 +1,4 @@
-"""The search with a function of no paper: it repeats, finds what is planted, and keeps it."""
+"""The search for large errors in a test function: reproducible, effective, and recorded."""
 
 import dataclasses
 import math
@@ -26,7 +26,7 @@ def drawn(_: Domain, generator: Random) -> Point:
 
 
 def squares(points: Sequence[Point]) -> list[Numbers]:
-    """x squared, wrong by 1 where 3 < x < 3.01, and by more the nearer y is to x."""
+    """Return x squared, with an error from 0.5 (y = x + 1) to 1 (y = x) for 3 < x < 3.01."""
     rows = []
     for point in points:
         x, y = point.values["x"], point.values["y"]
@@ -48,16 +48,18 @@ def found(target: Target) -> Search:
     return search([target], seed=2, evaluations=EVALUATIONS)
 
 
-def test_a_planted_defect_is_found_refined_and_repeated(found: Search, target: Target) -> None:
+def test_defect_is_found_refined_and_reproduced(found: Search, target: Target) -> None:
     worst = found.standings["square"].worst
     assert worst is not None
     assert 3 < worst.point.values["x"] < 3.01
-    assert worst.ratio > 1.999  # up to y = x
+    assert worst.ratio > 1.999  # the largest value is 2, at y = x
     assert not kept(found)
     assert as_data(search([target], seed=2, evaluations=EVALUATIONS)) == as_data(found)
 
 
-def test_it_is_written_and_measured_anew(found: Search, target: Target, tmp_path: Path) -> None:
+def test_found_case_is_written_and_then_known(
+    found: Search, target: Target, tmp_path: Path
+) -> None:
     path = tmp_path / "cases.toml"
     book = Book(path, [target], {"square": 1.5}, {})
     book.keep(found)
@@ -68,7 +70,7 @@ def test_it_is_written_and_measured_anew(found: Search, target: Target, tmp_path
     assert not Book(path, [target], {}, {}).is_new("square", worst)
 
 
-def test_what_is_on_record_by_its_arguments_is_measured_when_asked_for(target: Target) -> None:
+def test_recorded_arguments_are_compared_with_the_new_error(target: Target) -> None:
     known = {"square": [(3.005).hex(), (3.105).hex()]}
     book = Book(Path("/nonexistent"), [target], {}, known)
     [(result,)] = squares([Point({"x": 3.005, "y": 3.105})])
@@ -81,14 +83,14 @@ def test_what_is_on_record_by_its_arguments_is_measured_when_asked_for(target: T
     assert same.ratio == pytest.approx(1.9)
 
 
-def test_a_domain_is_what_its_conditions_on_its_own_arguments_say() -> None:
+def test_domain_follows_from_the_conditions_on_its_arguments() -> None:
     assert DOMAIN.holds(Point({"x": 8.0, "y": 8.0}))
     assert not DOMAIN.holds(Point({"x": 8.5, "y": 9.0}))
     assert not DOMAIN.holds(Point({"x": 2.0, "y": 1.0}))
     assert not DOMAIN.holds(Point({"x": 2.0, "y": math.inf}))
 
 
-def test_steps_are_floats_or_whole_numbers() -> None:
+def test_steps_are_in_floats_or_integers() -> None:
     whole, point = dataclasses.replace(DOMAIN, whole=True), Point({"x": 1.0, "y": 5.0})
     assert DOMAIN.moved(point, "x", 1).values["x"] == math.nextafter(1.0, 2.0)
     assert DOMAIN.moved(point, "x", -(2**64)).values["x"] == -math.nextafter(math.inf, 0.0)

@@ -1,4 +1,4 @@
-"""Timing: what counts, what is recorded; never how fast this machine is."""
+"""The timing commands: method, recorded data and limits, with a simulated clock."""
 
 import json
 import subprocess
@@ -14,7 +14,7 @@ from derivation.plate.benchmark import speed
 from derivation.plate.modes.naive import FIELDS, naive_field
 
 
-def test_candidates_take_turns_and_the_lower_quartile_counts(
+def test_lower_quartile_of_interleaved_times_is_used(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     clock, order = [0.0], []
@@ -31,14 +31,14 @@ def test_candidates_take_turns_and_the_lower_quartile_counts(
     assert spread == 2.0
 
 
-def test_a_ratio_beyond_its_limit_is_not_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_ratio_is_compared_with_its_limit(monkeypatch: pytest.MonkeyPatch) -> None:
     ticks = count()
     monkeypatch.setattr(time, "perf_counter", lambda: float(next(ticks)))
     assert speed.ratio("x", lambda: None, lambda: None, 1.0).kept
     assert not speed.ratio("x", lambda: None, lambda: None, 0.99).kept
 
 
-def test_scenes_are_different_and_within_the_law() -> None:
+def test_random_impacts_are_distinct_and_valid() -> None:
     found = speed.impact(**speed.scenes(0.01, 5.9, 200))
     reached = found.max_contact_radius / speed.scenes(0.01, 5.9, 200)["h"]
     assert np.isfinite(np.stack(found)).all()
@@ -46,22 +46,22 @@ def test_scenes_are_different_and_within_the_law() -> None:
     assert reached.max() > 3.0
 
 
-def test_data_names_the_machine() -> None:
+def test_data_contain_the_machine() -> None:
     data = speed.as_data([speed.SpeedTiming("x", 2.0, "times", 3.0, 1.1, True)])
     assert json.loads(json.dumps(data)) == data
     assert data["machine"]["numpy"] == np.__version__
     assert data["rows"][0]["kept"] is True
 
 
-# --- what is compared
+# --- published and stable forms
 
 
 @pytest.mark.parametrize("name", speed.NAIVE)
-def test_naive_and_stable_forms_compute_the_same(name: str) -> None:
-    """To rounding; but for phi, of which the paper prints one too many below in two of them."""
+def test_published_and_stable_forms_agree(name: str) -> None:
+    """They agree to rounding, apart from the extra factor 1/phi in two published formulas."""
     stable, naive = speed.NAIVE[name]
     x = np.linspace(*speed.NAIVE_RIGHT, speed.NAIVE_POINTS)
-    if name in FIELDS:  # which is one number of x at every depth
+    if name in FIELDS:  # compared at one value of x and all depths
         x[:] = 3.0
     ours, theirs = stable(x), naive(x)
     theirs = theirs * x if name in ("Omega_3", "Omega_4") else theirs
@@ -70,7 +70,7 @@ def test_naive_and_stable_forms_compute_the_same(name: str) -> None:
     assert np.ptp(ours) > 0.0
 
 
-def test_naive_fields_refuse_what_the_stable_ones_do() -> None:
+def test_published_fields_are_nan_where_the_stable_ones_are() -> None:
     for name in FIELDS:
         for z, phi, mu in ((1.1, 1.0, 1.0), (0.0, -1.0, 1.0), (0.0, 1.0, -1.0)):
             given = (z, phi, 1.0, 1.2, mu, -1.0)
@@ -78,27 +78,27 @@ def test_naive_fields_refuse_what_the_stable_ones_do() -> None:
             assert np.isnan(getattr(speed.mode_shapes, name)(*given))
 
 
-# --- what is planned
+# --- plan of the measurement
 
 
-def test_every_example_starts_cold_and_hertz_alone_is_asked_of_the_block(
+def test_every_example_is_timed_and_only_the_block_against_hertz_alone(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """Each with its promise; the rest of the comparisons once, and whoever asks is told of all."""
+    """Each example has its limit; other comparisons occur once; progress counts all of them."""
 
-    def made(kind: str) -> Any:
+    def recorder(kind: str) -> Any:
         def timing(*given: Any) -> tuple[Any, ...]:
             return (kind, *given)
 
         return timing
 
     for kind in ("law_over_exp", "impact_rate", "cold_start", "hertz_alone", "stable_over_naive"):
-        monkeypatch.setattr(speed, kind, made(kind))
-    block, pad, told = Path("block.toml"), Path("pad.toml"), list[Any]()
-    found: list[Any] = speed.measure([block, pad], [pad], lambda *given: told.append(given))
+        monkeypatch.setattr(speed, kind, recorder(kind))
+    block, pad, reported = Path("block.toml"), Path("pad.toml"), list[Any]()
+    found: list[Any] = speed.measure([block, pad], [pad], lambda *given: reported.append(given))
     assert found == speed.measure([block, pad], [pad])
-    assert [number for _, number, _ in told] == list(range(1, len(found) + 1))
-    assert {total for *_, total in told} == {len(found)}
+    assert [number for _, number, _ in reported] == list(range(1, len(found) + 1))
+    assert {total for *_, total in reported} == {len(found)}
     assert [row[1:] for row in found if row[0] == "cold_start"] == [
         ("simulate", block, speed.START), ("explain", block, speed.EXPLAINED),
         ("simulate", pad, speed.SOLVED_START), ("explain", pad, speed.EXPLAINED),
@@ -108,10 +108,10 @@ def test_every_example_starts_cold_and_hertz_alone_is_asked_of_the_block(
     assert not [row for row in speed.measure([pad]) if row[0] == "hertz_alone"]  # type: ignore[index]
 
 
-def test_rates_and_starts_are_of_what_they_say(
+def test_rates_and_cold_starts_time_the_intended_work(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    """A clock that ticks once a call; processes are not started but noted."""
+    """The clock advances by 1 with each call; processes are recorded instead of started."""
     ticks, started, impacts = count(), list[Any](), list[int]()
     monkeypatch.setattr(time, "perf_counter", lambda: float(next(ticks)))
     monkeypatch.setattr(speed, "impact", lambda **given: impacts.append(given["R"].size))
@@ -140,7 +140,7 @@ def test_rates_and_starts_are_of_what_they_say(
     assert switched == [auto, off] * speed.COLD_ROUNDS
 
 
-def test_a_process_keeps_its_bytecode_and_its_failure_is_seen(
+def test_process_writes_bytecode_and_its_failure_raises_an_error(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setenv("PYTHONDONTWRITEBYTECODE", "1")

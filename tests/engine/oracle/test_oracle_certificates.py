@@ -1,4 +1,4 @@
-"""Certificates of both oracles: each is made to fail, and then no number comes out."""
+"""A reference value whose certificate fails raises an error (Arb and mpmath references)."""
 
 import math
 from dataclasses import replace
@@ -14,132 +14,138 @@ from mpmath import mp, mpc, mpf
 from derivation.engine.formula.ball import PrecisionError
 from derivation.engine.oracle.agreement import RouteError
 from derivation.mathematics.bessel import oracle as zeros
-from derivation.plate import oracle as balls
-from derivation.plate.back_face import oracle as far_face_balls
-from derivation.plate.back_face import route as far_face_routes
-from derivation.plate.contact.oracle import balls as contact_balls
+from derivation.plate import oracle as references
+from derivation.plate.back_face import oracle as back_face_references
+from derivation.plate.back_face import route as back_face_routes
+from derivation.plate.contact.oracle import balls as contact_references
 from derivation.plate.contact.oracle import forces as contact_forces
 from derivation.plate.contact.oracle import points as contact_points
 from derivation.plate.contact.oracle import sums as contact_sums
 from derivation.plate.contact.oracle import wall as contact_wall
 from derivation.plate.contact.route import residue_law
-from derivation.plate.edge.oracle import supported as edge_balls
+from derivation.plate.edge.oracle import supported as edge_references
 from derivation.plate.edge.route import supported as edge_routes
-from derivation.plate.edge_modes.oracle import modes as held_balls
-from derivation.plate.edge_modes.route import modes as held_routes
+from derivation.plate.edge_modes.oracle import modes as edge_mode_references
+from derivation.plate.edge_modes.route import modes as edge_mode_routes
 from derivation.plate.impact.oracle import impact as contact_impact
 from derivation.plate.impact.oracle import quantities as contact_quantities
 from derivation.plate.impact.oracle import state_rounding
 from derivation.plate.modes.route import routes
-from derivation.plate.pressure import oracle as pressure_balls
+from derivation.plate.pressure import oracle as pressure_references
 from derivation.plate.pressure import route as pressure_routes
-from derivation.plate.waves import oracle as inertia_balls
-from derivation.plate.waves import route as inertia_routes
+from derivation.plate.waves import oracle as wave_references
+from derivation.plate.waves import route as wave_routes
 
 SPHERE = (0.01, 0.03, 1.0, 0.1, 1.0, 1.2e11, 8e10)
-"""R, m, v0, h, b, lam, mu of a grazing impact."""
+"""R, m, v0, h, b, lam, mu of an impact."""
 
 
 # --- zeros of Bessel functions
 
 
-class Impatient(int):
-    """A precision for which Newton's iteration does no step."""
+class ZeroNewtonSteps(int):
+    """A precision that makes Newton's iteration end before its first step."""
 
     def bit_length(self) -> int:
         return -4
 
 
 @pytest.mark.parametrize(
-    ("find", "shown", "says"),
+    ("find", "check", "message"),
     [
         (zeros.j0_zero, "first_zero_is_first", "no zero below 3 pi/4"),
         (zeros.j1_zero, "first_zero_of_j1_is_first", "no zero up to 5 pi/4 - 1/8"),
     ],
 )
-def test_zeros_are_not_counted_from_an_unknown_first(
-    find: Any, shown: str, says: str, monkeypatch: pytest.MonkeyPatch
+def test_numbering_of_zeros_needs_a_certified_first_zero(
+    find: Any, check: str, message: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(zeros, shown, lambda: False)
-    with pytest.raises(zeros.ZeroError, match=says):
+    monkeypatch.setattr(zeros, check, lambda: False)
+    with pytest.raises(zeros.ZeroError, match=message):
         find.__wrapped__(1, 60)
 
 
 @pytest.mark.parametrize(
-    ("place", "says"),
+    ("guess", "message"),
     [(5.5201, "is outside the interval of zero 1"), (2.4, "does not change its sign")],
 )
-def test_a_guess_that_is_no_zero_of_j0_is_not_certified(
-    place: float, says: str, monkeypatch: pytest.MonkeyPatch
+def test_value_that_is_no_zero_of_j0_is_not_certified(
+    guess: float, message: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """5.5201 is close to the second zero, 2.4 next to the first."""
-    monkeypatch.setattr(zeros, "_newton", lambda *_: arb(place))
-    with pytest.raises(zeros.ZeroError, match=says):
+    monkeypatch.setattr(zeros, "_newton", lambda *_: arb(guess))
+    with pytest.raises(zeros.ZeroError, match=message):
         zeros.j0_zero.__wrapped__(1, 60)
 
 
-def test_a_guess_that_is_no_zero_of_j1_is_not_certified(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_value_that_is_no_zero_of_j1_is_not_certified(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(zeros.ZeroError, match="J1 does not change its sign"):
-        zeros.j1_zero.__wrapped__(1, Impatient(60))
+        zeros.j1_zero.__wrapped__(1, ZeroNewtonSteps(60))
     monkeypatch.setattr(zeros, "WIDTH_J1", arb(0.01))  # narrower than 5 pi/4 - 3.8317
     with pytest.raises(zeros.ZeroError, match="is outside the interval of zero 1 of J1"):
         zeros.j1_zero.__wrapped__(1, 60)
 
 
-def test_j1_at_a_zero_known_too_coarsely(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_j1_at_an_inaccurate_zero_is_rejected(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(zeros, "j0_zero", lambda *_: arb(2.405, 0.001))
     with pytest.raises(zeros.ZeroError, match=r"J1 at zero 1 is .* \[0\.52 \+/- "):
         zeros.j1_at_zero.__wrapped__(1, 60)
 
 
-def test_numbers_by_index_have_whole_indices() -> None:
+def test_index_must_be_an_integer() -> None:
     with pytest.raises(ValueError, match=r"kappa needs an integer index, got 1\.5"):
-        balls.truth("kappa", {"n": 1.5})
+        references.truth("kappa", {"n": 1.5})
 
 
-# --- the contact law in balls
+# --- the contact law in interval arithmetic
 
 
-def test_a_ball_that_stays_wide_is_no_result() -> None:
+def test_interval_that_stays_wide_is_rejected() -> None:
     with pytest.raises(PrecisionError, match="no 10 digits of the value within"):
-        contact_balls.settle(lambda _: (arb(0, 1e-300),), 10, "the value")
+        contact_references.settle(lambda _: (arb(0, 1e-300),), 10, "the value")
 
 
-def test_lengths_are_positive() -> None:
+def test_lengths_must_be_positive() -> None:
     with pytest.raises(ValueError, match=r"lengths are positive, got 0\.1 and 0\.0"):
-        contact_balls.indentation(0.1, 1.0, 0.1, 0.0)
+        contact_references.indentation(0.1, 1.0, 0.1, 0.0)
     with pytest.raises(ValueError, match=r"a radius is positive, got -1\.0"):
-        contact_balls.stiffness(0.01, -1.0, 0.1, 1.0, 1e9, 1e9)
+        contact_references.stiffness(0.01, -1.0, 0.1, 1.0, 1e9, 1e9)
 
 
-def test_poles_taken_off_the_plate_factor_are_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A numerator of another plate factor keeps powers that G - 6/T^3 - 6/(5T) has not."""
+def test_subtracted_polar_part_of_the_plate_factor_is_verified(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """With a modified numerator, negative powers of T remain after subtracting 6/T^3 + 6/(5T)."""
     with flint.ctx.workprec(60):
         known = contact_sums.plate_excess(acb(1)) + 1 - acb(7.2)
-        assert abs(contact_balls._regular(acb(1), 60) - known) < 1e-15
+        assert abs(contact_references._regular(acb(1), 60) - known) < 1e-15
     wrong = vars(math) | {"factorial": lambda n: math.factorial(n) * (n + 1)}
-    monkeypatch.setattr(contact_balls, "math", SimpleNamespace(**wrong))
+    monkeypatch.setattr(contact_references, "math", SimpleNamespace(**wrong))
     with pytest.raises(ArithmeticError, match="polar part of G is not"):
-        contact_balls._regular(acb(1), 60)
+        contact_references._regular(acb(1), 60)
 
 
-def falling(x: Any) -> Any:
+def decreasing(x: Any) -> Any:
     return 1 / x
 
 
-def test_roots_are_enclosed_or_not_given() -> None:
-    """x = 1/4, then steepnesses that overshoot for ever, and a function that falls."""
+def test_roots_are_enclosed_or_rejected() -> None:
+    """Solve x = 1/4 with the exact slope, with a slope that makes the iteration overshoot, and
+    solve 1/x = 4, whose left side decreases.
+    """
     with flint.ctx.workprec(64):
-        found = contact_balls.ratio_where(lambda x: x, lambda *_: arb(1), arb(0.25), 0.1, "1/4")
+        found = contact_references.ratio_where(
+            lambda x: x, lambda *_: arb(1), arb(0.25), 0.1, "1/4"
+        )
         assert found.contains(arb(0.25))
         assert found.rad() < 1e-9
         with pytest.raises(PrecisionError, match="no convergence towards 1/4"):
-            contact_balls.ratio_where(lambda x: x, lambda *_: arb(0.4), arb(0.25), 0.1, "1/4")
+            contact_references.ratio_where(lambda x: x, lambda *_: arb(0.4), arb(0.25), 0.1, "1/4")
         with pytest.raises(PrecisionError, match=r"4 is not enclosed by .0\.24999.* and .0\.25000"):
-            contact_balls.ratio_where(falling, lambda *_: arb(-1), arb(4), 0.1, "4")
+            contact_references.ratio_where(decreasing, lambda *_: arb(-1), arb(4), 0.1, "4")
 
 
-def test_roots_of_the_other_oracle_too() -> None:
+def test_roots_of_the_mpmath_reference_converge_or_are_rejected() -> None:
     with mp.workdps(30):
         found = residue_law._root(lambda x, _: (x, mpf(1)), mpf("0.25"), mpf("0.1"), 24)
         assert abs(found - mpf("0.25")) < mpf(10) ** -28
@@ -151,8 +157,8 @@ def test_roots_of_the_other_oracle_too() -> None:
         residue_law.contact_radius(1.0, 1.0, 0.1, 0.2, 20)
 
 
-def test_a_slope_that_may_vanish_bounds_nothing() -> None:
-    """S/q = 1/q + p is 1 + p at least: above 0 for p = -1/2, not for p = -2."""
+def test_error_bound_needs_a_positive_slope() -> None:
+    """S/q = 1/q + p is at least 1 + p, which is positive for p = -1/2 but not for p = -2."""
     with flint.ctx.workprec(64):
         error = arb(2) ** -40
         allowed = contact_impact._error_bound(flint.arb_poly([-0.5]), error)
@@ -161,7 +167,7 @@ def test_a_slope_that_may_vanish_bounds_nothing() -> None:
             contact_impact._error_bound(flint.arb_poly([-2]), error)
 
 
-def test_bounds_hold_where_they_are_proved() -> None:
+def test_bounds_are_rejected_outside_their_region_of_validity() -> None:
     with pytest.raises(ValueError, match="a ball across the cut"):
         contact_sums.hankel_over_j0(acb(-1, 1))
     with pytest.raises(ValueError, match="between -45 and 45 degrees"):
@@ -169,27 +175,27 @@ def test_bounds_hold_where_they_are_proved() -> None:
     with pytest.raises(PrecisionError, match="no bound on the ellipse near"):
         contact_sums._panel(acb(1), acb(2), arb(3), lambda z: z, lambda _: arb("inf"))
     with pytest.raises(ValueError, match=r"the sum, which ends at T = 4\.0"):
-        edge_balls._rest(arb(4), arb(1))
-    assert edge_balls._rest(arb(20), arb(1)).rad() < 1e-4
-    near = edge_balls._near(edge_balls.KERNELS["slope"], arb(0.5), acb(4))
+        edge_references._rest(arb(4), arb(1))
+    assert edge_references._rest(arb(20), arb(1)).rad() < 1e-4
+    near = edge_references._near(edge_references.KERNELS["slope"], arb(0.5), acb(4))
     assert not near.is_finite()
 
 
-def test_the_side_walls_far_bound_begins_where_it_holds(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(contact_wall, "NEAR", 1.4)  # sinh of it is below 2
+def test_bound_on_the_side_wall_is_checked_where_it_begins(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(contact_wall, "NEAR", 1.4)  # sinh(1.4) < 2
     with pytest.raises(PrecisionError, match=r"does not hold from t = 1\.4 on"):
         contact_wall.shifted_bound.__wrapped__()
 
 
-def test_sums_end_where_their_rest_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_sums_that_end_too_early_are_rejected(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(contact_wall, "trapezoidal", lambda *_: ([arb(0), arb(1)], [arb(1)] * 2))
     with pytest.raises(PrecisionError, match=r"sum ends at 1\.0.*, too early"):
         contact_wall.wall_points.__wrapped__(64)
     monkeypatch.setattr(contact_points, "mode_count", lambda *_: 1)
     few = SimpleNamespace(**vars(math) | {"ceil": lambda _: 0})
-    monkeypatch.setattr(far_face_balls, "math", few)
+    monkeypatch.setattr(back_face_references, "math", few)
     with pytest.raises(ValueError, match=r"the sum, which ends at T = \[1\.0995"):
-        far_face_balls.far_sum(0.01, 0.1, 1.0, 10)
+        back_face_references.far_sum(0.01, 0.1, 1.0, 10)
     with pytest.raises(PrecisionError, match=r"modes end at T = \[0\.1099\d* .*, too early"):
         contact_points.mode_points.__wrapped__(Fraction(1, 100), 64, 104)
 
@@ -198,8 +204,8 @@ def test_sums_end_where_their_rest_is_bounded(monkeypatch: pytest.MonkeyPatch) -
 
 
 @pytest.mark.parametrize("terms", [4, 8])
-def test_the_reversed_series_approaches_the_force(terms: int) -> None:
-    """So many terms of P(delta) miss eps^terms, and eps^2 goes with delta."""
+def test_truncated_series_of_the_force_has_the_order_of_its_terms(terms: int) -> None:
+    """The error of P(delta) with n terms is of order eps^n; eps^2 is proportional to delta."""
     R, h, b, lam, mu = 0.13, 0.1, 1.0, 0.36e9, 0.43e9
     errors = []
     for delta in (1e-6, 1e-5):
@@ -211,51 +217,51 @@ def test_the_reversed_series_approaches_the_force(terms: int) -> None:
     assert errors[1] / errors[0] == pytest.approx(10 ** (terms / 2), rel=0.06)
 
 
-def test_a_radius_and_its_force_invert_each_other() -> None:
+def test_radius_and_force_are_inverse_functions() -> None:
     a, R, lam, mu = 0.01, 0.13, 0.36e9, 0.43e9
     force = contact_forces.force_of_radius(a, R, lam, mu, 40)
     back = contact_forces.radius_of_force(contact_quantities.fraction(force), R, lam, mu, 40)
     pressure = contact_forces.max_pressure(a, R, lam, mu, 40)
     with flint.ctx.workprec(160):
         assert abs(back / arb(a) - 1) < 1e-38
-        # Hertz: 3/2 of the mean pressure.
+        # In Hertz theory, the maximum pressure is 3/2 of the mean pressure.
         assert abs(pressure * arb.pi() * arb(a) ** 2 / force - arb(1.5)) < 1e-38
 
 
-@pytest.mark.parametrize(("share", "speed"), [(0.0, 1.0), (2.5, -1.0)])
-def test_before_and_after_the_contact_the_sphere_flies(share: float, speed: float) -> None:
-    """Without loss it leaves at the speed it came with, and of its arguments feels that alone."""
+@pytest.mark.parametrize(("fraction", "speed"), [(0.0, 1.0), (2.5, -1.0)])
+def test_sphere_moves_freely_before_and_after_the_contact(fraction: float, speed: float) -> None:
+    """Without loss the rebound speed equals the impact speed and depends on no other argument."""
     whole = contact_impact.impact(*SPHERE, digits=20).contact_time
-    given, reached = (share * float(whole), *SPHERE), cast("Any", contact_quantities.state)
+    given, exact_state = (fraction * float(whole), *SPHERE), cast("Any", contact_quantities.state)
 
     def state(arguments: Any, digits: int) -> Any:
-        return reached(*arguments, digits=digits)
+        return exact_state(*arguments, digits=digits)
 
     found = state(given, 12)
     assert [float(part) for part in found] == [0.0, speed, 0.0, 0.0]
-    moved = [float(part) for part in state_rounding.rounding(state, given, found)]
-    assert moved == pytest.approx([0.0, 1.0, 0.0, 0.0], abs=1e-12)
+    changes = [float(part) for part in state_rounding.rounding(state, given, found)]
+    assert changes == pytest.approx([0.0, 1.0, 0.0, 0.0], abs=1e-12)
 
 
-def test_states_are_enclosed_by_times_or_not_given(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_states_are_enclosed_in_time_or_rejected(monkeypatch: pytest.MonkeyPatch) -> None:
     whole = float(contact_impact.impact(*SPHERE, digits=20).contact_time)
     monkeypatch.setattr(contact_quantities, "_STEPS", 1)
     with pytest.raises(PrecisionError, match=r"the state at .* is not enclosed by"):
         contact_quantities.state(0.3 * whole, *SPHERE, digits=12)
 
 
-def test_histories_stay_below_the_largest_radius() -> None:
+def test_history_rejects_radii_above_the_maximum() -> None:
     most = contact_impact.impact(*SPHERE, digits=20).max_contact_radius
     wider = 1.0001 * float(most)
     with pytest.raises(ValueError, match=r"a contact radius below .* is expected, got 0\.0"):
         contact_impact.history([wider], *SPHERE, digits=20)
 
 
-# --- oracle 2
+# --- mpmath reference
 
 
-def test_samples_on_a_circle_next_to_a_pole() -> None:
-    """1/(1 - z/p) has the coefficient 1/p^2, if its pole is not next to the circle."""
+def test_coefficients_from_a_circle_next_to_a_pole_are_rejected() -> None:
+    """The coefficient of z^2 in 1/(1 - z/p) is 1/p^2; for p = 1.0001 the samples do not give it."""
     with mp.workdps(20):
         found = edge_routes._coefficient(lambda z: 1 / (1 - z / 2), 2, mpf(1), 15)
         assert abs(found - 0.25) < 1e-14
@@ -263,57 +269,60 @@ def test_samples_on_a_circle_next_to_a_pole() -> None:
             edge_routes._coefficient(lambda z: 1 / (1 - z / mpf("1.0001")), 2, mpf(1), 15)
 
 
-def test_residues_that_do_not_fall(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_residue_sums_that_do_not_converge_are_rejected(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(RouteError, match=r"no root of sinh T = \+-T for n = 0\.5"):
         edge_routes.root(0.5)  # type: ignore[arg-type]
     monkeypatch.setattr(edge_routes, "MOST", 4)
     with pytest.raises(RouteError, match=r"4 roots .* at h/b = 0\.1"):
         edge_routes._roots(1, lambda _: mpc(1), mpf("0.1"))
     with pytest.raises(RouteError, match=r"too few roots at h/b = 0\.9"):
-        far_face_routes._roots(mpf("0.9"), mpf(1))
+        back_face_routes._roots(mpf("0.9"), mpf(1))
 
 
-def test_modes_of_a_held_plate_are_certified() -> None:
-    with flint.ctx.workprec(24), pytest.raises(held_balls.RootError, match="no change of sign"):
-        held_balls._root("clamped", 1, 0.3, 64)
+def test_edge_mode_without_a_change_of_sign_is_not_certified() -> None:
+    with (
+        flint.ctx.workprec(24),
+        pytest.raises(edge_mode_references.RootError, match="no change of sign"),
+    ):
+        edge_mode_references._root("clamped", 1, 0.3, 64)
 
 
-def test_modes_of_a_held_plate_that_the_determinant_has_not(
+def test_edge_modes_without_roots_of_the_determinant_are_rejected(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(held_routes, "_determinant", lambda *_: mpf("nan"))
+    monkeypatch.setattr(edge_mode_routes, "_determinant", lambda *_: mpf("nan"))
     with mp.workdps(20):
         with pytest.raises(RouteError, match="fewer than 2 modes up to k = 12"):
-            held_routes._interval("clamped", 2, mpf(0))
+            edge_mode_routes._interval("clamped", 2, mpf(0))
         with pytest.raises(RouteError, match="no root of the determinant"):
-            held_routes._bisected("clamped", mpf(1), mpf(2), mpf(0), 10)
+            edge_mode_routes._bisected("clamped", mpf(1), mpf(2), mpf(0), 10)
 
 
-def test_plate_waves_that_are_not_enclosed(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_wave_numbers_that_are_not_enclosed_are_rejected(monkeypatch: pytest.MonkeyPatch) -> None:
     with mp.workdps(20):
-        found = inertia_routes._secant(lambda x: x * x - 2, mpf(1), mpf(2), 10)
+        found = wave_routes._secant(lambda x: x * x - 2, mpf(1), mpf(2), 10)
         assert abs(found - mp.sqrt(2)) < mpf(10) ** -14
         with pytest.raises(RouteError, match="secant method does not converge"):
-            inertia_routes._secant(lambda x: x * x + 1, mpf("0.3"), mpf("0.4"), 10)
-    monkeypatch.setattr(inertia_routes, "_answers", lambda *_: (mpf(1), mpf(1)))
+            wave_routes._secant(lambda x: x * x + 1, mpf("0.3"), mpf("0.4"), 10)
+    monkeypatch.setattr(wave_routes, "_answers", lambda *_: (mpf(1), mpf(1)))
     with pytest.raises(RouteError, match="no zero between"):
-        inertia_routes._zero(mpf(1), mpf("0.3"), 20)
-    monkeypatch.setattr(inertia_balls, "_slope", lambda *_: arb(2) ** -200)
+        wave_routes._zero(mpf(1), mpf("0.3"), 20)
+    monkeypatch.setattr(wave_references, "_slope", lambda *_: arb(2) ** -200)
     with flint.ctx.workprec(100):
-        assert inertia_balls._zero(inertia_balls.KINDS[0], 1.0, 0.3, 1, 15).is_nan()
+        assert wave_references._zero(wave_references.KINDS[0], 1.0, 0.3, 1, 15).is_nan()
 
 
-def test_resolutions_of_a_contact_that_differ(monkeypatch: pytest.MonkeyPatch) -> None:
-    narrow = pressure_balls._wider(arb(1), arb(1) + arb(2) ** -50, 10)
+def test_contact_pressures_of_two_resolutions_must_agree(monkeypatch: pytest.MonkeyPatch) -> None:
+    narrow = pressure_references._wider(arb(1), arb(1) + arb(2) ** -50, 10)
     assert narrow.contains(arb(1))
     with pytest.raises(PrecisionError, match=r"two resolutions of the contact differ by 0\.5"):
-        pressure_balls._wider(arb(1), arb(1.5), 10)
+        pressure_references._wider(arb(1), arb(1.5), 10)
     monkeypatch.setattr(pressure_routes, "_size", lambda *_: 2)
     with pytest.raises(RouteError, match="two bases differ by"):
         pressure_routes.solve(Fraction(1), Fraction(1, 4), digits=20)
 
 
-def test_quadrature_that_does_not_converge() -> None:
+def test_quadrature_that_does_not_converge_is_rejected() -> None:
     with mp.workdps(40):
         value = routes._integral(mp.exp, [mpf(0), mpf(1)], "tanh-sinh")
         assert abs(value - mp.e + 1) < mpf(10) ** -35
@@ -321,10 +330,8 @@ def test_quadrature_that_does_not_converge() -> None:
             routes._integral(lambda x: abs(x - mpf(1) / 3), [mpf(0), mpf(1)], "tanh-sinh")
 
 
-@pytest.mark.parametrize("answer", ["inf", "nan"])
-def test_a_route_without_a_number_has_no_value(
-    answer: str,
-) -> None:
-    lost = replace(routes.ORACLE, routes={"G": lambda _: mpf(answer)})
+@pytest.mark.parametrize("result", ["inf", "nan"])
+def test_route_that_is_not_finite_is_rejected(result: str) -> None:
+    oracle = replace(routes.ORACLE, routes={"G": lambda _: mpf(result)})
     with pytest.raises(RouteError, match=r"G at \{'T': 1\.0\}: no two results agree to 50 digits"):
-        lost.value("G", {"T": 1.0})
+        oracle.value("G", {"T": 1.0})

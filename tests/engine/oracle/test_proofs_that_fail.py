@@ -1,4 +1,4 @@
-"""Proofs, bounds and printers that are given something false, and refuse it."""
+"""Proofs, bounds and printers raise an error if one of their inputs is made wrong."""
 
 import math
 from dataclasses import replace
@@ -33,8 +33,8 @@ from derivation.plate.vocabulary import PLATE, phi
 x = sp.Symbol("x", positive=True)
 
 
-class Impatient(int):
-    """A precision for which Newton's iteration does no step."""
+class ZeroNewtonSteps(int):
+    """A precision that makes Newton's iteration end before its first step."""
 
     def bit_length(self) -> int:
         return -4
@@ -43,53 +43,57 @@ class Impatient(int):
 # --- theory
 
 
-def test_the_sum_identity_fails_for_a_wrong_integral(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_sum_identity_fails_for_a_wrong_integral(monkeypatch: pytest.MonkeyPatch) -> None:
     wrong = replace(contact_split._EXAMPLES[0], integral=2)  # int_0^oo e^(-x) dx is 1
     monkeypatch.setattr(contact_split, "_EXAMPLES", (wrong,))
     with pytest.raises(ProofError, match=r"Sum identity: exp\(-x\) gives"):
         contact_split.identity_in_balls.__wrapped__()
 
 
-def test_roots_that_newton_has_not_found_are_not_certified() -> None:
+def test_roots_without_newton_steps_are_not_certified() -> None:
     with pytest.raises(ProofError, match="zero 1 of J0 is not in"):
-        contact_split.zero_of_j0.__wrapped__(1, Impatient(60))
+        contact_split.zero_of_j0.__wrapped__(1, ZeroNewtonSteps(60))
     with pytest.raises(ArithmeticError, match=r"root 1 of sinh T = \+-T is not shown"):
-        thin_roots.root.__wrapped__(1, Impatient(60))
+        thin_roots.root.__wrapped__(1, ZeroNewtonSteps(60))
 
 
-def other(module: Any, **names: Any) -> Any:
-    """A module with other values for some of its names."""
+def changed(module: Any, **names: Any) -> Any:
+    """Return a copy of the namespace of a module with some names replaced."""
     return SimpleNamespace(**vars(module) | names)
 
 
-def test_a_sphere_of_another_depth_is_not_the_one_used(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_profile_that_is_not_spherical_is_rejected(monkeypatch: pytest.MonkeyPatch) -> None:
     curvature._powers()
-    monkeypatch.setattr(curvature, "sp", other(sp, log=lambda u: sp.log(u) * (1 + curvature._x**2)))
+    monkeypatch.setattr(
+        curvature, "sp", changed(sp, log=lambda u: sp.log(u) * (1 + curvature._x**2))
+    )
     with pytest.raises(ProofError, match="delta' of the sphere: power 3 differs"):
         curvature._powers()
 
 
-def test_bounds_of_the_plate_factors_rest_are_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
-    """At T = 1/2 in the place of 1 neither holds."""
-    half = other(flint, arb=lambda n: arb(-1 if n == -2 else n))
+def test_bounds_on_the_remainder_of_the_plate_factor_are_checked(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Neither bound holds if it is evaluated at T = 1/2 instead of T = 1."""
+    half = changed(flint, arb=lambda n: arb(-1 if n == -2 else n))
     monkeypatch.setattr(moments, "flint", half)
     with pytest.raises(ProofError, match=r"d\(1\) or E\(1\) is below its bound"):
         moments.excess_beyond_first.__wrapped__()
 
 
-def test_contacts_wider_than_the_bound_allows_are_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_contact_wider_than_the_bound_allows_is_rejected(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(pressure_bound, "WIDEST", pressure_bound.WIDTH / 2)
     with pytest.raises(ProofError, match="the actual contact may be too wide"):
         pressure_bound.wall_share.__wrapped__()
 
 
-def test_quadrature_across_a_singularity_has_no_bound() -> None:
-    """One ball in the place of the whole ellipse holds the radicand's zeros."""
+def test_quadrature_bound_rejects_zeros_of_the_radicand() -> None:
+    """A single interval that covers the whole ellipse contains zeros of the radicand."""
     with flint.ctx.workprec(53), pytest.raises(ArithmeticError, match="radicand may vanish"):
         substitution.time_quadrature_bound(24, arcs=1, boxes=1)
 
 
-def test_power_series_are_summed_where_their_tail_is_bounded(
+def test_power_series_has_no_value_where_its_tail_has_no_bound(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     poles = {-3: sp.Integer(6), -1: sp.Rational(6, 5)}
@@ -103,18 +107,18 @@ def test_power_series_are_summed_where_their_tail_is_bounded(
 
 
 @pytest.mark.parametrize(
-    ("power", "says"), [(1, "grow like j"), (2, "grow like j^2"), (-2, "decrease like j^(-2)")]
+    ("power", "message"), [(1, "grow like j"), (2, "grow like j^2"), (-2, "decrease like j^(-2)")]
 )
-def test_tails_are_named_by_their_power(power: int, says: str) -> None:
+def test_tail_of_a_sum_is_described_by_its_power(power: int, message: str) -> None:
     found = divergence.tail(phi**power)
     assert found.exponent == power
     assert found.kind == (divergence.CONVERGENT if power < -1 else divergence.DIVERGENT)
-    assert found.says.split(", ")[0].endswith(says)
+    assert found.says.split(", ")[0].endswith(message)
 
 
 @pytest.mark.parametrize("law", [(-3.1, 4.9), (2.4, -0.8, -2.5)])
-def test_the_inverted_series_converges_up_to_where_its_terms_say(law: tuple[float, ...]) -> None:
-    """Critical values that lie nearer, but on another branch of the inverse, do not count.
+def test_radius_of_convergence_agrees_with_the_growth_of_the_terms(law: tuple[float, ...]) -> None:
+    """Closer critical values on another branch of the inverse function do not matter.
 
     Lagrange: A = sum_n eps^n/n [A^(n-1)] law^(-n/2), whose terms grow as radius^-n n^(-3/2).
     """
@@ -128,7 +132,9 @@ def test_the_inverted_series_converges_up_to_where_its_terms_say(law: tuple[floa
     assert math.exp(-max(sizes)) == pytest.approx(reversion.radius(law), rel=0.02)
 
 
-def test_a_law_without_coefficients_has_no_radius(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_law_without_coefficients_has_no_radius_of_convergence(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     with pytest.raises(ValueError, match="expected a coefficient that is not zero, got none"):
         reversion.radius([0.0, 0.0])
     monkeypatch.setattr(reversion, "_reaches", lambda *_: False)
@@ -138,24 +144,24 @@ def test_a_law_without_coefficients_has_no_radius(monkeypatch: pytest.MonkeyPatc
 # --- formula
 
 
-def test_eulers_number_is_a_ball() -> None:
+def test_constants_e_and_euler_gamma_are_enclosed() -> None:
     with flint.ctx.workprec(100):
         assert enclose(sp.E, {}).overlaps(arb(1).exp())
         assert enclose(sp.E * sp.EulerGamma, {}).rad() < 1e-28
 
 
-def test_bessel_functions_of_negative_order_by_their_reflection() -> None:
-    """J_(-n) = (-1)^n J_n, I_(-n) = I_n, as they are not written by SymPy's own evaluation."""
+def test_bessel_functions_of_negative_order_are_reflected() -> None:
+    """J_(-n) = (-1)^n J_n and I_(-n) = I_n, also if SymPy has not evaluated them."""
     for kind, sign in ((sp.besselj, -1), (sp.besseli, 1)):
         assert lower_bessel(kind(-1, x, evaluate=False)) == sign * kind(1, x)
 
 
-def test_a_symbol_without_a_dimension_is_refused() -> None:
+def test_symbol_without_a_dimension_is_rejected() -> None:
     with pytest.raises(DimensionError, match="the dimension of x is not known"):
         dimension(phi * x, {phi: LENGTH**-1})
 
 
-def test_hyperbolic_factors_are_odd_or_even() -> None:
+def test_mixed_odd_and_even_powers_are_rejected() -> None:
     E, Q = sp.symbols("E Q", positive=True)
     assert hyperbolic._in_squares(E**3 - E, E, Q) == (1, Q - 1)
     with pytest.raises(ValueError, match="odd and even powers of E are mixed in E"):
@@ -163,14 +169,14 @@ def test_hyperbolic_factors_are_odd_or_even() -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "says"),
+    ("text", "message"),
     [
         ("+".join(["a"] * 300), "nested deeper than 200 levels: split it"),
         (f"sinh({','.join(['a'] * 4000)})", "more than 6000 parts: split it"),
     ],
 )
-def test_endless_formulas_are_refused(text: str, says: str) -> None:
-    with pytest.raises(FormulaError, match=says):
+def test_excessively_long_formulas_are_rejected(text: str, message: str) -> None:
+    with pytest.raises(FormulaError, match=message):
         parse(text, PLATE)
 
 
@@ -180,12 +186,12 @@ def test_endless_formulas_are_refused(text: str, says: str) -> None:
 @pytest.mark.parametrize(
     "expression", [sp.Float("0.1") * x * sp.exp(x), sp.Rational(1, 2**60) * x, 2 * x / 3, -x / 7]
 )
-def test_printed_numbers_are_what_they_stand_for(expression: sp.Expr) -> None:
+def test_printed_expressions_have_the_value_of_the_formula(expression: sp.Expr) -> None:
     printed = eval(printer.to_numpy(expression), {"np": math, "x": 0.7})
     assert printed == pytest.approx(float(expression.subs(x, sp.Float(0.7, 30))), rel=1e-15)
 
 
-def test_what_is_not_python_is_not_formatted() -> None:
+def test_invalid_python_is_rejected_by_the_formatter() -> None:
     assert source.format_files({"a.py": "x=1\n"}) == {"a.py": "x = 1\n"}
     with pytest.raises(RuntimeError, match="ruff check failed"):
         source.format_files({"a.py": "def (:\n"})

@@ -1,4 +1,4 @@
-"""The oracles against numbers known otherwise, against each other, and at their limits."""
+"""Reference values against known numbers and each other; rejected arguments."""
 
 import itertools
 import math
@@ -31,6 +31,7 @@ X, Y = sp.Symbol("x", real=True), sp.Symbol("y", positive=True)
 
 
 def close(ball: flint.arb, expected: mpf | str, digits: int) -> bool:
+    """Return whether an Arb ball agrees with a number to `digits` digits."""
     with flint.ctx.workprec(700):
         known = flint.arb(str(expected))
         return bool(abs(ball - known) < abs(known) * flint.arb(10) ** -digits)
@@ -54,10 +55,11 @@ def test_zeros_against_mpmath(index: int) -> None:
 
 
 def test_no_zero_is_skipped_or_counted_twice() -> None:
-    """Between neighbours J0 has one sign, alternating: |J0'| <= 1 carries it from point to point.
+    """J0 has one sign between neighbouring zeros, and the signs alternate.
 
-    The last hundredth on either side is too near a zero for that; it is narrower than
-    zeros can lie apart.
+    The sign is checked at points so close that, because of |J0'| <= 1, it cannot change between
+    them. The first and the last hundredth of each interval are too close to a zero for this, and
+    too narrow to contain two further zeros.
     """
     zeros = [j0_zero(n, 80) for n in range(1, 13)]
     with flint.ctx.workprec(100):
@@ -69,7 +71,7 @@ def test_no_zero_is_skipped_or_counted_twice() -> None:
                 assert abs(value) > step
 
 
-def test_zero_ball_is_as_narrow_as_asked() -> None:
+def test_zero_has_the_requested_precision() -> None:
     assert j0_zero(5, 300).rel_accuracy_bits() >= 300
 
 
@@ -81,7 +83,7 @@ def test_zeros_are_counted_from_one() -> None:
 # --- tapes
 
 
-def test_tape_gradient_is_sympys() -> None:
+def test_tape_gradient_equals_the_sympy_derivative() -> None:
     x, y = sp.symbols("x y", positive=True)
     expression = (
         sp.sin(x * y) * sp.besselj(1, x) / (1 + sp.sqrt(y)) ** 3
@@ -111,7 +113,7 @@ def test_tape_gradient_is_sympys() -> None:
     ],
     ids=str,
 )
-def test_every_operation_has_the_slopes_that_sympy_finds(expression: sp.Expr) -> None:
+def test_derivatives_of_each_operation_equal_the_sympy_derivatives(expression: sp.Expr) -> None:
     tape = record(expression, (X, Y))
     with flint.ctx.workprec(200):
         slots = tape.run([flint.arb(2) / 5, flint.arb(3) / 11])
@@ -123,7 +125,7 @@ def test_every_operation_has_the_slopes_that_sympy_finds(expression: sp.Expr) ->
         assert close(slope, expected, 45) if expected else slope == 0
 
 
-def test_tape_of_a_bare_input_and_of_a_repeated_one() -> None:
+def test_tape_of_an_input_alone() -> None:
     x, y = sp.symbols("x y")
     tape = record(x, (x, y))
     slots = tape.run([flint.arb(3), flint.arb(5)])
@@ -131,7 +133,7 @@ def test_tape_of_a_bare_input_and_of_a_repeated_one() -> None:
     assert [float(g) for g in tape.gradient(slots)] == [1.0, 0.0]
 
 
-def test_tape_refuses_what_it_cannot_enclose() -> None:
+def test_tape_rejects_functions_without_enclosure_and_unknown_symbols() -> None:
     x, y = sp.symbols("x y")
     with pytest.raises(NotImplementedError, match="zeta"):
         record(sp.zeta(x), (x,))
@@ -139,7 +141,7 @@ def test_tape_refuses_what_it_cannot_enclose() -> None:
         record(x + y, (x,))
 
 
-# --- oracle 1
+# --- Arb reference
 
 
 def test_plate_factor_of_a_thick_plate_is_one() -> None:
@@ -151,8 +153,8 @@ def test_plate_factor_of_a_thick_plate_is_one() -> None:
     assert close(truth("G", {"T": 200.0}), "1", 50)
 
 
-def test_plate_factor_of_a_thin_plate_is_plate_theorys() -> None:
-    """Both faces: 6/T^3 (1 + O(T^2)), the deflection of Kirchhoff's plate."""
+def test_plate_factors_of_a_thin_plate_agree_with_plate_theory() -> None:
+    """On both faces the factor tends to 6/T^3, the deflection in Kirchhoff plate theory."""
     for name in ("G", "G_m"):
         with flint.ctx.workprec(300):
             scaled = truth(name, {"T": 2.0**-100}) * flint.arb(2) ** -300
@@ -166,13 +168,13 @@ def test_hertz_force_of_a_known_case() -> None:
         assert close(12 * force, "1", 50)
 
 
-def test_sonine_of_a_long_wave_is_the_resultant_of_the_pressure() -> None:
+def test_sonine_integral_of_a_long_wave_is_the_resultant_of_the_pressure() -> None:
     """int_0^a r sqrt(1 - r^2/a^2) dr = a^2/3."""
     with flint.ctx.workprec(300):
         assert close(12 * truth("sonine", {"phi": 1e-150, "a": 0.5}), "1", 50)
 
 
-def test_loaded_faces_carry_the_load_exactly() -> None:
+def test_stresses_on_the_faces_equal_the_load() -> None:
     above, below = MODE | {"z": MODE["h"]}, MODE | {"z": -MODE["h"]}
     assert close(truth("mode_zz", above), str(int(MODE["A_j"])), 50)
     assert truth("mode_zz", below) == 0
@@ -180,7 +182,7 @@ def test_loaded_faces_carry_the_load_exactly() -> None:
     assert truth("mode_rz", below) == 0
 
 
-def test_on_the_axis_both_in_plane_stresses_are_equal() -> None:
+def test_in_plane_stresses_are_equal_on_the_axis() -> None:
     values = PLATE | {"r": 0.0}
     rr, tt = (truth(f"sigma_{name}", values, 50, 12) for name in ("rr", "tt"))
     assert rr.overlaps(tt)
@@ -189,12 +191,12 @@ def test_on_the_axis_both_in_plane_stresses_are_equal() -> None:
     assert truth("u", values, 50, 12) == 0
 
 
-def test_edge_of_the_plate_does_not_deflect() -> None:
+def test_deflection_at_the_edge_is_zero() -> None:
     assert truth("w", PLATE | {"r": 1.0}, 50, 5) == 0
 
 
-def test_first_mode_of_the_indentation_by_hand() -> None:
-    """One mode of delta with mpmath straight from the contact law."""
+def test_first_mode_of_the_indentation_against_mpmath() -> None:
+    """Compare with one mode of the contact law, written out in mpmath."""
     with mp.workdps(60):
         j = mp.besseljzero(0, 1)
         T, y = 2 * j * mpf(PLATE["h"]), j * mpf(PLATE["a"])
@@ -205,7 +207,7 @@ def test_first_mode_of_the_indentation_by_hand() -> None:
     assert close(truth("delta", values, 50, 1), expected, 45)
 
 
-def test_values_below_the_floor_are_zero_and_tiny_ones_above_it_are_not() -> None:
+def test_only_values_below_the_floor_are_set_to_zero() -> None:
     assert truth("G_minus_1", {"T": 1e6}) == 0
     small = truth("G_minus_1", {"T": 400.0})
     assert bool(0 < small < flint.arb(2) ** -1074)
@@ -213,12 +215,12 @@ def test_values_below_the_floor_are_zero_and_tiny_ones_above_it_are_not() -> Non
 
 
 @pytest.mark.parametrize("digits", [20, 50, 200])
-def test_radius_is_as_small_as_asked(digits: int) -> None:
+def test_value_has_the_requested_number_of_digits(digits: int) -> None:
     ball = truth("G", {"T": 1e-60}, digits)
     assert ball.rel_accuracy_bits() > digits * math.log2(10)
 
 
-def test_condition_numbers_are_logarithmic_slopes() -> None:
+def test_condition_numbers_are_logarithmic_derivatives() -> None:
     with mp.workdps(40):
         expected = mp.diff(
             lambda T: mp.log((mp.sinh(T) * mp.cosh(T) + T) / (mp.sinh(T) ** 2 - T**2)), 1.3
@@ -231,8 +233,8 @@ def test_condition_numbers_are_logarithmic_slopes() -> None:
     )
 
 
-def test_conditions_of_a_sum_see_the_plate_radius_through_the_modes() -> None:
-    """One mode of delta scales as b when all lengths do: the signed slopes add up to 1."""
+def test_condition_of_a_modal_sum_includes_the_change_of_the_wave_numbers() -> None:
+    """The condition number for b equals a finite difference of the sum, here of one mode."""
     values = {key: PLATE[key] for key in ("h", "b", "R", "a")}
     step = 1e-6
     up, down = (truth("delta", values | {"b": values["b"] * (1 + s)}, 50, 1) for s in (step, -step))
@@ -240,14 +242,14 @@ def test_conditions_of_a_sum_see_the_plate_radius_through_the_modes() -> None:
     assert reference("delta", values, 50, 1).condition["b"] == pytest.approx(abs(slope), rel=1e-6)
 
 
-def test_conditions_where_the_value_is_zero() -> None:
+def test_condition_numbers_where_the_value_is_zero() -> None:
     found = reference("mode_rz", MODE | {"z": MODE["h"]})
     assert found.condition["z"] == math.inf
     assert math.isnan(found.condition["A_j"])
     assert found.sensitivity["z"] > 0
 
 
-def test_singular_point_is_refused() -> None:
+def test_singular_point_is_rejected() -> None:
     with pytest.raises(PrecisionError):
         truth("G", {"T": 0.0})
     with pytest.raises(PrecisionError):
@@ -267,11 +269,11 @@ def test_arguments_are_checked() -> None:
         truth("w", PLATE)
 
 
-# --- oracle 2, and both together
+# --- mpmath reference, and agreement of both
 
 
 def draw(name: str, generator: random.Random) -> dict[str, float]:
-    """A random point that a mode or a plate can have."""
+    """Return random arguments in the domain of a formula."""
     size = generator.uniform(0.5, 2.0)
     values = {
         "h": size,
@@ -297,7 +299,7 @@ def draw(name: str, generator: random.Random) -> dict[str, float]:
 
 
 @pytest.mark.parametrize("name", names())
-def test_both_oracles_agree_to_fifty_digits(name: str) -> None:
+def test_references_agree_to_fifty_digits(name: str) -> None:
     generator = random.Random(name)
     modes = 2 if is_summed(name) else None
     slow = is_summed(name) or set(arguments(name)) <= {"n", "k"}
@@ -305,42 +307,42 @@ def test_both_oracles_agree_to_fifty_digits(name: str) -> None:
         agree(name, draw(name, generator), 50, modes)
 
 
-def test_every_formula_has_a_route_and_the_other_way_round() -> None:
+def test_formulas_and_routes_have_the_same_names() -> None:
     assert set(names()) == set(routes.ROUTES)
 
 
 @pytest.mark.parametrize("x", [1e-30, 1e-8, 200.0])
-def test_oracles_agree_where_cancellation_is_worst(x: float) -> None:
+def test_references_agree_for_very_small_and_large_arguments(x: float) -> None:
     for name in ("mode_f", "mode_rr", "mode_zz", "C_bottom", "Omega_1_scaled"):
         values = MODE | {"phi": 8 * x, "h": 0.125, "z": 0.0625}
         agree(name, {key: values[key] for key in arguments(name)}, 50)
 
 
-def test_exact_zero_is_agreed_upon() -> None:
+def test_references_agree_on_an_exact_zero() -> None:
     assert agree("mode_rz", MODE | {"z": -MODE["h"]}, 50) == 0
 
 
-def test_disagreement_is_an_error() -> None:
+def test_disagreement_of_the_references_is_an_error() -> None:
     flipped = {**routes.ROUTES, "G": lambda v: -routes.ROUTES["G_m"](v)}
     with pytest.raises(OracleError, match="against"):
         replace(routes.ORACLE, routes=flipped).agree("G", {"T": 1.3})
 
 
-def test_route_refuses_what_it_cannot_answer_for() -> None:
+def test_route_rejects_oscillating_integrals_and_unknown_names() -> None:
     with pytest.raises(RouteError, match="oscillates"):
         routes.value("sonine", {"phi": 1e6, "a": 1.0})
     with pytest.raises(KeyError, match="no route"):
         routes.value("F", {})
 
 
-def test_boussinesq_gives_hertz() -> None:
-    """The force from quadrature over point loads against (4/3) E* a^3/R, E* = 1."""
+def test_integral_over_point_loads_gives_the_hertz_force() -> None:
+    """Quadrature over Boussinesq point loads gives (4/3) E* a^3/R; here E* = 1."""
     force = routes.value("P", {"R": 1.0, "a": 0.5, "lam": 0.0, "mu": 0.5}, 40)
     with mp.workdps(45):
         assert abs(force * 6 - 1) < mpf(10) ** -38
 
 
-def test_mpmath_numbers_become_balls_exactly() -> None:
+def test_mpmath_numbers_convert_exactly_to_arb() -> None:
     with mp.workdps(80):
         number = -mp.pi * mpf(10) ** -500
         ball = agreement.to_ball(number)
@@ -351,6 +353,6 @@ def test_mpmath_numbers_become_balls_exactly() -> None:
     assert agreement.to_ball(mpf(0)) == 0
 
 
-def test_floor_of_the_two_oracles_is_below_every_double() -> None:
+def test_floor_of_both_references_is_below_every_double() -> None:
     assert bool(flint.arb(2) ** -1180 > oracle.FLOOR)
     assert -agreement.FLOOR_DIGITS * math.log2(10) < -1180

@@ -12,7 +12,7 @@ NEEDED = {
     "book": {"author", "title", "publisher", "year"},
     "misc": {"title", "howpublished", "year"},
 }
-"""What an entry of the bibliography states by its type."""
+"""Required fields of an entry, by its type."""
 CITED = re.compile(
     r"((?:[A-Z][A-Za-zéöüíä]+(?:, | and | & ))*[A-Z][A-Za-zéöüíä]+)(?: et al\.)?"
     r"(?:,? (?:[A-Z]\. )*(?:and [A-Z][a-z]+, [A-Z]\. [A-Z]\. )?)?,? \(?((?:18|19|20)\d\d)\b(?!-)"
@@ -21,8 +21,8 @@ UMLAUTS = str.maketrans({"ö": "oe", "ü": "ue", "ä": "ae", "é": "e", "í": "i
 NO_AUTHORS = {"January", "Version", "Python", "Copyright"}
 
 
-def test_every_entry_of_the_bibliography_is_complete() -> None:
-    """But for the paper itself, whose copy names no author."""
+def test_entries_of_the_bibliography_are_complete() -> None:
+    """The paper itself is excluded, because its copy states no author."""
     for key, entry in REFERENCES.entries.items():
         missing = NEEDED[entry["type"]] - set(entry)
         assert not missing or key == "paper", (key, missing)
@@ -34,7 +34,7 @@ def test_every_entry_of_the_bibliography_is_complete() -> None:
 
 
 def citations() -> Iterator[tuple[Path, str]]:
-    """First author and year of what code, documentation and report cite."""
+    """Yield first author and year of each source that code, documentation and report cite."""
     for folder, kinds in {"derivation": "py toml j2", "docs": "md py", "generated": "py"}.items():
         for path in sorted(p for kind in kinds.split() for p in (ROOT / folder).rglob(f"*.{kind}")):
             if path.name not in ("references.toml", "materials.toml"):
@@ -44,14 +44,14 @@ def citations() -> Iterator[tuple[Path, str]]:
                         yield path, first.translate(UMLAUTS).lower() + year
 
 
-def test_every_source_cited_in_the_project_is_in_the_bibliography() -> None:
+def test_cited_sources_are_in_the_bibliography() -> None:
     found = {key: path for path, key in citations()}
     assert {"thornton1997", "kuwabara1987", "chung2011", "sneddon1965"} <= set(found)
     assert {key: path for key, path in found.items() if key not in REFERENCES.entries} == {}
 
 
 def test_sources_of_materials_are_in_the_bibliography() -> None:
-    """Standards by their number, books and articles by author; data sheets name their maker."""
+    """Standards are found by their number, books and articles by their author."""
     text = (ROOT / "derivation" / "scene" / "materials.toml").read_text()
     keys = {f"en{number}" for number in re.findall(r"\bEN (\d+(?:-\d)*)", text)}
     assert keys <= set(REFERENCES.entries)

@@ -1,4 +1,4 @@
-"""The HTML report: the same text as the LaTeX, one file that needs nothing, sound in a browser."""
+"""The HTML report: same content as the LaTeX report, one valid file without external resources."""
 
 import re
 from html.parser import HTMLParser
@@ -24,7 +24,7 @@ VOID = {"meta", "link", "wbr", "br", "img", "col"}
 
 
 class Parsed(HTMLParser):
-    """Elements of a page: what is not closed, ids, references, and words outside of code."""
+    """Elements of a page: open tags, ids, links, loaded resources, and words outside of code."""
 
     def __init__(self, text: str) -> None:
         super().__init__()
@@ -62,8 +62,8 @@ class Parsed(HTMLParser):
             self.words.append(data)
 
 
-def made(body: str) -> str:
-    """A page of one section, which holds one figure."""
+def page_of(body: str) -> str:
+    """Return a page with one section and one figure."""
     return page(Text("A", r"\reporttitle{A}{B}", (body,), ""), "A", {"law": b"<svg ></svg>"})
 
 
@@ -98,13 +98,13 @@ def parsed(html: str) -> Parsed:
     return Parsed(html)
 
 
-def test_every_element_is_closed_and_every_id_its_own(parsed: Parsed) -> None:
+def test_elements_are_closed_and_ids_are_unique(parsed: Parsed) -> None:
     assert parsed.open == []
     assert len(parsed.ids) > 40
     assert len(set(parsed.ids)) == len(parsed.ids)
 
 
-def test_nothing_is_loaded_and_every_link_leads_somewhere(
+def test_page_loads_no_resource_and_every_link_has_a_target(
     html: str, parsed: Parsed, pages: dict[str, str]
 ) -> None:
     assert set(parsed.loaded) <= {"data:,"}
@@ -113,21 +113,21 @@ def test_nothing_is_loaded_and_every_link_leads_somewhere(
     assert set(re.findall(r"url\(([^)]{0,4})", html)) <= {"#" + name[:3] for name in parsed.ids}
     ids = {f"{name}.html": set(Parsed(other).ids) | {""} for name, other in pages.items()}
     ids[""] = set(parsed.ids)
-    elsewhere = set()
+    documents = set()
     for link in parsed.links:
         if link.startswith("https://doi.org/10."):
             continue
-        place, _, target = link.partition("#")
-        assert target in ids[place], link
-        elsewhere.add(place)
-    assert len(elsewhere) == 2  # here, and in the other document
+        document, _, target = link.partition("#")
+        assert target in ids[document], link
+        documents.add(document)
+    assert len(documents) == 2  # this document and the other one
 
 
-def test_no_latex_and_no_markup_is_left(parsed: Parsed) -> None:
+def test_text_contains_no_latex_and_no_markup(parsed: Parsed) -> None:
     assert re.findall(r"\\[A-Za-z]+|[{}]|\$|</?[a-z]", " ".join(parsed.words)) == []
 
 
-def test_it_holds_what_the_latex_holds(text: Text, html: str, parsed: Parsed) -> None:
+def test_page_has_the_elements_of_the_latex_document(text: Text, html: str, parsed: Parsed) -> None:
     whole = "\n".join(text.sections)
     assert parsed.tags.count("h2") == len(re.findall(r"\\section\{", whole)) + (
         text.references != ""
@@ -151,7 +151,7 @@ def test_it_holds_what_the_latex_holds(text: Text, html: str, parsed: Parsed) ->
     assert parsed.tags.count("math") >= displayed + inline
 
 
-def test_references_lead_to_what_they_name(text: Text, html: str) -> None:
+def test_references_link_to_their_targets(text: Text, html: str) -> None:
     whole = "\n".join([text.front, *text.sections])
     for label in set(re.findall(r"\\ref\{(.*?)\}", whole)):
         assert re.search(rf'<a href="#{re.escape(label)}">(\d+|[A-Z])</a>', html), label
@@ -161,7 +161,7 @@ def test_references_lead_to_what_they_name(text: Text, html: str) -> None:
     assert html.count('id="source-') == text.references.count(r"\bibitem")
 
 
-def test_equations_have_the_numbers_of_the_latex(text: Text, html: str) -> None:
+def test_equations_are_numbered_as_in_latex(text: Text, html: str) -> None:
     labels = re.findall(r"\\begin\{equation\}\\label\{eq:(\w+)\}", "\n".join(text.sections))
     found = re.findall(
         r'id="eq:(\w+)" class="equation">.*?<span class="count">\((\d+)\)</span>', html, re.DOTALL
@@ -169,7 +169,7 @@ def test_equations_have_the_numbers_of_the_latex(text: Text, html: str) -> None:
     assert found == [(name, str(number)) for number, name in enumerate(labels, start=1)]
 
 
-def test_every_figure_says_what_it_shows(html: str) -> None:
+def test_every_figure_has_a_caption_and_a_label(html: str) -> None:
     figures = re.findall(r"<figure>.*?</figure>", html, re.DOTALL)
     for number, figure in enumerate(figures, start=1):
         assert re.search(r'<svg role="img" aria-label="[^"]{20,}"', figure)
@@ -187,32 +187,32 @@ def test_every_figure_says_what_it_shows(html: str) -> None:
         r"\begin{figure}[H]\includegraphics{figures/none.pdf}\caption{A.}\end{figure}",
     ],
 )
-def test_what_is_not_known_is_refused(wrong: str) -> None:
+def test_unknown_commands_and_references_are_rejected(wrong: str) -> None:
     with pytest.raises(HtmlError, match="non"):
-        made(wrong)
+        page_of(wrong)
 
 
-def test_pages_repeat_and_words_are_escaped() -> None:
+def test_page_is_reproducible_and_text_is_escaped() -> None:
     body = r"a\textless{}b \& \emph{c}~1--2 of $a$, \texttt{a*\allowbreak{}b}"
-    found = made(body)
-    assert found == made(body)
+    found = page_of(body)
+    assert found == page_of(body)
     assert "a&lt;b &amp; <em>c</em>\u00a01\u20132 of" in found
     assert "<code>a*</code><wbr><code>b</code>" in found
-    assert re.search(r"</math>,</span>", found)  # stays on the formula's line
+    assert re.search(r"</math>,</span>", found)  # a comma stays on the line of its formula
 
 
-def test_numbers_of_sections_turn_into_letters_in_the_appendix() -> None:
+def test_sections_of_the_appendix_have_letters() -> None:
     body = (
         r"\section{One}\subsection{Two}\subsection*{None}\appendix\section{Last}\label{sec:last}"
         "\n\nsee \\ref{sec:last}"
     )
-    found = re.sub(r"</?span[^>]*>", "", made(body))
+    found = re.sub(r"</?span[^>]*>", "", page_of(body))
     for heading in ("<h2>1 One", "<h3>1.1 Two", "None</h3>", "<h2>A Last"):
         assert heading in found
     assert 'see <a href="#sec:last">A</a>' in found
 
 
-def test_figures_repeat_byte_for_byte_and_do_not_share_ids() -> None:
+def test_figures_are_reproducible_and_have_unique_ids() -> None:
     result = simulate(load(reporting.PAPER))
     first, second = (
         saved(figures(reporting.paper_case(), result, 1.0)["figure2"], ".svg") for _ in range(2)
@@ -224,7 +224,7 @@ def test_figures_repeat_byte_for_byte_and_do_not_share_ids() -> None:
 
 
 @pytest.mark.parametrize("section", PLAN.names)
-def test_each_section_stands_alone(section: str) -> None:
+def test_each_section_can_be_written_alone(section: str) -> None:
     [alone] = report_files.documents(PAPER, [section]).values()
     whole = "\n".join([*alone.sections, alone.front, alone.references])
     assert set(re.findall(r"\\ref\{(.*?)\}", whole)) <= set(re.findall(r"\\label\{(.*?)\}", whole))
@@ -232,7 +232,7 @@ def test_each_section_stands_alone(section: str) -> None:
     assert Parsed(page(alone, TITLE, drawn)).tags.count("h2") == 1 + (alone.references != "")
 
 
-def test_without_tex_the_html_is_there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_html_is_written_without_latex(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PATH", "")
     with pytest.raises(TexError, match="texlive-latex-base"):
         report_files.write(PAPER, tmp_path, sections=["speed"])
@@ -242,22 +242,24 @@ def test_without_tex_the_html_is_there(tmp_path: Path, monkeypatch: pytest.Monke
 
 
 @pytest.mark.skipif(bool(missing()), reason=missing())
-def test_a_browser_shows_it_without_complaint_or_overflow(html: str, tmp_path: Path) -> None:
+def test_browser_shows_page_without_errors_or_overflow(html: str, tmp_path: Path) -> None:
     path = tmp_path / "report.html"
     path.write_text(html)
     with browser(tmp_path) as window:
-        grounds = {}
+        backgrounds = {}
         for width in (400, 1400):
             for dark in (False, True):
                 window.open(path, width, dark)
-                assert window.complaints() == []
+                assert window.console_messages() == []
                 inner, wide = window.run(
                     "return [innerWidth, document.documentElement.scrollWidth]"
                 )
                 assert inner == width
                 assert wide <= inner
-                grounds[dark] = window.run("return getComputedStyle(document.body).backgroundColor")
+                backgrounds[dark] = window.run(
+                    "return getComputedStyle(document.body).backgroundColor"
+                )
         assert window.run("return document.querySelectorAll('math').length") == html.count("<math")
         tall = "const m = document.querySelector('.equation math').getBoundingClientRect()"
         assert window.run(f"{tall}; return m.width > 50 && m.height > 10")
-        assert grounds[False] != grounds[True]
+        assert backgrounds[False] != backgrounds[True]

@@ -1,4 +1,4 @@
-"""How LaTeX is run: the text of a report can start no program."""
+"""LaTeX runs without shell escape, so that the text of a report cannot start a program."""
 
 import contextlib
 import os
@@ -17,7 +17,7 @@ echo made > "$folder/text.pdf"
 """
 
 
-def test_the_engine_is_told_to_start_no_program(
+def test_shell_escape_is_disabled_on_the_command_line(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     engine = tmp_path / "pdflatex"
@@ -26,16 +26,14 @@ def test_the_engine_is_told_to_start_no_program(
     monkeypatch.setenv("PATH", str(tmp_path), prepend=os.pathsep)
     source = tmp_path / "text.tex"
     source.write_text("")
-    made, log = typeset(source)
-    assert made == b"made\n"
+    pdf, log = typeset(source)
+    assert pdf == b"made\n"
     assert "-no-shell-escape" in log.split()
 
 
 @pytest.mark.skipif(shutil.which("pdflatex") is None, reason="needs pdflatex")
-def test_a_program_in_the_text_is_not_started(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Not even where the environment allows it."""
+def test_text_cannot_start_a_program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """This holds even if an environment variable enables shell escape."""
     monkeypatch.setenv("shell_escape", "t")
     source, trace = tmp_path / "text.tex", tmp_path / "trace"
     source.write_text(

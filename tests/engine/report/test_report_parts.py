@@ -1,4 +1,4 @@
-"""The report's tables and figures where something is missing: empty cells, rows left out."""
+"""Tables and figures of the report with missing data: empty cells and omitted rows."""
 
 import json
 from typing import Any
@@ -15,19 +15,19 @@ from derivation.plate.report.front import checks
 from derivation.plate.vocabulary import R, a
 
 
-def test_what_is_not_known_leaves_its_cells_empty() -> None:
+def test_missing_values_give_empty_cells() -> None:
     assert duration(None) == factor("nan") == ""
     assert winner_cells(None) == ("", "", "")
     assert duration(2.5e-3) == r"2.5\,ms"
     assert (factor(2.0), factor("1.5")) == ("2", "1.5")
     found = {"family": "split", "setting": "8 nodes", "seconds": 1.0, "relative": "nan",
              "ties": ["a_b", "split"], "doubtful": ["a_b", "c"]}  # fmt: skip
-    name, time, share = winner_cells(found)
+    name, time, relative = winner_cells(found)
     assert name == r"split, 8 nodes (tie: a\_b?, c?)"
-    assert (time, share) == (r"1\,s", "")
+    assert (time, relative) == (r"1\,s", "")
 
 
-def test_a_tool_that_is_not_here_says_why_across_its_row() -> None:
+def test_row_of_a_missing_tool_states_the_reason() -> None:
     tool = {"name": "Some", "version": "2", "problem": "a law", "setting": "8 x 8", "error": 1e-3,
             "seconds": 1.0, "cannot": "plates", "missing": None}  # fmt: skip
     absent = tool | {"name": "Other_one", "version": "", "missing": "not installed: 100 %"}
@@ -35,28 +35,28 @@ def test_a_tool_that_is_not_here_says_why_across_its_row() -> None:
     assert second == r"Other\_one & \multicolumn{5}{l}{not installed: 100 \%}"
     assert first.startswith("Some 2 & a law & ")
     assert first.endswith(" & plates")
-    assert third.startswith(" & a law & ")  # said once for a tool
+    assert third.startswith(" & a law & ")  # the name is printed in the first row only
     assert third.endswith(" & ")
 
 
-def test_checks_without_a_record_are_left_out() -> None:
+def test_checks_without_a_record_are_omitted() -> None:
     measured: dict[str, Any] = {k: json.loads(v) for k, v in reporting.measured().items()}
     every = dict(checks(measured))
     for name in ("bounds", "effects"):
         fewer = dict(checks({key: data for key, data in measured.items() if key != name}))
-        [gone] = every.keys() - fewer.keys()
-        assert gone.endswith(f"{name}}}")
+        [omitted] = every.keys() - fewer.keys()
+        assert omitted.endswith(f"{name}}}")
         assert fewer.items() <= every.items()
 
 
-def test_a_panel_in_which_nothing_was_timed_is_empty() -> None:
+def test_panel_without_timings_is_empty() -> None:
     axes = Figure().subplots()
     draw_panel(axes, [], "vector", {})
     assert not axes.lines
     assert not axes.collections
 
 
-def test_a_symbol_without_a_value_is_named() -> None:
+def test_error_message_names_a_symbol_without_a_value() -> None:
     point = {a: 0.5}
     assert evaluated(sp.sqrt(a), point) == pytest.approx(0.5**0.5, rel=1e-15)
     with pytest.raises(ValueError, match="value of R"):

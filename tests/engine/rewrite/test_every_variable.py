@@ -1,4 +1,4 @@
-"""Forms that the rules find are measured in every variable, and refused where one loses digits."""
+"""The error of a stable form is measured in every variable; inaccurate forms are rejected."""
 
 import math
 
@@ -30,7 +30,7 @@ SCALES = Scales((Scale(T, T, T),))
 
 
 class SolidFormula(Record):
-    """A formula of two solids on each other."""
+    """A formula with the arguments T, nu and s."""
 
     vocabulary = SOLID
 
@@ -41,52 +41,52 @@ def formula(name: str, value: sp.Expr) -> SolidFormula:
 
 
 def bonded(kappa: sp.Expr) -> sp.Expr:
-    """Deflection of a bonded film over that of a half-space (kappa = 3 - 4 nu)."""
-    above = 2 * kappa * sp.sinh(T) - 2 * T
-    return above / (2 * kappa * sp.cosh(T) + 1 + kappa**2 + T**2)
+    """Return the deflection of a bonded film relative to a half-space (kappa = 3 - 4 nu)."""
+    numerator = 2 * kappa * sp.sinh(T) - 2 * T
+    return numerator / (2 * kappa * sp.cosh(T) + 1 + kappa**2 + T**2)
 
 
-def test_a_form_that_loses_digits_in_another_variable_is_refused() -> None:
-    """A thin film that is nearly incompressible: the form is accurate in T for ordinary ones."""
+def test_form_that_loses_digits_in_another_variable_is_rejected() -> None:
+    """The form is accurate in T for most values of s, but not for a nearly incompressible film."""
     film = formula("F_bonded", bonded(1 + 2 * s))
-    shape = automatic(film.expression, BLOCKS, SCALES)
+    steps_and_value = automatic(film.expression, BLOCKS, SCALES)
     message = r"F_bonded has an error of .* ULP at T = .*, s = .*use a variable that is small there"
     with pytest.raises(UnreachableError, match=message):
-        accurate(film, *shape, BLOCKS)
+        accurate(film, *steps_and_value, BLOCKS)
 
 
-def test_what_the_rounding_of_an_argument_does_is_excused() -> None:
-    """By Poisson's ratio such a film's compressibility 1 - 2 nu is known to fewer digits itself."""
+def test_error_from_rounding_of_an_argument_is_allowed() -> None:
+    """If nu is the argument, 1 - 2 nu of such a film has few correct digits in any form."""
     film = formula("F_bonded", bonded(3 - 4 * nu))
-    shape = automatic(film.expression, BLOCKS, SCALES)
-    assert measured(film, *shape, BLOCKS).error <= ENOUGH
+    steps_and_value = automatic(film.expression, BLOCKS, SCALES)
+    assert measured(film, *steps_and_value, BLOCKS).error <= ENOUGH
 
 
-def test_a_form_that_is_accurate_in_all_is_given_as_it_is() -> None:
+def test_form_that_is_accurate_in_all_variables_is_unchanged() -> None:
     slipping = formula("F_slipping", (sp.cosh(T) - 1) / (sp.sinh(T) + T))
     known = built((*HYPERBOLIC, COSH_MINUS))
-    shape = automatic(slipping.expression, known, SCALES)
-    assert accurate(slipping, *shape, known) == shape
-    worst = measured(slipping, *shape, known)
+    steps_and_value = automatic(slipping.expression, known, SCALES)
+    assert accurate(slipping, *steps_and_value, known) == steps_and_value
+    worst = measured(slipping, *steps_and_value, known)
     assert worst.error <= ENOUGH
     assert worst.points > 30
 
 
-def test_a_naive_form_is_noticed() -> None:
-    """1 - cos T as it stands, for small T."""
+def test_error_of_an_unstable_form_is_measured() -> None:
+    """1 - cos T cancels for small T; 2 sin^2(T/2) does not."""
     naive = formula("versine", 1 - sp.cos(T))
     assert measured(naive, (), 1 - sp.cos(T), BLOCKS).error > 1e8
-    close = 2 * sp.sin(T / 2) ** 2
-    assert measured(naive, (), close, BLOCKS).error <= 4.0
+    stable = 2 * sp.sin(T / 2) ** 2
+    assert measured(naive, (), stable, BLOCKS).error <= 4.0
 
 
-def test_a_form_without_values_is_refused() -> None:
+def test_form_without_real_values_is_rejected() -> None:
     nowhere = formula("nowhere", sp.sqrt(-1 - T))
     with pytest.raises(UnreachableError, match="has values at 0 test points"):
         measured(nowhere, (), sp.sqrt(-1 - T), BLOCKS)
 
 
-def test_a_value_that_leaves_the_doubles_counts_as_an_error() -> None:
-    """cosh T over sinh T overflows in both for large T."""
+def test_overflow_counts_as_an_infinite_error() -> None:
+    """Both cosh T and sinh T overflow for large T, but their quotient does not."""
     quotient = formula("coth", sp.cosh(T) / sp.sinh(T))
     assert measured(quotient, (), sp.cosh(T) / sp.sinh(T), BLOCKS).error == math.inf

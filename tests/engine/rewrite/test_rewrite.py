@@ -1,4 +1,4 @@
-"""The rewriting rules: each on its own against balls, and what they make of formulas together."""
+"""The rewriting rules, one at a time and together, against interval arithmetic."""
 
 import importlib
 import math
@@ -34,19 +34,19 @@ from generated import ranges
 x = sp.Symbol("x", positive=True)
 E = sp.exp(-x)
 
-# What a rule must leave alone, and why.
-LEFT_ALONE = (
-    (rules.conjugate, sp.sqrt(x) + sp.sqrt(x + 1), "a sum does not cancel"),
+# Formulas that a rule must leave unchanged, with the reason.
+UNCHANGED = (
+    (rules.conjugate, sp.sqrt(x) + sp.sqrt(x + 1), "a sum of positive terms does not cancel"),
     (rules.conjugate, x - sp.sin(x), "there is no root"),
     (rules.logarithm, sp.log(x), "the argument is not near 1 at x = 0"),
-    (rules.logarithm, sp.log(2 + x), "nor here"),
-    (rules.fraction, (x - sp.sin(x)) / x**3, "it is one quotient already"),
-    (rules.difference, sp.sinh(x), "only what is taken apart has differences to cancel"),
+    (rules.logarithm, sp.log(2 + x), "likewise"),
+    (rules.fraction, (x - sp.sin(x)) / x**3, "it is already one quotient"),
+    (rules.difference, sp.sinh(x), "the rule applies only after `decay`"),
     (rules.section, x - sp.sin(x), "likewise"),
 )
 
-# Every rule with formulas on which it acts.
-ACTED_ON: tuple[tuple[str, sp.Expr], ...] = (
+# Every rule with formulas that it changes.
+CHANGED: tuple[tuple[str, sp.Expr], ...] = (
     ("conjugate", sp.sqrt(x + 1) - sp.sqrt(x)),
     ("conjugate", 2 * sp.sqrt(x**2 + 4) - 4),
     ("logarithm", sp.log(1 + x) / x),
@@ -62,8 +62,8 @@ ACTED_ON: tuple[tuple[str, sp.Expr], ...] = (
 UP_TO = {rule.name: RULES[: index + 1] for index, rule in enumerate(RULES)}
 UP_TO["share"] = (*RULES, rules.SHARE)
 
-# Formulas outside the paper, among them two of the project's own: x - log(1+x), cosh x - cos x.
-STRANGERS = (
+# Formulas that do not occur in the paper.
+OTHER_FORMULAS = (
     (x - sp.sin(x)) / x**3,
     sp.log(1 + x) / x,
     sp.sqrt(x + 1) - sp.sqrt(x),
@@ -76,7 +76,7 @@ STRANGERS = (
     sp.sqrt(x**2 + 1) - 1,
 )
 
-REFUSED = (
+REJECTED = (
     (sp.exp(x**2) - 1, "not a function of a rational multiple of x"),
     (sp.besselj(0, x) - 1, "no rule applies to the function besselj"),
     (sp.exp(sp.sin(x)) - 1, r"exp\(sin\(x\)\)"),
@@ -85,7 +85,7 @@ REFUSED = (
 
 
 def value_of(form: Rewritten) -> sp.Expr:
-    """A form as one expression, without its sections."""
+    """Return a form as one expression, without its truncated series."""
     if not isinstance(form, Shape):
         return form
     steps, value = assembled(form)
@@ -96,16 +96,18 @@ def value_of(form: Rewritten) -> sp.Expr:
     return expression
 
 
-@pytest.mark.parametrize(("rule", "expression", "why"), LEFT_ALONE)
-def test_rule_leaves_alone(rule: Callable[..., Any], expression: sp.Expr, why: str) -> None:
+@pytest.mark.parametrize(("rule", "expression", "why"), UNCHANGED)
+def test_rule_leaves_expression_unchanged(
+    rule: Callable[..., Any], expression: sp.Expr, why: str
+) -> None:
     assert not list(rule(x, expression)), why
 
 
-@pytest.mark.parametrize(("name", "expression"), ACTED_ON)
+@pytest.mark.parametrize(("name", "expression"), CHANGED)
 @settings(max_examples=25)
 @given(point=st.floats(1e-3, 30.0))
 def test_rule_is_exact(name: str, expression: sp.Expr, point: float) -> None:
-    """Before and after are the same ball, wherever the rule is not a section."""
+    """Expressions before and after a rule agree, except where a truncated series is used."""
     form: Rewritten = expression
     for rule in UP_TO[name]:
         before, form = form, next(rule.apply(x, form), form)
@@ -117,14 +119,14 @@ def test_rule_is_exact(name: str, expression: sp.Expr, point: float) -> None:
         assert difference.rad() < 1e-60
 
 
-def test_difference_of_roots_in_18_cancels_no_more() -> None:
-    """The source term of the perturbation, at times so small that as printed it is noise."""
+def test_difference_of_roots_in_equation_18_does_not_cancel() -> None:
+    """At small times the source term of the perturbation loses all digits as published."""
     source = formulas()["G_1"].expression
     at = dict.fromkeys(source.free_symbols, 1.0) | {_delta(source): 1e-7}
     (corrected,) = rules.conjugate(x, source)
-    true = float(evaluate(source, at, 20))
-    assert abs(rounded(source, at) / true - 1) > 100
-    assert rounded(corrected, at) == pytest.approx(true, rel=1e-15)
+    exact = float(evaluate(source, at, 20))
+    assert abs(rounded(source, at) / exact - 1) > 100
+    assert rounded(corrected, at) == pytest.approx(exact, rel=1e-15)
 
 
 def _delta(source: sp.Expr) -> sp.Symbol:
@@ -137,7 +139,7 @@ def _delta(source: sp.Expr) -> sp.Symbol:
     "core",
     [sp.sinh(x) - x, sp.sin(x) - x * sp.cos(x), sp.exp(x) - 1 - x, sp.exp(-x) * sp.sin(x) - x],
 )
-def test_section_keeps_its_bound(core: sp.Expr, share: float, switch: float) -> None:
+def test_truncated_series_is_within_its_bound(core: sp.Expr, share: float, switch: float) -> None:
     section = taylor_section(terms_of(core, x), sp.Rational(switch))
     point = flint.arb(switch * max(share, 1e-6))
     with flint.ctx.workprec(600):
@@ -148,12 +150,12 @@ def test_section_keeps_its_bound(core: sp.Expr, share: float, switch: float) -> 
             ),
             flint.arb(0),
         )
-        true = enclose(core, {x: point}) / point**section.lead
-        assert abs(total / true - 1) < flint.arb(float(section.bound)) * (1 + 1e-9)
+        exact = enclose(core, {x: point}) / point**section.lead
+        assert abs(total / exact - 1) < flint.arb(float(section.bound)) * (1 + 1e-9)
     assert section.bound < sp.Rational(1, 2**55)
 
 
-def test_what_taylor_leaves_out_is_bounded() -> None:
+def test_remainder_of_the_taylor_series_is_bounded() -> None:
     terms = terms_of(x * sp.exp(-2 * x) * sp.sin(3 * x) + sp.cosh(x) - sp.cos(x / 2), x)
     coefficients = [c for c, _ in zip(taylor(terms), range(60), strict=False)]
     for n in (3, 6, 11, 20):
@@ -162,61 +164,61 @@ def test_what_taylor_leaves_out_is_bounded() -> None:
         assert rest <= left_out(terms, n, end) * (1 + sp.Rational(1, 10**9))
 
 
-def test_terms_are_the_expression() -> None:
+def test_terms_add_up_to_the_expression() -> None:
     expression = (x * sp.cosh(2 * x) - sp.sinh(x)) * (x**2 + sp.exp(-x)) + 3 * sp.sin(x)
     terms = terms_of(expression, x)
     back = rules.expression_of(terms, x)
     assert sp.expand((back - expression).rewrite(sp.exp)) == 0
-    for strange in (1 / x, sp.sin(x) * sp.cos(x), sp.exp(x**2), sp.gamma(x)):
+    for unsupported in (1 / x, sp.sin(x) * sp.cos(x), sp.exp(x**2), sp.gamma(x)):
         with pytest.raises(UnreachableError):
-            terms_of(strange, x)
+            terms_of(unsupported, x)
 
 
 def compiled(source: str) -> Callable[[Any], Any]:
-    space: dict[str, Any] = {}
-    exec(compile(source, "f.py", "exec"), space)
-    return space["f"]  # type: ignore[no-any-return]
+    namespace: dict[str, Any] = {}
+    exec(compile(source, "f.py", "exec"), namespace)
+    return namespace["f"]  # type: ignore[no-any-return]
 
 
 def hard_points(seed: str, count: int = 160) -> list[float]:
-    """Uniform over the doubles of [1e-150, 1e150], and more where functions bend."""
+    """Return points uniform over the doubles of [1e-150, 1e150], and more in [1e-3, 800]."""
     generator = random.Random(seed)
     first, last = ordinal(1e-150), ordinal(1e150)
     spread = [from_ordinal(generator.randint(first, last)) for _ in range(count)]
     return [1e-150, 1e150, *spread, *(10 ** generator.uniform(-3, 2.9) for _ in range(count))]
 
 
-@pytest.mark.parametrize("expression", STRANGERS, ids=str)
-def test_strangers_hold_eight_ulp(expression: sp.Expr) -> None:
-    """The printed NumPy code, run as it is, at points the rules never saw."""
+@pytest.mark.parametrize("expression", OTHER_FORMULAS, ids=str)
+def test_other_formulas_are_accurate_to_eight_ulp(expression: sp.Expr) -> None:
+    """Run the printed NumPy code at random points that the rules do not use."""
     stable = stabilise(expression, x)
     f = compiled(standalone(stable)[0])
     points = hard_points(str(expression))
     with np.errstate(all="raise", under="ignore"):
         got = f(np.array(points))
-    judged = 0
+    compared = 0
     for point, value in zip(points, got.tolist(), strict=True):
         try:
-            true = evaluate(expression, {x: point}, 25)
+            exact = evaluate(expression, {x: point}, 25)
         except PrecisionError:
-            continue  # beyond 1e30 the original's own exponentials have no ball
-        if overflows(true) or abs(true) < 1e-300:
+            continue  # above 1e30 the exponentials of the formula cannot be enclosed
+        if overflows(exact) or abs(exact) < 1e-300:
             continue
         try:
             slope = evaluate(expression.diff(x), {x: point}, 3)
-            condition = float(abs(slope * point / true).abs_upper())
+            condition = float(abs(slope * point / exact).abs_upper())
         except PrecisionError:
-            condition = 0.0  # nothing is excused
-        assert ulp_error(value, true) <= 8 + condition / 2, (point.hex(), value)
-        judged += 1
-    assert judged > 150
+            condition = 0.0  # no error is attributed to the rounding of x
+        assert ulp_error(value, exact) <= 8 + condition / 2, (point.hex(), value)
+        compared += 1
+    assert compared > 150
     assert np.isnan(f([0.0, -1.0, math.nan, math.inf])).all()
     assert f(np.zeros(0)).shape == (0,)
     assert np.ndim(f(0.7)) == 0
 
 
-def test_large_arguments_where_balls_fail() -> None:
-    """coth x - 1/x -> 1 and (sinh x - x)/(cosh x - 1) -> 1; x/(e^x - 1) underflows: NaN there."""
+def test_limits_at_arguments_too_large_for_interval_arithmetic() -> None:
+    """Two quotients tend to 1; x/(e^x - 1) underflows and is NaN outside its tested range."""
     for expression, limit in (
         (sp.coth(x) - 1 / x, 1.0),
         ((sp.sinh(x) - x) / (sp.cosh(x) - 1), 1.0),
@@ -228,22 +230,25 @@ def test_large_arguments_where_balls_fail() -> None:
         assert (tested.high >= 1e150) == (limit == 1.0)
 
 
-@pytest.mark.parametrize(("expression", "reason"), REFUSED)
-def test_out_of_reach_is_refused_with_the_reason(expression: sp.Expr, reason: str) -> None:
+@pytest.mark.parametrize(("expression", "reason"), REJECTED)
+def test_unsupported_formula_is_rejected_with_the_reason(expression: sp.Expr, reason: str) -> None:
     with pytest.raises(UnreachableError, match=reason):
         stabilise(expression, x)
 
 
-def test_every_rule_earns_its_place() -> None:
-    """On the paper's formulas or the strangers, each lowers an error from useless to a few ULP."""
-    needed = {a.rule for e in STRANGERS[:5] for a in stabilise(e, x).applied}
+def test_every_rule_is_needed() -> None:
+    """Each rule is applied to some formula, and lowers the error or the number of operations.
+
+    This excludes rules that only save time.
+    """
+    needed = {a.rule for e in OTHER_FORMULAS[:5] for a in stabilise(e, x).applied}
     for name in ("G_minus_1", "sonine"):
         expression = formulas()[name].expression
         variable = next(iter(expression.atoms(sp.sin, sp.sinh))).args[0].free_symbols
         if len(variable) == 1:
             needed |= {a.rule for a in stabilise(expression, variable.pop(), (1e-150, 1e6)).applied}
     assert needed >= {"conjugate", "logarithm", "fraction", "decay", "balance", "section"}
-    applied = [a for e in STRANGERS[:5] for a in stabilise(e, x).applied]
+    applied = [a for e in OTHER_FORMULAS[:5] for a in stabilise(e, x).applied]
     assert all(a.worst[1] <= 8 for a in applied)
     for rule in (a for a in applied if a.cause != "time"):
         shorter = rule.operations[0] > rule.operations[1]
@@ -251,7 +256,7 @@ def test_every_rule_earns_its_place() -> None:
 
 
 @pytest.mark.parametrize("name", AUTOMATIC)
-def test_paper_formulas_are_reached_by_rules_alone(name: str) -> None:
+def test_rules_remove_hyperbolic_functions_from_formulas_of_the_paper(name: str) -> None:
     steps, value = automatic(formulas()[name].expression, blocks(), SCALES)
     text = " ".join(map(str, (*steps, value)))
     assert "sinh(" not in text.replace("sinh_", "")
@@ -262,7 +267,7 @@ PHI, H, LAM, MU = sp.symbols("phi h lam mu", positive=True)
 X = PHI * H
 GROWING = (X * (LAM + MU) * sp.sinh(X) + (LAM + 2 * MU) * sp.cosh(X)) / (PHI * (LAM + MU))
 QUOTIENTS = (
-    # a formula, and what its form must have or not have: 1 apart, or one exponential fewer
+    # A formula, and a part of the printed form that shows how it was rewritten.
     (sp.cosh(X) / sp.sinh(X), "1 +"),
     (sp.sinh(X) / sp.cosh(X), "expm1"),
     (sp.sinh(X) / (sp.sinh(2 * X) + X), "1/"),
@@ -272,7 +277,7 @@ QUOTIENTS = (
 
 
 def run(formula: sp.Expr, at: dict[sp.Symbol, float]) -> float:
-    """A formula's form, as it is printed."""
+    """Evaluate the stable form of a formula as printed code."""
     steps, value = automatic(formula, blocks(), SCALES)
     names = vars(importlib.import_module("generated.blocks")) | {"times": ranges.times, "np": np}
     known = {str(symbol): np.asarray(number) for symbol, number in at.items()}
@@ -281,22 +286,22 @@ def run(formula: sp.Expr, at: dict[sp.Symbol, float]) -> float:
     return float(eval(to_numpy(value), names, known))
 
 
-@pytest.mark.parametrize(("formula", "sign"), QUOTIENTS)
-def test_quotients_of_several_variables(formula: sp.Expr, sign: str) -> None:
-    """Forms run as they are printed, against balls of the formula."""
+@pytest.mark.parametrize(("formula", "part"), QUOTIENTS)
+def test_quotients_of_several_variables(formula: sp.Expr, part: str) -> None:
+    """The printed form agrees with the formula in interval arithmetic."""
     symbols = sorted(formula.free_symbols, key=str)
     _, value = automatic(formula, blocks(), SCALES)
-    assert sign in to_numpy(value), to_numpy(value)
+    assert part in to_numpy(value), to_numpy(value)
     for phi in (1e-70, 1e-9, 0.3, 0.9999, 1.0, 1.7, 3.4, 11.0, 300.0):
         at = {symbol: phi if symbol == PHI else 0.7 for symbol in symbols}
         got = run(formula, at)
-        true = evaluate(formula, at, 25)
-        slack = sum(abs(evaluate(formula.diff(s), at, 5) * at[s] / true) / 2 for s in symbols)
-        assert ulp_error(got, true) <= 6 + float(slack), phi
+        exact = evaluate(formula, at, 25)
+        slack = sum(abs(evaluate(formula.diff(s), at, 5) * at[s] / exact) / 2 for s in symbols)
+        assert ulp_error(got, exact) <= 6 + float(slack), phi
 
 
-def test_a_quotient_that_tends_to_1_is_rounded_but_once_far_out() -> None:
-    """1 and a small rest lose half a unit; two sums and their quotient would lose more."""
+def test_quotient_that_tends_to_1_is_rounded_once_for_large_arguments() -> None:
+    """1 plus a small remainder has an error of about 0.5 ULP; a quotient of two sums has more."""
     coth = sp.cosh(X) / sp.sinh(X)
     for phi in np.linspace(2.5, 18.0, 200).tolist():
         at = {PHI: phi, H: 1.0}
@@ -312,7 +317,7 @@ def test_a_quotient_that_tends_to_1_is_rounded_but_once_far_out() -> None:
         (sp.cosh(X) / (sp.sinh(X) ** 2 - X**2), (math.inf, 0.0)),
     ],
 )
-def test_a_product_beyond_the_doubles_gives_the_limit(
+def test_argument_that_overflows_or_underflows_gives_the_limit(
     formula: sp.Expr, limits: tuple[float, float], end: int
 ) -> None:
     size = (1e-200, 1e200)[end]
@@ -320,7 +325,7 @@ def test_a_product_beyond_the_doubles_gives_the_limit(
         assert run(formula, {PHI: size, H: size}) == pytest.approx(limits[end], rel=1e-15)
 
 
-def test_unknown_core_is_refused() -> None:
+def test_formula_without_a_building_block_is_rejected() -> None:
     phi, h = sp.symbols("phi h", positive=True)
     with pytest.raises(UnreachableError, match="no building block"):
         automatic(1 / (sp.cosh(phi * h) - 1 - (phi * h) ** 2 / 3), blocks(), SCALES)
@@ -330,20 +335,20 @@ def test_unknown_core_is_refused() -> None:
         automatic(sp.sinh(phi * h) / sp.sinh(phi), blocks(), SCALES)
 
 
-def test_doubles_are_those_of_this_machine_where_it_rounds_correctly() -> None:
+def test_rounded_evaluation_agrees_with_double_precision_arithmetic() -> None:
     generator = random.Random(4)
     for _ in range(200):
         point = 10 ** generator.uniform(-6, 2)
-        naive = math.sqrt(point + 1) - 1 / (point * point + 3 / point)
+        computed = math.sqrt(point + 1) - 1 / (point * point + 3 / point)
         assert rounded(sp.sqrt(x + 1) - 1 / (x * x + 3 / x), {x: point}) == pytest.approx(
-            naive, rel=1e-9
+            computed, rel=1e-9
         )
     assert rounded(sp.exp(x), {x: 800.0}) == math.inf
     assert rounded(1 / (sp.exp(-x) - 1 + 1), {x: 800.0}) == math.inf
     assert math.isnan(rounded(sp.sin(x), {x: math.inf}))
 
 
-def test_blocks_have_one_section_each_or_none() -> None:
+def test_each_block_has_at_most_one_truncated_series() -> None:
     for name, own, total, lead, held, _ in DEFINITIONS:
         block = blocks()[name]
         assert block.total == total
@@ -360,7 +365,7 @@ def test_blocks_have_one_section_each_or_none() -> None:
 
 
 @pytest.mark.parametrize("name", [row[0] for row in DEFINITIONS])
-def test_generated_blocks_on_both_sides_of_their_switches(name: str) -> None:
+def test_generated_blocks_are_accurate_on_both_sides_of_their_switch_points(name: str) -> None:
     block = blocks()[name]
     (own,) = block.arguments
     call = getattr(importlib.import_module("generated.blocks"), name)
@@ -368,7 +373,7 @@ def test_generated_blocks_on_both_sides_of_their_switches(name: str) -> None:
     for point in (0.01, 0.3, 0.99, 1.0, 1.4999, math.nextafter(at, 0.0), at, 3.7, 20.0):
         held = sp.Integer(int(at)) if point >= at else own
         definition = block.divided / held**block.held
-        true = evaluate(definition, {own: point}, 25)
-        slack = abs(evaluate(definition.diff(own), {own: point}, 5) * point / true)
+        exact = evaluate(definition, {own: point}, 25)
+        slack = abs(evaluate(definition.diff(own), {own: point}, 5) * point / exact)
         got = float(call(np.array([point]))[0])
-        assert ulp_error(got, true) <= 6 + float(slack) / 2, point
+        assert ulp_error(got, exact) <= 6 + float(slack) / 2, point

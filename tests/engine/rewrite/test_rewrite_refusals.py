@@ -1,4 +1,4 @@
-"""Where rules and tables end: what they cannot hold to their bounds is refused, and why."""
+"""Formulas without a stable form, and tables with too large an error, are rejected."""
 
 import json
 import math
@@ -34,12 +34,12 @@ from derivation.plate.waves.kernels.numbers import terms as wave_terms
 x = sp.Symbol("x", positive=True)
 
 
-def test_an_account_is_the_one_committed() -> None:
-    """Measured anew, with and without being told of progress, for the quickest formula."""
+def test_record_of_the_rules_is_up_to_date() -> None:
+    """Measure the fastest formula again, with and without reports of progress."""
     chosen = formulas(), ("Omega_3",), SCALES
-    told: list[tuple[str, int, int]] = []
-    (found,) = account.accounts(*chosen, lambda *step: told.append(step))
-    assert told == [("Omega_3", 1, 1)]
+    reported: list[tuple[str, int, int]] = []
+    (found,) = account.accounts(*chosen, lambda *step: reported.append(step))
+    assert reported == [("Omega_3", 1, 1)]
     assert account.accounts(*chosen) == (found,)
     (row,) = (r for r in json.loads(PAPER.rewritten.read_text())["rows"] if r["name"] == "Omega_3")
     assert (found.variable, found.worst) == (row["variable"], row["worst"])
@@ -47,33 +47,33 @@ def test_an_account_is_the_one_committed() -> None:
 
 
 @pytest.mark.parametrize("rule", [rules.conjugate, rules.logarithm, rules.fraction, rules.decay])
-def test_what_is_taken_apart_is_left_to_later_rules(rule: Any) -> None:
+def test_rules_for_expressions_ignore_forms_that_are_decomposed(rule: Any) -> None:
     (shape,) = rules.decay(x, (sp.sqrt(1 + x) - 1) * sp.log(1 + x) * sp.sinh(x))
     assert isinstance(shape, Shape)
     assert not list(rule(x, shape))
 
 
-def test_no_dimensionless_number_no_form() -> None:
+def test_formula_without_a_dimensionless_variable_is_rejected() -> None:
     length, force = sp.symbols("length force", positive=True)
     with pytest.raises(UnreachableError, match=r"no dimensionless variable for force\*length"):
         automatic(sp.sinh(length * force), {}, SCALES)
 
 
-def test_nothing_has_no_lowest_power() -> None:
+def test_leading_power_of_zero_is_rejected() -> None:
     assert leading_power(terms_of(x - sp.sin(x), x)) == 3
     with pytest.raises(UnreachableError, match="vanishes at 0 with all its derivatives"):
         leading_power({})
 
 
-def test_series_have_rational_coefficients() -> None:
+def test_series_with_irrational_coefficients_is_rejected() -> None:
     k = sp.Symbol("k", positive=True)
     terms = terms_of(k * x - sp.sin(x), x)
     with pytest.raises(UnreachableError, match="with further variables is not rational"):
         taylor_section(terms, sp.Rational(1, 2))
 
 
-def test_what_cannot_be_judged_is_refused() -> None:
-    """Seven further variables; and the logarithm of a number below 0 at every point."""
+def test_formula_that_cannot_be_tested_is_rejected() -> None:
+    """There are too many further variables, or no point at which the value is real."""
     many = sum(sp.symbols("p q r s t u v", positive=True), sp.Integer(0))
     with pytest.raises(UnreachableError, match=r"at most 6 further variables, got \[p, q"):
         stabilise(many * (x - sp.sin(x)), x)
@@ -81,13 +81,13 @@ def test_what_cannot_be_judged_is_refused() -> None:
         stabilise(sp.log(-1 - x) * x, x)
 
 
-def test_a_form_that_no_rule_helps_is_refused() -> None:
-    """1 + cos x cancels at pi: nothing stops a rule, but all of them mend what is at 0."""
+def test_formula_that_no_rule_makes_accurate_is_rejected() -> None:
+    """1 + cos x cancels at pi, but the rules only remove cancellation at 0."""
     with pytest.raises(UnreachableError, match="no rule applies to the rest"):
         stabilise(1 + sp.cos(x), x, (3.0, 3.3))
 
 
-def test_doubles_of_constants_and_of_the_ends() -> None:
+def test_rounded_evaluation_of_constants_and_at_infinity() -> None:
     assert rounded(sp.pi * x, {x: 3.0}) == math.pi * 3.0
     assert rounded(sp.exp(x), {x: math.inf}) == math.inf
     assert rounded(sp.exp(x), {x: -math.inf}) == 0.0
@@ -99,7 +99,7 @@ def test_doubles_of_constants_and_of_the_ends() -> None:
 # --- tables
 
 
-def test_zeros_are_certified_before_they_are_tabulated(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_tabulated_zeros_are_certified(monkeypatch: pytest.MonkeyPatch) -> None:
     with flint.ctx.workprec(100):
         assert abs(bessel_tables.bessel_zero(0, 1) - arb("2.4048255576957727686216")) < 1e-22
         monkeypatch.setattr(bessel_tables, "_NEWTON_STEPS", 1)
@@ -107,14 +107,14 @@ def test_zeros_are_certified_before_they_are_tabulated(monkeypatch: pytest.Monke
             bessel_tables.bessel_zero(0, 1)
 
 
-def test_a_condition_that_never_holds_has_no_first() -> None:
+def test_search_for_the_first_index_ends_at_a_limit() -> None:
     assert bessel_tables.first_true(lambda n: n * n > 50) == 8
     with pytest.raises(ArithmeticError, match="the condition is not met below 64"):
         bessel_tables.first_true(lambda _: False, 64)
 
 
-def test_the_thin_plates_function_begins_as_its_slope() -> None:
-    """Phi/A at 0 is 0, g(0) is 1; both are where their neighbours tend to."""
+def test_functions_of_the_thin_plate_are_continuous_at_zero() -> None:
+    """g tends to 1 as 1 - A^2/10, and the thin part tends to 0 as A^4."""
     with flint.ctx.workprec(moment_tables.BITS):
         assert contact_tables.shape(arb(0)) == 1
         assert abs(contact_tables.shape(arb(2) ** -20) - 1 + arb(2) ** -40 / 10) < 1e-24
@@ -123,10 +123,10 @@ def test_the_thin_plates_function_begins_as_its_slope() -> None:
         assert abs(halves[0] / halves[1] - 16) < 1e-4  # as A^4
 
 
-def test_tables_whose_last_coefficients_count_are_refused(
+def test_table_with_a_large_truncation_error_is_rejected(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """A kink in the place of a sum, whose Chebyshev coefficients fall like 1/n^2."""
+    """Replace the sum by |x - 1/4|, whose Chebyshev coefficients decay only as 1/n^2."""
     monkeypatch.setattr(edge_tables, "alternating_sum", lambda _, at: abs(at - arb(0.25)))
     with flint.ctx.workprec(moment_tables.BITS):
         first = arb("2.404825557695772768621632")
@@ -134,7 +134,7 @@ def test_tables_whose_last_coefficients_count_are_refused(
             edge_tables._tables(slope_kernel, first, [arb(0), arb(0)])
 
 
-def test_series_that_end_too_early_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_series_that_end_too_early_are_rejected(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(effect_tables, "kappas", lambda: [arb(1), arb(0), arb(1)])
     with pytest.raises(ArithmeticError, match="needs more moments kappa_n"):
         effect_tables.wall_rows()
@@ -146,8 +146,8 @@ def test_series_that_end_too_early_are_refused(monkeypatch: pytest.MonkeyPatch) 
     assert [1 / c for c in cosh] == [math.factorial(2 * k) for k in range(len(cosh))]
 
 
-def test_asymptotic_series_have_three_terms_at_least(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Their bounds hold from there on, however much may be left out."""
+def test_asymptotic_series_has_at_least_three_terms(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Their error bound is valid only from three terms on, whatever the tolerance."""
     start = Fraction(40)
     with flint.ctx.workprec(moment_tables.BITS):
         exact = edge_mode_terms(start)
@@ -155,13 +155,13 @@ def test_asymptotic_series_have_three_terms_at_least(monkeypatch: pytest.MonkeyP
         assert edge_mode_terms(start) == 3 < exact
 
 
-def test_blurred_numbers_are_not_tabulated() -> None:
+def test_values_with_a_wide_interval_are_not_tabulated() -> None:
     assert moment_tables.sharp(arb(1)) == 1
     with pytest.raises(ArithmeticError, match="is not sharp enough for a table"):
         moment_tables.sharp(arb(1, 1e-10))
 
 
-def test_modes_of_simple_impacts_reach_their_tails_bound(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_tail_bound_of_simple_impacts_needs_enough_modes(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(simple_impact_tables, "zero_of_j0", lambda *_: arb(2.4))
     with pytest.raises(ArithmeticError, match="too few modes for the tail's bound"):
         simple_impact_tables.numbers()

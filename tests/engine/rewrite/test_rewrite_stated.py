@@ -1,7 +1,7 @@
-"""The range and error that `rewrite` states hold: judged by mpmath, which the program never uses.
+"""Tests with mpmath of the range and the error limit that `rewrite` states.
 
-Of every formula that is accepted, the printed code is run at random points of the stated range,
-next to zeros of the formula, and at both ends.
+The printed code of every accepted formula is run at random points of the stated range, close to
+zeros of the formula, and at both ends. `rewrite` itself does not use mpmath.
 """
 
 import math
@@ -33,8 +33,8 @@ FORMULAS = (
     "1/cosh(x)", "x/sinh(x)", "exp(x) - 2", "x + 1e-20", "x**4 + x", "1/(x**2 + 1)",
     "exp(x)/(1 + exp(x))", "(x - sin(x))/x**3", "x/(exp(x) - 1)", "log(1 + x) - x",
 )  # fmt: skip
-REFUSED = {"1 - sin(x)", "sin(x) - 1/2", "2 - 2*cos(x/1000)", "(exp(2*x) - 1)/(2*x)"}
-"""Formulas that no rule reaches; with these there are still more than forty."""
+REJECTED = {"1 - sin(x)", "sin(x) - 1/2", "2 - 2*cos(x/1000)", "(exp(2*x) - 1)/(2*x)"}
+"""Formulas for which no rule gives an accurate form; more than forty others remain."""
 RANDOM, NEAR = 60, 15
 
 
@@ -45,7 +45,7 @@ def compiled(source: str) -> Callable[[Any], Any]:
 
 
 def zeros(value: Callable[[Any], Any], low: float, high: float) -> Iterator[float]:
-    """Simple and double zeros up to 100: where the value or its slope changes its sign."""
+    """Yield zeros up to 100: points where the value or its slope changes sign."""
 
     def slope(t: Any) -> Any:
         step = t * mpmath.mpf(10) ** -20
@@ -62,6 +62,7 @@ def zeros(value: Callable[[Any], Any], low: float, high: float) -> Iterator[floa
 
 
 def bisected(function: Callable[[Any], Any], sign: Any, low: float, high: float) -> float:
+    """Return the point where a function that has this sign at `low` changes it, by bisection."""
     for _ in range(80):
         middle = (low + high) / 2
         if mpmath.sign(function(mpmath.mpf(middle))) == sign:
@@ -72,40 +73,40 @@ def bisected(function: Callable[[Any], Any], sign: Any, low: float, high: float)
 
 
 def points(value: Callable[[Any], Any], low: float, high: float, seed: str) -> set[float]:
-    """Random points of the range, points next to zeros, and both ends."""
+    """Return random points of the range, points close to zeros, and both ends."""
     draw = random.Random(f"judge {seed}")
     first, last = math.log10(low), math.log10(high)
     found = {10 ** draw.uniform(first, last) for _ in range(RANDOM)}
     near, far = max(first, -3.0), min(last, 3.0)
     if near < far:
         found |= {10 ** draw.uniform(near, far) for _ in range(RANDOM)}
-    for place in (low, high, *list(zeros(value, low, high))[:8]):
+    for center in (low, high, *list(zeros(value, low, high))[:8]):
         sides = (1 - 10.0**-k for k in range(1, NEAR)), (1 + 10.0**-k for k in range(1, NEAR))
-        found |= {place, *(place * side for both in sides for side in both)}
+        found |= {center, *(center * side for both in sides for side in both)}
     return {p for p in found if low <= p <= high} | {low, high}
 
 
 def excess(value: Callable[[Any], Any], point: float, got: float) -> float:
-    """Error in ULP of the exact value beyond half the condition number."""
+    """Return the error in ULP of the exact value, minus half the condition number."""
     with mpmath.workdps(60 + int(7 * abs(math.log10(point)))):
         at = mpmath.mpf(point)
-        true = value(at)
-        if true == 0:
+        exact = value(at)
+        if exact == 0:
             return 0.0 if got == 0 else math.inf
         if not math.isfinite(got):
             return math.inf
         step = mpmath.mpf(10) ** (-mpmath.mp.dps // 3)
-        condition = abs((value(at * (1 + step)) - true) / (step * true))
-        return float(abs(mpmath.mpf(got) - true) / math.ulp(float(true)) - condition / 2)
+        condition = abs((value(at * (1 + step)) - exact) / (step * exact))
+        return float(abs(mpmath.mpf(got) - exact) / math.ulp(float(exact)) - condition / 2)
 
 
 @pytest.mark.parametrize("text", FORMULAS)
-def test_what_is_stated_holds(text: str) -> None:
+def test_error_is_below_the_stated_limit_in_the_stated_range(text: str) -> None:
     expression = parse(text, NOTHING, {"x": x})
     try:
         source, found = standalone(stabilise(expression, x))
     except UnreachableError:
-        assert text in REFUSED
+        assert text in REJECTED
         return
     assert repr(found.low) in source
     assert repr(found.high) in source
@@ -124,8 +125,8 @@ def test_what_is_stated_holds(text: str) -> None:
     assert isinstance(found, CodeCheck)
 
 
-def test_the_range_ends_before_a_double_zero_and_an_overflow() -> None:
-    """Next to 2 pi no rounding of cos x is good enough; e^x overflows before e^x/x does."""
+def test_range_ends_before_a_double_zero_or_an_overflow() -> None:
+    """1 - cos x has a double zero at 2 pi; e^x overflows at 709.78."""
     for text, least, most in (("1 - cos(x)", 5.0, 2 * math.pi), ("(exp(x) - 1)/x", 700.0, 709.79)):
         _, found = standalone(stabilise(parse(text, NOTHING, {"x": x}), x))
         assert found.low == 1e-150

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 import sympy as sp
 from flint import arb
-from given import lame, scene
 from mpmath import mp, mpf
+from shared_scenes import lame, scene
 
 from derivation.engine.formula.ball import evaluate
 from derivation.engine.formula.proof import SYMBOLIC, ProofError, prove

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given import scene
+from shared_scenes import scene
 
 from derivation.scene import indent, indentation
 from generated import contact_law, impact, perturbation, plate_arrays, plate_points

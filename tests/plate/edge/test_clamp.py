@@ -9,8 +9,8 @@ import flint
 import numpy as np
 import pytest
 from flint import arb
-from given import lame
 from mpmath import mp
+from shared_scenes import lame
 
 from derivation.engine.files import measurements
 from derivation.engine.formula.ball import evaluate, to_ball

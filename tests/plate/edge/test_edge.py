@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 import sympy as sp
 from flint import arb
-from given import lame
 from mpmath import mp, mpf
+from shared_scenes import lame
 
 from derivation.engine.formula.ball import enclose, to_ball
 from derivation.engine.formula.proof import SYMBOLIC, ProofError, prove

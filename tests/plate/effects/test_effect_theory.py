@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given import model
 from mpmath import mp, mpf
+from shared_scenes import model
 
 from derivation.engine.formula.proof import ProofError
 from derivation.plate.contact.theory import curvature as curvature_theory

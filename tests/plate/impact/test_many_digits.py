@@ -9,8 +9,8 @@ from typing import Any
 import flint
 import pytest
 from flint import acb, arb
-from given import PAPER
 from mpmath import mp, mpf
+from shared_scenes import PAPER
 
 from derivation.cli import main
 from derivation.engine.formula.ball import PrecisionError

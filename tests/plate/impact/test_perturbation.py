@@ -11,9 +11,9 @@ import flint
 import numpy as np
 import pytest
 import sympy as sp
-from given import EXAMPLES, changed
 from mpmath import mp, mpf, quad
 from printed_sums import truncated_gamma
+from shared_scenes import EXAMPLES, changed
 
 import derivation.checks.effects
 from derivation.checks.paper_law import in_doubles

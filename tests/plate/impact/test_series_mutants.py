@@ -8,7 +8,7 @@ from types import ModuleType
 import numpy as np
 import pytest
 from mpmath import mp, mpf
-from mutated_code import FINE, START, Answer, Expected, Judged, unnoticed
+from mutated_code import FINE, START, Expected, ExpectedResult, ModuleTests, undetected
 from printed_sums import truncated_gamma
 
 from derivation.plate.impact.oracle import printed_motion as motion_balls
@@ -34,9 +34,9 @@ MOTIONS: Sequence[Point] = [(72.2, 1.0, 3e7, 4e8), (0.5, 3.0, 2e5, 8e3), (2.0, 0
 @cache
 def motion_cases() -> list[Expected]:
     known = [(scene, kind) for scene in (PAPER, *OTHERS) for kind in (False, True)]
-    found = [Answer(partial(coefficients, motion=x), by_sums(*x)) for x in known]
+    found = [ExpectedResult(partial(coefficients, motion=x), by_sums(*x)) for x in known]
     nothing = [math.nan] * 4
-    found += [Answer(partial(coefficients, motion=(x, True)), nothing) for x in NO_MOTION]
+    found += [ExpectedResult(partial(coefficients, motion=(x, True)), nothing) for x in NO_MOTION]
     return [*found, *map(by_motion, MOTIONS), *map(at_the_end, MOTIONS)]
 
 
@@ -53,7 +53,7 @@ def by_sums(scene: Point, corrected: bool) -> list[float]:
         return [scene[1], scene[2], float(1 / gamma_2), float(-gamma_3 / gamma_2**power)]
 
 
-def by_motion(numbers: Point) -> Answer:
+def by_motion(numbers: Point) -> ExpectedResult:
     """Return the case of a motion: end values, (15), and (16) within and outside its range."""
     m, v0, xi_2, xi_3 = map(mpf, numbers)
     shares = (0.01, 0.11, 0.5, 0.93)
@@ -82,10 +82,10 @@ def by_motion(numbers: Point) -> Answer:
         ]
 
     true = [*ends, *linear, linear[1], *whole, math.nan, math.nan, whole[1]]
-    return Answer(ask, [float(x) for x in true])
+    return ExpectedResult(ask, [float(x) for x in true])
 
 
-def at_the_end(motion: Point) -> Answer:
+def at_the_end(motion: Point) -> ExpectedResult:
     """Return the case of (16) at the zero of the radicand, approached like a square root."""
     end = PrintedMotion(*motion).breaks_at  # tested by `by_motion`
     true = float(motion_balls.corrected(end * (1 - 1e-10), *motion, digits=12))
@@ -94,11 +94,11 @@ def at_the_end(motion: Point) -> Answer:
         found = module.PrintedMotion(*motion)
         return float(found.corrected(found.breaks_at))
 
-    return Answer(ask, true, 1e-4)
+    return ExpectedResult(ask, true, 1e-4)
 
 
-JUDGED = {
-    "perturbation": Judged(
+TESTS = {
+    "perturbation": ModuleTests(
         motion_cases,
         {**dict.fromkeys(("_NODES", "_PARTS"), (1, FINE)), "last": (3, START), "_eta": (2, FINE)},
         steps=10,
@@ -106,6 +106,6 @@ JUDGED = {
 }
 
 
-@pytest.mark.parametrize("name", JUDGED)
+@pytest.mark.parametrize("name", TESTS)
 def test_every_mutant_is_noticed_or_may_pass(name: str) -> None:
-    assert unnoticed(name, JUDGED[name]) == {}
+    assert undetected(name, TESTS[name]) == {}

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from mpmath import mp, mpf
-from mutated_code import GUARDS, MARGIN, Answer, Expected, Judged, unnoticed
+from mutated_code import GUARDS, MARGIN, Expected, ExpectedResult, ModuleTests, undetected
 from printed_sums import plate_factor
 
 from derivation.plate.contact.oracle import balls as contact_balls
@@ -34,7 +34,10 @@ class Bounded:
     above: float
 
     def holds(self, module: ModuleType) -> bool:
-        found, true = np.asarray(self.ask(module), dtype=float), np.asarray(self.true, dtype=float)
+        found, true = (
+            np.asarray(self.call(module), dtype=float),
+            np.asarray(self.expected, dtype=float),
+        )
         same = (found == true) | ((found >= true) & (found <= true * (1 + self.above)))
         return found.shape == true.shape and bool(same.all())
 
@@ -62,7 +65,8 @@ def simple_cases() -> list[Expected]:
     for eta in ETAS:
         c_1, K_3 = plate(eta)
         found += [
-            Answer(lambda x, eta=eta: x.plate_of(eta).bend, c_1, 1e-8 if eta > 1 / 7 else 1e-12),
+            ExpectedResult(lambda x, eta=eta: x.plate_of(eta).bend, c_1,
+                           1e-8 if eta > 1 / 7 else 1e-12),
             Bounded(lambda x, eta=eta: x.plate_of(eta).rest, K_3, 1.9e-9 if eta > 0.2 else 1.5e-7),
             Bounded(lambda x, eta=eta, c=c_1: x.plate_of(eta).bend_error
                     - abs(x.plate_of(eta).bend - c) >= 0, True, 0.0),
@@ -76,20 +80,20 @@ def simple_cases() -> list[Expected]:
         (0.1, 0.0, 0.0, 0.0),
         (0.01, 1e999, 0.0, 0.0),
     ]
-    found += [Answer(lambda x, s=s: x.law_errors(*s), [math.inf] * 4) for s in endless]
+    found += [ExpectedResult(lambda x, s=s: x.law_errors(*s), [math.inf] * 4) for s in endless]
     wide = [math.inf, math.inf, *map(float, lemma(0.01, 1e306, 0.0, 0.0)[2:])]
     found.append(Bounded(lambda x: x.law_errors(0.01, 1e306, 0.0, 0.0), wide, 1.5e-9))
     for scene in SIMPLE:
         for name in ("hertz", "leading"):
             results, law = simple(scene, name == "leading")
             found += [
-                Answer(
+                ExpectedResult(
                     lambda x, n=name, s=scene: [*getattr(x, n)(*s)[:4], getattr(x, n)(*s)[5]],
                     results,
                 ),
                 Bounded(lambda x, n=name, s=scene: getattr(x, n)(*s).law, law, 1e-6),
             ]
-    return [*found, Answer(nowhere, [True] * 2 * len(NO_ESTIMATE))]
+    return [*found, ExpectedResult(nowhere, [True] * 2 * len(NO_ESTIMATE))]
 
 
 def nowhere(module: ModuleType) -> list[bool]:
@@ -160,8 +164,8 @@ def simple(scene: Point, corrected: bool) -> tuple[list[float], float]:
         return [float(x) for x in (time, depth, load, a, quadrature)], float(max(law))
 
 
-JUDGED = {
-    "simple_impact": Judged(
+TESTS = {
+    "simple_impact": ModuleTests(
         simple_cases,
         {
             **dict.fromkeys(("ORDINARY", "PLATES"), (2, "which numbers are ordinary")),
@@ -177,6 +181,6 @@ JUDGED = {
 }
 
 
-@pytest.mark.parametrize("name", JUDGED)
+@pytest.mark.parametrize("name", TESTS)
 def test_every_mutant_is_noticed_or_may_pass(name: str) -> None:
-    assert unnoticed(name, JUDGED[name]) == {}
+    assert undetected(name, TESTS[name]) == {}

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from mutated_code import BEYOND_ALL, GUARDS, Judged, unnoticed
-from sharp import Sharp
+from mutated_code import BEYOND_ALL, GUARDS, ModuleTests, undetected
+from within_ulp import WithinUlp
 
 from derivation.plate.pressure import oracle as pressure_balls
 
@@ -27,7 +27,7 @@ E, H = 7e10, 0.125
 PLACES = 0.25, 0.9375
 
 
-def pressure_cases() -> list[Sharp]:
+def pressure_cases() -> list[WithinUlp]:
     found = []
     for numbers in SOLVED:
         for compliance in (0.0, 2e-10):
@@ -45,7 +45,9 @@ def state(a: float, v: float, R: float, share: float, sphere: bool) -> pressure_
     )
 
 
-def solved(a: float, v: float, R: float, share: float, sphere: bool, compliance: float) -> Sharp:
+def solved(
+    a: float, v: float, R: float, share: float, sphere: bool, compliance: float
+) -> WithinUlp:
     """Return the case of force, indentation, stiffness, slope, pressures and chi at the nodes."""
     true, own = state(a, v, R, share, sphere), share * E
     width, radius = a * H, R * H
@@ -73,10 +75,10 @@ def solved(a: float, v: float, R: float, share: float, sphere: bool, compliance:
         carried = 2 * np.pi * width * weights @ got[9]
         return [*got[1:5], *got[6:8], got[0], carried, got[8][0]]
 
-    return Sharp(call, np.array(values), 20000.0)
+    return WithinUlp(call, np.array(values), 20000.0)
 
 
-def distribution(a: float, v: float, R: float, share: float, sphere: bool) -> Sharp:
+def distribution(a: float, v: float, R: float, share: float, sphere: bool) -> WithinUlp:
     """Return the case of the pressure: total force, two reference values, NaN outside."""
     true, own = state(a, v, R, share, sphere), share * E
     width, radius = a * H, R * H
@@ -94,10 +96,10 @@ def distribution(a: float, v: float, R: float, share: float, sphere: bool) -> Sh
 
     force = own * width**3 / radius * float(true.force)
     places = [own * width / radius * float(x) for x in true.pressures]
-    return Sharp(call, np.array([force, *places, NAN, NAN, 0.0]), 20000.0)
+    return WithinUlp(call, np.array([force, *places, NAN, NAN, 0.0]), 20000.0)
 
 
-def work(a: float, v: float, R: float, share: float, sphere: bool) -> Sharp:
+def work(a: float, v: float, R: float, share: float, sphere: bool) -> WithinUlp:
     """Return the case that dU = P d delta holds along a."""
     width, radius = a * H, R * H
     nodes, weights = np.polynomial.legendre.leggauss(30)
@@ -108,10 +110,10 @@ def work(a: float, v: float, R: float, share: float, sphere: bool) -> Sharp:
         end = m.contact(of, width, radius, share * E, E, **kept)
         return float(width * (path.force * path.slope) @ weights / 2 / end.energy)
 
-    return Sharp(call, np.asarray(1.0), 1e6)
+    return WithinUlp(call, np.asarray(1.0), 1e6)
 
 
-def in_other_units(unit: float) -> Sharp:
+def in_other_units(unit: float) -> WithinUlp:
     """Return the case that force and pressure are proportional to E*."""
 
     def call(m: ModuleType) -> list[float]:
@@ -122,10 +124,10 @@ def in_other_units(unit: float) -> Sharp:
         )
         return [small / large for small, large in zip(other, one, strict=True)]
 
-    return Sharp(call, np.full(2, unit), 2.0)
+    return WithinUlp(call, np.full(2, unit), 2.0)
 
 
-def refused() -> list[Sharp]:
+def refused() -> list[WithinUlp]:
     """Return the case of NaN results for an invalid contact or plate."""
     within = 0.1, 1.0, 50.0, 1.0, 1.0
     outside = [
@@ -137,12 +139,12 @@ def refused() -> list[Sharp]:
     def force(m: ModuleType, a: float, b: float, R: float, modulus: float, own: float) -> float:
         return float(m.contact(m.plate(1.0, b), a, R, modulus, own).force)
 
-    found = [Sharp(lambda m, p=point: force(m, *p), np.asarray(NAN), 0.0) for point in outside]
+    found = [WithinUlp(lambda m, p=point: force(m, *p), np.asarray(NAN), 0.0) for point in outside]
     none = np.array([NAN, NAN, 0.0, 0.0])
     sizes = (0.0, 1.0), (1.0, 0.0), (-1.0, -2.0), (1e-91, 1.0), (1e91, 1.0), (1e-60, 1e60)
     for size in (*sizes, (1e60, 1e-60)):
-        found.append(Sharp(lambda m, size=size: numbers_of(m.plate(*size)), none, 0.0))
-    thin = Sharp(lambda m: float(m.plate(1.0, 100.0).rises.size), np.asarray(0.0), 0.0)
+        found.append(WithinUlp(lambda m, size=size: numbers_of(m.plate(*size)), none, 0.0))
+    thin = WithinUlp(lambda m: float(m.plate(1.0, 100.0).rises.size), np.asarray(0.0), 0.0)
     return [*found, thin]
 
 
@@ -150,8 +152,8 @@ def numbers_of(plate: Any) -> list[float]:
     return [plate.h, plate.first, plate.waves.size, plate.rises.size]
 
 
-JUDGED = {
-    "non_hertzian_pressure": Judged(
+TESTS = {
+    "non_hertzian_pressure": ModuleTests(
         pressure_cases,
         {
             "plate": (2, BEYOND_ALL),
@@ -163,6 +165,6 @@ JUDGED = {
 }
 
 
-@pytest.mark.parametrize("name", JUDGED)
+@pytest.mark.parametrize("name", TESTS)
 def test_every_mutant_is_noticed_or_may_pass(name: str) -> None:
-    assert unnoticed(name, JUDGED[name]) == {}
+    assert undetected(name, TESTS[name]) == {}

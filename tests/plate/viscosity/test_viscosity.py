@@ -5,11 +5,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from given import ALL, AT_REST
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mpmath import beta, mp, mpf
 from scipy.integrate import solve_ivp
+from shared_scenes import ALL, AT_REST
 
 from derivation.plate.viscosity.theory import bounds, contact
 from derivation.scene import motion, viscous

@@ -8,8 +8,8 @@ import flint
 import pytest
 import sympy as sp
 from flint import arb
-from given import material
 from mpmath import mp, mpf
+from shared_scenes import material
 
 from derivation.engine.formula.ball import PrecisionError, evaluate, to_ball
 from derivation.engine.formula.proof import SYMBOLIC, ProofError, prove

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from given import material
+from shared_scenes import material
 
 from derivation.plate.vocabulary import xi_R
 from derivation.plate.waves.oracle import KINDS

@@ -19,15 +19,6 @@ _MORE = "inertia", "damping", "plasticity"
 ALL = frozenset(name for name, e in BY_NAME.items() if e.selectable and name not in _MORE)
 """Every effect of a quasi-static, elastic law; the plate of `model` is simply supported."""
 
-EXAMPLE = {
-    "r": 0.002, "z": 0.004, "phi": 24.0, "h": 0.01, "T": 0.48, "b": 0.1, "R": 0.13, "a": 0.004,
-    "lam": 0.36e9, "mu": 0.43e9, "P": 1000.0, "A_j": -1e6, "J1": 0.52, "x": 1.3, "n": 7.0,
-    "k": 4.0, "delta": 1e-6, "m": 0.2, "v0": 1.5, "t": 1e-4, "eta": 0.1,
-    "a_over_R": 0.03, "a_ratio": 0.4, "alpha": 0.04, "rho": 2500.0,
-    "yield_stress": 1e7, "xi_y": 1.7, "viscous_time": 1e-5, "x_v": 0.2, "kap": 0.7, "nu": -0.6,
-}  # fmt: skip
-"""Arguments of every generated function, inside its domain."""
-
 
 def model(**changes: Any) -> Model:
     """Return the model of an elastic sphere on a plate, with some fields replaced."""
@@ -40,7 +31,7 @@ def model(**changes: Any) -> Model:
 
 def scene(**tables: Mapping[str, Any]) -> Any:
     """Return a similar scene with a glass sphere; keys are replaced, or removed by None."""
-    made: dict[str, dict[str, Any]] = {
+    tables_used: dict[str, dict[str, Any]] = {
         "sphere": {"radius": 0.1, "mass": 3.0, "material": "glass"},
         "plate": {
             "radius": 0.5, "half_thickness": 0.02, "lame_lambda": 2e9, "lame_mu": 3e9,
@@ -50,9 +41,9 @@ def scene(**tables: Mapping[str, Any]) -> Any:
         "effects": dict(AT_REST),
     }  # fmt: skip
     for name, keys in tables.items():
-        merged = made.get(name, {}) | dict(keys)
-        made[name] = {k: v for k, v in merged.items() if v is not None}
-    return read(made)
+        merged = tables_used.get(name, {}) | dict(keys)
+        tables_used[name] = {k: v for k, v in merged.items() if v is not None}
+    return read(tables_used)
 
 
 def lame(ratio: float) -> tuple[float, float]:
@@ -66,6 +57,7 @@ def material(ratio: float) -> Fraction:
 
 
 def random_models(count: int) -> Iterator[Model]:
+    """Yield models with random thickness, speed, sphere modulus and gravity."""
     generator = random.Random(4)
     for _ in range(count):
         yield model(
@@ -76,15 +68,17 @@ def random_models(count: int) -> Iterator[Model]:
 
 def changed(**tables: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
     """Return a valid scene with Hertz's pressure; keys are replaced, or removed by None."""
-    made: dict[str, dict[str, Any]] = {
+    tables_used: dict[str, dict[str, Any]] = {
         "sphere": {"radius": 0.13, "mass": 72.0},
         "plate": {"radius": 1.0, "thickness": 0.2, "lame_lambda": 0.36e9, "lame_mu": 0.43e9},
         "impact": {"speed": 1.0},
         "effects": {"spherical_profile": False, "non_hertzian_pressure": False} | AT_REST,
     }
     for name, keys in tables.items():
-        made[name] = {k: v for k, v in (made[name] | dict(keys)).items() if v is not None}
-    return made
+        tables_used[name] = {
+            k: v for k, v in (tables_used[name] | dict(keys)).items() if v is not None
+        }
+    return tables_used
 
 
 def thick(speed: float = 1.0, size: float = 1e6) -> Any:

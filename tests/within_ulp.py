@@ -7,31 +7,33 @@ from typing import Any, NamedTuple
 import numpy as np
 
 
-class Sharp(NamedTuple):
-    """A call, and the expected values with type and shape, and the allowed error in ULP."""
+class WithinUlp(NamedTuple):
+    """A call, the expected values with type and shape, and the allowed error in ULP."""
 
     call: Callable[[ModuleType], Any]
-    true: np.ndarray
+    expected: np.ndarray
     ulp: float
 
     def holds(self, module: ModuleType) -> bool:
         found = np.asarray(self.call(module))
-        if found.shape != self.true.shape or found.dtype != self.true.dtype:
+        if found.shape != self.expected.shape or found.dtype != self.expected.dtype:
             return False
         with np.errstate(all="ignore"):
-            close = np.abs(found - self.true) <= self.ulp * np.spacing(np.abs(self.true))
-        return bool((close | (found == self.true) | (np.isnan(found) & np.isnan(self.true))).all())
+            close = np.abs(found - self.expected) <= self.ulp * np.spacing(np.abs(self.expected))
+        return bool(
+            (close | (found == self.expected) | (np.isnan(found) & np.isnan(self.expected))).all()
+        )
 
 
 def expected(
     name: str, points: Sequence[tuple[float, ...]], true: Sequence[Any], ulp: float
-) -> list[Sharp]:
+) -> list[WithinUlp]:
     """Return tests of a function at all points in one array, and at each point as scalars."""
     values = np.array([[float(x) for x in np.atleast_1d(row)] for row in true])
     values = values[:, 0] if values.shape[1] == 1 else values.T
     columns = [np.array(column, dtype=float) for column in zip(*points, strict=True)]
-    found = [Sharp(lambda m: getattr(m, name)(*columns), values, ulp)]
+    found = [WithinUlp(lambda m: getattr(m, name)(*columns), values, ulp)]
     for index, point in enumerate(points):
         one = np.float64(values[..., index])
-        found.append(Sharp(lambda m, point=point: getattr(m, name)(*point), one, ulp))
+        found.append(WithinUlp(lambda m, point=point: getattr(m, name)(*point), one, ulp))
     return found

@@ -22,7 +22,8 @@ class Style:
     Parameters
     ----------
     tested
-        Conditions that limit a domain to the tested range, each with the names of its arguments.
+        Conditions that limit a domain to the tested range, each with names of arguments: it applies
+        to the functions that have all of them.
     remark
         Function from an expression to a text that is appended to the formula in the docstring.
     package

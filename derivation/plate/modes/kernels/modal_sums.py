@@ -13,10 +13,18 @@ from derivation.engine.rewrite.form import Form
 from derivation.plate.modes.kernels.shares import ARGUMENTS as SHARE_ARGUMENTS
 from derivation.plate.vocabulary import ARGUMENTS, C1, C2, C3, C4, J1, PLATE, A_j, b, phi
 
-TESTED = {"phi * h >= 1e-151": {"phi", "h"}, "T >= 1e-151": {"T"}}
-"""Conditions that limit a domain to the tested range, each with the arguments it contains.
+TESTED = {
+    "phi * h >= 1e-151": {"phi", "h"},
+    "phi * h <= 1e150": {"phi", "h", "z"},
+    "h <= 1e307": {"phi", "h", "lam"},
+    "T >= 1e-151": {"T"},
+    "h >= 1e-90 * b": {"h", "b", "a"},
+    "h <= 1e90 * b": {"h", "b", "a"},
+}
+"""Conditions that limit a domain to the tested range, each with arguments of the functions that
+need it.
 
-Below, products of such numbers leave the range of doubles.
+Beyond, products of such numbers leave the range of doubles.
 """
 EXAMPLE_MODES = 3
 """Number of modes that the examples sum."""

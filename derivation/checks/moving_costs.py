@@ -8,7 +8,7 @@ largest number of modes of all branches.
 
 import os
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -68,8 +68,8 @@ class CostOutcome(NamedTuple):
 
 
 @dataclass(frozen=True)
-class CostRow:
-    """A method at a setting.
+class Trial:
+    """A method at a setting, before it is timed.
 
     Attributes
     ----------
@@ -77,28 +77,12 @@ class CostRow:
         `integrator`, `modes`, `branches` or `rtol`.
     method, setting
         Method, and its parameter.
-    oscillators
-        Number of modes.
-    seconds
-        Processor time of a simulation [s].
-    errors
-        Relative errors by result [1]; for integrators, those of the first contact.
-    bound
-        Stated error bound [1]; only for `rtol`.
+    call
+        Function that simulates the scene.
+    reference, names
+        Function that returns the reference results, and their names; for integrators, the results
+        of the first contact.
     """
-
-    study: str
-    method: str
-    setting: float
-    oscillators: int
-    seconds: float
-    errors: dict[str, float]
-    bound: float | None
-
-
-@dataclass(frozen=True)
-class Trial:
-    """A row before it is timed."""
 
     study: str
     method: str
@@ -116,7 +100,8 @@ FIRST = ("contact_time", "max_force", "restitution")
 def measure(progress: Progress = quiet) -> dict[str, Any]:
     """Measure every row; return the rows with scene, machine and load as plain data.
 
-    Run times are measured in interleaved rounds.
+    Run times are processor times of a simulation [s], measured in interleaved rounds; errors are
+    relative [1].
     """
     trials = [*integrators(), *modes(), *branches(), *tolerances()]
     before, rows = os.getloadavg()[0], list[tuple[Trial, CostOutcome, dict[str, float]]]()
@@ -136,11 +121,15 @@ def measure(progress: Progress = quiet) -> dict[str, Any]:
         "scene": SCENE,
         "truth": {"tolerance": FINEST, "modes": MOST, "modes of all branches": MOST_ALL},
         "rows": [
-            asdict(
-                CostRow(
-                    t.study, t.method, t.setting, out.oscillators, spent.seconds, errors, out.bound
-                )
-            )
+            {
+                "study": t.study,
+                "method": t.method,
+                "setting": t.setting,
+                "oscillators": out.oscillators,
+                "seconds": spent.seconds,
+                "errors": errors,
+                "bound": out.bound,
+            }
             for (t, out, errors), spent in zip(rows, timings, strict=True)
         ],
     }

@@ -2,15 +2,13 @@
 
 import contextlib
 import faulthandler
+import multiprocessing
 import os
-import pickle
-import select
 import signal
-import sys
-import time
 from collections.abc import Callable
+from multiprocessing.connection import Connection
 from pathlib import Path
-from typing import Any, NoReturn, TypeVar
+from typing import Any, TypeVar
 
 Value = TypeVar("Value")
 
@@ -20,7 +18,6 @@ MEGABYTES = 1000
 """Memory [MB] allowed in addition to the memory that the program already uses."""
 PATIENCE = 6
 """Elapsed time over the limit of processor time after which a process is ended."""
-_CHUNK = 1 << 16
 
 
 class LimitError(ValueError):
@@ -50,35 +47,29 @@ def bounded(
     """
     if not hasattr(os, "fork"):
         return work()
-    reader, writer = os.pipe()
-    sys.stdout.flush()
-    sys.stderr.flush()
-    child = os.fork()
-    if child == 0:
-        os.close(reader)
-        _work(work, writer, seconds, megabytes)
-    os.close(writer)
-    status = None
+    context = multiprocessing.get_context("fork")
+    reader, writer = context.Pipe(duplex=False)
+    child = context.Process(target=_work, args=(work, writer, seconds, megabytes), daemon=True)
+    child.start()
+    writer.close()
+    kind = "time"
+    value: Any = None
     try:
-        answer = _read(reader, seconds * PATIENCE)
-        if answer is not None:
-            _, status = os.waitpid(child, 0)
+        if reader.poll(seconds * PATIENCE):
+            kind, value = reader.recv()
+    except EOFError:  # the system ended the process
+        child.join()
+        kind = "time" if child.exitcode in (-signal.SIGXCPU, -signal.SIGKILL) else "memory"
     finally:
-        os.close(reader)
-        if status is None:
-            with contextlib.suppress(ProcessLookupError):
-                os.kill(child, signal.SIGKILL)
-            _, status = os.waitpid(child, 0)
-    late = answer is None or (
-        os.WIFSIGNALED(status) and os.WTERMSIG(status) in (signal.SIGXCPU, signal.SIGKILL)
-    )
-    if late:
+        reader.close()
+        child.kill()
+        child.join()
+    if kind == "time":
         raise LimitError(f"{what} takes more than {seconds} s: simplify or shorten the formula")
-    if not answer or os.WIFSIGNALED(status):
-        raise LimitError(_too_large(what, megabytes))
-    kind, value = pickle.loads(answer)
     if kind == "memory":
-        raise LimitError(_too_large(what, megabytes))
+        raise LimitError(
+            f"{what} takes more than {megabytes} MB of memory: simplify or shorten the formula"
+        )
     if kind == "depth":
         raise LimitError(f"{what} needs too deep a recursion: nest the formula less deeply")
     if kind == "error":
@@ -86,47 +77,20 @@ def bounded(
     return value  # type: ignore[no-any-return]
 
 
-def _too_large(what: str, megabytes: int) -> str:
-    return f"{what} takes more than {megabytes} MB of memory: simplify or shorten the formula"
-
-
-def _read(reader: int, seconds: float) -> bytes | None:
-    """Return everything that the child writes until it closes its end; None after a timeout."""
-    end = time.monotonic() + seconds
-    parts: list[bytes] = []
-    while True:
-        ready, _, _ = select.select([reader], [], [], max(end - time.monotonic(), 0.0))
-        if not ready:
-            return None
-        part = os.read(reader, _CHUNK)
-        if not part:
-            return b"".join(parts)
-        parts.append(part)
-
-
-def _work(work: Callable[[], Any], writer: int, seconds: int, megabytes: int) -> NoReturn:
-    """Do the work in the child, write the pickled result, and exit without clean-up."""
+def _work(work: Callable[[], Any], writer: Connection, seconds: int, megabytes: int) -> None:
+    """Do the work in the child, and send its result or the reason why there is none."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
+    faulthandler.disable()  # a library that runs out of memory may abort
+    _limit(seconds, megabytes)
     try:
-        signal.signal(signal.SIGINT, signal.SIG_DFL)
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
-        faulthandler.disable()  # a library that runs out of memory may abort
-        _limit(seconds, megabytes)
-        outcome = _outcome(work)
-        with os.fdopen(writer, "wb") as stream:
-            stream.write(outcome)
-    finally:
-        os._exit(0)
-
-
-def _outcome(work: Callable[[], Any]) -> bytes:
-    try:
-        return pickle.dumps(("value", work()))
+        writer.send(("value", work()))
     except MemoryError:
-        return pickle.dumps(("memory", None))
+        writer.send(("memory", None))
     except RecursionError:
-        return pickle.dumps(("depth", None))
+        writer.send(("depth", None))
     except Exception as error:
-        return pickle.dumps(("error", error))
+        writer.send(("error", error))
 
 
 def _limit(seconds: int, megabytes: int) -> None:

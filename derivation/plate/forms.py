@@ -60,9 +60,7 @@ def stable_forms(formulas: Mapping[str, Record]) -> tuple[Form, ...]:
         "modal_sum": {"delta": _indentation(formulas, known)},
     }
     for printed in printed_modules():
-        groups[printed.name] = {name: found(name) for name in printed.automatic} | dict(
-            printed.stated()
-        )
+        groups[printed.name] = dict(printed.stated())
     return tuple(
         form(name, module, formulas[name].expression, steps, value, known | sections())
         for module, group in groups.items()
@@ -72,13 +70,7 @@ def stable_forms(formulas: Mapping[str, Record]) -> tuple[Form, ...]:
 
 OMEGAS = tuple(f"Omega_{k}{tail}" for tail in ("", "_scaled") for k in range(1, 5))
 INFLUENCE = ("G", "G_m", "G_minus_1", "C_top", "C_bottom", "K_j", "K_j_bottom", "G_slope")
-AUTOMATIC = (
-    *OMEGAS,
-    *INFLUENCE,
-    "sonine",
-    "A_j",
-    *(name for printed in printed_modules() for name in printed.automatic),
-)
+AUTOMATIC = (*OMEGAS, *INFLUENCE, "sonine", "A_j")
 """Formulas whose forms the rules find."""
 
 CLOSE = ("G_m",)

@@ -13,9 +13,10 @@ from fractions import Fraction
 from functools import cache
 
 from derivation.engine.formula.domain import broken
+from derivation.engine.formula.grid import around
 from derivation.engine.formula.ulp import neighbours
 from derivation.engine.measure.point import Point
-from derivation.engine.rewrite.form import Switch
+from derivation.engine.rewrite.form import switch_points
 from derivation.plate.blocks import blocks
 from derivation.plate.contact.kernels.moments import FIRST_K, finite_part_start, kappa_start
 from derivation.plate.modes.kernels.forms import mode_forms
@@ -106,24 +107,15 @@ def drawn(name: str, generator: random.Random) -> float:
 @cache
 def switches() -> dict[str, tuple[float, ...]]:
     """Return the switch points of the stable forms by variable: T is 2 phi h, y is a phi."""
-    found: dict[str, set[float]] = {}
-    for value in (*(b.value for b in blocks().values()), *(v for _, v in mode_forms().values())):
-        if isinstance(value, Switch):
-            found.setdefault(str(value.variable), set()).add(float(value.at))
-    return {variable: tuple(sorted(places)) for variable, places in found.items()}
-
-
-def _around(place: float) -> tuple[float, ...]:
-    """Return a number, its neighbours, and the doubles at 32 ULP."""
-    near = neighbours(place, 32)
-    return near[0], near[31], near[32], near[33], near[64]
+    modes = (value for _, value in mode_forms().values())
+    return switch_points((*(block.value for block in blocks().values()), *modes))
 
 
 def depths(generator: random.Random) -> list[float]:
     """Return x = phi h: both sides of switch points, decades, dense middle range, large values."""
     at_switches = [T / 2 for T in switches()["T"]]
     return [
-        *(x for place in sorted(set(at_switches)) for x in _around(place)),
+        *around(sorted(set(at_switches))),
         *(10.0**exponent for exponent in SMALL[::2]),
         *(generator.uniform(1.0, 9.0) * 10.0**exponent for exponent in SMALL),
         *(10 ** generator.uniform(-6.0, -1.0) for _ in range(12)),
@@ -136,7 +128,7 @@ def widths(generator: random.Random) -> list[float]:
     """Return y = a phi: switch points, decades, middle range, neighbours of roots of tan y = y."""
     zeros = [near for k in (1, 2, 3, 7, 30) for near in neighbours(_zero_of_sine_minus(k), 1)]
     return [
-        *(y for place in switches().get("y", ()) for y in _around(place)),
+        *around(switches().get("y", ())),
         *zeros,
         *(10.0**exponent for exponent in SMALL[::2]),
         *(generator.uniform(1.0, 9.0) * 10.0**exponent for exponent in SMALL),

@@ -12,10 +12,6 @@ from derivation.mathematics.bessel.routines import bessel_kernels
 from derivation.plate.subjects import handed_in
 
 
-def _none() -> Mapping[str, Shape]:
-    return {}
-
-
 @dataclass(frozen=True, eq=False)
 class PrintedModule:
     """A module of functions that are printed from formulas.
@@ -25,15 +21,12 @@ class PrintedModule:
     name, title
         Name of the module, and first line of its docstring.
     stated
-        Stable forms by formula, where they are written out; each is proved.
-    automatic
-        Formulas whose stable forms are found by the rules.
+        Function that returns the stable forms by formula; each is proved.
     """
 
     name: str
     title: str
-    stated: Callable[[], Mapping[str, Shape]] = _none
-    automatic: tuple[str, ...] = ()
+    stated: Callable[[], Mapping[str, Shape]]
 
 
 def _no_notes() -> Mapping[str, Sequence[str]]:

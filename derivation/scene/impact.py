@@ -8,7 +8,6 @@ from derivation.scene.edge_remainder import edge_remainder
 from derivation.scene.effect_selection import SelectedEffects, decide
 from derivation.scene.law import ContactLaw
 from derivation.scene.limits import (
-    PlateTimes,
     check_radius,
     contact_warnings,
     hollow_warnings,
@@ -91,7 +90,13 @@ def simulate(
     stress = math.nan
     if strength is not None or yield_stress is not None:
         stress = law.max_tensile_stress(a, force, not selected.edge_disabled)
-    warnings = warnings_of(law, contact_time, delta, a, pressure, stress, strength, deflection)
+    warnings = (
+        *hollow_warnings(model),
+        *warnings_at(law, a, delta, deflection),
+        *motion_warnings(model, contact_time, fraction, motion is not None),
+        *_yield_warnings(law, a, pressure),
+        *stress_warnings(stress, strength, yield_stress),
+    )
     if motion is not None:
         speeds = [touch.relative_approach_speed for touch in motion.inertia.contacts]
         warnings += contact_warnings(speeds, motion.least)
@@ -100,43 +105,6 @@ def simulate(
         inertia_neglected=neglected,
     )  # fmt: skip
     return result if times is None else result.at(times)
-
-
-def warnings_of(
-    law: ContactLaw,
-    contact_time: float,
-    delta: float,
-    a: float,
-    pressure: float,
-    stress: float,
-    strength: float | None,
-    deflection: float | None = None,
-    known: PlateTimes | None = None,
-) -> tuple[str, ...]:
-    """Return the warnings about an impact, except those about single contacts.
-
-    Parameters
-    ----------
-    contact_time, delta, a, pressure
-        Contact time [s], and largest indentation [m], contact radius [m] and pressure [Pa].
-    stress
-        Largest tensile stress on the back face [Pa]; NaN if it is not needed.
-    strength
-        Tensile strength of the plate [Pa]; None if it is unknown.
-    deflection
-        Largest deflection of the plate [m], if plate inertia is included.
-    known
-        Zener parameter and characteristic times of the plate, if they have been computed.
-    """
-    model, dynamic = law.model, deflection is not None
-    fraction = 1.0 - float(local_indentation(law, a)) / delta
-    return (
-        *hollow_warnings(model),
-        *warnings_at(law, a, delta, deflection),
-        *motion_warnings(model, contact_time, fraction, dynamic, known),
-        *_yield_warnings(law, a, pressure),
-        *stress_warnings(stress, strength, _known(model.plate_yield_stress)),
-    )
 
 
 def _yield_warnings(law: ContactLaw, a: float, pressure: float) -> tuple[str, ...]:

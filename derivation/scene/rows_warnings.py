@@ -42,7 +42,7 @@ def warnings_of_rows(
     strength: Array | float | None,
     rows: NDArray[np.intp],
 ) -> NDArray[np.object_]:
-    """Return the warnings of some rows, joined by "; ", equal to those of `impact.warnings_of`.
+    """Return the warnings of some rows, joined by "; ", equal to those of `simulate`.
 
     Parameters
     ----------

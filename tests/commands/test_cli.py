@@ -1,17 +1,13 @@
 """The command line: results, exit status, and one message for each error."""
 
 import json
-import os
-import signal
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+from interrupted import interrupted
 
 from derivation import diagnose, formula
 from derivation.cli import main
-from derivation.engine.files import ROOT
 from derivation.plate.vocabulary import Formula
 
 CORRECT = "(2*T + sinh(2*T))/(2*(sinh(T) - T)*(sinh(T) + T))"
@@ -108,18 +104,6 @@ def wait():
 object.__setattr__(derived.CHAIN, "links", (Link("wait", wait),))
 sys.exit(cli.main(["generate", "--out", sys.argv[1]]))
 """
-    environment = {**os.environ, "XDG_CACHE_HOME": str(tmp_path / "cache")}
     out = tmp_path / "plate"
-    run = subprocess.Popen(
-        [sys.executable, "-c", program, str(out)],
-        env=environment, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
-    )  # fmt: skip
-    assert run.stdout is not None
-    assert run.stdout.readline() == "deriving\n"
-    run.send_signal(signal.SIGINT)
-    _, message = run.communicate(timeout=60)
-    assert run.returncode == 2
-    assert "interrupted" in message
-    assert "Traceback" not in message
+    interrupted(program, out, "deriving", {"XDG_CACHE_HOME": str(tmp_path / "cache")})
     assert not out.exists()

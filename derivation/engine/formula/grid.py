@@ -66,7 +66,7 @@ def domain_grid(
 
     points = [drawn() for _ in range(DRAWN)]
     for key in arguments:
-        own = (*_candidates(vocabulary.by_name[key].domain), *_around(switches.get(key, ())))
+        own = (*_candidates(vocabulary.by_name[key].domain), *around(switches.get(key, ())))
         points += [drawn() | {key: value} for value in own]
     return tuple(values for values in points if inside(vocabulary, values))
 
@@ -97,7 +97,7 @@ def _ends(domain: Sequence[str]) -> Iterator[float]:
                 continue
 
 
-def _around(places: Sequence[float]) -> Iterator[float]:
+def around(places: Sequence[float]) -> Iterator[float]:
     """Yield numbers, their neighbours, and the doubles at a distance of 32 ULP."""
     for place in places:
         near = neighbours(place, 32)

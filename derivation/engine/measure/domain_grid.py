@@ -9,7 +9,7 @@ from derivation.engine.measure.point import Point
 from derivation.engine.oracle.agreement import Route, Routes
 from derivation.engine.oracle.oracle import Balls
 from derivation.engine.rewrite.blocks import Definition, built
-from derivation.engine.rewrite.form import Switch
+from derivation.engine.rewrite.form import switch_points
 
 
 def domain_judge(
@@ -43,16 +43,8 @@ def domain_judge(
     own = chain.vocabulary
 
     def grid(name: str, arguments: Sequence[str], _: bool) -> tuple[Point, ...]:
-        return tuple(map(Point, domain_grid(name, arguments, own, switches_of(blocks))))
+        switches = switch_points(block.value for block in built(blocks).values())
+        return tuple(map(Point, domain_grid(name, arguments, own, switches)))
 
     references = Routes(Balls(own, chain.formulas), routes)
     return Judge(references, grid, package, easy, lambda point: inside(own, point.values))
-
-
-def switches_of(blocks: tuple[Definition, ...]) -> dict[str, tuple[float, ...]]:
-    """Return the switch points of building blocks, by variable."""
-    found: dict[str, set[float]] = {}
-    for block in built(blocks).values():
-        if isinstance(block.value, Switch):
-            found.setdefault(str(block.value.variable), set()).add(float(block.value.at))
-    return {variable: tuple(sorted(places)) for variable, places in found.items()}

@@ -12,7 +12,7 @@ from derivation.engine.formula.grid import domain_grid
 from derivation.engine.formula.record import Record
 from derivation.engine.formula.ulp import overflows, ulp_error
 from derivation.engine.rewrite.doubles import run
-from derivation.engine.rewrite.form import Block, Step, Switch
+from derivation.engine.rewrite.form import Block, Step, Switch, switch_points
 from derivation.engine.rewrite.stabilise import ENOUGH
 from derivation.engine.rewrite.terms import UnreachableError
 
@@ -75,7 +75,7 @@ def measured(
     own = [argument.name for argument in formula.arguments]
     symbols = {argument.name: argument.symbol for argument in formula.arguments}
     found = []
-    for point in domain_grid(formula.name, own, formula.vocabulary, _switches(value)):
+    for point in domain_grid(formula.name, own, formula.vocabulary, switch_points([value])):
         if all(x == 0 or abs(x) >= SMALLEST for x in point.values()):
             at = {symbols[name]: x for name, x in point.items()}
             reference = _reference(formula.expression, at)
@@ -88,10 +88,6 @@ def measured(
         )
     error, at_worst = max(found, key=lambda pair: pair[0])
     return LargestError(error, at_worst, len(found))
-
-
-def _switches(value: sp.Expr | Switch) -> dict[str, tuple[float, ...]]:
-    return {str(value.variable): (float(value.at),)} if isinstance(value, Switch) else {}
 
 
 def _reference(expression: sp.Expr, at: Mapping[sp.Symbol, float]) -> flint.arb | None:

@@ -1,6 +1,6 @@
 """The stable form: named steps, branches, and the proof that it equals a derived formula."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 import sympy as sp
@@ -74,6 +74,15 @@ class Switch:
     at: sp.Rational
     below: Branch
     above: Branch
+
+
+def switch_points(values: Iterable[object]) -> dict[str, tuple[float, ...]]:
+    """Return the switch points among the values of forms, by variable."""
+    found: dict[str, set[float]] = {}
+    for value in values:
+        if isinstance(value, Switch):
+            found.setdefault(str(value.variable), set()).add(float(value.at))
+    return {variable: tuple(sorted(places)) for variable, places in found.items()}
 
 
 @dataclass(frozen=True)

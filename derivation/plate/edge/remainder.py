@@ -123,100 +123,133 @@ def moments(u: Double, z: Double, weights: Double, h: float) -> tuple[float, flo
     return float(weights @ u) / (2.0 * h), float(weights @ (u * z)) * 1.5 / h**3
 
 
-class Field:
-    """The remainder's finite-element system on one mesh."""
+class Elements:
+    """Elements of one degree in a rectangle, with displacements u and w at each node.
 
-    def __init__(self, case: RemainderCase, mesh: RemainderMesh) -> None:
-        self.case, self.degree = case, mesh.degree
-        self.r_ends, self.z_ends = radii(case.h, mesh.layers), heights(case.h, mesh.layers)
-        self.columns = (len(self.r_ends) - 1) * mesh.degree + 1
-        self.rows = (len(self.z_ends) - 1) * mesh.degree + 1
+    Parameters
+    ----------
+    x_ends, z_ends
+        Boundaries of the elements along the plate and over its thickness.
+    degree
+        Polynomial degree.
+    """
+
+    def __init__(self, x_ends: Double, z_ends: Double, degree: int) -> None:
+        self.x_ends, self.z_ends, self.degree = x_ends, z_ends, degree
+        self.columns = (len(x_ends) - 1) * degree + 1
+        self.rows = (len(z_ends) - 1) * degree + 1
+        self.size = 2 * self.columns * self.rows
         self.z, self.rim_weights = self._rim()
 
     def _rim(self) -> tuple[Double, Double]:
         """Return the heights of the nodes on the edge and their quadrature weights."""
         nodes, weights, _ = lobatto(self.degree)
         z, w = np.zeros(self.rows), np.zeros(self.rows)
-        for k, (low, high) in enumerate(zip(self.z_ends[:-1], self.z_ends[1:], strict=True)):
+        for k, (low, high) in enumerate(itertools.pairwise(self.z_ends)):
             place = slice(k * self.degree, (k + 1) * self.degree + 1)
             z[place] = (low + high) / 2 + (high - low) / 2 * nodes
             w[place] += (high - low) / 2 * weights
         # Rounding must not move a node on a face beyond it.
-        return np.clip(z, -self.case.h, self.case.h), w
+        return np.clip(z, self.z_ends[0], self.z_ends[-1]), w
 
     def number(self, column: NDArray[Any], row: NDArray[Any], part: int) -> NDArray[Any]:
         """Return the index of an unknown: u (0) or w (1) at a node."""
         found: NDArray[Any] = 2 * (column * self.rows + row) + part
         return found
 
-    def stiffness(self) -> Any:
-        """Return the sparse matrix of the strain energy without the factor 2 pi."""
+    def stiffness(self, lam: float, *, round_plate: bool) -> Any:
+        """Return the sparse matrix of the strain energy, with shear modulus 1.
+
+        Parameters
+        ----------
+        lam
+            First Lame constant.
+        round_plate
+            Whether x is the radius of a round plate (the energy is then without the factor 2 pi);
+            otherwise the strain is plane.
+        """
         from scipy import sparse
 
         rows, columns, values = [], [], []
-        for i in range(len(self.r_ends) - 1):
+        for i in range(len(self.x_ends) - 1):
             for k in range(len(self.z_ends) - 1):
-                block, numbers = self._element(i, k)
+                block, numbers = self._element(i, k, lam, round_plate)
                 rows.append(np.repeat(numbers, numbers.size))
                 columns.append(np.tile(numbers, numbers.size))
                 values.append(block.ravel())
-        size = 2 * self.columns * self.rows
         entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
-        return sparse.csc_matrix(entries, shape=(size, size))
+        return sparse.csc_matrix(entries, shape=(self.size, self.size))
 
-    def _element(self, i: int, k: int) -> tuple[Double, NDArray[Any]]:
+    def _element(
+        self, i: int, k: int, lam: float, round_plate: bool
+    ) -> tuple[Double, NDArray[Any]]:
         """Return an element's matrix and the indices of its unknowns."""
         nodes, weights, slope = lobatto(self.degree)
-        (left, right), (low, high) = self.r_ends[i : i + 2], self.z_ends[k : k + 2]
+        (left, right), (low, high) = self.x_ends[i : i + 2], self.z_ends[k : k + 2]
         count = nodes.size
-        r = (left + right) / 2 + (right - left) / 2 * nodes
         one = np.eye(count)
-        by_r = np.kron(slope * 2 / (right - left), one)
+        by_x = np.kron(slope * 2 / (right - left), one)
         by_z = np.kron(one, slope * 2 / (high - low))
-        area = np.kron(weights * r * (right - left) / 2, weights * (high - low) / 2)
-        # u/r at r = 0 is du/dr, because u is odd.
-        over_r = np.diag(np.kron(1.0 / np.where(r > 0, r, 1.0), np.ones(count)))
-        on_axis = np.kron(r == 0, np.ones(count, dtype=bool))
-        over_r[on_axis] = by_r[on_axis]
-        zero = np.zeros_like(by_r)
-        rr, tt = np.hstack((by_r, zero)), np.hstack((over_r, zero))
-        zz, rz = np.hstack((zero, by_z)), np.hstack((by_z, by_r))
-        whole = rr + tt + zz
-        weigh = area[:, None]
-        block = self.case.lam * whole.T @ (weigh * whole) + rz.T @ (weigh * rz)
-        for strain in (rr, tt, zz):
-            block += 2.0 * strain.T @ (weigh * strain)
+        zero = np.zeros_like(by_x)
+        normal = [np.hstack((by_x, zero)), np.hstack((zero, by_z))]
+        shear = np.hstack((by_z, by_x))
+        across = weights * (right - left) / 2
+        if round_plate:
+            r = (left + right) / 2 + (right - left) / 2 * nodes
+            across = across * r
+            # u/r at r = 0 is du/dr, because u is odd.
+            over_r = np.diag(np.kron(1.0 / np.where(r > 0, r, 1.0), np.ones(count)))
+            on_axis = np.kron(r == 0, np.ones(count, dtype=bool))
+            over_r[on_axis] = by_x[on_axis]
+            normal.append(np.hstack((over_r, zero)))
+        area = np.kron(across, weights * (high - low) / 2)[:, None]
+        whole: Double = np.sum(normal, axis=0)
+        block = lam * whole.T @ (area * whole) + shear.T @ (area * shear)
+        for strain in normal:
+            block += 2.0 * strain.T @ (area * strain)
         column = np.repeat(i * self.degree + np.arange(count), count)
         row = np.tile(k * self.degree + np.arange(count), count)
         numbers = np.concatenate([self.number(column, row, part) for part in (0, 1)])
         return block, numbers
+
+
+def factored(matrix: Any) -> Any:
+    """Return SciPy's factors of a symmetric and positive definite matrix, without pivoting."""
+    from scipy.sparse.linalg import splu
+
+    return splu(
+        matrix.tocsc(),
+        permc_spec="MMD_AT_PLUS_A",
+        diag_pivot_thresh=0.0,
+        options={"SymmetricMode": True},
+    )
+
+
+class Field(Elements):
+    """The remainder's finite-element system on one mesh."""
+
+    def __init__(self, case: RemainderCase, mesh: RemainderMesh) -> None:
+        self.case = case
+        super().__init__(radii(case.h, mesh.layers), heights(case.h, mesh.layers), mesh.degree)
 
     def depths(self, widths: Sequence[float], *, states: bool = True) -> list[float]:
         """Return what a support adds to the indentation, by a/b: -w at the face's centre.
 
         The polynomial states carry most of it; without them the elements must compute all.
         """
-        from scipy.sparse.linalg import splu
-
         case, ring = self.case, np.arange(self.rows)
-        matrix, size = self.stiffness(), 2 * self.columns * self.rows
+        matrix = self.stiffness(case.lam, round_plate=True)
         axis = self.number(np.zeros_like(ring), ring, 0)
         rim = [self.number(np.full_like(ring, self.columns - 1), ring, part) for part in (0, 1)]
         held = rim if case.support == "clamped" else rim[1:]
         fixed = np.concatenate((axis, *held))
-        free = np.setdiff1d(np.arange(size), fixed)
+        free = np.setdiff1d(np.arange(self.size), fixed)
         rows = matrix[free]
-        # The matrix is symmetric and positive definite: no pivoting is needed.
-        solver = splu(
-            rows[:, free].tocsc(),
-            permc_spec="MMD_AT_PLUS_A",
-            diag_pivot_thresh=0.0,
-            options={"SymmetricMode": True},
-        )
+        solver = factored(rows[:, free])
         found, known = [], []
         for a in widths:
             known.append(self._of_states(a) if states else 0.0)
-            values, load = np.zeros(size), np.zeros(size)
+            values, load = np.zeros(self.size), np.zeros(self.size)
             pushed, values[rim[0]], values[rim[1]] = self._given(a, states)
             load[rim[0]] = pushed * self.rim_weights
             found.append(solver.solve(load[free] - rows @ values))

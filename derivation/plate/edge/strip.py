@@ -27,7 +27,7 @@ import numpy as np
 
 from derivation.engine.files import measurements, write_file
 from derivation.engine.outputs import sorted_json
-from derivation.plate.edge.remainder import Double, RemainderMesh, heights, lobatto
+from derivation.plate.edge.remainder import Double, Elements, RemainderMesh, factored, heights
 
 LENGTH = 6.0
 """Length of the strip over its half-thickness: end effects decay at least like e^(-3.75 x)."""
@@ -37,67 +37,19 @@ MESHES = (RemainderMesh(9, 9), RemainderMesh(7, 9), RemainderMesh(9, 7))
 """The mesh that is used, and two meshes that show its error."""
 
 
-class Strip:
+class Strip(Elements):
     """The strip's finite elements for one n, with shear modulus 1."""
 
     def __init__(self, n: float, mesh: RemainderMesh) -> None:
-        from scipy import sparse
-        from scipy.sparse.linalg import splu
-
-        self.n, self.degree = n, mesh.degree
-        self.z_ends = heights(1.0, mesh.layers)
         steps = list(0.5 ** np.arange(mesh.layers, -1.0, -1.0))
-        self.x_ends = np.concatenate((-np.arange(LENGTH, 1.0, -1.0), -np.array(steps[::-1]), [0.0]))
-        self.rows = (len(self.z_ends) - 1) * mesh.degree + 1
-        self.columns = (len(self.x_ends) - 1) * mesh.degree + 1
-        self.z = self._nodes()
-        self.size = 2 * self.rows * self.columns
-        entries = [
-            self._element(i, k)
-            for i in range(len(self.x_ends) - 1)
-            for k in range(len(self.z_ends) - 1)
-        ]
-        values = np.concatenate([block.ravel() for block, _ in entries])
-        down = np.concatenate([np.repeat(number, number.size) for _, number in entries])
-        across = np.concatenate([np.tile(number, number.size) for _, number in entries])
-        matrix = sparse.csc_matrix((values, (down, across)), shape=(self.size, self.size))
+        x_ends = np.concatenate((-np.arange(LENGTH, 1.0, -1.0), -np.array(steps[::-1]), [0.0]))
+        super().__init__(x_ends, heights(1.0, mesh.layers), mesh.degree)
+        self.n = n
         ring = np.arange(self.rows)
-        self.clamped = 2 * ((self.columns - 1) * self.rows + ring)
+        self.clamped = self.number(np.full_like(ring, self.columns - 1), ring, 0)
         self.free = np.setdiff1d(np.arange(self.size), [self.clamped, self.clamped + 1])
-        self.matrix = matrix[self.free]
-        self.solver = splu(
-            self.matrix[:, self.free].tocsc(),
-            permc_spec="MMD_AT_PLUS_A",
-            diag_pivot_thresh=0.0,
-            options={"SymmetricMode": True},
-        )
-
-    def _nodes(self) -> Double:
-        """Return the heights of the nodes."""
-        nodes, _, _ = lobatto(self.degree)
-        z = np.empty(self.rows)
-        for k, (low, high) in enumerate(zip(self.z_ends, self.z_ends[1:], strict=False)):
-            place = slice(k * self.degree, (k + 1) * self.degree + 1)
-            z[place] = (low + high) / 2 + (high - low) / 2 * nodes
-        return z
-
-    def _element(self, i: int, k: int) -> tuple[Double, np.ndarray]:
-        """Return an element's matrix and the indices of its unknowns."""
-        nodes, weights, slope = lobatto(self.degree)
-        (left, right), (low, high) = self.x_ends[i : i + 2], self.z_ends[k : k + 2]
-        one, lam = np.eye(nodes.size), 2.0 * self.n / (1.0 - self.n)
-        by_x = np.kron(slope * 2 / (right - left), one)
-        by_z = np.kron(one, slope * 2 / (high - low))
-        area = np.kron(weights * (right - left) / 2, weights * (high - low) / 2)[:, None]
-        zero = np.zeros_like(by_x)
-        xx, zz = np.hstack((by_x, zero)), np.hstack((zero, by_z))
-        xz, whole = np.hstack((by_z, by_x)), xx + zz
-        block = lam * whole.T @ (area * whole) + xz.T @ (area * xz)
-        block += 2.0 * (xx.T @ (area * xx) + zz.T @ (area * zz))
-        column = np.repeat(i * self.degree + np.arange(nodes.size), nodes.size)
-        row = np.tile(k * self.degree + np.arange(nodes.size), nodes.size)
-        first = 2 * (column * self.rows + row)
-        return block, np.concatenate((first, first + 1))
+        self.matrix = self.stiffness(2.0 * n / (1.0 - n), round_plate=False)[self.free]
+        self.solver = factored(self.matrix[:, self.free])
 
     def rigid(self, u: Double, w: Double) -> tuple[float, float]:
         """Return turn and level, far away, of the field with this displacement at x = 0."""

@@ -1,14 +1,11 @@
 """Test the benchmark of run time and accuracy: committed data, report, README, commands."""
 
 import json
-import os
-import signal
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
 import pytest
+from interrupted import interrupted
 
 from derivation import pipeline
 from derivation.cli import main
@@ -187,17 +184,7 @@ sys.exit(cli.main(["accuracy", "--quick", "--out", sys.argv[1]]))
 """
     out = tmp_path / "accuracy.json"
     out.write_text("old")
-    process = subprocess.Popen(
-        [sys.executable, "-c", program, str(out)], cwd=ROOT, env={**os.environ},
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
-    )  # fmt: skip
-    assert process.stdout is not None
-    assert process.stdout.readline() == "measuring\n"
-    process.send_signal(signal.SIGINT)
-    _, message = process.communicate(timeout=60)
-    assert process.returncode == 2
-    assert "interrupted" in message
+    interrupted(program, out, "measuring")
     assert [path.name for path in tmp_path.iterdir()] == ["accuracy.json"]
     assert out.read_text() == "old"
 

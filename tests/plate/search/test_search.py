@@ -3,17 +3,14 @@
 import dataclasses
 import json
 import math
-import os
 import random
-import signal
-import subprocess
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from interrupted import interrupted
 
 from derivation.cli import main
 from derivation.engine.files import ROOT
@@ -250,18 +247,7 @@ command = "check search --time 1h --function bessel_j0 --out"
 sys.exit(cli.main([*command.split(), sys.argv[1]]))
 """
     path = tmp_path / "cases.toml"
-    run = subprocess.Popen(
-        [sys.executable, "-c", program, str(path)],
-        cwd=ROOT, env={**os.environ}, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
-    )  # fmt: skip
-    assert run.stdout is not None
-    assert run.stdout.readline() == "looked\n"
-    run.send_signal(signal.SIGINT)
-    shown, message = run.communicate(timeout=60)
-    assert run.returncode == 2, message
-    assert "interrupted" in message
-    assert "Traceback" not in message
+    shown, _ = interrupted(program, path, "looked")
     assert "bessel_j0: x=" in shown
     (case,) = read(path)
     assert case.kernel == "bessel_j0"

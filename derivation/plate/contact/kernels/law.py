@@ -11,6 +11,7 @@ import sympy as sp
 
 from derivation.engine.emit.named import Claims, named
 from derivation.engine.emit.routine import Facts, Let, Routine, Several, routine
+from derivation.engine.formula.functions import unspecified
 from derivation.engine.rewrite.form import TIMES
 from derivation.plate.contact.theory.hertz import contact_radius, pressure
 from derivation.plate.contact.theory.split import contact_split
@@ -25,41 +26,16 @@ square, ratio, radius, residual, exponent, flat = sp.symbols(
 )
 
 
-class Correction(sp.Function):
-    """F as a function of A = a/h and log(h/b)."""
-
-    def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """Return the derivative by one of the two arguments."""
-        kinds = {1: CorrectionSlope, 2: CorrectionByThickness}
-        return kinds[argindex](*self.args)
-
-
-class CorrectionSlope(sp.Function):
-    """F' as a function of A."""
-
-    def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """Return the derivative by one of the two arguments."""
-        kinds = {1: CorrectionCurve, 2: CorrectionSlopeByThickness}
-        return kinds[argindex](*self.args)
-
-
-class CorrectionCurve(sp.Function):
-    """F'' as a function of A."""
-
-
-class CorrectionByThickness(sp.Function):
-    """Derivative of F by log(h/b) at fixed A."""
-
-    def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """Return the derivative by A."""
-        del argindex
-        return CorrectionSlopeByThickness(*self.args)
-
-
-class CorrectionSlopeByThickness(sp.Function):
-    """Derivative of F' by log(h/b)."""
-
-
+CorrectionCurve = unspecified("CorrectionCurve")
+"""F'' as a function of A."""
+CorrectionSlopeByThickness = unspecified("CorrectionSlopeByThickness")
+"""Derivative of F' by log(h/b)."""
+CorrectionByThickness = unspecified("CorrectionByThickness", CorrectionSlopeByThickness)
+"""Derivative of F by log(h/b) at fixed A."""
+CorrectionSlope = unspecified("CorrectionSlope", CorrectionCurve, CorrectionSlopeByThickness)
+"""F' as a function of A."""
+Correction = unspecified("Correction", CorrectionSlope, CorrectionByThickness)
+"""F as a function of A = a/h and log(h/b)."""
 log_eta = sp.Symbol("log_eta", real=True)
 CORRECTION = Correction(a / h, log_eta)
 FORCE = contact_radius().expression

@@ -10,6 +10,7 @@ import sympy as sp
 
 from derivation.engine.emit.named import Claims, named
 from derivation.engine.emit.routine import Facts, Let, Routine, Statement, routine
+from derivation.engine.formula.functions import unspecified
 from derivation.plate.contact.kernels import law
 from derivation.plate.contact.kernels.law import CORRECTION, DEPTH, FORCE, log_eta
 from derivation.plate.impact.theory.impact import contact_time, geometric, orders
@@ -273,12 +274,10 @@ def time_terms() -> Claims:
     )
 
 
-class TimeIntegral(sp.Function):
-    """The integral of N/sqrt(S) as a function of A_m and log(h/b)."""
-
-    def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """Return the derivative by log A_m or by log(h/b)."""
-        return (by_radius / sp.exp(self.args[0]), by_thickness)[argindex - 1]
+TimeIntegral = unspecified(
+    "TimeIntegral", lambda log_A, _: by_radius / sp.exp(log_A), lambda *_: by_thickness
+)
+"""The integral of N/sqrt(S) as a function of A_m and log(h/b)."""
 
 
 @named

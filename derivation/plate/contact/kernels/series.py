@@ -8,6 +8,7 @@ import sympy as sp
 
 from derivation.engine.emit.named import Claims, named
 from derivation.engine.emit.routine import Facts, Let, Routine, Several, routine
+from derivation.engine.formula.functions import unspecified
 from derivation.plate.blocks import blocks
 from derivation.plate.contact.theory.split import reduced_split
 from derivation.plate.contact.theory.thin_law import sine_kernel
@@ -198,28 +199,12 @@ def of_modes() -> Claims:
 # --- polynomials
 
 
-class Series(sp.Function):
-    """S as a function of t."""
-
-    def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """Return the derivative by t."""
-        del argindex
-        return SeriesSlope(self.args[0])
-
-
-class SeriesSlope(sp.Function):
-    """S' of t."""
-
-    def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """Return the derivative by t."""
-        del argindex
-        return 2 * SeriesCurve(self.args[0])
-
-
-class SeriesCurve(sp.Function):
-    """S''/2 of t."""
-
-
+SeriesCurve = unspecified("SeriesCurve")
+"""S''/2 of t."""
+SeriesSlope = unspecified("SeriesSlope", lambda t: 2 * SeriesCurve(t))
+"""S' of t."""
+Series = unspecified("Series", SeriesSlope)
+"""S as a function of t."""
 PLACE = (A**2 - middle) / half
 """t."""
 LAW = A * Series(PLACE)
@@ -272,17 +257,10 @@ def polynomial_slopes() -> Routine:
     )
 
 
-class Table(sp.Function):
-    """S_k/eta of a thick plate, t = (a/b)^2, as a function of log(eta)."""
-
-    def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """Return the derivative by log(eta)."""
-        del argindex
-        return TableSlope(self.args[0])
-
-
-class TableSlope(sp.Function):
-    """Derivative of `Table` by log(eta)."""
+TableSlope = unspecified("TableSlope")
+"""Derivative of `Table` by log(eta)."""
+Table = unspecified("Table", TableSlope)
+"""S_k/eta of a thick plate, t = (a/b)^2, as a function of log(eta)."""
 
 
 @named

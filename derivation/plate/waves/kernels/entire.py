@@ -7,6 +7,7 @@ real p (by 1 otherwise), so that neither overflows; the claims contain the scale
 import sympy as sp
 
 from derivation.engine.emit.routine import Facts, Let, Several
+from derivation.engine.formula.functions import unspecified
 from derivation.plate.vocabulary import gam, kap, x_h
 from derivation.plate.waves.theory.bending_branch import quotient
 from derivation.plate.waves.theory.dynamic_modes import (
@@ -28,37 +29,14 @@ _BY_KAP = {over: sp.Integer(1), level: -gam, m: sp.Integer(-1)}
 """Slopes by kap of the first values in the code."""
 
 
-class SlopeOfShc(sp.Function):
-    """(cosh p - sinh(p)/p)/(2 p^2) as a function of p^2."""
-
-
-class Shc(sp.Function):
-    """sinh(p)/p as a function of p^2."""
-
-    def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """Return the derivative by p^2."""
-        del argindex
-        return SlopeOfShc(self.args[0])
-
-
-class RootTimesSinh(sp.Function):
-    """p sinh p as a function of p^2."""
-
-    def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """Return the derivative by p^2."""
-        del argindex
-        return (Shc(self.args[0]) + Cosh(self.args[0])) / 2
-
-
-class Cosh(sp.Function):
-    """cosh p as a function of p^2."""
-
-    def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """Return the derivative by p^2."""
-        del argindex
-        return Shc(self.args[0]) / 2
-
-
+SlopeOfShc = unspecified("SlopeOfShc")
+"""(cosh p - sinh(p)/p)/(2 p^2) as a function of p^2."""
+Shc = unspecified("Shc", SlopeOfShc)
+"""sinh(p)/p as a function of p^2."""
+Cosh = unspecified("Cosh", lambda square: Shc(square) / 2)
+"""cosh p as a function of p^2."""
+RootTimesSinh = unspecified("RootTimesSinh", lambda square: (Shc(square) + Cosh(square)) / 2)
+"""p sinh p as a function of p^2."""
 NAMES = {
     Cosh(level): cosh_p,
     Shc(level): sinh_p,

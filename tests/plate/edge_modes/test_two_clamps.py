@@ -1,4 +1,4 @@
-"""The chi of a clamped edge in the static law, the effective chi of its modes, and why they differ."""
+"""The chi of a clamped edge in the static law, and that of its modes: where and why they differ."""
 
 import pytest
 import sympy as sp

@@ -236,3 +236,20 @@ def test_damping_is_omitted_for_a_nearly_quasi_static_plate() -> None:
     assert not row(tables | {"accuracy": {"rtol": 0.5}}).included
     bound = {row.name: row.bound for row in found.effects.rows}["damping"]
     assert 0 < bound <= found.effects.error
+
+
+def test_the_bound_covers_omitted_modes_that_would_be_damped() -> None:
+    """Each doubling changes a strongly damped impact as much as the last: the bound was 1e-4."""
+    marble = {
+        "sphere": {"radius": 0.0108, "material": "glass"},
+        "plate": {"radius": 0.08, "thickness": 0.0138, "material": "alumina",
+                  "edge": "clamped", "loss_factor": 0.263},
+        "impact": {"speed": 0.887},
+    }  # fmt: skip
+    found, more = (
+        simulate(read(marble | {"inertia": {"modes": modes, "branches": "all"}}))
+        for modes in (10, 72)
+    )
+    change = np.max(np.abs(values(found) / values(more) - 1.0))
+    assert 1.5e-4 < change <= found.accuracy.bound
+    assert found.accuracy.bound < 4.0 * change

@@ -83,6 +83,11 @@ class Diagnosis:
         """The derived formula's expression."""
         return self.formula.expression
 
+    def __str__(self) -> str:
+        """Return name, verdict and correction on one line."""
+        repair = "" if self.verdict == EQUAL else f", {self.kind}: {to_plain(self.repair)}"
+        return f"{self.name}: {self.verdict}{repair}"
+
     def _repr_latex_(self) -> str:
         sign = "=" if self.verdict == EQUAL else r"\neq"
         given, derived = (to_latex(x, self.formula.vocabulary) for x in (self.given, self.derived))

@@ -11,7 +11,7 @@ import flint
 import sympy as sp
 
 from derivation.engine.errata.dimensions import dimension_note
-from derivation.engine.errata.edit import factor_pool, term_pool
+from derivation.engine.errata.edit import factor_pool, sum_pool, term_pool
 from derivation.engine.errata.relations import Relations
 from derivation.engine.errata.repairs import Repair, repairs
 from derivation.engine.errata.sample import BITS, Values, monomial, sample
@@ -251,14 +251,14 @@ def _case(
         raise FormulaError(
             f"{given!s:.80} has no value at random points: check for a division by zero"
         )
-    factors = factor_pool((given, derived))
+    factors = factor_pool((given, derived), meanings)
     for factor in factors:
         points.learn(factor)
     return _Case(
         formula,
         given,
         meanings,
-        VariantSearch(points, factors, term_pool(derived)),
+        VariantSearch(points, factors, term_pool(derived), sum_pool(derived)),
         have,
         points.values(derived),
     )

@@ -154,7 +154,7 @@ def _swapped(place: Position, ratio: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:
         return None
     printed = place.node.as_powers_dict()
     for old, other in (tuple(powers), tuple(powers)[::-1]):
-        if printed.get(old, 0) * powers[old] < 0:
+        if (printed.get(old, sp.Integer(0)) * powers[old]).is_negative:
             size = abs(powers[old])
             return old**size, other**size
     return None
@@ -202,7 +202,8 @@ def _ratio_words(where: str, ratio: sp.Expr, kind: str) -> str:
 def _size(ratio: sp.Expr) -> float:
     """Return the additional cost of a monomial: further symbols make it less likely."""
     number, powers = ratio.as_coeff_Mul()
-    degree = sum(abs(factor.as_base_exp()[1]) for factor in sp.Mul.make_args(powers))
+    exponents = (factor.as_base_exp()[1] for factor in sp.Mul.make_args(powers))
+    degree = sum(abs(exponent) if exponent.is_number else 2 for exponent in exponents)
     return 0.6 * (float(degree) - 1) + (0.0 if number == 1 else 0.6 if number == -1 else 1.0)
 
 

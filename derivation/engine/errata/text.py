@@ -206,7 +206,8 @@ def diagnosed(
     """
     point = parse_point(at)
     # A text that cannot be parsed, whatever its names mean, is rejected before the derivation.
-    anything = {word: sp.Symbol(word) for word in re.findall(r"[A-Za-z]\w*", text)}
+    words = re.findall(r"[A-Za-z]\w*" if latex else r"[A-Za-z]\w*+(?! *\()", text)
+    anything = {word: sp.Symbol(word) for word in words}
     own = chain.vocabulary
     bounded(lambda: read(text, own, anything, latex) and None, "reading the formula")
     known = chain.formulas()

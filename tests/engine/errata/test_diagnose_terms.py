@@ -90,7 +90,7 @@ def test_the_correction_is_the_one_that_was_undone(
 
 def test_the_argument_of_coth_is_searched() -> None:
     derived = CHAIN["B_s"].expression
-    (slow, fast) = sorted(derived.atoms(sp.coth), key=str)
+    _, fast = sorted(derived.atoms(sp.coth), key=str)
     wrong = derived.subs(fast, sp.coth(fast.args[0] / 2))
     found = diagnose_text("B_s", str(wrong), CHAIN)
     assert found.diagnosis.kind == "constant ratio"
@@ -129,3 +129,8 @@ def test_a_swapped_symbol_is_named_in_any_formula() -> None:
         assert found.diagnosis.kind == "swapped symbol", (name, wrong, found.repair)
         assert found.diagnosis.repaired is not None
         assert agree(found.diagnosis.repaired, CHAIN[name].expression, 3)
+
+
+def test_powers_with_a_symbol_in_the_exponent_are_no_crash() -> None:
+    found = diagnose_text("variational_ratio", "4**(-k - 1)*4**(k + 1)/(2*k)", CHAIN)
+    assert found.verdict == "different"

@@ -1,9 +1,9 @@
 """A misprint is found although the printed formula has no real value, and is shown on one line."""
 
 import mpmath
+import platecontact as pc
 import pytest
 
-import platecontact as pc
 from derivation.engine.errata.text import NOT_PRINTED, NOT_REAL
 from derivation.engine.formula.parse import FormulaError
 from derivation.plate.derived import formulas
@@ -60,3 +60,30 @@ def test_results_are_shown_on_one_line() -> None:
     assert str(omega).startswith("(5) Omega_3: extra factor: leave out the factor phi")
     (right, *_) = (one for one in pc.misprints() if not one.is_misprint)
     assert str(right) == f"({right.printed.equation}) {right.printed.name}: correct as published"
+
+
+@pytest.mark.parametrize(
+    ("text", "latex"),
+    [
+        ("Sum(Sum(K_j*a*phi**3*sonine, (j, 1, oo)), (j, 1, oo))", False),
+        ("2*Sum(K_j*Sum(a*phi, (j, 1, oo)), (j, 1, oo))", False),
+        (r"\sum_{j=1}^{\infty} \sum_{k=1}^{\infty} K_j a \phi_j^3", True),
+        (r"\sum_j K_j \left(1 + \sum_j a\right)", True),
+    ],
+)
+def test_a_sum_within_a_sum_is_refused_with_its_remedy(text: str, latex: bool) -> None:
+    with pytest.raises(FormulaError, match=r"no sum within another sum.*give one term of it"):
+        pc.diagnose("delta", text, latex=latex)
+
+
+@pytest.mark.parametrize("text", [r"a + \sum_{j=1}^{\infty} K_j", r"\sum_{j=1}^{9} K_j"])
+def test_a_latex_sum_of_another_kind_is_refused_with_its_remedy(text: str) -> None:
+    with pytest.raises(FormulaError, match=r"give one term of the sum, or write c .sum_"):
+        pc.diagnose("delta", text, latex=True)
+
+
+@pytest.mark.parametrize("name", ["sum", "Sin", "sech", "arctan"])
+def test_an_unknown_function_is_not_taken_for_a_factor(name: str) -> None:
+    with pytest.raises(FormulaError, match=f"unknown function '{name}'.*expected one of") as caught:
+        pc.diagnose("G", f"{name}(T)")
+    assert f"{name}*(" not in str(caught.value)

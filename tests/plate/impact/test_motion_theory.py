@@ -11,7 +11,6 @@ from derivation.engine.errata.findings import Finding
 from derivation.engine.formula.parse_latex import parse_latex
 from derivation.engine.formula.proof import decide_zero
 from derivation.plate import derived
-from derivation.plate.chain import MOTION_LINKS
 from derivation.plate.misprints import diagnose_power, diagnose_series, misprints
 from derivation.plate.printed.contact import K_j
 from derivation.plate.printed.motion import PRINTED_MOTION, Printed

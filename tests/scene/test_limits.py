@@ -154,7 +154,7 @@ def motion_numbers(result: Result) -> tuple[float, float, float]:
         (lambda rho: steel_on_glass(0.2, rho), 0.5, 2.0, (None, 10.0, None)),
         (lambda H: steel_on_glass(H, 1000.0), 0.3, 0.21, (None, None, 0.01)),
     ],
-    ids=["zener", "slow", "share"],
+    ids=["Zener parameter", "contact time", "deflection"],
 )
 def test_warning_of_inertia_on_one_side_of_each_limit(
     make: Any, silent: float, loud: float, limits: tuple[float | None, ...]

@@ -62,7 +62,7 @@ def refused_from(make: Callable[[float], Any], fine: float, bad: float) -> tuple
             0.015,
         ),
     ],
-    ids=["sphere", "plate", "steep", "held", "solved", "annulus"],
+    ids=["sphere", "plate", "steep", "supported", "integral equation", "annulus"],
 )
 def test_contact_radii_above_the_limit_are_rejected(tables: Tables, limit: float) -> None:
     """The limit is min(b, R) or a little less; three thicknesses for non-Hertzian pressure."""

@@ -191,7 +191,7 @@ def test_pressure_warning_of_a_viscoelastic_contact() -> None:
     assert limits.pressure_warnings(1e6, 2e8) == ()
 
 
-# --- refusals
+# --- rejected scenes and errors
 
 
 def test_material_without_density_gives_no_mass() -> None:

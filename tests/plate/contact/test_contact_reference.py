@@ -230,8 +230,8 @@ def reaching(a: float, h: float) -> contact_grid.ContactShape:
 @pytest.mark.parametrize(
     ("where", "bending"),
     [
-        pytest.param(contact_grid.PAPERS_IMPACT, 1.087, id="the paper's"),
-        pytest.param(reaching(4.139e-5, 6.9e-6), 1.0028e10, id="thin, far"),
+        pytest.param(contact_grid.PAPERS_IMPACT, 1.087, id="paper"),
+        pytest.param(reaching(4.139e-5, 6.9e-6), 1.0028e10, id="thin, beyond 3 h"),
         pytest.param(reaching(2.8e-5, 2.8e-5), 1.0150e8, id="thin"),
         pytest.param(reaching(0.971, 3.0), -0.35885, id="thick"),
     ],

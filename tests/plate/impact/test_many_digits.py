@@ -26,8 +26,8 @@ from derivation.plate.impact.oracle import impact as contact_impact
 
 PLATES = [
     pytest.param(0.02, 0.03, 30, id="thin"),
-    pytest.param(0.1, 0.0134, 50, id="the paper's"),
-    pytest.param(0.1, 0.45, 30, id="the paper's, deep"),
+    pytest.param(0.1, 0.0134, 50, id="paper"),
+    pytest.param(0.1, 0.45, 30, id="paper, wide contact"),
     pytest.param(1.0, 0.6, 50, id="thick"),
 ]
 Captured = pytest.CaptureFixture[str]

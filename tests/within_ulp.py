@@ -26,10 +26,10 @@ class WithinUlp(NamedTuple):
 
 
 def expected(
-    name: str, points: Sequence[tuple[float, ...]], true: Sequence[Any], ulp: float
+    name: str, points: Sequence[tuple[float, ...]], exact: Sequence[Any], ulp: float
 ) -> list[WithinUlp]:
     """Return tests of a function at all points in one array, and at each point as scalars."""
-    values = np.array([[float(x) for x in np.atleast_1d(row)] for row in true])
+    values = np.array([[float(x) for x in np.atleast_1d(row)] for row in exact])
     values = values[:, 0] if values.shape[1] == 1 else values.T
     columns = [np.array(column, dtype=float) for column in zip(*points, strict=True)]
     found = [WithinUlp(lambda m: getattr(m, name)(*columns), values, ulp)]

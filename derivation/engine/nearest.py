@@ -1,5 +1,6 @@
 """The known names nearest to an unknown one, which an error message suggests."""
 
+import re
 from collections.abc import Iterable
 from difflib import get_close_matches
 
@@ -7,12 +8,15 @@ LONGEST = 40
 """Number of letters of a name that are compared."""
 ALIKE = 0.5
 """Similarity, from 0 to 1, from which a name is suggested."""
+LETTERS = 3
+"""One letter in so many may be wrong, or one in a shorter name."""
 
 
 def nearest(name: str, known: Iterable[str], alike: float = ALIKE, most: int = 1) -> list[str]:
     """Return the known names most similar to a name, the most similar first.
 
-    Upper and lower case, hyphens, spaces and underscores do not matter.
+    A name is similar if few letters differ, or if one name begins with the other or consists of
+    words of the other. Upper and lower case, hyphens, spaces and underscores do not matter.
 
     Parameters
     ----------
@@ -33,7 +37,9 @@ def nearest(name: str, known: Iterable[str], alike: float = ALIKE, most: int = 1
     plain: dict[str, str] = {}
     for other in known:
         plain.setdefault(_plain(other), other)
-    return [plain[other] for other in get_close_matches(_plain(name), plain, most, alike)]
+    own = _plain(name)
+    alike_ones = get_close_matches(own, plain, max(len(plain), 1), alike)
+    return [plain[other] for other in alike_ones if _near(own, other)][:most]
 
 
 def did_you_mean(name: str, known: Iterable[str], alike: float = ALIKE, most: int = 1) -> str:
@@ -48,6 +54,29 @@ def did_you_mean(name: str, known: Iterable[str], alike: float = ALIKE, most: in
     """
     found = nearest(name, known, alike, most)
     return f"did you mean {' or '.join(found)}? " if found else ""
+
+
+def _near(one: str, other: str) -> bool:
+    """Return whether two names are similar in more than some letters in common."""
+    long, short = sorted((one, other), key=len, reverse=True)
+    words = set(re.split(r"[_.]", short)), set(re.split(r"[_.]", long))
+    if long.startswith(short) or words[0] <= words[1]:
+        return True
+    return _differences(one, other) <= max(1, len(long) // LETTERS)
+
+
+def _differences(one: str, other: str) -> int:
+    """Return the number of letters to insert, remove, replace or swap with their neighbour."""
+    before: list[int] = []
+    row = list(range(len(other) + 1))
+    for i, letter in enumerate(one, start=1):
+        further, before, row = before, row, [i]
+        for j, target in enumerate(other, start=1):
+            least = min(before[j] + 1, row[-1] + 1, before[j - 1] + (letter != target))
+            if further and j > 1 and one[i - 2 : i] == target + other[j - 2]:
+                least = min(least, further[j - 2] + 1)
+            row.append(least)
+    return row[-1]
 
 
 def _plain(name: str) -> str:

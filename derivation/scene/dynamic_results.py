@@ -17,6 +17,9 @@ from derivation.scene.wave_motion import ContactInterval, DynamicImpact, Inertia
 
 NONE: Results = (0.0, 0.0, 0.0, 0.0, 0.0)
 UNKNOWN: Results = (math.inf, math.inf, math.inf, math.inf, math.inf)
+NARROW = 2.0
+"""Wave number times largest contact radius from which a contact no longer drives a mode. The mean
+of its logarithm for Hertz's pressure is that of 1.37; most of the time the radius is smaller."""
 
 
 def dynamic_impact_of(law: ContactLaw, history: ImpactHistory) -> DynamicImpact:
@@ -42,6 +45,7 @@ def dynamic_impact_of(law: ContactLaw, history: ImpactHistory) -> DynamicImpact:
         tuple((energy * energies).tolist()),
         NONE if history.complete else UNKNOWN,
         _branches(law, widest, problem.depth * displacement, problem.T * first.end, balance),
+        _damped_octaves(problem, widest),
     )
     return DynamicImpact(
         problem.T * first.end,
@@ -77,6 +81,21 @@ def _branches(
     changed = higher_branch_error(model, a, T, 2.0 * law.damping_ratio)
     time, depth, force, radius, speed = map(float, after_yield(changed, restitution))
     return heavier * time, depth, heavier * force, heavier * radius, heavier * speed
+
+
+def _damped_octaves(problem: DynamicProblem, a: float) -> float:
+    """Return how often doubling the number of modes would still change the results as much [1].
+
+    A damped mode lags a slow force by 2 zeta/omega. Beyond the thickness, frequencies grow as wave
+    numbers, and the static compliance is the same for each of them: each octave then dissipates as
+    much, up to wave lengths of the size of the contact. Without damping the change decreases.
+    """
+    modes, ratio = problem.contact.modes, problem.damping_ratio
+    if not ratio:
+        return 0.0
+    slowest = float(np.min(problem.omega[modes.first[-1] :]))
+    octaves = math.log2(max(1.0, NARROW / (a * float(np.max(modes.phi)))))
+    return octaves * min(1.0, 2.0 * ratio * slowest)
 
 
 def _touch(problem: DynamicProblem, touching: ContactRun) -> ContactInterval:

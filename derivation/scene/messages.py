@@ -184,12 +184,9 @@ def _unknown(place: tuple[int | str, ...], fields: Fields) -> str:
     table_meant = len(place) == 1 and nearest(key, known, TABLE_ALIKE)
     if homes and not table_meant:
         return f"{problem}; move it to {' or '.join(homes)}"
-    elsewhere = [
-        f"{table}.{other}"
-        for table, keys in fields.items()
-        for other in nearest(key, keys, OTHER_TABLE_ALIKE)
-    ]
-    near = did_you_mean(key, known) or did_you_mean(name, elsewhere)
+    places = {other: f"{table}.{other}" for table, keys in fields.items() for other in keys}
+    elsewhere = nearest(key, places, OTHER_TABLE_ALIKE)
+    near = did_you_mean(key, known) or "".join(f"did you mean {places[k]}?" for k in elsewhere)
     return f"{problem}; {near.rstrip() or 'remove it'}"
 
 

@@ -83,6 +83,9 @@ class InertiaDetails:
     omitted_branch_error
         Estimated relative change of each result by the omitted wave branches [1]; 0 if all
         branches are included.
+    omitted_octaves
+        Doublings of the largest wave number that would each change the results as much as the last
+        one, because the omitted modes would be damped in the contact [1]; 0 without damping.
     """
 
     contacts: tuple[ContactInterval, ...]
@@ -93,6 +96,7 @@ class InertiaDetails:
     energies: tuple[float, ...]
     mode_convergence: Results
     omitted_branch_error: Results
+    omitted_octaves: float = 0.0
 
     @property
     def complete(self) -> bool:
@@ -103,7 +107,8 @@ class InertiaDetails:
         """Return the largest estimated errors of outputs by omitted modes and by branches [1]."""
         places = [OUTPUTS.index(name) for name in outputs]
         modes = max(self.mode_convergence[k] for k in places)
-        return IRREGULAR * modes, max(self.omitted_branch_error[k] for k in places)
+        remaining = (IRREGULAR + self.omitted_octaves) * modes
+        return remaining, max(self.omitted_branch_error[k] for k in places)
 
 
 @dataclass(frozen=True)

@@ -36,7 +36,7 @@ def system(case: ElementCase, grading: Grading = COARSE, reach: float = 1.1) -> 
 
 
 @pytest.mark.parametrize("edge", EDGES)
-def test_hertz_on_a_thick_block(edge: str) -> None:
+def test_static_force_on_a_thick_block_is_that_of_hertz(edge: str) -> None:
     """The static force on a block of thickness 2000 a (contact radius a) is Hertz's."""
     block, a, R = Plate(1.0, 1.0, 70e9, 0.3, 2700.0, edge), 5e-4, 0.01
     mesh = graded(1.0, 1.0, 1.25 * a, Grading(contact=12))
@@ -45,7 +45,7 @@ def test_hertz_on_a_thick_block(edge: str) -> None:
 
 
 @pytest.mark.parametrize(("ratio", "nu"), [(0.02, 0.3), (0.2, 0.0), (0.3, 0.45)])
-def test_static_force_on_the_papers_edge(ratio: float, nu: float) -> None:
+def test_static_force_on_the_edge_of_the_paper(ratio: float, nu: float) -> None:
     plate = Plate(0.02 / ratio, 0.02, 70e9, nu, 2700.0)
     a, R = 1e-3, 0.02
     mesh = graded(plate.radius, 0.02, 1.25 * a, Grading(contact=12, far=2.0))
@@ -54,7 +54,7 @@ def test_static_force_on_the_papers_edge(ratio: float, nu: float) -> None:
     assert forces.sum() == pytest.approx(float(law), rel=5e-4)
 
 
-def test_contact_converges() -> None:
+def test_static_contact_converges() -> None:
     """Four times as many nodes reduce the error of the static force by more than a factor of 5."""
     a, R = 1e-3, 0.02
     depths = a * a / R * np.linspace(0.5, 1.0, 5)
@@ -68,7 +68,7 @@ def test_contact_converges() -> None:
 
 
 @pytest.mark.parametrize(("ratio", "nu"), [(0.02, 0.3), (0.3, 0.0), (0.3, 0.45)])
-def test_frequencies_of_the_papers_edge(ratio: float, nu: float) -> None:
+def test_frequencies_for_the_edge_of_the_paper_are_exact(ratio: float, nu: float) -> None:
     """Natural frequencies are the exact ones, because J0(phi_j r) satisfies this edge condition."""
     plate = Plate(1.0, ratio, 1.0, nu, 1.0)
     found = System(plate, resting(1.0, ratio, 1, 6)).bending_frequencies(4)
@@ -76,7 +76,7 @@ def test_frequencies_of_the_papers_edge(ratio: float, nu: float) -> None:
     np.testing.assert_allclose(found * ratio / 2, exact, rtol=2e-6)
 
 
-def test_thin_clamped_plate() -> None:
+def test_frequencies_of_a_thin_clamped_plate() -> None:
     """Frequencies are just below those of a thin plate, lambda^2 sqrt(D/(rho H))/b^2."""
     ratio, nu = 0.01, 0.3
     found = System(
@@ -87,14 +87,14 @@ def test_thin_clamped_plate() -> None:
     np.testing.assert_allclose(found, thin, rtol=5e-3)
 
 
-def test_hertzian_contact_time() -> None:
+def test_contact_time_agrees_with_hertz() -> None:
     """Hertz's contact time is 2.943 times the largest indentation divided by the speed."""
     x = np.sin(np.linspace(0.0, math.pi / 2, 200001)) ** 0.8
     speed = np.sqrt(1.0 - np.minimum(x, 1.0 - 1e-16) ** 2.5)
     assert 2.0 * np.trapezoid(1.0 / speed[:-1], x[:-1]) == pytest.approx(HERTZ, rel=1e-3)
 
 
-def test_touching_is_the_one_solution() -> None:
+def test_contact_set_is_the_only_admissible_one() -> None:
     """The solution is the only admissible one among all sets of touching nodes."""
     generator = np.random.default_rng(1)
     for _ in range(20):
@@ -143,7 +143,7 @@ def test_momentum_before_the_edge_is_reached() -> None:
     assert plates + balls == pytest.approx(brought, rel=1e-4)
 
 
-def test_an_edge_that_cannot_be_felt_changes_nothing() -> None:
+def test_edge_beyond_the_reach_of_waves_has_no_influence() -> None:
     found = []
     for edge in EDGES:
         case = replace(SMALL, plate=replace(PLATE, radius=0.2, edge=edge))
@@ -167,7 +167,7 @@ def test_results_converge_with_mesh_and_steps() -> None:
     assert np.abs(long / best - 1.0).max() < 2e-3
 
 
-def test_several_contacts_keep_the_energy() -> None:
+def test_several_contacts_conserve_energy() -> None:
     """Several contacts conserve energy; between contacts the time step is longer."""
     plate = Plate(0.03, 0.001, 70e9, 0.3, 2700.0, "clamped")
     case = ElementCase("thin", "thin", plate, Sphere(0.01, 0.001, 1.0))
@@ -180,19 +180,19 @@ def test_several_contacts_keep_the_energy() -> None:
     assert impact.energy == pytest.approx(1.0, abs=1.5e-2)
 
 
-def test_a_contact_wider_than_its_mesh() -> None:
+def test_contact_wider_than_the_fine_mesh_is_rejected() -> None:
     with pytest.raises(
         WideContactError, match="contact: expected it within the fine mesh, got a wider one"
     ):
         struck(system(SMALL, reach=0.5), SMALL.sphere, SMALL.time / 100, SMALL.time)
 
 
-def test_profiles() -> None:
+def test_profiles_of_paraboloid_and_sphere() -> None:
     r = np.array([0.0, 0.006])
     np.testing.assert_allclose(Sphere(0.01, 1.0, 1.0).profile(r), [0.0, 0.0018])
     np.testing.assert_allclose(Sphere(0.01, 1.0, 1.0, exact=True).profile(r), [0.0, 0.002])
 
 
-def test_an_unknown_edge() -> None:
+def test_unknown_edge_is_rejected() -> None:
     with pytest.raises(ValueError, match="edge: expected one of paper"):
         Plate(1.0, 0.1, 1.0, 0.3, 1.0, "free")

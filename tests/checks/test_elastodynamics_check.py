@@ -51,7 +51,7 @@ def few(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     return made
 
 
-def test_only_what_is_missing_is_computed(
+def test_only_missing_cases_are_computed(
     few: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = tmp_path / "elastodynamics.json"
@@ -72,21 +72,21 @@ def test_only_what_is_missing_is_computed(
     assert few == ["one", "two", "plate"]
 
 
-def test_a_record_is_there_from_the_first_case_on(few: list[str], tmp_path: Path) -> None:
+def test_record_is_written_after_each_case(few: list[str], tmp_path: Path) -> None:
     path, seen = tmp_path / "elastodynamics.json", []
     record.computed(path, lambda *_: seen.append(len(read(path)["impacts"])))
     assert seen == [0, 1, 2]
     assert few
 
 
-def test_every_case_is_another_one() -> None:
+def test_cases_are_distinct() -> None:
     impacts = cases.impacts()
     assert len({case.name for case in impacts}) == len(impacts) >= 40
     for case in impacts:
         read_scene(record.inputs(case)["scene"])  # raises an error for an invalid scene
 
 
-def test_a_row(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_row_has_results_and_errors(monkeypatch: pytest.MonkeyPatch) -> None:
     """A row has each result with its error; the fine mesh grows until it covers the contact."""
     for name in ("BEST", "COARSER", "LONGER"):
         monkeypatch.setattr(record, name, COARSE)
@@ -99,7 +99,7 @@ def test_a_row(monkeypatch: pytest.MonkeyPatch) -> None:
     assert (row["contacts"], row["scene"]["plate"]["edge"]) == (1, "paper")
 
 
-def test_the_program_against_elements() -> None:
+def test_program_agrees_with_finite_elements() -> None:
     """For the paper's edge the program agrees with a coarse finite-element mesh within 0.2 %."""
     pane = cases.impacts()[0]
     assert pane.plate.edge == "paper"
@@ -122,7 +122,7 @@ def row(name: str, contact_time: float, bound: float = 1e-3) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def test_a_difference_is_allowed_up_to_what_is_stated() -> None:
+def test_difference_is_accepted_up_to_the_stated_error() -> None:
     within, beyond = compared(row("a", 1.0024)), compared(row("b", 1.0026))
     assert within.kept
     assert not beyond.kept
@@ -131,7 +131,7 @@ def test_a_difference_is_allowed_up_to_what_is_stated() -> None:
     assert (cells(within)[-1], cells(beyond)[-1]) == ("yes", "NO")
 
 
-def test_a_rejected_scene_is_said_to_be(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_rejected_scene_is_reported(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     path = tmp_path / "elastodynamics.json"
     path.write_text(record.to_json({"impacts": [row("one", 1.0)], "plates": []}))
 
@@ -148,13 +148,13 @@ def test_a_rejected_scene_is_said_to_be(monkeypatch: pytest.MonkeyPatch, tmp_pat
     assert (context["cases"], context["rejected"], context["rows"]) == (0, 1, [])
 
 
-def test_nothing_recorded(tmp_path: Path) -> None:
+def test_missing_record_is_reported(tmp_path: Path) -> None:
     path = tmp_path / "none.json"
     with pytest.raises(ValueError, match="expected recorded cases, got none; run `python -m"):
         compare(path)
 
 
-def test_the_command(
+def test_command(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = tmp_path / "elastodynamics.json"
@@ -173,7 +173,7 @@ def test_the_command(
     assert main(["check", "finite-elements", "--seed", "1"]) != 0
 
 
-def test_the_report_shows_the_record() -> None:
+def test_report_contains_the_record() -> None:
     data = json.loads(reporting.measured()["elastodynamics"])
     rows = [*data["impacts"][:3], row("a & b", 1.001), row("c", 1.0)]
     shown = elastodynamics_context(data | {"impacts": rows})
@@ -182,7 +182,7 @@ def test_the_report_shows_the_record() -> None:
     assert len(elastodynamics_figure(data | {"impacts": rows}).axes) == 2
 
 
-def test_the_record() -> None:
+def test_record_is_accurate() -> None:
     """The recorded errors are small, and frequencies for the paper's edge are the exact ones."""
     data = read()
     assert len(data["impacts"]) >= 40

@@ -50,7 +50,7 @@ def test_both_sides_of_the_threshold(changes: dict[str, Any]) -> None:
     assert 1e-3 * price < max(changed) <= price
 
 
-def test_a_weight_makes_inertia_matter_more() -> None:
+def test_weight_increases_the_effect_of_inertia() -> None:
     """A sphere pressed into the plate by its weight loses a larger part of its energy."""
     heavy = replace(SLOW, v0=1e-3, gravity=9.81)
     light = replace(heavy, gravity=0.0)
@@ -92,13 +92,13 @@ EXACT = InertiaRow(
 )
 
 
-def test_the_largest_change_is_found_and_named() -> None:
+def test_largest_change_is_found_and_named() -> None:
     exact = [2.0] * 5
     assert largest_change([2.0, 2.0, 2.04, 1.99, 2.0], exact) == (pytest.approx(0.02), "max_force")
     assert largest_change([2.0, math.nan, 2.04, 1.99, 2.0], exact) == (math.inf, "max_indentation")
 
 
-def test_a_bound_that_does_not_hold_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_violated_bound_is_detected(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(
         inertia_check, "solve", lambda number, *_: replace(EXACT, number=number, error=0.02)
     )
@@ -111,31 +111,31 @@ def test_a_bound_that_does_not_hold_is_noticed(monkeypatch: pytest.MonkeyPatch) 
     assert found.drawn == 3
 
 
-def test_what_is_refused_or_passed_over_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
-    turns, solved = iter(["", "too dear", "", ""]), iter(["rtol", "rtol"])
+def test_rejected_and_skipped_scenes_are_counted(monkeypatch: pytest.MonkeyPatch) -> None:
+    turns, solved = iter(["", "too slow", "", ""]), iter(["rtol", "rtol"])
     monkeypatch.setattr(
         inertia_check, "solve", lambda number, *_: next(solved, replace(EXACT, number=number))
     )
     monkeypatch.setattr(inertia_check, "pass_over", lambda _: next(turns))
     found = inertia_check.judge(1)
     assert found.refused == {"rtol": 2}
-    assert found.passed_over == {"too dear": 1}
+    assert found.passed_over == {"too slow": 1}
     assert [row.number for row in found.rows] == [3]
     assert measure.as_data(found, 1)["drawn"] == 4
 
 
-def test_the_oscillators_of_all_branches_are_as_many_as_weyl_says() -> None:
+def test_number_of_modes_agrees_with_the_law_of_weyl() -> None:
     from derivation.scene.modal import free_modes
     from derivation.scene.model import InertiaSettings
 
     for eta, modes in ((0.3, 24), (0.06, 80)):
         model = replace(SLOW, h=eta * SLOW.b, edge="paper",
                         inertia=InertiaSettings(modes=modes, branches="all"))  # fmt: skip
-        true = free_modes(model, modes).omega.size
-        assert inertia_check.oscillators_of(model) == pytest.approx(true, rel=0.15)
+        reference = free_modes(model, modes).omega.size
+        assert inertia_check.oscillators_of(model) == pytest.approx(reference, rel=0.15)
 
 
-def test_the_committed_scenes_keep_their_bounds() -> None:
+def test_recorded_scenes_are_within_their_bounds() -> None:
     data = json.loads((measurements() / "inertia.json").read_text())
     assert len(data["rows"]) >= 500
     for kinds, least in (({measure.ELASTIC}, 100), ({*measure.KEYS, measure.SEVERAL}, 100)):
@@ -147,7 +147,7 @@ def test_the_committed_scenes_keep_their_bounds() -> None:
         assert row["price"] is None or row["alone"] <= row["price"]
 
 
-def test_the_command_shows_both_sides(
+def test_command_shows_both_sides_of_the_threshold(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def solve(number: int, data: Scene, place: float) -> InertiaRow | str:
@@ -176,7 +176,7 @@ def changed(**tables: dict[str, Any]) -> dict[str, Any]:
     return {**data, **{name: {**data[name], **keys} for name, keys in tables.items()}}
 
 
-def test_scenes_are_passed_over_for_what_they_are() -> None:
+def test_scenes_are_skipped_for_stated_reasons() -> None:
     """Scenes are skipped for their weight, Zener parameter, speed or number of modes."""
     assert inertia_check.pass_over(changed()) == ""
     slow = changed(impact={"speed": 1e-3, "gravity": 9.81})
@@ -197,7 +197,7 @@ def test_scenes_are_passed_over_for_what_they_are() -> None:
     assert inertia_check.pass_over(measure.scene(2)[0]) == "too many modes"
 
 
-def test_scenes_out_of_reach_are_refused_by_name(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_skipped_scenes_are_reported_with_the_reason(monkeypatch: pytest.MonkeyPatch) -> None:
     """A skipped scene is reported with its reason: too many modes, or speed out of range."""
     data, place = measure.scene(9)
     found = inertia_check.solve(9, data, place)

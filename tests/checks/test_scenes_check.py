@@ -33,11 +33,11 @@ DROP: dict[str, dict[str, Any]] = {
 }
 
 
-def outcome(kind: Kind, message: str = "key: wrong; mend it") -> Outcome:
+def outcome(kind: Kind, message: str = "key: wrong; correct it") -> Outcome:
     return Outcome(kind, "" if kind == "finished" else message, 1e-3, DROP)
 
 
-def test_scenes_are_valid_repeat_and_vary() -> None:
+def test_scenes_are_valid_reproducible_and_varied() -> None:
     found = list(scenes(200, 3))
     assert found == list(scenes(200, 3))
     assert found[:20] != list(scenes(20, 4))
@@ -56,7 +56,7 @@ def test_scenes_are_valid_repeat_and_vary() -> None:
     }  # fmt: skip
 
 
-def test_a_run_is_named_for_what_became_of_it(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_run_is_classified_by_its_outcome(monkeypatch: pytest.MonkeyPatch) -> None:
     assert run(DROP, 1e-2) == ("finished", "")
     assert run({**DROP, "impact": {"speed": -1.0}}, None)[0] == "rejected"
 
@@ -79,7 +79,7 @@ def test_a_run_is_named_for_what_became_of_it(monkeypatch: pytest.MonkeyPatch) -
     assert run(DROP, None)[0] == "NaN"
 
 
-def test_a_run_is_stopped_at_its_limit(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_run_is_stopped_at_its_time_limit(monkeypatch: pytest.MonkeyPatch) -> None:
     def forever(*_: Any, **__: Any) -> Any:
         while True:
             pass
@@ -88,7 +88,7 @@ def test_a_run_is_stopped_at_its_limit(monkeypatch: pytest.MonkeyPatch) -> None:
     assert run(DROP, None, limit=0.05)[0] == "overrun"
 
 
-def test_what_fails_and_what_does_not() -> None:
+def test_outcomes_that_fail_the_check() -> None:
     many = [outcome("finished")] * 17
     assert passed([*many, outcome("rejected")])
     assert passed([*many, outcome("incomplete"), outcome("rejected")])
@@ -104,7 +104,7 @@ def test_what_fails_and_what_does_not() -> None:
     assert not passed([*many, outcome("rejected", "key: wrong; ")])
 
 
-def test_every_group_is_shown_with_a_scene() -> None:
+def test_every_group_is_listed_with_a_scene() -> None:
     found = [outcome("finished"), outcome("rejected", "a: b; c"), outcome("rejected", "a: b; d"),
              outcome("incomplete", "e: f")]  # fmt: skip
     assert [row[1:3] for row in cells(found)] == [
@@ -127,7 +127,7 @@ def test_worker_processes_run_the_scenes() -> None:
     assert f"{max(o.seconds for o in found):.2g} s, " in cost(found)
 
 
-def test_the_command(monkeypatch: pytest.MonkeyPatch, capsys: Captured) -> None:
+def test_command(monkeypatch: pytest.MonkeyPatch, capsys: Captured) -> None:
     monkeypatch.setattr(scenes_check, "check_scenes", lambda *_: (outcome("finished"),))
     assert main(["check", "scenes", "-n", "1", "--seed", "5"]) == 0
     assert "finished" in capsys.readouterr().out

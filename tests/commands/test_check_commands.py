@@ -53,10 +53,10 @@ def install_j0(monkeypatch: Patch, tmp_path: Path) -> Callable[[float], Path]:
     def install(factor: float) -> Path:
         [exact] = [kernel for kernel in generated_kernels() if kernel.name == "bessel_j0"]
         wrong = dataclasses.replace(exact, call=lambda x: exact.call(x) * x.dtype.type(factor))
-        without_budget = dataclasses.replace(wrong, module="as_printed", budget=None)
+        unlimited = dataclasses.replace(wrong, module="as_printed", budget=None)
         monkeypatch.setattr(
             measure, "check",
-            lambda _, digits, step: plate_judge.check(digits, [wrong, without_budget], step),
+            lambda _, digits, progress: plate_judge.check(digits, [wrong, unlimited], progress),
         )  # fmt: skip
         return path
 
@@ -245,7 +245,9 @@ def test_references_are_saved_while_they_are_computed(
     path, computed = tmp_path / "bounds.json", list[Any]()
     monkeypatch.setattr(bounds, "MEASURED", path)
     monkeypatch.setattr(bounds, "KEPT_EVERY", 2)
-    reference_values = {bounds.scene(number): true for number, true in enumerate(known)}
+    reference_values = {
+        bounds.scene(number): exact_value for number, exact_value in enumerate(known)
+    }
 
     def reference(point: Any) -> Any:
         if len(computed) == 4:

@@ -53,7 +53,7 @@ def detected(kernel: Kernel, found: list[PointReference], module: str, tree: ast
 
 @pytest.mark.parametrize("module", ["omega", "pressure", "mode_shapes", "blocks"])
 def test_mutants_are_detected_up_to_the_listed_number(module: str) -> None:
-    """Conditions of domains are not changed; `test_silence` tests them."""
+    """Conditions of domains are not changed; `test_floating_point_exceptions` tests them."""
     known: dict[str, list[PointReference]] = {}
     passed: dict[str, list[str]] = {}
     for mutant in of_module(source(module), ("inside",)):

@@ -1,15 +1,26 @@
 """Test the derived formulas against limits, quadrature, plate theory and Navier's equations."""
 
-from collections.abc import Mapping
+import json
+from collections.abc import Callable, Mapping
 
 import mpmath as mp
 import pytest
 import sympy as sp
 
-from derivation.engine.formula.proof import ProofError, prove
+from derivation.engine.formula.proof import SYMBOLIC, Proof, ProofError, prove
+from derivation.plate import derived
+from derivation.plate.back_face import theory as back_face
+from derivation.plate.chain import LINKS, MOTION_LINKS
+from derivation.plate.edge.theory import clamped
+from derivation.plate.edge.theory import sums as edge_sums
+from derivation.plate.impact.theory import sensitivity, substitution
 from derivation.plate.modes.theory.face_conditions import loaded, tractions
 from derivation.plate.modes.theory.mode_shapes import characteristic_roots, substitute
+from derivation.plate.pressure.theory import true_pressure as pressure
+from derivation.plate.viscosity.theory import bounds as viscous_bounds
+from derivation.plate.viscosity.theory import contact as viscous_contact
 from derivation.plate.vocabulary import C1, C2, C3, C4, A_j, Formula, T, h, lam, mu, phi, r, z
+from derivation.plate.waves.theory import bending_branch, dynamic_modes
 
 Formulas = Mapping[str, Formula]
 POINT = {"h": "0.3", "b": "1.7", "R": "2.1", "a": "0.4", "lam": "1.3", "mu": "0.8", "phi": "2.9"}
@@ -32,17 +43,54 @@ def close(got: mp.mpf, expected: mp.mpf, tolerance: str = "1e-35") -> bool:
     return bool(abs(got - expected) <= mp.mpf(tolerance) * max(1, abs(expected)))
 
 
-def test_every_formula_carries_a_proof_without_numerics(formulas: Formulas) -> None:
-    assert len(formulas) > 30
-    assert {f.proof.method for f in formulas.values()} == {"symbolically"}
-    assert all(f.proof.residuals for f in formulas.values())
+def test_formulas_are_verified_symbolically(formulas: Formulas) -> None:
+    """Every formula of the chain has a symbolic proof, and a form for JSON and for notebooks."""
+    assert len(formulas) > 200
+    assert {formula.proof.method for formula in formulas.values()} == {SYMBOLIC}
+    for formula in formulas.values():
+        assert formula.proof.residuals
+        assert json.loads(json.dumps(formula.to_json()))["name"] == formula.name
+        assert formula._repr_latex_().startswith("$")
 
 
-def test_the_solution_space_has_double_roots() -> None:
+def test_every_derivation_step_has_a_formula() -> None:
+    assert len(derived.chain()) == len(LINKS) + len(MOTION_LINKS)
+    assert all(found for _, found in derived.chain())
+
+
+@pytest.mark.parametrize(
+    "lemma",
+    [
+        back_face.pole_at_zero,
+        bending_branch.rise_anywhere,
+        clamped.amplitudes,
+        clamped.reciprocity,
+        clamped.strip,
+        dynamic_modes.kinetic_identity,
+        dynamic_modes.kinetic_slope,
+        dynamic_modes.static_limit,
+        edge_sums.half_plane,
+        edge_sums.residues,
+        pressure.motion_of_the_edge,
+        pressure.profiles,
+        pressure.representation,
+        sensitivity.scaling,
+        substitution.lemma,
+        viscous_contact.polar,
+        lambda: pressure.results().proof,
+        lambda: pressure.substitution()[-1],
+        lambda: viscous_bounds.bounds().proof,
+    ],
+)
+def test_lemmas_are_verified_symbolically(lemma: Callable[[], Proof]) -> None:
+    assert lemma().method == SYMBOLIC
+
+
+def test_solution_space_has_double_roots() -> None:
     assert characteristic_roots() == {phi: 2, -phi: 2}
 
 
-def test_broken_step_names_itself_and_its_residual(formulas: Formulas) -> None:
+def test_wrong_step_is_reported_with_its_residual(formulas: Formulas) -> None:
     f_j, g_j = formulas["f_j"].expression, formulas["g_j"].expression
     radial, axial = substitute(f_j, -g_j)
     with pytest.raises(ProofError, match=r"Step with g_j flipped: radial ODE leaves .*phi"):
@@ -50,7 +98,7 @@ def test_broken_step_names_itself_and_its_residual(formulas: Formulas) -> None:
 
 
 @pytest.mark.parametrize("constant", [C1, C2, C3, C4])
-def test_flipped_constant_breaks_a_traction(constant: sp.Symbol) -> None:
+def test_wrong_sign_of_a_constant_violates_a_traction(constant: sp.Symbol) -> None:
     broken = {
         where: loaded(traction.subs(constant, -constant)) for where, traction in tractions().items()
     }
@@ -58,7 +106,7 @@ def test_flipped_constant_breaks_a_traction(constant: sp.Symbol) -> None:
         prove("Face conditions", "", broken)
 
 
-def test_interior_satisfies_navier_on_a_patch(formulas: Formulas) -> None:
+def test_displacements_satisfy_the_navier_equations(formulas: Formulas) -> None:
     """The displacements satisfy Navier's equations, by numerical derivatives in mpmath."""
     lam_v, mu_v, phi_v = (mp.mpf(POINT[name]) for name in ("lam", "mu", "phi"))
     constants = {C1: 1, C2: -2, C3: 3, C4: 5}
@@ -87,7 +135,7 @@ def test_interior_satisfies_navier_on_a_patch(formulas: Formulas) -> None:
     assert abs(axial) < mp.mpf("1e-15") * scale
 
 
-def test_stresses_are_differences_of_displacements(formulas: Formulas) -> None:
+def test_stresses_are_derivatives_of_displacements(formulas: Formulas) -> None:
     """S_rz = mu phi (g' - f) and the J0 part of sigma_zz agree with numerical derivatives."""
     f_j, g_j = (
         sp.lambdify(z, loaded(formulas[n].expression).subs(_numbers(A_j=3)), "mpmath")
@@ -107,7 +155,7 @@ def _numbers(**more: object) -> dict[sp.Symbol, sp.Expr]:
     return {s: by_name[str(s)] for s in (phi, h, lam, mu, A_j)}
 
 
-def test_thin_plate_limit_is_kirchhoffs(formulas: Formulas) -> None:
+def test_thin_plate_limit_agrees_with_kirchhoff(formulas: Formulas) -> None:
     """C_top tends to Kirchhoff's 1/(D phi^4) as phi h tends to 0, D = E H^3/(12 (1 - nu^2))."""
     lam_v, mu_v, phi_v = (mp.mpf(POINT[name]) for name in ("lam", "mu", "phi"))
     E = mu_v * (3 * lam_v + 2 * mu_v) / (lam_v + mu_v)
@@ -118,7 +166,7 @@ def test_thin_plate_limit_is_kirchhoffs(formulas: Formulas) -> None:
     assert close(found * D * phi_v**4, mp.mpf(1), "1e-18")
 
 
-def test_plate_factor_limits(formulas: Formulas) -> None:
+def test_limits_of_the_plate_factors(formulas: Formulas) -> None:
     """G and G_m tend to 6/T^3 for thin plates; for thick plates G tends to 1 and G_m to 0."""
     G, G_m = formulas["G"].expression, formulas["G_m"].expression
     assert sp.limit(G * T**3, T, 0) == 6
@@ -127,7 +175,7 @@ def test_plate_factor_limits(formulas: Formulas) -> None:
     assert abs(value(G_m, T=sp.Integer(90))) < mp.mpf("1e-35")
 
 
-def test_sonine_by_quadrature(formulas: Formulas) -> None:
+def test_sonine_integral_agrees_with_quadrature(formulas: Formulas) -> None:
     a, phi_v = mp.mpf(POINT["a"]), mp.mpf(POINT["phi"])
     integral = mp.quad(
         lambda t: t * mp.sqrt(1 - (t / a) ** 2) * mp.besselj(0, phi_v * t), [0, a / 2, a]
@@ -135,7 +183,7 @@ def test_sonine_by_quadrature(formulas: Formulas) -> None:
     assert close(value(formulas["sonine"].expression), integral, "1e-20")
 
 
-def test_hertz_contact_closes_under_the_sphere(formulas: Formulas) -> None:
+def test_hertz_pressure_closes_the_gap_under_the_sphere(formulas: Formulas) -> None:
     """On a half-space the displacement due to the pressure closes the gap inside the contact.
 
     The surface displacement of a point force is 1/(pi E* d) (Boussinesq). It is integrated
@@ -161,7 +209,7 @@ def test_hertz_contact_closes_under_the_sphere(formulas: Formulas) -> None:
     assert close(ring(a / 2), a**2 / R - (a / 2) ** 2 / (2 * R), "1e-20")
 
 
-def test_pressure_series_returns_the_pressure(formulas: Formulas) -> None:
+def test_pressure_series_gives_the_pressure(formulas: Formulas) -> None:
     """The Fourier-Bessel series with A_j gives p(r) inside and outside the contact."""
     a, b = (mp.mpf(POINT[name]) for name in ("a", "b"))
     force = value(formulas["P"].expression)
@@ -182,7 +230,7 @@ def test_pressure_series_returns_the_pressure(formulas: Formulas) -> None:
             assert abs(total - expected) < mp.mpf("2e-3") * force / a**2
 
 
-def test_contact_law_is_minus_the_deflection(formulas: Formulas) -> None:
+def test_contact_law_is_the_negative_deflection(formulas: Formulas) -> None:
     """K_j s(a phi) = -A_j C_top, and K_j is the published 8 G/(pi R b^2 phi^4 J1^2)."""
     J1 = sp.Rational("0.34")
     K = value(formulas["K_j"].expression, J1=J1)

@@ -41,7 +41,7 @@ def apart(one: Motion, other: Motion) -> float:
 
 
 @pytest.mark.parametrize("name", sorted(n for n in ALL if isinstance(BY_NAME[n], PlateEffect)))
-def test_a_share_of_the_slope_lies_within_its_bound_at_every_radius(name: str) -> None:
+def test_contribution_to_the_slope_is_within_its_bound_at_every_radius(name: str) -> None:
     """The bounds never decrease with the radius, so they cover all smaller radii too."""
     generator, effect = random.Random(name), BY_NAME[name]
     assert isinstance(effect, PlateEffect)
@@ -83,7 +83,7 @@ CLOSE: list[tuple[str, float, dict[str, Any]]] = [
 
 
 @pytest.mark.parametrize(("name", "used", "changes"), CLOSE)
-def test_what_an_effect_changes_is_within_its_bound_and_near_it(
+def test_change_by_an_effect_is_within_its_bound_and_close_to_it(
     name: str, used: float, changes: dict[str, Any]
 ) -> None:
     """Compare impacts with all effects and with all but one; the change is within the bound."""
@@ -107,7 +107,7 @@ def test_what_an_effect_changes_is_within_its_bound_and_near_it(
 
 
 @pytest.mark.parametrize("name", ["sphere_elasticity", "gravity", "edge"])
-def test_prices_hold_under_the_true_pressure(name: str) -> None:
+def test_bounds_hold_with_non_hertzian_pressure(name: str) -> None:
     """With non-Hertzian pressure the contact radius grows faster than Hertz's at equal force."""
     b = 1.76595204337641
     m = model(
@@ -125,7 +125,7 @@ def test_prices_hold_under_the_true_pressure(name: str) -> None:
 
 
 @pytest.mark.parametrize("edge", ["simply-supported", "clamped"])
-def test_what_is_in_is_priced_too(edge: str) -> None:
+def test_included_effects_have_a_bound(edge: str) -> None:
     """The effects table also bounds the change if an included effect were omitted."""
     m = model(h=5.0, b=5.0, v0=0.3, edge=edge, sphere_modulus=1e13)
     every = applicable(m) - {"non_hertzian_pressure"}
@@ -152,7 +152,7 @@ SCENES: dict[str, dict[str, Any]] = {
 
 
 @pytest.mark.parametrize("name", SCENES)
-def test_both_sides_of_every_threshold(name: str) -> None:
+def test_error_is_within_the_bound_at_every_threshold(name: str) -> None:
     """Tighten the tolerance from no effect to all; the error stays within each bound."""
     m = model(**SCENES[name])
     whole, rtol, before = impact(m, applicable(m)), 10.0, frozenset[str]()
@@ -177,7 +177,7 @@ def test_both_sides_of_every_threshold(name: str) -> None:
         ("gravity", "bending", "clamped"),
     ],
 )
-def test_bounds_of_what_is_left_out_together_add_up(one: str, other: str, edge: str) -> None:
+def test_bounds_of_omitted_effects_add_up(one: str, other: str, edge: str) -> None:
     """To leading order the errors of two omitted effects add up, as they may have the same sign."""
     m = model(h=5.0, b=5.0, v0=0.3, gravity=0.01, edge=edge)
 
@@ -191,7 +191,7 @@ def test_bounds_of_what_is_left_out_together_add_up(one: str, other: str, edge: 
     assert both == pytest.approx(apiece, rel=0.01)
 
 
-def test_every_effect_has_a_threshold_there() -> None:
+def test_every_effect_has_a_threshold() -> None:
     m = model(**SCENES["block"], retardation_time=1e-8)
     assert applicable(m) == ALL
     assert decide(m, AT_REST, 10.0).law.effects == {"hertz"}
@@ -207,7 +207,7 @@ decades = st.floats(-1.0, 1.0)
     edge=st.sampled_from(["paper", "simply-supported", "clamped"]),
     tolerances=st.lists(st.floats(-10.0, 0.0), min_size=3, max_size=3),
 )  # fmt: skip
-def test_the_count_of_effects_falls_as_the_tolerance_loosens(
+def test_number_of_effects_decreases_with_the_tolerance(
     thick: float, fast: float, soft: float, heavy: float, edge: str, tolerances: list[float]
 ) -> None:
     m = model(

@@ -17,12 +17,12 @@ from derivation.scene.model import model_of
 from generated import contact_law
 
 
-def test_the_whole_plate_is_the_contact_law() -> None:
+def test_all_parts_of_the_plate_give_the_contact_law() -> None:
     m = model()
     law, a = ContactLaw(m, WHOLE_PLATE | {"hertz"}), np.geomspace(1e-8, 0.099, 40)
     shape = law.at(a)
-    true = contact_law.indentation(a, m.R, m.h, m.b)
-    np.testing.assert_allclose(law.indentation(a, shape), true, rtol=4e-15)
+    exact = contact_law.indentation(a, m.R, m.h, m.b)
+    np.testing.assert_allclose(law.indentation(a, shape), exact, rtol=4e-15)
     stiff = contact_law.stiffness(a, m.R, m.h, m.b, m.lam, m.mu)
     np.testing.assert_allclose(law.stiffness(a, shape), stiff, rtol=4e-15)
 
@@ -55,7 +55,7 @@ def test_force_is_the_derivative_of_the_energy(left_out: set[str]) -> None:
     np.testing.assert_allclose(law.stiffness(a, law.at(a)), additive / law.at(a).additive)
 
 
-def test_a_sphere_as_soft_as_its_plate_halves_the_modulus() -> None:
+def test_sphere_of_equal_modulus_halves_the_effective_modulus() -> None:
     """On a half-space only the local indentation depends on the sphere, not the plate bending."""
     m = model(sphere_modulus=model().modulus, gravity=0.0)
     soft, rigid = (
@@ -74,7 +74,7 @@ def test_a_sphere_as_soft_as_its_plate_halves_the_modulus() -> None:
     assert by_plate[0] == pytest.approx(P[0] * m.b**2 / (8 * math.pi * D), rel=1e-13)
 
 
-def test_flat_spheres_tend_to_hertz() -> None:
+def test_small_contacts_of_a_sphere_tend_to_hertz() -> None:
     """At equal force delta exceeds Hertz's by (a/R)^2/15; the central pressure tends to Hertz's."""
     m = model(h=1e3, b=1e4)
     curved, flat = (
@@ -92,7 +92,7 @@ def test_flat_spheres_tend_to_hertz() -> None:
     assert flat.max_pressure(0.01) == pytest.approx(1.5 * P / (math.pi * 1e-4), rel=1e-13)
 
 
-def test_pressure_in_the_middle_by_the_solved_equation() -> None:
+def test_central_pressure_agrees_with_the_integral_equation() -> None:
     """The sum over flat punches agrees with the Fredholm equation for a steep sphere on a block."""
     m = model(h=1e3, b=1e4, sphere_modulus=math.inf)
     summed = ContactLaw(m, frozenset({"hertz", "spherical_profile"}))
@@ -137,7 +137,7 @@ def by_steps(law: ContactLaw) -> tuple[float, float, float, float]:
     return float(found.t_events[0][0]), deepest, force(deepest), a
 
 
-def test_impact_by_time_steps() -> None:
+def test_impact_agrees_with_time_integration() -> None:
     """The impact of a heavy elastic sphere on a bending plate agrees with DOP853."""
     law = ContactLaw(
         model(v0=0.2),
@@ -149,7 +149,7 @@ def test_impact_by_time_steps() -> None:
     assert found.max_contact_radius == pytest.approx(steps[3], rel=1e-5)
 
 
-def test_impact_of_the_whole_plate_is_the_generated_one() -> None:
+def test_impact_with_all_parts_agrees_with_the_generated_function() -> None:
     for changes in ({}, {"h": 0.5}, {"h": 0.002, "v0": 0.1}, {"v0": 1e-6}):
         m = model(**changes)
         found = motion.impact(ContactLaw(m, WHOLE_PLATE))
@@ -160,7 +160,7 @@ def test_impact_of_the_whole_plate_is_the_generated_one() -> None:
     ("edge", "ratio"),
     [("simply-supported", lambda nu: (3 + nu) / (2 * (1 + nu))), ("clamped", lambda _: 0.5)],
 )
-def test_deflection_of_thin_plates_by_their_edge(edge: str, ratio: Any) -> None:
+def test_deflection_of_thin_plates_depends_on_the_edge(edge: str, ratio: Any) -> None:
     """The ratio to the deflection with the paper's edge at equal force is that of plate theory."""
     for nu in (-0.3, 0.0, 0.3, 0.45):
         m = model(h=1e-5, b=1.0, lam=2 * 3e9 * nu / (1 - 2 * nu), edge=edge)
@@ -171,7 +171,7 @@ def test_deflection_of_thin_plates_by_their_edge(edge: str, ratio: Any) -> None:
 
 
 @pytest.mark.parametrize(("bent", "factor"), [(False, 2.5), (True, 2.0)])
-def test_peak_of_a_slow_sphere_under_its_weight(bent: bool, factor: float) -> None:
+def test_peak_force_of_a_slow_heavy_sphere(bent: bool, factor: float) -> None:
     """For v0 -> 0, int P d delta = m g delta gives 5/2 m g (Hertz) and 2 m g (linear spring)."""
     effects = {"hertz", "gravity"} | ({"bending"} if bent else set())
     m = model(v0=1e-9, h=1e-5 if bent else 0.02, b=5.0, mu=3e12, lam=2e12)
@@ -179,8 +179,8 @@ def test_peak_of_a_slow_sphere_under_its_weight(bent: bool, factor: float) -> No
     assert found.max_force / (m.m * m.gravity) == pytest.approx(factor, rel=2e-4)
 
 
-def test_history_keeps_the_energy_with_every_effect() -> None:
-    wanted = dict.fromkeys(ALL - {"hertz"}, True)
+def test_history_conserves_energy_with_every_effect() -> None:
+    wanted = dict.fromkeys(ALL - {"hertz", "viscosity", "plasticity"}, True)
     result = simulate(scene(effects=wanted))
     history, law = result.history(301), result.effects.law
     m = result.model
@@ -195,7 +195,7 @@ def test_history_keeps_the_energy_with_every_effect() -> None:
     assert history.velocity[-1] == pytest.approx(-m.v0, rel=1e-12)
 
 
-def test_history_of_a_slow_and_heavy_sphere_keeps_the_energy() -> None:
+def test_history_of_a_slow_heavy_sphere_conserves_energy() -> None:
     """The onset is short compared with the contact, so the time quadrature needs many nodes."""
     law = ContactLaw(
         model(v0=1e-3), frozenset({"hertz", "bending", "gravity", "spherical_profile"})
@@ -208,7 +208,7 @@ def test_history_of_a_slow_and_heavy_sphere_keeps_the_energy() -> None:
     np.testing.assert_allclose(whole / (0.5 * m.m * m.v0**2), 1.0, rtol=1e-8)
 
 
-def test_an_impact_is_followed_until_twice_the_nodes_change_nothing(
+def test_number_of_nodes_is_doubled_until_convergence(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """For a slow and heavy sphere fewer nodes give a larger error, within its estimate."""
@@ -222,7 +222,7 @@ def test_an_impact_is_followed_until_twice_the_nodes_change_nothing(
     assert 1e-9 < abs(few.contact_time / found.contact_time - 1) <= few.quadrature
 
 
-def test_a_history_moves_as_fast_as_it_says() -> None:
+def test_velocity_is_the_derivative_of_the_indentation() -> None:
     """Central differences of the indentation agree with the velocity."""
     law = ContactLaw(model(), frozenset({"hertz", "bending", "gravity", "spherical_profile"}))
     found = motion.impact(law)
@@ -233,7 +233,7 @@ def test_a_history_moves_as_fast_as_it_says() -> None:
     np.testing.assert_allclose((after - before) / (2 * step), velocity, atol=1e-6)
 
 
-def test_at_rest_under_a_force() -> None:
+def test_static_contact_at_a_given_force() -> None:
     """The static contact on a very thick plate is Hertz's with the modulus of both bodies."""
     [row] = indent(scene(plate={"half_thickness": 1e3, "radius": 1e4}), force=30.0)
     E1, E2 = model_of(scene()).modulus, model_of(scene()).sphere_modulus

@@ -58,15 +58,15 @@ modes = 24
 
 
 @pytest.mark.parametrize(
-    ("name", "value", "says"),
+    ("name", "value", "message"),
     [
         ("CONTACTS", 1, "after 1 contacts"),
         ("BLOCKS", 0, "without contact"),
         ("ELEMENTS", 0, "limit of .* time steps"),
     ],
 )
-def test_contacts_before_one_that_does_not_end_are_kept(
-    name: str, value: int, says: str, monkeypatch: pytest.MonkeyPatch
+def test_contacts_before_an_endless_one_are_kept(
+    name: str, value: int, message: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     problem = waves.problem_of(ContactLaw(BALL, EFFECTS), 8)
     whole = contact_sequence.impact_history(problem, 10)
@@ -79,10 +79,10 @@ def test_contacts_before_one_that_does_not_end_are_kept(
     assert not part.complete
     assert len(part.contacts) == 1
     assert part.contacts[0].end == whole.contacts[0].end
-    assert re.search(says, part.reason)
+    assert re.search(message, part.reason)
 
 
-def test_an_incomplete_impact_is_shown_as_one(
+def test_incomplete_impact_is_marked(
     monkeypatch: pytest.MonkeyPatch, capsys: Any, tmp_path: Path
 ) -> None:
     file = tmp_path / "scene.toml"
@@ -99,7 +99,7 @@ def test_an_incomplete_impact_is_shown_as_one(
     assert data["max_force"] > 0.0
 
 
-def test_contacts_before_a_late_refusal_are_handed_over(capsys: Any, tmp_path: Path) -> None:
+def test_contacts_before_a_later_error_are_kept(capsys: Any, tmp_path: Path) -> None:
     """Contacts before an error are kept: here phone glass bends too much in a later contact."""
     file = tmp_path / "phone.toml"
     file.write_text(PHONE)
@@ -123,12 +123,12 @@ def test_contacts_before_a_late_refusal_are_handed_over(capsys: Any, tmp_path: P
     assert "INCOMPLETE" in " ".join(capsys.readouterr().out.split())
 
 
-def test_the_error_reaches_another_process_whole() -> None:
-    told = pickle.loads(pickle.dumps(IncompleteError("it ends", "mend it")))
-    assert str(told) == "effects.inertia: it ends; mend it"
+def test_error_with_partial_results_can_be_pickled() -> None:
+    restored = pickle.loads(pickle.dumps(IncompleteError("it ends", "correct it")))
+    assert str(restored) == "effects.inertia: it ends; correct it"
 
 
-def test_a_flight_without_end_keeps_to_its_work() -> None:
+def test_search_in_a_long_flight_respects_the_work_limit() -> None:
     problem = waves.problem_of(ContactLaw(BALL, EFFECTS), 8)
     above = problem.begin()._replace(velocity=0.0, approach=-1.0)
     leaving = above._replace(velocity=-1.0, displacement=-1.0)
@@ -140,7 +140,7 @@ def test_a_flight_without_end_keeps_to_its_work() -> None:
     assert time.process_time() - started < 1.0
 
 
-def test_a_run_beyond_its_work_is_not_begun(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_run_above_the_work_limit_is_not_started(monkeypatch: pytest.MonkeyPatch) -> None:
     """The coarser run, which has no error estimate, is returned as incomplete."""
     wide = replace(BALL, b=1.5, inertia=InertiaSettings(branches="A0"))
     law = ContactLaw(wide, EFFECTS)
@@ -176,7 +176,7 @@ def test_a_run_beyond_its_work_is_not_begun(monkeypatch: pytest.MonkeyPatch) -> 
     waves.impact.cache_clear()
 
 
-def test_all_runs_of_an_impact_share_its_work(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_all_runs_of_an_impact_count_towards_one_limit(monkeypatch: pytest.MonkeyPatch) -> None:
     law = ContactLaw(replace(BALL, inertia=InertiaSettings()), EFFECTS)
     used: list[float] = []
     follow = contact_sequence.impact_history

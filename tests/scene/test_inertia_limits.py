@@ -83,32 +83,32 @@ def thin_plate(number: float, count: int, phase: float) -> tuple[float, float]:
 
 
 @pytest.mark.parametrize("number", [0.02, 0.3, 2.0])
-def test_zeners_equation_of_an_endless_plate(number: float) -> None:
+def test_infinite_plate_satisfies_the_equation_of_zener(number: float) -> None:
     assert zener_restitution(number) == pytest.approx(zener(number)[0], abs=1e-9)
 
 
 @pytest.mark.parametrize("number", [0.02, 0.3, 1.0, 2.0])
-def test_a_wide_plate_is_zeners(number: float) -> None:
+def test_wide_plate_agrees_with_zener(number: float) -> None:
     """With 200 modes and omega_M That = 200, no wave returns from the edge during contact."""
-    true, _ = zener(number)
+    exact, _ = zener(number)
     found, reach = thin_plate(number, 200, 200.0)
     assert reach < 1e-6  # much smaller than the shortest wavelength of the modes
-    assert found == pytest.approx(true, abs=2e-7)
+    assert found == pytest.approx(exact, abs=2e-7)
 
 
-def test_what_modes_left_at_rest_change_falls_like_the_cube_of_their_frequency() -> None:
-    true, _ = zener(1.0)
-    errors = [abs(thin_plate(1.0, 100, phase)[0] - true) for phase in (25.0, 50.0, 100.0)]
+def test_error_of_quasi_static_modes_decreases_with_cubed_frequency() -> None:
+    exact, _ = zener(1.0)
+    errors = [abs(thin_plate(1.0, 100, phase)[0] - exact) for phase in (25.0, 50.0, 100.0)]
     for early, late in pairwise(errors):
         assert 6.0 < early / late < 10.0
 
 
-def test_a_narrow_plate_gives_some_of_it_back() -> None:
+def test_narrow_plate_returns_energy() -> None:
     """Waves return from the edge during contact if the first mode's period is the contact time."""
-    true, lasts = zener(1.0)
+    exact, lasts = zener(1.0)
     first, last = jn_zeros(0, 20)[[0, -1]]
     found, _ = thin_plate(1.0, 20, 2.0 * math.pi / lasts * (last / first) ** 2)
-    assert found > true + 0.05
+    assert found > exact + 0.05
 
 
 # --- modes
@@ -126,7 +126,7 @@ def restitution(found: contact_sequence.ImpactHistory) -> float:
     return -found.contacts[-1].after.velocity
 
 
-def test_every_branch_converges_with_the_modes() -> None:
+def test_results_converge_with_the_modes_of_all_branches() -> None:
     """The restitution converges as the number of modes grows, with all Lamb-wave branches."""
     every = replace(BALL, inertia=InertiaSettings(branches="all"))
     found = [restitution(history(every, free_modes(every, count))) for count in (4, 8, 16, 32)]
@@ -138,7 +138,7 @@ def test_every_branch_converges_with_the_modes() -> None:
     assert abs(first - found[-1]) > 2.0 * steps[2]
 
 
-def test_branches_converge() -> None:
+def test_results_converge_with_the_branches() -> None:
     """The restitution converges as branches up to higher frequencies are added."""
     lowest, found = modal._free(BALL, 12, lagging=False), []
     for highest in (1.0, 2.0, 4.0, 8.0):
@@ -155,7 +155,7 @@ def test_branches_converge() -> None:
     ("changes", "contacts"),
     [({"h": 0.003, "b": 0.25, "m": 0.95, "v0": 0.5}, 8), ({"h": 0.004, "b": 0.4, "m": 2.0}, 6)],
 )
-def test_many_contacts_are_the_same_at_another_resolution(
+def test_many_contacts_do_not_depend_on_the_resolution(
     changes: dict[str, Any], contacts: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Results do not depend on nodes, element length and tolerance (lambda = 8 to 10)."""
@@ -183,7 +183,7 @@ def test_many_contacts_are_the_same_at_another_resolution(
     speed=st.floats(-1.5, 0.7), nu=st.floats(-0.4, 0.48), gravity=st.sampled_from([0.0, 9.81]),
     pointwise=st.booleans(), edge=st.sampled_from(["paper", "clamped", "simply-supported"]),
 )  # fmt: skip
-def test_energy_and_momentum_are_kept(
+def test_energy_and_momentum_are_conserved(
     eta: float, size: float, heavy: float, speed: float, nu: float, gravity: float,
     pointwise: bool, edge: str,
 ) -> None:  # fmt: skip
@@ -218,7 +218,7 @@ def test_energy_and_momentum_are_kept(
 # --- memory and tables
 
 
-def test_an_element_keeps_the_state_at_its_end_alone() -> None:
+def test_time_element_stores_only_its_final_state() -> None:
     modes = free_modes(BALL, 400)
     tracemalloc.start()
     try:

@@ -33,15 +33,15 @@ def either_side(
     assert text
     while abs(loud / silent - 1) > 1e-6:
         middle = math.sqrt(silent * loud)
-        found, said = run(middle)
-        if said:
-            loud, above, text = middle, found, said
+        found, warning = run(middle)
+        if warning:
+            loud, above, text = middle, found, warning
         else:
             silent, below = middle, found
     return below, above, text
 
 
-def test_hertz_pressure_is_warned_of_above_0_15_thicknesses() -> None:
+def test_warning_of_hertz_pressure_above_0_15_thicknesses() -> None:
     thin = {"radius": 0.2, "thickness": 0.02}
     below, above, text = either_side(
         lambda v: changed(plate=thin, impact={"speed": v}), "a/H", 0.05, 0.3
@@ -62,28 +62,28 @@ def test_hertz_pressure_is_warned_of_above_0_15_thicknesses() -> None:
         ("clamped", 1e-9),
     ],
 )
-def test_the_error_said_of_hertz_pressure_is_that_beside_the_true_one(
+def test_stated_error_of_hertz_pressure_is_the_difference_to_the_exact_one(
     edge: str, rtol: float
 ) -> None:
     """The stated error is that of the indentation at the same force, for each set of effects."""
     tables = changed(plate={"radius": 0.2, "thickness": 0.02, "edge": edge}, impact={"speed": 0.12})
     result = simulate(read(tables), rtol=rtol)
-    said = float(re.findall(r"about (\S+) %", result.warnings[0])[0]) / 100
+    stated = float(re.findall(r"about (\S+) %", result.warnings[0])[0]) / 100
     solved = tables | {"effects": {"spherical_profile": False, "non_hertzian_pressure": True}}
-    one, true = (
+    one, exact = (
         indent(read(data), force=result.max_force)[0].indentation for data in (tables, solved)
     )
-    assert said == pytest.approx(true / one - 1, rel=0.2)
+    assert stated == pytest.approx(exact / one - 1, rel=0.2)
 
 
-def test_a_half_space_has_no_deflection_to_warn_of() -> None:
+def test_no_warning_of_deflection_on_a_half_space() -> None:
     """What the spherical profile adds to a^2/R is not counted as deflection of the plate."""
     block = {"radius": 50.0, "thickness": 100.0, "density": 2000.0}
     tables = changed(plate=block, impact={"speed": 20.0}, effects={"spherical_profile": True})
     assert "inertia" not in "".join(simulate(read(tables)).warnings)
 
 
-def test_a_paraboloid_is_warned_of_above_0_3_sphere_radii() -> None:
+def test_warning_of_the_paraboloid_above_0_3_sphere_radii() -> None:
     """The stated error is the change of the indentation at equal force by the spherical profile."""
     block = {"radius": 1e6, "thickness": 2e6}
 
@@ -94,13 +94,13 @@ def test_a_paraboloid_is_warned_of_above_0_3_sphere_radii() -> None:
     for result in (below, above):
         assert result.max_contact_radius / 0.13 == pytest.approx(0.3, rel=3e-6)
     assert "a/R = 0.3 " in text
-    said = float(re.findall(r"about (\S+) %", text)[0]) / 100
-    [true] = indent(read(at(1.0, True)), force=above.max_force)
-    assert said == pytest.approx(true.indentation / above.max_indentation - 1, rel=0.1)
+    stated = float(re.findall(r"about (\S+) %", text)[0]) / 100
+    [exact] = indent(read(at(1.0, True)), force=above.max_force)
+    assert stated == pytest.approx(exact.indentation / above.max_indentation - 1, rel=0.1)
     assert simulate(read(at(50.0, True))).warnings == ()
 
 
-def test_stretching_is_warned_of_above_half_a_thickness() -> None:
+def test_warning_of_membrane_stretching_above_half_a_thickness() -> None:
     below, above, text = either_side(
         lambda v: changed(plate={"thickness": 0.002}, impact={"speed": v}, sphere={"mass": 0.1}),
         "w/H", 0.001, 0.1,
@@ -111,7 +111,7 @@ def test_stretching_is_warned_of_above_half_a_thickness() -> None:
     assert "w/H = 0.5 " in text
 
 
-def test_yield_is_warned_of_above_1_6_yield_stresses() -> None:
+def test_warning_of_yield_above_1_6_yield_stresses() -> None:
     below, above, text = either_side(
         lambda s: changed(
             plate={"radius": 1e6, "thickness": 2e6, "yield_stress": s},
@@ -156,21 +156,21 @@ def motion_numbers(result: Result) -> tuple[float, float, float]:
     ],
     ids=["zener", "slow", "share"],
 )
-def test_inertia_is_warned_of_on_one_side_of_each_number(
+def test_warning_of_inertia_on_one_side_of_each_limit(
     make: Any, silent: float, loud: float, limits: tuple[float | None, ...]
 ) -> None:
     """The limits are lambda = 0.006, ten bending periods and a deflection of 1 %."""
     below, above, text = either_side(make, "inertia", silent, loud)
-    said = re.findall(r"Zener parameter (\S+) .* period (\S+) .* deflection (\S+) %", text)
+    numbers = re.findall(r"Zener parameter (\S+) .* period (\S+) .* deflection (\S+) %", text)
     for result in (below, above):
         for found, limit in zip(motion_numbers(result), limits, strict=True):
             assert limit is None or found == pytest.approx(limit, rel=3e-6)
     zener, slow, share = motion_numbers(above)
-    shown = [float(x) for x in said[0]]
+    shown = [float(x) for x in numbers[0]]
     assert shown == [pytest.approx(x, rel=0.06) for x in (zener, slow, 100 * share)]
 
 
-def test_echoes_are_warned_of_below_four_thicknesses_of_sound() -> None:
+def test_warning_of_reflections_below_four_transit_times() -> None:
     below, above, text = either_side(lambda rho: steel_on_glass(0.6, rho), "4 H/c_P", 200.0, 500.0)
     for result in (below, above):
         sound = math.sqrt(70e9 * 0.8 / (1.2 * 0.6) / result.model.density)
@@ -178,20 +178,20 @@ def test_echoes_are_warned_of_below_four_thicknesses_of_sound() -> None:
     assert f"4 H/c_P = {above.contact_time:.3g} s" in text
 
 
-def test_echoes_are_not_warned_of_where_branches_hold_them() -> None:
+def test_no_warning_of_reflections_if_branches_include_them() -> None:
     slab = model_of(read(steel_on_glass(0.6, 2500.0)))
-    for inertia, told in (
+    for inertia, is_warned in (
         (InertiaSettings(), True),
         (InertiaSettings(branches="all"), False),
         (InertiaSettings(branches="all", infinite_plate=True), True),
     ):
         texts = limits.motion_warnings(replace(slab, inertia=inertia), 1e-5, 0.0, dynamic=True)
-        assert any("4 H/c_P" in text for text in texts) is told
+        assert any("4 H/c_P" in text for text in texts) is is_warned
     held = replace(slab, inertia=InertiaSettings(branches="all"))
     assert any("4 H/c_P" in text for text in limits.motion_warnings(held, 1e-5, 0.0))
 
 
-def test_inertia_is_warned_of_by_its_numbers() -> None:
+def test_warning_of_inertia_states_its_parameters() -> None:
     pane = {"material": "glass", "lame_lambda": None, "lame_mu": None, "half_thickness": 0.002}
     texts = simulate(scene(plate=pane, impact={"speed": 0.01, "gravity": None})).warnings
     assert "Zener" in texts[-1]
@@ -203,7 +203,7 @@ def test_inertia_is_warned_of_by_its_numbers() -> None:
     assert "4 H/c_P" in texts[0]
 
 
-def test_yield_is_warned_of_on_one_side_only() -> None:
+def test_warning_of_yield_on_one_side_of_the_limit() -> None:
     pressure = simulate(scene()).max_pressure
     for factor, warned in ((0.999, True), (1.001, False)):
         plate = {"yield_stress": factor * pressure / 1.6}
@@ -211,7 +211,7 @@ def test_yield_is_warned_of_on_one_side_only() -> None:
         assert any("yields" in text for text in found.warnings) is warned
 
 
-def test_warning_where_the_pressure_is_not_hertz(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_warning_if_the_pressure_is_not_hertzian(monkeypatch: pytest.MonkeyPatch) -> None:
     """The error is (5/3) c3 (a/h)^3 of a^2/R, here for an invented law with c1 and c3."""
     m = model_of(read(changed()))
     c3 = -0.09
@@ -242,7 +242,7 @@ def test_warning_reaches_the_result() -> None:
     assert "a/H" in result._repr_html_()
 
 
-def test_profile_correction_is_that_of_the_exact_profile() -> None:
+def test_profile_correction_agrees_with_the_exact_sphere() -> None:
     """The correction is Sneddon's sphere against a paraboloid at equal force on a half-space."""
     m = model_of(thick())
     t = 0.2
@@ -254,7 +254,7 @@ def test_profile_correction_is_that_of_the_exact_profile() -> None:
     assert [("a/R" in text) for text in texts] == [True]
 
 
-def test_deflection_beyond_half_the_thickness_is_said() -> None:
+def test_deflection_above_half_the_thickness_is_stated() -> None:
     m = model_of(read(changed()))
     assert limits.warnings_at(ContactLaw(m, PAPER), 0.01, 0.1) == ()
     [text] = limits.warnings_at(ContactLaw(m, PAPER), 0.01, 0.102)

@@ -43,7 +43,7 @@ def scenes(draw: st.DrawFn, disabled: tuple[str, ...] = ()) -> Scene:
 
 @given(scenes())
 @settings(max_examples=40)
-def test_the_whole_plate_is_not_reduced_by_small_parts(scene: Scene) -> None:
+def test_small_parts_are_not_subtracted_from_the_whole_plate(scene: Scene) -> None:
     """A part of the plate is not subtracted from the whole plate, which would be slower."""
     included = [frozenset[str]()]
     for rtol in TOLERANCES:
@@ -62,7 +62,7 @@ def test_the_whole_plate_is_not_reduced_by_small_parts(scene: Scene) -> None:
             assert row.included == (row.name in found.law.effects)
 
 
-def test_a_disabled_part_of_the_plate_stays_disabled() -> None:
+def test_disabled_part_of_the_plate_stays_disabled() -> None:
     tables: dict[str, Any] = {
         "sphere": {"radius": 0.01, "material": "steel"},
         "plate": {"radius": 0.3, "thickness": 0.05, "material": "glass"},
@@ -77,7 +77,7 @@ def test_a_disabled_part_of_the_plate_stays_disabled() -> None:
 
 @given(scenes())
 @settings(max_examples=25)
-def test_a_looser_tolerance_calls_no_further_functions(scene: Scene) -> None:
+def test_looser_tolerance_calls_no_additional_functions(scene: Scene) -> None:
     """The contact law calls no more functions of plate and sphere at a looser tolerance."""
     before = Counter[str]()
     for rtol in TOLERANCES[::3]:
@@ -107,7 +107,7 @@ def _counted(patch: pytest.MonkeyPatch, *names: str) -> Counter[str]:
 
 @given(scenes(), st.sampled_from([1e-2, 1e-3, 1e-6]))
 @settings(max_examples=40)
-def test_the_largest_radius_needs_few_steps(scene: Scene, rtol: float) -> None:
+def test_largest_radius_needs_few_newton_steps(scene: Scene, rtol: float) -> None:
     """Newton's iteration ends where rounding stops it, also with the weight of the sphere."""
     runs = [0]
     steps, radii = motion._step, motion.largest_radii

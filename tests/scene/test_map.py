@@ -26,7 +26,7 @@ def coarse(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.usefixtures("coarse")
 @pytest.mark.parametrize("example", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.stem)
-def test_the_star_is_on_the_side_that_explain_says(example: Path) -> None:
+def test_marker_agrees_with_explain(example: Path) -> None:
     result = simulate(load(example))
     found = map_.grid(result, result.effects.rtol)
     column = np.flatnonzero(found.thicknesses == result.model.eta)
@@ -43,7 +43,7 @@ def test_the_star_is_on_the_side_that_explain_says(example: Path) -> None:
             assert ratio == pytest.approx(effect.bound / result.effects.rtol, rel=2e-3)
 
 
-def test_every_point_of_the_map_is_a_scene_of_its_own() -> None:
+def test_selection_at_each_point_agrees_with_the_map() -> None:
     """At the speed of a point the effect selection agrees with the map."""
     result = simulate(shared_scenes.scene())
     wanted, outputs = result.scene.effects.model_dump(), result.effects.outputs
@@ -62,7 +62,7 @@ def test_every_point_of_the_map_is_a_scene_of_its_own() -> None:
 
 @pytest.mark.usefixtures("coarse")
 @pytest.mark.parametrize("name", ["glass_pane", "block", "paper", "impact_echo"])
-def test_explain_agrees_on_both_sides_of_every_line(name: str) -> None:
+def test_explain_agrees_on_both_sides_of_each_line(name: str) -> None:
     """For the points next to each line, the selection of `explain` agrees with the map."""
     result = simulate(load(EXAMPLES / f"{name}.toml"))
     found = map_.grid(result, result.effects.rtol)
@@ -70,16 +70,16 @@ def test_explain_agrees_on_both_sides_of_every_line(name: str) -> None:
     auto = [x for x in names if getattr(result.scene.effects, x) == "auto"]
     included = np.array([found.ratios[x] > 1.0 for x in auto])
     known = np.isfinite(found.ratios[auto[0]])
-    asked = 0
+    compared = 0
     for row, column in np.argwhere(known[:-1] & known[1:]):
         if (included[:, row, column] != included[:, row + 1, column]).any():
             for place in ((row, column), (row + 1, column)):
-                asked_scene = _scene_at(result, found, *place)
-                _, told = selected_effects(asked_scene, result.accuracy.rtol)
+                point_scene = _scene_at(result, found, *place)
+                _, selection = selected_effects(point_scene, result.accuracy.rtol)
                 shown = [x for k, x in enumerate(auto) if included[(k, *place)]]
-                assert [x for x in told.included if x in auto] == shown, place
-                asked += 1
-    assert asked >= 2
+                assert [x for x in selection.included if x in auto] == shown, place
+                compared += 1
+    assert compared >= 2
 
 
 def _scene_at(result: Result, found: map_.Grid, row: int, column: int) -> Scene:
@@ -123,7 +123,7 @@ def test_ticks_point_to_the_side_where_the_effect_matters(name: str) -> None:
 
 
 @pytest.mark.usefixtures("coarse")
-def test_the_map_marks_the_scene(tmp_path: Path) -> None:
+def test_map_marks_the_scene(tmp_path: Path) -> None:
     example = EXAMPLES / "ball_drop.toml"
     assert main(["map", str(example), "--plot", f"{tmp_path}/m.svg"]) == 0
     drawn = (tmp_path / "m.svg").read_text()
@@ -133,7 +133,7 @@ def test_the_map_marks_the_scene(tmp_path: Path) -> None:
 
 
 @pytest.mark.usefixtures("coarse")
-def test_the_star_on_the_map_is_the_scenes_contact() -> None:
+def test_marker_is_at_the_contact_of_the_scene() -> None:
     result = simulate(shared_scenes.scene())
     [star] = [x for x in map_.figure(result, 1e-3).axes[0].lines if x.get_marker() == "*"]
     place = 0.02 / 0.5, result.max_contact_radius / 0.02
@@ -141,9 +141,9 @@ def test_the_star_on_the_map_is_the_scenes_contact() -> None:
 
 
 @pytest.mark.usefixtures("coarse")
-def test_a_map_says_what_counts_everywhere_or_nowhere() -> None:
+def test_map_lists_effects_that_matter_everywhere_or_nowhere() -> None:
     result = simulate(shared_scenes.scene())
     (legend,) = map_.figure(result, 1e-300).legends
-    told = [text.get_text() for text in legend.get_texts()]
-    assert any(text.startswith("everywhere: ") for text in told), told
-    assert not any(text.startswith("nowhere: ") for text in told), told
+    legend_texts = [text.get_text() for text in legend.get_texts()]
+    assert any(text.startswith("everywhere: ") for text in legend_texts), legend_texts
+    assert not any(text.startswith("nowhere: ") for text in legend_texts), legend_texts

@@ -36,7 +36,7 @@ def model(sphere: Mapping[str, Any], plate: Mapping[str, Any], **others: Any) ->
     return model_of(read(tables(sphere, plate, **others)))
 
 
-def test_every_material_is_possible_and_has_a_source() -> None:
+def test_materials_are_admissible_and_have_sources() -> None:
     names = [plain(name) for m in MATERIALS.values() for name in (m.name, *m.also)]
     assert len(names) == len(set(names))
     for material in MATERIALS.values():
@@ -56,7 +56,7 @@ def test_every_material_is_possible_and_has_a_source() -> None:
         ("ice", 3.52e9), ("brass", 37.3e9), ("copper", 48.3e9), ("titanium", 42.7e9),
     ],
 )  # fmt: skip
-def test_shear_moduli_are_those_the_sources_state_too(name: str, shear: float) -> None:
+def test_shear_moduli_agree_with_the_sources(name: str, shear: float) -> None:
     material = find(name)
     assert material is not None
     assert material.mu == pytest.approx(shear, rel=0.02)
@@ -67,7 +67,7 @@ def test_names_are_matched_without_case_spaces_and_hyphens(name: str) -> None:
     assert find(name) is MATERIALS["bearing steel"]
 
 
-def test_constants_are_as_good_as_a_name() -> None:
+def test_constants_and_name_of_a_material_are_equivalent() -> None:
     named = model({"material": "steel"}, {"material": "glass"})
     steel = {"youngs_modulus": 210e9, "poissons_ratio": 0.3, "density": 7850}
     glass = {"youngs_modulus": 70e9, "poissons_ratio": 0.2, "density": 2500}
@@ -88,7 +88,7 @@ def test_values_of_a_table_replace_those_of_its_material() -> None:
     assert model({"material": "steel"}, {"material": "steel"}).yield_stress == math.inf
 
 
-def test_a_scene_s_own_material_comes_before_the_catalogue() -> None:
+def test_material_of_the_scene_overrides_the_catalogue() -> None:
     found = model({"material": "ice"}, {"material": "ICE"}, materials={"Ice": OWN["my ice"]})
     assert found.density == 900.0
     assert found.softness == 1.0
@@ -125,29 +125,29 @@ BAD: list[tuple[Tables, str]] = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("scene", "says"), BAD)
-def test_a_bad_material_is_one_clear_message(scene: Tables, says: str) -> None:
+@pytest.mark.parametrize(("scene", "message"), BAD)
+def test_invalid_material_gives_one_message(scene: Tables, message: str) -> None:
     with pytest.raises(SceneError) as caught:
         read(scene)
-    for words in says.split("|"):
+    for words in message.split("|"):
         assert words in str(caught.value)
 
 
-def test_an_unused_material_is_accepted_and_a_scene_is_read_as_written() -> None:
+def test_unused_material_is_accepted_and_scene_is_unchanged() -> None:
     scene = read(tables(STEEL, STEEL, materials=OWN))
     assert read(scene.to_json()) == scene
     assert scene.to_json()["materials"] == OWN
     assert "materials.my ice" in scene._repr_html_()
 
 
-def test_a_light_sphere_is_said_to_be_hollow_maybe() -> None:
+def test_warning_of_a_light_sphere_mentions_a_hollow_one() -> None:
     solid = 7850 * math.pi * 0.02**3 / 6
     for share, warned in ((0.32, True), (0.34, False), (2.0, False)):
         found = simulate(read(tables({"material": "steel", "mass": share * solid}, STEEL)))
         assert any("hollow" in text for text in found.warnings) == warned
 
 
-def test_the_body_that_yields_first_is_named() -> None:
+def test_body_that_yields_first_is_named() -> None:
     weak, strong = {"material": "steel", "yield_stress": 1e8}, {"material": "S355"}
     for sphere, plate, body in ((weak, strong, "sphere"), (strong, weak, "plate")):
         scene = read(tables(sphere, plate, effects={"plasticity": False}))
@@ -160,7 +160,7 @@ SOFTNESS = st.floats(1e-6, 1e6)
 
 
 @given(TIME, TIME, SOFTNESS)
-def test_the_contact_s_time_lies_between_the_bodies_and_knows_no_order(
+def test_retardation_time_of_the_contact_is_between_those_of_the_bodies(
     plate: float, sphere: float, softness: float
 ) -> None:
     found = retardation_of_two(plate, sphere, softness)
@@ -171,7 +171,7 @@ def test_the_contact_s_time_lies_between_the_bodies_and_knows_no_order(
 
 
 @given(TIME, TIME, SOFTNESS)
-def test_two_bodies_in_series_have_that_time_to_first_order(
+def test_retardation_time_of_two_bodies_is_accurate_to_first_order(
     plate: float, sphere: float, softness: float
 ) -> None:
     """The complex stiffness at frequency w differs from the exact one by a term of order w^2."""
@@ -181,7 +181,7 @@ def test_two_bodies_in_series_have_that_time_to_first_order(
         assert abs(series - (1 + 1j * w * mean)) <= (w * (plate - sphere)) ** 2 + 1e-15
 
 
-def test_it_does_not_matter_which_of_two_equal_bodies_is_viscous() -> None:
+def test_either_of_two_equal_bodies_may_be_viscoelastic() -> None:
     steel, lossy = {"material": "steel"}, {"material": "steel", "retardation_time": 1e-6}
     one, other, both = (
         simulate(read(tables(s, p, effects={"inertia": False})), rtol=1e-3)
@@ -231,7 +231,7 @@ SCENES: dict[str, Tables] = {
 
 
 @pytest.mark.parametrize("name", SCENES)
-def test_what_engineers_bring_runs_at_one_percent(name: str) -> None:
+def test_typical_scenes_run_at_one_percent(name: str) -> None:
     tolerance = 0.02 if "echo" in name else 0.01
     found = simulate(read(SCENES[name]), rtol=tolerance)
     assert found.complete
@@ -239,7 +239,7 @@ def test_what_engineers_bring_runs_at_one_percent(name: str) -> None:
     assert found.accuracy.bound <= tolerance
 
 
-def test_a_drive_is_refused_at_once_with_what_to_do() -> None:
+def test_golf_drive_is_rejected_quickly_with_a_remedy() -> None:
     """At 45 m/s, above the largest speed of the law, a golf ball is rejected within one second."""
     drive = SCENES["golf ball on a titanium face, 15 m/s"] | {"impact": {"speed": 45.0}}
     start = time.process_time()
@@ -248,15 +248,15 @@ def test_a_drive_is_refused_at_once_with_what_to_do() -> None:
     assert time.process_time() - start < 1.0
 
 
-def test_a_sphere_that_stays_on_a_light_plate_is_refused_before_any_step() -> None:
+def test_sphere_that_stays_on_a_light_plate_is_rejected_before_the_first_step() -> None:
     """The proposed remedy runs, and its contact time is the one that the message predicts."""
     phone = SCENES["130 g of steel on phone glass"]
     wide = phone | {"plate": phone["plate"] | {"radius": 0.07}}
     with pytest.raises(
         SceneError, match=r"effects\.inertia: .* set effects\.inertia = false"
-    ) as told:
+    ) as error:
         simulate(read(wide), rtol=0.01)
-    predicted = float(re.search(r"about ([\d.e-]+) s", str(told.value))[1])
+    predicted = float(re.search(r"about ([\d.e-]+) s", str(error.value))[1])
     found = simulate(read(wide | {"effects": {"inertia": False}}), rtol=0.01)
     assert found.contact_time == pytest.approx(predicted, rel=0.1)
 
@@ -265,7 +265,7 @@ def test_a_sphere_that_stays_on_a_light_plate_is_refused_before_any_step() -> No
     ("mass", "edge", "speed"),
     [(0.02, "paper", 1.0), (0.1, "clamped", 0.3), (0.5, "simply-supported", 0.05)],
 )
-def test_a_heavy_sphere_is_in_contact_for_most_of_its_half_period(
+def test_contact_of_a_heavy_sphere_lasts_most_of_its_half_period(
     mass: float, edge: str, speed: float
 ) -> None:
     """The contacts last longer than the check that rejects heavy spheres assumes."""
@@ -283,7 +283,7 @@ def test_a_heavy_sphere_is_in_contact_for_most_of_its_half_period(
     assert touched > waves.IN_CONTACT * waves.half_period(problem.m, modes)
 
 
-def test_keys_of_materials_are_swept() -> None:
+def test_material_keys_can_be_swept() -> None:
     scene = read(tables({"material": "steel"}, {"material": "PMMA"}))
     rows = sweep.run(scene, sweep.parse("sphere.retardation_time=1e-6:1e-5:2"), rtol=0.02)
     assert all(row.results for row in rows)
@@ -295,7 +295,7 @@ def test_keys_of_materials_are_swept() -> None:
         sweep.parse("materials.my ice.source=1:2:2")
 
 
-def test_schema_holds_what_is_read_and_refused() -> None:
+def test_schema_agrees_with_accepted_and_rejected_materials() -> None:
     validator = jsonschema.Draft202012Validator(schema())
     for scene in SCENES.values():
         validator.validate(scene)
@@ -309,7 +309,7 @@ def test_schema_holds_what_is_read_and_refused() -> None:
         assert not validator.is_valid(tables(sphere, STEEL))
 
 
-def test_the_command_lists_and_shows_materials(capsys: pytest.CaptureFixture[str]) -> None:
+def test_command_lists_and_shows_materials(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["materials", "--json", "-"]) == 0
     listed = json.loads(capsys.readouterr().out)
     assert [row["name"] for row in listed] == list(MATERIALS)

@@ -25,7 +25,7 @@ def measured(**keys: object) -> Any:
     return read(BLOCK | {"measured": keys})
 
 
-def test_yield_stress_of_a_block_is_thorntons() -> None:
+def test_yield_stress_of_a_block_agrees_with_thornton() -> None:
     wanted = {"restitution": 0.6, "solve_for": "yield_stress"}
     stress = solved(read(BLOCK | {"measured": wanted, "effects": {"spherical_profile": False}}))
     modulus, mass = 70e9 / 0.91, 4 / 3 * math.pi * 0.01**3 * 7850.0
@@ -37,7 +37,7 @@ def test_yield_stress_of_a_block_is_thorntons() -> None:
 
 
 @pytest.mark.parametrize("goal", [0.15, 0.97])
-def test_retardation_time_gives_the_restitution_back(goal: float) -> None:
+def test_retardation_time_reproduces_the_restitution(goal: float) -> None:
     time = solved(measured(restitution=goal, solve_for="retardation_time", tested_at=0.5))
     still = dict.fromkeys(("bending", "finite_thickness", "finite_radius", "edge"), False)
     block = BLOCK["plate"] | {"radius": 100.0, "thickness": 200.0, "retardation_time": time}
@@ -52,7 +52,7 @@ def test_retardation_time_gives_the_restitution_back(goal: float) -> None:
     assert viscous_impact(found.effects.law).restitution == found.restitution
 
 
-def test_plate_itself_is_what_was_struck() -> None:
+def test_test_plate_may_be_the_plate_of_the_scene() -> None:
     scene = measured(restitution=0.2, solve_for="yield_stress", target="plate")
     result = simulate(scene)
     assert result.restitution == pytest.approx(0.2, abs=2e-4)
@@ -63,18 +63,18 @@ def test_plate_itself_is_what_was_struck() -> None:
     assert result.energy_balance.plastic_loss > 0.0
 
 
-def test_more_than_waves_leave_is_refused() -> None:
+def test_restitution_above_that_of_elastic_waves_is_rejected() -> None:
     with pytest.raises(SceneError, match=r"^measured\.restitution: .*0\.\d+"):
         simulate(measured(restitution=0.99, solve_for="yield_stress", target="plate"))
 
 
-def test_a_restitution_too_small_to_be_computed_is_refused_by_its_own_key() -> None:
+def test_restitution_too_small_to_compute_is_rejected() -> None:
     """The tolerance of the simulation in the message is not one that the user gave."""
     with pytest.raises(SceneError, match=r"^measured\.restitution: .*; correct measured\.rest"):
         simulate(measured(restitution=1e-9, solve_for="retardation_time"))
 
 
-def test_a_value_is_given_once() -> None:
+def test_repeated_value_is_rejected() -> None:
     plate = BLOCK["plate"] | {"yield_stress": 1e8}
     with pytest.raises(SceneError, match=r"measured\.solve_for: .*plate\.yield_stress"):
         read(
@@ -82,7 +82,7 @@ def test_a_value_is_given_once() -> None:
         )
 
 
-def test_everything_else_is_kept() -> None:
+def test_other_keys_are_unchanged() -> None:
     scene = fitted(measured(restitution=0.6, solve_for="yield_stress"))
     assert scene.measured is None
     kept = scene.to_json()

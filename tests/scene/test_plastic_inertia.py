@@ -36,7 +36,7 @@ def largest_difference(found: Result, reference: Result) -> float:
     return max(abs(getattr(found, name) / getattr(reference, name) - 1.0) for name in OUTPUTS)
 
 
-def test_the_bound_on_omitted_inertia_covers_the_plastic_loss() -> None:
+def test_bound_on_omitted_inertia_covers_the_plastic_loss() -> None:
     """The bound includes the plastic loss; without it, it was 5.7e-4 for a change of 6.1e-4."""
     others = dict.fromkeys(("bending", "finite_thickness", "edge", "non_hertzian_pressure"), True)
     found = simulate(read(DISC | {"effects": others | {"inertia": "auto"}}), rtol=0.01)
@@ -46,7 +46,7 @@ def test_the_bound_on_omitted_inertia_covers_the_plastic_loss() -> None:
     assert 1e-4 < largest_difference(found, reference) <= 0.5 * found.accuracy.bound
 
 
-def test_the_bound_on_omitted_branches_covers_the_plastic_loss() -> None:
+def test_bound_on_omitted_branches_covers_the_plastic_loss() -> None:
     """The bound includes the plastic loss; without it, it was 1.3e-6 for a change of 2.0e-6."""
     found, reference = (
         simulate(read(BLOCK | {"effects": {"inertia": True}, "inertia": {"branches": branches}}))
@@ -81,7 +81,7 @@ def plastic_model(number: int) -> Model:
 
 
 @pytest.mark.parametrize("number", [*ENDED_EARLY, *range(12)])
-def test_a_plastic_contact_on_a_vibrating_plate_is_followed_to_its_end(number: int) -> None:
+def test_plastic_contact_on_a_vibrating_plate_is_complete(number: int) -> None:
     model = plastic_model(number)
     effects = inertia_check.present(model) - {"non_hertzian_pressure"}
     found = waves.impact(ContactLaw(model, effects), 1e-4)

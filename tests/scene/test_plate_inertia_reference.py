@@ -40,7 +40,7 @@ def differ(one: Result, other: Result) -> float:
 
 @pytest.mark.parametrize("thickness", [0.008, 0.02])
 @pytest.mark.parametrize("b", [0.3, 0.6])
-def test_no_edge_is_felt_before_a_wave_returns_from_it(b: float, thickness: float) -> None:
+def test_edge_has_no_influence_before_a_wave_returns(b: float, thickness: float) -> None:
     first, *others = (simulate(read(pane(b, thickness, edge=edge))) for edge in EDGES)
     fastest = 1.1 * first.model.shear_speed
     assert first.total_time < 2.0 * b / fastest
@@ -49,7 +49,7 @@ def test_no_edge_is_felt_before_a_wave_returns_from_it(b: float, thickness: floa
         assert differ(first, other) < 2e-5
 
 
-def test_an_infinite_plate_does_not_depend_on_the_radius() -> None:
+def test_infinite_plate_does_not_depend_on_the_radius() -> None:
     """An infinite plate gives the same results as a finite one before a wave returns."""
     ball = {"radius": 0.005, "density": 7850.0}
     for pressure in ("auto", False):
@@ -64,7 +64,7 @@ def test_an_infinite_plate_does_not_depend_on_the_radius() -> None:
 
 
 @pytest.mark.parametrize("row", DATA["impacts"], ids=lambda row: row["name"])
-def test_recorded_elements_are_within_what_the_program_states(row: Mapping[str, Any]) -> None:
+def test_recorded_finite_elements_are_within_the_stated_errors(row: Mapping[str, Any]) -> None:
     """Differences are at most the sum of bound, model error and finite-element error."""
     program = row["program"]
     assert "values" in program, program["refused"]
@@ -73,7 +73,7 @@ def test_recorded_elements_are_within_what_the_program_states(row: Mapping[str, 
         assert off <= program["bound"] + program["model_error"] + row["errors"][name]
 
 
-def test_the_record_covers_what_the_model_error_is_stated_for() -> None:
+def test_record_covers_the_range_of_the_model_error() -> None:
     plates = [row["scene"]["plate"] for row in DATA["impacts"]]
     assert len(plates) >= 40
     assert {plate["edge"] for plate in plates} == set(EDGES)
@@ -84,7 +84,7 @@ def test_the_record_covers_what_the_model_error_is_stated_for() -> None:
 
 
 @pytest.mark.parametrize("number", range(0, len(DATA["impacts"]), 9))
-def test_the_program_is_still_the_one_compared(number: int) -> None:
+def test_program_still_agrees_with_the_record(number: int) -> None:
     """Every ninth case is simulated again and agrees with the record within its bound."""
     row = DATA["impacts"][number]
     effects = {"spherical_profile": row["spherical_profile"], "inertia": True}
@@ -102,7 +102,7 @@ HELD = [row for row in DATA["plates"] if row["edge"] != "paper"]
 
 
 @pytest.mark.parametrize("row", HELD, ids=_plate)
-def test_frequencies_are_those_of_three_dimensions(row: Mapping[str, Any]) -> None:
+def test_frequencies_agree_with_three_dimensional_elasticity(row: Mapping[str, Any]) -> None:
     """The first three frequencies agree within 0.3 % for H/b <= 0.2, and 1 % for thicker plates."""
     run = clamped_waves if row["edge"] == "clamped" else supported_waves
     eta = row["thickness_over_radius"] / 2.0
@@ -113,7 +113,7 @@ def test_frequencies_are_those_of_three_dimensions(row: Mapping[str, Any]) -> No
 
 
 @pytest.mark.parametrize("edge", EDGES[1:])
-def test_a_light_held_plate_follows_its_static_law(edge: str) -> None:
+def test_light_supported_plate_agrees_with_the_static_law(edge: str) -> None:
     """The results of a very light plate are those of the quasi-static plate."""
     plate = {"radius": 0.1, "thickness": 0.01, "youngs_modulus": 7e10, "poissons_ratio": 0.3,
              "density": 0.1, "edge": edge}  # fmt: skip
@@ -127,14 +127,14 @@ def test_a_light_held_plate_follows_its_static_law(edge: str) -> None:
         assert getattr(light, name) == pytest.approx(getattr(still, name), rel=2e-3)
 
 
-def test_rough_contacts_have_a_larger_model_error() -> None:
+def test_short_contacts_have_a_larger_model_error() -> None:
     model = simulate(read(pane(0.3, 0.008))).model
     calm, rough = (inertia_error(model, 1e-4, time) for time in (1e-3, 1e-6))
     assert all(rough[name] >= calm[name] >= 1e-3 for name in OUTPUTS)
     assert rough["max_force"] > calm["max_force"]
 
 
-def test_contacts_that_would_be_wide_on_a_half_space_are_rough() -> None:
+def test_wide_contacts_have_the_larger_model_error() -> None:
     """The larger model error applies if the contact radius on a half-space would be above 0.3 H."""
     for row in DATA["impacts"]:
         place, model = row["parameters"], model_of(read(row["scene"]))
@@ -143,13 +143,13 @@ def test_contacts_that_would_be_wide_on_a_half_space_are_rough() -> None:
         assert rough == wide, row["name"]
 
 
-def test_plates_too_thick_for_held_modes_are_refused() -> None:
+def test_plates_too_thick_for_edge_modes_are_rejected() -> None:
     with pytest.raises(SceneError, match=r"plate\.edge: expected a clamped plate with bending"):
         simulate(read(pane(0.01, 0.011, edge="clamped") | {"effects": {"inertia": True}}))
     assert edge_remainder(simulate(read(pane(0.3, 0.008, edge="clamped"))).model, 1e-3) < 1e-3
 
 
-def test_bending_that_lengthens_a_contact_does_not_calm_the_thickness() -> None:
+def test_long_contact_with_a_steep_rise_excites_reflections() -> None:
     """The force rises in 1/30 of the contact time and excites through-thickness reflections."""
     scene = tomllib.loads((EXAMPLES / "membrane.toml").read_text())
     lowest = simulate(read(scene))
@@ -159,7 +159,7 @@ def test_bending_that_lengthens_a_contact_does_not_calm_the_thickness() -> None:
     assert 2e-3 < change < lowest.accuracy.bound
 
 
-def test_a_bound_of_chosen_modes_covers_what_more_modes_change() -> None:
+def test_bound_of_a_chosen_number_of_modes_covers_more_modes() -> None:
     """The bound covers 340 modes, although 90 and 180 modes agree on the peak force by chance."""
     scene = tomllib.loads((EXAMPLES / "membrane.toml").read_text())
     del scene["accuracy"]
@@ -172,7 +172,7 @@ def test_a_bound_of_chosen_modes_covers_what_more_modes_change() -> None:
     assert few.accuracy.bound > change
 
 
-def test_a_contact_too_short_for_the_modes_of_its_plate_is_refused() -> None:
+def test_contact_too_short_for_the_modes_is_rejected() -> None:
     """A scene is rejected if its modes are too slow for the contact, which makes them wrong."""
     scene = pane(6.4, 0.09) | {
         "sphere": {"radius": 0.0043, "mass": 7e-5},

@@ -37,9 +37,9 @@ def check(scene: Scene, columns: Mapping[str, Array], rtol: float | None = None)
     """Solve rows, and compare each with the simulation of its scene."""
     found = solve(scene, columns, rtol)
     for row in range(len(found.bound)):
-        one, said = simulated(row_of(scene, columns, row), rtol)
+        one, reason = simulated(row_of(scene, columns, row), rtol)
         if one is None:
-            assert (found.status[row], found.reason[row]) == ("refused", said)
+            assert (found.status[row], found.reason[row]) == ("refused", reason)
             assert found.effects[row] == ""
             assert all(np.isnan(values[row]) for values in found.results.values())
             continue
@@ -137,7 +137,7 @@ def test_rows_of_any_law_are_simulations(
         in_arrays(monkeypatch, scene, columns, rtol)
 
 
-def test_rows_whose_inertia_is_left_out_by_its_bound_stay_in_arrays(
+def test_rows_with_omitted_inertia_are_computed_in_arrays(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     scene = scene_with(plate={"thickness": 0.5, "radius": 0.5}, effects={"inertia": "auto"})
@@ -147,7 +147,7 @@ def test_rows_whose_inertia_is_left_out_by_its_bound_stay_in_arrays(
     in_arrays(monkeypatch, scene, columns, 0.1)
 
 
-def test_refused_rows_and_rows_with_a_solution_of_their_own_are_simulations() -> None:
+def test_rejected_and_separately_solved_rows_are_simulations() -> None:
     scene = scene_with()
     speeds = np.array([0.2, -1.0, np.nan, 0.0, 1e4, 0.3])
     found = check(scene, {"impact.speed": speeds}, 1e-1)
@@ -156,14 +156,14 @@ def test_refused_rows_and_rows_with_a_solution_of_their_own_are_simulations() ->
     assert "non_hertzian_pressure" in check(scene, thin, 1e-4).effects[0]
 
 
-def test_rows_without_weight_or_with_it_part_where_it_applies() -> None:
+def test_rows_with_and_without_weight_are_separated() -> None:
     columns = {"impact.gravity": np.array([0.0, 9.81, 1e4, 0.0])}
     found = check(scene_with(), columns, 1e-2)
     assert "gravity" in found.effects[2]
     assert "gravity" not in found.effects[0]
 
 
-def test_columns_of_materials_and_keys_that_stand_in_for_others() -> None:
+def test_columns_of_materials_and_alternative_keys() -> None:
     own = {"youngs_modulus": 6e10, "poissons_ratio": 0.2, "density": 2400.0}
     scene = scene_with(plate={"material": "pane"}, materials={"pane": own})
     columns = {
@@ -175,7 +175,7 @@ def test_columns_of_materials_and_keys_that_stand_in_for_others() -> None:
     check(scene, columns, 1e-1)
 
 
-def test_a_strength_of_its_own_for_each_row() -> None:
+def test_each_row_may_have_its_own_strength() -> None:
     columns = {"plate.tensile_strength": np.array([1e3, 1e12])}
     weak, strong = check(scene_with(), columns, 1e-1).reason
     assert "predicted to fail" in weak
@@ -219,7 +219,7 @@ def test_rows_in_other_units_of_length_are_the_same_impacts(length: float) -> No
         ({}, "one or more arrays"),
     ],
 )
-def test_columns_that_are_none_are_refused(columns: Any, message: str) -> None:
+def test_invalid_columns_are_rejected(columns: Any, message: str) -> None:
     with pytest.raises(SceneError, match=message):
         solve(load(PAPER), columns)
 

@@ -91,5 +91,5 @@ def studies(draw: st.DrawFn) -> Study:
 
 @given(studies())
 @settings(max_examples=60)
-def test_each_row_is_a_simulation(study: Study) -> None:
+def test_each_row_equals_its_simulation(study: Study) -> None:
     check(*study)

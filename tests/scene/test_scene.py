@@ -91,8 +91,8 @@ BAD = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("old", "new", "says"), BAD)
-def test_bad_scene_is_one_clear_message(old: str, new: str, says: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize(("old", "new", "expected"), BAD)
+def test_invalid_scene_gives_one_message(old: str, new: str, expected: str, tmp_path: Path) -> None:
     assert GOOD.count(old) == 1
     path = tmp_path / "scene.toml"
     path.write_text(GOOD.replace(old, new))
@@ -100,7 +100,7 @@ def test_bad_scene_is_one_clear_message(old: str, new: str, says: str, tmp_path:
         load(path)
     message = str(caught.value)
     assert message.startswith(f"{path}: ")
-    for words in says.split("|"):
+    for words in expected.split("|"):
         assert words in message
     assert len(message) < 1200
     assert "pydantic" not in message
@@ -117,7 +117,7 @@ def test_several_problems_are_listed_together(tmp_path: Path) -> None:
         assert sum(line.startswith(f"  - {key}: ") for line in lines) == 1
 
 
-def test_file_that_cannot_be_read(tmp_path: Path) -> None:
+def test_file_that_cannot_be_decoded(tmp_path: Path) -> None:
     with pytest.raises(SceneError, match="No such file"):
         load(tmp_path / "absent.toml")
     with pytest.raises(SceneError, match="not a file"):
@@ -139,7 +139,7 @@ def test_unreadable_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Non
         load(path)
 
 
-def test_good_scenes_are_read_alike(tmp_path: Path) -> None:
+def test_equivalent_files_give_the_same_scene(tmp_path: Path) -> None:
     path = tmp_path / "scene.toml"
     path.write_text("\ufeff" + GOOD, encoding="utf-8")
     scene = load(path)
@@ -170,7 +170,7 @@ def test_good_scenes_are_read_alike(tmp_path: Path) -> None:
         ("PMMA", 3.3e9, 0.37, 1190.0),
     ],
 )
-def test_named_materials_hold_what_their_standards_say(
+def test_named_materials_have_the_constants_of_their_standards(
     name: str, E: float, nu: float, density: float
 ) -> None:
     """A material gives the constants of plate and sphere, and the mass of the sphere."""
@@ -185,7 +185,7 @@ def test_named_materials_hold_what_their_standards_say(
     assert model.m == pytest.approx(density * math.pi * 0.26**3 / 6, rel=1e-14)
 
 
-def test_poissons_ratio_next_to_its_lower_end_is_refused_by_name() -> None:
+def test_poissons_ratio_next_to_minus_one_is_rejected() -> None:
     keys = {"lame_lambda": None, "lame_mu": None, "youngs_modulus": 1e9}
     scene = read(changed(plate=keys | {"poissons_ratio": math.nextafter(-1.0, 0.0)}))
     with pytest.raises(SceneError, match=r"plate\.poissons_ratio: .*lame_mu"):
@@ -211,12 +211,12 @@ def test_direct_construction_is_validated_too() -> None:
 
 
 @pytest.mark.parametrize("data", [[1], {"sphere": {1: 2}}, {3: 4}])
-def test_data_that_are_no_tables(data: Any) -> None:
+def test_data_without_tables_are_rejected(data: Any) -> None:
     with pytest.raises(SceneError, match=r"^\w+: "):
         read(data)
 
 
-def test_any_damage_is_a_scene_error(tmp_path: Path) -> None:
+def test_damaged_scene_raises_a_scene_error(tmp_path: Path) -> None:
     """A randomly edited scene either loads or raises a SceneError."""
     chance = random.Random(7)
     text, refused = GOOD, 0

@@ -60,12 +60,12 @@ spec.loader.exec_module(module)
 asked = json.load(sys.stdin)
 delta = np.array(asked["delta"])
 static = getattr(module, "elastic_force", module.force)
-told = {f.__name__: f(delta).tolist() for f in (module.stiffness, module.contact_radius)}
-told["force"] = static(delta).tolist()
-told["impact"] = list(module.impact()) if hasattr(module, "impact") else None
+results = {f.__name__: f(delta).tolist() for f in (module.stiffness, module.contact_radius)}
+results["force"] = static(delta).tolist()
+results["impact"] = list(module.impact()) if hasattr(module, "impact") else None
 foreign = {"generated", "derivation", "scipy", "sympy"} & set(sys.modules)
 assert not foreign, foreign
-print(json.dumps(told))
+print(json.dumps(results))
 """
 
 COMMAND = """
@@ -115,7 +115,7 @@ def radii(case: str) -> np.ndarray:
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_alone_with_numpy_it_repeats_law_and_impact(case: str, tmp_path: Path) -> None:
+def test_code_reproduces_law_and_impact_with_only_numpy(case: str, tmp_path: Path) -> None:
     place = tmp_path / "alone.py"
     place.write_text(code_of(case))
     result = simulate(scene_of(case))
@@ -128,21 +128,21 @@ def test_alone_with_numpy_it_repeats_law_and_impact(case: str, tmp_path: Path) -
         capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert run.returncode == 0, run.stderr
-    told = json.loads(run.stdout)
-    np.testing.assert_allclose(told["force"], law.force(a, shape), rtol=1e-13)
-    np.testing.assert_allclose(told["contact_radius"], a, rtol=1e-12)
+    results = json.loads(run.stdout)
+    np.testing.assert_allclose(results["force"], law.force(a, shape), rtol=1e-13)
+    np.testing.assert_allclose(results["contact_radius"], a, rtol=1e-12)
     # Near the limit the law's stiffness (non-Hertzian pressure) is less accurate.
     mild = a < 0.9 * law.limit
     np.testing.assert_allclose(
-        np.array(told["stiffness"])[mild], law.stiffness(a, shape)[mild], rtol=2e-11
+        np.array(results["stiffness"])[mild], law.stiffness(a, shape)[mild], rtol=2e-11
     )
-    if told["impact"] is None:
+    if results["impact"] is None:
         assert case == "viscous, stiff"
         return
-    assert told["impact"] == pytest.approx(moved_numbers(law), rel=3e-12, abs=1e-12)
+    assert results["impact"] == pytest.approx(moved_numbers(law), rel=3e-12, abs=1e-12)
     names = ("contact_time", "max_indentation", "max_force", "max_contact_radius")
     numbers = [f"{getattr(result, name):.6g}" for name in names]
-    assert [f"{x:.6g}" for x in told["impact"][:4]] == numbers
+    assert [f"{x:.6g}" for x in results["impact"][:4]] == numbers
 
 
 def moved_numbers(law: ContactLaw) -> list[float]:
@@ -150,7 +150,7 @@ def moved_numbers(law: ContactLaw) -> list[float]:
     return list(found.numbers)
 
 
-def test_every_effect_in_it_presses_as_indent_does() -> None:
+def test_code_with_every_effect_agrees_with_indent() -> None:
     scene = read(changed(effects={"spherical_profile": True, "non_hertzian_pressure": True}))
     names: dict[str, Any] = {}
     exec(scene_code(scene), names)
@@ -161,7 +161,7 @@ def test_every_effect_in_it_presses_as_indent_does() -> None:
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_stiffness_is_the_force_s_derivative(case: str) -> None:
+def test_stiffness_is_the_derivative_of_the_force(case: str) -> None:
     names, force = names_of(case), static_of(case)
     delta = np.geomspace(1e-6, 0.99, 40) * names["MAX_INDENTATION"]
     step = 1e-3 * delta
@@ -174,7 +174,7 @@ def test_stiffness_is_the_force_s_derivative(case: str) -> None:
 
 
 @pytest.mark.parametrize("case", ["block", "impact_echo", "paper", "soft_layer", "viscous, bent"])
-def test_takes_any_input_and_touches_none(case: str) -> None:
+def test_code_accepts_arrays_and_does_not_change_them(case: str) -> None:
     names, force = names_of(case), static_of(case)
     end = names["MAX_INDENTATION"]
     for function in (force, names["stiffness"], names["contact_radius"]):
@@ -197,7 +197,7 @@ def test_takes_any_input_and_touches_none(case: str) -> None:
 
 @pytest.mark.parametrize("case", [c for c in CASES if c != "viscous, stiff"])
 @pytest.mark.parametrize("factor", [0.05, 0.5, 1.3])
-def test_impact_at_other_speeds(case: str, factor: float) -> None:
+def test_code_computes_impacts_at_other_speeds(case: str, factor: float) -> None:
     made = recipe(scene_of(case))
     model = replace(made.law.model, v0=factor * made.law.model.v0)
     reference = None
@@ -212,12 +212,12 @@ def test_impact_at_other_speeds(case: str, factor: float) -> None:
 
 @pytest.mark.parametrize("case", ["block", "paper", "glass_pane", "viscous", "viscous, bent"])
 @pytest.mark.parametrize("v0", [0.0, -1.0, math.nan, math.inf, 1e9])
-def test_impact_is_nan_where_there_is_none(case: str, v0: float) -> None:
+def test_impact_is_nan_outside_the_range(case: str, v0: float) -> None:
     with np.errstate(all="ignore"):
         assert np.isnan(names_of(case)["impact"](v0)).all()
 
 
-def test_a_lagging_force_by_indentation_and_rate() -> None:
+def test_viscoelastic_force_depends_on_indentation_and_rate() -> None:
     case = "viscous, heavy"
     names, law = names_of(case), recipe(scene_of(case)).law
     a = radii(case)[30]
@@ -227,8 +227,8 @@ def test_a_lagging_force_by_indentation_and_rate() -> None:
     )
     lag = law.model.retardation_time
     rate = np.array([-1e9, -0.1, 0.0, 0.1])
-    told = names["force"](delta, rate)
-    assert told == pytest.approx([0.0, *(P + lag * k * rate[1:])], rel=1e-12)
+    forces = names["force"](delta, rate)
+    assert forces == pytest.approx([0.0, *(P + lag * k * rate[1:])], rel=1e-12)
     assert names["force"](-delta, 1.0) == 0.0
     assert names["force"](delta) == pytest.approx(P, rel=1e-13)
     assert names["force"](np.full((2, 1), delta), rate).shape == (2, 4)
@@ -251,7 +251,7 @@ def test_a_lagging_force_by_indentation_and_rate() -> None:
 
 
 @pytest.mark.parametrize("case", ["viscous, bent", "viscous, stiff"])
-def test_a_bent_plate_s_inner_state_gives_the_impact(case: str) -> None:
+def test_integration_with_the_inner_state_gives_the_impact(case: str) -> None:
     names, made = names_of(case), recipe(scene_of(case))
     model, T = made.law.model, made.motion.contact_time
 
@@ -277,7 +277,7 @@ def test_a_bent_plate_s_inner_state_gives_the_impact(case: str) -> None:
     assert names["force"](1.0, -1.0) == 0.0
 
 
-def test_a_held_plate_that_bends_under_a_lagging_contact_is_refused() -> None:
+def test_supported_plate_with_viscoelastic_contact_is_rejected() -> None:
     plate = PAD["plate"] | {"thickness": 0.02, "edge": "clamped"}
     held = read({**PAD, "plate": plate, "effects": dict(AT_REST)})
     with pytest.raises(SceneError, match=r"^plate\.edge: .*effects\.edge"):
@@ -285,7 +285,7 @@ def test_a_held_plate_that_bends_under_a_lagging_contact_is_refused() -> None:
 
 
 @pytest.mark.parametrize("wanted", ["auto", True])
-def test_a_plate_that_moves_is_refused(wanted: Any) -> None:
+def test_plate_with_inertia_is_rejected(wanted: Any) -> None:
     data = load(EXAMPLES / "glass_pane.toml").to_json() | {"effects": {"inertia": wanted}}
     with pytest.raises(SceneError, match=r"^effects\.inertia: .*effects\.inertia = false$"):
         scene_code(read(data))
@@ -301,7 +301,7 @@ MARKS = {
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_holds_no_code_of_effects_that_are_out(case: str) -> None:
+def test_code_contains_no_omitted_effects(case: str) -> None:
     tree = ast.parse(code_of(case))
     found = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
     found |= {node.name for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)}
@@ -318,14 +318,14 @@ def test_holds_no_code_of_effects_that_are_out(case: str) -> None:
     assert private <= {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
 
 
-def test_hertz_alone_is_a_dozen_lines() -> None:
+def test_code_of_hertz_theory_is_short() -> None:
     tree = ast.parse(code_of("block"))
     functions = [node for node in tree.body if isinstance(node, ast.FunctionDef)]
     assert sum(len(function.body) - 1 for function in functions) <= 12
     assert not any(isinstance(node, ast.For | ast.While) for node in ast.walk(tree))
 
 
-def test_the_head_says_what_is_in_and_why() -> None:
+def test_header_states_the_effects_with_reasons() -> None:
     text = code_of("glass_pane")
     head = ast.get_docstring(ast.parse(text)) or ""
     selected = simulate(scene_of("glass_pane")).effects
@@ -342,7 +342,7 @@ def test_the_head_says_what_is_in_and_why() -> None:
 
 @pytest.mark.checkout
 @pytest.mark.parametrize("case", CASES)
-def test_reads_as_ruff_wants_it(case: str, tmp_path: Path) -> None:
+def test_code_is_formatted_by_ruff(case: str, tmp_path: Path) -> None:
     place = tmp_path / "alone.py"
     place.write_text(code_of(case))
     for task in (["check", "--config", str(ROOT / "pyproject.toml")],
@@ -354,7 +354,7 @@ def test_reads_as_ruff_wants_it(case: str, tmp_path: Path) -> None:
         assert run.returncode == 0, run.stdout + run.stderr
 
 
-def test_the_command_writes_the_same_bytes_without_sympy(tmp_path: Path) -> None:
+def test_command_writes_the_same_file_without_sympy(tmp_path: Path) -> None:
     for name in ("one.py", "two.py"):
         subprocess.run(
             [sys.executable, "-c", COMMAND, "generate", "--scene", str(PAPER), "--out", name],
@@ -366,7 +366,7 @@ def test_the_command_writes_the_same_bytes_without_sympy(tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize(
-    ("arguments", "says"),
+    ("arguments", "message"),
     [
         (["absent.toml", "--out", "x.py"], "absent.toml: cannot read the scene file"),
         (["fast.toml", "--out", "x.py"], "impact.speed: expected less than"),
@@ -378,9 +378,9 @@ def test_the_command_writes_the_same_bytes_without_sympy(tmp_path: Path) -> None
         (["scene.toml", "--out", "/proc/nowhere/x.py"], "/proc/nowhere"),
     ],
 )
-def test_bad_input_is_one_message_and_touches_nothing(
+def test_invalid_input_gives_one_message_and_writes_no_file(
     arguments: list[str],
-    says: str,
+    message: str,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
@@ -392,6 +392,6 @@ def test_bad_input_is_one_message_and_touches_nothing(
     before = {path: path.read_bytes() for path in Path().iterdir()}
     assert main(["generate", "--scene", *arguments]) == 2
     shown = capsys.readouterr().err
-    assert says in shown
+    assert message in shown
     assert shown.startswith("platecontact: ")
     assert {path: path.read_bytes() for path in Path().iterdir()} == before

@@ -5,6 +5,6 @@ import numpy as np
 from derivation.scene.code import _powers
 
 
-def test_a_polynomial_keeps_its_length_where_its_highest_terms_vanish() -> None:
+def test_polynomial_keeps_vanishing_highest_terms() -> None:
     """The highest coefficients of a fit may be exactly zero on some machines."""
     assert _powers(np.array([1.0, 2.0, 1.0, 0.0, 0.0])).tolist() == [0.0, 2.0, 2.0, 0.0, 0.0]

@@ -48,7 +48,7 @@ def scene(**tables: Any) -> Any:
 # --- warnings of plates with inertia
 
 
-def test_the_deflection_of_a_plate_with_inertia_is_that_of_its_history() -> None:
+def test_deflection_of_a_plate_with_inertia_is_that_of_its_history() -> None:
     """The largest deflection is found at any time, during contacts and after the last one."""
     result = simulate(scene())
     assert result.dynamics is not None
@@ -69,14 +69,14 @@ def test_plates_with_inertia_keep_every_warning() -> None:
     fast = {"impact": {"speed": 6.0}}
     for effects in ({"inertia": False}, {"inertia": True}):
         result = simulate(scene(**fast, effects=effects | {"plasticity": False}))
-        said = " ".join(result.warnings)
-        assert f"exceeds {STRETCH_LIMIT}" in said
-        assert f"exceeds {YIELD_LIMIT}" in said
-        assert "times the strength" in said
-        assert "times the yield stress" in said
+        output = " ".join(result.warnings)
+        assert f"exceeds {STRETCH_LIMIT}" in output
+        assert f"exceeds {YIELD_LIMIT}" in output
+        assert "times the strength" in output
+        assert "times the yield stress" in output
 
 
-def test_the_largest_deflection_is_warned_of_at_whatever_time_it_is() -> None:
+def test_warning_of_the_largest_deflection_at_any_time() -> None:
     """The warning applies to the largest deflection at any time of the impact."""
     plate = {"radius": 0.08, "yield_stress": 3e8, "tensile_strength": None}
     result = simulate(scene(plate=plate, impact={"speed": 3.0}))
@@ -87,7 +87,7 @@ def test_the_largest_deflection_is_warned_of_at_whatever_time_it_is() -> None:
     assert f"exceeds {STRETCH_LIMIT}" in " ".join(result.warnings)
 
 
-def test_tension_is_compared_with_what_is_given() -> None:
+def test_tensile_stress_is_compared_with_the_strength() -> None:
     assert stress_warnings(3e8, None, None) == stress_warnings(1e8, 2e8, 2e8) == ()
     [failure] = stress_warnings(3e8, 2e8, 4e8)
     assert re.search("back face .* 1.5 times .*strength", failure)
@@ -126,7 +126,7 @@ def test_many_modes_of_a_clamped_plate_are_drawn(monkeypatch: pytest.MonkeyPatch
     assert animation.render(simulate(data), ".gif").startswith(b"GIF")
 
 
-def test_no_drawing_loses_the_result(
+def test_failed_drawing_does_not_lose_the_result(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Captured
 ) -> None:
     """All other results are written if a frame is not finite or a drawing raises an error."""
@@ -157,9 +157,7 @@ def test_no_drawing_loses_the_result(
 @pytest.mark.parametrize(
     ("radius", "edge", "speed"), [(0.008, "clamped", 0.5), (0.004, "simply-supported", 0.25)]
 )
-def test_a_rate_of_zero_leaves_no_hole_in_the_history(
-    radius: float, edge: str, speed: float
-) -> None:
+def test_history_is_finite_at_zero_rate(radius: float, edge: str, speed: float) -> None:
     """The history is finite where the derivative in Newton's iteration is exactly 0."""
     data = read(
         {
@@ -175,7 +173,7 @@ def test_a_rate_of_zero_leaves_no_hole_in_the_history(
     assert found.indentation[0] == pytest.approx(0.0, abs=1e-12)
 
 
-def test_a_history_with_nan_is_refused(
+def test_history_with_nan_is_rejected(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Captured
 ) -> None:
     hole = History(*np.full((5, 3), math.nan))
@@ -187,7 +185,7 @@ def test_a_history_with_nan_is_refused(
     assert not place.exists()
 
 
-def test_json_of_nan_is_refused() -> None:
+def test_json_with_nan_is_rejected() -> None:
     with pytest.raises(ValueError, match="expected finite numbers"):
         json_text({"x": math.nan})
 
@@ -195,7 +193,7 @@ def test_json_of_nan_is_refused() -> None:
 # --- spheres that are too heavy at any speed
 
 
-def test_a_sphere_that_is_too_heavy_is_told_so() -> None:
+def test_too_heavy_sphere_is_rejected() -> None:
     heavy = {
         "sphere": {"radius": 0.01, "mass": 1000.0, "material": None},
         "plate": {"radius": 0.1, "thickness": 0.01, "youngs_modulus": 5e6, "poissons_ratio": 0.4,
@@ -214,7 +212,7 @@ def test_a_sphere_that_is_too_heavy_is_told_so() -> None:
     assert simulate(read(data)).contact_time > 0
 
 
-def test_a_law_without_energy_is_told_so(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_law_without_energy_is_rejected(monkeypatch: pytest.MonkeyPatch) -> None:
     from derivation.scene import limits
     from derivation.scene.law import ContactLaw
 

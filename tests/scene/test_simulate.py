@@ -40,7 +40,7 @@ def test_thick_plate_gives_hertz() -> None:
     assert found.warnings == ()
 
 
-def test_history_starts_and_ends_free_and_keeps_the_energy() -> None:
+def test_history_starts_and_ends_without_force_and_conserves_energy() -> None:
     result = simulate(load(EXAMPLES / "paper.toml"))
     history = result.history(101)
     assert len(history.time) == 101
@@ -56,7 +56,7 @@ def test_history_starts_and_ends_free_and_keeps_the_energy() -> None:
     assert taken == pytest.approx(2 * result.model.m * result.model.v0, rel=1e-3)
 
 
-def test_history_at_times_asked_for() -> None:
+def test_history_at_given_times() -> None:
     scene = read(changed())
     whole = simulate(scene)
     times = [0.0, whole.contact_time / 3, whole.contact_time]
@@ -91,7 +91,7 @@ def test_json_keys_and_notebook_table() -> None:
 
 
 @pytest.mark.parametrize(("moves", "rel"), [(False, 1e-13), (True, 1e-11)])
-def test_units_do_not_matter(moves: bool, rel: float) -> None:
+def test_results_do_not_depend_on_units(moves: bool, rel: float) -> None:
     """Results in mm, tonne and s (stress in MPa, force in N) agree with those in SI units."""
     metre = simulate(read(changed(plate={"density": 2400.0}, effects={"inertia": moves})))
     millimetre = simulate(read({
@@ -132,7 +132,7 @@ def test_units_do_not_matter(moves: bool, rel: float) -> None:
     ],
 )  # fmt: skip
 @pytest.mark.filterwarnings("error")
-def test_extreme_scene_gives_numbers_or_words(tables: dict[str, dict[str, float]]) -> None:
+def test_extreme_scene_gives_numbers_or_an_error(tables: dict[str, dict[str, float]]) -> None:
     try:
         found = simulate(read(changed(**tables)))
     except SceneError as error:
@@ -144,20 +144,20 @@ def test_extreme_scene_gives_numbers_or_words(tables: dict[str, dict[str, float]
         assert all(0 < number < math.inf for number in numbers)
 
 
-def test_kernel_without_a_number_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_function_without_a_result_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
     nothing = Impact(*(np.array(math.nan) for _ in range(4)))
     monkeypatch.setattr(kernels, "impact", lambda *_, **__: nothing)
     with pytest.raises(SceneError, match=r"h/b = 0\.1"):
         simulate(read(changed()))
 
 
-def test_kernel_beyond_the_radius_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_contact_beyond_the_largest_radius_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(kernels, "impact", lambda *_, **__: Impact(1.0, 1.0, 1.0, 0.14))
     with pytest.raises(SceneError, match=r"min\(b, R\) = 0\.13 m.*0\.14 m"):
         simulate(read(changed()))
 
 
-def test_indent_by_each_of_the_three_agrees() -> None:
+def test_indent_agrees_for_each_given_quantity() -> None:
     scene = read(changed())
     rows = indent(scene, contact_radius=[1e-3, 5e-3, 2e-2])
     assert [row.contact_radius for row in rows] == [1e-3, 5e-3, 2e-2]
@@ -179,7 +179,7 @@ def test_indent_by_each_of_the_three_agrees() -> None:
     )
 
 
-def test_indent_takes_a_single_number() -> None:
+def test_indent_accepts_a_single_number() -> None:
     [row] = indent(read(changed()), force=10.0)
     assert row.force == 10.0
     assert row.to_json().keys() == {
@@ -188,7 +188,7 @@ def test_indent_takes_a_single_number() -> None:
 
 
 @pytest.mark.parametrize(
-    ("given", "says"),
+    ("given", "message"),
     [
         ({}, "exactly one of contact_radius, force and indentation, got none"),
         ({"force": 1.0, "indentation": 1e-3}, "got force and indentation"),
@@ -207,30 +207,32 @@ def test_indent_takes_a_single_number() -> None:
     ],
 )
 @pytest.mark.filterwarnings("error")
-def test_indent_refuses(given: dict[str, Any], says: str) -> None:
-    with pytest.raises(SceneError, match=says):
+def test_indent_rejects_invalid_values(given: dict[str, Any], message: str) -> None:
+    with pytest.raises(SceneError, match=message):
         indent(read(changed()), **given)
 
 
 @pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.stem)
-def test_examples_run(path: Path) -> None:
+def test_examples_can_be_simulated(path: Path) -> None:
     result = simulate(load(path))
     # All other examples have a warning.
     calm = {"paper", "concrete_floor", "membrane", "pad"}
     # The membrane almost separates from the sphere during the first contact.
-    told = [text for text in result.warnings if path.stem != "membrane" or "grazing" not in text]
-    assert (told == []) == (path.stem in calm)
+    reported = [
+        text for text in result.warnings if path.stem != "membrane" or "grazing" not in text
+    ]
+    assert (reported == []) == (path.stem in calm)
     assert result.contact_time > 0
 
 
-def test_paper_example_holds_what_the_paper_gives() -> None:
+def test_paper_example_has_the_values_of_the_paper() -> None:
     model = model_of(load(EXAMPLES / "paper.toml"))
     assert (model.R, model.v0, model.lam, model.mu) == (0.13, 1.0, 0.36e9, 0.43e9)
     assert model.eta == 0.1
     assert simulate(load(EXAMPLES / "paper.toml")).max_contact_radius / (2 * model.h) < 0.1
 
 
-def test_public_names() -> None:
+def test_public_names_exist() -> None:
     for name in derivation.scene.__all__:
         assert callable(getattr(derivation.scene, name))
     with pytest.raises(AttributeError, match="nonsense"):
@@ -238,7 +240,7 @@ def test_public_names() -> None:
 
 
 @pytest.mark.parametrize("n", [*NODES, *MORE_TIMES])
-def test_gauss_integrates_polynomials(n: int) -> None:
+def test_gauss_rule_is_exact_for_polynomials(n: int) -> None:
     """The rule with n nodes is exact up to the degree 2 n - 1."""
     x, weights = gauss(n)
     assert x.shape == weights.shape == (n,)

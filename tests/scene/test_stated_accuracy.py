@@ -26,7 +26,7 @@ def scene(**tables: Mapping[str, Any]) -> Any:
 
 
 @pytest.mark.parametrize("rtol", [1e-1, 1e-2, 1e-3])
-def test_a_tolerance_is_met(rtol: float) -> None:
+def test_tolerance_is_met(rtol: float) -> None:
     fine, found = simulate(scene()), simulate(scene(), rtol=rtol)
     assert found.accuracy.bound <= rtol
     for name in OUTPUTS:
@@ -34,14 +34,14 @@ def test_a_tolerance_is_met(rtol: float) -> None:
         assert off <= found.accuracy.bound + fine.accuracy.bound
 
 
-def test_a_tolerance_out_of_reach_is_refused() -> None:
+def test_unattainable_tolerance_is_rejected() -> None:
     few = {"modes": 8, "branches": "A0"}
     with pytest.raises(SceneError, match=r"^rtol: .*at least \d"):
         simulate(scene(inertia=few), rtol=1e-6)
     assert simulate(scene(inertia=few)).accuracy.bound > 1e-6
 
 
-def test_digits_are_those_that_bound_and_model_error_support() -> None:
+def test_number_of_digits_follows_from_bound_and_model_error() -> None:
     result = simulate(scene())
     error = result.accuracy.bound + result.model_error
     rows = {name: float(value) for name, value, _ in map(str.split, plain(result).splitlines())}
@@ -54,7 +54,7 @@ def test_digits_are_those_that_bound_and_model_error_support() -> None:
     assert replace(result, model_error=0.05).digits == 2
 
 
-def test_what_a_scene_disables_is_named_with_its_bound() -> None:
+def test_disabled_effects_are_stated_with_their_bound() -> None:
     result = simulate(scene(effects={"sphere_elasticity": False}))
     row = next(row for row in result.effects.rows if row.disabled)
     assert row.name == "sphere_elasticity"
@@ -63,7 +63,7 @@ def test_what_a_scene_disables_is_named_with_its_bound() -> None:
     assert not simulate(scene()).disabled_note
 
 
-def test_rounding_of_a_small_part_beside_much_bending_is_within_the_bound() -> None:
+def test_rounding_of_a_small_difference_is_within_the_bound() -> None:
     """Other units change only rounding, here of a small difference of large terms."""
 
     def run(f: float) -> Result:
@@ -88,7 +88,7 @@ def test_rounding_of_a_small_part_beside_much_bending_is_within_the_bound() -> N
         assert all(abs(b / a - 1.0) <= stated for a, b in pairs)
 
 
-def test_a_viscoelastic_contact_begins_again_on_a_nearly_recovered_face(
+def test_recontact_does_not_depend_on_the_recovery_threshold(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """Results do not depend on the threshold from which the surface counts as recovered."""
@@ -114,20 +114,20 @@ def test_a_viscoelastic_contact_begins_again_on_a_nearly_recovered_face(
     )
 
 
-def test_a_long_run_says_how_far_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_long_run_reports_progress(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(contact_sequence, "PROGRESS", 1)
     law = ContactLaw(model_of(scene()), PAPER | {"inertia"})
-    problem, told = waves.problem_of(law, 4), list[str]()
-    with activity.heard(told.append):
+    problem, reported = waves.problem_of(law, 4), list[str]()
+    with activity.heard(reported.append):
         contact_sequence.impact_history(problem, 10)
-    assert told
-    count = len(told)
-    assert all("after first contact" in text for text in told)
+    assert reported
+    count = len(reported)
+    assert all("after first contact" in text for text in reported)
     contact_sequence.impact_history(problem, 10)
-    assert len(told) == count
+    assert len(reported) == count
 
 
-def test_slow_oscillators_alone_say_when_contact_is_impossible() -> None:
+def test_slow_modes_exclude_contact_for_a_time() -> None:
     """No contact occurs within the time for which the slow modes exclude it."""
     law = ContactLaw(replace(model_of(scene()), h=0.001, m=0.05), frozenset(
         {"hertz", "bending", "finite_thickness", "finite_radius", "inertia"}))  # fmt: skip
@@ -142,7 +142,7 @@ def test_slow_oscillators_alone_say_when_contact_is_impossible() -> None:
     assert len(history.contacts) > 1
 
 
-def test_a_tolerance_is_refused_where_omitted_effects_have_no_bound() -> None:
+def test_tolerance_is_rejected_if_omitted_effects_have_no_bound() -> None:
     scene = read(
         {
             "sphere": {"radius": 0.05, "material": "steel"},

@@ -35,14 +35,14 @@ def test_rows_are_the_simulations_of_their_values(tmp_path: Path) -> None:
         assert row["effects"].split() == [r.name for r in result.effects.rows if r.included]
 
 
-def test_a_key_stands_in_for_its_alternative() -> None:
+def test_key_replaces_its_alternative() -> None:
     found = sweep.run(load(PAPER), sweep.parse("plate.thickness=0.2:0.2:1"))
     assert found[0].results["max_force"] == simulate(load(PAPER)).max_force
     heavy = sweep.run(load(PAPER), sweep.parse("sphere.mass=1:2:2"))
     assert heavy[1].results["contact_time"] > heavy[0].results["contact_time"]
 
 
-def test_a_sweeps_tolerance_is_that_of_its_simulations() -> None:
+def test_sweep_uses_its_tolerance_in_all_simulations() -> None:
     [row] = sweep.run(load(PAPER), sweep.parse("impact.speed=1:1:1"), rtol=0.9)
     result = simulate(load(PAPER), rtol=0.9)
     assert row.results["contact_time"] == result.contact_time
@@ -50,7 +50,7 @@ def test_a_sweeps_tolerance_is_that_of_its_simulations() -> None:
     assert result.effects.law.effects < simulate(load(PAPER)).effects.law.effects
 
 
-def test_whole_numbers_are_swept_as_such() -> None:
+def test_integers_are_swept_as_integers() -> None:
     plate = {"radius": 0.2, "thickness": 0.01, "material": "aluminium"}
     scene = read({"sphere": {"radius": 0.02, "material": "steel"}, "plate": plate,
                   "impact": {"speed": 1.0}})  # fmt: skip
@@ -60,7 +60,7 @@ def test_whole_numbers_are_swept_as_such() -> None:
     assert few.results
 
 
-def test_a_refused_value_is_a_row_and_the_others_go_on(capsys: Captured) -> None:
+def test_rejected_value_is_a_row_and_the_sweep_continues(capsys: Captured) -> None:
     assert main(["simulate", str(PAPER), "--sweep", "impact.speed=-1:1:3", "--json", "-"]) == 0
     shown = capsys.readouterr()
     rows = json.loads(shown.out)
@@ -70,20 +70,20 @@ def test_a_refused_value_is_a_row_and_the_others_go_on(capsys: Captured) -> None
     assert "at impact.speed = 0: " in shown.err
 
 
-def test_a_sweep_of_refused_values_alone_fails_and_writes_nothing(
+def test_sweep_of_only_rejected_values_fails_and_writes_no_file(
     tmp_path: Path, capsys: Captured
 ) -> None:
     csv_file, json_file = tmp_path / "rows.csv", tmp_path / "rows.json"
     arguments = ["simulate", str(PAPER), "--sweep", "impact.speed=-3:-1:3"]
     assert main([*arguments, "--csv", str(csv_file), "--json", str(json_file)]) == 2
-    said = capsys.readouterr().err
-    assert "impact.speed = -3" in said
-    assert "all 3" in said
+    output = capsys.readouterr().err
+    assert "impact.speed = -3" in output
+    assert "all 3" in output
     assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize("text", ["impact.sped=1:2:3", "Impact.speeds=1:2:3", "impact=1:2:3"])
-def test_a_mistyped_key_is_told_the_nearest(text: str) -> None:
+def test_similar_key_is_suggested(text: str) -> None:
     with pytest.raises(SceneError, match=r"impact\.speed\?"):
         sweep.parse(text)
 
@@ -97,19 +97,19 @@ def test_a_mistyped_key_is_told_the_nearest(text: str) -> None:
         "effects.bending=0:1:2",
     ],
 )  # fmt: skip
-def test_bad_sweeps_are_one_message(text: str) -> None:
+def test_invalid_sweeps_give_one_message(text: str) -> None:
     with pytest.raises(SceneError, match=r"^sweep: ") as caught:
         sweep.parse(text)
     assert "\n" not in str(caught.value)
 
 
-def test_a_sweep_has_no_plot(capsys: Captured) -> None:
+def test_plot_of_a_sweep_is_rejected(capsys: Captured) -> None:
     arguments = ["simulate", str(PAPER), "--sweep", "impact.speed=1:2:2", "--plot", "x.pdf"]
     assert main(arguments) == 2
     assert "--sweep" in capsys.readouterr().err
 
 
-def test_processes_share_a_long_sweep_and_change_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_parallel_sweep_gives_the_same_rows(monkeypatch: pytest.MonkeyPatch) -> None:
     scene, span = load(PAPER), sweep.parse("impact.speed=0.5:1:4")
     alone = sweep.run(scene, span)
     monkeypatch.setattr(sweep, "LONG", 0.0)
@@ -117,7 +117,7 @@ def test_processes_share_a_long_sweep_and_change_nothing(monkeypatch: pytest.Mon
 
 
 @pytest.mark.skipif(not hasattr(signal, "pthread_sigmask"), reason="signals cannot be held")
-def test_processes_do_not_hear_of_ctrl_c_even_while_they_begin() -> None:
+def test_worker_processes_ignore_ctrl_c() -> None:
     """Ctrl-C is blocked in starting processes, which would otherwise print a traceback."""
     ask = "import signal; print(signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, ()))"
 
@@ -130,7 +130,7 @@ def test_processes_do_not_hear_of_ctrl_c_even_while_they_begin() -> None:
     assert deaf() == "False"
 
 
-def test_a_process_that_is_ended_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_killed_worker_process_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sweep, "LONG", 0.0)
     monkeypatch.setattr(sweep, "_leave_interrupts", partial(os._exit, 1))
     with pytest.raises(SceneError, match=r"^sweep: .*fewer values"):

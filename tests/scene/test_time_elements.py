@@ -54,7 +54,7 @@ def numbers(law: ContactLaw, history: ImpactHistory) -> np.ndarray:
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_results_differ_by_no_more_than_the_tolerance_of_the_elements_says(
+def test_results_agree_within_the_tolerance_of_the_elements(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     law, problem = case(name)
@@ -74,7 +74,7 @@ def test_results_differ_by_no_more_than_the_tolerance_of_the_elements_says(
 
 
 @pytest.mark.parametrize("name", [name for name in CASES if "viscoelastic" in name])
-def test_a_viscoelastic_contact_never_pulls(name: str) -> None:
+def test_viscoelastic_force_is_not_negative(name: str) -> None:
     """The force is non-negative within each element, up to 1e-6 of the unit of force."""
     _, problem = case(name)
     for n, tolerance in ((16, 1e-11), (32, 1e-8)):
@@ -84,7 +84,7 @@ def test_a_viscoelastic_contact_never_pulls(name: str) -> None:
                 assert np.min(piece.element.at(x)[P]) > -1e-6
 
 
-def test_branches_change_at_their_yield_events_whatever_the_nodes_of_the_elements() -> None:
+def test_elements_end_at_yield_events_for_any_number_of_nodes() -> None:
     """Elements are halved until one of them can end at the yield event."""
     sheet = {
         "radius": 0.017677098253298388, "thickness": 0.0005362909745948016,
@@ -102,7 +102,7 @@ def test_branches_change_at_their_yield_events_whatever_the_nodes_of_the_element
 
 
 @pytest.mark.parametrize("name", ["several contacts", "damped"])
-def test_rows_of_flights_are_those_of_single_flights(name: str) -> None:
+def test_rows_of_flights_equal_single_flights(name: str) -> None:
     _, problem = case(name)
     after = contact_sequence.impact_history(problem, 16).contacts[0].after
     times = np.array([0.0, 1e-3, 0.7, 5.0])

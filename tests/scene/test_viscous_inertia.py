@@ -36,7 +36,7 @@ def test_results_at_a_loose_tolerance_are_within_their_bound(
 
 
 @pytest.mark.parametrize(("number", "modes"), [(183, 8), (1017, 32)])
-def test_the_error_of_the_force_at_the_onset_is_no_separation(number: int, modes: int) -> None:
+def test_error_of_the_force_at_the_onset_causes_no_separation(number: int, modes: int) -> None:
     """There is one contact; an earlier version stated a separate first one of 1e-18 s."""
     data, _ = random_scenes.scene(number, seed=3)
     model = replace(model_of(read(data)), inertia=InertiaSettings(modes=modes, branches="A0"))

@@ -120,7 +120,7 @@ def test_an_independent_integrator_agrees(changes: dict[str, Any]) -> None:
 
 
 @pytest.mark.parametrize("h", [0.02, 0.005, 0.002])
-def test_nodes_do_not_matter_and_the_ledger_closes(h: float) -> None:
+def test_results_do_not_depend_on_nodes_and_energy_balance_closes(h: float) -> None:
     """Results do not depend on the number of nodes, and bodies do not overlap between contacts."""
     model = replace(BALL, h=h)
     fine, coarse = (history(model, n) for n in (16, 14))
@@ -138,7 +138,7 @@ def test_nodes_do_not_matter_and_the_ledger_closes(h: float) -> None:
             assert state.approach <= 1e-12
 
 
-def test_the_axis_leaks_what_it_is_said_to() -> None:
+def test_pointwise_coupling_loses_the_stated_energy() -> None:
     """The pointwise coupling loses energy, which the energy balance states."""
     model = replace(BALL, inertia=InertiaSettings(pointwise=True))
     found = dynamic_impact_of(ContactLaw(model, EFFECTS), history(model))
@@ -148,7 +148,7 @@ def test_the_axis_leaks_what_it_is_said_to() -> None:
     assert kept.energy_balance.coupling_loss == 0.0
 
 
-def test_a_plate_without_mass_is_at_rest() -> None:
+def test_massless_plate_is_quasi_static() -> None:
     """The impact approaches that of the static law as the density tends to zero."""
     calm = motion.impact(ContactLaw(BALL, WHOLE_PLATE | {"hertz"}))
     errors = []
@@ -167,7 +167,7 @@ def test_a_plate_without_mass_is_at_rest() -> None:
     assert speed < 2e-5
 
 
-def test_more_modes_change_less() -> None:
+def test_change_decreases_with_the_number_of_modes() -> None:
     results = [-history(BALL, 16, modes).contacts[-1].after.velocity for modes in (4, 8, 16, 32)]
     steps = np.abs(np.diff(results))
     assert steps[2] < 0.5 * steps[1] < 0.5 * steps[0]

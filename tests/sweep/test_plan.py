@@ -24,7 +24,7 @@ PLANS = [
 
 
 @pytest.mark.parametrize("one", PLANS, ids=lambda one: getattr(one, "method", type(one).__name__))
-def test_points_do_not_depend_on_how_they_are_cut(one: plan.Plan) -> None:
+def test_points_do_not_depend_on_the_batches(one: plan.Plan) -> None:
     whole = one.points(0, one.size)
     ends = [0, 1, 5, 200, 201, 777, one.size]
     for start, stop in [*itertools.pairwise(ends), (3, 9)]:
@@ -32,7 +32,7 @@ def test_points_do_not_depend_on_how_they_are_cut(one: plan.Plan) -> None:
             np.testing.assert_array_equal(values, whole[key][start:stop])
 
 
-def test_a_grid_has_every_combination_once() -> None:
+def test_grid_has_every_combination_once() -> None:
     points = PLANS[0].points(0, PLANS[0].size)
     assert len(set(zip(*points.values(), strict=True))) == 7 * 5 * 30
     assert points["sphere.radius"][1] != points["sphere.radius"][0]
@@ -60,14 +60,14 @@ def test_samples_follow_their_distribution(method: str, given: dict, law: object
     assert stats.kstest(values, law.cdf).pvalue > 1e-3  # type: ignore[attr-defined]
 
 
-def test_a_lognormal_quantity_has_the_mean_and_deviation_given() -> None:
+def test_lognormal_samples_have_the_given_mean_and_deviation() -> None:
     given = {"distribution": "lognormal", "mean": 0.13, "std": 0.05}
     made = plan.sample(read_distributions({"sphere.radius": given}), 2**16, 7, "sobol")
     values = made.points(0, made.size)["sphere.radius"]
     np.testing.assert_allclose([values.mean(), values.std()], [0.13, 0.05], rtol=2e-3)
 
 
-def test_a_latin_hypercube_has_a_point_in_each_layer() -> None:
+def test_latin_hypercube_has_a_point_in_each_layer() -> None:
     values = PLANS[2].points(0, 1000)["plate.thickness"]
     layers = np.floor((values - 0.15) / 0.1 * 1000)
     assert len(set(layers.tolist())) == 1000
@@ -82,14 +82,14 @@ def test_saltelli_points_exchange_one_key_at_a_time() -> None:
     assert abs(np.corrcoef(a[:, 0], b[:, 0])[0, 1]) < 0.2
 
 
-def test_another_seed_makes_other_points() -> None:
+def test_another_seed_gives_other_points() -> None:
     for method in plan.METHODS:
         one, other = (plan.sample(TWO, 64, seed, method).points(0, 64) for seed in (1, 2))
         assert not np.intersect1d(one["impact.speed"], other["impact.speed"]).size
 
 
 @pytest.mark.parametrize(
-    ("wrong", "said"),
+    ("wrong", "message"),
     [
         (["plate.thicknes=1:2:3"], "did you mean plate.thickness?"),
         (["plate.thickness=1:2:3", "plate.thickness=1:2:3"], "got it twice"),
@@ -99,14 +99,14 @@ def test_another_seed_makes_other_points() -> None:
         ([f"{k}=1:2:99999" for k in ("impact.speed", "sphere.radius")], "expected 1 to"),
     ],
 )
-def test_grids_that_are_refused(wrong: list[str], said: str) -> None:
+def test_invalid_grids_are_rejected(wrong: list[str], message: str) -> None:
     with pytest.raises(SceneError, match="expected") as error:
         plan.grid(wrong)
-    assert said in str(error.value)
+    assert message in str(error.value)
 
 
 @pytest.mark.parametrize(
-    ("line", "said"),
+    ("line", "message"),
     [
         ('"impact.speed" = {distribution = "unifrom", low = 1, high = 2}', "did you mean uniform"),
         ('"impact.speed" = {distribution = "uniform", low = 2, high = 1}', "expected low < high"),
@@ -116,23 +116,23 @@ def test_grids_that_are_refused(wrong: list[str], said: str) -> None:
         ("impact.speed = [", "not valid TOML"),
     ],
 )
-def test_distributions_that_are_refused(tmp_path: Path, line: str, said: str) -> None:
+def test_invalid_distributions_are_rejected(tmp_path: Path, line: str, message: str) -> None:
     place = tmp_path / "vary.toml"
     place.write_text(f"[vary]\n{line}\n")
     with pytest.raises(SceneError) as error:
         load_distributions(place)
-    assert said in str(error.value)
+    assert message in str(error.value)
     assert "vary.toml" in str(error.value)
 
 
-def test_a_sobol_sequence_is_a_power_of_two() -> None:
+def test_sobol_sequence_has_a_power_of_two_of_points() -> None:
     with pytest.raises(SceneError, match="take 512 or 1024"):
         plan.sample(TWO, 1000, 1, "sobol")
     with pytest.raises(SceneError, match=r"makes 4 runs.* take 512 or 1024"):
         plan.saltelli(TWO, 1000, 1)
 
 
-def test_gaps_are_what_ranges_leave() -> None:
+def test_gaps_complement_the_ranges() -> None:
     assert list(plan.gaps([(2, 4), (4, 5), (8, 10)], 12)) == [(0, 2), (5, 8), (10, 12)]
     assert list(plan.gaps([], 3)) == [(0, 3)]
     assert FILE.fullmatch("0000000002-0000000004-ab12.parquet")

@@ -38,7 +38,7 @@ def whole(path: Path) -> bytes:
     return path.read_bytes()
 
 
-def test_a_run_killed_at_any_moment_goes_on_where_it_was(tmp_path: Path) -> None:
+def test_killed_run_is_continued(tmp_path: Path) -> None:
     out, chance = tmp_path / "rows.csv", random.Random(1)
     for _ in range(2):
         before = len(parts(out))
@@ -55,16 +55,16 @@ def test_a_run_killed_at_any_moment_goes_on_where_it_was(tmp_path: Path) -> None
     assert out.read_bytes() == whole(tmp_path / "whole.csv")
 
 
-def test_an_interrupted_run_says_how_it_goes_on(tmp_path: Path) -> None:
+def test_interrupted_run_states_how_to_continue(tmp_path: Path) -> None:
     out = tmp_path / "rows.csv"
     process = begin("--vary", "impact.speed=0.5:2:20000", "--out", str(out))
     wait(lambda: parts(out))
     process.send_signal(signal.SIGINT)
-    _, said = process.communicate(timeout=PATIENCE)
+    _, output = process.communicate(timeout=PATIENCE)
     assert process.returncode == 2
-    assert "Traceback" not in said
-    assert "of 20,000 points" in said
-    assert "run the same command again" in " ".join(said.split())
+    assert "Traceback" not in output
+    assert "of 20,000 points" in output
+    assert "run the same command again" in " ".join(output.split())
     assert not out.exists()
 
 
@@ -86,7 +86,7 @@ def ended(*commands: list[str]) -> Iterator[list["subprocess.Popen[bytes]"]]:
             process.wait()
 
 
-def test_a_cluster_that_loses_a_worker_loses_nothing(
+def test_loss_of_a_cluster_worker_loses_no_results(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("PYTHONPATH", str(ROOT))
@@ -103,32 +103,32 @@ def test_a_cluster_that_loses_a_worker_loses_nothing(
             process = begin(*study)
             wait(lambda: len(parts(out)) >= 2)
             workers[0].kill()
-            _, said = process.communicate(timeout=PATIENCE)
-            assert process.returncode == 0, said
+            _, output = process.communicate(timeout=PATIENCE)
+            assert process.returncode == 0, output
             assert (journal(out, POINTS) == 1).all()
             assert out.read_bytes() == whole(tmp_path / "whole.csv")
         first.kill()
 
 
-def test_a_scheduler_that_is_not_there(
+def test_missing_scheduler_is_reported(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(run, "PATIENCE", 1.0)
     for address in ("tcp://127.0.0.1:9", "nowhere:x"):
         arguments = ["--out", str(tmp_path / "rows.csv"), "--scheduler", address]
         assert main(["sweep", str(QUICK), *STUDY, *arguments]) == 2
-        said = capsys.readouterr().err
-        assert "expected a Dask scheduler with a worker" in said
-        assert "Traceback" not in said
+        output = capsys.readouterr().err
+        assert "expected a Dask scheduler with a worker" in output
+        assert "Traceback" not in output
 
 
-def test_workers_of_another_version_are_refused() -> None:
+def test_workers_of_another_version_are_rejected() -> None:
     columns = {"impact.speed": np.ones(1)}
     with pytest.raises(pc.SceneError, match=r"expected version 0\.0\.1 of platecontact"):
         run.solve_batch(scene().to_json(), columns, None, "0.0.1")
 
 
-def test_batches_take_about_the_time_that_they_are_to_take() -> None:
+def test_batches_take_about_the_requested_time() -> None:
     queue = run.Queue([(0, 10_000), (20_000, 120_000)], [])
     done = np.zeros(120_000, dtype=int)
     while batch := queue.next(4):

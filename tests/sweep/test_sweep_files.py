@@ -55,7 +55,7 @@ def formula(monkeypatch: pytest.MonkeyPatch) -> Formula:
     return made
 
 
-def test_every_point_is_its_simulation() -> None:
+def test_every_point_equals_its_simulation() -> None:
     data = pc.sweep(scene(), GRID)
     for speed in GRID["impact.speed"]:
         for thickness in (0.15, 0.25):
@@ -85,7 +85,7 @@ def opened(path: Path) -> xr.Dataset:
 
 @pytest.mark.parametrize("sample", [None, 50])
 @pytest.mark.parametrize("suffix", [".nc", ".zarr"])
-def test_files_hold_the_dataset(
+def test_files_contain_the_dataset(
     formula: Formula, tmp_path: Path, suffix: str, sample: int | None,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:  # fmt: skip
@@ -111,7 +111,7 @@ def test_files_hold_the_dataset(
 
 @pytest.mark.usefixtures("formula")
 @pytest.mark.parametrize("suffix", [".csv", ".parquet"])
-def test_tables_hold_every_point(
+def test_tables_contain_every_point(
     tmp_path: Path, suffix: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     import pandas as pd
@@ -131,7 +131,7 @@ def test_tables_hold_every_point(
             assert len(list(csv.reader(stream))) == 46
 
 
-def test_a_second_call_computes_nothing_and_writes_the_same(
+def test_second_call_computes_nothing_and_writes_the_same_files(
     formula: Formula, tmp_path: Path
 ) -> None:
     out = tmp_path / "rows.csv"
@@ -146,7 +146,7 @@ def test_a_second_call_computes_nothing_and_writes_the_same(
     assert out.read_bytes() == once
 
 
-def test_batches_of_other_points_do_not_count(formula: Formula, tmp_path: Path) -> None:
+def test_batches_of_other_points_are_ignored(formula: Formula, tmp_path: Path) -> None:
     out = tmp_path / "rows.csv"
     pc.sweep(scene(), {"impact.speed": "1:3:40"}, out=out)
     wrong = parts(out)[0]
@@ -155,7 +155,7 @@ def test_batches_of_other_points_do_not_count(formula: Formula, tmp_path: Path) 
     assert formula.calls == 40 + run.FIRST
 
 
-def test_retry_computes_the_failures_alone(formula: Formula, tmp_path: Path) -> None:
+def test_retry_computes_only_the_failures(formula: Formula, tmp_path: Path) -> None:
     out, vary = tmp_path / "rows.nc", {"impact.speed": "1:3:400"}
     failed = int((pc.sweep(scene(), vary, out=out)["status"] != "finished").sum())
     assert failed > 20
@@ -167,7 +167,7 @@ def test_retry_computes_the_failures_alone(formula: Formula, tmp_path: Path) -> 
     assert (opened(out)["status"] == "finished").all()
 
 
-def test_a_killed_write_leaves_the_old_file(
+def test_interrupted_write_leaves_the_old_file(
     formula: Formula, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     out, vary = tmp_path / "rows.csv", {"impact.speed": "1:3:40"}
@@ -186,7 +186,7 @@ def test_a_killed_write_leaves_the_old_file(
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "output"),
     [
         (["--out", "rows.xls"], ".xls"),
         (["--sample", "10"], "--vary"),
@@ -198,18 +198,18 @@ def test_a_killed_write_leaves_the_old_file(
          "--plot: "),
     ],
 )  # fmt: skip
-def test_what_is_refused_before_anything_is_computed(
+def test_invalid_studies_are_rejected_before_the_computation(
     formula: Formula, tmp_path: Path, capsys: Captured, monkeypatch: pytest.MonkeyPatch,
-    arguments: list[str], said: str,
+    arguments: list[str], output: str,
 ) -> None:  # fmt: skip
     monkeypatch.chdir(tmp_path)
     assert main(["sweep", str(QUICK), "--vary", "impact.speed=1:2:3", *arguments]) == 2
-    assert said in capsys.readouterr().err
+    assert output in capsys.readouterr().err
     assert not formula.calls
     assert not list(tmp_path.iterdir())
 
 
-def test_outputs_of_another_study_are_refused(
+def test_outputs_of_another_study_are_rejected(
     formula: Formula, tmp_path: Path, capsys: Captured
 ) -> None:
     out = tmp_path / "rows.csv"
@@ -224,7 +224,7 @@ def test_outputs_of_another_study_are_refused(
     assert (out.read_bytes(), formula.calls) == (once, 3)
 
 
-def test_a_study_of_refused_points_alone_fails(tmp_path: Path, capsys: Captured) -> None:
+def test_study_of_only_rejected_points_fails(tmp_path: Path, capsys: Captured) -> None:
     out = tmp_path / "rows.csv"
     assert main(["sweep", str(QUICK), "--vary", "impact.speed=-3:-1:3", "--out", str(out)]) == 2
     assert "impact.speed: " in capsys.readouterr().err
@@ -232,7 +232,7 @@ def test_a_study_of_refused_points_alone_fails(tmp_path: Path, capsys: Captured)
 
 
 @pytest.mark.parametrize("keys", [1, 2])
-def test_a_study_is_drawn(formula: Formula, tmp_path: Path, keys: int) -> None:
+def test_study_is_plotted(formula: Formula, tmp_path: Path, keys: int) -> None:
     place = tmp_path / "rows.png"
     vary = ["--vary", "impact.speed=1:3:9:log", "--vary", "plate.thickness=0.1:0.2:4"][: 2 * keys]
     assert main(["sweep", str(QUICK), *vary, "--plot", str(place)]) == 0
@@ -240,7 +240,7 @@ def test_a_study_is_drawn(formula: Formula, tmp_path: Path, keys: int) -> None:
     assert formula.calls
 
 
-def test_explain_computes_a_few_points_alone(
+def test_explain_computes_only_a_few_points(
     formula: Formula, capsys: Captured, tmp_path: Path
 ) -> None:
     place = tmp_path / "forecast.json"

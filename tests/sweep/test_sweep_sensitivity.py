@@ -53,7 +53,7 @@ def test_indices_of_known_functions(monkeypatch: pytest.MonkeyPatch) -> None:
         assert np.isnan(data.sel(result=name)["first_order"]).all()
 
 
-def test_intervals_cover_the_reference_as_often_as_they_say(
+def test_confidence_intervals_have_their_coverage(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(run, "solve", rows)
@@ -67,7 +67,7 @@ def test_intervals_cover_the_reference_as_often_as_they_say(
     assert sum(map(bool, inside)) >= 17
 
 
-def test_the_command_prints_and_draws_them(
+def test_command_prints_and_plots_indices(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(run, "solve", rows)

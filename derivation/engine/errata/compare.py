@@ -11,7 +11,7 @@ import flint
 import sympy as sp
 
 from derivation.engine.errata.dimensions import dimension_note
-from derivation.engine.errata.edit import factor_pool, term_pool
+from derivation.engine.errata.edit import factor_pool, sum_pool, term_pool
 from derivation.engine.errata.relations import Relations
 from derivation.engine.errata.repairs import Repair, repairs
 from derivation.engine.errata.sample import BITS, Values, monomial, sample
@@ -82,6 +82,11 @@ class Diagnosis:
     def derived(self) -> sp.Expr:
         """The derived formula's expression."""
         return self.formula.expression
+
+    def __str__(self) -> str:
+        """Return name, verdict and correction on one line."""
+        repair = "" if self.verdict == EQUAL else f", {self.kind}: {to_plain(self.repair)}"
+        return f"{self.name}: {self.verdict}{repair}"
 
     def _repr_latex_(self) -> str:
         sign = "=" if self.verdict == EQUAL else r"\neq"
@@ -246,14 +251,14 @@ def _case(
         raise FormulaError(
             f"{given!s:.80} has no value at random points: check for a division by zero"
         )
-    factors = factor_pool((given, derived))
+    factors = factor_pool((given, derived), meanings)
     for factor in factors:
         points.learn(factor)
     return _Case(
         formula,
         given,
         meanings,
-        VariantSearch(points, factors, term_pool(derived)),
+        VariantSearch(points, factors, term_pool(derived), sum_pool(derived)),
         have,
         points.values(derived),
     )

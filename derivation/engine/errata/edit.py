@@ -1,6 +1,6 @@
 """Single edits: changes at a position in a formula that give it the required value."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
@@ -20,6 +20,7 @@ from derivation.engine.errata.variant import (
     STRAY,
     SUM,
     SUPERFLUOUS,
+    SYMBOL,
     TWICE,
     Variant,
     VariantSearch,
@@ -30,6 +31,10 @@ from derivation.engine.errata.variant import (
 )
 
 _FEW = 3
+_LONE = -2.5
+"""Cost of a missing term, less than usual, of which only the other terms of its sum are printed."""
+_POWERS = (1, -1, 2, -2, Fraction(1, 2), Fraction(-1, 2))
+"""Powers of a sum in which a term is missing."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,6 +82,8 @@ def edit_of(variant: Variant, place: Position) -> Edit:
     elif variant.kind == SUPERFLUOUS:
         shown = variant.shown() if variant.shown else sp.sstr(new)
         says = f"take the parentheses away, {shown}, in {name_of(place)}"
+    elif variant.kind == SYMBOL:
+        says = variant.shown() if variant.shown else f"read {_text(new)}"
     elif variant.kind in (SIGN, STRAY, MISSING, CONSTANT, TWICE) and own_ratio(place):
         return ratio_edit(place, new / place.node, variant.extra, variant.kind)
     else:
@@ -101,6 +108,7 @@ def ratio_edits(place: Position, need: Values, search: VariantSearch) -> Iterato
     if simple is not None:
         yield ratio_edit(place, simple)
         return
+    yield from _lone_terms(place, ratio, search)
     for factor in search.factors:
         values = search.points.values(factor)
         for power in (-1, 1, -2, 2):
@@ -128,9 +136,46 @@ def ratio_edit(
         if place.node.is_number:
             return _edit(CONSTANT, place, new, f"read {_text(new)} for {_text(place.node)}", extra)
         return _edit(CONSTANT, place, new, f"multiply {where} by {_text(ratio)}", extra)
+    swapped = _swapped(place, ratio)
+    if swapped is not None:
+        old, other = swapped
+        inside = "" if place.node == old else f" in {where}"
+        says = f"read {_text(other)} instead of {_text(old)}{inside}"
+        return _edit(SYMBOL, place, new, says, extra)
     if kind not in (TWICE, MISSING) or ratio.as_numer_denom()[0].is_Symbol:
         kind, extra = _stray_or_missing(place, ratio), extra + _size(ratio)
     return _edit(kind, place, new, _ratio_words(where, ratio, kind), extra)
+
+
+def _swapped(place: Position, ratio: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:
+    """Return a power of a symbol and that of another one with which the ratio replaces it."""
+    powers = ratio.as_powers_dict()
+    if len(powers) != 2 or sum(powers.values()) != 0 or not all(s.is_Symbol for s in powers):
+        return None
+    printed = place.node.as_powers_dict()
+    for old, other in (tuple(powers), tuple(powers)[::-1]):
+        if (printed.get(old, sp.Integer(0)) * powers[old]).is_negative:
+            size = abs(powers[old])
+            return old**size, other**size
+    return None
+
+
+def _lone_terms(place: Position, ratio: Values, search: VariantSearch) -> Iterator[Edit]:
+    """Yield edits that add a term to a sum that has become a factor, as its only other term.
+
+    A sum x + y is then printed as x: the ratio of required to given value is a power of (x + y)/x.
+    """
+    for total in search.sums:
+        for term in total.args:
+            rest = total - term
+            values = search.points.values(total / rest)
+            for power in _POWERS:
+                if agree(values[0] ** power, ratio[0]):
+                    new = place.node * (total / rest) ** sp.Rational(power)
+                    if search.points.same(new / place.node, ratio):
+                        says = f"add the missing term {_text(term)} to {_text(rest)}"
+                        inside = "" if place.parent is None else f" in {name_of(place)}"
+                        yield _edit(SUM, place, new, says + inside, _LONE)
 
 
 def _stray_or_missing(place: Position, ratio: sp.Expr) -> str:
@@ -157,7 +202,8 @@ def _ratio_words(where: str, ratio: sp.Expr, kind: str) -> str:
 def _size(ratio: sp.Expr) -> float:
     """Return the additional cost of a monomial: further symbols make it less likely."""
     number, powers = ratio.as_coeff_Mul()
-    degree = sum(abs(factor.as_base_exp()[1]) for factor in sp.Mul.make_args(powers))
+    exponents = (factor.as_base_exp()[1] for factor in sp.Mul.make_args(powers))
+    degree = sum(abs(exponent) if exponent.is_number else 2 for exponent in exponents)
     return 0.6 * (float(degree) - 1) + (0.0 if number == 1 else 0.6 if number == -1 else 1.0)
 
 
@@ -239,15 +285,30 @@ def _products(term: sp.Expr) -> Iterator[sp.Expr]:
             yield sp.Mul(*some)
 
 
-def factor_pool(expressions: Sequence[sp.Expr]) -> tuple[sp.Expr, ...]:
-    """Return sums and functions that are factors in the expressions, in a fixed order."""
+def factor_pool(
+    expressions: Sequence[sp.Expr], dependent: Iterable[sp.Symbol] = ()
+) -> tuple[sp.Expr, ...]:
+    """Return sums, their roots and functions that are factors in the expressions.
+
+    Powers of dependent symbols, which are no monomials in the others, are included. The order is
+    fixed.
+    """
     found: set[sp.Expr] = set()
     for expression in expressions:
         found |= expression.atoms(sp.Function)
-        for product in expression.atoms(sp.Mul):
-            bases = (factor.as_base_exp()[0] for factor in product.args)
-            found.update(base for base in bases if isinstance(base, sp.Add))
+        for product in (expression, *expression.atoms(sp.Mul)):
+            for factor in sp.Mul.make_args(product):
+                base, exponent = factor.as_base_exp()
+                if isinstance(base, sp.Add):
+                    found.add(base)
+                if base in dependent or (isinstance(base, sp.Add) and not exponent.is_Integer):
+                    found.add(base ** abs(exponent))
     return tuple(sorted(found, key=sp.default_sort_key))
+
+
+def sum_pool(expression: sp.Expr) -> tuple[sp.Add, ...]:
+    """Return all sums in an expression, in a fixed order."""
+    return tuple(sorted(expression.atoms(sp.Add), key=sp.default_sort_key))
 
 
 def term_pool(expression: sp.Expr) -> tuple[sp.Expr, ...]:

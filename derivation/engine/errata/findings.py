@@ -83,6 +83,11 @@ class Finding:
         """The correction, with the remark if there is one."""
         return f"{self.diagnosis.repair}. {self.remark}" if self.remark else self.diagnosis.repair
 
+    def __str__(self) -> str:
+        """Return equation, name and correction on one line."""
+        repair = f": {to_plain(self.repair)}" if self.is_misprint else ""
+        return f"({self.printed.equation}) {self.printed.name}: {self.kind}{repair}"
+
     def to_json(self) -> dict[str, str | None]:
         """Return the finding as plain data under fixed keys."""
         diagnosis, vocabulary = self.diagnosis, self.formula.vocabulary

@@ -22,6 +22,7 @@ _INVERSE: dict[type[sp.Basic], Callable[[flint.acb], flint.acb]] = {
     sp.sinh: lambda w: w.asinh(),
     sp.cosh: lambda w: w.acosh(),
     sp.tanh: lambda w: w.atanh(),
+    sp.coth: lambda w: (1 / w).atanh(),
 }
 
 

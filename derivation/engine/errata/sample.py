@@ -96,6 +96,7 @@ def sample(
     known: list[dict[sp.Basic, flint.acb]] = []
     for point in points:
         values: dict[sp.Basic, flint.acb] = {s: flint.acb(to_ball(v)) for s, v in point.items()}
+        values[sp.I] = flint.acb(0, 1)  # roots of negative numbers, in candidates of the search
         for symbol in sorted(dependent, key=lambda s: len(relations[s].free_symbols)):
             values[symbol] = flint.acb(enclose(relations[symbol], values))
         known.append(values)

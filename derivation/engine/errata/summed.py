@@ -14,6 +14,10 @@ _LATEX_SUM = (
     r"(?P<factor>[^+]*?)\\sum(?:\\limits)?\s*_\s*(?:\{{\s*{index}\s*(?:=\s*1\s*)?\}}|{index})"
     r"\s*(?:\^\s*(?:\{{\s*\\infty\s*\}}|\\infty))?(?P<term>.*)"
 )
+_ONE_SUM = (
+    "expected no sum within another sum, because the formula is one sum over the modes: give one "
+    "term of it, without a summation sign"
+)
 
 
 def note(formula: Record) -> str | None:
@@ -25,8 +29,22 @@ def note(formula: Record) -> str | None:
 
 
 def without_latex_sum(text: str, vocabulary: Vocabulary) -> str:
-    r"""Return LaTeX of one mode's term, from ``\sum_{j=1}^{\infty} ...`` or from the term alone."""
+    r"""Return LaTeX of one mode's term, from ``\sum_{j=1}^{\infty} ...`` or from the term alone.
+
+    Raises
+    ------
+    FormulaError
+        If there are several sums, or one that is not over all modes.
+    """
+    count = len(re.findall(r"\\sum(?![A-Za-z])", text))
+    if count > 1:
+        raise FormulaError(_ONE_SUM)
     match = re.fullmatch(_LATEX_SUM.format(index=_index(vocabulary)), text, re.DOTALL)
+    if count and (match is None or match["term"].lstrip().startswith("^")):
+        raise FormulaError(
+            f"expected a sum over all modes, got {text:.60}: give one term of the sum, or write "
+            r"c \sum_{j=1}^{\infty} and the term"
+        )
     if match is None:
         return text
     return f"{match['factor']} ({match['term'].strip().rstrip('.,;')})"
@@ -43,12 +61,14 @@ def parse_contribution(text: str, vocabulary: Vocabulary, also: Mapping[str, sp.
     Raises
     ------
     FormulaError
-        If it cannot be read, or is not linear in its sums.
+        If it cannot be read, is not linear in its sums, or contains a sum within a sum.
     """
     plain = " ".join(text.split())
     calls = _sums(plain)
     if not calls:
         return parse(text, vocabulary, also)
+    if any(_holds(call, other) for call in calls for other in calls):
+        raise FormulaError(_ONE_SUM)
     marks = {f"summand_{place}": sp.Symbol(f"summand_{place}") for place in range(len(calls))}
     outer, terms = plain, {}
     for (name, mark), call in zip(marks.items(), calls, strict=True):
@@ -86,6 +106,11 @@ def _sums(plain: str) -> list[ast.Call]:
         ),
         key=lambda node: node.col_offset,
     )
+
+
+def _holds(call: ast.Call, other: ast.Call) -> bool:
+    """Return whether a call contains another one."""
+    return call is not other and any(node is other for node in ast.walk(call))
 
 
 def _check_limits(call: ast.Call, source: str, vocabulary: Vocabulary) -> None:

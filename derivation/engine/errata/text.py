@@ -1,8 +1,9 @@
 """Comparison of a formula given as text with the derived one, with values of both at a point."""
 
+import contextlib
 import itertools
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import ROUND_HALF_EVEN, Context, Decimal
 from fractions import Fraction
@@ -33,6 +34,14 @@ MAX_DIGITS = 1000
 _GUARD_DIGITS = (10, 100, 1000)
 _MAX_BINARY_EXPONENT = 1 << 18
 _ZERO_BITS = 8192
+_MOST_POINTS = 12
+"""Largest number of further points that are tried for a given formula without a real value."""
+NOT_REAL, NOT_PRINTED = "no real value", "too large or too small to print"
+"""What is stated instead of the given formula's value if it has none at any tried point."""
+
+
+class _SizeError(FormulaError):
+    """A value that is too large or too small to print."""
 
 
 @dataclass(frozen=True)
@@ -46,7 +55,8 @@ class TextDiagnosis:
     point
         The values at which both were evaluated.
     given_value, derived_value
-        Decimal values, correctly rounded.
+        Decimal values, correctly rounded; without a chosen point, `NOT_REAL` or `NOT_PRINTED` if
+        the given formula has no such value at the default point and near it.
     compared
         Note that one term of a sum was compared; None for other formulas.
     """
@@ -71,6 +81,10 @@ class TextDiagnosis:
     def ratio(self) -> sp.Expr | None:
         """Given over derived formula, if that is short; else None."""
         return self.diagnosis.ratio
+
+    def __str__(self) -> str:
+        """Return name, verdict and correction on one line."""
+        return str(self.diagnosis)
 
     def to_json(self) -> dict[str, object]:
         """Return the comparison as plain data under fixed keys."""
@@ -151,7 +165,13 @@ def diagnose_text(
     point = completed(chosen, names, meanings, conditions, own)
     points = itertools.chain([point], others(point, chosen, conditions, own))
     point, derived_value = _first(sides[1], points, own, digits)
-    given_value = _at(sides[0], point, own, digits)
+    if chosen:
+        given_value = _at(sides[0], point, own, digits)
+    else:
+        further = itertools.islice(others(point, chosen, conditions, own), _MOST_POINTS)
+        point, given_value, derived_value = _of_both(
+            sides, itertools.chain([point], further), own, digits, derived_value
+        )
     shown = tuple((n, literal) for n, (literal, _) in point.items())
     return TextDiagnosis(diagnosis, shown, given_value, derived_value, summed.note(formula))
 
@@ -186,7 +206,8 @@ def diagnosed(
     """
     point = parse_point(at)
     # A text that cannot be parsed, whatever its names mean, is rejected before the derivation.
-    anything = {word: sp.Symbol(word) for word in re.findall(r"[A-Za-z]\w*", text)}
+    words = re.findall(r"[A-Za-z]\w*" if latex else r"[A-Za-z]\w*+(?! *\()", text)
+    anything = {word: sp.Symbol(word) for word in words}
     own = chain.vocabulary
     bounded(lambda: read(text, own, anything, latex) and None, "reading the formula")
     known = chain.formulas()
@@ -215,6 +236,31 @@ def _first(
             errors.append(error)
     more = len(errors) - 1
     raise FormulaError(f"{errors[0]}" + (f"; {more} points near it have none" if more else ""))
+
+
+def _of_both(
+    sides: Sequence[sp.Expr],
+    points: Iterable[Point],
+    vocabulary: Vocabulary,
+    digits: int,
+    derived_value: str,
+) -> tuple[Point, str, str]:
+    """Return the first point at which both formulas have a value, with the values.
+
+    If there is none, return the first point, with the value of the derived formula and a note.
+    """
+    first: tuple[Point, str, str] | None = None
+    for point in points:
+        try:
+            given = _at(sides[0], point, vocabulary, digits)
+        except FormulaError as error:
+            note = NOT_PRINTED if isinstance(error, _SizeError) else NOT_REAL
+            first = first or (point, note, derived_value)
+            continue
+        with contextlib.suppress(FormulaError):
+            return point, given, _at(sides[1], point, vocabulary, digits)
+    assert first is not None  # at the first point the derived formula has a value
+    return first
 
 
 def _at(expression: sp.Expr, point: Point, vocabulary: Vocabulary, digits: int) -> str:
@@ -249,7 +295,7 @@ def _round(value: Fraction, digits: int) -> str:
 def _fraction(point: flint.arb) -> Fraction:
     mantissa, exponent = point.man_exp()
     if abs(int(exponent)) > _MAX_BINARY_EXPONENT:
-        raise FormulaError("the value is too large or too small to print: choose another point")
+        raise _SizeError(f"the value is {NOT_PRINTED}: choose another point")
     return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
 
 

@@ -5,8 +5,8 @@ before an expression is built.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from itertools import chain, combinations
+from dataclasses import dataclass, replace
+from itertools import chain, combinations, permutations
 
 import flint
 import sympy as sp
@@ -15,7 +15,7 @@ from derivation.engine.errata.position import BASE, FACTOR, TERMS, WHOLE, Positi
 from derivation.engine.errata.sample import Sample
 
 SIGN, CONSTANT, EXPONENT, SWAP = "sign", "constant ratio", "wrong exponent", "swapped function"
-STRAY, MISSING = "extra factor", "missing factor"
+STRAY, MISSING, SYMBOL = "extra factor", "missing factor", "swapped symbol"
 LOST, SUPERFLUOUS = "missing parentheses", "superfluous parentheses"
 FACE, TWICE, SUM = "other face", "factor counted twice", "wrong term"
 
@@ -26,6 +26,7 @@ COST: Mapping[str, float] = {
     STRAY: 2.4,
     MISSING: 2.4,
     SWAP: 2.5,
+    SYMBOL: 2.5,
     LOST: 2.8,
     SUPERFLUOUS: 2.9,
     FACE: 3.0,
@@ -78,11 +79,22 @@ class Variant:
 
 @dataclass(frozen=True)
 class VariantSearch:
-    """Data of the search: sample points, factors of both formulas, terms of the derived one."""
+    """Data of the search.
+
+    Parameters
+    ----------
+    points
+        The sample points.
+    factors
+        Factors of both formulas.
+    terms, sums
+        Terms of all sums of the derived formula, and the sums.
+    """
 
     points: Sample
     factors: tuple[sp.Expr, ...]
     terms: tuple[sp.Expr, ...]
+    sums: tuple[sp.Add, ...] = ()
 
     def variant(self, kind: str, new: sp.Expr, extra: float = 0.0) -> Variant:
         """Return a variant from an expression."""
@@ -153,10 +165,10 @@ def small_factors(symbols: Sequence[sp.Symbol]) -> Iterator[tuple[str, sp.Expr]]
 def other_functions(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
     """Yield other functions of the same argument, or the same function of a similar argument."""
     apply: Callable[[sp.Expr], sp.Expr]
-    if isinstance(node, sp.besselj):
+    if isinstance(node, sp.besselj | sp.besseli):
         order, argument = node.args
-        others = [sp.besselj(1 - order, argument)] if order in (0, 1) else []
-        apply = lambda x: sp.besselj(order, x)  # noqa: E731
+        others = [node.func(1 - order, argument)] if order in (0, 1) else []
+        apply = lambda x: node.func(order, x)  # noqa: E731
     elif node.func in _SHAPES:
         argument, apply = node.args[0], node.func
         others = [shape(argument) for shape in _SHAPES if shape is not node.func]
@@ -164,9 +176,14 @@ def other_functions(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
         return
     for new in others:
         yield search.variant(SWAP, new)
-    if isinstance(node, sp.sin | sp.cos | sp.tan | sp.besselj):
+    if isinstance(node, sp.sin | sp.cos | sp.tan | sp.besselj | sp.besseli):
         for kind, factor in small_factors(search.points.symbols):
             yield search.variant(kind, apply(factor * argument), 0.2)
+        for old, new in permutations(search.points.symbols, 2):
+            if argument.has(old):
+                says = f"read {new} instead of {old} in {sp.sstr(node)}"
+                other = search.variant(SYMBOL, apply(argument.subs(old, new)))
+                yield replace(other, shown=lambda text=says: text)  # type: ignore[misc]
 
 
 def other_faces(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:

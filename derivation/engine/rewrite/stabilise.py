@@ -171,9 +171,9 @@ def decayed(expression: sp.Expr, x: sp.Symbol) -> sp.Expr:
     for rule in RULES[: names.index("decay") + 1]:
         form = next(rule.apply(x, form), form)
     assert isinstance(form, Shape)  # as `decay` returns for every expression
-    _, value = assembled(form)
+    steps, value = assembled(form)
     assert isinstance(value, sp.Expr)  # switch points come later
-    return value
+    return value.xreplace({step.symbol: step.expression for step in steps})
 
 
 def operations(form: Rewritten) -> int:

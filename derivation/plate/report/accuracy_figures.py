@@ -130,7 +130,7 @@ def pareto_front(rows: Sequence[Row], kind: str) -> list[tuple[float, float]]:
 
 
 def keys(rows: Sequence[Row], colours: Mapping[str, Any]) -> Iterator[Line2D]:
-    """Yield the entries of the legend: families, arithmetics, and the Pareto front."""
+    """Yield the entries of the legend: families, kinds of arithmetic, and the Pareto front."""
     for family, colour in colours.items():
         yield Line2D([], [], color=colour, marker="o", ms=3, label=family)
     used = {row["arithmetic"].split(",")[0] for row in rows}

@@ -42,7 +42,9 @@ def test_data_have_rows_of_every_kind(committed: dict[str, Any]) -> None:
     assert committed["tools"]
 
 
-def test_production_beats_direct_summation_a_thousandfold(committed: dict[str, Any]) -> None:
+def test_generated_law_is_a_thousand_times_as_fast_as_direct_summation(
+    committed: dict[str, Any],
+) -> None:
     found = committed["headline"]
     assert found["digits"] >= 15
     best = found["reached"][-1]
@@ -50,7 +52,7 @@ def test_production_beats_direct_summation_a_thousandfold(committed: dict[str, A
     assert best["seconds"] / found["called"] > 1000
 
 
-def test_figures_repeat_byte_for_byte(committed: dict[str, Any]) -> None:
+def test_figures_are_reproducible(committed: dict[str, Any]) -> None:
     first, second = (
         saved(work_precision(committed, "inversion", "single"), ".pdf") for _ in range(2)
     )
@@ -58,7 +60,7 @@ def test_figures_repeat_byte_for_byte(committed: dict[str, Any]) -> None:
     assert saved(scaling_figure(committed), ".pdf").startswith(b"%PDF")
 
 
-def test_the_section_names_every_failure(committed: dict[str, Any]) -> None:
+def test_section_lists_every_failure(committed: dict[str, Any]) -> None:
     found = accuracy_context(committed)
     failing = {(r["task"], r["family"], r["regime"]) for r in committed["rows"] if r["fails"]}
     assert len(found["failures"]) == len(failing)
@@ -66,12 +68,12 @@ def test_the_section_names_every_failure(committed: dict[str, Any]) -> None:
     assert duration(0.0012) == r"1.2\,ms"
 
 
-def test_the_readme_shows_what_was_measured(committed: dict[str, Any]) -> None:
+def test_readme_agrees_with_the_record(committed: dict[str, Any]) -> None:
     text = (ROOT / reporting.README).read_text()
     assert readme.renewed(text, committed) == text, "to correct: platecontact report"
 
 
-def test_the_readmes_block_is_found_by_its_markers(committed: dict[str, Any]) -> None:
+def test_block_of_the_readme_is_found_by_its_markers(committed: dict[str, Any]) -> None:
     text = f"above\n{readme.BEGIN}\nold numbers\n{readme.END}\nbelow"
     found = readme.renewed(text, committed)
     assert found.startswith("above\n")
@@ -98,7 +100,7 @@ def brief(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.usefixtures("brief")
-def test_command_writes_data_of_the_methods_named(
+def test_command_writes_results_of_the_named_methods(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     out = tmp_path / "accuracy.json"
@@ -113,7 +115,7 @@ def test_command_writes_data_of_the_methods_named(
 
 
 @pytest.mark.usefixtures("brief")
-def test_the_committed_measurement_is_replaced_only_on_demand(
+def test_record_is_replaced_only_with_update(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     committed = tmp_path / "accuracy.json"
@@ -133,7 +135,7 @@ def test_the_committed_measurement_is_replaced_only_on_demand(
 
 
 @pytest.mark.usefixtures("brief")
-def test_a_contact_too_small_for_a_direct_sum_is_measured_all_the_same(
+def test_contact_too_small_for_a_direct_sum_is_measured(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     paper = ROOT / "derivation" / "scene" / "examples" / "paper.toml"
@@ -146,38 +148,38 @@ def test_a_contact_too_small_for_a_direct_sum_is_measured_all_the_same(
 
 
 @pytest.mark.parametrize(
-    ("arguments", "says"),
+    ("arguments", "expected"),
     [
         (["--method", "nonsense"], "nonsense"),
         (["--scene", "/nowhere/scene.toml"], "/nowhere/scene.toml"),
         (["--out", "/proc/nowhere/x.json"], "/proc/nowhere/x.json"),
     ],
 )
-def test_bad_input_is_one_message(
-    arguments: list[str], says: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+def test_invalid_input_gives_one_message(
+    arguments: list[str], expected: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     out = [] if "--out" in arguments else ["--out", str(tmp_path / "x.json")]
     assert main(["accuracy", *arguments, *out]) == 2
     message = capsys.readouterr().err
-    assert says in message
+    assert expected in message
     assert "Traceback" not in message
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_scene_beyond_the_law_is_refused() -> None:
+def test_scene_beyond_the_law_is_rejected() -> None:
     with pytest.raises(ValueError, match=r"^impact\.speed: "):
         run.scene_regime(0.13, 72.2, 1e6, 0.1, 1.0, 0.36e9, 0.43e9)
 
 
-def test_an_interrupted_run_keeps_what_was_there(tmp_path: Path) -> None:
+def test_interrupted_run_keeps_the_old_file(tmp_path: Path) -> None:
     program = """
 import sys, time
 from derivation import cli
 from derivation.plate.benchmark import run
-def endless(*arguments):
+def wait(*arguments):
     print("measuring", flush=True)
     time.sleep(300)
-run.panel = endless
+run.panel = wait
 sys.exit(cli.main(["accuracy", "--quick", "--out", sys.argv[1]]))
 """
     out = tmp_path / "accuracy.json"
@@ -187,7 +189,7 @@ sys.exit(cli.main(["accuracy", "--quick", "--out", sys.argv[1]]))
     assert out.read_text() == "old"
 
 
-def test_report_names_what_is_not_split_with_the_reason_and_what_is_with_its_remark() -> None:
+def test_report_lists_reasons_and_remarks_on_separated_errors() -> None:
     """Each reason is listed once with families and test cases; other rows are not listed."""
     why = "no long J0 here"
     row = {"family": "a_b", "regime": "thin", "fails": None, "errors": {"unsplit": why}}

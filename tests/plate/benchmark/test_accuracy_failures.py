@@ -43,12 +43,12 @@ Patch = pytest.MonkeyPatch
 
 
 @pytest.mark.skipif(not HAS_LONG, reason="recorded with long doubles")
-def test_methods_fail_in_the_regimes_recorded_and_for_the_reason_recorded() -> None:
+def test_methods_fail_as_recorded() -> None:
     """Each recorded failure is predicted by the method or was found by evaluating its numbers."""
     rows = json.loads(pipeline.MEASURED_ACCURACY.read_text())["rows"]
     names = "task", "regime", "family", "setting", "arithmetic"
     recorded = {tuple(row[name] for name in names): row["fails"] for row in rows}
-    told = 0
+    reported = 0
     for method in catalogue.methods():
         for regime in REGIMES:
             key = method.task, regime.name, method.family, method.setting, method.arithmetic
@@ -57,13 +57,13 @@ def test_methods_fail_in_the_regimes_recorded_and_for_the_reason_recorded() -> N
                 assert known is None or known.startswith(("no digit right", "gives no number"))
             else:
                 assert reason == known
-                told += 1
+                reported += 1
     assert recorded == {}
-    assert told > 20
+    assert reported > 20
 
 
 @pytest.mark.parametrize("regime", REGIMES, ids=lambda r: r.name)
-def test_quick_laws_in_doubles_give_numbers_or_say_why(regime) -> None:
+def test_fast_methods_in_doubles_give_numbers_or_a_reason(regime) -> None:
     for method in catalogue.methods(quick=True):
         if method.task != "law" or method.arithmetic != "float64" or method.one_by_one:
             continue
@@ -72,7 +72,7 @@ def test_quick_laws_in_doubles_give_numbers_or_say_why(regime) -> None:
             assert np.isfinite(found).all(), method.name
 
 
-def test_names_are_unique_and_unknown_ones_are_refused() -> None:
+def test_names_are_unique_and_unknown_ones_are_rejected() -> None:
     every = [(m.task, m.name) for m in catalogue.methods()]
     assert len(set(every)) == len(every)
     with pytest.raises(ValueError, match="Levin u"):
@@ -80,7 +80,7 @@ def test_names_are_unique_and_unknown_ones_are_refused() -> None:
     assert {m.family for m in catalogue.methods(["Levin u"])} == {"Levin u"}
 
 
-def test_a_thousand_digits_are_the_papers_alone_and_left_out_with_a_reason() -> None:
+def test_thousand_digits_only_for_the_paper_or_omitted_with_a_reason() -> None:
     deep = [m for m in catalogue.methods() if m.arithmetic.endswith("1000 digits")]
     assert {m.family for m in deep if m.fails(PAPER) is None} == {"small-a series"}
     for regime in REGIMES:
@@ -95,7 +95,7 @@ def test_without_long_doubles_all_other_methods_are_compared(monkeypatch: Patch)
     assert [m.name for m in catalogue.methods()] == [x for x in every if "long double" not in x]
 
 
-def test_without_long_doubles_the_headline_is_told_in_doubles(monkeypatch: Patch) -> None:
+def test_without_long_doubles_the_headline_uses_doubles(monkeypatch: Patch) -> None:
     """The accuracy of a direct sum in doubles increases with the number of modes."""
     monkeypatch.setattr(headline, "HAS_LONG", False)
     monkeypatch.setattr(headline, "QUICK_MODES", 1 << 19)
@@ -109,7 +109,7 @@ def test_without_long_doubles_the_headline_is_told_in_doubles(monkeypatch: Patch
 
 
 @pytest.mark.skipif(not HAS_LONG, reason="long double is a double")
-def test_the_headlines_sums_are_those_in_balls(monkeypatch: Patch) -> None:
+def test_sums_of_the_headline_agree_with_interval_arithmetic(monkeypatch: Patch) -> None:
     monkeypatch.setattr(headline, "CHUNK", 1024)
     monkeypatch.setattr(headline, "BLOCK", 512)
     a = deepest(PAPER)
@@ -121,7 +121,7 @@ def test_the_headlines_sums_are_those_in_balls(monkeypatch: Patch) -> None:
             assert digits(partial[2], as_ball(exact), 30) > least
 
 
-def test_a_plate_of_no_ordinary_size_is_not_prepared() -> None:
+def test_plate_of_extreme_size_is_not_prepared() -> None:
     with pytest.raises(ValueError, match="ordinary lengths"):
         shipped.prepared().ready(replace(PAPER, R=1e-300, h=1e-300, b=1e-299))
 
@@ -147,7 +147,7 @@ def fewer_digits(monkeypatch: Patch) -> None:
 
 
 @pytest.mark.usefixtures("fewer_digits")
-def test_what_fails_is_named_and_not_timed() -> None:
+def test_failing_methods_are_named_and_not_timed() -> None:
     """A method fails by partial NaN, no correct digit or its own statement.
 
     If all methods fail without usable numbers, nothing is timed.
@@ -167,7 +167,7 @@ def test_what_fails_is_named_and_not_timed() -> None:
 
 
 @pytest.mark.usefixtures("fewer_digits")
-def test_what_is_slow_is_called_once_with_a_shorter_array(monkeypatch: Patch) -> None:
+def test_slow_methods_are_called_once_with_a_shorter_array(monkeypatch: Patch) -> None:
     sizes = list[int]()
 
     def noted(a: Any) -> Any:
@@ -186,7 +186,7 @@ def test_what_is_slow_is_called_once_with_a_shorter_array(monkeypatch: Patch) ->
 
 
 @pytest.mark.usefixtures("fewer_digits")
-def test_scalar_methods_are_timed_alone_and_other_tasks_not_at_all() -> None:
+def test_scalar_methods_are_timed_with_single_calls() -> None:
     found = panels.panel("law", PAPER, [method(right, scalar=True)], True)
     assert found.vector is None
     [row] = found.rows
@@ -206,7 +206,7 @@ def row(family: str, total: float, seconds: float, setting: str = "") -> Benchma
     )
 
 
-def test_the_simplest_of_the_ties_wins_and_the_rest_are_named() -> None:
+def test_simplest_of_equally_fast_methods_wins() -> None:
     rows = [
         row("Chebyshev surrogate", 15.1, 2.0), row("production", 15.5, 2.3),
         row("table of cubics", 15.9, 2.42), row("split", 15.9, 9.0), row("Hertz", 0.1, 0.1),
@@ -223,7 +223,7 @@ def test_the_simplest_of_the_ties_wins_and_the_rest_are_named() -> None:
     assert found[15].relative == pytest.approx(2.3)
 
 
-def test_the_front_holds_what_nothing_beats() -> None:
+def test_pareto_front_has_the_undominated_methods() -> None:
     rows = [asdict(row("x", total, t)) for total, t in ((3, 2.0), (5, 1.0), (9, 4.0), (8, 5.0))]
     assert pareto_front(rows, "vector") == [(1.0, 5), (4.0, 9)]
 
@@ -231,7 +231,7 @@ def test_the_front_holds_what_nothing_beats() -> None:
 # --- growth of run time
 
 
-def test_a_line_and_where_it_is_left() -> None:
+def test_power_law_and_the_end_of_its_range() -> None:
     x = [1.0, 10.0, 100.0, 1000.0, 1e4]
     slope, leaves = scaling.line(x, [1 + t for t in x])
     assert slope == pytest.approx(1.0, abs=0.01)
@@ -239,7 +239,7 @@ def test_a_line_and_where_it_is_left() -> None:
     assert scaling.line(x, x)[1] is None
 
 
-def test_growth_is_of_calls_on_a_clock(monkeypatch: Patch) -> None:
+def test_growth_is_measured_with_a_simulated_clock(monkeypatch: Patch) -> None:
     """The run time is the lower quartile of seven calls, or one call if it is slow."""
     now, calls = [0.0], list[float]()
     monkeypatch.setattr(scaling, "CPU", lambda: now[0])
@@ -255,7 +255,7 @@ def test_growth_is_of_calls_on_a_clock(monkeypatch: Patch) -> None:
     assert 8e6 <= scaling.peak(lambda: np.ones(1_000_000)) < 9e6
 
 
-def test_studies_time_calls_that_agree(monkeypatch: Patch) -> None:
+def test_timed_methods_of_a_study_agree(monkeypatch: Patch) -> None:
     """The methods that a study times agree on their results."""
     monkeypatch.setattr(scaling, "growth", lambda what, _, x, calls, why: (what, x, calls, why))
     monkeypatch.setattr(scaling, "ARRAY", scaling.SPLIT_POINTS)
@@ -265,10 +265,10 @@ def test_studies_time_calls_that_agree(monkeypatch: Patch) -> None:
             np.testing.assert_allclose(first(), second(), rtol=1e-12)
     found = dict(zip(METHODS, scaling.scenes(quick=True), strict=True))
     results = {name: growth[2][1]() for name, growth in found.items()}
-    true = results["full"].contact_time
-    np.testing.assert_allclose(results["coarse"].contact_time, true, rtol=1e-8)
+    reference = results["full"].contact_time
+    np.testing.assert_allclose(results["coarse"].contact_time, reference, rtol=1e-8)
     for name in ("hertz", "leading"):
-        known = [(x, t) for x, t in zip(results[name], true, strict=True) if x is not None]
+        known = [(x, t) for x, t in zip(results[name], reference, strict=True) if x is not None]
         assert known
         assert all(abs(x.contact_time / t - 1) <= x.law + 1e-12 for x, t in known)
     assert list(dict(scaling.studies(quick=True))) == ["points", "b/h", "digits", "scenes"]
@@ -277,7 +277,7 @@ def test_studies_time_calls_that_agree(monkeypatch: Patch) -> None:
 # --- other programs
 
 
-def test_programs_are_read_or_said_to_be_missing(monkeypatch: Patch) -> None:
+def test_results_of_programs_are_read_or_reported_missing(monkeypatch: Patch) -> None:
     monkeypatch.delenv(tools.VARIABLE, raising=False)
     found = tools.tools()
     for own in found[:2]:
@@ -291,17 +291,17 @@ def test_programs_are_read_or_said_to_be_missing(monkeypatch: Patch) -> None:
 
 
 @pytest.mark.parametrize(
-    ("python", "says"),
+    ("python", "message"),
     [
         (sys.executable, "not installed: ModuleNotFoundError"),
         ("/nowhere/python", "not installed: /nowhere/python: No such file or directory"),
     ],
 )
-def test_a_program_that_cannot_run_is_missing(python: str, says: str) -> None:
-    assert (tools.run("LAMMPS", {tools.VARIABLE: python})[0].missing or "").startswith(says)
+def test_program_that_cannot_start_is_reported_missing(python: str, message: str) -> None:
+    assert (tools.run("LAMMPS", {tools.VARIABLE: python})[0].missing or "").startswith(message)
 
 
-def test_a_program_that_fails_or_hangs_is_missing(monkeypatch: Patch) -> None:
+def test_program_that_fails_or_hangs_is_reported_missing(monkeypatch: Patch) -> None:
     given, failed = {tools.VARIABLE: sys.executable}, subprocess.CompletedProcess([], 3, "", "")
     monkeypatch.setattr(subprocess, "run", lambda *_, **__: failed)
     assert tools.run("tamaas", given)[0].missing == "failed: no message"

@@ -104,14 +104,14 @@ def judged(method: Method, task: Problem) -> BenchmarkErrors:
     [(SINGLE, 6), (DOUBLE, 14.5), (LONG, 17.5 if HAS_LONG else 14.5), (Mpmath(30), 29)],
     ids=lambda ar: getattr(ar, "name", ""),
 )
-def test_arithmetics_agree_with_balls(ar, right: float) -> None:
+def test_arithmetics_agree_with_interval_arithmetic(ar, right: float) -> None:
     exact, given = BallArithmetic(60), np.array([1e-3, 0.3, 1.5, 1.7, 5.0])
     with ar.context(), exact.context():
         y = ar.array(given)
         balls = exact.array([as_ball(x) for x in y])
         for name in ("shape", "wall_shape", "excess"):
-            values, true = getattr(ar, name)(y), getattr(exact, name)(balls)
-            assert min(map(digits, values, true, [60] * len(y))) > right, name
+            values, reference = getattr(ar, name)(y), getattr(exact, name)(balls)
+            assert min(map(digits, values, reference, [60] * len(y))) > right, name
         turned = [as_ball(x.imag) for x in ar.turned(y)]
         assert min(map(digits, turned[1:], exact.shape(balls)[1:], [60] * 4)) > right - 1.5
 
@@ -120,7 +120,7 @@ def test_arithmetics_agree_with_balls(ar, right: float) -> None:
 @pytest.mark.parametrize(
     "ar", [DOUBLE, pytest.param(LONG, marks=needs_long)], ids=lambda ar: ar.name
 )
-def test_zeros_are_the_certified_ones_however_far(ar, number: int) -> None:
+def test_zeros_agree_with_certified_ones(ar, number: int) -> None:
     (j,), (slope,) = ar.zeros(number, number - 1)
     with flint.ctx.workprec(160):
         least = ar.digits - 1.3
@@ -128,15 +128,15 @@ def test_zeros_are_the_certified_ones_however_far(ar, number: int) -> None:
         assert digits(slope, zeros.j1_at_zero(number, 120), 30) > least
 
 
-def test_long_doubles_have_no_constant_of_a_double() -> None:
+def test_constants_of_long_doubles_have_full_precision() -> None:
     for ar in [Mpmath(30), *([LONG] if HAS_LONG else [])]:
         (found,) = sums.split(72, 6, ar).ready(PAPER)(RADII[-1:])
-        true = contact_balls.indentation(0.03, PAPER.R, PAPER.h, PAPER.b, 40)
+        reference = contact_balls.indentation(0.03, PAPER.R, PAPER.h, PAPER.b, 40)
         with flint.ctx.workprec(160):
-            assert digits(found, true, 40) > min(ar.digits - 2, 27)
+            assert digits(found, reference, 40) > min(ar.digits - 2, 27)
 
 
-def test_float32_goes_in_and_comes_out() -> None:
+def test_single_precision_is_kept() -> None:
     for method in methods():
         if method.arithmetic == "float32" and method.fails(PAPER) is None:
             point = {"law": 0.01, "inversion": 1e-4, "impact": 1.0}[method.task]
@@ -147,26 +147,26 @@ def test_float32_goes_in_and_comes_out() -> None:
 
 
 @pytest.mark.parametrize(("h", "order"), [(0.1, 1), (0.01, 5), (0.45, 23)])
-def test_coefficients_are_the_oracles(h: float, order: int) -> None:
+def test_coefficients_agree_with_the_reference(h: float, order: int) -> None:
     """The coefficients agree with the reference to 1e-30 of the sum at a/h = 0.5."""
     found = coefficients(replace(PAPER, h=h, speed=1e-3), 12, 30)[order // 2]
-    true = contact_balls.coefficient(order, h, 1.0, 32)
+    reference = contact_balls.coefficient(order, h, 1.0, 32)
     with flint.ctx.workprec(160):
-        assert abs(found - true) / 2**order < 1e-30
+        assert abs(found - reference) / 2**order < 1e-30
 
 
 @pytest.mark.parametrize("double_exponential", [True, False])
-def test_the_side_walls_nodes_by_either_rule_give_its_moments(double_exponential: bool) -> None:
+def test_both_quadrature_rules_give_the_moments_of_the_side_wall(double_exponential: bool) -> None:
     """The nodes and weights, which include 1/y^3, integrate y^n K0/I0 as the Arb reference does."""
     nodes, weights = sums.wall_nodes(64, 16, double_exponential, 120)
     y, w = (np.array([float(x) for x in column]) for column in (nodes, weights))
     for n in (0, 2, 4):
-        true = float(contact_balls.kappa(n, 20))
-        off = abs((w * y ** (n + 3)).sum() / true - 1)
+        reference = float(contact_balls.kappa(n, 20))
+        off = abs((w * y ** (n + 3)).sum() / reference - 1)
         assert off < (1e-13 if double_exponential else 1e-8)  # limited by the logarithm of K0 at 0
 
 
-def test_levins_transformation_sums_an_alternating_series() -> None:
+def test_levin_transformation_sums_an_alternating_series() -> None:
     n = np.arange(1, 13.0)
     terms = (-1) ** (n + 1) / n
     found = sums.u_transform(np.cumsum(terms) + 0j, n * terms + 0j, n)
@@ -174,7 +174,7 @@ def test_levins_transformation_sums_an_alternating_series() -> None:
 
 
 @pytest.mark.parametrize("regime", [THIN, PAPER, THICK, LARGE], ids=lambda r: r.name)
-def test_a_force_in_plain_python_is_the_generated_one(regime) -> None:
+def test_force_in_plain_python_agrees_with_the_generated_code(regime) -> None:
     r, scalar = regime, motion.scalar_force(regime)
     depths = indentation(np.array([1e-3, 0.1, 0.5, 1.0]) * r.h * min(r.high, 5.5), r.R, r.h, r.b)
     expected = force(depths, r.R, r.h, r.b, r.lam, r.mu)
@@ -183,7 +183,7 @@ def test_a_force_in_plain_python_is_the_generated_one(regime) -> None:
 
 
 @pytest.mark.parametrize("regime", REGIMES[:4], ids=lambda r: r.name)
-def test_the_series_invert_and_bounce_like_the_generated_code(regime) -> None:
+def test_series_agree_with_the_generated_inverse_and_impact(regime) -> None:
     r, top = regime, deepest(regime)
     depths = indentation(top * np.array([0.01, 0.3, 1.0]), r.R, r.h, r.b)
     expected = force(depths, r.R, r.h, r.b, r.lam, r.mu)
@@ -197,7 +197,7 @@ def test_the_series_invert_and_bounce_like_the_generated_code(regime) -> None:
     assert laws.diverges(LARGE)
 
 
-def test_steps_that_run_out_give_no_time(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_integration_without_enough_steps_gives_nan(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(motion, "MOST_STEPS", 20)
     assert np.isnan(motion.verlet(100).ready(PAPER)(np.array([1.0]))).all()
 
@@ -206,7 +206,7 @@ def test_steps_that_run_out_give_no_time(monkeypatch: pytest.MonkeyPatch) -> Non
 
 
 @pytest.mark.parametrize("regime", [THIN, PAPER, LARGE], ids=lambda r: r.name)
-def test_the_whole_law_is_the_oracles(regime) -> None:
+def test_complete_series_agrees_with_the_reference(regime) -> None:
     r, ar, a = regime, exact_for(DOUBLE), deepest(regime) * np.array([0.01, 0.3, 1.0])
     with ar.context():
         law, A = laws.SeriesLaw(r, ar), ar.array(a) / ar.number(r.h)
@@ -222,14 +222,14 @@ def test_the_whole_law_is_the_oracles(regime) -> None:
     assert digits(time, bounce(r).reference_values[0], 32) > 30
 
 
-def test_a_law_that_would_take_minutes_says_so() -> None:
+def test_law_that_would_take_minutes_is_rejected() -> None:
     thin = replace(LARGE, h=1e-5, speed=0.003)
     assert deepest(thin) / thin.h > 4
     with pytest.raises(NotImplementedError, match="thin a plate takes minutes"):
         laws.SeriesLaw(thin, exact_for(DOUBLE))
 
 
-def test_the_papers_law_is_judged_to_many_digits_by_another_oracle(
+def test_law_of_the_paper_agrees_with_another_reference_to_many_digits(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(problems, "MANY_DIGITS", 40)
@@ -237,8 +237,8 @@ def test_the_papers_law_is_judged_to_many_digits_by_another_oracle(
     set_task = problems.problem("law", PAPER, quick=False)
     assert set_task.digits == 40
     for a, value in list(zip(set_task.points, set_task.reference_values, strict=True))[:3]:
-        true = contact_balls.indentation(float(a), PAPER.R, PAPER.h, PAPER.b, 42)
-        assert digits(value, true, 50) > 39
+        reference = contact_balls.indentation(float(a), PAPER.R, PAPER.h, PAPER.b, 42)
+        assert digits(value, reference, 50) > 39
 
 
 # --- truncation and rounding
@@ -285,7 +285,7 @@ SPLITS = {
 
 
 @pytest.mark.parametrize("task", SPLITS)
-def test_truncation_and_rounding_are_told_apart(task: str, law, pressed, bounced) -> None:
+def test_truncation_and_rounding_are_separated(task: str, law, pressed, bounced) -> None:
     where = {"law": law, "inversion": pressed, "impact": bounced}[task]
     for method, truncation, rounding in SPLITS[task]:
         found = judged(method, where)
@@ -295,7 +295,7 @@ def test_truncation_and_rounding_are_told_apart(task: str, law, pressed, bounced
 
 
 @needs_long
-def test_long_sums_truncate_like_those_in_more_digits(law: Problem) -> None:
+def test_truncation_in_long_doubles_equals_that_in_more_digits(law: Problem) -> None:
     task = replace(law, points=RADII[1:], reference_values=law.reference_values[1:])
     method = sums.direct(1500)
     assert method.split == "long"
@@ -304,7 +304,7 @@ def test_long_sums_truncate_like_those_in_more_digits(law: Problem) -> None:
     assert found.rounding == pytest.approx(again.rounding, abs=0.02)
 
 
-def test_other_units_tell_what_longer_numbers_do(law, pressed, bounced) -> None:
+def test_separation_by_units_agrees_with_separation_by_digits(law, pressed, bounced) -> None:
     """Splitting errors by other units or by more digits gives the same parts.
 
     If truncation is below rounding, the estimate is only a bound.
@@ -322,7 +322,7 @@ def test_other_units_tell_what_longer_numbers_do(law, pressed, bounced) -> None:
             assert estimate.truncation == pytest.approx(exact.truncation, abs=0.01)
 
 
-def test_a_force_of_fewer_bits_is_seen_as_rounding(bounced, monkeypatch) -> None:
+def test_force_with_fewer_bits_counts_as_rounding(bounced, monkeypatch) -> None:
     exact = motion.scalar_force
 
     def short(regime):
@@ -334,33 +334,33 @@ def test_a_force_of_fewer_bits_is_seen_as_rounding(bounced, monkeypatch) -> None
 
 
 @pytest.mark.parametrize("name", ["DOP853", "Radau", "LSODA"])
-def test_a_solvers_truncation_falls_with_its_tolerance(bounced, deep, name: str) -> None:
+def test_truncation_of_a_solver_decreases_with_its_tolerance(bounced, deep, name: str) -> None:
     for where in (bounced, deep):
         loose, tight = (judged(motion.solver(name, rtol), where) for rtol in (1e-6, 1e-9))
         assert loose.truncation + 1.5 < tight.truncation < tight.rounding
         assert loose.truncation == pytest.approx(loose.total, abs=0.05)
 
 
-def test_the_spread_of_numbers_is_their_mean_and_deviation() -> None:
+def test_spread_has_mean_and_standard_deviation() -> None:
     found = errors.spread([arb(1), arb(2), arb(3)])
     assert float(found.mid()) == 2
     assert float(found.rad()) == pytest.approx(1)
 
 
-def test_what_cannot_be_split_says_why(bounced, monkeypatch) -> None:
+def test_unseparated_errors_have_a_reason(bounced, monkeypatch) -> None:
     monkeypatch.setattr(errors, "HAS_LONG", False)
     found = errors.split(sums.direct(2000), replace(bounced, points=RADII[:1]), [1.0])
     assert (found.truncation, found.rounding) == (None, None)
     assert "long double" in (found.unsplit or "")
 
 
-def test_what_truncates_nothing_has_rounding_alone(pressed) -> None:
+def test_methods_without_truncation_have_only_rounding(pressed) -> None:
     found = judge(shipped.newton(), pressed, lambda: 0.0).errors
     assert (found.truncation, found.rounding) == (None, found.total)
     assert found.total > 14.5
 
 
-def test_digits_of_no_number_and_of_exact_ones() -> None:
+def test_digits_of_nan_and_of_exact_values() -> None:
     one = arb(1)
     assert digits(math.nan, one, 30) == -math.inf
     assert digits(1.0, one, 30) == 30
@@ -370,9 +370,9 @@ def test_digits_of_no_number_and_of_exact_ones() -> None:
 # --- Arb intervals
 
 
-def test_a_balls_radius_is_rounding_whatever_is_left_out(bounced, monkeypatch) -> None:
+def test_radius_of_an_interval_is_rounding(bounced, monkeypatch) -> None:
     """The radius of an interval is unchanged without the bounds of omitted terms."""
-    p, made, asked = PAPER, contact_sums._panels, []
+    p, made, called_with = PAPER, contact_sums._panels, []
 
     def computed() -> list[arb]:
         return [
@@ -382,14 +382,14 @@ def test_a_balls_radius_is_rounding_whatever_is_left_out(bounced, monkeypatch) -
 
     def without(*arguments):
         panels, _ = made(*arguments)
-        asked.append(arguments)
+        called_with.append(arguments)
         return tuple(panel._replace(bound=arb(0)) for panel in panels), arb(0)
 
     whole = computed()
     monkeypatch.setattr(contact_sums, "_panels", without)
     for ball, bare in zip(whole, computed(), strict=True):
         assert float(bare.rad() / ball.rad()) == pytest.approx(1, rel=1e-6)
-    assert asked
+    assert called_with
     monkeypatch.undo()
     found = judge(shipped.oracle("impact", 30), bounced, lambda: 0.0).errors
     assert (found.truncation, found.unsplit) == (None, None)

@@ -70,7 +70,7 @@ def test_force_and_its_inverse() -> None:
     assert np.allclose(law.max_pressure(a, 0.02, LAM, MU), 1.5 * mean, rtol=1e-14, atol=0)
 
 
-def test_reversed_series_within_its_radius_and_not_beyond() -> None:
+def test_reversed_series_is_nan_beyond_its_radius() -> None:
     plate_coefficients = contact_series.plate_coefficients
     reversed_force = reversed_series.force_by_series
     for b in (5.0, 20.0, 1000.0, 1.5):
@@ -87,7 +87,7 @@ def test_reversed_series_within_its_radius_and_not_beyond() -> None:
             assert np.isnan(found).tolist() == [False, True]
 
 
-def test_the_law_holds_from_the_thinnest_plate_to_the_widest_contact() -> None:
+def test_law_covers_extreme_plates_and_wide_contacts() -> None:
     """The law covers 1e-90 < h/b < 1e90 and contact radii up to 6 h, and gives NaN beyond.
 
     For a thin plate c_1 is 1/(4 pi eta^2).
@@ -101,13 +101,13 @@ def test_the_law_holds_from_the_thinnest_plate_to_the_widest_contact() -> None:
     assert abs(found[0] - 6.0) < 1e-14
 
 
-def test_a_reversed_series_of_one_term_is_hertzs_force() -> None:
+def test_reversed_series_of_one_term_is_the_hertz_force() -> None:
     found = reversed_series.force_by_series(1e-6, 0.02, 0.02, 0.02, LAM, MU, terms=1)
     modulus = 4 * MU * (LAM + MU) / (LAM + 2 * MU)
     assert abs(found / (4 / 3 * modulus * np.sqrt(0.02) * 1e-9) - 1) < 1e-14
 
 
-def test_many_plates_are_as_one() -> None:
+def test_arrays_of_plates_equal_single_plates() -> None:
     eta = np.geomspace(1e-5, 50, 40)
     A = 0.7 * np.minimum(6, 1 / eta)
     together = law.indentation(A, 1e6, 1.0, 1 / eta)
@@ -119,7 +119,7 @@ def test_many_plates_are_as_one() -> None:
 
 
 @pytest.mark.parametrize(("b", "end"), [(2.0, 2.0), (6.0, 3.6)])
-def test_an_impact_up_to_where_the_law_ends(b: float, end: float) -> None:
+def test_impact_up_to_the_limit_of_the_law(b: float, end: float) -> None:
     """An impact can reach the limit of the contact law, which is a = b or a = 6 h."""
     R, m, h = 20.0, 3e7, 0.6
     energy = contact_impact.stored_energy(np.nextafter(end, 0.0), R, h, b, LAM, MU, digits=18)
@@ -149,7 +149,7 @@ SCENES = (
 
 
 @pytest.mark.parametrize("scene", SCENES)
-def test_energy_along_the_history(scene) -> None:
+def test_history_conserves_energy(scene) -> None:
     R, m, v0, h, b, lam, mu = scene
     found = impact.impact(*scene)
     t = np.linspace(1e-6, 1 - 1e-6, 57) * found.contact_time
@@ -167,7 +167,7 @@ def test_energy_along_the_history(scene) -> None:
 
 
 @pytest.mark.parametrize("scene", SCENES)
-def test_history_moves_at_its_velocity(scene) -> None:
+def test_velocity_is_the_derivative_of_the_indentation(scene) -> None:
     found = impact.impact(*scene)
     t = np.linspace(0.1, 0.9, 25) * found.contact_time
     step = 1e-3 * found.contact_time

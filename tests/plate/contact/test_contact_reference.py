@@ -40,7 +40,7 @@ def close(ball: flint.arb, expected: mpf | str, digits: int) -> bool:
 
 
 @pytest.mark.parametrize("n", [0, 2, 6])
-def test_kappa_against_quadrature(n: int) -> None:
+def test_kappa_agrees_with_quadrature(n: int) -> None:
     with mp.workdps(30):
         direct = mp.quad(
             lambda u: 3 * u ** (3 * n + 2) * mp.besselk(0, u**3) / mp.besseli(0, u**3),
@@ -61,13 +61,13 @@ def test_finite_parts(k: int, value: str) -> None:
     assert close(contact_balls.finite_part(k, 30), value, 22)
 
 
-def test_first_coefficient_passes_zero() -> None:
+def test_first_coefficient_changes_sign() -> None:
     left, right = (contact_balls.coefficient(1, h, 1.0, 30) for h in (0.53, 0.5304))
     assert left > 0
     assert right < 0
 
 
-def test_thin_plates_coefficients_are_the_closed_forms() -> None:
+def test_coefficients_of_thin_plates_have_closed_forms() -> None:
     """For a thin plate c_1, c_3 and c_5 have closed forms with M_2, M_3 and M_4.
 
     The error is of order e^(-4.2/eta), which is 10^-91 here.
@@ -85,7 +85,7 @@ def test_thin_plates_coefficients_are_the_closed_forms() -> None:
             assert close(contact_balls.coefficient(order, eta, 1.0, 40), mp.nstr(value, 45), 35)
 
 
-def test_series_is_the_law() -> None:
+def test_series_agrees_with_the_law() -> None:
     """Six terms of the series give the law at a/h = 1/100."""
     a, h, b = 0.002, 0.2, 1.0
     with flint.ctx.workprec(300):
@@ -99,7 +99,7 @@ def test_series_is_the_law() -> None:
 # --- limits
 
 
-def test_thick_plate_is_a_half_space_with_a_rim() -> None:
+def test_thick_plate_is_a_half_space_with_an_edge() -> None:
     a, b = 1e-6, 1.0
     far = contact_balls.departure(a, 100.0, b, 30)
     assert float(far) / a == pytest.approx(-0.36953, abs=1e-5)
@@ -107,14 +107,14 @@ def test_thick_plate_is_a_half_space_with_a_rim() -> None:
 
 
 @pytest.mark.parametrize("eta", [1e-3, 1e-4])
-def test_thin_plate_bends_as_kirchhoffs(eta: float) -> None:
+def test_thin_plate_agrees_with_kirchhoff(eta: float) -> None:
     """F/(a/h) tends to 1/(4 pi eta^2), Kirchhoff's deflection P b^2/(8 pi D)."""
     a = 1e-2 * eta
     far = float(contact_balls.departure(a, eta, 1.0, 30))
     assert far / (a / eta) * 4 * math.pi * eta**2 == pytest.approx(1.0, abs=60 * eta**2)
 
 
-def test_impact_of_a_half_space_is_hertzs() -> None:
+def test_impact_on_a_half_space_agrees_with_hertz() -> None:
     """For a small contact the contact time is Hertz's, 2 * 1.4716375921623523 delta/v0."""
     R, m, v0, lam, mu = 1.0, 1.0, 1e-40, 0.0, 0.5
     found = contact_impact.impact(R, m, v0, 1.0, 1.0, lam, mu, 20)
@@ -122,7 +122,7 @@ def test_impact_of_a_half_space_is_hertzs() -> None:
     assert constant == pytest.approx(2 * 1.4716375921623523, rel=1e-14)
 
 
-def test_plate_excess_series_meets_the_closed_form() -> None:
+def test_series_of_the_plate_factor_agrees_with_the_closed_form() -> None:
     with flint.ctx.workprec(200):
         for T in (1.999999, 2.000001):
             with mp.workdps(50):
@@ -156,7 +156,7 @@ def test_history_ends_at_half_the_contact_time() -> None:
     assert float(late) == pytest.approx(float(found.contact_time) / 2, rel=1e-6)
 
 
-def test_states_about_the_turning_point_keep_the_energy_and_meet() -> None:
+def test_states_near_the_turning_point_conserve_energy() -> None:
     """States near the turning point conserve energy, and two methods agree on the speed.
 
     The state is computed by a series next to the turning point and by Newton's iteration
@@ -183,7 +183,7 @@ def test_states_about_the_turning_point_keep_the_energy_and_meet() -> None:
         assert all(abs(rate / rates[2] - 1) < 1e-22 for rate in rates[1:4])
 
 
-def test_states_of_a_grazing_contact_fly_freely() -> None:
+def test_states_at_the_ends_of_a_contact_are_nearly_free_motion() -> None:
     case = (0.01, 0.03, 1.0, 0.1, 1.0, 1.2e11, 8e10)
     whole = contact_impact.impact(*case, digits=40).contact_time
     for t in (1e-20, math.nextafter(float(whole), 0.0) * (1 - 1e-15)):
@@ -195,7 +195,7 @@ def test_states_of_a_grazing_contact_fly_freely() -> None:
             assert abs(radius**2 / (arb(0.01) * left) - 1) < 1e-6
 
 
-def test_edge_of_the_plate_is_refused() -> None:
+def test_contact_at_the_edge_is_rejected() -> None:
     with pytest.raises(ValueError, match="a/b < 1"):
         contact_balls.indentation(1.0, 2.0, 0.5, 1.0)
     with pytest.raises(ValueError, match="edge"):
@@ -209,7 +209,7 @@ def test_edge_of_the_plate_is_refused() -> None:
 # --- agreement of both references
 
 
-def test_oracles_agree_on_the_law() -> None:
+def test_references_agree_on_the_law() -> None:
     generator = random.Random("contact law")
     for eta in (1e-4, 10 ** generator.uniform(-3.5, -1.5), 10 ** generator.uniform(-1.4, 2.0), 1e2):
         for ratio in (10 ** generator.uniform(-8.0, -1.0), generator.uniform(0.5, 6.0)):
@@ -218,7 +218,7 @@ def test_oracles_agree_on_the_law() -> None:
             contact_agreement.agree("slope", (a, 2.0, eta, 1.0), 40)
 
 
-def test_oracles_agree_on_the_inversion() -> None:
+def test_references_agree_on_the_inversion() -> None:
     contact_agreement.agree("contact_radius", (1.04629, 2.0, 0.1, 1.0), 40)
 
 
@@ -236,7 +236,7 @@ def reaching(a: float, h: float) -> contact_grid.ContactShape:
         pytest.param(reaching(0.971, 3.0), -0.35885, id="thick"),
     ],
 )
-def test_oracles_agree_on_impacts(
+def test_references_agree_on_impacts(
     where: tuple[float, ...] | contact_grid.ContactShape, bending: float
 ) -> None:
     """Both references agree to 24 digits; c_1 A measures the deviation from Hertz's impact."""
@@ -252,24 +252,24 @@ def test_disagreement_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.parametrize(
-    ("oracle", "part"), [(contact_impact, "modulus"), (contact_routes, "hertz_stiffness")]
+    ("reference", "part"), [(contact_impact, "modulus"), (contact_routes, "hertz_stiffness")]
 )
-def test_an_error_in_either_oracle_of_impacts_is_caught(
-    monkeypatch: pytest.MonkeyPatch, oracle: ModuleType, part: str
+def test_error_in_either_reference_of_impacts_is_detected(
+    monkeypatch: pytest.MonkeyPatch, reference: ModuleType, part: str
 ) -> None:
     """A relative error of 1e-20 in one reference is detected, though the results change less."""
-    right = getattr(oracle, part)
+    right = getattr(reference, part)
 
     def wrong(*arguments: float) -> flint.arb | mpf:
         value = right(*arguments)
         return value + value / 10**20
 
-    monkeypatch.setattr(oracle, part, wrong)
+    monkeypatch.setattr(reference, part, wrong)
     with pytest.raises(OracleError, match="against"):
         contact_agreement.agree("impact", (2.0, 1.0, 0.01, 3.0, 1.0, 0.0, 0.5), 22)
 
 
-def test_energy_is_what_the_impact_brings() -> None:
+def test_work_equals_the_kinetic_energy() -> None:
     R, m, v0, h, b, lam, mu = contact_grid.PAPERS_IMPACT
     found = contact_impact.impact(R, m, v0, h, b, lam, mu, 20)
     radius = float(found.max_contact_radius)
@@ -285,7 +285,7 @@ def rounded(*point: Any) -> float:
     return float(contact_balls.indentation(*(np.asarray(x).item() for x in point), 25))
 
 
-def test_a_rounded_reference_passes_and_a_wrong_one_does_not() -> None:
+def test_rounded_value_passes_and_wrong_value_fails() -> None:
     points = {"indentation": ((0.3, 2.0, 0.1, 1.0), (0.9, 2.0, 3.0, 1.0))}
     (row,) = contact.check({"indentation": rounded}, points)
     assert row.passed
@@ -297,64 +297,64 @@ def test_a_rounded_reference_passes_and_a_wrong_one_does_not() -> None:
     assert row.max_error == math.inf
 
 
-def test_contacts_are_judged_in_units_of_their_format() -> None:
+def test_errors_are_in_units_of_the_format() -> None:
     """The error of a force is compared with the resolution of its floating-point format.
 
     P = 16 mu (lam + mu) a^3/(3 R (lam + 2 mu)) has the condition numbers 3 (a), 1 (R) and 1
     (both moduli together).
     """
     point = (0.25, 2.0, 0.0, 0.75)
-    true = contact_reference.reference_value(("force_of_radius", point))
+    exact = contact_reference.reference_value(("force_of_radius", point))
     total = contact_judge.conditioning(contact_law.force_of_radius, point)
     assert total == pytest.approx([5.0], rel=1e-8)
     for fmt in (DOUBLE, SINGLE):
         kind = np.dtype(fmt.name).type
-        right = kind(float(flint.arb(true.values[0])))
+        right = kind(float(flint.arb(exact.values[0])))
 
         def off(*_: float, ulps: int = 0, right: Any = right) -> Any:
             return right + ulps * np.spacing(right)
 
-        kept = contact_judge.judge(off, [true], 8.0, fmt)
+        kept = contact_judge.judge(off, [exact], 8.0, fmt)
         assert kept.kept(fmt)
         assert kept.max_ulp <= 0.5
-        broken = contact_judge.judge(partial(off, ulps=11), [true], 8.0, fmt)
+        broken = contact_judge.judge(partial(off, ulps=11), [exact], 8.0, fmt)
         assert not broken.kept(fmt)
         assert 10.0 < broken.needed <= 11.5  # a constant function has no condition number
-    nan = contact_judge.judge(lambda *_: np.float64(math.nan), [true], 8.0)
+    nan = contact_judge.judge(lambda *_: np.float64(math.nan), [exact], 8.0)
     assert nan.ratio == math.inf
-    always_double = contact_judge.judge(contact_law.force_of_radius, [true], 8.0, SINGLE)
+    always_double = contact_judge.judge(contact_law.force_of_radius, [exact], 8.0, SINGLE)
     assert always_double.kept(SINGLE)
-    wrong_type = contact_judge.judge(lambda *_: np.float64(0.1), [true], 8.0, SINGLE)
+    wrong_type = contact_judge.judge(lambda *_: np.float64(0.1), [exact], 8.0, SINGLE)
     assert not wrong_type.kept(SINGLE)
     assert wrong_type.dtype == "float64"
 
 
-def test_forces_by_both_oracles_agree() -> None:
+def test_references_agree_on_forces() -> None:
     for name in ("force", "force_of_radius", "radius_of_force", "max_pressure"):
         shape = contact_grid.grid(name)[100]
         assert contact_reference.reference_value((name, shape)).digits >= 24
 
 
-def test_check_refuses_what_it_does_not_know() -> None:
+def test_check_rejects_unknown_functions() -> None:
     with pytest.raises(ValueError, match="kernels: expected"):
         contact.check({"depth": rounded})
 
 
-def test_grids_keep_inside_the_plate() -> None:
+def test_grids_are_inside_the_plate() -> None:
     for shape in contact_grid.grid("indentation"):
         assert 0 < shape.a < shape.b
         assert shape.a <= 6 * shape.h
 
 
-def test_several_processes_answer_as_one() -> None:
+def test_several_processes_give_the_same_result() -> None:
     jobs = [("stiffness", shape) for shape in contact_grid.grid("stiffness")[100:102]]
-    told: list[tuple[str, int, int]] = []
+    reported: list[tuple[str, int, int]] = []
     alone = contact_reference.reference_values(jobs)
-    assert contact_reference.reference_values(jobs, 2, lambda *what: told.append(what)) == alone
-    assert told == [("stiffness", 1, 2), ("stiffness", 2, 2)]
+    assert contact_reference.reference_values(jobs, 2, lambda *what: reported.append(what)) == alone
+    assert reported == [("stiffness", 1, 2), ("stiffness", 2, 2)]
 
 
-def test_committed_measurements_cover_what_is_stated() -> None:
+def test_record_covers_the_stated_range() -> None:
     """Every function is within its budget in both formats, and within 2e-15 of both references.
 
     The impacts have c_1 A from -0.369 to 1e10.

@@ -105,7 +105,9 @@ def ball(value: flint.arb, digits: int = 25) -> mp.mpf:
 
 
 @pytest.mark.parametrize("eta_text", ETAS)
-def test_influence_at_infinity(motion: Mapping[str, Formula], eta_text: str) -> None:
+def test_limit_of_the_influence_for_high_modes(
+    motion: Mapping[str, Formula], eta_text: str
+) -> None:
     """phi^3 K_j from its closed form at the 300th mode agrees with the limit."""
     b_v, R_v = mp.mpf("1.7"), mp.mpf("0.4")
     j = mp.besseljzero(0, 300)
@@ -116,7 +118,7 @@ def test_influence_at_infinity(motion: Mapping[str, Formula], eta_text: str) -> 
 
 
 @pytest.mark.parametrize("k", [2, 3])
-def test_truncated_gamma_grows_as_told(motion: Mapping[str, Formula], k: int) -> None:
+def test_truncated_gamma_has_the_derived_growth(motion: Mapping[str, Formula], k: int) -> None:
     """The partial sum of 400 modes has the derived leading growth, for h = 0.3 and the rest 1."""
     point = {"a": 1, "P": 1, "R": 1, "b": 1}
     formula = motion[f"gamma_{k}_truncated"].expression
@@ -128,7 +130,7 @@ def test_truncated_gamma_grows_as_told(motion: Mapping[str, Formula], k: int) ->
     assert abs(partial / expected - 1) < mp.mpf("2e-2")
 
 
-def test_divergence_is_decided_by_the_terms() -> None:
+def test_divergence_follows_from_the_terms() -> None:
     K = sp.Symbol("unused", positive=True)
     assert divergence.tail(phi**-2).kind == divergence.CONVERGENT
     assert divergence.tail(1 / phi).kind == divergence.DIVERGENT
@@ -159,7 +161,7 @@ def calmed(terms: Sequence[mp.mpf]) -> mp.mpf:
 
 
 @pytest.mark.parametrize("ratio", ["0.2", "0.9", "1.6"])
-def test_sum_identity_with_sonine(ratio: str) -> None:
+def test_sum_identity_with_the_sonine_integral(ratio: str) -> None:
     """sum s(alpha j)/(j^4 J1^2), summed directly, equals the expression with the integral."""
     with mp.workdps(30):
         r = mp.mpf(ratio)
@@ -169,11 +171,11 @@ def test_sum_identity_with_sonine(ratio: str) -> None:
         assert abs(calmed(terms) - expected) < mp.mpf("1e-8")
 
 
-def test_identity_is_also_checked_in_balls() -> None:
+def test_identity_holds_in_interval_arithmetic() -> None:
     assert contact_split.identity_in_balls().residuals == ("exp(-x)", "x exp(-x)")
 
 
-def test_zeros_in_balls_are_mpmaths() -> None:
+def test_certified_zeros_agree_with_mpmath() -> None:
     for n in (1, 2, 17):
         assert abs(ball(contact_split.zero_of_j0(n, 120), 30) - mp.besseljzero(0, n)) < 1e-14
 
@@ -189,7 +191,9 @@ def split_of(motion: Mapping[str, Formula], r: mp.mpf, e: mp.mpf) -> mp.mpf:
 
 
 @pytest.mark.parametrize(("ratio", "eta_text"), [("0.3", "0.2"), ("0.7", "0.4")])
-def test_split_is_the_modal_sum(motion: Mapping[str, Formula], ratio: str, eta_text: str) -> None:
+def test_split_agrees_with_the_modal_sum(
+    motion: Mapping[str, Formula], ratio: str, eta_text: str
+) -> None:
     """The averaged sum of the paper over 800 modes agrees with 1 + F."""
     with mp.workdps(30):
         r, e = mp.mpf(ratio), mp.mpf(eta_text)
@@ -213,7 +217,7 @@ def test_coefficients(motion: Mapping[str, Formula], k: int, eta_text: str) -> N
     assert abs(got / expected - 1) < mp.mpf("1e-13")
 
 
-def test_series_returns_the_split(motion: Mapping[str, Formula]) -> None:
+def test_series_agrees_with_the_split(motion: Mapping[str, Formula]) -> None:
     """c_1 A + ... + c_7 A^7 at a/h = 0.2 agrees with F from quadrature and sum."""
     with mp.workdps(30):
         r, e = mp.mpf("0.08"), mp.mpf("0.4")
@@ -230,7 +234,7 @@ def test_c1_vanishes_near_h_over_b_0_5302() -> None:
     assert abs(root - mp.mpf("0.5302")) < 1e-4
 
 
-def test_thick_plates_keep_the_side_wall_alone() -> None:
+def test_only_the_side_wall_remains_for_thick_plates() -> None:
     """For h >> b only the side wall remains: delta R/a^2 = 1 - 0.36953 a/b + ..."""
     _, side = plate_series.coefficient(2).by_plate_radius
     value = side.subs(kappa[0], sp.Float(plate_series.kappa_ball(0, 20).str(20, radius=False)))
@@ -274,7 +278,9 @@ def test_finite_parts(k: int) -> None:
 
 @pytest.mark.parametrize("k", [2, 3, 4])
 @pytest.mark.parametrize(("eta_text", "error"), [("0.1", "1e-16"), ("0.2", "1e-8")])
-def test_thin_plates(motion: Mapping[str, Formula], k: int, eta_text: str, error: str) -> None:
+def test_thin_plate_coefficients_agree_with_the_sum(
+    motion: Mapping[str, Formula], k: int, eta_text: str, error: str
+) -> None:
     """The error of the thin-plate form is of order e^(-42) at eta = 0.1 and e^(-21) at 0.2."""
     with mp.workdps(30):
         exact = c_by_sum(k, mp.mpf(eta_text))
@@ -286,7 +292,7 @@ def test_thin_plates(motion: Mapping[str, Formula], k: int, eta_text: str, error
         assert abs(thin - exact) > mp.mpf("1e-16")
 
 
-def test_bending_is_kirchhoffs(motion: Mapping[str, Formula]) -> None:
+def test_bending_agrees_with_kirchhoff(motion: Mapping[str, Formula]) -> None:
     """The first term of c_1 is Kirchhoff's deflection P b^2/(8 pi D) divided by a^3/(R h).
 
     Here D = E* (2h)^3/12 and P = 4 E* a^3/(3 R).
@@ -296,7 +302,7 @@ def test_bending_is_kirchhoffs(motion: Mapping[str, Formula]) -> None:
     assert leading == sp.Rational(4, 3) / (8 * sp.pi * stiffness)
 
 
-def test_formal_inversion_in_numbers(motion: Mapping[str, Formula]) -> None:
+def test_formal_inversion_agrees_numerically(motion: Mapping[str, Formula]) -> None:
     """For small P the series with the xi_k inverts delta(P) up to the omitted order."""
     texts = {2: "0.7", 3: "-0.3", 4: "0.2", 5: "-1", 6: "2"}
     numbers = {f"gamma_{k}": sp.Rational(text) for k, text in texts.items()}
@@ -324,7 +330,7 @@ def test_xi_3_has_the_power_eight_thirds(motion: Mapping[str, Formula]) -> None:
 
 
 @pytest.mark.parametrize("law", [(1.0,), (-0.3,), (8.0, -0.05, 0.002), (0.5, -0.1, 0.02)])
-def test_force_series_converges_inside_its_radius_alone(law: tuple[float, ...]) -> None:
+def test_force_series_diverges_outside_its_radius(law: tuple[float, ...]) -> None:
     """The root test on 90 coefficients gives the convergence radius."""
     values = {c_A[2 * i + 1]: sp.Rational(str(value)) for i, value in enumerate(law)}
     plain = [sp.Integer(1)] + [
@@ -340,7 +346,7 @@ def test_force_series_converges_inside_its_radius_alone(law: tuple[float, ...]) 
     assert estimate == pytest.approx(float(mp.log(reversion.radius(law))), abs=0.04)
 
 
-def test_force_series_inside_its_radius() -> None:
+def test_force_series_agrees_inside_its_radius() -> None:
     """P from eps by the p_n agrees with the law solved for A by mpmath's root finder."""
     law = {c_A[1]: 2, c_A[3]: sp.Rational(-1, 5), c_A[5]: sp.Rational(1, 50)}
     rest = {c_A[n]: 0 for n in (7, 9)}
@@ -356,7 +362,7 @@ def test_force_series_inside_its_radius() -> None:
     assert all(later < earlier / 50 for earlier, later in pairwise(errors))
 
 
-def test_broken_inversion_is_refused() -> None:
+def test_wrong_inversion_is_rejected() -> None:
     r = sp.symbols("r_1 r_2", real=True)
     series = (sp.Integer(1), *r)
     inverse = reversion.inverted(series, 3, 2, 3, 3)

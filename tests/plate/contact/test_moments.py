@@ -54,7 +54,7 @@ def test_wall_moments() -> None:
     assert max(errors(kappa_ratio, reference.kappa_ratio, [*indices, *LARGE])) <= BUDGET
 
 
-def test_wall_moments_around_the_switch() -> None:
+def test_wall_moments_around_the_switch_point() -> None:
     start = tables.kappa_start()
     near = [*range(start - 3, start + 4)]
     assert max(errors(kappa_ratio, reference.kappa_ratio, near)) <= BUDGET
@@ -66,7 +66,7 @@ def test_finite_parts_of_every_index() -> None:
     assert max(errors(finite_part_ratio, reference.finite_part_ratio, [*indices, *LARGE])) <= BUDGET
 
 
-def test_signs_and_known_values() -> None:
+def test_signs_and_known_values_of_finite_parts() -> None:
     """M_2, M_3 and M_4 have known values; M_2 is the only negative number of both tables."""
     assert finite_part([2, 3, 4]).tolist() == [
         -1.12648392978257645242944,
@@ -77,7 +77,7 @@ def test_signs_and_known_values() -> None:
     assert (kappa(np.arange(LAST_N + 1)) > 0).all()
 
 
-def test_last_values_are_the_last_that_a_double_holds() -> None:
+def test_last_values_are_the_largest_without_overflow() -> None:
     largest = arb(np.finfo(float).max)
     assert reference.kappa(LAST_N, BITS) < largest < reference.kappa(LAST_N + 1, BITS)
     assert reference.finite_part(LAST_K, BITS) < largest < reference.finite_part(LAST_K + 1, BITS)
@@ -119,7 +119,7 @@ def test_single_precision_overflows_to_nan(kernel: Callable, last: int) -> None:
 # --- theory
 
 
-def test_quotient_is_that_of_the_phase() -> None:
+def test_quotient_follows_from_the_phase() -> None:
     """The expansion of K0/I0 follows independently from the phase of J0 and Y0."""
     terms = 9
     t = sp.Symbol("t")
@@ -138,7 +138,7 @@ def test_hankel_coefficients() -> None:
 
 
 @pytest.mark.parametrize("y", [0.01, 0.3, 1.0, 2.5, 7.0, 20.0, 100.0])
-def test_bound_of_the_quotient_holds_everywhere(y: float) -> None:
+def test_bound_of_the_quotient_holds(y: float) -> None:
     terms = 6
     plain, fading = theory.quotient_bound(terms)
     with flint.ctx.workprec(400):
@@ -194,7 +194,7 @@ def test_bound_of_the_expansion_holds(n: int) -> None:
     assert theory.kappa_bound(2 * terms - 1, terms) == sp.oo
 
 
-def test_bounds_fall_with_the_index() -> None:
+def test_bounds_decrease_with_the_index() -> None:
     kappas = [theory.kappa_bound(n, 12) for n in (24, 25, 40, 100, 101, 1000)]
     parts = [theory.finite_part_bound(k) for k in (4, 5, 6, 30, 31, 300)]
     for bounds in (kappas, parts):
@@ -212,7 +212,7 @@ def test_bound_of_the_finite_part_holds(k: int) -> None:
     assert theory.finite_part_bound(3) == sp.oo
 
 
-def test_a_wrong_coefficient_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_wrong_coefficient_is_rejected(monkeypatch: pytest.MonkeyPatch) -> None:
     right = theory.wall_quotient(12)
     wrong = (right[0], -right[1], *right[2:])
     monkeypatch.setattr(theory, "wall_quotient", lambda _: wrong)
@@ -223,7 +223,7 @@ def test_a_wrong_coefficient_is_refused(monkeypatch: pytest.MonkeyPatch) -> None
 # --- tables and references
 
 
-def test_switches_are_where_the_bound_says() -> None:
+def test_switch_points_follow_from_the_bound() -> None:
     assert list(SWITCHES.values()) == [120, 37]
     tolerance = sp.Rational(tables.TOLERANCE)
     assert (
@@ -232,7 +232,7 @@ def test_switches_are_where_the_bound_says() -> None:
     assert theory.finite_part_bound(36) > tolerance >= theory.finite_part_bound(37)
 
 
-def test_trapezoids_are_right_far_beyond_a_double() -> None:
+def test_trapezoidal_rule_is_more_accurate_than_double_precision() -> None:
     """The relative error is below 2^-_WARRANTED, which the rounding of the tables requires."""
     assert tables._WARRANTED >= 90
     limit = arb(2) ** -tables._WARRANTED
@@ -243,34 +243,34 @@ def test_trapezoids_are_right_far_beyond_a_double() -> None:
             assert abs(tables.finite_parts()[k - 2] / reference.finite_part(k, 120) - 1) < limit, k
 
 
-def test_generated_steps_are_those_of_the_theory() -> None:
+def test_generated_steps_equal_those_of_the_theory() -> None:
     """The steps are compared directly because the last ones change no rounded value."""
     expected = [float(a) for a in theory.kappa_steps(tables.TERMS)]
     assert list(generated.series_numbers.KAPPA_STEPS) == expected
 
 
-def test_a_table_that_does_not_reach_the_end_is_refused() -> None:
+def test_table_that_ends_too_early_is_rejected() -> None:
     with pytest.raises(ArithmeticError, match="largest double"):
         tables._doubles(tables.kappas()[:50])
 
 
-def test_tables_are_repeatable() -> None:
+def test_tables_are_reproducible() -> None:
     first = tables.tables()
     tables.tables.cache_clear()
     assert tables.tables() == first
 
 
 @pytest.mark.parametrize("n", [17, 20, 31])
-def test_peak_integral_is_the_plain_integral(n: int) -> None:
+def test_integral_around_the_peak_equals_the_plain_integral(n: int) -> None:
     assert reference.kappa(n, 120).overlaps(contact_balls.kappa(n, 35))
 
 
-def test_peak_integral_of_finite_parts_is_the_plain_integral() -> None:
+def test_integral_around_the_peak_of_finite_parts_equals_the_plain_one() -> None:
     for k in (67, 75):
         assert reference.finite_part(k, 120).overlaps(contact_balls.finite_part(k, 35))
 
 
-def test_precision_is_what_is_asked() -> None:
+def test_result_has_the_requested_precision() -> None:
     for bits in (60, 150):
         for n in (3, 30, 10**5):
             assert reference.kappa_ratio(n, bits).rel_accuracy_bits() >= bits

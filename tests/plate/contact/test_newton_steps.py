@@ -40,7 +40,7 @@ def wide() -> Any:
     return np.array(found)
 
 
-def course() -> Any:
+def history_of_impact() -> Any:
     times = np.linspace(0.0, impact.impact(0.13, 72.0, 1.0, 0.1, *PLATE).contact_time, 41)
     return np.array(impact.history(times, 0.13, 72.0, 1.0, 0.1, *PLATE))
 
@@ -64,12 +64,12 @@ def indented() -> Any:
         (plate_points, radius_alone, 6),
         (impact, largest, 6),
         (impact, wide, 6),
-        (impact, course, 6),
+        (impact, history_of_impact, 6),
         (perturbation, breaks, 10),
         (indentation, indented, 10),
     ],
 )
-def test_steps_that_are_said_to_be_enough_are(
+def test_stated_number_of_steps_is_sufficient(
     module: ModuleType, results: Callable[[], Any], needed: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The stated number of steps gives the result to the last bit; convergence is superlinear."""

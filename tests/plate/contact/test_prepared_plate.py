@@ -28,7 +28,7 @@ def number(value: Any) -> float:
 
 
 @pytest.mark.parametrize(("a", "h", "b"), CONTACTS)
-def test_plain_numbers_are_what_the_oracle_says(a: float, h: float, b: float) -> None:
+def test_plain_numbers_agree_with_the_reference(a: float, h: float, b: float) -> None:
     plate, R = prepare(h, b), 0.9
     assert plate.points is not None
     for found in (plate_points.indentation(plate.points, a, R), plate.indentation(a, R)):
@@ -59,7 +59,7 @@ def as_called(name: str, x: Any, R: Any, h: Any, b: Any) -> np.ndarray:
 
 
 @pytest.mark.parametrize("name", ["indentation", "contact_radius", "force", "stiffness"])
-def test_every_layout_is_every_point_alone(name: str) -> None:
+def test_arrays_of_any_layout_equal_single_points(name: str) -> None:
     """Each array element equals the scalar result, for one, few, many and repeated plates."""
     generator = np.random.default_rng(5)
     few, many = np.array([0.05, 0.02, 0.2]), generator.uniform(0.01, 0.5, 1200)
@@ -85,7 +85,7 @@ def test_every_layout_is_every_point_alone(name: str) -> None:
             assert found.flat[place] == pytest.approx(number(alone), rel=CLOSE)
 
 
-def test_points_outside_the_domain_are_nan_in_silence() -> None:
+def test_points_outside_the_domain_are_nan_without_warning() -> None:
     plate = prepare(0.1, 1.0)
     with np.errstate(all="raise"):
         for x, R in ((-1e-3, 0.9), (math.nan, 0.9), (math.inf, 0.9), (0.004, 0.0), (0.004, -1.0)):
@@ -98,7 +98,7 @@ def test_points_outside_the_domain_are_nan_in_silence() -> None:
             assert math.isnan(prepare(h, b).indentation(0.004, 0.9))
 
 
-def test_numbers_too_large_for_plain_arithmetic_keep_their_digits() -> None:
+def test_very_large_numbers_keep_their_digits() -> None:
     """A contact with all lengths times 2^900 has the same relative accuracy."""
     unit, a, R, h, b = 2.0**900, 0.004, 0.13, 0.1, 1.0
     small = number(prepare(h, b).indentation(a, R))
@@ -107,7 +107,7 @@ def test_numbers_too_large_for_plain_arithmetic_keep_their_digits() -> None:
     assert prepare(h * unit, b * unit).points is None
 
 
-def test_types_are_those_of_all_that_was_given() -> None:
+def test_types_follow_from_all_arguments() -> None:
     single = prepare(np.float32(0.1), np.float32(1.0))
     assert single.indentation(np.float32(0.004), np.float32(0.13)).dtype == np.float32
     assert single.indentation(0.004, 0.13).dtype == np.float32
@@ -117,7 +117,7 @@ def test_types_are_those_of_all_that_was_given() -> None:
         prepare(np.ma.masked_array([0.1, 0.2], mask=[False, True]), 1.0)
 
 
-def test_a_plate_stays_what_it_was() -> None:
+def test_prepared_plate_is_immutable() -> None:
     h = np.array([0.1, 0.2])
     plate = prepare(h, 1.0)
     before = plate.indentation(0.004, 0.13)

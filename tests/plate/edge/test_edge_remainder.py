@@ -28,7 +28,7 @@ from derivation.plate.edge.remainder import (
 COARSE = RemainderMesh(degree=6, layers=4)
 
 
-def test_lobatto_is_exact_for_polynomials() -> None:
+def test_lobatto_rule_is_exact_for_polynomials() -> None:
     nodes, weights, slope = lobatto(7)
     for power in range(14):
         assert abs(weights @ nodes**power - (1 + (-1) ** power) / (power + 1)) < 1e-14
@@ -36,7 +36,7 @@ def test_lobatto_is_exact_for_polynomials() -> None:
 
 
 @pytest.mark.parametrize("h", [0.02, 0.3, 1.0, 2.0])
-def test_meshes_fill_the_plate(h: float) -> None:
+def test_meshes_cover_the_plate(h: float) -> None:
     r, z = radii(h, 5), heights(h, 5)
     assert (r[0], r[-1], z[0], z[-1]) == (0.0, 1.0, -h, h)
     assert (np.diff(r) > 0).all()
@@ -44,7 +44,7 @@ def test_meshes_fill_the_plate(h: float) -> None:
     np.testing.assert_allclose(z, -z[::-1], atol=1e-15)
 
 
-def test_modes_at_the_rim_are_many_enough() -> None:
+def test_number_of_modes_at_the_edge_is_sufficient() -> None:
     """With a quarter of the modes the edge displacement changes by less than 1e-6."""
     case, z = RemainderCase("supported", 0.2, 0.3), np.array([-0.2, 0.0, 0.1, 0.2])
     values = rim_displacement(case, 0.1, z)
@@ -53,7 +53,7 @@ def test_modes_at_the_rim_are_many_enough() -> None:
 
 
 @pytest.mark.parametrize("support", SUPPORTS)
-def test_states_and_elements_are_the_whole_difference(support: str) -> None:
+def test_edge_states_and_elements_add_up_to_the_total(support: str) -> None:
     """Finite elements without the edge states give the same total as states plus elements."""
     case = RemainderCase(support, 0.2, 0.3)
     whole = Field(case, COARSE).depths(WIDTHS, states=False)
@@ -71,7 +71,7 @@ def test_remainder_converges() -> None:
     assert np.abs(np.array(coarse) / fine - 1).max() < 1e-4
 
 
-def test_record() -> None:
+def test_record_is_complete_and_accurate() -> None:
     """The record contains every case, has converged, and is small for sufficiently thin plates."""
     record = json.loads((measurements() / "edge_remainder.json").read_text())
     rows = record["rows"]
@@ -89,7 +89,7 @@ def test_record() -> None:
             assert share < 1e-3
 
 
-def test_rows_are_shares_and_their_changes(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_rows_state_contributions_and_their_changes(monkeypatch: pytest.MonkeyPatch) -> None:
     """Coarser meshes agree with the record, and each row states its changes with two meshes."""
     meshes = (COARSE, RemainderMesh(degree=5, layers=4), RemainderMesh(degree=6, layers=3))
     monkeypatch.setattr(edge_remainder, "MESHES", meshes)
@@ -116,7 +116,7 @@ def test_rows_are_shares_and_their_changes(monkeypatch: pytest.MonkeyPatch) -> N
 
 
 @pytest.mark.parametrize("h", [0.22213133, *np.geomspace(0.01, 9.0, 60)])
-def test_no_element_is_a_sliver(h: float) -> None:
+def test_element_at_the_axis_is_not_too_narrow(h: float) -> None:
     """The element at the axis is at least 0.19 times as wide as its neighbour."""
     for layers in range(2, 8):
         r = radii(h, layers)

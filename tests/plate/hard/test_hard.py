@@ -76,7 +76,7 @@ def data() -> dict[str, Any]:
 # --- contents
 
 
-def test_every_group_is_there(cases: tuple[HardCase, ...]) -> None:
+def test_every_group_has_cases(cases: tuple[HardCase, ...]) -> None:
     assert len(cases) >= 150
     found = Counter(case.group for case in cases)
     short = {name: found[name] for name, least in GROUPS.items() if found[name] < least}
@@ -84,7 +84,7 @@ def test_every_group_is_there(cases: tuple[HardCase, ...]) -> None:
     assert set(found) == set(GROUPS)
 
 
-def test_every_form_is_there_for_several_kernels(cases: tuple[HardCase, ...]) -> None:
+def test_every_form_of_arguments_is_used(cases: tuple[HardCase, ...]) -> None:
     for form in FORMS:
         assert len({case.kernel for case in cases if case.form == form}) >= 4, form
     shapes = {case.shape for case in cases}
@@ -92,7 +92,7 @@ def test_every_form_is_there_for_several_kernels(cases: tuple[HardCase, ...]) ->
     assert any(len(shape) == 2 for shape in shapes)
 
 
-def test_every_switch_of_the_blocks_is_there(cases: tuple[HardCase, ...]) -> None:
+def test_every_switch_point_of_the_blocks_has_cases(cases: tuple[HardCase, ...]) -> None:
     points = [
         case.points[0] for case in cases if case.group == "switch points of the building blocks"
     ]
@@ -107,7 +107,7 @@ def test_every_switch_of_the_blocks_is_there(cases: tuple[HardCase, ...]) -> Non
             assert wanted <= reached[variable]
 
 
-def test_switches_come_in_all_offsets(cases: tuple[HardCase, ...]) -> None:
+def test_switch_points_have_cases_at_all_offsets(cases: tuple[HardCase, ...]) -> None:
     assert OFFSETS == (-32, -1, 0, 1, 32)
     arrays = [c for c in cases if c.group == "switch points of the Bessel functions"]
     for case in arrays:
@@ -115,7 +115,7 @@ def test_switches_come_in_all_offsets(cases: tuple[HardCase, ...]) -> None:
         assert tuple(place - at[2] for place in at) == OFFSETS
 
 
-def test_zeros_reach_index_1_to_a_million(cases: tuple[HardCase, ...]) -> None:
+def test_cases_of_zeros_reach_from_index_1_to_a_million(cases: tuple[HardCase, ...]) -> None:
     counts = {c.numbers["count"][0] for c in cases if c.kernel == "bessel_j0_zeros"}
     assert {1.0, 10.0, 1e3, 1e6} <= counts
 
@@ -140,7 +140,9 @@ def test_references_have_40_digits(references: dict[str, Known]) -> None:
                 assert ball.rad() <= abs(ball) * flint.arb(10) ** -40, key
 
 
-def test_file_repeats_the_definitions(cases: tuple[HardCase, ...], data: dict[str, Any]) -> None:
+def test_record_agrees_with_the_definitions(
+    cases: tuple[HardCase, ...], data: dict[str, Any]
+) -> None:
     kept = {row["key"]: row for row in data["cases"]}
     assert [case.key for case in cases] == [row["key"] for row in data["cases"]]
     for case in cases:
@@ -149,7 +151,7 @@ def test_file_repeats_the_definitions(cases: tuple[HardCase, ...], data: dict[st
         assert {name: tuple(texts) for name, texts in row["inputs"].items()} == case.inputs
 
 
-def test_references_repeat(suite: Suite, references: dict[str, Known]) -> None:
+def test_references_are_reproducible(suite: Suite, references: dict[str, Known]) -> None:
     generator = random.Random(7)
     values = [c for c in suite.cases if c.expect == "value" and 0 < len(c.points) < 6]
     closed = [case for case in values if case.kernel not in LAWS]
@@ -167,7 +169,7 @@ def test_references_repeat(suite: Suite, references: dict[str, Known]) -> None:
                 assert restored(old).value.overlaps(restored(new).value), case.key
 
 
-def test_the_second_oracle_agrees(suite: Suite, references: dict[str, Known]) -> None:
+def test_second_reference_agrees(suite: Suite, references: dict[str, Known]) -> None:
     generator = random.Random(3)
     moderate = {"systems of units", "shapes and types", "contacts beyond 3 h"}
     values = [c for c in suite.cases if c.expect == "value" and not c.shape]
@@ -186,7 +188,7 @@ def test_the_second_oracle_agrees(suite: Suite, references: dict[str, Known]) ->
             assert abs(restored(row).value - value) < abs(value) * flint.arb(10) ** -23
 
 
-def test_references_follow_from_the_expressions_as_they_are(
+def test_references_are_those_of_the_present_expressions(
     suite: Suite, references: dict[str, Known]
 ) -> None:
     """The references of closed formulas were computed from the present expressions.
@@ -202,7 +204,7 @@ def test_references_follow_from_the_expressions_as_they_are(
 # --- computing the references
 
 
-def test_an_origin_changes_with_code_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_origin_changes_only_with_code(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The origin depends on code, also of imported modules of the paper, but not on comments."""
     monkeypatch.syspath_prepend(tmp_path)
     engine = "from derivation.engine.formula.ball import to_ball\n"
@@ -220,28 +222,28 @@ def test_an_origin_changes_with_code_alone(tmp_path: Path, monkeypatch: pytest.M
 
     def origins() -> list[str]:
         hard_origin.of_modules.cache_clear()
-        names = ("plain", "said", "other")
+        names = ("plain", "documented", "other")
         return [hard_origin.of_modules((f"some_paper.{name}",)) for name in names]
 
-    plain, said, other = before = origins()
-    assert plain == said != other
+    plain, documented, other = before = origins()
+    assert plain == documented != other
     (package / "part.py").write_text("def g(x):\n    return 2 * x\n")
     assert not set(before) & set(origins())
 
 
-def test_a_stopped_record_goes_on_where_it_was(
+def test_interrupted_record_is_continued(
     suite: Suite, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Saved references are not computed again, unless their origin has changed."""
     recorded, part = tmp_path / "hard.json", tmp_path / "hard.part.json"
     given = [case for case in suite.cases if case.kernel == "G" and case.expect == "value"][:4]
     few, references = dataclasses.replace(suite, cases=tuple(given)), Suite.references
-    sought: list[str] = []
+    computed: list[str] = []
 
     def seek(self: Suite, case: HardCase) -> list[Stored]:
-        if len(sought) == 2:
+        if len(computed) == 2:
             raise KeyboardInterrupt
-        sought.append(case.key)
+        computed.append(case.key)
         return references(self, case)
 
     def found() -> dict[str, Known]:
@@ -250,28 +252,28 @@ def test_a_stopped_record_goes_on_where_it_was(
     monkeypatch.setattr(Suite, "references", seek)
     with pytest.raises(KeyboardInterrupt):
         found()
-    assert sought == [case.key for case in given[:2]]
-    sought.clear()
+    assert computed == [case.key for case in given[:2]]
+    computed.clear()
     assert list(found()) == [case.key for case in given]
-    assert sought == [case.key for case in given[2:]]
+    assert computed == [case.key for case in given[2:]]
     part.rename(recorded)
-    sought.clear()
+    computed.clear()
     whole = found()
-    assert not sought
+    assert not computed
     assert [list(whole[case.key].references) for case in given] == [
         references(suite, case) for case in given
     ]
     monkeypatch.setattr(Suite, "origin", lambda *_: "something else")
     with pytest.raises(KeyboardInterrupt):
         found()
-    assert sought == [case.key for case in given[:2]]
+    assert computed == [case.key for case in given[:2]]
 
 
 # --- format of the cases
 
 
 @pytest.mark.parametrize(
-    ("change", "says"),
+    ("change", "message"),
     [
         ({"form": "curled"}, "form"),
         ({"expect": "luck"}, "expect must be"),
@@ -281,14 +283,14 @@ def test_a_stopped_record_goes_on_where_it_was(
         ({"form": "float32", "inputs": {"T": ("0x1.0000000000001p+0",)}}, "single"),
     ],
 )
-def test_ill_formed_cases_are_refused(change: dict[str, Any], says: str) -> None:
+def test_invalid_cases_are_rejected(change: dict[str, Any], message: str) -> None:
     sound = HardCase("group", "G", "A sentence.", {"T": ("0x1p+0",)})
     assert checked(sound) == sound
-    with pytest.raises(ValueError, match=says):
+    with pytest.raises(ValueError, match=message):
         checked(dataclasses.replace(sound, **change))
 
 
-def test_forms_are_what_they_say() -> None:
+def test_forms_of_arguments_are_as_named() -> None:
     given = {"T": ("0x1p+0", "0x1p+1"), "h": ("0x1p+2",)}
     case = HardCase("group", "G", "A sentence.", given, "strided")
     strided, single = handed_over(case, ("T", "h"))
@@ -308,5 +310,5 @@ def test_forms_are_what_they_say() -> None:
     assert len(grid.points) == 6
 
 
-def test_hand_written_cases_are_most_of_the_groups() -> None:
+def test_most_groups_are_hand_written() -> None:
     assert len({case.group for case in read_cases(WRITTEN)}) >= 18

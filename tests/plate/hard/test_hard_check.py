@@ -29,13 +29,13 @@ def checked(
     return hard.check(dataclasses.replace(suite, cases=tuple(chosen)), references)
 
 
-def test_generated_code_keeps_every_case(suite: Suite, references: dict[str, Known]) -> None:
+def test_generated_code_passes_every_case(suite: Suite, references: dict[str, Known]) -> None:
     rows = hard.check(suite, references)
     failed = [f"{row.case.key}: {row.problem}" for row in rows if not row.kept]
     assert not failed, "\n".join(failed)
 
 
-def test_printed_forms_stand_beside(suite: Suite, references: dict[str, Known]) -> None:
+def test_published_forms_are_measured_too(suite: Suite, references: dict[str, Known]) -> None:
     values = [case for case in suite.cases if case.expect == "value" and case.form != "empty"]
     rows = checked(suite, (case for case in values if case.kernel in ("K_j", "G")), references)
     assert all((row.printed is None) == (row.case.kernel == "G") for row in rows)
@@ -54,7 +54,7 @@ def test_printed_forms_stand_beside(suite: Suite, references: dict[str, Known]) 
         ("simple_impact_kernels", "THIN_LINEAR", {"plate_of"}),
     ],
 )
-def test_a_tampered_constant_is_noticed(
+def test_changed_constant_is_detected(
     module: str,
     name: str,
     kernels: set[str],
@@ -71,7 +71,7 @@ def test_a_tampered_constant_is_noticed(
     assert sum(row.kept for row in spoilt) < sum(row.kept for row in sound)
 
 
-def test_every_kind_of_damage_is_noticed(suite: Suite, references: dict[str, Known]) -> None:
+def test_every_kind_of_defect_is_detected(suite: Suite, references: dict[str, Known]) -> None:
     whole, cases = suite.kernels["G"], [case for case in suite.cases if case.kernel == "G"]
     right = whole.call
 
@@ -97,7 +97,7 @@ def test_every_kind_of_damage_is_noticed(suite: Suite, references: dict[str, Kno
     assert not one(lambda T: right(np.abs(T) + 1.0), refused).kept
 
 
-def test_a_reference_is_of_the_modules_its_oracle_is_made_of(
+def test_origin_includes_the_modules_of_the_reference(
     suite: Suite, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """An origin ignores comments and includes the code of imported modules."""
@@ -111,7 +111,7 @@ def test_a_reference_is_of_the_modules_its_oracle_is_made_of(
             patched.setattr(
                 Path,
                 "read_text",
-                lambda path, **said: changed if path == place else read(path, **said),
+                lambda path, **options: changed if path == place else read(path, **options),
             )
             hard_origin.of_modules.cache_clear()
             return {name: suite.origin(name) for name in before}
@@ -126,7 +126,7 @@ def test_a_reference_is_of_the_modules_its_oracle_is_made_of(
 # --- the command
 
 
-def test_a_missing_reference_is_refused(
+def test_missing_reference_is_rejected(
     cases: tuple[HardCase, ...],
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
@@ -144,7 +144,7 @@ def test_a_missing_reference_is_refused(
     assert cases[0].key[:20] in message
 
 
-def test_command_shows_every_case(capsys: pytest.CaptureFixture[str]) -> None:
+def test_command_lists_every_case(capsys: pytest.CaptureFixture[str]) -> None:
     status = main(["check", "hard-cases", "--json", "-"])
     shown, known = json.loads(capsys.readouterr().out), json.loads(PAPER.hard.read_text())
     assert status == (0 if all(row["kept"] for row in shown["cases"]) else 1)

@@ -25,9 +25,7 @@ from derivation.plate.waves.cases import places as hard_wave_places
 from generated.impact import history
 
 
-def test_the_second_oracle_agrees(
-    cases: tuple[HardCase, ...], references: dict[str, Known]
-) -> None:
+def test_second_reference_agrees(cases: tuple[HardCase, ...], references: dict[str, Known]) -> None:
     """The second reference agrees at the first point of a case."""
 
     def first(kernel: str) -> tuple[dict[str, float], flint.arb]:
@@ -58,7 +56,7 @@ def test_the_second_oracle_agrees(
         assert abs(value / as_ball(force) - 1) < 1e-19
 
 
-def test_who_states_an_error_is_held_to_it(suite: Suite, references: dict[str, Known]) -> None:
+def test_stated_errors_are_tested(suite: Suite, references: dict[str, Known]) -> None:
     known = suite.kernels["leading"]
     assert isinstance(known, Stating)
     case = next(c for c in suite.cases if c.kernel == "leading")
@@ -75,7 +73,7 @@ def test_who_states_an_error_is_held_to_it(suite: Suite, references: dict[str, K
     assert not with_stated(0.1).kept
 
 
-def test_rounding_of_a_state_is_what_the_arguments_change() -> None:
+def test_conditioning_of_a_state_is_the_change_by_the_arguments() -> None:
     """The conditioning is the sum of the changes due to each argument, by finite differences."""
     given, step = (7e-3, 0.13, 72.2, 1.0, 0.1, 1.0, 0.36e9, 0.43e9), 1e-4
     total = np.zeros(4)
@@ -91,7 +89,7 @@ def test_rounding_of_a_state_is_what_the_arguments_change() -> None:
     np.testing.assert_allclose([float(x) for x in found], total, rtol=1e-4)
 
 
-def test_stress_below_a_clamped_edge_is_what_is_recorded_with_fewer_digits(
+def test_stress_of_a_clamped_plate_agrees_with_the_record(
     cases: tuple[HardCase, ...], references: dict[str, Known]
 ) -> None:
     """It agrees with the recorded value, which differs from the stress with the paper's edge."""
@@ -103,7 +101,7 @@ def test_stress_below_a_clamped_edge_is_what_is_recorded_with_fewer_digits(
         assert (abs(float(found / known) - 1) < 1e-9) is (kernel == case.kernel)
 
 
-def test_a_force_is_excused_as_its_contact_radius_is() -> None:
+def test_error_limit_of_a_force_scales_like_that_of_its_radius() -> None:
     """The error limit of a force has the same scale as that of its contact radius.
 
     The plate is thick, so the plate term sets a scale above 1.
@@ -119,7 +117,7 @@ def test_a_force_is_excused_as_its_contact_radius_is() -> None:
     assert LAWS["impact"].scale is None
 
 
-def test_a_supported_mode_of_no_bending_share_is_judged_without_conditioning() -> None:
+def test_conditioning_is_not_used_next_to_nu_of_minus_one() -> None:
     """The condition number of nu is not used next to nu = -1, but at nu = -1 + 1e-6 it is."""
     law = LAWS["supported_waves"]
     assert law.slopes is not None
@@ -130,7 +128,7 @@ def test_a_supported_mode_of_no_bending_share_is_judged_without_conditioning() -
 
 
 @pytest.mark.parametrize("name", ["hertz", "leading"])
-def test_a_simple_law_shows_nothing_beyond_its_range(name: str, suite: Suite) -> None:
+def test_simple_law_is_not_finite_beyond_its_range(name: str, suite: Suite) -> None:
     """Results and stated errors are not finite for an impact far beyond the law's range."""
     known = suite.kernels[name]
     assert isinstance(known, Stating)
@@ -141,7 +139,7 @@ def test_a_simple_law_shows_nothing_beyond_its_range(name: str, suite: Suite) ->
             assert (np.isfinite(np.ravel(found)) == shown).all()
 
 
-def test_a_place_where_nothing_changes_is_none() -> None:
+def test_interval_without_a_change_of_the_condition_is_rejected() -> None:
     root = hard_wave_places._nearest(lambda x: x * x < 2, 1.0, 2.0)
     assert root == math.sqrt(2.0)
     with pytest.raises(ValueError, match=r"between 2.0 and 3.0"):

@@ -101,7 +101,7 @@ def ways(case: HardCase, kernel: Kernel) -> Iterator[list[Any]]:
         yield from ([float(x) for x in point] for point in zip(*columns, strict=True))
 
 
-def test_every_switch_has_cases_close_to_both_sides(seen: Watch) -> None:
+def test_every_comparison_has_cases_close_to_both_sides(seen: Watch) -> None:
     """A new switch point in the code needs hard cases; see docs/development."""
     far = seen.beyond(CLOSE)
     count = Counter(place.home for place in far)
@@ -128,7 +128,7 @@ def steep(x):
         ([np.nan, 2.0, 3.0, np.nextafter(3.0, 0.0)], ["kinked"]),
     ],
 )
-def test_a_switch_without_cases_on_both_sides_is_noticed(
+def test_comparison_without_cases_on_both_sides_is_found(
     points: list[float], far: list[str]
 ) -> None:
     module = ModuleType("kinks")

@@ -8,7 +8,7 @@ from derivation.plate.benchmark.speed import scenes
 from generated.impact import _BATCH, impact
 
 
-def test_a_batch_is_every_impact_alone() -> None:
+def test_batch_equals_single_impacts() -> None:
     """Results agree at both sides of a batch boundary, also for contacts wider than 3 h."""
     given = scenes(0.01, 5.9, _BATCH + 600)
     found = np.stack(impact(**given))
@@ -17,7 +17,7 @@ def test_a_batch_is_every_impact_alone() -> None:
         np.testing.assert_allclose(found[:, place], alone, rtol=2e-15)
 
 
-def test_a_batch_broadcasts_what_is_given() -> None:
+def test_batch_broadcasts_its_arguments() -> None:
     """Speeds along one axis broadcast with plates along the other, for more than one batch."""
     v0, h = np.linspace(0.1, 1.0, _BATCH // 4)[:, None], np.array([0.1, 0.12, 0.2, 0.1, 0.5])
     found = np.stack(impact(0.13, 72.2, v0, h, 1.0, 0.36e9, 0.43e9))

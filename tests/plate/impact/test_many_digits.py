@@ -38,7 +38,7 @@ def bits_of(digits: int) -> int:
 
 
 @pytest.mark.parametrize(("eta", "alpha", "digits"), PLATES)
-def test_series_and_integrals_overlap(eta: float, alpha: float, digits: int) -> None:
+def test_series_and_integrals_agree(eta: float, alpha: float, digits: int) -> None:
     bits, plate = bits_of(digits) + 32, ratio_of(eta, 1.0)
     series = contact_points.series(plate, alpha, bits)
     with flint.ctx.workprec(bits):
@@ -60,7 +60,7 @@ DEPTHS = [
 
 
 @pytest.mark.parametrize(("eta", "alpha", "digits"), DEPTHS)
-def test_the_second_oracle_lies_in_the_ball(eta: float, alpha: float, digits: int) -> None:
+def test_second_reference_is_inside_the_interval(eta: float, alpha: float, digits: int) -> None:
     """The Arb interval overlaps the second reference, widened by its requested accuracy."""
     R, lam, mu = 2.0, 0.36e9, 0.43e9
     law = ball_law.law_of(ratio_of(eta, 1.0), alpha, digits)
@@ -79,7 +79,7 @@ def test_the_second_oracle_lies_in_the_ball(eta: float, alpha: float, digits: in
     ("h", "v0", "digits"),
     [(0.1, 1.0, 60), (0.1, 1.0, 120), (0.5, 30.0, 60), (0.02, 0.1, 30), (0.1, 600.0, 30)],
 )
-def test_both_oracles_of_an_impact(h: float, v0: float, digits: int) -> None:
+def test_references_of_an_impact_agree(h: float, v0: float, digits: int) -> None:
     """Both references of an impact agree from a = h/7 to a = 5 h, where their series cancel."""
     motion = (2.0, 1000.0, v0, h, 1.0, 0.36e9, 0.43e9)
     found = many_digits.reference(motion, digits, lambda *_: None)
@@ -87,7 +87,7 @@ def test_both_oracles_of_an_impact(h: float, v0: float, digits: int) -> None:
     assert min(quantity.shared for quantity in found.quantities) > digits
 
 
-def test_no_digit_depends_on_the_scale_of_the_powers(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_digits_do_not_depend_on_the_scale_of_the_powers(monkeypatch: pytest.MonkeyPatch) -> None:
     """More digits and another range of the series change nothing within the requested digits."""
     motion, digits = (2.0, 72.0, 1.0, 0.1, 1.0, 0.36e9, 0.43e9), 40
     near = residue_law.impact(*motion, digits)
@@ -109,7 +109,7 @@ def test_roots_and_bessel_functions_of_the_residues() -> None:
             assert abs(residue_routes._bessel_quotient(w) - direct) < mpf(10) ** -58
 
 
-def test_nodes_of_the_impacts_rule() -> None:
+def test_nodes_of_the_quadrature_of_an_impact() -> None:
     with mp.workdps(60):
         nodes = residue_law._fejer(24, 200)
         for power in range(0, 24, 2):
@@ -119,7 +119,7 @@ def test_nodes_of_the_impacts_rule() -> None:
 
 
 @pytest.mark.parametrize("share", [1 / 8, 1 / 12, 1 / 16])
-def test_bound_of_the_trapezoidal_rule_is_honest(share: float) -> None:
+def test_bound_of_the_trapezoidal_rule_holds(share: float) -> None:
     """For the fastest growing g, halving the step changes the integral by less than the bound."""
     with flint.ctx.workprec(400):
         sums = []
@@ -149,7 +149,7 @@ def test_bound_on_the_shifted_line_holds() -> None:
 
 
 @pytest.mark.parametrize("eta", [0.02, 0.1, 1.0])
-def test_bound_of_the_modes_left_out_holds(eta: float) -> None:
+def test_bound_of_the_omitted_modes_holds(eta: float) -> None:
     plate = ratio_of(eta, 1.0)
     few, many = (contact_points.mode_points(plate, bits, 120) for bits in (30, 120))
     with flint.ctx.workprec(200):
@@ -160,7 +160,7 @@ def test_bound_of_the_modes_left_out_holds(eta: float) -> None:
 
 
 @pytest.mark.parametrize("name", ["hertz", "sinc", "work"])
-def test_rest_of_the_series_holds(name: str) -> None:
+def test_bound_of_the_remainder_of_the_series_holds(name: str) -> None:
     plate = ratio_of(0.1, 1.0)
     short, long = (contact_points.series(plate, 0.3, bits) for bits in (40, 300))
     with flint.ctx.workprec(400):
@@ -170,7 +170,7 @@ def test_rest_of_the_series_holds(name: str) -> None:
             assert abs(values[0] - values[1]) < short.rest
 
 
-def test_slope_polynomial_errs_by_its_bound_at_most() -> None:
+def test_slope_polynomial_is_within_its_bound() -> None:
     plate = ratio_of(0.1, 1.0)
     short, long = (contact_points.series(plate, 0.3, bits) for bits in (40, 300))
     with flint.ctx.workprec(400):
@@ -180,7 +180,7 @@ def test_slope_polynomial_errs_by_its_bound_at_most() -> None:
             assert abs(polynomial(q * q) - exact).upper() <= error.upper() * (1 + 1e-6)
 
 
-def test_series_refuses_what_it_does_not_reach() -> None:
+def test_series_rejects_contacts_outside_its_range() -> None:
     plate = ratio_of(0.1, 1.0)
     with pytest.raises(PrecisionError, match="up to"):
         contact_points.series(plate, 0.3, 40).excess("hertz", arb(0.31))
@@ -190,7 +190,7 @@ def test_series_refuses_what_it_does_not_reach() -> None:
         contact_points.series(plate, 1.0, 40)
 
 
-def test_a_ball_across_a_zero_of_the_bessel_function_gives_no_bound(
+def test_interval_containing_a_zero_of_the_bessel_function_has_no_bound(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """One wide interval contains a zero of I0, so no bound is available.
@@ -204,7 +204,7 @@ def test_a_ball_across_a_zero_of_the_bessel_function_gives_no_bound(
 
 
 @pytest.mark.parametrize("h", [0.1, 1.0])
-def test_impacts_by_series_and_by_integrals(h: float) -> None:
+def test_impacts_from_series_and_from_integrals_agree(h: float) -> None:
     motion = (0.13, 72.0, 1.0, h, 1.0, 0.36e9, 0.43e9)
     plate = ratio_of(h, 1.0)
     known = contact_impact.impact(*motion, 30)
@@ -243,12 +243,12 @@ def test_reference_as_json(capsys: Captured) -> None:
 
 
 @pytest.mark.parametrize("digits", ["0", "1001", "-3", "many"])
-def test_digits_out_of_range_are_refused(digits: str, capsys: Captured) -> None:
+def test_number_of_digits_out_of_range_is_rejected(digits: str, capsys: Captured) -> None:
     assert main(["reference", str(PAPER), "--digits", digits]) == 2
     assert "digits" in capsys.readouterr().err
 
 
-def test_scenes_are_refused_as_simulate_does(tmp_path: Path, capsys: Captured) -> None:
+def test_scenes_are_rejected_as_in_simulate(tmp_path: Path, capsys: Captured) -> None:
     assert main(["reference", str(tmp_path / "none.toml")]) == 2
     assert "cannot read the scene file" in capsys.readouterr().err
     fast = tmp_path / "fast.toml"
@@ -261,7 +261,7 @@ def test_scenes_are_refused_as_simulate_does(tmp_path: Path, capsys: Captured) -
     assert "impact.speed" in messages[0]
 
 
-def test_oracles_that_differ_are_status_1(
+def test_disagreement_of_references_gives_status_1(
     monkeypatch: pytest.MonkeyPatch, capsys: Captured
 ) -> None:
     right = residue_law.hertz_stiffness
@@ -270,13 +270,13 @@ def test_oracles_that_differ_are_status_1(
     assert "12 of 15 digits" in capsys.readouterr().out
 
 
-def test_digits_shared_are_no_more_than_the_ball_has() -> None:
+def test_common_digits_are_limited_by_the_interval() -> None:
     assert 9 < many_digits.shared(arb(3, 1e-10), mpf(3)) < 10.5
     assert many_digits.shared(arb(3), mpf(3)) == math.inf
 
 
 @pytest.mark.parametrize("name", ["indentation", "stiffness", "impact"])
-def test_every_result_is_held_to_the_second_oracle(
+def test_every_result_is_compared_with_the_second_reference(
     name: str, monkeypatch: pytest.MonkeyPatch, capsys: Captured
 ) -> None:
     """An error of 1e-12 in one function of the second reference shows in its results only."""
@@ -290,13 +290,13 @@ def test_every_result_is_held_to_the_second_oracle(
 
     monkeypatch.setattr(residue_law, name, off)
     assert main(["reference", str(PAPER), "--digits", "15"]) == 1
-    said = capsys.readouterr().out
+    output = capsys.readouterr().out
     wrong = 4 if name == "impact" else 3
-    assert len(re.findall(r"agrees to 1\d of 15 digits", said)) == 10
-    assert said.count("agrees to 15 of 15 digits") == 10 - wrong
+    assert len(re.findall(r"agrees to 1\d of 15 digits", output)) == 10
+    assert output.count("agrees to 15 of 15 digits") == 10 - wrong
 
 
-def test_an_oracle_out_of_reach_is_a_message(
+def test_unavailable_reference_gives_a_message(
     monkeypatch: pytest.MonkeyPatch, capsys: Captured
 ) -> None:
     def fails(*_: Any) -> None:
@@ -307,7 +307,7 @@ def test_an_oracle_out_of_reach_is_a_message(
     assert "digits" in capsys.readouterr().err
 
 
-def test_ctrl_c_ends_it_cleanly(monkeypatch: pytest.MonkeyPatch, capsys: Captured) -> None:
+def test_ctrl_c_gives_a_message(monkeypatch: pytest.MonkeyPatch, capsys: Captured) -> None:
     def interrupted(*_: Any) -> None:
         raise KeyboardInterrupt
 
@@ -316,7 +316,7 @@ def test_ctrl_c_ends_it_cleanly(monkeypatch: pytest.MonkeyPatch, capsys: Capture
     assert "interrupted" in capsys.readouterr().err
 
 
-def test_estimates_grow_with_the_digits() -> None:
+def test_estimated_time_grows_with_the_digits() -> None:
     motion = (0.13, 72.0, 1.0, 0.1, 1.0, 0.36e9, 0.43e9)
     seconds = [many_digits.expected_seconds(motion, 0.0134, n) for n in (30, 100, 300, 1000)]
     assert seconds == sorted(seconds)
@@ -327,6 +327,6 @@ def test_estimates_grow_with_the_digits() -> None:
         many_digits.reference(motion, 0, lambda *_: None)
 
 
-def test_a_contact_too_deep_for_powers_is_refused() -> None:
+def test_contact_too_deep_for_power_series_is_rejected() -> None:
     with pytest.raises(RouteError, match="contacts up to a = 96 h, got 97 h"):
         residue_law.indentation(0.97, 2.0, 0.01, 1.0)

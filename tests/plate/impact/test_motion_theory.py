@@ -11,7 +11,6 @@ from derivation.engine.errata.findings import Finding
 from derivation.engine.formula.parse_latex import parse_latex
 from derivation.engine.formula.proof import decide_zero
 from derivation.plate import derived
-from derivation.plate.chain import MOTION_LINKS
 from derivation.plate.misprints import diagnose_power, diagnose_series, misprints
 from derivation.plate.printed.contact import K_j
 from derivation.plate.printed.motion import PRINTED_MOTION, Printed
@@ -36,17 +35,7 @@ def findings(formulas: Mapping[str, Formula]) -> dict[str, Finding]:
     }
 
 
-def test_every_formula_is_proved_without_numerics(motion: Mapping[str, Formula]) -> None:
-    assert len(MOTION_LINKS) == 22
-    assert len(motion) > 40
-    assert {f.proof.method for f in motion.values()} == {"symbolically"}
-    assert all(f.proof.residuals for f in motion.values())
-    for formula in motion.values():
-        assert json.loads(json.dumps(formula.to_json()))["name"] == formula.name
-        assert formula._repr_latex_().startswith("$")
-
-
-def test_energy_is_conserved_along_a_computed_motion(motion: Mapping[str, Formula]) -> None:
+def test_computed_motion_conserves_energy(motion: Mapping[str, Formula]) -> None:
     """The velocity from integrating (11) with mpmath's Taylor solver agrees with (13)."""
     numbers = {m: 2, v0: 3, xi_k[2]: 5, xi_k[3]: sp.Rational(7, 10)}
     acceleration = sp.lambdify(delta, motion["acceleration"].expression.subs(numbers), "mpmath")
@@ -68,7 +57,7 @@ def contact_integral(motion: Mapping[str, Formula], law: tuple[float, ...]) -> m
 
 
 @pytest.mark.parametrize("law", [(), (0.7,), (-0.2, 0.01), (40.0, -3.0, 0.5), (1e10,)])
-def test_contact_time_integral_is_the_motions(
+def test_contact_time_integral_agrees_with_the_motion(
     motion: Mapping[str, Formula], law: tuple[float, ...]
 ) -> None:
     """The contact-time integral equals int d delta/velocity by mpmath, for given D_3, D_5, D_7."""
@@ -95,7 +84,7 @@ def test_hertz_contact_time(motion: Mapping[str, Formula]) -> None:
     assert abs(general * mp.sqrt(mp.mpf(2) / 5) - value / 2) < 1e-14
 
 
-def test_linear_motion_turns_where_the_radicand_is_negative(
+def test_radicand_is_negative_before_the_turning_point(
     motion: Mapping[str, Formula],
 ) -> None:
     numbers = {m: 2, v0: 3, xi_k[2]: 5, xi_k[3]: sp.Rational(7, 10)}
@@ -107,7 +96,7 @@ def test_linear_motion_turns_where_the_radicand_is_negative(
 
 
 @pytest.mark.parametrize("name", ["", "hertz"])
-def test_linearised_equation_predicts_the_difference(
+def test_linearised_equation_is_accurate_to_second_order(
     motion: Mapping[str, Formula], name: str
 ) -> None:
     """eta' + F eta + G = 0 is accurate to second order in eta for two exact velocities."""
@@ -144,13 +133,13 @@ def test_linearised_equation_predicts_the_difference(
 
 
 @pytest.mark.parametrize("record", PRINTED_MOTION, ids=lambda record: record.name)
-def test_latex_and_expression_say_the_same(record: Printed) -> None:
+def test_latex_and_expression_agree(record: Printed) -> None:
     names = {symbol.name: symbol for symbol, _ in record.where} | {"v_0": v0, "K_j": K_j}
     text = record.latex.replace("(t)", "")
     assert decide_zero(parse_latex(text, PLATE, names) - record.expression) is not None
 
 
-def test_order_is_the_papers() -> None:
+def test_order_is_that_of_the_paper() -> None:
     equations = [int(record.equation) for record in PRINTED_MOTION]
     assert equations == sorted(equations)
     compared = set(map(str, equations))
@@ -180,7 +169,7 @@ def test_misprints_of_the_motion(findings: dict[str, Finding]) -> None:
         assert json.loads(json.dumps(report)) == report
 
 
-def test_what_is_said_about_each(findings: dict[str, Finding]) -> None:
+def test_statements_about_each_equation(findings: dict[str, Finding]) -> None:
     assert "gamma_2**(-8/3) instead of gamma_2**(-3)" in findings["xi_3"].repair
     assert findings["xi_3"].diagnosis.ratio == gamma_k[2] ** sp.Rational(-1, 3)
     assert "m^1/3" in str(findings["xi_3"].diagnosis.dimension)
@@ -190,13 +179,13 @@ def test_what_is_said_about_each(findings: dict[str, Finding]) -> None:
     assert "diverges, the terms grow like j^2" in findings["gamma_3"].repair
 
 
-def test_a_convergent_series_is_compared_as_any_formula(formulas: Mapping[str, Formula]) -> None:
+def test_convergent_series_is_compared_like_any_formula(formulas: Mapping[str, Formula]) -> None:
     share = formulas["delta"].expression
     assert diagnose_series("delta", share, formulas).kind == "equal"
     assert diagnose_series("delta", -share, formulas).kind == "sign"
 
 
-def test_the_right_power_is_equal(motion: Mapping[str, Formula]) -> None:
+def test_correct_power_is_equal(motion: Mapping[str, Formula]) -> None:
     everything = dict(motion)
     assert diagnose_power("force_power", (k + 1) / 2, everything).kind == "equal"
     assert "not 1/3" in diagnose_power("force_power", k / 3 + 1, everything).repair

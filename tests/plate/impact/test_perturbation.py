@@ -39,7 +39,7 @@ Real = Callable[..., mpf]
 
 @pytest.mark.parametrize("modes", [1, 25])
 @pytest.mark.parametrize("name", CASES)
-def test_coefficients_are_the_truncated_sums(name: str, modes: int) -> None:
+def test_coefficients_agree_with_truncated_sums(name: str, modes: int) -> None:
     with mp.workdps(30):
         gamma_2, gamma_3 = (truncated_gamma(k, modes, CASES[name]) for k in (2, 3))
         printed = printed_motion(*CASES[name], modes)
@@ -49,7 +49,7 @@ def test_coefficients_are_the_truncated_sums(name: str, modes: int) -> None:
         assert derived.xi_3 == pytest.approx(float(-gamma_3 / gamma_2 ** mpf("8/3")), rel=1e-13)
 
 
-def test_the_sums_do_not_settle() -> None:
+def test_published_sums_diverge() -> None:
     times = [printed_motion(*PAPER, modes).contact_time for modes in (100, 400, 1600, 6400)]
     assert (np.diff(times) > 0.2 * times[0]).all()
 
@@ -80,7 +80,7 @@ def correction(motion: PrintedMotion, t: mpf) -> mpf:
 
 
 @pytest.mark.parametrize("corrected", [False, True])
-def test_correction_is_16_with_the_F_and_G_of_the_theory(corrected: bool) -> None:
+def test_correction_agrees_with_equation_16(corrected: bool) -> None:
     motion = printed_motion(*PAPER, 100, corrected=corrected)
     t = 0.9 * motion.breaks_at
     with mp.workdps(16):
@@ -90,7 +90,7 @@ def test_correction_is_16_with_the_F_and_G_of_the_theory(corrected: bool) -> Non
 
 
 @pytest.mark.parametrize("share", [0.2, 0.9])
-def test_the_oracle_in_balls_says_the_same(share: float) -> None:
+def test_arb_reference_agrees(share: float) -> None:
     """The Arb reference agrees with the direct integrals over time and the generated code."""
     motion = printed_motion(*PAPER, 100, corrected=True)
     t = share * motion.breaks_at
@@ -104,7 +104,7 @@ def test_the_oracle_in_balls_says_the_same(share: float) -> None:
     assert abs(ball - float(motion.corrected(t))) < 1e-14 * motion.max_indentation
 
 
-def test_the_oracle_in_balls_ends_where_the_radicand_does() -> None:
+def test_arb_reference_ends_at_the_zero_of_the_radicand() -> None:
     motion = printed_motion(*PAPER, 100)
     numbers = (motion.m, motion.v0, motion.xi_2, motion.xi_3)
     with flint.ctx.workprec(100):
@@ -116,7 +116,7 @@ def test_the_oracle_in_balls_ends_where_the_radicand_does() -> None:
 
 @pytest.mark.parametrize("name", CASES)
 @pytest.mark.parametrize("corrected", [False, True])
-def test_eta_solves_its_equation_up_to_where_it_breaks(name: str, corrected: bool) -> None:
+def test_eta_solves_its_equation_up_to_its_end(name: str, corrected: bool) -> None:
     """eta' + F eta + G = 0 holds, by finite differences with smaller steps near the end."""
     motion = printed_motion(*CASES[name], 100, corrected=corrected)
     F, G, _, _ = theory(motion)
@@ -131,7 +131,7 @@ def test_eta_solves_its_equation_up_to_where_it_breaks(name: str, corrected: boo
         assert slope + sum(parts) == pytest.approx(0, abs=1e-6 * max(map(abs, parts)))
 
 
-def test_linear_motion_is_15() -> None:
+def test_linear_motion_agrees_with_equation_15() -> None:
     motion = printed_motion(*PAPER, 50)
     values = {m: motion.m, v0: motion.v0, xi_k[2]: motion.xi_2}
     exact = sp.lambdify(SYMBOLS["t"].symbol, linear_motion().expression.subs(values))
@@ -150,7 +150,7 @@ def test_linear_motion_is_15() -> None:
 @pytest.mark.parametrize("corrected", [False, True])
 @pytest.mark.parametrize("modes", [1, 10, 100, 1000])
 @pytest.mark.parametrize("name", CASES)
-def test_breaks_before_the_turning_point(name: str, modes: int, corrected: bool) -> None:
+def test_correction_ends_before_the_turning_point(name: str, modes: int, corrected: bool) -> None:
     motion = printed_motion(*CASES[name], modes, corrected=corrected)
     assert motion.xi_3 > 0
     assert 0 < motion.breaks_at < motion.contact_time / 2
@@ -165,7 +165,7 @@ def test_breaks_before_the_turning_point(name: str, modes: int, corrected: bool)
     assert np.isnan(motion.corrected(-1e-9))
 
 
-def test_printed_exponent_depends_on_the_units() -> None:
+def test_published_exponent_depends_on_the_units() -> None:
     """In mm, t and s the derived motion is the same, but the published motion changes."""
     R, mass, speed, h, b, lam, mu = PAPER
     other = 1e3 * R, 1e-3 * mass, 1e3 * speed, 1e3 * h, 1e3 * b, 1e-6 * lam, 1e-6 * mu
@@ -192,7 +192,7 @@ def compared(**effects: object) -> dict[str, dict[str, object]]:
     return changed(effects=effects)
 
 
-def test_comparison_is_the_generated_motion_beside_the_result() -> None:
+def test_comparison_is_the_generated_motion() -> None:
     found = simulate(read(compared(compare_paper_motion=True)))
     assert found.comparison is not None
     numbers = found.model.numbers
@@ -216,7 +216,7 @@ def test_comparison_is_the_generated_motion_beside_the_result() -> None:
     "name", ["paper", "glass_pane", "concrete_floor", "pad", "block", "soft_layer"]
 )
 @pytest.mark.parametrize("rtol", [None, 1e-1, 1e-6])
-def test_it_changes_no_result(name: str, rtol: float | None) -> None:
+def test_comparison_changes_no_result(name: str, rtol: float | None) -> None:
     data = load(EXAMPLES / f"{name}.toml").to_json()
     if rtol == 1e-6 or name == "paper":  # too small a tolerance for a plate with inertia
         data["effects"] = {**data.get("effects", {}), "inertia": False}
@@ -235,18 +235,18 @@ def test_it_changes_no_result(name: str, rtol: float | None) -> None:
         np.testing.assert_array_equal(one, other)
 
 
-def test_it_is_no_effect() -> None:
+def test_comparison_is_not_an_effect() -> None:
     """The comparison is not an effect: table, static contact and reference stay unchanged."""
-    asked, plain = read(compared(compare_paper_motion=True)), read(compared())
-    assert repr(explain(asked).effects) == repr(explain(plain).effects)  # NaN != NaN
-    assert indent(asked, force=[10.0]) == indent(plain, force=[10.0])
+    requested, plain = read(compared(compare_paper_motion=True)), read(compared())
+    assert repr(explain(requested).effects) == repr(explain(plain).effects)  # NaN != NaN
+    assert indent(requested, force=[10.0]) == indent(plain, force=[10.0])
     wanted = compared(compare_paper_motion=True), compared()
     one, other = (derivation.checks.effects.everything(data) for data in wanted)
     assert one == other is not None
-    assert in_doubles(asked).contact_time == in_doubles(plain).contact_time
+    assert in_doubles(requested).contact_time == in_doubles(plain).contact_time
 
 
-def test_the_fast_ways_are_taken_with_it(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_fast_methods_are_used_with_the_comparison(monkeypatch: pytest.MonkeyPatch) -> None:
     calls = []
     monkeypatch.setattr(kernels, "impact", lambda *x, **y: calls.append(x) or impact(*x, **y))
     simulate(read(compared(compare_paper_motion=True)))
@@ -258,12 +258,12 @@ def test_the_fast_ways_are_taken_with_it(monkeypatch: pytest.MonkeyPatch) -> Non
 
 
 @pytest.mark.parametrize("wanted", ["auto", 1, "true"])
-def test_what_the_key_takes(wanted: object) -> None:
+def test_values_accepted_by_the_key(wanted: object) -> None:
     with pytest.raises(SceneError, match=r"compare_paper_motion: expected .*true.*false"):
         read(compared(compare_paper_motion=wanted))
 
 
-def test_what_is_shown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_output_of_the_comparison(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "scene.toml"
     text = (EXAMPLES / "paper.toml").read_text()
     assert text.count("[effects]") == 1
@@ -286,7 +286,7 @@ def test_what_is_shown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> No
 
 
 @pytest.mark.parametrize("wanted", ["false", "true"])
-def test_nothing_of_it_is_imported_unless_asked_for(wanted: str) -> None:
+def test_comparison_is_imported_only_on_request(wanted: str) -> None:
     program = f"""
 import sys
 from derivation.scene import explain, load, read, simulate
@@ -306,13 +306,13 @@ for name in ("derivation.scene.comparison", "generated.perturbation"):
 
 @pytest.mark.parametrize("size", [1e-200, 1e-60, 1e60])
 @pytest.mark.filterwarnings("error")
-def test_what_is_no_number_is_null(size: float) -> None:
+def test_nan_is_null_in_json(size: float) -> None:
     """The motion is null in JSON where its sums exceed the double range."""
     made = compare(Model(size, 1.0, 1.0, size, size, 1.0, 1.0), 1.0, 1.0).to_json()
     assert json.loads(json.dumps(made, allow_nan=False)) == made
 
 
-def test_a_module_of_the_scene_does_not_speak_of_it(tmp_path: Path) -> None:
+def test_modules_of_the_scene_do_not_mention_the_comparison(tmp_path: Path) -> None:
     path, out = tmp_path / "scene.toml", tmp_path / "made.py"
     text = (EXAMPLES / "paper.toml").read_text()
     path.write_text(text.replace("[effects]", "[effects]\ncompare_paper_motion = true"))

@@ -5,7 +5,6 @@ import numpy as np
 import pytest
 from scipy import integrate, special
 
-from derivation.engine.formula.proof import SYMBOLIC
 from derivation.plate.contact.kernels.moments import plate_excess
 from derivation.plate.contact.theory.plate_series import kappa_ball
 from derivation.plate.contact.theory.thin_remainder import coefficient_remainder_ball
@@ -15,12 +14,7 @@ from generated import simple_impact
 from generated import simple_impact_numbers as numbers
 
 
-def test_every_step_is_proved_without_numerics() -> None:
-    proofs = [f.proof for f in substitution.substitution()]
-    assert {p.method for p in (*proofs, substitution.lemma())} == {SYMBOLIC}
-
-
-def test_wall_rest_is_the_series_beyond_its_first_term() -> None:
+def test_remainder_of_the_wall_is_the_series_without_its_first_term() -> None:
     total, factorial = flint.arb(0), flint.arb(1)
     for n in range(2, 40, 2):
         factorial *= n * (n + 1)
@@ -29,7 +23,7 @@ def test_wall_rest_is_the_series_beyond_its_first_term() -> None:
     assert abs(substitution.wall_rest_ball() - series) < 1e-11
 
 
-def test_generated_wall_bounds_are_the_integrals_rounded_up() -> None:
+def test_generated_bounds_of_the_wall_are_rounded_up() -> None:
     """The bounds slightly exceed the integrals of sinh y without its first one or two terms."""
 
     def share(y: float, taken: float) -> float:
@@ -42,7 +36,7 @@ def test_generated_wall_bounds_are_the_integrals_rounded_up() -> None:
     assert cubic < numbers.WALL_CUBIC < 1.003 * cubic
 
 
-def test_generated_bounds_of_what_is_left_out_are_the_proven_ones_rounded_up() -> None:
+def test_generated_bounds_of_omitted_terms_are_rounded_up() -> None:
     for proven, constant in (
         (tables._roots(2), numbers.ROOTS_LINEAR),
         (flint.arb(5) / 2 * tables._roots(3), numbers.ROOTS_CUBIC),
@@ -54,12 +48,12 @@ def test_generated_bounds_of_what_is_left_out_are_the_proven_ones_rounded_up() -
 
 @pytest.mark.parametrize("k", [2, 3])
 @pytest.mark.parametrize("inverse", [6.0, 9.0])
-def test_roots_share_is_below_its_bound(k: int, inverse: float) -> None:
+def test_contribution_of_the_roots_is_below_its_bound(k: int, inverse: float) -> None:
     share = abs(coefficient_remainder_ball(k, 1 / inverse, 10))
     assert share < tables._roots(k) * (-flint.arb.pi() * inverse).exp()
 
 
-def test_faded_modes_are_below_their_bound() -> None:
+def test_omitted_modes_are_below_their_bound() -> None:
     eta = 1 / tables.THIN
     for power in (0, 2):
         total = flint.arb(0)
@@ -71,7 +65,7 @@ def test_faded_modes_are_below_their_bound() -> None:
 
 
 @pytest.mark.parametrize("nodes", [4, 6, 8, 10])
-def test_quadrature_errs_less_than_its_bound(nodes: int) -> None:
+def test_quadrature_error_is_below_its_bound(nodes: int) -> None:
     bound = float(substitution.time_quadrature_bound(nodes))
 
     def integral(count: int, x: float) -> float:
@@ -86,18 +80,18 @@ def test_quadrature_errs_less_than_its_bound(nodes: int) -> None:
     assert bound < 30 * 2.4 ** (1 - 2 * nodes)
 
 
-def test_an_ellipse_with_a_root_inside_is_refused() -> None:
+def test_ellipse_that_contains_a_root_is_rejected() -> None:
     with pytest.raises(ArithmeticError, match="inside the ellipse"):
         substitution._no_root_inside(flint.arb(3))
 
 
-def test_thin_and_thick_plates_meet() -> None:
+def test_laws_of_thin_and_thick_plates_agree_at_their_switch_point() -> None:
     below, above = (simple_impact.plate_of(1 / (tables.THIN + x)) for x in (1e-9, -1e-9))
     assert below.bend == pytest.approx(above.bend, abs=below.bend_error + above.bend_error + 1e-8)
     assert below.rest == pytest.approx(above.rest, rel=1e-6)
 
 
 @pytest.mark.parametrize("bound", ["1.0", "9.9999999", "2.5617e-17", "0.052313"])
-def test_a_short_bound_is_above(bound: str) -> None:
+def test_short_bound_is_an_upper_bound(bound: str) -> None:
     ball = flint.arb(bound)
     assert ball <= tables.above(ball) < 1.003 * ball

@@ -162,7 +162,7 @@ def ratio(target: Target, point: Point) -> float | None:
 @pytest.mark.parametrize(
     ("name", "inputs", "modes"), [*((*case, None) for case in WORST), *WORST_SUMS]
 )
-def test_what_was_once_wrong_is_right(name: str, inputs: str, modes: int | None) -> None:
+def test_former_errors_are_corrected(name: str, inputs: str, modes: int | None) -> None:
     target = TARGETS[name]
     values = map(float.fromhex, inputs.split())
     found = ratio(target, Point(dict(zip(target.domain.arguments, values, strict=True)), modes))
@@ -174,7 +174,7 @@ LENGTHS, STRESSES = ("r", "z", "h", "b", "R", "a"), ("lam", "mu", "A_j")
 
 
 @pytest.mark.parametrize("name", [*MODES, *SUMS])
-def test_units_do_not_matter(name: str) -> None:
+def test_results_do_not_depend_on_units(name: str) -> None:
     """The error limits hold for lengths and stresses scaled by 2^-400, 1 and 2^400."""
     target, generator, judged = TARGETS[name], Random(name), 0
     for length, stress in itertools.product((-400, 0, 400), repeat=2):
@@ -194,7 +194,7 @@ def test_units_do_not_matter(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", list(sections()))
-def test_sections_are_right_up_to_their_end(name: str) -> None:
+def test_truncated_series_are_accurate_up_to_the_end_of_their_range(name: str) -> None:
     """Each truncated Taylor series is accurate to two ULP from 0 to the end of its range."""
     section = sections()[name]
     (square,) = section.arguments
@@ -203,5 +203,5 @@ def test_sections_are_right_up_to_their_end(name: str) -> None:
     found = getattr(generated_blocks, name)(points)
     with flint.ctx.workprec(3000):
         for point, got in zip(points.tolist(), found.tolist(), strict=True):
-            true = float(enclose(section.total, {square: flint.arb(point)}))
-            assert abs(got - true) <= 2.0 * math.ulp(true)
+            exact = float(enclose(section.total, {square: flint.arb(point)}))
+            assert abs(got - exact) <= 2.0 * math.ulp(exact)

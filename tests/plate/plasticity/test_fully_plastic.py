@@ -53,7 +53,7 @@ def energy(a: float) -> float:
 
 
 @pytest.mark.parametrize("ratio", [1.5, 3.0, 10.0, 30.0, 100.0, 1000.0])
-def test_estimate_agrees_with_the_impact_of_a_risen_pressure(ratio: float) -> None:
+def test_estimate_agrees_with_an_impact_of_increasing_pressure(ratio: float) -> None:
     """The estimate agrees with an integrated impact whose mean pressure rises to 3 Y.
 
     It is a function of impact speed over yield speed. Unloading follows Hertz's law with the
@@ -70,7 +70,7 @@ def test_estimate_agrees_with_the_impact_of_a_risen_pressure(ratio: float) -> No
     assert float(more_force) == pytest.approx(force / (4.0 / 3.0 * xi**3), rel=0.1)
 
 
-def test_fully_plastic_contact_is_johnsons() -> None:
+def test_fully_plastic_contact_agrees_with_johnson() -> None:
     """The restitution is 3.74 (Y/E*)^(1/2) (m v^2/2/(Y R^3))^(-1/8); Johnson's book has 3.8."""
     ratio = 3e4
     brought = 8.0 / 15.0 * ratio**2
@@ -86,20 +86,20 @@ def at_speed(speed: float) -> tuple[str, ...]:
     return tuple(text for text in texts if "onset of yield" in text)
 
 
-def test_impacts_far_beyond_the_onset_are_warned_of() -> None:
+def test_warning_of_impacts_far_beyond_the_onset() -> None:
     assert at_speed(0.003) == ()
     (text,) = at_speed(1.0)
     assert re.findall(r"1\.9", text) == ["1.9"] * 3
 
 
-def test_static_contacts_far_beyond_the_onset_are_warned_of() -> None:
+def test_warning_of_static_contacts_far_beyond_the_onset() -> None:
     scene = read(SCENE | {"impact": {"speed": 1.0}})
     light, heavy = indent(scene, force=[0.1, 1e5])
     assert not any("onset of yield" in text for text in light.warnings)
     assert any("onset of yield" in text for text in heavy.warnings)
 
 
-def test_an_elastic_law_is_not_judged() -> None:
+def test_elastic_law_gives_no_warning() -> None:
     model = Model(R=0.005, m=4e-3, v0=1.0, h=0.5, b=1.0, lam=121e9, mu=81e9, yield_stress=1e8)
     wide = 200.0 * 0.005 * 1e8 / 2e11
     assert risen_pressure(ContactLaw(model, frozenset({"hertz"})), wide) is None

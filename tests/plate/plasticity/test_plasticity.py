@@ -55,7 +55,7 @@ def drop(effects: dict[str, object] | None = None, **plate: object) -> dict[str,
     return DROP | {"plate": DROP["plate"] | plate, "effects": effects or {}}
 
 
-def test_onset_is_where_shear_under_a_ball_reaches_its_limit() -> None:
+def test_onset_is_at_the_limit_of_the_shear_stress() -> None:
     # Stresses on the axis of Hertz's contact for nu = 0.3: Johnson (1985), equation 3.45.
     def difference(z: float) -> float:
         radial = -1.3 * (1.0 - z * math.atan(1.0 / z)) + 0.5 / (1.0 + z * z)
@@ -69,21 +69,21 @@ def test_onset_is_where_shear_under_a_ball_reaches_its_limit() -> None:
 
 
 @given(st.floats(0.0, 3.0))
-def test_half_space_returns_thorntons_restitution(power: float) -> None:
+def test_half_space_agrees_with_thornton(power: float) -> None:
     ratio = 10.0**power
     xi = ((6.0 * ratio**2 - 1.0) / 5.0) ** (1.0 / 6.0)
     assert float(plastic_restitution(xi)) == pytest.approx(thornton(1.0 / ratio), rel=1e-14)
 
 
 @pytest.mark.parametrize("ratio", [1.001, 1.7, 6.0, 100.0])
-def test_time_elements_return_thorntons_restitution(ratio: float) -> None:
+def test_time_elements_agree_with_thornton(ratio: float) -> None:
     found = moved(ContactLaw(at_speeds(ratio), HALF_SPACE))
     assert found.restitution == pytest.approx(thornton(1.0 / ratio), rel=1e-12)
     assert found.energy_balance is not None
     assert abs(found.energy_balance.residual) < 1e-13
 
 
-def test_slow_impact_is_hertzs() -> None:
+def test_slow_impact_agrees_with_hertz() -> None:
     model = at_speeds(0.9)
     found = moved(ContactLaw(model, HALF_SPACE))
     elastic = moved(ContactLaw(replace(model, yield_stress=1e20), HALF_SPACE))
@@ -103,7 +103,7 @@ def test_fast_impacts_of_steel_on_steel_follow_the_fourth_root() -> None:
 
 
 @pytest.mark.parametrize("gravity", [0.0, 9.81])
-def test_plate_that_bends_agrees_with_energy_and_quadrature(gravity: float) -> None:
+def test_bending_plate_agrees_with_energy_and_quadrature(gravity: float) -> None:
     effects = WHOLE_PLATE | HALF_SPACE | ({"gravity"} if gravity else set())
     model = Model(
         R=0.02, m=0.26, v0=0.5, h=0.005, b=0.1, lam=52e9, mu=26e9, yield_stress=3e8,
@@ -195,7 +195,7 @@ class Marched:
         return float(self.problem.contact.at(np.array([a])).force[0])
 
 
-def test_moving_plate_agrees_with_another_integrator() -> None:
+def test_plate_with_inertia_agrees_with_another_integrator() -> None:
     model = Model(
         R=0.01, m=0.02, v0=1.0, h=0.002, b=0.1, lam=52e9, mu=26e9, density=2700.0,
         yield_stress=2e8,
@@ -221,7 +221,7 @@ def test_moving_plate_agrees_with_another_integrator() -> None:
     assert np.max(np.abs(found - expected)) < 2e-4 * max(found)
 
 
-def test_balance_closes_over_several_contacts() -> None:
+def test_energy_balance_closes_over_several_contacts() -> None:
     result = simulate(read(drop()))
     assert result.dynamics is not None
     balance = result.dynamics.energy_balance
@@ -232,7 +232,7 @@ def test_balance_closes_over_several_contacts() -> None:
     assert result.max_pressure == 1.6 * 240e6
 
 
-def test_hard_plate_returns_the_elastic_results() -> None:
+def test_plate_with_high_yield_stress_gives_the_elastic_results() -> None:
     elastic = simulate(read(drop({"plasticity": False})))
     for stress in (3e9, 1e12):
         hard = simulate(read(drop({"plasticity": True}, yield_stress=stress)))
@@ -256,7 +256,7 @@ def test_plates_agree_before_the_echo() -> None:
         assert other.dent == pytest.approx(found[0].dent, rel=2e-4)
 
 
-def test_viscous_contact_that_yields_closes_its_balance_on_a_moving_plate() -> None:
+def test_energy_balance_of_a_viscoplastic_contact_with_inertia() -> None:
     result = simulate(read(drop(retardation_time=2e-6)))
     assert result.dynamics is not None
     balance = result.dynamics.energy_balance
@@ -265,7 +265,7 @@ def test_viscous_contact_that_yields_closes_its_balance_on_a_moving_plate() -> N
     assert abs(balance.residual) < 1e-9
 
 
-def test_selection_leaves_plasticity_out_only_below_the_onset() -> None:
+def test_plasticity_is_omitted_only_below_the_onset() -> None:
     fast = simulate(read(drop({"inertia": False})))
     slow = simulate(read(drop({"inertia": False}) | {"impact": {"speed": 1e-4}}))
     assert "plasticity" in fast.effects.law.effects
@@ -298,7 +298,7 @@ def test_stated_bounds_hold_with_plasticity(seed: int) -> None:
 
 
 @pytest.mark.parametrize("ratio", [1.15, 1.3])
-def test_bounds_hold_on_plates_that_move(ratio: float) -> None:
+def test_bounds_hold_with_plate_inertia(ratio: float) -> None:
     """The bounds hold where Hertz's pressure is slightly larger than the pressure limit."""
     scene = drop({"non_hertzian_pressure": False}, edge="paper", thickness=0.05)
     elastic = simulate(read(scene | {"effects": scene["effects"] | {"plasticity": False}}),
@@ -341,13 +341,13 @@ def test_static_contact_on_loading() -> None:
     assert 2 / 3 * large.max_pressure < mean < large.max_pressure == 1.6 * 240e6
 
 
-def test_parameter_is_the_pressure_over_its_limit() -> None:
+def test_parameter_is_the_pressure_relative_to_its_limit() -> None:
     law = ContactLaw(BALL, frozenset({"hertz"}))
     a = 1e-4
     found = BY_NAME["plasticity"].value(BALL, a)
     assert found == pytest.approx(law.max_pressure(a) / (1.6 * BALL.yield_stress), rel=1e-14)
 
 
-def test_code_of_a_contact_that_yields_is_refused_with_what_to_do_instead() -> None:
+def test_code_of_a_plastic_contact_is_rejected_with_a_remedy() -> None:
     with pytest.raises(SceneError, match=r"^effects\.plasticity: "):
         scene_code(read(drop({"inertia": False})))

@@ -88,7 +88,7 @@ def test_half_space_agrees_with_another_integrator(speed: float) -> None:
 
 
 @pytest.mark.parametrize("gravity", [0.0, 9.81])
-def test_balance_closes_on_a_plate_that_bends(gravity: float) -> None:
+def test_energy_balance_closes_on_a_bending_plate(gravity: float) -> None:
     scene = drop() | {"impact": {"speed": 1.98, "gravity": gravity}}
     balance = simulate(read(scene)).energy_balance
     assert balance is not None
@@ -96,13 +96,13 @@ def test_balance_closes_on_a_plate_that_bends(gravity: float) -> None:
     assert abs(balance.residual) < 1e-12
 
 
-def test_a_hard_plate_returns_the_viscoelastic_results() -> None:
+def test_plate_with_high_yield_stress_gives_the_viscoelastic_results() -> None:
     hard = simulate(read(drop(yield_stress=1e12)))
     never = simulate(read(drop({"plasticity": False})))
     assert numbers(hard) == pytest.approx(numbers(never), rel=1e-11)
 
 
-def test_without_viscosity_it_returns_the_yielding_results() -> None:
+def test_plastic_results_are_the_limit_without_viscosity() -> None:
     """The change of the results is proportional to a short retardation time."""
     calm = numbers(simulate(read(drop({"viscosity": False}))))
     off = []
@@ -113,7 +113,7 @@ def test_without_viscosity_it_returns_the_yielding_results() -> None:
     assert off[1] == pytest.approx(off[0] / 10.0, rel=0.02)
 
 
-def test_more_nodes_change_little() -> None:
+def test_results_converge_with_the_nodes() -> None:
     for model in (BALL, replace(BALL, retardation_time=1e-4, v0=5.0)):
         found: Motion = moved(ContactLaw(model, HALF_SPACE))
         assert found.quadrature < 1e-9

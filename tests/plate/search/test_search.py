@@ -60,7 +60,7 @@ def caught(planted: Target) -> Search:
     return search([planted], seed=10, evaluations=3000)
 
 
-def test_same_seed_and_evaluations_give_the_same(fast: tuple[Target, ...]) -> None:
+def test_search_is_reproducible(fast: tuple[Target, ...]) -> None:
     one, two = (search(fast, seed=7, evaluations=800) for _ in range(2))
     assert one.evaluations == 800
     assert as_data(one) == as_data(two)
@@ -68,24 +68,24 @@ def test_same_seed_and_evaluations_give_the_same(fast: tuple[Target, ...]) -> No
     assert as_data(search(fast, seed=8, evaluations=800))["rows"] != as_data(one)["rows"]
 
 
-def test_a_kernel_searched_alone_takes_the_same_steps(fast: tuple[Target, ...]) -> None:
+def test_search_of_a_single_function_takes_the_same_steps(fast: tuple[Target, ...]) -> None:
     together = search(fast, seed=3, evaluations=500).standings["sonine"]
     alone = search(targets(["sonine"]), seed=3, evaluations=together.evaluations)
     assert alone.standings["sonine"] == together
 
 
-def test_no_kernel_starves(fast: tuple[Target, ...]) -> None:
+def test_every_function_is_searched(fast: tuple[Target, ...]) -> None:
     found = search(fast, seed=1, evaluations=sum(t.share for t in fast))
     assert [s.evaluations for s in found.standings.values()] == [t.share for t in fast]
 
 
-def test_time_alone_ends_a_search_too(fast: tuple[Target, ...]) -> None:
+def test_search_ends_at_its_time_limit(fast: tuple[Target, ...]) -> None:
     assert search(fast, seed=1, seconds=0.0).evaluations == 0
     with pytest.raises(ValueError, match="no end"):
         search(fast, seed=1)
 
 
-def test_every_target_draws_inside_its_domain() -> None:
+def test_random_points_are_inside_the_domain() -> None:
     generator = random.Random(1)
     for target in targets():
         if target.name in ("contact_radius", "impact"):  # their arguments need the reference
@@ -97,7 +97,7 @@ def test_every_target_draws_inside_its_domain() -> None:
             assert (point.modes is not None) == target.domain.modes
 
 
-def test_a_planted_defect_is_found_and_refined(caught: Search) -> None:
+def test_known_defect_is_found_and_refined(caught: Search) -> None:
     standing = caught.standings["bessel_j0"]
     assert standing.evaluations == 3000
     assert standing.worst is not None
@@ -107,9 +107,7 @@ def test_a_planted_defect_is_found_and_refined(caught: Search) -> None:
     assert not kept(caught)
 
 
-def test_the_file_reads_back_and_reproduces_the_error(
-    caught: Search, planted: Target, tmp_path: Path
-) -> None:
+def test_written_case_reproduces_the_error(caught: Search, planted: Target, tmp_path: Path) -> None:
     path = tmp_path / "cases.toml"
     book = Book(path, [planted], {}, {})
     book.keep(caught)
@@ -124,7 +122,7 @@ def test_the_file_reads_back_and_reproduces_the_error(
     assert path.read_text() == before
 
 
-def test_what_is_worse_than_recorded_or_allowed_is_new(caught: Search, planted: Target) -> None:
+def test_only_larger_errors_are_new_cases(caught: Search, planted: Target) -> None:
     known = ROOT / "reports" / "data" / "check.json"
     worst = caught.standings["bessel_j0"].worst
     assert worst is not None
@@ -135,7 +133,7 @@ def test_what_is_worse_than_recorded_or_allowed_is_new(caught: Search, planted: 
     assert not book.is_new("bessel_j0", dataclasses.replace(worst, error=smaller))
 
 
-def test_a_case_of_two_points_in_company(fast: tuple[Target, ...], tmp_path: Path) -> None:
+def test_case_with_an_array_of_two_points(fast: tuple[Target, ...], tmp_path: Path) -> None:
     """The case of a function that is wrong only for arrays contains both points, as an array."""
     kernel = next(k for k in generated_kernels() if k.name == "bessel_j1")
 
@@ -158,7 +156,7 @@ def test_a_case_of_two_points_in_company(fast: tuple[Target, ...], tmp_path: Pat
     assert measured(read_back, {"bessel_j1": target}) == worst
 
 
-def test_a_result_that_is_not_finite_is_the_worst(planted: Target, tmp_path: Path) -> None:
+def test_result_that_is_not_finite_is_the_largest_error(planted: Target, tmp_path: Path) -> None:
     broken = dataclasses.replace(planted, call=lambda points: [(math.nan,)] * len(points))
     found = search([broken], 1, evaluations=10)
     assert found.standings["bessel_j0"].ratio == math.inf
@@ -168,7 +166,7 @@ def test_a_result_that_is_not_finite_is_the_worst(planted: Target, tmp_path: Pat
     assert read(tmp_path / "x.toml")
 
 
-def test_steps_keep_to_floats_and_whole_numbers() -> None:
+def test_steps_are_floats_or_integers() -> None:
     point = Point({"phi": 1.0, "n": 5.0})
     real, whole = domain_of("G", ("phi",), False, ()), domain_of("kappa", ("n",), False, ())
     assert real.moved(point, "phi", 1).values["phi"] == math.nextafter(1.0, 2.0)
@@ -184,23 +182,23 @@ def test_durations() -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "says"),
+    ("arguments", "expected"),
     [
         (["search", "--time", "soon"], "30s, 5m or 1h"),
         (["search", "--function", "nonsense"], "bessel_j1"),
         (["search", "--function", "G", "--out", str(ROOT / "pyproject.toml")], "--out"),
     ],
 )
-def test_bad_input_is_refused(
-    arguments: list[str], says: str, capsys: pytest.CaptureFixture[str]
+def test_invalid_input_is_rejected(
+    arguments: list[str], expected: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     before = (ROOT / "pyproject.toml").read_bytes()
     assert main(["check", *arguments]) == 2
-    assert says in capsys.readouterr().err
+    assert expected in capsys.readouterr().err
     assert (ROOT / "pyproject.toml").read_bytes() == before
 
 
-def test_a_case_with_other_arguments_is_refused(fast: Sequence[Target], tmp_path: Path) -> None:
+def test_case_with_other_arguments_is_rejected(fast: Sequence[Target], tmp_path: Path) -> None:
     path = tmp_path / "cases.toml"
     case = HardCase("search", "p", "By hand.", {"x": ("0x1p+0",)})
     path.write_text(to_toml([(case, None)]))
@@ -232,7 +230,7 @@ def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert f"bessel_j1: x={found['rows'][0]['inputs']['x']}\n" in shown
 
 
-def test_interrupted_search_keeps_what_it_found(tmp_path: Path) -> None:
+def test_interrupted_search_keeps_its_cases(tmp_path: Path) -> None:
     program = """
 import dataclasses, pathlib, sys
 from derivation import cli, pipeline

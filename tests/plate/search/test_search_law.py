@@ -47,7 +47,7 @@ def _quiet() -> Iterator[None]:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_law_is_judged_alone_and_in_company(name: str, law: dict[str, Target]) -> None:
+def test_law_is_tested_for_single_points_and_arrays(name: str, law: dict[str, Target]) -> None:
     """A correct value is within its error limit, also in an array; an error of 1e-10 is not."""
     target, generator = law[name], random.Random(4)
     points = [draw(target.domain, generator) for _ in range(2)]
@@ -68,7 +68,7 @@ def test_law_is_judged_alone_and_in_company(name: str, law: dict[str, Target]) -
         assert nothing.ratio == math.inf
 
 
-def test_drawn_depths_and_speeds_lead_to_contacts_within_the_law(law: dict[str, Target]) -> None:
+def test_random_arguments_give_contacts_within_the_law(law: dict[str, Target]) -> None:
     """The generated law maps each drawn argument to a contact radius within its range."""
     generator = random.Random(9)
     for _ in range(3):
@@ -82,7 +82,7 @@ def test_drawn_depths_and_speeds_lead_to_contacts_within_the_law(law: dict[str, 
         assert 0.0 < found.max_contact_radius < min(motion["b"], motion["R"])
 
 
-def test_what_the_law_does_not_stated_limit_is_not_judged(law: dict[str, Target]) -> None:
+def test_contacts_outside_the_law_are_not_evaluated(law: dict[str, Target]) -> None:
     """A contact beyond the plate edge and an overflowing force are not evaluated."""
     beyond = Point({"delta": 2.0, "R": 1.0, "h": 0.5, "b": 1.0})
     assert law["contact_radius"].measure(beyond, (1.0,)) is None
@@ -93,7 +93,7 @@ def test_what_the_law_does_not_stated_limit_is_not_judged(law: dict[str, Target]
 @pytest.mark.parametrize(
     ("a", "R", "judged"), [(0.55, 100.0, True), (0.8, 100.0, False), (0.55, 0.5, False)]
 )
-def test_a_contact_wider_than_stated_has_no_reference(
+def test_contact_wider_than_stated_has_no_reference(
     a: float, R: float, judged: bool, law: dict[str, Target]
 ) -> None:
     """References exist up to a = 6 h (here 0.6) and up to the radius of the sphere."""
@@ -104,10 +104,10 @@ def test_a_contact_wider_than_stated_has_no_reference(
     assert found is None or found.ratio < 1.0
 
 
-def test_a_kernel_with_too_many_results_is_no_kernel() -> None:
-    true = reference_value(("max_pressure", (0.1, 1.0, 1e9, 1e9)))
+def test_function_with_too_many_results_is_rejected() -> None:
+    exact = reference_value(("max_pressure", (0.1, 1.0, 1e9, 1e9)))
     with pytest.raises(ValueError, match="2 results at "):
-        contact_judge.judge(lambda *_: (1.0, 2.0), [true], 1.0)
+        contact_judge.judge(lambda *_: (1.0, 2.0), [exact], 1.0)
 
 
 # --- no reference, or no neighbour
@@ -125,7 +125,7 @@ def plain(name: str, arguments: tuple[str, ...], conditions: tuple[str, ...]) ->
     return Target(domain_of(name, arguments, False, conditions), draw, call, measure, None, 48, 1)
 
 
-def test_points_without_reference_are_counted_and_no_worst_is_made_up() -> None:
+def test_points_without_reference_are_counted() -> None:
     target = dataclasses.replace(plain("blind", ("x",), ()), measure=lambda *_: None)
     standing = search.search([target], 1, evaluations=600).standings["blind"]
     assert (standing.evaluations, standing.unjudged) == (600, 600)
@@ -133,7 +133,7 @@ def test_points_without_reference_are_counted_and_no_worst_is_made_up() -> None:
     assert standing.ratio == -1.0
 
 
-def test_a_climb_leaves_a_zero_alone_and_stays_in_the_domain() -> None:
+def test_local_search_keeps_zeros_and_stays_in_the_domain() -> None:
     """The local search does not move an argument that is 0, nor leave the domain."""
     seen = list[Point]()
     target = plain("zero", ("x", "y"), ("y == 1.0 or y > 4.0",))
@@ -150,7 +150,7 @@ def test_a_climb_leaves_a_zero_alone_and_stays_in_the_domain() -> None:
     assert {point.values["x"] for point in seen} == {0.0}
 
 
-def test_conditions_that_contradict_each_other_are_said_to() -> None:
+def test_contradictory_conditions_are_reported() -> None:
     with pytest.raises(ValueError, match="no point found in the domain of never"):
         draw(domain_of("never", ("x",), False, ("x > 1.0", "x < 1.0")), random.Random(1))
 
@@ -158,7 +158,7 @@ def test_conditions_that_contradict_each_other_are_said_to() -> None:
 # --- the file of cases
 
 
-def test_cases_of_kernels_not_searched_now_stay_in_the_file(tmp_path: Path) -> None:
+def test_cases_of_other_functions_stay_in_the_file(tmp_path: Path) -> None:
     path, target = tmp_path / "cases.toml", plain("size", ("x",), ())
     other = HardCase("search", "other", "Found by search, seed 3.", {"x": ((1.0).hex(),)})
     path.write_text(to_toml([(other, None)]))
@@ -172,7 +172,7 @@ def test_cases_of_kernels_not_searched_now_stay_in_the_file(tmp_path: Path) -> N
     assert second == case_of("size", worst, 1)
 
 
-def test_what_the_contact_laws_check_found_is_not_new(law: dict[str, Target]) -> None:
+def test_recorded_worst_error_is_not_a_new_case(law: dict[str, Target]) -> None:
     """The committed worst error is measured again, and only a larger one is a new case."""
     target = law["force_of_radius"]
     rows = json.loads(pipeline.MEASURED_CONTACT.read_text())["rows"]
@@ -190,7 +190,7 @@ def test_what_the_contact_laws_check_found_is_not_new(law: dict[str, Target]) ->
 
 
 @pytest.mark.parametrize(("off", "status"), [(0.5, 0), (2.0, 1)])
-def test_the_search_as_json_is_nothing_else(
+def test_json_output_of_the_search_is_pure(
     off: float, status: int, tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str],
 ) -> None:  # fmt: skip

@@ -11,7 +11,6 @@ from mpmath import beta, mp, mpf
 from scipy.integrate import solve_ivp
 from shared_scenes import ALL, AT_REST
 
-from derivation.plate.viscosity.theory import bounds, contact
 from derivation.scene import motion, viscous
 from derivation.scene.effect_selection import decide
 from derivation.scene.effects import BY_NAME, WHOLE_PLATE
@@ -69,7 +68,7 @@ def spiral(x: float) -> tuple[float, float]:
 
 
 @pytest.mark.parametrize("x", [1e-3, 0.03, 0.3, 1.0, 3.0])
-def test_hertz_contact_runs_along_the_spiral(x: float) -> None:
+def test_hertz_contact_follows_the_spiral(x: float) -> None:
     model = with_number(x)
     found, calm = moves(ContactLaw(model, HERTZ)), moves(ContactLaw(model, frozenset({"hertz"})))
     restitution, time = spiral(x)
@@ -77,7 +76,7 @@ def test_hertz_contact_runs_along_the_spiral(x: float) -> None:
     assert found.contact_time / calm.contact_time == pytest.approx(time, rel=1e-9)
 
 
-def test_restitution_of_weak_viscosity_is_the_published_series() -> None:
+def test_restitution_of_weak_viscosity_agrees_with_the_published_series() -> None:
     """For small x the restitution has the series of Schwager and Poeschel (2008).
 
     The series is 1 - 1.153449 x + 0.798267 x^2 + (4/15) x^(5/2) + ...
@@ -96,7 +95,7 @@ def test_restitution_of_weak_viscosity_is_the_published_series() -> None:
     assert 2 * rest[0] - rest[1] == pytest.approx(4 / 15, rel=0.01)
 
 
-def test_viscous_number_is_that_of_the_scene() -> None:
+def test_viscous_parameter_is_that_of_the_scene() -> None:
     K = 4 / 3 * BALL.modulus * math.sqrt(BALL.R)
     expected = 1.5 * BALL.retardation_time * (K / BALL.m) ** 0.4 * BALL.v0**0.2
     found = viscous_number(BALL.R, BALL.m, BALL.v0, BALL.lam, BALL.mu, BALL.retardation_time)
@@ -152,7 +151,7 @@ def by_scipy(law: ContactLaw) -> tuple[float, float, float, float]:
     )
 
 
-def test_bent_plate_against_another_integrator() -> None:
+def test_bending_plate_agrees_with_another_integrator() -> None:
     model = replace(BALL, h=0.002, b=0.06, retardation_time=4e-5)
     law = ContactLaw(model, PLATE)
     found = moves(law)
@@ -175,7 +174,7 @@ def test_bent_plate_against_another_integrator() -> None:
     ),
     st.sampled_from(["simply-supported", "clamped"]),
 )
-def test_energy_closes(
+def test_energy_balance_closes(
     number: float, eta: float, speed: float, effects: frozenset[str], edge: str
 ) -> None:
     model = replace(BALL, h=BALL.b * 10**eta, v0=10**speed, edge=edge)
@@ -195,7 +194,7 @@ def test_energy_closes(
     assert found.quadrature < 1e-9
 
 
-def test_energy_closes_with_weight_and_true_pressure() -> None:
+def test_energy_balance_closes_with_weight_and_non_hertzian_pressure() -> None:
     model = replace(BALL, h=0.004, gravity=9.81, v0=0.3, sphere_modulus=5e9, retardation_time=2e-5)
     law = ContactLaw(
         model,
@@ -210,7 +209,7 @@ def test_energy_closes_with_weight_and_true_pressure() -> None:
     assert found.numbers != pytest.approx(hertz.numbers, rel=1e-5)
 
 
-def test_little_viscosity_is_none() -> None:
+def test_small_viscosity_tends_to_the_elastic_limit() -> None:
     model = with_number(1e-9)
     for effects in (HERTZ, PLATE, PLATE | {"non_hertzian_pressure", "spherical_profile"}):
         law = ContactLaw(model, effects)
@@ -218,7 +217,7 @@ def test_little_viscosity_is_none() -> None:
         assert moves(law).numbers == pytest.approx(calm.numbers, rel=3e-9)
 
 
-def test_bending_takes_nothing() -> None:
+def test_bending_dissipates_no_energy() -> None:
     """Only the local contact dissipates, so a more compliant plate loses less energy."""
     thin = [replace(BALL, h=h, retardation_time=1e-5) for h in (0.01, 0.004, 0.002, 0.001)]
     lost = [1.0 - moves(ContactLaw(model, PLATE)).restitution for model in thin]
@@ -230,14 +229,14 @@ def test_bending_takes_nothing() -> None:
     assert whole.numbers == pytest.approx(local.numbers, rel=1e-2)
 
 
-def test_a_sphere_that_stays_is_refused() -> None:
+def test_sphere_that_stays_is_rejected() -> None:
     slow = replace(with_number(1.0), v0=1e-4, gravity=9.81)
     with pytest.raises(SceneError, match=r"^plate\.retardation_time: "):
         moved(ContactLaw(slow, HERTZ | {"gravity"}))
     assert moves(ContactLaw(slow, HERTZ)).restitution > 0.0
 
 
-def test_course_meets_the_results() -> None:
+def test_history_agrees_with_the_results() -> None:
     law = ContactLaw(replace(BALL, retardation_time=1e-5), PLATE)
     found = moves(law)
     times = np.linspace(0.0, found.contact_time, 4001)
@@ -257,7 +256,7 @@ def test_course_meets_the_results() -> None:
 EXTREMES = ImpactExtremes(0.1, 1.0, 0.0, 0.2, 0.8, 0.4, 1.0)
 
 
-def test_logarithms_hold_for_hertz() -> None:
+def test_bounds_of_viscosity_hold_for_hertz() -> None:
     """The bounds of viscosity hold for a Hertz contact and are not too wide.
 
     There epsilon = (4/5)^(2/5) x, log Omega/log s = 1/5, delta ~ s^(4/5) and a ~ s^(2/5).
@@ -276,7 +275,7 @@ def test_logarithms_hold_for_hertz() -> None:
 
 @pytest.mark.parametrize("output", OUTPUTS)
 @pytest.mark.parametrize("retardation_time", [1e-9, 1e-8, 1e-7, 1e-6])
-def test_each_output_of_a_heavy_sphere_is_within_its_bound(
+def test_outputs_of_a_heavy_sphere_are_within_their_bounds(
     output: str, retardation_time: float
 ) -> None:
     """The bound covers a heavy, slow sphere, whose weight prolongs a slow rebound."""
@@ -291,16 +290,16 @@ def test_each_output_of_a_heavy_sphere_is_within_its_bound(
     bound = {row.name: row.bound for row in selected.rows}["viscosity"]
     place = OUTPUTS.index(output)
     try:
-        true = moves(replace(selected.law, effects=selected.law.effects | {"viscosity"})).numbers[
+        exact = moves(replace(selected.law, effects=selected.law.effects | {"viscosity"})).numbers[
             place
         ]
     except SceneError:  # the sphere does not rebound
         assert bound == math.inf
     else:
-        assert abs(moves(selected.law).numbers[place] / true - 1.0) <= bound
+        assert abs(moves(selected.law).numbers[place] / exact - 1.0) <= bound
 
 
-def test_bending_stays_with_an_edge_that_does_not_lag() -> None:
+def test_bending_is_included_with_the_edge() -> None:
     """Bending is included with the edge: otherwise the edge correction would be viscoelastic.
 
     This would change the results more than bending itself does.
@@ -314,13 +313,15 @@ def test_bending_stays_with_an_edge_that_does_not_lag() -> None:
 
 @pytest.mark.parametrize("edge", ["paper", "clamped"])
 @pytest.mark.parametrize("gravity", [0.0, 9.81])
-def test_gate_keeps_its_word_either_side_of_its_threshold(edge: str, gravity: float) -> None:
+def test_error_is_within_the_bound_on_both_sides_of_the_threshold(
+    edge: str, gravity: float
+) -> None:
     model = replace(BALL, edge=edge, gravity=gravity, h=0.008, retardation_time=3e-8)
     others = dict.fromkeys(ALL - {"hertz", "viscosity"}, True)
-    price = {row.name: row.bound for row in decide(model, AT_REST | others, 1e-12).rows}[
+    error_bound = {row.name: row.bound for row in decide(model, AT_REST | others, 1e-12).rows}[
         "viscosity"
     ]
-    for rtol, included in ((price / 2, True), (price * 1.05, False)):
+    for rtol, included in ((error_bound / 2, True), (error_bound * 1.05, False)):
         selected = decide(model, AT_REST | others, rtol)
         assert ("viscosity" in selected.law.effects) is included
         whole = moves(
@@ -332,7 +333,3 @@ def test_gate_keeps_its_word_either_side_of_its_threshold(edge: str, gravity: fl
         errors = [abs(x / y - 1) for x, y in zip(found.numbers, whole.numbers, strict=True)]
         assert max(errors) <= selected.error + 1e-11 <= rtol + 1e-11
     assert OUTPUTS[-1] == "restitution"
-
-
-def test_spiral_and_bounds_are_proved_symbolically() -> None:
-    assert contact.polar().method == bounds.bounds().proof.method == "symbolically"

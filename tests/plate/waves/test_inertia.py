@@ -1,7 +1,6 @@
 """Test the theory of plate inertia, and its two references against each other and limits."""
 
 import itertools
-from collections.abc import Callable
 from fractions import Fraction
 
 import flint
@@ -12,7 +11,7 @@ from mpmath import mp, mpf
 from shared_scenes import material
 
 from derivation.engine.formula.ball import PrecisionError, evaluate, to_ball
-from derivation.engine.formula.proof import SYMBOLIC, ProofError, prove
+from derivation.engine.formula.proof import ProofError, prove
 from derivation.plate import derived
 from derivation.plate.vocabulary import gam, h, kap, mu, x_h, xi_R
 from derivation.plate.waves import oracle as inertia_balls
@@ -29,27 +28,7 @@ pytestmark = pytest.mark.usefixtures("silent")
 # --- theory
 
 
-def test_every_formula_of_both_links_is_proved_symbolically() -> None:
-    found = dict(derived.chain())
-    formulas = (*found["dynamic modes"], *found["bending branch"])
-    assert len(formulas) == 18
-    assert {formula.proof.method for formula in formulas} == {SYMBOLIC}
-
-
-@pytest.mark.parametrize(
-    "step",
-    [
-        dynamic_modes.static_limit,
-        dynamic_modes.kinetic_identity,
-        dynamic_modes.kinetic_slope,
-        bending_branch.rise_anywhere,
-    ],
-)
-def test_steps_are_proved_symbolically(step: Callable[[], object]) -> None:
-    assert step().method == SYMBOLIC
-
-
-def test_another_influence_is_refused() -> None:
+def test_wrong_influence_is_rejected() -> None:
     """The proof fails for twice the influence, which full loads A_j on both faces would give."""
     p, q = dynamic_modes.p, dynamic_modes.q
     printed = dynamic_modes.in_p_and_q(dynamic_modes.stiffness(sp.tanh(p), sp.tanh(q)))
@@ -62,7 +41,9 @@ def test_another_influence_is_refused() -> None:
 @pytest.mark.parametrize(
     ("x", "load", "nu"), [(0.3, 0.02, 0.25), (1.3, 1.1, -0.7), (4.0, 9.0, 0.4)]
 )
-def test_influence_against_tractions_solved_in_numbers(x: float, load: float, nu: float) -> None:
+def test_influence_agrees_with_numerical_traction_conditions(
+    x: float, load: float, nu: float
+) -> None:
     formula = derived.formulas()["dynamic_influence"].expression
     values = {x_h: x, kap: load, gam: material(nu), h: 1, mu: 1}
     ball = evaluate(formula, values, 25)
@@ -79,16 +60,16 @@ def test_thin_plate_series_of_any_order() -> None:
     with flint.ctx.workprec(BITS):
         reference = inertia_balls.zero(x, nu, digits=25) / arb(x) ** 4
         answer = inertia_balls.residue(x, nu, digits=25)
-        for row, true in ((slopes, reference), (residues, answer)):
+        for row, exact in ((slopes, reference), (residues, answer)):
             total, errors = arb(0), []
             for n, coefficient in enumerate(row):
                 total += evaluate(coefficient, {gam: material(nu)}, 30) * arb(x) ** (2 * n)
-                errors.append(float(abs(total / true - 1)))
+                errors.append(float(abs(total / exact - 1)))
             assert errors[-1] < 1e-15
             assert all(after < 0.1 * before for before, after in itertools.pairwise(errors))
 
 
-def test_rayleighs_cubic() -> None:
+def test_rayleigh_cubic() -> None:
     cubic = bending_branch.rayleigh()[0].expression
     (speed,) = (
         root for root in sp.Poly(cubic.subs(gam, sp.Rational(1, 3)), xi_R).nroots(20)
@@ -104,7 +85,7 @@ def test_rayleighs_cubic() -> None:
     ("x", "load", "nu"),
     [(0.3, 0.01, 0.25), (1.0, 1.4, -0.5), (2.0, 30.0, 0.4), (0.01, 1e-9, 0.3), (40.0, 700.0, 0.1)],
 )
-def test_oracles_agree_on_the_influence(x: float, load: float, nu: float) -> None:
+def test_references_agree_on_the_influence(x: float, load: float, nu: float) -> None:
     balls = inertia_balls.influence(x, load, nu, 25)
     with mp.workdps(40):
         routes = inertia_routes.influence(x, load, nu, 25)
@@ -114,14 +95,14 @@ def test_oracles_agree_on_the_influence(x: float, load: float, nu: float) -> Non
 
 
 @pytest.mark.parametrize(("x", "nu"), [(1e-3, 0.3), (0.9, -0.9), (3.0, 0.49), (60.0, 0.25)])
-def test_oracles_agree_on_the_lowest_branch(x: float, nu: float) -> None:
+def test_references_agree_on_the_lowest_branch(x: float, nu: float) -> None:
     digits = 12
-    oracles = zip(
+    pairs = zip(
         (inertia_balls.zero, inertia_balls.residue, inertia_balls.share),
         (inertia_routes.zero, inertia_routes.residue, inertia_routes.share),
         strict=True,
     )
-    for first, second in oracles:
+    for first, second in pairs:
         ball = first(x, nu, digits=digits + 4)
         with mp.workdps(30):
             route = mp.nstr(mpf(second(x, nu, digits=digits)), 25)
@@ -130,7 +111,7 @@ def test_oracles_agree_on_the_lowest_branch(x: float, nu: float) -> None:
 
 
 @pytest.mark.parametrize("x", [1e-3, 0.7, 30.0])
-def test_oracle_encloses_its_limits(x: float) -> None:
+def test_reference_encloses_its_limits(x: float) -> None:
     """The Arb reference encloses two limits.
 
     At kap = 0 the expected value follows from the static plate factor. At kap = x^2, where
@@ -144,14 +125,14 @@ def test_oracle_encloses_its_limits(x: float) -> None:
         whole = G / (2 * (1 - to_ball(material(0.3))) * arb(x))
         assert abs((still[0] + still[1]) / whole - 1) < 1e-24
     with mp.workdps(40):
-        beside = inertia_routes.influence(x, mpf(x) ** 2 * (1 + mpf(10) ** -18), 0.3, 25)
+        neighbour = inertia_routes.influence(x, mpf(x) ** 2 * (1 + mpf(10) ** -18), 0.3, 25)
         with flint.ctx.workprec(BITS):
-            for ball, route in zip(turn, beside, strict=True):
+            for ball, route in zip(turn, neighbour, strict=True):
                 assert abs(ball / arb(mp.nstr(route, 35)) - 1) < 1e-14
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_oracle_far_out(kind: str) -> None:
+def test_reference_for_very_thin_and_thick_plates(kind: str) -> None:
     """The first higher branch lies between its poles in very thin and very thick plates."""
     for x in (1e-40, 1e40):
         kap_1 = inertia_balls.zero(x, 0.3, kind, 1, DIGITS)
@@ -161,7 +142,7 @@ def test_oracle_far_out(kind: str) -> None:
         assert inertia_balls.residue(x, 0.3, kind, 1, DIGITS) > 0
 
 
-def test_oracle_says_when_it_cannot_tell() -> None:
+def test_reference_raises_an_error_if_undefined() -> None:
     """The reference raises an error at p = 0, where the expression is undefined but has a limit."""
     with pytest.raises(PrecisionError, match="digits"):
         inertia_balls.influence(1.0, 1.5, -0.5)

@@ -20,7 +20,7 @@ from generated.plate_waves import branches
 pytestmark = pytest.mark.usefixtures("silent")
 
 
-def test_load_at_rest_is_the_limit() -> None:
+def test_static_load_is_the_limit() -> None:
     x, nu = np.geomspace(1e-6, 200.0, 40), 0.3
     still, slow = (np.stack(dynamic_influence(x, load, nu)) for load in (0.0, 1e-40))
     np.testing.assert_allclose(slow, still, rtol=1e-13)
@@ -51,7 +51,7 @@ def test_no_branch_is_missed(x: float, nu: float) -> None:
         np.testing.assert_array_equal(changed, places % 2 == 1)
 
 
-def test_branches_that_no_pressure_moves() -> None:
+def test_branches_without_response_to_pressure() -> None:
     """Two kinds of branches have known frequencies, and S0 for nu = 0 has no deflection.
 
     S0 for nu = 0 is a longitudinal rod wave. Lame's waves have kap = 2 x^2.
@@ -65,7 +65,7 @@ def test_branches_that_no_pressure_moves() -> None:
         assert np.abs(found / (math.sqrt(2) * x) - 1).min() < 1e-15
 
 
-def test_shapes_and_refusals() -> None:
+def test_array_shapes_and_rejected_arguments() -> None:
     frequency, residue = branches(np.full((2, 1), 0.3, np.float32), np.float32(0.3), 4)
     assert frequency.shape == residue.shape == (2, 1, 4)
     assert frequency.dtype == residue.dtype == np.float32
@@ -83,7 +83,7 @@ def test_shapes_and_refusals() -> None:
 # --- known answers
 
 
-def test_thin_plates_bend_as_kirchhoffs() -> None:
+def test_thin_plates_have_the_kirchhoff_frequency() -> None:
     """In thin plates A0 has Kirchhoff's frequency and carries the whole deflection.
 
     Here omega = phi^2 sqrt(D/(rho H)) and r = 1/(rho H).
@@ -95,7 +95,7 @@ def test_thin_plates_bend_as_kirchhoffs() -> None:
     assert bending_share(x, nu) == pytest.approx(1.0, rel=1e-9)
 
 
-def test_short_waves_are_rayleighs() -> None:
+def test_short_waves_have_the_rayleigh_speed() -> None:
     """Short waves have the Rayleigh speed: for nu = 1/4, c_R/c_T = sqrt(2 - 2/sqrt 3) = 0.9194."""
     speed = bending_frequency(300.0, 0.25) / 300.0
     assert speed == pytest.approx(0.9194, abs=5e-5)
@@ -106,7 +106,7 @@ def test_short_waves_are_rayleighs() -> None:
     assert bending_residue(300.0, 0.25) / 300.0 == pytest.approx(float(limit), rel=1e-13)
 
 
-def test_cut_offs_are_resonances_through_the_thickness() -> None:
+def test_cut_off_frequencies_are_thickness_resonances() -> None:
     """The cut-off frequencies are n pi/2 for shear and n pi/(2 sqrt gam) for pressure waves.
 
     Bending branches have odd n for shear and even n for pressure waves, so A1 begins at pi/2.
@@ -122,7 +122,7 @@ def test_cut_offs_are_resonances_through_the_thickness() -> None:
     assert branches(x, nu, 2)[0][1] == pytest.approx(math.pi / 2, rel=1e-15)
 
 
-def test_thin_plates_stretch() -> None:
+def test_extensional_branch_of_thin_plates() -> None:
     """In thin plates S0 has the frequency omega = phi sqrt(E*/rho)."""
     x, nu = 1e-6, np.array([-0.9, 0.0, 0.4])
     assert branches(x, nu, 1, "symmetric")[0][:, 0] == pytest.approx(x * np.sqrt(2 / (1 - nu)))
@@ -131,7 +131,7 @@ def test_thin_plates_stretch() -> None:
 @pytest.mark.parametrize("x", [0.3, 1.0, 4.0])
 @pytest.mark.parametrize("nu", [-0.5, 0.0, 0.25, 0.49])
 @pytest.mark.parametrize("parity", KINDS)
-def test_branches_carry_the_load_at_rest(x: float, nu: float, parity: str) -> None:
+def test_branches_add_up_to_the_static_load(x: float, nu: float, parity: str) -> None:
     """sum r/kap converges to the static 1/B; N branches omit a part proportional to 1/N."""
     whole = float(dynamic_influence(x, 0.0, nu)[KINDS.index(parity)])
     frequency, residue = branches(x, nu, 400, parity)
@@ -147,6 +147,6 @@ def test_branches_carry_the_load_at_rest(x: float, nu: float, parity: str) -> No
         assert shares[0] == pytest.approx(share, rel=1e-14)
 
 
-def test_share_of_the_lowest_branch() -> None:
+def test_contribution_of_the_lowest_branch() -> None:
     """For nu = 1/4, A0 carries 98 % of the static deflection at x = 0.5 and 79 % at x = 1."""
     assert bending_share([0.5, 1.0], 0.25) == pytest.approx([0.9765, 0.7945], abs=5e-5)

@@ -23,7 +23,8 @@ edge alone, int u z dz, would omit the work of the shear stress at the edge. Hen
                               + eta^3/5 + (16/3) n^2 eta^4],
 
 where the last terms come from shear at the edge, for nu = 0 (`edge.strip`: 0.19935), and from
-extension. Neglected terms begin with eta^3 n; `edge.remainder` computes their size.
+extension. Neglected terms begin with eta^3 n; `edge.remainder` computes their size. Modes of a
+clamped plate, without s and these terms, have an effective chi (`edge_modes.theory.waves.CHI`).
 """
 
 from functools import cache

@@ -66,21 +66,21 @@ def calls(monkeypatch: pytest.MonkeyPatch) -> set[str]:
 
 
 @pytest.mark.parametrize("name", sorted(ALL))
-def test_an_effect_alone_calls_its_own_kernels_and_no_other(name: str, calls: set[str]) -> None:
+def test_single_effect_calls_only_its_own_functions(name: str, calls: set[str]) -> None:
     law = ContactLaw(model(b=0.51, h=0.123, retardation_time=1e-6), frozenset({"hertz", name}))
     moved(law)
     assert calls == ALONE[name]
 
 
 @pytest.mark.parametrize("name", ["spherical_profile", "edge", "non_hertzian_pressure"])
-def test_all_others_do_without_it(name: str, calls: set[str]) -> None:
+def test_other_effects_do_not_call_its_functions(name: str, calls: set[str]) -> None:
     motion.impact(ContactLaw(model(b=0.52, h=0.124), ALL - {name, "non_hertzian_pressure"}))
     assert calls.isdisjoint(ALONE[name] - ZEROS)
     assert name != "edge" or calls.isdisjoint(ZEROS)
     assert calls >= WHOLE
 
 
-def test_the_plates_parts_are_one_kernel_and_none_if_all_are_out(calls: set[str]) -> None:
+def test_parts_of_the_plate_need_one_function_or_none(calls: set[str]) -> None:
     m = model(b=0.53, h=0.125)
     motion.impact(ContactLaw(m, WHOLE_PLATE | {"hertz"}))
     assert calls == WHOLE
@@ -97,7 +97,7 @@ def test_the_plates_parts_are_one_kernel_and_none_if_all_are_out(calls: set[str]
         ("edge", {"edge": "paper"}),
     ],
 )
-def test_out_is_to_the_last_bit_as_if_the_scene_had_none(name: str, without: Any) -> None:
+def test_omitted_effect_gives_the_result_of_a_scene_without_it(name: str, without: Any) -> None:
     m = model()
     left, rest = ALL - {name}, replace(m, **without)
     one, other = (
@@ -106,7 +106,7 @@ def test_out_is_to_the_last_bit_as_if_the_scene_had_none(name: str, without: Any
     assert other == one
 
 
-def test_a_half_space_calls_bounds_and_its_closed_form_alone(calls: set[str]) -> None:
+def test_half_space_calls_only_bounds_and_the_closed_form(calls: set[str]) -> None:
     """If all effects are omitted automatically, only bounds and Hertz's impact are evaluated."""
     block = {"half_thickness": 1e4, "radius": 1e4}
     auto = {"inertia": "auto"}
@@ -120,7 +120,7 @@ def test_a_half_space_calls_bounds_and_its_closed_form_alone(calls: set[str]) ->
     assert calls <= BOUNDS | {"hertz"}
 
 
-def test_what_is_out_is_not_called(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_functions_of_omitted_effects_are_not_called(monkeypatch: pytest.MonkeyPatch) -> None:
     """An impact on a half-space calls no kernel of the plate's contact law."""
     calls: list[str] = []
     for name in ("indentation", "indentation_slope", "impact", "leading", "side_wall"):
@@ -159,7 +159,7 @@ for effect, module in (
         ("soft_layer", "", {"non_hertzian_pressure", "inertia"}),
     ],
 )
-def test_what_is_computed_alone_is_imported(
+def test_only_required_modules_are_imported(
     name: str, more: str, effects: set[str], tmp_path: Path
 ) -> None:
     place = tmp_path / "scene.toml"
@@ -168,5 +168,5 @@ def test_what_is_computed_alone_is_imported(
         [sys.executable, "-c", COUNT, str(place)],
         cwd=Path(derivation.__file__).parent.parent, capture_output=True, text=True, check=True,
     )  # fmt: skip
-    asked = ("non_hertzian_pressure", "viscosity", "inertia", "inertia")
-    assert run.stdout.split() == [str(x in effects) for x in asked for _ in range(2)]
+    requested = ("non_hertzian_pressure", "viscosity", "inertia", "inertia")
+    assert run.stdout.split() == [str(x in effects) for x in requested for _ in range(2)]

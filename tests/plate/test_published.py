@@ -25,13 +25,13 @@ def findings(formulas: Mapping[str, Formula]) -> dict[tuple[str, str], Finding]:
 
 
 @pytest.mark.parametrize("record", PRINTED, ids=IDS)
-def test_printed_expressions_survive_the_projects_own_latex(record: Printed) -> None:
+def test_published_expressions_are_parsed_from_their_latex(record: Printed) -> None:
     names = {symbol.name: symbol for symbol, _ in record.where}
     read = parse_latex(to_latex(record.expression, PLATE), PLATE, names)
     assert decide_zero(read - record.expression) is not None
 
 
-def test_order_is_the_papers() -> None:
+def test_order_is_that_of_the_paper() -> None:
     equations = [int(record.equation) for record in PRINTED]
     assert equations == sorted(equations)
 
@@ -68,7 +68,7 @@ EXPECTED = {
 }
 
 
-def test_every_printed_formula_is_judged(findings: dict[tuple[str, str], Finding]) -> None:
+def test_every_published_formula_is_compared(findings: dict[tuple[str, str], Finding]) -> None:
     assert list(findings) == list(EXPECTED)
 
 
@@ -91,7 +91,7 @@ def test_misprints_are_found(
     )
 
 
-def test_what_is_said_about_each_misprint(findings: dict[tuple[str, str], Finding]) -> None:
+def test_statements_about_each_misprint(findings: dict[tuple[str, str], Finding]) -> None:
     assert "u in (1) or that of g_j in (2)" in findings["1", "u"].repair
     assert findings["5", "Omega_3"].diagnosis.dimension == (
         "[1/Pa] expected, [m/Pa] found: a factor of [m] too much"
@@ -105,7 +105,7 @@ def test_what_is_said_about_each_misprint(findings: dict[tuple[str, str], Findin
     assert eight.diagnosis.edits == 2
 
 
-def test_signs_of_the_printed_pair() -> None:
+def test_signs_of_the_published_displacements() -> None:
     assert not balances({})
     assert signs_that_balance(["u", "g_j"]) == ("u", "g_j")
     assert not balances({"u": -1, "g_j": -1})
@@ -121,7 +121,7 @@ def test_findings_are_plain_text(findings: dict[tuple[str, str], Finding]) -> No
         assert finding._repr_latex_().startswith("$")
 
 
-def test_contact_radius_is_compared_as_printed() -> None:
+def test_contact_radius_is_compared_as_published() -> None:
     (record,) = (record for record in PRINTED if record.name == "P")
     assert record.expression != record.compared
     assert record.compared.has(a)

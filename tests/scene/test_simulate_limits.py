@@ -69,7 +69,7 @@ def file(tmp_path: Path) -> Path:
 # --- text output
 
 
-def test_simulate_tells_of_contacts_and_of_the_far_face(file: Path, capsys: Captured) -> None:
+def test_simulate_states_contacts_and_back_face_stress(file: Path, capsys: Captured) -> None:
     assert main(["simulate", str(file), "--details"]) == 0
     shown = " ".join(capsys.readouterr().out.split())
     result = simulate(moving())
@@ -84,7 +84,7 @@ def test_simulate_tells_of_contacts_and_of_the_far_face(file: Path, capsys: Capt
     assert result.strength_note in shown
 
 
-def test_a_sweep_is_a_table_or_json(file: Path, capsys: Captured) -> None:
+def test_sweep_is_printed_as_table_or_json(file: Path, capsys: Captured) -> None:
     file.write_text(file.read_text().replace("inertia = true", "inertia = false"))
     wanted = ["simulate", str(file), "--sweep", "impact.speed=0.5:1:2"]
     assert main(wanted) == 0
@@ -101,7 +101,7 @@ def test_a_sweep_is_a_table_or_json(file: Path, capsys: Captured) -> None:
         assert error <= 0.5 * 10.0 ** (1 - digits)
 
 
-def test_explain_as_a_table_and_as_json(file: Path, capsys: Captured) -> None:
+def test_explain_is_printed_as_table_or_json(file: Path, capsys: Captured) -> None:
     assert main(["explain", str(file)]) == 0
     table = capsys.readouterr()
     assert "Effects in" in table.out
@@ -113,18 +113,18 @@ def test_explain_as_a_table_and_as_json(file: Path, capsys: Captured) -> None:
     assert "Effects in" not in str(data)
 
 
-def test_an_animation_for_a_browser_holds_its_frames(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_html_animation_contains_its_frames(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(animation, "FRAMES", 3)
     page = animation.render(simulate(moving()), ".html").decode()
     assert page.count("data:image/png;base64") == 3
 
 
-def test_an_endless_plate_is_named() -> None:
-    told = explain(moving(inertia={"extent": "infinite", "modes": "auto"}))
-    assert any("no wave returns" in note for note in told.notes)
+def test_infinite_plate_is_stated() -> None:
+    explanation = explain(moving(inertia={"extent": "infinite", "modes": "auto"}))
+    assert any("no wave returns" in note for note in explanation.notes)
 
 
-def test_a_bound_names_the_outputs_it_is_of() -> None:
+def test_bound_names_its_outputs() -> None:
     part = Part(1e-6, "proved")
     whole = AchievedAccuracy("full", None, law=part, quadrature=part, rounding=part)
     some = replace(whole, outputs=("contact_time", "max_force"))
@@ -132,7 +132,7 @@ def test_a_bound_names_the_outputs_it_is_of() -> None:
     assert "contact time, max force" in str(some)
 
 
-def test_the_far_face_of_a_block_is_that_of_the_papers_edge() -> None:
+def test_back_face_of_a_block_uses_the_edge_of_the_paper() -> None:
     """The block is thicker than the range of the supports' model, so the paper's edge is used."""
     assert max(key[1] for key in edge_remainder._table()) == THICK
     block, soft = (
@@ -146,7 +146,7 @@ def test_the_far_face_of_a_block_is_that_of_the_papers_edge() -> None:
     assert block.max_tensile_stress == pytest.approx(soft.max_tensile_stress, rel=1e-3)
 
 
-def test_a_face_without_tension_holds() -> None:
+def test_compressive_stress_predicts_no_failure() -> None:
     plate = {"half_thickness": 400.0, "tensile_strength": 1e6}
     found = simulate(shared_scenes.scene(plate=plate, impact={"speed": 0.01}))
     assert found.max_tensile_stress == 0.0
@@ -157,7 +157,7 @@ def test_a_face_without_tension_holds() -> None:
 
 
 @pytest.mark.parametrize(
-    ("speeds", "least", "says"),
+    ("speeds", "least", "message"),
     [
         (
             [1.0, GRAZING / 2],
@@ -172,12 +172,12 @@ def test_a_face_without_tension_holds() -> None:
         ([1.0], 1.0, ""),
     ],
 )
-def test_contacts_that_hang_by_a_thread(speeds: list[float], least: float, says: str) -> None:
-    assert says in "".join(limits.contact_warnings(speeds, least))
-    assert bool(limits.contact_warnings(speeds, least)) == bool(says)
+def test_grazing_recontact_gives_a_warning(speeds: list[float], least: float, message: str) -> None:
+    assert message in "".join(limits.contact_warnings(speeds, least))
+    assert bool(limits.contact_warnings(speeds, least)) == bool(message)
 
 
-def test_yield_under_a_viscous_contact_is_not_judged() -> None:
+def test_pressure_warning_of_a_viscoelastic_contact() -> None:
     (text,) = limits.pressure_warnings(1e6, 2e8, viscous=True)
     assert "plate" in text
     assert limits.pressure_warnings(1e6, None, viscous=True) == ()
@@ -187,14 +187,14 @@ def test_yield_under_a_viscous_contact_is_not_judged() -> None:
 # --- refusals
 
 
-def test_a_material_without_density_gives_no_mass() -> None:
+def test_material_without_density_gives_no_mass() -> None:
     with pytest.raises(SceneError, match=r"sphere\.material: .*paper"):
         moving(sphere={"material": "paper"})
     assert moving(sphere={"material": "paper", "mass": 0.2}).sphere.mass == 0.2
 
 
 @pytest.mark.parametrize(
-    ("scene", "rtol", "says"),
+    ("scene", "rtol", "message"),
     [
         (
             moving(inertia={"modes": 60}),
@@ -204,14 +204,16 @@ def test_a_material_without_density_gives_no_mass() -> None:
         (shared_scenes.scene(), 1e-13, r".*a/R = 0\.\d+.*1e-13"),
     ],
 )
-def test_tolerances_out_of_reach_say_what_is_in_reach(scene: Any, rtol: float, says: str) -> None:
-    with pytest.raises(SceneError, match=r"rtol: expected at least \S+ " + says) as told:
+def test_unattainable_tolerance_is_rejected_with_the_smallest_one(
+    scene: Any, rtol: float, message: str
+) -> None:
+    with pytest.raises(SceneError, match=r"rtol: expected at least \S+ " + message) as error:
         simulate(scene, rtol=rtol)
-    (least,) = re.findall(r"at least (\S+)", str(told.value))
+    (least,) = re.findall(r"at least (\S+)", str(error.value))
     assert simulate(scene, rtol=1.01 * float(least)).accuracy.bound <= 1.01 * float(least)
 
 
-def test_beyond_the_laws_range_there_is_no_moving_impact() -> None:
+def test_impact_with_inertia_beyond_the_law_is_rejected() -> None:
     fast = ContactLaw(replace(BALL, v0=1e6), MOVING)
     scene = moving(impact={"speed": 1e6})
     for run in (lambda: waves.impact(fast), lambda: waves.problem_of(fast, 8)):
@@ -221,7 +223,7 @@ def test_beyond_the_laws_range_there_is_no_moving_impact() -> None:
         simulate(scene)
 
 
-def test_oscillators_beyond_the_limit_are_not_added(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_number_of_modes_is_limited(monkeypatch: pytest.MonkeyPatch) -> None:
     """The last run within the limit is returned, with its change as the estimated error."""
     every = law(inertia=InertiaSettings(branches="all"))
     fine = waves.impact(every, 1e-7)
@@ -233,7 +235,7 @@ def test_oscillators_beyond_the_limit_are_not_added(monkeypatch: pytest.MonkeyPa
     assert error <= sum(rough.inertia.left(("restitution",)))
 
 
-def test_code_that_errs_is_not_given_out() -> None:
+def test_inaccurate_code_is_not_returned() -> None:
     recipe = code.recipe(shared_scenes.scene())
     law, limit = recipe.law, float(recipe.numbers["LIMIT"])
     a = np.linspace(0.0, limit, 4001)[1:]
@@ -261,30 +263,30 @@ def law(effects: frozenset[str] = MOVING, **changes: Any) -> ContactLaw:
 
 
 @pytest.mark.parametrize(
-    ("name", "value", "says"),
+    ("name", "value", "message"),
     [
         ("SHORTEST", 10.0, "the contact at 0 s has no solution"),
         ("ELEMENTS", 4, "still in contact .* limit of 4 time steps"),
     ],
 )
-def test_a_first_contact_that_does_not_end_is_refused(
-    name: str, value: float, says: str, monkeypatch: pytest.MonkeyPatch
+def test_first_contact_without_end_is_rejected(
+    name: str, value: float, message: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     problem = waves.problem_of(law(), 8)
     monkeypatch.setattr(contact_sequence, name, value)
-    with pytest.raises(SceneError, match=rf"effects\.inertia: .*{says}"):
+    with pytest.raises(SceneError, match=rf"effects\.inertia: .*{message}"):
         contact_sequence.impact_history(problem, 10)
 
 
-def test_why_a_contact_is_lost() -> None:
+def test_reasons_for_a_failed_contact() -> None:
     problem = waves.problem_of(law(), 8)
     widest = problem.contact.top / problem.a
-    told = contact_errors.lost(problem, problem.begin(), widest, 0.0)
-    assert f"grows wider than {problem.contact.top:.4g} m" in told.why
-    assert "impact.speed" in told.remedy
+    failure = contact_errors.lost(problem, problem.begin(), widest, 0.0)
+    assert f"grows wider than {problem.contact.top:.4g} m" in failure.why
+    assert "impact.speed" in failure.remedy
 
 
-def test_a_sphere_too_heavy_to_come_off_is_refused() -> None:
+def test_sphere_too_heavy_to_rebound_is_rejected() -> None:
     """A very long contact is rejected if the sphere has weight, and allowed if it has none."""
     heavy = waves.problem_of(law(MOVING | {"gravity"}, gravity=9.81), 8)
     light = waves.problem_of(law(), 8)
@@ -295,7 +297,7 @@ def test_a_sphere_too_heavy_to_come_off_is_refused() -> None:
 
 
 @pytest.mark.parametrize(("name", "value"), [("MOST", 1), ("SHORTEST", 1e9)])
-def test_a_viscous_contact_that_is_not_followed(
+def test_unfinished_viscoelastic_contact_is_rejected(
     name: str, value: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     rest = ContactLaw(replace(BALL, retardation_time=1e-5), frozenset({"hertz", "viscosity"}))
@@ -306,7 +308,7 @@ def test_a_viscous_contact_that_is_not_followed(
         viscous.impact(rest)
 
 
-def test_an_element_that_cannot_be_shortened_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_element_that_cannot_be_shortened_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
     """A viscoelastic contact ends within its last element, whose own end may lie later."""
     found = waves.impact(law(MOVING | {"viscosity"}, retardation_time=1e-4))
     problem, touching = found.impact_history.problem, found.impact_history.contacts[0]
@@ -318,7 +320,7 @@ def test_an_element_that_cannot_be_shortened_is_kept(monkeypatch: pytest.MonkeyP
     assert contact_sequence._let_go(problem, n, last, end, before.end, before.radius) is last
 
 
-def test_a_guess_without_numbers_leads_nowhere() -> None:
+def test_initial_guess_with_nan_does_not_converge() -> None:
     found = viscous.impact(ContactLaw(replace(BALL, retardation_time=1e-5), HERTZ | {"viscosity"}))
     assert found.problem is not None
     start, n = viscous.Point(0.0, 1.0, 0.0), 8
@@ -331,7 +333,9 @@ def test_a_guess_without_numbers_leads_nowhere() -> None:
 # --- physics
 
 
-def test_a_course_is_the_same_by_the_finest_rule(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_first_accepted_rule_gives_the_history_of_the_finest(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     """The first rule that reproduces the contact time gives the history of the finest rule."""
     result = simulate(shared_scenes.scene())
     first = result.history(41)
@@ -343,7 +347,7 @@ def test_a_course_is_the_same_by_the_finest_rule(monkeypatch: pytest.MonkeyPatch
 
 
 @pytest.mark.parametrize("number", [0.02, 0.3, 1.5])
-def test_a_thin_infinite_plate_gives_back_what_zener_says(number: float) -> None:
+def test_restitution_of_a_thin_infinite_plate_agrees_with_zener(number: float) -> None:
     """Zener's equation is the limit of a contact small compared with the thickness."""
     plate = {"radius": 0.1, "thickness": 0.01, "youngs_modulus": 7e10, "poissons_ratio": 0.2,
              "density": 2500.0}  # fmt: skip
@@ -357,7 +361,7 @@ def test_a_thin_infinite_plate_gives_back_what_zener_says(number: float) -> None
     assert found.restitution == pytest.approx(zener_restitution(number), abs=2e-2)
 
 
-def test_a_face_that_lags_recovers_between_contacts() -> None:
+def test_viscoelastic_surface_recovers_between_contacts() -> None:
     """Without force the elastic part, like a^3, decays as exp(-t/retardation time)."""
     lagging = law(MOVING | {"viscosity"}, retardation_time=1e-4)
     found = waves.impact(lagging)
@@ -371,7 +375,7 @@ def test_a_face_that_lags_recovers_between_contacts() -> None:
     assert abs(found.energy_balance.residual) < 1e-7
 
 
-def test_modes_slower_than_the_contact_have_no_bound() -> None:
+def test_too_few_modes_have_no_bound() -> None:
     """Too few modes give wrong results although they agree with fewer, so no bound is stated."""
     few, many = (simulate(moving(inertia={"modes": count})) for count in (4, 60))
     assert math.isinf(few.accuracy.bound)

@@ -52,7 +52,7 @@ def notices(of: list[warnings.WarningMessage]) -> list[str]:
 
 
 @pytest.mark.parametrize(("old", "new", "value", "known"), OLD, ids=IDS)
-def test_an_old_name_gives_the_same_scene_and_one_notice(
+def test_former_name_gives_the_same_scene_and_one_warning(
     old: str, new: str, value: object, known: object
 ) -> None:
     plain = read(scene(new, known))
@@ -60,14 +60,14 @@ def test_an_old_name_gives_the_same_scene_and_one_notice(
         found = read(scene(old, value))
     assert found == plain
     assert found.to_json() == plain.to_json()
-    [said] = notices(list(caught))
-    assert old in said
-    assert new in said
-    assert said.endswith(REMOVED)
+    [notice] = notices(list(caught))
+    assert old in notice
+    assert new in notice
+    assert notice.endswith(REMOVED)
     assert caught[0].filename == __file__
 
 
-def test_each_new_name_is_a_key_and_no_old_one_is() -> None:
+def test_only_new_names_are_keys() -> None:
     for old, new in KEYS.items():
         (table, name), (there, known) = old.split("."), new.split(".")
         assert table == there
@@ -76,7 +76,7 @@ def test_each_new_name_is_a_key_and_no_old_one_is() -> None:
 
 
 @pytest.mark.parametrize(("old", "new"), KEYS.items())
-def test_both_names_are_refused(old: str, new: str) -> None:
+def test_both_names_together_are_rejected(old: str, new: str) -> None:
     tables = scene(new, GIVEN[new])
     table, name = old.split(".")
     tables[table][name] = GIVEN[new]
@@ -84,14 +84,14 @@ def test_both_names_are_refused(old: str, new: str) -> None:
         read(tables)
 
 
-def test_an_old_value_under_an_old_key_is_one_notice() -> None:
+def test_former_value_of_a_former_key_gives_one_warning() -> None:
     with pytest.warns(OldNameWarning) as caught:
         found = read(scene("inertia.plate", "modes"))
     assert found == read(scene("inertia.extent", "finite"))
     assert len(notices(list(caught))) == 1
 
 
-def test_other_problems_are_told_with_both_names() -> None:
+def test_other_problems_are_reported_with_both_names() -> None:
     tables = scene("plate.retardation_time", 1e-6)
     tables["plate"] |= {"viscous_time": 1e-6, "strength": -1.0, "colour": "red"}
     with pytest.warns(OldNameWarning), pytest.raises(SceneError) as caught:
@@ -129,7 +129,7 @@ NEW_FILE = (
 )  # fmt: skip
 
 
-def test_a_file_of_old_names_gives_the_same_result_and_clean_output(
+def test_file_with_former_names_gives_the_same_output(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     shown = []
@@ -139,13 +139,13 @@ def test_a_file_of_old_names_gives_the_same_result_and_clean_output(
         shown.append(capsys.readouterr())
     assert shown[0].out == shown[1].out
     assert json.loads(shown[0].out)["scene"]["plate"]["edge"] == "paper"
-    told = [line for line in shown[0].err.splitlines() if REMOVED in line]
-    assert len(told) == len(set(told)) == 7
-    assert all(line.startswith("note: ") for line in told)
+    notes = [line for line in shown[0].err.splitlines() if REMOVED in line]
+    assert len(notes) == len(set(notes)) == 7
+    assert all(line.startswith("note: ") for line in notes)
     assert REMOVED not in shown[1].err
 
 
-def test_a_sweep_of_an_old_key_is_one_of_the_new_key(
+def test_sweep_of_a_former_key_uses_the_new_key(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "scene.toml").write_text(NEW_FILE)
@@ -161,7 +161,7 @@ def test_a_sweep_of_an_old_key_is_one_of_the_new_key(
         assert sweep.parse("plate.strength=1:2:2").key == "tensile_strength"
 
 
-def test_a_caller_of_load_is_told_once_even_where_warnings_are_errors(tmp_path: Path) -> None:
+def test_load_gives_one_warning_for_former_names(tmp_path: Path) -> None:
     (tmp_path / "old.toml").write_text(OLD_FILE.replace("side_wall = true\n", ""))
     with pytest.warns(OldNameWarning) as caught:
         load(tmp_path / "old.toml")
@@ -190,7 +190,7 @@ def old_names_in(tables: object) -> list[str]:
     return [k for k in given if k in KEYS] + [k for k, v in texts.items() if (k, v) in VALUES]
 
 
-def test_the_schema_names_no_old_key_or_value() -> None:
+def test_schema_contains_no_former_name() -> None:
     definitions = schema()["$defs"]
     for table, model in TABLES.items():
         keys = definitions[model.__name__]["properties"]
@@ -202,7 +202,7 @@ def test_the_schema_names_no_old_key_or_value() -> None:
 
 @pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.stem)
 @pytest.mark.filterwarnings("error")
-def test_no_example_uses_an_old_name(path: Path) -> None:
+def test_examples_use_no_former_name(path: Path) -> None:
     found = load(path)
     assert old_names_in(found.to_json()) == []
     rows = {row["name"] for row in explain(found).to_json()["effects"]}
@@ -210,7 +210,7 @@ def test_no_example_uses_an_old_name(path: Path) -> None:
 
 
 @pytest.mark.checkout
-def test_the_readme_shows_no_old_name() -> None:
+def test_readme_contains_no_former_name() -> None:
     blocks = re.findall(r"```toml\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)
     assert blocks
     assert [old_names_in(tomllib.loads(block)) for block in blocks] == [[] for _ in blocks]
@@ -219,7 +219,7 @@ def test_the_readme_shows_no_old_name() -> None:
     assert not words & ({old.partition(".")[2] for old in KEYS} - unclear)
 
 
-def test_a_result_names_nothing_old() -> None:
+def test_results_contain_no_former_name() -> None:
     tables = scene("inertia.plate", "infinite")
     tables["effects"] |= {"perturbation": True, "curvature": False, "pressure": False}
     tables["plate"] |= {"strength": 1e8, "edge": "soft-hinge"}
@@ -232,7 +232,7 @@ def test_a_result_names_nothing_old() -> None:
     assert not {row["name"] for row in made["effects"]} & names
 
 
-def test_no_old_name_is_in_the_committed_records() -> None:
+def test_committed_records_contain_no_former_name() -> None:
     for path in sorted((ROOT / "reports" / "data").glob("*.json")):
         for key, value in keys_and_values(json.loads(path.read_text())):
             if key == "scene" and isinstance(value, dict):

@@ -16,7 +16,7 @@ from numpy.polynomial.legendre import leggauss
 from scipy.optimize import brentq
 from scipy.special import i0e, i1e, iv, j0, j1
 
-from derivation.engine.formula.proof import SYMBOLIC, ProofError
+from derivation.engine.formula.proof import ProofError
 from derivation.engine.oracle.agreement import RouteError
 from derivation.mathematics.bessel.theory import modified as modified_bessel
 from derivation.plate import derived
@@ -52,12 +52,6 @@ pytestmark = pytest.mark.usefixtures("silent")
 # --- theory
 
 
-def test_every_formula_of_the_link_is_verified_symbolically() -> None:
-    (link,) = (found for name, found in derived.chain() if name == "held waves")
-    assert len(link) == 13
-    assert {formula.proof.method for formula in link} == {SYMBOLIC}
-
-
 def test_shear_coefficient() -> None:
     assert sp.cancel(mindlin.shear_coefficient().expression - 5 / (6 - poisson)) == 0
 
@@ -72,7 +66,7 @@ def test_shear_coefficient() -> None:
         (mindlin, "u_2", lambda: 1 + mindlin.ROTARY * mindlin.xi, mindlin.waves),
     ],
 )
-def test_a_wrong_step_is_refused(
+def test_wrong_step_is_rejected(
     monkeypatch: pytest.MonkeyPatch, module: Any, name: str, wrong: Any, step: Any
 ) -> None:
     monkeypatch.setattr(module, name, wrong)
@@ -81,7 +75,7 @@ def test_a_wrong_step_is_refused(
 
 
 @pytest.mark.parametrize(("steps", "largest"), [(16, 3), (40, 16)])
-def test_bound_of_bessels_integral_of_order_two(steps: int, largest: int) -> None:
+def test_bound_of_the_bessel_integral_of_order_two(steps: int, largest: int) -> None:
     with flint.ctx.workprec(BITS):
         k = arb(largest)
         turns = [2 * arb.pi() * i / steps for i in range(steps)]
@@ -100,7 +94,7 @@ def test_bound_of_bessels_integral_of_order_two(steps: int, largest: int) -> Non
     ("edge", "n", "eta", "nu"),
     [("clamped", 1, 0.3, 0.4), ("supported", 2, 0.1, 0.3), ("supported", 1, 0.2, -0.9)],
 )
-def test_oracles_agree(edge: held_balls.Edge, n: int, eta: float, nu: float) -> None:
+def test_references_agree(edge: held_balls.Edge, n: int, eta: float, nu: float) -> None:
     balls = held_wave_balls.wave(edge, n, eta, nu, 25)
     routes = held_wave_routes.wave(edge, eta, nu, round(float(balls.k), 4), 14)
     with flint.ctx.workprec(BITS), mp.workdps(50):
@@ -108,7 +102,7 @@ def test_oracles_agree(edge: held_balls.Edge, n: int, eta: float, nu: float) -> 
             assert abs(ball / arb(mp.nstr(route, 40)) - 1) < 1e-14
 
 
-def test_oracles_refuse_what_has_no_meaning() -> None:
+def test_references_reject_invalid_arguments() -> None:
     for given in ((0, 0.1, 0.3), (1, 0.0, 0.3), (1, 0.1, 0.5), (1, 0.1, -1.0)):
         with pytest.raises(ValueError, match="n >= 1"):
             held_wave_balls.wave("clamped", *given)
@@ -116,7 +110,7 @@ def test_oracles_refuse_what_has_no_meaning() -> None:
         held_wave_balls.wave("clamped", 3, 0.3, 0.3, 10)
 
 
-def test_roots_that_are_not_found_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_missing_roots_are_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
     for name, wrong, match in (
         ("_STEPS", 3, "no root found"),
         ("_illinois", lambda *_: Fraction(5, 2), "no change of sign"),
@@ -134,7 +128,7 @@ def test_roots_that_are_not_found_are_refused(monkeypatch: pytest.MonkeyPatch) -
 
 
 @pytest.mark.parametrize("nu", RATIOS)
-def test_the_cut_off(nu: float) -> None:
+def test_cut_off_frequency(nu: float) -> None:
     low, high = held_wave_balls.cutoff(nu, 20)
     assert cutoff(nu) == pytest.approx(float((low + high) / 2), rel=1e-14)
     for edge, of in WAVES_OF.items():
@@ -148,7 +142,7 @@ def test_the_cut_off(nu: float) -> None:
                 held_wave_balls.wave(edge, count + 1, eta, nu, 10)  # type: ignore[arg-type]
 
 
-def test_counts_are_prefixes_of_each_other() -> None:
+def test_shorter_tables_are_the_beginning_of_longer_ones() -> None:
     for of in WAVES_OF.values():
         whole = of(40, 1e-2, 0.3)
         for count in (0, 1, 2, 9, 40, 11.0):
@@ -158,7 +152,7 @@ def test_counts_are_prefixes_of_each_other() -> None:
 
 
 @pytest.mark.parametrize("of", WAVES_OF.values())
-def test_impossible_arguments_are_refused(of: Callable[..., Waves]) -> None:
+def test_invalid_arguments_are_rejected(of: Callable[..., Waves]) -> None:
     for count in (-1, 2.5, math.nan, math.inf):
         with pytest.raises(ValueError, match="number of modes, an integer >= 0"):
             of(count, 0.1, 0.3)
@@ -192,7 +186,7 @@ def test_results_change_smoothly(edge: str) -> None:
 
 @pytest.mark.parametrize("nu", RATIOS)
 @pytest.mark.parametrize("eta", [1e-6, 0.03, 0.1, 0.2, 0.35, 0.5])
-def test_turn_over_bend_grows_between_zeros(eta: float, nu: float) -> None:
+def test_ratio_of_rotation_to_moment_increases_between_zeros(eta: float, nu: float) -> None:
     """Between zeros of J0, S/Gam increases from -oo (or 1/2) to oo, so it equals beta once.
 
     This includes the beta of chi = 1.
@@ -273,7 +267,7 @@ def test_modes_are_orthogonal_and_have_their_norm(edge: str, nu: float) -> None:
 
 
 @pytest.mark.parametrize("eta", [1e-80, 1e-20, 1e-9])
-def test_thin_plates(eta: float) -> None:
+def test_modes_of_thin_plates_agree_with_plate_theory(eta: float) -> None:
     """Thin plates have the modes of derivation step 29.
 
     They agree with Leissa, Vibration of Plates (1969), tables 2.1 and 2.5.
@@ -285,9 +279,9 @@ def test_thin_plates(eta: float) -> None:
     ):
         found = WAVES_OF[edge](3, eta, nu)
         for n in (1, 2, 3):
-            true = held_balls.mode(edge, n, nu, 25)  # type: ignore[arg-type]
-            for name in true._fields:
-                value = float(getattr(true, name))
+            exact = held_balls.mode(edge, n, nu, 25)  # type: ignore[arg-type]
+            for name in exact._fields:
+                value = float(getattr(exact, name))
                 assert getattr(found, name)[n - 1] == pytest.approx(
                     value,
                     rel=1e-14 + 0.1 * eta,  # the compliance of the clamp
@@ -304,7 +298,7 @@ def test_thin_plates(eta: float) -> None:
 @pytest.mark.parametrize("edge", WAVES_OF)
 @pytest.mark.parametrize("nu", [-0.3, 0.0, 0.3, 0.45])
 @pytest.mark.parametrize(("eta", "most"), [(0.02, 5e-4), (0.05, 3e-4), (0.1, 5e-4), (0.16, 5e-3)])
-def test_sums_are_the_differences_at_rest(edge: str, nu: float, eta: float, most: float) -> None:
+def test_sums_are_the_static_differences(edge: str, nu: float, eta: float, most: float) -> None:
     """The sum over modes of the difference to the paper's edge is the static difference.
 
     Beyond the cut-off the modes of both edges are assumed equal.
@@ -324,7 +318,7 @@ def test_sums_are_the_differences_at_rest(edge: str, nu: float, eta: float, most
 # --- the contact face
 
 
-def test_shape_and_its_mean_under_a_flat_punch() -> None:
+def test_mode_shape_and_its_mean_under_a_flat_punch() -> None:
     x, weights = leggauss(200)
     t = (1 + x) * np.pi / 4
     for edge, of in WAVES_OF.items():
@@ -345,7 +339,7 @@ def test_shape_and_its_mean_under_a_flat_punch() -> None:
                 np.testing.assert_allclose(share[0], mean - 1, atol=1e-12)
 
 
-def test_small_punches_and_high_modes() -> None:
+def test_means_for_small_punches_and_high_modes() -> None:
     waves = clamped_waves(400, 1e-4, 0.3)
     assert waves.k2[-1] > 745
     assert waves.c[-1] == 0.0

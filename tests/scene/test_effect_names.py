@@ -33,7 +33,7 @@ def told_apart(source: str) -> Iterator[str]:
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
-def test_no_effect_is_told_apart_by_its_name(path: Path) -> None:
+def test_names_of_effects_are_not_compared(path: Path) -> None:
     assert list(told_apart(path.read_text())) == []
 
 
@@ -50,11 +50,11 @@ def test_no_effect_is_told_apart_by_its_name(path: Path) -> None:
         'match name:\n    case "non_hertzian_pressure":\n        pass',
     ],
 )
-def test_a_test_of_a_name_is_found(source: str) -> None:
+def test_comparison_of_a_name_is_found(source: str) -> None:
     assert "non_hertzian_pressure" in told_apart(source)
 
 
-def test_what_effects_need_are_effects() -> None:
+def test_requirements_of_effects_are_effects() -> None:
     for effect in EFFECTS:
         assert effect.contains <= BY_NAME.keys() - {effect.name}
         assert effect.requires <= effect.contains

@@ -31,7 +31,7 @@ def test_three_integrators_agree() -> None:
     assert max(fine) < max(rough) / 10
 
 
-def test_reference_and_rows_are_of_the_same_results() -> None:
+def test_reference_and_rows_have_the_same_results() -> None:
     trials = [*moving_costs.modes(), *moving_costs.branches(), *moving_costs.tolerances()]
     assert all(trial.names == OUTPUTS for trial in trials)
     few = next(trial for trial in trials if (trial.study, trial.setting) == ("modes", 10))
@@ -43,7 +43,7 @@ def test_reference_and_rows_are_of_the_same_results() -> None:
     assert 0.0 < errors[1] < errors[0] < 1e-3
 
 
-def test_a_tolerance_is_kept_and_its_bound_stated() -> None:
+def test_tolerance_is_met_and_its_bound_stated() -> None:
     [trial] = [t for t in moving_costs.tolerances() if (t.method, t.setting) == ("A0", 5e-3)]
     found = trial.call()
     assert found.bound is not None
@@ -51,7 +51,7 @@ def test_a_tolerance_is_kept_and_its_bound_stated() -> None:
     assert max(abs(x / y - 1) for x, y in pairs) < found.bound <= trial.setting
 
 
-def test_the_committed_measurement_is_told() -> None:
+def test_recorded_benchmark_is_reported() -> None:
     data = json.loads(moving_costs.MEASURED.read_text())
     rows = list(moving_rows(data))
     assert len(rows) == len(data["rows"]) == len(moving_costs.cells(data))
@@ -65,7 +65,7 @@ def test_the_committed_measurement_is_told() -> None:
     assert (len(left.lines), len(right.lines)) == (4, 3)
 
 
-def test_other_options_are_refused_beside_it(
+def test_other_options_are_rejected_with_dynamic(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["benchmark", "--dynamic", "--quick"]) == 2

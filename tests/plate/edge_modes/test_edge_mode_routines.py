@@ -9,7 +9,7 @@ from derivation.plate.edge_modes.kernels import amplitudes, edge_mode_kernels, e
 from derivation.plate.vocabulary import k_n
 
 
-def test_every_routine_is_verified_symbolically() -> None:
+def test_routines_are_verified_symbolically() -> None:
     assert {made.proof.method for made in edge_mode_kernels().routines} == {SYMBOLIC}
 
 
@@ -24,7 +24,7 @@ def test_every_routine_is_verified_symbolically() -> None:
         (faces, "FADED", 2 * faces.FADED, faces.modified),
     ],
 )
-def test_a_wrong_routine_is_refused(
+def test_wrong_routine_is_rejected(
     monkeypatch: pytest.MonkeyPatch, module: Any, name: str, wrong: Any, make: Any
 ) -> None:
     monkeypatch.setattr(module, name, wrong)

@@ -37,7 +37,7 @@ def result() -> Any:
     return simulate(scene())
 
 
-def test_a_scene_that_calls_for_inertia_gets_it(result: Any) -> None:
+def test_inertia_is_included_if_required(result: Any) -> None:
     assert {"inertia", "bending", "finite_thickness", "finite_radius"} <= result.effects.law.effects
     still = simulate(scene(effects={"inertia": False}))
     assert "inertia" not in still.effects.law.effects
@@ -50,7 +50,7 @@ def test_a_scene_that_calls_for_inertia_gets_it(result: Any) -> None:
     assert row.disabled
 
 
-def test_the_density_is_asked_for_where_inertia_is() -> None:
+def test_inertia_requires_the_density() -> None:
     own = {"youngs_modulus": 70e9, "poissons_ratio": 0.3, "radius": 0.2, "thickness": 0.01}
     bare = {**SCENE, "plate": own}
     for wanted in ("auto", True):
@@ -64,7 +64,7 @@ def test_the_density_is_asked_for_where_inertia_is() -> None:
     assert "inertia" not in simulate(known, rtol=1e-1).effects.law.effects
 
 
-def test_the_whole_plate_has_to_move() -> None:
+def test_inertia_requires_all_parts_of_the_plate() -> None:
     with pytest.raises(SceneError, match=r"^effects\.inertia .*effects\.bending"):
         simulate(scene(effects={"inertia": True, "bending": False}))
     with pytest.raises(SceneError, match=r"^effects\.bending: "):
@@ -72,7 +72,7 @@ def test_the_whole_plate_has_to_move() -> None:
 
 
 @pytest.mark.parametrize("part", ["finite_radius", "finite_thickness"])
-def test_a_small_static_part_that_is_disabled_does_not_stop_the_plate(part: str) -> None:
+def test_disabled_small_static_part_keeps_inertia(part: str) -> None:
     """Disabling a small static part keeps inertia, and its bound covers the change."""
     whole, without = (simulate(scene(effects=e)) for e in ({}, {part: False}))
     assert "inertia" in without.effects.law.effects
@@ -107,14 +107,14 @@ def test_results_as_data(result: Any) -> None:
     assert "approach speed / impact speed" in page
 
 
-def test_times_reach_to_the_last_release(result: Any) -> None:
+def test_times_end_at_the_last_separation(result: Any) -> None:
     whole = result.at([0.0, result.total_time])
     assert whole.history().velocity[-1] == pytest.approx(-result.restitution, rel=1e-9)
     with pytest.raises(SceneError, match=r"^times: "):
         result.at([1.01 * result.total_time])
 
 
-def test_the_drawing_shades_every_contact(result: Any) -> None:
+def test_figure_shades_every_contact(result: Any) -> None:
     drawn = figure(result)
     contacts = len(result.dynamics.inertia.contacts)
     shaded = [len(axes.patches) for axes in drawn.axes]
@@ -123,7 +123,7 @@ def test_the_drawing_shades_every_contact(result: Any) -> None:
     assert len(stacked.collections) == 3
 
 
-def test_the_animation_shows_the_plate_move(tmp_path: Path, monkeypatch: Any) -> None:
+def test_animation_shows_the_motion_of_the_plate(tmp_path: Path, monkeypatch: Any) -> None:
     from PIL import Image
 
     from derivation.scene import animation
@@ -140,7 +140,7 @@ def test_the_animation_shows_the_plate_move(tmp_path: Path, monkeypatch: Any) ->
     assert not (tmp_path / "still.gif").exists()
 
 
-def test_profiles_are_zero_at_the_edge_and_the_deflection_at_the_axis(result: Any) -> None:
+def test_profiles_are_zero_at_the_edge_and_correct_at_the_axis(result: Any) -> None:
     times = np.linspace(0.1, 0.9, 5) * result.total_time
     found = result.dynamics.profiles(times, np.array([0.0, result.model.b]))
     history = result.at(times).history()
@@ -148,7 +148,7 @@ def test_profiles_are_zero_at_the_edge_and_the_deflection_at_the_axis(result: An
     assert np.max(np.abs(found[:, 1])) <= 1e-9 * np.max(np.abs(found[:, 0]))
 
 
-def test_zeners_curve_begins_as_its_series() -> None:
+def test_curve_of_zener_agrees_with_its_series() -> None:
     for number in (1e-3, 2e-3):
         series = 1.0 - 1.7302 * number + 1.796 * number**2
         assert zener_restitution(number) == pytest.approx(series, abs=2.0 * number**3 + 1e-7)
@@ -157,7 +157,7 @@ def test_zeners_curve_begins_as_its_series() -> None:
 
 @pytest.mark.parametrize(("edge", "factor"), [("paper", 1.0), ("clamped", 0.5),
                                               ("simply-supported", 3.3 / 2.6)])  # fmt: skip
-def test_modes_of_a_thin_plate_add_up_to_its_deflection_at_rest(edge: str, factor: float) -> None:
+def test_modes_of_a_thin_plate_add_up_to_the_static_deflection(edge: str, factor: float) -> None:
     """The sum is P b^2/(8 pi D) times 1, 1/2 (clamped) or (3 + nu)/(2 (1 + nu)) (supported)."""
     thin = scene(plate={"thickness": 2e-4, "edge": edge})
     model = replace(model_of(thin), h=1e-4)
@@ -168,21 +168,21 @@ def test_modes_of_a_thin_plate_add_up_to_its_deflection_at_rest(edge: str, facto
 
 
 @pytest.mark.parametrize("edge", ["simply-supported", "clamped"])
-def test_a_held_plate_moves_on_its_own_edge(edge: str) -> None:
+def test_supported_plate_uses_the_modes_of_its_edge(edge: str) -> None:
     held = simulate(scene(plate={"edge": edge}))
     assert {"edge", "inertia"} <= held.effects.law.effects
     assert abs(held.dynamics.energy_balance.residual) <= 1e-11  # type: ignore[union-attr]
     assert 0.0 < held.restitution < 1.0
 
 
-def test_no_code_is_written_of_a_plate_that_moves() -> None:
+def test_no_code_is_generated_for_a_plate_with_inertia() -> None:
     from derivation.scene.code import recipe
 
     with pytest.raises(SceneError, match=r"effects\.inertia = false"):
         recipe(scene())
 
 
-def test_explain_says_that_the_plate_moves() -> None:
-    told = explain(scene())
-    assert any("inertia" in note for note in told.notes)
-    assert told.evaluation_times["inertia"] > 0.0
+def test_explain_states_plate_inertia() -> None:
+    explanation = explain(scene())
+    assert any("inertia" in note for note in explanation.notes)
+    assert explanation.evaluation_times["inertia"] > 0.0

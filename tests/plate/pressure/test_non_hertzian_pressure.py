@@ -34,27 +34,16 @@ pytestmark = pytest.mark.usefixtures("no_warning")
 # --- theory
 
 
-def test_formulas_of_the_link_are_proved_symbolically() -> None:
-    for formula in theory.true_pressure():
-        assert formula.proof.method == "symbolically"
-    for proof in (
-        theory.representation(),
-        theory.profiles(),
-        theory.motion_of_the_edge(),
-        theory.results().proof,
-        theory.substitution()[-1],
-    ):
-        assert proof.method == "symbolically"
-
-
-def test_the_cubic_coefficient_is_eight_thirds() -> None:
+def test_cubic_coefficient_is_eight_thirds() -> None:
     ratio, law = (f.expression for f in theory.at_given_force())
     assert law.coeff(a_ratio, 3) == sp.Rational(8, 3) * c_A[3]
     assert law.coeff(a_ratio, 1) == c_A[1]
     assert ratio == 1 + sp.Rational(5, 3) * c_A[3] * a_ratio**3
 
 
-def test_a_wall_share_that_is_too_small_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_too_small_contribution_of_the_side_wall_is_rejected(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     monkeypatch.setattr(bound, "WALL_EXTRA", sp.Rational(3, 40))
     with pytest.raises(ProofError, match="contribution of the edge"):
         bound.wall_share.__wrapped__()
@@ -107,14 +96,14 @@ AGREE = [
 
 
 @pytest.mark.parametrize("numbers", AGREE, ids=lambda x: f"{float(x[1]):g}-{float(x[0]):g}")
-def test_oracles_agree_to_twenty_digits(numbers: tuple[Fraction, ...]) -> None:
+def test_references_agree_to_twenty_digits(numbers: tuple[Fraction, ...]) -> None:
     one = pressure_balls.solve(pressure_balls.Case(*numbers), 22)
     other = pressure_routes.solve(*numbers, digits=20)
     for ball, number in zip((one.force, one.depth, one.centre), other, strict=True):
         assert abs(ball - to_ball(number)) < 1e-22 * abs(ball) + 1e-24
 
 
-def test_stiffness_and_slope_are_derivatives_of_the_second_oracle() -> None:
+def test_stiffness_and_slope_are_derivatives_of_the_second_reference() -> None:
     numbers = Fraction(3, 2), Fraction(1, 5)
     one = pressure_balls.solve(pressure_balls.Case(*numbers))
     stiffness, slope = pressure_routes.derivatives(*numbers, digits=12)
@@ -123,7 +112,7 @@ def test_stiffness_and_slope_are_derivatives_of_the_second_oracle() -> None:
         assert abs(one.slope - to_ball(slope)) < 1e-15
 
 
-def test_oracles_refuse_what_they_do_not_reach() -> None:
+def test_references_reject_contacts_outside_their_range() -> None:
     with pytest.raises(RouteError, match="is above"):
         pressure_routes.solve(Fraction(1), Fraction(3, 4))
     with pytest.raises(ValueError, match="expected 0 < a < b"):
@@ -133,26 +122,28 @@ def test_oracles_refuse_what_they_do_not_reach() -> None:
 # --- generated code against the reference
 
 
-def test_the_stated_limit_is_the_committed_one() -> None:
+def test_stated_limit_is_the_recorded_one() -> None:
     assert read_stated_limits("pressure") == {"error": ERROR}
 
 
 @pytest.mark.parametrize(("a", "v", "sphere"), [(0.5, 2.0, 0.8), (1.5, 20.0, 1.9), (2.0, 5.0, 9.0)])
-def test_sphere_and_its_elasticity_against_the_oracle(a: float, v: float, sphere: float) -> None:
-    true = pressure_balls.solve(pressure_balls.case(a, 1.0, v, sphere, 0.75), 20)
+def test_sphere_and_its_elasticity_agree_with_the_reference(
+    a: float, v: float, sphere: float
+) -> None:
+    exact = pressure_balls.solve(pressure_balls.case(a, 1.0, v, sphere, 0.75), 20)
     got = contact(plate(1.0, v), a, sphere, 0.75 * E, E, sphere=True)
     scale = 0.75 * E
     for value, ball in (
-        (got.force * sphere / (scale * a**3), true.force),
-        (got.indentation * sphere / a**2, true.depth),
-        (got.stiffness / (scale * a), true.stiffness),
-        (got.slope * sphere / a, true.slope),
-        (got.centre_pressure * sphere / (scale * a), true.centre),
+        (got.force * sphere / (scale * a**3), exact.force),
+        (got.indentation * sphere / a**2, exact.depth),
+        (got.stiffness / (scale * a), exact.stiffness),
+        (got.slope * sphere / a, exact.slope),
+        (got.centre_pressure * sphere / (scale * a), exact.centre),
     ):
         assert abs(float(value) - ball) < ERROR * abs(float(ball))
 
 
-def test_the_kernel_is_the_slope_of_the_law() -> None:
+def test_kernel_follows_from_the_slope_of_the_law() -> None:
     """The integral equation's kernel follows from the series of the contact law alone.
 
     The series is F = A sum S_k (A/reach)^(2k).
@@ -194,7 +185,7 @@ def test_hertz_limit() -> None:
 
 
 @pytest.mark.parametrize("share", [1e-6, 0.1, 0.5, 0.99])
-def test_curvature_is_that_of_sneddon_on_the_half_space(share: float) -> None:
+def test_spherical_profile_on_a_half_space_agrees_with_sneddon(share: float) -> None:
     a = 1e-9
     radius = a / share
     got = contact(plate(1.0, 1.0), a, radius, E, sphere=True)
@@ -205,7 +196,7 @@ def test_curvature_is_that_of_sneddon_on_the_half_space(share: float) -> None:
         assert abs(got.force / force - 1) < 1e-8
 
 
-def test_curvature_fades_like_its_square() -> None:
+def test_effect_of_the_spherical_profile_is_quadratic() -> None:
     of = plate(1.0, 8.0)
     moved = []
     for radius in (50.0, 100.0):
@@ -215,7 +206,7 @@ def test_curvature_fades_like_its_square() -> None:
 
 
 @pytest.mark.parametrize("eta", [0.02, 0.2, 0.8])
-def test_first_order_at_given_force(eta: float) -> None:
+def test_leading_terms_at_a_given_force(eta: float) -> None:
     """The leading terms at a given force have the coefficients (8/3) c_3 and (5/3) c_3.
 
     (delta R/a_H^2 - 1 - c_1 A)/A^3 -> (8/3) c_3 and (a_H/a - 1)/A^3 -> (5/3) c_3.
@@ -240,7 +231,7 @@ CONTACTS = [(0.5, 1.2), (2.0, 8.0), (3.5, 40.0), (5.5, 1e4), (0.8, 0.9), (5.8, 1
 
 
 @pytest.mark.parametrize(("a", "v"), CONTACTS)
-def test_the_pressure_carries_the_force_and_chi_ends_at_nothing(a: float, v: float) -> None:
+def test_pressure_integrates_to_the_force_and_vanishes_at_the_edge(a: float, v: float) -> None:
     of = plate(1.0, v)
     got = contact(of, a, R, E)
     nodes, weights = np.polynomial.legendre.leggauss(40)
@@ -253,7 +244,7 @@ def test_the_pressure_carries_the_force_and_chi_ends_at_nothing(a: float, v: flo
 
 
 @pytest.mark.parametrize(("a", "v"), CONTACTS)
-def test_work_and_stiffness(a: float, v: float) -> None:
+def test_work_and_stiffness_are_consistent(a: float, v: float) -> None:
     """dU = P d delta and dP = K d delta hold along a, also with a compliant support."""
     of, compliance = plate(1.0, v), 3e-11
     nodes, weights = np.polynomial.legendre.leggauss(60)
@@ -265,7 +256,7 @@ def test_work_and_stiffness(a: float, v: float) -> None:
     assert abs(path.slope @ w / end.indentation - 1) < 1e-10
 
 
-def test_a_support_adds_its_compliance() -> None:
+def test_compliance_of_a_support_is_added() -> None:
     of = plate(1.0, 20.0)
     firm, soft = (contact(of, 1.3, R, E, compliance=c) for c in (0.0, 1e-10))
     assert soft.force == firm.force
@@ -276,7 +267,7 @@ def test_a_support_adds_its_compliance() -> None:
     assert stiffer.indentation < firm.indentation
 
 
-def test_the_contact_opens_at_three_thicknesses() -> None:
+def test_contact_is_lost_at_the_centre_at_three_thicknesses() -> None:
     """p(0)/p_mean decreases with a and reaches 0 at the same a/h in all thin plates."""
     for v in (10.0, 15.9, 16.1, 100.0, 1e4):
         of = plate(1.0, v)
@@ -295,7 +286,7 @@ def test_the_contact_opens_at_three_thicknesses() -> None:
         assert abs(low / 2 - OPEN) < 1e-6
 
 
-def test_in_thin_plates_the_shape_of_the_pressure_depends_on_the_thickness_alone() -> None:
+def test_pressure_profile_in_thin_plates_depends_only_on_the_thickness() -> None:
     """In thin plates the pressure profile depends on a/h and not on b/h.
 
     b/h changes the kernel only by terms t^2 + s^2, which act like a curvature of the sphere.
@@ -312,7 +303,7 @@ def test_in_thin_plates_the_shape_of_the_pressure_depends_on_the_thickness_alone
 # --- domain and arrays
 
 
-def test_domain() -> None:
+def test_results_are_nan_outside_the_domain() -> None:
     of = plate(1.0, 2.0)
     for a in (0.0, -1.0, np.nan, WIDEST_SHARE * 2.0001, 2.5):
         assert np.isnan(contact(of, a, R, E).force)
@@ -328,7 +319,7 @@ def test_domain() -> None:
     assert np.isnan(pressure(0.1, plate(1.0, 100.0), 6.5, 10.0, E))
 
 
-def test_arrays_are_as_single_contacts() -> None:
+def test_arrays_equal_single_contacts() -> None:
     for v in (1.0, 50.0):
         of = plate(1.0, v)
         a = np.linspace(0.01, 0.9, 130).reshape(2, 65)
@@ -342,7 +333,7 @@ def test_arrays_are_as_single_contacts() -> None:
         assert contact(of, np.zeros((0, 3)), R, E).chi.shape == (0, 3, 24)
 
 
-def test_units_do_not_matter() -> None:
+def test_results_do_not_depend_on_units() -> None:
     for v in (2.0, 1.0 / 3e-3):
         one = contact(plate(1e-3, 1e-3 * v), 1.2e-3, 0.05, E)
         other = contact(plate(1.0, v), 1.2, 50.0, E / 1e6)
@@ -350,7 +341,7 @@ def test_units_do_not_matter() -> None:
         assert abs(one.indentation * 1e3 / other.indentation - 1) < 1e-14
 
 
-def test_both_kernels_meet_where_plates_become_thin() -> None:
+def test_kernels_of_thin_and_thick_plates_agree_at_their_switch_point() -> None:
     a = np.linspace(0.1, 6.0, 60)
     thick, thin = (contact(plate(1.0, THIN * (1 + x)), a, R, E) for x in (-1e-13, 1e-13))
     assert np.abs(thick.force / thin.force - 1).max() < 1e-12

@@ -37,7 +37,7 @@ def values(found: Result) -> list[float]:
     return [getattr(found, name) for name in OUTPUTS]
 
 
-def test_without_mass_the_plate_is_at_rest_under_a_contact_that_lags() -> None:
+def test_light_plate_is_quasi_static_in_a_viscoelastic_contact() -> None:
     """A light plate gives the results of the quasi-static one, in which bending is elastic too.
 
     The quasi-static bending neglects the size of the contact. The difference is proportional to the
@@ -54,7 +54,7 @@ def test_without_mass_the_plate_is_at_rest_under_a_contact_that_lags() -> None:
     assert second < 2.0 * (narrow / wide) ** 2 * first
 
 
-def test_modes_beyond_bending_stay_with_the_contact_and_its_lag() -> None:
+def test_results_converge_with_the_bending_modes() -> None:
     """The change of the results falls by more than a factor of ten at the second doubling."""
     found = [values(pad(modes=n)) for n in (10, 20, 40)]
     first, second = (
@@ -63,7 +63,7 @@ def test_modes_beyond_bending_stay_with_the_contact_and_its_lag() -> None:
     assert second < 0.1 * first < 1e-4
 
 
-def test_energy_is_accounted_for() -> None:
+def test_energy_balance_closes() -> None:
     found = pad(modes=20)
     assert found.dynamics is not None
     balance = found.dynamics.energy_balance
@@ -72,7 +72,7 @@ def test_energy_is_accounted_for() -> None:
     assert least > 0.05 * balance.initial_kinetic
 
 
-def test_other_branches_do_not_move_under_a_contact_that_lags() -> None:
+def test_other_branches_are_rejected_in_a_viscoelastic_contact() -> None:
     with pytest.raises(SceneError, match=r'^inertia\.branches: .*"A0"'):
         pad(branches="all")
 
@@ -82,7 +82,7 @@ def test_other_branches_do_not_move_under_a_contact_that_lags() -> None:
     [(1.0, "steel", 0.01, 0.15, 1e-5), (0.3, "PMMA", 0.004, 0.1, 1e-4)],
     ids=["recovered to a billionth", "recovered to a hundredth"],
 )
-def test_contacts_that_begin_again_on_a_face_still_pressed_in_are_followed(
+def test_recontact_before_recovery_is_simulated(
     mass: float, material: str, thickness: float, radius: float, time: float
 ) -> None:
     """The impact is complete and its energy balance closes."""

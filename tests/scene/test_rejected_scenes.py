@@ -64,7 +64,7 @@ def refused_from(make: Callable[[float], Any], fine: float, bad: float) -> tuple
     ],
     ids=["sphere", "plate", "steep", "held", "solved", "annulus"],
 )
-def test_contact_radii_are_refused_from_the_limit_on(tables: Tables, limit: float) -> None:
+def test_contact_radii_above_the_limit_are_rejected(tables: Tables, limit: float) -> None:
     """The limit is min(b, R) or a little less; three thicknesses for non-Hertzian pressure."""
     given = read(changed(**tables))
     found, text = refused_from(lambda a: indent(given, contact_radius=a), 0.5 * limit, 2 * limit)
@@ -73,7 +73,7 @@ def test_contact_radii_are_refused_from_the_limit_on(tables: Tables, limit: floa
     assert f"{found:.6g} m" in text
 
 
-def test_a_contact_is_refused_where_it_opens_in_its_middle() -> None:
+def test_contact_without_central_pressure_is_rejected() -> None:
     """A contact is rejected where the central pressure vanishes, for a sphere before a/H = 3."""
     tables = {
         "plate": {"thickness": 0.02},
@@ -93,7 +93,7 @@ def test_a_contact_is_refused_where_it_opens_in_its_middle() -> None:
     ("gravity", "solved"),
     [(None, False), (9.81, False), (9.81, True)],
 )
-def test_impacts_are_refused_from_the_speed_named(gravity: float | None, solved: bool) -> None:
+def test_impacts_above_the_stated_speed_are_rejected(gravity: float | None, solved: bool) -> None:
     """The limit of the speed takes the work of a heavy sphere's weight into account."""
 
     def run(v: float) -> Result:
@@ -121,7 +121,7 @@ def test_impacts_are_refused_from_the_speed_named(gravity: float | None, solved:
 
 
 @pytest.mark.parametrize("limit", [0.5, -1.0])
-def test_poissons_ratio_is_refused_at_its_ends(limit: float) -> None:
+def test_limits_of_poissons_ratio_are_rejected(limit: float) -> None:
     def run(nu: float) -> Result:
         keys = {"lame_lambda": None, "lame_mu": None, "youngs_modulus": 1e9, "poissons_ratio": nu}
         return simulate(read(changed(plate={"radius": 1e6, "thickness": 2e6} | keys)))
@@ -138,7 +138,7 @@ def test_poissons_ratio_is_refused_at_its_ends(limit: float) -> None:
     assert ratio == pytest.approx(1 / (1 - nu * nu), rel=1e-6)
 
 
-def test_the_bulk_modulus_is_refused_at_nothing() -> None:
+def test_bulk_modulus_of_zero_is_rejected() -> None:
     mu, limit = 3.0, -2.0
     for lam, fine in ((limit, False), (limit * (1 + 1e-15), False), (limit * (1 - 1e-9), True)):
         data = changed(plate={"lame_lambda": lam, "lame_mu": mu})
@@ -150,7 +150,7 @@ def test_the_bulk_modulus_is_refused_at_nothing() -> None:
 
 
 @pytest.mark.parametrize(("limit", "beyond"), [(1e-13, 0.0), (1.0, 2.0)])
-def test_tolerances_are_refused_beyond_their_ends(limit: float, beyond: float) -> None:
+def test_tolerances_outside_their_range_are_rejected(limit: float, beyond: float) -> None:
     outside = math.nextafter(limit, beyond)
     thick_plate = {"radius": 1e6, "thickness": 2e6}
     given = read(changed(plate=thick_plate) | {"accuracy": {"rtol": limit}})
@@ -168,7 +168,7 @@ REMAINDER = json.loads((measurements() / "edge_remainder.json").read_text())["ro
 EDGES = {"supported": "simply-supported", "clamped": "clamped"}
 
 
-def test_the_edges_remainder_is_that_measured_or_refused_above_one_percent() -> None:
+def test_remainder_of_the_edge_is_the_measured_one_or_rejected() -> None:
     refused = 0
     for row in REMAINDER:
         parts = ("share_of_indentation", "lower_degree", "fewer_layers")
@@ -186,7 +186,7 @@ def test_the_edges_remainder_is_that_measured_or_refused_above_one_percent() -> 
     assert refused > 5
 
 
-def test_the_edges_model_error_is_said_and_refused() -> None:
+def test_model_error_of_the_edge_is_stated_or_rejected() -> None:
     held = {"edge": "clamped", "half_thickness": 0.01}
     result = simulate(scene(plate=held))
     assert 0 < result.model_error < 0.01
@@ -212,7 +212,7 @@ def test_the_edges_model_error_is_said_and_refused() -> None:
     assert simulate(scene(plate={"edge": "paper"})).model_note == ""
 
 
-def test_beyond_the_law_is_refused_with_its_limit() -> None:
+def test_contacts_beyond_the_law_are_rejected_with_its_limit() -> None:
     fast = {"speed": 1e7}
     with pytest.raises(SceneError, match=r"^impact\.speed: .*at 0\.059.* m"):
         simulate(scene(impact=fast))
@@ -223,7 +223,7 @@ def test_beyond_the_law_is_refused_with_its_limit() -> None:
         simulate(scene(impact=fast, effects=flat))
 
 
-def test_the_contact_opens_near_three_thicknesses() -> None:
+def test_contact_is_lost_at_the_centre_near_three_thicknesses() -> None:
     """A paraboloid does not lose contact at the centre up to a/H = 3; a sphere does before."""
     m = model(sphere_modulus=math.inf, h=0.001, R=10.0, edge="paper")
     limit = ContactLaw(m, ALL - {"spherical_profile", "edge", "gravity"}).limit
@@ -235,7 +235,7 @@ def test_the_contact_opens_near_three_thicknesses() -> None:
 
 
 @pytest.mark.parametrize("plate", [{}, {"radius": 0.05, "thickness": 0.02}])
-def test_impact_beyond_the_law_is_refused_at_the_speed_named(plate: dict[str, float]) -> None:
+def test_impact_beyond_the_law_is_rejected_with_the_largest_speed(plate: dict[str, float]) -> None:
     with pytest.raises(SceneError, match=r"^impact\.speed: ") as caught:
         simulate(read(changed(plate=plate, impact={"speed": 1e9})))
     limit = min(0.13, plate.get("radius", 1.0))
@@ -247,7 +247,7 @@ def test_impact_beyond_the_law_is_refused_at_the_speed_named(plate: dict[str, fl
     assert 0.999 * limit < below.max_contact_radius < limit
 
 
-def test_energy_of_a_sphere_close_to_its_limit_by_another_quadrature() -> None:
+def test_energy_of_a_sphere_close_to_its_limit_agrees_with_scipy() -> None:
     """The energy is that of Sneddon's law, integrated by SciPy up to the largest radius."""
     m = model(sphere_modulus=math.inf, h=1e3, b=1e4)
     law = ContactLaw(m, frozenset({"hertz", "spherical_profile"}))
@@ -257,8 +257,8 @@ def test_energy_of_a_sphere_close_to_its_limit_by_another_quadrature() -> None:
         log = math.log((R + a) / (R - a))
         return E * ((a * a + R * R) / 2 * log - a * R) * (log / 2 + a * R / (R * R - a * a))
 
-    true, _ = quad(power, 0.0, last, epsrel=1e-12, limit=200)
-    assert limits.energy_of(law, last) == pytest.approx(true, rel=1e-9)
+    exact, _ = quad(power, 0.0, last, epsrel=1e-12, limit=200)
+    assert limits.energy_of(law, last) == pytest.approx(exact, rel=1e-9)
 
 
 def test_energy_is_the_integral_of_the_force() -> None:
@@ -279,7 +279,7 @@ def test_energy_is_the_integral_of_the_force() -> None:
         (waves.impact, PAPER | {"inertia"}),
     ],
 )
-def test_an_impact_beyond_the_law_is_an_error_of_the_speed(
+def test_impact_beyond_the_law_is_an_error_of_the_speed(
     run: Callable[[ContactLaw], object], effects: frozenset[str]
 ) -> None:
     """Each solver raises the same error."""

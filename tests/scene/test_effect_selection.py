@@ -37,7 +37,7 @@ def test_bounds_hold_in_random_scenes() -> None:
     assert included == sorted(included)
 
 
-def test_a_bound_that_does_not_hold_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_violated_bound_is_detected(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(
         measure, "selected_impact", lambda *_: ([1.0, 1.0, 1.02, 1.0], ["hertz"], 1e-3)
     )
@@ -47,14 +47,14 @@ def test_a_bound_that_does_not_hold_is_noticed(monkeypatch: pytest.MonkeyPatch) 
     assert rows[0].quantity == "max_force"
 
 
-def test_a_looser_tolerance_takes_in_no_more() -> None:
+def test_looser_tolerance_includes_no_more_effects() -> None:
     for m in random_models(10):
         taken = [decide(m, AT_REST, rtol).law.effects for rtol in (1e-9, 1e-6, 1e-4, 1e-2, 1e-1)]
         for tight, loose in pairwise(taken):
             assert loose <= tight
 
 
-def test_both_sides_of_a_threshold() -> None:
+def test_selection_changes_at_the_bound() -> None:
     """The same effects are selected at the bound, and at least one more just below it."""
     for m in random_models(4):
         for rtol in (1e-2, 1e-4):
@@ -70,7 +70,7 @@ def test_both_sides_of_a_threshold() -> None:
                 assert abs(other / one - 1) <= found.error * (1 + 1e-9)
 
 
-def test_weight_under_the_true_pressure_moves_the_radius_within_the_bound() -> None:
+def test_weight_changes_the_radius_within_its_bound() -> None:
     """With non-Hertzian pressure the radius grows up to 3.5 times as fast as Hertz's."""
     data = measure.scene(226)
     whole = measure.everything(data)
@@ -81,7 +81,7 @@ def test_weight_under_the_true_pressure_moves_the_radius_within_the_bound() -> N
     assert 0.5 * bound < abs(values[3] / whole[0][3] - 1) <= bound
 
 
-def test_forced_choices_are_honoured_and_priced() -> None:
+def test_choices_of_the_user_are_applied_and_have_bounds() -> None:
     m = model()
     out = decide(m, AT_REST | {"bending": False, "gravity": True}, 1e-1)
     assert "bending" not in out.law.effects
@@ -99,7 +99,7 @@ def test_forced_choices_are_honoured_and_priced() -> None:
     assert 0.3 * small.bound < max(changes) <= small.bound
 
 
-def test_pressure_and_inertia_need_the_whole_plate() -> None:
+def test_pressure_and_inertia_require_all_parts_of_the_plate() -> None:
     off = decide(model(), {"bending": False, "inertia": False}, 1e-6)
     assert "non_hertzian_pressure" not in off.law.effects
     # An effect that cannot be included adds to the bound like any omitted effect.
@@ -109,7 +109,7 @@ def test_pressure_and_inertia_need_the_whole_plate() -> None:
             decide(model(), {"bending": False, name: True}, 1e-6)
 
 
-def test_the_pressure_is_solved_with_all_that_its_equation_holds() -> None:
+def test_required_parts_of_the_pressure_are_included() -> None:
     law = decide(model(), AT_REST | {"non_hertzian_pressure": True}, 10.0).law
     assert (
         law.effects
@@ -121,18 +121,18 @@ def test_the_pressure_is_solved_with_all_that_its_equation_holds() -> None:
     assert "spherical_profile" not in law.effects
 
 
-def test_numbers_are_those_of_the_largest_contact() -> None:
+def test_parameters_are_those_of_the_largest_contact() -> None:
     m = model()
     found = motion.impact(ContactLaw(m, ALL))
     a, rows = found.max_contact_radius, {row.name: row for row in decide(m, AT_REST, 0.0).rows}
     depth = a * a / m.R
-    true = {
+    exact = {
         "hertz": a / m.R, "spherical_profile": a / m.R, "non_hertzian_pressure": a / (2 * m.h),
         "sphere_elasticity": m.modulus / m.sphere_modulus,
         "gravity": m.m * m.gravity * depth / (m.m * m.v0**2 / 2),
         "bending": 2 / math.pi * a * m.b**2 / (2 * m.h) ** 3,
     }  # fmt: skip
-    for name, value in true.items():
+    for name, value in exact.items():
         assert rows[name].parameter_value == pytest.approx(value, rel=0.02)
     assert rows["finite_radius"].parameter_value == pytest.approx(0.37 * a / m.b, rel=0.01)
     # Static deflection, simply supported over the paper's edge: (3 + nu)/(2 (1 + nu)).
@@ -141,7 +141,7 @@ def test_numbers_are_those_of_the_largest_contact() -> None:
     assert rows["edge"].parameter_value == pytest.approx(share, rel=0.15)
 
 
-def test_outputs_that_do_not_matter_take_in_nothing() -> None:
+def test_unneeded_outputs_include_no_effects() -> None:
     """The spherical profile is omitted for the force and included for the contact radius."""
     m = model(sphere_modulus=math.inf, gravity=0.0, h=1e3, b=1e4, v0=0.1, edge="paper")
     worst = decide(m, AT_REST, 0.0, OUTPUTS)
@@ -156,7 +156,7 @@ def test_outputs_that_do_not_matter_take_in_nothing() -> None:
     assert "spherical_profile" not in decide(m, AT_REST, rtol, ("max_force",)).law.effects
 
 
-def test_the_scenes_outputs_are_those_the_tolerance_applies_to() -> None:
+def test_tolerance_applies_to_the_outputs_of_the_scene() -> None:
     block = {"half_thickness": 1e3, "radius": 1e4, "edge": "paper"}
     given = scene(plate=block, sphere={"material": None}, impact={"gravity": None}).to_json()
     m = model_of(read(given))
@@ -172,7 +172,7 @@ def test_the_scenes_outputs_are_those_the_tolerance_applies_to() -> None:
     )
 
 
-def test_the_paper_scene_without_any_choice() -> None:
+def test_paper_scene_with_automatic_selection() -> None:
     """On a very thick plate only Hertz's contact is included."""
     thick = scene(plate={"half_thickness": 1e3, "radius": 1e4}, sphere={"material": None})
     result = simulate(thick, rtol=1e-2)
@@ -181,7 +181,7 @@ def test_the_paper_scene_without_any_choice() -> None:
     assert result.accuracy.bound <= 1e-2
 
 
-def test_explain_simulates_nothing_and_says_why(capsys: Captured, tmp_path: Path) -> None:
+def test_explain_does_not_simulate_and_gives_reasons(capsys: Captured, tmp_path: Path) -> None:
     path = tmp_path / "scene.toml"
     path.write_text(
         "[sphere]\nradius = 0.01\nmaterial = 'steel'\n[plate]\nradius = 0.5\nthickness = 0.01\n"
@@ -208,7 +208,7 @@ def test_explain_simulates_nothing_and_says_why(capsys: Captured, tmp_path: Path
     assert "<table>" in found._repr_html_()
 
 
-def test_the_reference_knows_the_papers_law_alone(tmp_path: Path) -> None:
+def test_reference_supports_only_the_law_of_the_paper(tmp_path: Path) -> None:
     """The message on a rejected scene lists keys with which the scene is accepted."""
     example = EXAMPLES / "glass_pane.toml"
     called = sorted(explain(load(example)).effects.law.effects - WHOLE_PLATE - {"hertz"})
@@ -228,7 +228,7 @@ def test_the_reference_knows_the_papers_law_alone(tmp_path: Path) -> None:
             paper_law.in_doubles(load(place))
 
 
-def test_the_reference_of_a_quasi_static_plate_asks_for_no_density(tmp_path: Path) -> None:
+def test_reference_of_a_quasi_static_plate_needs_no_density(tmp_path: Path) -> None:
     text, place = (EXAMPLES / "paper.toml").read_text(), tmp_path / "scene.toml"
     place.write_text(text.replace("inertia = false", "inertia = true"))
     with pytest.raises(SceneError, match=r"plate\.density"):
@@ -247,7 +247,7 @@ def test_rows_are_shown_in_every_output() -> None:
     assert result.model == model_of(scene())
 
 
-def test_a_row_tells_not_applicable_from_omitted_without_a_bound() -> None:
+def test_not_applicable_differs_from_omitted_without_a_bound() -> None:
     """An effect that does not apply is "n/a"; an omitted one without a bound is "no bound"."""
     found = decide(model(gravity=0.0), {"inertia": False}, 1e-3)
     cells = {

@@ -53,48 +53,48 @@ def test_bounds_hold_in_a_hundred_scenes() -> None:
     assert {row.method: row.ratio > 0.1 for row in rows}["leading"]  # the bound is tight
 
 
-def test_committed_rows_are_those_of_all_references() -> None:
+def test_recorded_rows_follow_from_the_recorded_references() -> None:
     data = json.loads(bounds.MEASURED.read_text())
     assert sum(row["runs"] for row in data["rows"]) == len(data["truths"]) * len(bounds.TOLERANCES)
     assert all(row["ratio"] <= 1 for row in data["rows"])
 
 
-def test_committed_references_are_the_seeds_scenes() -> None:
+def test_recorded_references_belong_to_the_random_scenes() -> None:
     known = bounds.committed_references()
     for number in (0, 1, 17, len(known) - 1):
         np.testing.assert_allclose(bounds.scene(number), known[number].point, rtol=1e-12)
 
 
-def test_a_bound_that_does_not_hold_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    [true] = bounds.committed_references()[:1]
-    exact = [float(text) for text in true.values]
+def test_violated_bound_is_detected(monkeypatch: pytest.MonkeyPatch) -> None:
+    [reference] = bounds.committed_references()[:1]
+    exact = [float(text) for text in reference.values]
     off = [exact[0], exact[1], 1.01 * exact[2], exact[3]]
     monkeypatch.setattr(bounds, "simulated", lambda _, rtol: (off, "hertz", rtol / 2))
-    [row] = bounds.judge([true], [1e-3])
+    [row] = bounds.judge([reference], [1e-3])
     assert (row.kept, row.quantity) == (False, "max_force")
     assert row.ratio == pytest.approx(20, rel=1e-3)
     monkeypatch.setattr(bounds, "simulated", lambda _, rtol: ([math.nan] * 4, "hertz", rtol))
-    [row] = bounds.judge([true], [1e-3])
+    [row] = bounds.judge([reference], [1e-3])
     assert not row.kept
     monkeypatch.setattr(bounds, "simulated", lambda *_: (exact, "hertz", 2e-3))
     with pytest.raises(ValueError, match="states"):
-        bounds.judge([true], [1e-3])
+        bounds.judge([reference], [1e-3])
 
 
-def test_no_error_is_below_the_references_own_radius() -> None:
+def test_error_is_at_least_the_uncertainty_of_the_reference() -> None:
     """The error of a result includes the uncertainty of the reference value."""
-    true = bounds.SceneReference((), ("1", "1"))
-    exact, off = bounds.errors((1.0, 1.0 + 2.0**-52), true)
+    reference = bounds.SceneReference((), ("1", "1"))
+    exact, off = bounds.errors((1.0, 1.0 + 2.0**-52), reference)
     assert exact >= 10.0**-bounds.DIGITS
     assert off >= 2.0**-52 + 10.0**-bounds.DIGITS
     assert exact < 1.001 * 10.0**-bounds.DIGITS
 
 
-def test_references_are_sought_once(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    asked: list[bounds.Point] = []
+def test_references_are_computed_once(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    computed: list[bounds.Point] = []
 
     def oracle(point: bounds.Point) -> bounds.SceneReference:
-        asked.append(point)
+        computed.append(point)
         return bounds.SceneReference(point, ("1", "1", "1", "1"))
 
     monkeypatch.setattr(bounds, "reference", oracle)
@@ -103,11 +103,11 @@ def test_references_are_sought_once(monkeypatch: pytest.MonkeyPatch, tmp_path: P
     bounds.MEASURED.write_text(bounds.to_json(first, ()))
     again = bounds.committed_references()
     assert list(bounds.reference_values(4, again))[:3] == first == again
-    assert asked == [bounds.scene(number) for number in range(4)]
+    assert computed == [bounds.scene(number) for number in range(4)]
 
 
 @pytest.mark.parametrize("eta", [1e-3, 0.1, 0.1666, 0.1667, 0.3, 0.53, 0.6, 1.0, 4.0, 50.0])
-def test_the_laws_slope_lies_between_the_bounds(eta: float) -> None:
+def test_slope_of_the_law_is_within_its_bounds(eta: float) -> None:
     from derivation.plate.contact.oracle import balls as contact_balls
 
     plate = simple_impact.plate_of(eta)
@@ -122,15 +122,15 @@ def test_the_laws_slope_lies_between_the_bounds(eta: float) -> None:
 
 
 @pytest.mark.parametrize("factor", [0.93, 0.99, 1.01, 1.5])
-def test_the_lemma_holds_for_a_law_times_a_number(factor: float) -> None:
+def test_lemma_holds_for_a_multiple_of_the_law(factor: float) -> None:
     """If the slope is c times Hertz's, each result changes by a known power of c."""
     low, up = max(0.0, 1 - factor), max(0.0, factor - 1)
-    said = simple_impact.law_error(low, up, 0.0, 0.0)
+    bound = simple_impact.law_error(low, up, 0.0, 0.0)
     for power in (-1 / 5, -3 / 5, 3 / 5, 3 / 5):
-        assert abs(factor**-power - 1) <= said
+        assert abs(factor**-power - 1) <= bound
 
 
-def test_the_lemmas_exponents_are_the_theorys() -> None:
+def test_exponents_of_the_lemma_agree_with_the_theory() -> None:
     import sympy as sp
 
     from derivation.plate.impact.theory.substitution import exponents
@@ -142,7 +142,7 @@ def test_the_lemmas_exponents_are_the_theorys() -> None:
     assert simple_impact.law_error(loss, 0.0, fall, rise) == pytest.approx(max(changes), rel=1e-6)
 
 
-def test_nothing_is_claimed_where_nothing_is_shown() -> None:
+def test_no_bound_is_stated_where_none_is_proved() -> None:
     assert simple_impact.law_error(1.0, 0.0, 0.0, 0.0) == math.inf
     assert simple_impact.law_error(0.1, 0.0, 0.0, 0.0) == math.inf  # radius error above 2 %
     assert simple_impact.law_error(math.nan, 0.0, 0.0, 0.0) == math.inf
@@ -153,7 +153,7 @@ def test_nothing_is_claimed_where_nothing_is_shown() -> None:
 
 
 @pytest.mark.parametrize("x", [-0.499, -0.1, 1e-9, 1.0, 1e3, 1e10])
-def test_quadrature_of_the_first_correction(x: float) -> None:
+def test_quadrature_of_the_first_correction_is_accurate(x: float) -> None:
     """The quadrature for S_1 = 1 + x q agrees with that of more nodes."""
     u, weights = np.polynomial.legendre.leggauss(60)
     q = 1 - ((1 + u) / 2) ** 2
@@ -169,7 +169,7 @@ def test_quadrature_of_the_first_correction(x: float) -> None:
 
 def test_measured_rounding_covers_the_budget_with_its_conditioning() -> None:
     """The rounding bound covers the budget of `impact` and half the sum of condition numbers."""
-    points = np.array([true.point for true in bounds.committed_references()])
+    points = np.array([reference.point for reference in bounds.committed_references()])
     slopes = impact_sensitivities(*points.T)
     ulp = budgets.read_budgets()["impact"].ulp + 0.5 * np.abs(slopes).sum(axis=1)
     assert np.isfinite(ulp).all()
@@ -177,7 +177,7 @@ def test_measured_rounding_covers_the_budget_with_its_conditioning() -> None:
         assert ulp.max() * 2.0**-52 < method_selection.whole_law(method, None).rounding.bound
 
 
-def test_half_the_nodes_keep_their_stated_limit_with_room() -> None:
+def test_error_of_half_the_nodes_is_a_fifth_of_its_limit() -> None:
     """Half the nodes use a fifth of the stated limit at most, also for thin plates."""
     arguments = scenes(0.01, 5.9, 5000)
     coarse, full = (impact(**arguments, coarse=flag).contact_time for flag in (True, False))
@@ -191,14 +191,14 @@ def methods(model: Model) -> list[str]:
     return [method_selection.solve(model, rtol)[1].method for rtol in sorted(TOLERANCES)]
 
 
-def test_a_smaller_tolerance_never_takes_a_cheaper_method() -> None:
-    models = [Model(*true.point) for true in bounds.committed_references()[:40]]
+def test_smaller_tolerance_selects_no_faster_method() -> None:
+    models = [Model(*reference.point) for reference in bounds.committed_references()[:40]]
     for model in [paper(), *models]:
         ranks = [COST[name] for name in methods(model)]
         assert ranks == sorted(ranks, reverse=True)
 
 
-def test_every_bound_meets_its_tolerance_down_to_the_last() -> None:
+def test_bound_is_within_the_tolerance_down_to_the_smallest() -> None:
     for rtol in TOLERANCES:
         found = method_selection.solve(paper(), rtol)[1]
         assert 0 < found.bound <= rtol
@@ -207,7 +207,7 @@ def test_every_bound_meets_its_tolerance_down_to_the_last() -> None:
 
 
 @pytest.mark.parametrize("v0", [1e-9, 1e-5, 1e-3, 0.1, 1.0])
-def test_both_sides_of_each_switch(v0: float) -> None:
+def test_method_changes_at_its_bound(v0: float) -> None:
     model = paper(v0=v0)
     stated = {"coarse": method_selection.whole_law("coarse", None).bound}
     for method in ("hertz", "leading"):
@@ -224,7 +224,7 @@ def test_both_sides_of_each_switch(v0: float) -> None:
             assert one == pytest.approx(other, rel=above[1].bound + below[1].bound)
 
 
-def test_the_paper_case_takes_each_method_in_turn() -> None:
+def test_example_of_the_paper_uses_each_method() -> None:
     slow = paper(v0=1e-4)
     assert list(dict.fromkeys(reversed(methods(slow)))) == ["hertz", "leading", "coarse", "full"]
     assert "hertz" not in methods(paper())
@@ -233,7 +233,7 @@ def test_the_paper_case_takes_each_method_in_turn() -> None:
 # --- messages
 
 
-def test_without_a_tolerance_the_full_method_and_its_bound() -> None:
+def test_full_method_is_used_without_a_tolerance() -> None:
     result = simulate(load(PAPER))
     assert (result.accuracy.method, result.accuracy.rtol) == ("full", None)
     assert result.accuracy.bound < 1e-13
@@ -242,7 +242,7 @@ def test_without_a_tolerance_the_full_method_and_its_bound() -> None:
     assert result.max_force == found.max_force
 
 
-def test_the_scene_names_the_tolerance_and_an_argument_overrides_it() -> None:
+def test_argument_overrides_the_tolerance_of_the_scene() -> None:
     data = load(PAPER).to_json() | {"accuracy": {"rtol": 1e-3}}
     scene = read(data)
     assert scene.to_json()["accuracy"] == {"rtol": 1e-3}
@@ -251,7 +251,7 @@ def test_the_scene_names_the_tolerance_and_an_argument_overrides_it() -> None:
 
 
 @pytest.mark.parametrize("rtol", [9e-14, 0.0, -1e-3, 1.1, math.nan, math.inf, True, "1e-3"])
-def test_a_tolerance_out_of_reach_is_refused_in_one_message(rtol: Any) -> None:
+def test_unattainable_tolerance_is_rejected_with_one_message(rtol: Any) -> None:
     with pytest.raises(SceneError) as caught:
         simulate(load(PAPER), rtol=rtol)
     assert "platecontact reference SCENE.toml --digits N" in str(caught.value)
@@ -263,17 +263,17 @@ def test_a_tolerance_out_of_reach_is_refused_in_one_message(rtol: Any) -> None:
     assert "\n" not in message
 
 
-def test_a_scene_too_fast_is_refused_at_every_tolerance() -> None:
+def test_excessive_speed_is_rejected_at_every_tolerance() -> None:
     fast = read(load(PAPER).to_json() | {"impact": {"speed": 1e9}})
     for rtol in (None, 1e-2, 1e-13):
         with pytest.raises(SceneError, match=r"^impact\.speed: "):
             simulate(fast, rtol=rtol)
 
 
-def test_method_bound_and_parts_in_every_output(tmp_path: Path, capsys: Captured) -> None:
+def test_every_output_states_method_and_bound(tmp_path: Path, capsys: Captured) -> None:
     wanted = ["simulate", str(PAPER), "--rtol", "1e-3", "--json", f"{tmp_path}/r.json"]
     assert main([*wanted, "--details"]) == 0
-    said = " ".join(capsys.readouterr().out.split())
+    output = " ".join(capsys.readouterr().out.split())
     data = json.loads((tmp_path / "r.json").read_text())["accuracy"]
     assert data["method"] == "leading"
     assert data["rtol"] == 1e-3
@@ -283,7 +283,7 @@ def test_method_bound_and_parts_in_every_output(tmp_path: Path, capsys: Captured
         "rounding": "rounding_analysis",
     }  # fmt: skip
     result = simulate(load(PAPER), rtol=1e-3)
-    assert str(result.accuracy) in said
+    assert str(result.accuracy) in output
     assert str(result.accuracy).replace("'", "&#x27;") in result._repr_html_()
     for words in (
         "Method: leading",
@@ -292,17 +292,17 @@ def test_method_bound_and_parts_in_every_output(tmp_path: Path, capsys: Captured
         "(proved)",
         "rounding analysis",
     ):
-        assert words in said
+        assert words in output
     full = simulate(load(PAPER)).accuracy.to_json()["parts"]
     assert full["quadrature"]["basis"] == full["rounding"]["basis"] == "tested"
 
 
 @pytest.mark.parametrize("bound", [2.53e-4, 9.99e-9, 1e-13, 5.0001e-14, 0.95])
-def test_a_bound_is_shown_rounded_up(bound: float) -> None:
+def test_printed_bound_is_rounded_up(bound: float) -> None:
     assert bound <= float(achieved_accuracy.rounded_up(bound)) <= 1.11 * bound
 
 
-def test_history_is_by_the_full_method_to_its_end() -> None:
+def test_history_uses_the_full_method() -> None:
     result = simulate(load(PAPER), rtol=1e-3)
     assert result.accuracy.method != "full"
     history = result.history(51)

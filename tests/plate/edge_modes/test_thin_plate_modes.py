@@ -10,7 +10,7 @@ from flint import arb
 from mpmath import mp, mpf
 
 from derivation.engine.formula.ball import evaluate, to_ball
-from derivation.engine.formula.proof import SYMBOLIC, ProofError, lower_bessel, prove
+from derivation.engine.formula.proof import ProofError, lower_bessel, prove
 from derivation.mathematics.bessel.theory import modified as modified_bessel
 from derivation.plate import derived
 from derivation.plate.edge_modes.oracle import modes as held_balls
@@ -25,14 +25,7 @@ pytestmark = pytest.mark.usefixtures("silent")
 # --- theory
 
 
-def test_every_formula_of_the_link_is_proved_symbolically() -> None:
-    link = theory.held_modes()
-    assert {f.name for f in link} <= set(derived.formulas())
-    assert len(link) == 8
-    assert {formula.proof.method for formula in link} == {SYMBOLIC}
-
-
-def test_another_norm_or_recurrence_is_refused() -> None:
+def test_wrong_norm_or_recurrence_is_rejected() -> None:
     growth = sp.diff((theory.J1 / theory.J0 + theory.I1 / theory.I0) / k_n, k_n)
     wrong = lower_bessel(growth * k_n * theory.J0**2 / 2) - theory.NORM + theory.J1**2 / 7
     with pytest.raises(ProofError, match="growth"):
@@ -44,7 +37,7 @@ def test_another_norm_or_recurrence_is_refused() -> None:
 
 
 @pytest.mark.parametrize("start", [16, 24, 32])
-def test_bound_of_the_ratios_series(start: int) -> None:
+def test_bound_of_the_series_of_the_ratio(start: int) -> None:
     terms = start // 2
     with flint.ctx.workprec(BITS):
         bound = modified_bessel.ratio_bound(terms, Fraction(start))
@@ -65,7 +58,7 @@ def test_bound_of_the_ratios_series(start: int) -> None:
 
 
 @pytest.mark.parametrize(("steps", "largest"), [(12, 2), (40, 16)])
-def test_bound_of_bessels_integral_as_a_sum(steps: int, largest: int) -> None:
+def test_bound_of_the_bessel_integral_as_a_sum(steps: int, largest: int) -> None:
     with flint.ctx.workprec(BITS):
         k = arb(largest)
         turns = [2 * arb.pi() * i / steps for i in range(steps)]
@@ -88,14 +81,14 @@ def test_bound_of_bessels_integral_as_a_sum(steps: int, largest: int) -> None:
      ("supported", 1, -1 + 2.0**-53), ("supported", 1, math.nextafter(0.5, 0)),
      ("supported", 2, -0.9), ("supported", 6, 0.2)],
 )  # fmt: skip
-def test_oracles_agree(edge: held_balls.Edge, n: int, nu: float) -> None:
+def test_references_agree(edge: held_balls.Edge, n: int, nu: float) -> None:
     balls, routes = held_balls.mode(edge, n, nu), held_routes.mode(edge, n, nu)
     with flint.ctx.workprec(BITS), mp.workdps(50):
         for ball, route in zip(balls, routes, strict=True):
             assert abs(ball / arb(mp.nstr(route, 40)) - 1) < 1e-29
 
 
-def test_oracles_refuse_what_has_no_meaning() -> None:
+def test_references_reject_invalid_arguments() -> None:
     for n, nu in ((0, 0.3), (1, -1.0), (2, 1.0)):
         with pytest.raises(ValueError, match="n >= 1"):
             held_balls.mode("supported", n, nu)
@@ -105,7 +98,7 @@ def test_oracles_refuse_what_has_no_meaning() -> None:
 
 
 @pytest.mark.parametrize("contact", ["0.01", "0.4", "0.9"])
-def test_mean_under_a_flat_punch(contact: str) -> None:
+def test_modal_weight_is_the_mean_under_a_flat_punch(contact: str) -> None:
     """The modal weight is the mean of a mode under a flat punch (weight sin t dt, r = a sin t)."""
     with mp.workdps(25):
         k, a = mpf("9.4394991378764"), mpf(contact)

@@ -66,7 +66,7 @@ def value_of(text: str, unit: str, plain: str) -> float:
     st.floats(1e-12, 1e12) | st.floats(-1e12, -1e-12),
     st.integers(2, 12),
 )
-def test_a_value_keeps_its_digits_under_a_prefix(value: float, digits: int) -> None:
+def test_value_with_a_prefix_keeps_its_digits(value: float, digits: int) -> None:
     text, unit = prefixed(value, "Pa", digits)
     assert value_of(text, unit, "Pa") == pytest.approx(float(f"{value:.{digits - 1}e}"), rel=1e-14)
     if "e" not in text:
@@ -89,12 +89,14 @@ def test_a_value_keeps_its_digits_under_a_prefix(value: float, digits: int) -> N
         (math.nan, "1", 2, ("unknown", "")),
     ],
 )
-def test_values_at_the_ends(value: float, unit: str, digits: int, shown: tuple[str, str]) -> None:
+def test_smallest_and_largest_values(
+    value: float, unit: str, digits: int, shown: tuple[str, str]
+) -> None:
     assert prefixed(value, unit, digits) == shown
 
 
 @given(st.lists(st.floats(1e-9, 1e11), min_size=1), st.integers(2, 12))
-def test_values_in_a_column_share_a_prefix(values: list[float], digits: int) -> None:
+def test_values_of_a_column_have_the_same_prefix(values: list[float], digits: int) -> None:
     multiples, unit = common_prefix(np.array(values), "m", digits)
     for value, multiple in zip(values, multiples, strict=True):
         assert multiple * POWERS[unit.removesuffix("m")] == pytest.approx(value, rel=1e-14)
@@ -105,7 +107,7 @@ def test_values_in_a_column_share_a_prefix(values: list[float], digits: int) -> 
 
 
 @every_example
-def test_the_answer_is_short_and_fits_a_screen(example: Path) -> None:
+def test_summary_is_short_and_at_most_80_columns_wide(example: Path) -> None:
     result = result_of(example)
     lines = str(result).splitlines()
     lines += [line for text in result.warnings for line in paragraph(text).splitlines()]
@@ -116,7 +118,7 @@ def test_the_answer_is_short_and_fits_a_screen(example: Path) -> None:
 
 
 @every_example
-def test_the_answer_has_the_results_with_the_digits_that_hold(example: Path) -> None:
+def test_summary_has_the_results_with_their_significant_digits(example: Path) -> None:
     result = result_of(example)
     shown = dict(line.split("  ", 1) for line in str(result).split("\n\n")[0].splitlines())
     for name, value, unit in result.numbers():
@@ -131,21 +133,21 @@ def test_the_answer_has_the_results_with_the_digits_that_hold(example: Path) -> 
 
 
 @every_example
-def test_the_answer_names_accuracy_and_effects(example: Path) -> None:
+def test_summary_states_accuracy_and_effects(example: Path) -> None:
     result = result_of(example)
-    said = " ".join(str(result).split())
-    assert result.accuracy.summary in said
-    assert result.effects.summary in said
+    output = " ".join(str(result).split())
+    assert result.accuracy.summary in output
+    assert result.effects.summary in output
     bound = float(re.search(r"at most (\S+)", result.accuracy.summary)[1])  # type: ignore[index]
     assert result.accuracy.bound <= bound <= 1.1 * result.accuracy.bound
-    assert ("model error" in said) == bool(result.model_error)
+    assert ("model error" in output) == bool(result.model_error)
     for row in result.effects.rows:
-        assert not row.disabled or row.name in said
+        assert not row.disabled or row.name in output
     assert set(result.effects.included) == {r.name for r in result.effects.rows if r.included}
 
 
 @every_example
-def test_a_notebook_shows_the_answer_first_and_folds_details(example: Path) -> None:
+def test_notebook_shows_the_summary_and_hides_details(example: Path) -> None:
     result = result_of(example)
     page = result._repr_html_()
     marks = ["<table>", "Accuracy: ", "Effects: "]
@@ -169,19 +171,19 @@ def shown(*arguments: str, **places: str) -> str:
 
 
 @pytest.mark.parametrize("option", [[], ["--details"]])
-def test_the_answer_does_not_depend_on_the_width_of_the_screen(option: list[str]) -> None:
+def test_summary_does_not_depend_on_the_terminal_width(option: list[str]) -> None:
     wanted = ["simulate", str(PAPER), *option]
     narrow, *others = (shown(*wanted, COLUMNS=columns) for columns in ("80", "100", "200"))
     assert others == [narrow, narrow]
     assert narrow == (result_of(PAPER).details() if option else str(result_of(PAPER))) + "\n"
 
 
-def test_a_screen_without_greek_letters_stops_nothing() -> None:
+def test_terminal_without_greek_letters_is_supported() -> None:
     wanted = ["simulate", str(PAPER), "--sweep", "impact.speed=0.5:1:2"]
     assert "t_c" in shown(*wanted, PYTHONIOENCODING="ascii")
 
 
-def test_quiet_is_name_value_and_unit_alone(tmp_path: Path, capsys: Captured) -> None:
+def test_quiet_output_has_only_name_value_and_unit(tmp_path: Path, capsys: Captured) -> None:
     file = tmp_path / "thin.toml"
     file.write_text(PAPER.read_text().replace("half_thickness = 0.1", "half_thickness = 0.01"))
     result = result_of(file)
@@ -203,14 +205,14 @@ def test_quiet_is_name_value_and_unit_alone(tmp_path: Path, capsys: Captured) ->
         ["--details", "--sweep", "impact.speed=1:2:2"],
     ],
 )
-def test_options_that_exclude_each_other(options: list[str], capsys: Captured) -> None:
+def test_mutually_exclusive_options_are_rejected(options: list[str], capsys: Captured) -> None:
     assert main(["simulate", str(PAPER), *options]) == 2
-    said = capsys.readouterr().err
-    assert "cannot be combined with" in said
-    assert all(option in said for option in options if option.startswith("--"))
+    output = capsys.readouterr().err
+    assert "cannot be combined with" in output
+    assert all(option in output for option in options if option.startswith("--"))
 
 
-def test_an_incomplete_impact_says_so_first(
+def test_summary_of_an_incomplete_impact_states_it_first(
     monkeypatch: pytest.MonkeyPatch, capsys: Captured, tmp_path: Path
 ) -> None:
     file = tmp_path / "scene.toml"
@@ -233,7 +235,7 @@ def test_an_incomplete_impact_says_so_first(
         waves.impact.cache_clear()
 
 
-def test_several_contacts_are_counted(tmp_path: Path) -> None:
+def test_number_of_contacts_is_stated(tmp_path: Path) -> None:
     file = tmp_path / "scene.toml"
     file.write_text(REPEATED)
     result = simulate(load(file))
@@ -262,11 +264,11 @@ def _simulated(text: str) -> Result:
 
 
 @pytest.mark.parametrize("name", ["indent", "sweep", "comparison"])
-def test_tables_fit_a_screen(name: str) -> None:
+def test_tables_are_at_most_80_columns_wide(name: str) -> None:
     assert all(len(line) <= WIDTH for line in tables()[name]().splitlines())
 
 
-def test_a_table_breaks_no_cell() -> None:
+def test_table_does_not_wrap_short_cells() -> None:
     rows = [["a b", "1"], ["a long cell of many words", "-12.5"]]
     lines = aligned(["name", "#value [m]"], rows).splitlines()
     assert lines == [

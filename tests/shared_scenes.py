@@ -1,5 +1,6 @@
 """Models and scenes that several tests use."""
 
+import json
 import random
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
@@ -79,6 +80,17 @@ def changed(**tables: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
             k: v for k, v in (tables_used[name] | dict(keys)).items() if v is not None
         }
     return tables_used
+
+
+def written(folder: Path, tables: Mapping[str, Mapping[str, Any]]) -> Path:
+    """Write a scene to a file in a folder and return its path."""
+    path = folder / "scene.toml"
+    parts = (
+        f"[{table}]\n" + "".join(f"{key} = {json.dumps(value)}\n" for key, value in keys.items())
+        for table, keys in tables.items()
+    )
+    path.write_text("\n".join(parts))
+    return path
 
 
 def thick(speed: float = 1.0, size: float = 1e6) -> Any:

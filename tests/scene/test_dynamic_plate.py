@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from shared_scenes import written
 
 from derivation.cli import main
 from derivation.scene import SceneError, explain, read, simulate
@@ -128,12 +129,7 @@ def test_animation_shows_the_motion_of_the_plate(tmp_path: Path, monkeypatch: An
     from derivation.scene import animation
 
     monkeypatch.setattr(animation, "FRAMES", 6)
-    toml = tmp_path / "scene.toml"
-    lines = (
-        f"[{table}]\n" + "".join(f"{key} = {json.dumps(value)}\n" for key, value in keys.items())
-        for table, keys in SCENE.items()
-    )
-    toml.write_text("\n".join(lines))
+    toml = written(tmp_path, SCENE)
     place = tmp_path / "plate.gif"
     assert main(["simulate", str(toml), "--animate", str(place), "--json", "-"]) == 0
     with Image.open(place) as movie:

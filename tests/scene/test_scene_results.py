@@ -45,17 +45,6 @@ def scene(**tables: Any) -> Any:
     return read({name: {**DROP[name], **tables.get(name, {})} for name in DROP})
 
 
-def write(folder: Path, data: Any) -> str:
-    """Write a scene to a file and return its path."""
-    lines = (
-        f"[{table}]\n" + "".join(f"{key} = {json.dumps(value)}\n" for key, value in keys.items())
-        for table, keys in data.to_json().items()
-    )
-    place = folder / "scene.toml"
-    place.write_text("\n".join(lines))
-    return str(place)
-
-
 # --- warnings of plates with inertia
 
 
@@ -141,7 +130,7 @@ def test_failed_drawing_does_not_lose_the_result(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Captured
 ) -> None:
     """All other results are written if a frame is not finite or a drawing raises an error."""
-    file = write(tmp_path, scene())
+    file = str(shared_scenes.written(tmp_path, scene().to_json()))
 
     def fails(*_: Any) -> Any:
         raise RuntimeError("no canvas")
@@ -189,8 +178,9 @@ def test_history_with_nan_is_rejected(
 ) -> None:
     hole = History(*np.full((5, 3), math.nan))
     monkeypatch.setattr(Result, "_history", lambda *_: hole)
-    file, place = write(tmp_path, scene(effects={"inertia": False})), tmp_path / "a.csv"
-    assert main(["simulate", file, "--csv", str(place)]) == 2
+    file = shared_scenes.written(tmp_path, scene(effects={"inertia": False}).to_json())
+    place = tmp_path / "a.csv"
+    assert main(["simulate", str(file), "--csv", str(place)]) == 2
     assert "expected finite numbers" in capsys.readouterr().err
     assert not place.exists()
 

@@ -63,14 +63,7 @@ def moving(**tables: Mapping[str, Any]) -> Any:
 
 @pytest.fixture
 def file(tmp_path: Path) -> Path:
-    """Write the scene to a file."""
-    path = tmp_path / "scene.toml"
-    tables = (
-        f"[{table}]\n" + "".join(f"{key} = {json.dumps(value)}\n" for key, value in keys.items())
-        for table, keys in SCENE.items()
-    )
-    path.write_text("\n".join(tables))
-    return path
+    return shared_scenes.written(tmp_path, SCENE)
 
 
 # --- text output

@@ -9,7 +9,7 @@ from derivation.engine.emit.standalone import standalone
 from derivation.engine.formula.parse import FUNCTIONS, FormulaError, parse
 from derivation.engine.formula.size import terms_when_expanded
 from derivation.engine.formula.vocabulary import NOTHING
-from derivation.engine.rewrite.stabilise import Stable, stabilise
+from derivation.engine.rewrite.stabilise import Stable, stabilised
 from derivation.engine.rewrite.tested import CodeCheck
 
 MAX_TERMS = 5000
@@ -44,7 +44,7 @@ def rewritten(text: str, variable: str = "x") -> tuple[Stable, str, CodeCheck]:
             raise FormulaError(
                 f"the formula has more than {MAX_TERMS} terms when expanded; simplify it"
             )
-        stable = stabilise(expression, symbol)
+        stable = stabilised(expression, symbol)
         return stable, *standalone(stable)
 
     return bounded(work, "rewriting the formula", SECONDS)

@@ -81,6 +81,11 @@ class AccuracyTest:
         above = (self._error(t, steps, value, kept) for t in self.beyond if t.x >= at)
         return max(*below, *above)
 
+    def errors(self, form: sp.Expr | Shape) -> list[tuple[ExactPoint, float]]:
+        """Return the points in ascending order, with the error of a form at each [ULP]."""
+        steps, value = assembled(form) if isinstance(form, Shape) else ((), form)
+        return [(point, self._error(point, steps, value)) for point in self.exact]
+
     def _error(
         self,
         point: ExactPoint,
@@ -169,7 +174,9 @@ def accuracy_test(
             found.append(ExactPoint(point, value, slack))
     if len(found) < LEAST:
         raise UnreachableError(
-            f"{expression!s:.80} has values at {len(found)} test points, expected {LEAST}"
+            f"{expression!s:.80} has values other than 0, within the range of doubles, at "
+            f"{len(found)} of the tested points {x} > 0, expected {LEAST}; change the formula or "
+            "its variable"
         )
     return AccuracyTest(x, fixed, tuple(found))
 

@@ -108,7 +108,12 @@ def _power(base: float, exponent: sp.Expr) -> float:
     if exponent < 0:
         above = _power(base, -exponent)
         return 1.0 / above if above else math.inf
-    return _function(lambda x: x ** int(exponent), base)
+    if exponent.is_Integer:
+        return _function(lambda x: x ** int(exponent), base)
+    if base == 0.0:
+        return 0.0
+    power = flint.fmpq(int(exponent.p), int(exponent.q))
+    return _function(lambda x: x ** flint.arb(power), base)
 
 
 def _function(function: Callable[[flint.arb], flint.arb], argument: float) -> float:

@@ -13,8 +13,8 @@ from derivation.engine.formula.record import Record
 from derivation.engine.formula.ulp import overflows, ulp_error
 from derivation.engine.rewrite.doubles import run
 from derivation.engine.rewrite.form import Block, Step, Switch, switch_points
-from derivation.engine.rewrite.stabilise import ENOUGH
 from derivation.engine.rewrite.terms import UnreachableError
+from derivation.engine.rewrite.useful_range import ENOUGH
 
 DIGITS = 25
 ENOUGH_POINTS = 20

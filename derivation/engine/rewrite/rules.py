@@ -72,15 +72,21 @@ def conjugate(_: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
 
 
 def _is_root(term: sp.Expr) -> bool:
-    return any(f.is_Pow and f.exp == sp.Rational(1, 2) for f in sp.Mul.make_args(term))
+    return any(f.is_Pow and abs(f.exp) == sp.Rational(1, 2) for f in sp.Mul.make_args(term))
 
 
 def logarithm(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
     """Write log(1 + u) as log1p(u), which does not absorb a small u."""
     if isinstance(given, Shape):
         return
+
+    def is_near_one(node: sp.Basic) -> bool:
+        if not isinstance(node, sp.log):
+            return False
+        return 1 in sp.Add.make_args(node.args[0]) or sp.expand(node.args[0] - 1).subs(x, 0) == 0
+
     found = given.replace(
-        lambda node: isinstance(node, sp.log) and sp.expand(node.args[0] - 1).subs(x, 0) == 0,
+        is_near_one,
         lambda node: log1p(sp.expand(node.args[0] - 1)),
     )
     if found != given:

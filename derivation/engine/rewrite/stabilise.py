@@ -1,5 +1,6 @@
 """Search for the stable form of an expression, by rules that are kept if they improve it."""
 
+import contextlib
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -11,15 +12,13 @@ from derivation.engine.rewrite.form import Branch, Step, Switch
 from derivation.engine.rewrite.rules import RULES, SHARE, Rewritten, Rule
 from derivation.engine.rewrite.shape import Shape, assembled
 from derivation.engine.rewrite.terms import UnreachableError, terms_of
+from derivation.engine.rewrite.useful_range import ENDS, ENOUGH, LEAST_RATIO, useful_range
 
 EXACT = 0.75
 """Error in ULP below which the results of a rule count as equally accurate."""
 
 NOTHING = 1.5
 """Error in ULP up to which forms count as equally accurate when a rule is removed."""
-
-ENOUGH = 8.0
-"""Error in ULP above which a form is rejected."""
 
 
 @dataclass(frozen=True)
@@ -68,7 +67,7 @@ class Stable:
 
 
 def stabilise(
-    expression: sp.Expr, x: sp.Symbol, ends: tuple[float, float] = (1e-150, 1e150), lead: int = 0
+    expression: sp.Expr, x: sp.Symbol, ends: tuple[float, float] = ENDS, lead: int = 0
 ) -> Stable:
     """Return the stable form of an expression for positive x.
 
@@ -120,6 +119,40 @@ def stabilise(
     return Stable(expression, x, steps, value, applied, worst, sp.sympify(truncation))
 
 
+def stabilised(expression: sp.Expr, x: sp.Symbol) -> Stable:
+    """Return the stable form of an expression in the largest range in which there is one.
+
+    Points are excluded from the range only if the value is ill-conditioned there or the form
+    overflows.
+
+    Raises
+    ------
+    UnreachableError
+        If the best form is inaccurate elsewhere, or in every useful range; the message states the
+        reason.
+    """
+    try:
+        return stabilise(expression, x)
+    except UnreachableError as error:
+        reason = error
+    test = accuracy_test(expression, x, ENDS, decayed(expression, x))
+    whole, _ = _through(RULES, x, expression, _Judge(test))
+    for form in dict.fromkeys((whole, expression)):
+        errors = test.errors(form)
+        low, high = useful_range([(point.x, error) for point, error in errors], ENDS)
+        excluded = [(at.slack, error) for at, error in errors if not low <= at.x <= high]
+        if low * LEAST_RATIO > high or any(_is_avoidable(*point) for point in excluded):
+            continue
+        with contextlib.suppress(UnreachableError):
+            return stabilise(expression, x, (low, high))
+    raise reason
+
+
+def _is_avoidable(slack: float, error: float) -> bool:
+    """Return whether a form is inaccurate at a point at which the formula is well-conditioned."""
+    return ENOUGH < error < math.inf and slack < ENOUGH
+
+
 class _Judge:
     """An accuracy test that stores the error of each form."""
 
@@ -133,6 +166,12 @@ class _Judge:
             self.known[form] = self.test.worst(form)
         return self.known[form]
 
+    def failures(self, form: Rewritten) -> int:
+        """Return the number of points with a larger error than allowed; 0 if there is none."""
+        if self.worst(form) <= ENOUGH:
+            return 0
+        return sum(error > ENOUGH for _, error in self.test.errors(form))
+
 
 def _through(
     rules: Sequence[Rule], x: sp.Symbol, expression: sp.Expr, at: _Judge
@@ -145,7 +184,7 @@ def _through(
         except UnreachableError:
             continue
         if len(results) > 1:
-            results.sort(key=lambda result: max(at.worst(result), EXACT))
+            results.sort(key=lambda result: (max(at.worst(result), EXACT), at.failures(result)))
         form = results[0] if results else form
     return form, at.worst(form)
 

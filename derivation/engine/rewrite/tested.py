@@ -12,16 +12,11 @@ import sympy as sp
 
 from derivation.engine.formula.ball import PrecisionError, enclose, refine, to_ball
 from derivation.engine.formula.ulp import from_ordinal, neighbours, ordinal, overflows, ulp_error
-from derivation.engine.rewrite.stabilise import ENOUGH, Stable, decayed
+from derivation.engine.rewrite.stabilise import Stable, decayed
 from derivation.engine.rewrite.terms import UnreachableError
+from derivation.engine.rewrite.useful_range import ENDS, ENOUGH, LEAST_RATIO, rounded, useful_range
 from derivation.engine.rewrite.watch import derivative, hard_places
 
-ENDS = (1e-150, 1e150)
-"""The range that is tested first."""
-QUIET = ENOUGH / 2
-"""Largest error [ULP] at the ends of a range."""
-LEAST_RATIO = 10.0
-"""Smallest accepted ratio of the upper to the lower end."""
 ILL = 1e3
 """Half condition number above which a point counts as next to a zero."""
 SHARE = 0.6
@@ -30,9 +25,9 @@ limit allows all of it, because other points may have larger errors than the tes
 _NEAR_ZERO, _MOST_ZEROS = 150, 12
 _DIGITS = 25
 _ROUNDS = 8
+_PATIENT, _MARGIN = 3, 0.03
+"""Number of rounds after which an end that still moves is moved further, and by what fraction."""
 _RANDOM = 500
-_STILL = 4
-_SIGNIFICANT = 4
 _LOW_PRECISION, _HIGH_PRECISION = 4096, 1 << 16
 Function: TypeAlias = Callable[[np.ndarray], np.ndarray]
 
@@ -130,7 +125,7 @@ def tested(stable: Stable, function: Function) -> CodeCheck:
     low, high = ENDS
     errors: dict[float, float] = {}
     new = {*ENDS, *around(hard_places(stable, low, high)), *_random(draw, low, high)}
-    for _ in range(_ROUNDS):
+    for count in range(_ROUNDS):
         errors |= _errors(function, reference, sorted(new - errors.keys()))
         further = _next_to_zeros(draw, reference, low, high) - errors.keys()
         errors |= _errors(function, reference, sorted(further))
@@ -138,7 +133,11 @@ def tested(stable: Stable, function: Function) -> CodeCheck:
         if max(inside.values()) <= ENOUGH:
             worst, at = max((e, p) for p, e in inside.items())
             return CodeCheck(low, high, stated(worst), worst, at, len(inside))
-        low, high = _range(sorted(inside.items()))
+        before = low, high
+        low, high = useful_range(sorted(inside.items()), ENDS)
+        if count >= _PATIENT:  # errors that rise slowly towards an end would take many rounds
+            low = rounded(low * (1 + _MARGIN), math.ceil, ENDS) if low > before[0] else low
+            high = rounded(high * (1 - _MARGIN), math.floor, ENDS) if high < before[1] else high
         if not low * LEAST_RATIO <= high:
             break
         new = {low, high, *_towards(low, high), *_random(draw, low, high)}
@@ -224,48 +223,3 @@ def _errors(
         else:
             found[point] = max(ulp_error(value, known[0]) - SHARE * known[1], 0.0)
     return found
-
-
-def _range(errors: Sequence[tuple[float, float]]) -> tuple[float, float]:
-    """Return the largest range without errors above the limit, and with small errors at its ends.
-
-    Ranges are compared by the ratio of their ends, first within 1e-9 to 1e9, then in total.
-    """
-    runs: list[list[tuple[float, float]]] = [[]]
-    for point, error in errors:
-        if error > ENOUGH:
-            runs.append([])
-        else:
-            runs[-1].append((point, error))
-    ranges = []
-    for run in runs:
-        first = 0 if run and run[0][0] == errors[0][0] else _quiet([e for _, e in run])
-        last = 0 if run and run[-1][0] == errors[-1][0] else _quiet([e for _, e in reversed(run)])
-        kept = run[first : len(run) - last]
-        if kept:
-            ranges.append((_rounded(kept[0][0], math.ceil), _rounded(kept[-1][0], math.floor)))
-    return max(ranges, key=_worth, default=(1.0, 0.0))
-
-
-def _quiet(errors: Sequence[float]) -> int:
-    """Return the number of points to omit before several successive errors are small."""
-    for start in range(len(errors)):
-        if max(errors[start : start + _STILL]) <= QUIET:
-            return start
-    return len(errors)
-
-
-def _worth(ends: tuple[float, float]) -> tuple[float, float]:
-    low, high = ends
-    if not low < high:
-        return -math.inf, 0.0
-    usual = min(max(low, 1e-9), 1e9), min(max(high, 1e-9), 1e9)
-    return math.log(usual[1] / usual[0]), math.log10(high) - math.log10(low)
-
-
-def _rounded(end: float, how: Callable[[float], int]) -> float:
-    """Return an end with few digits, moved inwards."""
-    if end in ENDS:
-        return end
-    unit = 10.0 ** (math.floor(math.log10(end)) - _SIGNIFICANT + 1)
-    return float(f"{how(end / unit) * unit:.{_SIGNIFICANT}g}")

@@ -56,9 +56,10 @@ def derivative(expression: sp.Expr, x: sp.Symbol) -> sp.Expr:
     To find the sign of a function of a positive symbol, SymPy would differentiate it part by part,
     which can take hours.
     """
-    plain = sp.Dummy()
-    found: sp.Expr = sp.diff(expression.xreplace({x: plain}), plain).xreplace({plain: x})
-    return found
+    plain = sp.Dummy(real=True) if expression.has(sp.Abs) else sp.Dummy()
+    found: sp.Expr = sp.diff(expression.xreplace({x: plain}), plain)
+    found = found.replace(sp.sign, lambda u: u / sp.Abs(u))
+    return found.xreplace({plain: x})
 
 
 def _written_out(stable: Stable) -> Iterator[sp.Expr]:

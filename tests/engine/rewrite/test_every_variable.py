@@ -12,8 +12,8 @@ from derivation.engine.rewrite.automatic import automatic
 from derivation.engine.rewrite.blocks import HYPERBOLIC, built
 from derivation.engine.rewrite.every_variable import accurate, measured
 from derivation.engine.rewrite.scales import Scale, Scales
-from derivation.engine.rewrite.stabilise import ENOUGH
 from derivation.engine.rewrite.terms import UnreachableError
+from derivation.engine.rewrite.useful_range import ENOUGH
 from derivation.engine.skeleton.kernels import COSH_MINUS
 
 T, s = sp.symbols("T s", positive=True)

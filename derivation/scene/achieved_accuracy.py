@@ -26,6 +26,7 @@ NAMES = {
     "law": "omitted terms or modes",
     "quadrature": "quadrature",
     "rounding": "rounding",
+    "constant": "constant from the measured restitution",
 }
 """The parts of a bound as they are printed."""
 
@@ -63,6 +64,8 @@ class AchievedAccuracy:
         Part of the bound: the effects omitted by the selection.
     outputs
         The results that the bound applies to.
+    constant
+        Part of the bound: the error of a constant that follows from a measured restitution.
     """
 
     method: str
@@ -72,12 +75,14 @@ class AchievedAccuracy:
     rounding: Part
     effects: Part = Part(0.0, PROVED)
     outputs: tuple[str, ...] = OUTPUTS
+    constant: Part | None = None
 
     @property
     def parts(self) -> dict[str, Part]:
         """The parts of the bound by name."""
         names = ("effects", "law", "quadrature", "rounding")
-        return {name: getattr(self, name) for name in names}
+        found = {name: getattr(self, name) for name in names}
+        return found | ({} if self.constant is None else {"constant": self.constant})
 
     @property
     def bound(self) -> float:

@@ -2,8 +2,10 @@
 
 import math
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from derivation.scene.achieved_accuracy import ESTIMATED, AchievedAccuracy, Part, rounded_up
 from derivation.scene.edge_remainder import edge_remainder
 from derivation.scene.effect_selection import SelectedEffects, decide
 from derivation.scene.law import ContactLaw
@@ -22,7 +24,7 @@ from derivation.scene.method_selection import check_rtol, dynamic_impact, solve_
 from derivation.scene.model import model_of
 from derivation.scene.model_error import inertia_error
 from derivation.scene.result import Result
-from derivation.scene.scene import OUTPUTS, TIGHTEST, Scene
+from derivation.scene.scene import OUTPUTS, TIGHTEST, Scene, SceneError
 from derivation.scene.selection import check_enabled
 from derivation.scene.yield_warnings import impact_warnings
 
@@ -77,6 +79,7 @@ def simulate(
     """
     rtol, selected = selected_effects(scene, rtol)
     numbers, accuracy = solve_selected(selected, rtol)
+    accuracy = _with_constant(scene, accuracy)
     contact_time, delta, force, a, _ = numbers
     law, model = selected.law, selected.law.model
     check_radius(law, a, "impact.speed", "reduce the speed")
@@ -114,6 +117,23 @@ def _yield_warnings(law: ContactLaw, a: float, pressure: float) -> tuple[str, ..
     model = law.model
     weaker = "sphere" if model.yield_stress < model.plate_yield_stress else "plate"
     return pressure_warnings(pressure, _known(model.yield_stress), law.viscous, weaker)
+
+
+def _with_constant(scene: Scene, accuracy: AchievedAccuracy) -> AchievedAccuracy:
+    """Return the accuracy with the error of a constant that follows from a measurement."""
+    if scene.measured is None:
+        return accuracy
+    from derivation.scene.measured import error_of
+
+    error = error_of(scene)
+    found = replace(accuracy, constant=Part(error, ESTIMATED))
+    if found.rtol is not None and found.bound > found.rtol:
+        raise SceneError(
+            f"accuracy.rtol: expected at least {rounded_up(found.bound)}, because the constant "
+            f"from the measured restitution causes an error of {rounded_up(error)}, got "
+            f"{found.rtol:g}; increase the tolerance, or give the constant instead of [measured]"
+        )
+    return found
 
 
 def _known(stress: float) -> float | None:

@@ -1,8 +1,10 @@
 """Determines the yield stress or retardation time of the plate from a measured restitution.
 
 The restitution was measured on a thick block, which does not vibrate, or on the plate itself. The
-impact is simulated repeatedly until the restitution agrees. The solution is unique, because
-restitution decreases with decreasing yield stress and with increasing retardation time.
+impact is simulated repeatedly until the restitution agrees. On a block the solution is unique:
+restitution decreases with decreasing yield stress and with increasing retardation time. On a plate
+that bends, an infinite retardation time leaves an elastic plate: the solution with the smaller one
+is returned, if there is any.
 """
 
 import json
@@ -28,11 +30,15 @@ EARLY = 1e-2
 """First trial value of the retardation time over the contact time without viscosity [1]."""
 STEPS, FACTOR = 40, 2.0
 """Largest number of steps until two trial values enclose the solution, and ratio of a step."""
-CLOSE = {"block": 1e-9, "plate": 1e-4}
-"""Relative accuracy of the constant by specimen [1]; with plate inertia the restitution is less
-smooth."""
-BLOCK_RTOL = 1e-8
-"""Relative tolerance of impacts on a block [1]."""
+RISING = 3
+"""Number of steps in which restitution increases, from which it has passed its smallest value."""
+CLOSE = {"static": 1e-12, "dynamic": 1e-4}
+"""Relative accuracy of the constant [1]; with plate inertia the restitution is less smooth."""
+STATIC_RTOL = 1e-9
+"""Relative tolerance of measurements without plate inertia [1]."""
+CHANGE, DYNAMIC = 1e-2, 3.0
+"""Relative change of the constant that gives the sensitivity of a measurement without plate
+inertia; and error of the results over that of one with plate inertia, an estimate."""
 
 
 def fitted(scene: "Scene") -> "Scene":
@@ -76,9 +82,31 @@ def _fitted(text: str) -> str:
     wanted = tables.pop("measured")
     key, goal = wanted["solve_for"], wanted["restitution"]
     measured = _measurement(tables, wanted)
-    close = CLOSE[wanted.get("target", "block")]
+    close = CLOSE["static" if _static(measured) else "dynamic"]
     tables["plate"][key] = _solved(measured, key, goal, close)
     return json.dumps(tables)
+
+
+def error_of(scene: "Scene") -> float:
+    """Return the estimated relative error of the results due to the fitted constant [1].
+
+    Without plate inertia it is the error of the constant: the results change at most about as much.
+    With plate inertia the measurement has errors of the same size as the results.
+    """
+    assert scene.measured is not None
+    key, tables = scene.measured.solve_for, scene.to_json()
+    measured, value = _measurement(tables, tables.pop("measured")), solved(scene)
+    found = _simulated(measured, key, value)
+    error = found.accuracy.bound + abs(found.restitution / scene.measured.restitution - 1.0)
+    if not _static(measured):
+        return DYNAMIC * error
+    changed = _simulated(measured, key, (1.0 + CHANGE) * value)
+    return error * CHANGE / abs(math.log(changed.restitution / found.restitution))
+
+
+def _static(measured: dict[str, Any]) -> bool:
+    """Return whether a measurement is without plate inertia."""
+    return measured.get("effects", {}).get("inertia") is False
 
 
 def _measurement(tables: dict[str, Any], wanted: dict[str, Any]) -> dict[str, Any]:
@@ -86,7 +114,7 @@ def _measurement(tables: dict[str, Any], wanted: dict[str, Any]) -> dict[str, An
     speed = wanted.get("tested_at", tables["impact"]["speed"])
     scene = tables | {"impact": tables["impact"] | {"speed": speed}}
     if wanted.get("target", "block") == "plate":
-        return scene
+        return scene | ({"accuracy": {"rtol": STATIC_RTOL}} if _static(scene) else {})
     size = BLOCK * tables["sphere"]["radius"]
     shape = "radius", "thickness", "half_thickness", "edge", "tensile_strength"
     block = {k: v for k, v in tables["plate"].items() if k not in shape}
@@ -97,7 +125,7 @@ def _measurement(tables: dict[str, Any], wanted: dict[str, Any]) -> dict[str, An
     effects |= still | {"inertia": False, "non_hertzian_pressure": False}
     kept = {k: v for k, v in scene.items() if k in ("sphere", "materials")}
     made = {"plate": block, "effects": effects, "impact": {"speed": speed}}
-    return kept | made | {"accuracy": {"rtol": BLOCK_RTOL}}
+    return kept | made | {"accuracy": {"rtol": STATIC_RTOL}}
 
 
 def _simulated(tables: dict[str, Any], key: str, value: float | None) -> "Result":
@@ -144,10 +172,21 @@ def _solved(tables: dict[str, Any], key: str, goal: float, close: float) -> floa
     more = -math.log(FACTOR) if key == "yield_stress" else math.log(FACTOR)
     x = math.log(first)
     # Towards a larger energy loss if the restitution is too large, else towards a smaller one.
-    step = more if above(x) > 0.0 else -more
+    now, rising = above(x), 0
+    step = more if now > 0.0 else -more
     for _ in range(STEPS):
-        if above(x + step) * step * more <= 0.0:
+        before, now = now, above(x + step)
+        if now * step * more <= 0.0:
             break
+        # An elastic plate under a contact that hardly moves returns the energy again.
+        rising = rising + 1 if step == more and now > before else 0
+        if rising == RISING:
+            raise SceneError(
+                f"measured.restitution: expected at least the smallest restitution that a "
+                f"plate.{key} gives, got {goal:.6g}, but it increases again from "
+                f"{goal + before:.6g} at {math.exp(x):.6g} {UNITS[key]}; correct "
+                "measured.restitution or measured.target"
+            )
         x += step
     else:
         raise SceneError(

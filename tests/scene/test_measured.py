@@ -88,3 +88,33 @@ def test_other_keys_are_unchanged() -> None:
     kept = scene.to_json()
     del kept["plate"]["yield_stress"]
     assert kept == read(BLOCK).to_json()
+
+
+@pytest.mark.parametrize("solve_for", ["yield_stress", "retardation_time"])
+@pytest.mark.parametrize("goal", [0.05, 0.5, 0.9])
+@pytest.mark.parametrize("rtol", [None, 1e-9])
+def test_the_bound_covers_the_error_of_the_constant(
+    solve_for: str, goal: float, rtol: float | None
+) -> None:
+    """The constant was accurate to 1e-4: the bound was 2e-12 for an error of 5e-5."""
+    wanted = {"restitution": goal, "solve_for": solve_for, "target": "plate"}
+    thick = BLOCK["plate"] | {"radius": 0.1, "thickness": 0.1}
+    tables = BLOCK | {"plate": thick, "measured": wanted, "effects": {"inertia": False}}
+    found = simulate(read(tables), rtol=rtol)
+    assert found.accuracy.constant is not None
+    assert abs(found.restitution / goal - 1.0) <= found.accuracy.bound
+
+
+def test_a_plate_that_bends_limits_what_a_retardation_time_can_dissipate() -> None:
+    """The message was about a time integration that fails with a retardation time of 7e5 s."""
+    wanted = {"restitution": 0.05, "solve_for": "retardation_time", "target": "plate"}
+    with pytest.raises(SceneError, match=r"smallest restitution .* increases again from 0\.[1-9]"):
+        simulate(read(BLOCK | {"measured": wanted, "effects": {"inertia": False}}))
+
+
+def test_a_measurement_with_plate_inertia_limits_the_tolerance() -> None:
+    scene = measured(restitution=0.2, solve_for="yield_stress", target="plate")
+    found = simulate(scene)
+    assert abs(found.restitution / 0.2 - 1.0) <= found.accuracy.bound
+    with pytest.raises(SceneError, match=r"accuracy\.rtol: expected at least .* constant"):
+        simulate(scene, rtol=0.5 * found.accuracy.bound)

@@ -102,18 +102,25 @@ def check_enabled(scene: Scene, model: Model) -> None:
     SceneError
         With all such effects; a key with a value that changes nothing, such as 0, is accepted.
     """
-    wanted, found = scene.effects.model_dump(), list[str]()
-    for effect in EFFECTS:
-        if not effect.selectable or wanted.get(effect.name) is not True:
-            continue
-        reason = effect.not_applicable_reason(model)
-        if reason and not effect.without_change(scene):
-            found.append(
-                f"effects.{effect.name} = true does not apply: {reason}; {effect.remedy}, or "
-                f"remove effects.{effect.name}"
-            )
-    if found:
-        raise SceneError(in_words([partial(str, text) for text in found]))
+    wanted = scene.effects.model_dump()
+    without_key = [
+        effect
+        for effect in EFFECTS
+        if effect.selectable
+        and wanted.get(effect.name) is True
+        and effect.not_applicable_reason(model)
+        and not effect.without_change(scene)
+    ]
+    if without_key:
+        raise SceneError(in_words([partial(_without_key, effect, model) for effect in without_key]))
+
+
+def _without_key(effect: Effect, model: Model) -> str:
+    """Return the message that an enabled effect does not apply, with its remedy."""
+    return (
+        f"effects.{effect.name} = true does not apply: {effect.not_applicable_reason(model)}; "
+        f"{effect.remedy}, or remove effects.{effect.name}"
+    )
 
 
 def candidates_of(model: Model, wanted: Mapping[str, Any]) -> Candidates:

@@ -27,6 +27,7 @@ from derivation.engine.emit.routine import text as routine_text
 from derivation.engine.emit.share import expect_reason
 from derivation.engine.emit.source import TEMPLATES, filled, format_files
 from derivation.engine.formula.record import Record
+from derivation.engine.nearest import did_you_mean
 from derivation.engine.rewrite.automatic import automatic
 from derivation.engine.rewrite.blocks import HYPERBOLIC, Definition, built
 from derivation.engine.rewrite.every_variable import accurate
@@ -164,9 +165,12 @@ class Printing:
             If a form differs from its formula; the message states which.
         UnreachableError
             If the rules find no accurate form of a formula; the message states which.
+        ValueError
+            If a part names an unknown formula.
         """
         known = built(self.blocks)
         stated = self.stated(known)
+        self._expect({name for part in self.parts for name in part.formulas}, formulas)
 
         def shape(name: str) -> Shape:
             if name in stated:
@@ -180,9 +184,23 @@ class Printing:
             for name in part.formulas
         )
 
+    def _expect(self, names: set[str], formulas: Mapping[str, Record]) -> None:
+        """Reject names that are not those of formulas."""
+        for name in sorted(names - formulas.keys()):
+            near = did_you_mean(name, formulas)
+            raise ValueError(
+                f"parts of the package: no formula {name!r}: {near}expected some of "
+                f"{', '.join(formulas)}"
+            )
+
     def files(self, formulas: Mapping[str, Record], forms: tuple[Form, ...]) -> dict[str, str]:
         """Return the contents of the package's files by name."""
         known, budgets = built(self.blocks), read_budgets(self.budgets)
+        if missing := [f.name for f in forms if f.name not in budgets]:
+            raise ValueError(
+                f"{self.budgets.name}: expected an error budget for {', '.join(missing)}; "
+                f"add for example `{missing[0]} = 4` to the table [ulp]"
+            )
         style = Style()
         kernels = tuple(kernel_of_form(f, formulas[f.name], budgets[f.name], style) for f in forms)
         titles = {part.name: part.title for part in self.parts}

@@ -28,7 +28,7 @@ from derivation.engine.formula.chain import Chain
 from derivation.engine.formula.parse import FormulaError
 from derivation.engine.formula.parse_latex import parse_latex
 from derivation.engine.formula.record import Record
-from derivation.engine.formula.vocabulary import Vocabulary, applicable
+from derivation.engine.formula.vocabulary import Vocabulary, applicable, names_by_latex
 
 MAX_DIGITS = 1000
 _GUARD_DIGITS = (10, 100, 1000)
@@ -153,7 +153,7 @@ def diagnose_text(
     own = formula.vocabulary
     chosen = exact(at or {}, own, relations)
     references = {n: sp.Symbol(n, real=True) for n in comparable(formulas)}
-    given = read(text, own, {**references, **own.guest_names}, latex)
+    given = read(text, own, {**references, **own.guest_names}, latex, _letters(formula))
     summed.check_contribution(formula, resolved(given, formulas, own))
     diagnosis = diagnose(name, given, formulas, relations)
     derived = formula.expression
@@ -217,10 +217,23 @@ def diagnosed(
     )
 
 
-def read(text: str, vocabulary: Vocabulary, also: Mapping[str, sp.Basic], latex: bool) -> sp.Expr:
+def _letters(formula: Record) -> dict[str, str]:
+    """Return the meaning of letters in a formula's LaTeX: its own symbols come first."""
+    own = names_by_latex(formula.arguments)
+    return {"gamma": "EulerGamma", **own} if formula.expression.has(sp.EulerGamma) else own
+
+
+def read(
+    text: str,
+    vocabulary: Vocabulary,
+    also: Mapping[str, sp.Basic],
+    latex: bool,
+    letters: Mapping[str, str] | None = None,
+) -> sp.Expr:
     """Return the expression of a text in SymPy syntax or LaTeX; for a sum, of one term."""
     if latex:
-        return parse_latex(summed.without_latex_sum(text, vocabulary), vocabulary, also)
+        term = summed.without_latex_sum(text, vocabulary)
+        return parse_latex(term, vocabulary, also, letters)
     return summed.parse_contribution(text, vocabulary, also)
 
 

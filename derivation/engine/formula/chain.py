@@ -1,8 +1,10 @@
 """The derivation of a paper: a chain of links, each of which derives formulas."""
 
+import inspect
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from traceback import extract_tb
 from typing import TypeVar
 
 from derivation.engine.cache import cached
@@ -13,6 +15,17 @@ from derivation.engine.formula.vocabulary import Vocabulary
 Value = TypeVar("Value")
 Found = tuple[tuple[str, tuple[Record, ...]], ...]
 """Names of the links, each with its formulas."""
+
+
+_OF_CODE = (
+    *(ArithmeticError, AssertionError, AttributeError, IndexError, KeyError, NameError),
+    *(NotImplementedError, RecursionError, TypeError, ValueError, ZeroDivisionError),
+)
+"""Exceptions whose messages do not state where they occurred."""
+
+
+class LinkError(ValueError):
+    """The code of a derivation step fails; the message states the step and the line."""
 
 
 @dataclass(frozen=True)
@@ -55,8 +68,10 @@ class Chain:
         ------
         ProofError
             If a proof fails; the message states the step.
+        LinkError
+            If the derivation raises another exception; the message states step and line.
         """
-        return self.kept("chain", lambda: tuple((x.name, x.derive()) for x in self.links))
+        return self.kept("chain", lambda: tuple((x.name, _derived(x)) for x in self.links))
 
     def formulas(self) -> dict[str, Record]:
         """Return every formula by name."""
@@ -84,3 +99,17 @@ class Chain:
         """
         every = (*self.kinds, Proof, *kinds)
         return cached(f"{self.name}-{what}", (*self.sources, *also), compute, *every)
+
+
+def _derived(link: Link) -> tuple[Record, ...]:
+    """Return the formulas of a link; state the step and the line if its code fails."""
+    try:
+        return link.derive()
+    except Exception as error:  # any exception that the code of a paper raises
+        if type(error) not in _OF_CODE:
+            raise
+        folder = Path(inspect.getfile(inspect.unwrap(link.derive))).parent
+        frames = [f for f in extract_tb(error.__traceback__) if Path(f.filename).parent == folder]
+        place = f"{Path(frames[-1].filename).name}, line {frames[-1].lineno}: " if frames else ""
+        what = f"{place}{type(error).__name__}: {error}"
+        raise LinkError(f"derivation step {link.name!r}: {what}; correct it") from error

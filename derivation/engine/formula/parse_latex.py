@@ -22,7 +22,8 @@ _SPACING = re.compile(
     r"\\(?:left|right|[bB]igg?[lr]?|displaystyle|textstyle|q?quad|limits)(?![A-Za-z])"
     r"|\\[,;:!>\\ ]|[&~\s]"
 )
-_FUNCTIONS = ("exp", "log", "sin", "cos", "tan", "cot", "sinh", "cosh", "tanh", "coth")
+_WORDS = re.compile(r"\\(?:operatorname|mathrm) *\{([A-Za-z]+)\}")
+_FUNCTIONS = ("exp", "log", "ln", "sin", "cos", "tan", "cot", "sinh", "cosh", "tanh", "coth")
 _GREEK = {r"\lambda": "lam", r"\mu": "mu", r"\phi": "phi", r"\varphi": "phi", r"\pi": "pi"} | {
     rf"\{name}": name
     for name in (
@@ -39,7 +40,10 @@ _PRODUCT = {r"\cdot", r"\times", "*"}
 
 
 def parse_latex(
-    text: str, vocabulary: Vocabulary, also: Mapping[str, sp.Basic] | None = None
+    text: str,
+    vocabulary: Vocabulary,
+    also: Mapping[str, sp.Basic] | None = None,
+    preferred: Mapping[str, str] | None = None,
 ) -> sp.Expr:
     r"""Return the expression for a LaTeX formula.
 
@@ -49,6 +53,8 @@ def parse_latex(
         The formula, such as ``\frac{1}{\phi_j} \sinh(\phi_j z)``. A product needs no sign.
     vocabulary, also
         As in `derivation.engine.formula.parse.parse`.
+    preferred
+        Names by LaTeX without backslashes and braces, for letters with several meanings.
 
     Raises
     ------
@@ -59,7 +65,8 @@ def parse_latex(
         raise FormulaError(f"expected a formula as text, got {type(text).__name__}")
     if len(text) > MAX_TEXT:
         raise FormulaError(f"expected at most {MAX_TEXT} characters, got {len(text)}: split it")
-    translator = _Translator(_tokens(text), vocabulary, {**(also or {}), **vocabulary.names})
+    allowed = {**(also or {}), **vocabulary.names}
+    translator = _Translator(_tokens(text), vocabulary, allowed, preferred or {})
     plain = translator.sum()
     if translator.here is not None:
         raise FormulaError(
@@ -71,7 +78,8 @@ def parse_latex(
 def _tokens(text: str) -> list[str]:
     check_nesting(text, "{", "}")
     check_nesting(text, "([", ")]")
-    rest = _SPACING.sub(" ", text).rstrip(" .,;")
+    plain = _WORDS.sub(lambda found: rf"\{found[1]} " if len(found[1]) > 1 else found[1], text)
+    rest = _SPACING.sub(" ", plain.strip("$")).rstrip(" .,;")
     tokens: list[str] = []
     position = 0
     while position < len(rest):
@@ -92,9 +100,14 @@ class _Translator:
     """Recursive-descent parser of the tokens; each method returns the text for its part."""
 
     def __init__(
-        self, tokens: list[str], vocabulary: Vocabulary, allowed: Mapping[str, sp.Basic]
+        self,
+        tokens: list[str],
+        vocabulary: Vocabulary,
+        allowed: Mapping[str, sp.Basic],
+        preferred: Mapping[str, str],
     ) -> None:
         self.tokens = tokens
+        self.preferred = preferred
         self.vocabulary = vocabulary
         self.allowed = allowed
         self.position = 0
@@ -212,7 +225,7 @@ class _Translator:
     def _function(self, name: str) -> str:
         """Return a function with its power, if any, and its argument in brackets."""
         exponent = self.exponent() if self.here == "^" else None
-        applied = f"{name}({self.bracket()})"
+        applied = f"{'log' if name == 'ln' else name}({self.bracket()})"
         return applied if exponent is None else f"({applied})**({exponent})"
 
     def _symbol(self, name: str) -> str:
@@ -226,6 +239,8 @@ class _Translator:
         applied = self.vocabulary.applied.get(name)
         if applied and self._next(3) == ["(", *applied, ")"]:
             self.position += 3
+        if name in self.preferred:
+            return self.preferred[name]
         return name if name in self.allowed else self.vocabulary.name_of_latex.get(name, name)
 
     def _refuse_unknown_function(self, name: str) -> None:

@@ -104,8 +104,7 @@ class Vocabulary:
     @cached_property
     def name_of_latex(self) -> dict[str, str]:
         """The name of each symbol by its LaTeX without backslashes and braces."""
-        matches = ((a.name, _LATEX_SYMBOL.fullmatch(a.latex)) for a in self.arguments)
-        return {"_".join(filter(None, found.groups())): name for name, found in matches if found}
+        return names_by_latex(self.arguments)
 
     @cached_property
     def applied(self) -> dict[str, tuple[str, ...]]:
@@ -137,6 +136,12 @@ class Vocabulary:
         if unknown:
             raise KeyError(f"symbols without unit and domain: {', '.join(sorted(unknown))}")
         return tuple(argument for argument in self.arguments if argument.name in names)
+
+
+def names_by_latex(arguments: Iterable[Argument]) -> dict[str, str]:
+    """Return the name of each symbol by its LaTeX without backslashes and braces."""
+    matches = ((a.name, _LATEX_SYMBOL.fullmatch(a.latex)) for a in arguments)
+    return {"_".join(filter(None, found.groups())): name for name, found in matches if found}
 
 
 NOTHING = Vocabulary()

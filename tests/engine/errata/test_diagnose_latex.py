@@ -1,0 +1,38 @@
+"""LaTeX that the program prints for a formula is read back as that formula."""
+
+import pytest
+
+from derivation.engine.errata.compare import comparable
+from derivation.engine.formula.notation import to_latex
+from derivation.plate.derived import formulas
+from derivation.plate.elastic import diagnose_text
+
+CHAIN = formulas()
+READ = [
+    name
+    for name in comparable(CHAIN)
+    if not any(
+        part in to_latex(CHAIN[name].expression, CHAIN[name].vocabulary)
+        for part in (r"\dot", "|", r"\operatorname{B}")
+    )
+]
+"""All but derivatives, absolute values and the beta function, whose LaTeX is not read."""
+
+
+@pytest.mark.parametrize("name", READ)
+def test_printed_latex_is_equal(name: str) -> None:
+    """Letters such as xi, gamma and u have several meanings; here they mean the formula's own."""
+    formula = CHAIN[name]
+    text = formula.sum_sign + to_latex(formula.expression, formula.vocabulary)
+    assert diagnose_text(name, text, CHAIN, latex=True, digits=5).verdict == "equal"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        r"$\frac{2T+\operatorname{sinh}(2T)}{2(\sinh^2(T) - T^2)}$",
+        r"\frac{2 \ln(\mathrm{e}^{T}) + \sinh(2T)}{2(\sinh^2(T) - T^2)}",
+    ],
+)
+def test_usual_ways_to_write_functions_are_read(text: str) -> None:
+    assert diagnose_text("G", text, CHAIN, latex=True).verdict == "equal"

@@ -1,0 +1,69 @@
+"""Mistakes in a paper of one's own: one message that states the place and the remedy."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from derivation.cli import main
+
+MISTAKES = {
+    "a proof that fails": (
+        "theory.py",
+        ("(sp.cosh(T) - 1) / (sp.sinh(T) + T)", "(sp.cosh(T) - 1) / (sp.sinh(T) - T)"),
+        r"Film, slipping: closed form leaves the residual",
+        1,
+    ),
+    "an exception in a derivation step": (
+        "theory.py",
+        ("    U, W = shapes()\n    normal", "    1 / 0\n    U, W = shapes()\n    normal"),
+        r"derivation step 'film': theory\.py, line 62: ZeroDivisionError: division by zero",
+        2,
+    ),
+    "an unknown symbol": (
+        "theory.py",
+        ('deflection, "m/Pa",', 'deflection * sp.Symbol("q") / sp.Symbol("q2"), "m/Pa",'),
+        r"derivation step 'film': theory\.py, line \d+: KeyError: .*q",
+        2,
+    ),
+    "a solution that does not exist": (
+        "theory.py",
+        ("*CONSTANTS)\n    back", "*CONSTANTS[:3])\n    back"),
+        r"derivation step 'film': theory\.py, line \d+: \w+Error: ",
+        2,
+    ),
+    "no budget": (
+        "budgets.toml",
+        ("F_bonded = 2\n", ""),
+        r"budgets\.toml: expected an error budget for F_bonded; add for example `F_bonded = 4`",
+        2,
+    ),
+    "an unknown formula of a module": (
+        "kernels.py",
+        ('"F_slipping", "C_slipping")),', '"F_slipping", "C_slippng")),'),
+        r"no formula 'C_slippng': did you mean C_slipping\?",
+        2,
+    ),
+}
+
+
+@pytest.mark.parametrize("mistake", MISTAKES)
+def test_a_mistake_stops_generation_with_one_message(
+    mistake: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    file, (old, new), message, status = MISTAKES[mistake]
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    folder = tmp_path / "film"
+    assert main(["new", str(folder)]) == 0
+    text = (folder / file).read_text()
+    assert text.count(old) == 1
+    (folder / file).write_text(text.replace(old, new))
+    capsys.readouterr()
+    assert main(["generate", "--paper", str(folder)]) == status
+    said = " ".join(capsys.readouterr().err.split())
+    assert "Traceback" not in said
+    assert not (folder / "generated").exists()
+    assert re.search(message, said), said

@@ -24,7 +24,7 @@ and from the contact law to the motion:
 17 sensitivity      slopes of the law; derivatives of an impact by every parameter
 18 substitution     change of an impact if its law is replaced by a simpler one
 19 edge             simply supported or clamped edge instead of the paper's edge
-20 true pressure    non-Hertzian pressure: integral equation, and the error of Hertz pressure
+20 contact pressure non-Hertzian pressure: integral equation, and the error of Hertz pressure
 21 curvature        exact spherical profile instead of a paraboloid
 22 effects          bounds of the change of the law by each effect
 23 plate motion     criteria for plate inertia: Zener's parameter, periods
@@ -104,7 +104,7 @@ MOTION_LINKS: tuple[Link, ...] = (
     ("sensitivity", sensitivity),
     ("substitution", substitution),
     ("edge", lambda: (*edge(), *edge_sums(), *clamp())),
-    ("true pressure", true_pressure),
+    ("contact pressure", true_pressure),
     ("curvature", curvature),
     ("effects", effects),
     ("plate motion", plate_motion),

@@ -18,8 +18,8 @@ from derivation.plate.effects.kernels import numbers as effect_tables
 from derivation.plate.grids import switches
 from derivation.plate.pressure.kernels import numbers as pressure_tables
 
-EDGE, FAR = "switch points of the edge", "switch points of the far face"
-SPHERE, PRESSURE = "switch points of the sphere", "switch points of the true pressure"
+EDGE, FAR = "switch points of the edge", "switch points of the back face"
+SPHERE, PRESSURE = "switch points of the sphere", "switch points of the non-Hertzian pressure"
 
 SUMS = ("supported_edge", "supported_edge_slope")
 CLAMPED = ("clamped_edge", "clamped_edge_slope")

@@ -1,7 +1,7 @@
 """Text of the report about the non-Hertzian pressure, by link."""
 
 ABOUT = {
-    "true pressure": "The pressure is computed instead of assumed: it is Abel's transform of "
+    "contact pressure": "The pressure is computed instead of assumed: it is Abel's transform of "
     r"$\chi(t)$, and "
     r"$\chi(t) + \int N(t, s) \chi(s) ds = (E^*/\pi) (\delta - f(t))$ on "
     "$(0, a)$, where $f$ belongs to the sphere's profile and "

@@ -92,7 +92,7 @@ def stages(
     yield (
         code("derive"),
         (
-            f"{len(formulas)} formulas in {len(links)} links, each proved; {len(residuals)} "
+            f"{len(formulas)} formulas in {len(links)} steps, each proved; {len(residuals)} "
             "residuals reduced to zero"
         ),
     )
@@ -158,7 +158,7 @@ def checks(measured: Mapping[str, Data]) -> Iterator[tuple[str, str]]:
     yield (
         code("benchmark"),
         (
-            f"{len(methods)} methods in {len(measured['accuracy']['regimes'])} regimes, "
+            f"{len(methods)} methods in {len(measured['accuracy']['regimes'])} cases, "
             f"{len(rows)} settings"
         ),
     )

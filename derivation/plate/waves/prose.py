@@ -2,7 +2,7 @@
 
 ABOUT = {
     "plate motion": "The law is static. These parameters show when plate inertia matters.",
-    "dynamic modes": "The first six links are repeated with plate inertia. An oscillating load "
+    "dynamic modes": "The first six steps are repeated with plate inertia. An oscillating load "
     "has independent bending and extensional responses, with stiffnesses $B_a$ "
     r"$\gamma = \mu/(\lambda + 2 \mu)$, $p^2 = x^2 - \gamma \kappa$, "
     r"$q^2 = x^2 - \kappa$. Both decrease with the frequency where they are finite, "

@@ -60,7 +60,8 @@ def misprints() -> tuple[Finding, ...]:
 def rewrite(formula: str, variable: str = "x") -> Rewritten:
     """Find a numerically stable form of a formula of one variable, and test its code.
 
-    The function returns NaN outside the range in which it was tested.
+    The function returns NaN outside the range in which it was tested. Points at which the formula
+    is ill-conditioned, or its code would overflow, may be excluded from the range.
 
     Parameters
     ----------

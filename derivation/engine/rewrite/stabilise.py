@@ -136,7 +136,7 @@ def stabilised(expression: sp.Expr, x: sp.Symbol) -> Stable:
     except UnreachableError as error:
         reason = error
     test = accuracy_test(expression, x, ENDS, decayed(expression, x))
-    whole, _ = _through(RULES, x, expression, _Judge(test))
+    whole, _ = _through(RULES, x, expression, _Judge(test, partial=True))
     for form in dict.fromkeys((whole, expression)):
         errors = test.errors(form)
         low, high = useful_range([(point.x, error) for point, error in errors], ENDS)
@@ -156,8 +156,8 @@ def _is_avoidable(slack: float, error: float) -> bool:
 class _Judge:
     """An accuracy test that stores the error of each form."""
 
-    def __init__(self, test: AccuracyTest) -> None:
-        self.test, self.lead = test, test.lead
+    def __init__(self, test: AccuracyTest, partial: bool = False) -> None:
+        self.test, self.lead, self.partial = test, test.lead, partial
         self.known: dict[Rewritten, float] = {}
 
     def worst(self, form: Rewritten) -> float:
@@ -167,8 +167,11 @@ class _Judge:
         return self.known[form]
 
     def failures(self, form: Rewritten) -> int:
-        """Return the number of points with a larger error than allowed; 0 if there is none."""
-        if self.worst(form) <= ENOUGH:
+        """Return the number of points with a larger error than allowed.
+
+        It decides between forms of equal error if a form for a part of the range is wanted.
+        """
+        if not self.partial or self.worst(form) <= ENOUGH:
             return 0
         return sum(error > ENOUGH for _, error in self.test.errors(form))
 

@@ -1,8 +1,10 @@
 """Mistakes in a paper of one's own: one message that states the place and the remedy."""
 
 import re
+from importlib import import_module
 from pathlib import Path
 
+import mpmath
 import pytest
 
 from derivation.cli import main
@@ -67,3 +69,49 @@ def test_a_mistake_stops_generation_with_one_message(
     assert "Traceback" not in said
     assert not (folder / "generated").exists()
     assert re.search(message, said), said
+
+
+ROUTINE = '''
+def slope() -> Routine:
+    """The coefficient of a film that slips, and its derivative."""
+    ratio = closed_forms()["slipping"]
+    code = sp.tanh(T / 2) / (1 + T / sp.sinh(T)), sp.diff(ratio, T)
+    return routine("slipping", (T,), (), code, (ratio, sp.diff(ratio, T)), "F_s and slope.", {})
+
+
+PRINTING = Printing(
+    routines=(Routines("slopes", "A coefficient with its slope.", (slope(),), {}),),
+'''
+"""A routine of the skeleton's paper; its first result is written in another way."""
+
+
+@pytest.mark.parametrize("wrong", [False, True])
+def test_a_routine_of_a_paper_is_proved_and_printed(
+    wrong: bool,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    folder = tmp_path / "film"
+    assert main(["new", str(folder)]) == 0
+    text = (folder / "kernels.py").read_text()
+    routine = ROUTINE.replace("1 + T / sp.sinh", "1 - T / sp.sinh") if wrong else ROUTINE
+    text = text.replace("PRINTING = Printing(\n", routine.lstrip())
+    text = text.replace("import Part, Printing, Shape", "import Part, Printing, Routines, Shape")
+    head = "from derivation.engine.emit.routine import Routine, routine\n"
+    head += "from .theory import closed_forms\n"
+    text = text.replace("from .vocabulary", f"{head}from .vocabulary")
+    (folder / "kernels.py").write_text(text)
+    capsys.readouterr()
+    assert main(["generate", "--paper", str(folder)]) == (1 if wrong else 0)
+    said = capsys.readouterr()
+    if wrong:
+        assert re.search(r"slipping.*leaves the residual", said.err)
+        assert not (folder / "generated").exists()
+        return
+    monkeypatch.syspath_prepend(str(tmp_path))
+    found = import_module("film.generated.slopes").slipping(1.5)
+    ratio = lambda t: (mpmath.cosh(t) - 1) / (mpmath.sinh(t) + t)  # noqa: E731
+    exact = [mpmath.diff(ratio, 1.5, order) for order in (0, 1)]
+    assert [float(x) for x in found] == pytest.approx([float(x) for x in exact], rel=1e-14)

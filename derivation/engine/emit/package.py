@@ -146,6 +146,8 @@ class Printing:
         form is proved.
     blocks
         Definitions of the building blocks.
+    routines
+        Further modules, of functions with several steps or results, each proved.
     """
 
     summary: str
@@ -155,6 +157,7 @@ class Printing:
     scales: Scales = NO_SCALES
     stated: Callable[[Mapping[str, Block]], Mapping[str, Shape]] = _nothing
     blocks: tuple[Definition, ...] = HYPERBOLIC
+    routines: tuple[Routines, ...] = ()
 
     def forms(self, formulas: Mapping[str, Record]) -> tuple[Form, ...]:
         """Return the stable form of every formula of the parts.
@@ -211,6 +214,7 @@ class Printing:
         planned = (
             *shared(known),
             *kernel_modules(kernels, titles, known),
+            *self.routines,
             Module("manifest", "catalogue", manifest),
             Module("__init__", "package", package),
         )

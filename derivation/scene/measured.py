@@ -12,6 +12,7 @@ import math
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
+from derivation.scene.effects import BY_NAME
 from derivation.scene.errors import SceneError
 from derivation.scene.quantity import prefixed
 
@@ -106,7 +107,8 @@ def error_of(scene: "Scene") -> float:
 
 def _static(measured: dict[str, Any]) -> bool:
     """Return whether a measurement is without plate inertia."""
-    return measured.get("effects", {}).get("inertia") is False
+    wanted = measured.get("effects", {})
+    return any(effect.dynamic and wanted.get(effect.name) is False for effect in BY_NAME.values())
 
 
 def _measurement(tables: dict[str, Any], wanted: dict[str, Any]) -> dict[str, Any]:

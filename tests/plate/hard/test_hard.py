@@ -210,7 +210,7 @@ def test_origin_changes_only_with_code(tmp_path: Path, monkeypatch: pytest.Monke
     engine = "from derivation.engine.formula.ball import to_ball\n"
     texts = {
         "plain": f"{engine}from .part import g\nA = 1\ndef f(x):\n    return g(x), 'it grows'\n",
-        "said": f'"""What it does."""\n{engine}from .part import g\nA = 1\n"""Its size."""\n'
+        "documented": f'"""What it does."""\n{engine}from .part import g\nA = 1\n"""Its size."""\n'
                 'def f(x):\n    """Same."""\n    return g(x), "it increases"  # as it is\n',
         "other": f"{engine}from .part import g\nA = 1\ndef f(x):\n    return -g(x), 'it grows'\n",
         "part": "def g(x):\n    return x\n",

@@ -27,10 +27,10 @@ LAME = 0.36e9, 0.43e9
 
 @dataclass(frozen=True)
 class Bounded:
-    """Bound stated by a module: at least the proved value `true`, and hardly larger."""
+    """Bound stated by a module: at least the proved value `expected`, and hardly larger."""
 
-    ask: Callable[[ModuleType], Any]
-    exact: Any
+    call: Callable[[ModuleType], Any]
+    expected: Any
     above: float
 
     def holds(self, module: ModuleType) -> bool:

@@ -16,6 +16,22 @@ EXAMPLES = Path(derivation.scene.__file__).parent / "examples"
 PAPER = EXAMPLES / "paper.toml"
 AT_REST = {"inertia": False}
 """Effects of a scene whose plate is quasi-static."""
+TWO_CONTACTS = """
+[sphere]
+radius = 0.02
+material = "steel"
+[plate]
+radius = 0.2
+thickness = 0.01
+material = "aluminium"
+[impact]
+speed = 1.0
+[effects]
+inertia = true
+[inertia]
+modes = 8
+"""
+"""A scene file with a sphere that touches the plate twice."""
 _MORE = "inertia", "damping", "plasticity"
 ALL = frozenset(name for name, e in BY_NAME.items() if e.selectable and name not in _MORE)
 """Every effect of a quasi-static, elastic law; the plate of `model` is simply supported."""

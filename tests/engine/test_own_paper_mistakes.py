@@ -73,7 +73,7 @@ def test_a_mistake_stops_generation_with_one_message(
 
 ROUTINE = '''
 def slope() -> Routine:
-    """The coefficient of a film that slips, and its derivative."""
+    """The coefficient of a film on a frictionless base, and its derivative."""
     ratio = closed_forms()["slipping"]
     code = sp.tanh(T / 2) / (1 + T / sp.sinh(T)), sp.diff(ratio, T)
     return routine("slipping", (T,), (), code, (ratio, sp.diff(ratio, T)), "F_s and slope.", {})

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from shared_scenes import TWO_CONTACTS
 
 from derivation.cli import main
 from derivation.scene import contact_sequence, flight, waves
@@ -24,21 +25,6 @@ BALL = Model(
     inertia=InertiaSettings(modes=8),
 )  # fmt: skip
 EFFECTS = WHOLE_PLATE | {"hertz", "inertia"}
-SCENE = """
-[sphere]
-radius = 0.02
-material = "steel"
-[plate]
-radius = 0.2
-thickness = 0.01
-material = "aluminium"
-[impact]
-speed = 1.0
-[effects]
-inertia = true
-[inertia]
-modes = 8
-"""
 PHONE = """
 [sphere]
 radius = 0.0158
@@ -86,7 +72,7 @@ def test_incomplete_impact_is_marked(
     monkeypatch: pytest.MonkeyPatch, capsys: Any, tmp_path: Path
 ) -> None:
     file = tmp_path / "scene.toml"
-    file.write_text(SCENE)
+    file.write_text(TWO_CONTACTS)
     waves.impact.cache_clear()
     monkeypatch.setattr(contact_sequence, "CONTACTS", 1)
     status = main(["simulate", str(file), "--json", "-"])

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from shared_scenes import EXAMPLES, PAPER
+from shared_scenes import EXAMPLES, PAPER, TWO_CONTACTS
 
 from derivation.cli import main
 from derivation.engine.files import ROOT
@@ -31,22 +31,6 @@ LINES = 25
 every_example = pytest.mark.parametrize(
     "example", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.stem
 )
-REPEATED = """
-[sphere]
-radius = 0.02
-material = "steel"
-[plate]
-radius = 0.2
-thickness = 0.01
-material = "aluminium"
-[impact]
-speed = 1.0
-[effects]
-inertia = true
-[inertia]
-modes = 8
-"""
-"""A sphere that touches the plate twice."""
 
 
 @lru_cache
@@ -216,7 +200,7 @@ def test_summary_of_an_incomplete_impact_states_it_first(
     monkeypatch: pytest.MonkeyPatch, capsys: Captured, tmp_path: Path
 ) -> None:
     file = tmp_path / "scene.toml"
-    file.write_text(REPEATED)
+    file.write_text(TWO_CONTACTS)
     waves.impact.cache_clear()
     monkeypatch.setattr(contact_sequence, "CONTACTS", 1)
     try:
@@ -237,7 +221,7 @@ def test_summary_of_an_incomplete_impact_states_it_first(
 
 def test_number_of_contacts_is_stated(tmp_path: Path) -> None:
     file = tmp_path / "scene.toml"
-    file.write_text(REPEATED)
+    file.write_text(TWO_CONTACTS)
     result = simulate(load(file))
     assert result.dynamics is not None
     contacts = len(result.dynamics.inertia.contacts)

@@ -154,7 +154,11 @@ def energy_of(law: ContactLaw, a: float) -> float:
 
 
 def warnings_at(
-    law: ContactLaw, a: float, indentation: float, deflection: float | None = None
+    law: ContactLaw,
+    a: float,
+    indentation: float,
+    deflection: float | None = None,
+    correction: float | None = None,
 ) -> tuple[str, ...]:
     """Return warnings about a wide contact or a large deflection.
 
@@ -166,14 +170,18 @@ def warnings_at(
         Indentation at that radius [m].
     deflection
         Largest deflection of the plate at the axis [m]; by default that of the quasi-static plate.
+    correction
+        The `pressure_correction`, if it has been computed.
     """
     model, found = law.model, []
     thickness = 2 * model.h
     if a / thickness > HERTZ_LIMIT and not law.solved:
+        if correction is None:
+            correction = float(pressure_correction(model, a, indentation))
         found.append(
             f"contact radius over thickness a/H = {a / thickness:.3g} exceeds "
             f"{HERTZ_LIMIT}: the pressure is no longer Hertzian; "
-            f"{_in_words(pressure_correction(model, a, indentation))}"
+            f"{_in_words(correction)}"
         )
     if a / model.R > PARABOLOID_LIMIT and not law.spherical:
         found.append(
@@ -367,16 +375,17 @@ def local_indentation(law: ContactLaw, a: Values) -> Values:
     return found
 
 
-def pressure_correction(model: Model, a: float, indentation: float) -> float:
-    """Return the relative change of the indentation at equal force by the exact pressure [1].
+def pressure_correction(model: Model, a: Values, indentation: Values) -> Values:
+    """Return the relative changes of indentations [m] at equal force by the exact pressure [1].
 
     To leading order the exact pressure changes c3 of delta = (a^2/R) (1 + c1 A + c3 A^3 + ...),
     A = a/h, into (8/3) c3. A combination of values at a and a/2 isolates the c3 term:
     delta(a) - 8 delta(a/2) + a^2/R = (3/4) c3 A^3 a^2/R.
     """
-    half, whole = (float(kernels.indentation(x, model.R, model.h, model.b)) for x in (a / 2, a))
+    half, whole = (kernels.indentation(x, model.R, model.h, model.b) for x in (a / 2, a))
     cubic = 4 / 3 * (whole - 8 * half + a * (a / model.R))
-    return 5 / 3 * cubic / indentation
+    change: Values = 5 / 3 * cubic / indentation
+    return change
 
 
 def profile_correction(model: Model, a: float, indentation: float) -> float:

@@ -23,6 +23,7 @@ from derivation.scene.limits import (
     local_indentation,
     motion_warnings,
     plate_times,
+    pressure_correction,
     pressure_warnings,
     stress_warnings,
     warnings_at,
@@ -59,11 +60,14 @@ def warnings_of_rows(
     known["strength"] = np.full(len(rows), np.inf)
     if strength is not None:
         known["strength"][:] = np.broadcast_to(strength, len(results["contact_time"]))[rows]
-    found: list[list[str]] = [[] for _ in rows]
+    found: dict[int, tuple[str, ...]] = {}
     for possible, texts in zip(_possible(law, known), _texts(law), strict=True):
         for row, one in _singles(known, np.flatnonzero(possible)):
-            found[row] += texts(one)
-    return np.array(["; ".join(texts) for texts in found] + [""], dtype=object)[:-1]
+            found[row] = found.get(row, ()) + texts(one)
+    joined = np.full(len(rows), "", dtype=object)
+    for row, of_row in found.items():
+        joined[row] = "; ".join(of_row)
+    return joined
 
 
 def _numbers(law: ContactLaw, results: Mapping[str, Array]) -> dict[str, Array]:
@@ -76,7 +80,13 @@ def _numbers(law: ContactLaw, results: Mapping[str, Array]) -> dict[str, Array]:
     columns |= {name: values[:, None] for name, values in results.items()}
     times = plate_times(model) if np.any(model.density) else PlateTimes(0.0, 0.0, 0.0)
     columns |= times._asdict()
-    return {name: np.broadcast_to(x, (count, 1))[:, 0] for name, x in columns.items()}
+    known = {name: np.broadcast_to(x, (count, 1))[:, 0] for name, x in columns.items()}
+    known["correction"] = np.full(count, np.nan)
+    if len(wide := np.flatnonzero(_non_hertzian(SimpleNamespace(**known)))):
+        one: Any = SimpleNamespace(**{name: values[wide] for name, values in known.items()})
+        found = pressure_correction(one, one.max_contact_radius, one.max_indentation)
+        known["correction"][wide] = found
+    return known
 
 
 def _singles(
@@ -93,12 +103,9 @@ def _possible(law: ContactLaw, known: Mapping[str, Array]) -> tuple[Mask, ...]:
     """Return the rows that may have warnings, for each kind of warning."""
     one, less = SimpleNamespace(**known), 1.0 - _ROUNDING
     solid = 4 / 3 * np.pi * one.R * one.R * one.R * one.solid_density
-    a, thickness = one.max_contact_radius, 2.0 * one.h
-    wide = (a > less * HERTZ_LIMIT * thickness) | (
-        one.deflection > less * STRETCH_LIMIT * thickness
-    )
+    wide = _non_hertzian(one) | (one.deflection > less * STRETCH_LIMIT * 2.0 * one.h)
     if not law.spherical:
-        wide = wide | (a > less * PARABOLOID_LIMIT * one.R)
+        wide = wide | (one.max_contact_radius > less * PARABOLOID_LIMIT * one.R)
     fast = QUASI_STATIC_PERIODS * one.period > less * one.contact_time
     much = (one.zener > less * ZENER_LIMIT) | (one.share > less * DEFLECTION_LIMIT)
     moving = (fast & much) | (one.echoes > less * one.contact_time)
@@ -112,13 +119,20 @@ def _possible(law: ContactLaw, known: Mapping[str, Array]) -> tuple[Mask, ...]:
     )
 
 
+def _non_hertzian(one: SimpleNamespace) -> Mask:
+    """Return the rows whose contact may be too wide for the Hertz pressure."""
+    found: Mask = one.max_contact_radius > (1.0 - _ROUNDING) * HERTZ_LIMIT * 2.0 * one.h
+    return found
+
+
 def _texts(law: ContactLaw) -> tuple[Texts, ...]:
     """Return functions from the numbers of a row to its warnings, for each kind."""
     inertia = law.model.inertia
 
     def wide(one: Any) -> tuple[str, ...]:
         of_row: Any = SimpleNamespace(model=one, solved=False, spherical=law.spherical)
-        return warnings_at(of_row, one.max_contact_radius, one.max_indentation, one.deflection)
+        sizes = one.max_contact_radius, one.max_indentation, one.deflection
+        return warnings_at(of_row, *sizes, one.correction)
 
     def moving(one: Any) -> tuple[str, ...]:
         one.inertia = inertia

@@ -113,5 +113,7 @@ def coordinates(study: Study) -> dict[str, Any]:
 def column(table: Any, name: str) -> Any:
     """Return a column of a table as an array of doubles, or of objects for texts."""
     if name in TEXTS:
-        return np.array(table[name].to_pylist(), dtype=object)
+        texts = table[name].combine_chunks()
+        different = np.array(texts.dictionary.to_pylist(), dtype=object)
+        return different[texts.indices.to_numpy()]
     return table[name].to_numpy()

@@ -120,6 +120,16 @@ class Store:
             stop = min(start + size, total)
             yield start, stop, self.table(start, stop)
 
+    def text_lengths(self) -> dict[str, int]:
+        """Return the length of the longest text of each column of texts [bytes], at least 1."""
+        found = dict.fromkeys(TEXTS, 1)
+        for part in self.parts:
+            table = self._read(part)
+            for name in TEXTS:
+                texts = table[name].combine_chunks().dictionary.to_pylist()
+                found[name] = max(found[name], *(len(text.encode()) for text in texts))
+        return found
+
     def _claim(self) -> None:
         """Write the description of the study into the folder, or compare it with the one there.
 
@@ -193,12 +203,13 @@ def _packed(table: Any) -> bytes:
     import pyarrow.parquet as pq
 
     stream = pa.BufferOutputStream()
-    pq.write_table(table, stream, compression="zstd")
+    # Numbers hardly repeat: looking for repeated ones would take most of the time.
+    pq.write_table(table, stream, compression="zstd", use_dictionary=list(TEXTS))
     return stream.getvalue().to_pybytes()  # type: ignore[no-any-return]
 
 
 def _parsed(content: bytes) -> Any:
-    """Return the table in the content of a Parquet file.
+    """Return the table in the content of a Parquet file, with each different text once.
 
     No threads are used: a pyarrow thread that still reads a Python stream when Python exits would
     abort the process.
@@ -206,7 +217,8 @@ def _parsed(content: bytes) -> Any:
     import pyarrow as pa
     import pyarrow.parquet as pq
 
-    return pq.ParquetFile(pa.BufferReader(content)).read(use_threads=False)
+    file = pq.ParquetFile(pa.BufferReader(content), read_dictionary=list(TEXTS))
+    return file.read(use_threads=False)
 
 
 @contextmanager

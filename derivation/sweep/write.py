@@ -7,6 +7,8 @@ from math import prod
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from derivation.engine.activity import Progress
 from derivation.engine.files import expect_folder, expect_writable
 from derivation.engine.nearest import did_you_mean
@@ -18,6 +20,9 @@ from derivation.sweep.store import NUMBERS, TEXTS, Store
 SUFFIXES = (".nc", ".zarr", ".parquet", ".csv")
 Dims = tuple[str, ...]
 Labels = dict[str, str]
+Slices = tuple[slice, ...]
+Fill = Callable[[Slices, Any], None]
+"""Writes values into a part of an array."""
 BLOCK = 2**16
 """Largest number of points that are in memory while a file is written."""
 
@@ -123,7 +128,7 @@ def _with_points(store: Store, progress: Progress) -> Iterator[Any]:
             for name, values in study.plan.points(start, stop).items()
         }
         columns |= {name: pa.array(column(found, name), from_pandas=True) for name in NUMBERS}
-        columns |= {name: found[name] for name in TEXTS}
+        columns |= {name: found[name].cast(pa.string()) for name in TEXTS}
         fields = [pa.field(name, v.type, metadata=labels(name)) for name, v in columns.items()]
         about = {name: str(value) for name, value in attributes(study).items()}
         yield pa.table(list(columns.values()), schema=pa.schema(fields, metadata=about))
@@ -136,8 +141,8 @@ def _zarr(store: Store, path: Path, progress: Progress) -> None:
     group = zarr.open_group(path, mode="w")
     group.attrs.update(attributes(store.study))
 
-    def create(name: str, dims: Dims, blocks: tuple[int, ...], about: Labels) -> Any:
-        return group.create_array(
+    def create(name: str, dims: Dims, blocks: tuple[int, ...], about: Labels) -> Fill:
+        made: Any = group.create_array(
             name,
             shape=tuple(store.study.plan.dims[dim] for dim in dims),
             chunks=blocks,
@@ -146,6 +151,8 @@ def _zarr(store: Store, path: Path, progress: Progress) -> None:
             dimension_names=dims,
             attributes=about,
         )
+        fill: Fill = made.__setitem__
+        return fill
 
     _arrays(store, create, progress)
     with warnings.catch_warnings():  # that other programs may not know it; they do without it
@@ -155,47 +162,69 @@ def _zarr(store: Store, path: Path, progress: Progress) -> None:
 
 def _netcdf(store: Store, path: Path, progress: Progress) -> None:
     import h5netcdf
-    import h5py
 
+    lengths = store.text_lengths()
     with h5netcdf.File(path, "w") as file:
         file.attrs.update(attributes(store.study))
         file.dimensions = store.study.plan.dims
 
-        def create(name: str, dims: Dims, blocks: tuple[int, ...], about: Labels) -> Any:
-            kind = h5py.string_dtype() if name in TEXTS else "f8"
-            made = file.create_variable(name, dims, kind, chunks=blocks)
+        def create(name: str, dims: Dims, blocks: tuple[int, ...], about: Labels) -> Fill:
+            if name in TEXTS:
+                return _characters(file, name, lengths[name], dims, blocks, about)
+            made: Any = file.create_variable(name, dims, "f8", chunks=blocks)
             made.attrs.update(about)
-            return made
+            fill: Fill = made.__setitem__
+            return fill
 
         _arrays(store, create, progress)
 
 
-def _arrays(store: Store, create: Callable[..., Any], progress: Progress) -> None:
+def _characters(
+    file: Any, name: str, length: int, dims: Dims, blocks: tuple[int, ...], about: Labels
+) -> Fill:
+    """Create an array of compressed characters, which xarray reads as texts.
+
+    HDF5 does not compress strings of any length, which would take several times as much space.
+    """
+    import pandas as pd
+
+    last = f"{name}_length"
+    file.dimensions[last] = length
+    made = file.create_variable(
+        name, (*dims, last), "S1", chunks=(*blocks, length), compression="gzip", compression_opts=1
+    )
+    made.attrs.update(about | {"_Encoding": "utf-8"})
+
+    def fill(place: Slices, texts: Any) -> None:
+        which, different = pd.factorize(texts.ravel())
+        coded = np.array([text.encode() for text in different], dtype=f"S{length}")
+        made[place] = coded[which].view("S1").reshape(*texts.shape, length)
+
+    return fill
+
+
+def _arrays(store: Store, create: Callable[..., Fill], progress: Progress) -> None:
     """Fill an array for each result, over the dimensions of the study, and one for each key."""
     study, plan = store.study, store.study.plan
     dims, shape = tuple(plan.dims), tuple(plan.dims.values())
     chunks = _chunks(shape)
-    points: dict[str, Any] = {}
+    points: dict[str, Fill] = {}
     if isinstance(plan, GridPlan):
         for key, values in plan.axes.items():
-            create(key, (key,), (len(values),), labels(key))[:] = values
+            create(key, (key,), (len(values),), labels(key))((slice(None),), values)
     else:
         points = {key: create(key, dims, chunks, labels(key)) for key in plan.keys}
     beside = {"coordinates": " ".join(points)} if points else {}  # as CF calls them
     made = {name: create(name, dims, chunks, labels(name) | beside) for name in (*NUMBERS, *TEXTS)}
     for place, start, stop in blocks(shape):
         table = store.table(start, stop)
-        for name, array in made.items():
-            values = column(table, name)
-            array[place] = values.reshape(_extent(shape, place))
+        for name, fill in made.items():
+            fill(place, column(table, name).reshape(_extent(shape, place)))
         if points:
             found = study.plan.points(start, stop)
-            for key, array in points.items():
-                array[place] = found[key]
+            for key, fill in points.items():
+                fill(place, found[key])
         progress("write", stop + 1, plan.size)
-
-
-Slices = tuple[slice, ...]
 
 
 def blocks(shape: tuple[int, ...]) -> Iterator[tuple[Slices, int, int]]:

@@ -264,7 +264,7 @@ def collected() -> Iterator[None]:
 
 
 @pytest.mark.usefixtures("collected")
-@pytest.mark.parametrize("suffix", [".zarr", ".csv", ".parquet"])
+@pytest.mark.parametrize("suffix", [".nc", ".zarr", ".csv", ".parquet"])
 def test_memory_does_not_grow_with_the_study(
     formula: Formula, tmp_path: Path, suffix: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -297,6 +297,23 @@ def test_memory_does_not_grow_with_the_study(
     assert peaks[2] < 1.5 * peaks[1]
     assert journal(tmp_path / f"{2**13}", 2**13).max() == 1
     assert formula.calls == 2**10 + 2**11 + 2**13
+
+
+@pytest.mark.parametrize("suffix", [".nc", ".zarr", ".parquet"])
+def test_repeated_texts_take_little_space(suffix: str, tmp_path: Path) -> None:
+    """Warnings of several hundred characters at each point hardly add to the 72 bytes of numbers."""
+    wide = scene().model_copy(update={"plate": pc.Plate(radius=1.0, thickness=0.01,
+        lame_lambda=0.36e9, lame_mu=0.43e9)})  # fmt: skip
+    out = tmp_path / f"rows{suffix}"
+    made = pc.sweep(wide, {"impact.speed": "0.5:1:5000"}, out=out)
+    lengths = [len(text) for text in made["reason"].values]
+    assert min(lengths) > 150
+    assert len(set(made["reason"].values)) > 100
+    files = out.rglob("*") if out.is_dir() else [out]
+    size = sum(file.stat().st_size for file in files)
+    assert size < 5000 * 120
+    if suffix != ".parquet":
+        assert opened(out)["reason"].values.tolist() == made["reason"].values.tolist()
 
 
 @pytest.mark.parametrize("suffix", [".nc", ".zarr"])

@@ -301,7 +301,7 @@ def test_memory_does_not_grow_with_the_study(
 
 @pytest.mark.parametrize("suffix", [".nc", ".zarr", ".parquet"])
 def test_repeated_texts_take_little_space(suffix: str, tmp_path: Path) -> None:
-    """Warnings of several hundred characters at each point hardly add to the 72 bytes of numbers."""
+    """Long warnings at each point hardly add to the 72 bytes of its numbers."""
     wide = scene().model_copy(update={"plate": pc.Plate(radius=1.0, thickness=0.01,
         lame_lambda=0.36e9, lame_mu=0.43e9)})  # fmt: skip
     out = tmp_path / f"rows{suffix}"

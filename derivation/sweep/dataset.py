@@ -113,7 +113,10 @@ def coordinates(study: Study) -> dict[str, Any]:
 def column(table: Any, name: str) -> Any:
     """Return a column of a table as an array of doubles, or of objects for texts."""
     if name in TEXTS:
-        texts = table[name].combine_chunks()
-        different = np.array(texts.dictionary.to_pylist(), dtype=object)
-        return different[texts.indices.to_numpy()]
+        return np.concatenate([_texts(chunk) for chunk in table[name].chunks])
     return table[name].to_numpy()
+
+
+def _texts(chunk: Any) -> Any:
+    """Return texts that are stored once each as an array of objects."""
+    return np.array(chunk.dictionary.to_pylist(), dtype=object)[chunk.indices.to_numpy()]

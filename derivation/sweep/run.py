@@ -258,7 +258,8 @@ def _client(scheduler: str | None, workers: int) -> Iterator[Any]:
                 cluster = LocalCluster(
                     n_workers=workers,
                     threads_per_worker=1,
-                    dashboard_address=None,
+                    dashboard_address=":0",  # any free port: several studies may run at once
+                    scheduler_kwargs={"dashboard": False},
                     silence_logs=logging.CRITICAL,
                 )
             except (RuntimeError, OSError) as error:

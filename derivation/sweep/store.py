@@ -111,7 +111,7 @@ class Store:
             if part.start < stop and start < part.stop:
                 first, last = max(start, part.start), min(stop, part.stop)
                 pieces.append(self._read(part).slice(first - part.start, last - first))
-        return pa.concat_tables(pieces).combine_chunks()
+        return pa.concat_tables(pieces)
 
     def tables(self, size: int) -> Iterator[tuple[int, int, Any]]:
         """Yield all results in blocks of at most `size` points: start, stop and table of each."""
@@ -126,8 +126,9 @@ class Store:
         for part in self.parts:
             table = self._read(part)
             for name in TEXTS:
-                texts = table[name].combine_chunks().dictionary.to_pylist()
-                found[name] = max(found[name], *(len(text.encode()) for text in texts))
+                for chunk in table[name].chunks:
+                    lengths = (len(text.encode()) for text in chunk.dictionary.to_pylist())
+                    found[name] = max(found[name], *lengths)
         return found
 
     def _claim(self) -> None:

@@ -91,7 +91,7 @@ AGREE = [
     (Fraction(1), Fraction(3, 10), Fraction(1, 5), Fraction(4, 5)),
     (Fraction(5), Fraction(1, 10), Fraction(0), Fraction(1)),
     (Fraction(1), Fraction(1, 100), Fraction(0), Fraction(1)),
-    (Fraction(1, 2), Fraction(1, 1000), Fraction(0), Fraction(1)),
+    (Fraction(1, 2), Fraction(1, 300), Fraction(0), Fraction(1)),
 ]
 
 

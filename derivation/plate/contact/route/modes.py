@@ -7,13 +7,15 @@ from mpmath import mp, mpf
 
 _COARSE = 15
 """Digits of a zero at the start of Newton's iteration, each step of which doubles them."""
+_FAR = 30
+"""Number of zeros for which an asymptotic expansion has too few digits."""
 
 
 @cache
 def mode(n: int, dps: int) -> tuple[mpf, mpf]:
     """Return j_n and 1/(j_n J1(j_n)^2)."""
     with mp.workdps(_COARSE):
-        zero = mp.besseljzero(0, n)
+        zero = _far_zero(n) if n > _FAR else mp.besseljzero(0, n)
     steps = [dps + 5]
     while steps[-1] > _COARSE:
         steps.append(steps[-1] // 2 + 4)
@@ -22,6 +24,15 @@ def mode(n: int, dps: int) -> tuple[mpf, mpf]:
             zero += mp.besselj(0, zero) / mp.besselj(1, zero)
     with mp.workdps(dps):
         return zero, 1 / (zero * mp.besselj(1, zero) ** 2)
+
+
+def _far_zero(n: int) -> mpf:
+    """Return j_n for large n, by McMahon's expansion (Olver and Maximon, DLMF 10.21.19)."""
+    beta = (n - mpf(1) / 4) * mp.pi
+    e = 1 / (8 * beta) ** 2
+    return beta + (1 - e * (mpf(124) / 3 - e * (mpf(120928) / 15 - e * 401743168 / 105))) / (
+        8 * beta
+    )
 
 
 def excess(T: mpf) -> mpf:

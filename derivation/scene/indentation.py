@@ -35,7 +35,8 @@ HEADS = (
     "#radius [m]", "#indentation [m]", "#force [N]", "#stiffness [N/m]", "#max. pressure [Pa]",
 )  # fmt: skip
 """Column heads of the table of contacts."""
-_STEPS, _CLOSE = 60, 4e-16
+_STEPS, _CLOSE, _FOUND = 60, 4e-16, 1e-12
+"""Largest number of Newton's steps; relative step that ends them, and that a result may have."""
 Values = float | Iterable[float]
 
 
@@ -228,7 +229,7 @@ def _loaded(law: ContactLaw, a: float) -> _Loaded:
         branch = branch.begun()
         more, more_a = branch.added(force, force_a)
         depth, depth_a, radius = depth + more, depth_a + more_a, branch.widened(radii, force)
-        radius_a = force_a * branch.widening(radius)
+        radius_a = branch.widening(radii, force, force_a)
         stiffness = force_a / depth_a
     numbers = radius, force, depth, stiffness, radius_a, force_a, depth_a
     return _Loaded(*(float(number[0]) for number in numbers))
@@ -261,6 +262,10 @@ def _radius(law: ContactLaw, name: str, value: float) -> float:
         if not abs(step) > _CLOSE:
             break
         a = min(a * math.exp(max(-1.0, min(1.0, step))), last)
+    if not abs(step) < _FOUND:
+        raise SceneError(
+            f"{name}: found no contact with {value:.6g} {UNITS[name]}; use less extreme values"
+        )
     return a
 
 

@@ -103,9 +103,17 @@ class Yielding:
         ratio = self.hertz_radius(force) / self.onset
         return a / np.asarray(unloaded(ratio)[0], dtype=np.float64)
 
-    def widening(self, radius: Array) -> Array:
-        """Return the derivative of the radius by the force on loading [m/N], at radii [m]."""
-        return widening(radius, *_arrays(self.onset, self.R, self.modulus))
+    def widening(self, a: Array, force: Array, force_a: Array) -> Array:
+        """Return the derivative of `widened` by the radius of the elastic law on loading [1].
+
+        `widened` is `a` times the ratio of the radii of a paraboloid on a half-space at this force,
+        after yielding and without it.
+        """
+        u = self.hertz_radius(force)
+        ratio = self.widened(np.ones_like(a), force)
+        by_force = widening(ratio * u, *_arrays(self.onset, self.R, self.modulus))
+        found: Array = ratio + force_a * (a / u * by_force - ratio * a / (3.0 * force))
+        return found
 
     def begun(self) -> "Yielding":
         """Return the branch on which the contact begins or continues to yield."""

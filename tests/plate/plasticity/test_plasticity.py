@@ -341,6 +341,22 @@ def test_static_contact_on_loading() -> None:
     assert 2 / 3 * large.max_pressure < mean < large.max_pressure == 1.6 * 240e6
 
 
+@pytest.mark.parametrize("thickness", [1e-2, 1e-3, 2e-4])
+def test_static_contacts_of_thin_plates_are_the_same_from_radius_force_and_depth(
+    thickness: float,
+) -> None:
+    plate = DROP["plate"] | {"thickness": thickness, "yield_stress": 30e6}
+    scene = read(DROP | {"plate": plate})
+    radii = np.geomspace(0.05, 2.0, 9) * thickness
+    by_radius = indent(scene, contact_radius=radii)
+    by_force = indent(scene, force=[one.force for one in by_radius])
+    by_depth = indent(scene, indentation=[one.indentation for one in by_radius])
+    assert all(np.diff([one.force for one in by_radius]) > 0.0)
+    for force, depth, radius in zip(by_force, by_depth, radii, strict=True):
+        assert force.contact_radius == pytest.approx(radius, rel=1e-10)
+        assert depth.contact_radius == pytest.approx(radius, rel=1e-9)
+
+
 def test_parameter_is_the_pressure_relative_to_its_limit() -> None:
     law = ContactLaw(BALL, frozenset({"hertz"}))
     a = 1e-4

@@ -294,5 +294,5 @@ def rows_of(problem: DynamicProblem, touching: contact_sequence.ContactRun, t: A
     for some in (flight[k : k + block] for k in range(0, flight.size, block)):
         flights = problem.flights(touching.after, t[some] - touching.end)
         found[V, some], found[Z, some], found[W, some], found[E, some] = flights
-    found[P] = np.maximum(found[P], 0.0)
+    found[[A, P]] = np.maximum(found[[A, P]], 0.0)
     return found

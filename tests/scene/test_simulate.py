@@ -56,6 +56,20 @@ def test_history_starts_and_ends_without_force_and_conserves_energy() -> None:
     assert taken == pytest.approx(2 * result.model.m * result.model.v0, rel=1e-3)
 
 
+@pytest.mark.parametrize("name", ["glass_pane", "membrane", "ball_drop"])
+def test_history_of_a_plate_with_inertia_conserves_momentum(name: str) -> None:
+    result = simulate(load(EXAMPLES / f"{name}.toml"))
+    model, history = result.model, result.history(4001)
+    assert 0.0 <= history.contact_radius[0] < 1e-12 * result.max_contact_radius
+    assert history.contact_radius.min() >= 0.0
+    assert history.force.min() >= 0.0
+    weight = model.m * model.gravity * result.total_time
+    taken = np.trapezoid(history.force, history.time) - weight
+    change = model.m * (history.velocity[0] - history.velocity[-1])
+    assert taken == pytest.approx(change, rel=1e-4)
+    assert -history.velocity[-1] / model.v0 == pytest.approx(result.restitution, rel=1e-6)
+
+
 def test_history_at_given_times() -> None:
     scene = read(changed())
     whole = simulate(scene)

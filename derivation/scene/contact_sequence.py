@@ -8,7 +8,7 @@ import numpy as np
 
 from derivation.engine.activity import announce
 from derivation.scene.collocation import NEWTON, NEXT, ONSET, change_of_length, radau
-from derivation.scene.contact_errors import endless, lost
+from derivation.scene.contact_errors import STUCK, check_width, endless, lost
 from derivation.scene.dynamic_problem import DynamicProblem, ImpactState
 from derivation.scene.effects.effect import Array
 from derivation.scene.flight import meeting
@@ -237,6 +237,8 @@ def contact(
         if made is None and found:  # an oscillating slope is no guess beyond its own element
             made = element(problem, n, x, length, state, radius, np.zeros(n), enough)
         if made is None:
+            if length < STUCK * max(x, 1.0):
+                break
             length *= 0.5
             continue
         sizes = np.abs(made.element.rows[:LOST])
@@ -272,6 +274,7 @@ def contact(
         x = made.element.x + made.element.length
         _check_weight(problem, x)
         state, radius, scale = made.end, made.radius, largest
+        check_width(problem, radius)
         # Except near the onset, the allowed length is uniform in time, not in x.
         more = x**ONSET - made.element.x**ONSET
         more *= change * (1.0 + EARLY * more / x**ONSET)

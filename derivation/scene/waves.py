@@ -339,9 +339,9 @@ def _problem(law: ContactLaw, plate: ModalPlate) -> DynamicProblem:
     heard = echo_time(model) / T if model.inertia.infinite_plate else math.inf
     weight = law.gravity * (T / model.v0)
     units = a, T, model.m, model.v0
-    end = law.limit_in_words if law.limit < WIDER * a else ""
+    limit = float(law.limit), law.limit_in_words
     return DynamicProblem(
-        contact, *units, weight, retardation, heard, law.damping_ratio, yielding_of(law), end
+        contact, *units, weight, retardation, heard, law.damping_ratio, yielding_of(law), *limit
     )
 
 

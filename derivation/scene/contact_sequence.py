@@ -1,6 +1,7 @@
 """Simulates an impact with plate inertia: successive contacts, and free flight between them."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -8,7 +9,7 @@ import numpy as np
 
 from derivation.engine.activity import announce
 from derivation.scene.collocation import NEWTON, NEXT, ONSET, change_of_length, radau
-from derivation.scene.contact_errors import endless, lost
+from derivation.scene.contact_errors import STUCK, check_width, endless, lost
 from derivation.scene.dynamic_problem import DynamicProblem, ImpactState
 from derivation.scene.effects.effect import Array
 from derivation.scene.flight import meeting
@@ -44,8 +45,8 @@ PROGRESS = 50
 """Elements after which the simulation reports its progress."""
 STAYS = 20.0
 """Contact time over half a period on the plate above which the weight holds the sphere on it."""
-LEFT = "no further contact is possible"
-"""End reason of a complete simulation."""
+LEFT, ENOUGH = "no further contact is possible", "no further contact is needed"
+"""End reasons of a complete simulation, and of one that its caller ends."""
 
 
 class ContactRun(NamedTuple):
@@ -100,7 +101,7 @@ def impact_history(
     n: int,
     tolerance: float = TOLERANCE,
     work: float = WORK,
-    first: ContactRun | None = None,
+    enough: Callable[[tuple[ContactRun, ...]], bool] | None = None,
 ) -> ImpactHistory:
     """Simulate an impact from the first contact on, by elements of n nodes.
 
@@ -110,8 +111,9 @@ def impact_history(
         Largest ratio of the last coefficients of an element to the largest ones so far [1].
     work
         Largest work, in the units of `WORK`.
-    first
-        The first contact, if it has been computed.
+    enough
+        Function of the contacts so far that returns whether no more are needed. It is called after
+        1, 2, 4, ... contacts.
 
     Returns
     -------
@@ -128,10 +130,11 @@ def impact_history(
     while True:
         most = min(ELEMENTS, tried + steps_of(problem, n, work - used))
         try:
-            touching = first or contact(problem, n, state, t, radius, tolerance, tried, most)
-            first = None
+            touching = contact(problem, n, state, t, radius, tolerance, tried, most)
             found.append(touching)
             tried, used = tried + touching.tried, used + touching.tried * weight
+            if enough and not len(found) & (len(found) - 1) and enough(tuple(found)):
+                return ImpactHistory(problem, tuple(found), ENOUGH, "", used, tolerance)
             after, last = touching.after, touching.pieces[-1].radius
             if touching.yielding is not problem.yielding:
                 problem = replace(problem, yielding=touching.yielding)
@@ -237,6 +240,8 @@ def contact(
         if made is None and found:  # an oscillating slope is no guess beyond its own element
             made = element(problem, n, x, length, state, radius, np.zeros(n), enough)
         if made is None:
+            if length < STUCK * max(x, 1.0):
+                break
             length *= 0.5
             continue
         sizes = np.abs(made.element.rows[:LOST])
@@ -272,6 +277,7 @@ def contact(
         x = made.element.x + made.element.length
         _check_weight(problem, x)
         state, radius, scale = made.end, made.radius, largest
+        check_width(problem, radius)
         # Except near the onset, the allowed length is uniform in time, not in x.
         more = x**ONSET - made.element.x**ONSET
         more *= change * (1.0 + EARLY * more / x**ONSET)

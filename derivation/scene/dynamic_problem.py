@@ -56,8 +56,10 @@ class DynamicProblem:
         Damping ratio of each mode [1].
     yielding
         The current branch of a plastic contact; None without plasticity.
+    limit
+        Largest contact radius [m] of the contact law; infinite if it is not checked.
     range_end
-        The limit of the contact law at which its tables end, in words; empty if they end earlier.
+        This limit in words.
     """
 
     contact: ContactTables
@@ -70,6 +72,7 @@ class DynamicProblem:
     heard: float = math.inf
     damping_ratio: float = 0.0
     yielding: Yielding | None = None
+    limit: float = math.inf
     range_end: str = ""
 
     @property

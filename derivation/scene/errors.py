@@ -17,6 +17,23 @@ class SceneError(ValueError):
     """
 
 
+def wide_contact(key: str, limit: str, got: str, remedy: str) -> SceneError:
+    """Return the error of a contact that is wider than the contact law allows.
+
+    Parameters
+    ----------
+    key
+        Key or argument that determines the radius, as the user writes it.
+    limit
+        Largest contact radius of the law, in words.
+    got
+        The contact radius, in words without its unit.
+    remedy
+        What the user can do.
+    """
+    return SceneError(f"{key}: expected a contact radius below {limit}, got {got} m; {remedy}")
+
+
 class IncompleteError(SceneError):
     """The error of an impact with plate inertia that could not be computed to its end."""
 

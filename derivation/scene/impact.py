@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from derivation.scene.achieved_accuracy import ESTIMATED, AchievedAccuracy, Part, rounded_up
+from derivation.scene.achieved_accuracy import ESTIMATED, AchievedAccuracy, Part
 from derivation.scene.edge_remainder import edge_remainder
 from derivation.scene.effect_selection import SelectedEffects, decide
 from derivation.scene.law import ContactLaw
@@ -20,11 +20,12 @@ from derivation.scene.limits import (
     stress_warnings,
     warnings_at,
 )
+from derivation.scene.measured import toleranced
 from derivation.scene.method_selection import check_rtol, dynamic_impact, solve_selected
 from derivation.scene.model import model_of
 from derivation.scene.model_error import inertia_error
 from derivation.scene.result import Result
-from derivation.scene.scene import OUTPUTS, TIGHTEST, Scene, SceneError
+from derivation.scene.scene import OUTPUTS, TIGHTEST, Scene
 from derivation.scene.selection import check_enabled
 from derivation.scene.yield_warnings import impact_warnings
 
@@ -77,6 +78,7 @@ def simulate(
     >>> print(f"{result.max_force:.3g} N, {result.restitution:.2f}")
     1.29e+03 N, 0.97
     """
+    scene = toleranced(scene, None if rtol is None else check_rtol(rtol))
     rtol, selected = selected_effects(scene, rtol)
     numbers, accuracy = solve_selected(selected, rtol)
     accuracy = _with_constant(scene, accuracy)
@@ -123,16 +125,12 @@ def _with_constant(scene: Scene, accuracy: AchievedAccuracy) -> AchievedAccuracy
     """Return the accuracy with the error of a constant that follows from a measurement."""
     if scene.measured is None:
         return accuracy
-    from derivation.scene.measured import error_of
+    from derivation.scene.measured import error_of, inaccurate_constant
 
     error = error_of(scene)
     found = replace(accuracy, constant=Part(error, ESTIMATED))
     if found.rtol is not None and found.bound > found.rtol:
-        raise SceneError(
-            f"accuracy.rtol: expected at least {rounded_up(found.bound)}, because the constant "
-            f"from the measured restitution causes an error of {rounded_up(error)}, got "
-            f"{found.rtol:g}; increase the tolerance, or give the constant instead of [measured]"
-        )
+        raise inaccurate_constant(found.bound, error, found.rtol)
     return found
 
 
@@ -172,7 +170,7 @@ def selected_effects(
         outputs = scene.accuracy.outputs
         rtol = scene.accuracy.rtol if rtol is None else rtol
     wanted, tolerance = scene.effects.model_dump(), selection_tolerance(rtol)
-    model = model_of(scene)
+    model = model_of(toleranced(scene, rtol))
     check_enabled(scene, model)
     return rtol, decide(model, wanted, tolerance, outputs, default=rtol is None)
 

@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 
 THICK = 1.0
 """Largest h/b for which the model of simply supported and clamped edges was measured."""
+LENGTHS = {"b": "plate radius", "R": "sphere radius", "h": "half the plate thickness"}
+"""The lengths that limit a contact radius, in the order of `Reach`."""
 CANCELLED = 8 * np.finfo(np.float64).eps
 """Relative rounding error of the contribution of the plate, tested."""
 
@@ -158,10 +160,7 @@ class ContactLaw:
 
         With non-Hertzian pressure it ends earlier if contact is lost at the centre.
         """
-        plate, sphere, thickness = self._reach
-        model = self.model
-        widest = np.minimum(plate * model.b, sphere * model.R)
-        high: float = np.minimum(widest, thickness * model.h)
+        model, high = self.model, self._widest
         if not self.solved:
             return high
         return closed_up_to(
@@ -169,16 +168,22 @@ class ContactLaw:
         )
 
     @property
+    def _widest(self) -> float:
+        """Largest contact radius [m] for which all included effects can be computed."""
+        plate, sphere, thickness = self._reach
+        widest = np.minimum(plate * self.model.b, sphere * self.model.R)
+        found: float = np.minimum(widest, thickness * self.model.h)
+        return found
+
+    @property
     def limit_in_words(self) -> str:
         """The limit in words, with its value."""
-        lengths = ", ".join(
-            length if reach == 1.0 else f"{reach:g} {length}"
-            for reach, length in zip(self._reach, ("b", "R", "h"), strict=True)
-            if reach < math.inf
-        )
-        if not self.solved:
-            return f"min({lengths}) = {self.limit:.6g} m"
-        return f"min({lengths}), or contact is lost at the centre, at {self.limit:.6g} m"
+        if self.limit < self._widest:
+            return f"{self.limit:.6g} m, where contact is lost at the centre"
+        reached = [pair for pair in zip(self._reach, LENGTHS, strict=True) if pair[0] < math.inf]
+        lengths = ", ".join(x if reach == 1.0 else f"{reach:g} {x}" for reach, x in reached)
+        symbols = ", ".join(f"{x} {LENGTHS[x]}" for _, x in reached)
+        return f"min({lengths}) = {self.limit:.6g} m ({symbols})"
 
     @property
     def _reach(self) -> Reach:

@@ -8,6 +8,7 @@ import numpy as np
 
 from derivation.scene import kernels
 from derivation.scene.effects.effect import Array
+from derivation.scene.errors import wide_contact
 from derivation.scene.law import ContactLaw
 from derivation.scene.model import Model
 from derivation.scene.quadrature import gauss
@@ -57,9 +58,7 @@ def check_radius(law: ContactLaw, a: float, key: str, remedy: str) -> None:
         If a reaches the law's limit.
     """
     if a >= law.limit:
-        raise SceneError(
-            f"{key}: expected a contact radius below {law.limit_in_words}, got {a:.6g} m; {remedy}"
-        )
+        raise wide_contact(key, law.limit_in_words, f"{a:.6g}", remedy)
 
 
 def refuse(law: ContactLaw) -> NoReturn:

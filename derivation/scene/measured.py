@@ -10,14 +10,15 @@ is returned, if there is any.
 import json
 import math
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
+from derivation.scene.achieved_accuracy import rounded_up
 from derivation.scene.effects import BY_NAME
 from derivation.scene.errors import SceneError
 from derivation.scene.quantity import prefixed
+from derivation.scene.settings import TIGHTEST
 
 if TYPE_CHECKING:
-    from derivation.scene.result import Result
     from derivation.scene.scene import Scene
 
 UNITS = {"yield_stress": "Pa", "retardation_time": "s"}
@@ -37,9 +38,39 @@ CLOSE = {"static": 1e-12, "dynamic": 1e-4}
 """Relative accuracy of the constant [1]; with plate inertia the restitution is less smooth."""
 STATIC_RTOL = 1e-9
 """Relative tolerance of measurements without plate inertia [1]."""
+PART, FINER = 0.5, 4.0
+"""Part of the tolerance for the error due to a constant; if a measurement with plate inertia does
+not meet it, its own tolerance is divided by `FINER`."""
+LOOSE, ROUGH = 0.1, 1e-3
+"""Tolerance of the simulations that search for the constant, and its accuracy in them [1]."""
+NEAR, FURTHEST, POLISHES = 0.02, 0.2, 6
+"""First and largest change of the logarithm of a constant after the search, and largest number of
+simulations."""
+AGREES = 0.1
+"""Relative difference from the measured restitution that suffices, over the error bound."""
 CHANGE, DYNAMIC = 1e-2, 3.0
 """Relative change of the constant that gives the sensitivity of a measurement without plate
 inertia; and error of the results over that of one with plate inertia, an estimate."""
+
+
+class UnreachedError(SceneError):
+    """The error of a restitution below all that the constant gives, within their bounds `least`."""
+
+    def __init__(self, text: str, least: float) -> None:
+        super().__init__(text, least)
+        self.text, self.least = text, least
+
+    def __str__(self) -> str:
+        return self.text
+
+
+class Trial(NamedTuple):
+    """The results of a measurement with a trial value: time [s], restitution, pressure [Pa]."""
+
+    contact_time: float
+    restitution: float
+    max_pressure: float
+    bound: float
 
 
 def fitted(scene: "Scene") -> "Scene":
@@ -55,6 +86,16 @@ def fitted(scene: "Scene") -> "Scene":
     from derivation.scene.scene import read
 
     return read(json.loads(_fitted(json.dumps(scene.to_json()))))
+
+
+def toleranced(scene: "Scene", rtol: float | None) -> "Scene":
+    """Return a scene with a measurement whose tolerance is that of the results, if one is given."""
+    if scene.measured is None or rtol is None:
+        return scene
+    from derivation.scene.scene import read
+
+    tables = scene.to_json()
+    return read(tables | {"accuracy": tables.get("accuracy", {}) | {"rtol": rtol}})
 
 
 def solved(scene: "Scene") -> float:
@@ -83,9 +124,47 @@ def _fitted(text: str) -> str:
     wanted = tables.pop("measured")
     key, goal = wanted["solve_for"], wanted["restitution"]
     measured = _measurement(tables, wanted)
-    close = CLOSE["static" if _static(measured) else "dynamic"]
-    tables["plate"][key] = _solved(measured, key, goal, close)
+    found = None
+    if not _static(measured):
+        found = _polished(measured, key, goal)
+    if found is None:
+        close = CLOSE["static" if _static(measured) else "dynamic"]
+        found = _solved(measured, key, goal, close)
+    tables["plate"][key] = found
     return json.dumps(tables)
+
+
+def _polished(tables: dict[str, Any], key: str, goal: float) -> float | None:
+    """Return the value of the constant from a search with a large tolerance, then made accurate.
+
+    A simulation to the tolerance of the measurement may take seconds; few of them are needed near
+    the solution. None if they do not lead to it.
+    """
+    loose = tables | {"accuracy": tables.get("accuracy", {}) | {"rtol": LOOSE}}
+    _lossless(loose, key, goal, 1.0)
+    try:
+        x = math.log(_solved(loose, key, goal, ROUGH))
+    except UnreachedError as error:
+        if goal < error.least:
+            raise
+        return None
+    except SceneError:
+        return None
+    off, change = math.inf, NEAR if key == "retardation_time" else -NEAR
+    for _ in range(POLISHES):
+        try:
+            found = _accurate(tables, key, math.exp(x))
+        except SceneError:
+            return None
+        _check_error(tables, DYNAMIC * found.bound)
+        before, off = off, found.restitution / goal - 1.0
+        if abs(off) <= AGREES * found.bound:
+            return math.exp(x)
+        change *= math.copysign(1.0, off) if math.isinf(before) else off / (before - off or off)
+        if not abs(change) < FURTHEST:
+            return None
+        x += change
+    return None
 
 
 def error_of(scene: "Scene") -> float:
@@ -97,12 +176,39 @@ def error_of(scene: "Scene") -> float:
     assert scene.measured is not None
     key, tables = scene.measured.solve_for, scene.to_json()
     measured, value = _measurement(tables, tables.pop("measured")), solved(scene)
-    found = _simulated(measured, key, value)
-    error = found.accuracy.bound + abs(found.restitution / scene.measured.restitution - 1.0)
-    if not _static(measured):
+    static = _static(measured)
+    found = (_simulated if static else _accurate)(measured, key, value)
+    error = found.bound + abs(found.restitution / scene.measured.restitution - 1.0)
+    if not static:
         return DYNAMIC * error
     changed = _simulated(measured, key, (1.0 + CHANGE) * value)
     return error * CHANGE / abs(math.log(changed.restitution / found.restitution))
+
+
+def _check_error(tables: dict[str, Any], error: float) -> None:
+    """Raise an error if a constant from a measurement is not accurate enough for the results."""
+    rtol = tables["accuracy"]["rtol"] if "accuracy" in tables else math.inf
+    if error > rtol:
+        raise inaccurate_constant(error, error, rtol)
+
+
+def inaccurate_constant(bound: float, error: float, rtol: float) -> SceneError:
+    """Return the error of a constant that is not accurate enough for a tolerance.
+
+    Parameters
+    ----------
+    bound
+        Error bound of the results [1].
+    error
+        Their error due to the constant [1].
+    rtol
+        Their tolerance [1].
+    """
+    return SceneError(
+        f"accuracy.rtol: expected at least {rounded_up(bound)}, because the constant from the "
+        f"measured restitution causes an error of {rounded_up(error)}, got {rtol:g}; increase the "
+        "tolerance, or give the constant instead of [measured]"
+    )
 
 
 def _static(measured: dict[str, Any]) -> bool:
@@ -116,7 +222,9 @@ def _measurement(tables: dict[str, Any], wanted: dict[str, Any]) -> dict[str, An
     speed = wanted.get("tested_at", tables["impact"]["speed"])
     scene = tables | {"impact": tables["impact"] | {"speed": speed}}
     if wanted.get("target", "block") == "plate":
-        return scene | ({"accuracy": {"rtol": STATIC_RTOL}} if _static(scene) else {})
+        if _static(scene):
+            return scene | {"accuracy": {"rtol": STATIC_RTOL}}
+        return scene
     size = BLOCK * tables["sphere"]["radius"]
     shape = "radius", "thickness", "half_thickness", "edge", "tensile_strength"
     block = {k: v for k, v in tables["plate"].items() if k not in shape}
@@ -130,14 +238,60 @@ def _measurement(tables: dict[str, Any], wanted: dict[str, Any]) -> dict[str, An
     return kept | made | {"accuracy": {"rtol": STATIC_RTOL}}
 
 
-def _simulated(tables: dict[str, Any], key: str, value: float | None) -> "Result":
-    """Simulate the impact with a trial value; without one, the effect of the constant is off."""
-    from derivation.scene.impact import simulate
+def _accurate(tables: dict[str, Any], key: str, value: float) -> Trial:
+    """Simulate a measurement with plate inertia, more accurately if the results require it."""
+    found = _simulated(tables, key, value)
+    if "accuracy" not in tables:
+        return found
+    rtol = tables["accuracy"]["rtol"]
+    if DYNAMIC * found.bound <= PART * rtol or found.bound > rtol:  # or it cannot be met
+        return found
+    finer = tables["accuracy"] | {"rtol": max(TIGHTEST, rtol / FINER)}
+    return _simulated(tables | {"accuracy": finer}, key, value)
+
+
+def _simulated(tables: dict[str, Any], key: str, value: float | None) -> Trial:
+    """Simulate the impact with a trial value; without one, the effect of the constant is off.
+
+    With plate inertia the error may exceed the tolerance: that of the last trial counts.
+    """
+    from derivation.scene.impact import selected_effects
+    from derivation.scene.limits import check_radius
+    from derivation.scene.method_selection import solve_selected
     from derivation.scene.scene import read
 
     effects = tables.get("effects", {}) | {EFFECTS[key]: value is not None}
     plate = tables["plate"] | ({} if value is None else {key: value})
-    return simulate(read(tables | {"plate": plate, "effects": effects}))
+    rtol, selected = selected_effects(read(tables | {"plate": plate, "effects": effects}))
+    numbers, accuracy = solve_selected(selected, rtol, within=_static(tables))
+    time, _, _, a, restitution = numbers
+    law = selected.law
+    check_radius(law, a, "impact.speed", "reduce the speed")
+    return Trial(time, restitution, min(law.max_pressure(a), law.pressure_limit), accuracy.bound)
+
+
+def _lossless(tables: dict[str, Any], key: str, goal: float, margin: float = 0.0) -> Trial:
+    """Return the measurement without energy loss in the contact.
+
+    Parameters
+    ----------
+    margin
+        Factor on the error bound by which the measured restitution may exceed that one.
+
+    Raises
+    ------
+    SceneError
+        If its restitution does not exceed the measured one.
+    """
+    found = _simulated(tables, key, None)
+    most = found.restitution * (1.0 + margin * found.bound)
+    if goal < most:
+        return found
+    raise SceneError(
+        f"measured.restitution: expected less than {most:.{3 if margin else 6}g}, the restitution "
+        f"without energy loss in the contact, got {goal:.6g}; correct measured.restitution or "
+        "measured.target"
+    )
 
 
 def _solved(tables: dict[str, Any], key: str, goal: float, close: float) -> float:
@@ -151,17 +305,16 @@ def _solved(tables: dict[str, Any], key: str, goal: float, close: float) -> floa
     """
     from scipy.optimize import brentq
 
-    lossless = _simulated(tables, key, None)
-    if not goal < lossless.restitution:
-        raise SceneError(
-            f"measured.restitution: expected less than {lossless.restitution:.6g}, the restitution "
-            f"without energy loss in the contact, got {goal:.6g}; correct measured.restitution or "
-            "measured.target"
-        )
+    lossless = _lossless(tables, key, goal)
+
+    least = math.inf
 
     def above(x: float) -> float:
+        nonlocal least
         try:
-            return _simulated(tables, key, math.exp(x)).restitution - goal
+            found = _simulated(tables, key, math.exp(x))
+            least = min(least, found.restitution * (1.0 - found.bound))
+            return found.restitution - goal
         except SceneError as error:
             raise SceneError(
                 "measured.restitution: expected a value that can be computed, got "
@@ -183,11 +336,12 @@ def _solved(tables: dict[str, Any], key: str, goal: float, close: float) -> floa
         # An elastic plate under a contact that hardly moves returns the energy again.
         rising = rising + 1 if step == more and now > before else 0
         if rising == RISING:
-            raise SceneError(
+            raise UnreachedError(
                 f"measured.restitution: expected at least the smallest restitution that a "
                 f"plate.{key} gives, got {goal:.6g}, but it increases again from "
                 f"{goal + before:.6g} at {math.exp(x):.6g} {UNITS[key]}; correct "
-                "measured.restitution or measured.target"
+                "measured.restitution or measured.target",
+                least,
             )
         x += step
     else:

@@ -54,7 +54,7 @@ def check_rtol(rtol: float) -> float:
 
 
 def solve_selected(
-    selected: SelectedEffects, rtol: float | None = None
+    selected: SelectedEffects, rtol: float | None = None, within: bool = True
 ) -> tuple[Results, AchievedAccuracy]:
     """Return the five outputs by the law of the selected effects, with their accuracy.
 
@@ -65,6 +65,8 @@ def solve_selected(
     rtol
         Relative tolerance of each output [1], omitted effects included; by default the full
         method is used.
+    within
+        Whether the tolerance must be met.
 
     Raises
     ------
@@ -85,7 +87,7 @@ def solve_selected(
         outputs=selected.outputs,
     )
     # An incomplete impact has no bound; it is returned and marked as incomplete.
-    if rtol is not None and rtol < accuracy.bound and not math.isnan(found[-1]):
+    if within and rtol is not None and rtol < accuracy.bound and not math.isnan(found[-1]):
         raise _out_of_reach(rtol, accuracy, law, found[3])
     check_numbers(law.model, *(found[:-1] if math.isnan(found[-1]) else found))
     return found, accuracy

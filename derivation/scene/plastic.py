@@ -65,10 +65,9 @@ def _problem(law: ContactLaw) -> DynamicProblem:
     still = Modes(none, none, none, no_index)
     contact = contact_of(law, ModalPlate(still, still, None), min(WIDER * a, law.limit), False)
     weight = law.gravity * (T / model.v0)
-    end = law.limit_in_words if law.limit < WIDER * a else ""
-    return DynamicProblem(
-        contact, a, T, model.m, model.v0, weight, yielding=yielding_of(law), range_end=end
-    )
+    units = a, T, model.m, model.v0
+    limit, words, branch = float(law.limit), law.limit_in_words, yielding_of(law)
+    return DynamicProblem(contact, *units, weight, yielding=branch, limit=limit, range_end=words)
 
 
 def _motion(problem: DynamicProblem, n: int) -> PlasticMotion:

@@ -14,7 +14,7 @@ from functools import lru_cache
 import numpy as np
 
 from derivation.scene import contact_sequence
-from derivation.scene.contact_sequence import ImpactHistory, expected_work
+from derivation.scene.contact_sequence import ENOUGH, ContactRun, ImpactHistory, expected_work
 from derivation.scene.contact_tables import contact_of
 from derivation.scene.dynamic_problem import DynamicProblem
 from derivation.scene.dynamic_results import UNKNOWN, dynamic_impact_of
@@ -139,25 +139,27 @@ def _branched(
     """Return the law with all branches if the higher ones matter, else with the lowest branch.
 
     They matter if their estimated change exceeds what the goal for the modes leaves of the
-    tolerance. The estimate follows from a rough run with the lowest branch, and at first from its
-    first contact alone, which is a lower bound. The rough run is also returned if the lowest branch
-    is sufficient. If the contact is so short that there would be too many modes, the lowest branch
-    is used.
+    tolerance. The estimate follows from a rough run with the lowest branch; that from its first
+    contacts alone is a lower bound, at which the run may end. The rough run is also returned if the
+    lowest branch is sufficient. If the contact is so short that there would be too many modes, the
+    lowest branch is used.
     """
     every, lowest, close = branching(law, "all"), branching(law, "A0"), time_tolerance(goal)
     if not followed(every, 2 * affordable(every)):
         return lowest, None
     problem = problem_of(lowest, count_of(law))
     room = goal / SHARE - goal - _integration_error(problem, close)
+
+    def beyond(contacts: tuple[ContactRun, ...]) -> bool:
+        """Return whether the higher branches matter because of some contacts alone."""
+        begun = dynamic_impact_of(lowest, ImpactHistory(problem, contacts, ENOUGH))
+        return begun.inertia.left(outputs)[1] > room
+
     n = nodes_for(problem) - FEWER
-    most, begin = contact_sequence.steps_of(problem, n), problem.begin()
-    first = contact_sequence.contact(problem, n, begin, 0.0, 0.0, close, most=most)
-    begun = dynamic_impact_of(lowest, ImpactHistory(problem, (first,), ""))
-    if begun.inertia.left(outputs)[1] > room:
-        budget.left -= first.tried * contact_sequence.weight_of(problem, n)
-        return every, None
-    history = contact_sequence.impact_history(problem, n, close, first=first)
+    history = contact_sequence.impact_history(problem, n, close, enough=beyond)
     budget.left -= history.work
+    if history.reason == ENOUGH:
+        return every, None
     rough = dynamic_impact_of(lowest, history)
     if rough.inertia.complete and rough.inertia.left(outputs)[1] > room:
         return every, None
@@ -339,9 +341,9 @@ def _problem(law: ContactLaw, plate: ModalPlate) -> DynamicProblem:
     heard = echo_time(model) / T if model.inertia.infinite_plate else math.inf
     weight = law.gravity * (T / model.v0)
     units = a, T, model.m, model.v0
-    end = law.limit_in_words if law.limit < WIDER * a else ""
+    limit = float(law.limit), law.limit_in_words
     return DynamicProblem(
-        contact, *units, weight, retardation, heard, law.damping_ratio, yielding_of(law), end
+        contact, *units, weight, retardation, heard, law.damping_ratio, yielding_of(law), *limit
     )
 
 

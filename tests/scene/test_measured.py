@@ -6,7 +6,8 @@ from typing import Any
 import pytest
 
 from derivation.scene import SceneError, read, simulate
-from derivation.scene.measured import fitted, in_words, solved
+from derivation.scene import measured as measured_module
+from derivation.scene.measured import error_of, fitted, in_words, solved
 from derivation.scene.viscous import impact as viscous_impact
 from generated.plasticity import plastic_restitution, yield_radius
 
@@ -113,8 +114,55 @@ def test_a_plate_that_bends_limits_what_a_retardation_time_can_dissipate() -> No
 
 
 def test_a_measurement_with_plate_inertia_limits_the_tolerance() -> None:
-    scene = measured(restitution=0.2, solve_for="yield_stress", target="plate")
+    scene = measured(restitution=0.5, solve_for="retardation_time", target="plate")
     found = simulate(scene)
-    assert abs(found.restitution / 0.2 - 1.0) <= found.accuracy.bound
+    assert abs(found.restitution / 0.5 - 1.0) <= found.accuracy.bound
     with pytest.raises(SceneError, match=r"accuracy\.rtol: expected at least .* constant"):
-        simulate(scene, rtol=0.5 * found.accuracy.bound)
+        simulate(scene, rtol=1e-3)
+
+
+def test_a_measurement_is_more_accurate_than_the_results() -> None:
+    """The measurement had the tolerance of the results, which its error then exceeded."""
+    scene = measured(restitution=0.2, solve_for="yield_stress", target="plate")
+    found, finer = (simulate(scene, rtol=rtol) for rtol in (3e-2, 3e-3))
+    for result, rtol in ((found, 3e-2), (finer, 3e-3)):
+        assert result.accuracy.constant is not None
+        assert result.accuracy.constant.bound < 0.6 * rtol
+        assert result.accuracy.bound <= rtol
+        assert abs(result.restitution / 0.2 - 1.0) <= result.accuracy.bound
+    assert abs(solved(found.scene) / solved(finer.scene) - 1.0) <= found.accuracy.bound
+
+
+@pytest.mark.parametrize(("solve_for", "goal"), [("yield_stress", 0.2), ("retardation_time", 0.5)])
+def test_a_rough_search_and_a_full_one_find_the_same_constant(
+    solve_for: str, goal: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scene = measured(restitution=goal, solve_for=solve_for, target="plate")
+    bound = error_of(scene)
+    quick = solved(scene)
+    monkeypatch.setattr(measured_module, "_polished", lambda *_: None)
+    measured_module._fitted.cache_clear()
+    whole = solved(scene)
+    measured_module._fitted.cache_clear()
+    assert quick != whole
+    assert abs(quick / whole - 1.0) <= bound
+
+
+def test_a_rough_search_refuses_a_restitution_that_no_constant_gives(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Bounds on the rough results prove it: no accurate simulation is needed."""
+    tolerances = set()
+    simulated = measured_module._simulated
+
+    def noted(tables: dict[str, Any], key: str, value: float | None) -> Any:
+        tolerances.add(tables["accuracy"]["rtol"])
+        return simulated(tables, key, value)
+
+    monkeypatch.setattr(measured_module, "_simulated", noted)
+    wanted = {"restitution": 0.9, "solve_for": "retardation_time", "target": "plate"}
+    thin = BLOCK["plate"] | {"thickness": 0.006}
+    scene = read(BLOCK | {"plate": thin, "measured": wanted, "accuracy": {"rtol": 1e-3}})
+    with pytest.raises(SceneError, match="expected less than"):
+        simulate(scene)
+    assert tolerances == {measured_module.LOOSE}

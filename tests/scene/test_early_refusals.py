@@ -1,0 +1,94 @@
+"""Scenes outside the range of the models are refused before the expensive part of a simulation."""
+
+import re
+from typing import Any
+
+import pytest
+
+from derivation.scene import SceneError, contact_errors, contact_sequence, read, simulate, waves
+from derivation.scene.impact import selected_effects
+from derivation.scene.law import ContactLaw
+from derivation.scene.time_element import A
+
+HAIL: dict[str, Any] = {
+    "sphere": {"radius": 0.0125, "material": "ice", "yield_stress": 10e6},
+    "plate": {"radius": 0.5, "thickness": 0.0008, "material": "steel", "edge": "clamped"},
+    "impact": {"speed": 22.0},
+    "inertia": {"modes": 60, "branches": "A0"},
+}
+"""Hail of 25 mm on the sheet of a bonnet: it yields, and the contact is wider than 6 h."""
+CURVED: dict[str, Any] = {
+    "sphere": {"radius": 0.0158, "mass": 0.13},
+    "plate": {"radius": 0.05, "thickness": 0.00055, "material": "glass", "edge": "clamped"},
+    "impact": {"speed": 20.0},
+    "inertia": {"modes": 24},
+}
+"""A ball that bends phone glass more than the ball is curved."""
+
+
+def refusal(scene: dict[str, Any]) -> str:
+    with pytest.raises(SceneError) as caught:
+        simulate(read(scene))
+    return str(caught.value)
+
+
+def law_of(scene: dict[str, Any]) -> ContactLaw:
+    return selected_effects(read(scene))[1].law
+
+
+def test_wide_plastic_contact_is_refused_before_it_ends(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The whole contact, without the check, is at least as wide as the refusal states."""
+    text = refusal(HAIL)
+    assert re.match(r"impact\.speed: expected a contact radius below .* = 0\.0024 m", text)
+    assert "reduce impact.speed, or use a lighter sphere" in text
+    stated = re.search(r"got at least (\S+) m", text)
+    assert stated
+    law = law_of(HAIL)
+    assert float(stated[1]) > contact_errors.TOO_WIDE * law.limit
+    monkeypatch.setattr(contact_errors, "TOO_WIDE", float("inf"))
+    waves.impact.cache_clear()
+    problem = waves.problem_of(law, 30)
+    whole = contact_sequence.contact(problem, 14, problem.begin(), 0.0, 0.0)
+    assert whole.yielding is not None
+    radius = max(piece.element.largest(A) for piece in whole.pieces)
+    widest = problem.a * radius / whole.yielding.flattening
+    assert widest >= float(stated[1])
+
+
+@pytest.mark.parametrize("speed", [2.0, 4.0, 6.0, 7.0])
+def test_check_of_the_width_stops_no_contact_within_the_limit(
+    speed: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A contact is stopped only if it is wider than the limit when it is simulated to its end."""
+    law = law_of(HAIL | {"impact": {"speed": speed}})
+    problem = waves.problem_of(law, 30)
+
+    def widest() -> float:
+        whole = contact_sequence.contact(problem, 14, problem.begin(), 0.0, 0.0)
+        assert whole.yielding is not None
+        radius = max(piece.element.largest(A) for piece in whole.pieces)
+        return float(problem.a * radius / whole.yielding.flattening)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(contact_errors, "TOO_WIDE", float("inf"))
+        whole = widest()
+    if whole <= law.limit:
+        assert widest() == whole
+    elif whole > 1.1 * law.limit:
+        with pytest.raises(SceneError, match="got at least"):
+            widest()
+
+
+def test_contact_without_solution_is_refused_for_the_same_reason_at_any_length(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Ever shorter elements find no solution either, and the reason is the same."""
+    early = refusal(CURVED)
+    assert "the plate is more curved than the sphere" in early
+    monkeypatch.setattr(contact_errors, "STUCK", 0.0)
+    monkeypatch.setattr(contact_sequence, "STUCK", 0.0)
+    waves.impact.cache_clear()
+    late = refusal(CURVED)
+    times = [float(re.search(r"contact at (\S+) s", text)[1]) for text in (early, late)]  # type: ignore[index]
+    assert early.partition(" s ")[2] == late.partition(" s ")[2]
+    assert times[0] == pytest.approx(times[1], rel=1e-4)

@@ -20,7 +20,7 @@ from derivation.scene.dynamic_problem import DynamicProblem
 from derivation.scene.dynamic_results import UNKNOWN, dynamic_impact_of
 from derivation.scene.effects.inertia import WIDER
 from derivation.scene.law import ContactLaw
-from derivation.scene.modal import ModalPlate, Modes, plate_of
+from derivation.scene.modal import ModalPlate, Modes, bending_share, plate_of
 from derivation.scene.mode_count import (
     LAST,
     affordable,
@@ -340,8 +340,9 @@ def _problem(law: ContactLaw, plate: ModalPlate) -> DynamicProblem:
     weight = law.gravity * (T / model.v0)
     units = a, T, model.m, model.v0
     end = law.limit_in_words if law.limit < WIDER * a else ""
+    share = bending_share(model, plate.modes) if retardation else 1.0
     return DynamicProblem(
-        contact, *units, weight, retardation, heard, law.damping_ratio, yielding_of(law), end
+        contact, *units, weight, retardation, heard, law.damping_ratio, yielding_of(law), end, share
     )
 
 

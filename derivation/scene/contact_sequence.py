@@ -53,8 +53,9 @@ class ContactRun(NamedTuple):
     """A contact: start and end in units of the problem, time elements, states before and after.
 
     `radius` is the contact radius at the start; it is above 0 if the face has not recovered from
-    the last contact. `tried` is the number of computed elements, including rejected ones.
-    `yielding` is the branch of a plastic contact at its end.
+    the last contact. The modes of the state after it move freely; the deflection that lags a
+    viscoelastic contact belongs to its face. `tried` is the number of computed elements, including
+    rejected ones. `yielding` is the branch of a plastic contact at its end.
     """
 
     start: float
@@ -153,6 +154,8 @@ def impact_history(
                 raise
             return ImpactHistory(problem, tuple(found), end.why, end.remedy, work, tolerance)
         t, state = touching.end + wait, problem.flown(after, wait)
+        if radius:
+            state = problem.freed(state, last, wait, -1.0)
         if not radius:
             state = state._replace(approach=0.0)
 
@@ -272,7 +275,10 @@ def contact(
             ended = origin + (last.element.x + last.element.length) ** ONSET
             pieces = (*found, last)
             tries = step + 1 - tried
-            return ContactRun(start, ended, first, pieces, begin, last.end, tries, problem.yielding)
+            after = last.end
+            if problem.retardation_time:
+                after = problem.freed(after, last.radius, 0.0)
+            return ContactRun(start, ended, first, pieces, begin, after, tries, problem.yielding)
         found.append(made)
         x = made.element.x + made.element.length
         _check_weight(problem, x)

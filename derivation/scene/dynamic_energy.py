@@ -1,6 +1,7 @@
 """Energy balance of an impact on a plate with inertia, each part by integration."""
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -25,8 +26,8 @@ def balance_of(history: ImpactHistory) -> EnergyBalance:
         rebound_kinetic=0.5 * energy * last.velocity**2,
         viscous_loss=energy * lost,
         unrecovered_elastic=energy
-        * sum(_unrecovered(problem, touching) for touching in history.contacts),
-        plate=energy * float(np.sum(problem.energies(last))),
+        * (sum(_unrecovered(problem, one) for one in history.contacts) + _lagging(history)),
+        plate=energy * _mode_energy(problem, last),
         coupling_loss=energy * spurious,
         damping_loss=energy * _damping_loss(history),
         plastic_loss=problem.yielding.work if problem.yielding else 0.0,
@@ -61,7 +62,26 @@ def _unrecovered(problem: DynamicProblem, touching: ContactRun) -> float:
         before = replace(problem, yielding=touching.pieces[0].yielding)
         begun = _stored(before, touching.radius, touching.before)
     after = replace(problem, yielding=touching.yielding)
-    return _stored(after, touching.pieces[-1].radius, touching.after) - begun
+    last = touching.pieces[-1]
+    return _stored(after, last.radius, last.end) - begun
+
+
+def _lagging(history: ImpactHistory) -> float:
+    """Return the energy over m v0^2 of the deflections that recover with a viscoelastic face."""
+    problem, found = history.problem, 0.0
+    if not problem.retardation_time:
+        return found
+    for one in history.contacts:
+        found += _mode_energy(problem, one.pieces[-1].end) - _mode_energy(problem, one.after)
+    for one, two in pairwise(history.contacts):
+        met = problem.flown(one.after, two.start - one.end)
+        found -= _mode_energy(problem, two.before) - _mode_energy(problem, met)
+    return found
+
+
+def _mode_energy(problem: DynamicProblem, state: ImpactState) -> float:
+    """Return the energy of all modes over m v0^2."""
+    return float(np.sum(problem.energies(state)))
 
 
 def _stored(problem: DynamicProblem, radius: float, state: ImpactState) -> float:

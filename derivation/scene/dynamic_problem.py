@@ -13,6 +13,8 @@ from derivation.scene.effects.effect import Array
 from derivation.scene.oscillators import FreeMotion
 from derivation.scene.yielding import Yielding
 
+MOST_RECOVERED = 700.0
+"""Time over A_v beyond which a face has recovered to the smallest double."""
 PART = 32768
 """Number of values of modes at nodes that are computed at once, so that they fit in the cache."""
 
@@ -60,6 +62,9 @@ class DynamicProblem:
         Largest contact radius [m] of the contact law; infinite if it is not checked.
     range_end
         This limit in words.
+    bending_share
+        Fraction of the static compliance of each shape that is bending, and thus elastic in a
+        viscoelastic contact [1].
     """
 
     contact: ContactTables
@@ -74,6 +79,7 @@ class DynamicProblem:
     yielding: Yielding | None = None
     limit: float = math.inf
     range_end: str = ""
+    bending_share: Array | float = 1.0
 
     @property
     def force(self) -> float:
@@ -104,6 +110,42 @@ class DynamicProblem:
     def strength(self) -> Array:
         """Amplitude of each mode after a unit impulse: inverse modal mass over omega."""
         return self.inverse_modal_mass / self.omega
+
+    def lagging(self, radius: float, t: Array) -> tuple[Array, Array]:
+        """Return how far each mode is deflected by the face that recovers, and how fast.
+
+        After a viscoelastic contact P = 0, and P_e = P_e(radius) exp(-t/A_v) drives what is not
+        bending. As the radius decreases, the force of a shape changes otherwise: it is the sum of
+        exp(-t/A_v) and exp(-2 t/A_v) with the same first rate of change.
+
+        Parameters
+        ----------
+        radius
+            Contact radius at separation; above 0.
+        t
+            Times after it.
+        """
+        at = self.contact.at(np.array([self.a * radius]))
+        felt, narrow = at.felt[0], at.forces_a[0, 1:] * (at.force[0] / at.force_a[0])
+        forces = np.array([2.0 * felt - narrow, narrow - felt]) / self.force
+        driving = ((1.0 - self.bending_share) * forces)[:, self.contact.modes.shape]
+        rates = np.array([[1.0], [2.0]]) / self.retardation_time
+        stiff = self.omega**2 + rates * (rates - 2.0 * self.damping_ratio * self.omega)
+        deflections = self.inverse_modal_mass * driving / stiff
+        left = np.exp(-np.minimum(np.multiply.outer(t, rates[:, 0]), MOST_RECOVERED))
+        return left @ deflections, -left @ (rates * deflections)
+
+    def freed(self, state: ImpactState, radius: float, t: float, sign: float = 1.0) -> ImpactState:
+        """Return a state without the deflection of `lagging`, which then is part of the face.
+
+        Its modes move freely. With `sign` = -1 the deflection is added again.
+        """
+        [lagging], [rate] = self.lagging(radius, np.array([t]))
+        return state._replace(
+            q=state.q - sign * lagging,
+            q_dot=state.q_dot - sign * rate,
+            approach=state.approach + sign * float(np.sum(lagging)),
+        )
 
     def parts(self, n: int) -> tuple["Part", ...]:
         """Return the modes in parts, whose values at n nodes fit in the cache."""

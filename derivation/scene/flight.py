@@ -114,7 +114,9 @@ def _into(problem: DynamicProblem, after: ImpactState, t: float, radius: float) 
 def _pressed(problem: DynamicProblem, t: Array, radius: float, q: Array) -> Array:
     """Return the remaining depth of the face after a viscoelastic contact."""
     at = problem.at(problem.a * _recovered(problem, t, radius))
-    moved = np.sum(at.less * problem.contact.modes.by_shape(q), axis=1)
+    by_shape = problem.contact.modes.by_shape
+    lagging = by_shape(problem.lagging(radius, t)[0])
+    moved = np.sum(lagging + at.less * (by_shape(q) + lagging), axis=1)
     return at.depth / problem.depth + np.asarray(moved, dtype=np.float64)
 
 

@@ -154,23 +154,25 @@ def plate_of(law: ContactLaw, count: int) -> ModalPlate:
     added.
     """
     if not law.other_edge or law.model.edge not in (SUPPORTED, CLAMPED):
-        modes = free_modes(law.model, count, law.viscous)
+        modes = free_modes(law.model, count)
         return ModalPlate(modes, modes, None)
     return _held_plate(law, count)
 
 
-def free_modes(model: Model, count: int, lagging: bool = False) -> Modes:
-    """Return the modes of a plate with the paper's edge, `count` of them of the lowest branch.
-
-    Parameters
-    ----------
-    lagging
-        Whether the contact is viscoelastic, but not the bending: each mode then has the static
-        compliance of a thin plate, and all other static deflection belongs to the contact.
-    """
-    found = _free(model, count, lagging)
-    branches = model.inertia.branches == "all" and not lagging
+def free_modes(model: Model, count: int) -> Modes:
+    """Return the modes of a plate with the paper's edge, `count` of them of the lowest branch."""
+    found = _free(model, count)
+    branches = model.inertia.branches == "all"
     return _modes(model, _branches(model, found, float(found.root[-1])) if branches else found)
+
+
+def bending_share(model: Model, modes: Modes) -> Array:
+    """Return the static compliance of a thin plate over that of each mode of A0 [1]."""
+    from generated import inertia
+
+    x, nu = modes.phi * model.h, model.poissons_ratio
+    thin = inertia.bending_frequency(x, nu) / (x * x * math.sqrt(2.0 / (3.0 * (1.0 - nu))))
+    return np.asarray(0.5 * thin * thin / inertia.bending_residue(x, nu), dtype=np.float64)
 
 
 class _Shapes(NamedTuple):
@@ -182,13 +184,13 @@ class _Shapes(NamedTuple):
     first: Indices
 
 
-def _free(model: Model, count: int, lagging: bool) -> _Shapes:
+def _free(model: Model, count: int) -> _Shapes:
     """Return the modes of A0 with the paper's edge."""
-    return _free_shapes(model.eta, model.poissons_ratio, count, lagging)
+    return _free_shapes(model.eta, model.poissons_ratio, count)
 
 
 @lru_cache(maxsize=64)
-def _free_shapes(eta: float, nu: float, count: int, lagging: bool) -> _Shapes:
+def _free_shapes(eta: float, nu: float, count: int) -> _Shapes:
     """Return the modes of `_free`, which depend on h/b and Poisson's ratio alone."""
     from generated import inertia
     from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
@@ -196,16 +198,9 @@ def _free_shapes(eta: float, nu: float, count: int, lagging: bool) -> _Shapes:
     j = bessel_j0_zeros(count)
     x = j * eta
     root = inertia.bending_frequency(x, nu)
-    residue = _residue(x, root, inertia.bending_residue(x, nu), nu, lagging)
+    residue = inertia.bending_residue(x, nu)
     weight = 1.0 / (np.pi * bessel_j1_at_j0_zeros(count) ** 2)
     return _Shapes(j, root, residue * weight, np.arange(count))
-
-
-def _residue(x: Array, root: Array, residue: Array, nu: float, lagging: bool) -> Array:
-    """Return the residue of A0, or one with the static compliance of a thin plate."""
-    if not lagging:
-        return residue
-    return 0.5 * (root / (x * x * math.sqrt(2.0 / (3.0 * (1.0 - nu))))) ** 2
 
 
 def _modes(model: Model, shapes: _Shapes, held: "Waves | None" = None) -> Modes:
@@ -245,19 +240,16 @@ def _held_plate(law: ContactLaw, count: int) -> ModalPlate:
     edge are used. The static deflection by a point force is that of the law, because the compliance
     of the first mode includes the difference between the law and the sum over the modes.
     """
-    model, lagging = law.model, law.viscous
-    every = _waves(model)
+    model, every = law.model, _waves(law.model)
     known, moving = every.k.size, min(count, every.k.size)
-    partner = _free(model, max(count, known), lagging)
-    residue = _residue(
-        every.k * model.eta, every.root, every.residue, model.poissons_ratio, lagging
-    )
-    held = _Shapes(every.k, every.root.copy(), residue * every.weight, np.arange(known))
+    partner = _free(model, max(count, known))
+    strength = every.residue * every.weight
+    held = _Shapes(every.k, every.root.copy(), strength, np.arange(known))
     own, other = (_modes(model, x).compliance for x in (held, partner))
     lacking = _edge_compliance(law) - float(np.sum(own) - np.sum(other[:known]))
     held.root[0] /= math.sqrt(1.0 + lacking / own[0])
     free, waves = _first(partner, count), _some(every, slice(moving))
-    if model.inertia.branches == "all" and not lagging:
+    if model.inertia.branches == "all":
         highest = float(free.root[-1])
         less = _modes(model, _branches(model, partner, highest))
         free = _branches(model, free, highest, moving)

@@ -5,6 +5,9 @@ retardation time of the contact,
 
     m z'' = m g - P,   P = P_e + A_v dP_e/dt >= 0,   z = quasi-static(a) + sum s_j q_j
 
+In a viscoelastic contact only bending is elastic: P drives the fraction of the compliance of each
+shape that is bending, and P_e the rest. The modes keep their mass, so that A_v = 0 is the limit.
+
 On an element in x = (t/T)^(1/6), with t the time since first contact, da/dx is a polynomial through
 Radau's nodes. The response of a shape to its force is an integral over the sines of its modes. At
 the nodes it is a matrix, computed once per element: no mode is integrated in time steps, and the
@@ -166,9 +169,11 @@ def _load_at(
     load_a = at.forces_a * (problem.a / problem.force)
     if not problem.retardation_time:
         return _Load(a, y, load, load_a, None)
-    # The pressure keeps its shape: the retarded part drives each shape in the same proportion.
+    # The pressure keeps its shape: the retarded part drives each shape in the same proportion,
+    # but only the bending, because all other deflection lags it.
     share = problem.retardation_time / nodes.rate * load_a[:, 0] / load[:, 0]
     load_y = share[:, None] * load
+    load_y[:, 1:] *= problem.bending_share
     load = load + load_y * y[:, None]
     load_a = load_a + 2.0 * load_y * (y / a)[:, None]  # d2P/da2 is nearly (2/a) dP/da
     return _Load(a, y, load, load_a, load_y)
@@ -341,7 +346,8 @@ def _piece(
         closing = at.v - np.sum(felt * driven.rates, axis=1)
         lost = at.load_y[:, 0] * at.y * closing * nodes.rate
     if pointwise:
-        leak = np.sum((force[:, None] - at.felt) * driven.rates, axis=1) * nodes.rate
+        elastic = load.forces if load.by_y is None else load.forces - load.by_y * at.y[:, None]
+        leak = np.sum((elastic[:, :1] - elastic[:, 1:]) * driven.rates, axis=1) * nodes.rate
     rule = radau(nodes.x.size)
     rows = at.a, at.v, at.z, force, np.sum(at.q, axis=1), driven.energy, lost, leak
     values = np.array([*rows, driven.damped * nodes.rate])

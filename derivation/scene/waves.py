@@ -20,7 +20,7 @@ from derivation.scene.dynamic_problem import DynamicProblem
 from derivation.scene.dynamic_results import UNKNOWN, dynamic_impact_of
 from derivation.scene.effects.inertia import WIDER
 from derivation.scene.law import ContactLaw
-from derivation.scene.modal import ModalPlate, Modes, plate_of
+from derivation.scene.modal import ModalPlate, Modes, bending_share, plate_of
 from derivation.scene.mode_count import (
     LAST,
     affordable,
@@ -341,9 +341,18 @@ def _problem(law: ContactLaw, plate: ModalPlate) -> DynamicProblem:
     heard = echo_time(model) / T if model.inertia.infinite_plate else math.inf
     weight = law.gravity * (T / model.v0)
     units = a, T, model.m, model.v0
+    share = bending_share(model, plate.modes) if retardation else 1.0
     limit = float(law.limit), law.limit_in_words
     return DynamicProblem(
-        contact, *units, weight, retardation, heard, law.damping_ratio, yielding_of(law), *limit
+        contact,
+        *units,
+        weight,
+        retardation,
+        heard,
+        law.damping_ratio,
+        yielding_of(law),
+        *limit,
+        share,
     )
 
 

@@ -140,7 +140,7 @@ def test_results_converge_with_the_modes_of_all_branches() -> None:
 
 def test_results_converge_with_the_branches() -> None:
     """The restitution converges as branches up to higher frequencies are added."""
-    lowest, found = modal._free(BALL, 12, lagging=False), []
+    lowest, found = modal._free(BALL, 12), []
     for highest in (1.0, 2.0, 4.0, 8.0):
         shapes = modal._branches(BALL, lowest, highest * float(lowest.root[-1]))
         modes = modal._modes(BALL, shapes)

@@ -185,8 +185,10 @@ def _contact(law: ContactLaw, name: str, value: float) -> StaticContact:
     model = law.model
     given = name == "contact_radius" and not law.plastic
     a = value if given else _radius(law, name, value)
-    check_radius(law, a, f"{name} = {value:.6g} {UNITS[name]}", f"reduce the {_in_words(name)}")
+    key, remedy = f"{name} = {value:.6g} {UNITS[name]}", f"reduce the {_in_words(name)}"
+    check_radius(law, a, key, remedy)
     at = _loaded(law, a)
+    check_radius(law, at.radius, key, remedy)
     pressure = min(law.max_pressure(a), law.pressure_limit)
     check_numbers(model, *at, pressure)
     # The given value is returned unchanged, without the rounding errors of the inversion.

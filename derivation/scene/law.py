@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 
 THICK = 1.0
 """Largest h/b for which the model of simply supported and clamped edges was measured."""
+HALVINGS = 60
+"""Number of halvings of an interval, after which it contains no other double."""
 LENGTHS = {"b": "plate radius", "R": "sphere radius", "h": "half the plate thickness"}
 """The lengths that limit a contact radius, in the order of `Reach`."""
 CANCELLED = 8 * np.finfo(np.float64).eps
@@ -167,9 +169,31 @@ class ContactLaw:
             model.h, model.b, model.R, self.modulus, model.modulus, self.spherical, float(high)
         )
 
-    @property
+    @cached_property
     def _widest(self) -> float:
-        """Largest contact radius [m] for which all included effects can be computed."""
+        """Largest contact radius [m] for which all included effects can be computed.
+
+        The deflection is evaluated at Hertz's radius of the force, which is on the plate too.
+        """
+        high = self._shortest
+        if not (self.spherical and self.plate_effects) or self.solved:
+            return high
+
+        def within(a: Any) -> Any:
+            on_plate = (1.0 - CANCELLED) * self._reach.plate * self.model.b
+            return a * np.cbrt(self._sphere(a).force) < on_plate
+
+        if np.all(within(high)):
+            return high
+        low = 0.0 * high
+        for _ in range(HALVINGS):
+            middle = 0.5 * (low + high)
+            low, high = np.where(within(middle), [middle, high], [low, middle])
+        return low if np.ndim(low) else float(low)
+
+    @property
+    def _shortest(self) -> float:
+        """The shortest of the lengths that limit a contact radius [m]."""
         plate, sphere, thickness = self._reach
         widest = np.minimum(plate * self.model.b, sphere * self.model.R)
         found: float = np.minimum(widest, thickness * self.model.h)
@@ -180,6 +204,8 @@ class ContactLaw:
         """The limit in words, with its value."""
         if self.limit < self._widest:
             return f"{self.limit:.6g} m, where contact is lost at the centre"
+        if self._widest < self._shortest:
+            return f"{self.limit:.6g} m, where Hertz's radius of the force reaches the edge"
         reached = [pair for pair in zip(self._reach, LENGTHS, strict=True) if pair[0] < math.inf]
         lengths = ", ".join(x if reach == 1.0 else f"{reach:g} {x}" for reach, x in reached)
         symbols = ", ".join(f"{x} {LENGTHS[x]}" for _, x in reached)

@@ -5,14 +5,19 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from shared_scenes import ALL, model, scene
 
 import derivation.checks.effects
 import derivation.scene
-from derivation.scene import indent, kernels, motion, simulate
+from derivation.scene import indent, kernels, motion, read, simulate
 from derivation.scene.effects import WHOLE_PLATE
+from derivation.scene.errors import SceneError
+from derivation.scene.indentation import static_law
 from derivation.scene.law import ContactLaw
+from derivation.scene.limits import last_radius
 from derivation.scene.model import model_of
 from generated import contact_law
 
@@ -244,3 +249,44 @@ def test_static_contact_at_a_given_force() -> None:
     assert row.contact_radius == pytest.approx(a, rel=1e-4)
     assert row.indentation == pytest.approx(a * a / 0.1, rel=1e-4)
     assert row.stiffness == pytest.approx(2 * E * a, rel=1e-4)
+
+
+@given(
+    thickness=st.floats(-1.0, 2.0), width=st.floats(-1.0, 2.0),
+    ratio=st.sampled_from([0.0, 0.3, 0.45]), edge=st.sampled_from(["paper", "clamped"]),
+)  # fmt: skip
+def test_law_with_hertz_pressure_is_finite_up_to_its_limit(
+    thickness: float, width: float, ratio: float, edge: str
+) -> None:
+    """Also if Hertz's radius of the force, at which the plate deflects, exceeds the contact's."""
+    h = 10.0**thickness
+    scene = read({
+        "sphere": {"radius": 1.0, "density": 1e3},
+        "plate": {
+            "radius": max(h / 50, 10.0**width), "half_thickness": h,
+            "youngs_modulus": 1e9, "poissons_ratio": ratio, "edge": edge,
+        },
+        "impact": {"speed": 1.0},
+        "effects": {"non_hertzian_pressure": False},
+    })  # fmt: skip
+    law = static_law(scene)
+    radii = np.linspace(0.01, 1.0, 30) * last_radius(law)
+    shape = law.at(radii)
+    assert np.isfinite(shape).all()
+    assert np.all(np.diff(law.force(radii, shape)) > 0.0)
+
+
+def test_plastic_contact_wider_than_the_law_allows_is_rejected() -> None:
+    """Yielding widens a contact whose elastic radius is within the limit."""
+    scene = read({
+        "sphere": {"radius": 0.01, "density": 7800.0},
+        "plate": {
+            "radius": 0.012, "thickness": 0.02, "youngs_modulus": 1e9, "poissons_ratio": 0.3,
+            "yield_stress": 1e6,
+        },
+        "impact": {"speed": 1.0},
+        "effects": {"non_hertzian_pressure": False},
+    })  # fmt: skip
+    [wide] = indent(scene, contact_radius=0.009)
+    with pytest.raises(SceneError, match=r"expected a contact radius below .*reduce the force"):
+        indent(scene, force=2.0 * wide.force)

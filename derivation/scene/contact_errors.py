@@ -9,7 +9,7 @@ from derivation.scene.yield_events import turned
 
 STUCK = 1e-7
 """Length of an element in x, over max(x, 1), at which one without a solution ends the simulation.
-In 120 impacts, shorter elements had a solution only after failures of elements longer than 6e-5."""
+In 75 impacts, shorter elements had a solution only after failures of elements longer than 6e-5."""
 TOO_WIDE = 1.05
 """Contact radius over the limit of the law at which a simulation ends: so much wider that with more
 modes it would not be within the limit."""

@@ -91,6 +91,9 @@ def simulate(
     fraction = 1.0 - float(local_indentation(law, a)) / delta
     deflection = motion.largest_deflection(law) if motion is not None else None
     neglected = neglects_inertia(model, contact_time, fraction, motion is not None)
+    moving = model  # with the wave branches that the simulation chose
+    if motion is not None:
+        moving = replace(model, inertia=motion.law.model.inertia)
     strength, yield_stress = scene.plate.tensile_strength, _known(model.plate_yield_stress)
     stress = math.nan
     if strength is not None or yield_stress is not None:
@@ -98,7 +101,7 @@ def simulate(
     warnings = (
         *hollow_warnings(model),
         *warnings_at(law, a, delta, deflection),
-        *motion_warnings(model, contact_time, fraction, motion is not None),
+        *motion_warnings(moving, contact_time, fraction, motion is not None),
         *_yield_warnings(law, a, pressure),
         *stress_warnings(stress, strength, yield_stress),
     )

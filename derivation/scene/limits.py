@@ -7,6 +7,12 @@ from typing import NamedTuple, NoReturn, TypeVar
 import numpy as np
 
 from derivation.scene import kernels
+from derivation.scene.corrections import (
+    correction_in_words,
+    pressure_correction,
+    profile_correction,
+    stretching,
+)
 from derivation.scene.effects.effect import Array
 from derivation.scene.errors import wide_contact
 from derivation.scene.law import ContactLaw
@@ -31,8 +37,6 @@ SOLID_LIMIT = 1 / 3
 """Sphere mass over that of a solid sphere of its material below which it may be hollow."""
 GRAZING = 1e-3
 """Approach speed over impact speed, or force over peak force, of a grazing contact."""
-SMALL_CORRECTION = 0.3
-"""Relative correction above which its leading term is no longer an estimate."""
 Values = TypeVar("Values", float, Array)
 MARGIN = 1e-3
 """Relative quadrature error of the largest possible speed, where a law is steep."""
@@ -180,21 +184,21 @@ def warnings_at(
         found.append(
             f"contact radius over thickness a/H = {a / thickness:.3g} exceeds "
             f"{HERTZ_LIMIT}: the pressure is no longer Hertzian; "
-            f"{_in_words(correction)}"
+            f"{correction_in_words(correction)}"
         )
     if a / model.R > PARABOLOID_LIMIT and not law.spherical:
         found.append(
             f"contact radius over sphere radius a/R = {a / model.R:.3g} exceeds "
             f"{PARABOLOID_LIMIT}: the law approximates the sphere by a paraboloid; "
-            f"{_in_words(profile_correction(model, a, indentation))}"
+            f"{correction_in_words(profile_correction(model, a, indentation))}"
         )
     if deflection is None:
         deflection = indentation - float(local_indentation(law, a))
     if deflection / thickness > STRETCH_LIMIT:
         found.append(
             f"plate deflection over thickness w/H = {deflection / thickness:.3g} exceeds "
-            f"{STRETCH_LIMIT}: membrane stretching makes the plate stiffer than in the "
-            "linear law"
+            f"{STRETCH_LIMIT}: membrane stretching makes the plate stiffer than in the linear law, "
+            f"at rest by a factor of about {stretching(deflection / thickness):.3g} or more"
         )
     return tuple(found)
 
@@ -298,10 +302,16 @@ def motion_warnings(
     plate = model.inertia
     echoing = dynamic and plate.branches == "all" and not plate.infinite_plate
     if contact_time < echoes and not echoing:
-        found.append(
-            f"the contact time is below 4 H/c_P = {echoes:.3g} s: through-thickness wave "
-            "reflections return during the contact, but the model neglects them"
+        waves = (
+            "through-thickness wave reflections return during the contact, but the model neglects "
+            "them"
         )
+        if contact_time < echoes / 2.0:
+            waves = (
+                "it ends before through-thickness waves return from the back face, but in the "
+                "model the thickness responds without delay"
+            )
+        found.append(f"the contact time is below 4 H/c_P = {echoes:.3g} s: {waves}")
     return tuple(found)
 
 
@@ -372,35 +382,6 @@ def local_indentation(law: ContactLaw, a: Values) -> Values:
     depth = kernels.sphere_contact(a / R).depth if law.spherical else 1.0
     found: Values = a * (a / R) * depth  # type: ignore[assignment]
     return found
-
-
-def pressure_correction(model: Model, a: Values, indentation: Values) -> Values:
-    """Return the relative changes of indentations [m] at equal force by the exact pressure [1].
-
-    To leading order the exact pressure changes c3 of delta = (a^2/R) (1 + c1 A + c3 A^3 + ...),
-    A = a/h, into (8/3) c3. A combination of values at a and a/2 isolates the c3 term:
-    delta(a) - 8 delta(a/2) + a^2/R = (3/4) c3 A^3 a^2/R.
-    """
-    half, whole = (kernels.indentation(x, model.R, model.h, model.b) for x in (a / 2, a))
-    cubic = 4 / 3 * (whole - 8 * half + a * (a / model.R))
-    change: Values = 5 / 3 * cubic / indentation
-    return change
-
-
-def profile_correction(model: Model, a: float, indentation: float) -> float:
-    """Return the relative change of the indentation at equal force by the spherical profile [1].
-
-    To leading order Sneddon's law for the spherical profile, indentation (a/2) ln((R+a)/(R-a)),
-    adds (1/15) (a/R)^2 times a^2/R, including the smaller contact radius at that force.
-    """
-    return (a / model.R) ** 2 / 15 * a * (a / model.R) / indentation
-
-
-def _in_words(change: float) -> str:
-    percent = f"{100 * change:+.2g} % of the indentation"
-    if abs(change) > SMALL_CORRECTION:
-        return f"no reliable error estimate: the leading-order correction is {percent}"
-    return f"the correction, which is neglected, is about {percent} at this force"
 
 
 def last_radius(law: ContactLaw) -> float:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from derivation.scene import kernels
+from derivation.scene.corrections import pressure_correction
 from derivation.scene.effects.effect import Array
 from derivation.scene.law import ContactLaw
 from derivation.scene.limits import (
@@ -23,7 +24,6 @@ from derivation.scene.limits import (
     local_indentation,
     motion_warnings,
     plate_times,
-    pressure_correction,
     pressure_warnings,
     stress_warnings,
     warnings_at,

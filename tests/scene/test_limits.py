@@ -6,10 +6,11 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
 import pytest
 from shared_scenes import changed, scene, thick
 
-from derivation.scene import indent, kernels, limits, read, simulate
+from derivation.scene import corrections, indent, kernels, limits, read, simulate
 from derivation.scene.effects import PAPER
 from derivation.scene.law import ContactLaw
 from derivation.scene.model import InertiaSettings, model_of
@@ -191,6 +192,54 @@ def test_no_warning_of_reflections_if_branches_include_them() -> None:
     assert any("4 H/c_P" in text for text in limits.motion_warnings(held, 1e-5, 0.0))
 
 
+@pytest.mark.parametrize(("transits", "text"), [(1.9, "ends before"), (2.1, "return during")])
+def test_warning_of_reflections_says_whether_they_return(transits: float, text: str) -> None:
+    """A pressure wave returns from the back face after two transits of the thickness."""
+    slab = model_of(read(steel_on_glass(0.6, 2500.0)))
+    transit = 0.6 / math.sqrt((slab.lam + 2.0 * slab.mu) / slab.density)
+    warnings = limits.motion_warnings(slab, transits * transit, 0.0, dynamic=True)
+    assert text in warnings[0]
+
+
+def test_no_warning_of_reflections_if_the_simulation_chose_all_branches() -> None:
+    """The warning said that the model neglects reflections which the branches included."""
+    tables = {
+        "sphere": {"radius": 0.004, "material": "steel"},
+        "plate": {"radius": 0.3, "thickness": 0.2, "material": "concrete"},
+        "impact": {"speed": 2.0},
+        "effects": {"inertia": True},
+    }
+    found = simulate(read(tables))
+    assert found.dynamics is not None
+    assert found.dynamics.law.model.inertia.branches == "all"
+    assert not [text for text in found.warnings if "4 H/c_P" in text]
+
+
+def test_stretching_of_a_clamped_plate_agrees_with_its_energy() -> None:
+    """The deflection by a central load, and the radial displacement of least energy; nu = 0.3.
+
+    The edge is free to move in its plane. The stiffness at the centre grows as 1 + c (w/H)^2.
+    """
+    nodes, weights = np.polynomial.legendre.leggauss(200)
+    root = (1.0 + nodes) / 2.0
+    x, weights = root**2, weights * root  # r/b, and dx
+    slope, curvature = 4.0 * x * np.log(x), 4.0 * np.log(x) + 4.0  # of 1 - x^2 + 2 x^2 log x
+
+    def energy(one: Any, two: Any) -> float:
+        """Return int (r r + t t + nu (r t + t r)) x dx of two strains (radial, hoop)."""
+        (r1, t1), (r2, t2) = one, two
+        return float(weights @ ((r1 * r2 + t1 * t2 + 0.3 * (r1 * t2 + t1 * r2)) * x))
+
+    moved = [((k + 1) * x**k, x**k) for k in range(12)]  # of the displacements x^(k + 1)
+    stretched = (0.5 * slope**2, 0.0 * x)
+    side = np.array([energy(stretched, some) for some in moved])
+    matrix = np.array([[energy(one, two) for one in moved] for two in moved])
+    relaxed = float(side @ np.linalg.lstsq(matrix, side)[0])
+    membrane = energy(stretched, stretched) - relaxed
+    bending = energy((curvature, slope / x), (curvature, slope / x)) / 12.0
+    assert corrections.stretching(1.0) - 1.0 == pytest.approx(2.0 * membrane / bending, rel=0.05)
+
+
 def test_warning_of_inertia_states_its_parameters() -> None:
     pane = {"material": "glass", "lame_lambda": None, "lame_mu": None, "half_thickness": 0.002}
     texts = simulate(scene(plate=pane, impact={"speed": 0.01, "gravity": None})).warnings
@@ -223,7 +272,7 @@ def test_warning_if_the_pressure_is_not_hertzian(monkeypatch: pytest.MonkeyPatch
     assert limits.warnings_at(ContactLaw(m, PAPER), 0.0299, law(0.0299, m.R, m.h, m.b)) == ()
     delta = law(0.0301, m.R, m.h, m.b)
     cost = 5 / 3 * c3 * 0.301**3 * 0.0301**2 / 0.13 / delta
-    assert limits.pressure_correction(m, 0.0301, delta) == pytest.approx(cost, rel=1e-10)
+    assert corrections.pressure_correction(m, 0.0301, delta) == pytest.approx(cost, rel=1e-10)
     [text] = limits.warnings_at(ContactLaw(m, PAPER), 0.0301, delta)
     assert "a/H = 0.15" in text
     assert f"{100 * cost:+.2g} %" in text
@@ -249,7 +298,7 @@ def test_profile_correction_agrees_with_the_exact_sphere() -> None:
     log = math.log((1 + t) / (1 - t))
     a = m.R * (0.75 * ((1 + t * t) / 2 * log - t)) ** (1 / 3)
     change = (t / 2 * log) / (a / m.R) ** 2 - 1
-    assert limits.profile_correction(m, a, a * a / m.R) == pytest.approx(change, rel=0.1)
+    assert corrections.profile_correction(m, a, a * a / m.R) == pytest.approx(change, rel=0.1)
     texts = limits.warnings_at(ContactLaw(m, PAPER), 0.31 * m.R, 0.31**2 * m.R)
     assert [("a/R" in text) for text in texts] == [True]
 

@@ -1,0 +1,47 @@
+"""Leading-order size of what a law neglects: exact pressure, spherical profile, stretching."""
+
+from derivation.scene import kernels
+from derivation.scene.kernels import Numbers
+from derivation.scene.model import Model
+
+SMALL_CORRECTION = 0.3
+"""Relative correction above which its leading term is no longer an estimate."""
+STRETCHING = 0.2
+"""Stiffening of a plate by stretching over (w/H)^2, under a central load at rest: of a clamped edge
+that is free to move in its plane, the least of four edges (Timoshenko and Woinowsky-Krieger, Theory
+of Plates and Shells, 2nd ed., table 82)."""
+
+
+def stretching(ratio: float) -> float:
+    """Return the least factor by which stretching stiffens a plate, from w/H."""
+    return 1.0 + STRETCHING * ratio * ratio
+
+
+def pressure_correction(model: Model, a: Numbers, indentation: Numbers) -> Numbers:
+    """Return the relative changes of indentations [m] at equal force by the exact pressure [1].
+
+    To leading order the exact pressure changes c3 of delta = (a^2/R) (1 + c1 A + c3 A^3 + ...),
+    A = a/h, into (8/3) c3. A combination of values at a and a/2 isolates the c3 term:
+    delta(a) - 8 delta(a/2) + a^2/R = (3/4) c3 A^3 a^2/R.
+    """
+    half, whole = (kernels.indentation(x, model.R, model.h, model.b) for x in (a / 2, a))
+    cubic = 4 / 3 * (whole - 8 * half + a * (a / model.R))
+    change: Numbers = 5 / 3 * cubic / indentation
+    return change
+
+
+def profile_correction(model: Model, a: float, indentation: float) -> float:
+    """Return the relative change of the indentation at equal force by the spherical profile [1].
+
+    To leading order Sneddon's law for the spherical profile, indentation (a/2) ln((R+a)/(R-a)),
+    adds (1/15) (a/R)^2 times a^2/R, including the smaller contact radius at that force.
+    """
+    return (a / model.R) ** 2 / 15 * a * (a / model.R) / indentation
+
+
+def correction_in_words(change: float) -> str:
+    """Return a relative correction of the indentation [1] in words."""
+    percent = f"{100 * change:+.2g} % of the indentation"
+    if abs(change) > SMALL_CORRECTION:
+        return f"no reliable error estimate: the leading-order correction is {percent}"
+    return f"the correction, which is neglected, is about {percent} at this force"

@@ -24,24 +24,24 @@ from derivation.commands import paper as paper_commands
 from derivation.commands import scenes as scene_commands
 from derivation.commands import sweep as sweep_command
 from derivation.commands.command import Command
-from derivation.commands.groups import Grouped
-from derivation.commands.options import PaperFolder, chosen
+from derivation.commands.groups import GroupedHelp
+from derivation.commands.options import PaperFolder, chosen_paper
 from derivation.engine.console import (
-    INTERRUPTED,
+    INTERRUPTED_STATUS,
     NOTES,
     OUT,
-    UNREAD,
+    UNREAD_STATUS,
     Json,
     UnreadError,
-    counted,
     listing,
-    noted,
-    put,
-    put_json,
+    progress_bar,
     silence,
     stage,
     table,
     warn,
+    warnings_as_notes,
+    write_json_output,
+    write_output,
 )
 from derivation.engine.failed import FailedError
 from derivation.engine.files import ROOT, in_checkout
@@ -49,7 +49,7 @@ from derivation.engine.staging import recover
 from derivation.scene.old_names import OldNameWarning
 
 app = typer.Typer(
-    cls=Grouped,
+    cls=GroupedHelp,
     add_completion=True,
     rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"]},
@@ -100,10 +100,10 @@ def misprints(paper: PaperFolder = None, json: Json = None) -> None:
     """
     from derivation.engine import build
 
-    own = chosen(paper)
+    own = chosen_paper(paper)
     with stage("compare published with derived"):
         findings = build.misprints(own)
-    if put_json(lambda: [finding.to_json() for finding in findings], json):
+    if write_json_output(lambda: [finding.to_json() for finding in findings], json):
         rows = [(f.printed.equation, f.printed.name, f.kind, f.repair) for f in findings]
         table("Published and derived formulas", ("equation", "formula", "finding", "fix"), rows)
 
@@ -154,7 +154,7 @@ def benchmark(
     from derivation import pipeline
     from derivation.plate.benchmark.summary import COLUMNS, cells, headline
 
-    with counted("benchmark") as progress:
+    with progress_bar("benchmark") as progress:
         data, path = pipeline.accuracy(method or (), quick, scene, out, progress, update)
     table("Fastest methods for arrays", COLUMNS, cells(data))
     OUT.say(headline(data))
@@ -168,15 +168,15 @@ def _written(path: Path | None) -> None:
 
 def _dynamic(out: Path | None, update: bool, others: bool) -> None:
     """Benchmark impacts with plate inertia."""
-    from derivation.checks import moving_costs
+    from derivation.checks import dynamic_benchmark
 
     if others:
         raise typer.BadParameter(
             "--dynamic can be combined with --out or --update only; remove the other options"
         )
-    with counted("benchmark") as progress:
-        data, path = moving_costs.record(out, progress, update)
-    table("Impact with plate inertia", moving_costs.COLUMNS, moving_costs.cells(data))
+    with progress_bar("benchmark") as progress:
+        data, path = dynamic_benchmark.record(out, progress, update)
+    table("Impact with plate inertia", dynamic_benchmark.COLUMNS, dynamic_benchmark.cells(data))
     _written(path)
 
 
@@ -210,9 +210,9 @@ def reference(
 
     warn(known.warnings)
     NOTES.say(many_digits.time_of_reference(known, digits))
-    with counted("reference") as progress:
+    with progress_bar("reference") as progress:
         found = many_digits.reference(known, digits, progress)
-    if put_json(found.to_json, json):
+    if write_json_output(found.to_json, json):
         listing(f"{scene.name} to {digits} digits", found.lines())
     raise typer.Exit(0 if found.agrees else 1)
 
@@ -233,9 +233,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         if in_checkout():
             recover(ROOT / "generated")
-        with noted(OldNameWarning):
+        with warnings_as_notes(OldNameWarning):
             status = platecontact(args=argv, prog_name="platecontact", standalone_mode=False)
-        put("")
+        write_output("")
     except TyperException as error:
         context = getattr(error, "ctx", None)
         command = context.command_path if context else "platecontact"
@@ -243,11 +243,11 @@ def main(argv: Sequence[str] | None = None) -> int:
         return 2
     except UnreadError:
         silence(sys.stdout)
-        return UNREAD
+        return UNREAD_STATUS
     except (OSError, ValueError, FailedError) as error:
         NOTES.say(f"platecontact: {error}")
         return 1 if isinstance(error, FailedError) else 2
-    if status == INTERRUPTED:
+    if status == INTERRUPTED_STATUS:
         NOTES.say(
             "platecontact: interrupted; no file is incomplete, so the command can be run again"
         )

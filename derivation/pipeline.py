@@ -10,10 +10,10 @@ from derivation.engine.activity import Progress, quiet
 from derivation.engine.files import PACKAGE, expect_writable, measurements, write_file
 from derivation.engine.measure.judge import Errors
 from derivation.engine.measure.record import provenance
-from derivation.engine.measure.result import CheckResult, all_kept
+from derivation.engine.measure.result import CheckResult, all_passed
 from derivation.engine.measure.search import Progress as SearchProgress
 from derivation.engine.measure.search import Search, search
-from derivation.engine.measure.search_record import Book, seconds_of
+from derivation.engine.measure.search_record import SearchRecord, seconds_of
 from derivation.engine.outputs import folder_for, plain, recorded_in, sorted_json
 from derivation.plate.benchmark import run as accuracy_run
 from derivation.plate.benchmark import speed, user_calls
@@ -90,14 +90,14 @@ def check_speed(progress: Progress = quiet) -> CheckResult:
     """Measure run times of contact law, impact and program start, and compare with limits."""
     examples = sorted(EXAMPLE.parent.glob("*.toml"))
     solved = [path for path in examples if selected_effects(load(path))[1].law.solved]
-    timings = speed.measure(examples, solved, progress, user_calls.planned())
+    timings = speed.measure(examples, solved, progress, user_calls.comparisons())
     columns = ("measurement", "#measured", "#limit", "passed")
     cells = [
-        (t.name, f"{t.value:.3g} {t.unit}", f"{t.limit:g}", "yes" if t.kept else "NO")
+        (t.name, f"{t.value:.3g} {t.unit}", f"{t.limit:g}", "yes" if t.passed else "NO")
         for t in timings
     ]
     return CheckResult(
-        "Run times", columns, cells, lambda: speed.as_data(timings), all_kept(timings)
+        "Run times", columns, cells, lambda: speed.as_data(timings), all_passed(timings)
     )
 
 
@@ -161,7 +161,7 @@ def search_worse(
     functions: Sequence[str] = (),
     out: Path | None = None,
     progress: SearchProgress | None = None,
-) -> tuple[Search, Book]:
+) -> tuple[Search, SearchRecord]:
     """Search for larger errors for some time, and write each new worst case to a file.
 
     Parameters
@@ -192,7 +192,7 @@ def search_worse(
     seconds, chosen = seconds_of(duration), targets(functions)
     path = folder_for(None, PAPER.report_folder) / "search.toml" if out is None else out
     expect_writable(path)
-    book = Book(path, chosen, *recorded(PAPER.measured, MEASURED_CONTACT))
+    book = SearchRecord(path, chosen, *recorded(PAPER.measured, MEASURED_CONTACT))
     found = search(chosen, seed, seconds, progress=progress, keep=book.keep)
     book.keep(found)
     return found, book

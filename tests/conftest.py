@@ -61,4 +61,4 @@ def references(cases: "tuple[HardCase, ...]") -> "dict[str, Known]":
     from derivation.engine.measure import hard
     from derivation.plate.paper import PAPER
 
-    return hard.committed(json.loads(PAPER.hard.read_text()), cases)
+    return hard.committed_references(json.loads(PAPER.hard.read_text()), cases)

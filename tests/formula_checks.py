@@ -143,10 +143,10 @@ def by_coefficient(name: str) -> Check:
 def by_departure(_: str) -> Check:
     """Check the part of the modes against the Arb reference of the total without the side wall."""
     alphas = Fraction(1, 5), Fraction(1, 2)
-    walls = [contact_balls.side_wall(alpha, 20) for alpha in alphas]
+    walls = [contact_balls.finite_radius(alpha, 20) for alpha in alphas]
     points = [
         ({"alpha": mp.mpf(x.numerator) / x.denominator, "eta": mp.mpf(e.numerator) / e.denominator},
-         number(contact_balls.departure(x, e, Fraction(1), 20)) - number(wall))
+         number(contact_balls.relative_correction(x, e, Fraction(1), 20)) - number(wall))
         for x, wall in zip(alphas, walls, strict=True) for e in ETAS
     ]  # fmt: skip
     return lambda e: all(close(summed(e, values), expected, 1e-16) for values, expected in points)
@@ -157,7 +157,7 @@ def by_the_law(_: str) -> Check:
     eta, A = Fraction(1, 2), Fraction(1, 16)
     values = {str(c_A[n]): number(contact_balls.coefficient(n, eta, 1, 25)) for n in (1, 3, 5, 7)}
     at = values | {"a_ratio": mp.mpf(A.numerator) / A.denominator}
-    expected = 1 + number(contact_balls.departure(A * eta, eta, 1, 25))
+    expected = 1 + number(contact_balls.relative_correction(A * eta, eta, 1, 25))
     last = abs(values["c_7"]) * at["a_ratio"] ** 7
     return lambda expression: bool(abs(evaluator(expression)(at) - expected) < 0.01 * last)
 
@@ -194,7 +194,7 @@ def by_inversion(name: str) -> Check:
 
 def by_wall(_: str) -> Check:
     """Check the side wall's integral by a Gauss rule (y = u^3) against the Arb reference."""
-    expected = float(number(contact_balls.side_wall(Fraction(3, 5), 20)))
+    expected = float(number(contact_balls.finite_radius(Fraction(3, 5), 20)))
     nodes, weights = scipy.special.roots_legendre(300)
     u = 1.8 * (nodes + 1)
 

@@ -28,7 +28,7 @@ from derivation.engine.measure import hard
 from derivation.engine.measure.case import HardCase
 from derivation.engine.measure.judge import judge
 from derivation.engine.measure.kernels import Kernel
-from derivation.engine.oracle.reference import Reference, restored
+from derivation.engine.oracle.reference import Reference, reference_from_text
 from derivation.plate.cases import calls
 from derivation.plate.cases import suite as hard_suite
 from derivation.plate.paper import PAPER
@@ -153,7 +153,7 @@ def replaced(name: str, tree: ast.Module | str) -> Iterator[dict[str, Kernel]]:
                 stack.enter_context(patch.object(generated, one, module, create=True))
             exec(compile(tree, name, "exec") if one == name else code(one), vars(module))
             vars(module).update({"_STEPS": STEPS[one]} if one in STEPS else {})
-        yield {kernel.name: kernel for kernel in (*_rows(), *module.others())}
+        yield {kernel.name: kernel for kernel in (*_rows(), *module.special_calls())}
 
 
 def _rows() -> Iterator[Kernel]:
@@ -166,7 +166,7 @@ def _rows() -> Iterator[Kernel]:
 def case_checks() -> tuple[CaseCheck, ...]:
     """Return every hard case with its reference values."""
     suite = hard_suite.suite()
-    references = hard.committed(json.loads(PAPER.hard.read_text()), suite.cases)
+    references = hard.committed_references(json.loads(PAPER.hard.read_text()), suite.cases)
     return tuple(
         _case_check(
             case, suite.kernels[case.kernel], suite.results(case.kernel), references[case.key]
@@ -176,7 +176,7 @@ def case_checks() -> tuple[CaseCheck, ...]:
 
 
 def _case_check(case: HardCase, kernel: Kernel, count: int, known: hard.Known) -> CaseCheck:
-    references, allowed = [restored(row) for row in known.references], []
+    references, allowed = [reference_from_text(row) for row in known.references], []
     values = [float(one.value) for one in references]
     for one, value, budget in zip(
         references, values, hard._budgets(case, kernel, references), strict=True

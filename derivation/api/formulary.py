@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from derivation.engine.emit import own_formula
 from derivation.engine.errata.findings import Finding
 from derivation.engine.formula.record import Record
+from derivation.engine.rewrite.code_check import CodeCheck
 from derivation.engine.rewrite.stabilise import Stable
-from derivation.engine.rewrite.tested import CodeCheck
 from derivation.plate import derived
 
 
@@ -88,4 +88,4 @@ def rewrite(formula: str, variable: str = "x") -> Rewritten:
     >>> found.tested.limit < 8
     True
     """
-    return Rewritten(*own_formula.rewritten(formula, variable))
+    return Rewritten(*own_formula.rewrite_text(formula, variable))

@@ -14,10 +14,10 @@ from typing import Any
 
 import flint
 
-from derivation.checks.random_scenes import spreading
+from derivation.checks.random_scenes import log_uniform_draw
 from derivation.engine.activity import Progress, quiet
 from derivation.engine.files import measurements, write_file
-from derivation.engine.measure.result import CheckResult, all_kept
+from derivation.engine.measure.result import CheckResult, all_passed
 from derivation.engine.outputs import expect_recordable, json_by_line, plain_rows
 from derivation.plate.impact.oracle import impact as contact_impact
 from derivation.scene.method_selection import solve
@@ -25,7 +25,7 @@ from derivation.scene.model import Model
 from generated.contact_law import force_of_radius, indentation
 
 MEASURED = measurements() / "bounds.json"
-KEPT_EVERY = 20
+SAVE_EVERY = 20
 """Number of new reference values after which they are saved."""
 DIGITS = 50
 """Number of digits of the reference values; a bound is never below 4e-14."""
@@ -75,7 +75,7 @@ class BoundRow:
     point: Point
 
     @property
-    def kept(self) -> bool:
+    def passed(self) -> bool:
         """Whether no error exceeds its bound."""
         return self.ratio <= 1.0
 
@@ -92,7 +92,7 @@ def check_bounds(count: int, update: bool = False, progress: Progress = quiet) -
     found: list[SceneReference] = []
     for expected in reference_values(count, known, progress=progress):
         found.append(expected)
-        if update and len(found) > len(known) and len(found) % KEPT_EVERY == 0:
+        if update and len(found) > len(known) and len(found) % SAVE_EVERY == 0:
             write_file(MEASURED, to_json(found, ()))
     rows = judge(found)
     if update:
@@ -102,7 +102,7 @@ def check_bounds(count: int, update: bool = False, progress: Progress = quiet) -
         for r in rows
     ]
     title = f"Error bounds in {count} scenes"
-    return CheckResult(title, COLUMNS, cells, lambda: plain_rows(rows), all_kept(rows))
+    return CheckResult(title, COLUMNS, cells, lambda: plain_rows(rows), all_passed(rows))
 
 
 def scene(number: int, seed: int = SEED) -> Point:
@@ -111,7 +111,7 @@ def scene(number: int, seed: int = SEED) -> Point:
     h/b is 1e-4 to 100; the largest contact radius is 1e-8 to 1 times 85 % of min(b, R, 6 h).
     """
     generator = random.Random(f"bounds {seed} {number}")
-    spread = spreading(generator)
+    spread = log_uniform_draw(generator)
     b, eta = spread(1e-3, 1e2), spread(1e-4, 1e2)
     h, R = b * eta, b * spread(0.1, 1e3)
     mu, nu = spread(1e4, 1e12), generator.uniform(-0.9, 0.49)

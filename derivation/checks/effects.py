@@ -10,10 +10,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from derivation.checks.random_scenes import Scene, largest_change, spreading
+from derivation.checks.random_scenes import Scene, largest_change, log_uniform_draw
 from derivation.engine.activity import Progress, quiet
 from derivation.engine.files import measurements
-from derivation.engine.measure.result import CheckResult, all_kept
+from derivation.engine.measure.result import CheckResult, all_passed
 from derivation.engine.outputs import json_by_line, plain_rows
 from derivation.engine.text import paragraph
 from derivation.scene.effects import EFFECTS
@@ -72,7 +72,7 @@ class EffectCheckRow:
     refused: int
 
     @property
-    def kept(self) -> bool:
+    def passed(self) -> bool:
         """Whether no difference exceeds its tolerance or its bound."""
         return self.ratio <= 1.0 and self.tightest <= 1.0
 
@@ -90,7 +90,7 @@ def check_effects(count: int, progress: Progress = quiet) -> CheckResult:
         COLUMNS,
         cells,
         lambda: plain_rows(rows),
-        all_kept(rows),
+        all_passed(rows),
         note=paragraph(NOTE, 0),
         recorded=lambda: json_by_line(
             {"drawn": count, "seed": SEED, "rows": plain_rows(rows)}, "rows"
@@ -104,7 +104,7 @@ def scene(number: int, seed: int = SEED) -> dict[str, dict[str, Any]]:
     Over the plate radius, the sphere radius is 0.01 to 10 and half the thickness 0.001 to 10.
     """
     generator = random.Random(f"effects {seed} {number}")
-    spread = spreading(generator)
+    spread = log_uniform_draw(generator)
     b = spread(1e-2, 10.0)
     plate: dict[str, Any] = {
         "radius": b,
@@ -136,7 +136,7 @@ def judge(count: int, seed: int = SEED, progress: Progress = quiet) -> tuple[Eff
     for number in range(count):
         progress("scene", number + 1, count)
         data = scene(number, seed)
-        whole = everything(data)
+        whole = all_effects_impact(data)
         if whole is None:
             continue
         true, applicable = whole
@@ -151,10 +151,10 @@ def judge(count: int, seed: int = SEED, progress: Progress = quiet) -> tuple[Eff
             found[rtol].append(
                 EffectCheckRow(rtol, 1, error / rtol, error / bound, *more, name, number, 0)
             )
-    return tuple(_together(rows, refused[rtol]) for rtol, rows in found.items())
+    return tuple(_combined_row(rows, refused[rtol]) for rtol, rows in found.items())
 
 
-def _together(rows: Sequence[EffectCheckRow], refused: int) -> EffectCheckRow:
+def _combined_row(rows: Sequence[EffectCheckRow], refused: int) -> EffectCheckRow:
     """Combine the rows of single scenes at one tolerance."""
     return replace(
         max(rows, key=lambda row: (row.ratio, row.tightest, row.quantity, row.number)),
@@ -181,7 +181,7 @@ def selected_impact(
     return values, sorted(selected.law.effects), accuracy.bound
 
 
-def everything(data: Scene) -> tuple[Sequence[float], Sequence[str]] | None:
+def all_effects_impact(data: Scene) -> tuple[Sequence[float], Sequence[str]] | None:
     """Return results and effects of a scene with every applicable effect, on a quasi-static plate.
 
     Returns None outside the range of the models.

@@ -10,7 +10,7 @@ from derivation.checks.finite_elements import record
 from derivation.checks.finite_elements.record import MEASURED, RESULTS
 from derivation.engine.activity import Progress, quiet
 from derivation.engine.files import expect_writable, write_file
-from derivation.engine.measure.result import CheckResult, all_kept
+from derivation.engine.measure.result import CheckResult, all_passed
 from derivation.engine.outputs import plain_rows
 from derivation.engine.text import aligned, paragraph
 from derivation.scene.impact import simulate
@@ -26,7 +26,7 @@ NOTE = (
 
 
 @dataclass(frozen=True)
-class Compared:
+class ComparedCase:
     """A case with the differences between simulation and finite-element solution.
 
     Parameters
@@ -64,7 +64,7 @@ class Compared:
         return max(self.excess, key=self.excess.__getitem__)
 
     @property
-    def kept(self) -> bool:
+    def passed(self) -> bool:
         """Whether no difference is larger than allowed, or the scene is rejected."""
         return bool(self.refused) or max(self.excess.values()) <= 1.0
 
@@ -75,7 +75,7 @@ class Compared:
 
 def compare(
     path: Path = MEASURED, *, save: bool = False, progress: Progress = quiet
-) -> tuple[Compared, ...]:
+) -> tuple[ComparedCase, ...]:
     """Simulate every recorded case, without finite elements; save the results if requested.
 
     Raises
@@ -100,7 +100,7 @@ def compare(
     return tuple(compared(row) for row in rows)
 
 
-def result(found: Sequence[Compared]) -> CheckResult:
+def result(found: Sequence[ComparedCase]) -> CheckResult:
     """Return the cases as lines of text, and those that are rejected."""
     refused = [f"{case.name}: {case.refused}" for case in found if case.refused]
     return CheckResult(
@@ -108,7 +108,7 @@ def result(found: Sequence[Compared]) -> CheckResult:
         (),
         (),
         lambda: plain_rows(found),
-        all_kept(found),
+        all_passed(found),
         note=paragraph(NOTE, 0),
         listings=[
             ("Impacts against finite elements", table(found)),
@@ -117,7 +117,7 @@ def result(found: Sequence[Compared]) -> CheckResult:
     )
 
 
-def table(found: Sequence[Compared]) -> list[str]:
+def table(found: Sequence[ComparedCase]) -> list[str]:
     """Return the cases in lines of at most 80 columns, below the name of their group."""
     head, rule, *rows = aligned(COLUMNS, [cells(case) for case in found]).splitlines()
     lines = [f"  {head}", f"  {rule}"]
@@ -150,26 +150,26 @@ def simulated(row: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def compared(row: Mapping[str, Any]) -> Compared:
+def compared(row: Mapping[str, Any]) -> ComparedCase:
     """Return a case with its differences, from a recorded row with the simulated results."""
     program = row["program"]
     if "refused" in program:
-        return Compared(row["name"], {}, {}, 0.0, 0.0, (row["contacts"], 0), program["refused"])
-    names = _judged(row)
+        return ComparedCase(row["name"], {}, {}, 0.0, 0.0, (row["contacts"], 0), program["refused"])
+    names = _compared_results(row)
     differences = {k: program["values"][k] / row["elements"][k] - 1.0 for k in names}
     errors = {k: row["errors"][k] for k in names}
     contacts = (row["contacts"], program["contacts"])
-    return Compared(
+    return ComparedCase(
         row["name"], differences, errors, program["bound"], program["model_error"], contacts
     )
 
 
-def _judged(row: Mapping[str, Any]) -> Sequence[str]:
+def _compared_results(row: Mapping[str, Any]) -> Sequence[str]:
     """Return the names of the compared results; total time and contact radius have no bound."""
     return [name for name in OUTPUTS if name in row["elements"] and name != "max_contact_radius"]
 
 
-def cells(case: Compared) -> tuple[str, ...]:
+def cells(case: ComparedCase) -> tuple[str, ...]:
     """Return a case's entries under `COLUMNS`, as text."""
     edge = case.name.rpartition(" ")[2]
     if case.refused:
@@ -181,5 +181,5 @@ def cells(case: Compared) -> tuple[str, ...]:
         f"{case.differences[worst]:+.1e}",
         f"{case.allowed(worst):.1e}",
         f"{case.contacts[0]}/{case.contacts[1]}",
-        "yes" if case.kept else "NO",
+        "yes" if case.passed else "NO",
     )

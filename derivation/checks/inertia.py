@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from derivation.checks import inertia_judged as inertia
-from derivation.checks.inertia_judged import InertiaJudged, InertiaRow
+from derivation.checks import inertia_rows as inertia
+from derivation.checks.inertia_rows import InertiaResults, InertiaRow
 from derivation.checks.random_scenes import Scene, largest_change
 from derivation.engine.activity import Progress, quiet
 from derivation.engine.files import measurements
@@ -28,29 +28,29 @@ from derivation.scene.wave_motion import DynamicImpact
 from generated.inertia import bending_frequency
 
 MEASURED: Path = measurements() / "inertia.json"
-HEAVIEST = 5.0
+MAX_ZENER = 5.0
 """Largest Zener parameter of the scenes."""
-FALLEN = 100.0
+MAX_WEIGHT_WORK = 100.0
 """Largest work of the sphere's weight over its initial kinetic energy, of the scenes."""
 MODES = {"A0": 100, "all": 10}
 """Largest number of modes with which `simulate` begins, by branches; other scenes are skipped."""
 OSCILLATORS = 1200
 """Largest number of modes of the reference simulation."""
-ANY, MUCH = 1.0, 0.3
+BOUND_RTOL, INERTIA_THRESHOLD = 1.0, 0.3
 """Tolerance with which the bound on the change by inertia is computed, and the value of that bound
 from which inertia is included [1]."""
-DYNAMIC = frozenset(e.name for e in EFFECTS if "inertia" in (e.name, e.within))
+DYNAMIC_EFFECTS = frozenset(e.name for e in EFFECTS if "inertia" in (e.name, e.within))
 """Effects that a quasi-static plate lacks: plate inertia and its damping."""
-MET, TIGHT = 3.0, 1e-4
+BRANCH_BOUND_FACTOR, LEAST_RTOL = 3.0, 1e-4
 """Factor of the bound on the omitted branches, and summand, of the smallest tolerance [1]."""
 
 
-def judge(count: int, seed: int = inertia.SEED, progress: Progress = quiet) -> InertiaJudged:
+def judge(count: int, seed: int = inertia.SEED, progress: Progress = quiet) -> InertiaResults:
     """Draw and simulate scenes until `count` of them are neither skipped nor rejected."""
     passed_over, refused, rows = Counter[str](), Counter[str](), list[InertiaRow]()
     for number in itertools.count():
         data, place = inertia.scene(number, seed)
-        reason = pass_over(data)
+        reason = reason_to_skip(data)
         if reason:
             passed_over[reason] += 1
             continue
@@ -62,26 +62,26 @@ def judge(count: int, seed: int = inertia.SEED, progress: Progress = quiet) -> I
         rows.append(found)
         if len(rows) == count:
             break
-    return InertiaJudged(number + 1, passed_over, refused, tuple(rows))
+    return InertiaResults(number + 1, passed_over, refused, tuple(rows))
 
 
-def pass_over(data: Scene) -> str:
+def reason_to_skip(data: Scene) -> str:
     """Return the reason for which a scene is skipped; empty if it is not."""
     model = bending(model_of(read(data)))
-    if zener_number(model) > HEAVIEST:
-        return f"Zener parameter above {HEAVIEST:g}"
+    if zener_number(model) > MAX_ZENER:
+        return f"Zener parameter above {MAX_ZENER:g}"
     still = quasi_static(model)
     if still is None:
         return "no impact on the quasi-static plate"
-    if weight_share(model, still.max_indentation) > FALLEN:
-        return f"work of the weight over the initial kinetic energy above {FALLEN:g}"
+    if weight_share(model, still.max_indentation) > MAX_WEIGHT_WORK:
+        return f"work of the weight over the initial kinetic energy above {MAX_WEIGHT_WORK:g}"
     most = MODES[data["inertia"]["branches"]]
     if count_of(ContactLaw(model, frozenset({"hertz", "inertia"}))) > most:
         return "too many modes"
     return ""
 
 
-def placed(data: Scene, place: float) -> tuple[Scene, float]:
+def with_tolerance(data: Scene, place: float) -> tuple[Scene, float]:
     """Return a scene and its tolerance, from a number `place` in [0, 1).
 
     If the bound on the change by inertia is below `MUCH`, and `place` is below 1/2 or no tolerance
@@ -91,15 +91,20 @@ def placed(data: Scene, place: float) -> tuple[Scene, float]:
     model = model_of(read(data))
     still = quasi_static(model)
     assert still is not None  # such scenes are skipped
-    others = dict.fromkeys(present(model) - DYNAMIC - {"hertz"}, True)
-    price = decide(model, others | {"inertia": "auto"}, ANY).error
+    others = dict.fromkeys(selectable_effects(model) - DYNAMIC_EFFECTS - {"hertz"}, True)
+    price = decide(model, others | {"inertia": "auto"}, BOUND_RTOL).error
     radiated = max(
         map(float, higher_branch_error(model, still.max_contact_radius, still.contact_time))
     )
-    least = MET * radiated * (1.0 + float(weight_share(model, still.max_indentation))) + TIGHT
-    if price < MUCH and (place < 0.5 or least > price):
+    least = (
+        BRANCH_BOUND_FACTOR * radiated * (1.0 + float(weight_share(model, still.max_indentation)))
+        + LEAST_RTOL
+    )
+    if price < INERTIA_THRESHOLD and (place < 0.5 or least > price):
         return {**data, "effects": {**others, "inertia": "auto"}}, price * (1.0 + place)
-    return data, min(least * math.pow(10.0, 2.0 * place - 1.0), max(least, 0.9 * min(price, ANY)))
+    return data, min(
+        least * math.pow(10.0, 2.0 * place - 1.0), max(least, 0.9 * min(price, BOUND_RTOL))
+    )
 
 
 def solve(number: int, data: Scene, place: float) -> InertiaRow | str:
@@ -113,7 +118,7 @@ def solve(number: int, data: Scene, place: float) -> InertiaRow | str:
         A number in [0, 1) that determines the tolerance, see `placed`.
     """
     try:
-        data, rtol = placed(data, place)
+        data, rtol = with_tolerance(data, place)
         _, selected = selected_effects(read(data), rtol)
         values, accuracy = solve_selected(selected, rtol)
         known = "inertia" in selected.law.effects
@@ -131,7 +136,7 @@ def solve(number: int, data: Scene, place: float) -> InertiaRow | str:
         return "reference: incomplete"
     still = quasi_static(model)
     assert still is not None  # such scenes are skipped
-    price = sum(row.bound for row in selected.rows if row.name in DYNAMIC)
+    price = sum(row.bound for row in selected.rows if row.name in DYNAMIC_EFFECTS)
     total = used.inertia.total_time if used is not None else values[0]
     error, quantity = largest_change(values, reference.numbers)
     alone, worth = largest_change(still.numbers, reference.numbers)
@@ -151,12 +156,12 @@ def bending(model: Model) -> Model:
 def quasi_static(model: Model) -> motion.Motion | None:
     """Return the impact with every effect of a quasi-static plate; None outside its range."""
     try:
-        return moved(ContactLaw(model, present(model) - DYNAMIC))
+        return moved(ContactLaw(model, selectable_effects(model) - DYNAMIC_EFFECTS))
     except SceneError:
         return None
 
 
-def present(model: Model) -> frozenset[str]:
+def selectable_effects(model: Model) -> frozenset[str]:
     """Return the names of all applicable effects that can be selected."""
     return frozenset(e.name for e in EFFECTS if e.selectable and not e.not_applicable_reason(model))
 
@@ -175,7 +180,7 @@ def oscillators_of(model: Model) -> int:
 def _moving(model: Model, rtol: float) -> DynamicImpact:
     """Return the impact with every applicable effect."""
     with np.errstate(all="ignore"):
-        return waves.impact(ContactLaw(model, present(model)), waves.goal(rtol))
+        return waves.impact(ContactLaw(model, selectable_effects(model)), waves.goal(rtol))
 
 
 def _modes(found: DynamicImpact) -> int:

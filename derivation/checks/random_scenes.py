@@ -11,7 +11,7 @@ Scene = Mapping[str, Mapping[str, Any]]
 """The tables of a scene file."""
 
 
-def spreading(generator: Random) -> Callable[[float, float], float]:
+def log_uniform_draw(generator: Random) -> Callable[[float, float], float]:
     """Return a function that draws log-uniform numbers between two limits."""
     return lambda low, high: 10 ** generator.uniform(math.log10(low), math.log10(high))
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from random import Random
 from typing import Any, Literal
 
-from derivation.checks.random_scenes import Scene, spreading
+from derivation.checks.random_scenes import Scene, log_uniform_draw
 from derivation.engine.measure.result import CheckResult
 
 SEED = 1
@@ -20,7 +20,7 @@ RTOL = 1e-3
 """Relative tolerance of the simulations."""
 MOST_REJECTED = 0.15
 """Largest allowed fraction of the runs with `RTOL` that are rejected or incomplete."""
-WIDEST = 0.4
+MAX_CONTACT_RADIUS = 0.4
 """Largest contact radius, by Hertz's law, over the sphere radius in a realistic scene."""
 PLATES: Mapping[str, tuple[float, float, float]] = {
     "foam": (1e7, 0.3, 100.0),
@@ -31,7 +31,7 @@ PLATES: Mapping[str, tuple[float, float, float]] = {
     "titanium": (1.1e11, 0.34, 4500.0),
 }
 """Young's modulus [Pa], Poisson's ratio [1] and density [kg/m^3] of unnamed materials."""
-NAMED = ("steel", "glass", "aluminium", "concrete", "PMMA")
+NAMED_MATERIALS = ("steel", "glass", "aluminium", "concrete", "PMMA")
 """Materials given by name."""
 STIFFNESS = {"steel": 210e9, "glass": 70e9, "aluminium": 70e9, "concrete": 33e9, "PMMA": 3.3e9}
 """Their Young's moduli [Pa], to decide whether a scene is realistic."""
@@ -39,7 +39,7 @@ DENSITY = {"steel": 7850.0, "glass": 2500.0, "aluminium": 2700.0, "concrete": 24
            "PMMA": 1190.0}  # fmt: skip
 """Their densities [kg/m^3], for the same purpose."""
 EDGES = ("paper", "simply-supported", "clamped")
-SOFT = ("foam", "rubber", "polyethylene")
+VISCOELASTIC_MATERIALS = ("foam", "rubber", "polyethylene")
 """Materials that may be viscoelastic."""
 Kind = Literal["finished", "rejected", "incomplete", "NaN", "traceback", "overrun"]
 KINDS: tuple[Kind, ...] = ("finished", "rejected", "incomplete", "NaN", "traceback", "overrun")
@@ -81,7 +81,7 @@ class Outcome:
         return self.message.partition(":")[0] if self.kind != "finished" else ""
 
     @property
-    def remedied(self) -> bool:
+    def states_remedy(self) -> bool:
         """Whether the message states a remedy after a semicolon, if the run was rejected."""
         if self.kind not in ("rejected", "incomplete"):
             return True
@@ -100,15 +100,15 @@ def scenes(count: int, seed: int = SEED) -> Iterator[Scene]:
 
 def _draw(generator: Random) -> Scene:
     """Return a random scene: sphere, plate, impact and effects."""
-    spread = spreading(generator)
+    spread = log_uniform_draw(generator)
     R = spread(1e-3, 0.1)
-    sphere: dict[str, Any] = {"radius": R, "material": generator.choice(NAMED)}
+    sphere: dict[str, Any] = {"radius": R, "material": generator.choice(NAMED_MATERIALS)}
     if generator.random() < 0.3:  # a rigid sphere, hollow or heavy
         sphere = {"radius": R, "mass": 4.0 / 3.0 * math.pi * R**3 * spread(200.0, 1.2e4)}
     thickness = spread(5e-4, 0.2)
     plate: dict[str, Any] = {"thickness": thickness, "radius": thickness * spread(3.0, 100.0)}
-    name = generator.choice((*PLATES, *NAMED))
-    if name in NAMED:
+    name = generator.choice((*PLATES, *NAMED_MATERIALS))
+    if name in NAMED_MATERIALS:
         plate["material"] = name
     else:
         keys = ("youngs_modulus", "poissons_ratio", "density")
@@ -118,7 +118,7 @@ def _draw(generator: Random) -> Scene:
     effects: dict[str, Any] = {"inertia": generator.random() < 0.5}
     if generator.random() < 0.3:
         impact["gravity"] = 9.81
-    if name in SOFT and generator.random() < 0.3:
+    if name in VISCOELASTIC_MATERIALS and generator.random() < 0.3:
         # A fraction of the contact time by Hertz's law.
         scene = {"sphere": sphere, "plate": plate, "impact": impact}
         plate["retardation_time"] = (
@@ -133,7 +133,7 @@ def _realistic(scene: Scene) -> bool:
     """Return whether the sphere is smaller than the plate, and the contact than both."""
     R, b = scene["sphere"]["radius"], scene["plate"]["radius"]
     wide = _widest(scene)
-    return bool(b > R and wide < WIDEST and wide * R < 0.5 * b)
+    return bool(b > R and wide < MAX_CONTACT_RADIUS and wide * R < 0.5 * b)
 
 
 def _widest(scene: Scene) -> float:
@@ -150,7 +150,7 @@ def _widest(scene: Scene) -> float:
 def passed(found: Sequence[Outcome]) -> bool:
     """Return whether no run failed, each rejection states a remedy, and few runs are rejected."""
     failed = any(outcome.kind in ("NaN", "traceback", "overrun") for outcome in found)
-    remedied = all(outcome.remedied for outcome in found)
+    remedied = all(outcome.states_remedy for outcome in found)
     return not failed and remedied and rejected(found).get(RTOL, 0.0) <= MOST_REJECTED
 
 
@@ -193,10 +193,10 @@ def failures(found: Sequence[Outcome]) -> list[str]:
     firsts: dict[tuple[str, str, bool], Outcome] = {}
     for outcome in found:
         if outcome.kind != "finished":
-            firsts.setdefault((outcome.kind, outcome.group, outcome.remedied), outcome)
+            firsts.setdefault((outcome.kind, outcome.group, outcome.states_remedy), outcome)
     lines = []
     for outcome in firsts.values():
-        remedy = "" if outcome.remedied else " (no remedy)"
+        remedy = "" if outcome.states_remedy else " (no remedy)"
         asked = "" if outcome.rtol is None else f", rtol = {outcome.rtol:g}"
         lines.append(f"{outcome.kind}{remedy}{asked}: {outcome.message.strip()}")
         lines.append(f"  {one_line(outcome.scene)}")
@@ -218,7 +218,7 @@ def as_data(found: Sequence[Outcome], seed: int) -> dict[str, Any]:
         {
             "kind": outcome.kind,
             "message": outcome.message,
-            "remedied": outcome.remedied,
+            "remedied": outcome.states_remedy,
             "rtol": outcome.rtol,
             "scene": outcome.scene,
             "seconds": None if math.isnan(outcome.seconds) else outcome.seconds,

@@ -114,7 +114,7 @@ class Worker:
             if self.pipe.poll(PATIENCE * limit):
                 kind, message, seconds, memory = self.pipe.recv()
                 return Outcome(kind, message, rtol, scene, seconds, memory)
-            ended: tuple[Kind, str] = "overrun", overrun(limit)
+            ended: tuple[Kind, str] = "overrun", overrun_message(limit)
         except (EOFError, OSError):
             ended = ("traceback", "the process terminated without a result")
         self.stop()
@@ -152,7 +152,7 @@ def peak_memory() -> float:
     return float(getrusage(RUSAGE_SELF).ru_maxrss * unit)
 
 
-def overrun(limit: float) -> str:
+def overrun_message(limit: float) -> str:
     """Return the message for a run that took too long."""
     return f"still running after {limit:g} s of processor time"
 
@@ -160,14 +160,14 @@ def overrun(limit: float) -> str:
 def run(scene: Scene, rtol: float | None, limit: float = LIMIT) -> tuple[Kind, str]:
     """Simulate a scene, with history and JSON; return the kind of outcome and the message."""
     try:
-        with limited(limit):
+        with time_limit(limit):
             return _run(scene, rtol)
     except TimeoutError:
-        return "overrun", overrun(limit)
+        return "overrun", overrun_message(limit)
 
 
 @contextmanager
-def limited(seconds: float) -> Iterator[None]:
+def time_limit(seconds: float) -> Iterator[None]:
     """Raise TimeoutError in the block after a processor time [s], if the system supports it."""
 
     def stop(*_: object) -> None:

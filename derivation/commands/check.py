@@ -6,9 +6,9 @@ from typing import Annotated, Any
 import typer
 
 from derivation.commands import check_functions, check_scenes
+from derivation.commands.check_output import show_check
 from derivation.commands.command import Command, Group
-from derivation.commands.options import PaperFolder, Suggest, chosen
-from derivation.commands.shown import shown
+from derivation.commands.options import PaperFolder, Suggest, chosen_paper
 from derivation.engine.console import Json
 
 SUBCOMMANDS: dict[str, Callable[..., None]] = {
@@ -83,8 +83,8 @@ def check(
     from derivation.engine import build
     from derivation.engine.measure.record import result
 
-    own = chosen(paper)
-    shown(
+    own = chosen_paper(paper)
+    show_check(
         lambda progress: result(
             build.check(own, digits, update, progress), digits, own.package().target
         ),

@@ -5,23 +5,23 @@ from typing import Annotated
 
 import typer
 
+from derivation.commands.check_output import show_check
 from derivation.commands.options import (
     SEED,
     PaperFolder,
     Seed,
     Suggest,
-    chosen,
+    chosen_paper,
     update_option,
 )
-from derivation.commands.shown import shown
 from derivation.engine.console import (
-    INTERRUPTED,
+    INTERRUPTED_STATUS,
     NOTES,
     Json,
-    clocked,
     listing,
-    put_json,
+    search_clock,
     table,
+    write_json_output,
 )
 
 
@@ -39,7 +39,7 @@ def contact_law(
     from derivation import pipeline
 
     record = pipeline.MEASURED_CONTACT if update else None
-    shown(pipeline.check_contact, json, suggest_budgets, record)
+    show_check(pipeline.check_contact, json, suggest_budgets, record)
 
 
 def hard_cases(
@@ -64,8 +64,8 @@ def hard_cases(
     from derivation.engine import build
     from derivation.engine.measure.hard import result
 
-    own = chosen(paper)
-    shown(
+    own = chosen_paper(paper)
+    show_check(
         lambda progress: result(build.check_hard(own, update, progress), own.package().target), json
     )
 
@@ -95,16 +95,24 @@ def search(
     Example: platecontact check search --time 5m --function G --out worst.toml
     """
     from derivation import pipeline
-    from derivation.engine.measure.search_record import COLUMNS, arguments, as_data, cells, kept
+    from derivation.engine.measure.search_record import (
+        COLUMNS,
+        all_within_allowance,
+        arguments,
+        as_data,
+        cells,
+    )
 
-    with clocked("search") as progress:
+    with search_clock("search") as progress:
         found, book = pipeline.search_worse(time, seed, function or [], out, progress)
-    if put_json(lambda: as_data(found), json):
+    if write_json_output(lambda: as_data(found), json):
         table(f"Search, seed {seed}", COLUMNS, [cells(k, found, book) for k in found.standings])
         listing("Worst arguments", [arguments(k, found) for k in found.standings])
     if book.written:
         NOTES.say(f"new worst cases written to {book.path}")
-    raise typer.Exit(INTERRUPTED if found.interrupted else 0 if kept(found) else 1)
+    raise typer.Exit(
+        INTERRUPTED_STATUS if found.interrupted else 0 if all_within_allowance(found) else 1
+    )
 
 
 def timing(update: Annotated[bool, update_option("speed")] = False, json: Json = None) -> None:
@@ -116,4 +124,4 @@ def timing(update: Annotated[bool, update_option("speed")] = False, json: Json =
     """
     from derivation import pipeline
 
-    shown(pipeline.check_speed, json, record=pipeline.MEASURED_SPEED if update else None)
+    show_check(pipeline.check_speed, json, record=pipeline.MEASURED_SPEED if update else None)

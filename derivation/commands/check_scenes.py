@@ -4,8 +4,8 @@ from typing import Annotated
 
 import typer
 
+from derivation.commands.check_output import show_check
 from derivation.commands.options import SEED, Seed, update_option
-from derivation.commands.shown import shown
 from derivation.engine.console import Json
 
 Number = Annotated[
@@ -25,7 +25,7 @@ def error_bounds(
     """
     from derivation.checks.bounds import check_bounds
 
-    shown(lambda progress: check_bounds(number, update, progress), json)
+    show_check(lambda progress: check_bounds(number, update, progress), json)
 
 
 def effects(
@@ -41,7 +41,7 @@ def effects(
     from derivation.checks import effects as check
 
     record = check.MEASURED if update else None
-    shown(lambda progress: check.check_effects(number, progress), json, record=record)
+    show_check(lambda progress: check.check_effects(number, progress), json, record=record)
 
 
 def inertia(
@@ -58,10 +58,10 @@ def inertia(
     Example: platecontact check inertia -n 50 --seed 3
     """
     from derivation.checks.inertia import MEASURED, judge
-    from derivation.checks.inertia_judged import result
+    from derivation.checks.inertia_rows import result
 
     record = MEASURED if update else None
-    shown(lambda progress: result(judge(number, seed, progress), seed), json, record=record)
+    show_check(lambda progress: result(judge(number, seed, progress), seed), json, record=record)
 
 
 def scenes(number: Number, seed: Seed = SEED, json: Json = None) -> None:
@@ -75,7 +75,7 @@ def scenes(number: Number, seed: Seed = SEED, json: Json = None) -> None:
     from derivation.checks.realistic_scenes import result
     from derivation.checks.scenes import check_scenes
 
-    shown(lambda progress: result(check_scenes(number, seed, progress), number, seed), json)
+    show_check(lambda progress: result(check_scenes(number, seed, progress), number, seed), json)
 
 
 def finite_elements(
@@ -98,4 +98,4 @@ def finite_elements(
     """
     from derivation.checks.elastodynamics import compare, result
 
-    shown(lambda progress: result(compare(save=update, progress=progress)), json)
+    show_check(lambda progress: result(compare(save=update, progress=progress)), json)

@@ -23,7 +23,7 @@ class Command(TyperCommand):
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Replace former names and reject repeated options before the arguments are parsed."""
-        return super().parse_args(ctx, prepared(self, ctx, args))
+        return super().parse_args(ctx, with_present_names(self, ctx, args))
 
     def invoke(self, ctx: Any) -> Any:
         """Run the command; an error of an argument names the option as it was typed."""
@@ -31,7 +31,7 @@ class Command(TyperCommand):
             return super().invoke(ctx)
         except ValueError as error:
             name = str(error).partition(":")[0]
-            if not any(name == option.name for option in typed(self, ctx)):
+            if not any(name == option.name for option in typed_options(self, ctx)):
                 raise
             raise ValueError(f"--{error}") from None
 
@@ -45,9 +45,9 @@ class Group(TyperGroup):
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Replace former names; reject repeated options, and options that have no effect."""
-        own = prepared(self, ctx, self.own(args))
+        own = with_present_names(self, ctx, self.own(args))
         rest = args[len(self.own(args)) :]
-        misplaced = [option for option in given(self, ctx, own) if not option.is_eager]
+        misplaced = [option for option in given_options(self, ctx, own) if not option.is_eager]
         if rest and misplaced and not ctx.resilient_parsing:
             ctx.fail(
                 f"{misplaced[0].opts[0]} has no effect before the subcommand {rest[0]}; write the "
@@ -56,7 +56,7 @@ class Group(TyperGroup):
         return super().parse_args(ctx, [*own, *rest])
 
 
-def prepared(command: Any, ctx: Any, args: list[str]) -> list[str]:
+def with_present_names(command: Any, ctx: Any, args: list[str]) -> list[str]:
     """Return the arguments with former names of options replaced.
 
     Raises
@@ -67,7 +67,7 @@ def prepared(command: Any, ctx: Any, args: list[str]) -> list[str]:
     if ctx.resilient_parsing:
         return args
     args = list(_present_names(command, args))
-    found = given(command, ctx, args)
+    found = given_options(command, ctx, args)
     for option in found:
         count = found.count(option)
         if count > 1 and not (option.multiple or option.is_flag):
@@ -76,7 +76,7 @@ def prepared(command: Any, ctx: Any, args: list[str]) -> list[str]:
     return args
 
 
-def typed(command: Any, ctx: Any) -> Iterator[TyperOption]:
+def typed_options(command: Any, ctx: Any) -> Iterator[TyperOption]:
     """Yield the options that stand in the command line."""
     for option in command.params:
         source = ctx.get_parameter_source(option.name)
@@ -84,7 +84,7 @@ def typed(command: Any, ctx: Any) -> Iterator[TyperOption]:
             yield option
 
 
-def given(command: Any, ctx: Any, args: Sequence[str]) -> list[TyperOption]:
+def given_options(command: Any, ctx: Any, args: Sequence[str]) -> list[TyperOption]:
     """Return the options among the arguments; a repeated option has several entries."""
     found = command.make_parser(ctx).parse_args(args=list(args))[2]
     return [option for option in found if isinstance(option, TyperOption)]

@@ -5,14 +5,14 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from derivation.commands.options import PaperFolder, chosen
-from derivation.engine.console import OUT, Json, put_json, stage
+from derivation.commands.options import PaperFolder, chosen_paper
+from derivation.engine.console import OUT, Json, stage, write_json_output
 from derivation.engine.nearest import did_you_mean
 from derivation.engine.text import WIDTH, aligned, paragraph
 
 if TYPE_CHECKING:
-    from derivation.engine.about import About
     from derivation.engine.formula.record import Record
+    from derivation.engine.formula_details import FormulaDetails
 
 HEADS = ("formula", "unit", "eq.", "meaning")
 NEAR = 3
@@ -34,21 +34,21 @@ def derive(
     Example: platecontact derive K_j
     """
     from derivation.engine import build
-    from derivation.engine.about import about
+    from derivation.engine.formula_details import formula_details
 
-    own = chosen(paper)
+    own = chosen_paper(paper)
     with stage("derive"):
         found = build.formulas(own)
     if name is None:
-        if put_json(lambda: [formula.to_json() for formula in found.values()], json):
+        if write_json_output(lambda: [formula.to_json() for formula in found.values()], json):
             OUT.say(_table(list(found.values())))
             OUT.say("\nTo show one formula: platecontact derive NAME")
         return
     if name not in found:
         near = did_you_mean(name, found, most=NEAR)
         raise ValueError(f"no formula {name!r}: {near}`platecontact derive` lists all formulas")
-    of = about(own, name)
-    if put_json(of.to_json, json):
+    of = formula_details(own, name)
+    if write_json_output(of.to_json, json):
         OUT.say(_one(of))
 
 
@@ -67,7 +67,7 @@ def _table(formulas: "list[Record]") -> str:
     return aligned(HEADS, rows)
 
 
-def _one(of: "About") -> str:
+def _one(of: "FormulaDetails") -> str:
     """Return the details of a formula; equations are not wrapped, so that they can be copied."""
     formula, shown = of.formula, of.formula.to_json()
     proof = formula.proof
@@ -80,7 +80,7 @@ def _one(of: "About") -> str:
     )
     symbols = [f"{x.name} [{x.unit}]: {meaning}" for x, meaning in of.arguments]
     parts = {
-        "Derivation step": [of.link],
+        "Derivation step": [of.step],
         "Arguments": symbols,
         "Domain": [", ".join(formula.domain)] if formula.domain else [],
         f"Verified {proof.method}": [f"{proof.step}. {of.argument}"],

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from derivation.engine.console import NOTES, OUT, Json, put_json
+from derivation.engine.console import NOTES, OUT, Json, write_json_output
 from derivation.engine.text import aligned
 
 
@@ -47,7 +47,7 @@ def examples(
         found = tuple(known().values())
     else:
         found = copy(name, out or Path(), force)
-    if not put_json(lambda: [example.to_json() for example in found], json):
+    if not write_json_output(lambda: [example.to_json() for example in found], json):
         return
     if name:
         NOTES.say("\n".join(str(example.file) for example in found))

@@ -5,8 +5,8 @@ from typing import Annotated
 
 import typer
 
-from derivation.commands.options import PaperFolder, alone, chosen
-from derivation.engine.console import OUT, Json, counted, put_json, stage, table
+from derivation.commands.options import PaperFolder, chosen_paper, expect_no_other_options
+from derivation.engine.console import OUT, Json, progress_bar, stage, table, write_json_output
 
 
 def rewrite(
@@ -29,27 +29,27 @@ def rewrite(
     Example: platecontact rewrite "(x - sin(x))/x**3"
     """
     from derivation.engine import build
-    from derivation.engine.emit.own_formula import rewritten
+    from derivation.engine.emit.own_formula import rewrite_text
     from derivation.engine.outputs import plain
 
     if formula:
-        alone(paper, "--update and --json (and no formula)", formula)
+        expect_no_other_options(paper, "--update and --json (and no formula)", formula)
         if update:
             raise ValueError(
                 "--update applies to the paper's formulas and cannot be combined with FORMULA; "
                 "remove one of them"
             )
         with stage("rewrite"):
-            stable, source, tested = rewritten(formula, variable)
+            stable, source, tested = rewrite_text(formula, variable)
         found = [("", applied) for applied in stable.applied]
         applied = [asdict(a) for a in stable.applied]
         data: object = {"source": source, "tested": asdict(tested), "applied": applied}
     else:
-        with counted("rewrite") as progress:
-            accounts = build.account(chosen(paper), update, progress)
+        with progress_bar("rewrite") as progress:
+            accounts = build.rewriting_effects(chosen_paper(paper), update, progress)
         found = [(account.name, applied) for account in accounts for applied in account.applied]
         data, source = {"rows": [asdict(account) for account in accounts]}, ""
-    if put_json(lambda: plain(data), json):
+    if write_json_output(lambda: plain(data), json):
         rows = [
             (name, a.rule, a.cause, *(f"{without:.3g}/{with_:.3g}" for without, with_ in
              (a.operations, a.worst)))
@@ -89,10 +89,10 @@ def diagnose(
     """
     from derivation.engine import build
 
-    own = chosen(paper)
+    own = chosen_paper(paper)
     with stage("compare"):
         found = build.diagnose(own, name, formula, latex, at, digits)
-    if put_json(found.to_json, json):
+    if write_json_output(found.to_json, json):
         given = {key: value for key, value in found.to_json().items() if value is not None}
         point = given.get("point")
         if isinstance(point, dict):

@@ -23,7 +23,7 @@ GROUPS = {
 """Commands of each group, in the order of the help."""
 
 
-class Grouped(TyperGroup):
+class GroupedHelp(TyperGroup):
     """A command whose help lists its subcommands by topic."""
 
     def format_commands(self, ctx: Any, formatter: Any) -> None:  # noqa: ARG002

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from derivation.engine.console import OUT, Json, put_json
+from derivation.engine.console import OUT, Json, write_json_output
 from derivation.engine.text import aligned, paragraph
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ def materials(
     from derivation.scene.materials import MATERIALS, find, unknown
 
     if name is None:
-        if put_json(lambda: [material.to_json() for material in MATERIALS.values()], json):
+        if write_json_output(lambda: [material.to_json() for material in MATERIALS.values()], json):
             OUT.say(aligned(COLUMNS, [_cells(each) for each in MATERIALS.values()]))
             OUT.say("\nSources:")
             for each in MATERIALS.values():
@@ -54,7 +54,7 @@ def materials(
     found = find(name)
     if found is None:
         raise SceneError(f"materials: {unknown(name)}")
-    if put_json(found.to_json, json):
+    if write_json_output(found.to_json, json):
         heads = (*(head.lstrip("#") for head in COLUMNS), "source", "other names")
         cells = (*_cells(found), found.source, ", ".join(found.also) or "none")
         OUT.say(aligned(("quantity", "value"), list(zip(heads, cells, strict=True))))

@@ -25,7 +25,7 @@ def update_option(name: str) -> Any:
     return typer.Option("--update", help=f"Save the result in reports/data/{name}.json.")
 
 
-def chosen(folder: Path | None) -> "Paper":
+def chosen_paper(folder: Path | None) -> "Paper":
     """Return the paper in a folder; without a folder, the paper on plates.
 
     Raises
@@ -42,7 +42,7 @@ def chosen(folder: Path | None) -> "Paper":
     return load(folder)
 
 
-def alone(folder: Path | None, allowed: str, *others: object) -> None:
+def expect_no_other_options(folder: Path | None, allowed: str, *others: object) -> None:
     """Reject options that cannot be combined with --paper; `allowed` names the others.
 
     Raises

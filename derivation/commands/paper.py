@@ -5,9 +5,9 @@ from typing import Annotated
 
 import typer
 
-from derivation.commands.options import PaperFolder, alone, chosen
+from derivation.commands.options import PaperFolder, chosen_paper, expect_no_other_options
 from derivation.commands.scenes import check_outputs
-from derivation.engine.console import NOTES, OUT, counted, put, stage
+from derivation.engine.console import NOTES, OUT, progress_bar, stage, write_output
 
 Out = Annotated[
     Path | None,
@@ -24,8 +24,8 @@ def build(out: Out = None, paper: PaperFolder = None) -> None:
     """
     from derivation.engine import build as stages
 
-    alone(paper, "no other option", out)
-    built = stages.build(chosen(paper), out, counted)
+    expect_no_other_options(paper, "no other option", out)
+    built = stages.build(chosen_paper(paper), out, progress_bar)
     NOTES.say("\n".join([*built.notes, "files written:", *map(str, built.files)]))
     raise typer.Exit(0 if built.passed else 1)
 
@@ -58,13 +58,13 @@ def generate(
 
     Example: platecontact generate --scene glass_pane.toml --out glass_pane.py
     """
-    alone(paper, "--check and --out", scene)
+    expect_no_other_options(paper, "--check and --out", scene)
     if scene is not None:
         _scene_code(scene, out, check)
         return
     from derivation.engine import build
 
-    own = chosen(paper)
+    own = chosen_paper(paper)
     if check:
         with stage("compare"):
             freshness = build.check_generated(own, out, _repeated("generate", paper, out))
@@ -129,14 +129,14 @@ def report(
         )
     from derivation.engine import report_files
 
-    own = chosen(paper)
+    own = chosen_paper(paper)
     if check:
         with stage("compare"):
             freshness = report_files.freshness(own, out, _repeated("report", paper, out))
         OUT.say(str(freshness))
         raise typer.Exit(0 if freshness.fresh else 1)
     if fragment and out is None:
-        put(report_files.fragments(own, fragment))
+        write_output(report_files.fragments(own, fragment))
         return
     if fragment and out is not None:
         written = report_files.write_fragments(own, fragment, out)
@@ -153,9 +153,9 @@ def new(
 
     Example: platecontact new film
     """
-    from derivation.engine.load import begin
+    from derivation.engine.load import create_paper
 
-    written = begin(folder)
+    written = create_paper(folder)
     NOTES.say("\n".join(str(path) for path in written))
     NOTES.say(f"To build it, run: platecontact build --paper {folder}")
 

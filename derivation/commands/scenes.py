@@ -12,12 +12,12 @@ from derivation.engine.console import (
     NOTES,
     OUT,
     Json,
-    counted,
     json_text,
-    put_json,
+    progress_bar,
+    progress_status,
     stage,
     warn,
-    watched,
+    write_json_output,
 )
 from derivation.engine.files import expect_writable, real, write_file, write_files
 from derivation.engine.printable import one_line
@@ -75,7 +75,7 @@ def simulate(
     from derivation.scene.answer import plain
 
     check_outputs(scene, json, plot, csv, animate)
-    with watched("simulate"):
+    with progress_status("simulate"):
         result = run(load(scene), rtol=rtol)
     # Everything is made before anything is written.
     files: dict[Path, str | bytes] = {}
@@ -130,11 +130,11 @@ def _drawings(
 
 
 def _write(files: dict[Path, str | bytes], json: str | None, make: Callable[[], Any]) -> bool:
-    """Write all files or none; return whether the result is to be printed (see `put_json`)."""
+    """Write all files or none; return whether to print the result (see `write_json_output`)."""
     if json and json != "-":
         files[Path(json)] = json_text(make())
     write_files(files)
-    return put_json(make, json if json == "-" else None)
+    return write_json_output(make, json if json == "-" else None)
 
 
 def _sweep(
@@ -157,7 +157,7 @@ def _sweep(
     check_outputs(scene, json, csv=csv)
     sweep = sweeps.parse(text)
     loaded = load(scene)
-    with counted("simulate") as progress:
+    with progress_bar("simulate") as progress:
         rows = sweeps.run(loaded, sweep, rtol, progress, workers=os.cpu_count() or 1)
     key = f"{sweep.table}.{sweep.key}"
     if not any(row.results for row in rows):
@@ -189,7 +189,7 @@ def explain(
 
     check_outputs(scene, json)
     found = run(load(scene), rtol)
-    if put_json(found.to_json, json):
+    if write_json_output(found.to_json, json):
         OUT.say(f"Effects in {one_line(scene.name)}\n\n{found.details()}")
         for note in found.notes:
             NOTES.say(paragraph(note, 0))
@@ -246,7 +246,7 @@ def indent(
     given = {"contact_radius": contact_radius, "force": force, "indentation": indentation}
     chosen = {name: _numbers(name, texts, more) for name, texts in given.items() if texts}
     contacts = run(loaded, **chosen)
-    if put_json(lambda: [contact.to_json() for contact in contacts], json):
+    if write_json_output(lambda: [contact.to_json() for contact in contacts], json):
         OUT.say(f"Static contact in {one_line(scene.name)}\n\n{contacts}")
     warn([text for contact in contacts for text in contact.warnings])
 
@@ -264,7 +264,7 @@ def schema(
     """
     from derivation.scene import schema as made
 
-    put_json(made, out)
+    write_json_output(made, out)
 
 
 def _numbers(name: str, texts: Sequence[str], more: Sequence[str] | None) -> list[float]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from derivation.commands.scenes import SceneFile, check_outputs
-from derivation.engine.console import NOTES, OUT, Json, counted, put_json, warn
+from derivation.engine.console import NOTES, OUT, Json, progress_bar, warn, write_json_output
 from derivation.engine.files import write_file
 from derivation.engine.printable import one_line
 
@@ -88,7 +88,7 @@ def sweep(
     sampling = (distributions, sample, seed, method, sensitivity or None)
     given = _given(vary, distributions, sample, any(x is not None for x in sampling))
     seed, method = 1 if seed is None else seed, method or "random"
-    study = Study(load(scene), api.planned(given, sample, seed, method, sensitivity), rtol)
+    study = Study(load(scene), api.make_plan(given, sample, seed, method, sensitivity), rtol)
     api.check(study, out)
     if explain:
         _explain(study, scheduler, json)
@@ -131,7 +131,7 @@ def _explain(study: "Study", scheduler: str | None, json: str | None) -> None:
     from derivation.sweep.forecast import forecast
 
     found = forecast(study, 1 if scheduler else os.cpu_count() or 1)
-    if put_json(found.to_json, json):
+    if write_json_output(found.to_json, json):
         OUT.say(found.to_text())
     warn([f"some points are rejected: {text}" for text in found.refused])
 
@@ -150,21 +150,21 @@ def _run(
     """Compute a study, write its files, and show a summary."""
     from derivation.sweep import api
     from derivation.sweep.run import compute
-    from derivation.sweep.store import opened
+    from derivation.sweep.store import open_store
     from derivation.sweep.summary import summary
 
-    with opened(study, out) as store:
+    with open_store(study, out) as store:
         try:
-            with counted("sweep") as progress:
+            with progress_bar("sweep") as progress:
                 computed = compute(store, os.cpu_count() or 1, scheduler, retry, progress)
-                found = api.finish(store, out, sensitivity, progress)
+                found = api.write_results(store, out, sensitivity, progress)
         except KeyboardInterrupt:
             _say_how_to_resume(store, out)
             raise
         if plot is not None:
             write_file(plot, _drawing(store, found, results, plot.suffix))
         answer = summary(store, computed, found)
-    if put_json(answer.to_json, json):
+    if write_json_output(answer.to_json, json):
         OUT.say(f"Study of {one_line(name)}\n\n{answer.to_text()}")
     warn(answer.warnings)
 

@@ -19,7 +19,7 @@ def announce(text: str) -> None:
 
 
 @contextmanager
-def heard(listener: Callable[[str], None]) -> Iterator[None]:
+def listening(listener: Callable[[str], None]) -> Iterator[None]:
     """Call a listener for each description that is announced in the block."""
     _listeners.append(listener)
     try:

@@ -24,7 +24,7 @@ class LimitError(ValueError):
     """A computation reached a limit of time, memory or recursion; the message states a remedy."""
 
 
-def bounded(
+def run_limited(
     work: Callable[[], Value], what: str, seconds: int = SECONDS, megabytes: int = MEGABYTES
 ) -> Value:
     """Return the result of a function that runs in a separate process; its exceptions are raised.
@@ -49,7 +49,9 @@ def bounded(
         return work()
     context = multiprocessing.get_context("fork")
     reader, writer = context.Pipe(duplex=False)
-    child = context.Process(target=_work, args=(work, writer, seconds, megabytes), daemon=True)
+    child = context.Process(
+        target=_run_in_child, args=(work, writer, seconds, megabytes), daemon=True
+    )
     child.start()
     writer.close()
     kind = "time"
@@ -77,12 +79,14 @@ def bounded(
     return value  # type: ignore[no-any-return]
 
 
-def _work(work: Callable[[], Any], writer: Connection, seconds: int, megabytes: int) -> None:
+def _run_in_child(
+    work: Callable[[], Any], writer: Connection, seconds: int, megabytes: int
+) -> None:
     """Do the work in the child, and send its result or the reason why there is none."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
     faulthandler.disable()  # a library that runs out of memory may abort
-    _limit(seconds, megabytes)
+    _set_limits(seconds, megabytes)
     try:
         writer.send(("value", work()))
     except MemoryError:
@@ -93,7 +97,7 @@ def _work(work: Callable[[], Any], writer: Connection, seconds: int, megabytes: 
         writer.send(("error", error))
 
 
-def _limit(seconds: int, megabytes: int) -> None:
+def _set_limits(seconds: int, megabytes: int) -> None:
     """Set the limits of this process, as far as the system supports them."""
     import resource  # not available on all systems
 

@@ -1,6 +1,6 @@
 """The six stages of a build of a paper.
 
-1 derive     links -> proved formulas
+1 derive     steps -> proved formulas
 2 rewrite    formulas -> stable forms, proved equal
 3 generate   forms -> the NumPy package
 4 misprints  published formulas compared with derived ones
@@ -21,7 +21,7 @@ from derivation.engine import package
 from derivation.engine.activity import Progress, quiet
 from derivation.engine.emit.freshness import Freshness
 from derivation.engine.errata.findings import Finding
-from derivation.engine.errata.text import TextDiagnosis, diagnosed
+from derivation.engine.errata.text import TextDiagnosis, diagnose_limited
 from derivation.engine.files import write_file
 from derivation.engine.formula.chain import Found
 from derivation.engine.formula.record import Record
@@ -45,7 +45,7 @@ Timed = Callable[[str], AbstractContextManager[Progress]]
 
 
 @dataclass(frozen=True)
-class Built:
+class BuildResult:
     """Result of a build.
 
     Parameters
@@ -63,7 +63,7 @@ class Built:
     files: tuple[Path, ...]
 
 
-def build(paper: Paper, out: Path | None, timed: Timed) -> Built:
+def build(paper: Paper, out: Path | None, timed: Timed) -> BuildResult:
     """Run all six stages on a paper.
 
     Parameters
@@ -105,9 +105,9 @@ def build(paper: Paper, out: Path | None, timed: Timed) -> Built:
     with timed("report"):
         reported, missing = _report_as_far_as_possible(paper, reports)
     measured = () if paper.committed else (paper.measured,)
-    return Built(
+    return BuildResult(
         all(row.passed is not False for row in rows),
-        (*missing, *verdict(paper, rows)),
+        (*missing, *measurement_remarks(paper, rows)),
         (*written, *measured, *reported),
     )
 
@@ -116,14 +116,14 @@ def build(paper: Paper, out: Path | None, timed: Timed) -> Built:
 
 
 def derive(paper: Paper) -> Found:
-    """Return the links with their proved formulas (stage 1).
+    """Return the steps with their proved formulas (stage 1).
 
     Raises
     ------
     derivation.engine.formula.proof.ProofError
         If a proof fails.
     """
-    return paper.chain.found()
+    return paper.chain.derived_steps()
 
 
 def rewrite(paper: Paper) -> tuple[Form, ...]:
@@ -151,7 +151,7 @@ def generate(paper: Paper, out: Path | None = None) -> tuple[Path, ...]:
     folder, own = writable_folder(out, paper.package_folder), paper.package()
     written = package.write(paper.chain, own, folder)
     if folder == paper.package_folder:
-        _forget(own.target)
+        _unload(own.target)
     return written
 
 
@@ -236,14 +236,16 @@ def check_hard(
 
     if update:
         expect_recordable(paper.hard)
-    handed_in = paper.judge().hard
-    if handed_in is None:
+    make_suite = paper.judge().hard
+    if make_suite is None:
         raise ValueError("expected a paper with hard cases, got none: pass them as Judge.hard")
-    suite = handed_in()
+    suite = make_suite()
     if not update:
         if not paper.hard.is_file():
             raise FileNotFoundError(f"no references in {paper.hard}: run `{hard.COMMAND}`")
-        return hard.check(suite, hard.committed(json.loads(paper.hard.read_text()), suite.cases))
+        return hard.check(
+            suite, hard.committed_references(json.loads(paper.hard.read_text()), suite.cases)
+        )
     part = paper.hard.with_suffix(".part.json")
     rows = hard.check(suite, find_references(suite, paper.hard, part, progress))
     write_file(paper.hard, hard.to_json(rows, paper.package().target))
@@ -274,10 +276,10 @@ def diagnose(
 ) -> TextDiagnosis:
     """Compare a formula given as text with the derived one; see `derivation.diagnose`."""
     relations = paper.errata.relations
-    return diagnosed(paper.chain, relations, name, text, latex=latex, at=at, digits=digits)
+    return diagnose_limited(paper.chain, relations, name, text, latex=latex, at=at, digits=digits)
 
 
-def account(
+def rewriting_effects(
     paper: Paper, update: bool = False, progress: Progress = quiet
 ) -> "tuple[Account, ...]":
     """Return the effect of each rewriting rule on each formula; with `update`, save it."""
@@ -298,7 +300,7 @@ def check_generated(paper: Paper, out: Path | None, remedy: str) -> Freshness:
     return package.freshness_of(paper.chain, paper.package(), folder, remedy)
 
 
-def verdict(paper: Paper, rows: "Sequence[Row]") -> list[str]:
+def measurement_remarks(paper: Paper, rows: "Sequence[Row]") -> list[str]:
     """Return remarks on a new measurement, and on differences from the saved one."""
     from derivation.engine.measure.record import to_json
 
@@ -340,7 +342,7 @@ def _report_as_far_as_possible(
         return written, (f"the PDF was not written, all other files were: {error}",)
 
 
-def _forget(target: str) -> None:
+def _unload(target: str) -> None:
     """Unload the modules of a package whose files have changed."""
     for name in [name for name in sys.modules if name == target or name.startswith(f"{target}.")]:
         del sys.modules[name]

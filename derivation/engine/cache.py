@@ -36,7 +36,7 @@ HEADS: dict[str, type] = {
 
 
 def cached(
-    name: str, rooms: tuple[str | Path, ...], compute: Callable[[], Value], *kinds: type
+    name: str, source_names: tuple[str | Path, ...], compute: Callable[[], Value], *kinds: type
 ) -> Value:
     """Return the result of a function, cached until one of its sources changes.
 
@@ -60,20 +60,20 @@ def cached(
     TypeError
         If the result contains something that cannot be cached.
     """
-    key = f"{name}-{content_hash(sources(*rooms))[:32]}"
+    key = f"{name}-{content_hash(sources(*source_names))[:32]}"
     folder, known = cache_folder(), {kind.__name__: kind for kind in kinds}
     path = None if folder is None else folder / f"{key}.json"
     if path is not None:
         with contextlib.suppress(Exception):  # any exception that a damaged file raises
-            kept: Value = _read(key, read_file(path, LARGEST), known)
+            kept: Value = _deserialised(key, read_file(path, LARGEST), known)
             return kept
-    content = _written(key, compute(), known)
+    content = _serialised(key, compute(), known)
     if path is not None:
         with contextlib.suppress(OSError):
             write_file(path, content)
     # SymPy may regroup an expression that is read back. To make the first run equal to later
     # ones, the result is read from what was written.
-    value: Value = _read(key, content, known)
+    value: Value = _deserialised(key, content, known)
     return value
 
 
@@ -100,12 +100,12 @@ def cache_folder() -> Path | None:
 # --- a file: a checksum, which covers the key, and a line of JSON
 
 
-def _written(key: str, value: object, kinds: Mapping[str, type]) -> bytes:
+def _serialised(key: str, value: object, kinds: Mapping[str, type]) -> bytes:
     text = json.dumps(to_plain(value, kinds), separators=(",", ":")).encode()
     return _checksum(key, text) + b"\n" + text
 
 
-def _read(key: str, content: bytes, kinds: Mapping[str, type]) -> Any:
+def _deserialised(key: str, content: bytes, kinds: Mapping[str, type]) -> Any:
     checksum, _, text = content.partition(b"\n")
     if checksum != _checksum(key, text):
         raise ValueError(f"{key}: the checksum does not match the content")

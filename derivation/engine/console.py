@@ -60,7 +60,7 @@ NOTES = Screen(stderr=True, emoji=False)
 """Console for progress and remarks: standard error, so that results can be piped."""
 
 
-def _checked(where: str | None) -> str | None:
+def _check_writable(where: str | None) -> str | None:
     """Reject a file that cannot be written, before anything is computed."""
     if where and where != "-":
         expect_writable(Path(where))
@@ -69,15 +69,17 @@ def _checked(where: str | None) -> str | None:
 
 Json = Annotated[
     str | None,
-    typer.Option("--json", metavar="FILE|-", help="Write the result as JSON.", callback=_checked),
+    typer.Option(
+        "--json", metavar="FILE|-", help="Write the result as JSON.", callback=_check_writable
+    ),
 ]
 """The option of every command that has a result."""
 
-INTERRUPTED = 130
+INTERRUPTED_STATUS = 130
 """Exit status of typer after Ctrl-C."""
-UNREAD = 141
+UNREAD_STATUS = 141
 """Exit status of a program that writes to a closed pipe: 128 + SIGPIPE."""
-MOST = 20
+MOST_WARNINGS = 20
 """Largest number of warnings shown."""
 
 
@@ -91,7 +93,7 @@ def stage(name: str) -> Iterator[None]:
 
 
 @contextmanager
-def counted(name: str) -> Iterator[Progress]:
+def progress_bar(name: str) -> Iterator[Progress]:
     """Show a bar and a clock for work in parts; yield the function that reports a part."""
     start = time.perf_counter()
     part = TextColumn("{task.description}", markup=False)
@@ -105,7 +107,7 @@ def counted(name: str) -> Iterator[Progress]:
 
 
 @contextmanager
-def clocked(name: str) -> Iterator[Callable[[str, int, float], None]]:
+def search_clock(name: str) -> Iterator[Callable[[str, int, float], None]]:
     """Show a clock for a search; yield the function that reports name, count and worst ratio."""
     columns = (TextColumn(name), SpinnerColumn(), TimeElapsedColumn())
     with Display(
@@ -118,9 +120,9 @@ def clocked(name: str) -> Iterator[Callable[[str, int, float], None]]:
 
 
 @contextmanager
-def watched(name: str) -> Iterator[None]:
+def progress_status(name: str) -> Iterator[None]:
     """Show the announced progress of a computation of unknown length, on a terminal only."""
-    from derivation.engine.activity import heard
+    from derivation.engine.activity import listening
 
     if not NOTES.is_terminal:
         yield
@@ -134,7 +136,7 @@ def watched(name: str) -> Iterator[None]:
         transient=True,
     ) as shown:
         task = shown.add_task("", total=None)
-        with heard(lambda text: shown.update(task, description=text)):
+        with listening(lambda text: shown.update(task, description=text)):
             yield
 
 
@@ -167,16 +169,16 @@ def listing(title: str, lines: Sequence[str]) -> None:
 
 
 def warn(warnings: Sequence[str]) -> None:
-    """Show each warning once, on standard error; of many, the first `MOST`."""
+    """Show each warning once, on standard error; of many, the first `MOST_WARNINGS`."""
     found = list(dict.fromkeys(warnings))
-    for text in found[:MOST]:
+    for text in found[:MOST_WARNINGS]:
         NOTES.say(paragraph(f"warning: {text}"))
-    if len(found) > MOST:
-        NOTES.say(f"warning: ... and {len(found) - MOST:,} more")
+    if len(found) > MOST_WARNINGS:
+        NOTES.say(f"warning: ... and {len(found) - MOST_WARNINGS:,} more")
 
 
 @contextmanager
-def noted(shown: type[Warning]) -> Iterator[None]:
+def warnings_as_notes(shown: type[Warning]) -> Iterator[None]:
     """Show each warning of a category once, as a remark; show others as Python does."""
     seen, usual = set[str](), warnings.showwarning
 
@@ -218,7 +220,7 @@ def json_text(result: Any) -> str:
     return in_json(text) + "\n"
 
 
-def put(text: str) -> None:
+def write_output(text: str) -> None:
     """Write text to standard output without changes."""
     try:
         print(text, end="", flush=True)
@@ -226,7 +228,7 @@ def put(text: str) -> None:
         raise UnreadError from None
 
 
-def put_json(make: Callable[[], Any], where: str | None) -> bool:
+def write_json_output(make: Callable[[], Any], where: str | None) -> bool:
     """Write a result as JSON to a file, or to standard output for `-`.
 
     Call it before anything is shown, because the reader of the output may close the pipe.
@@ -244,7 +246,7 @@ def put_json(make: Callable[[], Any], where: str | None) -> bool:
         Whether tables may be printed.
     """
     if where == "-":
-        put(json_text(make()))
+        write_output(json_text(make()))
     elif where:
         write_file(Path(where), json_text(make()))
     return where != "-"

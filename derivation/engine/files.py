@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from importlib.metadata import version
 from pathlib import Path
 
-from derivation.engine.staging import Temporary, put_folder, recover, remove_leftovers, settle
+from derivation.engine.staging import Temporary, flush_folder, put_folder, recover, remove_leftovers
 
 PAGE = 4096
 """Smallest space for a file on a disk, in bytes."""
@@ -75,7 +75,7 @@ def write_files(contents: Mapping[Path, str | bytes]) -> tuple[Path, ...]:
         for temporary in temporaries.values():
             temporary.close()
     for folder in cleaned:
-        settle(folder)
+        flush_folder(folder)
     return tuple(contents)
 
 

@@ -33,7 +33,7 @@ def load(folder: Path) -> Paper:
     if not (place / "paper.py").is_file():
         raise PaperError(
             f"--paper: expected a folder with a file paper.py, got {folder}; "
-            f"begin one with `platecontact new {folder}`"
+            f"create one with `platecontact new {folder}`"
         )
     name = PREFIX + "".join(c if c.isalnum() else "_" for c in place.name)
     try:
@@ -67,7 +67,7 @@ def _place(error: Exception, folder: Path) -> str:
     return f"{Path(frames[-1].filename).name}, line {frames[-1].lineno}: " if frames else ""
 
 
-def begin(folder: Path) -> tuple[Path, ...]:
+def create_paper(folder: Path) -> tuple[Path, ...]:
     """Write a small working paper into a folder, as a start for a new paper; return its files.
 
     Raises

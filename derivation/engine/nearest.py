@@ -6,13 +6,13 @@ from difflib import get_close_matches
 
 LONGEST = 40
 """Number of letters of a name that are compared."""
-ALIKE = 0.5
+SIMILARITY = 0.5
 """Similarity, from 0 to 1, from which a name is suggested."""
 LETTERS = 3
 """One letter in so many may be wrong, or one in a shorter name."""
 
 
-def nearest(name: str, known: Iterable[str], alike: float = ALIKE, most: int = 1) -> list[str]:
+def nearest(name: str, known: Iterable[str], alike: float = SIMILARITY, most: int = 1) -> list[str]:
     """Return the known names most similar to a name, the most similar first.
 
     A name is similar if few letters differ, or if one name begins with the other or consists of
@@ -42,7 +42,7 @@ def nearest(name: str, known: Iterable[str], alike: float = ALIKE, most: int = 1
     return [plain[other] for other in alike_ones if _near(own, other)][:most]
 
 
-def did_you_mean(name: str, known: Iterable[str], alike: float = ALIKE, most: int = 1) -> str:
+def did_you_mean(name: str, known: Iterable[str], alike: float = SIMILARITY, most: int = 1) -> str:
     """Return a question that suggests the nearest names, with a space after it; empty if none.
 
     The parameters are those of `nearest`.

@@ -48,7 +48,7 @@ def forms_of(chain: Chain, package: Package) -> tuple[Form, ...]:
     """Return the stable forms, proved equal to the formulas."""
     kinds = (Form, Step, Branch, Switch)
     rooms = ("engine/rewrite", *package.sources)
-    return chain.kept("forms", lambda: package.forms(chain.formulas()), *kinds, also=rooms)
+    return chain.cached_result("forms", lambda: package.forms(chain.formulas()), *kinds, also=rooms)
 
 
 def files_of(chain: Chain, package: Package) -> dict[str, str]:
@@ -59,7 +59,7 @@ def files_of(chain: Chain, package: Package) -> dict[str, str]:
     def compute() -> dict[str, str]:
         return package.files(chain.formulas(), forms_of(chain, package))
 
-    return chain.kept("package", compute, also=rooms)
+    return chain.cached_result("package", compute, also=rooms)
 
 
 def write(chain: Chain, package: Package, folder: Path) -> tuple[Path, ...]:

@@ -10,8 +10,8 @@ from derivation.engine.formula.chain import Chain
 from derivation.engine.formula.vocabulary import Vocabulary
 from derivation.engine.package import Package
 from derivation.engine.report import any_report
+from derivation.engine.report.contexts import Prose
 from derivation.engine.report.document import Parts, Plan
-from derivation.engine.report.pieces import Prose
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -30,7 +30,7 @@ class Report:
     Parameters
     ----------
     prose
-        Text by link, and references.
+        Text by step, and references.
     subtitle, abstract
         Subtitle, and a summary in a few sentences.
     plan
@@ -51,7 +51,7 @@ class Report:
     plan: Plan = any_report.PLAN
     parts: Callable[[Sequence[str]], Parts] | None = None
     figures: Callable[[], Mapping[str, "Figure"]] = dict
-    beside: Callable[[Path], Mapping[Path, str | bytes]] = _nothing
+    accompanying_files: Callable[[Path], Mapping[Path, str | bytes]] = _nothing
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +67,7 @@ class Paper:
     records
         Folder of the saved measurements.
     chain
-        Vocabulary, links of the derivation, and the files on which they depend.
+        Vocabulary, steps of the derivation, and the files on which they depend.
     errata
         The published formulas.
     package

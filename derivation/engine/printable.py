@@ -2,7 +2,7 @@
 
 import re
 
-_STEERING = re.compile(
+_CONTROL_CHARACTERS = re.compile(
     "[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff]"
 )
 """Control characters except tab and newline, marks of direction, and surrogates."""
@@ -10,7 +10,7 @@ _STEERING = re.compile(
 
 def printable(text: str) -> str:
     r"""Return text with control characters escaped as in Python, like ``\x1b``."""
-    return _STEERING.sub(lambda found: _escaped(found[0]), text)
+    return _CONTROL_CHARACTERS.sub(lambda found: _escaped(found[0]), text)
 
 
 def one_line(text: str, most: int = 60) -> str:
@@ -21,7 +21,7 @@ def one_line(text: str, most: int = 60) -> str:
 
 def in_json(text: str) -> str:
     r"""Return JSON text with control characters escaped as in JSON, like ``\u001b``."""
-    return _STEERING.sub(lambda found: f"\\u{ord(found[0]):04x}", text)
+    return _CONTROL_CHARACTERS.sub(lambda found: f"\\u{ord(found[0]):04x}", text)
 
 
 def _escaped(character: str) -> str:

@@ -11,9 +11,9 @@ from derivation.engine.files import expect_folder, write_files
 from derivation.engine.outputs import folder_for, writable_folder
 from derivation.engine.paper import Paper
 from derivation.engine.report import any_report, pdf
-from derivation.engine.report.document import Parts, Text, chosen
-from derivation.engine.report.figures import saved
-from derivation.engine.report.fragments import pasted
+from derivation.engine.report.document import Parts, Text, chosen_sections
+from derivation.engine.report.figures import figure_file
+from derivation.engine.report.fragments import formula_fragments
 from derivation.engine.report.html import page
 
 
@@ -28,7 +28,7 @@ def documents(paper: Paper, sections: Sequence[str] = ()) -> dict[str, Text]:
         If a name is not that of a section.
     """
     own = paper.report()
-    shown = chosen(sections, own.plan.names)
+    shown = chosen_sections(sections, own.plan.names)
     wanted = shown or own.plan.names
     return own.plan.documents(own.parts(wanted) if own.parts else _parts(paper, wanted), shown)
 
@@ -41,12 +41,12 @@ def _parts(paper: Paper, sections: Sequence[str]) -> Parts:
             "paper"
         )
     own = paper.report()
-    contents = any_report.Contents(
+    contents = any_report.ReportContents(
         paper.title,
         own.subtitle,
         own.abstract,
         paper.vocabulary,
-        paper.chain.found(),
+        paper.chain.derived_steps(),
         paper.errata.found(paper.chain),
         json.loads(paper.measured.read_text()),
         own.prose,
@@ -74,8 +74,8 @@ def write(
     paper
         The paper.
     out
-        Folder of the report; by default that of the paper, where the files of `Report.beside` are
-        written too.
+        Folder of the report; by default that of the paper, where the files of
+        `Report.accompanying_files` are written too.
     compiled
         Whether to compile the PDF.
     sections
@@ -100,7 +100,7 @@ def write(
         for key, figure in own.figures().items()
         if any(text.shows(key) for text in texts.values())
     }
-    vectors = {key: saved(figure, ".svg") for key, figure in drawn.items()}
+    vectors = {key: figure_file(figure, ".svg") for key, figure in drawn.items()}
     with ThreadPoolExecutor() as pool:  # pandoc is another process
         pages = pool.map(lambda text: page(text, text.title, vectors), texts.values())
     contents: dict[Path, str | bytes] = {
@@ -110,9 +110,9 @@ def write(
     contents |= {folder / f"{name}.html": found for name, found in zip(texts, pages, strict=True)}
     contents[folder / "report.bib"] = own.prose.references.bib()
     for key, figure in drawn.items():
-        contents[folder / "figures" / f"{key}.pdf"] = saved(figure, ".pdf")
+        contents[folder / "figures" / f"{key}.pdf"] = figure_file(figure, ".pdf")
     if out is None and not sections:
-        contents.update(own.beside(paper.folder))
+        contents.update(own.accompanying_files(paper.folder))
     write_files(contents)
     return (*contents, *(pdf.compile_all(contents) if compiled else ()))
 
@@ -124,14 +124,14 @@ def freshness(paper: Paper, out: Path | None, remedy: str) -> Freshness:
 
 
 def fragments(paper: Paper, names: Sequence[str]) -> str:
-    """Return LaTeX of the named formulas, and of all formulas of the named links.
+    """Return LaTeX of the named formulas, and of all formulas of the named steps.
 
     Raises
     ------
     ValueError
-        If a name is neither a formula nor a link.
+        If a name is neither a formula nor a step.
     """
-    return pasted(names, paper.chain.found(), paper.report().prose.references)
+    return formula_fragments(names, paper.chain.derived_steps(), paper.report().prose.references)
 
 
 def write_fragments(paper: Paper, names: Sequence[str], out: Path) -> tuple[Path, ...]:
@@ -140,7 +140,7 @@ def write_fragments(paper: Paper, names: Sequence[str], out: Path) -> tuple[Path
     Raises
     ------
     ValueError
-        If a name is neither a formula nor a link.
+        If a name is neither a formula nor a step.
     OSError
         If the folder cannot be written to.
     """

@@ -91,7 +91,7 @@ def _remove(path: Path) -> None:
             path.unlink()
 
 
-def settle(folder: Path) -> None:
+def flush_folder(folder: Path) -> None:
     """Flush a folder's entries to the disk, where the system supports that."""
     with contextlib.suppress(OSError):
         handle = os.open(folder, os.O_RDONLY)
@@ -145,9 +145,9 @@ def put_folder(target: Path, contents: dict[str, bytes]) -> None:
                 os.close(handle)
         if target.exists():
             _take_over(target, staged.path, contents)
-        settle(staged.path)
+        flush_folder(staged.path)
         _swap(staged.path, target)
-        settle(target.parent)
+        flush_folder(target.parent)
     finally:
         staged.discard()  # now the old folder, or the new one if it could not be put in place
         staged.close()

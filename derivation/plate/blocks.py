@@ -2,7 +2,7 @@
 
 import sympy as sp
 
-from derivation.engine.rewrite.blocks import HYPERBOLIC, Definition, built
+from derivation.engine.rewrite.blocks import HYPERBOLIC, Definition, build_blocks
 from derivation.engine.rewrite.form import Block
 
 y = sp.Symbol("y", positive=True)
@@ -15,4 +15,4 @@ DEFINITIONS = (
 
 def blocks() -> dict[str, Block]:
     """Return every building block of the plate by name."""
-    return built(DEFINITIONS)
+    return build_blocks(DEFINITIONS)

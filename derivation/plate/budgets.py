@@ -43,7 +43,7 @@ def read_stated_limits(table: str = "impact") -> dict[str, float]:
     return budgets.read_stated_limits(BUDGETS, table)
 
 
-def counted(sources: Mapping[str, str]) -> dict[str, str]:
+def counted_modules(sources: Mapping[str, str]) -> dict[str, str]:
     """Return the modules whose arithmetic is counted for the printed share, by name.
 
     `as_printed`, which repeats the paper's formulas with their misprints, is not counted.

@@ -1,6 +1,6 @@
-"""The derivation: its links in order, and every formula by name.
+"""The derivation: its steps in order, and every formula by name.
 
-The `LINKS` of the subjects' theory follow at the end.
+The `STEPS` of the subjects' theory follow at the end.
 
  1 equilibrium      Hooke's law, force balance -> ODEs for f_j, g_j
  2 mode shapes      ODEs -> general solution (2)
@@ -25,24 +25,23 @@ and from the contact law to the motion:
 18 substitution     change of an impact if its law is replaced by a simpler one
 19 edge             simply supported or clamped edge instead of the paper's edge
 20 contact pressure non-Hertzian pressure: integral equation, and the error of Hertz pressure
-21 curvature        exact spherical profile instead of a paraboloid
+21 spherical profile exact sphere instead of a paraboloid
 22 effects          bounds of the change of the law by each effect
 23 plate motion     criteria for plate inertia: Zener's parameter, periods
 24 viscosity        viscoelastic contact: restitution, and bounds of the change
 25 back face        largest tensile stress, on the back face opposite the contact
-26 dynamic modes    links 1 to 6 with plate inertia: influence at any frequency
+26 dynamic modes    steps 1 to 6 with plate inertia: influence at any frequency
 27 bending branch   lowest Lamb-wave branch A0: frequency, residue, limits
-28 closure          coupling of contact and modes that conserves energy
-29 held modes       bending modes of a clamped or simply supported plate
-30 held waves       the same for finite thickness: Mindlin's edge conditions, branch A0
+28 coupling         coupling of contact and modes that conserves energy
+29 thin-plate modes bending modes of a clamped or simply supported plate
+30 thick-plate modes the same for finite thickness: Mindlin's edge conditions, branch A0
 31 plasticity       elastic-plastic contact: limited pressure, unloading, residual indentation
 32 damping          damped modes: response, free motion, dissipated energy
 """
 
 from collections.abc import Callable, Iterator
 
-from derivation.plate.back_face.theory import far_face
-from derivation.plate.contact.theory.curvature import curvature
+from derivation.plate.back_face.theory import back_face_formulas
 from derivation.plate.contact.theory.divergence import divergence
 from derivation.plate.contact.theory.hertz import (
     contact_radius,
@@ -53,6 +52,7 @@ from derivation.plate.contact.theory.hertz import (
 from derivation.plate.contact.theory.law import contact_law
 from derivation.plate.contact.theory.plate_series import series_formulas
 from derivation.plate.contact.theory.reversion import reversion
+from derivation.plate.contact.theory.spherical_profile import spherical_profile
 from derivation.plate.contact.theory.split import contact_split, reduced_split
 from derivation.plate.contact.theory.thin_plate import thin_plate
 from derivation.plate.contact.theory.thin_remainder import thin_remainder
@@ -71,18 +71,18 @@ from derivation.plate.modes.theory.loaded_mode import loaded_mode
 from derivation.plate.modes.theory.mode_shapes import mode_shapes
 from derivation.plate.modes.theory.plate_factor import plate_factor_slope, plate_factors
 from derivation.plate.modes.theory.stresses import modal_stresses
-from derivation.plate.pressure.theory.true_pressure import true_pressure
-from derivation.plate.subjects import handed_in
+from derivation.plate.pressure.theory.integral_equation import non_hertzian_pressure
+from derivation.plate.subjects import exports
 from derivation.plate.viscosity.theory.bounds import viscosity
 from derivation.plate.vocabulary import Formula
 from derivation.plate.waves.theory.bending_branch import bending_branch
-from derivation.plate.waves.theory.closure import closure
+from derivation.plate.waves.theory.coupling import coupling
 from derivation.plate.waves.theory.dynamic_modes import dynamic_modes
 from derivation.plate.waves.theory.plate_motion import plate_motion
 
-Link = tuple[str, Callable[[], tuple[Formula, ...]]]
+Step = tuple[str, Callable[[], tuple[Formula, ...]]]
 
-LINKS: tuple[Link, ...] = (
+STEPS: tuple[Step, ...] = (
     ("equilibrium", equilibrium),
     ("mode shapes", mode_shapes),
     ("stresses", modal_stresses),
@@ -94,7 +94,7 @@ LINKS: tuple[Link, ...] = (
     ("contact law", contact_law),
     ("interior", interior_fields),
 )
-MOTION_LINKS: tuple[Link, ...] = (
+MOTION_STEPS: tuple[Step, ...] = (
     ("divergence", divergence),
     ("contact split", lambda: (*contact_split(), *reduced_split())),
     ("plate series", series_formulas),
@@ -104,23 +104,23 @@ MOTION_LINKS: tuple[Link, ...] = (
     ("sensitivity", sensitivity),
     ("substitution", substitution),
     ("edge", lambda: (*edge(), *edge_sums(), *clamp())),
-    ("contact pressure", true_pressure),
-    ("curvature", curvature),
+    ("contact pressure", non_hertzian_pressure),
+    ("spherical profile", spherical_profile),
     ("effects", effects),
     ("plate motion", plate_motion),
     ("viscosity", viscosity),
-    ("back face", far_face),
+    ("back face", back_face_formulas),
     ("dynamic modes", dynamic_modes),
     ("bending branch", bending_branch),
-    ("closure", closure),
-    *(link for links in handed_in("theory", "LINKS") for link in links),
+    ("coupling", coupling),
+    *(step for steps in exports("theory", "STEPS") for step in steps),
 )
-"""Links after the contact law. They are separate, because they contain integrals and constants."""
+"""Steps after the contact law. They are separate, because they contain integrals and constants."""
 
 
-def links() -> Iterator[tuple[str, tuple[Formula, ...]]]:
-    """Yield each link's name and formulas up to the interior; each is proved on request."""
-    for name, derive_link in LINKS:
+def derived_steps() -> Iterator[tuple[str, tuple[Formula, ...]]]:
+    """Yield each step's name and formulas up to the interior; each is proved on request."""
+    for name, derive_link in STEPS:
         yield name, derive_link()
 
 
@@ -132,4 +132,4 @@ def derive() -> dict[str, Formula]:
     ProofError
         Naming the step whose proof fails.
     """
-    return {formula.name: formula for _, formulas in links() for formula in formulas}
+    return {formula.name: formula for _, formulas in derived_steps() for formula in formulas}

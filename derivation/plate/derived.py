@@ -1,9 +1,9 @@
 """Cached results of the first stages: proved formulas, misprints, comparisons of formulas."""
 
 from derivation.engine.errata.findings import Finding
-from derivation.engine.errata.text import TextDiagnosis, diagnosed
-from derivation.engine.formula.chain import Chain, Link
-from derivation.plate.chain import LINKS, MOTION_LINKS
+from derivation.engine.errata.text import TextDiagnosis, diagnose_limited
+from derivation.engine.formula.chain import Chain, DerivationStep
+from derivation.plate.chain import MOTION_STEPS, STEPS
 from derivation.plate.elastic import RELATIONS
 from derivation.plate.misprints import ERRATA
 from derivation.plate.vocabulary import PLATE, Formula, PlateRoot
@@ -20,11 +20,11 @@ GROUND = (
 CHAIN = Chain(
     "plate",
     PLATE,
-    tuple(Link(name, derive) for name, derive in (*LINKS, *MOTION_LINKS)),
+    tuple(DerivationStep(name, derive) for name, derive in (*STEPS, *MOTION_STEPS)),
     GROUND,
     (Formula, PlateRoot),
 )
-chain, formulas = CHAIN.found, CHAIN.formulas
+chain, formulas = CHAIN.derived_steps, CHAIN.formulas
 
 
 def misprints() -> tuple[Finding, ...]:
@@ -49,4 +49,4 @@ def diagnose(
     derivation.engine.formula.parse.FormulaError
         If a name, formula, point or number of digits is not valid.
     """
-    return diagnosed(CHAIN, RELATIONS, name, text, latex=latex, at=at, digits=digits)
+    return diagnose_limited(CHAIN, RELATIONS, name, text, latex=latex, at=at, digits=digits)

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import cache
 
-from derivation.engine.formula.domain import broken
+from derivation.engine.formula.domain import violated_conditions
 from derivation.engine.formula.grid import around
 from derivation.engine.formula.ulp import neighbours
 from derivation.engine.measure.point import Point
@@ -99,7 +99,7 @@ def drawn(name: str, generator: random.Random) -> float:
     argument = BY_NAME[name]
     for attempt in range(DRAWS):
         size = 10 ** generator.uniform(-3.0, 3.0) * (1 if attempt % 2 == 0 else -1)
-        if not broken(argument.domain, {argument.symbol: Fraction(size)}):
+        if not violated_conditions(argument.domain, {argument.symbol: Fraction(size)}):
             return size
     raise KeyError(f"no value of {name} found that satisfies {', '.join(argument.domain)}")
 

@@ -5,7 +5,13 @@ from dataclasses import replace
 
 import sympy as sp
 
-from derivation.engine.errata.compare import DIFFERENT, EQUAL, Diagnosis, known_formula, resolved
+from derivation.engine.errata.compare import (
+    DIFFERENT,
+    EQUAL,
+    Diagnosis,
+    known_formula,
+    resolve,
+)
 from derivation.engine.errata.dimensions import dimension_note
 from derivation.engine.errata.errata import Errata
 from derivation.engine.errata.findings import Finding, Printed
@@ -33,7 +39,7 @@ def plate_finding(record: Printed, formulas: Mapping[str, Record]) -> Finding:
 
 def diagnose_series(name: str, term: sp.Expr, formulas: Mapping[str, Record]) -> Diagnosis:
     """Compare a sum over all modes, given by its term, which may diverge."""
-    term = resolved(term, formulas, PLATE)
+    term = resolve(term, formulas, PLATE)
     found = tail(term)
     if found.kind != DIVERGENT:
         return diagnose(name, term, formulas)

@@ -9,7 +9,7 @@ from derivation.engine.emit.copies import NO_NOTES
 from derivation.engine.emit.package import Numbers, Routines, Shape
 from derivation.mathematics.bessel.kernels import RUNTIME, bessel_numbers
 from derivation.mathematics.bessel.routines import bessel_kernels
-from derivation.plate.subjects import handed_in
+from derivation.plate.subjects import exports
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,5 +90,5 @@ MATHEMATICS: tuple[SubjectModule, ...] = (
 
 def _modules() -> Iterator[SubjectModule]:
     yield from MATHEMATICS
-    for modules in handed_in("kernels", "MODULES"):
+    for modules in exports("kernels", "MODULES"):
         yield from modules

@@ -58,5 +58,5 @@ ORACLE = Balls(
     terms=Terms((symbols.phi, symbols.J1), _mode, {"phi": ("b", -1)}, _share),
     limit=("r", _limit_on_axis),
 )
-truth, reference, stated = ORACLE.value, ORACLE.reference, ORACLE.stated
+certified_value, reference, stated = ORACLE.value, ORACLE.reference, ORACLE.stated
 names, arguments, is_summed = ORACLE.names, ORACLE.arguments, ORACLE.is_summed

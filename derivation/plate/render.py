@@ -17,18 +17,18 @@ from derivation.engine.emit.package import (
     Copy,
     Module,
     Planned,
+    common_modules,
     kernel_modules,
     kernel_row,
-    shared,
-    written,
+    module_files,
 )
+from derivation.engine.emit.printed_fraction import arithmetic_of_modules, expect_printed_fraction
 from derivation.engine.emit.printer import to_numpy
-from derivation.engine.emit.share import expect_growth, shares
 from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.form import Form
 from derivation.engine.rewrite.sections import sections
 from derivation.plate.blocks import blocks
-from derivation.plate.budgets import counted, read_budgets, read_printed_share
+from derivation.plate.budgets import counted_modules, read_budgets, read_printed_share
 from derivation.plate.manifest_rows import hand_written_rows
 from derivation.plate.modes.kernels.modal_sums import STYLE, kernel_of_sum
 from derivation.plate.modes.kernels.shares import SHARES
@@ -63,9 +63,9 @@ def render(formulas: Mapping[str, Record], forms: tuple[Form, ...]) -> dict[str,
     """
     kernels = kernel_rows(formulas, forms)
     planned = modules(kernels)
-    files = written(planned)
+    files = module_files(planned)
     sources = {name.removesuffix(".py"): text for name, text in files.items()}
-    expect_growth(shares(counted(sources)), read_printed_share())
+    expect_printed_fraction(arithmetic_of_modules(counted_modules(sources)), read_printed_share())
     return files
 
 
@@ -91,7 +91,7 @@ def modules(kernels: tuple[EmittedKernel, ...]) -> tuple[Planned, ...]:
 
     listed, others = hand_written_rows(budgets)
     planned: list[Planned] = [
-        *shared(known),
+        *common_modules(known),
         own("as_printed", {"functions": printed_rows()}),
         *(x.make() for x in computed_modules()),
         *(Copy(x.name, x.file, "generated", budgets, x.notes()) for x in runtime_modules()),

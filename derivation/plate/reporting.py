@@ -11,36 +11,36 @@ from matplotlib.figure import Figure
 from derivation.engine.files import PACKAGE, measurements
 from derivation.engine.paper import Report
 from derivation.engine.report.document import Parts
-from derivation.engine.report.figures import saved
+from derivation.engine.report.figures import figure_file
 from derivation.plate.derived import chain, misprints
 from derivation.plate.render import CITATION
 from derivation.plate.report import readme
 from derivation.plate.report.accuracy_figures import accuracy_figures
 from derivation.plate.report.consequence import Consequences
+from derivation.plate.report.dynamic_benchmark import dynamic_benchmark_figure
 from derivation.plate.report.elastodynamics import elastodynamics_figure
 from derivation.plate.report.figures import figures
 from derivation.plate.report.front import SUBTITLE
-from derivation.plate.report.moving import moving_costs
 from derivation.plate.report.overview import overview
-from derivation.plate.report.reproducibility import RENEWED
+from derivation.plate.report.reproducibility import UPDATE_COMMANDS
 from derivation.plate.report.sections import PLAN, PROSE, Material, parts
 from derivation.scene.impact import simulate
 from derivation.scene.model import Model, model_of
 from derivation.scene.scene import load
 from generated import contact_law
 
-README, PICTURE = Path("README.md"), Path("reports/overview.svg")
+README, README_FIGURE = Path("README.md"), Path("reports/overview.svg")
 """Files in the project's folder that are written together with the report."""
 EXAMPLES = PACKAGE / "scene" / "examples"
-PAPER, PANE = EXAMPLES / "paper.toml", EXAMPLES / "glass_pane.toml"
-NEEDED = (
+PAPER, GLASS_PANE = EXAMPLES / "paper.toml", EXAMPLES / "glass_pane.toml"
+REQUIRED_MEASUREMENTS = (
     "accuracy", "check", "contact", "elastodynamics", "hard", "inertia", "moving",
     "rewrite", "speed",
 )  # fmt: skip
 """Measurements that the report requires."""
 
 
-def measured() -> dict[str, bytes]:
+def measurement() -> dict[str, bytes]:
     """Return the files of the committed measurements by name.
 
     Raises
@@ -50,15 +50,15 @@ def measured() -> dict[str, bytes]:
     """
     folder = measurements()
     found = {path.stem: path.read_bytes() for path in sorted(folder.glob("*.json"))}
-    for name in NEEDED:
+    for name in REQUIRED_MEASUREMENTS:
         if name not in found:
             raise FileNotFoundError(
-                f"no measurements in {folder / name}.json; run `{RENEWED[name]}`"
+                f"no measurements in {folder / name}.json; run `{UPDATE_COMMANDS[name]}`"
             )
     return found
 
 
-def measured_accuracy() -> dict[str, Any]:
+def benchmark_record() -> dict[str, Any]:
     """Return the committed benchmark of accuracy against run time.
 
     Raises
@@ -66,7 +66,7 @@ def measured_accuracy() -> dict[str, Any]:
     FileNotFoundError
         If it is missing.
     """
-    found: dict[str, Any] = json.loads(measured()["accuracy"])
+    found: dict[str, Any] = json.loads(measurement()["accuracy"])
     return found
 
 
@@ -77,10 +77,10 @@ def paper_case() -> Model:
 
 def material() -> Material:
     """Return theory, comparison with the published formulas, measurements, examples and code."""
-    data = measured()
+    data = measurement()
     modules = sorted(Path(contact_law.__file__).parent.glob("*.py"))
     return Material(
-        links=chain(),
+        steps=chain(),
         findings=misprints(),
         data=data,
         measured={name: json.loads(content) for name, content in data.items()},
@@ -105,24 +105,24 @@ def report_parts(shown: Sequence[str]) -> Parts:
 
 def report_figures() -> dict[str, Figure]:
     """Return every figure of the report by name."""
-    data = {name: json.loads(content) for name, content in measured().items()}
+    data = {name: json.loads(content) for name, content in measurement().items()}
     formulas = {formula.name: formula for _, found in chain() for formula in found}
     case = paper_case()
     gamma_2 = Consequences(case, formulas).value(formulas["gamma_2"].expression)
     return (
         figures(case, simulate(load(PAPER)), gamma_2)
         | accuracy_figures(data["accuracy"])
-        | {"moving": moving_costs(data["moving"])}
+        | {"moving": dynamic_benchmark_figure(data["moving"])}
         | {"elastodynamics": elastodynamics_figure(data["elastodynamics"])}
     )
 
 
-def beside(folder: Path) -> dict[Path, str | bytes]:
+def accompanying_files(folder: Path) -> dict[Path, str | bytes]:
     """Return the README with its measured numbers, and its picture."""
-    costs = measured_accuracy()
+    costs = benchmark_record()
     return {
-        folder / README: readme.renewed((folder / README).read_text(), costs),
-        folder / PICTURE: saved(overview(load(PANE), costs), ".svg"),
+        folder / README: readme.updated_readme((folder / README).read_text(), costs),
+        folder / README_FIGURE: figure_file(overview(load(GLASS_PANE), costs), ".svg"),
     }
 
 
@@ -132,5 +132,5 @@ REPORT = Report(
     plan=PLAN,
     parts=report_parts,
     figures=report_figures,
-    beside=beside,
+    accompanying_files=accompanying_files,
 )

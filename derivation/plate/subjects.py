@@ -4,12 +4,12 @@ A subject is a folder beside this module. To add one, name it in `SUBJECTS`. Eac
 a role and exports what is listed here, under the listed name. Files that a subject does not need
 are omitted.
 
-theory    LINKS     its links of the derivation, after those of `chain.py`
+theory    STEPS     its steps of the derivation, after those of `chain.py`
 kernels   MODULES   its modules of generated code, see `modules.py`
 route     ROUTES    the second reference of a formula, by name
 cases     CASES     hard cases, as a function that yields them
           LAWS      references of functions that are not formulas, by name
-prose     ABOUT     text of the report about a link, by name
+prose     ABOUT     text of the report about a step, by name
 
 Its `budgets.toml` contains error budgets and domains.
 """
@@ -35,7 +35,7 @@ SUBJECTS = (
 )
 
 
-def handed_in(role: str, name: str) -> Iterator[Any]:
+def exports(role: str, name: str) -> Iterator[Any]:
     """Yield the objects that the subjects' files of a role export under a name, in order."""
     for subject in SUBJECTS:
         path = f"{__package__}.{subject}.{role}"

@@ -3,7 +3,11 @@
 import numpy as np
 
 from generated.arrays import Double as Array
-from generated.back_face import clamped_far_stress, far_stress, supported_far_stress
+from generated.back_face import (
+    back_face_stress,
+    clamped_back_face_stress,
+    supported_back_face_stress,
+)
 from generated.contact_kernels import slope_of_indentation
 from generated.contact_law import (
     contact_radius,
@@ -37,7 +41,7 @@ from generated.effects import (
     bending,
     bending_period,
     echo_time,
-    side_wall,
+    finite_radius,
     sphere_contact,
     zener_number,
 )
@@ -111,16 +115,17 @@ __all__ = [
     "Plate",
     "Plates",
     "Sphere",
+    "back_face_stress",
     "bending",
     "bending_period",
+    "clamped_back_face_stress",
     "clamped_edge",
     "clamped_edge_bound",
     "clamped_edge_slope",
-    "clamped_far_stress",
     "contact_plates",
     "contact_radius",
     "echo_time",
-    "far_stress",
+    "finite_radius",
     "force_of_radius",
     "hertz",
     "history",
@@ -135,13 +140,12 @@ __all__ = [
     "plates_at",
     "radius_of_force",
     "retardation_of_two",
-    "side_wall",
     "sphere_contact",
     "stiffness",
+    "supported_back_face_stress",
     "supported_edge",
     "supported_edge_bound",
     "supported_edge_slope",
-    "supported_far_stress",
     "viscous_logarithms",
     "viscous_number",
     "zener_number",

@@ -300,17 +300,17 @@ class ContactLaw:
     def tensile_stresses(self, a: Array, force: Array, on_edge: bool = True) -> Array:
         """Return `max_tensile_stress` [Pa] for one radius [m] and force [N], or columns of them."""
         stresses = {
-            edge.SUPPORTED: kernels.supported_far_stress,
-            edge.CLAMPED: kernels.clamped_far_stress,
+            edge.SUPPORTED: kernels.supported_back_face_stress,
+            edge.CLAMPED: kernels.clamped_back_face_stress,
         }
         model = self.model
         plate = model.h, model.b, model.lam, model.mu
-        stress = stresses.get(model.edge if on_edge else "", kernels.far_stress)
+        stress = stresses.get(model.edge if on_edge else "", kernels.back_face_stress)
         reached = (a <= edge.MAX_A_OVER_B * model.b) & (model.eta <= THICK)
-        if reached.all() or stress is kernels.far_stress:
+        if reached.all() or stress is kernels.back_face_stress:
             return np.asarray(stress(force, a, *plate))
         inside = stress(force, np.where(reached, a, np.nan), *plate)
-        return np.where(reached, inside, kernels.far_stress(force, a, *plate))
+        return np.where(reached, inside, kernels.back_face_stress(force, a, *plate))
 
     def hertz_radius(self, force: Array) -> Array:
         """Return the radius [m] at which Hertz's law has a force [N]."""

@@ -1,4 +1,4 @@
-"""Studies of many points: a grid or a sample of scenes, simulated in batches that are kept.
+"""Studies of many points: a grid or a sample of scenes, simulated in batches that are saved.
 
 The modules in reading order:
 

@@ -13,7 +13,7 @@ from derivation.sweep.distributions import read_distributions
 from derivation.sweep.plan import Plan, grid, saltelli, sample
 from derivation.sweep.run import compute
 from derivation.sweep.sensitivity import Sensitivities, sensitivities
-from derivation.sweep.store import Store, opened
+from derivation.sweep.store import Store, open_store
 from derivation.sweep.study import Study
 from derivation.sweep.write import check_out, write
 
@@ -100,14 +100,14 @@ def sweep(
     >>> data["max_force"].dims, data["max_force"].units, data["impact.speed"].units
     (('impact.speed',), 'N', 'm/s')
     """
-    study = Study(scene, planned(vary, sample, seed, method, sensitivity), rtol)
+    study = Study(scene, make_plan(vary, sample, seed, method, sensitivity), rtol)
     place = None if out is None else Path(out)
     check(study, place)
     if sensitivity or place is None or place.suffix not in READ_AS_NEEDED:
         check_memory(study, "sweep")
-    with opened(study, place) as store:
+    with open_store(study, place) as store:
         compute(store, workers, scheduler, retry, quiet)
-        found = finish(store, place, sensitivity, quiet)
+        found = write_results(store, place, sensitivity, quiet)
         data = data_set(store) if place is None or fits_in_memory(study) else _of_file(place)
     return data if found is None else found.add_to(data)
 
@@ -119,7 +119,7 @@ def _of_file(path: Path) -> "xr.Dataset":
     return xr.open_dataset(path, chunks={})
 
 
-def planned(
+def make_plan(
     vary: Mapping[str, Any] | Iterable[str],
     size: int | None,
     seed: int,
@@ -165,7 +165,7 @@ def check(study: Study, out: Path | None) -> None:
         check_out(out)
 
 
-def finish(
+def write_results(
     store: Store, out: Path | None, sensitivity: bool, progress: Progress
 ) -> Sensitivities | None:
     """Write the file of a study whose points are all computed, and compute its sensitivities.

@@ -92,7 +92,7 @@ def load_distributions(path: Path) -> dict[str, Distribution]:
         )
     table = data.get("vary")
     table = table if isinstance(table, Mapping) else {}
-    unquoted = next((key for key, given in table.items() if _unquoted(given)), None)
+    unquoted = next((key for key, given in table.items() if _has_unquoted_dot(given)), None)
     if set(data) != {"vary"} or not table or unquoted is not None:
         got = ", ".join(one_line(key, 40) for key in data) or "nothing"
         got = got if unquoted is None else f"a table {one_line(unquoted, 40)} in it"
@@ -106,7 +106,7 @@ def load_distributions(path: Path) -> dict[str, Distribution]:
         raise SceneError(f"{name}: {error}") from None
 
 
-def _unquoted(given: Any) -> bool:
+def _has_unquoted_dot(given: Any) -> bool:
     """Return whether an entry is a table of distributions, as TOML reads an unquoted dot."""
     return isinstance(given, Mapping) and any(isinstance(x, Mapping) for x in given.values())
 

@@ -17,9 +17,9 @@ from derivation.sweep.study import Study
 
 MOST_PROBES = 32
 """Largest number of points whose effects are selected."""
-TIMED = (8, 64, 512, 4096)
+TIMING_SIZES = (8, 64, 512, 4096)
 """Numbers of points that are timed, in turn, until a timing takes longer than `ENOUGH`."""
-ENOUGH = 0.5
+ENOUGH_SECONDS = 0.5
 """Duration of a timing that is sufficient for the estimate [s]."""
 
 
@@ -102,7 +102,7 @@ def forecast(study: Study, workers: int) -> Forecast:
 def _cost(study: Study) -> tuple[int, float]:
     """Return the number of timed points, and the estimated run time of all points [s]."""
     size = study.plan.size
-    for most in TIMED:
+    for most in TIMING_SIZES:
         count = min(most, size)
         places = np.unique(np.linspace(0, size - 1, count).astype(np.int64))
         points = [study.plan.points(int(place), int(place) + 1) for place in places]
@@ -110,7 +110,7 @@ def _cost(study: Study) -> tuple[int, float]:
         start = time.perf_counter()
         solve(study.scene, columns, study.rtol)
         seconds = time.perf_counter() - start
-        if seconds > ENOUGH or count == size:
+        if seconds > ENOUGH_SECONDS or count == size:
             break
     return len(places), seconds * size / len(places)
 

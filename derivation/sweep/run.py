@@ -18,12 +18,12 @@ from derivation.scene.rows import solve
 from derivation.scene.scene import read
 from derivation.scene.sweep import unheard_interrupts
 from derivation.sweep.plan import Array
-from derivation.sweep.store import PartFile, Store, packed
+from derivation.sweep.store import PartFile, Store, to_parquet
 
-FIRST, TRIED = 1, 1.0
+FIRST_BATCH, TRIED = 1, 1.0
 """Number of points of the first batch; run time [s] after which the remaining time is estimated.
 The first batch loads libraries, and small batches take longer for each point."""
-LARGEST = 2**16
+LARGEST_BATCH = 2**16
 """Largest number of points of a batch."""
 GROWTH = 8
 """Largest ratio of the sizes of successive batches."""
@@ -31,7 +31,7 @@ BATCH_SECONDS = 3.0
 """Intended run time of a batch [s], which an interrupted run loses in each process."""
 LEAST_SECONDS = 0.3
 """Smallest intended run time of a batch [s], because a file for each batch takes time too."""
-LONG = 6.0
+PARALLEL_FROM = 6.0
 """Remaining run time [s] above which other processes are started."""
 PATIENCE = 30.0
 """Largest waiting time for a scheduler, and for its first worker [s]."""
@@ -77,7 +77,7 @@ class Queue:
         )
         new = sum(stop - start for start, stop in self._ranges)
         self.left = new + sum(batch.count for batch in self._again)
-        self._size, self._least, self.seconds_per_point = FIRST, 1, 0.0
+        self._size, self._least, self.seconds_per_point = FIRST_BATCH, 1, 0.0
 
     def next(self, workers: int = 1) -> Batch | None:
         """Return the next batch, so small that several workers end at about the same time."""
@@ -100,7 +100,7 @@ class Queue:
         self.seconds_per_point = max(seconds, 1e-9) / points
         self._least = max(1, int(LEAST_SECONDS / self.seconds_per_point))
         wanted = int(BATCH_SECONDS / self.seconds_per_point)
-        self._size = min(max(wanted, 1), max(GROWTH * points, FIRST), LARGEST)
+        self._size = min(max(wanted, 1), max(GROWTH * points, FIRST_BATCH), LARGEST_BATCH)
 
 
 def compute(
@@ -145,7 +145,7 @@ def compute(
     if queue.left:
         with _client(scheduler, workers) as client:
             _on_cluster(store, queue, keep, client)
-    store.settle()
+    store.sort_batches()
     return todo
 
 
@@ -159,7 +159,7 @@ def _here(store: Store, queue: Queue, keep: Keep, workers: int) -> None:
         content, seconds = solve_batch(*_task(store, batch))
         keep(batch, content, seconds)
         spent, batches = spent + seconds, batches + 1
-        long = queue.left * queue.seconds_per_point > LONG
+        long = queue.left * queue.seconds_per_point > PARALLEL_FROM
         if workers > 1 and batches > 1 and spent > TRIED and long:
             return
 
@@ -233,7 +233,7 @@ def solve_batch(
             "the same version everywhere"
         )
     start = time.perf_counter()
-    content = packed(solve(read(scene), columns, rtol))
+    content = to_parquet(solve(read(scene), columns, rtol))
     return content, time.perf_counter() - start
 
 

@@ -93,12 +93,12 @@ class Store:
         old = self._read(part)
         places = np.arange(part.stop - part.start)
         places[np.array(numbers) - part.start] = len(old) + np.arange(len(numbers))
-        both = pa.concat_tables([old, _parsed(content)])
-        self._write(part.path.name, _packed(both.take(places)))
+        both = pa.concat_tables([old, _parquet_table(content)])
+        self._write(part.path.name, _parquet_content(both.take(places)))
         self._last = None
         self._note(part.start, part.stop, len(numbers), seconds)
 
-    def settle(self) -> None:
+    def sort_batches(self) -> None:
         """Sort the batches, after all points have been computed."""
         self.parts.sort(key=lambda part: part.start)
 
@@ -171,7 +171,7 @@ class Store:
     def _read(self, part: PartFile) -> Any:
         """Return the table of a batch; the last one is cached."""
         if self._last is None or self._last[0] != part:
-            self._last = part, _parsed(part.path.read_bytes())
+            self._last = part, _parquet_table(part.path.read_bytes())
         return self._last[1]
 
     def _write(self, name: str, content: bytes) -> None:
@@ -189,17 +189,17 @@ class Store:
             stream.write(f"{start} {stop} {computed} points {seconds:.3g} s\n")
 
 
-def packed(rows: Rows) -> bytes:
+def to_parquet(rows: Rows) -> bytes:
     """Return results as the content of a Parquet file."""
     import pyarrow as pa
 
     numbers = rows.results | {"bound": rows.bound, "model_error": rows.model_error}
     columns = {name: pa.array(numbers[name], pa.float64()) for name in NUMBERS}
     columns |= {name: pa.array(getattr(rows, name).tolist(), pa.string()) for name in TEXTS}
-    return _packed(pa.table(columns))
+    return _parquet_content(pa.table(columns))
 
 
-def _packed(table: Any) -> bytes:
+def _parquet_content(table: Any) -> bytes:
     import pyarrow as pa
     import pyarrow.parquet as pq
 
@@ -209,7 +209,7 @@ def _packed(table: Any) -> bytes:
     return stream.getvalue().to_pybytes()  # type: ignore[no-any-return]
 
 
-def _parsed(content: bytes) -> Any:
+def _parquet_table(content: bytes) -> Any:
     """Return the table in the content of a Parquet file, with each different text once.
 
     No threads are used: a pyarrow thread that still reads a Python stream when Python exits would
@@ -223,7 +223,7 @@ def _parsed(content: bytes) -> Any:
 
 
 @contextmanager
-def opened(study: Study, out: Path | None) -> Iterator[Store]:
+def open_store(study: Study, out: Path | None) -> Iterator[Store]:
     """Yield the store in the folder of an output, or without an output a temporary store.
 
     Raises

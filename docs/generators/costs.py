@@ -4,16 +4,16 @@ import json
 
 from derivation.checks import moving_costs
 from derivation.plate.report import readme
-from derivation.plate.reporting import measured, measured_accuracy
+from derivation.plate.reporting import benchmark_record, measurement
 from docs.generators.markdown import table
 
 
 def law() -> str:
     """Return what the contact law and quasi-static impacts cost."""
-    return "\n".join(readme.lines(measured_accuracy()))
+    return "\n".join(readme.lines(benchmark_record()))
 
 
 def inertia() -> str:
     """Return what impacts with plate inertia cost."""
     heads = [head.lstrip("#") for head in moving_costs.COLUMNS]
-    return table(heads, moving_costs.cells(json.loads(measured()["moving"])))
+    return table(heads, moving_costs.cells(json.loads(measurement()["moving"])))

@@ -6,25 +6,30 @@ from pathlib import Path
 
 import pytest
 
-from derivation.checks import moving_costs
+from derivation.checks import dynamic_benchmark
 from derivation.cli import main
-from derivation.plate.report.moving import moving_costs as drawn
-from derivation.plate.report.moving import moving_rows
+from derivation.plate.report.dynamic_benchmark import benchmark_rows
+from derivation.plate.report.dynamic_benchmark import dynamic_benchmark_figure as drawn
 from derivation.scene.scene import OUTPUTS
 
 
 @pytest.fixture(autouse=True)
 def _few_oscillators(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(moving_costs, "OSCILLATORS", 10)
+    monkeypatch.setattr(dynamic_benchmark, "OSCILLATORS", 10)
 
 
 def test_three_integrators_agree() -> None:
     """Collocation agrees with a Runge-Kutta method (order 8) and equal steps (order 2)."""
-    elements = moving_costs.by_elements(16, 1e-11).numbers
-    assert moving_costs.by_elements(8, 1e-11).numbers == pytest.approx(elements, rel=1e-12)
-    assert moving_costs.by_runge_kutta(1e-11).numbers == pytest.approx(elements, rel=2e-12)
+    elements = dynamic_benchmark.by_time_elements(16, 1e-11).numbers
+    assert dynamic_benchmark.by_time_elements(8, 1e-11).numbers == pytest.approx(
+        elements, rel=1e-12
+    )
+    assert dynamic_benchmark.by_runge_kutta(1e-11).numbers == pytest.approx(elements, rel=2e-12)
     rough, fine = (
-        [abs(x / y - 1) for x, y in zip(moving_costs.by_verlet(n).numbers, elements, strict=True)]
+        [
+            abs(x / y - 1)
+            for x, y in zip(dynamic_benchmark.by_verlet(n).numbers, elements, strict=True)
+        ]
         for n in (256, 1024)
     )
     assert max(rough) < 1e-4
@@ -32,7 +37,11 @@ def test_three_integrators_agree() -> None:
 
 
 def test_reference_and_rows_have_the_same_results() -> None:
-    trials = [*moving_costs.modes(), *moving_costs.branches(), *moving_costs.tolerances()]
+    trials = [
+        *dynamic_benchmark.modes(),
+        *dynamic_benchmark.branches(),
+        *dynamic_benchmark.tolerances(),
+    ]
     assert all(trial.names == OUTPUTS for trial in trials)
     few = next(trial for trial in trials if (trial.study, trial.setting) == ("modes", 10))
     more = next(trial for trial in trials if (trial.study, trial.setting) == ("modes", 40))
@@ -44,7 +53,7 @@ def test_reference_and_rows_have_the_same_results() -> None:
 
 
 def test_tolerance_is_met_and_its_bound_stated() -> None:
-    [trial] = [t for t in moving_costs.tolerances() if (t.method, t.setting) == ("A0", 5e-3)]
+    [trial] = [t for t in dynamic_benchmark.tolerances() if (t.method, t.setting) == ("A0", 5e-3)]
     found = trial.call()
     assert found.bound is not None
     pairs = zip(found.numbers, trial.reference(), strict=True)
@@ -52,9 +61,9 @@ def test_tolerance_is_met_and_its_bound_stated() -> None:
 
 
 def test_recorded_benchmark_is_reported() -> None:
-    data = json.loads(moving_costs.MEASURED.read_text())
-    rows = list(moving_rows(data))
-    assert len(rows) == len(data["rows"]) == len(moving_costs.cells(data))
+    data = json.loads(dynamic_benchmark.MEASURED.read_text())
+    rows = list(benchmark_rows(data))
+    assert len(rows) == len(data["rows"]) == len(dynamic_benchmark.cells(data))
     assert {row["study"] for row in data["rows"]} == {"integrator", "modes", "branches", "rtol"}
     for row in data["rows"]:
         assert row["seconds"] > 0.0

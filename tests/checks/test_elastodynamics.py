@@ -12,12 +12,12 @@ from derivation.checks.finite_elements.impact import (
     Sphere,
     Stepper,
     WideContactError,
-    pressed,
+    contact_forces,
     results,
-    struck,
-    touching,
+    simulate_impact,
+    static_contact,
 )
-from derivation.checks.finite_elements.mesh import Grading, graded, resting
+from derivation.checks.finite_elements.mesh import Grading, contactless_mesh, graded_mesh
 from derivation.checks.finite_elements.plate import EDGES, Plate, System
 from generated.bessel import bessel_j0_zeros
 from generated.contact_law import force
@@ -31,7 +31,7 @@ SMALL = ElementCase("small", "small", PLATE, Sphere(0.01, 0.002, 5.0))
 
 
 def system(case: ElementCase, grading: Grading = COARSE, reach: float = 1.1) -> System:
-    mesh = graded(case.plate.radius, case.plate.thickness, reach * case.radius, grading)
+    mesh = graded_mesh(case.plate.radius, case.plate.thickness, reach * case.radius, grading)
     return System(case.plate, mesh)
 
 
@@ -39,8 +39,8 @@ def system(case: ElementCase, grading: Grading = COARSE, reach: float = 1.1) -> 
 def test_static_force_on_a_thick_block_is_that_of_hertz(edge: str) -> None:
     """The static force on a block of thickness 2000 a (contact radius a) is Hertz's."""
     block, a, R = Plate(1.0, 1.0, 70e9, 0.3, 2700.0, edge), 5e-4, 0.01
-    mesh = graded(1.0, 1.0, 1.25 * a, Grading(contact=12))
-    _, forces = pressed(System(block, mesh), Sphere(R, 1.0, 1.0), a * a / R)
+    mesh = graded_mesh(1.0, 1.0, 1.25 * a, Grading(contact=12))
+    _, forces = static_contact(System(block, mesh), Sphere(R, 1.0, 1.0), a * a / R)
     assert forces.sum() == pytest.approx(4.0 / 3.0 * block.modulus * a**3 / R, rel=1.5e-3)
 
 
@@ -48,9 +48,9 @@ def test_static_force_on_a_thick_block_is_that_of_hertz(edge: str) -> None:
 def test_static_force_on_the_edge_of_the_paper(ratio: float, nu: float) -> None:
     plate = Plate(0.02 / ratio, 0.02, 70e9, nu, 2700.0)
     a, R = 1e-3, 0.02
-    mesh = graded(plate.radius, 0.02, 1.25 * a, Grading(contact=12, far=2.0))
+    mesh = graded_mesh(plate.radius, 0.02, 1.25 * a, Grading(contact=12, far=2.0))
     law = force(1.05 * a * a / R, R, 0.01, plate.radius, plate.lam, plate.mu)
-    _, forces = pressed(System(plate, mesh), Sphere(R, 1.0, 1.0), 1.05 * a * a / R)
+    _, forces = static_contact(System(plate, mesh), Sphere(R, 1.0, 1.0), 1.05 * a * a / R)
     assert forces.sum() == pytest.approx(float(law), rel=5e-4)
 
 
@@ -61,8 +61,8 @@ def test_static_contact_converges() -> None:
     law = force(depths, R, 0.01, PLATE.radius, PLATE.lam, PLATE.mu)
     errors = []
     for count in (4, 16):
-        plate = System(PLATE, graded(PLATE.radius, 0.02, 1.25 * a, Grading(contact=count)))
-        sums = [pressed(plate, Sphere(R, 1.0, 1.0), depth)[1].sum() for depth in depths]
+        plate = System(PLATE, graded_mesh(PLATE.radius, 0.02, 1.25 * a, Grading(contact=count)))
+        sums = [static_contact(plate, Sphere(R, 1.0, 1.0), depth)[1].sum() for depth in depths]
         errors.append(np.abs(sums / law - 1.0).mean())
     assert errors[1] < errors[0] / 5.0
 
@@ -71,7 +71,7 @@ def test_static_contact_converges() -> None:
 def test_frequencies_for_the_edge_of_the_paper_are_exact(ratio: float, nu: float) -> None:
     """Natural frequencies are the exact ones, because J0(phi_j r) satisfies this edge condition."""
     plate = Plate(1.0, ratio, 1.0, nu, 1.0)
-    found = System(plate, resting(1.0, ratio, 1, 6)).bending_frequencies(4)
+    found = System(plate, contactless_mesh(1.0, ratio, 1, 6)).bending_frequencies(4)
     exact = bending_frequency(bessel_j0_zeros(4) * ratio / 2, nu) * plate.shear_wave_speed
     np.testing.assert_allclose(found * ratio / 2, exact, rtol=2e-6)
 
@@ -80,7 +80,7 @@ def test_frequencies_of_a_thin_clamped_plate() -> None:
     """Frequencies are just below those of a thin plate, lambda^2 sqrt(D/(rho H))/b^2."""
     ratio, nu = 0.01, 0.3
     found = System(
-        Plate(1.0, ratio, 1.0, nu, 1.0, "clamped"), resting(1.0, ratio, 2, 4)
+        Plate(1.0, ratio, 1.0, nu, 1.0, "clamped"), contactless_mesh(1.0, ratio, 2, 4)
     ).bending_frequencies(2)
     thin = np.array([10.21583, 39.77115]) * ratio / math.sqrt(12.0 * (1.0 - nu**2))
     assert (found < thin).all()
@@ -100,7 +100,7 @@ def test_contact_set_is_the_only_admissible_one() -> None:
     for _ in range(20):
         roots = generator.normal(size=(5, 5))
         compliance, gap = roots @ roots.T + 0.5 * np.eye(5), generator.normal(size=5)
-        forces, active = touching(compliance, gap, np.zeros(5, dtype=bool))
+        forces, active = contact_forces(compliance, gap, np.zeros(5, dtype=bool))
         solutions = []
         for chosen in itertools.product([False, True], repeat=5):
             place = np.flatnonzero(chosen)
@@ -117,7 +117,7 @@ def test_energy_and_impulse() -> None:
     """The energy error falls with the time step; the impulse is the sphere's change of momentum."""
     plate, losses = system(SMALL), []
     for steps in (100, 200):
-        history = struck(plate, SMALL.sphere, SMALL.time / steps, 100.0 * SMALL.time)
+        history = simulate_impact(plate, SMALL.sphere, SMALL.time / steps, 100.0 * SMALL.time)
         losses.append(abs(history.energy - 1.0))
         impulse = np.trapezoid(history.force, history.time)
         brought = SMALL.sphere.mass * (SMALL.sphere.speed - history.speed[-1])
@@ -148,7 +148,9 @@ def test_edge_beyond_the_reach_of_waves_has_no_influence() -> None:
     for edge in EDGES:
         case = replace(SMALL, plate=replace(PLATE, radius=0.2, edge=edge))
         plate = system(case)
-        history = struck(plate, case.sphere, case.time / 100, 9.0 * case.time, until_end=False)
+        history = simulate_impact(
+            plate, case.sphere, case.time / 100, 9.0 * case.time, until_end=False
+        )
         impact = results(history, plate.contact_radii)
         assert impact.contact_time < case.edge_echo
         found.append((impact.contact_time, impact.max_force, impact.restitution))
@@ -159,7 +161,9 @@ def test_results_converge_with_mesh_and_steps() -> None:
     found = []
     for grading, steps in ((FINE, 300), (COARSE, 300), (FINE, 100)):
         plate = system(SMALL, grading)
-        history = struck(plate, SMALL.sphere, SMALL.time / steps, 9.0 * SMALL.time, until_end=False)
+        history = simulate_impact(
+            plate, SMALL.sphere, SMALL.time / steps, 9.0 * SMALL.time, until_end=False
+        )
         impact = results(history, plate.contact_radii)
         found.append((impact.max_indentation, impact.max_force, impact.contact_time))
     best, coarse, long = np.array(found)
@@ -172,7 +176,7 @@ def test_several_contacts_conserve_energy() -> None:
     plate = Plate(0.03, 0.001, 70e9, 0.3, 2700.0, "clamped")
     case = ElementCase("thin", "thin", plate, Sphere(0.01, 0.001, 1.0))
     made = system(case, Grading(contact=4, thickness=1.0, far=3.0, edge=0))
-    history = struck(made, case.sphere, case.time / 100, 300.0 * case.time)
+    history = simulate_impact(made, case.sphere, case.time / 100, 300.0 * case.time)
     impact = results(history, made.contact_radii)
     assert impact.contacts > 1
     assert impact.contact_time < impact.total_time
@@ -184,7 +188,7 @@ def test_contact_wider_than_the_fine_mesh_is_rejected() -> None:
     with pytest.raises(
         WideContactError, match="contact: expected it within the fine mesh, got a wider one"
     ):
-        struck(system(SMALL, reach=0.5), SMALL.sphere, SMALL.time / 100, SMALL.time)
+        simulate_impact(system(SMALL, reach=0.5), SMALL.sphere, SMALL.time / 100, SMALL.time)
 
 
 def test_profiles_of_paraboloid_and_sphere() -> None:

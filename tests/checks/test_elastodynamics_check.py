@@ -14,7 +14,7 @@ from derivation.checks.finite_elements.cases import ElementCase
 from derivation.checks.finite_elements.impact import Sphere
 from derivation.checks.finite_elements.mesh import Grading
 from derivation.checks.finite_elements.plate import Plate
-from derivation.checks.finite_elements.record import RESULTS, ElementSetting, read, solved
+from derivation.checks.finite_elements.record import RESULTS, ElementSetting, read, solve_impact
 from derivation.cli import main
 from derivation.plate import reporting
 from derivation.plate.report.elastodynamics import (
@@ -55,7 +55,7 @@ def test_only_missing_cases_are_computed(
     few: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = tmp_path / "elastodynamics.json"
-    whole = record.computed(path)
+    whole = record.compute_missing(path)
     assert few == ["one", "two", "plate"]
     assert read(path) == json.loads(path.read_text()) == json.loads(json.dumps(whole))
     data = read(path)
@@ -63,18 +63,18 @@ def test_only_missing_cases_are_computed(
     del data["impacts"][1]
     path.write_text(record.to_json(data))
     few.clear()
-    record.computed(path)
+    record.compute_missing(path)
     assert few == ["two"]
     assert read(path)["impacts"][0]["program"] == {"kept": True}
     monkeypatch.setattr(record, "source_hash", lambda: "of other code")
     few.clear()
-    record.computed(path)
+    record.compute_missing(path)
     assert few == ["one", "two", "plate"]
 
 
 def test_record_is_written_after_each_case(few: list[str], tmp_path: Path) -> None:
     path, seen = tmp_path / "elastodynamics.json", []
-    record.computed(path, lambda *_: seen.append(len(read(path)["impacts"])))
+    record.compute_missing(path, lambda *_: seen.append(len(read(path)["impacts"])))
     assert seen == [0, 1, 2]
     assert few
 
@@ -90,7 +90,7 @@ def test_row_has_results_and_errors(monkeypatch: pytest.MonkeyPatch) -> None:
     """A row has each result with its error; the fine mesh grows until it covers the contact."""
     for name in ("BEST", "COARSER", "LONGER"):
         monkeypatch.setattr(record, name, COARSE)
-    monkeypatch.setattr(record, "SPREAD", (0.6, 2.0))
+    monkeypatch.setattr(record, "REACH_FACTORS", (0.6, 2.0))
     row = record.impact_row(CASE)
     assert row["elements"].keys() == row["errors"].keys() == set(RESULTS)
     assert all(0.0 < row["errors"][name] < 0.1 for name in RESULTS)
@@ -104,7 +104,7 @@ def test_program_agrees_with_finite_elements() -> None:
     pane = cases.impacts()[0]
     assert pane.plate.edge == "paper"
     setting = ElementSetting(Grading(contact=6, thickness=1.0, far=3.0, edge=0), 150)
-    impact, _ = solved(pane, setting, until_end=False)
+    impact, _ = solve_impact(pane, setting, until_end=False)
     found = simulated(record.inputs(pane))
     for name in ("contact_time", "max_indentation", "max_force", "restitution"):
         assert found["values"][name] == pytest.approx(getattr(impact, name), rel=2e-3), name
@@ -124,8 +124,8 @@ def row(name: str, contact_time: float, bound: float = 1e-3) -> dict[str, Any]:
 
 def test_difference_is_accepted_up_to_the_stated_error() -> None:
     within, beyond = compared(row("a", 1.0024)), compared(row("b", 1.0026))
-    assert within.kept
-    assert not beyond.kept
+    assert within.passed
+    assert not beyond.passed
     assert beyond.worst == "contact_time"
     assert len(cells(beyond)) == len(COLUMNS)
     assert (cells(within)[-1], cells(beyond)[-1]) == ("yes", "NO")
@@ -141,7 +141,7 @@ def test_rejected_scene_is_reported(monkeypatch: pytest.MonkeyPatch, tmp_path: P
     monkeypatch.setattr(elastodynamics_check, "simulate", rejects)
     [case] = compare(path, save=True)
     assert case.refused
-    assert case.kept
+    assert case.passed
     assert len(cells(case)) == len(COLUMNS)
     assert read(path)["impacts"][0]["program"] == {"refused": case.refused}
     context = elastodynamics_context(read(path))
@@ -174,7 +174,7 @@ def test_command(
 
 
 def test_report_contains_the_record() -> None:
-    data = json.loads(reporting.measured()["elastodynamics"])
+    data = json.loads(reporting.measurement()["elastodynamics"])
     rows = [*data["impacts"][:3], row("a & b", 1.001), row("c", 1.0)]
     shown = elastodynamics_context(data | {"impacts": rows})
     assert shown["within"] <= shown["cases"]

@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 
 from derivation.checks import inertia as inertia_check
-from derivation.checks import inertia_judged as measure
-from derivation.checks.inertia_judged import InertiaRow
+from derivation.checks import inertia_rows as measure
+from derivation.checks.inertia_rows import InertiaRow
 from derivation.checks.random_scenes import Scene, largest_change
 from derivation.cli import main
 from derivation.engine.files import measurements
@@ -31,7 +31,7 @@ SLOW = Model(
 
 def gate_of(model: Model, rtol: float) -> SelectedEffects:
     """Return the effect selection for inertia, with all other effects included."""
-    others = inertia_check.present(model) - {"inertia", "hertz"}
+    others = inertia_check.selectable_effects(model) - {"inertia", "hertz"}
     return decide(model, dict.fromkeys(others, True) | {"inertia": "auto"}, rtol)
 
 
@@ -39,7 +39,7 @@ def gate_of(model: Model, rtol: float) -> SelectedEffects:
 def test_both_sides_of_the_threshold(changes: dict[str, Any]) -> None:
     """Inertia is included just below its bound, and its change of the results is within it."""
     model = replace(SLOW, **changes)
-    every = inertia_check.present(model)
+    every = inertia_check.selectable_effects(model)
     price = gate_of(model, 1.0).error
     assert 0.0 < price < 3e-2
     above, below = gate_of(model, price), gate_of(model, price * (1.0 - 1e-9))
@@ -55,7 +55,7 @@ def test_weight_increases_the_effect_of_inertia() -> None:
     heavy = replace(SLOW, v0=1e-3, gravity=9.81)
     light = replace(heavy, gravity=0.0)
     prices = [gate_of(model, 1.0).error for model in (light, heavy)]
-    every = [inertia_check.present(model) for model in (light, heavy)]
+    every = [inertia_check.selectable_effects(model) for model in (light, heavy)]
     still = inertia_check.quasi_static(heavy)
     assert still is not None
     share = weight_share(heavy, still.max_indentation)
@@ -79,7 +79,7 @@ NUMBERS, OUT = (1, 5, 9, 16, 17, 44, 76), (5, 17, 76)
 @pytest.mark.parametrize("number", NUMBERS)
 def test_bounds_hold_in_random_scenes(number: int) -> None:
     data, place = measure.scene(number)
-    assert inertia_check.pass_over(data) == ""
+    assert inertia_check.reason_to_skip(data) == ""
     row = inertia_check.solve(number, data, place)
     assert isinstance(row, InertiaRow)
     assert row.included is (number not in OUT)
@@ -102,10 +102,10 @@ def test_violated_bound_is_detected(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(
         inertia_check, "solve", lambda number, *_: replace(EXACT, number=number, error=0.02)
     )
-    monkeypatch.setattr(inertia_check, "pass_over", lambda _: "")
+    monkeypatch.setattr(inertia_check, "reason_to_skip", lambda _: "")
     found = inertia_check.judge(3)
     (side,) = measure.sides(found.rows)
-    assert not side.kept
+    assert not side.passed
     assert side.quantity == "max_force"
     assert side.tightest == pytest.approx(20.0)
     assert found.drawn == 3
@@ -116,7 +116,7 @@ def test_rejected_and_skipped_scenes_are_counted(monkeypatch: pytest.MonkeyPatch
     monkeypatch.setattr(
         inertia_check, "solve", lambda number, *_: next(solved, replace(EXACT, number=number))
     )
-    monkeypatch.setattr(inertia_check, "pass_over", lambda _: next(turns))
+    monkeypatch.setattr(inertia_check, "reason_to_skip", lambda _: next(turns))
     found = inertia_check.judge(1)
     assert found.refused == {"rtol": 2}
     assert found.passed_over == {"too slow": 1}
@@ -157,7 +157,7 @@ def test_command_shows_both_sides_of_the_threshold(
         )
 
     monkeypatch.setattr(inertia_check, "solve", solve)
-    monkeypatch.setattr(inertia_check, "pass_over", lambda _: "")
+    monkeypatch.setattr(inertia_check, "reason_to_skip", lambda _: "")
     monkeypatch.setattr(inertia_check, "MEASURED", tmp_path / "inertia.json")
     assert main(["check", "inertia", "-n", "12", "--seed", "7", "--update"]) == 0
     shown = capsys.readouterr().out
@@ -178,23 +178,23 @@ def changed(**tables: dict[str, Any]) -> dict[str, Any]:
 
 def test_scenes_are_skipped_for_stated_reasons() -> None:
     """Scenes are skipped for their weight, Zener parameter, speed or number of modes."""
-    assert inertia_check.pass_over(changed()) == ""
+    assert inertia_check.reason_to_skip(changed()) == ""
     slow = changed(impact={"speed": 1e-3, "gravity": 9.81})
-    assert "weight over the initial kinetic energy above 100" in inertia_check.pass_over(slow)
+    assert "weight over the initial kinetic energy above 100" in inertia_check.reason_to_skip(slow)
     still = inertia_check.quasi_static(model_of(read(slow)))
     assert still is not None
-    assert 2.0 * 9.81 * still.max_indentation / 1e-6 > inertia_check.FALLEN
+    assert 2.0 * 9.81 * still.max_indentation / 1e-6 > inertia_check.MAX_WEIGHT_WORK
     # Zener's parameter is proportional to mass^(3/5); the limit 5 is between the two values.
     heavy, light = (changed(sphere={"density": rho}) for rho in (1e7, 1e3))
-    assert inertia_check.pass_over(heavy) == "Zener parameter above 5"
-    assert inertia_check.pass_over(light) == ""
+    assert inertia_check.reason_to_skip(heavy) == "Zener parameter above 5"
+    assert inertia_check.reason_to_skip(light) == ""
     numbers = [zener_number(model_of(read(data))) for data in (heavy, light)]
     assert numbers[0] / numbers[1] == pytest.approx(1e4**0.6, rel=1e-9)
     assert numbers[1] < 5.0 < numbers[0]
     fast = changed(impact={"speed": 1e6})
-    assert inertia_check.pass_over(fast) == "no impact on the quasi-static plate"
+    assert inertia_check.reason_to_skip(fast) == "no impact on the quasi-static plate"
     assert inertia_check.quasi_static(model_of(read(fast))) is None
-    assert inertia_check.pass_over(measure.scene(2)[0]) == "too many modes"
+    assert inertia_check.reason_to_skip(measure.scene(2)[0]) == "too many modes"
 
 
 def test_skipped_scenes_are_reported_with_the_reason(monkeypatch: pytest.MonkeyPatch) -> None:

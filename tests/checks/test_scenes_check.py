@@ -121,7 +121,7 @@ def test_worker_processes_run_the_scenes() -> None:
     found = check_scenes(2, drawn=[DROP, fast])
     assert [o.kind for o in found] == ["finished", "rejected", "rejected"]
     assert [o.rtol for o in found] == [1e-3, 1e-3, None]
-    assert all(o.remedied for o in found)
+    assert all(o.states_remedy for o in found)
     assert all(0.0 < o.seconds < 60.0 for o in found)
     assert all(1e6 < o.memory < 2e9 for o in found)
     assert f"{max(o.seconds for o in found):.2g} s, " in cost(found)

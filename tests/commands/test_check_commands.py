@@ -16,7 +16,7 @@ from derivation.checks import bounds
 from derivation.checks import effects as effects_check
 from derivation.checks import inertia as inertia_check
 from derivation.checks.effects import TOLERANCES
-from derivation.checks.inertia_judged import InertiaRow
+from derivation.checks.inertia_rows import InertiaRow
 from derivation.cli import main
 from derivation.engine import build
 from derivation.engine.measure import check as measure
@@ -90,17 +90,17 @@ def test_function_above_its_budget_fails_and_is_named(
     paper = plate_paper.PAPER
     correct = build.check(paper, update=True)
     before = path.read_bytes()
-    assert build.verdict(paper, correct) == ["all errors are within their budgets"]
+    assert build.measurement_remarks(paper, correct) == ["all errors are within their budgets"]
     install_j0(1.0 + 1e-13)
     assert main(["check"]) == 1
     assert "NO" in capsys.readouterr().out
-    assert build.verdict(paper, build.check(paper)) == [
+    assert build.measurement_remarks(paper, build.check(paper)) == [
         "above their budget: bessel_j0",
         "different from the saved check.json: bessel_j0",
     ]
     assert path.read_bytes() == before
     path.unlink()
-    assert build.verdict(paper, correct) == [
+    assert build.measurement_remarks(paper, correct) == [
         "all errors are within their budgets"
     ]  # there is no record to compare with
 
@@ -244,7 +244,7 @@ def test_references_are_saved_while_they_are_computed(
     known = bounds.committed_references()[:7]
     path, computed = tmp_path / "bounds.json", list[Any]()
     monkeypatch.setattr(bounds, "MEASURED", path)
-    monkeypatch.setattr(bounds, "KEPT_EVERY", 2)
+    monkeypatch.setattr(bounds, "SAVE_EVERY", 2)
     reference_values = {
         bounds.scene(number): exact_value for number, exact_value in enumerate(known)
     }
@@ -306,7 +306,7 @@ def test_check_of_effects_is_printed_and_recorded(
         return None if rejected else ([*ONES[1:], 1.0 + rtol / 4], ["hertz"], rtol / 2)
 
     monkeypatch.setattr(effects_check, "MEASURED", path)
-    monkeypatch.setattr(effects_check, "everything", everything)
+    monkeypatch.setattr(effects_check, "all_effects_impact", everything)
     monkeypatch.setattr(effects_check, "selected_impact", selected)
     assert main(["check", "effects", "-n", "6", "--update"]) == 0
     assert "6 scenes" in capsys.readouterr().out
@@ -334,7 +334,7 @@ def test_skipped_and_rejected_scenes_are_listed(monkeypatch: Patch, capsys: Capt
     row = InertiaRow(
         2, 1e-2, "none", True, 1e-3, 0.0, "max_force", 0.0, 1e-3, 0.0, "max_force", 1, 4, 8
     )
-    monkeypatch.setattr(inertia_check, "pass_over", lambda _: next(skipped))
+    monkeypatch.setattr(inertia_check, "reason_to_skip", lambda _: next(skipped))
     monkeypatch.setattr(inertia_check, "solve", lambda *_: next(solved, row))
     assert main(["check", "inertia", "-n", "1"]) == 0
     shown = capsys.readouterr().out
@@ -342,7 +342,7 @@ def test_skipped_and_rejected_scenes_are_listed(monkeypatch: Patch, capsys: Capt
     assert "1 rejected: rtol" in shown
     assert "1 skipped: too heavy" in shown
     broken = dataclasses.replace(row, error=0.02)
-    monkeypatch.setattr(inertia_check, "pass_over", lambda _: "")
+    monkeypatch.setattr(inertia_check, "reason_to_skip", lambda _: "")
     monkeypatch.setattr(inertia_check, "solve", lambda *_: broken)
     assert main(["check", "inertia", "-n", "1", "--json", "-"]) == 1
     [side] = json.loads(capsys.readouterr().out)["sides"]

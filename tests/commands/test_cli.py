@@ -97,11 +97,11 @@ def test_interrupted_command_leaves_no_incomplete_files(tmp_path: Path) -> None:
 import sys, time
 from derivation import cli
 from derivation.plate import derived
-from derivation.engine.formula.chain import Link
+from derivation.engine.formula.chain import DerivationStep
 def wait():
     print("deriving", flush=True)
     time.sleep(300)
-object.__setattr__(derived.CHAIN, "links", (Link("wait", wait),))
+object.__setattr__(derived.CHAIN, "steps", (DerivationStep("wait", wait),))
 sys.exit(cli.main(["generate", "--out", sys.argv[1]]))
 """
     out = tmp_path / "plate"

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from derivation.checks import moving_costs
+from derivation.checks import dynamic_benchmark
 from derivation.cli import main
 from derivation.engine import build, outputs, report_files
 from derivation.engine.files import ROOT, write_files
@@ -170,7 +170,7 @@ def test_complete_report_updates_readme_and_overview(tmp_path: Path) -> None:
     parts = replace(reporting.report_parts(plan.names), front="")  # it refers to other sections
     short = replace(PAPER.report(), plan=plan, parts=lambda _: parts, figures=dict)
     paper = replace(PAPER, folder=tmp_path, report=lambda: short)
-    readme, picture = tmp_path / reporting.README, tmp_path / reporting.PICTURE
+    readme, picture = tmp_path / reporting.README, tmp_path / reporting.README_FIGURE
     readme.write_text(emptied)
     report_files.write(paper, compiled=False, sections=["code"])
     assert readme.read_text() == emptied
@@ -186,9 +186,9 @@ def test_complete_report_updates_readme_and_overview(tmp_path: Path) -> None:
 
 def test_overview_shows_three_models_and_the_fastest_methods() -> None:
     """The half-space curve agrees with Hertz impact theory; the plate lowers and lengthens it."""
-    costs = reporting.measured_accuracy()
-    left, right = overview(load(reporting.PANE), costs).axes
-    case = model_of(load(reporting.PANE))
+    costs = reporting.benchmark_record()
+    left, right = overview(load(reporting.GLASS_PANE), costs).axes
+    case = model_of(load(reporting.GLASS_PANE))
     half_space, static, dynamic = (np.array(line.get_data()) for line in left.lines)
     peaks = [1e3 * line[1].max() for line in (half_space, static, dynamic)]
     assert peaks[0] > peaks[1] > 0.0
@@ -217,21 +217,23 @@ def test_dynamic_benchmark_is_measured_and_written(
     calls = list[str]()
 
     def outcome(name: str, *numbers: float) -> Any:
-        def call() -> moving_costs.CostOutcome:
+        def call() -> dynamic_benchmark.CostOutcome:
             calls.append(name)
-            return moving_costs.CostOutcome(numbers, 7, bound=None if name == "slow" else 0.1)
+            return dynamic_benchmark.CostOutcome(numbers, 7, bound=None if name == "slow" else 0.1)
 
         return call
 
-    def trial(study: str, name: str, *numbers: float) -> list[moving_costs.Trial]:
+    def trial(study: str, name: str, *numbers: float) -> list[dynamic_benchmark.Trial]:
         reference = (1.0, 2.0, 4.0)
-        return [moving_costs.Trial(study, name, 3, outcome(name, *numbers), lambda: reference,
-                                   moving_costs.FIRST)]  # fmt: skip
+        return [dynamic_benchmark.Trial(study, name, 3, outcome(name, *numbers), lambda: reference,
+                                   dynamic_benchmark.FIRST)]  # fmt: skip
 
-    monkeypatch.setattr(moving_costs, "integrators", lambda: trial("integrator", "slow", 1, 2, 5))
-    monkeypatch.setattr(moving_costs, "modes", lambda: trial("modes", "A0", 1.5, 2, 4))
-    monkeypatch.setattr(moving_costs, "branches", list)
-    monkeypatch.setattr(moving_costs, "tolerances", list)
+    monkeypatch.setattr(
+        dynamic_benchmark, "integrators", lambda: trial("integrator", "slow", 1, 2, 5)
+    )
+    monkeypatch.setattr(dynamic_benchmark, "modes", lambda: trial("modes", "A0", 1.5, 2, 4))
+    monkeypatch.setattr(dynamic_benchmark, "branches", list)
+    monkeypatch.setattr(dynamic_benchmark, "tolerances", list)
     path = tmp_path / "moving.json"
     assert main(["benchmark", "--dynamic", "--out", str(path)]) == 0
     data = json.loads(path.read_text())
@@ -239,12 +241,14 @@ def test_dynamic_benchmark_is_measured_and_written(
     assert first["errors"] == {"contact_time": 0.0, "max_force": 0.0, "restitution": 0.25}
     assert second["errors"]["contact_time"] == 0.5
     assert (first["bound"], second["bound"], first["oscillators"]) == (None, 0.1, 7)
-    assert calls.count("slow") > moving_costs.ROUNDS
+    assert calls.count("slow") > dynamic_benchmark.ROUNDS
     assert str(path) in capsys.readouterr().err.replace("\n", "")
     reported = list[Any]()
-    again, written = moving_costs.record(path, lambda *given: reported.append(given))
+    again, written = dynamic_benchmark.record(path, lambda *given: reported.append(given))
     assert written == path
     assert reported == [("integrator: slow", 1, 3), ("modes: A0", 2, 3), ("times", 3, 3)]
     assert [row["errors"] for row in again["rows"]] == [row["errors"] for row in data["rows"]]
-    assert moving_costs.measure()["scene"] == moving_costs.SCENE  # without reports of progress
-    assert data["truth"]["modes"] == moving_costs.MOST
+    assert (
+        dynamic_benchmark.measure()["scene"] == dynamic_benchmark.SCENE
+    )  # without reports of progress
+    assert data["truth"]["modes"] == dynamic_benchmark.MOST_MODES

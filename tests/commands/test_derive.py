@@ -5,9 +5,9 @@ import json
 import pytest
 
 from derivation.cli import main
-from derivation.engine.about import about
 from derivation.engine.build import formulas
 from derivation.engine.formula.notation import to_plain
+from derivation.engine.formula_details import formula_details
 from derivation.plate.paper import PAPER
 
 Captured = pytest.CaptureFixture[str]
@@ -47,10 +47,10 @@ def test_sources_and_uses_of_a_formula_are_in_the_json(capsys: Captured) -> None
     assert main(["derive", "K_j", "--json", "-"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["name"] == "K_j"
-    assert found["link"] == "contact law"
+    assert found["step"] == "contact law"
     assert found["unit"] == "m"
     for name in found["sources"]:
-        assert "K_j" in about(PAPER, name).used_by
+        assert "K_j" in formula_details(PAPER, name).used_by
     for name in found["used_by"]:
         assert "K_j" in formulas(PAPER)[name].sources
 
@@ -59,8 +59,8 @@ def test_sources_and_uses_of_a_formula_are_in_the_json(capsys: Captured) -> None
 def test_formulas_of_every_kind_are_shown(name: str, capsys: Captured) -> None:
     assert main(["derive", name]) == 0
     shown = capsys.readouterr().out
-    details = about(PAPER, name)
-    assert f": {details.link}\n" in shown
+    details = formula_details(PAPER, name)
+    assert f": {details.step}\n" in shown
     assert all(source.partition(",")[0] in shown for source in details.references)
     assert ("is the sum of" in shown) is details.formula.summed
 

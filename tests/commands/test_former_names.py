@@ -40,11 +40,11 @@ def test_former_option_is_accepted_with_one_notice(
 ) -> None:
     calls = list[object]()
 
-    def account(_: object, update: bool, __: object) -> tuple[()]:
+    def rewriting_effects(_: object, update: bool, __: object) -> tuple[()]:
         calls.append(update)
         return ()
 
-    monkeypatch.setattr(build, "account", account)
+    monkeypatch.setattr(build, "rewriting_effects", rewriting_effects)
     assert main(["rewrite", "--record", "--json", "-"]) == 0
     shown = capsys.readouterr()
     assert json.loads(shown.out) == {"rows": []}

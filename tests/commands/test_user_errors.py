@@ -20,9 +20,9 @@ from typer.main import get_command
 
 from derivation import pipeline
 from derivation.checks import bounds as bounds_check
+from derivation.checks import dynamic_benchmark
 from derivation.checks import effects as effects_check
 from derivation.checks import inertia as inertia_check
-from derivation.checks import moving_costs
 from derivation.cli import app, main
 from derivation.engine import outputs, report_files
 from derivation.engine.files import ROOT
@@ -42,7 +42,7 @@ def commands(group: Any, prefix: str = "") -> Iterator[tuple[str, Any]]:
 COMMANDS = dict(commands(get_command(app)))
 PAPER = str(ROOT / "derivation" / "scene" / "examples" / "paper.toml")
 NOBODY = 65534
-LOADED = moving_costs, reporting, report_files
+LOADED = dynamic_benchmark, reporting, report_files
 """Modules of the commands below, imported before the process gives up its permissions."""
 Captured = pytest.CaptureFixture[str]
 

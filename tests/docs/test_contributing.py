@@ -54,8 +54,8 @@ SHORT_CHAIN = """
 import sys
 from derivation.cli import main
 from derivation.plate import chain
-chain.LINKS = tuple(link for link in chain.LINKS if link[0] == "Hertz")
-chain.MOTION_LINKS = tuple(link for link in chain.MOTION_LINKS if link[0] == "mean pressure")
+chain.STEPS = tuple(step for step in chain.STEPS if step[0] == "Hertz")
+chain.MOTION_STEPS = tuple(step for step in chain.MOTION_STEPS if step[0] == "mean pressure")
 """
 DERIVE = f"{SHORT_CHAIN}sys.exit(main(sys.argv[1:]))"
 # The new formulas are derived, all others are taken from the checkout: this saves half an hour.
@@ -67,19 +67,19 @@ from derivation.engine import package
 from derivation.engine.formula.chain import Chain
 from derivation.engine.rewrite.form import form
 from derivation.plate import blocks, derived, forms
-from derivation.plate.chain import MOTION_LINKS
+from derivation.plate.chain import MOTION_STEPS
 from derivation.plate.modules import printed_modules
-links, findings, made, known_blocks, families = pickle.loads(Path(sys.argv[1]).read_bytes())
-blocks.built = lambda _: known_blocks
-known = dict(links)
-links = (*links, *((name, derive()) for name, derive in MOTION_LINKS if name not in known))
-formulas = {formula.name: formula for _, found in links for formula in found}
+steps, findings, made, known_blocks, families = pickle.loads(Path(sys.argv[1]).read_bytes())
+blocks.build_blocks = lambda _: known_blocks
+known = dict(steps)
+steps = (*steps, *((name, derive()) for name, derive in MOTION_STEPS if name not in known))
+formulas = {formula.name: formula for _, found in steps for formula in found}
 shapes = [("pressure", "p_mean", forms._pressure()["p_mean"])]
 shapes += [(m.name, name, shape) for m in printed_modules() for name, shape in m.stated().items()]
 made += tuple(form(name, module, formulas[name].expression, *shape, {})
               for module, name, shape in shapes)
-Chain.found = lambda _: links
-derived.chain, derived.misprints = lambda: links, lambda: findings
+Chain.derived_steps = lambda _: steps
+derived.chain, derived.misprints = lambda: steps, lambda: findings
 package.forms_of = lambda *_: made
 from derivation.cli import main
 """
@@ -94,8 +94,8 @@ from derivation.engine.measure import hard
 from derivation.engine.measure.suite import find_references
 from derivation.plate.cases import suite
 from derivation.plate.judge import PACKAGE, check, generated_kernels
-from derivation.plate.subjects import handed_in
-[own] = [cases for cases in handed_in("cases", "CASES") if "imprint" in cases.__module__]
+from derivation.plate.subjects import exports
+[own] = [cases for cases in exports("cases", "CASES") if "imprint" in cases.__module__]
 suite.families = lambda: (*families, *own())
 committed = Path("reports/data")
 def added(name, key, text):
@@ -112,7 +112,7 @@ judged = hard.check(new, find_references(new, nowhere, nowhere))
 added("hard.json", "cases", hard.to_json(judged, PACKAGE))
 print(json.dumps({
     "functions": [[row.kernel, row.module, row.passed, row.oracles] for row in rows],
-    "cases": [[row.case.kernel, row.kept, row.error, row.allowed] for row in judged],
+    "cases": [[row.case.kernel, row.passed, row.error, row.allowed] for row in judged],
 }))
 """
 REPORT = f"{WHOLE}sys.exit(main(['report', '--no-pdf', '--out', sys.argv[2]]))"

@@ -4,7 +4,7 @@ import re
 
 from derivation.engine.files import ROOT
 from derivation.plate.derived import misprints
-from derivation.plate.reporting import PICTURE, README
+from derivation.plate.reporting import README, README_FIGURE
 
 TEXT = (ROOT / README).read_text()
 
@@ -27,8 +27,8 @@ def test_table_contains_every_misprint() -> None:
 
 
 def test_picture_exists() -> None:
-    assert f"]({PICTURE})" in TEXT
-    assert (ROOT / PICTURE).read_bytes().startswith(b"<?xml")
+    assert f"]({README_FIGURE})" in TEXT
+    assert (ROOT / README_FIGURE).read_bytes().startswith(b"<?xml")
 
 
 def test_local_links_have_targets() -> None:

@@ -7,13 +7,13 @@ import pytest
 
 from derivation.cli import main
 from derivation.engine import bounded as module
-from derivation.engine.bounded import LimitError, bounded
+from derivation.engine.bounded import LimitError, run_limited
 
 
 def test_results_and_errors_are_returned() -> None:
-    assert bounded(lambda: {"x": [1, 2.5]}, "this") == {"x": [1, 2.5]}
+    assert run_limited(lambda: {"x": [1, 2.5]}, "this") == {"x": [1, 2.5]}
     with pytest.raises(KeyError, match="nothing"):
-        bounded(lambda: {}["nothing"], "this")
+        run_limited(lambda: {}["nothing"], "this")
 
 
 def test_time_is_limited() -> None:
@@ -22,19 +22,19 @@ def test_time_is_limited() -> None:
             pass
 
     with pytest.raises(LimitError, match="this takes more than 1 s: simplify"):
-        bounded(loop, "this", seconds=1)
+        run_limited(loop, "this", seconds=1)
 
 
 def test_elapsed_time_is_limited(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "PATIENCE", 0.1)
     with pytest.raises(LimitError, match="more than 1 s"):
-        bounded(lambda: time.sleep(100), "this", seconds=1)
+        run_limited(lambda: time.sleep(100), "this", seconds=1)
 
 
 def test_memory_is_limited_in_python_and_in_libraries() -> None:
     for allocate in (lambda: [0] * 10**9, lambda: flint.fmpz(3) ** (10**11) and None):
         with pytest.raises(LimitError, match="this takes more than 200 MB"):
-            bounded(allocate, "this", megabytes=200)
+            run_limited(allocate, "this", megabytes=200)
 
 
 def test_depth_is_limited() -> None:
@@ -42,12 +42,12 @@ def test_depth_is_limited() -> None:
         recursive()
 
     with pytest.raises(LimitError, match="nest the formula less"):
-        bounded(recursive, "this")
+        run_limited(recursive, "this")
 
 
 def test_work_is_done_without_limits_if_fork_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delattr(module.os, "fork")
-    assert bounded(lambda: 3, "this") == 3
+    assert run_limited(lambda: 3, "this") == 3
 
 
 NESTED = "x"

@@ -11,7 +11,7 @@ import pytest
 from shared_scenes import PAPER
 
 from derivation.cli import main
-from derivation.engine.console import MOST, UNREAD, listing, table, warn
+from derivation.engine.console import MOST_WARNINGS, UNREAD_STATUS, listing, table, warn
 from derivation.engine.files import ROOT
 from derivation.engine.printable import in_json, one_line, printable
 from derivation.scene import SceneError, load, read
@@ -87,7 +87,7 @@ def test_long_keys_and_values_are_shortened() -> None:
 def test_list_of_warnings_is_shortened(capsys: Captured) -> None:
     warn([f"number {n}" for n in range(1, 1001)])
     lines = capsys.readouterr().err.splitlines()
-    assert len(lines) == MOST + 1
+    assert len(lines) == MOST_WARNINGS + 1
     assert "980 more" in lines[-1]
 
 
@@ -137,7 +137,7 @@ def test_files_are_written_if_standard_output_is_closed(
         env={**os.environ, "PYTHONPATH": str(ROOT)},
     )  # fmt: skip
     os.close(writer)
-    assert run.returncode == UNREAD
+    assert run.returncode == UNREAD_STATUS
     assert "Traceback" not in run.stderr
     assert "Error" not in run.stderr
     assert "Exception" not in run.stderr

@@ -15,7 +15,7 @@ from derivation.engine import build
 from derivation.engine.errata.findings import CORRECT
 from derivation.engine.files import ROOT
 from derivation.engine.formula.grid import inside
-from derivation.engine.load import PaperError, begin, load
+from derivation.engine.load import PaperError, create_paper, load
 from derivation.engine.measure.kernels import generated_kernels
 from derivation.plate.paper import PAPER
 
@@ -182,7 +182,7 @@ def test_invalid_papers_are_rejected(folder: Path, tmp_path: Path) -> None:
 
 
 def test_missing_files_are_named(tmp_path: Path) -> None:
-    begin(tmp_path / "film")
+    create_paper(tmp_path / "film")
     paper = load(tmp_path / "film")
     with pytest.raises(FileNotFoundError, match="run `platecontact generate`"):
         build.check(paper)

@@ -7,7 +7,7 @@ import pytest
 from mutants import of_module
 from mutated_code import BEYOND_ALL, Allowed, compiled, source
 
-from derivation.engine.measure.judge import PointReference, measured
+from derivation.engine.measure.judge import PointReference, measured_errors
 from derivation.engine.measure.kernels import Kernel
 from derivation.plate.grids import grid
 from derivation.plate.judge import generated_kernels, reference_values
@@ -45,7 +45,7 @@ def detected(kernel: Kernel, found: list[PointReference], module: str, tree: ast
     users = () if kernel.module == module else (kernel.module,)
     try:
         call = getattr(compiled(tree, module, users), kernel.name)
-        errors = measured(replace(kernel, call=call), found)
+        errors = measured_errors(replace(kernel, call=call), found)
     except (ArithmeticError, LookupError, TypeError, ValueError, NameError):
         return True
     return errors.ratio is None or errors.ratio > 1.0 or errors.not_finite > 0

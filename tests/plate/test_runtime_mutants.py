@@ -113,7 +113,7 @@ def wall_cases() -> list[WithinUlp]:
 
     alphas = [1e-3, 0.3, 0.6]
     exact = [*map(share, alphas), (0.0, 0.0), *[(NAN,) * 2] * 3]
-    return expected("side_wall", [(x,) for x in (*alphas, 0.0, -0.1, 1.0, 1.5)], exact, 8.0)
+    return expected("finite_radius", [(x,) for x in (*alphas, 0.0, -0.1, 1.0, 1.5)], exact, 8.0)
 
 
 SOLID = (0.36e9, 0.43e9), (-0.6, 1.0), (-0.66, 1.0), (-0.3, 0.5), (-1.3, 2.0)

@@ -10,13 +10,13 @@ import sympy as sp
 from derivation.engine.formula.proof import SYMBOLIC, Proof, ProofError, prove
 from derivation.plate import derived
 from derivation.plate.back_face import theory as back_face
-from derivation.plate.chain import LINKS, MOTION_LINKS
+from derivation.plate.chain import MOTION_STEPS, STEPS
 from derivation.plate.edge.theory import clamped
 from derivation.plate.edge.theory import sums as edge_sums
 from derivation.plate.impact.theory import sensitivity, substitution
 from derivation.plate.modes.theory.face_conditions import loaded, tractions
 from derivation.plate.modes.theory.mode_shapes import characteristic_roots, substitute
-from derivation.plate.pressure.theory import true_pressure as pressure
+from derivation.plate.pressure.theory import integral_equation as pressure
 from derivation.plate.viscosity.theory import bounds as viscous_bounds
 from derivation.plate.viscosity.theory import contact as viscous_contact
 from derivation.plate.vocabulary import C1, C2, C3, C4, A_j, Formula, T, h, lam, mu, phi, r, z
@@ -54,7 +54,7 @@ def test_formulas_are_verified_symbolically(formulas: Formulas) -> None:
 
 
 def test_every_derivation_step_has_a_formula() -> None:
-    assert len(derived.chain()) == len(LINKS) + len(MOTION_LINKS)
+    assert len(derived.chain()) == len(STEPS) + len(MOTION_STEPS)
     assert all(found for _, found in derived.chain())
 
 

@@ -31,7 +31,7 @@ Captured = pytest.CaptureFixture[str]
 
 def test_bounds_hold_in_random_scenes() -> None:
     rows = measure.judge(25)
-    assert [row for row in rows if not row.kept] == []
+    assert [row for row in rows if not row.passed] == []
     assert max(row.tightest for row in rows) > 0.5  # at least one bound is tight
     included = [row.included for row in rows]
     assert included == sorted(included)
@@ -41,9 +41,9 @@ def test_violated_bound_is_detected(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(
         measure, "selected_impact", lambda *_: ([1.0, 1.0, 1.02, 1.0], ["hertz"], 1e-3)
     )
-    monkeypatch.setattr(measure, "everything", lambda _: ([1.0] * 4, ["hertz"]))
+    monkeypatch.setattr(measure, "all_effects_impact", lambda _: ([1.0] * 4, ["hertz"]))
     rows = measure.judge(3)
-    assert not any(row.kept for row in rows)
+    assert not any(row.passed for row in rows)
     assert rows[0].quantity == "max_force"
 
 
@@ -73,7 +73,7 @@ def test_selection_changes_at_the_bound() -> None:
 def test_weight_changes_the_radius_within_its_bound() -> None:
     """With non-Hertzian pressure the radius grows up to 3.5 times as fast as Hertz's."""
     data = measure.scene(226)
-    whole = measure.everything(data)
+    whole = measure.all_effects_impact(data)
     values, effects, bound = measure.selected_impact(data, 1e-2)
     assert whole is not None
     assert "gravity" not in effects

@@ -49,7 +49,7 @@ def test_bounds_hold_in_a_hundred_scenes() -> None:
     chosen = known[:: len(known) // 100][:100]
     rows = bounds.judge(chosen)
     assert {row.method for row in rows} == set(METHODS)
-    assert [row for row in rows if not row.kept] == []
+    assert [row for row in rows if not row.passed] == []
     assert {row.method: row.ratio > 0.1 for row in rows}["leading"]  # the bound is tight
 
 
@@ -71,11 +71,11 @@ def test_violated_bound_is_detected(monkeypatch: pytest.MonkeyPatch) -> None:
     off = [exact[0], exact[1], 1.01 * exact[2], exact[3]]
     monkeypatch.setattr(bounds, "simulated", lambda _, rtol: (off, "hertz", rtol / 2))
     [row] = bounds.judge([reference], [1e-3])
-    assert (row.kept, row.quantity) == (False, "max_force")
+    assert (row.passed, row.quantity) == (False, "max_force")
     assert row.ratio == pytest.approx(20, rel=1e-3)
     monkeypatch.setattr(bounds, "simulated", lambda _, rtol: ([math.nan] * 4, "hertz", rtol))
     [row] = bounds.judge([reference], [1e-3])
-    assert not row.kept
+    assert not row.passed
     monkeypatch.setattr(bounds, "simulated", lambda *_: (exact, "hertz", 2e-3))
     with pytest.raises(ValueError, match="states"):
         bounds.judge([reference], [1e-3])

@@ -32,8 +32,8 @@ ALONE: dict[str, set[str]] = {
     "viscosity": set(),
     "spherical_profile": {"sphere_contact"},
     "bending": {"bending"},
-    "finite_radius": {"side_wall"},
-    "finite_thickness": WHOLE | {"bending", "side_wall"},
+    "finite_radius": {"finite_radius"},
+    "finite_thickness": WHOLE | {"bending", "finite_radius"},
     "edge": ZEROS | {"supported_edge", "supported_edge_slope"},
     "non_hertzian_pressure": ZEROS | {"contact", "plate"},
 }
@@ -123,7 +123,7 @@ def test_half_space_calls_only_bounds_and_the_closed_form(calls: set[str]) -> No
 def test_functions_of_omitted_effects_are_not_called(monkeypatch: pytest.MonkeyPatch) -> None:
     """An impact on a half-space calls no kernel of the plate's contact law."""
     calls: list[str] = []
-    for name in ("indentation", "indentation_slope", "impact", "leading", "side_wall"):
+    for name in ("indentation", "indentation_slope", "impact", "leading", "finite_radius"):
         monkeypatch.setattr(
             kernels, name, lambda *_, name=name, **__: calls.append(name) or math.nan
         )

@@ -118,7 +118,7 @@ def test_long_run_reports_progress(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(contact_sequence, "PROGRESS", 1)
     law = ContactLaw(model_of(scene()), PAPER | {"inertia"})
     problem, reported = waves.problem_of(law, 4), list[str]()
-    with activity.heard(reported.append):
+    with activity.listening(reported.append):
         contact_sequence.impact_history(problem, 10)
     assert reported
     count = len(reported)

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from derivation.checks import inertia as inertia_check
-from derivation.checks import inertia_judged as random_scenes
+from derivation.checks import inertia_rows as random_scenes
 from derivation.scene import read, simulate, waves
 from derivation.scene.law import ContactLaw
 from derivation.scene.model import InertiaSettings, model_of
@@ -40,6 +40,6 @@ def test_error_of_the_force_at_the_onset_causes_no_separation(number: int, modes
     """There is one contact; an earlier version stated a separate first one of 1e-18 s."""
     data, _ = random_scenes.scene(number, seed=3)
     model = replace(model_of(read(data)), inertia=InertiaSettings(modes=modes, branches="A0"))
-    found = waves.impact(ContactLaw(model, inertia_check.present(model)), 1e-4)
+    found = waves.impact(ContactLaw(model, inertia_check.selectable_effects(model)), 1e-4)
     assert len(found.inertia.contacts) == 1
     assert 0.5 < found.contact_time * model.v0 / found.max_indentation < 50.0

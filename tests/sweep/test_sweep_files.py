@@ -152,7 +152,7 @@ def test_batches_of_other_points_are_ignored(formula: Formula, tmp_path: Path) -
     wrong = parts(out)[0]
     wrong.rename(wrong.with_name(wrong.name[:22] + "0" * 20 + ".parquet"))
     pc.sweep(scene(), {"impact.speed": "1:3:40"}, out=out)
-    assert formula.calls == 40 + run.FIRST
+    assert formula.calls == 40 + run.FIRST_BATCH
 
 
 def test_retry_computes_only_the_failures(formula: Formula, tmp_path: Path) -> None:
@@ -277,7 +277,7 @@ def test_memory_does_not_grow_with_the_study(
     import pyarrow as pa
 
     monkeypatch.setattr(write, "BLOCK", 2**9)
-    monkeypatch.setattr(run, "LARGEST", 2**9)
+    monkeypatch.setattr(run, "LARGEST_BATCH", 2**9)
     peaks = []
     for size in (2**10, 2**11, 2**13):
         made = plan.sample(read_distributions({"impact.speed": NORMAL}), size, 1, "random")

@@ -12,7 +12,7 @@ GLASS = (70e9, 0.2, 2500.0)
 ALUMINIUM = (70e9, 0.3, 2700.0)
 CONCRETE = (33e9, 0.2, 2400.0)
 STEEL_DENSITY = 7850.0
-SLENDER = 10.0
+PARABOLOID_RADIUS = 10.0
 """Radius of the paraboloid over the contact radius, for the grid of cases."""
 THICKNESS = 0.01
 """Thickness of the plates in the grid [m]."""
@@ -131,7 +131,7 @@ def _grid(rows: tuple[tuple[float, float, float, float], ...]) -> Iterator[Eleme
     for ratio, nu, width, echoes in rows:
         plate = Plate(THICKNESS / ratio, THICKNESS, GLASS[0], nu, GLASS[2])
         a = width * THICKNESS
-        R = SLENDER * a
+        R = PARABOLOID_RADIUS * a
         depth, time = a * a / R, echoes * 2.0 * THICKNESS / plate.pressure_wave_speed
         speed = HERTZ * depth / time
         mass = 16.0 / 15.0 * plate.modulus * math.sqrt(R) * depth**2.5 / speed**2

@@ -11,21 +11,21 @@ from derivation.checks.finite_elements.plate import System, factorised
 
 Nodes = NDArray[np.bool_]
 """For each contact node, whether it touches the sphere."""
-DAMPING = 0.8
+SPECTRAL_RADIUS = 0.8
 """Spectral radius of the time integration at infinite frequency."""
-ROUNDS = 60
+MAX_ITERATIONS = 60
 """Largest number of changes of the set of touching nodes in one time step; more are an error."""
-CLEAR = 1.5
+CLEARANCE = 1.5
 """Height of the sphere above the undeformed plate, over the largest deflection so far, from which
 no further contact is assumed."""
-FLIGHT = 8
+FLIGHT_STEP = 8
 """Length of the time steps between contacts over their length during a contact."""
-APART = 20
+GAP_STEPS = 20
 """Number of time steps without contact after which steps are longer, and that separates two
 contacts."""
-END = 5
+END_STEPS = 5
 """Number of last steps of a contact from which its end is extrapolated."""
-PEAK = 0.05
+PEAK_WINDOW = 0.05
 """Half the time, over the contact time, in which a polynomial is fitted to the largest force."""
 
 
@@ -59,7 +59,7 @@ class Sphere:
         return found
 
 
-def touching(compliance: Double, gap: Double, start: Nodes) -> tuple[Double, Nodes]:
+def contact_forces(compliance: Double, gap: Double, start: Nodes) -> tuple[Double, Nodes]:
     """Solve compliance @ force + gap >= 0, force >= 0, where at each node one of both is 0.
 
     The primal-dual active-set method is used, from a first guess.
@@ -75,7 +75,7 @@ def touching(compliance: Double, gap: Double, start: Nodes) -> tuple[Double, Nod
         If the set of touching nodes still changes after `ROUNDS` iterations.
     """
     active = start
-    for _ in range(ROUNDS):
+    for _ in range(MAX_ITERATIONS):
         force = np.zeros_like(gap)
         place = np.flatnonzero(active)
         if place.size:
@@ -88,13 +88,13 @@ def touching(compliance: Double, gap: Double, start: Nodes) -> tuple[Double, Nod
     raise ArithmeticError("contact: expected a set of touching nodes, got none that stays")
 
 
-def pressed(system: System, sphere: Sphere, way: float) -> tuple[Double, Double]:
+def static_contact(system: System, sphere: Sphere, displacement: float) -> tuple[Double, Double]:
     """Return the static contact at a sphere displacement [m]: radii [m] and forces [N] of nodes."""
     nodes = system.contact_nodes
     columns = _unit_forces(system, system.static_solver)
     compliance = columns[nodes]
-    gap = sphere.profile(system.contact_radii) - way
-    force, _ = touching(compliance, gap, gap < 0.0)
+    gap = sphere.profile(system.contact_radii) - displacement
+    force, _ = contact_forces(compliance, gap, gap < 0.0)
     return system.contact_radii, force
 
 
@@ -114,7 +114,7 @@ class History:
     ----------
     time
         Time since first contact [s].
-    way, speed
+    displacement, speed
         Displacement [m] and velocity [m/s] of the sphere, downwards.
     force
         Contact force [N].
@@ -125,7 +125,7 @@ class History:
     """
 
     time: Double
-    way: Double
+    displacement: Double
     speed: Double
     force: Double
     width: Double
@@ -140,7 +140,7 @@ class Stepper:
     """
 
     def __init__(
-        self, system: System, sphere: Sphere, step: float, damping: float = DAMPING
+        self, system: System, sphere: Sphere, step: float, damping: float = SPECTRAL_RADIUS
     ) -> None:
         self.system, self.sphere, self.h = system, sphere, step
         alpha_m = (2.0 * damping - 1.0) / (damping + 1.0)
@@ -156,7 +156,7 @@ class Stepper:
         self.compliance = self.s * (columns[system.contact_nodes] + 1.0 / sphere.mass)
         self.profile = sphere.profile(system.contact_radii)
         # The sphere is the last unknown, downwards.
-        self.state = ElementState.resting(system.free.size + 1)
+        self.state = ElementState.at_rest(system.free.size + 1)
         self.state.v[-1] = sphere.speed
         self.active = np.zeros(system.contact_nodes.size, dtype=bool)
 
@@ -166,7 +166,7 @@ class Stepper:
         rest = self.keep[0] * old.real - self.keep[1] * old.a
         start = old.q + h * old.v + h**2 * ((0.5 - self.beta) * old.a + self.beta * rest)
         gap = self.profile - start[-1] - self.predictor @ start[:-1]
-        force, self.active = touching(self.compliance, gap, self.active)
+        force, self.active = contact_forces(self.compliance, gap, self.active)
         load = self.system.mass @ start[:-1]
         load[self.system.contact_nodes] -= self.s * force
         q = np.append(self.solver.solve(load), start[-1] - self.s * force.sum() / mass)
@@ -193,12 +193,12 @@ class ElementState:
     real: Double
 
     @classmethod
-    def resting(cls, size: int) -> "ElementState":
+    def at_rest(cls, size: int) -> "ElementState":
         """Return the undeformed state, all velocities zero."""
         return cls(*(np.zeros(size) for _ in range(4)))
 
 
-def struck(
+def simulate_impact(
     system: System, sphere: Sphere, step: float, longest: float, *, until_end: bool = True
 ) -> History:
     """Simulate the impact until no further contact is possible.
@@ -226,24 +226,30 @@ def struck(
     rows, deepest, apart, time = [(0.0, 0.0, sphere.speed, 0.0, 0.0)], 0.0, 0, 0.0
     while True:
         used = fine
-        if apart >= APART and rows[-1][1] < 0.0 < sphere.speed:
-            coarse = coarse or Stepper(system, sphere, FLIGHT * step)
+        if apart >= GAP_STEPS and rows[-1][1] < 0.0 < sphere.speed:
+            coarse = coarse or Stepper(system, sphere, FLIGHT_STEP * step)
             before, coarse.state, used = fine.state, fine.state, coarse
         force = used.advance()
         if used is coarse and force.any():
             # The next contact is computed with short steps.
-            fine.state, used, apart = before, fine, -FLIGHT
+            fine.state, used, apart = before, fine, -FLIGHT_STEP
             force = used.advance()
         fine.state = used.state
         if force[-1] > 0.0:
             raise WideContactError("contact: expected it within the fine mesh, got a wider one")
-        total, speed, way = float(force.sum()), float(fine.state.v[-1]), float(fine.state.q[-1])
+        total, speed, displacement = (
+            float(force.sum()),
+            float(fine.state.v[-1]),
+            float(fine.state.q[-1]),
+        )
         time += used.h
-        rows.append((time, way, speed, total, float(np.max(np.flatnonzero(force), initial=-1) + 1)))
+        rows.append(
+            (time, displacement, speed, total, float(np.max(np.flatnonzero(force), initial=-1) + 1))
+        )
         apart = 0 if total > 0.0 else apart + 1
         deepest = max(deepest, float(np.abs(fine.state.q[nodes]).max()))
-        gone = speed < 0.0 and way < -CLEAR * deepest
-        if apart > 0 and (gone or (apart == APART and not until_end)):
+        gone = speed < 0.0 and displacement < -CLEARANCE * deepest
+        if apart > 0 and (gone or (apart == GAP_STEPS and not until_end)):
             times, ways, speeds, forces, widths = np.array(rows).T
             return History(times, ways, speeds, forces, widths, fine.energy() / brought)
         if time > longest:
@@ -291,7 +297,7 @@ def results(history: History, radii: Double) -> ElementImpact:
     widest = int(history.width.max())
     return ElementImpact(
         contact_time=ends[0],
-        max_indentation=float(history.way.max()),
+        max_indentation=float(history.displacement.max()),
         max_force=_peak(history, ends[0]),
         max_contact_radius=float(radii[widest - 1] + radii[widest]) / 2.0,
         restitution=-float(history.speed[-1]) / float(history.speed[0]),
@@ -304,7 +310,7 @@ def results(history: History, radii: Double) -> ElementImpact:
 def _spans(force: Double) -> list[tuple[int, int]]:
     """Return the numbers of the first and last step of each contact."""
     steps = np.flatnonzero(force > 0.0)
-    cuts = np.flatnonzero(np.diff(steps) > APART)
+    cuts = np.flatnonzero(np.diff(steps) > GAP_STEPS)
     starts = np.concatenate((steps[:1], steps[cuts + 1]))
     stops = np.concatenate((steps[cuts], steps[-1:]))
     return [(int(a), int(b)) for a, b in zip(starts, stops, strict=True)]
@@ -312,7 +318,7 @@ def _spans(force: Double) -> list[tuple[int, int]]:
 
 def _end(history: History, start: int, stop: int) -> float:
     """Return the end of a contact [s]; force^(2/3) is assumed to decrease linearly towards it."""
-    last = np.arange(max(stop - END + 1, start), stop + 1)
+    last = np.arange(max(stop - END_STEPS + 1, start), stop + 1)
     last = last[history.force[last] > 0.0]
     if last.size < 2:
         return float(history.time[stop])
@@ -323,7 +329,7 @@ def _end(history: History, start: int, stop: int) -> float:
 def _peak(history: History, contact_time: float) -> float:
     """Return the largest force [N], without the fluctuations from node to node."""
     place = int(np.argmax(history.force))
-    near = np.abs(history.time - history.time[place]) < PEAK * contact_time
+    near = np.abs(history.time - history.time[place]) < PEAK_WINDOW * contact_time
     near &= history.force > 0.0
     time = history.time[near]
     fit = np.polynomial.Polynomial.fit(time, history.force[near], 4)

@@ -71,13 +71,15 @@ class Grading:
     edge: int = 2
 
 
-def graded(b: float, thickness: float, reach: float, grading: Grading) -> Mesh:
+def graded_mesh(b: float, thickness: float, reach: float, grading: Grading) -> Mesh:
     """Return the mesh of a plate of radius b [m] and thickness [m], fine up to the reach [m]."""
     size = reach / grading.contact
     inner = _halved(np.linspace(0.0, reach, grading.contact + 1), grading.core)
-    outer = _growing(size, b - reach, grading.growth, grading.far * thickness, grading.edge)
+    outer = _growing_intervals(
+        size, b - reach, grading.growth, grading.far * thickness, grading.edge
+    )
     r_ends = np.concatenate((inner, reach + outer[1:]))
-    depth = _growing(
+    depth = _growing_intervals(
         size * 0.5**grading.core, thickness, grading.growth, grading.thickness * thickness, 0
     )
     z_ends = thickness / 2 - depth[::-1]
@@ -85,7 +87,7 @@ def graded(b: float, thickness: float, reach: float, grading: Grading) -> Mesh:
     return Mesh(r_ends, z_ends, grading.degree, reach)
 
 
-def resting(b: float, thickness: float, layers: int, degree: int) -> Mesh:
+def contactless_mesh(b: float, thickness: float, layers: int, degree: int) -> Mesh:
     """Return the mesh of a plate without contact; elements are halved towards edge and faces.
 
     `layers` is the number of halvings, from half the thickness on.
@@ -104,7 +106,9 @@ def _halved(ends: Double, times: int) -> Double:
     return np.concatenate((ends[:1], more, ends[1:]))
 
 
-def _growing(first: float, length: float, growth: float, largest: float, last: int) -> Double:
+def _growing_intervals(
+    first: float, length: float, growth: float, largest: float, last: int
+) -> Double:
     """Return ends of intervals from 0 to a length, which grow from a first to a largest size.
 
     All sizes are then reduced to fit the length. The last interval is halved `last` times towards

@@ -13,7 +13,7 @@ from derivation.plate.edge.remainder import lobatto
 EDGES = ("paper", "simply-supported", "clamped")
 """Conditions on the whole edge r = b: w = 0 with a radial spring of stiffness 2 mu/b per area;
 w = 0; u = w = 0."""
-EVEN = 1e-8
+BENDING_PARITY = 1e-8
 """Product of the two faces' deflections at the axis, over the square of the largest displacement,
 above which a mode is a bending mode."""
 
@@ -157,7 +157,7 @@ class System:
         faces = self._number(np.zeros(2, dtype=int), np.array([0, self.mesh.rows - 1]), 1)
         back, front = shapes[np.searchsorted(self.free, faces)]
         # In bending both faces move in the same direction, in extension in opposite directions.
-        bending = np.sort(squares[back * front > EVEN * (shapes**2).max(axis=0)])
+        bending = np.sort(squares[back * front > BENDING_PARITY * (shapes**2).max(axis=0)])
         if bending.size < count:
             raise ArithmeticError(f"modes: expected {count} of bending, got {bending.size}")
         found: Double = np.sqrt(bending[:count])

@@ -17,9 +17,9 @@ from derivation.checks.finite_elements.impact import (
     ElementImpact,
     WideContactError,
     results,
-    struck,
+    simulate_impact,
 )
-from derivation.checks.finite_elements.mesh import Grading, graded, resting
+from derivation.checks.finite_elements.mesh import Grading, contactless_mesh, graded_mesh
 from derivation.checks.finite_elements.plate import Plate, System
 from derivation.engine.activity import Progress, quiet
 from derivation.engine.files import measurements, write_file
@@ -31,10 +31,10 @@ RESULTS = (
     "contact_time", "max_indentation", "max_force", "max_contact_radius", "restitution",
     "total_time",
 )  # fmt: skip
-SPREAD = 1.05, 1.25
+REACH_FACTORS = 1.05, 1.25
 """Reach of the fine mesh over the contact radius on a half-space, and the factor by which it is
 increased if the contact is wider."""
-LONGEST = 300.0
+MAX_DURATION = 300.0
 """Longest duration of an impact over the contact time on a half-space."""
 LEAST = {"contact_time": 1e-4, "total_time": 1e-4, "max_force": 1e-4}
 """Smallest error estimates of results that depend on single nodes [1]; for others except the
@@ -68,19 +68,21 @@ MODAL = ((5, 6), (4, 6), (5, 5))
 recorded solution, and of two others for the error estimate."""
 
 
-def solved(
+def solve_impact(
     case: ElementCase, setting: ElementSetting, *, until_end: bool = True
 ) -> tuple[ElementImpact, float]:
     """Return an impact's results, and half the node distance at the largest contact radius [m]."""
-    plate, reach = case.plate, SPREAD[0] * case.radius
+    plate, reach = case.plate, REACH_FACTORS[0] * case.radius
     while True:
-        mesh = graded(plate.radius, plate.thickness, reach, setting.grading)
+        mesh = graded_mesh(plate.radius, plate.thickness, reach, setting.grading)
         system = System(plate, mesh)
         step = case.time / setting.steps
         try:
-            history = struck(system, case.sphere, step, LONGEST * case.time, until_end=until_end)
+            history = simulate_impact(
+                system, case.sphere, step, MAX_DURATION * case.time, until_end=until_end
+            )
         except WideContactError:
-            reach *= SPREAD[1]
+            reach *= REACH_FACTORS[1]
             continue
         widest = int(history.width.max())
         apart = float(np.diff(system.contact_radii)[widest - 1])
@@ -89,8 +91,8 @@ def solved(
 
 def impact_row(case: ElementCase) -> dict[str, Any]:
     """Return the row of an impact: inputs, results and their relative error estimates."""
-    best, apart = solved(case, BEST)
-    others = [solved(case, setting)[0] for setting in (COARSER, LONGER)]
+    best, apart = solve_impact(case, BEST)
+    others = [solve_impact(case, setting)[0] for setting in (COARSER, LONGER)]
     errors = {}
     for name in RESULTS:
         value = getattr(best, name)
@@ -125,7 +127,7 @@ def plate_row(plate: Plate) -> dict[str, Any]:
     """Return the row of a plate: its lowest natural frequencies omega b/c_S and their errors."""
     found = []
     for layers, degree in MODAL:
-        mesh = resting(plate.radius, plate.thickness, layers, degree)
+        mesh = contactless_mesh(plate.radius, plate.thickness, layers, degree)
         scale = plate.radius / plate.shear_wave_speed
         found.append(System(plate, mesh).bending_frequencies(FREQUENCIES) * scale)
     errors = np.sum([np.abs(other / found[0] - 1.0) for other in found[1:]], axis=0)
@@ -146,7 +148,7 @@ def plate_inputs(plate: Plate) -> dict[str, Any]:
     }
 
 
-def computed(path: Path = MEASURED, progress: Progress = quiet) -> dict[str, Any]:
+def compute_missing(path: Path = MEASURED, progress: Progress = quiet) -> dict[str, Any]:
     """Compute the cases that are missing from a record or outdated, and return the record.
 
     The record is written after each case.

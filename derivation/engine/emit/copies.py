@@ -56,7 +56,10 @@ def listed_functions(file: Path) -> tuple[ListedFunction, ...]:
     ValueError
         If a docstring or decorator is incomplete; the message states the function.
     """
-    return tuple(_listed(node, mark, file) for node, mark in _marked(ast.parse(file.read_text())))
+    return tuple(
+        _listed_function(node, mark, file)
+        for node, mark in _listed_definitions(ast.parse(file.read_text()))
+    )
 
 
 def function_text(file: Path, name: str) -> str:
@@ -72,7 +75,7 @@ def function_text(file: Path, name: str) -> str:
     return ast.get_source_segment(text, next(named)) or ""
 
 
-def copied(
+def copy_text(
     file: Path,
     package: str,
     header: str,
@@ -97,8 +100,8 @@ def copied(
     tree = ast.parse(file.read_text())
     lines = file.read_text().splitlines()
     added: list[tuple[int, list[str]]] = [(_end_of_docstring(tree, file), header.splitlines())]
-    for node, mark in _marked(tree):
-        budget = budgets[node.name].notes(_words(mark).get("domain", ""))
+    for node, mark in _listed_definitions(tree):
+        budget = budgets[node.name].notes(_decorator_arguments(mark).get("domain", ""))
         added.append(_stated_limit(node, budget, lines))
     functions = {node.name: node for node in tree.body if isinstance(node, ast.FunctionDef)}
     added += (_stated_limit(functions[name], text, lines) for name, text in notes.items())
@@ -114,7 +117,7 @@ def _relative(line: str, package: str) -> str:
     return re.sub(rf"^from {re.escape(package)} import", "from . import", line)
 
 
-def _marked(tree: ast.Module) -> Iterator[tuple[ast.FunctionDef, ast.Call]]:
+def _listed_definitions(tree: ast.Module) -> Iterator[tuple[ast.FunctionDef, ast.Call]]:
     for node in tree.body:
         if isinstance(node, ast.FunctionDef):
             for mark in node.decorator_list:
@@ -122,16 +125,16 @@ def _marked(tree: ast.Module) -> Iterator[tuple[ast.FunctionDef, ast.Call]]:
                     yield node, mark
 
 
-def _words(mark: ast.Call) -> dict[str, str]:
+def _decorator_arguments(mark: ast.Call) -> dict[str, str]:
     """Return the decorator's arguments by name."""
     given = zip(("symbol", "equation", "domain", "kernel"), mark.args, strict=False)
     named = ((str(word.arg), word.value) for word in mark.keywords)
     return {name: str(ast.literal_eval(value)) for name, value in (*given, *named)}
 
 
-def _listed(node: ast.FunctionDef, mark: ast.Call, file: Path) -> ListedFunction:
+def _listed_function(node: ast.FunctionDef, mark: ast.Call, file: Path) -> ListedFunction:
     text = ast.get_docstring(node) or ""
-    words, parts = _words(mark), _sections(text)
+    words, parts = _decorator_arguments(mark), _sections(text)
     meanings = dict(_parameters(parts.get("Parameters", ())))
     arguments = []
     for argument in node.args.args:

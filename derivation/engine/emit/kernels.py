@@ -235,13 +235,13 @@ def switch_text(switch: Switch, *, whole: bool = False) -> SwitchText:
     """
     name = str(switch.variable)
     clamped = {switch.variable: f"np.maximum({name}, {float(switch.at)})"}
-    below = _branch_text(switch.below, {} if whole else _picked(switch.below), "low")
+    below = _branch_text(switch.below, {} if whole else _guarded_inputs(switch.below), "low")
     return SwitchText(
         "below", name, to_numpy(switch.at), (below, _branch_text(switch.above, clamped, "high"))
     )
 
 
-def _picked(branch: Branch) -> dict[sp.Symbol, str]:
+def _guarded_inputs(branch: Branch) -> dict[sp.Symbol, str]:
     """Return the inputs of a branch, restricted to its own points."""
     used = sp.Tuple(branch.value, *(step.expression for step in branch.steps)).free_symbols
     given = sorted(used - {step.symbol for step in branch.steps}, key=str)

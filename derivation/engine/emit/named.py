@@ -20,7 +20,7 @@ class Claims(NamedTuple):
     reduce: Callable[[sp.Expr], sp.Expr] = lambda e: e
 
 
-def named(build: Callable[[], Claims]) -> Callable[[], Routine]:
+def named_routine(build: Callable[[], Claims]) -> Callable[[], Routine]:
     """Return a function that builds the routine with the name and docstring of a definition.
 
     Parameters

@@ -4,13 +4,13 @@ import keyword
 
 import sympy as sp
 
-from derivation.engine.bounded import bounded
+from derivation.engine.bounded import run_limited
 from derivation.engine.emit.standalone import standalone
 from derivation.engine.formula.parse import FUNCTIONS, FormulaError, parse
 from derivation.engine.formula.size import terms_when_expanded
 from derivation.engine.formula.vocabulary import NOTHING
+from derivation.engine.rewrite.code_check import CodeCheck
 from derivation.engine.rewrite.stabilise import Stable, stabilised
-from derivation.engine.rewrite.tested import CodeCheck
 
 MAX_TERMS = 5000
 """Largest estimated number of terms of an expanded formula that is rewritten."""
@@ -18,7 +18,7 @@ SECONDS = 30
 """Largest processor time [s] for rewriting a formula."""
 
 
-def rewritten(text: str, variable: str = "x") -> tuple[Stable, str, CodeCheck]:
+def rewrite_text(text: str, variable: str = "x") -> tuple[Stable, str, CodeCheck]:
     """Return the stable form of a formula, its NumPy module, and the result of testing the module.
 
     Parameters
@@ -47,4 +47,4 @@ def rewritten(text: str, variable: str = "x") -> tuple[Stable, str, CodeCheck]:
         stable = stabilised(expression, symbol)
         return stable, *standalone(stable)
 
-    return bounded(work, "rewriting the formula", SECONDS)
+    return run_limited(work, "rewriting the formula", SECONDS)

@@ -21,15 +21,15 @@ from derivation.engine.emit.kernels import (
     rows_by_module,
     switch_text,
 )
+from derivation.engine.emit.printed_fraction import expect_reason
 from derivation.engine.emit.printer import to_numpy
 from derivation.engine.emit.routine import ARRAYS, QUIET_SCALARS, Dialect, Routine
 from derivation.engine.emit.routine import text as routine_text
-from derivation.engine.emit.share import expect_reason
-from derivation.engine.emit.source import TEMPLATES, filled, format_files
+from derivation.engine.emit.source import TEMPLATES, format_files, rendered_template
 from derivation.engine.formula.record import Record
 from derivation.engine.nearest import did_you_mean
 from derivation.engine.rewrite.automatic import automatic
-from derivation.engine.rewrite.blocks import HYPERBOLIC, Definition, built
+from derivation.engine.rewrite.blocks import HYPERBOLIC, Definition, build_blocks
 from derivation.engine.rewrite.every_variable import accurate
 from derivation.engine.rewrite.form import SCALINGS, Block, Form, Step, Switch, form
 from derivation.engine.rewrite.scales import Scales
@@ -171,7 +171,7 @@ class Printing:
         ValueError
             If a part names an unknown formula.
         """
-        known = built(self.blocks)
+        known = build_blocks(self.blocks)
         stated = self.stated(known)
         self._expect({name for part in self.parts for name in part.formulas}, formulas)
 
@@ -198,7 +198,7 @@ class Printing:
 
     def files(self, formulas: Mapping[str, Record], forms: tuple[Form, ...]) -> dict[str, str]:
         """Return the contents of the package's files by name."""
-        known, budgets = built(self.blocks), read_budgets(self.budgets)
+        known, budgets = build_blocks(self.blocks), read_budgets(self.budgets)
         if missing := [f.name for f in forms if f.name not in budgets]:
             raise ValueError(
                 f"{self.budgets.name}: expected an error budget for {', '.join(missing)}; "
@@ -212,16 +212,16 @@ class Printing:
         manifest = {"rows": [kernel_row(k) for k in kernels], "citation": self.citation}
         package = {"summary": self.summary, "modules": exported, "all_names": names}
         planned = (
-            *shared(known),
+            *common_modules(known),
             *kernel_modules(kernels, titles, known),
             *self.routines,
             Module("manifest", "catalogue", manifest),
             Module("__init__", "package", package),
         )
-        return written(planned)
+        return module_files(planned)
 
 
-def shared(known: Mapping[str, Block]) -> tuple[Planned, ...]:
+def common_modules(known: Mapping[str, Block]) -> tuple[Planned, ...]:
     """Return the modules that every package contains."""
     return (
         Copy("arrays", RUNTIME / "arrays.py"),
@@ -245,7 +245,7 @@ def kernel_modules(
     return tuple(planned)
 
 
-def written(planned: Sequence[Planned]) -> dict[str, str]:
+def module_files(planned: Sequence[Planned]) -> dict[str, str]:
     """Return the contents of a package's files by name; equal modules give equal bytes.
 
     Copies keep their lines; all other files are formatted by ruff.
@@ -259,7 +259,7 @@ def _copied(part: Copy) -> str:
     expect_reason(part.name, part.file.read_text())
     told = sorted(part.budgets.items()), *sorted(part.notes.items())
     source = f"{part.file.read_text()}{''.join(map(str, told))}"
-    return copies.copied(part.file, part.package, header(source), part.budgets, part.notes)
+    return copies.copy_text(part.file, part.package, header(source), part.budgets, part.notes)
 
 
 def _text(part: Module | Numbers | Routines) -> str:
@@ -267,7 +267,7 @@ def _text(part: Module | Numbers | Routines) -> str:
         return tables.module_text(part.title, header(repr(part.constants)), part.constants)
     if isinstance(part, Routines):
         return _routines_text(part)
-    return fill(part)
+    return module_source(part)
 
 
 def _routines_text(part: Routines) -> str:
@@ -336,12 +336,14 @@ def kernel_row(k: EmittedKernel) -> dict[str, Any]:
     } | k.budget.row()
 
 
-def fill(module: Module) -> str:
+def module_source(module: Module) -> str:
     """Return a module's source code; the header states versions and a hash of the input."""
     source = repr(sorted(module.context.items()))
     source += (module.folder / f"{module.template}.py.j2").read_text()
     source += (TEMPLATES / "macros.j2").read_text()
-    return filled(module.template, {"header": header(source), **module.context}, module.folder)
+    return rendered_template(
+        module.template, {"header": header(source), **module.context}, module.folder
+    )
 
 
 def header(source: str) -> str:

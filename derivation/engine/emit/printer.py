@@ -58,7 +58,7 @@ class _Printer(NumPyPrinter):
 
     def _print_Add(self, expr: sp.Add, order: str | None = None) -> str:
         number, rest = expr.as_coeff_Add()
-        if not (number > 0 and rest.is_Add and all(_fades(part) for part in rest.args)):
+        if not (number > 0 and rest.is_Add and all(_is_decaying(part) for part in rest.args)):
             return str(super()._print_Add(expr, order=order))
         # Decaying terms are summed first: where they are small, only the total is rounded.
         sign, rest = ("-", -rest) if rest.args[0].could_extract_minus_sign() else ("+", rest)
@@ -89,7 +89,7 @@ class _Printer(NumPyPrinter):
         return positive_first(super()._as_ordered_terms(expr, order=order))
 
 
-def _fades(part: sp.Expr) -> bool:
+def _is_decaying(part: sp.Expr) -> bool:
     exponents = (function.args[0] for function in part.atoms(sp.exp))
     return part.has(decay) or any(x.could_extract_minus_sign() for x in exponents)
 

@@ -256,11 +256,11 @@ def routine(
     residuals = {}
     for k, s in enumerate(statements):
         if isinstance(s, Let) and s.means is not None:
-            for label, value, facts in _undone(s.expression, statements[:k]):
+            for label, value, facts in _substituted(s.expression, statements[:k]):
                 left = (value.subs(meaning) - s.means).subs(facts)
                 residuals[f"{s.symbol} {label}".strip()] = reduce(left)
     for i, (result, claim) in enumerate(zip(results, claims, strict=True)):
-        for label, value, facts in () if claim is None else _undone(result, statements):
+        for label, value, facts in () if claim is None else _substituted(result, statements):
             left = (value.subs(meaning) - claim).subs(facts)
             residuals[f"{name}[{i}] {label}".strip()] = reduce(left)
     proof = prove(
@@ -271,7 +271,7 @@ def routine(
     return Routine(name, arguments, statements, results, summary, proof)
 
 
-def _undone(
+def _substituted(
     result: sp.Expr, statements: tuple[Statement, ...], sides: Mapping[sp.Basic, bool] | None = None
 ) -> Iterator[tuple[str, sp.Expr, dict[sp.Basic, sp.Expr]]]:
     """Yield the result with all statements substituted, for every combination of its choices."""
@@ -294,7 +294,7 @@ def _undone(
             value = value.xreplace({s.symbol: s.yes if yes else s.no})
         else:
             for side in (True, False):
-                yield from _undone(result, statements, taken | {s.condition: side})
+                yield from _substituted(result, statements, taken | {s.condition: side})
             return
     facts: dict[sp.Basic, sp.Expr] = {}
     for s in statements:
@@ -374,10 +374,10 @@ def _lines(
             yield from (f"    {line}" for line in _lines(step, masks, write))
         yield from (f"    {x} += {write(e)}" for x, e in zip(s.symbols, s.terms, strict=True))
     else:
-        yield from _chosen(s, masks)
+        yield from _choice_lines(s, masks)
 
 
-def _chosen(s: Choice, masks: dict[sp.Basic, str]) -> Iterator[str]:
+def _choice_lines(s: Choice, masks: dict[sp.Basic, str]) -> Iterator[str]:
     if s.condition not in masks:
         named = {c: sp.Symbol(name) for c, name in masks.items()}
         masks[s.condition] = f"of_{s.symbol}"

@@ -12,7 +12,7 @@ import jinja2
 TEMPLATES = Path(__file__).parent / "templates"
 
 
-def filled(template: str, context: Mapping[str, Any], folder: Path = TEMPLATES) -> str:
+def rendered_template(template: str, context: Mapping[str, Any], folder: Path = TEMPLATES) -> str:
     """Return a rendered template; the context must contain every name in it.
 
     Parameters

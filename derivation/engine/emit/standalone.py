@@ -8,13 +8,13 @@ import sympy as sp
 
 from derivation.engine.emit.copies import function_text
 from derivation.engine.emit.kernels import lines, switch_text
-from derivation.engine.emit.package import RUNTIME, Module, fill
+from derivation.engine.emit.package import RUNTIME, Module, module_source
 from derivation.engine.emit.printer import to_numpy
 from derivation.engine.emit.source import format_files
+from derivation.engine.rewrite.code_check import CodeCheck, Function, check_code
 from derivation.engine.rewrite.form import Switch
 from derivation.engine.rewrite.series import POLYNOMIAL
 from derivation.engine.rewrite.stabilise import Stable
-from derivation.engine.rewrite.tested import CodeCheck, Function, tested
 from derivation.engine.rewrite.useful_range import ENDS
 
 _WIDTH = 90
@@ -29,7 +29,7 @@ def standalone(stable: Stable) -> tuple[str, CodeCheck]:
         If the code is not accurate in any useful range.
     """
     x = stable.variable
-    found = tested(stable, _compiled(_source(stable, *ENDS, "")))
+    found = check_code(stable, _compiled_function(_source(stable, *ENDS, "")))
     statement = (
         f"Error at most {found.limit:g} ULP plus half the condition number |{x} f'/f|. "
         f"Tested, not proved: with NumPy {np.__version__} against exact values at {found.points} "
@@ -39,7 +39,7 @@ def standalone(stable: Stable) -> tuple[str, CodeCheck]:
     return _source(stable, found.low, found.high, statement), found
 
 
-def _compiled(source: str) -> Function:
+def _compiled_function(source: str) -> Function:
     space: dict[str, Function] = {}
     exec(compile(source, "f.py", "exec"), space)  # generated from a parsed formula
     return space["f"]
@@ -72,4 +72,4 @@ def _source(stable: Stable, low: float, high: float, statement: str) -> str:
             "value": value,
         },
     }
-    return format_files({"f.py": fill(Module("f", "standalone", context))})["f.py"]
+    return format_files({"f.py": module_source(Module("f", "standalone", context))})["f.py"]

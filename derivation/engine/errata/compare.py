@@ -164,7 +164,7 @@ def diagnose(
         If the name is unknown, or the formula cannot be evaluated.
     """
     formula = known_formula(name, formulas)
-    given = resolved(given, formulas, formula.vocabulary)
+    given = resolve(given, formulas, formula.vocabulary)
     with flint.ctx.workprec(BITS):
         case = _case(formula, given, formulas, relations)
         note = dimension_note(given, formula.unit, formula.vocabulary)
@@ -205,7 +205,7 @@ def known_formula(name: str, formulas: Mapping[str, Record]) -> Record:
     return formulas[name]
 
 
-def resolved(given: sp.Expr, formulas: Mapping[str, Record], vocabulary: Vocabulary) -> sp.Expr:
+def resolve(given: sp.Expr, formulas: Mapping[str, Record], vocabulary: Vocabulary) -> sp.Expr:
     """Return an expression with names of formulas replaced by their expressions.
 
     Raises
@@ -297,7 +297,7 @@ def _repairs(
     case: _Case, formulas: Mapping[str, Record]
 ) -> Iterator[tuple[Repair, sp.Expr | None]]:
     """Yield candidates: another derived formula, a factor counted twice, then one or two edits."""
-    yield from _mistaken(case, formulas)
+    yield from _confused_formulas(case, formulas)
     yield from _counted_twice(case, formulas)
     for count, repair in enumerate(repairs(case.given, case.reference, case.search)):
         if count == _MAX_CANDIDATES:
@@ -305,7 +305,7 @@ def _repairs(
         yield repair, None
 
 
-def _mistaken(
+def _confused_formulas(
     case: _Case, formulas: Mapping[str, Record]
 ) -> Iterator[tuple[Repair, sp.Expr | None]]:
     """Yield other derived formulas that equal the given one, such as that of the other face."""

@@ -8,7 +8,14 @@ from math import log
 
 import sympy as sp
 
-from derivation.engine.errata.position import BASE, TERM, TERMS, Position, inner, with_needs
+from derivation.engine.errata.position import (
+    BASE,
+    TERM,
+    TERMS,
+    Position,
+    inner_positions,
+    with_required_values,
+)
 from derivation.engine.errata.sample import Values, agree, monomial, rational, real
 from derivation.engine.errata.variant import (
     CONSTANT,
@@ -55,11 +62,11 @@ class Edit:
 def single_edits(root: Position, reference: Values, search: VariantSearch) -> list[Edit]:
     """Return all edits below a position that give the correct values, the most likely first."""
     found: list[Edit] = []
-    for place, need in with_needs(root, reference, search.points):
+    for place, need in with_required_values(root, reference, search.points):
         found += ratio_edits(place, need, search)
         found += exponent_edits(place, need, search)
         found += term_edits(place, need, search)
-        found += drawn_in_front(place, need, search)
+        found += factored_edits(place, need, search)
         for variant in variants(place, search):
             if agree(variant.value, need[0]):
                 edit = edit_of(variant, place)
@@ -136,7 +143,7 @@ def ratio_edit(
         if place.node.is_number:
             return _edit(CONSTANT, place, new, f"read {_text(new)} for {_text(place.node)}", extra)
         return _edit(CONSTANT, place, new, f"multiply {where} by {_text(ratio)}", extra)
-    swapped = _swapped(place, ratio)
+    swapped = _symbol_swap(place, ratio)
     if swapped is not None:
         old, other = swapped
         inside = "" if place.node == old else f" in {where}"
@@ -147,7 +154,7 @@ def ratio_edit(
     return _edit(kind, place, new, _ratio_words(where, ratio, kind), extra)
 
 
-def _swapped(place: Position, ratio: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:
+def _symbol_swap(place: Position, ratio: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:
     """Return a power of a symbol and that of another one with which the ratio replaces it."""
     powers = ratio.as_powers_dict()
     if len(powers) != 2 or sum(powers.values()) != 0 or not all(s.is_Symbol for s in powers):
@@ -236,7 +243,7 @@ def term_edits(place: Position, need: Values, search: VariantSearch) -> Iterator
         return
     have = search.points.values(place.node)
     lack = [w - v for w, v in zip(need, have, strict=True)]
-    for part in inner(place):
+    for part in inner_positions(place):
         if part.role == TERM and search.points.same(-part.node, lack):
             yield _edit(SUM, place, place.node - part.node, f"leave out {name_of(part)}")
     simple = monomial(lack, search.points)
@@ -248,7 +255,7 @@ def term_edits(place: Position, need: Values, search: VariantSearch) -> Iterator
 # Parentheses: a factor of one term must be applied to other terms too.
 
 
-def drawn_in_front(place: Position, need: Values, search: VariantSearch) -> Iterator[Edit]:
+def factored_edits(place: Position, need: Values, search: VariantSearch) -> Iterator[Edit]:
     """Yield c (x + y) for c x + y, where c is the ratio of required to given value of y."""
     if place.role not in (TERM, TERMS) or place.parent is None:
         return
@@ -258,7 +265,7 @@ def drawn_in_front(place: Position, need: Values, search: VariantSearch) -> Iter
     for index, term in enumerate(total.args):
         if index in place.taken:
             continue
-        lost = _cancelled(search) if len(total.args) <= _FEW else (sp.Integer(1),)
+        lost = _cancelled_sums(search) if len(total.args) <= _FEW else (sp.Integer(1),)
         for product in (p * c for p in _products(term) for c in lost):
             values = search.points.values(product)
             left = monomial([q / v for q, v in zip(ratio, values, strict=True)], search.points)
@@ -271,7 +278,7 @@ def drawn_in_front(place: Position, need: Values, search: VariantSearch) -> Iter
                 yield _edit(LOST, place.parent, new, says, steep)
 
 
-def _cancelled(search: VariantSearch) -> tuple[sp.Expr, ...]:
+def _cancelled_sums(search: VariantSearch) -> tuple[sp.Expr, ...]:
     """Return 1 and sums that may have cancelled in the term, each with its reciprocal."""
     sums = [factor for factor in search.factors if isinstance(factor, sp.Add)]
     return (sp.Integer(1), *(1 / factor for factor in sums), *sums)

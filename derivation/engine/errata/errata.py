@@ -43,6 +43,6 @@ class Errata:
     def found(self, chain: Chain) -> tuple[Finding, ...]:
         """Return the results of `compared`, cached until the sources change."""
         kinds = (Finding, Diagnosis, Printed, *self.kinds)
-        return chain.kept(
+        return chain.cached_result(
             "misprints", lambda: self.compared(chain.formulas()), *kinds, also=("engine/errata",)
         )

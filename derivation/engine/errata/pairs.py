@@ -13,18 +13,18 @@ import flint
 import sympy as sp
 
 from derivation.engine.errata.edit import Edit, edit_of, ratio_edit
-from derivation.engine.errata.position import FACTOR, TERM, Position, everywhere
+from derivation.engine.errata.position import FACTOR, TERM, Position, all_positions
 from derivation.engine.errata.sample import Values, monomial, rational, real
 from derivation.engine.errata.variant import (
     Variant,
     VariantSearch,
+    all_variants,
     multipliers,
     superfluous_parentheses,
-    tried,
 )
 
 _CLOSE = 1e-12
-_MAX_MEETINGS = 300
+_MAX_MATCHES = 300
 _OVERALL = -1
 
 
@@ -83,7 +83,7 @@ def pair_edits(root: Position, reference: Values, search: VariantSearch) -> list
     if goal is None:
         return []
     changes = sorted(_changes(root, search), key=lambda change: change.effect)
-    found = list(_meetings(root, changes, goal, reference, search))
+    found = list(_matching_changes(root, changes, goal, reference, search))
     if product:
         found += _with_overall_ratio(root, changes, reference, search)
     return sorted(found, key=Pair.order)
@@ -95,9 +95,9 @@ def _changes(root: Position, search: VariantSearch) -> Iterator[_Change]:
     for index, node in enumerate(root.node.args):
         part = Position(node, FACTOR if product else TERM, root, (index,))
         own = search.points.value(node, 0)
-        for place in everywhere(part):
-            for variant in tried(place, search):
-                value = _lifted(place, variant.value, part, search)
+        for place in all_positions(part):
+            for variant in all_variants(place, search):
+                value = _outer_value(place, variant.value, part, search)
                 effect = real(value / own if product else value - own)
                 if effect is not None:
                     yield _Change(index, place, variant, effect)
@@ -118,7 +118,9 @@ def _of_the_whole(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
         yield Variant(kind, times, lambda f=factor: f * node, extra)  # type: ignore[misc]
 
 
-def _lifted(place: Position, value: flint.acb, top: Position, search: VariantSearch) -> flint.acb:
+def _outer_value(
+    place: Position, value: flint.acb, top: Position, search: VariantSearch
+) -> flint.acb:
     """Return the value of the position `top` if a position inside it has another value."""
     while place is not top and place.parent is not None:
         node = place.parent.node
@@ -137,7 +139,7 @@ def _lifted(place: Position, value: flint.acb, top: Position, search: VariantSea
     return value
 
 
-def _meetings(
+def _matching_changes(
     root: Position,
     changes: Sequence[_Change],
     goal: float,
@@ -155,7 +157,7 @@ def _meetings(
             other = changes[index]
             if other.effect > lack + margin:
                 break
-            if change.part < other.part and seen < _MAX_MEETINGS:
+            if change.part < other.part and seen < _MAX_MATCHES:
                 seen += 1
                 new = other.applied(change.applied(root.node, root), root)
                 if search.points.same(new, reference):
@@ -197,7 +199,7 @@ def _could_be_monomial(
     old = root.node.args[change.part]
     new = change.part_after(root)
     first = None
-    for point in _tell_tale_points(root, search):
+    for point in _distinguishing_points(root, search):
         value = reference[point] / points.value(root.node, point) * points.value(old, point)
         lack = real(value / points.value(new, point))
         if lack is None:
@@ -209,7 +211,7 @@ def _could_be_monomial(
     return True
 
 
-def _tell_tale_points(root: Position, search: VariantSearch) -> list[int]:
+def _distinguishing_points(root: Position, search: VariantSearch) -> list[int]:
     """Return the first sample point, and those that double a symbol in a function's argument."""
     inside: set[sp.Symbol] = set().union(*(f.free_symbols for f in root.node.atoms(sp.Function)))
     symbols = enumerate(search.points.symbols, start=1)

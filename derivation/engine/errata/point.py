@@ -7,7 +7,7 @@ from fractions import Fraction
 import sympy as sp
 
 from derivation.engine.errata.relations import Point, Relations
-from derivation.engine.formula.domain import broken
+from derivation.engine.formula.domain import violated_conditions
 from derivation.engine.formula.parse import FormulaError, number
 from derivation.engine.formula.vocabulary import Argument, Vocabulary, symbols_of
 from derivation.engine.nearest import did_you_mean
@@ -30,7 +30,7 @@ def default_value(argument: Argument, values: Mapping[str, str]) -> str:
     if argument.name in values:
         return values[argument.name]
     for literal in _CANDIDATES:
-        if not broken(argument.domain, {argument.symbol: Fraction(literal)}):
+        if not violated_conditions(argument.domain, {argument.symbol: Fraction(literal)}):
             return literal
     raise FormulaError(f"no default value of {argument.name} is known: add it to the point")
 
@@ -54,7 +54,7 @@ def parse_point(text: str) -> dict[str, str]:
     return point
 
 
-def exact(at: Mapping[str, str], vocabulary: Vocabulary, relations: Relations) -> Point:
+def exact_values(at: Mapping[str, str], vocabulary: Vocabulary, relations: Relations) -> Point:
     """Return literals and exact values by symbol name; additional symbols are converted.
 
     Raises
@@ -84,7 +84,7 @@ def exact(at: Mapping[str, str], vocabulary: Vocabulary, relations: Relations) -
     return relations.point(result)
 
 
-def completed(
+def completed_point(
     chosen: Point,
     names: Sequence[str],
     relations: Mapping[sp.Symbol, sp.Expr],
@@ -127,7 +127,7 @@ def completed(
     defaults = {name: (literal, Fraction(literal)) for name, literal in literals.items()}
     point = {name: (chosen | defaults)[name] for name in names}
     values = {known[name].symbol: value for name, (_, value) in point.items()}
-    for condition in broken(conditions, values):
+    for condition in violated_conditions(conditions, values):
         at = ", ".join(f"{n} = {point[n][0]}" for n in sorted(symbols_of(condition)))
         open_ = sorted(n for n in symbols_of(condition) if n not in chosen)
         remedy = f"give {', '.join(open_)} too, or change it" if open_ else "change it"
@@ -135,7 +135,7 @@ def completed(
     return point
 
 
-def others(
+def other_points(
     point: Point, chosen: Iterable[str], conditions: Iterable[str], vocabulary: Vocabulary
 ) -> Iterator[Point]:
     """Yield points in the domain at which one default value is larger or smaller."""
@@ -146,5 +146,5 @@ def others(
             literal = f"{Decimal(point[name][0]) * Decimal(scale):f}"
             other = point | {name: (literal, Fraction(literal))}
             values = {vocabulary.by_name[n].symbol: v for n, (_, v) in other.items()}
-            if not broken(conditions, values):
+            if not violated_conditions(conditions, values):
                 yield other

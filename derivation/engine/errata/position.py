@@ -67,7 +67,7 @@ class Position:
         return self.parent.put(node.func(*rest), top)
 
 
-def inner(place: Position) -> Iterator[Position]:
+def inner_positions(place: Position) -> Iterator[Position]:
     """Yield the positions directly inside a position, groups of terms included."""
     node, args = place.node, place.node.args
     if isinstance(node, sp.Add):
@@ -89,15 +89,15 @@ def inner(place: Position) -> Iterator[Position]:
         yield Position(args[0], ARGUMENT, place, (0,))
 
 
-def everywhere(place: Position) -> Iterator[Position]:
+def all_positions(place: Position) -> Iterator[Position]:
     """Yield the position and all positions inside it; groups of terms are not divided further."""
     yield place
     if place.role != TERMS:
-        for part in inner(place):
-            yield from everywhere(part)
+        for part in inner_positions(place):
+            yield from all_positions(part)
 
 
-def needed(part: Position, need: Values, points: Sample) -> list[flint.acb] | None:
+def required_values(part: Position, need: Values, points: Sample) -> list[flint.acb] | None:
     """Return the required values of a part from those of its parent; None if not determined."""
     assert part.parent is not None  # the root requires the reference values themselves
     node = part.parent.node
@@ -128,14 +128,14 @@ def _root(value: flint.acb, exponent: sp.Rational, near: flint.acb) -> flint.acb
     return -root if near.real < 0 else root
 
 
-def with_needs(
+def with_required_values(
     root: Position, reference: Values, points: Sample
 ) -> Iterator[tuple[Position, list[flint.acb]]]:
     """Yield every position with its required values, where these are determined and finite."""
     yield root, list(reference)
     if root.role == TERMS:
         return
-    for part in inner(root):
-        need = needed(part, reference, points)
+    for part in inner_positions(root):
+        need = required_values(part, reference, points)
         if need is not None and all(w.is_finite() for w in need):
-            yield from with_needs(part, need, points)
+            yield from with_required_values(part, need, points)

@@ -7,7 +7,7 @@ import sympy as sp
 
 from derivation.engine.errata.edit import single_edits
 from derivation.engine.errata.pairs import pair_edits
-from derivation.engine.errata.position import TERMS, Position, inner, needed
+from derivation.engine.errata.position import TERMS, Position, inner_positions, required_values
 from derivation.engine.errata.sample import Values
 from derivation.engine.errata.variant import VariantSearch
 
@@ -40,13 +40,13 @@ def repairs(given: sp.Expr, reference: Values, search: VariantSearch) -> Iterato
     if size > MAX_OPERATIONS_FOR_PAIRS:
         return
     yield from _pairs(root, reference, search)
-    for part in inner(root):
-        need = needed(part, reference, search.points)
+    for part in inner_positions(root):
+        need = required_values(part, reference, search.points)
         if part.role != TERMS and need is not None and all(w.is_finite() for w in need):
             yield from _pairs(part, need, search)
             if isinstance(part.node, sp.Pow):
-                for base in inner(part):
-                    inside = needed(base, need, search.points)
+                for base in inner_positions(part):
+                    inside = required_values(base, need, search.points)
                     yield from _pairs(base, inside, search) if inside else ()
 
 

@@ -11,7 +11,7 @@ from fractions import Fraction
 import flint
 import sympy as sp
 
-from derivation.engine.bounded import bounded
+from derivation.engine.bounded import run_limited
 from derivation.engine.errata import summed
 from derivation.engine.errata.compare import (
     Diagnosis,
@@ -19,9 +19,9 @@ from derivation.engine.errata.compare import (
     diagnose,
     known_formula,
     relations_between,
-    resolved,
+    resolve,
 )
-from derivation.engine.errata.point import completed, exact, others, parse_point
+from derivation.engine.errata.point import completed_point, exact_values, other_points, parse_point
 from derivation.engine.errata.relations import Point, Relations
 from derivation.engine.formula.ball import PrecisionError, enclose, evaluate, to_ball
 from derivation.engine.formula.chain import Chain
@@ -151,10 +151,10 @@ def diagnose_text(
         raise FormulaError(f"expected 1 to {MAX_DIGITS} digits, got {digits}")
     formula = known_formula(name, formulas)
     own = formula.vocabulary
-    chosen = exact(at or {}, own, relations)
+    chosen = exact_values(at or {}, own, relations)
     references = {n: sp.Symbol(n, real=True) for n in comparable(formulas)}
     given = read(text, own, {**references, **own.guest_names}, latex, _letters(formula))
-    summed.check_contribution(formula, resolved(given, formulas, own))
+    summed.check_contribution(formula, resolve(given, formulas, own))
     diagnosis = diagnose(name, given, formulas, relations)
     derived = formula.expression
     meanings = relations_between(name, diagnosis.given, derived, formulas, relations)
@@ -162,13 +162,13 @@ def diagnose_text(
     names = sorted({s.name for side in sides for s in side.free_symbols})
     domain = [condition for n in names for condition in own.by_name[n].domain]
     conditions = dict.fromkeys(applicable([*domain, *formula.where], set(names)))
-    point = completed(chosen, names, meanings, conditions, own)
-    points = itertools.chain([point], others(point, chosen, conditions, own))
+    point = completed_point(chosen, names, meanings, conditions, own)
+    points = itertools.chain([point], other_points(point, chosen, conditions, own))
     point, derived_value = _first(sides[1], points, own, digits)
     if chosen:
         given_value = _at(sides[0], point, own, digits)
     else:
-        further = itertools.islice(others(point, chosen, conditions, own), _MOST_POINTS)
+        further = itertools.islice(other_points(point, chosen, conditions, own), _MOST_POINTS)
         point, given_value, derived_value = _of_both(
             sides, itertools.chain([point], further), own, digits, derived_value
         )
@@ -176,7 +176,7 @@ def diagnose_text(
     return TextDiagnosis(diagnosis, shown, given_value, derived_value, summed.note(formula))
 
 
-def diagnosed(
+def diagnose_limited(
     chain: Chain,
     relations: Relations,
     name: str,
@@ -209,9 +209,9 @@ def diagnosed(
     words = re.findall(r"[A-Za-z]\w*" if latex else r"[A-Za-z]\w*+(?! *\()", text)
     anything = {word: sp.Symbol(word) for word in words}
     own = chain.vocabulary
-    bounded(lambda: read(text, own, anything, latex) and None, "reading the formula")
+    run_limited(lambda: read(text, own, anything, latex) and None, "reading the formula")
     known = chain.formulas()
-    return bounded(
+    return run_limited(
         lambda: diagnose_text(name, text, known, relations, latex=latex, at=point, digits=digits),
         "comparing the formulas",
     )

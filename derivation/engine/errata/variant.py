@@ -111,7 +111,7 @@ def variants(place: Position, search: VariantSearch) -> Iterator[Variant]:
         yield from other_faces(place.node, search)
 
 
-def tried(place: Position, search: VariantSearch) -> Iterator[Variant]:
+def all_variants(place: Position, search: VariantSearch) -> Iterator[Variant]:
     """Yield all variants, with simple multiples and powers, if no required value is known."""
     yield from variants(place, search)
     node, value = place.node, search.points.value(place.node, 0)

@@ -1,4 +1,4 @@
-"""The derivation of a paper: a chain of links, each of which derives formulas."""
+"""The derivation of a paper: a chain of steps, each of which derives formulas."""
 
 import inspect
 from collections.abc import Callable
@@ -14,7 +14,7 @@ from derivation.engine.formula.vocabulary import Vocabulary
 
 Value = TypeVar("Value")
 Found = tuple[tuple[str, tuple[Record, ...]], ...]
-"""Names of the links, each with its formulas."""
+"""Names of the steps, each with its formulas."""
 
 
 _OF_CODE = (
@@ -24,13 +24,13 @@ _OF_CODE = (
 """Exceptions whose messages do not state where they occurred."""
 
 
-class LinkError(ValueError):
+class DerivationStepError(ValueError):
     """The code of a derivation step fails; the message states the step and the line."""
 
 
 @dataclass(frozen=True)
-class Link:
-    """One link of a derivation: its name, and the function that returns its proved formulas."""
+class DerivationStep:
+    """One step of a derivation: its name, and the function that returns its proved formulas."""
 
     name: str
     derive: Callable[[], tuple[Record, ...]]
@@ -38,7 +38,7 @@ class Link:
 
 @dataclass(frozen=True, eq=False)
 class Chain:
-    """The links of a paper.
+    """The steps of a paper.
 
     Parameters
     ----------
@@ -46,8 +46,8 @@ class Chain:
         Name of the paper, with which the names of its cached results begin.
     vocabulary
         The symbols of the paper.
-    links
-        The links, in order.
+    steps
+        The steps, in order.
     sources
         Files and folders on which the formulas depend: parts of this package by name, others by
         path.
@@ -57,27 +57,31 @@ class Chain:
 
     name: str
     vocabulary: Vocabulary
-    links: tuple[Link, ...]
+    steps: tuple[DerivationStep, ...]
     sources: tuple[str | Path, ...]
     kinds: tuple[type, ...]
 
-    def found(self) -> Found:
-        """Return the links with their formulas, cached until the sources change.
+    def derived_steps(self) -> Found:
+        """Return the steps with their formulas, cached until the sources change.
 
         Raises
         ------
         ProofError
             If a proof fails; the message states the step.
-        LinkError
+        DerivationStepError
             If the derivation raises another exception; the message states step and line.
         """
-        return self.kept("chain", lambda: tuple((x.name, _derived(x)) for x in self.links))
+        return self.cached_result(
+            "chain", lambda: tuple((x.name, _derive_step(x)) for x in self.steps)
+        )
 
     def formulas(self) -> dict[str, Record]:
         """Return every formula by name."""
-        return {formula.name: formula for _, formulas in self.found() for formula in formulas}
+        return {
+            formula.name: formula for _, formulas in self.derived_steps() for formula in formulas
+        }
 
-    def kept(
+    def cached_result(
         self,
         what: str,
         compute: Callable[[], Value],
@@ -101,15 +105,15 @@ class Chain:
         return cached(f"{self.name}-{what}", (*self.sources, *also), compute, *every)
 
 
-def _derived(link: Link) -> tuple[Record, ...]:
-    """Return the formulas of a link; state the step and the line if its code fails."""
+def _derive_step(step: DerivationStep) -> tuple[Record, ...]:
+    """Return the formulas of a step; state the step and the line if its code fails."""
     try:
-        return link.derive()
+        return step.derive()
     except Exception as error:  # any exception that the code of a paper raises
         if type(error) not in _OF_CODE:
             raise
-        folder = Path(inspect.getfile(inspect.unwrap(link.derive))).parent
+        folder = Path(inspect.getfile(inspect.unwrap(step.derive))).parent
         frames = [f for f in extract_tb(error.__traceback__) if Path(f.filename).parent == folder]
         place = f"{Path(frames[-1].filename).name}, line {frames[-1].lineno}: " if frames else ""
         what = f"{place}{type(error).__name__}: {error}"
-        raise LinkError(f"derivation step {link.name!r}: {what}; correct it") from error
+        raise DerivationStepError(f"derivation step {step.name!r}: {what}; correct it") from error

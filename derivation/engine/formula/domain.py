@@ -75,7 +75,9 @@ def _exactly(node: sp.Basic, values: Mapping[str, Fraction]) -> Fraction:
     raise ValueError(f"expected a rational expression in a condition, got {node}")
 
 
-def broken(conditions: Iterable[str], values: Mapping[sp.Symbol, Fraction]) -> list[str]:
+def violated_conditions(
+    conditions: Iterable[str], values: Mapping[sp.Symbol, Fraction]
+) -> list[str]:
     """Return the false conditions at an exact point, without those that contain other symbols."""
     names = {symbol.name for symbol in values}
     return [c for c in conditions if symbols_of(c) <= names and not holds(c, values)]

@@ -1,11 +1,11 @@
-"""Functions without a formula, of which only the derivatives are known."""
+"""Functions without a formula; only their derivatives are known."""
 
 from collections.abc import Callable
 
 import sympy as sp
 
 
-def unspecified(name: str, *slopes: Callable[..., sp.Expr]) -> type[sp.Function]:
+def unspecified_function(name: str, *slopes: Callable[..., sp.Expr]) -> type[sp.Function]:
     """Return a class of SymPy functions that are not evaluated.
 
     Parameters

@@ -10,7 +10,7 @@ import random
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 
-from derivation.engine.formula.domain import broken
+from derivation.engine.formula.domain import violated_conditions
 from derivation.engine.formula.ulp import neighbours
 from derivation.engine.formula.vocabulary import Vocabulary
 
@@ -28,7 +28,9 @@ def inside(vocabulary: Vocabulary, values: Mapping[str, float]) -> bool:
     """Return whether a point lies in the domain of its symbols."""
     own = vocabulary.by_name
     domain = [condition for key in values for condition in own[key].domain]
-    return not broken(domain, {own[key].symbol: Fraction(value) for key, value in values.items()})
+    return not violated_conditions(
+        domain, {own[key].symbol: Fraction(value) for key, value in values.items()}
+    )
 
 
 def domain_grid(

@@ -46,7 +46,7 @@ def to_latex(expression: sp.Basic, vocabulary: Vocabulary) -> str:
     return str(PaperPrinter(settings).doprint(expression))
 
 
-def mixed(text: str, words: Callable[[str], str], mathematics: Callable[[str], str]) -> str:
+def convert_parts(text: str, words: Callable[[str], str], mathematics: Callable[[str], str]) -> str:
     """Convert a sentence with mathematics between dollars, by one function for each kind of part.
 
     Raises
@@ -62,12 +62,12 @@ def mixed(text: str, words: Callable[[str], str], mathematics: Callable[[str], s
 
 def to_markdown(text: str) -> str:
     """Return a sentence as Markdown, with its stars and underscores escaped."""
-    return mixed(text, lambda words: re.sub(r"([*_])", r"\\\1", words), "${}$".format)
+    return convert_parts(text, lambda words: re.sub(r"([*_])", r"\\\1", words), "${}$".format)
 
 
 def to_plain(text: str) -> str:
     r"""Return a sentence for a terminal: `$\phi_j^{2/3} \le 1$` as `phi_j^(2/3) <= 1`."""
-    return mixed(text, str, _plain)
+    return convert_parts(text, str, _plain)
 
 
 def _plain(latex: str) -> str:

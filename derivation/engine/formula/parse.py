@@ -156,7 +156,7 @@ class _Reader:
     def read(self, node: ast.expr, depth: int) -> sp.Expr:
         if depth > MAX_DEPTH:
             raise FormulaError(f"the formula is nested deeper than {MAX_DEPTH} levels: split it")
-        found = guarded(self._expression(node, depth + 1), self._source(node))
+        found = checked_expression(self._expression(node, depth + 1), self._source(node))
         if degree(found, self.degrees) > MAX_DEGREE:
             raise FormulaError(
                 f"expected nested powers of total degree up to {MAX_DEGREE}, "
@@ -279,7 +279,7 @@ def _bits(value: sp.Rational) -> int:
     return max(int(value.p).bit_length(), int(value.q).bit_length())
 
 
-def guarded(expression: sp.Expr, source: str) -> sp.Expr:
+def checked_expression(expression: sp.Expr, source: str) -> sp.Expr:
     """Return the expression, if it is finite and real and its numbers are moderate.
 
     Raises

@@ -25,7 +25,7 @@ EXPECTATIONS = ("value", "nan", "zero")
 """Expected results: the reference value; NaN, because the point is outside the domain; or zero,
 where no ball around the reference value can be relatively small."""
 
-SAID = ("cause", "form", "modes", "expect")
+CAUSE_TEXTS = ("cause", "form", "modes", "expect")
 """Keys of a table in a file that apply to all its cases."""
 
 Numbers = tuple[float, ...]
@@ -127,7 +127,7 @@ def read_cases(path: Path) -> list[HardCase]:
     """
     groups = tomllib.loads(path.read_text())
     return [
-        checked(HardCase(group, name, inputs=_exact(given), **said))
+        checked_case(HardCase(group, name, inputs=_exact(given), **said))
         for group, tables in groups.items()
         for said, functions in map(_parts, tables)
         for name, several in functions.items()
@@ -137,8 +137,8 @@ def read_cases(path: Path) -> list[HardCase]:
 
 def _parts(table: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
     """Split a table into the entries for all its cases and the inputs by function."""
-    said = {key: value for key, value in table.items() if key in SAID}
-    return said, {key: value for key, value in table.items() if key not in SAID}
+    said = {key: value for key, value in table.items() if key in CAUSE_TEXTS}
+    return said, {key: value for key, value in table.items() if key not in CAUSE_TEXTS}
 
 
 def _exact(given: Mapping[str, Any]) -> dict[str, tuple[str, ...]]:
@@ -146,7 +146,7 @@ def _exact(given: Mapping[str, Any]) -> dict[str, tuple[str, ...]]:
     return {name: tuple(float(x).hex() for x in numbers) for name, numbers in listed.items()}
 
 
-def checked(case: HardCase) -> HardCase:
+def checked_case(case: HardCase) -> HardCase:
     """Return the case if it is valid.
 
     Raises
@@ -176,7 +176,7 @@ def _is_single(point: Mapping[str, float]) -> bool:
     return all(math.isnan(x) or float(np.float32(x)) == x for x in point.values())
 
 
-def handed_over(case: HardCase, names: tuple[str, ...]) -> list[Any]:
+def call_arguments(case: HardCase, names: tuple[str, ...]) -> list[Any]:
     """Return a function's arguments in the case's form, in the function's order."""
     numbers = case.numbers
     axes = {name: axis for axis, name in enumerate(case.listed)}

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from derivation.engine.activity import Progress, quiet
 from derivation.engine.formula.ulp import DOUBLE, SINGLE, Format, overflows
-from derivation.engine.measure.judge import Errors, PointReference, measured
+from derivation.engine.measure.judge import Errors, PointReference, measured_errors
 from derivation.engine.measure.kernels import Kernel, generated_kernels, printed_kernels
 from derivation.engine.measure.point import Point, to_single
 from derivation.engine.measure.suite import Suite
@@ -138,11 +138,11 @@ def check(
 def _row(
     by: Judge, kernel: Kernel, points: Sequence[Point], found: Sequence[PointReference], digits: int
 ) -> Row:
-    double = measured(kernel, found, len(points) - len(found))
+    double = measured_errors(kernel, found, len(points) - len(found))
     if kernel.budget is None:
         return Row(kernel.name, kernel.module, None, double, None, 0, None)
     single = None if kernel.by_count else _single(by, kernel, points, digits)
-    passed = double.kept() and (single is None or single.kept(SINGLE))
+    passed = double.within_limits() and (single is None or single.within_limits(SINGLE))
     oracles = confirm(by, kernel, found, digits)
     return Row(kernel.name, kernel.module, kernel.budget, double, single, oracles, passed)
 
@@ -160,7 +160,7 @@ def _single(by: Judge, kernel: Kernel, points: Sequence[Point], digits: int) -> 
     singles = (single for p in points[::EVERY] if (single := to_single(p)) is not None)
     rounded = [single for single in singles if by.inside(single)]
     found = reference_values(by.routes.balls, kernel.name, rounded, digits, SINGLE)
-    return measured(kernel, found, len(rounded) - len(found), SINGLE)
+    return measured_errors(kernel, found, len(rounded) - len(found), SINGLE)
 
 
 def confirm(by: Judge, kernel: Kernel, found: Sequence[PointReference], digits: int) -> int:

@@ -8,7 +8,7 @@ from derivation.engine.measure.check import Judge
 from derivation.engine.measure.point import Point
 from derivation.engine.oracle.agreement import Route, Routes
 from derivation.engine.oracle.oracle import Balls
-from derivation.engine.rewrite.blocks import Definition, built
+from derivation.engine.rewrite.blocks import Definition, build_blocks
 from derivation.engine.rewrite.form import switch_points
 
 
@@ -43,7 +43,7 @@ def domain_judge(
     own = chain.vocabulary
 
     def grid(name: str, arguments: Sequence[str], _: bool) -> tuple[Point, ...]:
-        switches = switch_points(block.value for block in built(blocks).values())
+        switches = switch_points(block.value for block in build_blocks(blocks).values())
         return tuple(map(Point, domain_grid(name, arguments, own, switches)))
 
     references = Routes(Balls(own, chain.formulas), routes)

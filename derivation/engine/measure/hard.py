@@ -10,13 +10,13 @@ from typing import Any, Literal
 import numpy as np
 
 from derivation.engine.formula.ulp import spacing_exponent
-from derivation.engine.measure.case import HardCase, handed_over
+from derivation.engine.measure.case import HardCase, call_arguments
 from derivation.engine.measure.judge import judge, largest
 from derivation.engine.measure.kernels import Kernel, Stating
 from derivation.engine.measure.record import provenance
 from derivation.engine.measure.result import CheckResult
 from derivation.engine.measure.suite import Known, Suite, known_of
-from derivation.engine.oracle.reference import DIGITS, Reference, restored
+from derivation.engine.oracle.reference import DIGITS, Reference, reference_from_text
 from derivation.engine.text import paragraph
 
 COMMAND = "platecontact check hard-cases --update"
@@ -59,12 +59,12 @@ class HardRow:
     problem: str
 
     @property
-    def kept(self) -> bool:
+    def passed(self) -> bool:
         """Whether the case passed."""
         return not self.problem
 
 
-def committed(data: Data, given: Sequence[HardCase]) -> dict[str, Known]:
+def committed_references(data: Data, given: Sequence[HardCase]) -> dict[str, Known]:
     """Return the recorded reference values by the key of their case.
 
     Parameters
@@ -109,7 +109,7 @@ def check(suite: Suite, references: Mapping[str, Known]) -> tuple[HardRow, ...]:
 
 def _row(suite: Suite, case: HardCase, known: Known) -> HardRow:
     kernel, count = suite.kernels[case.kernel], suite.results(case.kernel)
-    true = [restored(row) for row in known.references]
+    true = [reference_from_text(row) for row in known.references]
     results, problem = _results(case, kernel, count, true)
     if not problem and results.shape[1:] != case.shape:
         problem = f"shape {results.shape[1:]}, expected {case.shape}"
@@ -163,7 +163,7 @@ def _call(case: HardCase, kernel: Kernel, count: int) -> np.ndarray[Any, Any]:
         found = kernel.call(int(last))
         tables = found if count > 1 else (found,)
         return np.stack([table[-1] for table in tables])
-    arguments = handed_over(case, kernel.arguments)
+    arguments = call_arguments(case, kernel.arguments)
     before = [np.array(x, copy=True) for x in arguments]
     modes = {} if case.modes is None else {"modes": case.modes}
     found = kernel.call(*arguments, **modes)
@@ -178,7 +178,7 @@ def _budgets(case: HardCase, kernel: Kernel, true: Sequence[Reference]) -> list[
     """Return the budgets in ULP, without conditioning, result by result."""
     if not isinstance(kernel, Stating):
         return [kernel.budget or 0.0] * len(true)
-    stated = np.ravel(kernel.stated(*handed_over(case, kernel.arguments))).tolist()
+    stated = np.ravel(kernel.stated(*call_arguments(case, kernel.arguments))).tolist()
     units = (spacing_exponent(one.value, case.format) for one in true)
     return [error * 2.0**-unit for error, unit in zip(stated, units, strict=True)]
 
@@ -193,7 +193,7 @@ def cells(rows: Sequence[HardRow]) -> list[tuple[str, ...]]:
             group,
             str(len(found)),
             f"{max(_ratio(row) for row in found):.2f}",
-            "yes" if all(row.kept for row in found) else "NO",
+            "yes" if all(row.passed for row in found) else "NO",
         )
         for group, found in groups.items()
     ]
@@ -217,7 +217,7 @@ def result(rows: Sequence[HardRow], package: str) -> CheckResult:
         f"{row.case.key}: {row.problem} ({row.error:.3g} ULP, {row.allowed:.3g} allowed). "
         f"{row.case.cause}"
         for row in rows
-        if not row.kept
+        if not row.passed
     ]
     return CheckResult(
         "Hard cases",
@@ -245,7 +245,7 @@ def _plain(row: HardRow) -> dict[str, Any]:
         "error": _rounded(row.error),
         "allowed": _rounded(row.allowed),
         "printed": None if row.printed is None else _rounded(row.printed),
-        "kept": row.kept,
+        "passed": row.passed,
     }
 
 

@@ -171,13 +171,13 @@ class Errors:
     dtype: str
     warned: tuple[str, ...]
 
-    def kept(self, fmt: Format = DOUBLE) -> bool:
+    def within_limits(self, fmt: Format = DOUBLE) -> bool:
         """Return whether all results are finite, allowed and of type `fmt`, without warnings."""
         within = self.ratio is not None and self.ratio <= 1.0
         return within and self.not_finite == 0 and self.dtype == fmt.name and not self.warned
 
 
-def measured(
+def measured_errors(
     kernel: Kernel, found: Sequence[PointReference], excluded: int = 0, fmt: Format = DOUBLE
 ) -> Errors:
     """Return the errors of a function at the given points.

@@ -8,11 +8,11 @@ from derivation.engine.measure.suggest import MeasuredRow
 from derivation.engine.outputs import sorted_json
 
 
-class Kept(Protocol):
+class RowWithLimits(Protocol):
     """A row that states whether its limits are met."""
 
     @property
-    def kept(self) -> bool:
+    def passed(self) -> bool:
         """Whether the limits are met."""
 
 
@@ -53,6 +53,6 @@ class CheckResult:
         return self.recorded() if self.recorded else sorted_json(self.data())
 
 
-def all_kept(rows: Iterable[Kept]) -> bool:
+def all_passed(rows: Iterable[RowWithLimits]) -> bool:
     """Return whether every row meets its limits."""
-    return all(row.kept for row in rows)
+    return all(row.passed for row in rows)

@@ -30,7 +30,7 @@ Progress = Callable[[str, int, float], None]
 
 
 @dataclass(frozen=True)
-class Found:
+class LargeError:
     """A point and its error.
 
     Parameters
@@ -55,7 +55,7 @@ class Found:
 
 
 @dataclass
-class Standing:
+class TargetSearch:
     """The state of the search for one function.
 
     Parameters
@@ -70,7 +70,7 @@ class Standing:
 
     evaluations: int = 0
     unjudged: int = 0
-    worst: Found | None = None
+    worst: LargeError | None = None
 
     @property
     def ratio(self) -> float:
@@ -93,7 +93,7 @@ class Search:
     """
 
     seed: int
-    standings: dict[str, Standing] = field(default_factory=dict)
+    standings: dict[str, TargetSearch] = field(default_factory=dict)
     interrupted: bool = False
 
     @property
@@ -142,8 +142,8 @@ def search(
     """
     if seconds is None and evaluations is None:
         raise ValueError("expected seconds or evaluations, got neither: a search has no end")
-    found = Search(seed, {target.name: Standing() for target in targets})
-    hunts = [hunt(target, seed, found.standings[target.name]) for target in targets]
+    found = Search(seed, {target.name: TargetSearch() for target in targets})
+    hunts = [search_target(target, seed, found.standings[target.name]) for target in targets]
     end = None if seconds is None else time.monotonic() + seconds
 
     def over() -> bool:
@@ -152,13 +152,13 @@ def search(
 
     try:
         with np.errstate(all="ignore"):
-            _take_turns(targets, hunts, found, over, progress, keep)
+            _search_in_turns(targets, hunts, found, over, progress, keep)
     except KeyboardInterrupt:
         found.interrupted = True
     return found
 
 
-def _take_turns(
+def _search_in_turns(
     targets: Sequence[Target],
     hunts: Sequence[Iterator[None]],
     found: Search,
@@ -180,7 +180,7 @@ def _take_turns(
             keep(found)
 
 
-def hunt(target: Target, seed: int, standing: Standing) -> Iterator[None]:
+def search_target(target: Target, seed: int, standing: TargetSearch) -> Iterator[None]:
     """Search for one function's worst point without end; yield after every point.
 
     Points are drawn at random. A local search then starts from the worst of them or, in every other
@@ -189,16 +189,16 @@ def hunt(target: Target, seed: int, standing: Standing) -> Iterator[None]:
     """
     generator = random.Random(f"{target.name} from {seed}")
     for cycle in itertools.count():
-        best = Standing()
+        best = TargetSearch()
         drawn = (target.draw(target.domain, generator) for _ in range(DRAWN))
         while points := list(itertools.islice(drawn, 16)):
-            yield from _look(target, points, best, standing)
+            yield from _evaluate_points(target, points, best, standing)
         here = standing if cycle % 2 else best
-        yield from _climb(target, generator, Standing(worst=here.worst), standing)
+        yield from _local_search(target, generator, TargetSearch(worst=here.worst), standing)
 
 
-def _climb(
-    target: Target, generator: random.Random, here: Standing, standing: Standing
+def _local_search(
+    target: Target, generator: random.Random, here: TargetSearch, standing: TargetSearch
 ) -> Iterator[None]:
     """Evaluate points at decreasing steps from the worst one, to both sides in each argument."""
     if here.worst is None:
@@ -212,11 +212,11 @@ def _climb(
             steps = (generator.randint(1, stride), -generator.randint(1, stride))
             beside = (domain.moved(centre, name, step) for step in steps)
             points = [point for point in beside if domain.holds(point)]
-            yield from _look(target, points, here, standing)
+            yield from _evaluate_points(target, points, here, standing)
 
 
-def _look(
-    target: Target, points: Sequence[Point], here: Standing, standing: Standing
+def _evaluate_points(
+    target: Target, points: Sequence[Point], here: TargetSearch, standing: TargetSearch
 ) -> Iterator[None]:
     """Evaluate points one by one; store a larger ratio in `here`, and in `standing`."""
     if not points:
@@ -224,7 +224,7 @@ def _look(
     results = target.call(points) if target.bound is not None else None
     for i, point in enumerate(points):
         if results is None or _may_be_worse(target, point, results[i], here.ratio):
-            found = weigh(target, point, points[i - 1])
+            found = point_error(target, point, points[i - 1])
             if found is None:
                 standing.unjudged += 1
             elif found.ratio > here.ratio:
@@ -240,7 +240,7 @@ def _may_be_worse(target: Target, point: Point, got: tuple[float, ...], ratio: f
     return target.bound is None or target.bound(point, got) > ratio
 
 
-def weigh(target: Target, point: Point, company: Point | None) -> Found | None:
+def point_error(target: Target, point: Point, company: Point | None) -> LargeError | None:
     """Return a point's error: for plain numbers, or in an array with a second point if larger.
 
     Returns None if there is no reference value.
@@ -253,5 +253,5 @@ def weigh(target: Target, point: Point, company: Point | None) -> Found | None:
         together = target.call([point, company])[0]
         error = target.measure(point, together) if together != plain else None
         if error is not None and error.ratio > alone.ratio:
-            return Found(point, company, error)
-    return Found(point, None, alone)
+            return LargeError(point, company, error)
+    return LargeError(point, None, alone)

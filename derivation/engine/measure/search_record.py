@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from derivation.engine.files import write_file
-from derivation.engine.measure.case import SAID, HardCase, read_cases
+from derivation.engine.measure.case import CAUSE_TEXTS, HardCase, read_cases
 from derivation.engine.measure.point import Point
-from derivation.engine.measure.search import Found, Search, weigh
+from derivation.engine.measure.search import LargeError, Search, point_error
 from derivation.engine.measure.target import Target
 from derivation.engine.outputs import plain
 
@@ -43,7 +43,7 @@ def seconds_of(duration: str) -> int:
 # --- cases
 
 
-def case_of(kernel: str, found: Found, seed: int) -> HardCase:
+def case_of(kernel: str, found: LargeError, seed: int) -> HardCase:
     """Return a point of the search as a case, with an array if it has a second point."""
     points = [found.point] if found.company is None else [found.point, found.company]
     inputs = {name: tuple(p.values[name].hex() for p in points) for name in found.point.values}
@@ -57,7 +57,7 @@ def points_of(case: HardCase) -> list[Point]:
     return [Point(values, case.modes) for values in case.points]
 
 
-def measured(case: HardCase, targets: Mapping[str, Target]) -> Found | None:
+def measured_case(case: HardCase, targets: Mapping[str, Target]) -> LargeError | None:
     """Return the error of a case; None if its function is not searched, or without a reference.
 
     Raises
@@ -72,7 +72,7 @@ def measured(case: HardCase, targets: Mapping[str, Target]) -> Found | None:
         expected = ", ".join(target.domain.arguments)
         raise ValueError(f"{target.name} takes {expected}; got {', '.join(case.inputs)}")
     point, *company = points_of(case)
-    return weigh(target, point, company[0] if company else None)
+    return point_error(target, point, company[0] if company else None)
 
 
 def read(path: Path) -> list[HardCase]:
@@ -96,18 +96,18 @@ def read(path: Path) -> list[HardCase]:
     return cases
 
 
-def to_toml(cases: Sequence[tuple[HardCase, Found | None]]) -> str:
+def to_toml(cases: Sequence[tuple[HardCase, LargeError | None]]) -> str:
     """Return the text of the file: a table per case, with the measured error as a comment."""
     return _HEADER + "".join(_table(case, found) for case, found in cases)
 
 
-def _table(case: HardCase, found: Found | None) -> str:
+def _table(case: HardCase, found: LargeError | None) -> str:
     lines = [""]
     if found is not None:
         error = found.error
         lines.append(f"# {found.ratio:.4g} of the allowance: {error.ulp:.6g} ULP, "
                      f"{error.allowed:.6g} allowed.")  # fmt: skip
-    said = {key: value for key, value in case.table.items() if key in SAID}
+    said = {key: value for key, value in case.table.items() if key in CAUSE_TEXTS}
     lines += [f"[[{case.group}]]", *(f"{key} = {json.dumps(x)}" for key, x in said.items())]
     # Python's shortest decimal numbers are TOML's too, and exact.
     numbers = {name: x[0] if case.form == "scalar" else [*x] for name, x in case.numbers.items()}
@@ -118,7 +118,7 @@ def _table(case: HardCase, found: Found | None) -> str:
 # --- what is new
 
 
-class Book:
+class SearchRecord:
     """The file of worst cases, which is updated during a search.
 
     Parameters
@@ -148,13 +148,13 @@ class Book:
     ) -> None:
         self.path = path
         self._targets = {target.name: target for target in targets}
-        self._earlier = [(case, measured(case, self._targets)) for case in read(path)]
+        self._earlier = [(case, measured_case(case, self._targets)) for case in read(path)]
         self._known, self._unmeasured = dict(ratios), dict(worst)
         for case, found in self._earlier:
             self._learn(case.kernel, found)
         self._written = ""
 
-    def _learn(self, kernel: str, found: Found | None) -> None:
+    def _learn(self, kernel: str, found: LargeError | None) -> None:
         if found is not None:
             self._known[kernel] = max(found.ratio, self._known.get(kernel, 0.0))
 
@@ -164,10 +164,10 @@ class Book:
         if texts is not None and kernel in self._targets:
             names = self._targets[kernel].domain.arguments
             inputs = {name: (text,) for name, text in zip(names, texts, strict=True)}
-            self._learn(kernel, measured(HardCase(GROUP, kernel, "", inputs), self._targets))
+            self._learn(kernel, measured_case(HardCase(GROUP, kernel, "", inputs), self._targets))
         return self._known.get(kernel, 0.0)
 
-    def is_new(self, kernel: str, found: Found | None) -> bool:
+    def is_new(self, kernel: str, found: LargeError | None) -> bool:
         """Return whether an unrecorded point exceeds the largest known ratio, or its allowance."""
         if found is None or any(
             case.kernel == kernel and points_of(case)[0] == found.point for case, _ in self._earlier
@@ -196,7 +196,7 @@ class Book:
 # --- results
 
 
-def cells(kernel: str, search: Search, book: Book) -> tuple[str, ...]:
+def cells(kernel: str, search: Search, book: SearchRecord) -> tuple[str, ...]:
     """Return a function's entries under `COLUMNS`."""
     standing = search.standings[kernel]
     worst = standing.worst
@@ -239,6 +239,6 @@ def _row(kernel: str, search: Search) -> dict[str, Any]:
     return {"kernel": kernel, **counts, **plain(numbers), **where}
 
 
-def kept(search: Search) -> bool:
+def all_within_allowance(search: Search) -> bool:
     """Return whether every error is within its allowance."""
     return all(standing.ratio <= 1.0 for standing in search.standings.values())

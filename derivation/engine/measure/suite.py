@@ -19,7 +19,7 @@ from derivation.engine.measure.case import HardCase
 from derivation.engine.measure.kernels import Kernel
 from derivation.engine.measure.origin import of_expression, of_modules
 from derivation.engine.oracle.oracle import Balls
-from derivation.engine.oracle.reference import DIGITS, Reference, Stored, bare, stored
+from derivation.engine.oracle.reference import DIGITS, Reference, Stored, reference_text, value_only
 
 SAVED_EVERY = 30.0
 """Time after which new reference values are saved [s]."""
@@ -141,7 +141,7 @@ class Suite:
         results = range(self.results(case.kernel))
         if case.expect != "value":
             values = {"nan": "nan", "zero": "0"}
-            return [bare(values[case.expect])] * (len(results) * len(case.points))
+            return [value_only(values[case.expect])] * (len(results) * len(case.points))
         kernel, law = self.kernels[case.kernel], self.laws.get(case.kernel)
         rows = []
         for point in case.points:
@@ -151,9 +151,9 @@ class Suite:
             elif all(map(math.isfinite, given.values())):
                 found = [self.balls.reference(kernel.name, given, DIGITS + _SPARE, case.modes)]
             else:
-                rows.append([bare("nan")])
+                rows.append([value_only("nan")])
                 continue
-            rows.append([stored(reference, case.format) for reference in found])
+            rows.append([reference_text(reference, case.format) for reference in found])
         return [row[result] for result in results for row in rows]
 
     def _by_law(self, law: HardLaw, point: Mapping[str, float]) -> list[Reference]:

@@ -59,7 +59,7 @@ class Domain:
     def moved(self, point: Point, name: str, steps: int) -> Point:
         """Return the point with one argument changed by a number of floats, or of integers."""
         value = point.values[name]
-        there = value + steps if self.whole else _beside(value, steps)
+        there = value + steps if self.whole else _moved_value(value, steps)
         return Point({**point.values, name: there}, point.modes)
 
 
@@ -70,7 +70,7 @@ def _compiled(conditions: tuple[str, ...], arguments: tuple[str, ...]) -> tuple[
     return tuple(code for code in codes if set(code.co_names) - {"abs"} <= set(arguments))
 
 
-def _beside(value: float, floats: int) -> float:
+def _moved_value(value: float, floats: int) -> float:
     end = ordinal(math.nextafter(math.inf, 0.0))
     return from_ordinal(min(max(ordinal(value) + floats, -end), end))
 

@@ -1,4 +1,4 @@
-"""mpmath references by other methods, and their agreement with the Arb references."""
+"""mpmath references by independent methods, and their comparison with the Arb references."""
 
 import math
 from collections.abc import Callable, Mapping

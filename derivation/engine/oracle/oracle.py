@@ -10,7 +10,7 @@ import sympy as sp
 from derivation.engine.formula.ball import LOG2_10, MAX_BITS, SPARE_BITS, PrecisionError, enclosable
 from derivation.engine.formula.record import Record
 from derivation.engine.formula.vocabulary import Vocabulary
-from derivation.engine.oracle.reference import Reference, unsized
+from derivation.engine.oracle.reference import Reference, exact_reference
 from derivation.engine.oracle.tape import Tape, record
 
 FLOOR = flint.arb(2) ** -1200
@@ -207,7 +207,7 @@ class Balls:
         if values[argument] != int(values[argument]):
             raise ValueError(f"{name} needs an integer index, got {values[argument]}")
         ball = number(int(values[argument]), int(digits * LOG2_10) + SPARE_BITS)
-        return unsized(ball)
+        return exact_reference(ball)
 
     def _check(self, name: str, values: Mapping[str, float], modes: int | None) -> None:
         summed = self.is_summed(name)

@@ -57,34 +57,34 @@ class Reference:
         return {n: float((s / abs(self.value)).mid()) for n, s in self.sensitivity.items()}
 
 
-def unsized(value: arb, scale: float = 1.0) -> Reference:
+def exact_reference(value: arb, scale: float = 1.0) -> Reference:
     """Return a reference value without allowance for rounding of the arguments."""
     return Reference(value, {}, abs(value), scale)
 
 
-def bare(value: str) -> Stored:
+def value_only(value: str) -> Stored:
     """Return the text of a value without other entries."""
     return {"value": value, "radius": "0", "rounding": "0", "magnitude": "0", "scale": "1"}
 
 
-def stored(found: Reference, fmt: Format) -> Stored:
+def reference_text(found: Reference, fmt: Format) -> Stored:
     """Return a reference as text; a value that overflows the format becomes "inf" or "-inf"."""
     with flint.ctx.workprec(_BITS):
         value = found.value
         if overflows(value, fmt):
-            return bare("inf" if value > 0 else "-inf")
+            return value_only("inf" if value > 0 else "-inf")
         text = "0" if value == 0 else value.mid().str(DIGITS, radius=False)
         radius = (abs(value - arb(text))).abs_upper()
         return {
             "value": text,
-            "radius": "0" if radius == 0 else _upwards(radius),
-            "rounding": _upwards(found.total.abs_upper()),
-            "magnitude": _upwards(found.magnitude.abs_upper()),
+            "radius": "0" if radius == 0 else _rounded_up(radius),
+            "rounding": _rounded_up(found.total.abs_upper()),
+            "magnitude": _rounded_up(found.magnitude.abs_upper()),
             "scale": repr(found.scale),
         }
 
 
-def _upwards(number: arb) -> str:
+def _rounded_up(number: arb) -> str:
     """Return a positive number as text with three digits, not below the number."""
     if number == 0:
         return "0"
@@ -92,10 +92,10 @@ def _upwards(number: arb) -> str:
     return str(raised.mid().str(3, radius=False))
 
 
-def restored(text: Mapping[str, str]) -> Reference:
+def reference_from_text(text: Mapping[str, str]) -> Reference:
     """Return the reference that `stored` has converted to text."""
     if text["value"] in _ENDLESS:
-        return unsized(_ENDLESS[text["value"]])
+        return exact_reference(_ENDLESS[text["value"]])
     with flint.ctx.workprec(_BITS):
         value = arb(text["value"])
         ball = value if text["radius"] == "0" else value + arb(0, arb(text["radius"]))

@@ -7,21 +7,21 @@ from typing import Any
 from derivation.engine.errata.findings import Finding
 from derivation.engine.formula.chain import Found
 from derivation.engine.formula.vocabulary import Vocabulary
-from derivation.engine.report.document import Parts, Plan
-from derivation.engine.report.latex import environment, escape
-from derivation.engine.report.pieces import (
+from derivation.engine.report.contexts import (
     Prose,
     accuracy_tables,
     derivation_context,
     misprints_context,
     symbols_context,
 )
+from derivation.engine.report.document import Parts, Plan
+from derivation.engine.report.latex import environment, escape
 
 PLAN = Plan(("misprints", "symbols", "accuracy"), ("derivation", "published"))
 
 
 @dataclass(frozen=True)
-class Contents:
+class ReportContents:
     """All data on which the report depends.
 
     Parameters
@@ -30,14 +30,14 @@ class Contents:
         Title, subtitle, and a summary in a few sentences.
     vocabulary
         The symbols.
-    links
-        The links of the derivation with their formulas.
+    steps
+        The steps of the derivation with their formulas.
     findings
         The comparison of each published formula with the derived one.
     check
         The saved measurement of the generated functions, content of ``check.json``.
     prose
-        Text by link, and references.
+        Text by step, and references.
     version
         Version of this program.
     """
@@ -46,14 +46,14 @@ class Contents:
     subtitle: str
     abstract: str
     vocabulary: Vocabulary
-    links: Found
+    steps: Found
     findings: Sequence[Finding]
     check: Mapping[str, Any]
     prose: Prose
     version: str
 
 
-def parts(contents: Contents, shown: Sequence[str] = PLAN.names) -> Parts:
+def parts(contents: ReportContents, shown: Sequence[str] = PLAN.names) -> Parts:
     """Return the report's LaTeX with the named sections."""
     made = environment()
     provenance = contents.check["provenance"]
@@ -76,7 +76,7 @@ def parts(contents: Contents, shown: Sequence[str] = PLAN.names) -> Parts:
     )
 
 
-def _accuracy(contents: Contents) -> dict[str, Any]:
+def _accuracy(contents: ReportContents) -> dict[str, Any]:
     check = contents.check
     return {
         "tables": [t for t in accuracy_tables(check) if t["rows"]],
@@ -85,11 +85,11 @@ def _accuracy(contents: Contents) -> dict[str, Any]:
     }
 
 
-CONTEXTS: dict[str, Callable[[Contents], dict[str, Any]]] = {
+CONTEXTS: dict[str, Callable[[ReportContents], dict[str, Any]]] = {
     "misprints": lambda c: misprints_context(c.findings),
     "symbols": lambda c: symbols_context(c.vocabulary),
     "accuracy": _accuracy,
-    "derivation": lambda c: derivation_context(c.links, c.prose),
+    "derivation": lambda c: derivation_context(c.steps, c.prose),
     "published": lambda c: misprints_context(c.findings),
 }
 """Functions for the context of `templates/any/NAME.tex.j2`, by name."""

@@ -3,16 +3,20 @@
 from collections.abc import Mapping
 from typing import Any
 
-from derivation.engine.emit.share import ModuleArithmetic, printed_share, shares
+from derivation.engine.emit.printed_fraction import (
+    ModuleArithmetic,
+    arithmetic_of_modules,
+    printed_fraction,
+)
 from derivation.engine.report.latex import escape, prose
 
 
 def arithmetic_context(sources: Mapping[str, str]) -> dict[str, Any]:
     """Return the context of the section on generated code, from the source texts by module."""
-    found = shares(sources)
+    found = arithmetic_of_modules(sources)
     return {
         "operations": sum(part.operations for part in found),
-        "printed": f"{100 * printed_share(found):.0f}",
+        "printed": f"{100 * printed_fraction(found):.0f}",
         "rows": [_row(part) for part in found],
     }
 

@@ -115,7 +115,7 @@ class Plan:
         return text if linked else _PART.sub(r"\1", text)
 
 
-def cited(texts: Sequence[str]) -> Iterator[str]:
+def cited_keys(texts: Sequence[str]) -> Iterator[str]:
     """Yield the keys that texts cite."""
     for text in texts:
         for keys in re.findall(r"\\cite\{([^}]*)\}", text):
@@ -124,12 +124,12 @@ def cited(texts: Sequence[str]) -> Iterator[str]:
 
 def _listed(references: References, texts: Sequence[str]) -> str:
     """Return LaTeX of the list of the sources that texts cite; empty if there are none."""
-    keys = set(cited(texts))
+    keys = set(cited_keys(texts))
     items = [item for item in references.items() if item["key"] in keys]
     return environment().get_template("references.tex.j2").render(items=items) if items else ""
 
 
-def chosen(names: Sequence[str], known: Sequence[str]) -> tuple[str, ...]:
+def chosen_sections(names: Sequence[str], known: Sequence[str]) -> tuple[str, ...]:
     """Return the named sections in the report's order.
 
     Raises

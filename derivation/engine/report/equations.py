@@ -130,11 +130,11 @@ def right_side(formula: Record) -> sp.Expr:
 
 def body(formula: Record, factor: Record | None = None, room: float = PAGE) -> str:
     """Return a formula as the body of a displayed equation; `factor` is shown by its name."""
-    shown = right_side(formula) if factor is None else folded(right_side(formula), factor)
+    shown = right_side(formula) if factor is None else function_by_name(right_side(formula), factor)
     return equation(formula.latex, shown, formula.vocabulary, formula.sum_sign, room)
 
 
-def folded(expression: sp.Expr, formula: Record) -> sp.Expr:
+def function_by_name(expression: sp.Expr, formula: Record) -> sp.Expr:
     """Replace a function of one argument in an expression by its name, as in G(2 phi h)."""
     (argument,) = formula.expression.free_symbols
     called = sp.Function(formula.name)

@@ -26,7 +26,7 @@ METADATA: dict[str, dict[str, Any]] = {
 """Metadata that are omitted from files because they differ from run to run."""
 
 
-def saved(figure: Figure, suffix: str) -> bytes:
+def figure_file(figure: Figure, suffix: str) -> bytes:
     """Return the content of a figure's file, `.pdf` or `.svg`; equal figures give equal bytes."""
     stream = io.BytesIO()
     with mpl.rc_context(STYLE):

@@ -15,48 +15,48 @@ NEAR = 3
 """Largest number of names suggested for an unknown name."""
 
 
-def pasted(
-    names: Sequence[str], links: Sequence[tuple[str, Sequence[Record]]], references: References
+def formula_fragments(
+    names: Sequence[str], steps: Sequence[tuple[str, Sequence[Record]]], references: References
 ) -> str:
-    """Return LaTeX of the named formulas, and of all formulas of the named links.
+    """Return LaTeX of the named formulas, and of all formulas of the named steps.
 
     Raises
     ------
     ValueError
-        If a name is neither a formula nor a link.
+        If a name is neither a formula nor a step.
     """
-    pieces = [piece for name in names for piece in _pieces(name, links, references)]
+    pieces = [piece for name in names for piece in _pieces(name, steps, references)]
     return HEAD + "\n" + "\n".join(dict.fromkeys(pieces))
 
 
 def _pieces(
-    name: str, links: Sequence[tuple[str, Sequence[Record]]], references: References
+    name: str, steps: Sequence[tuple[str, Sequence[Record]]], references: References
 ) -> Iterator[str]:
     found = [
-        (link, formula)
-        for link, formulas in links
+        (step, formula)
+        for step, formulas in steps
         for formula in formulas
-        if name in (link, formula.name)
+        if name in (step, formula.name)
     ]
     if not found:
-        known = [title for title, _ in links] + [f.name for _, held in links for f in held]
+        known = [title for title, _ in steps] + [f.name for _, held in steps for f in held]
         near = did_you_mean(name, known, most=NEAR)
         raise ValueError(
             f"--fragment: no formula or derivation step {name!r}: {near}`platecontact derive` "
             "lists the formulas, `platecontact derive NAME` shows the derivation step of one"
         )
-    for link, formula in found:
-        yield fragment(link, formula, references)
+    for step, formula in found:
+        yield fragment(step, formula, references)
 
 
-def fragment(link: str, formula: Record, references: References) -> str:
+def fragment(step: str, formula: Record, references: References) -> str:
     """Return a formula as LaTeX: its meaning, an equation with a label, and a comment.
 
     The comment states the formulas from which it follows, and the step that verified it. Lines fit
     a column of a two-column paper, and the LaTeX needs no definitions of its own.
     """
     of = rf", equation~({formula.equation}) of~\cite{{paper}}" if formula.equation else ""
-    sources = [key for key in references.cited(link) if key != "paper"]
+    sources = [key for key in references.cited(step) if key != "paper"]
     see = rf"; see~\cite{{{','.join(sources)}}}" if sources else ""
     came = f", from {', '.join(formula.sources)}" if formula.sources else ""
     lines = body(formula, room=COLUMN)

@@ -20,7 +20,7 @@ def hard_context(data: Mapping[str, Any]) -> dict[str, Any]:
     return {
         "count": len(data["cases"]),
         "digits": data["provenance"]["digits"],
-        "failed": sum(not case["kept"] for case in data["cases"]),
+        "failed": sum(not case["passed"] for case in data["cases"]),
         "summary": [summary_row(name, cases) for name, cases in groups.items()],
         "nearest": [case_row(max(cases, key=used)) for cases in groups.values()],
         "groups": [
@@ -33,7 +33,7 @@ def hard_context(data: Mapping[str, Any]) -> dict[str, Any]:
 def summary_row(name: str, cases: Sequence[Mapping[str, Any]]) -> str:
     """Return the cells of a group: number of cases, largest errors, number of failed cases."""
     printed = [float(case["printed"]) for case in cases if case["printed"] is not None]
-    failed = sum(not case["kept"] for case in cases)
+    failed = sum(not case["passed"] for case in cases)
     cells = [prose(name), str(len(cases)), error(max(map(used, cases)))]
     return " & ".join([*cells, error(max(printed)) if printed else "", str(failed)])
 
@@ -45,7 +45,7 @@ def used(case: Mapping[str, Any]) -> float:
 
 def case_row(case: Mapping[str, Any]) -> str:
     """Return the cells of a case: function, cause, reference, errors; then its exact inputs."""
-    note = "" if case["kept"] else r" \textbf{Failed.}"
+    note = "" if case["passed"] else r" \textbf{Failed.}"
     kernel = rf"\texttt{{{escape(case['kernel'])}}}"
     cells = [f"{kernel}: {prose(case['cause'])}{note}", references(case["references"])]
     printed = "" if case["printed"] is None else error(case["printed"])

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import jinja2
 
-from derivation.engine.formula.notation import mixed
+from derivation.engine.formula.notation import convert_parts
 
 TEMPLATES = Path(__file__).parent / "templates"
 
@@ -38,7 +38,7 @@ def prose(text: object) -> str:
 
     A number like 2.5e+20 is typeset as a power of ten.
     """
-    return mixed(str(text), lambda words: _NUMBER.sub(_power, escape(words)), "${}$".format)
+    return convert_parts(str(text), lambda words: _NUMBER.sub(_power, escape(words)), "${}$".format)
 
 
 def _power(match: re.Match[str]) -> str:

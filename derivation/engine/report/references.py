@@ -24,15 +24,15 @@ class References:
 
     @property
     def entries(self) -> dict[str, Entry]:
-        """Sources by key, in alphabetical order, without the entry `links` (see `cited`)."""
+        """Sources by key, in alphabetical order, without the entry `steps` (see `cited`)."""
         return {
-            key: {name: text for name, text in entry.items() if name != "links"}
+            key: {name: text for name, text in entry.items() if name != "steps"}
             for key, entry in self._rows.items()
         }
 
-    def cited(self, link: str) -> list[str]:
-        """Return the keys of the sources that a link of the derivation uses."""
-        return [key for key, entry in self._rows.items() if link in entry.get("links", ())]
+    def cited(self, step: str) -> list[str]:
+        """Return the keys of the sources that a step of the derivation uses."""
+        return [key for key, entry in self._rows.items() if step in entry.get("steps", ())]
 
     def bib(self) -> str:
         """Return the sources as the text of a BibTeX file."""

@@ -13,7 +13,7 @@ from derivation.engine.formula.operations import FUNCTIONS
 from derivation.engine.formula.ulp import neighbours, overflows, ulp_error
 from derivation.engine.rewrite.doubles import run
 from derivation.engine.rewrite.form import Step, Switch
-from derivation.engine.rewrite.shape import Shape, assembled
+from derivation.engine.rewrite.shape import Shape, assembled_form
 from derivation.engine.rewrite.terms import UnreachableError
 
 DIGITS = 25
@@ -73,7 +73,7 @@ class AccuracyTest:
 
     def worst(self, form: sp.Expr | Shape) -> float:
         """Return the largest error in ULP, in addition to conditioning; infinite if none."""
-        steps, value = assembled(form) if isinstance(form, Shape) else ((), form)
+        steps, value = assembled_form(form) if isinstance(form, Shape) else ((), form)
         if not (isinstance(value, Switch) and self.lead):
             return max(self._error(point, steps, value) for point in self.exact)
         at, kept = float(value.at), float(value.at**self.lead)
@@ -83,7 +83,7 @@ class AccuracyTest:
 
     def errors(self, form: sp.Expr | Shape) -> list[tuple[ExactPoint, float]]:
         """Return the points in ascending order, with the error of a form at each [ULP]."""
-        steps, value = assembled(form) if isinstance(form, Shape) else ((), form)
+        steps, value = assembled_form(form) if isinstance(form, Shape) else ((), form)
         return [(point, self._error(point, steps, value)) for point in self.exact]
 
     def _error(

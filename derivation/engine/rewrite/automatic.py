@@ -18,7 +18,7 @@ from itertools import combinations
 
 import sympy as sp
 
-from derivation.engine.rewrite.form import CLOSELY, FAR, LARGEST, TIMES, Block, Step, held
+from derivation.engine.rewrite.form import CLOSELY, FAR, LARGEST, TIMES, Block, Step, limited
 from derivation.engine.rewrite.rules import decay, fraction, parts_of
 from derivation.engine.rewrite.scales import Scale, Scales
 from derivation.engine.rewrite.series import leading_power
@@ -100,11 +100,13 @@ def automatic(
         steps.append(scales.ratio.step)
     most = LARGEST if reduced.expression.has(sp.sin) else FAR
     times, product = scale.product.as_coeff_Mul()  # 2 h phi must not begin with 2 h
-    steps.append(Step(scale.variable, times * held(product, most), "constant for larger values"))
+    steps.append(Step(scale.variable, times * limited(product, most), "constant for larger values"))
     if shape.rate > 0:
         raise UnreachableError(f"grows as e^({shape.rate} {shape.x}): {expression}")
     size, core, powers = (
-        _beyond_one(shape, known) or _divided(shape, reduced.ratio) or _taken(shape, known)
+        _beyond_one(shape, known)
+        or _divided_sum(shape, reduced.ratio)
+        or _separated_sums(shape, known)
     )
     for base, exponent in shape.front.as_powers_dict().items():
         if base.is_Symbol and base != reduced.ratio:
@@ -125,14 +127,14 @@ def automatic(
     return tuple(steps), put(value, *factors) if factors else value
 
 
-Taken = tuple[sp.Expr, sp.Expr, dict[sp.Expr, int]]
+SeparatedSums = tuple[sp.Expr, sp.Expr, dict[sp.Expr, int]]
 """A constant, a core and bases with their powers; their product is the factor."""
 
 
-def _taken(shape: Shape, known: Mapping[str, Block]) -> Taken:
+def _separated_sums(shape: Shape, known: Mapping[str, Block]) -> SeparatedSums:
     """Return the constant, the core and the powers of a shape's sums."""
     size, core, powers = sp.Integer(1), sp.Integer(1), defaultdict(int, {shape.x: shape.power})
-    for factor in _paired(shape, known):
+    for factor in _paired_factors(shape, known):
         content, value, taken = _factor(factor, shape.x, known)
         size *= content**factor.exponent
         if factor.exponent > 1:
@@ -144,7 +146,7 @@ def _taken(shape: Shape, known: Mapping[str, Block]) -> Taken:
     return size, core, powers
 
 
-def _paired(shape: Shape, known: Mapping[str, Block]) -> tuple[Factor, ...]:
+def _paired_factors(shape: Shape, known: Mapping[str, Block]) -> tuple[Factor, ...]:
     """Return the factors; two are combined if there is a building block for their product."""
     for one, other in combinations(shape.factors, 2):
         if one.exponent == other.exponent and {shape.x} == (one.value * other.value).free_symbols:
@@ -155,7 +157,7 @@ def _paired(shape: Shape, known: Mapping[str, Block]) -> tuple[Factor, ...]:
     return shape.factors
 
 
-def _beyond_one(shape: Shape, known: Mapping[str, Block]) -> Taken | None:
+def _beyond_one(shape: Shape, known: Mapping[str, Block]) -> SeparatedSums | None:
     """Write a quotient that tends to 1 as 1 plus a positive term.
 
     The relative error of the term has little effect where it is small. Return None if the term does
@@ -169,7 +171,7 @@ def _beyond_one(shape: Shape, known: Mapping[str, Block]) -> Taken | None:
         return None
     remainder = next(decay(own, next(fraction(own, whole - 1))))
     assert isinstance(remainder, Shape)
-    size, core, powers = _taken(remainder, known)
+    size, core, powers = _separated_sums(remainder, known)
     above = (factor.value for factor in remainder.factors if factor.exponent > 0)
     parts = (part for value in above for part, _ in parts_of(terms_of(value, own), own))
     size *= remainder.front
@@ -179,7 +181,7 @@ def _beyond_one(shape: Shape, known: Mapping[str, Block]) -> Taken | None:
     return sp.Integer(1), held + size * sp.exp(remainder.rate * own) * core, powers
 
 
-def _divided(shape: Shape, ratio: sp.Expr) -> Taken | None:
+def _divided_sum(shape: Shape, ratio: sp.Expr) -> SeparatedSums | None:
     """Write N/(N Q + R) as 1/(Q + R/N), with Q and R/N of one sign; None without such a Q.
 
     Every function of the numerator is then computed once, and its error has less effect.
@@ -260,7 +262,7 @@ def _shape(reduced: Reduced) -> Shape:
     return shape
 
 
-def _factor(factor: Factor, variable: sp.Symbol, known: Mapping[str, Block]) -> Taken:
+def _factor(factor: Factor, variable: sp.Symbol, known: Mapping[str, Block]) -> SeparatedSums:
     """Return a factor as a constant, a sum that does not cancel at 0, and bases with powers."""
     terms = terms_of(factor.value, variable)
     if {variable} == factor.value.free_symbols:
@@ -277,7 +279,7 @@ def _factor(factor: Factor, variable: sp.Symbol, known: Mapping[str, Block]) -> 
 
 def _block(
     terms: Mapping[Key, sp.Expr], variable: sp.Symbol, known: Mapping[str, Block]
-) -> Taken | None:
+) -> SeparatedSums | None:
     """Return a sum as a constant, a building block and powers; None if there is no such block."""
     rates = [abs(key.scale if key.wave else key.rate) for key in terms]
     least = sp.gcd_list([rate for rate in rates if rate != 0])
@@ -292,6 +294,9 @@ def _block(
             ratios = {sp.cancel(terms[key] / v) for key, v in moved.items() if key in terms}
             if moved.keys() == terms.keys() and len(ratios) == 1:
                 at = scale * variable
-                taken = {block.near(at): block.held, at: block.lead - block.held}
+                taken = {
+                    block.near(at): block.constant_power,
+                    at: block.lead - block.constant_power,
+                }
                 return ratios.pop(), block(at), {b: p for b, p in taken.items() if p}
     return None

@@ -12,7 +12,7 @@ import sympy as sp
 
 from derivation.engine.cache import cached
 from derivation.engine.formula.proof import prove
-from derivation.engine.rewrite.form import Block, Branch, Step, Switch, branches, undo
+from derivation.engine.rewrite.form import Block, Branch, Step, Switch, branches, substitute_steps
 from derivation.engine.rewrite.shape import decay
 from derivation.engine.rewrite.stabilise import Stable, stabilise
 
@@ -41,7 +41,7 @@ class Definition(NamedTuple):
     variable: sp.Symbol
     total: sp.Expr
     lead: int
-    held: int
+    constant_power: int
     reads: str
 
 
@@ -60,7 +60,7 @@ HYPERBOLIC = (
 """Building blocks for solids with two parallel faces."""
 
 
-def built(definitions: tuple[Definition, ...]) -> dict[str, Block]:
+def build_blocks(definitions: tuple[Definition, ...]) -> dict[str, Block]:
     """Return building blocks by name; the direct form of each is proved equal to its definition.
 
     Raises
@@ -73,15 +73,15 @@ def built(definitions: tuple[Definition, ...]) -> dict[str, Block]:
     key = hashlib.sha256(repr(definitions).encode()).hexdigest()[:8]
     kinds = (Block, Step, Branch, Switch)
     rooms = ("engine/cache.py", "engine/formula", "engine/rewrite")
-    return cached(f"blocks-{key}", rooms, lambda: _built(definitions), *kinds)
+    return cached(f"blocks-{key}", rooms, lambda: _build_blocks(definitions), *kinds)
 
 
-def _built(definitions: tuple[Definition, ...]) -> dict[str, Block]:
+def _build_blocks(definitions: tuple[Definition, ...]) -> dict[str, Block]:
     found = {row.name: _block(*row) for row in definitions}
     for block in found.values():
         _, side = branches(block.value)[-1]
-        over = block.value.at**block.held if isinstance(block.value, Switch) else 1
-        direct = undo(side.value, (*block.steps, *side.steps), found)
+        over = block.value.at**block.constant_power if isinstance(block.value, Switch) else 1
+        direct = substitute_steps(side.value, (*block.steps, *side.steps), found)
         prove(
             f"Direct form of {block.name}",
             "The direct form, used above the switch point, equals the definition.",

@@ -23,7 +23,7 @@ Blocks = Mapping[str, Block]
 NO_BLOCKS: Blocks = {}
 
 
-def rounded(expression: sp.Expr, values: Values, blocks: Blocks = NO_BLOCKS) -> float:
+def rounded_value(expression: sp.Expr, values: Values, blocks: Blocks = NO_BLOCKS) -> float:
     """Evaluate an expression node by node in doubles; NaN if a node has no value.
 
     Raises
@@ -70,7 +70,7 @@ def _node(node: sp.Basic, visit: Callable[[sp.Basic], float]) -> float:
     if isinstance(node, sp.Min | sp.Max):
         return (min if isinstance(node, sp.Min) else max)(visit(part) for part in node.args)
     if node.func in (TIMES, CLOSELY):
-        return _held_apart(*(visit(part) for part in node.args))
+        return _scaled_product(*(visit(part) for part in node.args))
     if node.func in FUNCTIONS:
         return _function(FUNCTIONS[node.func][0], visit(node.args[0]))
     raise NotImplementedError(f"no double precision for {node.func.__name__}")
@@ -89,7 +89,7 @@ def _product(node: sp.Mul, visit: Callable[[sp.Basic], float]) -> float:
     return above / below
 
 
-def _held_apart(value: float, *powers: float) -> float:
+def _scaled_product(value: float, *powers: float) -> float:
     """Return a value times powers of bases, with exponents of 2 separate, like `ranges.times`."""
     total, exponent = math.frexp(value)
     for base, power in zip(powers[::2], powers[1::2], strict=True):
@@ -139,9 +139,9 @@ def run(
     """Evaluate a form at a point: its steps in order, then the branch for the point."""
     known = dict(values)
     for step in steps:
-        known[step.symbol] = rounded(step.expression, known, blocks)
+        known[step.symbol] = rounded_value(step.expression, known, blocks)
     if not isinstance(value, Switch):
-        return rounded(value, known, blocks)
+        return rounded_value(value, known, blocks)
     below = known[value.variable] < float(value.at)
     branch: Branch = value.below if below else value.above
     return run(branch.steps, branch.value, known, blocks)

@@ -52,7 +52,7 @@ def accurate(
     UnreachableError
         If it is not accurate; the message states the point with the largest error.
     """
-    worst = measured(formula, steps, value, blocks)
+    worst = measured_error(formula, steps, value, blocks)
     if worst.error > ENOUGH:
         where = ", ".join(f"{name} = {x!r}" for name, x in worst.at.items())
         raise UnreachableError(
@@ -62,7 +62,7 @@ def accurate(
     return steps, value
 
 
-def measured(
+def measured_error(
     formula: Record, steps: tuple[Step, ...], value: sp.Expr | Switch, blocks: Mapping[str, Block]
 ) -> LargestError:
     """Return the largest error of a form at difficult points of every variable.

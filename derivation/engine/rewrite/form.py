@@ -36,7 +36,7 @@ TINY, FAR, LARGEST = sp.Float("5e-324"), sp.Integer(10**9), sp.Float("1e308")
 FAR, expressions in e^-x are equal to their value at infinity."""
 
 
-def held(product: sp.Expr, most: sp.Expr) -> sp.Expr:
+def limited(product: sp.Expr, most: sp.Expr) -> sp.Expr:
     """Return a positive product, limited to the range from TINY to `most`."""
     return sp.Max(TINY, sp.Min(product, most))
 
@@ -137,7 +137,7 @@ class Block:
     arguments: tuple[sp.Symbol, ...]
     total: sp.Expr
     lead: int
-    held: int
+    constant_power: int
     domain: tuple[str, ...]
     summary: str
     steps: tuple[Step, ...]
@@ -155,16 +155,18 @@ class Block:
     def definition(self, argument: sp.Expr) -> sp.Expr:
         """Return the exact definition of the block for an argument."""
         (own,) = self.arguments
-        return self.divided.subs(own, argument) / self.near(argument) ** self.held
+        return self.divided.subs(own, argument) / self.near(argument) ** self.constant_power
 
     @property
     def divided(self) -> sp.Expr:
         """The sum divided by the part of the power that is never constant."""
         (own,) = self.arguments
-        return self.total / own ** (self.lead - self.held)
+        return self.total / own ** (self.lead - self.constant_power)
 
 
-def undo(expression: sp.Expr, steps: tuple[Step, ...], blocks: Mapping[str, Block]) -> sp.Expr:
+def substitute_steps(
+    expression: sp.Expr, steps: tuple[Step, ...], blocks: Mapping[str, Block]
+) -> sp.Expr:
     """Return the expression with steps substituted and blocks replaced by their definitions."""
     for step in reversed(steps):
         expression = expression.subs(step.symbol, step.expression)
@@ -176,14 +178,16 @@ def undo(expression: sp.Expr, steps: tuple[Step, ...], blocks: Mapping[str, Bloc
     expression = expression.replace(sp.Abs, lambda x: x)  # roots of squares, in even functions
     expression = expression.replace(sp.Heaviside, lambda *_: _CHOICE)  # for both values
     expression = expression.replace(expm1, lambda x: sp.exp(x) - 1)
-    expression = expression.replace(lambda e: isinstance(e, sp.Max) and TINY in e.args, _released)
+    expression = expression.replace(
+        lambda e: isinstance(e, sp.Max) and TINY in e.args, _without_limits
+    )
     return expression.replace(sp.Min, _least)
 
 
 _CHOICE = sp.Symbol("choice", real=True)
 
 
-def _released(product: sp.Max) -> sp.Expr:
+def _without_limits(product: sp.Max) -> sp.Expr:
     """Return a limited product without its limits."""
     (bounded,) = (bound for bound in product.args if bound != TINY)
     return sp.Mul(*(bound for bound in bounded.args if bound not in (FAR, LARGEST)))
@@ -230,7 +234,7 @@ def form(
         f"Stable form of {name}",
         "Every branch, with steps and blocks substituted, equals the derived formula.",
         {
-            label: undo(branch.value, (*steps, *branch.steps), blocks) - formula
+            label: substitute_steps(branch.value, (*steps, *branch.steps), blocks) - formula
             for label, branch in branches(value)
         },
     )

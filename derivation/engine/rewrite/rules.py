@@ -14,7 +14,7 @@ import sympy as sp
 from sympy.codegen.cfunctions import expm1, log1p
 
 from derivation.engine.rewrite.series import leading_power, taylor_section
-from derivation.engine.rewrite.shape import Factor, Shape, assembled, square
+from derivation.engine.rewrite.shape import Factor, Shape, assembled_form, square
 from derivation.engine.rewrite.terms import (
     Key,
     Terms,
@@ -256,7 +256,7 @@ def _sectioned(factor: Factor, x: sp.Symbol, switch: sp.Rational) -> Factor:
 def share(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
     """Compute e^(-x) once for both sides of a switch point, and e^(-2x) as its square."""
     if isinstance(given, Shape) and given.switch is not None:
-        _, switch = assembled(given)
+        _, switch = assembled_form(given)
         sides = [
             sp.Add(*(s.expression for s in b.steps), b.value) for b in (switch.below, switch.above)
         ]

@@ -5,7 +5,7 @@ from itertools import islice
 
 import sympy as sp
 
-from derivation.engine.rewrite.terms import Terms, UnreachableError, left_out, taylor
+from derivation.engine.rewrite.terms import Terms, UnreachableError, taylor, truncation_bound
 
 UNIT_ROUNDOFF = sp.Rational(1, 2**53)
 MOST_TERMS = 64
@@ -68,7 +68,7 @@ def taylor_section(terms: Terms, switch: sp.Rational) -> Section:
     found = found[::stride]
     sizes = [abs(c) * switch ** (stride * k) for k, c in enumerate(found)]
     for degree in range(2, len(found)):
-        rest = left_out(terms, lead + stride * degree, switch) / switch**lead
+        rest = truncation_bound(terms, lead + stride * degree, switch) / switch**lead
         same = all(c * found[0] >= 0 for c in found[:degree])
         lowest = sizes[0] - (0 if same else sp.Add(*sizes[1:degree])) - rest
         if lowest > 0 and rest / lowest < UNIT_ROUNDOFF / 4:

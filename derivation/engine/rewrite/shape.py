@@ -73,7 +73,7 @@ class Shape:
         return replace(self, factors=tuple(factors))
 
 
-def assembled(shape: Shape) -> tuple[tuple[Step, ...], sp.Expr | Switch]:
+def assembled_form(shape: Shape) -> tuple[tuple[Step, ...], sp.Expr | Switch]:
     """Return steps and value of a shape; the value has a switch point if there are series."""
     x = shape.x
     beyond = [(f.far, f.top, 0) for f in shape.factors]

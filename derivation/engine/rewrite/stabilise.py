@@ -10,7 +10,7 @@ import sympy as sp
 from derivation.engine.rewrite.accuracy_test import AccuracyTest, accuracy_test, with_whole
 from derivation.engine.rewrite.form import Branch, Step, Switch
 from derivation.engine.rewrite.rules import RULES, SHARE, Rewritten, Rule
-from derivation.engine.rewrite.shape import Shape, assembled
+from derivation.engine.rewrite.shape import Shape, assembled_form
 from derivation.engine.rewrite.terms import UnreachableError, terms_of
 from derivation.engine.rewrite.useful_range import ENDS, ENOUGH, LEAST_RATIO, useful_range
 
@@ -96,24 +96,24 @@ def stabilise(
         points = with_whole(
             points, accuracy_test(whole, x, ends, decayed(whole, x), str(expression)), lead
         )
-    at = _Judge(points)
+    at = _FormErrors(points)
     kept = list(RULES)
-    form, worst = _through(kept, x, expression, at)
+    form, worst = _apply_rules(kept, x, expression, at)
     candidates = list(reversed(RULES))
     while candidates:
         rule = candidates.pop(0)
         fewer = [other for other in kept if other != rule]
-        shorter, error = _through(fewer, x, expression, at)
+        shorter, error = _apply_rules(fewer, x, expression, at)
         no_longer = sum(_operations(shorter)) <= sum(_operations(form))
         if error < worst or (error <= max(worst, NOTHING) and no_longer):
             # Other rules may have been necessary only with this one, so they are tested again.
             kept, form, worst, candidates = fewer, shorter, error, list(reversed(fewer))
     if worst > ENOUGH:
         raise UnreachableError(_reason(expression, x, worst))
-    shared, error = _through([*kept, SHARE], x, expression, at)
+    shared, error = _apply_rules([*kept, SHARE], x, expression, at)
     if error <= worst + NOTHING / 2 and shared != form:
         kept, form, worst = [*kept, SHARE], shared, error
-    steps, value = assembled(form) if isinstance(form, Shape) else ((), form)
+    steps, value = assembled_form(form) if isinstance(form, Shape) else ((), form)
     applied = tuple(_account(rule, kept, x, expression, at) for rule in kept)
     truncation = sp.Add(*(f.truncation for f in form.factors)) if isinstance(form, Shape) else 0
     return Stable(expression, x, steps, value, applied, worst, sp.sympify(truncation))
@@ -136,7 +136,7 @@ def stabilised(expression: sp.Expr, x: sp.Symbol) -> Stable:
     except UnreachableError as error:
         reason = error
     test = accuracy_test(expression, x, ENDS, decayed(expression, x))
-    whole, _ = _through(RULES, x, expression, _Judge(test, partial=True))
+    whole, _ = _apply_rules(RULES, x, expression, _FormErrors(test, partial=True))
     for form in dict.fromkeys((whole, expression)):
         errors = test.errors(form)
         low, high = useful_range([(point.x, error) for point, error in errors], ENDS)
@@ -153,7 +153,7 @@ def _is_avoidable(slack: float, error: float) -> bool:
     return ENOUGH < error < math.inf and slack < ENOUGH
 
 
-class _Judge:
+class _FormErrors:
     """An accuracy test that stores the error of each form."""
 
     def __init__(self, test: AccuracyTest, partial: bool = False) -> None:
@@ -176,14 +176,14 @@ class _Judge:
         return sum(error > ENOUGH for _, error in self.test.errors(form))
 
 
-def _through(
-    rules: Sequence[Rule], x: sp.Symbol, expression: sp.Expr, at: _Judge
+def _apply_rules(
+    rules: Sequence[Rule], x: sp.Symbol, expression: sp.Expr, at: _FormErrors
 ) -> tuple[Rewritten, float]:
     """Return the form that results from the rules, and its largest error."""
     form: Rewritten = expression
     for rule in rules:
         try:
-            results = [_held(result, at.lead) for result in rule.apply(x, form)]
+            results = [_with_lead(result, at.lead) for result in rule.apply(x, form)]
         except UnreachableError:
             continue
         if len(results) > 1:
@@ -192,16 +192,16 @@ def _through(
     return form, at.worst(form)
 
 
-def _held(form: Rewritten, lead: int) -> Rewritten:
+def _with_lead(form: Rewritten, lead: int) -> Rewritten:
     return replace(form, lead=lead) if isinstance(form, Shape) and form.switch else form
 
 
 def _account(
-    rule: Rule, kept: Sequence[Rule], x: sp.Symbol, expression: sp.Expr, at: _Judge
+    rule: Rule, kept: Sequence[Rule], x: sp.Symbol, expression: sp.Expr, at: _FormErrors
 ) -> Applied:
     """Return number of operations and error of the form, without and with a rule."""
     with_it, without = list(kept), [other for other in kept if other != rule]
-    pairs = [_through(rules, x, expression, at) for rules in (without, with_it)]
+    pairs = [_apply_rules(rules, x, expression, at) for rules in (without, with_it)]
     before, after = (operations(form) for form, _ in pairs)
     return Applied(rule.name, rule.cause, (before, after), (pairs[0][1], pairs[1][1]))
 
@@ -213,7 +213,7 @@ def decayed(expression: sp.Expr, x: sp.Symbol) -> sp.Expr:
     for rule in RULES[: names.index("decay") + 1]:
         form = next(rule.apply(x, form), form)
     assert isinstance(form, Shape)  # as `decay` returns for every expression
-    steps, value = assembled(form)
+    steps, value = assembled_form(form)
     assert isinstance(value, sp.Expr)  # switch points come later
     return value.xreplace({step.symbol: step.expression for step in steps})
 
@@ -225,7 +225,7 @@ def operations(form: Rewritten) -> int:
 
 def _operations(form: Rewritten) -> list[int]:
     """Return the number of operations of every branch."""
-    steps, value = assembled(form) if isinstance(form, Shape) else ((), form)
+    steps, value = assembled_form(form) if isinstance(form, Shape) else ((), form)
     sides = (value.below, value.above) if isinstance(value, Switch) else (Branch((), value),)
     return [
         int(sum(sp.count_ops(step.expression) for step in (*steps, *side.steps)))

@@ -144,7 +144,7 @@ def taylor(terms: Terms) -> Iterator[sp.Expr]:
         n += 1
 
 
-def left_out(terms: Terms, n: int, end: sp.Rational) -> sp.Rational:
+def truncation_bound(terms: Terms, n: int, end: sp.Rational) -> sp.Rational:
     """Return a bound of the sum of all powers from x^n on, for 0 <= x <= end.
 
     Taylor's theorem: the error of e^(m x) times a sine of p x after its first J terms is at most

@@ -44,7 +44,7 @@ def useful_range(
         if kept:
             low, high = kept[0][0], kept[-1][0]
             ranges.append((rounded(low, math.ceil, ends), rounded(high, math.floor, ends)))
-    return max(ranges, key=_worth, default=(1.0, 0.0))
+    return max(ranges, key=_range_size, default=(1.0, 0.0))
 
 
 def _quiet(errors: Sequence[float]) -> int:
@@ -55,7 +55,7 @@ def _quiet(errors: Sequence[float]) -> int:
     return len(errors)
 
 
-def _worth(ends: tuple[float, float]) -> tuple[float, float]:
+def _range_size(ends: tuple[float, float]) -> tuple[float, float]:
     low, high = ends
     if not low < high:
         return -math.inf, 0.0

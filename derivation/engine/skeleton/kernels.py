@@ -8,7 +8,7 @@ from sympy.codegen.cfunctions import expm1
 
 from derivation.engine.emit.package import Part, Printing, Shape
 from derivation.engine.rewrite.blocks import HYPERBOLIC, Definition
-from derivation.engine.rewrite.form import FAR, Block, Step, held
+from derivation.engine.rewrite.form import FAR, Block, Step, limited
 from derivation.engine.rewrite.scales import Scale, Scales
 
 from .vocabulary import H, T, k, s
@@ -34,7 +34,7 @@ def stated(known: Mapping[str, Block]) -> dict[str, Shape]:
     above = difference.near(x) ** 3 * difference(x) - 2 * s * expm1(-2 * x)
     below = kappa * (1 + sp.exp(-2 * x)) + sp.exp(-x) * (1 + kappa**2 + x**2)
     return {
-        "F_bonded": ((Step(x, held(T, FAR), "constant for larger values"),), above / below),
+        "F_bonded": ((Step(x, limited(T, FAR), "constant for larger values"),), above / below),
     }
 
 

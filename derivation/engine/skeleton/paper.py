@@ -3,12 +3,12 @@
 from pathlib import Path
 
 from derivation.engine.errata.errata import Errata
-from derivation.engine.formula.chain import Chain, Link
+from derivation.engine.formula.chain import Chain, DerivationStep
 from derivation.engine.measure.domain_grid import domain_judge
 from derivation.engine.measure.point import Point
 from derivation.engine.package import Package
 from derivation.engine.paper import Paper, Report
-from derivation.engine.report.pieces import Prose
+from derivation.engine.report.contexts import Prose
 
 from . import prose
 from .kernels import PRINTING, REWRITTEN, SCALES
@@ -18,15 +18,15 @@ from .theory import film
 from .vocabulary import FILM, Formula
 
 HERE = Path(__file__).resolve().parent
-LINKS = {
+STEPS = {
     "film": film,
 }
-"""The links of the derivation, in order."""
+"""The steps of the derivation, in order."""
 TARGET = f"{__package__}.generated"
 CHAIN = Chain(
     "film",
     FILM,
-    tuple(Link(name, derive) for name, derive in LINKS.items()),
+    tuple(DerivationStep(name, derive) for name, derive in STEPS.items()),
     ("engine/cache.py", "engine/formula", *sorted(HERE.glob("*.py")), HERE / "budgets.toml"),
     (Formula,),
 )

@@ -11,4 +11,4 @@ ABOUT = {
     "film": "Navier's equations leave four constants; two conditions at the base and two on top "
     "determine them.",
 }
-"""Text about each link, by its name."""
+"""Text about each step, by its name."""

@@ -2,7 +2,7 @@
 
 import sympy as sp
 
-from derivation.engine.emit.named import Claims, named
+from derivation.engine.emit.named import Claims, named_routine
 from derivation.engine.emit.package import Routines
 from derivation.engine.emit.routine import Let, Routine, routine
 from derivation.mathematics.bessel.theory.functions import SHIFT, P, hankel, nu, x
@@ -24,7 +24,7 @@ def _by_sines(expression: sp.Expr) -> sp.Expr:
     return sp.simplify(sp.expand_trig(expression.replace(sp.cos, lambda v: sp.cos(sp.expand(v)))))
 
 
-@named
+@named_routine
 def wave() -> Claims:
     """Return (-1)^k J where turned + rest is the multiple (4 k + 2 nu - 1) of pi/4."""
     ratio, near, small = sp.symbols("ratio near small", real=True)
@@ -58,7 +58,7 @@ def far(order: int) -> Routine:
     )
 
 
-@named
+@named_routine
 def slope() -> Claims:
     """Return |J1| at the zero of J0 near quarters pi/4; excess is SLOPE_EXCESS there."""
     quarters, excess = sp.symbols("quarters excess", positive=True)

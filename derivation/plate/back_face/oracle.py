@@ -13,11 +13,11 @@ import flint
 from flint import arb
 
 from derivation.engine.formula.ball import Exact, to_ball
-from derivation.plate.contact.oracle.balls import ratio_of, settle
+from derivation.plate.contact.oracle.balls import ratio_of, refine_to_digits
 from derivation.plate.edge.oracle import supported as edge_balls
 
 
-def far_sum(a: Exact, h: Exact, b: Exact, digits: int = 30) -> arb:
+def back_face_sum(a: Exact, h: Exact, b: Exact, digits: int = 30) -> arb:
     """Return S; the stress is (1 + nu) P/(2 pi H^2) times S.
 
     Parameters
@@ -35,9 +35,9 @@ def far_sum(a: Exact, h: Exact, b: Exact, digits: int = 30) -> arb:
     width, eta = ratio_of(a, b), ratio_of(h, b)
     if not width < 1:
         raise ValueError(f"expected a < b, got a/b = {float(width)}")
-    return settle(lambda bits: (_summed(width, eta, bits),), digits, f"S at a/b = {float(width)}")[
-        0
-    ]
+    return refine_to_digits(
+        lambda bits: (_summed(width, eta, bits),), digits, f"S at a/b = {float(width)}"
+    )[0]
 
 
 def _summed(width: Fraction, eta: Fraction, bits: int) -> arb:
@@ -60,7 +60,7 @@ def _summed(width: Fraction, eta: Fraction, bits: int) -> arb:
         return total + arb(0, rest.abs_upper())
 
 
-def far_edge(a: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact, digits: int = 30) -> arb:
+def back_face_edge(a: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact, digits: int = 30) -> arb:
     """Return the edge term of S: 12 bent + 8 n eta stretched, from the sums of `edge.oracle`."""
     width, eta = ratio_of(a, b), ratio_of(h, b)
     thinning = Fraction(lam) / (Fraction(lam) + 2 * Fraction(mu))
@@ -69,4 +69,4 @@ def far_edge(a: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact, digits: int = 
         bent, stretched = edge_balls.sums("indentation", width, eta, thinning, bits)
         return (12 * bent + 8 * to_ball(thinning * eta) * stretched,)
 
-    return settle(compute, digits, f"the edge term of S at a/b = {float(width)}")[0]
+    return refine_to_digits(compute, digits, f"the edge term of S at a/b = {float(width)}")[0]

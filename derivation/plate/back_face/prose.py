@@ -1,4 +1,4 @@
-"""Text of the report about the back face, by link."""
+"""Text of the report about the back face, by derivation step."""
 
 ABOUT = {
     "back face": "The tensile stress is evaluated where bending makes it largest: on the back "

@@ -11,7 +11,7 @@ from derivation.engine.oracle.agreement import RouteError
 from derivation.plate.edge.route import supported as edge_routes
 
 
-def far_sum(a: float, h: float, b: float, digits: int = 30) -> mpf:
+def back_face_sum(a: float, h: float, b: float, digits: int = 30) -> mpf:
     """Return S for 0 < a < b, to the requested digits where h/b is not much above 1.
 
     The run time is proportional to a/h.
@@ -59,7 +59,7 @@ def _roots(eta: mpf, A: mpf) -> mpf:
     raise RouteError(f"too few roots at h/b = {mp.nstr(eta)}")
 
 
-def far_edge(a: float, h: float, b: float, nu: float, digits: int = 30) -> mpf:
+def back_face_edge(a: float, h: float, b: float, nu: float, digits: int = 30) -> mpf:
     """Return the edge term of S.
 
     pi/alpha times the edge term of the indentation is (1 - 2 n eta^2) (B + n C)/eta^3 +

@@ -1,4 +1,4 @@
-"""Link 25: the stress on the back face on the axis, the largest tensile stress of a plate.
+"""Step 25: the stress on the back face on the axis, the largest tensile stress of a plate.
 
 There S_zz = 0, and a mode's stress sigma_rr = sigma_tt = S_rr - mu g phi^2 = (1 + nu)/2 S_rr, with
 S_rr = -A_j B(T), T = 2 phi h. Under Hertz pressure of resultant P, H = 2h and alpha = a/b,
@@ -19,7 +19,7 @@ the ratio of both h/b. If a is much larger than h, the power series of B gives K
     S = 3 (4/3 - log 2 - log alpha) + (1/2) sum_(k>=0) b_k m_k (2/A)^(2k+2),
     m_k = 3 (-1)^(k+1) (2k)!/(2k - 1),   B = 6/T^2 + sum b_k T^(2k),
 
-an asymptotic series. The states of link 19, extension and bending, add their own sigma at z = -h.
+an asymptotic series. The states of step 19, extension and bending, add their own sigma at z = -h.
 Their part of S is X_f = sum g [12 (1 + 3 n - n Q)/(j^3 J1) + 8 n eta H/(j^2 J1)]; a simple support
 adds (1 - nu)/(1 + nu) times X_f, and a clamped edge subtracts
 
@@ -80,17 +80,17 @@ SCALE = ONE_AND_NU * P / (8 * sp.pi * h**2)
 _REDUCED = {a: alpha * b, h: eta * b, phi: j_n / b}
 
 
-def far_function() -> sp.Expr:
+def back_face_function() -> sp.Expr:
     """Return B(T) = 2 T sinh T/(sinh^2 T - T^2)."""
     return 2 * T * sp.sinh(T) / (sp.sinh(T) ** 2 - T**2)
 
 
 @cache
-def far_factor() -> Formula:
+def back_face_factor() -> Formula:
     """Return B(T), from the loaded mode's S_rr at z = -h."""
     raw = {formula.name: formula.expression for formula in (*mode_shapes(), *modal_stresses())}
     S_rr, S_zz, g_j = (raw[name] for name in ("S_rr", "S_zz", "g_j"))
-    value = far_function()
+    value = back_face_function()
     antisymmetric, symmetric = T / (sp.sinh(T) - T), T / (sp.sinh(T) + T)
     # On the axis J1(phi r)/r is phi/2.
     on_axis = (S_rr - mu * g_j * phi**2).subs(z, -h)
@@ -103,11 +103,11 @@ def far_factor() -> Formula:
             "radial stress": loaded(S_rr.subs(z, -h)) + A_j * value.subs(T, 2 * phi * h),
             "on the axis": loaded(on_axis - ONE_AND_NU / 2 * S_rr.subs(z, -h)),
             "Hooke": (g_j * phi**2 - (S_rr - RATIO * S_zz) / PLANE_STRAIN_MODULUS),
-            "bending and stretching": value - antisymmetric - symmetric,
+            "bending and extension": value - antisymmetric - symmetric,
         },
     )
     return Formula(
-        "far_factor",
+        "back_face_factor",
         "B(T)",
         "radial stress of the back face per pressure coefficient, with reversed sign",
         value,
@@ -120,15 +120,15 @@ def far_factor() -> Formula:
 
 def _mode() -> sp.Expr:
     """Return one mode's term of S."""
-    face = far_function().subs(T, 2 * eta * j_n)
+    face = back_face_function().subs(T, 2 * eta * j_n)
     return 4 * eta**2 * indentation_kernel(alpha * j_n) * face / J1**2
 
 
 @cache
-def far_stress() -> tuple[Formula, ...]:
+def back_face_stress() -> tuple[Formula, ...]:
     """Return one mode's term of the stress at the back face's centre, and of S."""
-    far_factor()
-    stress = -ONE_AND_NU / 2 * A_j * far_function().subs(T, 2 * phi * h)
+    back_face_factor()
+    stress = -ONE_AND_NU / 2 * A_j * back_face_function().subs(T, 2 * phi * h)
     stress = stress.subs(A_j, pressure_coefficient().expression)
     share, force = _mode(), contact_radius().expression
     proof = prove(
@@ -136,10 +136,15 @@ def far_stress() -> tuple[Formula, ...]:
         "$A_j$ of Hertz pressure, with $R$ expressed by the force $P$.",
         {"stress": (stress - SCALE.subs(P, force) * share).subs(_REDUCED)},
     )
-    sources = ("far_factor", "A_j", "P")
+    sources = ("back_face_factor", "A_j", "P")
     rows = (
-        ("far_stress", r"\sigma_{rr}(0, -h)", "largest tensile stress on the back face", "Pa"),
-        ("far_sum", "S", r"largest tensile stress over $(1 + \nu) P/(8 \pi h^2)$", "1"),
+        (
+            "back_face_stress",
+            r"\sigma_{rr}(0, -h)",
+            "largest tensile stress on the back face",
+            "Pa",
+        ),
+        ("back_face_sum", "S", r"largest tensile stress over $(1 + \nu) P/(8 \pi h^2)$", "1"),
     )
     return tuple(
         Formula(
@@ -183,7 +188,7 @@ def pole_at_zero() -> Proof:
 
 def odd_weight() -> sp.Expr:
     """Return F(T) = T g(A T/2) B(T), which tends to 6/T at 0."""
-    return T * indentation_kernel(a_ratio * T / 2) * far_function()
+    return T * indentation_kernel(a_ratio * T / 2) * back_face_function()
 
 
 def _pole_of(weight: sp.Expr) -> sp.Expr:
@@ -192,13 +197,13 @@ def _pole_of(weight: sp.Expr) -> sp.Expr:
 
 
 @cache
-def thin_far_face() -> tuple[Formula, Formula]:
+def thin_plate_stress() -> tuple[Formula, Formula]:
     """Return S of a thin plate, a function of a/h and a logarithm, and its correction by roots."""
     pole_at_zero()
     numbering()
     weight, u, sign = odd_weight(), sp.Symbol("u", positive=True), sp.Symbol("s", real=True)
     turned = {sp.sinh(T): sign * sp.sinh(u), sp.cosh(T): sign * sp.cosh(u)}
-    above, below = sp.fraction(far_function())
+    above, below = sp.fraction(back_face_function())
     at_root = (above / sp.diff(below, T)).subs(turned).subs(T, sp.sinh(u))
     # sum f(j)/(j J1^2) with f(z) = F(2 eta z), whose pole at 0 is c/z.
     f = weight.subs(T, 2 * eta * j_n).subs(a_ratio, alpha / eta)
@@ -230,12 +235,12 @@ def thin_far_face() -> tuple[Formula, Formula]:
     where = ("a_ratio * eta < 1",)
     return (
         Formula(
-            "far_sum_thin", r"S^{\mathrm{thin}}", "$S$ of a thin plate", value, "1", "",
-            ("far_sum",), proof, where=where,
+            "back_face_sum_thin", r"S^{\mathrm{thin}}", "$S$ of a thin plate", value, "1", "",
+            ("back_face_sum",), proof, where=where,
         ),
         Formula(
-            "far_sum_roots", r"S - S^{\mathrm{thin}}", "correction of $S$ of a thin plate", roots,
-            "1", "", ("far_sum", "far_sum_thin"), proof, where=where,
+            "back_face_sum_roots", r"S - S^{\mathrm{thin}}", "correction of $S$ of a thin plate",
+            roots, "1", "", ("back_face_sum", "back_face_sum_thin"), proof, where=where,
         ),
     )  # fmt: skip
 
@@ -245,14 +250,14 @@ WIDE_TERMS = 10
 
 
 @cache
-def far_powers(count: int = WIDE_TERMS) -> tuple[sp.Rational, ...]:
+def wide_contact_powers(count: int = WIDE_TERMS) -> tuple[sp.Rational, ...]:
     """Return b_k of B = 6/T^2 + sum b_k T^(2k): 2 (sinh T)/T over (sinh^2 T - T^2)/T^4."""
     above = [sp.Rational(2, sp.factorial(2 * i + 1)) for i in range(count + 1)]
     below = [sp.Rational(2 ** (2 * i + 3), sp.factorial(2 * i + 4)) for i in range(count + 1)]
     found: list[sp.Rational] = []
     for i in range(count + 1):
         found.append((above[i] - sum(found[k] * below[i - k] for k in range(i))) / below[0])
-    series = sp.series(far_function(), T, 0, 4).removeO()
+    series = sp.series(back_face_function(), T, 0, 4).removeO()
     prove(
         "Stress factor at T = 0",
         "The first powers from SymPy's own series.",
@@ -267,16 +272,16 @@ def moment_of_wave(order: int) -> sp.Rational:
 
 
 @cache
-def wide_far_face() -> Formula:
+def wide_contact_stress() -> Formula:
     """Return S for a wide contact: Kirchhoff's plate and further terms."""
-    thin_far_face()
+    thin_plate_stress()
     # Mellin transform of g, from int y^(s-1) sin y dy = Gamma(s) sin(pi s/2), and similarly cos.
     mellin = 3 * (
         sp.gamma(_s - 3) * sp.sin(sp.pi * (_s - 3) / 2)
         - sp.gamma(_s - 2) * sp.cos(sp.pi * (_s - 2) / 2)
     )
     regular = 3 * sp.gamma(_s + 1) * sp.cos(sp.pi * _s / 2) / ((_s - 1) * (_s - 3))
-    constant, powers = sp.Rational(4, 3) - sp.log(2), far_powers()
+    constant, powers = sp.Rational(4, 3) - sp.log(2), wide_contact_powers()
     # The mean of (r/a)^s over the load is (3/2) B(1 + s/2, 3/2).
     mean = sp.gamma(1 + _s / 2) / sp.gamma(sp.Rational(5, 2) + _s / 2)
     # f = 6 g(alpha z)/z is Kirchhoff's plate: pole 6, FP int g(alpha x)/x dx = C - log alpha.
@@ -303,13 +308,13 @@ def wide_far_face() -> Formula:
         residuals,
     )
     return Formula(
-        "far_sum_wide",
+        "back_face_sum_wide",
         r"S^{\mathrm{wide}}",
         "$S$ of a thin plate for $a$ much larger than $h$",
         3 * (constant - sp.log(alpha)) + series,
         "1",
         "",
-        ("far_sum_thin",),
+        ("back_face_sum_thin",),
         proof,
     )
 
@@ -318,7 +323,7 @@ def wide_far_face() -> Formula:
 
 
 @cache
-def far_edge() -> Formula:
+def back_face_edge() -> Formula:
     """Return X_f, by the edge's mean motion: one mode's stress of each state at z = -h."""
     stretching, bending = states()
     mean, turn = (formula.expression for formula in edge_resultants()[:2])
@@ -338,25 +343,25 @@ def far_edge() -> Formula:
         },
     )
     return Formula(
-        "far_edge",
+        "back_face_edge",
         r"S_e^{\mathrm{far}}",
         "reduction of $S$ without mean motion of the edge",
         value,
         "1",
         "",
-        ("edge_stretch", "edge_turn", "far_sum"),
+        ("edge_stretch", "edge_turn", "back_face_sum"),
         proof,
         summed=True,
     )
 
 
 @cache
-def far_clamp() -> Formula:
-    """Return the reduction of S by a clamped edge: the stress of the states of link 19."""
+def back_face_clamp() -> Formula:
+    """Return the reduction of S by a clamped edge: the stress of the states of step 19."""
     clamp.amplitudes()
     stretching, bending = states()
     E, force = PLANE_STRAIN_MODULUS, contact_radius().expression
-    wide, lost = 1 - clamp.HERTZ_MEAN * alpha**2, clamp.depth_lost()
+    wide, lost = 1 - clamp.HERTZ_MEAN * alpha**2, clamp.indentation_loss()
     # Rotation and extension from reciprocity, by the work of the load on the states.
     rotation = force * b**2 / 2 * ((1 + 2 * clamp.turn() * eta) * wide - lost)
     rotation /= 2 * sp.pi * b**2 * 2 * E * 2 * h**3 / 3
@@ -370,11 +375,18 @@ def far_clamp() -> Formula:
         {"stress": (stress - SCALE.subs(P, force) * value).subs(_REDUCED)},
     )
     return Formula(
-        "far_clamp", r"S_c^{\mathrm{far}}", "reduction of $S$ by a clamped edge", value, "1", "",
-        ("F_clamp", "far_sum"), proof,
+        "back_face_clamp", r"S_c^{\mathrm{back}}", "reduction of $S$ by a clamped edge", value,
+        "1", "", ("F_clamp", "back_face_sum"), proof,
     )  # fmt: skip
 
 
-def far_face() -> tuple[Formula, ...]:
-    """Return the formulas of the link."""
-    return (far_factor(), *far_stress(), *thin_far_face(), wide_far_face(), far_edge(), far_clamp())
+def back_face_formulas() -> tuple[Formula, ...]:
+    """Return the formulas of the step."""
+    return (
+        back_face_factor(),
+        *back_face_stress(),
+        *thin_plate_stress(),
+        wide_contact_stress(),
+        back_face_edge(),
+        back_face_clamp(),
+    )

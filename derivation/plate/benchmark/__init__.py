@@ -1,1 +1,1 @@
-"""What accuracy costs in time: every method's digits and seconds, side by side."""
+"""Benchmark of all methods: correct digits and run time of each."""

@@ -75,7 +75,7 @@ class Arithmetic:
         """Return each number as its number."""
         raise NotImplementedError
 
-    def wrapped(self, inner: Callable[[Array], Array]) -> Callable[[Any], Array]:
+    def for_doubles(self, inner: Callable[[Array], Array]) -> Callable[[Any], Array]:
         """Return a function of its numbers as one of doubles, in its precision."""
 
         def call(values: Any) -> Array:
@@ -104,7 +104,7 @@ class Arithmetic:
         """Return t cosh t - sinh t = s(i t) i."""
         raise NotImplementedError
 
-    def turned(self, y: Array) -> Array:
+    def complex_shape(self, y: Array) -> Array:
         """Return (1 - i y) e^(iy), whose imaginary part is s(y)."""
         raise NotImplementedError
 
@@ -148,7 +148,7 @@ class Floats(Arithmetic):
             values = [self.number(value) for value in values]
         return np.asarray(values, self.dtype)
 
-    def wrapped(self, inner: Callable[[Array], Array]) -> Callable[[Any], Array]:
+    def for_doubles(self, inner: Callable[[Array], Array]) -> Callable[[Any], Array]:
         """Return the function of doubles unchanged."""
         return inner if self is DOUBLE else lambda values: inner(values.astype(self.dtype))
 
@@ -188,7 +188,7 @@ class Floats(Arithmetic):
         series = horner(self._sinh, near * near) * (t * t * t)
         return np.where(t < SERIES_END, series, t * np.cosh(t) - np.sinh(t))
 
-    def turned(self, y: Array) -> Array:
+    def complex_shape(self, y: Array) -> Array:
         """Return the closed form."""
         return (1 - 1j * y) * np.exp(1j * y)
 
@@ -278,7 +278,7 @@ class Mpmath(Wide):
         """Return the closed form."""
         return self._each(lambda x, *_: x * mp.cosh(x) - mp.sinh(x), 3, t)
 
-    def turned(self, y: Array) -> Array:
+    def complex_shape(self, y: Array) -> Array:
         """Return the value from its parts."""
         return self._each(lambda x, c, s: mpc(c + x * s, s - x * c), 0, y)
 
@@ -330,9 +330,9 @@ def mcmahon() -> list[list[arb]]:
 
 SINGLE = Floats("float32", np.float32)
 DOUBLE = Floats("float64", np.float64)
-LONG = Floats("long double", np.longdouble)
-HAS_LONG = LONG.digits > DOUBLE.digits
-"""Return whether the platform's long double is longer than double."""
+LONG_DOUBLE = Floats("long double", np.longdouble)
+HAS_LONG_DOUBLE = LONG_DOUBLE.digits > DOUBLE.digits
+"""Whether a long double of this platform has more digits than a double."""
 
 WIDE = 60
 """Smallest number of digits of the arithmetic that serves as exact."""

@@ -4,10 +4,16 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from derivation.engine.nearest import did_you_mean
-from derivation.plate.benchmark import inversion, laws, motion, polynomials, shipped, sums
-from derivation.plate.benchmark.arithmetic import HAS_LONG, LONG, SINGLE, BallArithmetic, Mpmath
+from derivation.plate.benchmark import inversion, laws, motion, polynomials, ready_methods, sums
+from derivation.plate.benchmark.arithmetic import (
+    HAS_LONG_DOUBLE,
+    LONG_DOUBLE,
+    SINGLE,
+    BallArithmetic,
+    Mpmath,
+)
 from derivation.plate.benchmark.interface import PAPER, Method, Regime
-from derivation.plate.benchmark.shipped import hertz
+from derivation.plate.benchmark.ready_methods import hertz
 from derivation.plate.impact.oracle import ball_law
 
 SIMPLEST = (
@@ -33,7 +39,12 @@ NODES = {30: 84, 50: 156, 100: 360}
 
 def law_methods() -> list[Method]:
     """Return the methods for the indentation as a function of the contact radius."""
-    found = [hertz("law"), shipped.called(), shipped.prepared(), shipped.called(SINGLE)]
+    found = [
+        hertz("law"),
+        ready_methods.generated_law(),
+        ready_methods.prepared_law(),
+        ready_methods.generated_law(SINGLE),
+    ]
     found += [sums.printed(n) for n in (10, 100, 1000)]
     found += [sums.direct(n, quick=n <= 10_000) for n in (100, 1000, 10_000, 100_000)]
     found += [sums.direct(1000, SINGLE)]
@@ -53,14 +64,17 @@ def law_methods() -> list[Method]:
 def _wide_laws() -> list[Method]:
     """Return the methods for the indentation in more than double precision."""
     found = []
-    if HAS_LONG:
-        found += [polynomials.small_contacts(24, LONG), sums.split(64, 5, LONG, quick=False)]
+    if HAS_LONG_DOUBLE:
+        found += [
+            polynomials.small_contacts(24, LONG_DOUBLE),
+            sums.split(64, 5, LONG_DOUBLE, quick=False),
+        ]
     for digits in DEEP:
         quick = digits == DEEP[0]
         for ar in (Mpmath(digits), BallArithmetic(digits)):
             found.append(polynomials.small_contacts(TERMS[digits], ar, quick))
             found.append(sums.split(NODES[digits], 0.2 * digits, ar, quick=False))
-        found.append(shipped.oracle("law", digits, quick))
+        found.append(ready_methods.arb_reference("law", digits, quick))
     return found + _deepest_laws()
 
 
@@ -84,34 +98,44 @@ def _deepest_laws() -> list[Method]:
         dear = f"nodes, weights and zeros of J0 to {DEEPEST} digits take minutes, a point seconds"
         found.append(refused(split, dear))
     hours = ball_law.integrals_seconds(DEEPEST) / 3600
-    oracle = shipped.oracle("law", DEEPEST, quick=False)
+    oracle = ready_methods.arb_reference("law", DEEPEST, quick=False)
     return [*found, refused(oracle, f"{DEEPEST} digits take about {hours:.0f} hours")]
 
 
 def inversion_methods() -> list[Method]:
     """Return the methods for the force as a function of the indentation."""
-    found = [hertz("inversion"), shipped.newton(), shipped.newton(SINGLE)]
+    found = [
+        hertz("inversion"),
+        ready_methods.generated_force(),
+        ready_methods.generated_force(SINGLE),
+    ]
     found += [inversion.reversed_series(n) for n in (2, 4, 8, 12, 16, 24)]
     found += [inversion.reversed_series(12, SINGLE)]
     found += [inversion.table(n) for n in (64, 1024, 8192)]
     found += [inversion.table(1024, SINGLE)]
     found += [laws.newton(n) for n in (4, 8, 16)]
     found += [laws.newton(8, SINGLE), laws.newton(24, Mpmath(DEEP[0]))]
-    if HAS_LONG:
-        found += [inversion.reversed_series(24, LONG), laws.newton(24, LONG)]
-    return found + [shipped.oracle("inversion", digits, digits == DEEP[0]) for digits in DEEP]
+    if HAS_LONG_DOUBLE:
+        found += [inversion.reversed_series(24, LONG_DOUBLE), laws.newton(24, LONG_DOUBLE)]
+    return found + [
+        ready_methods.arb_reference("inversion", digits, digits == DEEP[0]) for digits in DEEP
+    ]
 
 
 def impact_methods() -> list[Method]:
     """Return the methods for the contact time as a function of the impact speed."""
-    found = [hertz("impact"), shipped.bounce(), shipped.bounce(SINGLE)]
+    found = [
+        hertz("impact"),
+        ready_methods.generated_impact(),
+        ready_methods.generated_impact(SINGLE),
+    ]
     found += [motion.linear(n) for n in (25, 100, 400)]
     found += [motion.perturbation(corrected) for corrected in (False, True)]
     found += [motion.gauss(n) for n in (4, 6, 8, 12, 16, 20, 24)]
     found += [laws.gauss(n, m) for n, m in ((4, 4), (12, 8), (24, 16))]
     found += [laws.gauss(8, 8, SINGLE), laws.gauss(48, 24, Mpmath(DEEP[0]))]
-    if HAS_LONG:
-        found += [laws.gauss(32, 24, LONG)]
+    if HAS_LONG_DOUBLE:
+        found += [laws.gauss(32, 24, LONG_DOUBLE)]
     for name in ("DOP853", "Radau", "LSODA"):
         for rtol in (1e-3, 1e-6, 1e-9, 1e-12):
             quick = name != "Radau" or rtol > 1e-8
@@ -120,7 +144,7 @@ def impact_methods() -> list[Method]:
                 found.append(motion.solver(name, rtol, share=0.05, quick=False))
     found += [motion.verlet(n, n == 20) for n in (20, 100, 1000)]
     found += [motion.verlet(100, False, SINGLE)]
-    return found + [shipped.oracle("impact", digits, quick=False) for digits in DEEP]
+    return found + [ready_methods.arb_reference("impact", digits, quick=False) for digits in DEEP]
 
 
 def methods(names: Sequence[str] = (), quick: bool = False) -> list[Method]:

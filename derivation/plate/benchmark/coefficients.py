@@ -12,7 +12,7 @@ import flint
 from flint import arb
 
 from derivation.engine.formula.ball import LOG2_10
-from derivation.plate.benchmark.interface import Regime, deepest
+from derivation.plate.benchmark.interface import Regime, largest_contact_radius
 from derivation.plate.contact.oracle import points as contact_points
 from derivation.plate.contact.oracle.balls import ratio_of
 from derivation.plate.contact.oracle.moments import finite_part
@@ -43,7 +43,10 @@ def coefficients(regime: Regime, count: int, digits: int) -> list[arb]:
     """Return c_1, c_3 ... to a number of digits; fewer if the others are negligible."""
     if is_thin(regime.h, regime.b, digits):
         return closed_form(regime.h, regime.b, count, digits)
-    reach = max(regime.high if regime.high < RADIUS else 0.0, 1.05 * deepest(regime) / regime.h)
+    reach = max(
+        regime.high if regime.high < RADIUS else 0.0,
+        1.05 * largest_contact_radius(regime) / regime.h,
+    )
     return oracles(regime.h, regime.b, min(max(reach, LEAST), 0.95 / regime.eta), digits)[:count]
 
 
@@ -55,7 +58,10 @@ def exact_law(regime: Regime) -> list[arb]:
     NotImplementedError
         If they would take minutes.
     """
-    top = min(1.05 * deepest(regime) / regime.h, RADIUS * contact_points.DEEPEST * (1 - 1e-9))
+    top = min(
+        1.05 * largest_contact_radius(regime) / regime.h,
+        RADIUS * contact_points.DEEPEST * (1 - 1e-9),
+    )
     if is_thin(regime.h, regime.b, LAW_DIGITS):
         count = math.ceil(LAW_DIGITS / (2 * math.log10(RADIUS / top))) + 2 if top < RADIUS else 0
         if 0 < count < MOST_TERMS:

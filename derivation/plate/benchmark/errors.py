@@ -17,7 +17,7 @@ import numpy as np
 from flint import arb
 
 from derivation.engine.formula.ball import LOG2_10, PrecisionError
-from derivation.plate.benchmark.arithmetic import HAS_LONG, LONG, as_ball, exact_for
+from derivation.plate.benchmark.arithmetic import HAS_LONG_DOUBLE, LONG_DOUBLE, as_ball, exact_for
 from derivation.plate.benchmark.interface import Call, Method
 from derivation.plate.benchmark.problems import Problem
 
@@ -60,7 +60,7 @@ class BenchmarkErrors:
 
 
 @dataclass(frozen=True)
-class Judged:
+class MeasuredMethod:
     """A prepared method with its errors, its set-up time, and the time per point of a call [s]."""
 
     call: Call
@@ -69,21 +69,21 @@ class Judged:
     first: float
 
 
-def judge(method: Method, problem: Problem, clock: Callable[[], float]) -> Judged:
+def measure_errors(method: Method, problem: Problem, clock: Callable[[], float]) -> MeasuredMethod:
     """Prepare a method and compare its results with the reference values."""
     begin = clock()
-    call = method.ready(problem.regime)
+    call = method.prepared(problem.regime)
     middle = clock()
     points = problem.points[-1:] if method.split == "ball" else problem.points
     values = list(np.atleast_1d(np.asarray(call(points), dtype=object)))
     end = clock()
-    errors = certified if method.split == "ball" else split
-    return Judged(
+    errors = certified_errors if method.split == "ball" else separated_errors
+    return MeasuredMethod(
         call, errors(method, problem, values), middle - begin, (end - middle) / points.size
     )
 
 
-def certified(method: Method, problem: Problem, values: Sequence[arb]) -> BenchmarkErrors:  # noqa: ARG001
+def certified_errors(method: Method, problem: Problem, values: Sequence[arb]) -> BenchmarkErrors:  # noqa: ARG001
     """Return the errors of a method in interval arithmetic: the radii, which are rounding errors.
 
     The radii also include a bound on the truncation error. It is negligible, because at each
@@ -95,7 +95,7 @@ def certified(method: Method, problem: Problem, values: Sequence[arb]) -> Benchm
     return BenchmarkErrors(found, None, found, float(problem.points[-1]).hex())
 
 
-def split(method: Method, problem: Problem, values: Sequence[Any]) -> BenchmarkErrors:
+def separated_errors(method: Method, problem: Problem, values: Sequence[Any]) -> BenchmarkErrors:
     """Return the errors of a method, separated according to `Method.split`.
 
     The total error is at most the sum of truncation and rounding error.
@@ -124,15 +124,15 @@ def without_rounding(method: Method, problem: Problem) -> list[arb]:
     In exact arithmetic all runs would be equal. Because each run rounds other numbers, their
     standard deviation estimates the rounding error of a run; it is the radius of the mean.
     """
-    if method.split == "long" and not HAS_LONG:
+    if method.split == "long" and not HAS_LONG_DOUBLE:
         raise NotImplementedError("the platform's long double is no longer than double")
     if method.split != "units":
-        other = LONG if method.split == "long" else exact_for(method.ar)
-        return [as_ball(value) for value in method.ready(problem.regime, other)(problem.points)]
+        other = LONG_DOUBLE if method.split == "long" else exact_for(method.ar)
+        return [as_ball(value) for value in method.prepared(problem.regime, other)(problem.points)]
     runs = []
     for length, time in np.random.default_rng(SEED).uniform(1, 2, (RUNS, 2)).tolist():
         given = time / length if method.task == "impact" else 1 / length
-        call = method.ready(problem.regime.in_units(length, time))
+        call = method.prepared(problem.regime.in_units(length, time))
         factor = {"law": arb(length), "inversion": arb(length) / arb(time) ** 2,
                   "impact": arb(time)}[method.task]  # fmt: skip
         # The scaled points are rounded to doubles, which contributes to the spread.

@@ -161,7 +161,7 @@ PROGRAMS: Mapping[str, tuple[str, str, str, Mapping[str, tuple[Callable[..., Any
 """By program: its package, what it computes, what it cannot do, and calls by setting."""
 
 
-def measured(name: str) -> list[dict[str, Any]]:
+def program_results(name: str) -> list[dict[str, Any]]:
     """Return a program's results: relative error of each setting, time of its second call [s]."""
     package, problem, cannot, settings = PROGRAMS[name]
     rows = []
@@ -181,4 +181,4 @@ def measured(name: str) -> list[dict[str, Any]]:
 
 
 if __name__ == "__main__":
-    print(json.dumps(measured(sys.argv[1])))
+    print(json.dumps(program_results(sys.argv[1])))

@@ -10,18 +10,18 @@ from flint import arb
 
 from derivation.engine.measure import clock
 from derivation.engine.measure.clock import CPU
-from derivation.plate.benchmark import shipped
+from derivation.plate.benchmark import ready_methods
 from derivation.plate.benchmark.arithmetic import (
     DOUBLE,
-    HAS_LONG,
-    LONG,
+    HAS_LONG_DOUBLE,
+    LONG_DOUBLE,
     SERIES_END,
     Array,
     Floats,
     as_ball,
 )
 from derivation.plate.benchmark.errors import digits
-from derivation.plate.benchmark.interface import Regime, deepest
+from derivation.plate.benchmark.interface import Regime, largest_contact_radius
 from derivation.plate.contact.oracle import balls as contact_balls
 from generated.contact_law import indentation
 
@@ -40,7 +40,7 @@ POINTS = 1_000_000
 
 
 @dataclass(frozen=True)
-class Reached:
+class DirectSum:
     """Digits reached by a direct sum: number of modes, and time per point [s] without set-up.
 
     `truncation` and `rounding` are the digits of this many modes in long doubles, and those of the
@@ -71,7 +71,7 @@ class Headline:
     """
 
     contact_radius: float
-    reached: tuple[Reached, ...]
+    reached: tuple[DirectSum, ...]
     modes: int
     setup: float
     per_mode: float
@@ -82,15 +82,18 @@ class Headline:
 
 def headline(regime: Regime, quick: bool) -> Headline:
     """Measure the comparison."""
-    a, r = deepest(regime), regime
+    a, r = largest_contact_radius(regime), regime
     true = contact_balls.indentation(a, r.R, r.h, r.b, TRUE_DIGITS)
     own = float(indentation(a, r.R, r.h, r.b))
     miss = abs(own / float(true) - 1) or float(np.finfo(np.float64).eps) / 2
-    partial, times, setup = direct(r, a, QUICK_MODES if quick else MOST_MODES)
+    partial, times, setup = direct_sums(r, a, QUICK_MODES if quick else MOST_MODES)
     reached = tuple(_reached(regime, a, true, partial, times))
     radii = np.random.default_rng(clock.SEED).uniform(0.1 * a, a, POINTS)
     # As called, with the whole array at once, which is the intended use.
-    calls = [shipped.called().ready(regime), shipped.prepared().ready(regime)]
+    calls = [
+        ready_methods.generated_law().prepared(regime),
+        ready_methods.prepared_law().prepared(regime),
+    ]
     candidates = [clock.Candidate(call, radii, 1) for call in calls]
     called, prepared = clock.session(candidates, clock.QUICK if quick else clock.FULL).timings
     modes = BLOCK * partial.size
@@ -100,7 +103,9 @@ def headline(regime: Regime, quick: bool) -> Headline:
     )  # fmt: skip
 
 
-def direct(regime: Regime, a: float, most: int, ar: Floats = DOUBLE) -> tuple[Array, Array, float]:
+def direct_sums(
+    regime: Regime, a: float, most: int, ar: Floats = DOUBLE
+) -> tuple[Array, Array, float]:
     """Return the sum and the time after each block of modes, and the time of the set-up."""
     partial, times, setup, total, spent = [], [], 0.0, ar.number(0.0), 0.0
     R, h, b, radius = (ar.number(x) for x in (regime.R, regime.h, regime.b, a))
@@ -127,7 +132,7 @@ def direct(regime: Regime, a: float, most: int, ar: Floats = DOUBLE) -> tuple[Ar
 
 def _reached(
     regime: Regime, a: float, true: arb, partial: Array, times: Array
-) -> Iterator[Reached]:
+) -> Iterator[DirectSum]:
     """Return the first block with errors below each power of ten; truncation in long doubles."""
     errors, blocks = np.abs(partial / float(true) - 1), {}
     for wanted in DIGITS:
@@ -136,11 +141,11 @@ def _reached(
         if first < errors.size:
             blocks[wanted] = first
     most = BLOCK * (max(blocks.values(), default=-1) + 1)
-    longer = direct(regime, a, most, LONG)[0] if HAS_LONG else None
+    longer = direct_sums(regime, a, most, LONG_DOUBLE)[0] if HAS_LONG_DOUBLE else None
     with flint.ctx.workprec(128):
         for wanted, first in blocks.items():
             parts: list[float | None] = [None, None]
             if longer is not None:
                 same = as_ball(longer[first])
                 parts = [digits(same, true, TRUE_DIGITS), digits(partial[first], same, TRUE_DIGITS)]
-            yield Reached(wanted, (first + 1) * BLOCK, float(times[first]), *parts)
+            yield DirectSum(wanted, (first + 1) * BLOCK, float(times[first]), *parts)

@@ -80,7 +80,7 @@ REGIMES = (
 PAPER = REGIMES[1]
 
 
-def deepest(regime: Regime) -> float:
+def largest_contact_radius(regime: Regime) -> float:
     """Return the contact radius of an impact at the test case's speed [m]."""
     r = regime
     return float(impact(r.R, r.m, r.speed, r.h, r.b, r.lam, r.mu).max_contact_radius)
@@ -144,11 +144,11 @@ class Method:
         """Whether numbers are evaluated one by one, by the method or by its arithmetic."""
         return self.scalar or self.ar.wide
 
-    def ready(self, regime: Regime, ar: Arithmetic | None = None) -> Call:
+    def prepared(self, regime: Regime, ar: Arithmetic | None = None) -> Call:
         """Return the function to be timed: of doubles, in its own arithmetic or in another."""
         numbers = ar or self.ar
         with numbers.context():
-            return numbers.wrapped(self.prepare(regime, numbers))
+            return numbers.for_doubles(self.prepare(regime, numbers))
 
     @property
     def name(self) -> str:

@@ -8,11 +8,11 @@ from flint import arb, arb_series
 
 from derivation.plate.benchmark.arithmetic import DOUBLE, Arithmetic, Array, horner
 from derivation.plate.benchmark.coefficients import coefficients
-from derivation.plate.benchmark.interface import Call, Method, Regime, deepest
+from derivation.plate.benchmark.interface import Call, Method, Regime, largest_contact_radius
 from derivation.plate.benchmark.laws import SeriesLaw
 from derivation.plate.benchmark.polynomials import correction, hermite
 from derivation.plate.benchmark.problems import SPAN
-from derivation.plate.benchmark.shipped import stiffness
+from derivation.plate.benchmark.ready_methods import stiffness
 from generated import contact_law, contact_series
 from generated.reversed_series import _reversed
 
@@ -39,7 +39,7 @@ def reversed_series(terms: int, ar: Arithmetic = DOUBLE) -> Method:
         return call
 
     def fails(regime: Regime) -> str | None:
-        radius, a = radius_of(regime), deepest(regime)
+        radius, a = radius_of(regime), largest_contact_radius(regime)
         delta = contact_law.indentation(a, regime.R, regime.h, regime.b)
         eps = math.sqrt(delta * regime.R) / regime.h
         if eps < radius:
@@ -75,7 +75,7 @@ def table(knots: int, ar: Arithmetic = DOUBLE) -> Method:
     """Return the method of cubics for ln(a/h) in ln(R delta/h^2), with equal steps."""
 
     def prepare(regime: Regime, ar: Arithmetic) -> Call:
-        r, top = regime, deepest(regime)
+        r, top = regime, largest_contact_radius(regime)
         ends = contact_law.indentation(np.array([0.999 * top / SPAN, top]), r.R, r.h, r.b)
         low, high = np.log(ends * r.R / r.h**2).tolist()
         # The last knot must not lie beyond the largest contact by rounding.

@@ -12,14 +12,14 @@ from flint import arb
 
 from derivation.plate.benchmark.arithmetic import DOUBLE, Arithmetic, Array, horner
 from derivation.plate.benchmark.coefficients import coefficients, exact_law
-from derivation.plate.benchmark.interface import Call, Method, Regime, deepest
+from derivation.plate.benchmark.interface import Call, Method, Regime, largest_contact_radius
 
 STEPS = 60
 
 
 def diverges(regime: Regime) -> str | None:
     """Return why the series cannot be used for a test case's impacts, or None."""
-    radius, most = min(4.0, 2 / regime.eta), deepest(regime) / regime.h
+    radius, most = min(4.0, 2 / regime.eta), largest_contact_radius(regime) / regime.h
     return None if most < radius else f"diverges: a/h up to {most:.3g}, its radius is {radius:g}"
 
 
@@ -36,7 +36,7 @@ class SeriesLaw:
         self.R, self.h, self.m = (ar.number(x) for x in (regime.R, regime.h, regime.m))
         lam, mu = ar.number(regime.lam), ar.number(regime.mu)
         self.modulus = 4 * mu * (lam + mu) / (lam + 2 * mu)
-        self.top = ar.number(1.05 * deepest(regime) / regime.h)
+        self.top = ar.number(1.05 * largest_contact_radius(regime) / regime.h)
         self.close = 10.0 ** (-0.6 * ar.digits)
         self.c = list(ar.array(found))
         self.s = [c * (2 * k + 3) / 2 for k, c in enumerate(self.c)]

@@ -9,7 +9,7 @@ import numpy as np
 from derivation.plate.benchmark.arithmetic import DOUBLE, Arithmetic, Array, Floats
 from derivation.plate.benchmark.interface import Call, Doubles, Method, Regime
 from derivation.plate.benchmark.laws import SeriesLaw
-from derivation.plate.benchmark.shipped import hertz_time, plate
+from derivation.plate.benchmark.ready_methods import hertz_time, plate
 from generated import contact_law, contact_series
 from generated.contact_numbers import REACH
 from generated.impact import _parts, _solve, impact

@@ -8,12 +8,12 @@ import numpy as np
 
 from derivation.engine.measure import clock
 from derivation.engine.measure.clock import CPU, FULL, QUICK, Effort, Session, Timing
-from derivation.plate.benchmark.errors import Judged, judge
+from derivation.plate.benchmark.errors import MeasuredMethod, measure_errors
 from derivation.plate.benchmark.interface import Call, Doubles, Method, Regime, Task
 from derivation.plate.benchmark.problems import Problem, problem
 from derivation.plate.benchmark.rows import BenchmarkRow
 
-SLOW = 0.05
+SLOW_CALL = 0.05
 """Time of a single result above which a method is timed only once [s]."""
 
 SLOW_ARRAY = 500
@@ -40,12 +40,12 @@ def panel(task: Task, regime: Regime, methods: Sequence[Method], quick: bool) ->
     set_task = problem(task, regime, quick)
     # Suppressed once, so that methods that overflow need not do it in every call.
     with np.errstate(all="ignore"):
-        judged = [judged_row(method, set_task) for method in wanted]
+        judged = [measured_row(method, set_task) for method in wanted]
         rows, calls = [row for row, _ in judged], [call for _, call in judged]
-        return _timed(rows, calls, wanted, set_task, QUICK if quick else FULL)
+        return _timed_rows(rows, calls, wanted, set_task, QUICK if quick else FULL)
 
 
-def judged_row(method: Method, problem: Problem) -> tuple[BenchmarkRow, Judged | None]:
+def measured_row(method: Method, problem: Problem) -> tuple[BenchmarkRow, MeasuredMethod | None]:
     """Return the row of a method without times, and what to time unless the method fails."""
     reason = method.fails(problem.regime)
     row = BenchmarkRow(
@@ -53,7 +53,7 @@ def judged_row(method: Method, problem: Problem) -> tuple[BenchmarkRow, Judged |
     )
     if reason is not None:
         return row, None
-    judged = judge(method, problem, CPU)
+    judged = measure_errors(method, problem, CPU)
     total = judged.errors.total
     reason = None
     if total == -math.inf:
@@ -61,7 +61,7 @@ def judged_row(method: Method, problem: Problem) -> tuple[BenchmarkRow, Judged |
     elif total < NO_DIGITS:
         reason = f"no digit right: relative error up to {10**-total:.2g}"
     row = replace(row, fails=reason, errors=judged.errors, setup=judged.setup)
-    if judged.first > SLOW:
+    if judged.first > SLOW_CALL:
         alone = Timing(judged.first, 1, 1.0, 1)
         many = alone if method.one_by_one else _once(judged.call, problem.sample[:SLOW_ARRAY])
         return replace(row, vector=many, single=alone), None
@@ -75,9 +75,9 @@ def _once(call: Call, array: Doubles) -> Timing:
     return Timing((CPU() - begin) / array.size, array.size, 1.0, 1)
 
 
-def _timed(
+def _timed_rows(
     rows: list[BenchmarkRow],
-    calls: Sequence[Judged | None],
+    calls: Sequence[MeasuredMethod | None],
     methods: Sequence[Method],
     problem: Problem,
     effort: Effort,

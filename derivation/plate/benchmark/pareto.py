@@ -9,7 +9,7 @@ from derivation.plate.benchmark.interface import TIE
 from derivation.plate.benchmark.rows import BenchmarkRow, Kind
 
 DIGITS = (3, 6, 9, 12, 15, 30, 100, 1000)
-DOUBTFUL = (1.15, 1.25)
+CLOSE_TIMES = (1.15, 1.25)
 """Ratios of times at which another run may decide otherwise whether there is a tie."""
 
 
@@ -75,7 +75,7 @@ def _panel(rows: Sequence[BenchmarkRow], kind: Kind) -> Iterator[Winner]:
         yield Winner(
             row.task, row.regime, digits, kind, row.family, row.setting, seconds,
             seconds / cheapest, tuple(tied[1:]),
-            tuple(f for f, ratio in ratios.items() if DOUBTFUL[0] <= ratio <= DOUBTFUL[1]),
+            tuple(f for f, ratio in ratios.items() if CLOSE_TIMES[0] <= ratio <= CLOSE_TIMES[1]),
         )  # fmt: skip
 
 

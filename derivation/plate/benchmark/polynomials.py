@@ -17,7 +17,7 @@ from derivation.plate.benchmark.interface import Call, Method, Regime
 from derivation.plate.contact.oracle import balls as contact_balls
 from generated import contact_series
 
-SURE_DIGITS = 32
+REFERENCE_DIGITS = 32
 """Digits of the law that a surrogate interpolates; smaller errors are not resolved."""
 
 
@@ -101,7 +101,7 @@ def interpolant(
 
 @cache
 def _departure(a: float, h: float, b: float) -> arb:
-    return contact_balls.departure(a, h, b, SURE_DIGITS)
+    return contact_balls.relative_correction(a, h, b, REFERENCE_DIGITS)
 
 
 def table(knots: int) -> Method:
@@ -141,8 +141,8 @@ def correction(regime: Regime, ar: Arithmetic, A: Array) -> tuple[Array, Array]:
 @cache
 def _corrections(a: Fraction, h: float, b: float) -> tuple[arb, arb]:
     with flint.ctx.workprec(200):
-        F = contact_balls.departure(a, h, b, SURE_DIGITS)
-        slope = contact_balls.slope(a, 1.0, h, b, SURE_DIGITS) / (2 * to_ball(a)) - 1
+        F = contact_balls.relative_correction(a, h, b, REFERENCE_DIGITS)
+        slope = contact_balls.slope(a, 1.0, h, b, REFERENCE_DIGITS) / (2 * to_ball(a)) - 1
         return F, 2 * (slope - F)
 
 

@@ -9,7 +9,13 @@ import numpy as np
 from flint import arb
 
 from derivation.engine.formula.ball import LOG2_10
-from derivation.plate.benchmark.interface import PAPER, Doubles, Regime, Task, deepest
+from derivation.plate.benchmark.interface import (
+    PAPER,
+    Doubles,
+    Regime,
+    Task,
+    largest_contact_radius,
+)
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.contact.oracle.balls import ratio_of
 from derivation.plate.impact.oracle import ball_law
@@ -87,13 +93,13 @@ def _many_digits(radii: Doubles, regime: Regime) -> tuple[arb, ...]:
     r, reach = regime, float(radii.max()) / regime.b
     law = ball_law.law_of(ratio_of(r.h, r.b), reach * (1 + 1e-9), MANY_DIGITS)
     return tuple(
-        ball_law.pressed(float(a), r.R, r.b, r.lam, r.mu, law, MANY_DIGITS)[0] for a in radii
+        ball_law.static_contact(float(a), r.R, r.b, r.lam, r.mu, law, MANY_DIGITS)[0] for a in radii
     )
 
 
 def _inversion(regime: Regime, quick: bool) -> Problem:
     """Return rounded indentations of known radii, with certified forces."""
-    top = deepest(regime)
+    top = largest_contact_radius(regime)
     radii = _spread(top / SPAN, 0.999 * top, 6 if quick else 14, SEED)
     R, h, b = regime.R, regime.h, regime.b
     depths = np.array([float(contact_balls.indentation(float(a), R, h, b, 20)) for a in radii])

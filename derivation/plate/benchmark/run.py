@@ -12,7 +12,14 @@ from derivation.engine.outputs import plain
 from derivation.plate.benchmark import scaling
 from derivation.plate.benchmark.catalogue import methods
 from derivation.plate.benchmark.headline import headline
-from derivation.plate.benchmark.interface import PAPER, REGIMES, TASKS, TIE, Regime, deepest
+from derivation.plate.benchmark.interface import (
+    PAPER,
+    REGIMES,
+    TASKS,
+    TIE,
+    Regime,
+    largest_contact_radius,
+)
 from derivation.plate.benchmark.panels import panel
 from derivation.plate.benchmark.pareto import winners
 from derivation.plate.benchmark.problems import LAW_DIGITS, QUICK_DIGITS
@@ -36,7 +43,7 @@ def scene_regime(
         If the impact goes beyond the contact law.
     """
     regime = Regime("scene", R, h, b, 0.0, 0.0, v0, m, lam, mu)
-    top = deepest(regime) / h
+    top = largest_contact_radius(regime) / h
     if not top > 0:
         raise ValueError(
             "impact.speed: expected an impact within the contact law (a below R, b and 6 h), got "

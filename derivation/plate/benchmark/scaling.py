@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 
 from derivation.engine.measure.clock import CPU
-from derivation.plate.benchmark import polynomials, shipped, speed, sums
+from derivation.plate.benchmark import polynomials, ready_methods, speed, sums
 from derivation.plate.benchmark.arithmetic import BallArithmetic, Mpmath
 from derivation.plate.benchmark.interface import PAPER, Method
 from derivation.plate.benchmark.problems import ARRAY
@@ -20,10 +20,10 @@ from generated.simple_impact import hertz, leading
 REPEATS = 7
 """Number of measurements of each time."""
 
-LONG = 0.5
+LONG_CALL = 0.5
 """Time above which a call is measured only once [s]."""
 
-OFF = 1.5
+FIT_DEVIATION = 1.5
 """Factor by which a time may differ from the fitted power law."""
 
 DIGITS_PER_TERM = 2.2
@@ -67,7 +67,7 @@ def growth(
     what: str, method: str, x: Sequence[float], calls: Sequence[Callable[[], object]], why: str
 ) -> Growth:
     """Measure the time of each call, and the memory of the last."""
-    seconds = tuple(_lowest(call) for call in calls)
+    seconds = tuple(_lower_quartile(call) for call in calls)
     slope, leaves = line(x, seconds)
     return Growth(what, method, tuple(x), seconds, slope, leaves, why, peak(calls[-1]))
 
@@ -76,7 +76,7 @@ def line(x: Sequence[float], seconds: Sequence[float]) -> tuple[float, float | N
     """Fit a power law to the last three points; return its exponent and `Growth.leaves`."""
     logs, times = np.log(x), np.log(seconds)
     slope, start = np.polyfit(logs[-3:], times[-3:], 1)
-    off = np.flatnonzero(np.abs(times - (start + slope * logs)) > math.log(OFF))
+    off = np.flatnonzero(np.abs(times - (start + slope * logs)) > math.log(FIT_DEVIATION))
     return float(slope), float(x[off[-1]]) if off.size else None
 
 
@@ -89,7 +89,7 @@ def peak(call: Callable[[], object]) -> int:
     return most
 
 
-def _lowest(call: Callable[[], object]) -> float:
+def _lower_quartile(call: Callable[[], object]) -> float:
     """Return the lower quartile of the times of `REPEATS` calls [s]."""
     call()
     times = []
@@ -97,7 +97,7 @@ def _lowest(call: Callable[[], object]) -> float:
         begin = CPU()
         call()
         times.append(CPU() - begin)
-        if times[-1] > LONG:
+        if times[-1] > LONG_CALL:
             break
     return float(np.quantile(times, 0.25))
 
@@ -106,7 +106,7 @@ def points() -> list[Growth]:
     """Measure the contact law by number of points, including and excluding per-plate set-up."""
     sizes = [10**k for k in range(8)]
     radii = np.random.default_rng(1).uniform(1e-3, 0.03, sizes[-1])
-    ready = shipped.prepared().ready(PAPER)
+    ready = ready_methods.prepared_law().prepared(PAPER)
     whole = "set-up of a call (domain, plate) outweighs the points below"
     return [
         growth(
@@ -120,14 +120,14 @@ def points() -> list[Growth]:
     ]  # fmt: skip
 
 
-def thinness() -> list[Growth]:
+def thickness_ratios() -> list[Growth]:
     """Measure the contact law by b/h: the public function, and the split sum with its set-up."""
     ratios = [10.0**k for k in range(5)]
     fractions = np.random.default_rng(1).uniform(0.01, 0.9, ARRAY)
     plates = [replace(PAPER, R=100.0, h=1 / ratio) for ratio in ratios]
 
     def calls(method: Method, count: int) -> list[Callable[[], object]]:
-        prepared = [(method.ready(plate), fractions[:count] * plate.h) for plate in plates]
+        prepared = [(method.prepared(plate), fractions[:count] * plate.h) for plate in plates]
         return [partial(call, a) for call, a in prepared]
 
     flat = "flat: coefficients come from tables in h/b, the points see polynomials only"
@@ -135,7 +135,7 @@ def thinness() -> list[Growth]:
     return [
         growth(
             "b/h", f"production, as called, {ARRAY} points", ratios,
-            calls(shipped.called(), ARRAY), flat,
+            calls(ready_methods.generated_law(), ARRAY), flat,
         ),
         growth(
             "b/h", f"split, 48 nodes, {SPLIT_POINTS} points", ratios,
@@ -151,10 +151,10 @@ def digits(quick: bool) -> list[Growth]:
     for count in counts:
         terms = math.ceil(count / DIGITS_PER_TERM) + 3
         begin = CPU()
-        balls.append(polynomials.small_contacts(terms, BallArithmetic(count)).ready(PAPER))
+        balls.append(polynomials.small_contacts(terms, BallArithmetic(count)).prepared(PAPER))
         setups.append(CPU() - begin)
         # This uses the cached coefficients of the line above.
-        numbers.append(polynomials.small_contacts(terms, Mpmath(count)).ready(PAPER))
+        numbers.append(polynomials.small_contacts(terms, Mpmath(count)).prepared(PAPER))
     a, setup_slope = np.array([0.3 * PAPER.h]), line(counts, setups)
     return [
         Growth(
@@ -204,7 +204,7 @@ def studies(quick: bool) -> tuple[tuple[str, Callable[[], list[Growth]]], ...]:
     """Return each study with its name; quick studies have fewer sizes."""
     return (
         ("points", points),
-        ("b/h", thinness),
+        ("b/h", thickness_ratios),
         ("digits", partial(digits, quick)),
         ("scenes", partial(scenes, quick)),
     )

@@ -43,7 +43,7 @@ SCENES = 100_000
 ROUNDS = 25
 """Number of measurements of each time."""
 COMMAND = "from derivation.cli import main; main()"
-START, SOLVED_START, EXPLAINED = 2.0, 6.0, 2.0
+START, PLATE_START, EXPLAIN_START = 2.0, 6.0, 2.0
 """Limits for a command in a new process, relative to the imports of its libraries: `simulate`,
 `simulate` with a solution of its own, and `explain`.
 
@@ -79,7 +79,7 @@ class SpeedTiming:
         Stated limit: the largest ratio, or the smallest rate.
     spread
         Largest ratio of upper to lower quartile among its times.
-    kept
+    passed
         Whether the result is within the limit.
     """
 
@@ -88,7 +88,7 @@ class SpeedTiming:
     unit: str
     limit: float
     spread: float
-    kept: bool
+    passed: bool
 
 
 def interleaved(
@@ -165,7 +165,7 @@ NAIVE: Mapping[str, tuple[Callable[..., Any], Callable[..., Any]]] = {
 } | {name: _field(name) for name in FIELDS}
 """Stable functions and their textbook forms: as published, if that is correct up to a factor."""
 
-NAIVE_RIGHT = (2.0, 80.0)
+NAIVE_RANGE = (2.0, 80.0)
 """Arguments at which textbook forms do not overflow and lose at most one bit by cancellation."""
 
 
@@ -177,7 +177,7 @@ def stable_over_naive(name: str) -> SpeedTiming:
     """
     np.ones(4_000_000)
     stable, naive = NAIVE[name]
-    x = np.random.default_rng(3).uniform(*NAIVE_RIGHT, NAIVE_POINTS)
+    x = np.random.default_rng(3).uniform(*NAIVE_RANGE, NAIVE_POINTS)
     title = f"{name} over its naive form, {NAIVE_POINTS:.0e} points from 2 to 80"
     return ratio(title, lambda: stable(x), lambda: naive(x), 3.0, 20 * ROUNDS)
 
@@ -261,10 +261,10 @@ def measure(
         ("deep impacts", lambda: impact_rate(0.01, 5.9, 5e4)),
     )
     for scene in examples:
-        limit = SOLVED_START if scene in solved else START
+        limit = PLATE_START if scene in solved else START
         planned += (
             ("cold start", partial(cold_start, "simulate", scene, limit)),
-            ("cold start", partial(cold_start, "explain", scene, EXPLAINED)),
+            ("cold start", partial(cold_start, "explain", scene, EXPLAIN_START)),
         )
         if scene.name == "block.toml":
             planned += (("Hertz alone", partial(hertz_alone, scene, 1.2)),)

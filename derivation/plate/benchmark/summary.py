@@ -9,7 +9,7 @@ COLUMNS = ("task", "#digits", "method", "#ns a point", "#relative time", "ties")
 CASES = ("paper", "scene")
 """Test cases shown: the paper's, or the scene in its place."""
 
-WANTED = 12
+REQUIRED_DIGITS = 12
 """Number of digits required of the direct sum in the headline."""
 
 
@@ -35,7 +35,7 @@ def headline(data: Mapping[str, Any]) -> str:
             f"to {found['digits']:.1f} digits: {1e9 * found['called']:.3g} ns"
         )
     best = found["reached"][-1]
-    short = "" if best["digits"] >= WANTED else f" ({WANTED} only in a full run)"
+    short = "" if best["digits"] >= REQUIRED_DIGITS else f" ({REQUIRED_DIGITS} only in a full run)"
     return (
         f"direct sum to {best['digits']} digits{short}: {best['modes']} modes, "
         f"{best['seconds']:.3g} s a point; generated law to {found['digits']:.1f} digits: "

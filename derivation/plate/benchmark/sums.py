@@ -7,7 +7,7 @@ import flint
 import numpy as np
 from flint import arb
 
-from derivation.plate.benchmark.arithmetic import DOUBLE, LONG, Arithmetic, Array
+from derivation.plate.benchmark.arithmetic import DOUBLE, LONG_DOUBLE, Arithmetic, Array
 from derivation.plate.benchmark.interface import Call, Method, Regime
 
 WIDE_MODES = 1000
@@ -70,7 +70,7 @@ def direct(modes: int, ar: Arithmetic = DOUBLE, quick: bool = True) -> Method:
     """Return the method of that sum with a plate factor without overflow and cancellation."""
     return Method(
         "law", "direct sum", f"{modes:g} modes", partial(_direct, modes, False), ar,
-        "long" if modes > WIDE_MODES and ar is not LONG else "wide", quick=quick,
+        "long" if modes > WIDE_MODES and ar is not LONG_DOUBLE else "wide", quick=quick,
     )  # fmt: skip
 
 
@@ -101,7 +101,7 @@ def levin(samples: int) -> Method:
             count = stride * (samples + 2)
             y, w = a / b * j[:count], weights[:count]
             head = (w[:stride] * ar.shape(y[:stride])).sum()
-            terms = w[stride:] * ar.turned(y[stride:])
+            terms = w[stride:] * ar.complex_shape(y[stride:])
             at = stride * np.arange(1, samples + 2) - 1
             place = ar.array(at + 1.0 + stride)
             limit = u_transform(np.cumsum(terms)[at], place * terms[at], place)

@@ -20,7 +20,7 @@ import numpy as np
 from derivation.plate.benchmark import half_space
 from derivation.plate.benchmark.arithmetic import DOUBLE
 from derivation.plate.benchmark.interface import Regime
-from derivation.plate.benchmark.shipped import hertz_law, hertz_time
+from derivation.plate.benchmark.ready_methods import hertz_law, hertz_time
 from generated.contact_law import indentation
 from generated.impact import impact
 
@@ -62,7 +62,7 @@ class Tool:
 
 def tools() -> list[Tool]:
     """Return the results of the generated code and of all other programs for the same problems."""
-    return own() + [row for name in half_space.PROGRAMS for row in run(name, os.environ)]
+    return own_results() + [row for name in half_space.PROGRAMS for row in run(name, os.environ)]
 
 
 def run(name: str, environment: Mapping[str, str]) -> list[Tool]:
@@ -86,7 +86,7 @@ def run(name: str, environment: Mapping[str, str]) -> list[Tool]:
     return [Tool(**row) for row in json.loads(done.stdout.splitlines()[-1])]
 
 
-def own() -> list[Tool]:
+def own_results() -> list[Tool]:
     """Return the results of the generated code for indentation and contact time."""
     far = Regime("half-space", 1.0, 0.1 * FAR, 0.1 * FAR, 0.0, 0.0, 1.0)
     r, a, setting = far, 0.1, f"h = b = {FAR:g} a"

@@ -57,7 +57,7 @@ def several_plates(own_axis_last: bool, limit: float) -> SpeedTiming:
     )
 
 
-def planned() -> tuple[Planned, ...]:
+def comparisons() -> tuple[Planned, ...]:
     """Return the names of the comparisons, each with the function that measures it."""
     plate = prepare(*PLATE)
     delta = float(plate.indentation(A, R))

@@ -26,33 +26,36 @@ _FREQUENCY, _RESIDUE = 8.0, 1e-12 * _ULP
 _SCENE = ("R", "m", "v0", "h", "b", "lam", "mu")
 
 
-def others() -> tuple[Kernel, ...]:
+def special_calls() -> tuple[Kernel, ...]:
     """Return functions for non-Hertzian contacts, simple impacts, the paper's motion and waves."""
     error = read_stated_limits("pressure")["error"] * _ULP
     contact = ("a", "R", "h", "b", "modulus")
     motion = ("t", "m", "v0", "xi_2", "xi_3")
     found = [
-        Kernel("contact", "non_hertzian_pressure", contact, _each(_contact), error),
-        Kernel("pressure", "non_hertzian_pressure", ("r", *contact), _each(_pressure), error),
-        Kernel("corrected", "perturbation", motion, _each(_corrected), _INTEGRALS * _ULP),
+        Kernel("contact", "non_hertzian_pressure", contact, _for_arrays(_contact), error),
+        Kernel("pressure", "non_hertzian_pressure", ("r", *contact), _for_arrays(_pressure), error),
+        Kernel("corrected", "perturbation", motion, _for_arrays(_corrected), _INTEGRALS * _ULP),
         Kernel(
             "impact_sensitivities", "sensitivity", _SCENE, _sensitivities,
             read_budgets()["impact_sensitivities"].ulp,
         ),
         Stating(
-            "plate_of", "simple_impact", ("eta",), _each(_bend), 0.0, stated=_each(_bend_error)
+            "plate_of", "simple_impact", ("eta",), _for_arrays(_bend), 0.0,
+            stated=_for_arrays(_bend_error)
         ),
     ]  # fmt: skip
-    found += (*_of_waves(), *_of_held_waves())
+    found += (*_of_waves(), *_edge_modes())
     for name in ("hertz", "leading"):
         results, errors = _estimates(getattr(simple_impact, name))
         found.append(
-            Stating(name, "simple_impact", _SCENE, _each(results), 0.0, stated=_each(errors))
+            Stating(
+                name, "simple_impact", _SCENE, _for_arrays(results), 0.0, stated=_for_arrays(errors)
+            )
         )
     return tuple(found)
 
 
-def _each(function: Callable[..., Any]) -> Callable[..., Any]:
+def _for_arrays(function: Callable[..., Any]) -> Callable[..., Any]:
     """Return a function of plain numbers as a function of arrays."""
 
     def call(*arguments: Any) -> Any:
@@ -108,17 +111,17 @@ def _of_waves() -> list[Kernel]:
     return found
 
 
-def _of_held_waves() -> list[Kernel]:
+def _edge_modes() -> list[Kernel]:
     """Return functions of a single mode of a clamped or supported plate, and of its face."""
     stated_limits = read_stated_limits("edge_modes")
     face = stated_limits.pop("face")
     found = [
-        Kernel(name, "edge_modes", ("count", "eta", "nu"), _each(partial(_mode, name)),
+        Kernel(name, "edge_modes", ("count", "eta", "nu"), _for_arrays(partial(_mode, name)),
                max(stated_limits.values()))
         for name in ("clamped_waves", "supported_waves")
     ]  # fmt: skip
     for name, at in (("wave_shape", "r"), ("wave_share", "a")):
-        call = _each(partial(_face, name))
+        call = _for_arrays(partial(_face, name))
         found.append(Kernel(name, "edge_modes", ("k", "k2", "t", at), call, face))
     return found
 
@@ -140,10 +143,10 @@ def _face(name: str, k: float, k2: float, t: float, at: float) -> float:
 
 
 def _branch(parity: str, part: int, x: Any, nu: Any, index: Any) -> Any:
-    return _picked(branches(x, nu, int(np.max(index)) + 1, parity)[part], index)
+    return _table_entries(branches(x, nu, int(np.max(index)) + 1, parity)[part], index)
 
 
-def _picked(table: Any, place: Any) -> Any:
+def _table_entries(table: Any, place: Any) -> Any:
     """Return entries of a table's last axis by index, broadcast with all other axes."""
     index = np.asarray(place, dtype=int)[..., None]
     shape = np.broadcast_shapes(table.shape[:-1], index.shape[:-1])

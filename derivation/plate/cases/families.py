@@ -9,8 +9,8 @@ from itertools import chain
 
 from derivation.engine.cache import cached
 from derivation.engine.formula.ulp import neighbours
-from derivation.engine.measure.case import HardCase, checked
-from derivation.engine.measure.places import OFFSETS, Inputs, around, beside, exactly
+from derivation.engine.measure.case import HardCase, checked_case
+from derivation.engine.measure.neighbours import OFFSETS, Inputs, around, exact_inputs, neighbour
 from derivation.mathematics.bessel import kernels as bessel_tables
 from derivation.mathematics.bessel.oracle import j0_zero, j1_zero
 from derivation.plate.cases.scene_families import scene_families
@@ -20,7 +20,7 @@ from derivation.plate.contact.kernels.moments import FIRST_K, finite_part_start,
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.grids import switches
 from derivation.plate.impact.oracle import impact as contact_impact
-from derivation.plate.subjects import handed_in
+from derivation.plate.subjects import exports
 
 INDICES = (1, 2, 10, 100, 1000, 10**4, 10**5, 10**6)
 LAST_KAPPA, LAST_FINITE_PART = 196, 99
@@ -42,7 +42,7 @@ def families() -> tuple[HardCase, ...]:
         "plate/*/route*",
         "engine/emit",
     )
-    cases = ("engine/measure/case.py", "engine/measure/places.py")
+    cases = ("engine/measure/case.py", "engine/measure/neighbours.py")
     own = (*cases, "plate/grids.py", "plate/cases", "plate/*/cases*")
     return cached("hard_families", (*folders, *own), _families, HardCase)
 
@@ -52,38 +52,38 @@ def _families() -> tuple[HardCase, ...]:
         _block_switches(),
         _bessel_switches(),
         _zeros_by_index(),
-        _beside_zeros(),
+        _around_zeros(),
         _moments(),
         _contact_switches(),
         _thickness_switches(),
         _thinnest(),
         _impact_switches(),
         scene_families(),
-        *(cases() for cases in handed_in("cases", "CASES")),
+        *(cases() for cases in exports("cases", "CASES")),
     )
-    return tuple(checked(case) for case in made)
+    return tuple(checked_case(case) for case in made)
 
 
 _MODE = {"lam": LAM, "mu": MU, "A_j": -1e6}
 
 _OF_SWITCH: dict[str, tuple[tuple[str, Callable[[float], Inputs]], ...]] = {
     "T": (
-        ("G", lambda T: exactly(T=T)),
-        ("G_minus_1", lambda T: exactly(T=T)),
-        ("Omega_1_scaled", lambda T: exactly(phi=T / 2, h=1.0, lam=LAM, mu=MU)),
-        ("K_j", lambda T: exactly(phi=T / 2, h=1.0, b=10.0, R=3.0, J1=0.25)),
-        ("mode_zz", lambda T: exactly(z=0.25, phi=T / 2, h=1.0, **_MODE)),
-        ("mode_rz", lambda T: exactly(z=-0.5, phi=T / 2, h=1.0, **_MODE)),
-        ("mode_g", lambda T: exactly(z=0.0625, phi=T / 2, h=1.0, **_MODE)),
-        ("mode_rr", lambda T: exactly(z=-0.0625, phi=T / 2, h=1.0, **_MODE)),
-        ("mode_tt", lambda T: exactly(z=0.0625, phi=T / 2, h=1.0, **_MODE)),
-        ("mode_g", lambda T: exactly(z=-0.875, phi=T / 2, h=1.0, **_MODE)),
-        ("mode_rr", lambda T: exactly(z=0.875, phi=T / 2, h=1.0, **_MODE)),
-        ("mode_tt", lambda T: exactly(z=0.25, phi=T / 2, h=1.0, **_MODE)),
+        ("G", lambda T: exact_inputs(T=T)),
+        ("G_minus_1", lambda T: exact_inputs(T=T)),
+        ("Omega_1_scaled", lambda T: exact_inputs(phi=T / 2, h=1.0, lam=LAM, mu=MU)),
+        ("K_j", lambda T: exact_inputs(phi=T / 2, h=1.0, b=10.0, R=3.0, J1=0.25)),
+        ("mode_zz", lambda T: exact_inputs(z=0.25, phi=T / 2, h=1.0, **_MODE)),
+        ("mode_rz", lambda T: exact_inputs(z=-0.5, phi=T / 2, h=1.0, **_MODE)),
+        ("mode_g", lambda T: exact_inputs(z=0.0625, phi=T / 2, h=1.0, **_MODE)),
+        ("mode_rr", lambda T: exact_inputs(z=-0.0625, phi=T / 2, h=1.0, **_MODE)),
+        ("mode_tt", lambda T: exact_inputs(z=0.0625, phi=T / 2, h=1.0, **_MODE)),
+        ("mode_g", lambda T: exact_inputs(z=-0.875, phi=T / 2, h=1.0, **_MODE)),
+        ("mode_rr", lambda T: exact_inputs(z=0.875, phi=T / 2, h=1.0, **_MODE)),
+        ("mode_tt", lambda T: exact_inputs(z=0.25, phi=T / 2, h=1.0, **_MODE)),
     ),
     "y": (
-        ("sonine", lambda y: exactly(phi=y, a=1.0)),
-        ("A_j", lambda y: exactly(phi=y, b=10.0, R=3.0, a=1.0, lam=LAM, mu=MU, J1=0.25)),
+        ("sonine", lambda y: exact_inputs(phi=y, a=1.0)),
+        ("A_j", lambda y: exact_inputs(phi=y, b=10.0, R=3.0, a=1.0, lam=LAM, mu=MU, J1=0.25)),
     ),
 }
 """Functions with switch points in T = 2 phi h or y = a phi, and their arguments at given T or y;
@@ -101,7 +101,7 @@ def _block_switches() -> Iterator[HardCase]:
                 )
                 cause += ", where a series hands over to exponentials or circular functions."
                 for kernel, inputs in _OF_SWITCH[variable]:
-                    given = inputs(beside(place, offset))
+                    given = inputs(neighbour(place, offset))
                     yield HardCase("switch points of the building blocks", kernel, cause, given)
 
 
@@ -119,7 +119,7 @@ def _bessel_switches() -> Iterator[HardCase]:
                 "switch points of the Bessel functions",
                 kernel,
                 cause,
-                exactly(x=around(place)),
+                exact_inputs(x=around(place)),
                 "array",
             )
 
@@ -132,16 +132,16 @@ def _zeros_by_index() -> Iterator[HardCase]:
             cause = f"Zero number {count}: all bits of it are asked, and no iteration."
             if count in (start - 1, start):
                 cause = f"Zero number {count}: the expansion begins with number {start}."
-            yield HardCase("Bessel zeros by index", kernel, cause, exactly(count=float(count)))
+            yield HardCase("Bessel zeros by index", kernel, cause, exact_inputs(count=float(count)))
 
 
-def _beside_zeros() -> Iterator[HardCase]:
+def _around_zeros() -> Iterator[HardCase]:
     for kernel, zero in (("bessel_j0", j0_zero), ("bessel_j1", j1_zero)):
         for index in (1, 3, 11, 100, 1000, 10**6):
             near = neighbours(float(zero(index, 80)), 1)
             cause = f"The doubles next to zero number {index}: the leading digits cancel."
             yield HardCase(
-                "doubles next to zeros of J0 and J1", kernel, cause, exactly(x=near), "array"
+                "doubles next to zeros of J0 and J1", kernel, cause, exact_inputs(x=near), "array"
             )
 
 
@@ -153,12 +153,12 @@ def _moments() -> Iterator[HardCase]:
     ):  # fmt: skip
         for index in (low, low + 1, low + 2, low + 9, low + 40, high - 1, high):
             cause = "An integral that grows like a factorial, to half a unit in the last place."
-            yield HardCase(group, kernel, cause, exactly(**{argument: index}))
+            yield HardCase(group, kernel, cause, exact_inputs(**{argument: index}))
         cause = "The first index whose value no double holds."
-        yield HardCase(group, kernel, cause, exactly(**{argument: high + 1}), expect="nan")
+        yield HardCase(group, kernel, cause, exact_inputs(**{argument: high + 1}), expect="nan")
         for index in (low, low + 1, 1e3, 1e6):
             cause = "The value over its leading term, far beyond where the value itself overflows."
-            yield HardCase(group, f"{kernel}_ratio", cause, exactly(**{argument: index}))
+            yield HardCase(group, f"{kernel}_ratio", cause, exact_inputs(**{argument: index}))
     for argument, kernel, start in (
         ("n", "kappa_ratio", kappa_start()), ("k", "finite_part_ratio", finite_part_start()),
     ):  # fmt: skip
@@ -166,7 +166,7 @@ def _moments() -> Iterator[HardCase]:
             cause = (
                 f"{offset:+d} from index {start}, where the expansion takes over from the table."
             )
-            yield HardCase(group, kernel, cause, exactly(**{argument: float(start + offset)}))
+            yield HardCase(group, kernel, cause, exact_inputs(**{argument: float(start + offset)}))
 
 
 def _contact_switches() -> Iterator[HardCase]:
@@ -183,19 +183,21 @@ def _contact_switches() -> Iterator[HardCase]:
             cause = f"0, 1 and 32 ULP to either side of a = {place:g} h, where {what}."
             same: dict[str, float] = {"R": 50.0, "h": 1.0, "b": b}
             near = around(place)
-            yield HardCase(group, "indentation", cause, exactly(a=near, **same), "array")
+            yield HardCase(group, "indentation", cause, exact_inputs(a=near, **same), "array")
             yield HardCase(
-                group, "stiffness", cause, exactly(a=near, **same, lam=LAM, mu=MU), "array"
+                group, "stiffness", cause, exact_inputs(a=near, **same, lam=LAM, mu=MU), "array"
             )
             if place in (contact_tables.REACH, contact_tables.FAR_REACH):
-                yield HardCase(group, "indentation_slope", cause, exactly(a=near, **same), "array")
+                yield HardCase(
+                    group, "indentation_slope", cause, exact_inputs(a=near, **same), "array"
+                )
             if place == contact_tables.FAR_REACH:
                 continue  # the inversion ends here
             depth = float(contact_balls.indentation(place, 50.0, 1.0, b, 30))
-            given = exactly(delta=around(depth), **same)
+            given = exact_inputs(delta=around(depth), **same)
             yield HardCase(group, "contact_radius", cause, given, "array")
             if b == 10.0 and place == reach:
-                yield HardCase(group, "force", cause, given | exactly(lam=LAM, mu=MU), "array")
+                yield HardCase(group, "force", cause, given | exact_inputs(lam=LAM, mu=MU), "array")
 
 
 def _thickness_switches() -> Iterator[HardCase]:
@@ -211,17 +213,17 @@ def _thickness_switches() -> Iterator[HardCase]:
             cause += f" takes over; a = {a:g} h."
             same: dict[str, float] = {"a": a, "R": 50.0, "h": 1.0}
             group = "switch points of the contact law"
-            given = exactly(**same, b=around(b))
+            given = exact_inputs(**same, b=around(b))
             yield HardCase(group, "indentation", cause, given, "array")
             yield HardCase(group, "indentation_slope", cause, given, "array")
-            given = exactly(**same, b=around(b), lam=LAM, mu=MU)
+            given = exact_inputs(**same, b=around(b), lam=LAM, mu=MU)
             yield HardCase(group, "stiffness", cause, given, "array")
 
 
 def _thinnest() -> Iterator[HardCase]:
     """Yield cases at h/b = 1e-5, the thinnest plate whose modes are summed directly; b = 1."""
     for offset in OFFSETS:
-        given = exactly(a=6.5e-5, R=1e-2, h=beside(1e-5, offset), b=1.0)
+        given = exact_inputs(a=6.5e-5, R=1e-2, h=neighbour(1e-5, offset), b=1.0)
         cause = f"{offset:+d} ULP from h/b = 1e-5, below which no sum is taken for a > 6 h."
         expect = "nan" if offset < 0 else "value"
         yield HardCase(
@@ -236,5 +238,5 @@ def _impact_switches() -> Iterator[HardCase]:
         energy = float(contact_impact.stored_energy(place, 50.0, 1.0, b, LAM, MU, 30))
         speeds = around(math.sqrt(2.0 * energy / 1e3))
         cause = f"0, 1 and 32 ULP to either side of the speed that reaches a = {place:g} h."
-        given = exactly(R=50.0, m=1e3, v0=speeds, h=1.0, b=b, lam=LAM, mu=MU)
+        given = exact_inputs(R=50.0, m=1e3, v0=speeds, h=1.0, b=b, lam=LAM, mu=MU)
         yield HardCase("switch points of the contact law", "impact", cause, given, "array")

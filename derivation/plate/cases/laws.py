@@ -16,7 +16,7 @@ from derivation.plate.back_face import oracle as back_face_balls
 from derivation.plate.contact.cases.reference_values import tolerance
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.contact.oracle import forces as contact_forces
-from derivation.plate.contact.theory import curvature
+from derivation.plate.contact.theory import spherical_profile
 from derivation.plate.edge.oracle import clamped as clamp_balls
 from derivation.plate.edge.oracle import supported as edge_balls
 from derivation.plate.edge.theory import clamped as clamp
@@ -26,7 +26,7 @@ from derivation.plate.impact.oracle import printed_motion as printed_motion_ball
 from derivation.plate.impact.oracle import quantities as contact_quantities
 from derivation.plate.impact.oracle import sensitivity, state_rounding
 from derivation.plate.pressure import oracle as pressure_balls
-from derivation.plate.subjects import handed_in
+from derivation.plate.subjects import exports
 
 _SPARE, _FEW, _FEW_OF_RADIUS = 8, 20, 15
 """Additional digits; and digits of magnitudes and radii, which only determine tolerances."""
@@ -73,7 +73,7 @@ def _of_series(given: Given, _: arb) -> float:
 
 
 @cache
-def _moved(kind: str, given: tuple[Any, ...], digits: int) -> arb:
+def _mean_edge_motion(kind: str, given: tuple[Any, ...], digits: int) -> arb:
     """Return the edge's mean motion; cached, because a support's part is a multiple of it."""
     a, h, b, lam, mu = given
     return edge_balls.edge_part(kind, a, h, b, lam, mu, digits)
@@ -81,7 +81,7 @@ def _moved(kind: str, given: tuple[Any, ...], digits: int) -> arb:
 
 def _supported_edge(kind: str) -> HardLaw:
     def values(given: Given, digits: int) -> tuple[arb]:
-        taken = _moved(kind, tuple(given), digits)
+        taken = _mean_edge_motion(kind, tuple(given), digits)
         with flint.ctx.workprec(_bits(digits)):
             return (to_ball(edge_balls.support_ratio(*given[3:])) * taken,)
 
@@ -117,19 +117,19 @@ def _edge_bound(support: str) -> HardLaw:
 # --- the back face
 
 
-def _stiff(P: Exact, h: Exact, lam: Exact, mu: Exact) -> arb:
+def _stress_unit(P: Exact, h: Exact, lam: Exact, mu: Exact) -> arb:
     """Return (1 + nu) P/(2 pi H^2) at the current precision."""
     first, second = Fraction(lam), Fraction(mu)
     share = (3 * first + 2 * second) * Fraction(P) / (16 * (first + second) * Fraction(h) ** 2)
     return to_ball(share) / arb.pi()
 
 
-def _far(support: str) -> HardLaw:
+def _back_face(support: str) -> HardLaw:
     def of_edge(given: Given, digits: int) -> tuple[arb, arb]:
         """Return the contributions of the states of bending and of extension to S."""
         _, a, h, b, lam, mu = given
         if support == "clamped":
-            bent, stretched = clamp_balls.far_clamp(a, h, b, lam, mu)
+            bent, stretched = clamp_balls.back_face_clamp(a, h, b, lam, mu)
             return -to_ball(bent), -to_ball(stretched)
         eta, alpha = Fraction(h) / Fraction(b), Fraction(a) / Fraction(b)
         n = Fraction(lam) / (Fraction(lam) + 2 * Fraction(mu))
@@ -139,23 +139,23 @@ def _far(support: str) -> HardLaw:
 
     def values(given: Given, digits: int) -> tuple[arb]:
         P, a, h, b, lam, mu = given
-        total = back_face_balls.far_sum(a, h, b, digits + _SPARE)
+        total = back_face_balls.back_face_sum(a, h, b, digits + _SPARE)
         if support == "supported":
-            moved = back_face_balls.far_edge(a, h, b, lam, mu, digits + _SPARE)
+            moved = back_face_balls.back_face_edge(a, h, b, lam, mu, digits + _SPARE)
         with flint.ctx.workprec(_bits(digits)):
             if support == "supported":
                 total += to_ball(edge_balls.support_ratio(lam, mu)) * moved
             elif support:
                 total += sum(of_edge(given, digits))
-            return (_stiff(P, h, lam, mu) * total,)
+            return (_stress_unit(P, h, lam, mu) * total,)
 
     def sizes(given: Given, _: Sequence[arb]) -> tuple[arb]:
         """Return the sum of the magnitudes of the parts: the paper's edge, extension, bending."""
         P, a, h, b, lam, mu = given
-        plain = back_face_balls.far_sum(a, h, b, _FEW)
+        plain = back_face_balls.back_face_sum(a, h, b, _FEW)
         with flint.ctx.workprec(_bits(_FEW)):
             states = sum((abs(x) for x in of_edge(given, _FEW)), arb(0))
-            return (abs(_stiff(P, h, lam, mu)) * (abs(plain) + states),)
+            return (abs(_stress_unit(P, h, lam, mu)) * (abs(plain) + states),)
 
     oracle = (back_face_balls.__name__, *([clamp_balls.__name__] if support == "clamped" else []))
     return HardLaw(values, sizes if support else None, oracle=oracle)
@@ -167,7 +167,7 @@ def _far(support: str) -> HardLaw:
 def _sphere(given: Given, digits: int) -> tuple[arb, ...]:
     """Return P, delta and its slope over those of Hertz, by the theory for R = 1, E* = 1."""
     x = Fraction(given[0])
-    depth, force = (formula.expression for formula in curvature.spherical_contact())
+    depth, force = (formula.expression for formula in spherical_profile.spherical_contact())
     # E* is 1 for lam = 0 and mu = 1/2.
     at: dict[Any, Exact] = {symbols.a: x, symbols.R: 1, symbols.lam: 0, symbols.mu: Fraction(1, 2)}
     rise = depth.diff(symbols.a)
@@ -178,7 +178,7 @@ def _sphere(given: Given, digits: int) -> tuple[arb, ...]:
         a = known[symbols.a]
         return P * 3 / (4 * a**3), delta / a**2, slope / (2 * a)
 
-    return contact_balls.settle(compute, digits, f"a sphere at a/R = {float(x)}")
+    return contact_balls.refine_to_digits(compute, digits, f"a sphere at a/R = {float(x)}")
 
 
 def _contact(given: Given, digits: int) -> tuple[arb, ...]:
@@ -238,7 +238,7 @@ _ESTIMATE = HardLaw(
     results=4,
     oracle=(contact_impact.__name__,),
 )
-"""Return the stated error of a simple law, relative to the impact by the corrected law."""
+"""References of the stated error of a simple law, relative to the impact by the corrected law."""
 
 
 def _first_coefficient(given: Given, digits: int) -> tuple[arb]:
@@ -294,10 +294,10 @@ LAWS: Mapping[str, HardLaw] = {
     "clamped_edge_slope": _clamped_edge("slope"),
     "supported_edge_bound": _edge_bound("supported"),
     "clamped_edge_bound": _edge_bound("clamped"),
-    "far_stress": _far(""),
-    "supported_far_stress": _far("supported"),
-    "clamped_far_stress": _far("clamped"),
-    "sphere_contact": HardLaw(_sphere, results=3, oracle=(curvature.__name__,)),
+    "back_face_stress": _back_face(""),
+    "supported_back_face_stress": _back_face("supported"),
+    "clamped_back_face_stress": _back_face("clamped"),
+    "sphere_contact": HardLaw(_sphere, results=3, oracle=(spherical_profile.__name__,)),
     "contact": HardLaw(
         _contact, _of_means, conditioned=False, results=6, oracle=(pressure_balls.__name__,)
     ),
@@ -306,5 +306,5 @@ LAWS: Mapping[str, HardLaw] = {
     "hertz": _ESTIMATE,
     "leading": _ESTIMATE,
     "corrected": HardLaw(_corrected, _largest, oracle=(printed_motion_balls.__name__,)),
-} | {name: law for laws in handed_in("cases", "LAWS") for name, law in laws.items()}
+} | {name: law for laws in exports("cases", "LAWS") for name, law in laws.items()}
 """References by function."""

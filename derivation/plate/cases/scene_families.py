@@ -7,24 +7,31 @@ from fractions import Fraction
 from itertools import chain, product
 
 from derivation.engine.measure.case import HardCase
-from derivation.engine.measure.places import OFFSETS, Inputs, about, around, beside, exactly
+from derivation.engine.measure.neighbours import (
+    OFFSETS,
+    Inputs,
+    around,
+    case_around,
+    exact_inputs,
+    neighbour,
+)
 from derivation.mathematics.bessel.oracle import j0_zero
 from derivation.plate.back_face.kernels import tables as back_face_tables
 from derivation.plate.blocks import blocks
 from derivation.plate.cases.steel import LAM, MU
 from derivation.plate.edge.kernels import tables as edge_tables
-from derivation.plate.edge.theory.clamped import LEVEL
+from derivation.plate.edge.theory.clamped import LEVEL_FIT
 from derivation.plate.effects.kernels import numbers as effect_tables
 from derivation.plate.grids import switches
 from derivation.plate.pressure.kernels import numbers as pressure_tables
 
-EDGE, FAR = "switch points of the edge", "switch points of the back face"
+EDGE, BACK_FACE = "switch points of the edge", "switch points of the back face"
 SPHERE, PRESSURE = "switch points of the sphere", "switch points of the non-Hertzian pressure"
 
 SUMS = ("supported_edge", "supported_edge_slope")
 CLAMPED = ("clamped_edge", "clamped_edge_slope")
 BOUNDS = ("supported_edge_bound", "clamped_edge_bound")
-FAR_EDGES = ("supported_far_stress", "clamped_far_stress")
+BACK_FACE_EDGES = ("supported_back_face_stress", "clamped_back_face_stress")
 
 _STEEL: dict[str, float] = {"lam": LAM, "mu": MU}
 _FORCE = 1e3
@@ -42,9 +49,11 @@ def _zero(mode: int) -> float:
     return float(j0_zero(mode, 80))
 
 
-def _beside(group: str, kernels: tuple[str, ...], why: str, given: Inputs) -> Iterator[HardCase]:
+def _around_switch(
+    group: str, kernels: tuple[str, ...], why: str, given: Inputs
+) -> Iterator[HardCase]:
     """Yield a case for each function, with an array of doubles around a switch point."""
-    return (about(group, kernel, why, given) for kernel in kernels)
+    return (case_around(group, kernel, why, given) for kernel in kernels)
 
 
 def _one_by_one(
@@ -57,7 +66,7 @@ def _one_by_one(
 ) -> Iterator[HardCase]:
     """Yield cases with one double each, because all points of a call use equally many modes."""
     for kernel, offset in product(kernels, OFFSETS):
-        given = exactly(**{**constants, argument: beside(switch, offset)})
+        given = exact_inputs(**{**constants, argument: neighbour(switch, offset)})
         yield HardCase(group, kernel, f"{offset:+d} ULP from {why}.", given)
 
 
@@ -73,16 +82,16 @@ def _edge() -> Iterator[HardCase]:
     """Yield cases at the switch points of the sums over the modes of the edge."""
     for width in (0.1, 0.5, 0.8):
         switch = float((1 - Fraction(width)) / edge_tables.THIN)
-        given = exactly(a=width, h=around(switch), b=1.0, **_STEEL)
+        given = exact_inputs(a=width, h=around(switch), b=1.0, **_STEEL)
         why = f"b - a = {float(edge_tables.THIN):g} h, from which on a closed form stands alone"
-        yield from _beside(EDGE, SUMS, f"{why}; a = {width:g} b", given)
-        more = exactly(P=_FORCE) | given
-        yield from _beside(EDGE, FAR_EDGES[:1], f"{why}; a = {width:g} b", more)
+        yield from _around_switch(EDGE, SUMS, f"{why}; a = {width:g} b", given)
+        more = exact_inputs(P=_FORCE) | given
+        yield from _around_switch(EDGE, BACK_FACE_EDGES[:1], f"{why}; a = {width:g} b", more)
     for mode in _MODES:
         switch = edge_tables.SWITCH / (2 * _zero(mode))
-        given = exactly(a=0.3, h=around(switch), b=1.0, **_STEEL)
+        given = exact_inputs(a=0.3, h=around(switch), b=1.0, **_STEEL)
         why = f"T = {edge_tables.SWITCH} of mode {mode}, where Q - 3 ceases to be a power series"
-        yield from _beside(EDGE, SUMS, why, given)
+        yield from _around_switch(EDGE, SUMS, why, given)
     for mode in (1, 10):
         switch = _last_mode(edge_tables.FADED, mode)
         constants = {"a": 0.3, "b": 1.0, **_STEEL}
@@ -93,7 +102,7 @@ def _edge() -> Iterator[HardCase]:
     widest, constants = float(edge_tables.WIDEST), {"h": 0.3, "b": 1.0, **_STEEL}
     why = f"a = {widest:g} b, the tables' end"
     yield from _last(EDGE, (SUMS[1], CLAMPED[0]), widest, why, constants)
-    yield from _last(EDGE, FAR_EDGES[:1], widest, why, {"P": _FORCE, **constants})
+    yield from _last(EDGE, BACK_FACE_EDGES[:1], widest, why, {"P": _FORCE, **constants})
 
 
 def _last(
@@ -108,27 +117,27 @@ def _shape(group: str, kernels: tuple[str, ...], more: dict[str, float]) -> Iter
     """Yield cases at the switch point of the function g(y) in modal sums."""
     for mode, switch in product(_MODES[:2], switches()["y"]):
         a = around(switch / _zero(mode))
-        given = exactly(**more, a=a, h=0.4, b=1.0, **_STEEL)
+        given = exact_inputs(**more, a=a, h=0.4, b=1.0, **_STEEL)
         why = f"y = {switch:g} of mode {mode}, where g(y) ceases to be a power series"
-        yield from _beside(group, kernels, why, given)
+        yield from _around_switch(group, kernels, why, given)
 
 
 def _materials() -> Iterator[HardCase]:
     """Yield cases at zeros and switch points that depend on the elastic constants."""
     why = "lam = mu, where the other of the two becomes the unit"
-    for kernels, more in (((*SUMS, *CLAMPED, *BOUNDS), {}), (FAR_EDGES, {"P": _FORCE})):
-        given = exactly(**more, a=0.3, h=0.2, b=1.0, lam=around(MU), mu=MU)
-        yield from _beside(EDGE, kernels, why, given)
+    for kernels, more in (((*SUMS, *CLAMPED, *BOUNDS), {}), (BACK_FACE_EDGES, {"P": _FORCE})):
+        given = exact_inputs(**more, a=0.3, h=0.2, b=1.0, lam=around(MU), mu=MU)
+        yield from _around_switch(EDGE, kernels, why, given)
     switch = math.sqrt((LAM + 2 * MU) / (2 * LAM))
-    given = exactly(a=0.3, h=around(switch), b=1.0, **_STEEL)
+    given = exact_inputs(a=0.3, h=around(switch), b=1.0, **_STEEL)
     why = f"h/b = {switch:.4g}, where 1 - 2 n eta^2, which goes with bending, passes zero"
-    yield from _beside(EDGE, (*SUMS, *BOUNDS[:1]), why, given)
+    yield from _around_switch(EDGE, (*SUMS, *BOUNDS[:1]), why, given)
     n = LAM / (LAM + 2 * MU)
-    level = 1000 / sum(c * n**i for i, c in enumerate(LEVEL))
+    level = 1000 / sum(c * n**i for i, c in enumerate(LEVEL_FIT))
     switch = math.sqrt(1 / (2 * n * (1 - 2 * level)))
-    given = exactly(a=0.3, h=around(switch), b=1.0, **_STEEL)
+    given = exact_inputs(a=0.3, h=around(switch), b=1.0, **_STEEL)
     why = f"h/b = {switch:.4g}, where 1 - s, which goes with a clamp's bending, passes zero"
-    yield from _beside(EDGE, (*CLAMPED, *BOUNDS[1:]), why, given)
+    yield from _around_switch(EDGE, (*CLAMPED, *BOUNDS[1:]), why, given)
 
 
 # --- the back face
@@ -136,28 +145,28 @@ def _materials() -> Iterator[HardCase]:
 
 def _back_face() -> Iterator[HardCase]:
     """Yield cases at the switch points of the stress on the back face."""
-    every = ("far_stress", *FAR_EDGES)
+    every = ("back_face_stress", *BACK_FACE_EDGES)
     thin, wide = float(back_face_tables.THIN), float(back_face_tables.WIDE)
     for width in (1e-3, 0.3, 0.89):
-        given = exactly(P=_FORCE, a=width, h=around(thin), b=1.0, **_STEEL)
+        given = exact_inputs(P=_FORCE, a=width, h=around(thin), b=1.0, **_STEEL)
         why = f"h/b = {thin:g}, below which another plate's sum serves; a = {width:g} b"
-        yield from _beside(FAR, every if width == 0.3 else every[:1], why, given)
+        yield from _around_switch(BACK_FACE, every if width == 0.3 else every[:1], why, given)
     for h in (2.0**-5, 2.0**-8):
-        given = exactly(P=_FORCE, a=around(wide * h), h=h, b=1.0, **_STEEL)
+        given = exact_inputs(P=_FORCE, a=around(wide * h), h=h, b=1.0, **_STEEL)
         why = f"a = {wide:g} h, from which on a series in (h/a)^2 serves; h = {h:g} b"
-        yield from _beside(FAR, every if h == 2.0**-5 else every[:1], why, given)
+        yield from _around_switch(BACK_FACE, every if h == 2.0**-5 else every[:1], why, given)
     pair = float(blocks()["sinh_pair"].value.at)
     for mode in _MODES:
         switch = pair / (2 * _zero(mode))
-        given = exactly(P=_FORCE, a=0.3, h=around(switch), b=1.0, **_STEEL)
+        given = exact_inputs(P=_FORCE, a=0.3, h=around(switch), b=1.0, **_STEEL)
         why = f"T = {pair:g} of mode {mode}, where B(T) ceases to be a power series"
-        yield from _beside(FAR, every if mode == 1 else every[:1], why, given)
+        yield from _around_switch(BACK_FACE, every if mode == 1 else every[:1], why, given)
     for mode in (1, 10):
         switch = _last_mode(back_face_tables.FADED, mode)
         constants = {"P": _FORCE, "a": 0.3, "b": 1.0, **_STEEL}
         why = f"h/b = {switch:.4g}, beyond which the sum takes a mode less"
-        yield from _one_by_one(FAR, every[:1], switch, why, "h", constants)
-    yield from _shape(FAR, every, {"P": _FORCE})
+        yield from _one_by_one(BACK_FACE, every[:1], switch, why, "h", constants)
+    yield from _shape(BACK_FACE, every, {"P": _FORCE})
 
 
 # --- spherical profile and non-Hertzian pressure
@@ -167,7 +176,9 @@ def _sphere() -> Iterator[HardCase]:
     """Yield cases at the switch point of the contact with a spherical profile."""
     switch = math.sqrt(effect_tables.NEAR)
     why = f"(a/R)^2 = {float(effect_tables.NEAR):g}, where a series hands over to the logarithm"
-    yield from _beside(SPHERE, ("sphere_contact",), why, exactly(a_over_R=around(switch)))
+    yield from _around_switch(
+        SPHERE, ("sphere_contact",), why, exact_inputs(a_over_R=around(switch))
+    )
 
 
 def _pressure() -> Iterator[HardCase]:
@@ -175,21 +186,21 @@ def _pressure() -> Iterator[HardCase]:
     constants: dict[str, float] = {"R": 1e3, "modulus": 7e10}
     thin = float(pressure_tables.THIN)
     for a in (0.01, 1.0, 3.0, 5.9):
-        given = exactly(a=a, h=1.0, b=around(thin), **constants)
+        given = exact_inputs(a=a, h=1.0, b=around(thin), **constants)
         why = f"b = {thin:g} h, beyond which a thin plate's integral serves; a = {a:g} h"
-        yield from _beside(PRESSURE, ("contact",), why, given)
-        yield from _beside(PRESSURE, ("pressure",), why, exactly(r=0.75 * a) | given)
+        yield from _around_switch(PRESSURE, ("contact",), why, given)
+        yield from _around_switch(PRESSURE, ("pressure",), why, exact_inputs(r=0.75 * a) | given)
     for mode in (1, 20):
         switch = _last_mode(pressure_tables.FADED, mode)
-        given = exactly(a=0.3, h=around(switch), b=1.0, **constants)
+        given = exact_inputs(a=0.3, h=around(switch), b=1.0, **constants)
         why = f"h/b = {switch:.4g}, beyond which the kernel takes a mode less"
-        yield from _beside(PRESSURE, ("contact",), why, given)
+        yield from _around_switch(PRESSURE, ("contact",), why, given)
     low = pressure_tables.LOW
     nodes = [y for y in pressure_tables.wall_places() if low / y < 0.9]
     for y in (nodes[0], nodes[len(nodes) // 2], nodes[-1]):
-        given = exactly(a=around(low / y), h=1.0, b=1.0, **constants)
+        given = exact_inputs(a=around(low / y), h=1.0, b=1.0, **constants)
         why = f"y a/b = {low:g} at y = {y:.4g}, where sinh(x)/x ceases to be a power series"
-        yield from _beside(PRESSURE, ("contact",), why, given)
+        yield from _around_switch(PRESSURE, ("contact",), why, given)
     widest = float(pressure_tables.WIDEST_SHARE)
     why = f"a = {widest:g} b, the widest contact that is solved"
     yield from _last(PRESSURE, ("contact",), widest, why, {"h": 1.0, "b": 1.0, **constants})

@@ -8,7 +8,7 @@ from derivation.engine.measure.case import HardCase, read_cases
 from derivation.engine.measure.kernels import Kernel
 from derivation.engine.measure.suite import Suite
 from derivation.mathematics.bessel import oracle as zeros
-from derivation.plate.cases.calls import others
+from derivation.plate.cases.calls import special_calls
 from derivation.plate.cases.families import families
 from derivation.plate.cases.laws import LAWS
 from derivation.plate.contact.oracle import moments
@@ -47,4 +47,4 @@ def kernels() -> dict[str, Kernel]:
         found[row["name"]] = Kernel(
             row["name"], row["module"], tuple(row["arguments"]), call, float(row["budget"])
         )
-    return found | {kernel.name: kernel for kernel in others()}
+    return found | {kernel.name: kernel for kernel in special_calls()}

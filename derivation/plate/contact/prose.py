@@ -1,4 +1,4 @@
-"""Text of the report about the contact law, by link."""
+"""Text of the report about the contact law, by derivation step."""
 
 ABOUT = {
     "Hertz": "Hertz pressure, its transform (Sonine's integral) and the contact radius, which "
@@ -15,6 +15,6 @@ ABOUT = {
     r"roots of $\sinh T = T$ and $\sinh T = -T$ in the first quadrant, by imaginary part. "
     "With it the law is exact for every $h/b$.",
     "reversion": "Lagrange's inversion of the paper's series and of the corrected one.",
-    "curvature": "A growing contact is a sequence of flat punches. If it is not small compared "
-    "with the sphere, the sphere's exact profile replaces the paraboloid.",
+    "spherical profile": "A growing contact is a sequence of flat punches. If it is not small "
+    "compared with the sphere, the sphere's exact profile replaces the paraboloid.",
 }

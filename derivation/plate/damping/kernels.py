@@ -17,7 +17,7 @@ from derivation.engine.emit.routine import (
     Several,
     routine,
 )
-from derivation.plate.damping.theory import POWER, ROOT, free_motion, in_turns, separated
+from derivation.plate.damping.theory import POWER, ROOT, by_phase, free_motion, response_factors
 from derivation.plate.modules import ComputedModule
 from derivation.plate.vocabulary import omega, q_j, q_rate, t, zeta
 
@@ -51,7 +51,7 @@ def _reduced(expression: sp.Expr) -> sp.Expr:
     )
     angle = omega * ROOT * t
     found = found.subs(sp.sin(angle / 2) ** 2, (1 - sp.cos(angle)) / 2)
-    return in_turns(found)
+    return by_phase(found)
 
 
 def free() -> Routine:
@@ -105,7 +105,7 @@ def free() -> Routine:
 
 def response() -> Routine:
     """Return the factors of Duhamel's integral."""
-    of = separated()
+    of = response_factors()
     return routine(
         "response",
         (phase, zeta),

@@ -1,4 +1,4 @@
-"""Text of the report about damping, by link."""
+"""Text of the report about damping, by derivation step."""
 
 ABOUT = {
     "damping": r"A plate with the loss factor $\eta_l = 2 \zeta$ dissipates energy in each mode. "

@@ -1,4 +1,4 @@
-"""Link 32: modes of a plate with structural damping, solved exactly for each mode.
+"""Step 32: modes of a plate with structural damping, solved exactly for each mode.
 
 A plate of loss factor eta_l = 2 zeta (Cremer, Heckl and Petersson, Structure-Borne Sound, 3rd
 ed. 2005, ch. 4) loses 2 pi eta_l of a mode's largest potential energy in each cycle. Equivalent
@@ -65,7 +65,7 @@ def free_motion() -> FreeMotion:
     return FreeMotion(q, sp.diff(q, t), lost)
 
 
-def in_turns(expression: sp.Expr) -> sp.Expr:
+def by_phase(expression: sp.Expr) -> sp.Expr:
     """Return a polynomial in exp(-zeta omega t), sin(w t) and cos(w t), zero if it vanishes."""
     found = sp.expand_trig(expression.subs(ROOT, _root))
     found = sp.expand(found, power_exp=False)
@@ -84,7 +84,7 @@ def _equation(q: sp.Expr) -> sp.Expr:
     return sp.diff(q, t, 2) + 2 * zeta * omega * sp.diff(q, t) + omega**2 * q
 
 
-class Separated(NamedTuple):
+class ResponseFactors(NamedTuple):
     """Factors of omega g(t - s), a difference of two products, and of g'(t - s), a sum of two.
 
     The response at all times to a force at all times is then a product of matrices. The factors
@@ -97,11 +97,11 @@ class Separated(NamedTuple):
 
 
 @cache
-def separated() -> Separated:
+def response_factors() -> ResponseFactors:
     """Return the factors of displacement, of velocity, and of the force."""
     phase, decay = omega * ROOT * t, sp.exp(-zeta * omega * t)
     cosine, sine, ratio = decay * sp.cos(phase), decay * sp.sin(phase), zeta / ROOT
-    found = Separated(
+    found = ResponseFactors(
         (sine / ROOT, cosine / ROOT),
         (cosine - ratio * sine, sine + ratio * cosine),
         (sp.cos(phase) / decay, sp.sin(phase) / decay),
@@ -132,10 +132,10 @@ def oscillator() -> Proof:
         "Both are inserted into the equation and evaluated at $t = 0$. Duhamel's integral solves "
         "it, because its second derivative is $g'(0) P$ plus the integral over $g''$.",
         {
-            "impulse": in_turns(_equation(g)),
+            "impulse": by_phase(_equation(g)),
             "from rest": g.subs(start),
             "unit velocity": sp.diff(g, t).subs(start) - 1,
-            "free": in_turns(_equation(free.q)),
+            "free": by_phase(_equation(free.q)),
             "displacement": sp.expand(free.q.subs(start) - q_j),
             "velocity": sp.simplify(free.rate.subs(start) - q_rate),
             "undamped": sp.simplify(g.subs(zeta, 0) - sp.sin(omega * t) / omega),
@@ -162,18 +162,18 @@ def dissipation() -> Proof:
         "the motion is the same, reduced by the decrement.",
         {
             "rate": sp.expand(flow - _push * rate + POWER.subs(q_rate, rate)),
-            "growth": in_turns(sp.diff(free.lost, t) - POWER.subs(q_rate, free.rate)),
+            "growth": by_phase(sp.diff(free.lost, t) - POWER.subs(q_rate, free.rate)),
             "start": sp.simplify(free.lost.subs(t, 0)),
-            "balance": in_turns(at_first - kept - free.lost),
+            "balance": by_phase(at_first - kept - free.lost),
             "decrement": sp.simplify(left - sp.exp(-2 * sp.pi * zeta / ROOT)),
         },
     )
 
 
 def damping() -> tuple[Formula, ...]:
-    """Return the formulas of the link."""
+    """Return the formulas of the step."""
     motion, energy, free = oscillator(), dissipation(), free_motion()
-    separated()
+    response_factors()
     return (
         Formula(
             "damped_response", "g(t)", "displacement of a damped mode due to a unit impulse",
@@ -190,4 +190,4 @@ def damping() -> tuple[Formula, ...]:
     )  # fmt: skip
 
 
-LINKS = (("damping", damping),)
+STEPS = (("damping", damping),)

@@ -1,4 +1,4 @@
-"""What the report says of supported and clamped edges, by link."""
+"""Text of the report about supported and clamped edges, by derivation step."""
 
 ABOUT = {
     "edge": "The paper's edge is elastically restrained: $w = 0$ and "

@@ -213,7 +213,7 @@ class Elements:
         return block, numbers
 
 
-def factored(matrix: Any) -> Any:
+def factorised(matrix: Any) -> Any:
     """Return SciPy's factors of a symmetric and positive definite matrix, without pivoting."""
     from scipy.sparse.linalg import splu
 
@@ -245,7 +245,7 @@ class Field(Elements):
         fixed = np.concatenate((axis, *held))
         free = np.setdiff1d(np.arange(self.size), fixed)
         rows = matrix[free]
-        solver = factored(rows[:, free])
+        solver = factorised(rows[:, free])
         found, known = [], []
         for a in widths:
             known.append(self._of_states(a) if states else 0.0)
@@ -278,7 +278,7 @@ class Field(Elements):
         return 2.0 * u - ratio * stiff * flat, 0.0 * u, -ratio * deep
 
 
-def added(case: RemainderCase, a: float) -> tuple[float, float]:
+def edge_contribution(case: RemainderCase, a: float) -> tuple[float, float]:
     """Return the law's addition to the indentation with the paper's edge, and their sum."""
     edge = {"supported": supported_edge, "clamped": clamped_edge}[case.support]
     more = float(edge(a, case.h, 1.0, case.lam, 1.0)) * a**2 / RADIUS
@@ -288,7 +288,7 @@ def added(case: RemainderCase, a: float) -> tuple[float, float]:
 def remainders(case: RemainderCase, mesh: RemainderMesh) -> list[float]:
     """Return the model error of the law relative to the indentation, by a/b."""
     depths = Field(case, mesh).depths(WIDTHS)
-    laws = [added(case, a) for a in WIDTHS]
+    laws = [edge_contribution(case, a) for a in WIDTHS]
     return [(depth - more) / whole for depth, (more, whole) in zip(depths, laws, strict=True)]
 
 

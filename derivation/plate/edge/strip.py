@@ -27,7 +27,7 @@ import numpy as np
 
 from derivation.engine.files import measurements, write_file
 from derivation.engine.outputs import sorted_json
-from derivation.plate.edge.remainder import Double, Elements, RemainderMesh, factored, heights
+from derivation.plate.edge.remainder import Double, Elements, RemainderMesh, factorised, heights
 
 LENGTH = 6.0
 """Length of the strip over its half-thickness: end effects decay at least like e^(-3.75 x)."""
@@ -49,7 +49,7 @@ class Strip(Elements):
         self.clamped = self.number(np.full_like(ring, self.columns - 1), ring, 0)
         self.free = np.setdiff1d(np.arange(self.size), [self.clamped, self.clamped + 1])
         self.matrix = self.stiffness(2.0 * n / (1.0 - n), round_plate=False)[self.free]
-        self.solver = factored(self.matrix[:, self.free])
+        self.solver = factorised(self.matrix[:, self.free])
 
     def rigid(self, u: Double, w: Double) -> tuple[float, float]:
         """Return turn and level, far away, of the field with this displacement at x = 0."""

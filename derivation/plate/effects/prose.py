@@ -1,4 +1,4 @@
-"""Text of the report about single effects, by link."""
+"""Text of the report about single effects, by derivation step."""
 
 ABOUT = {
     "effects": "Each effect contributes to the slope of the law at equal force. An upper bound of "

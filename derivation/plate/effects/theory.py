@@ -1,12 +1,12 @@
-"""Link 22: bounds of the change of the contact law by each effect, before it is computed.
+"""Step 22: bounds of the change of the contact law by each effect, before it is computed.
 
 All bounds refer to S = (R/2a) d delta/da at equal force, a being the Hertz radius. The half-space
-has S = 1, and every effect adds a contribution. With A = a/h, alpha = a/b and c_1, K_3 of link 18:
+has S = 1, and every effect adds a contribution. With A = a/h, alpha = a/b and c_1, K_3 of step 18:
 
     bending             3/2 A/(4 pi eta^2), exactly
     finite radius       between -(4/pi^2) (kappa_0 alpha + k_3 alpha^3) and 0
     finite thickness    the rest of 3/2 c_1 A - K_3 A^3 <= S - 1 <= 3/2 c_1 A
-    spherical profile   a_H/a - 1 of link 21, between 0 and its value at a/R = a_H/R
+    spherical profile   a_H/a - 1 of step 21, between 0 and its value at a/R = a_H/R
     elastic sphere      s^2 - 1 and at most (s^2 - 1) K A^3 either way, s^3 = 1 + E*/E_1*
 
 Weight. v^2 at equal fractions of the peak indentation is (2/m) [U_m - U - m g (delta_m - delta)],
@@ -74,7 +74,10 @@ def shares() -> Formula:
         "$S - 1$ minus bending, which is linear, and minus the finite radius, between "
         r"$-(4/\pi^2) (\kappa_0 \alpha + k_3 \alpha^3)$ and 0 by "
         r"$\sinh y \le y + (\sinh 1 - 1) y^3$ ...",
-        {"side wall": sp.Rational(3, 2) * first.side * a_ratio - wall.subs(alpha, a_ratio * eta)},
+        {
+            "finite radius": sp.Rational(3, 2) * first.side * a_ratio
+            - wall.subs(alpha, a_ratio * eta)
+        },
     )
     return Formula(
         "S_thickness_most",
@@ -133,7 +136,7 @@ def weight() -> Proof:
 
 
 def effects() -> tuple[Formula, ...]:
-    """Return the formulas of the link; its lemmas are proved as well."""
+    """Return the formulas of the step; its lemmas are proved as well."""
     elastic_sphere()
     weight()
     return bending(), shares()

@@ -7,7 +7,7 @@ from itertools import chain
 import flint
 
 from derivation.engine.measure.case import HardCase
-from derivation.engine.measure.places import about, around, exactly
+from derivation.engine.measure.neighbours import around, case_around, exact_inputs
 from derivation.mathematics.bessel.oracle import j0_zero
 from derivation.plate.cases.steel import LAM, MU
 from derivation.plate.contact.kernels import tables as contact_tables
@@ -37,17 +37,17 @@ def _speed(a: float, h: float, b: float) -> float:
 
 def _sensitivities() -> Iterator[HardCase]:
     reach, b = float(contact_tables.REACH), 10.0
-    given = exactly(**_SPHERE, v0=around(_speed(reach, 1.0, b)), h=1.0, b=b, **_STEEL)
+    given = exact_inputs(**_SPHERE, v0=around(_speed(reach, 1.0, b)), h=1.0, b=b, **_STEEL)
     why = f"the speed that reaches a = {reach:g} h, where the second polynomial comes in"
-    yield about(IMPACTS, "impact_sensitivities", why, given)
+    yield case_around(IMPACTS, "impact_sensitivities", why, given)
     ends = {end for cell in (*contact_tables.CELLS, *contact_tables.FAR_CELLS) for end in cell[:2]}
     for end in sorted(float(end) for end in ends):
         a = 2.5 if end == reach else min(4.5, (reach + end) / 2)
-        given = exactly(**_SPHERE, v0=_speed(a, 1.0, end), h=1.0, b=around(end), **_STEEL)
+        given = exact_inputs(**_SPHERE, v0=_speed(a, 1.0, end), h=1.0, b=around(end), **_STEEL)
         why = f"b = {end:g} h, where other tables take over; the largest a is {a:g} h"
-        yield about(IMPACTS, "impact_sensitivities", why, given)
+        yield case_around(IMPACTS, "impact_sensitivities", why, given)
         if end == contact_tables.FAR_REACH:  # its tables are those of the indentation
-            yield about(IMPACTS, "impact", why, given)
+            yield case_around(IMPACTS, "impact", why, given)
 
 
 def _history() -> Iterator[HardCase]:
@@ -61,7 +61,7 @@ def _history() -> Iterator[HardCase]:
         (float(crossing), f"the time when a = {reach:g} h, where the second polynomial comes in"),
         (float(end) / 2, "the turning point, where the rate changes its sign"),
     ):
-        yield about(IMPACTS, "history", what, exactly(t=around(place), **same))
+        yield case_around(IMPACTS, "history", what, exact_inputs(t=around(place), **same))
 
 
 # --- simple impacts
@@ -71,16 +71,16 @@ def _simple_impacts() -> Iterator[HardCase]:
     inverse = float(simple_impact_tables.THIN)
     thin = f"b = {inverse:g} h, beyond which c_1 is the thin plate's closed form"
     yield from _estimates(thin, 1.0, around(inverse))
-    yield about(SIMPLE, "plate_of", thin, exactly(eta=around(1 / inverse)))
+    yield case_around(SIMPLE, "plate_of", thin, exact_inputs(eta=around(1 / inverse)))
     for mode in (1, 2, 17):
         place = simple_impact_tables.FADED / (2 * float(j0_zero(mode, 80)))
         why = f"h/b = {place:.4g}, beyond which mode {mode} is left out"
-        yield about(SIMPLE, "plate_of", why, exactly(eta=around(place)))
+        yield case_around(SIMPLE, "plate_of", why, exact_inputs(eta=around(place)))
         if mode == 1:
             yield from _estimates(why, around(place), 1.0)
     root = _root()
     why = f"h/b = {root:.4f}, where c_1 passes zero"
-    yield about(SIMPLE, "plate_of", why, exactly(eta=around(root)))
+    yield case_around(SIMPLE, "plate_of", why, exact_inputs(eta=around(root)))
     yield from _estimates(why, around(root), 1.0)
 
 
@@ -91,8 +91,8 @@ def _estimates(
     thickness, radius = (x if isinstance(x, float) else x[0] for x in (h, b))
     speed = _speed(0.1 * min(thickness, radius), thickness, radius)
     for kernel in ("hertz", "leading"):
-        given = exactly(**_SPHERE, v0=speed, h=h, b=b, **_STEEL)
-        yield about(SIMPLE, kernel, why, given)
+        given = exact_inputs(**_SPHERE, v0=speed, h=h, b=b, **_STEEL)
+        yield case_around(SIMPLE, kernel, why, given)
 
 
 def _root() -> float:
@@ -114,9 +114,9 @@ def _paper() -> Iterator[HardCase]:
     for power in (1, 2, 5):
         u = 0.5**power
         place = math.asin(last * (1 - u * u) ** 3) / math.sqrt(xi_2 / m)
-        given = exactly(t=around(place), m=m, v0=v0, xi_2=xi_2, xi_3=xi_3)
+        given = exact_inputs(t=around(place), m=m, v0=v0, xi_2=xi_2, xi_3=xi_3)
         why = f"the time when u = {u:g}, where one panel of the integrals ends"
-        yield about(PAPER, "corrected", why, given)
+        yield case_around(PAPER, "corrected", why, given)
 
 
 CASES = motion_families

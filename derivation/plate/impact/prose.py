@@ -1,4 +1,4 @@
-"""Text of the report about impacts, by link."""
+"""Text of the report about impacts, by derivation step."""
 
 ABOUT = {
     "impact": "The energy integral, the contact time as an integral of an analytic function, and "

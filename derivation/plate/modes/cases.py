@@ -4,7 +4,13 @@ from collections.abc import Iterator, Mapping
 from itertools import chain
 
 from derivation.engine.measure.case import HardCase
-from derivation.engine.measure.places import OFFSETS, about, around, beside, exactly
+from derivation.engine.measure.neighbours import (
+    OFFSETS,
+    around,
+    case_around,
+    exact_inputs,
+    neighbour,
+)
 from derivation.engine.rewrite.automatic import FADES
 from derivation.engine.rewrite.form import FAR, ONCE
 from derivation.mathematics.bessel.oracle import j0_zero
@@ -62,8 +68,8 @@ def _case(
     group: str, kernel: str, why: str, given: Mapping[str, Numbers], modes: int | None = None
 ) -> HardCase:
     """Return a case with the arguments of its function."""
-    own = exactly(**{name: given[name] for name in arguments(kernel)})
-    return about(group, kernel, why, own, modes)
+    own = exact_inputs(**{name: given[name] for name in arguments(kernel)})
+    return case_around(group, kernel, why, own, modes)
 
 
 def _by_depth(kernel: str, T: float, why: str) -> HardCase:
@@ -125,25 +131,25 @@ def _one_plate() -> Iterator[HardCase]:
     ):  # fmt: skip
         for place in places:
             for offset in OFFSETS:
-                x = beside(place, offset)
+                x = neighbour(place, offset)
                 size = {"R": x, "h": 1.0, "b": 2.0} if moved == "R" else {"R": 1.0, "h": x, "b": x}
                 a = 1e-3 * min(size.values())
-                given = exactly(a=a, **size)
+                given = exact_inputs(a=a, **size)
                 cause = f"{offset:+d} ULP from a {what} of {place:g}, beyond which factors are kept"
                 yield HardCase(PLATES, "indentation", f"{cause} in range.", given)
     for place in _USUAL:
         for offset in OFFSETS:
-            h = beside(place, offset)
-            given = exactly(a=1e-3 * min(h, 1.0), R=50.0, h=h, b=1.0)
+            h = neighbour(place, offset)
+            given = exact_inputs(a=1e-3 * min(h, 1.0), R=50.0, h=h, b=1.0)
             cause = f"{offset:+d} ULP from h/b = {place:g}, beyond which factors are kept in range"
             yield HardCase(PLATES, "indentation", f"{cause}.", given)
     count = 30
     for offset in OFFSETS:
-        b = beside(count / _DIRECT, offset)
+        b = neighbour(count / _DIRECT, offset)
         cause = (
             f"{offset:+d} ULP from b = {count / _DIRECT:.4g} h, where the direct sum takes a mode"
         )
-        given = exactly(a=6.5, R=50.0, h=1.0, b=b)
+        given = exact_inputs(a=6.5, R=50.0, h=1.0, b=b)
         yield HardCase(PLATES, "indentation", f"{cause} more.", given)
 
 

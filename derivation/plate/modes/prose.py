@@ -1,4 +1,4 @@
-"""Text of the report about one mode of the plate, by link."""
+"""Text of the report about one mode of the plate, by derivation step."""
 
 ABOUT = {
     "equilibrium": r"One mode of the plate is $u = g(z) \phi J_1(\phi r)$, "

@@ -1,4 +1,4 @@
-"""Text of the report about elastic-plastic contact, by link."""
+"""Text of the report about elastic-plastic contact, by derivation step."""
 
 ABOUT = {
     "plasticity": "In the model of Thornton (1997) the pressure cannot exceed $1.6 Y$, where "

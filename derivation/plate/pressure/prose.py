@@ -1,4 +1,4 @@
-"""Text of the report about the non-Hertzian pressure, by link."""
+"""Text of the report about the non-Hertzian pressure, by derivation step."""
 
 ABOUT = {
     "contact pressure": "The pressure is computed instead of assumed: it is Abel's transform of "

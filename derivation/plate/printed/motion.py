@@ -9,7 +9,7 @@ from math import factorial
 from derivation.engine.errata.findings import Printed
 from derivation.plate.printed.contact import printed
 
-_CUT = "the sum cut after its second term"
+_TRUNCATION = "the sum truncated after its second term"
 
 
 @dataclass(frozen=True)
@@ -55,14 +55,14 @@ PRINTED_MOTION = (
         "11", "acceleration", r"\ddot{\delta}(t)",
         r"-\frac{1}{m} \left( \xi_2 \delta(t)^{\frac{3}{3}}"
         r" + \xi_3 \delta(t)^{\frac{5}{3}} \right)",
-        says=_CUT,
+        says=_TRUNCATION,
         full=r"-\frac{1}{m} \sum_{k=2}^{\infty} \xi_k \delta(t)^{\frac{2k-1}{3}}",
     ),
     printed(
         "13", "speed", r"\dot{\delta}(t)",
         r"\sqrt{v_0^2 - \frac{3}{m} \left( \frac{\xi_2}{3} \delta(t)^{\frac{6}{3}}"
         r" + \frac{\xi_3}{4} \delta(t)^{\frac{8}{3}} \right)}",
-        says=_CUT,
+        says=_TRUNCATION,
         full=r"\sqrt{v_0^2 - \frac{3}{m} \sum_{k=2}^{\infty} \frac{\xi_k}{k+1}"
         r" \delta(t)^{\frac{2(k+1)}{3}}}",
     ),

@@ -1,1 +1,1 @@
-"""What only this paper's report has: sections, tables and figures."""
+"""Parts of the report that only this paper has: sections, tables and figures."""

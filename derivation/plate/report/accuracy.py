@@ -7,13 +7,13 @@ from typing import Any, Literal
 from derivation.engine.report.hard import error as power
 from derivation.engine.report.latex import escape, prose
 from derivation.plate.benchmark.interface import TIE
-from derivation.plate.benchmark.panels import SLOW
+from derivation.plate.benchmark.panels import SLOW_CALL
 from derivation.plate.report.accuracy_figures import KINDS, TASKS
 
 Data = Mapping[str, Any]
 
 UNITS = ((1.0, "s"), (1e-3, "ms"), (1e-6, r"$\mu$s"), (1e-9, "ns"))
-WANTED = 12
+REQUIRED_DIGITS = 12
 """Number of digits required of the direct sum."""
 
 
@@ -183,8 +183,8 @@ def headline(found: Data) -> dict[str, Any]:
         "best": best["digits"],
         "modes": power(best["modes"]),
         "seconds": duration(best["seconds"]),
-        "reached": best["digits"] >= WANTED,
-        "wanted": WANTED,
+        "reached": best["digits"] >= REQUIRED_DIGITS,
+        "wanted": REQUIRED_DIGITS,
         "setup": duration(found["setup"]),
         "per_mode": duration(found["per_mode"]),
         "digits": digits(found["digits"]),
@@ -201,7 +201,7 @@ def run(data: Data) -> dict[str, Any]:
     return {
         "quick": found["quick"],
         "rounds": found["rounds"],
-        "slow": duration(SLOW),
+        "slow": duration(SLOW_CALL),
         "sessions": len(data["sessions"]),
         "busy": len(busy),
         "limit": f"{found['contended']:g}",

@@ -51,7 +51,9 @@ def work_precision(data: Mapping[str, Any], task: str, kind: str) -> Figure:
         figure = Figure(figsize=(6.5, 4.5), layout="constrained")
         *axes, legend = figure.subplots(2, 3, sharex=True).flat
         for ax, regime in zip(axes, data["regimes"], strict=True):
-            shown = [row for row in rows if row["regime"] == regime["name"] and drawn(row, kind)]
+            shown = [
+                row for row in rows if row["regime"] == regime["name"] and is_plotted(row, kind)
+            ]
             draw_panel(ax, shown, kind, colours)
             ax.set_title(f"{regime['name']}, h/b = {regime['h'] / regime['b']:g}", fontsize=8)
         for ax in axes[2:]:
@@ -69,7 +71,7 @@ def work_precision(data: Mapping[str, Any], task: str, kind: str) -> Figure:
     return figure
 
 
-def drawn(row: Row, kind: str) -> bool:
+def is_plotted(row: Row, kind: str) -> bool:
     """Return whether a row has both digits and a time."""
     return row["fails"] is None and row["errors"] is not None and row[kind] is not None
 

@@ -13,9 +13,9 @@ import sympy as sp
 
 from derivation.engine.errata.findings import Finding
 from derivation.engine.formula.record import Record
+from derivation.engine.report.contexts import finding_context
 from derivation.engine.report.latex import unit as in_latex
 from derivation.engine.report.numbers import number
-from derivation.engine.report.pieces import finding_context
 from derivation.plate.printed.motion import PrintedPower, PrintedSeries
 from derivation.plate.vocabulary import BY_NAME, J1, A_j, k, phi
 from derivation.scene.model import Model
@@ -24,7 +24,7 @@ from generated.contact_series import plate_coefficients
 from generated.impact import impact
 
 MODES = 400
-CUTS = (100, MODES)
+TRUNCATIONS = (100, MODES)
 """Numbers of modes after which divergent sums are truncated."""
 Point = Mapping[sp.Symbol, float]
 
@@ -83,7 +83,7 @@ class Consequences:
         if isinstance(finding.printed, PrintedPower):
             return self._power(printed, derived)
         if isinstance(finding.printed, PrintedSeries):
-            cut = [rf"{number(self.summed(printed, modes))} with {modes}" for modes in CUTS]
+            cut = [rf"{number(self.summed(printed, modes))} with {modes}" for modes in TRUNCATIONS]
             right = number(self.value(derived))
             return f"cut off, the sum is {' and '.join(cut)} modes, in place of {right} {unit}"
         if finding.formula.summed:
@@ -120,7 +120,7 @@ class Consequences:
         }  # fmt: skip
 
 
-def misprinted(findings: Sequence[Finding]) -> set[str]:
+def misprint_names(findings: Sequence[Finding]) -> set[str]:
     """Return the names of the formulas with a misprint."""
     return {finding.printed.name for finding in findings if finding.is_misprint}
 

@@ -70,12 +70,12 @@ def figures(case: Model, impact_of: Result, gamma_2: float) -> dict[str, Figure]
         "setup": draw_setup,
         "divergence": lambda figure, case: draw_divergence(figure, case, gamma_2),
     }
-    found = {name: _drawn(draw, case) for name, draw in drawings.items()}
+    found = {name: _figure(draw, case) for name, draw in drawings.items()}
     with mpl.rc_context({"font.family": "serif"}):
         return found | {"map": scene_map(impact_of, impact_of.effects.rtol)}
 
 
-def _drawn(draw: Callable[[Figure, Model], None], case: Model) -> Figure:
+def _figure(draw: Callable[[Figure, Model], None], case: Model) -> Figure:
     """Return a figure in the style of the report, drawn by a function."""
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(6.3, 3.1), layout="constrained")

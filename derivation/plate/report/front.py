@@ -10,7 +10,7 @@ from derivation.engine.report.hard import error as power
 from derivation.engine.report.latex import code, escape
 from derivation.plate.judge import PACKAGE
 from derivation.plate.report.accuracy import digits, duration
-from derivation.plate.report.consequence import misprinted
+from derivation.plate.report.consequence import misprint_names
 from derivation.plate.report.content import loses, published_errors
 from derivation.plate.report.figures import TRUNCATIONS, corrected_impact, linear_impact
 from derivation.scene.model import Model
@@ -24,7 +24,7 @@ Data = Mapping[str, Any]
 
 
 def front_context(
-    links: Sequence[tuple[str, Sequence[Record]]],
+    steps: Sequence[tuple[str, Sequence[Record]]],
     findings: Sequence[Finding],
     measured: Mapping[str, Data],
     sources: Mapping[str, str],
@@ -35,7 +35,7 @@ def front_context(
     versions = sorted((k, v) for k, v in provenance.items() if k not in ("digits", "generated"))
     return {
         "subtitle": SUBTITLE,
-        "stages": [" & ".join(row) for row in stages(links, findings, measured, sources)],
+        "stages": [" & ".join(row) for row in stages(steps, findings, measured, sources)],
         "versions": ", ".join(f"{escape(name)} {escape(value)}" for name, value in versions),
         "generated": generated_hash(PACKAGE)[:16],
         **_misprints_in_short(findings, case),
@@ -63,7 +63,7 @@ def _misprints_in_short(findings: Sequence[Finding], case: Model) -> dict[str, A
 
 def _stability_in_short(findings: Sequence[Finding], rows: Sequence[Data]) -> dict[str, Any]:
     """Return the number of formulas that lose digits as published, and the budget used [%]."""
-    published = list(published_errors(rows, misprinted(findings)))
+    published = list(published_errors(rows, misprint_names(findings)))
     used = max(row["double"]["ratio"] for row in rows if row["passed"] is not None)
     lost = [loses(row) and not loses(generated) for row, generated in published]
     return {"unstable": sum(lost), "evaluated": len(lost), "used": f"{100 * used:.0f}"}
@@ -81,18 +81,18 @@ def _cost_in_short(found: Data) -> dict[str, Any]:
 
 
 def stages(
-    links: Sequence[tuple[str, Sequence[Record]]],
+    steps: Sequence[tuple[str, Sequence[Record]]],
     findings: Sequence[Finding],
     measured: Mapping[str, Data],
     sources: Mapping[str, str],
 ) -> Iterator[tuple[str, str]]:
     """Yield table rows: each command with the numbers of its result."""
-    formulas = [formula for _, found in links for formula in found]
+    formulas = [formula for _, found in steps for formula in found]
     residuals = {(f.proof.step, name) for f in formulas for name in f.proof.residuals}
     yield (
         code("derive"),
         (
-            f"{len(formulas)} formulas in {len(links)} steps, each proved; {len(residuals)} "
+            f"{len(formulas)} formulas in {len(steps)} steps, each proved; {len(residuals)} "
             "residuals reduced to zero"
         ),
     )
@@ -132,7 +132,7 @@ def checks(measured: Mapping[str, Data]) -> Iterator[tuple[str, str]]:
         ),
     )
     cases = measured["hard"]["cases"]
-    failed = sum(not case["kept"] for case in cases)
+    failed = sum(not case["passed"] for case in cases)
     yield code("check hard-cases"), f"{len(cases)} hard cases, {failed or 'none'} failed"
     if "bounds" in measured:
         runs = sum(row["runs"] for row in measured["bounds"]["rows"])
@@ -151,7 +151,7 @@ def checks(measured: Mapping[str, Data]) -> Iterator[tuple[str, str]]:
         f"{len(moving['rows'])} impacts on plates with inertia, {used(worst, 'bound')}",
     )
     rows = measured["speed"]["rows"]
-    kept = sum(row["kept"] for row in rows)
+    kept = sum(row["passed"] for row in rows)
     yield code("check timing"), f"{len(rows)} times measured, {kept} within their limits"
     rows = measured["accuracy"]["rows"]
     methods = {(row["task"], row["family"]) for row in rows}

@@ -37,17 +37,17 @@ def listings_context(sources: Mapping[str, str], formulas: Mapping[str, Record])
                 "module": module,
                 "meaning": formulas[name].meaning,
                 "body": body(formulas[name]),
-                "code": source_of(sources[module], name),
+                "code": function_source(sources[module], name),
             }
             for name, module in SHOWN.items()
         ],
-        "law": [source_of(sources[module], name) for name, module in LAW.items()],
+        "law": [function_source(sources[module], name) for name, module in LAW.items()],
         "lines": sum(text.count("\n") for text in sources.values()),
         "modules": len(sources),
     }
 
 
-def source_of(text: str, name: str) -> str:
+def function_source(text: str, name: str) -> str:
     """Return the source of a function without its docstring.
 
     Raises

@@ -14,7 +14,7 @@ END = "<!-- end of what was measured -->"
 DIGITS = (3, 6, 9, 12, 15)
 
 
-def renewed(text: str, data: Data) -> str:
+def updated_readme(text: str, data: Data) -> str:
     """Return the text of a README with a new block between its markers.
 
     Raises

@@ -6,7 +6,7 @@ from typing import Any
 
 from derivation.engine.report.latex import escape
 
-RENEWED = {
+UPDATE_COMMANDS = {
     "accuracy": "platecontact benchmark --update",
     "bounds": "platecontact check error-bounds -n 2000 --update",
     "check": "platecontact check --update",
@@ -32,7 +32,7 @@ def reproducibility_context(
     return {
         "files": [file_row(name, content) for name, content in sorted(data.items())],
         "provenance": [
-            {"name": f"{name}.json", "says": ", ".join(_said(values))}
+            {"name": f"{name}.json", "says": ", ".join(_provenance_text(values))}
             for name, values in sorted(measured.items())
             if values.keys() & {"provenance", "machine"}
         ],
@@ -41,13 +41,13 @@ def reproducibility_context(
 
 def file_row(name: str, content: bytes) -> str:
     """Return name, command, size and hash."""
-    command = escape(RENEWED.get(name, "")).replace("--", "-{}-")
+    command = escape(UPDATE_COMMANDS.get(name, "")).replace("--", "-{}-")
     digest = hashlib.sha256(content).hexdigest()[:DIGITS]
     shown = rf"\texttt{{{command}}}" if command else "see CONTRIBUTING.md"
     return rf"\texttt{{{escape(name)}.json}} & {shown} & {len(content)} & \texttt{{{digest}}}"
 
 
-def _said(values: Mapping[str, Any]) -> Iterator[str]:
+def _provenance_text(values: Mapping[str, Any]) -> Iterator[str]:
     for key in ("provenance", "machine"):
         for name, value in sorted(values.get(key, {}).items()):
             short = str(value)[:DIGITS] if name == "generated" else str(value)

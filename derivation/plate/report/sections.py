@@ -8,24 +8,24 @@ from typing import Any
 
 from derivation.engine.errata.findings import Finding
 from derivation.engine.formula.record import Record
-from derivation.engine.report import pieces
+from derivation.engine.report import contexts
 from derivation.engine.report.arithmetic import arithmetic_context
 from derivation.engine.report.document import Parts, Plan
 from derivation.engine.report.hard import hard_context
 from derivation.engine.report.latex import environment
 from derivation.engine.report.numbers import number, rounded
 from derivation.engine.rewrite.account import ENDS
-from derivation.plate.budgets import counted
+from derivation.plate.budgets import counted_modules
 from derivation.plate.contact.cases.grid import RATIOS, THICKNESSES
 from derivation.plate.report import content
 from derivation.plate.report.accuracy import accuracy_context
-from derivation.plate.report.consequence import Consequences, misprinted, misprints_context
+from derivation.plate.report.consequence import Consequences, misprint_names, misprints_context
+from derivation.plate.report.dynamic_benchmark import dynamic_benchmark_context
 from derivation.plate.report.elastodynamics import elastodynamics_context
 from derivation.plate.report.figures import motion_context
 from derivation.plate.report.front import TITLE, front_context
 from derivation.plate.report.inertia import inertia_context
 from derivation.plate.report.listings import listings_context
-from derivation.plate.report.moving import moving_context
 from derivation.plate.report.prose import ABOUT, FACTOR, REFERENCES
 from derivation.plate.report.reproducibility import reproducibility_context
 from derivation.plate.report.scenes import effects_context
@@ -41,7 +41,7 @@ class Material:
 
     Attributes
     ----------
-    links
+    steps
         The derivation steps with their formulas.
     findings
         The comparison of each published formula with the derived one.
@@ -59,7 +59,7 @@ class Material:
         Version of this program, and title of the paper.
     """
 
-    links: Sequence[tuple[str, Sequence[Record]]]
+    steps: Sequence[tuple[str, Sequence[Record]]]
     findings: Sequence[Finding]
     data: Mapping[str, bytes]
     measured: Mapping[str, Mapping[str, Any]]
@@ -72,14 +72,14 @@ class Material:
     @cached_property
     def formulas(self) -> dict[str, Record]:
         """All formulas by name."""
-        return {formula.name: formula for _, found in self.links for formula in found}
+        return {formula.name: formula for _, found in self.steps for formula in found}
 
 
 def _derivation(material: Material) -> dict[str, Any]:
     return {
         "navier": content.navier(),
         "roots": content.roots_context(material.formulas),
-        **pieces.derivation_context(material.links, PROSE),
+        **contexts.derivation_context(material.steps, PROSE),
     }
 
 
@@ -90,7 +90,7 @@ def _misprints(material: Material) -> dict[str, Any]:
         "motion": motion_context(material.case),
         "cancellation": list(
             content.cancellation_rows(
-                material.measured["check"]["rows"], misprinted(material.findings)
+                material.measured["check"]["rows"], misprint_names(material.findings)
             )
         ),
     }
@@ -127,7 +127,7 @@ def _accuracy(material: Material) -> dict[str, Any]:
     check = material.measured["check"]
     return {
         "elements": elastodynamics_context(material.measured["elastodynamics"]),
-        "tables": list(pieces.accuracy_tables(check)),
+        "tables": list(contexts.accuracy_tables(check)),
         "digits": check["provenance"]["digits"],
     }
 
@@ -135,7 +135,7 @@ def _accuracy(material: Material) -> dict[str, Any]:
 def _rewriting(material: Material) -> dict[str, Any]:
     rows = material.measured["rewrite"]["rows"]
     return {
-        "rewrites": [line for row in rows for line in pieces.rewrite_rows(row)],
+        "rewrites": [line for row in rows for line in contexts.rewrite_rows(row)],
         "ends": [rounded(end) for end in ENDS],
     }
 
@@ -143,7 +143,7 @@ def _rewriting(material: Material) -> dict[str, Any]:
 def _methods(material: Material) -> dict[str, Any]:
     return {
         "cost": accuracy_context(material.measured["accuracy"]),
-        "moving": moving_context(material.measured["moving"]),
+        "moving": dynamic_benchmark_context(material.measured["moving"]),
     }
 
 
@@ -157,22 +157,22 @@ def _speed(material: Material) -> dict[str, Any]:
 
 
 TEMPLATES = Path(__file__).parent / "templates"
-PROSE = pieces.Prose(ABOUT, REFERENCES, FACTOR)
+PROSE = contexts.Prose(ABOUT, REFERENCES, FACTOR)
 CONTEXTS: dict[str, Callable[[Material], dict[str, Any]]] = {
     "misprints": _misprints,
-    "symbols": lambda _: pieces.symbols_context(PLATE),
+    "symbols": lambda _: contexts.symbols_context(PLATE),
     "law": lambda m: {"law": law_context(m.formulas)},
     "motion": lambda m: {"motion": motion_context(m.case)},
     "effects": _effects,
     "work-precision": _methods,
     "stability": _stability,
     "derivation": _derivation,
-    "published": lambda m: pieces.misprints_context(m.findings),
+    "published": lambda m: contexts.misprints_context(m.findings),
     "scenes": lambda m: {"effects": effects_context(m.scenes)},
     "rewriting": _rewriting,
     "code": lambda m: {
         "code": listings_context(m.sources, m.formulas),
-        "arithmetic": arithmetic_context(counted(m.sources)),
+        "arithmetic": arithmetic_context(counted_modules(m.sources)),
     },
     "accuracy": _accuracy,
     "methods": _methods,
@@ -192,7 +192,7 @@ def parts(material: Material, shown: Sequence[str]) -> Parts:
         version=material.version,
         citation=material.citation,
         front=front_context(
-            material.links, material.findings, material.measured, material.sources, material.case
+            material.steps, material.findings, material.measured, material.sources, material.case
         ),
     )
     sections = {

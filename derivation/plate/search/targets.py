@@ -16,11 +16,11 @@ from derivation.engine.measure.kernels import Kernel
 from derivation.engine.measure.point import Point
 from derivation.engine.measure.target import Domain, Numbers, Target, measure_by
 from derivation.engine.nearest import did_you_mean
-from derivation.engine.oracle.reference import Reference, unsized
+from derivation.engine.oracle.reference import Reference, exact_reference
 from derivation.plate.contact.cases.reference_values import tolerance
 from derivation.plate.impact.oracle.agreement import FIRST
 from derivation.plate.judge import JUDGE, generated_kernels
-from derivation.plate.oracle import truth
+from derivation.plate.oracle import certified_value
 from derivation.plate.search.draw import (
     CONTACTS,
     LAW,
@@ -110,12 +110,12 @@ def _law_target(name: str) -> Target:
 
     def references(point: Point) -> list[Reference] | None:
         given = tuple(point.values[key] for key in domain.arguments)
-        balls = _true(name, given, domain.arguments)
+        balls = _reference_values(name, given, domain.arguments)
         if balls is None:
             return None
         scaled = name in ("indentation", "contact_radius", "stiffness")
         scale = tolerance(name, given, float(balls[0])) if scaled else 1.0
-        return [unsized(ball, scale) for ball in balls]
+        return [exact_reference(ball, scale) for ball in balls]
 
     share, every = _SHARES.get(name, _SHARE)
     measure = measure_by(references, ULP_OF_LAW)
@@ -123,11 +123,13 @@ def _law_target(name: str) -> Target:
 
 
 @lru_cache(maxsize=8)
-def _true(name: str, given: Sequence[Any], keys: tuple[str, ...]) -> tuple[arb, ...] | None:
+def _reference_values(
+    name: str, given: Sequence[Any], keys: tuple[str, ...]
+) -> tuple[arb, ...] | None:
     """Return the Arb balls; None where the contact is wider than the domain of the functions."""
     values = dict(zip(keys, given, strict=True))
     if name == "force_of_radius":
-        return (truth("P", values, _OF_LAW),)
+        return (certified_value("P", values, _OF_LAW),)
     found = FIRST[name](*given, digits=_OF_LAW)
     balls = tuple(found) if name == "impact" else (found,)
     if name in ("indentation", "stiffness"):

@@ -1,4 +1,4 @@
-"""Text of the report about viscoelastic contacts, by link."""
+"""Text of the report about viscoelastic contacts, by derivation step."""
 
 ABOUT = {
     "viscosity": "In a viscoelastic contact (Kuwabara-Kono) the indentation lags the force; "

@@ -1,9 +1,9 @@
-"""Arb reference of plate waves: B_a and B_s of link 26 in ball arithmetic.
+"""Arb reference of plate waves: B_a and B_s of step 26 in ball arithmetic.
 
     B = -(2/kap) [(2 x^2 - kap)^2 t(p)/p - 4 x^2 q t(q)],   t = tanh for B_a, coth for B_s,
 
 with complex p and q, for squares of either sign. A zero of B is enclosed by two numbers at which
-B is certainly positive and negative. Between two poles B decreases (link 26), so there is only one.
+B is certainly positive and negative. Between two poles B decreases (step 26), so there is only one.
 Slopes come from the same expression by arithmetic of power series.
 """
 
@@ -35,22 +35,22 @@ def influence(x: Exact, kap: Exact, nu: Exact, digits: int = 30) -> tuple[arb, a
     digits
         Correct decimal digits required of the balls.
     """
-    places = _beside(Fraction(x), Fraction(kap), digits)
+    places = _next_to_cutoff(Fraction(x), Fraction(kap), digits)
 
     def between(kind: str) -> arb:
         values = [1 / _value(kind, x, to_ball(place), nu) for place in places]
         return values[0].union(values[-1])
 
     def compliance(kind: str) -> arb:
-        return _settled(x, digits, lambda: between(kind))
+        return _refined(x, digits, lambda: between(kind))
 
     return compliance(KINDS[0]), compliance(KINDS[1])
 
 
-def _beside(x: Fraction, kap: Fraction, digits: int) -> list[Fraction]:
+def _next_to_cutoff(x: Fraction, kap: Fraction, digits: int) -> list[Fraction]:
     """Return kap, or two numbers around it where the expression has only a limit, at 0 and x^2.
 
-    1/B increases with kap wherever it is finite (link 26), and varies on the scale of the waves.
+    1/B increases with kap wherever it is finite (step 26), and varies on the scale of the waves.
     """
     if kap not in (0, x * x):
         return [kap]
@@ -102,7 +102,7 @@ def zero(x: Exact, nu: Exact, kind: str = KINDS[0], index: int = 0, digits: int 
     PrecisionError
         If two poles are too close for the sign of B between them to be determined.
     """
-    return _settled(x, digits, lambda: _zero(kind, x, nu, index, digits))
+    return _refined(x, digits, lambda: _zero(kind, x, nu, index, digits))
 
 
 def residue(x: Exact, nu: Exact, kind: str = KINDS[0], index: int = 0, digits: int = 30) -> arb:
@@ -111,11 +111,11 @@ def residue(x: Exact, nu: Exact, kind: str = KINDS[0], index: int = 0, digits: i
     def compute() -> arb:
         return -1 / _slope(kind, x, _zero(kind, x, nu, index, _finer(x, digits)), nu)
 
-    return _settled(x, digits, compute)
+    return _refined(x, digits, compute)
 
 
 def share(x: Exact, nu: Exact, digits: int = 30) -> arb:
-    """Return the fraction of A0 in the static deflection, C = 2 G(2 x)/(E* phi) by link 7."""
+    """Return the fraction of A0 in the static deflection, C = 2 G(2 x)/(E* phi) by step 7."""
 
     def compute() -> arb:
         kap = _zero(KINDS[0], x, nu, 0, _finer(x, digits))
@@ -124,10 +124,10 @@ def share(x: Exact, nu: Exact, digits: int = 30) -> arb:
         at_rest = G / (2 * (1 - _gam(nu)) * to_ball(x))
         return -1 / _slope(KINDS[0], x, kap, nu) / kap / at_rest
 
-    return _settled(x, digits, compute)
+    return _refined(x, digits, compute)
 
 
-def _settled(x: Exact, digits: int, compute: Callable[[], arb]) -> arb:
+def _refined(x: Exact, digits: int, compute: Callable[[], arb]) -> arb:
     """Repeat with more bits until the ball is narrow.
 
     For thin plates up to eight powers cancel; for large x all branches are near x^2.

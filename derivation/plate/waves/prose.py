@@ -1,4 +1,4 @@
-"""Text of the report about waves of the plate, by link."""
+"""Text of the report about waves of the plate, by derivation step."""
 
 ABOUT = {
     "plate motion": "The law is static. These parameters show when plate inertia matters.",
@@ -13,7 +13,7 @@ ABOUT = {
     "load, for short waves it is Rayleigh's wave. Its part $y$ of the face's "
     r"deflection obeys $y'' + \omega_0^2 y = r_0 A_j$. Here $\xi = \kappa/x^2$ "
     r"and $w = 1 - \xi$.",
-    "closure": "A plate with inertia is a set of modes $q_j$ of static compliance $c_j$. "
+    "coupling": "A plate with inertia is a set of modes $q_j$ of static compliance $c_j$. "
     r"The modal force is the part $P_j$ of the force. With $z = D + \sum s_j q_j$, "
     r"$s_j = dP_j/dP$ and $D = \delta - \sum c_j P_j s_j$ energy is conserved "
     r"for any static law: $\int P dD + \sum q_j (P s_j - P_j)$ is that of the contact. "

@@ -34,4 +34,4 @@ class FiniteRadius(PlateEffect):
 
     def contribution(self, model: Model, a: Array) -> Contribution:
         """Return the contribution by its power series."""
-        return Contribution(*kernels.side_wall(a / model.b))
+        return Contribution(*kernels.finite_radius(a / model.b))

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from derivation.engine.emit.budgets import Budget
-from derivation.engine.emit.copies import copied, listed_functions
+from derivation.engine.emit.copies import copy_text, listed_functions
 from derivation.engine.emit.package import RUNTIME
 from derivation.engine.emit.tables import literal
 from derivation.engine.files import ROOT
@@ -68,7 +68,7 @@ def _code(text: str) -> str:
 def test_docstring_of_a_copy_states_budget_and_domain(tmp_path: Path) -> None:
     file = tmp_path / "double.py"
     file.write_text(MODULE)
-    text = copied(file, "generated", "# From here.", {"twice": Budget(2.0, "the value")})
+    text = copy_text(file, "generated", "# From here.", {"twice": Budget(2.0, "the value")})
     assert "from .arrays import" in text
     assert "from . import blocks" in text
     docstring = ast.get_docstring(ast.parse(text).body[-1]) or ""  # type: ignore[arg-type]
@@ -79,7 +79,7 @@ def test_docstring_of_a_copy_states_budget_and_domain(tmp_path: Path) -> None:
 def test_notes_are_added_to_functions_without_a_budget(tmp_path: Path) -> None:
     file = tmp_path / "double.py"
     file.write_text(MODULE.replace('@in_manifest(r"2\\,x", domain="x > 0")\n', ""))
-    text = copied(file, "generated", "# From here.", {}, {"twice": ("Exact.",)})
+    text = copy_text(file, "generated", "# From here.", {}, {"twice": ("Exact.",)})
     docstring = ast.get_docstring(ast.parse(text).body[-1]) or ""  # type: ignore[arg-type]
     assert docstring.endswith("Notes\n-----\nExact.")
 

@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mutants import of_expression
 
-from derivation.engine.emit.package import Routines, written
+from derivation.engine.emit.package import Routines, module_files
 from derivation.engine.emit.routine import (
     QUIET_SCALARS,
     SCALARS,
@@ -125,8 +125,8 @@ def test_unused_arguments_and_unknown_functions_are_rejected() -> None:
         routine("same", (x, y), (), (x,), (x,), "x.", {})
     called = routine("called", (x,), (Several((t,), "other", (x,), (x,)),), (t,), (x,), "x.", {})
     with pytest.raises(ValueError, match="expected modules for other"):
-        written([Routines("part", "A part.", (called,), {})])
-    built = written([Routines("part", "A part.", (called,), {"beside": ("other", "idle")})])
+        module_files([Routines("part", "A part.", (called,), {})])
+    built = module_files([Routines("part", "A part.", (called,), {"beside": ("other", "idle")})])
     assert "from .beside import other\n" in built["part.py"]
 
 

@@ -2,14 +2,14 @@
 
 import pytest
 
-from derivation.engine.emit.share import (
-    expect_growth,
+from derivation.engine.emit.printed_fraction import (
+    arithmetic_of_modules,
+    expect_printed_fraction,
     expect_reason,
     operations,
-    printed_share,
-    shares,
+    printed_fraction,
 )
-from derivation.plate.budgets import counted, read_printed_share
+from derivation.plate.budgets import counted_modules, read_printed_share
 from derivation.plate.paper import PAPER
 
 BY_HAND = '''"""A sum.
@@ -31,15 +31,15 @@ def test_operations_are_counted() -> None:
 
 
 def test_hand_written_module_is_recognised_by_its_docstring() -> None:
-    found = shares({"by_hand": BY_HAND, "printed": "y = a * b\n", "none": "y = 1\n"})
+    found = arithmetic_of_modules({"by_hand": BY_HAND, "printed": "y = a * b\n", "none": "y = 1\n"})
     assert [(module.module, module.operations, module.printed) for module in found] == [
         ("by_hand", 2, False), ("printed", 1, True),
     ]  # fmt: skip
     assert found[0].reason == "one product and one sum."
-    assert printed_share(found) == 1 / 3
-    expect_growth(found, 1 / 3)
+    assert printed_fraction(found) == 1 / 3
+    expect_printed_fraction(found, 1 / 3)
     with pytest.raises(ValueError, match=r"at least 40\.0 % .*, got 33\.3 %"):
-        expect_growth(found, 0.4)
+        expect_printed_fraction(found, 0.4)
 
 
 def test_module_with_arithmetic_must_give_a_reason() -> None:
@@ -52,7 +52,7 @@ def test_module_with_arithmetic_must_give_a_reason() -> None:
 def test_committed_fraction_agrees_with_the_package() -> None:
     files = PAPER.package_folder.glob("*.py")
     sources = {path.stem: path.read_text() for path in files}
-    fraction = printed_share(shares(counted(sources)))
+    fraction = printed_fraction(arithmetic_of_modules(counted_modules(sources)))
     assert read_printed_share() <= fraction < read_printed_share() + 0.01, (
         "raise `[package] printed` in budgets.toml"
     )

@@ -10,8 +10,8 @@ import sympy as sp
 
 from derivation.cli import main
 from derivation.engine.errata.compare import comparable
-from derivation.engine.errata.point import default_value, exact, parse_point
-from derivation.engine.formula.domain import broken, holds
+from derivation.engine.errata.point import default_value, exact_values, parse_point
+from derivation.engine.formula.domain import holds, violated_conditions
 from derivation.engine.formula.parse import FormulaError
 from derivation.plate.derived import formulas as derived_formulas
 from derivation.plate.elastic import RELATIONS, diagnose_text, lame, relations
@@ -65,7 +65,7 @@ def test_quantities_that_cannot_be_compared_are_rejected() -> None:
 def test_every_symbol_has_a_default_value_in_its_domain() -> None:
     for argument in ARGUMENTS:
         value = Fraction(default_value(argument, PLATE.values))
-        assert not broken(argument.domain, {argument.symbol: value}), argument.name
+        assert not violated_conditions(argument.domain, {argument.symbol: value}), argument.name
 
 
 # --- Young's modulus and Poisson's ratio
@@ -144,7 +144,7 @@ def test_conditions_are_tested_exactly() -> None:
     third = Fraction(1, 3)
     assert holds("a < b", {a: third, b: third + Fraction(1, 10**60)})
     assert not holds("a < b", {a: third, b: third})
-    assert broken(("a < b", "a > 0"), {a: Fraction(-1)}) == ["a > 0"]
+    assert violated_conditions(("a < b", "a > 0"), {a: Fraction(-1)}) == ["a > 0"]
     for wrong in ("a + b", "a < b"):
         with pytest.raises(ValueError, match=r"expected a (comparison|value)"):
             holds(wrong, {a: third})
@@ -169,7 +169,7 @@ def test_evaluation_points_are_parsed_or_rejected() -> None:
         with pytest.raises(FormulaError, match="--at: expected"):
             parse_point(text)
     with pytest.raises(FormulaError, match="lam once, got it twice"):
-        exact({"lam": "1", "lambda": "2"}, PLATE, RELATIONS)
+        exact_values({"lam": "1", "lambda": "2"}, PLATE, RELATIONS)
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ import sympy as sp
 from derivation.engine.errata import compare, position, repairs, sample
 from derivation.engine.errata.dimensions import unit_name
 from derivation.engine.errata.edit import factor_pool, single_edits, term_pool
-from derivation.engine.errata.position import FACTOR, TERM, TERMS, Position, inner
+from derivation.engine.errata.position import FACTOR, TERM, TERMS, Position, inner_positions
 from derivation.engine.errata.variant import TWICE, VariantSearch
 from derivation.engine.formula.dimension import Dimension
 from derivation.engine.formula.parse import FormulaError
@@ -142,13 +142,15 @@ def test_no_correction_is_reported_for_an_unrelated_formula() -> None:
 
 def test_groups_of_terms_are_edited_only_in_short_sums() -> None:
     short, long = (sp.Add(*(phi**k for k in range(1, n + 1))) for n in (3, position.MAX_TERMS + 1))
-    roles = [[part.role for part in inner(Position(total))] for total in (short, long)]
+    roles = [[part.role for part in inner_positions(Position(total))] for total in (short, long)]
     assert (roles[0].count(TERM), roles[0].count(TERMS)) == (3, 3)
     assert roles[1] == [TERM] * (position.MAX_TERMS + 1)
 
 
 def test_one_of_several_equal_factors_can_be_replaced() -> None:
-    (factor,) = (part for part in inner(Position(1 / (a + b) ** 3)) if part.role == FACTOR)
+    (factor,) = (
+        part for part in inner_positions(Position(1 / (a + b) ** 3)) if part.role == FACTOR
+    )
     assert factor.put(a - b) == 1 / ((a + b) ** 2 * (a - b))
 
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from derivation.engine.formula.ulp import SINGLE
 from derivation.engine.measure.judge import judge
-from derivation.engine.oracle.reference import unsized
+from derivation.engine.oracle.reference import exact_reference
 from derivation.plate.oracle import reference
 
 
@@ -41,15 +41,15 @@ def test_error_of_values_that_are_not_finite_is_zero_or_infinite() -> None:
     references = {"nan": flint.arb.nan(), "inf": flint.arb.pos_inf(), "-inf": flint.arb.neg_inf()}
     for text, value in references.items():
         for got in (math.nan, math.inf, -math.inf, 1.0):
-            error = judge(got, unsized(value), 4.0)
+            error = judge(got, exact_reference(value), 4.0)
             assert error.ulp == (0.0 if repr(got) == text else math.inf)
             assert error.ulp in (error.ratio, error.needed)
     for got in (math.nan, math.inf, -math.inf):
-        assert judge(got, unsized(flint.arb(1)), 4.0).ratio == math.inf
+        assert judge(got, exact_reference(flint.arb(1)), 4.0).ratio == math.inf
 
 
 def test_budget_is_multiplied_by_the_scale_of_the_reference() -> None:
-    error = judge(1.0 + 2.0**-50, unsized(flint.arb(1), 3.0), 2.0)
+    error = judge(1.0 + 2.0**-50, exact_reference(flint.arb(1), 3.0), 2.0)
     assert (error.ulp, error.allowed, error.needed) == (4.0, 6.0, pytest.approx(4 / 3))
 
 
@@ -65,7 +65,7 @@ def test_the_needed_budget_allows_the_error_and_none_smaller_does(
     ulps: float, value: float, scale: float, factor: float
 ) -> None:
     """With that budget the ratio of error to allowance is 1, whatever the reference's scale."""
-    exact = unsized(flint.arb(value), scale)
+    exact = exact_reference(flint.arb(value), scale)
     got = value + ulps * math.ulp(value)
     needed = judge(got, exact, 1.0).needed
     if needed > 0:

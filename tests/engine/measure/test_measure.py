@@ -15,7 +15,7 @@ from mpmath import mp, mpf
 from derivation.engine.files import write_file
 from derivation.engine.measure import check as checking
 from derivation.engine.measure.check import Row
-from derivation.engine.measure.judge import PointReference, measured
+from derivation.engine.measure.judge import PointReference, measured_errors
 from derivation.engine.measure.kernels import Kernel
 from derivation.engine.measure.point import Point, to_single
 from derivation.engine.measure.record import COLUMNS, as_data, cells, to_json
@@ -69,7 +69,7 @@ def test_published_form_in_double_precision_fails(references_of_G: list[PointRef
         with np.errstate(all="ignore"):
             return (np.sinh(T) * np.cosh(T) + T) / (np.sinh(T) ** 2 - T**2)
 
-    errors = measured(Kernel("G", "influence", ("T",), naive, 8.0), references_of_G)
+    errors = measured_errors(Kernel("G", "influence", ("T",), naive, 8.0), references_of_G)
     assert errors.ratio == math.inf
     assert errors.not_finite > 0
     assert errors.max_ulp > 1e12
@@ -83,7 +83,7 @@ def test_single_nan_fails(references_of_G: list[PointReference]) -> None:
         result[37] = np.nan
         return result
 
-    errors = measured(dataclasses.replace(kernel_G(), call=with_nan), references_of_G)
+    errors = measured_errors(dataclasses.replace(kernel_G(), call=with_nan), references_of_G)
     assert errors.not_finite == 1
     assert errors.ratio == math.inf
     assert errors.worst.got[1] == "nan"
@@ -108,7 +108,7 @@ def test_wrong_dtype_and_warnings_fail() -> None:
 def test_wrong_shape_is_rejected(references_of_G: list[PointReference]) -> None:
     kernel = dataclasses.replace(kernel_G(), call=lambda T: np.float64(1.0))  # noqa: ARG005
     with pytest.raises(ValueError, match="gave shape"):
-        measured(kernel, references_of_G)
+        measured_errors(kernel, references_of_G)
 
 
 def test_published_formulas_are_measured_without_a_budget() -> None:
@@ -139,9 +139,9 @@ def test_table_of_zeros_is_measured_entry_by_entry() -> None:
     points = [Point({"count": float(n)}) for n in (1, 2, 50, 1000)]
     found = reference_values("bessel_j0_zeros", points, 30)
     kernel = Kernel("bessel_j0_zeros", "bessel", ("count",), zeros, 1.0)
-    assert measured(kernel, found).max_ulp <= 0.5
+    assert measured_errors(kernel, found).max_ulp <= 0.5
     shifted = dataclasses.replace(kernel, call=lambda count: zeros(count + 1)[1:])
-    assert measured(shifted, found).ratio > 1e6
+    assert measured_errors(shifted, found).ratio > 1e6
 
 
 def test_modal_sum_is_called_once_per_number_of_modes() -> None:
@@ -157,13 +157,13 @@ def test_modal_sum_is_called_once_per_number_of_modes() -> None:
         return np.array([float(reference("delta", v, 30, modes).value) for v in values])
 
     kernel = Kernel("delta", "modal_sum", arguments, exact, 1.0, modes=True)
-    assert measured(kernel, found).max_ulp <= 0.5
+    assert measured_errors(kernel, found).max_ulp <= 0.5
     assert len(calls) == len(set(calls)) > 3
 
     def one_mode_short(*columns: Any, modes: int) -> Any:
         return exact(*columns, modes=max(1, modes - 1))
 
-    assert measured(dataclasses.replace(kernel, call=one_mode_short), found).ratio > 1e3
+    assert measured_errors(dataclasses.replace(kernel, call=one_mode_short), found).ratio > 1e3
 
 
 # --- grids

@@ -59,7 +59,7 @@ def test_measurement_without_points_is_rejected() -> None:
         contact.check({"force": contact_law.force}, {"force": []})
     [kernel] = [kernel for kernel in generated_kernels() if kernel.name == "G"]
     with pytest.raises(ValueError, match="no point at which float64 can hold G"):
-        judge.measured(kernel, [], 3)
+        judge.measured_errors(kernel, [], 3)
 
 
 def test_root_mean_square_of_zeros_and_of_large_numbers() -> None:

@@ -11,7 +11,12 @@ import pytest
 from derivation.engine.measure.judge import Error
 from derivation.engine.measure.point import Point
 from derivation.engine.measure.search import Search, search
-from derivation.engine.measure.search_record import Book, as_data, kept, read
+from derivation.engine.measure.search_record import (
+    SearchRecord,
+    all_within_allowance,
+    as_data,
+    read,
+)
 from derivation.engine.measure.target import Domain, Numbers, Target
 
 DOMAIN = Domain("square", ("x", "y"), False, ("0 < x <= 8", "y >= x", "z > 0"))
@@ -53,7 +58,7 @@ def test_defect_is_found_refined_and_reproduced(found: Search, target: Target) -
     assert worst is not None
     assert 3 < worst.point.values["x"] < 3.01
     assert worst.ratio > 1.999  # the largest value is 2, at y = x
-    assert not kept(found)
+    assert not all_within_allowance(found)
     assert as_data(search([target], seed=2, evaluations=EVALUATIONS)) == as_data(found)
 
 
@@ -61,18 +66,18 @@ def test_found_case_is_written_and_then_known(
     found: Search, target: Target, tmp_path: Path
 ) -> None:
     path = tmp_path / "cases.toml"
-    book = Book(path, [target], {"square": 1.5}, {})
+    book = SearchRecord(path, [target], {"square": 1.5}, {})
     book.keep(found)
     [case] = read(path)
     worst = found.standings["square"].worst
     assert worst is not None
     assert case.points == [worst.point.values]
-    assert not Book(path, [target], {}, {}).is_new("square", worst)
+    assert not SearchRecord(path, [target], {}, {}).is_new("square", worst)
 
 
 def test_recorded_arguments_are_compared_with_the_new_error(target: Target) -> None:
     known = {"square": [(3.005).hex(), (3.105).hex()]}
-    book = Book(Path("/nonexistent"), [target], {}, known)
+    book = SearchRecord(Path("/nonexistent"), [target], {}, known)
     [(result,)] = squares([Point({"x": 3.005, "y": 3.105})])
     same = error(Point({"x": 3.005, "y": 3.105}), (result,))
     worst = search([target], seed=2, evaluations=EVALUATIONS).standings["square"].worst

@@ -34,8 +34,8 @@ def test_lower_quartile_of_interleaved_times_is_used(
 def test_ratio_is_compared_with_its_limit(monkeypatch: pytest.MonkeyPatch) -> None:
     ticks = count()
     monkeypatch.setattr(time, "perf_counter", lambda: float(next(ticks)))
-    assert speed.ratio("x", lambda: None, lambda: None, 1.0).kept
-    assert not speed.ratio("x", lambda: None, lambda: None, 0.99).kept
+    assert speed.ratio("x", lambda: None, lambda: None, 1.0).passed
+    assert not speed.ratio("x", lambda: None, lambda: None, 0.99).passed
 
 
 def test_random_impacts_are_distinct_and_valid() -> None:
@@ -50,7 +50,7 @@ def test_data_contain_the_machine() -> None:
     data = speed.as_data([speed.SpeedTiming("x", 2.0, "times", 3.0, 1.1, True)])
     assert json.loads(json.dumps(data)) == data
     assert data["machine"]["numpy"] == np.__version__
-    assert data["rows"][0]["kept"] is True
+    assert data["rows"][0]["passed"] is True
 
 
 # --- published and stable forms
@@ -60,7 +60,7 @@ def test_data_contain_the_machine() -> None:
 def test_published_and_stable_forms_agree(name: str) -> None:
     """They agree to rounding, apart from the extra factor 1/phi in two published formulas."""
     stable, naive = speed.NAIVE[name]
-    x = np.linspace(*speed.NAIVE_RIGHT, speed.NAIVE_POINTS)
+    x = np.linspace(*speed.NAIVE_RANGE, speed.NAIVE_POINTS)
     if name in FIELDS:  # compared at one value of x and all depths
         x[:] = 3.0
     ours, theirs = stable(x), naive(x)
@@ -100,8 +100,8 @@ def test_every_example_is_timed_and_only_the_block_against_hertz_alone(
     assert [number for _, number, _ in reported] == list(range(1, len(found) + 1))
     assert {total for *_, total in reported} == {len(found)}
     assert [row[1:] for row in found if row[0] == "cold_start"] == [
-        ("simulate", block, speed.START), ("explain", block, speed.EXPLAINED),
-        ("simulate", pad, speed.SOLVED_START), ("explain", pad, speed.EXPLAINED),
+        ("simulate", block, speed.START), ("explain", block, speed.EXPLAIN_START),
+        ("simulate", pad, speed.PLATE_START), ("explain", pad, speed.EXPLAIN_START),
     ]  # fmt: skip
     assert [row[1:] for row in found if row[0] == "hertz_alone"] == [(block, 1.2)]
     assert [row[1] for row in found if row[0] == "stable_over_naive"] == list(speed.NAIVE)
@@ -116,16 +116,16 @@ def test_rates_and_cold_starts_time_the_intended_work(
     monkeypatch.setattr(time, "perf_counter", lambda: float(next(ticks)))
     monkeypatch.setattr(speed, "impact", lambda **given: impacts.append(given["R"].size))
     rate = speed.impact_rate(0.01, 2.9, float(speed.SCENES))
-    assert (rate.value, rate.unit, rate.kept) == (float(speed.SCENES), "1/s", True)
+    assert (rate.value, rate.unit, rate.passed) == (float(speed.SCENES), "1/s", True)
     assert set(impacts) == {speed.SCENES}
-    assert not speed.impact_rate(0.01, 2.9, speed.SCENES + 1.0).kept
+    assert not speed.impact_rate(0.01, 2.9, speed.SCENES + 1.0).passed
 
     monkeypatch.setattr(
         subprocess, "run", lambda call, **_: started.append([Path(x).name for x in call[2:]])
     )
     scene = tmp_path / "block.toml"
     scene.write_text("# a block\n")
-    assert speed.cold_start("explain", scene, 1.0).kept
+    assert speed.cold_start("explain", scene, 1.0).passed
     command = [speed.COMMAND, "explain", "block.toml", "--json", "-"]
     assert started == [command, [speed.LIBRARIES]] * speed.COLD_ROUNDS
     switched = list[str]()

@@ -17,10 +17,10 @@ from derivation.engine.formula.dimension import LENGTH, DimensionError, dimensio
 from derivation.engine.formula.parse import FormulaError, parse
 from derivation.engine.formula.proof import ProofError, lower_bessel
 from derivation.plate.contact.theory import (
-    curvature,
     divergence,
     moments,
     reversion,
+    spherical_profile,
     thin_plate,
     thin_roots,
 )
@@ -44,8 +44,8 @@ class ZeroNewtonSteps(int):
 
 
 def test_sum_identity_fails_for_a_wrong_integral(monkeypatch: pytest.MonkeyPatch) -> None:
-    wrong = replace(contact_split._EXAMPLES[0], integral=2)  # int_0^oo e^(-x) dx is 1
-    monkeypatch.setattr(contact_split, "_EXAMPLES", (wrong,))
+    wrong = replace(contact_split._TEST_FUNCTIONS[0], integral=2)  # int_0^oo e^(-x) dx is 1
+    monkeypatch.setattr(contact_split, "_TEST_FUNCTIONS", (wrong,))
     with pytest.raises(ProofError, match=r"Sum identity: exp\(-x\) gives"):
         contact_split.identity_in_balls.__wrapped__()
 
@@ -63,12 +63,14 @@ def changed(module: Any, **names: Any) -> Any:
 
 
 def test_profile_that_is_not_spherical_is_rejected(monkeypatch: pytest.MonkeyPatch) -> None:
-    curvature._powers()
+    spherical_profile._powers()
     monkeypatch.setattr(
-        curvature, "sp", changed(sp, log=lambda u: sp.log(u) * (1 + curvature._x**2))
+        spherical_profile,
+        "sp",
+        changed(sp, log=lambda u: sp.log(u) * (1 + spherical_profile._x**2)),
     )
     with pytest.raises(ProofError, match="delta' of the sphere: power 3 differs"):
-        curvature._powers()
+        spherical_profile._powers()
 
 
 def test_bounds_on_the_remainder_of_the_plate_factor_are_checked(

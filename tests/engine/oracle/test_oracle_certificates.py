@@ -94,7 +94,7 @@ def test_j1_at_an_inaccurate_zero_is_rejected(monkeypatch: pytest.MonkeyPatch) -
 
 def test_index_must_be_an_integer() -> None:
     with pytest.raises(ValueError, match=r"kappa needs an integer index, got 1\.5"):
-        references.truth("kappa", {"n": 1.5})
+        references.certified_value("kappa", {"n": 1.5})
 
 
 # --- the contact law in interval arithmetic
@@ -102,7 +102,7 @@ def test_index_must_be_an_integer() -> None:
 
 def test_interval_that_stays_wide_is_rejected() -> None:
     with pytest.raises(PrecisionError, match="no 10 digits of the value within"):
-        contact_references.settle(lambda _: (arb(0, 1e-300),), 10, "the value")
+        contact_references.refine_to_digits(lambda _: (arb(0, 1e-300),), 10, "the value")
 
 
 def test_lengths_must_be_positive() -> None:
@@ -195,7 +195,7 @@ def test_sums_that_end_too_early_are_rejected(monkeypatch: pytest.MonkeyPatch) -
     few = SimpleNamespace(**vars(math) | {"ceil": lambda _: 0})
     monkeypatch.setattr(back_face_references, "math", few)
     with pytest.raises(ValueError, match=r"the sum, which ends at T = \[1\.0995"):
-        back_face_references.far_sum(0.01, 0.1, 1.0, 10)
+        back_face_references.back_face_sum(0.01, 0.1, 1.0, 10)
     with pytest.raises(PrecisionError, match=r"modes end at T = \[0\.1099\d* .*, too early"):
         contact_points.mode_points.__wrapped__(Fraction(1, 100), 64, 104)
 

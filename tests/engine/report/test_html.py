@@ -9,7 +9,7 @@ from browser import browser, missing
 
 from derivation.engine import report_files
 from derivation.engine.report.document import APPENDICES, REPORT, Text
-from derivation.engine.report.figures import saved
+from derivation.engine.report.figures import figure_file
 from derivation.engine.report.html import HtmlError, drawing, page
 from derivation.engine.report.pdf import TexError
 from derivation.plate import reporting
@@ -74,7 +74,9 @@ def texts() -> dict[str, Text]:
 
 @pytest.fixture(scope="module")
 def pages(texts: dict[str, Text]) -> dict[str, str]:
-    drawn = {name: saved(figure, ".svg") for name, figure in reporting.report_figures().items()}
+    drawn = {
+        name: figure_file(figure, ".svg") for name, figure in reporting.report_figures().items()
+    }
     return {name: page(text, text.title, drawn) for name, text in texts.items()}
 
 
@@ -215,7 +217,8 @@ def test_sections_of_the_appendix_have_letters() -> None:
 def test_figures_are_reproducible_and_have_unique_ids() -> None:
     result = simulate(load(reporting.PAPER))
     first, second = (
-        saved(figures(reporting.paper_case(), result, 1.0)["figure2"], ".svg") for _ in range(2)
+        figure_file(figures(reporting.paper_case(), result, 1.0)["figure2"], ".svg")
+        for _ in range(2)
     )
     assert first == second
     ids = [re.findall(r'\bid="([^"]*)"', drawing(name, first)) for name in ("one", "two")]

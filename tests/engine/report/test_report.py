@@ -10,7 +10,7 @@ import sympy as sp
 
 from derivation.engine import report_files
 from derivation.engine.formula.notation import to_latex, to_markdown, to_plain
-from derivation.engine.report.document import APPENDICES, REPORT, cited
+from derivation.engine.report.document import APPENDICES, REPORT, cited_keys
 from derivation.engine.report.equations import (
     COLUMN,
     DEEPEST,
@@ -19,20 +19,20 @@ from derivation.engine.report.equations import (
     body,
     displayed,
     equation,
-    folded,
+    function_by_name,
     in_parts,
 )
 from derivation.engine.report.latex import escape, prose
 from derivation.engine.report.numbers import number
 from derivation.engine.report.pdf import TexError, compile_pdf, typeset
-from derivation.engine.report.spoken import spoken
+from derivation.engine.report.sentences import typeset_sentence
 from derivation.engine.report.width import typeset_width
 from derivation.plate import derived, reporting
 from derivation.plate import vocabulary as symbols
-from derivation.plate.chain import LINKS
+from derivation.plate.chain import STEPS
 from derivation.plate.paper import PAPER
 from derivation.plate.report.consequence import Consequences
-from derivation.plate.report.listings import source_of
+from derivation.plate.report.listings import function_source
 from derivation.plate.report.prose import REFERENCES
 from derivation.plate.vocabulary import PLATE, R, a, lam, mu, phi
 from derivation.scene.impact import simulate
@@ -125,7 +125,7 @@ def test_formulas_typed_as_code_are_typeset(plain: str, latex: str) -> None:
     inner = {"the": mu * (lam + mu) / (sp.pi * R),
              "read": 2 * a + sp.sin(a * phi)}  # fmt: skip
     expected = inner.get(plain.split(" ")[0])
-    assert spoken(plain, PLATE) == (
+    assert typeset_sentence(plain, PLATE) == (
         latex if expected is None else latex.replace("{}", to_latex(expected, PLATE))
     )
 
@@ -183,13 +183,13 @@ def test_summand_with_several_terms_is_replaced_by_a_symbol() -> None:
 
 def test_plate_factor_is_written_as_function_G(formulas) -> None:
     whole = formulas["c_1_modes"].expression
-    short = folded(whole, formulas["G"])
+    short = function_by_name(whole, formulas["G"])
     assert "G{" in to_latex(short, PLATE)
     assert "sinh" not in to_latex(short, PLATE)
     G = sp.Function("G")
     again = short.replace(G, lambda T: formulas["G"].expression.xreplace({symbols.T: T}))
     assert again == whole
-    assert folded(formulas["K_j"].expression, formulas["G"]) == formulas["K_j"].expression
+    assert function_by_name(formulas["K_j"].expression, formulas["G"]) == formulas["K_j"].expression
 
 
 @NEEDS_TEX
@@ -217,7 +217,7 @@ def test_long_sums_are_broken_and_short_ones_are_not(formulas) -> None:
 
 def test_every_derivation_step_and_formula_is_in_the_report(formulas) -> None:
     text = report_files.committed_files(PAPER)["appendices.tex"]
-    for name, _ in LINKS:
+    for name, _ in STEPS:
         assert rf"\subsection{{{name[0].upper() + name[1:]}}}" in text
     for name in formulas:
         assert rf"\begin{{formula}}{{{escape(name)}}}" in text
@@ -290,7 +290,7 @@ def test_derivation_steps_named_by_references_exist() -> None:
         for link in entry.get("links", ())
     }
     assert named <= known
-    assert set(REFERENCES.cited("curvature")) == {"sneddon1965"}
+    assert set(REFERENCES.cited("spherical profile")) == {"sneddon1965"}
 
 
 @NEEDS_TEX
@@ -300,7 +300,7 @@ def test_fragments_of_all_derivation_steps_fit_a_column(tmp_path: Path, wide: st
     first, *others = (name for name, _ in derived.chain())
     pasted = [report_files.fragments(PAPER, names) for names in ([first], others)]
     assert not re.findall(r"\\(?:re)?new|\\def\\|\\usepackage", uncommented("".join(pasted)))
-    keys = sorted({key for text in pasted for key in cited([text])})
+    keys = sorted({key for text in pasted for key in cited_keys([text])})
     listed = "".join(rf"\bibitem{{{key}}} A." for key in keys)
     path = tmp_path / "paste.tex"
     path.write_text(
@@ -334,7 +334,7 @@ def test_fragments_are_written_with_the_bibliography(tmp_path: Path) -> None:
 
 def test_listings_are_the_generated_functions_without_docstrings() -> None:
     source = Path(influence.__file__).read_text()
-    cut = source_of(source, "G")
+    cut = function_source(source, "G")
     assert cut.startswith("@quiet\ndef G(")
     assert '"""' not in cut
     names: dict[str, object] = {}
@@ -344,7 +344,7 @@ def test_listings_are_the_generated_functions_without_docstrings() -> None:
     )
     assert names["G"](2.0) == influence.G(2.0)
     with pytest.raises(ValueError, match="no_such"):
-        source_of(source, "no_such")
+        function_source(source, "no_such")
 
 
 @NEEDS_TEX

@@ -40,7 +40,7 @@ def test_row_of_a_missing_tool_states_the_reason() -> None:
 
 
 def test_checks_without_a_record_are_omitted() -> None:
-    measured: dict[str, Any] = {k: json.loads(v) for k, v in reporting.measured().items()}
+    measured: dict[str, Any] = {k: json.loads(v) for k, v in reporting.measurement().items()}
     every = dict(checks(measured))
     for name in ("bounds", "effects"):
         fewer = dict(checks({key: data for key, data in measured.items() if key != name}))

@@ -9,8 +9,8 @@ from derivation.engine.formula.proof import prove
 from derivation.engine.formula.record import Record
 from derivation.engine.formula.vocabulary import Argument, Vocabulary
 from derivation.engine.rewrite.automatic import automatic
-from derivation.engine.rewrite.blocks import HYPERBOLIC, built
-from derivation.engine.rewrite.every_variable import accurate, measured
+from derivation.engine.rewrite.blocks import HYPERBOLIC, build_blocks
+from derivation.engine.rewrite.every_variable import accurate, measured_error
 from derivation.engine.rewrite.scales import Scale, Scales
 from derivation.engine.rewrite.terms import UnreachableError
 from derivation.engine.rewrite.useful_range import ENOUGH
@@ -25,7 +25,7 @@ SOLID = Vocabulary(
         Argument(s, "1", "s", "1 - 2 nu", ("s >= 1e-100", "s < 3")),
     )
 )
-BLOCKS = built(HYPERBOLIC)
+BLOCKS = build_blocks(HYPERBOLIC)
 SCALES = Scales((Scale(T, T, T),))
 
 
@@ -59,15 +59,15 @@ def test_error_from_rounding_of_an_argument_is_allowed() -> None:
     """If nu is the argument, 1 - 2 nu of such a film has few correct digits in any form."""
     film = formula("F_bonded", bonded(3 - 4 * nu))
     steps_and_value = automatic(film.expression, BLOCKS, SCALES)
-    assert measured(film, *steps_and_value, BLOCKS).error <= ENOUGH
+    assert measured_error(film, *steps_and_value, BLOCKS).error <= ENOUGH
 
 
 def test_form_that_is_accurate_in_all_variables_is_unchanged() -> None:
     slipping = formula("F_slipping", (sp.cosh(T) - 1) / (sp.sinh(T) + T))
-    known = built((*HYPERBOLIC, COSH_MINUS))
+    known = build_blocks((*HYPERBOLIC, COSH_MINUS))
     steps_and_value = automatic(slipping.expression, known, SCALES)
     assert accurate(slipping, *steps_and_value, known) == steps_and_value
-    worst = measured(slipping, *steps_and_value, known)
+    worst = measured_error(slipping, *steps_and_value, known)
     assert worst.error <= ENOUGH
     assert worst.points > 30
 
@@ -75,18 +75,18 @@ def test_form_that_is_accurate_in_all_variables_is_unchanged() -> None:
 def test_error_of_an_unstable_form_is_measured() -> None:
     """1 - cos T cancels for small T; 2 sin^2(T/2) does not."""
     naive = formula("versine", 1 - sp.cos(T))
-    assert measured(naive, (), 1 - sp.cos(T), BLOCKS).error > 1e8
+    assert measured_error(naive, (), 1 - sp.cos(T), BLOCKS).error > 1e8
     stable = 2 * sp.sin(T / 2) ** 2
-    assert measured(naive, (), stable, BLOCKS).error <= 4.0
+    assert measured_error(naive, (), stable, BLOCKS).error <= 4.0
 
 
 def test_form_without_real_values_is_rejected() -> None:
     nowhere = formula("nowhere", sp.sqrt(-1 - T))
     with pytest.raises(UnreachableError, match="has values at 0 test points"):
-        measured(nowhere, (), sp.sqrt(-1 - T), BLOCKS)
+        measured_error(nowhere, (), sp.sqrt(-1 - T), BLOCKS)
 
 
 def test_overflow_counts_as_an_infinite_error() -> None:
     """Both cosh T and sinh T overflow for large T, but their quotient does not."""
     quotient = formula("coth", sp.cosh(T) / sp.sinh(T))
-    assert measured(quotient, (), sp.cosh(T) / sp.sinh(T), BLOCKS).error == math.inf
+    assert measured_error(quotient, (), sp.cosh(T) / sp.sinh(T), BLOCKS).error == math.inf

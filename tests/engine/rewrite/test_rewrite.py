@@ -19,13 +19,13 @@ from derivation.engine.formula.ball import PrecisionError, enclose, evaluate
 from derivation.engine.formula.ulp import from_ordinal, ordinal, overflows, ulp_error
 from derivation.engine.rewrite import rules
 from derivation.engine.rewrite.automatic import automatic
-from derivation.engine.rewrite.doubles import rounded
+from derivation.engine.rewrite.doubles import rounded_value
 from derivation.engine.rewrite.form import Switch
 from derivation.engine.rewrite.rules import RULES, Rewritten
 from derivation.engine.rewrite.series import POLYNOMIAL, taylor_section
-from derivation.engine.rewrite.shape import Shape, assembled
+from derivation.engine.rewrite.shape import Shape, assembled_form
 from derivation.engine.rewrite.stabilise import stabilise
-from derivation.engine.rewrite.terms import UnreachableError, left_out, taylor, terms_of
+from derivation.engine.rewrite.terms import UnreachableError, taylor, terms_of, truncation_bound
 from derivation.plate.blocks import DEFINITIONS, blocks
 from derivation.plate.derived import formulas
 from derivation.plate.forms import AUTOMATIC, SCALES
@@ -88,7 +88,7 @@ def value_of(form: Rewritten) -> sp.Expr:
     """Return a form as one expression, without its truncated series."""
     if not isinstance(form, Shape):
         return form
-    steps, value = assembled(form)
+    steps, value = assembled_form(form)
     branch = value.above if isinstance(value, Switch) else None
     expression = branch.value if branch else value
     for step in reversed((*steps, *(branch.steps if branch else ()))):
@@ -125,8 +125,8 @@ def test_difference_of_roots_in_equation_18_does_not_cancel() -> None:
     at = dict.fromkeys(source.free_symbols, 1.0) | {_delta(source): 1e-7}
     (corrected,) = rules.conjugate(x, source)
     exact = float(evaluate(source, at, 20))
-    assert abs(rounded(source, at) / exact - 1) >= 1
-    assert rounded(corrected, at) == pytest.approx(exact, rel=1e-15)
+    assert abs(rounded_value(source, at) / exact - 1) >= 1
+    assert rounded_value(corrected, at) == pytest.approx(exact, rel=1e-15)
 
 
 def _delta(source: sp.Expr) -> sp.Symbol:
@@ -161,7 +161,7 @@ def test_remainder_of_the_taylor_series_is_bounded() -> None:
     for n in (3, 6, 11, 20):
         end = sp.Rational(3, 4)
         rest = sum(abs(c) * end**power for power, c in enumerate(coefficients) if power >= n)
-        assert rest <= left_out(terms, n, end) * (1 + sp.Rational(1, 10**9))
+        assert rest <= truncation_bound(terms, n, end) * (1 + sp.Rational(1, 10**9))
 
 
 def test_terms_add_up_to_the_expression() -> None:
@@ -340,12 +340,12 @@ def test_rounded_evaluation_agrees_with_double_precision_arithmetic() -> None:
     for _ in range(200):
         point = 10 ** generator.uniform(-6, 2)
         computed = math.sqrt(point + 1) - 1 / (point * point + 3 / point)
-        assert rounded(sp.sqrt(x + 1) - 1 / (x * x + 3 / x), {x: point}) == pytest.approx(
+        assert rounded_value(sp.sqrt(x + 1) - 1 / (x * x + 3 / x), {x: point}) == pytest.approx(
             computed, rel=1e-9
         )
-    assert rounded(sp.exp(x), {x: 800.0}) == math.inf
-    assert rounded(1 / (sp.exp(-x) - 1 + 1), {x: 800.0}) == math.inf
-    assert math.isnan(rounded(sp.sin(x), {x: math.inf}))
+    assert rounded_value(sp.exp(x), {x: 800.0}) == math.inf
+    assert rounded_value(1 / (sp.exp(-x) - 1 + 1), {x: 800.0}) == math.inf
+    assert math.isnan(rounded_value(sp.sin(x), {x: math.inf}))
 
 
 def test_each_block_has_at_most_one_truncated_series() -> None:

@@ -17,9 +17,9 @@ import sympy as sp
 from derivation.engine.emit.standalone import standalone
 from derivation.engine.formula.parse import parse
 from derivation.engine.formula.vocabulary import NOTHING
+from derivation.engine.rewrite.code_check import CodeCheck, stated_error
 from derivation.engine.rewrite.stabilise import stabilise
 from derivation.engine.rewrite.terms import UnreachableError
-from derivation.engine.rewrite.tested import CodeCheck, stated
 
 x = sp.Symbol("x", positive=True)
 FORMULAS = (
@@ -121,7 +121,7 @@ def test_error_is_below_the_stated_limit_in_the_stated_range(text: str) -> None:
     worst = max((excess(value, p, y), p) for p, y in zip(checked, got, strict=True))
     assert worst[0] <= found.limit, worst
     assert found.high / found.low >= 10
-    assert stated(found.worst) == found.limit > found.worst
+    assert stated_error(found.worst) == found.limit > found.worst
     assert isinstance(found, CodeCheck)
 
 

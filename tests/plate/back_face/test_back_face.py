@@ -30,9 +30,9 @@ from generated import contact_law, modal_sum
 
 BITS = 160
 KERNELS: dict[str, Callable[..., np.ndarray]] = {
-    "soft": kernels.far_stress,
-    "supported": kernels.supported_far_stress,
-    "clamped": kernels.clamped_far_stress,
+    "soft": kernels.back_face_stress,
+    "supported": kernels.supported_back_face_stress,
+    "clamped": kernels.clamped_back_face_stress,
 }
 Point = tuple[float, float, float, float, float, float]
 
@@ -49,10 +49,12 @@ def scaled(stress: np.ndarray, P: float, h: float, ratio: float) -> float:
 
 
 def test_wrong_factor_is_rejected() -> None:
-    wrong = back_face.far_function() * sp.cosh(T)
+    wrong = back_face.back_face_function() * sp.cosh(T)
     with pytest.raises(ProofError, match="radial"):
         prove(
-            "Back face", "", {"radial stress": wrong - derived.formulas()["far_factor"].expression}
+            "Back face",
+            "",
+            {"radial stress": wrong - derived.formulas()["back_face_factor"].expression},
         )
 
 
@@ -65,7 +67,7 @@ def test_factor_agrees_with_numerical_traction_conditions(wave: float, ratio: fl
     """
     first, second = lame(ratio)
     factor = evaluate(
-        derived.formulas()["far_factor"].expression, {T: Fraction(2 * Fraction(wave))}, 30
+        derived.formulas()["back_face_factor"].expression, {T: Fraction(2 * Fraction(wave))}, 30
     )
     with mp.workdps(40):
         mode = unit_mode(mpf(wave), mpf(1), ModeMaterial(mpf(first), mpf(second)), mpf(-1))
@@ -80,9 +82,9 @@ def test_factor_agrees_with_numerical_traction_conditions(wave: float, ratio: fl
 
 @pytest.mark.parametrize(("thickness", "width"), [(0.02, 0.3), (0.1, 0.01), (0.1, 0.9), (0.3, 0.5)])
 def test_references_agree(thickness: float, width: float) -> None:
-    ball = back_face_balls.far_sum(width, thickness, 1, 24)
+    ball = back_face_balls.back_face_sum(width, thickness, 1, 24)
     with mp.workdps(40):
-        route = back_face_routes.far_sum(width, thickness, 1, 24)
+        route = back_face_routes.back_face_sum(width, thickness, 1, 24)
         with flint.ctx.workprec(BITS):
             assert abs(ball / arb(mp.nstr(route, 35)) - 1) < 1e-22
 
@@ -90,16 +92,16 @@ def test_references_agree(thickness: float, width: float) -> None:
 @pytest.mark.parametrize(("thickness", "width", "ratio"), [(0.05, 0.3, 0.25), (0.7, 0.4, -0.5)])
 def test_references_agree_on_the_edge(thickness: float, width: float, ratio: float) -> None:
     n = Fraction(ratio)
-    ball = back_face_balls.far_edge(width, thickness, 1, 2 * n, 1 - 2 * n, 24)
+    ball = back_face_balls.back_face_edge(width, thickness, 1, 2 * n, 1 - 2 * n, 24)
     with mp.workdps(40):
-        route = back_face_routes.far_edge(width, thickness, 1, ratio, 24)
+        route = back_face_routes.back_face_edge(width, thickness, 1, ratio, 24)
         with flint.ctx.workprec(BITS):
             assert abs(ball / arb(mp.nstr(route, 35)) - 1) < 1e-22
 
 
 def test_reference_rejects_invalid_arguments() -> None:
     with pytest.raises(ValueError, match="a < b"):
-        back_face_balls.far_sum(1.0, 0.1, 1.0)
+        back_face_balls.back_face_sum(1.0, 0.1, 1.0)
 
 
 # --- generated functions
@@ -109,23 +111,26 @@ def test_thin_plates_differ_by_a_logarithm() -> None:
     """At equal a/h the sum for a smaller h/b exceeds that for h/b = 1/64 by 3 log(1/(64 h/b))."""
     for A in (1e-30, 0.25, 6.0, 19.0, 21.0, 60.0):
         with flint.ctx.workprec(BITS):
-            start = back_face_balls.far_sum(A / 64, 1 / 64, 1, 25)
+            start = back_face_balls.back_face_sum(A / 64, 1 / 64, 1, 25)
             for power in (-10, -170):
                 exact = start + 3 * (arb(2) ** (-power) / 64).log()
                 h = 2.0**power
-                got = scaled(kernels.far_stress(1.0, A * h, h, 1.0, 0.0, 1.0), 1.0, h, 0.0)
+                got = scaled(kernels.back_face_stress(1.0, A * h, h, 1.0, 0.0, 1.0), 1.0, h, 0.0)
                 assert abs(got / float(exact) - 1) < 3e-15, (A, power)
 
 
 def test_results_are_nan_outside_the_domain() -> None:
     plate = (0.1, 1.0, *lame(0.3))
-    for function, last in ((kernels.far_stress, 1.0), (kernels.clamped_far_stress, 0.9001)):
+    for function, last in (
+        (kernels.back_face_stress, 1.0),
+        (kernels.clamped_back_face_stress, 0.9001),
+    ):
         assert np.isnan(function(1.0, [0.0, -1.0, last, np.nan], *plate)).all()
         assert np.isnan(function(-1.0, 0.1, *plate))
         assert np.isnan(function(1.0, 0.1, [0.0, 1e-91, 1e91], *plate[1:])).all()
         assert np.isnan(function(1.0, 0.1, 0.1, 1.0, -2.0, 3.0))
         assert function(0.0, 0.1, *plate) == 0
-    assert kernels.far_stress(1.0, 0.5, 1e4, 1.0, 1.0, 1.0) == 0  # underflows
+    assert kernels.back_face_stress(1.0, 0.5, 1e4, 1.0, 1.0, 1.0) == 0  # underflows
 
 
 # --- known answers
@@ -157,7 +162,7 @@ def test_small_loads_agree_with_westergaard_and_timoshenko() -> None:
     nu = 0.3
     for h in (0.05, 0.01):
         H = 2 * h
-        found = float(kernels.supported_far_stress(1.0, 1e-9, h, 1.0, *lame(nu))) * H * H
+        found = float(kernels.supported_back_face_stress(1.0, 1e-9, h, 1.0, *lame(nu))) * H * H
         westergaard = 3 / (2 * math.pi) * ((1 + nu) * math.log(1 / (0.325 * H)) + 1)
         nadai = (1 + nu) * (0.485 * math.log(1 / H) + 0.52) + 0.48
         assert found == pytest.approx(westergaard, rel=3e-3)
@@ -166,7 +171,7 @@ def test_small_loads_agree_with_westergaard_and_timoshenko() -> None:
 
 def test_stress_is_small_in_thick_plates() -> None:
     h = np.array([0.5, 1.0, 2.0, 4.0])
-    found = kernels.far_stress(1.0, 1e-3, h, 1.0, 0.0, 1.0) * 8 * np.pi * h * h
+    found = kernels.back_face_stress(1.0, 1e-3, h, 1.0, 0.0, 1.0) * 8 * np.pi * h * h
     j, slope = 2.404825557695773, 0.5191474972894669
     first = 16 * h * h * (2 * h * j) * np.exp(-2 * h * j) / slope**2
     assert (np.diff(np.log(found)) < 0).all()
@@ -178,7 +183,7 @@ def test_interior_stress_agrees_with_a_sum_over_many_modes() -> None:
     P = float(contact_law.force_of_radius(a, R, lam, mu))
     for field in (modal_sum.sigma_rr, modal_sum.sigma_tt):
         got = float(field(0.0, -h, h, b, R, a, lam, mu, modes=400))
-        assert got == pytest.approx(float(kernels.far_stress(P, a, h, b, lam, mu)), rel=1e-13)
+        assert got == pytest.approx(float(kernels.back_face_stress(P, a, h, b, lam, mu)), rel=1e-13)
 
 
 # --- scenes
@@ -196,7 +201,7 @@ def test_stress_of_a_pane_follows_from_its_force() -> None:
     result = simulate(read(load(PANE).to_json() | {"effects": {"inertia": False}}))
     force, a = result.max_force, result.max_contact_radius
     m = result.model
-    expected = kernels.supported_far_stress(force, a, m.h, m.b, m.lam, m.mu)
+    expected = kernels.supported_back_face_stress(force, a, m.h, m.b, m.lam, m.mu)
     assert result.max_tensile_stress == float(expected)
     assert result.to_json()["max_tensile_stress"] == result.max_tensile_stress
     (shown,) = re.findall(r"max_tensile_stress (\S+) Pa", plain(result))
@@ -212,7 +217,7 @@ def test_stress_with_inertia_is_the_static_stress_at_the_largest_force() -> None
     result = simulate(read(data | {"plate": data["plate"] | {"tensile_strength": 1e9}}))
     assert "inertia" in result.effects.law.effects
     force, a, m = result.max_force, result.max_contact_radius, result.model
-    expected = kernels.supported_far_stress(force, a, m.h, m.b, m.lam, m.mu)
+    expected = kernels.supported_back_face_stress(force, a, m.h, m.b, m.lam, m.mu)
     assert result.max_tensile_stress == float(expected)
     assert "quasi-static, under the peak force" in result.strength_note
     assert "inertia is neglected" not in result.strength_note
@@ -241,7 +246,7 @@ def test_omitted_effects_change_only_the_force() -> None:
     )
     soft = law.max_tensile_stress(a, force, on_edge=False)
     m = law.model
-    assert soft == float(kernels.far_stress(force, a, m.h, m.b, m.lam, m.mu))
+    assert soft == float(kernels.back_face_stress(force, a, m.h, m.b, m.lam, m.mu))
     assert soft > whole.max_tensile_stress
 
 

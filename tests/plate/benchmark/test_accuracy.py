@@ -10,7 +10,7 @@ from interrupted import interrupted
 from derivation import pipeline
 from derivation.cli import main
 from derivation.engine.files import ROOT
-from derivation.engine.report.figures import saved
+from derivation.engine.report.figures import figure_file
 from derivation.plate import reporting
 from derivation.plate.benchmark import run, scaling
 from derivation.plate.benchmark.interface import PAPER, REGIMES
@@ -25,7 +25,7 @@ from derivation.plate.report.accuracy_figures import work_precision
 
 @pytest.fixture(scope="module")
 def committed() -> dict[str, Any]:
-    return reporting.measured_accuracy()
+    return reporting.benchmark_record()
 
 
 def test_data_have_rows_of_every_kind(committed: dict[str, Any]) -> None:
@@ -54,10 +54,10 @@ def test_generated_law_is_a_thousand_times_as_fast_as_direct_summation(
 
 def test_figures_are_reproducible(committed: dict[str, Any]) -> None:
     first, second = (
-        saved(work_precision(committed, "inversion", "single"), ".pdf") for _ in range(2)
+        figure_file(work_precision(committed, "inversion", "single"), ".pdf") for _ in range(2)
     )
     assert first == second
-    assert saved(scaling_figure(committed), ".pdf").startswith(b"%PDF")
+    assert figure_file(scaling_figure(committed), ".pdf").startswith(b"%PDF")
 
 
 def test_section_lists_every_failure(committed: dict[str, Any]) -> None:
@@ -70,18 +70,18 @@ def test_section_lists_every_failure(committed: dict[str, Any]) -> None:
 
 def test_readme_agrees_with_the_record(committed: dict[str, Any]) -> None:
     text = (ROOT / reporting.README).read_text()
-    assert readme.renewed(text, committed) == text, "to correct: platecontact report"
+    assert readme.updated_readme(text, committed) == text, "to correct: platecontact report"
 
 
 def test_block_of_the_readme_is_found_by_its_markers(committed: dict[str, Any]) -> None:
     text = f"above\n{readme.BEGIN}\nold numbers\n{readme.END}\nbelow"
-    found = readme.renewed(text, committed)
+    found = readme.updated_readme(text, committed)
     assert found.startswith("above\n")
     assert found.endswith("\nbelow")
     assert "old" not in found
     for bad in ("no markers", text + text, text.replace(readme.END, "")):
         with pytest.raises(ValueError, match="once each"):
-            readme.renewed(bad, committed)
+            readme.updated_readme(bad, committed)
 
 
 # --- commands

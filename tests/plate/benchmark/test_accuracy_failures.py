@@ -23,14 +23,20 @@ from derivation.plate.benchmark import (
     panels,
     pareto,
     problems,
+    ready_methods,
     scaling,
-    shipped,
     sums,
     tools,
 )
-from derivation.plate.benchmark.arithmetic import DOUBLE, HAS_LONG, LONG, Mpmath, as_ball
+from derivation.plate.benchmark.arithmetic import (
+    DOUBLE,
+    HAS_LONG_DOUBLE,
+    LONG_DOUBLE,
+    Mpmath,
+    as_ball,
+)
 from derivation.plate.benchmark.errors import BenchmarkErrors, digits
-from derivation.plate.benchmark.interface import PAPER, REGIMES, Method, deepest
+from derivation.plate.benchmark.interface import PAPER, REGIMES, Method, largest_contact_radius
 from derivation.plate.benchmark.rows import BenchmarkRow
 from derivation.plate.report.accuracy_figures import pareto_front
 from derivation.scene.achieved_accuracy import METHODS
@@ -42,7 +48,7 @@ Patch = pytest.MonkeyPatch
 # --- failures
 
 
-@pytest.mark.skipif(not HAS_LONG, reason="recorded with long doubles")
+@pytest.mark.skipif(not HAS_LONG_DOUBLE, reason="recorded with long doubles")
 def test_methods_fail_as_recorded() -> None:
     """Each recorded failure is predicted by the method or was found by evaluating its numbers."""
     rows = json.loads(pipeline.MEASURED_ACCURACY.read_text())["rows"]
@@ -68,7 +74,7 @@ def test_fast_methods_in_doubles_give_numbers_or_a_reason(regime) -> None:
         if method.task != "law" or method.arithmetic != "float64" or method.one_by_one:
             continue
         if method.fails(regime) is None and not method.family.startswith(("split", "Chebyshev")):
-            found = method.ready(regime)(regime.h * np.array([regime.low, regime.high]))
+            found = method.prepared(regime)(regime.h * np.array([regime.low, regime.high]))
             assert np.isfinite(found).all(), method.name
 
 
@@ -91,13 +97,13 @@ def test_thousand_digits_only_for_the_paper_or_omitted_with_a_reason() -> None:
 
 def test_without_long_doubles_all_other_methods_are_compared(monkeypatch: Patch) -> None:
     every = [m.name for m in catalogue.methods()]
-    monkeypatch.setattr(catalogue, "HAS_LONG", False)
+    monkeypatch.setattr(catalogue, "HAS_LONG_DOUBLE", False)
     assert [m.name for m in catalogue.methods()] == [x for x in every if "long double" not in x]
 
 
 def test_without_long_doubles_the_headline_uses_doubles(monkeypatch: Patch) -> None:
     """The accuracy of a direct sum in doubles increases with the number of modes."""
-    monkeypatch.setattr(headline, "HAS_LONG", False)
+    monkeypatch.setattr(headline, "HAS_LONG_DOUBLE", False)
     monkeypatch.setattr(headline, "QUICK_MODES", 1 << 19)
     monkeypatch.setattr(headline, "POINTS", 1000)
     found = headline.headline(PAPER, quick=True)
@@ -108,22 +114,22 @@ def test_without_long_doubles_the_headline_uses_doubles(monkeypatch: Patch) -> N
     assert found.modes == 1 << 19
 
 
-@pytest.mark.skipif(not HAS_LONG, reason="long double is a double")
+@pytest.mark.skipif(not HAS_LONG_DOUBLE, reason="long double is a double")
 def test_sums_of_the_headline_agree_with_interval_arithmetic(monkeypatch: Patch) -> None:
     monkeypatch.setattr(headline, "CHUNK", 1024)
     monkeypatch.setattr(headline, "BLOCK", 512)
-    a = deepest(PAPER)
-    for ar, least in ((DOUBLE, 14.5), (LONG, 17.5)):
-        partial, times, _ = headline.direct(PAPER, a, 1536, ar)
+    a = largest_contact_radius(PAPER)
+    for ar, least in ((DOUBLE, 14.5), (LONG_DOUBLE, 17.5)):
+        partial, times, _ = headline.direct_sums(PAPER, a, 1536, ar)
         assert len(times) == len(partial) == 4
-        (exact,) = sums.direct(1536, Mpmath(40)).ready(PAPER)(np.array([a]))
+        (exact,) = sums.direct(1536, Mpmath(40)).prepared(PAPER)(np.array([a]))
         with flint.ctx.workprec(160):
             assert digits(partial[2], as_ball(exact), 30) > least
 
 
 def test_plate_of_extreme_size_is_not_prepared() -> None:
     with pytest.raises(ValueError, match="ordinary lengths"):
-        shipped.prepared().ready(replace(PAPER, R=1e-300, h=1e-300, b=1e-299))
+        ready_methods.prepared_law().prepared(replace(PAPER, R=1e-300, h=1e-300, b=1e-299))
 
 
 # --- benchmark groups
@@ -142,7 +148,7 @@ def right(a: Any) -> Any:
 def fewer_digits(monkeypatch: Patch) -> None:
     monkeypatch.setattr(problems, "QUICK_DIGITS", 20)
     monkeypatch.setattr(problems, "ARRAY", 50)
-    monkeypatch.setattr(panels, "SLOW", math.inf)
+    monkeypatch.setattr(panels, "SLOW_CALL", math.inf)
     monkeypatch.setattr(panels, "QUICK", replace(clock.QUICK, rounds=2))
 
 
@@ -174,7 +180,7 @@ def test_slow_methods_are_called_once_with_a_shorter_array(monkeypatch: Patch) -
         sizes.append(np.size(a))
         return right(a)
 
-    monkeypatch.setattr(panels, "SLOW", -1.0)
+    monkeypatch.setattr(panels, "SLOW_CALL", -1.0)
     monkeypatch.setattr(panels, "SLOW_ARRAY", 7)
     found = panels.panel("law", PAPER, [method(noted), method(noted, scalar=True)], True)
     assert (found.vector, found.single) == (None, None)
@@ -259,7 +265,7 @@ def test_timed_methods_of_a_study_agree(monkeypatch: Patch) -> None:
     """The methods that a study times agree on their results."""
     monkeypatch.setattr(scaling, "growth", lambda what, _, x, calls, why: (what, x, calls, why))
     monkeypatch.setattr(scaling, "ARRAY", scaling.SPLIT_POINTS)
-    for one, other in (scaling.points(), scaling.thinness()):
+    for one, other in (scaling.points(), scaling.thickness_ratios()):
         assert one[1] == other[1]
         for first, second in zip(one[2][:4], other[2][:4], strict=True):
             np.testing.assert_allclose(first(), second(), rtol=1e-12)

@@ -16,13 +16,13 @@ from derivation.plate.benchmark import (
     motion,
     polynomials,
     problems,
-    shipped,
+    ready_methods,
     sums,
 )
 from derivation.plate.benchmark.arithmetic import (
     DOUBLE,
-    HAS_LONG,
-    LONG,
+    HAS_LONG_DOUBLE,
+    LONG_DOUBLE,
     SINGLE,
     BallArithmetic,
     Mpmath,
@@ -31,8 +31,8 @@ from derivation.plate.benchmark.arithmetic import (
 )
 from derivation.plate.benchmark.catalogue import NODES, methods
 from derivation.plate.benchmark.coefficients import coefficients
-from derivation.plate.benchmark.errors import BenchmarkErrors, digits, judge
-from derivation.plate.benchmark.interface import PAPER, REGIMES, Method, deepest
+from derivation.plate.benchmark.errors import BenchmarkErrors, digits, measure_errors
+from derivation.plate.benchmark.interface import PAPER, REGIMES, Method, largest_contact_radius
 from derivation.plate.benchmark.problems import Problem
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.contact.oracle import sums as contact_sums
@@ -40,7 +40,7 @@ from derivation.plate.impact.oracle import impact as contact_impact
 from generated.contact_law import force, indentation
 from generated.impact import impact
 
-needs_long = pytest.mark.skipif(not HAS_LONG, reason="long double is a double")
+needs_long = pytest.mark.skipif(not HAS_LONG_DOUBLE, reason="long double is a double")
 THIN, THICK, LARGE = REGIMES[0], REGIMES[2], REGIMES[4]
 RADII = np.array([0.002, 0.01, 0.03])
 
@@ -88,7 +88,7 @@ def deep() -> Problem:
 def judged(method: Method, task: Problem) -> BenchmarkErrors:
     """Return the errors, and check that both parts are known and add up to the total."""
     with np.errstate(all="ignore"):
-        found = judge(method, task, lambda: 0.0).errors
+        found = measure_errors(method, task, lambda: 0.0).errors
     assert found.unsplit is None
     assert found.truncation is not None
     assert found.rounding is not None
@@ -101,7 +101,12 @@ def judged(method: Method, task: Problem) -> BenchmarkErrors:
 
 @pytest.mark.parametrize(
     ("ar", "right"),
-    [(SINGLE, 6), (DOUBLE, 14.5), (LONG, 17.5 if HAS_LONG else 14.5), (Mpmath(30), 29)],
+    [
+        (SINGLE, 6),
+        (DOUBLE, 14.5),
+        (Mpmath(30), 29),
+        (LONG_DOUBLE, 17.5 if HAS_LONG_DOUBLE else 14.5),
+    ],
     ids=lambda ar: getattr(ar, "name", ""),
 )
 def test_arithmetics_agree_with_interval_arithmetic(ar, right: float) -> None:
@@ -112,13 +117,13 @@ def test_arithmetics_agree_with_interval_arithmetic(ar, right: float) -> None:
         for name in ("shape", "wall_shape", "excess"):
             values, reference = getattr(ar, name)(y), getattr(exact, name)(balls)
             assert min(map(digits, values, reference, [60] * len(y))) > right, name
-        turned = [as_ball(x.imag) for x in ar.turned(y)]
+        turned = [as_ball(x.imag) for x in ar.complex_shape(y)]
         assert min(map(digits, turned[1:], exact.shape(balls)[1:], [60] * 4)) > right - 1.5
 
 
 @pytest.mark.parametrize("number", [3, 1001, 123_457, 20_000_000])
 @pytest.mark.parametrize(
-    "ar", [DOUBLE, pytest.param(LONG, marks=needs_long)], ids=lambda ar: ar.name
+    "ar", [DOUBLE, pytest.param(LONG_DOUBLE, marks=needs_long)], ids=lambda ar: ar.name
 )
 def test_zeros_agree_with_certified_ones(ar, number: int) -> None:
     (j,), (slope,) = ar.zeros(number, number - 1)
@@ -129,8 +134,8 @@ def test_zeros_agree_with_certified_ones(ar, number: int) -> None:
 
 
 def test_constants_of_long_doubles_have_full_precision() -> None:
-    for ar in [Mpmath(30), *([LONG] if HAS_LONG else [])]:
-        (found,) = sums.split(72, 6, ar).ready(PAPER)(RADII[-1:])
+    for ar in [Mpmath(30), *([LONG_DOUBLE] if HAS_LONG_DOUBLE else [])]:
+        (found,) = sums.split(72, 6, ar).prepared(PAPER)(RADII[-1:])
         reference = contact_balls.indentation(0.03, PAPER.R, PAPER.h, PAPER.b, 40)
         with flint.ctx.workprec(160):
             assert digits(found, reference, 40) > min(ar.digits - 2, 27)
@@ -140,7 +145,7 @@ def test_single_precision_is_kept() -> None:
     for method in methods():
         if method.arithmetic == "float32" and method.fails(PAPER) is None:
             point = {"law": 0.01, "inversion": 1e-4, "impact": 1.0}[method.task]
-            assert method.ready(PAPER)(np.array([point])).dtype == np.float32, method.name
+            assert method.prepared(PAPER)(np.array([point])).dtype == np.float32, method.name
 
 
 # --- parts of methods
@@ -184,22 +189,22 @@ def test_force_in_plain_python_agrees_with_the_generated_code(regime) -> None:
 
 @pytest.mark.parametrize("regime", REGIMES[:4], ids=lambda r: r.name)
 def test_series_agree_with_the_generated_inverse_and_impact(regime) -> None:
-    r, top = regime, deepest(regime)
+    r, top = regime, largest_contact_radius(regime)
     depths = indentation(top * np.array([0.01, 0.3, 1.0]), r.R, r.h, r.b)
     expected = force(depths, r.R, r.h, r.b, r.lam, r.mu)
     speeds = r.speed * np.array([0.5, 1.0])
     times = impact(r.R, r.m, speeds, r.h, r.b, r.lam, r.mu).contact_time
     for ar, tolerance in ((SINGLE, 2e-6), (DOUBLE, 3e-15)):
-        found = laws.newton(20, ar).ready(regime)(depths)
+        found = laws.newton(20, ar).prepared(regime)(depths)
         np.testing.assert_allclose(found, expected, rtol=tolerance)
-        found = laws.gauss(24, 20, ar).ready(regime)(speeds)
+        found = laws.gauss(24, 20, ar).prepared(regime)(speeds)
         np.testing.assert_allclose(found, times, rtol=tolerance)
     assert laws.diverges(LARGE)
 
 
 def test_integration_without_enough_steps_gives_nan(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(motion, "MOST_STEPS", 20)
-    assert np.isnan(motion.verlet(100).ready(PAPER)(np.array([1.0]))).all()
+    assert np.isnan(motion.verlet(100).prepared(PAPER)(np.array([1.0]))).all()
 
 
 # --- the law used as exact reference
@@ -207,7 +212,8 @@ def test_integration_without_enough_steps_gives_nan(monkeypatch: pytest.MonkeyPa
 
 @pytest.mark.parametrize("regime", [THIN, PAPER, LARGE], ids=lambda r: r.name)
 def test_complete_series_agrees_with_the_reference(regime) -> None:
-    r, ar, a = regime, exact_for(DOUBLE), deepest(regime) * np.array([0.01, 0.3, 1.0])
+    r, ar = regime, exact_for(DOUBLE)
+    a = largest_contact_radius(regime) * np.array([0.01, 0.3, 1.0])
     with ar.context():
         law, A = laws.SeriesLaw(r, ar), ar.array(a) / ar.number(r.h)
         lift, slope = law.lift(A), law.slope(A)
@@ -224,7 +230,7 @@ def test_complete_series_agrees_with_the_reference(regime) -> None:
 
 def test_law_that_would_take_minutes_is_rejected() -> None:
     thin = replace(LARGE, h=1e-5, speed=0.003)
-    assert deepest(thin) / thin.h > 4
+    assert largest_contact_radius(thin) / thin.h > 4
     with pytest.raises(NotImplementedError, match="thin a plate takes minutes"):
         laws.SeriesLaw(thin, exact_for(DOUBLE))
 
@@ -261,7 +267,7 @@ SPLITS = {
         (polynomials.table(3), 12.8, 15),
     ),
     "inversion": (
-        (shipped.hertz("inversion"), 1, 15),
+        (ready_methods.hertz("inversion"), 1, 15),
         (inversion.reversed_series(12), 6.1, 15),
         (inversion.reversed_series(12, SINGLE), 6.1, 6.5),
         (inversion.table(64), 7.5, 14.3),
@@ -269,7 +275,7 @@ SPLITS = {
         (laws.newton(4, SINGLE), 7.8, 6),
     ),
     "impact": (
-        (shipped.hertz("impact"), 0.5, 15.3),
+        (ready_methods.hertz("impact"), 0.5, 15.3),
         (motion.linear(25), 0.8, 15.5),
         (motion.gauss(8), 8.2, 15.3),
         (laws.gauss(8, 12), 8.2, 15.3),
@@ -348,14 +354,14 @@ def test_spread_has_mean_and_standard_deviation() -> None:
 
 
 def test_unseparated_errors_have_a_reason(bounced, monkeypatch) -> None:
-    monkeypatch.setattr(errors, "HAS_LONG", False)
-    found = errors.split(sums.direct(2000), replace(bounced, points=RADII[:1]), [1.0])
+    monkeypatch.setattr(errors, "HAS_LONG_DOUBLE", False)
+    found = errors.separated_errors(sums.direct(2000), replace(bounced, points=RADII[:1]), [1.0])
     assert (found.truncation, found.rounding) == (None, None)
     assert "long double" in (found.unsplit or "")
 
 
 def test_methods_without_truncation_have_only_rounding(pressed) -> None:
-    found = judge(shipped.newton(), pressed, lambda: 0.0).errors
+    found = measure_errors(ready_methods.generated_force(), pressed, lambda: 0.0).errors
     assert (found.truncation, found.rounding) == (None, found.total)
     assert found.total > 14.5
 
@@ -391,6 +397,6 @@ def test_radius_of_an_interval_is_rounding(bounced, monkeypatch) -> None:
         assert float(bare.rad() / ball.rad()) == pytest.approx(1, rel=1e-6)
     assert called_with
     monkeypatch.undo()
-    found = judge(shipped.oracle("impact", 30), bounced, lambda: 0.0).errors
+    found = measure_errors(ready_methods.arb_reference("impact", 30), bounced, lambda: 0.0).errors
     assert (found.truncation, found.unsplit) == (None, None)
     assert found.rounding == found.total > 30

@@ -27,7 +27,7 @@ PLATES = (1e-3, 0.05, 0.0908, 0.0911, 0.2, 0.3332, 0.3335, 0.5302, 1.0, 10.0)
 
 @cache
 def departure(alpha: float, eta: float) -> arb:
-    return contact_balls.departure(alpha, eta, 1.0, 25)
+    return contact_balls.relative_correction(alpha, eta, 1.0, 25)
 
 
 @pytest.mark.parametrize("eta", PLATES)

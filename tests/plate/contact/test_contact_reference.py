@@ -92,7 +92,7 @@ def test_series_agrees_with_the_law() -> None:
         ratio = flint.arb(a) / flint.arb(h)
         terms = (contact_balls.coefficient(n, h, b, 40) * ratio**n for n in range(1, 12, 2))
         total = sum(terms, flint.arb(0))
-    far = contact_balls.departure(a, h, b, 40)
+    far = contact_balls.relative_correction(a, h, b, 40)
     assert close(far, total.str(40, radius=False), 25)
 
 
@@ -101,16 +101,16 @@ def test_series_agrees_with_the_law() -> None:
 
 def test_thick_plate_is_a_half_space_with_an_edge() -> None:
     a, b = 1e-6, 1.0
-    far = contact_balls.departure(a, 100.0, b, 30)
+    far = contact_balls.relative_correction(a, 100.0, b, 30)
     assert float(far) / a == pytest.approx(-0.36953, abs=1e-5)
-    assert float(contact_balls.side_wall(a, 30)) == pytest.approx(float(far), rel=1e-12)
+    assert float(contact_balls.finite_radius(a, 30)) == pytest.approx(float(far), rel=1e-12)
 
 
 @pytest.mark.parametrize("eta", [1e-3, 1e-4])
 def test_thin_plate_agrees_with_kirchhoff(eta: float) -> None:
     """F/(a/h) tends to 1/(4 pi eta^2), Kirchhoff's deflection P b^2/(8 pi D)."""
     a = 1e-2 * eta
-    far = float(contact_balls.departure(a, eta, 1.0, 30))
+    far = float(contact_balls.relative_correction(a, eta, 1.0, 30))
     assert far / (a / eta) * 4 * math.pi * eta**2 == pytest.approx(1.0, abs=60 * eta**2)
 
 
@@ -230,7 +230,7 @@ def reaching(a: float, h: float) -> contact_grid.ContactShape:
 @pytest.mark.parametrize(
     ("where", "bending"),
     [
-        pytest.param(contact_grid.PAPERS_IMPACT, 1.087, id="paper"),
+        pytest.param(contact_grid.PAPER_IMPACT, 1.087, id="paper"),
         pytest.param(reaching(4.139e-5, 6.9e-6), 1.0028e10, id="thin, beyond 3 h"),
         pytest.param(reaching(2.8e-5, 2.8e-5), 1.0150e8, id="thin"),
         pytest.param(reaching(0.971, 3.0), -0.35885, id="thick"),
@@ -270,7 +270,7 @@ def test_error_in_either_reference_of_impacts_is_detected(
 
 
 def test_work_equals_the_kinetic_energy() -> None:
-    R, m, v0, h, b, lam, mu = contact_grid.PAPERS_IMPACT
+    R, m, v0, h, b, lam, mu = contact_grid.PAPER_IMPACT
     found = contact_impact.impact(R, m, v0, h, b, lam, mu, 20)
     radius = float(found.max_contact_radius)
     energy = contact_impact.stored_energy(radius, R, h, b, lam, mu, 20)
@@ -315,17 +315,17 @@ def test_errors_are_in_units_of_the_format() -> None:
             return right + ulps * np.spacing(right)
 
         kept = contact_judge.judge(off, [exact], 8.0, fmt)
-        assert kept.kept(fmt)
+        assert kept.within_limits(fmt)
         assert kept.max_ulp <= 0.5
         broken = contact_judge.judge(partial(off, ulps=11), [exact], 8.0, fmt)
-        assert not broken.kept(fmt)
+        assert not broken.within_limits(fmt)
         assert 10.0 < broken.needed <= 11.5  # a constant function has no condition number
     nan = contact_judge.judge(lambda *_: np.float64(math.nan), [exact], 8.0)
     assert nan.ratio == math.inf
     always_double = contact_judge.judge(contact_law.force_of_radius, [exact], 8.0, SINGLE)
-    assert always_double.kept(SINGLE)
+    assert always_double.within_limits(SINGLE)
     wrong_type = contact_judge.judge(lambda *_: np.float64(0.1), [exact], 8.0, SINGLE)
-    assert not wrong_type.kept(SINGLE)
+    assert not wrong_type.within_limits(SINGLE)
     assert wrong_type.dtype == "float64"
 
 

@@ -365,7 +365,7 @@ def test_force_series_agrees_inside_its_radius() -> None:
 def test_wrong_inversion_is_rejected() -> None:
     r = sp.symbols("r_1 r_2", real=True)
     series = (sp.Integer(1), *r)
-    inverse = reversion.inverted(series, 3, 2, 3, 3)
+    inverse = reversion.inverted_coefficients(series, 3, 2, 3, 3)
     broken = (*inverse[:2], inverse[2] + r[1] / 7)
     with pytest.raises(ProofError, match="order 2"):
         prove("Inversion", "", reversion.composition(series, broken, 3, 2, 3))

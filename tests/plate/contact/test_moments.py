@@ -234,8 +234,8 @@ def test_switch_points_follow_from_the_bound() -> None:
 
 def test_trapezoidal_rule_is_more_accurate_than_double_precision() -> None:
     """The relative error is below 2^-_WARRANTED, which the rounding of the tables requires."""
-    assert tables._WARRANTED >= 90
-    limit = arb(2) ** -tables._WARRANTED
+    assert tables._TABLE_BITS >= 90
+    limit = arb(2) ** -tables._TABLE_BITS
     with flint.ctx.workprec(200):
         for n in (0, 1, 2, 11, 64, 130, LAST_N):
             assert abs(tables.kappas()[n] / reference.kappa(n, 120) - 1) < limit, n

@@ -214,7 +214,7 @@ def test_recorded_sum_of_a_coefficient(motion: Mapping[str, Formula], k: int) ->
 def test_law_is_exact(motion: Mapping[str, Formula], radius: str, ratio: str) -> None:
     """c_1 A + c_3 A^3 + Phi(A) misses F by the recorded sum over the roots."""
     A, e = Fraction(radius), Fraction(ratio)
-    expected = number(contact_balls.departure(A * e, e, 1, DIGITS))
+    expected = number(contact_balls.relative_correction(A * e, e, 1, DIGITS))
     integrand, (T, *_) = motion["Phi"].expression.args
     with mp.workdps(80):
         density = sp.lambdify((T, a_ratio), integrand, "mpmath")

@@ -15,9 +15,9 @@ from shared_scenes import lame
 from derivation.engine.files import measurements
 from derivation.engine.formula.ball import evaluate, to_ball
 from derivation.engine.formula.proof import ProofError, prove
-from derivation.plate.back_face import theory as far_face
+from derivation.plate.back_face import theory as back_face
 from derivation.plate.edge.oracle import clamped as clamp_balls
-from derivation.plate.edge.remainder import RADIUS, RemainderCase, RemainderMesh, added
+from derivation.plate.edge.remainder import RADIUS, RemainderCase, RemainderMesh, edge_contribution
 from derivation.plate.edge.route import clamped as clamp_routes
 from derivation.plate.edge.theory import clamped as clamp
 from derivation.plate.edge.theory.supported import states
@@ -60,7 +60,7 @@ def test_fits_agree_with_the_measured_strip() -> None:
         assert float(chi / n**2) == pytest.approx(row["turn"], rel=2e-3)
         assert float(level) == pytest.approx(row["level"], rel=2e-3)
         # shear at the end of the strip, to first order in n
-        assert abs(row["shear"] - float(clamp.SHEAR)) < 1e-3 + 0.16 * abs(row["n"])
+        assert abs(row["shear"] - float(clamp.SHEAR_TERM)) < 1e-3 + 0.16 * abs(row["n"])
 
 
 def test_measurement_of_the_strip_agrees_with_the_record() -> None:
@@ -91,7 +91,7 @@ def test_law_agrees_with_three_dimensional_elements() -> None:
         if row["support"] == "clamped" and size in limits:
             case = RemainderCase("clamped", size, row["nu"])
             a = row["a_over_b"]
-            error = row["share_of_indentation"] * added(case, a)[1]
+            error = row["share_of_indentation"] * edge_contribution(case, a)[1]
             kirchhoff = a**3 / RADIUS / (8 * math.pi * size**3)
             assert abs(error) < limits[size] * kirchhoff, row
             tested += 1
@@ -150,12 +150,12 @@ def test_references_and_theory_agree(kind: str, h: float, width: float, ratio: f
         assert abs(ball / evaluate(expression, numbers, 27) - 1) < 1e-25
     with mp.workdps(40):
         route = clamp_routes.clamp_part(kind, width, h, 1, ratio, 27)
-        far = clamp_routes.far_clamp(width, h, 1, ratio, 27)
+        far = clamp_routes.back_face_clamp(width, h, 1, ratio, 27)
         with flint.ctx.workprec(BITS):
             assert abs(ball / arb(mp.nstr(route, 35)) - 1) < 1e-25
-            exact = to_ball(sum(clamp_balls.far_clamp(*plate)))
+            exact = to_ball(sum(clamp_balls.back_face_clamp(*plate)))
             assert abs(exact / arb(mp.nstr(far, 35)) - 1) < 1e-25
-            derived = evaluate(far_face.far_clamp().expression, numbers, 27)
+            derived = evaluate(back_face.back_face_clamp().expression, numbers, 27)
             assert abs(exact / derived - 1) < 1e-25
 
 

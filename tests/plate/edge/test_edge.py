@@ -67,7 +67,7 @@ def test_moment_at_the_edge_of_a_thin_plate() -> None:
     moment = {f.name: f.expression for f in edge.edge_resultants()}["edge_moment"]
     thin = sp.limit(moment, h, 0).subs(A_j, pressure_coefficient().expression)
     point = sp.limit(thin / a**3, a, 0)
-    plain = edge_sums.closed(edge_sums.indentation_kernel).plain.subs(alpha, 0)
+    plain = edge_sums.closed_sums(edge_sums.indentation_kernel).plain.subs(alpha, 0)
     # The moment of a mode is proportional to 1/(phi^3 J1) = b^3/(j^3 J1).
     total = sp.simplify(point * phi**3 * J1 * b**3 * plain)
     force = contact_radius().expression / a**3

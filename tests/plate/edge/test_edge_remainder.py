@@ -17,7 +17,7 @@ from derivation.plate.edge.remainder import (
     Field,
     RemainderCase,
     RemainderMesh,
-    added,
+    edge_contribution,
     heights,
     lobatto,
     radii,
@@ -61,7 +61,7 @@ def test_edge_states_and_elements_add_up_to_the_total(support: str) -> None:
     shares = remainders(case, COARSE)
     for a, one, other, share in zip(WIDTHS, whole, rest, shares, strict=True):
         assert abs(one / other - 1) < 1e-8
-        more, indentation = added(case, a)
+        more, indentation = edge_contribution(case, a)
         assert abs(other - more - share * indentation) < 1e-12 * indentation
 
 

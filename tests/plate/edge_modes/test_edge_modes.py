@@ -20,9 +20,9 @@ from derivation.engine.formula.proof import ProofError
 from derivation.engine.oracle.agreement import RouteError
 from derivation.mathematics.bessel.theory import modified as modified_bessel
 from derivation.plate import derived
-from derivation.plate.edge_modes.oracle import modes as held_balls
-from derivation.plate.edge_modes.oracle import waves as held_wave_balls
-from derivation.plate.edge_modes.route import waves as held_wave_routes
+from derivation.plate.edge_modes.oracle import modes as mode_balls
+from derivation.plate.edge_modes.oracle import waves as wave_balls
+from derivation.plate.edge_modes.route import waves as wave_routes
 from derivation.plate.edge_modes.theory import mindlin
 from derivation.plate.edge_modes.theory import waves as theory
 from derivation.plate.vocabulary import eta as thickness
@@ -94,9 +94,9 @@ def test_bound_of_the_bessel_integral_of_order_two(steps: int, largest: int) -> 
     ("edge", "n", "eta", "nu"),
     [("clamped", 1, 0.3, 0.4), ("supported", 2, 0.1, 0.3), ("supported", 1, 0.2, -0.9)],
 )
-def test_references_agree(edge: held_balls.Edge, n: int, eta: float, nu: float) -> None:
-    balls = held_wave_balls.wave(edge, n, eta, nu, 25)
-    routes = held_wave_routes.wave(edge, eta, nu, round(float(balls.k), 4), 14)
+def test_references_agree(edge: mode_balls.Edge, n: int, eta: float, nu: float) -> None:
+    balls = wave_balls.wave(edge, n, eta, nu, 25)
+    routes = wave_routes.wave(edge, eta, nu, round(float(balls.k), 4), 14)
     with flint.ctx.workprec(BITS), mp.workdps(50):
         for ball, route in zip(balls, routes, strict=True):
             assert abs(ball / arb(mp.nstr(route, 40)) - 1) < 1e-14
@@ -105,9 +105,9 @@ def test_references_agree(edge: held_balls.Edge, n: int, eta: float, nu: float) 
 def test_references_reject_invalid_arguments() -> None:
     for given in ((0, 0.1, 0.3), (1, 0.0, 0.3), (1, 0.1, 0.5), (1, 0.1, -1.0)):
         with pytest.raises(ValueError, match="n >= 1"):
-            held_wave_balls.wave("clamped", *given)
-    with pytest.raises(held_balls.RootError, match="beyond the cut-off"):
-        held_wave_balls.wave("clamped", 3, 0.3, 0.3, 10)
+            wave_balls.wave("clamped", *given)
+    with pytest.raises(mode_balls.RootError, match="beyond the cut-off"):
+        wave_balls.wave("clamped", 3, 0.3, 0.3, 10)
 
 
 def test_missing_roots_are_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -116,12 +116,12 @@ def test_missing_roots_are_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
         ("_illinois", lambda *_: Fraction(5, 2), "no change of sign"),
     ):
         with monkeypatch.context() as patched:
-            patched.setattr(held_wave_balls, name, wrong)
-            with pytest.raises(held_balls.RootError, match=match):
-                held_wave_balls.wave("clamped", 1, 0.1, 0.3, 10)
-    monkeypatch.setattr(held_wave_routes, "_STEPS", 0)
+            patched.setattr(wave_balls, name, wrong)
+            with pytest.raises(mode_balls.RootError, match=match):
+                wave_balls.wave("clamped", 1, 0.1, 0.3, 10)
+    monkeypatch.setattr(wave_routes, "_STEPS", 0)
     with pytest.raises(RouteError, match=r"no root of the determinant near k = 3\.1"):
-        held_wave_routes.wave("clamped", 0.1, 0.3, 3.1, 5)
+        wave_routes.wave("clamped", 0.1, 0.3, 3.1, 5)
 
 
 # --- generated functions
@@ -129,7 +129,7 @@ def test_missing_roots_are_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize("nu", RATIOS)
 def test_cut_off_frequency(nu: float) -> None:
-    low, high = held_wave_balls.cutoff(nu, 20)
+    low, high = wave_balls.cutoff(nu, 20)
     assert cutoff(nu) == pytest.approx(float((low + high) / 2), rel=1e-14)
     for edge, of in WAVES_OF.items():
         for eta in (0.07, 0.21):
@@ -138,8 +138,8 @@ def test_cut_off_frequency(nu: float) -> None:
             assert (waves.k * eta < cutoff(nu)).all()
             assert (waves.k2 > 0).all()
             assert count in (n := int(cutoff(nu) / eta / math.pi), n - 1, n + 1), edge
-            with pytest.raises(held_balls.RootError, match="beyond the cut-off"):
-                held_wave_balls.wave(edge, count + 1, eta, nu, 10)  # type: ignore[arg-type]
+            with pytest.raises(mode_balls.RootError, match="beyond the cut-off"):
+                wave_balls.wave(edge, count + 1, eta, nu, 10)  # type: ignore[arg-type]
 
 
 def test_shorter_tables_are_the_beginning_of_longer_ones() -> None:
@@ -279,7 +279,7 @@ def test_modes_of_thin_plates_agree_with_plate_theory(eta: float) -> None:
     ):
         found = WAVES_OF[edge](3, eta, nu)
         for n in (1, 2, 3):
-            exact = held_balls.mode(edge, n, nu, 25)  # type: ignore[arg-type]
+            exact = mode_balls.mode(edge, n, nu, 25)  # type: ignore[arg-type]
             for name in exact._fields:
                 value = float(getattr(exact, name))
                 assert getattr(found, name)[n - 1] == pytest.approx(

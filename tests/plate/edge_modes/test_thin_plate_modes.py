@@ -13,8 +13,8 @@ from derivation.engine.formula.ball import evaluate, to_ball
 from derivation.engine.formula.proof import ProofError, lower_bessel, prove
 from derivation.mathematics.bessel.theory import modified as modified_bessel
 from derivation.plate import derived
-from derivation.plate.edge_modes.oracle import modes as held_balls
-from derivation.plate.edge_modes.route import modes as held_routes
+from derivation.plate.edge_modes.oracle import modes as mode_balls
+from derivation.plate.edge_modes.route import modes as mode_routes
 from derivation.plate.edge_modes.theory import modes as theory
 from derivation.plate.vocabulary import alpha, k_n
 
@@ -81,8 +81,8 @@ def test_bound_of_the_bessel_integral_as_a_sum(steps: int, largest: int) -> None
      ("supported", 1, -1 + 2.0**-53), ("supported", 1, math.nextafter(0.5, 0)),
      ("supported", 2, -0.9), ("supported", 6, 0.2)],
 )  # fmt: skip
-def test_references_agree(edge: held_balls.Edge, n: int, nu: float) -> None:
-    balls, routes = held_balls.mode(edge, n, nu), held_routes.mode(edge, n, nu)
+def test_references_agree(edge: mode_balls.Edge, n: int, nu: float) -> None:
+    balls, routes = mode_balls.mode(edge, n, nu), mode_routes.mode(edge, n, nu)
     with flint.ctx.workprec(BITS), mp.workdps(50):
         for ball, route in zip(balls, routes, strict=True):
             assert abs(ball / arb(mp.nstr(route, 40)) - 1) < 1e-29
@@ -91,7 +91,7 @@ def test_references_agree(edge: held_balls.Edge, n: int, nu: float) -> None:
 def test_references_reject_invalid_arguments() -> None:
     for n, nu in ((0, 0.3), (1, -1.0), (2, 1.0)):
         with pytest.raises(ValueError, match="n >= 1"):
-            held_balls.mode("supported", n, nu)
+            mode_balls.mode("supported", n, nu)
 
 
 # --- known answers
@@ -109,7 +109,7 @@ def test_modal_weight_is_the_mean_under_a_flat_punch(contact: str) -> None:
             return mp.sin(t) * (mp.besselj(0, r) - part * mp.besseli(0, r)) / (1 - part)
 
         values = {k_n: Fraction("9.4394991378764"), alpha: Fraction(contact)}
-        closed = evaluate(derived.formulas()["held_share"].expression, values, 22)
+        closed = evaluate(derived.formulas()["thin_mode_share"].expression, values, 22)
         with flint.ctx.workprec(BITS):
             mean = arb(mp.nstr(mp.quad(shape, mp.linspace(0, mp.pi / 2, 4)), 25))
             assert abs(closed - mean) < 1e-20

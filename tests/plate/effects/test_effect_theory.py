@@ -9,7 +9,7 @@ from mpmath import mp, mpf
 from shared_scenes import model
 
 from derivation.engine.formula.proof import ProofError
-from derivation.plate.contact.theory import curvature as curvature_theory
+from derivation.plate.contact.theory import spherical_profile as curvature_theory
 from derivation.plate.effects import theory as effects_theory
 from derivation.scene import (
     kernels,
@@ -20,7 +20,7 @@ from generated.effects import (
     bending,
     bending_period,
     echo_time,
-    side_wall,
+    finite_radius,
     sphere_contact,
     zener_number,
 )
@@ -96,14 +96,14 @@ def test_side_wall_is_within_its_budget() -> None:
                 [mpf("1e-6"), 0.1, 0.5, 1, 2, 3, 4.4],
             )  # fmt: skip
             exact_value = -8 / (mp.pi**2 * a**2) * integral
-            assert abs(mpf(float(side_wall(alpha).depth)) / exact_value - 1) < 1e-14
+            assert abs(mpf(float(finite_radius(alpha).depth)) / exact_value - 1) < 1e-14
     alpha = np.linspace(0.01, 0.99, 50)
     step = 1e-5
-    low, high = (side_wall(alpha * f).depth * (alpha * f) ** 2 for f in (1 - step, 1 + step))
+    low, high = (finite_radius(alpha * f).depth * (alpha * f) ** 2 for f in (1 - step, 1 + step))
     slope = (high - low) / (2 * step * alpha) / (2 * alpha)
-    np.testing.assert_allclose(side_wall(alpha).slope, slope, rtol=1e-8)
-    assert (side_wall(alpha).slope <= 0).all()
-    assert (-side_wall(alpha).slope <= WALL_LINEAR * alpha + WALL_CUBIC * alpha**3).all()
+    np.testing.assert_allclose(finite_radius(alpha).slope, slope, rtol=1e-8)
+    assert (finite_radius(alpha).slope <= 0).all()
+    assert (-finite_radius(alpha).slope <= WALL_LINEAR * alpha + WALL_CUBIC * alpha**3).all()
 
 
 def test_bending_agrees_with_thin_plate_theory() -> None:
@@ -136,7 +136,7 @@ def test_parameters_of_plate_motion_agree_with_their_definitions() -> None:
     ("call", "good", "bad"),
     [
         (sphere_contact, (0.5,), [(-0.1,), (1.0,), (math.nan,), (math.inf,)]),
-        (side_wall, (0.5,), [(-0.1,), (1.0,), (math.nan,)]),
+        (finite_radius, (0.5,), [(-0.1,), (1.0,), (math.nan,)]),
         (bending, (0.5, 0.1), [(-1.0, 0.1), (1.0, 0.0), (1.0, -1.0)]),
         (echo_time, (1.0, 1.0, 1.0, 1.0), [(0.0, 1.0, 1.0, 1.0), (1.0, -1.0, 1.0, 1.0)]),
     ],

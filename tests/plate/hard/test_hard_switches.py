@@ -13,7 +13,7 @@ import pytest
 from switches import Watch, watched
 
 import generated
-from derivation.engine.measure.case import HardCase, handed_over
+from derivation.engine.measure.case import HardCase, call_arguments
 from derivation.engine.measure.kernels import Kernel
 from derivation.engine.measure.suite import Suite
 
@@ -93,7 +93,7 @@ def seen(suite: Suite) -> Watch:
 
 def ways(case: HardCase, kernel: Kernel) -> Iterator[list[Any]]:
     """Yield the arguments of a case; for the contact law also as arrays and as numbers."""
-    arguments = handed_over(case, kernel.arguments)
+    arguments = call_arguments(case, kernel.arguments)
     yield arguments
     if kernel.module == "contact_law":
         columns = [np.ravel(x) for x in np.broadcast_arrays(*arguments)]

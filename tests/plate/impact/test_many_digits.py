@@ -64,7 +64,7 @@ def test_second_reference_is_inside_the_interval(eta: float, alpha: float, digit
     """The Arb interval overlaps the second reference, widened by its requested accuracy."""
     R, lam, mu = 2.0, 0.36e9, 0.43e9
     law = ball_law.law_of(ratio_of(eta, 1.0), alpha, digits)
-    balls = ball_law.pressed(alpha, R, 1.0, lam, mu, law, digits + 3)
+    balls = ball_law.static_contact(alpha, R, 1.0, lam, mu, law, digits + 3)
     others = (
         residue_law.indentation(alpha, R, eta, 1.0, digits),
         residue_law.stiffness(alpha, R, eta, 1.0, lam, mu, digits),
@@ -72,7 +72,7 @@ def test_second_reference_is_inside_the_interval(eta: float, alpha: float, digit
     for ball, other in zip(balls, others, strict=True):
         with flint.ctx.workprec(bits_of(digits) + 64):
             assert ball.overlaps(to_ball(other) * arb(1, arb(10) ** -digits))
-        assert many_digits.shared(ball, other) > digits
+        assert many_digits.shared_digits(ball, other) > digits
 
 
 @pytest.mark.parametrize(
@@ -271,8 +271,8 @@ def test_disagreement_of_references_gives_status_1(
 
 
 def test_common_digits_are_limited_by_the_interval() -> None:
-    assert 9 < many_digits.shared(arb(3, 1e-10), mpf(3)) < 10.5
-    assert many_digits.shared(arb(3), mpf(3)) == math.inf
+    assert 9 < many_digits.shared_digits(arb(3, 1e-10), mpf(3)) < 10.5
+    assert many_digits.shared_digits(arb(3), mpf(3)) == math.inf
 
 
 @pytest.mark.parametrize("name", ["indentation", "stiffness", "impact"])

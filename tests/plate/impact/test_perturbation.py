@@ -241,7 +241,7 @@ def test_comparison_is_not_an_effect() -> None:
     assert repr(explain(requested).effects) == repr(explain(plain).effects)  # NaN != NaN
     assert indent(requested, force=[10.0]) == indent(plain, force=[10.0])
     wanted = compared(compare_paper_motion=True), compared()
-    one, other = (derivation.checks.effects.everything(data) for data in wanted)
+    one, other = (derivation.checks.effects.all_effects_impact(data) for data in wanted)
     assert one == other is not None
     assert in_doubles(requested).contact_time == in_doubles(plain).contact_time
 

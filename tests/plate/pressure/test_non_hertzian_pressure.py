@@ -16,7 +16,7 @@ from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.pressure import oracle as pressure_balls
 from derivation.plate.pressure import route as pressure_routes
 from derivation.plate.pressure.theory import bound
-from derivation.plate.pressure.theory import true_pressure as theory
+from derivation.plate.pressure.theory import integral_equation as theory
 from derivation.plate.vocabulary import a_ratio, c_A
 from derivation.plate.vocabulary import eta as eta_symbol
 from generated.contact_series import plates_of
@@ -76,7 +76,7 @@ def test_bounds_hold_and_are_positive(eta: float) -> None:
         hertz = a * ratio
         slope = 2 * ratio / float(state.stiffness)
         gone = slope - float(contact_balls.slope(hertz, 1e3, 1, 1 / eta)) * 1e3 / (2 * hertz)
-        sunk = depth - 1 - float(contact_balls.departure(hertz, 1, 1 / eta))
+        sunk = depth - 1 - float(contact_balls.relative_correction(hertz, 1, 1 / eta))
         values = {c_A[3]: float(third), a_ratio: hertz, eta_symbol: eta}
         for moved, most_of in ((gone, slope_bound), (sunk, depth_bound)):
             assert abs(moved) < float(most_of.subs(values)) < 8 * abs(moved)

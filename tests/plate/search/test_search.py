@@ -18,11 +18,11 @@ from derivation.engine.measure.case import HardCase, read_cases
 from derivation.engine.measure.point import Point
 from derivation.engine.measure.search import Search, search
 from derivation.engine.measure.search_record import (
-    Book,
+    SearchRecord,
+    all_within_allowance,
     as_data,
     case_of,
-    kept,
-    measured,
+    measured_case,
     read,
     seconds_of,
     to_toml,
@@ -104,18 +104,18 @@ def test_known_defect_is_found_and_refined(caught: Search) -> None:
     assert 1.0 < standing.worst.point.values["x"] < 1.001
     # The local search also adds the error of the function to the planted 20 ULP.
     assert standing.worst.error.ulp > 20.5
-    assert not kept(caught)
+    assert not all_within_allowance(caught)
 
 
 def test_written_case_reproduces_the_error(caught: Search, planted: Target, tmp_path: Path) -> None:
     path = tmp_path / "cases.toml"
-    book = Book(path, [planted], {}, {})
+    book = SearchRecord(path, [planted], {}, {})
     book.keep(caught)
     [case] = read(path)
     assert (case.kernel, case.group) == ("bessel_j0", "search")
     assert "seed 10" in case.cause
-    assert measured(case, {"bessel_j0": planted}) == caught.standings["bessel_j0"].worst
-    again = Book(path, [planted], {}, {})
+    assert measured_case(case, {"bessel_j0": planted}) == caught.standings["bessel_j0"].worst
+    again = SearchRecord(path, [planted], {}, {})
     assert not again.is_new("bessel_j0", caught.standings["bessel_j0"].worst)
     before = path.read_text()
     again.keep(caught)
@@ -126,7 +126,7 @@ def test_only_larger_errors_are_new_cases(caught: Search, planted: Target) -> No
     known = ROOT / "reports" / "data" / "check.json"
     worst = caught.standings["bessel_j0"].worst
     assert worst is not None
-    book = Book(NOWHERE, [planted], *recorded(known, NOWHERE))
+    book = SearchRecord(NOWHERE, [planted], *recorded(known, NOWHERE))
     assert book.is_new("bessel_j0", worst)
     row = next(r for r in json.loads(known.read_text())["rows"] if r["kernel"] == "bessel_j0")
     smaller = dataclasses.replace(worst.error, ulp=0.99 * row["double"]["ratio"], allowed=1.0)
@@ -153,7 +153,7 @@ def test_case_with_an_array_of_two_points(fast: tuple[Target, ...], tmp_path: Pa
     path.write_text(to_toml([(case, worst)]))
     (read_back,) = read_cases(path)
     assert read_back == case
-    assert measured(read_back, {"bessel_j1": target}) == worst
+    assert measured_case(read_back, {"bessel_j1": target}) == worst
 
 
 def test_result_that_is_not_finite_is_the_largest_error(planted: Target, tmp_path: Path) -> None:
@@ -162,7 +162,7 @@ def test_result_that_is_not_finite_is_the_largest_error(planted: Target, tmp_pat
     assert found.standings["bessel_j0"].ratio == math.inf
     assert as_data(found)["rows"][0]["ratio"] == "inf"
     json.dumps(as_data(found), allow_nan=False)
-    Book(tmp_path / "x.toml", [broken], {}, {}).keep(found)
+    SearchRecord(tmp_path / "x.toml", [broken], {}, {}).keep(found)
     assert read(tmp_path / "x.toml")
 
 
@@ -203,10 +203,10 @@ def test_case_with_other_arguments_is_rejected(fast: Sequence[Target], tmp_path:
     case = HardCase("search", "p", "By hand.", {"x": ("0x1p+0",)})
     path.write_text(to_toml([(case, None)]))
     with pytest.raises(ValueError, match="p takes r, a, P"):
-        Book(path, fast, {}, {})
+        SearchRecord(path, fast, {}, {})
     path.write_text(to_toml([(dataclasses.replace(case, group="seams"), None)]))
     with pytest.raises(ValueError, match="--out FILE"):  # a file written by the user
-        Book(path, fast, {}, {})
+        SearchRecord(path, fast, {}, {})
 
 
 def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

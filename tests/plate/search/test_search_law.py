@@ -16,8 +16,8 @@ from derivation.engine.measure import search
 from derivation.engine.measure.case import HardCase, read_cases
 from derivation.engine.measure.judge import Error
 from derivation.engine.measure.point import Point
-from derivation.engine.measure.search import Found, Standing
-from derivation.engine.measure.search_record import Book, as_data, case_of, to_toml
+from derivation.engine.measure.search import LargeError, TargetSearch
+from derivation.engine.measure.search_record import SearchRecord, as_data, case_of, to_toml
 from derivation.engine.measure.target import Numbers, Target
 from derivation.plate.contact.cases import judge as contact_judge
 from derivation.plate.contact.cases.reference_values import reference_value
@@ -141,12 +141,12 @@ def test_local_search_keeps_zeros_and_stays_in_the_domain() -> None:
         target, call=lambda points: seen.extend(points) or [(0.0,)] * len(points)
     )
     start = Point({"x": 0.0, "y": 1.0})
-    here = Standing(worst=Found(start, None, Error(0.5, 1.0)))
-    steps = search._climb(target, random.Random(1), here, Standing())
+    here = TargetSearch(worst=LargeError(start, None, Error(0.5, 1.0)))
+    steps = search._local_search(target, random.Random(1), here, TargetSearch())
     assert list(steps) == []
     assert seen == []
     wide = dataclasses.replace(target, domain=domain_of("zero", ("x", "y"), False, ()))
-    assert len(list(search._climb(wide, random.Random(1), here, Standing()))) > 10
+    assert len(list(search._local_search(wide, random.Random(1), here, TargetSearch()))) > 10
     assert {point.values["x"] for point in seen} == {0.0}
 
 
@@ -162,7 +162,7 @@ def test_cases_of_other_functions_stay_in_the_file(tmp_path: Path) -> None:
     path, target = tmp_path / "cases.toml", plain("size", ("x",), ())
     other = HardCase("search", "other", "Found by search, seed 3.", {"x": ((1.0).hex(),)})
     path.write_text(to_toml([(other, None)]))
-    book = Book(path, [target], {}, {})
+    book = SearchRecord(path, [target], {}, {})
     found = search.search([target], 1, evaluations=50)
     book.keep(found)
     first, second = read_cases(path)
@@ -180,13 +180,13 @@ def test_recorded_worst_error_is_not_a_new_case(law: dict[str, Target]) -> None:
     point = Point(dict(zip(target.domain.arguments, map(float.fromhex, texts), strict=True)))
     error = target.measure(point, target.call([point])[0])
     assert error is not None
-    book = Book(NOWHERE, [target], *recorded(NOWHERE, pipeline.MEASURED_CONTACT))
+    book = SearchRecord(NOWHERE, [target], *recorded(NOWHERE, pipeline.MEASURED_CONTACT))
     elsewhere = Point({**point.values, "R": 2.0 * point.values["R"]})
-    same = Found(elsewhere, None, error)
+    same = LargeError(elsewhere, None, error)
     assert not book.is_new(target.name, same)
-    worse = Found(elsewhere, None, Error(1.001 * error.ulp, error.allowed))
+    worse = LargeError(elsewhere, None, Error(1.001 * error.ulp, error.allowed))
     assert book.is_new(target.name, worse)
-    assert Book(NOWHERE, [target], {}, {}).is_new(target.name, same)
+    assert SearchRecord(NOWHERE, [target], {}, {}).is_new(target.name, same)
 
 
 @pytest.mark.parametrize(("off", "status"), [(0.5, 0), (2.0, 1)])
@@ -200,7 +200,7 @@ def test_json_output_of_the_search_is_pure(
     """
     target = dataclasses.replace(plain("size", ("x",), ()), measure=lambda *_: Error(off, 1.0))
     found = search.search([target], 1, evaluations=20)
-    book = Book(tmp_path / "cases.toml", [target], {}, {})
+    book = SearchRecord(tmp_path / "cases.toml", [target], {}, {})
     book.keep(found)
     monkeypatch.setattr(pipeline, "search_worse", lambda *_: (found, book))
     assert main(["check", "search", "--time", "1s", "--json", "-"]) == status

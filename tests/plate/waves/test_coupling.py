@@ -15,7 +15,7 @@ from derivation.plate import derived
 from derivation.plate.vocabulary import P as force
 from derivation.plate.vocabulary import a as radius
 from derivation.plate.vocabulary import k, phi
-from derivation.plate.waves.theory import closure
+from derivation.plate.waves.theory import coupling
 from generated import contact_law, non_hertzian_pressure
 from generated.contact_series import plate_coefficients
 
@@ -30,14 +30,19 @@ def test_wrong_energy_or_weight_is_rejected() -> None:
     none = sp.Integer(0)
     stored = sp.Add(
         *(
-            q * (closure._P * s - f)
-            for q, s, f in zip(closure._q, closure._share, closure._felt, strict=True)
+            q * (coupling._P * s - f)
+            for q, s, f in zip(
+                coupling._q, coupling._modal_weights, coupling._modal_forces, strict=True
+            )
         )
     )
-    for weights, energy in ((closure._share, none), ([sp.Integer(1)] * closure.MODES, stored)):
-        rate = closure._plain(closure._loss(weights, energy, none, none))
-        with pytest.raises(ProofError, match="kept"):
-            prove("Energy", "", {"kept": rate})
+    for weights, energy in (
+        (coupling._modal_weights, none),
+        ([sp.Integer(1)] * coupling.MODES, stored),
+    ):
+        rate = coupling._plain(coupling._loss(weights, energy, none, none))
+        with pytest.raises(ProofError, match="conserved energy"):
+            prove("Energy", "", {"conserved energy": rate})
 
 
 @pytest.mark.parametrize("y", ["0.3", "2", "11"])

@@ -15,7 +15,7 @@ def back_face_kernels() -> Routines:
     imports = {
         "back_face_numbers": ("THIN",),
         "blocks": ("polynomial", "sinh_pair"),
-        "edge_kernels": ("depth_lost", "turn_of_clamp"),
+        "edge_kernels": ("indentation_loss", "turn_of_clamp"),
         "ranges": ("times",),
     }
     title = "Stress on the back face of a plate: modal terms, series, and edge correction."

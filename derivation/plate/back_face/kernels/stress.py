@@ -4,15 +4,15 @@ import sympy as sp
 from sympy.codegen.cfunctions import expm1
 
 from derivation.engine.emit.routine import Choice, Let, Routine, Several, routine
-from derivation.engine.rewrite.form import TIMES, undo
+from derivation.engine.rewrite.form import TIMES, substitute_steps
 from derivation.engine.rewrite.series import POLYNOMIAL
 from derivation.plate.back_face.theory import (
     SCALE,
-    far_clamp,
-    far_edge,
-    far_stress,
-    thin_far_face,
-    wide_far_face,
+    back_face_clamp,
+    back_face_edge,
+    back_face_stress,
+    thin_plate_stress,
+    wide_contact_stress,
 )
 from derivation.plate.blocks import blocks
 from derivation.plate.edge.kernels.supported import (
@@ -23,7 +23,7 @@ from derivation.plate.edge.kernels.supported import (
     stretched,
     support,
 )
-from derivation.plate.edge.theory.clamped import HERTZ_MEAN, depth_lost, turn
+from derivation.plate.edge.theory.clamped import HERTZ_MEAN, indentation_loss, turn
 from derivation.plate.edge.theory.sums import indentation_kernel
 from derivation.plate.edge.theory.supported import RATIO, support_ratio
 from derivation.plate.vocabulary import J1, P, T, a_ratio, alpha, eta, h, j_n, lam, mu
@@ -39,7 +39,7 @@ def modes() -> Routine:
     names = "low pair square low_square"
     low, pair, square, low_square = sp.symbols(names, positive=True)
     block = blocks()["sinh_pair"]
-    (_, mode) = far_stress()
+    (_, mode) = back_face_stress()
     cubed = T * square / low_square**2
     return routine(
         "back_face_modes",
@@ -77,7 +77,7 @@ def other_plate() -> Routine:
 
 def thin_plate() -> Routine:
     """Return S of a thin plate from that of a thicker one."""
-    stated = thin_far_face()[0].expression
+    stated = thin_plate_stress()[0].expression
     return routine(
         "of_thin_plate",
         (total, thick, eta),
@@ -93,7 +93,7 @@ def thin_plate() -> Routine:
 def wide_contact() -> Routine:
     """Return S where the contact is wide compared with the thickness."""
     square = sp.Symbol("square", positive=True)
-    stated = wide_far_face().expression
+    stated = wide_contact_stress().expression
     powers = sp.Poly(
         stated.subs(alpha, sp.Rational(1, 2)).subs(a_ratio, 2 / sp.sqrt(square)), square
     )
@@ -124,7 +124,7 @@ def supported() -> Routine:
         (total, eta, n, support, bent, stretched),
         (),
         (total + support * (12 * bent + 8 * n * eta * stretched),),
-        (_sum + support_ratio().expression * far_edge().expression,),
+        (_sum + support_ratio().expression * back_face_edge().expression,),
         "Return S plus the correction for a simple support, from both sums over the modes.",
         {**one_mode(indentation_kernel), total: _sum},
         in_ratio,
@@ -139,12 +139,12 @@ def clamped() -> Routine:
         (total, alpha, eta, n),
         (
             Several((chi,), "turn_of_clamp", (n,), (turn(),)),
-            Several((lost,), "depth_lost", (eta, n), (depth_lost() / eta,)),
+            Several((lost,), "indentation_loss", (eta, n), (indentation_loss() / eta,)),
             Let(wide, 1 - HERTZ_MEAN * alpha**2),
             Let(moment, wide * (1 + 2 * chi * eta) - eta * lost),
         ),
         (total - sp.Rational(3, 2) * moment - 2 * n * eta**2,),
-        (_sum - far_clamp().expression,),
+        (_sum - back_face_clamp().expression,),
         "Return S plus the correction for a clamped edge.",
         {n: RATIO, total: _sum},
         in_ratio,
@@ -161,7 +161,7 @@ def scaled() -> Routine:
         (SCALE * _sum,),
         "Return (1 + nu) P/(2 pi H^2) S, with lam and mu over any common scale.",
         {lam: lam / unit, mu: mu / unit, total: _sum},
-        lambda e: undo(e, (), {}),
+        lambda e: substitute_steps(e, (), {}),
     )
 
 

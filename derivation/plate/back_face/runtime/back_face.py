@@ -44,7 +44,7 @@ _POINTS = 64  # number of points in one block of the sum
     "3 * lam > -2 * mu, mu > 0",
 )
 @quiet
-def far_stress(
+def back_face_stress(
     P: ArrayLike, a: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike
 ) -> np.ndarray:
     """Compute the largest tensile stress on the back face of a plate with the paper's edge.
@@ -76,8 +76,8 @@ def far_stress(
 
     Examples
     --------
-    >>> from generated import far_stress
-    >>> print(f"{far_stress(100.0, 1e-4, 0.004, 0.15, 22.5e9, 28.7e9):.6g}")
+    >>> from generated import back_face_stress
+    >>> print(f"{back_face_stress(100.0, 1e-4, 0.004, 0.15, 22.5e9, 28.7e9):.6g}")
     4.14397e+06
     """
     return _evaluated(P, a, h, b, lam, mu, None)
@@ -89,7 +89,7 @@ def far_stress(
     "3 * lam > -2 * mu, mu > 0",
 )
 @quiet
-def supported_far_stress(
+def supported_back_face_stress(
     P: ArrayLike, a: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike
 ) -> np.ndarray:
     """Compute the largest tensile stress on the back face of a simply supported plate.
@@ -122,8 +122,8 @@ def supported_far_stress(
 
     Examples
     --------
-    >>> from generated import supported_far_stress
-    >>> print(f"{supported_far_stress(100.0, 1e-4, 0.004, 0.15, 22.5e9, 28.7e9):.6g}")
+    >>> from generated import supported_back_face_stress
+    >>> print(f"{supported_back_face_stress(100.0, 1e-4, 0.004, 0.15, 22.5e9, 28.7e9):.6g}")
     4.43501e+06
     """
     return _evaluated(P, a, h, b, lam, mu, _with_support)
@@ -135,7 +135,7 @@ def supported_far_stress(
     "3 * lam > -2 * mu, mu > 0",
 )
 @quiet
-def clamped_far_stress(
+def clamped_back_face_stress(
     P: ArrayLike, a: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike
 ) -> np.ndarray:
     """Compute the largest tensile stress on the back face of a clamped plate.
@@ -168,8 +168,8 @@ def clamped_far_stress(
 
     Examples
     --------
-    >>> from generated import clamped_far_stress
-    >>> print(f"{clamped_far_stress(100.0, 1e-4, 0.004, 0.15, 22.5e9, 28.7e9):.6g}")
+    >>> from generated import clamped_back_face_stress
+    >>> print(f"{clamped_back_face_stress(100.0, 1e-4, 0.004, 0.15, 22.5e9, 28.7e9):.6g}")
     3.68877e+06
     """
     return _evaluated(P, a, h, b, lam, mu, _with_clamp)

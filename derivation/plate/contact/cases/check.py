@@ -11,7 +11,7 @@ import numpy as np
 from derivation.engine.activity import Progress, quiet
 from derivation.engine.formula.ulp import SINGLE
 from derivation.engine.measure.judge import Errors
-from derivation.plate.contact.cases.grid import PAPERS_IMPACT, ContactShape, Point, arguments, grid
+from derivation.plate.contact.cases.grid import PAPER_IMPACT, ContactShape, Point, arguments, grid
 from derivation.plate.contact.cases.judge import judge, results
 from derivation.plate.contact.cases.reference_values import (
     DIGITS,
@@ -134,8 +134,8 @@ def check(
     if unknown:
         raise ValueError(f"kernels: expected {', '.join(KERNELS)}; got {', '.join(unknown)}")
     double = [_jobs(name, points) for name in kernels]
-    single = [[] if points else _rounded(jobs) for jobs in double]
-    jobs = _mixed([*double, *single])
+    single = [[] if points else _single_precision_jobs(jobs) for jobs in double]
+    jobs = _interleaved_jobs([*double, *single])
     known = dict(zip(jobs, reference_values(jobs, processes, progress), strict=True))
     budgets = stated_limits()
     return tuple(
@@ -150,7 +150,7 @@ def stated_limits() -> dict[str, float]:
     return {row["name"]: float(row["budget"]) for row in manifest.CONTACT}
 
 
-def _rounded(jobs: Sequence[Job]) -> list[Job]:
+def _single_precision_jobs(jobs: Sequence[Job]) -> list[Job]:
     """Return some of the jobs, with arguments rounded to single precision."""
     found: list[Job] = []
     for name, where in jobs[::EVERY]:
@@ -163,13 +163,13 @@ def _jobs(name: str, points: Mapping[str, Sequence[Point]] | None) -> list[Job]:
     """Return a function's points, or its grid; impacts include the one of the paper."""
     if points is None:
         shapes: list[Job] = [(name, s) for s in grid(name)[:: 3 if name in FORCES else 1]]
-        return [*shapes, (name, PAPERS_IMPACT)] if name == "impact" else shapes
+        return [*shapes, (name, PAPER_IMPACT)] if name == "impact" else shapes
     if not points[name]:
         raise ValueError(f"no point to measure {name} at")
     return [(name, tuple(point)) for point in points[name]]
 
 
-def _mixed(parts: Sequence[Sequence[Job]]) -> list[Job]:
+def _interleaved_jobs(parts: Sequence[Sequence[Job]]) -> list[Job]:
     """Return all jobs, interleaved: an impact takes seconds, the others far less."""
     placed = [
         ((i + 0.5) / len(jobs), k, i) for k, jobs in enumerate(parts) for i in range(len(jobs))
@@ -190,7 +190,11 @@ def _row(
     finite = [error if math.isfinite(error) else 1e300 for error in errors]
     double = max((judge(way, found, budget) for way in ways), key=_used)
     single = judge(call, rounded, budget, SINGLE) if rounded else None
-    kept = errors[where] <= LIMIT and double.kept() and (single is None or single.kept(SINGLE))
+    kept = (
+        errors[where] <= LIMIT
+        and double.within_limits()
+        and (single is None or single.within_limits(SINGLE))
+    )
     cases = [_case(t, e) for t, e in zip(found, errors, strict=True)] if name == "impact" else []
     return ContactRow(
         name,

@@ -39,7 +39,7 @@ IMPACTS = (
 )  # fmt: skip
 """h/b and largest a/h of the impacts: c_1 A from -0.369 to 1.0e10."""
 
-PAPERS_IMPACT = (0.13, 72.2, 1.0, 0.1, 1.0, 0.36e9, 0.43e9)
+PAPER_IMPACT = (0.13, 72.2, 1.0, 0.1, 1.0, 0.36e9, 0.43e9)
 """R, m, v0, h, b, lam, mu of the paper's example."""
 
 Point = tuple[float, ...]
@@ -61,17 +61,17 @@ def grid(name: str) -> tuple[ContactShape, ...]:
     """Return the contacts at which a function is measured, the same in every run."""
     generator = random.Random(name)
     if name == "impact":
-        return tuple(_drawn(generator, i, *case) for i, case in enumerate(IMPACTS))
+        return tuple(_random_contact(generator, i, *case) for i, case in enumerate(IMPACTS))
     found = []
     for i, eta in enumerate(THICKNESSES):
         for k, ratio in enumerate(RATIOS):
             narrowed = ratio * generator.uniform(JITTER, 1.0)
             widest = generator.uniform(*WIDE) / eta
-            found.append(_drawn(generator, i + k, eta, min(narrowed, widest)))
+            found.append(_random_contact(generator, i + k, eta, min(narrowed, widest)))
     return tuple(found)
 
 
-def _drawn(generator: random.Random, i: int, eta: float, ratio: float) -> ContactShape:
+def _random_contact(generator: random.Random, i: int, eta: float, ratio: float) -> ContactShape:
     """Return a contact of given h/b and a/h in a plate of some size and material."""
     b = LENGTHS[i % len(LENGTHS)] * generator.uniform(0.5, 2.0)
     R = b * generator.uniform(1.5, 60.0)

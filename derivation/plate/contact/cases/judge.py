@@ -7,7 +7,7 @@ import flint
 import numpy as np
 
 from derivation.engine.formula.ulp import DOUBLE, Format
-from derivation.engine.measure.judge import Errors, PointReference, measured
+from derivation.engine.measure.judge import Errors, PointReference, measured_errors
 from derivation.engine.measure.kernels import Kernel, Results
 from derivation.engine.measure.point import Point
 from derivation.engine.oracle.reference import Reference
@@ -73,7 +73,7 @@ def judge(
             )
             for true in found
         ]
-        return measured(kernel, reference_values, fmt=fmt)
+        return measured_errors(kernel, reference_values, fmt=fmt)
 
 
 def _references(call: Callable[..., Any], true: ContactReference) -> tuple[Reference, ...]:

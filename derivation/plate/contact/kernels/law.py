@@ -9,9 +9,9 @@ In the code F, A F'(A) and C over mu are `F`, `slope` and `modulus`.
 
 import sympy as sp
 
-from derivation.engine.emit.named import Claims, named
+from derivation.engine.emit.named import Claims, named_routine
 from derivation.engine.emit.routine import Facts, Let, Routine, Several, routine
-from derivation.engine.formula.functions import unspecified
+from derivation.engine.formula.functions import unspecified_function
 from derivation.engine.rewrite.form import TIMES
 from derivation.plate.contact.theory.hertz import contact_radius, pressure
 from derivation.plate.contact.theory.split import contact_split
@@ -26,15 +26,17 @@ square, ratio, radius, residual, exponent, flat = sp.symbols(
 )
 
 
-CorrectionCurve = unspecified("CorrectionCurve")
+CorrectionCurve = unspecified_function("CorrectionCurve")
 """F'' as a function of A."""
-CorrectionSlopeByThickness = unspecified("CorrectionSlopeByThickness")
+CorrectionSlopeByThickness = unspecified_function("CorrectionSlopeByThickness")
 """Derivative of F' by log(h/b)."""
-CorrectionByThickness = unspecified("CorrectionByThickness", CorrectionSlopeByThickness)
+CorrectionByThickness = unspecified_function("CorrectionByThickness", CorrectionSlopeByThickness)
 """Derivative of F by log(h/b) at fixed A."""
-CorrectionSlope = unspecified("CorrectionSlope", CorrectionCurve, CorrectionSlopeByThickness)
+CorrectionSlope = unspecified_function(
+    "CorrectionSlope", CorrectionCurve, CorrectionSlopeByThickness
+)
 """F' as a function of A."""
-Correction = unspecified("Correction", CorrectionSlope, CorrectionByThickness)
+Correction = unspecified_function("Correction", CorrectionSlope, CorrectionByThickness)
 """F as a function of A = a/h and log(h/b)."""
 log_eta = sp.Symbol("log_eta", real=True)
 CORRECTION = Correction(a / h, log_eta)
@@ -77,7 +79,7 @@ def root(
     return Several((symbol,), "root", (sp.Integer(degree), sp.Tuple(*factors), *below), (exact,))
 
 
-@named
+@named_routine
 def modulus_over_mu() -> Claims:
     """Return (4/3) E* over mu; `first` and `second` are lam and mu over any common factor."""
     return Claims(
@@ -90,7 +92,7 @@ def modulus_over_mu() -> Claims:
     )
 
 
-@named
+@named_routine
 def hertz_force() -> Claims:
     """Return P, the contact force."""
     return Claims(
@@ -98,7 +100,7 @@ def hertz_force() -> Claims:
     )
 
 
-@named
+@named_routine
 def hertz_radius() -> Claims:
     """Return a, the contact radius."""
     return Claims(
@@ -111,7 +113,7 @@ def hertz_radius() -> Claims:
     )
 
 
-@named
+@named_routine
 def largest_pressure() -> Claims:
     """Return p_0, the largest contact pressure."""
     return Claims(
@@ -138,7 +140,7 @@ def indentation() -> Routine:
     )
 
 
-@named
+@named_routine
 def indentation_in_range() -> Claims:
     """Return delta for lengths whose products neither overflow nor underflow."""
     return Claims(
@@ -151,7 +153,7 @@ def indentation_in_range() -> Claims:
     )
 
 
-@named
+@named_routine
 def depth_coefficients() -> Claims:
     """Return the factor of a^2 in the indentation, and that of a^3 from the factor of A in F."""
     hertz = DEPTH.subs(CORRECTION, 0)
@@ -165,7 +167,7 @@ def depth_coefficients() -> Claims:
     )
 
 
-@named
+@named_routine
 def relative_rise() -> Claims:
     """Return (R/a) d delta/da."""
     return Claims(
@@ -206,7 +208,7 @@ def stiffness() -> Routine:
     )
 
 
-@named
+@named_routine
 def depth_ratio() -> Claims:
     """Return sqrt(R delta)/h, Hertz's contact radius over h."""
     return Claims(
@@ -219,7 +221,7 @@ def depth_ratio() -> Claims:
     )
 
 
-@named
+@named_routine
 def depth_ratio_at() -> Claims:
     """Return sqrt(R delta)/h in terms of A and F."""
     return Claims(
@@ -227,7 +229,7 @@ def depth_ratio_at() -> Claims:
     )
 
 
-@named
+@named_routine
 def radius_of_share() -> Claims:
     """Return a from its ratio to Hertz's radius sqrt(R delta)."""
     return Claims(
@@ -235,7 +237,7 @@ def radius_of_share() -> Claims:
     )
 
 
-@named
+@named_routine
 def force_of_share() -> Claims:
     """Return P from delta, a and a/sqrt(R delta), because a^3 would triple the error of a."""
     return Claims(
@@ -248,7 +250,7 @@ def force_of_share() -> Claims:
     )
 
 
-@named
+@named_routine
 def depth_ratio_in_range() -> Claims:
     """Return sqrt(R delta)/h for lengths whose products neither overflow nor underflow."""
     return Claims(
@@ -256,13 +258,13 @@ def depth_ratio_in_range() -> Claims:
     )
 
 
-@named
+@named_routine
 def radius_in_range() -> Claims:
     """Return a from its ratio to Hertz's radius, for products without overflow or underflow."""
     return Claims((share, delta, R), (), (share * sp.sqrt(R * delta),), (a,), LAW, reduce)
 
 
-@named
+@named_routine
 def force_in_range() -> Claims:
     """Return P from delta, a and a over Hertz's radius, if no product over- or underflows."""
     return Claims(
@@ -275,7 +277,7 @@ def force_in_range() -> Claims:
     )
 
 
-@named
+@named_routine
 def stiffness_in_range() -> Claims:
     """Return dP/d delta if products neither overflow nor underflow; `rise` is (R/a) d delta/da."""
     return Claims(
@@ -288,7 +290,7 @@ def stiffness_in_range() -> Claims:
     )
 
 
-@named
+@named_routine
 def newton_step() -> Claims:
     """Return R delta/h^2 over its value at A, minus 1, and the relative increase of A."""
     goal = (h * eps) ** 2 / (R * DEPTH) - 1

@@ -45,8 +45,8 @@ _KAPPAS, _FINITE_PARTS = 200, 100
 _STEP = 32
 _TAIL = -120
 _END = 320
-_SURE = 100
-_WARRANTED = 90
+_MIDPOINT_BITS = 100
+_TABLE_BITS = 90
 """Smallest number of correct bits of the quadrature; a rounding must not depend on further bits."""
 
 
@@ -69,7 +69,7 @@ def _nodes() -> list[tuple[Ball, Ball]]:
     return found
 
 
-def sharp(value: Ball) -> Ball:
+def midpoint(value: Ball) -> Ball:
     """Return the middle of a ball whose radius is due to rounding and far below the tolerance.
 
     Raises
@@ -77,7 +77,7 @@ def sharp(value: Ball) -> Ball:
     ArithmeticError
         If the radius is larger.
     """
-    if not value.rad() < Ball(2) ** -_SURE * (1 + abs(value)):
+    if not value.rad() < Ball(2) ** -_MIDPOINT_BITS * (1 + abs(value)):
         raise ArithmeticError(f"{value} is not sharp enough for a table")
     return value.mid()
 
@@ -94,7 +94,7 @@ def _by_power(points: Sequence[tuple[Ball, Ball]], step: int, count: int) -> tup
     """Return the sums of share y^(step i) over the nodes, i = 0 ... count - 1."""
     found = []
     for _ in range(count):
-        found.append(sharp(sum((share for _, share in points), Ball(0))))
+        found.append(midpoint(sum((share for _, share in points), Ball(0))))
         points = [(y, share * y**step) for y, share in points]
     return tuple(found)
 
@@ -127,7 +127,7 @@ def _singular_parts() -> tuple[Ball, Ball]:
         third += weight * (T * T * excess - 6 * fade / T)
     euler = Ball.const_euler()
     poles_second = 3 * (euler - 1) - Ball(18) / 5 * euler
-    return sharp(second + poles_second), sharp(third - 3 * euler)
+    return midpoint(second + poles_second), midpoint(third - 3 * euler)
 
 
 def kappa_ratios() -> tuple[Ball, ...]:
@@ -193,7 +193,7 @@ def _doubles(values: Sequence[Ball]) -> tuple[float, ...]:
 
 def _round(values: Sequence[Ball]) -> tuple[float, ...]:
     with flint.ctx.workprec(BITS):
-        blur = Ball(0, Ball(2) ** -_WARRANTED)
+        blur = Ball(0, Ball(2) ** -_TABLE_BITS)
         return tuple(nearest_double(value * (1 + blur)) for value in values)
 
 

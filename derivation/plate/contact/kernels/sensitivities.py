@@ -8,9 +8,9 @@ from collections.abc import Mapping
 
 import sympy as sp
 
-from derivation.engine.emit.named import Claims, named
+from derivation.engine.emit.named import Claims, named_routine
 from derivation.engine.emit.routine import Facts, Let, Routine, Statement, routine
-from derivation.engine.formula.functions import unspecified
+from derivation.engine.formula.functions import unspecified_function
 from derivation.plate.contact.kernels import law
 from derivation.plate.contact.kernels.law import CORRECTION, DEPTH, FORCE, log_eta
 from derivation.plate.impact.theory.impact import contact_time, geometric, orders
@@ -28,7 +28,7 @@ own, of_energy, of_eta = sp.symbols("own of_energy of_eta", real=True)
 # --- sums over the powers of the law
 
 
-@named
+@named_routine
 def power_work() -> Claims:
     """Return the work of a term proportional to the n-th power of A: int_0^1 x^3 d(term x^n)."""
     return Claims(
@@ -41,7 +41,7 @@ def power_work() -> Claims:
     )
 
 
-@named
+@named_routine
 def power_slope() -> Claims:
     """Return the derivative by log A of a term of F proportional to A^(n-2), as A^n is in delta."""
     return Claims(
@@ -56,7 +56,7 @@ class NearNodes:
     last, w, rest, left, short, height = sp.symbols("last w rest left short height", positive=True)
 
 
-@named
+@named_routine
 def near_nodes() -> Claims:
     """Return q, s = q/ratio, 1 - q, (1 - s) ratio^5/(1 - q) and max w, where root^2 = 1 - ratio."""
     k = NearNodes
@@ -83,7 +83,7 @@ def near_nodes() -> Claims:
     )
 
 
-@named
+@named_routine
 def work_weight() -> Claims:
     """Return the factor of V in int x^3 d(x^2 (1 + F))."""
     rise = R / a * sp.diff(DEPTH, a)
@@ -96,7 +96,7 @@ def work_weight() -> Claims:
     )
 
 
-@named
+@named_routine
 def rates() -> Claims:
     """Return V = 2 (1 + F) + A F', and its derivatives by log A and by log(h/b)."""
     F, slope, curve, deeper = sp.symbols("F slope curve deeper", real=True)
@@ -145,7 +145,7 @@ SUMS: Facts = {
 """Meaning of the sums."""
 
 
-@named
+@named_routine
 def peak_growth() -> Claims:
     """Return logarithmic derivatives of A_m, delta_m and P_m by energy number and h/b."""
     by_radius = a * sp.diff(sp.log(FORCE), a)
@@ -167,7 +167,7 @@ def peak_growth() -> Claims:
     )
 
 
-@named
+@named_routine
 def whole_work() -> Claims:
     """Return the work over A_m^5 from that over A_near^5 and the added work; near is A_near/A_m."""
     near, within, rise = sp.symbols("near within rise", positive=True)
@@ -240,7 +240,7 @@ def near_slope_terms() -> Routine:
     return _near_terms("near_slope_terms", 0, what)
 
 
-@named
+@named_routine
 def far_nodes() -> Claims:
     """Return the node of [q, 1], measured from 1, where 1 - q = gap u^2."""
     gap, u = sp.symbols("gap u", positive=True)
@@ -254,7 +254,7 @@ def far_nodes() -> Claims:
     )
 
 
-@named
+@named_routine
 def time_terms() -> Claims:
     """Return terms of int N/sqrt(S) and of its derivatives by log A_m and log(h/b)."""
     names = sp.symbols("N S N_1 S_1 N_2 S_2", positive=True)
@@ -274,13 +274,13 @@ def time_terms() -> Claims:
     )
 
 
-TimeIntegral = unspecified(
+TimeIntegral = unspecified_function(
     "TimeIntegral", lambda log_A, _: by_radius / sp.exp(log_A), lambda *_: by_thickness
 )
 """The integral of N/sqrt(S) as a function of A_m and log(h/b)."""
 
 
-@named
+@named_routine
 def time_growth() -> Claims:
     """Return the contact time's derivatives by energy number and h/b, from those of A_m."""
     log_A = sp.Symbol("log_A", real=True)
@@ -299,7 +299,7 @@ def time_growth() -> Claims:
     )
 
 
-@named
+@named_routine
 def parameter_power() -> Claims:
     """Return the power of a parameter in a result: its own, and those by energy number and h/b."""
     log_p = sp.Symbol("log_p", real=True)
@@ -314,7 +314,7 @@ def parameter_power() -> Claims:
     )
 
 
-@named
+@named_routine
 def constants_powers() -> Claims:
     """Return the powers of lam and mu in a result from the power of E*."""
     by_lam = modulus_slope().expression

@@ -6,9 +6,9 @@ modes. Where the code uses a polynomial instead, F = A S(t) with t = (A^2 - midd
 
 import sympy as sp
 
-from derivation.engine.emit.named import Claims, named
+from derivation.engine.emit.named import Claims, named_routine
 from derivation.engine.emit.routine import Facts, Let, Routine, Several, routine
-from derivation.engine.formula.functions import unspecified
+from derivation.engine.formula.functions import unspecified_function
 from derivation.plate.blocks import blocks
 from derivation.plate.contact.theory.split import reduced_split
 from derivation.plate.contact.theory.thin_law import sine_kernel
@@ -51,7 +51,7 @@ def _with_logarithm(expression: sp.Expr) -> sp.Expr:
     return sp.expand(sp.expand_log(sp.expand(expression), force=True))
 
 
-@named
+@named_routine
 def thin_coefficients() -> Claims:
     """Return c1 and c3 of a thin plate."""
     found = _with_logarithm(thin(2)), _with_logarithm(thin(3))
@@ -105,7 +105,7 @@ def thin_far() -> Routine:
     return thin_start("thin_far", MIDDLE, HALF)
 
 
-@named
+@named_routine
 def linear_by_log() -> Claims:
     """Return the derivative of c1 by log v."""
     found = sp.expand(v * sp.diff(thin(2), v))
@@ -132,7 +132,7 @@ WEIGHT = plate_factors()[2].expression.subs(T, 2 * eta * j_n) / (j_n * J1**2)
 """w_n."""
 
 
-@named
+@named_routine
 def mode_weight() -> Claims:
     """Return w_n, the weight of a mode."""
     exact = plate_factors()[2].expression.subs(T, 2 * eta * j_n)
@@ -146,7 +146,7 @@ def mode_weight() -> Claims:
     )
 
 
-@named
+@named_routine
 def weight_by_thickness() -> Claims:
     """Return the derivative of w_n by log(h/b)."""
     exact = plate_factor_slope().expression.subs(T, 2 * eta * j_n)
@@ -159,7 +159,7 @@ def weight_by_thickness() -> Claims:
     )
 
 
-@named
+@named_routine
 def mode_terms() -> Claims:
     """Return one mode's terms of both sums, y = alpha j_n."""
     block = blocks()["hertz_shape"]
@@ -181,7 +181,7 @@ def mode_terms() -> Claims:
     )
 
 
-@named
+@named_routine
 def of_modes() -> Claims:
     """Return the contributions of the modes to F and A F'."""
     kernel = sine_kernel(y)
@@ -199,11 +199,11 @@ def of_modes() -> Claims:
 # --- polynomials
 
 
-SeriesCurve = unspecified("SeriesCurve")
+SeriesCurve = unspecified_function("SeriesCurve")
 """S''/2 of t."""
-SeriesSlope = unspecified("SeriesSlope", lambda t: 2 * SeriesCurve(t))
+SeriesSlope = unspecified_function("SeriesSlope", lambda t: 2 * SeriesCurve(t))
 """S' of t."""
-Series = unspecified("Series", SeriesSlope)
+Series = unspecified_function("Series", SeriesSlope)
 """S as a function of t."""
 PLACE = (A**2 - middle) / half
 """t."""
@@ -257,13 +257,13 @@ def polynomial_slopes() -> Routine:
     )
 
 
-TableSlope = unspecified("TableSlope")
+TableSlope = unspecified_function("TableSlope")
 """Derivative of `Table` by log(eta)."""
-Table = unspecified("Table", TableSlope)
+Table = unspecified_function("Table", TableSlope)
 """S_k/eta of a thick plate, t = (a/b)^2, as a function of log(eta)."""
 
 
-@named
+@named_routine
 def thick_by_thickness() -> Claims:
     """Return the derivative of S_k by log(h/b) at fixed A, in powers of A eta; order is 2k + 1."""
     coefficient = eta**order * Table(sp.log(eta))
@@ -277,7 +277,7 @@ def thick_by_thickness() -> Claims:
     )
 
 
-@named
+@named_routine
 def range_by_thickness() -> Claims:
     """Return the derivative of t by log v at fixed A, over -(1 + t), for ranges up to A = v."""
     start = sp.Symbol("start", positive=True)

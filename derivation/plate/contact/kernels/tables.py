@@ -28,7 +28,13 @@ from flint import arb as Ball
 
 from derivation.engine.formula.ball import enclose
 from derivation.mathematics.bessel.kernels import bessel_zero, nearest_double
-from derivation.plate.contact.kernels.moments import BITS, excess_nodes, finite_parts, kappas, sharp
+from derivation.plate.contact.kernels.moments import (
+    BITS,
+    excess_nodes,
+    finite_parts,
+    kappas,
+    midpoint,
+)
 from derivation.plate.contact.kernels.series import constant
 from derivation.plate.contact.theory.thin_plate import plate_excess
 from derivation.plate.vocabulary import M
@@ -97,7 +103,7 @@ def thin_part(A: Ball) -> Ball:
             continue
         y = A * T / 2
         total += weight * excess * (shape(y) - 1 + y * y / 10)
-    return sharp(2 * total / (3 * Ball.pi()))
+    return midpoint(2 * total / (3 * Ball.pi()))
 
 
 @cache
@@ -106,7 +112,7 @@ def thin_constants() -> tuple[Ball, Ball]:
     with flint.ctx.workprec(BITS):
         known = dict(zip((M[2], M[3]), finite_parts(), strict=False))
         linear, cubic = (enclose(constant(k), known) for k in (2, 3))
-        return sharp(linear), sharp(cubic)
+        return midpoint(linear), midpoint(cubic)
 
 
 def thin_numbers() -> tuple[float, float]:
@@ -122,7 +128,7 @@ def modes(count: int) -> tuple[tuple[Ball, Ball], ...]:
     with flint.ctx.workprec(BITS):
         zeros = [bessel_zero(0, index) for index in range(1, count + 1)]
         return tuple(
-            (sharp(zero), sharp(1 / (zero * zero.bessel_j(Ball(1)) ** 2))) for zero in zeros
+            (midpoint(zero), midpoint(1 / (zero * zero.bessel_j(Ball(1)) ** 2))) for zero in zeros
         )
 
 

@@ -32,7 +32,9 @@ _SPARE = 40
 _ATTEMPTS = 8
 
 
-def settle(compute: Callable[[int], tuple[arb, ...]], digits: int, what: str) -> tuple[arb, ...]:
+def refine_to_digits(
+    compute: Callable[[int], tuple[arb, ...]], digits: int, what: str
+) -> tuple[arb, ...]:
     """Compute with increasing precision until every ball's relative radius is below 10^-digits.
 
     Raises
@@ -81,7 +83,7 @@ def kappa(n: int, digits: int = 50) -> arb:
         rest = 9 * arb(end) ** (n + 1) * arb(-2 * end).exp()
         return ((body + arb(0, rest.abs_upper())) / (n + 1),)
 
-    return settle(compute, digits, f"kappa_{n}")[0]
+    return refine_to_digits(compute, digits, f"kappa_{n}")[0]
 
 
 def finite_part(k: int, digits: int = 50) -> arb:
@@ -105,7 +107,7 @@ def finite_part(k: int, digits: int = 50) -> arb:
         rest = 7 * arb(end) ** (power + 2) * arb(-2 * end).exp()
         return (near + far + to_ball(known) + arb(0, rest.abs_upper()),)
 
-    return settle(compute, digits, f"M_{k}")[0]
+    return refine_to_digits(compute, digits, f"M_{k}")[0]
 
 
 def _regular(T: acb, bits: int) -> acb:
@@ -131,9 +133,9 @@ def _regular(T: acb, bits: int) -> acb:
     return T * (flint.acb_poly(top[2:])(square) + blur) / (flint.acb_poly(d)(square) + blur)
 
 
-def side_wall(alpha: Exact, digits: int = 50) -> arb:
+def finite_radius(alpha: Exact, digits: int = 50) -> arb:
     """Return W(alpha), the contribution of the finite radius of an infinitely thick plate."""
-    return settle(
+    return refine_to_digits(
         lambda _: (excess("hertz", to_ball(alpha), None),), digits, f"W at {alpha}"
     )[0]  # fmt: skip
 
@@ -149,16 +151,18 @@ def coefficient(order: int, h: Exact, b: Exact, digits: int = 50) -> arb:
         share = (-1) ** m * arb(COEFFICIENTS["hertz"](m)) * 8 / (3 * arb.pi())
         return (share * to_ball(eta) ** order * functional(weight, eta),)
 
-    return settle(compute, digits, f"c_{order} at h/b = {float(eta)}")[0]
+    return refine_to_digits(compute, digits, f"c_{order} at h/b = {float(eta)}")[0]
 
 
 # --- the law
 
 
-def departure(a: Exact, h: Exact, b: Exact, digits: int = 50) -> arb:
+def relative_correction(a: Exact, h: Exact, b: Exact, digits: int = 50) -> arb:
     """Return F = delta R/a^2 - 1 with a small relative radius; raises an error where F vanishes."""
     alpha, eta = ratio_of(a, b), ratio_of(h, b)
-    return settle(lambda _: (excess("hertz", to_ball(alpha), eta),), digits, f"F at {a, h, b}")[0]
+    return refine_to_digits(
+        lambda _: (excess("hertz", to_ball(alpha), eta),), digits, f"F at {a, h, b}"
+    )[0]
 
 
 def indentation(a: Exact, R: Exact, h: Exact, b: Exact, digits: int = 50) -> arb:
@@ -168,7 +172,7 @@ def indentation(a: Exact, R: Exact, h: Exact, b: Exact, digits: int = 50) -> arb
     def compute(_: int) -> tuple[arb]:
         return (to_ball(a) ** 2 / to_ball(R) * (1 + excess("hertz", to_ball(alpha), eta)),)
 
-    return settle(compute, digits, f"delta at {a, R, h, b}")[0]
+    return refine_to_digits(compute, digits, f"delta at {a, R, h, b}")[0]
 
 
 def slope(a: Exact, R: Exact, h: Exact, b: Exact, digits: int = 50) -> arb:
@@ -178,7 +182,7 @@ def slope(a: Exact, R: Exact, h: Exact, b: Exact, digits: int = 50) -> arb:
     def compute(_: int) -> tuple[arb]:
         return (2 * to_ball(a) / to_ball(R) * (1 + excess("sinc", to_ball(alpha), eta)),)
 
-    return settle(compute, digits, f"d delta/da at {a, R, h, b}")[0]
+    return refine_to_digits(compute, digits, f"d delta/da at {a, R, h, b}")[0]
 
 
 def stiffness(
@@ -192,7 +196,7 @@ def stiffness(
     def compute(_: int) -> tuple[arb]:
         return (2 * modulus(lam, mu) * to_ball(a) / (1 + excess("sinc", to_ball(alpha), eta)),)
 
-    return settle(compute, digits, f"stiffness at {a, h, b}")[0]
+    return refine_to_digits(compute, digits, f"stiffness at {a, h, b}")[0]
 
 
 def ratio_where(
@@ -256,4 +260,4 @@ def contact_radius(delta: Exact, R: Exact, h: Exact, b: Exact, digits: int = 50)
         start = min(float(target) ** (1 / 2), (4 * math.pi * float(target)) ** (1 / 3) * float(eta))
         return (to_ball(b) * ratio_where(value, steepness, target, start, f"delta = {delta}"),)
 
-    return settle(compute, digits, f"a at {delta, R, h, b}")[0]
+    return refine_to_digits(compute, digits, f"a at {delta, R, h, b}")[0]

@@ -12,7 +12,7 @@ def force_of_radius(a: Exact, R: Exact, lam: Exact, mu: Exact, digits: int = 50)
     def compute(_: int) -> tuple[arb]:
         return (4 * contact_balls.modulus(lam, mu) * to_ball(a) ** 3 / (3 * to_ball(R)),)
 
-    return contact_balls.settle(compute, digits, f"P at {a, R}")[0]
+    return contact_balls.refine_to_digits(compute, digits, f"P at {a, R}")[0]
 
 
 def radius_of_force(P: Exact, R: Exact, lam: Exact, mu: Exact, digits: int = 50) -> arb:
@@ -22,7 +22,7 @@ def radius_of_force(P: Exact, R: Exact, lam: Exact, mu: Exact, digits: int = 50)
         cube = 3 * to_ball(P) * to_ball(R) / (4 * contact_balls.modulus(lam, mu))
         return (cube.root(3),)
 
-    return contact_balls.settle(compute, digits, f"a at {P, R}")[0]
+    return contact_balls.refine_to_digits(compute, digits, f"a at {P, R}")[0]
 
 
 def max_pressure(a: Exact, R: Exact, lam: Exact, mu: Exact, digits: int = 50) -> arb:
@@ -31,7 +31,7 @@ def max_pressure(a: Exact, R: Exact, lam: Exact, mu: Exact, digits: int = 50) ->
     def compute(_: int) -> tuple[arb]:
         return (2 * contact_balls.modulus(lam, mu) * to_ball(a) / (arb.pi() * to_ball(R)),)
 
-    return contact_balls.settle(compute, digits, f"p_0 at {a, R}")[0]
+    return contact_balls.refine_to_digits(compute, digits, f"p_0 at {a, R}")[0]
 
 
 def force(
@@ -43,4 +43,4 @@ def force(
     def compute(_: int) -> tuple[arb]:
         return (4 * contact_balls.modulus(lam, mu) * a**3 / (3 * to_ball(R)),)
 
-    return contact_balls.settle(compute, digits, f"P at {delta, R, h, b}")[0]
+    return contact_balls.refine_to_digits(compute, digits, f"P at {delta, R, h, b}")[0]

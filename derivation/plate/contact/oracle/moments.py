@@ -15,7 +15,7 @@ from flint import acb, arb
 
 from derivation.engine.formula.ball import LOG2_10
 from derivation.plate.contact.oracle import balls as contact_balls
-from derivation.plate.contact.oracle.balls import settle
+from derivation.plate.contact.oracle.balls import refine_to_digits
 
 LOW_KAPPA, LOW_FINITE_PART = 16, 128
 """Largest powers of the integration variable for which the plain integrals are used."""
@@ -47,7 +47,7 @@ def _kappa_ratio(n: int, bits: int) -> arb:
         value = contact_balls.kappa(n, digits + 1)
         with flint.ctx.workprec(bits + 4 * _SPARE):
             return value * arb(2) ** (n + 1) / (arb.pi() * math.factorial(n))
-    return settle(lambda _: (_far_kappa(n),), digits, f"the ratio of kappa_{n}")[0]
+    return refine_to_digits(lambda _: (_far_kappa(n),), digits, f"the ratio of kappa_{n}")[0]
 
 
 def _far_kappa(n: int) -> arb:
@@ -91,7 +91,9 @@ def _finite_part_ratio(k: int, bits: int) -> arb:
         value = contact_balls.finite_part(k, digits + 1)
         with flint.ctx.workprec(bits + 4 * _SPARE):
             return value * arb(2) ** (2 * k - 3) / math.factorial(2 * k - 2)
-    return settle(lambda _: (_far_finite_part(2 * k - 4),), digits, f"the ratio of M_{k}")[0]
+    return refine_to_digits(
+        lambda _: (_far_finite_part(2 * k - 4),), digits, f"the ratio of M_{k}"
+    )[0]
 
 
 def _far_finite_part(m: int) -> arb:

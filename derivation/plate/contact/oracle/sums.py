@@ -77,7 +77,7 @@ class Panel(NamedTuple):
     nearest: arb
 
 
-def _blurred(value: acb, radius: arb) -> acb:
+def _widened(value: acb, radius: arb) -> acb:
     error = arb(0, radius.abs_upper())
     return value + acb(error, error)
 
@@ -100,7 +100,7 @@ def kernel(name: str, w: acb) -> acb:
     """Return one of the weight functions `hertz`, `sinc`, `work` on a complex ball."""
     if w.abs_upper() < SERIES_REACH:
         series, rest = _kernel_series(name, flint.ctx.prec)
-        return _blurred(series(w * w), rest)
+        return _widened(series(w * w), rest)
     return _CLOSED[name](w)
 
 
@@ -124,7 +124,7 @@ def plate_excess(T: acb) -> acb:
     numerator = (1 - decay) / 2 + T + T**2
     if T.abs_upper() < SERIES_REACH:
         series, rest = _denominator_series(flint.ctx.prec)
-        return numerator / (T**4 * _blurred(series(T * T), rest))
+        return numerator / (T**4 * _widened(series(T * T), rest))
     return 4 * decay * numerator / ((1 - decay) ** 2 - 4 * T**2 * decay)
 
 
@@ -173,7 +173,7 @@ def _ellipse(low: acb, high: acb, rho: arb, pieces: int) -> list[acb]:
     step = 2 * arb.pi() / pieces
     radius = (half.abs_upper() * major * step / 2).abs_upper()
     angles = (k * step for k in range(pieces))
-    return [_blurred(middle + half * acb(major * t.cos(), minor * t.sin()), radius) for t in angles]
+    return [_widened(middle + half * acb(major * t.cos(), minor * t.sin()), radius) for t in angles]
 
 
 def _panel(

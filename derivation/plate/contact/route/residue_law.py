@@ -82,7 +82,7 @@ def _horner(terms: Sequence[int], x: int, bits: int) -> int:
     return total
 
 
-def depth_served(depth: float) -> float:
+def supported_depth(depth: float) -> float:
     """Return the largest a/h for which the series for contacts of a/h = depth is used.
 
     Raises
@@ -99,7 +99,7 @@ def depth_served(depth: float) -> float:
 
 def seconds(eta: float, reach: float, digits: int) -> float:
     """Return the approximate run time of the law up to a/b = reach and an impact [s]."""
-    powers = 30 * (digits / 1000) ** 3 * (1 + (depth_served(reach / eta) / 2.5) ** 2.5)
+    powers = 30 * (digits / 1000) ** 3 * (1 + (supported_depth(reach / eta) / 2.5) ** 2.5)
     return float(powers + 100 * eta * (digits / 1000) ** 2.2)
 
 
@@ -108,7 +108,7 @@ def _law(h: float, b: float, x: mpf, digits: int) -> tuple[ResidueLaw, mpf]:
     digits = _FEW * math.ceil(digits / _FEW)
     with mp.workdps(digits + _EXTRA):
         eta = mpf(h) / mpf(b)
-        reach = min(mpf(1), eta * depth_served(float(x / eta)))
+        reach = min(mpf(1), eta * supported_depth(float(x / eta)))
         return ResidueLaw(series(eta, reach, digits), eta), x / reach
 
 

@@ -1,7 +1,7 @@
 """mpmath reference to many digits: the law's power series from the plate factor's axis and poles.
 
 Neither zeros of J0 nor moments of K0/I0 are used. Instead, the contour of the modal sum is closed
-around the poles T_n of G, sinh T = +-T (link 14 of the theory): with A = a/h and eta = h/b,
+around the poles T_n of G, sinh T = +-T (step 14 of the theory): with A = a/h and eta = h/b,
 
     delta = (a^2/R) (1 + sum s_j/(2j+3)),   d delta/da = (2a/R) (1 + 1/2 sum s_j),
     s_j = (-1)^j 4/pi (A/2)^(2j+1)/(2j+1)! N_j,
@@ -35,7 +35,7 @@ deep: T = 1 + y avoids the poles T_n of G, whose smallest arg (T_n - 1) is 1.28,
 
 FIRST_ZERO = 2.4
 """Slightly below the first zero of J0. If G - 1 is negligible at T = 2 eta FIRST_ZERO, only the
-finite radius matters: N_j = (-1)^(j+1) 2/pi (2 eta)^(2j+1) kappa_(2j) of link 12."""
+finite radius matters: N_j = (-1)^(j+1) 2/pi (2 eta)^(2j+1) kappa_(2j) of step 12."""
 
 _SPARE = 64
 """Additional bits for sums of thousands of terms."""
@@ -225,7 +225,7 @@ class _Term:
         re, im = self.re, self.im
         self.re, self.im = (re * x - im * y >> more) // step, (re * y + im * x >> more) // step
 
-    def lives(self, step: int) -> bool:
+    def is_nonzero(self, step: int) -> bool:
         """Return whether a term is nonzero, or a later one may be."""
         return self.far > step or abs(self.re) > 1 or abs(self.im or 0) > 1
 
@@ -247,7 +247,7 @@ def _powers(places: list[_Node], half: mpf, bits: int) -> Iterator[int | None]:
         step = 2 * j * (2 * j + 1)
         for term in running:
             term.advance(step, bits)
-        running = [term for term in running if term.lives(step)]
+        running = [term for term in running if term.is_nonzero(step)]
     while True:
         yield None
 

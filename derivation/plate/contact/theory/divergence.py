@@ -1,4 +1,4 @@
-"""Link 11: the terms of the paper's gamma_k for large j, and whether a modal sum converges.
+"""Step 11: the terms of the paper's gamma_k for large j, and whether a modal sum converges.
 
 For j -> oo the plate factor tends to 1 and J1(j_n)^2 to 2/(pi j_n), so that phi_j^3 K_j -> 4/(R b).
 The terms phi_j^(2k-1) K_j of gamma_k therefore grow like phi_j^(2k-4): for every k >= 2 they do not
@@ -74,10 +74,10 @@ def tail(term: sp.Expr, variable: sp.Symbol = phi) -> Tail:
     waves = {node: sp.Dummy() for node in leading.atoms(sp.sin, sp.cos)}
     exponent, top = _leading_power(leading.xreplace(waves), variable)
     oscillates = bool(top.free_symbols & set(waves.values()))
-    return _judge(exponent, None if oscillates else top * variable**exponent)
+    return _convergence(exponent, None if oscillates else top * variable**exponent)
 
 
-def _judge(exponent: sp.Expr, leading: sp.Expr | None) -> Tail:
+def _convergence(exponent: sp.Expr, leading: sp.Expr | None) -> Tail:
     like = f"like {_power('j', exponent)}"
     if bool(sp.simplify(-1 - exponent).is_positive):
         return Tail(CONVERGENT, exponent, leading, f"the terms decrease {like}, faster than 1/j")

@@ -1,4 +1,4 @@
-"""Link 8: Hertz pressure (7) -> its Fourier-Bessel coefficients A_j, (4) and (8).
+"""Step 8: Hertz pressure (7) -> its Fourier-Bessel coefficients A_j, (4) and (8).
 
 Sonine's integral is proved by comparing power series; the relation between contact radius and force
 follows from the half-space's influence coefficient.

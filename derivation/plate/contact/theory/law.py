@@ -1,4 +1,4 @@
-"""Link 9: deflection under the sphere -> K_j and the contact law (6).
+"""Step 9: deflection under the sphere -> K_j and the contact law (6).
 
 The indentation is delta = -w(0, +h) = sum K_j s(a phi_j), s(y) = sin y - y cos y: K_j includes the
 prefactor of A_j.
@@ -29,8 +29,8 @@ def contact_law() -> tuple[Formula, ...]:
         r"$K_j s(a \phi_j)$ equals $-f_j(\pm h)$ with the constants of the face conditions and "
         "the coefficients of Hertz pressure.",
         {
-            "loaded face": faces["K_j"] * SINE_MINUS - share.subs(z, h),
-            "far face": faces["K_j_bottom"] * SINE_MINUS - share.subs(z, -h),
+            "contact face": faces["K_j"] * SINE_MINUS - share.subs(z, h),
+            "back face": faces["K_j_bottom"] * SINE_MINUS - share.subs(z, -h),
         },
     )
     return (

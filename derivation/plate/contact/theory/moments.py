@@ -62,14 +62,16 @@ def hankel(terms: int) -> Coefficients:
     e^(sy)/sqrt(y) y^-j, s = +-1, is inserted into the modified Bessel equation; the balance of each
     power gives the ratio of neighbouring coefficients.
     """
-    image = _carried(_y**-_m, 1)
+    image = _bessel_operator(_y**-_m, 1)
     low, high = (sp.expand(image * _y**_m).coeff(_y, power) for power in (1, 0))
     ratio = sp.factor(-high / low.subs(_m, _m + 1))
     a = [sp.Integer(1)]
     for index in range(terms - 1):
         a.append(a[-1] * ratio.subs(_m, index))
     series = {
-        name: _carried(sp.Add(*(value * (sign / _y) ** i for i, value in enumerate(a))), sign)
+        name: _bessel_operator(
+            sp.Add(*(value * (sign / _y) ** i for i, value in enumerate(a))), sign
+        )
         for name, sign in (("I0", 1), ("K0", -1))
     }
     prove(
@@ -85,7 +87,7 @@ def hankel(terms: int) -> Coefficients:
     return tuple(a)
 
 
-def _carried(v: sp.Expr, sign: int) -> sp.Expr:
+def _bessel_operator(v: sp.Expr, sign: int) -> sp.Expr:
     """Return y^2 w'' + y w' - y^2 w for w = v e^(sign y)/sqrt(y), over e^(sign y)/sqrt(y)."""
     carrier = sp.exp(sign * _y) / sp.sqrt(_y)
     w = v * carrier

@@ -1,4 +1,4 @@
-"""Link 13: delta R/a^2 = 1 + c_1 A + c_3 A^3 + ..., A = a/h, with exact coefficients of h/b.
+"""Step 13: delta R/a^2 = 1 + c_1 A + c_3 A^3 + ..., A = a/h, with exact coefficients of h/b.
 
 The split of the indentation converges, so its terms may be expanded in a:
 sin y - y cos y = sum (-1)^k (2k-2)/(2k-1)! y^(2k-1), k >= 2. The double sum converges absolutely:
@@ -96,7 +96,12 @@ def coefficient(k: int) -> Coefficient:
         {
             "share": shares - factor * spread.subs(_y, alpha * j_n) * excess,
             "modes": factor / alpha * taylor * j_n ** (order - 1) * eta**order * excess - mode,
-            "side wall": -8 / sp.pi**2 * wall * kappa[2 * k - 4] / _y ** (2 * k - 4) * eta**order
+            "finite radius": -8
+            / sp.pi**2
+            * wall
+            * kappa[2 * k - 4]
+            / _y ** (2 * k - 4)
+            * eta**order
             - side,
         },
     )

@@ -1,4 +1,4 @@
-"""Link 15: the contact law solved for the force to any order, by Lagrange inversion.
+"""Step 15: the contact law solved for the force to any order, by Lagrange inversion.
 
 Two laws are inverted: the paper's formal one, delta = sum gamma_k P^((2k-1)/3), and the corrected
 one, delta = (a^2/R)(1 + c_1 A + c_3 A^3 + ...), P = (4/3) E* a^3/R. Both have the shape
@@ -43,7 +43,9 @@ def power_series(
     return tuple(b)
 
 
-def inverted(series: Sequence[sp.Expr], d: int, g: int, p: int, terms: int) -> tuple[sp.Expr, ...]:
+def inverted_coefficients(
+    series: Sequence[sp.Expr], d: int, g: int, p: int, terms: int
+) -> tuple[sp.Expr, ...]:
     """Return coefficients of y^(p + g n) in x^p, where y^d = x^d (series in x^g), by Lagrange."""
     found = []
     for n in range(terms):
@@ -78,7 +80,7 @@ def formal_coefficients(last: int = LAST_XI) -> tuple[Formula, ...]:
     """
     first = gamma_k[2]
     series = (sp.Integer(1), *(gamma_k[i] / first for i in range(3, last + 1)))
-    inverse = inverted(series, 3, 2, 3, last - 1)
+    inverse = inverted_coefficients(series, 3, 2, 3, last - 1)
     proof = prove(
         "Inversion of the formal law",
         "The inverted series is inserted into the law: every order vanishes.",
@@ -113,7 +115,7 @@ def force_coefficients(last: int = LAST_P) -> tuple[sp.Expr, ...]:
 
     x = A, y = eps, as eps^2 = A^2 (1 + c_1 A + ...): d = 2, g = 1, p = 3.
     """
-    return inverted(plate_law(last), 2, 1, 3, last + 1)
+    return inverted_coefficients(plate_law(last), 2, 1, 3, last + 1)
 
 
 @cache

@@ -1,4 +1,4 @@
-"""Link 12: delta = a^2/R + finite radius + finite thickness, by integrals for sums over J0 zeros.
+"""Step 12: delta = a^2/R + finite radius + finite thickness, by integrals for sums over J0 zeros.
 
 For f entire and growing slower than e^(2|Im z|)
 
@@ -97,7 +97,7 @@ def contour() -> Proof:
 
 
 @dataclass(frozen=True)
-class _Example:
+class _TestFunction:
     """A function f and what the sum identity requires of it.
 
     `primitive` is the integral of f(iy) + f(-iy) that vanishes at y = 0. Integration by parts with
@@ -110,26 +110,26 @@ class _Example:
     primitive: Callable[[flint.acb], flint.acb]
 
 
-_EXAMPLES = (
-    _Example("exp(-x)", lambda x: (-x).exp(), 1, lambda y: 2 * y.sin()),
-    _Example("x exp(-x)", lambda x: x * (-x).exp(), 1, lambda y: 2 * (y.sin() - y * y.cos())),
+_TEST_FUNCTIONS = (
+    _TestFunction("exp(-x)", lambda x: (-x).exp(), 1, lambda y: 2 * y.sin()),
+    _TestFunction("x exp(-x)", lambda x: x * (-x).exp(), 1, lambda y: 2 * (y.sin() - y * y.cos())),
 )
 
 
 @cache
 def identity_in_balls() -> Proof:
     """Check the identity for two explicit functions, with both sides as balls at two precisions."""
-    for example in _EXAMPLES:
+    for example in _TEST_FUNCTIONS:
         for bits in (80, 120):
             with flint.ctx.workprec(bits):
                 left, right = _modes(example, bits), _axes(example, bits)
             if not (left.overlaps(right) and left.rad() < 1e-18 and right.rad() < 1e-18):
                 raise ProofError(f"Sum identity: {example.name} gives {left} and {right}")
-    names = tuple(example.name for example in _EXAMPLES)
+    names = tuple(example.name for example in _TEST_FUNCTIONS)
     return Proof("Sum identity in numbers", "Both sides overlap as balls.", names, BY_BALLS)
 
 
-def _modes(example: _Example, bits: int) -> flint.arb:
+def _modes(example: _TestFunction, bits: int) -> flint.arb:
     """Return a ball of the sum; 1/(j J1^2) < 2, and |f(x)| <= x e^-x for x > 1 bounds the tail."""
     count = bits // 4
     total = flint.arb(0)
@@ -140,7 +140,7 @@ def _modes(example: _Example, bits: int) -> flint.arb:
     return total + flint.arb(0, (4 * last * (-last).exp()).upper())
 
 
-def _axes(example: _Example, bits: int) -> flint.arb:
+def _axes(example: _TestFunction, bits: int) -> flint.arb:
     end = flint.arb(bits)
 
     def integrand(y: flint.acb, _: bool) -> flint.acb:
@@ -237,7 +237,7 @@ def contact_split() -> tuple[Formula, ...]:
             "K_j": contact_law()[0].expression - flat * (1 + excess),
             "share": flat * SINE_MINUS - f.subs(x, b * phi) / (b * phi * J1**2),
             "Hertz": half - a**2 / R,
-            "side wall": -both / (2 * sp.pi) - _side_density(),
+            "finite radius": -both / (2 * sp.pi) - _side_density(),
         },
     )
 
@@ -281,7 +281,7 @@ def reduced_split() -> tuple[Formula, Formula]:
         r"With $\alpha = a/b$, $\eta = h/b$, $\phi = j_n/b$ both parts over $a^2/R$ depend on "
         r"$\alpha$ and $\eta$.",
         {
-            "side wall": _side_density().subs(reduced) * scale - wall,
+            "finite radius": _side_density().subs(reduced) * scale - wall,
             "thickness": thickness.subs(reduced) * scale - mode,
         },
     )

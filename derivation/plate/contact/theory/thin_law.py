@@ -1,4 +1,4 @@
-"""Link 14, for all contact radii: F = c_1 A + c_3 A^3 + Phi(A) for a thin plate, A = a/h.
+"""Step 14, for all contact radii: F = c_1 A + c_3 A^3 + Phi(A) for a thin plate, A = a/h.
 
 From c_5 on, the thin plate's coefficients contain only the finite parts M_k and do not depend on
 h/b. Together they are one function of A,

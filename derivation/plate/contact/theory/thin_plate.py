@@ -1,4 +1,4 @@
-"""Link 14: the coefficients c_n of a thin plate, eta = h/b -> 0, up to exponentially small terms.
+"""Step 14: the coefficients c_n of a thin plate, eta = h/b -> 0, up to exponentially small terms.
 
 The Mellin transform turns the modal sum into an integral over s of M(s) (2 eta)^(-s) Z(s - 2k + 4),
 with M(s) = int T^(s-1) (G - 1) dT and Z(s) = sum j_n^(-s)/(j_n J1(j_n)^2). If its path is shifted

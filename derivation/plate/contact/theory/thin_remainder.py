@@ -1,4 +1,4 @@
-"""Link 14, made exact: the remainder of the thin plate's law, by residues at T_n, sinh T = +-T.
+"""Step 14, made exact: the remainder of the thin plate's law, by residues at T_n, sinh T = +-T.
 
 In the contour integral behind the sum over the zeros of J0 (`split`) the modes' part
 f(z) = q(z) (G(2 eta z) - 1), q even and entire, has poles at z_n = T_n/(2 eta). They contribute
@@ -228,7 +228,7 @@ def law_remainder() -> Formula:
         "imaginary one cancels the finite radius, and the poles inside give the sum.",
         {
             "modes": modes - mode * sine_kernel(alpha * j_n) * _mode_factor(0),
-            "side wall": sp.expand((on_axis + wall.function / WALL).rewrite(sp.exp)),
+            "finite radius": sp.expand((on_axis + wall.function / WALL).rewrite(sp.exp)),
             "Phi": real.subs(alpha, eta * a_ratio) - 2 * a_ratio / sp.pi * sine_kernel(y),
             "share": mode.subs(alpha, eta * a_ratio) * _share(sine_kernel(y))
             - 16 / a_ratio**2 * _law_weight(T) * (1 + sp.sqrt(1 + T**2)) ** 2,

@@ -8,10 +8,10 @@ from derivation.engine.emit.routine import Facts, Let, Routine, Several, Stateme
 from derivation.plate.edge.kernels.supported import in_ratio, n
 from derivation.plate.edge.theory.clamped import (
     HERTZ_MEAN,
-    SHEAR,
+    SHEAR_TERM,
     clamp_bound,
     clamp_law,
-    depth_lost,
+    indentation_loss,
     turn,
 )
 from derivation.plate.edge.theory.supported import RATIO
@@ -48,13 +48,13 @@ def rotation() -> Routine:
 def depth() -> Routine:
     """Return s/eta, with 1 - 2 G as one fraction."""
     level, rate = sp.symbols("level rate", real=True)
-    twice = 1 - depth_lost() / (2 * RATIO * eta**2)
+    twice = 1 - indentation_loss() / (2 * RATIO * eta**2)
     return routine(
-        "depth_lost",
+        "indentation_loss",
         (eta, n),
         (Let(level, 1 - _by_horner(twice)), Let(rate, 2 * n * level)),
         (eta * rate,),
-        (depth_lost() / eta,),
+        (indentation_loss() / eta,),
         "Return s/eta; s is the relative reduction of a clamped plate's bending deflection.",
         MEANING,
         in_ratio,
@@ -65,13 +65,13 @@ def _parts() -> tuple[Statement, ...]:
     """Return the statements common to the law and its bound."""
     return (
         Let(inverse, 1 / eta),
-        Several((lost,), "depth_lost", (eta, n), (depth_lost() / eta,)),
+        Several((lost,), "indentation_loss", (eta, n), (indentation_loss() / eta,)),
         Several((chi,), "turn_of_clamp", (n,), (turn(),)),
         Let(thinned, sp.Rational(16, 3) * n**2),
     )
 
 
-REST = SHEAR + thinned * eta
+REST = SHEAR_TERM + thinned * eta
 """Contribution of the shear at the edge and of extension."""
 
 

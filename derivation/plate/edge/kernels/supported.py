@@ -16,16 +16,16 @@ from functools import partial
 import sympy as sp
 from sympy.codegen.cfunctions import expm1
 
-from derivation.engine.emit.named import Claims, named
+from derivation.engine.emit.named import Claims, named_routine
 from derivation.engine.emit.routine import GUARDED, Choice, Facts, Let, Routine, Several, routine
-from derivation.engine.rewrite.form import undo
+from derivation.engine.rewrite.form import substitute_steps
 from derivation.engine.rewrite.series import taylor_section
 from derivation.engine.rewrite.terms import terms_of
 from derivation.plate.blocks import blocks
 from derivation.plate.edge.kernels.tables import SWITCH
 from derivation.plate.edge.theory.sums import (
     Kernel,
-    closed,
+    closed_sums,
     edge_bound,
     indentation_kernel,
     inverse_squares,
@@ -52,7 +52,7 @@ KERNELS = {"indentation": indentation_kernel, "slope": slope_kernel}
 
 def in_ratio(expression: sp.Expr) -> sp.Expr:
     """Return the expression in n, without building blocks, guards and common scales."""
-    found = undo(expression, (), blocks()).replace(
+    found = substitute_steps(expression, (), blocks()).replace(
         lambda e: isinstance(e, sp.Max) and SMALLEST in e.args,
         lambda e: sp.Mul(*(part for part in e.args if part != SMALLEST)),
     )
@@ -116,7 +116,7 @@ def of_slope() -> Routine:
 
 def thin(kind: str) -> Routine:
     """Return P, and the sums of a thin plate in closed form."""
-    half = closed(KERNELS[kind])
+    half = closed_sums(KERNELS[kind])
     parts = half.plain, plain - n * half.bent, half.stretched
     return routine(
         f"thin_{kind}",
@@ -163,7 +163,7 @@ def _sides(mode: sp.Symbol) -> tuple[sp.Basic, Facts, Facts]:
     return sp.Lt(T, SWITCH), {near: size}, {near: SWITCH}
 
 
-@named
+@named_routine
 def later_modes() -> Claims:
     """Return k (T - Q)/(j^3 J1) and k (H - 1)/(j^2 J1) of modes; `share` is k."""
     s, statements = _of_T()
@@ -190,7 +190,7 @@ def later_modes() -> Claims:
     )
 
 
-@named
+@named_routine
 def all_modes() -> Claims:
     """Return sum k (1 + 3 n - n Q)/(j^3 J1) and sum k H/(j^2 J1)."""
     s, statements = _of_T()

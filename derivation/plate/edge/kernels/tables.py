@@ -19,7 +19,7 @@ from derivation.plate.contact.kernels.tables import chebyshev_nodes, in_powers
 from derivation.plate.contact.theory.split import zero_of_j0
 from derivation.plate.edge.theory.sums import (
     Kernel,
-    closed,
+    closed_sums,
     indentation_kernel,
     slope_kernel,
 )
@@ -89,7 +89,7 @@ def _tables(kernel: Kernel, first: Ball, weights: list[Ball]) -> tuple[tuple[flo
     """
     middle = enclose(WIDEST**2 / 2, {})
     points = [(middle * (1 + t)).sqrt() for t in chebyshev_nodes(TERMS)]
-    plain = closed(kernel).plain
+    plain = closed_sums(kernel).plain
     shares = [value_of(kernel, at * first) for at in points]
     cubes = [
         enclose(plain, {alpha: at}) - weights[0] * share

@@ -9,8 +9,8 @@ from fractions import Fraction
 from flint import arb
 
 from derivation.engine.formula.ball import Exact, to_ball
-from derivation.plate.contact.oracle.balls import ratio_of, settle
-from derivation.plate.edge.theory.clamped import LEVEL, TURN
+from derivation.plate.contact.oracle.balls import ratio_of, refine_to_digits
+from derivation.plate.edge.theory.clamped import LEVEL_FIT, TURN_FIT
 
 SPREAD = {"indentation": Fraction(2, 5), "slope": Fraction(2, 3)}
 """Mean of r^2/a^2, by kind."""
@@ -19,7 +19,8 @@ SPREAD = {"indentation": Fraction(2, 5), "slope": Fraction(2, 3)}
 def constants(n: Fraction) -> tuple[Fraction, Fraction]:
     """Return chi and G of the clamped edge."""
     turn, level = (
-        Fraction(1000) / sum(c * n**i for i, c in enumerate(powers)) for powers in (TURN, LEVEL)
+        Fraction(1000) / sum(c * n**i for i, c in enumerate(powers))
+        for powers in (TURN_FIT, LEVEL_FIT)
     )
     return n * n * turn, level
 
@@ -54,10 +55,14 @@ def clamp_part(
     # Shear, and extension.
     total = bending / (8 * eta**3) + Fraction(1, 40) + 2 * n**2 * eta / 3
     total *= width if kind == "indentation" else 3 * width / 2
-    return settle(lambda _: (to_ball(total) / arb.pi(),), digits, f"the clamp's {kind}")[0]
+    return refine_to_digits(lambda _: (to_ball(total) / arb.pi(),), digits, f"the clamp's {kind}")[
+        0
+    ]
 
 
-def far_clamp(a: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact) -> tuple[Fraction, Fraction]:
+def back_face_clamp(
+    a: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact
+) -> tuple[Fraction, Fraction]:
     """Return the reduction of S by bending and by extension."""
     width, eta = ratio_of(a, b), ratio_of(h, b)
     n = Fraction(lam) / (Fraction(lam) + 2 * Fraction(mu))

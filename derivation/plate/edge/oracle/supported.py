@@ -1,6 +1,6 @@
 """Arb reference for a simple support: modes summed in balls, remainders by an integral.
 
-With k = g or (3/2) sinc and n = lam/(lam + 2 mu), the sums of link 19 are, for N modes,
+With k = g or (3/2) sinc and n = lam/(lam + 2 mu), the sums of step 19 are, for N modes,
 
     sum k (1 + 3 n - n Q)/(j^3 J1)
         = [N modes] + (1 + 3 n) P_N - 2 n eta E_N - n sum (Q - T) k/(j^3 J1)
@@ -26,7 +26,7 @@ from flint import acb, arb
 
 from derivation.engine.formula.ball import Exact, to_ball
 from derivation.mathematics.bessel.oracle import j0_zero
-from derivation.plate.contact.oracle.balls import ratio_of, settle
+from derivation.plate.contact.oracle.balls import ratio_of, refine_to_digits
 
 
 class EdgeKernel(NamedTuple):
@@ -82,7 +82,7 @@ def edge_part(
         total = (1 - 2 * n * x**2) / x**3 * bent + n**2 * stretched * 8 / 3
         return (alpha / arb.pi() * total,)
 
-    return settle(compute, digits, f"the edge's {kind} at a/b = {float(width)}")[0]
+    return refine_to_digits(compute, digits, f"the edge's {kind} at a/b = {float(width)}")[0]
 
 
 def support_ratio(lam: Exact, mu: Exact) -> Fraction:

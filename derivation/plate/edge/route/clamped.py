@@ -10,10 +10,10 @@ from typing import NamedTuple
 
 from mpmath import mp, mpf
 
-from derivation.plate.edge.theory.clamped import LEVEL, SHEAR, TURN
+from derivation.plate.edge.theory.clamped import LEVEL_FIT, SHEAR_TERM, TURN_FIT
 
 
-class Clamped(NamedTuple):
+class ClampedResponse(NamedTuple):
     """Load P, the rotation that a clamp suppresses, its part psi = chi eta psi', and the strain."""
 
     force: mpf
@@ -40,7 +40,7 @@ def clamp_part(kind: str, a: float, h: float, b: float, nu: float, digits: int =
         def depth(width: mpf) -> mpf:
             found = _clamped(width, eta, n)
             # eta^3/5 in units of P b^2/(16 pi D), D = 2 h^3/3.
-            shear = 3 * found.force / (32 * mp.pi) * SHEAR.p / SHEAR.q
+            shear = 3 * found.force / (32 * mp.pi) * SHEAR_TERM.p / SHEAR_TERM.q
             bent = found.turn * _bent(mpf(0), eta, n) + found.own / 2
             return bent + found.strain * 2 * n * eta + shear
 
@@ -50,7 +50,7 @@ def clamp_part(kind: str, a: float, h: float, b: float, nu: float, digits: int =
         return +((depth(alpha + step) - depth(alpha - step)) / (4 * alpha * step))
 
 
-def far_clamp(a: float, h: float, b: float, nu: float, digits: int = 30) -> mpf:
+def back_face_clamp(a: float, h: float, b: float, nu: float, digits: int = 30) -> mpf:
     """Return the reduction of S; the stress is (1 + nu) P/(2 pi H^2) times S, H = 2 h."""
     with mp.workdps(digits + 20):
         eta, n = mpf(h) / mpf(b), mpf(nu) / (1 - mpf(nu))
@@ -60,7 +60,7 @@ def far_clamp(a: float, h: float, b: float, nu: float, digits: int = 30) -> mpf:
         return +(strain * 8 * mp.pi * eta**2 / found.force)
 
 
-def _clamped(a: mpf, h: mpf, n: mpf) -> Clamped:
+def _clamped(a: mpf, h: mpf, n: mpf) -> ClampedResponse:
     """Return the motion that a clamp suppresses under Hertz pressure (2/pi) sqrt(a^2 - r^2)."""
 
     def load(weight: Callable[[mpf], mpf]) -> mpf:
@@ -72,14 +72,14 @@ def _clamped(a: mpf, h: mpf, n: mpf) -> Clamped:
     force, work = load(lambda _: mpf(1)), load(lambda r: _bent(r, h, n))
     # The edge's moment 2 E* (2 h^3/3) k and force 2 E* 2 h e work on 2 pi b.
     stiff = 2 * mp.pi * 2 * (2 * h**3 / 3)
-    own = 2 * n**2 * _fitted(TURN, n) * h * load(lambda r: (1 - r * r) / 2)
+    own = 2 * n**2 * _fitted(TURN_FIT, n) * h * load(lambda r: (1 - r * r) / 2)
     strain = force * 2 * n * h / (2 * mp.pi * 2 * 2 * h)
-    return Clamped(force, work / stiff, own / stiff, strain)
+    return ClampedResponse(force, work / stiff, own / stiff, strain)
 
 
 def _bent(r: mpf, h: mpf, n: mpf) -> mpf:
     """Return the deflection of the contact face in the bending state k = 1."""
-    return (1 - r * r) / 2 - n * h * h * (1 - 2 * _fitted(LEVEL, n))
+    return (1 - r * r) / 2 - n * h * h * (1 - 2 * _fitted(LEVEL_FIT, n))
 
 
 def _fitted(powers: tuple[int, ...], n: mpf) -> mpf:

@@ -1,6 +1,6 @@
 """mpmath reference for a simple support: residues, no sum over modes.
 
-Division by J0 turns the sums of link 19 into residues. At 0 it is a polynomial whose coefficients
+Division by J0 turns the sums of step 19 into residues. At 0 it is a polynomial whose coefficients
 are computed here from samples of the integrand on a circle. At z = T_n/(2 eta),
 sinh T_n = (-1)^n T_n, the residues form a sum that converges like e^(-(1 - a/b) n pi b/(2 h)).
 """

@@ -19,7 +19,7 @@ within a distance of one thickness from the edge and are neglected.
 A clamped edge, u = w = 0 for all z, removes the displacement of the same states and prevents
 thinning of the plate at the edge. There psi = chi eta psi' for the plate's rotation, and the middle
 plane has w = n G h^2 (kappa_r + kappa_t). chi and G were computed for a strip and are fitted by
-`turn_of_clamp` and `depth_lost` in `edge_kernels`::
+`turn_of_clamp` and `indentation_loss` in `edge_kernels`::
 
     X_c = alpha/(8 pi eta^3) [ (1 - s) (1 - 2 alpha^2/5 - s) + 2 chi eta (1 - 2 alpha^2/5)
                                + eta^3/5 + (16/3) n^2 eta^4 ],  s = 2 n (1 - 2 G) eta^2

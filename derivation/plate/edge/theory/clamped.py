@@ -1,4 +1,4 @@
-"""Link 19, clamped edge: u = w = 0 on the whole edge in three-dimensional elasticity.
+"""Step 19, clamped edge: u = w = 0 on the whole edge in three-dimensional elasticity.
 
 With n = nu/(1 - nu) and D the flexural rigidity, at the edge of a plate in bending
 
@@ -41,11 +41,11 @@ from derivation.plate.modes.theory.mode_shapes import mode_shapes
 from derivation.plate.modes.theory.stresses import modal_stresses
 from derivation.plate.vocabulary import J1, A_j, Formula, R, a, alpha, b, eta, h, lam, mu, phi, r, z
 
-TURN = (7436, 3168, -976, 204)
+TURN_FIT = (7436, 3168, -976, 204)
 """1000 n^2/chi by powers of n: within 0.2 % of the computed values, for -1/2 < n < 1."""
-LEVEL = (7638, 801, -316, 255)
+LEVEL_FIT = (7638, 801, -316, 255)
 """1000/G by powers of n, with the same accuracy."""
-SHEAR = sp.Rational(1, 5)
+SHEAR_TERM = sp.Rational(1, 5)
 """Contribution of shear at the edge to X_c 8 pi eta^3/alpha, over eta^3; 0.19935 for nu = 0."""
 HERTZ_MEAN = sp.Rational(2, 5)
 """Mean of r^2/a^2 under Hertz pressure."""
@@ -59,15 +59,15 @@ def _fitted(powers: tuple[int, ...]) -> sp.Expr:
 
 def turn() -> sp.Expr:
     """Return the constant chi of psi = chi eta psi' at a clamped edge."""
-    return RATIO**2 * _fitted(TURN)
+    return RATIO**2 * _fitted(TURN_FIT)
 
 
 def level() -> sp.Expr:
     """Return the constant G of w(b, 0) = n G h^2 (kappa_r + kappa_t) at a clamped edge."""
-    return _fitted(LEVEL)
+    return _fitted(LEVEL_FIT)
 
 
-def depth_lost() -> sp.Expr:
+def indentation_loss() -> sp.Expr:
     """Return s = 2 n (1 - 2 G) eta^2, the reduction of the bending state's w/(k b^2/2)."""
     return 2 * RATIO * (1 - 2 * level()) * eta**2
 
@@ -159,7 +159,7 @@ def amplitudes() -> Proof:
             "mean of w": lost.subs(_G, sp.Rational(1, 6)) - 4 * RATIO * eta**2 / 3,
             "bending": (scale * rotation * deep.subs(r, 0)).subs(plate)
             - (1 - lost) * (1 - HERTZ_MEAN * alpha**2 - lost),
-            "stretching": (scale * strain * -stretching.w.subs(z, h)).subs(plate)
+            "extension": (scale * strain * -stretching.w.subs(z, h)).subs(plate)
             - sp.Rational(16, 3) * RATIO**2 * eta**4,
         },
     )
@@ -168,7 +168,7 @@ def amplitudes() -> Proof:
 def _bracket(share: sp.Expr, lost: sp.Expr, chi: sp.Expr) -> sp.Expr:
     """Return X_c 8 pi eta^3/alpha, where w under the load is 1 - share alpha^2 - s."""
     wide = 1 - share * alpha**2
-    rest = SHEAR * eta**3 + sp.Rational(16, 3) * RATIO**2 * eta**4
+    rest = SHEAR_TERM * eta**3 + sp.Rational(16, 3) * RATIO**2 * eta**4
     return (1 - lost) * (wide - lost) + 2 * chi * eta * wide + rest
 
 
@@ -198,8 +198,8 @@ def clamp_law() -> tuple[Formula, Formula]:
     """Return X_c, the reduction of delta R/a^2 by a clamped edge, and that of the slope S."""
     amplitudes()
     front = alpha / (8 * sp.pi * eta**3)
-    share = front * _bracket(HERTZ_MEAN, depth_lost(), turn())
-    slope = sp.Rational(3, 2) * front * _bracket(sp.Rational(2, 3), depth_lost(), turn())
+    share = front * _bracket(HERTZ_MEAN, indentation_loss(), turn())
+    slope = sp.Rational(3, 2) * front * _bracket(sp.Rational(2, 3), indentation_loss(), turn())
     symbolic = front * _bracket(HERTZ_MEAN, _s, _chi)
     steep = sp.Rational(3, 2) * front * _bracket(sp.Rational(2, 3), _s, _chi)
     proof = prove(
@@ -234,7 +234,7 @@ def clamp_bound() -> Formula:
     and for 0 <= beta <= 2/3 (1 - s)(1 - beta - s) + (4/3) s^2 = (7/3) (s - 3 (2 - beta)/14)^2 +
     f(beta), where f decreases with beta to 1/7 at 2/3.
     """
-    lost, beta = depth_lost(), sp.Symbol("beta", real=True)
+    lost, beta = indentation_loss(), sp.Symbol("beta", real=True)
     front = sp.Rational(3, 2) * alpha / (8 * sp.pi * eta**3)
     more = (sp.Abs(1 - lost) - (1 - lost)) / 2
     value = front * (_bracket(sp.Integer(0), lost, turn()) + 2 * more / 3)
@@ -250,8 +250,8 @@ def clamp_bound() -> Formula:
             "above": left - third * (m + alpha**2 * (1 - _s)) - 2 * _chi * eta * alpha**2 * third,
             "square": (1 - _s) * (1 - beta - _s) + sp.Rational(4, 3) * _s**2
             - sp.Rational(7, 3) * (_s - 3 * (2 - beta) / 14) ** 2 - floor,
-            "floor": floor.subs(beta, third) - sp.Rational(1, 7),
-            "falls": sp.diff(floor, beta) + 1 - 3 * (2 - beta) / 14,
+            "lower bound": floor.subs(beta, third) - sp.Rational(1, 7),
+            "decrease": sp.diff(floor, beta) + 1 - 3 * (2 - beta) / 14,
         },
     )  # fmt: skip
     return Formula(

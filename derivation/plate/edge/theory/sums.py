@@ -1,4 +1,4 @@
-"""Link 19, sums: the edge corrections in closed form, the remainder of this form, and a bound.
+"""Step 19, sums: the edge corrections in closed form, the remainder of this form, and a bound.
 
 For k even and entire, |k(z)| <= C e^(alpha |Im z|), alpha < 1, and q even and meromorphic
 
@@ -6,7 +6,7 @@ For k even and entire, |k(z)| <= C e^(alpha |Im z|), alpha < 1, and q even and m
 
 the residues of k q/(z^3 J0) over the whole plane: 1/J0 has the residue -1/J1(j) at j, the
 integrand is odd, so that its residues at +-z are equal, and those at conjugate points are
-conjugate. For Q and H (link 19) the poles are z_n = T_n/(2 eta), T_n the roots of
+conjugate. For Q and H (step 19) the poles are z_n = T_n/(2 eta), T_n the roots of
 sinh T = +-T, of even index for Q and of odd index for H; there is none on the axes. Along
 the lines Im T = pi n - pi/4, where |sinh T -+ T| > cosh(Re T)/4, and on verticals between
 the zeros of J0, where |1/J0| <= C sqrt|z| e^(-|Im z|), the integrand is O(|z|^(-3/2)), and
@@ -90,7 +90,7 @@ def residues() -> Proof:
 
 
 @dataclass(frozen=True)
-class Closed:
+class ClosedSums:
     """Halves of the residues at 0 of k/(z^3 J0), of k (Q - 3)/(z^3 J0) and of k H/(z^2 J0)."""
 
     plain: sp.Expr
@@ -104,7 +104,7 @@ def _low(expression: sp.Expr) -> sp.Expr:
 
 
 @cache
-def closed(kernel: Kernel) -> Closed:
+def closed_sums(kernel: Kernel) -> ClosedSums:
     """Return the sums over the modes without the contribution of the roots."""
     residues()
     j0 = sp.Add(*((-1) ** m * (_z / 2) ** (2 * m) / sp.factorial(m) ** 2 for m in range(3)))
@@ -125,7 +125,7 @@ def closed(kernel: Kernel) -> Closed:
 
     wave = sp.expand(series["k"] * series["1/J0"])
     bent, stretched = (sp.expand(wave * series[name]) for name in ("Q", "H"))
-    found = Closed(
+    found = ClosedSums(
         wave.coeff(_z, 2) / 2,
         (bent - 3 * wave).expand().coeff(_z, 2) / 2,
         stretched.coeff(_z, 1) / 2,
@@ -170,7 +170,7 @@ def thin_edge() -> tuple[Formula, ...]:
     )
     modes = {formula.name: formula.expression for formula in edge_law()}
     for name, kernel, latex in rows:
-        half, one = closed(kernel), kernel(alpha * j_n)
+        half, one = closed_sums(kernel), kernel(alpha * j_n)
         Q, H = (f.subs(T, 2 * eta * j_n) for f in (bending_function(), stretching_function()))
         mode = _assembled(
             one * (1 + 3 * RATIO - RATIO * Q) / (j_n**3 * J1), one * H / (j_n**2 * J1)
@@ -291,7 +291,7 @@ def edge_bound() -> Formula:
     order = sp.Symbol("k", integer=True, nonnegative=True)
     # T cosh T + 2 T - 3 sinh T by powers: (2 k + 1 - 3)/(2 k + 1)!, and 2 more for T itself.
     series = (2 * order - 2) / sp.factorial(2 * order + 1)
-    plain = closed(slope_kernel).plain / sp.Rational(3, 2)
+    plain = closed_sums(slope_kernel).plain / sp.Rational(3, 2)
     n = sp.Abs(RATIO)
     bracket = sp.Abs(1 - 2 * RATIO * eta**2) / eta**3 * (sp.Rational(1, 8) + 2 * eta * n * s_2)
     value = 3 * alpha / (2 * sp.pi) * (bracket + sp.Rational(8, 3) * RATIO**2 * s_2)
@@ -318,7 +318,7 @@ def edge_bound() -> Formula:
             "1 - H": (1 - stretching_function()) * (sp.sinh(T) + T) - (1 + T - sp.exp(-T)),
             "largest": plain.subs(alpha, 0) - sp.Rational(1, 8),
             "smallest": plain.subs(alpha, 1) - sp.Rational(1, 24),
-            "falls": sp.diff(plain, alpha) + alpha / 6,
+            "decrease": sp.diff(plain, alpha) + alpha / 6,
         },
     )
     return Formula(

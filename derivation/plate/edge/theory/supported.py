@@ -1,4 +1,4 @@
-"""Link 19: corrections of the paper's edge for a simply supported edge.
+"""Step 19: corrections of the paper's edge for a simply supported edge.
 
 The paper's modes have w = 0 and u' + u/r = 0 at r = b, hence sigma_rr = -(2 mu/b) u there: an
 elastically restrained edge, in plate theory a rotational spring of stiffness (1 - nu) D/b. Its mean

@@ -8,7 +8,7 @@ plate, whose k vanishes at nu = -1, all terms are positive for k < j_1 of
 
 import sympy as sp
 
-from derivation.engine.emit.named import Claims, named
+from derivation.engine.emit.named import Claims, named_routine
 from derivation.engine.emit.routine import Let, Several
 from derivation.engine.formula.proof import lower_bessel
 from derivation.plate.edge_modes.kernels.states import (
@@ -40,7 +40,7 @@ PART = j0 / scaled * sp.exp(-k_2)
 _NORM = theory.NORM.subs(mindlin.c, theory.PART)
 
 
-@named
+@named_routine
 def first_part() -> Claims:
     """Return c in terms of I0 e^(-k2)."""
     return Claims((j0, scaled, k_2), (), (PART,), (theory.PART,), {j0: theory.J0, scaled: FADED})
@@ -50,7 +50,7 @@ def _weight_of(kinetic: sp.Expr) -> sp.Expr:
     return theory.WEIGHT.subs({theory.N: kinetic, theory.t: theory.FACE, mindlin.c: theory.PART})
 
 
-@named
+@named_routine
 def weight() -> Claims:
     """Return c, t and W."""
     total, of_w, of_psi = sp.symbols("total of_w of_psi", real=True)
@@ -80,7 +80,7 @@ def weight() -> Claims:
     )
 
 
-@named
+@named_routine
 def energy() -> Claims:
     """Return (w^2 + (eta^2/3) psi^2) r."""
     w, psi = sp.symbols("w psi", real=True)
@@ -109,7 +109,7 @@ def energy() -> Claims:
     )
 
 
-@named
+@named_routine
 def first_weight() -> Claims:
     """Return t and W of the first mode of a supported plate."""
     bulge, axis = sp.symbols("bulge axis", real=True)

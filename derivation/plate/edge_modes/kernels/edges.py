@@ -1,4 +1,4 @@
-"""Functions that vanish at a mode of a clamped or supported plate, with slopes by k.
+"""Frequency equations of clamped and supported plates, and their derivatives by k.
 
 The condition of the edge is J1 = q J0,
 
@@ -14,7 +14,7 @@ where all terms but the last are positive for k < j_1.
 
 import sympy as sp
 
-from derivation.engine.emit.named import Claims, named
+from derivation.engine.emit.named import Claims, named_routine
 from derivation.engine.emit.routine import Let, Several
 from derivation.engine.formula.proof import lower_bessel
 from derivation.plate.edge_modes.kernels.states import (
@@ -63,7 +63,7 @@ def _between(expression: sp.Expr) -> sp.Expr:
     return by_wave_number(in_xi(expression))
 
 
-@named
+@named_routine
 def edge() -> Claims:
     """Return q, J1 - q J0, which vanishes at a mode, and its slope by k."""
     value = k * (beta * (1 + left) - turned * mean / 2) / bent
@@ -103,7 +103,7 @@ def _curls(partner: sp.Symbol) -> tuple[Several, Several]:
     )
 
 
-@named
+@named_routine
 def first_edge() -> Claims:
     """Return the function that vanishes at the first supported mode, and its slope by k."""
     partner = sp.Symbol("partner", real=True)
@@ -132,7 +132,7 @@ def first_edge() -> Claims:
     )
 
 
-@named
+@named_routine
 def first_power() -> Claims:
     """Return k^4 of the first mode of a supported plate, near nu = -1."""
     u = sp.Symbol("u", positive=True)
@@ -172,7 +172,7 @@ def _lowest_power() -> sp.Expr:
     return sp.solve(value * u - goal, u)[0]
 
 
-@named
+@named_routine
 def support() -> Claims:
     """Return goal, and beta of a simple support."""
     return Claims(
@@ -184,7 +184,7 @@ def support() -> Claims:
     )
 
 
-@named
+@named_routine
 def clamp() -> Claims:
     """Return beta of a clamped edge."""
     chi = sp.Symbol("chi", real=True)
@@ -197,7 +197,7 @@ def clamp() -> Claims:
     )
 
 
-@named
+@named_routine
 def moved() -> Claims:
     """Return J0 and J1 at the root, from the difference between k and the root."""
     exact = tuple(sp.besselj(order, k_n) for order in (0, 1))

@@ -4,7 +4,7 @@ from functools import partial
 
 import sympy as sp
 
-from derivation.engine.emit.named import Claims, named
+from derivation.engine.emit.named import Claims, named_routine
 from derivation.engine.emit.routine import GUARDED, Choice, Facts, Let, Routine, Several, routine
 from derivation.engine.formula.proof import lower_bessel
 from derivation.plate.edge_modes.kernels.states import c, j0, k, t
@@ -35,7 +35,7 @@ _AT_INFINITY = (
 _FADED_ANYWHERE = Choice(far, BEYOND, sp.exp(inverse * logarithm) * sp.sqrt(scale), scaled)
 
 
-@named
+@named_routine
 def modified() -> Claims:
     """Return 2 I1/(y I0), I2/(y^2 I0) and I0 e^(-y) for y >= 0."""
     ratio, fourth, second = sp.symbols("ratio fourth second", real=True)
@@ -60,7 +60,7 @@ def modified() -> Claims:
     )
 
 
-@named
+@named_routine
 def faded() -> Claims:
     """Return I0 e^(-y) for y >= 0."""
     return Claims(

@@ -6,7 +6,7 @@ plates. With M = 2 I1/(k2 I0) and L = (1 - M)/k2^2 = I2/(k2^2 I0), none do where
 
 import sympy as sp
 
-from derivation.engine.emit.named import Claims, named
+from derivation.engine.emit.named import Claims, named_routine
 from derivation.engine.emit.routine import Choice, Facts, Let
 from derivation.plate.edge_modes.theory import mindlin
 from derivation.plate.edge_modes.theory import waves as theory
@@ -85,7 +85,7 @@ def changes() -> tuple[Let, Let]:
     )  # fmt: skip
 
 
-@named
+@named_routine
 def wave() -> Claims:
     """Return xi, k2^2/k^2, g1, g2 k2^2/k^2 and k2."""
     held = sp.Symbol("held", real=True)
@@ -104,7 +104,7 @@ def wave() -> Claims:
     )
 
 
-@named
+@named_routine
 def to_cutoff() -> Claims:
     """Return a Newton step in log x for k2 = 0."""
     plain = parts()[left]
@@ -122,7 +122,7 @@ def to_cutoff() -> Claims:
     )
 
 
-@named
+@named_routine
 def cutoff_of_mindlin() -> Claims:
     """Return x at which k2 vanishes on Mindlin's branch."""
     (there,) = sp.solve(mindlin.left(), xi)

@@ -1,6 +1,6 @@
 """Arb reference for thin clamped and supported plates: each root is certified as a ball.
 
-(J1/J0 + I1/I0)/k increases between neighbouring zeros of J0 (link 29). Minus S, with S = 0 for a
+(J1/J0 + I1/I0)/k increases between neighbouring zeros of J0 (step 29). Minus S, with S = 0 for a
 clamp and 2/(1 - nu) for a simple support, it has one change of sign there: the only root.
 """
 
@@ -11,7 +11,7 @@ from flint import arb
 
 from derivation.engine.formula.ball import Exact, enclose, to_ball
 from derivation.mathematics.bessel.oracle import j0_zero
-from derivation.plate.contact.oracle.balls import settle
+from derivation.plate.contact.oracle.balls import refine_to_digits
 from derivation.plate.edge_modes.theory.modes import NORM, PART, WEIGHT
 from derivation.plate.vocabulary import k_n
 
@@ -62,7 +62,7 @@ def mode(edge: Edge, n: int, nu: Exact = 0, digits: int = 30) -> Mode:
             known = {k_n: _root(edge, n, nu, bits + n.bit_length() + 8)}
             return known[k_n], enclose(PART, known), enclose(WEIGHT, known)
 
-    return Mode(*settle(compute, digits, f"{edge} mode {n} at nu = {float(nu)}"))
+    return Mode(*refine_to_digits(compute, digits, f"{edge} mode {n} at nu = {float(nu)}"))
 
 
 def _root(edge: Edge, n: int, nu: Exact, bits: int) -> arb:

@@ -1,4 +1,4 @@
-"""Arb reference for clamped and supported plates of finite thickness: link 30 as balls.
+"""Arb reference for clamped and supported plates of finite thickness: step 30 as balls.
 
 S/Gam - beta changes sign between two numbers that enclose k; kap there is the Arb reference of A0
 at each of the two. That there is only one change in an interval is tested, not certified. kap and
@@ -16,7 +16,7 @@ from flint import arb
 
 from derivation.engine.formula.ball import Exact, enclose, to_ball
 from derivation.mathematics.bessel.oracle import j0_zero
-from derivation.plate.contact.oracle.balls import settle
+from derivation.plate.contact.oracle.balls import refine_to_digits
 from derivation.plate.edge_modes.oracle.modes import Edge, RootError
 from derivation.plate.edge_modes.theory import waves as theory
 from derivation.plate.edge_modes.theory.mindlin import c, k_2
@@ -29,7 +29,7 @@ _LOWEST = Fraction(1, 2**14)
 """Start of the search for the first supported mode, below its value at nu = -1 + 2^-53."""
 
 
-class HeldWave(NamedTuple):
+class EdgeMode(NamedTuple):
     """k b, omega h/c_T, k2 b, amplitude of I0, face over mean deflection, W, rho h r."""
 
     k: arb
@@ -41,7 +41,7 @@ class HeldWave(NamedTuple):
     residue: arb
 
 
-def wave(edge: Edge, n: int, thickness: Exact, ratio: Exact, digits: int = 30) -> HeldWave:
+def wave(edge: Edge, n: int, thickness: Exact, ratio: Exact, digits: int = 30) -> EdgeMode:
     """Return the n-th mode of a clamped or supported plate.
 
     Parameters
@@ -74,8 +74,8 @@ def wave(edge: Edge, n: int, thickness: Exact, ratio: Exact, digits: int = 30) -
         with flint.ctx.workprec(bits + 2 * n.bit_length() + _GUARD):
             return _values(*_root(edge, n, *given, bits), *given, bits)
 
-    return HeldWave(
-        *settle(compute, digits, f"{edge} wave {n} at {float(thickness)}, {float(ratio)}")
+    return EdgeMode(
+        *refine_to_digits(compute, digits, f"{edge} wave {n} at {float(thickness)}, {float(ratio)}")
     )
 
 
@@ -97,7 +97,7 @@ def cutoff(ratio: Exact, digits: int = 30) -> tuple[Fraction, Fraction]:
 
 @cache
 def _expression(name: str) -> sp.Expr:
-    """Return quantities of link 30 in k, kap, eta and nu."""
+    """Return quantities of step 30 in k, kap, eta and nu."""
     return theory.in_k(
         {
             "partner_wave": k_2,

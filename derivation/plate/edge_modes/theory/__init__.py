@@ -1,6 +1,6 @@
 """Formulas, derived and proved: clamped and supported plates."""
 
-from derivation.plate.edge_modes.theory.modes import held_modes
-from derivation.plate.edge_modes.theory.waves import held_waves
+from derivation.plate.edge_modes.theory.modes import thin_plate_modes
+from derivation.plate.edge_modes.theory.waves import thick_plate_modes
 
-LINKS = (("held modes", held_modes), ("held waves", held_waves))
+STEPS = (("thin-plate modes", thin_plate_modes), ("thick-plate modes", thick_plate_modes))

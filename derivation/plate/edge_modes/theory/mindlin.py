@@ -1,4 +1,4 @@
-"""Link 30, first part: waves of a shear-deformable plate by Mindlin's equations, b = 1.
+"""Step 30, first part: waves of a shear-deformable plate by Mindlin's equations, b = 1.
 
 With the deflection w(r) cos(omega t), the rotation psi(r) cos(omega t) of the cross-section and the
 shear strain w' + psi, Hooke's law for moment and shear force in units of 2 mu h and the balances of
@@ -21,7 +21,7 @@ one frequency, and the formula for k2^2 is their sum. On the lower branch
 
     kap = x^4/(3 n) [1 - (1/k_s + n) x^2/(3 n) + ...],
 
-which equals the exact branch A0 of link 27 to this order for k_s = 5/(6 - nu) only. Therefore
+which equals the exact branch A0 of step 27 to this order for k_s = 5/(6 - nu) only. Therefore
 clamped and supported plates use kap of A0, and everything else from here: at A0 the expression
 above is of order x^6.
 
@@ -78,7 +78,7 @@ def shear_coefficient() -> Formula:
         raise ArithmeticError("Mindlin's branch does not equal A0 to three orders as stated")
     proof = prove(
         "Shear coefficient",
-        "A0's power series, of link 27, is inserted into Mindlin's dispersion relation. The first "
+        "A0's power series, of step 27, is inserted into Mindlin's dispersion relation. The first "
         "order vanishes for any $k_s$, the second for this one, the third for none.",
         {
             "first order": sp.cancel(powers[0].subs(known)),

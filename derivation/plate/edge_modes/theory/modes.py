@@ -1,4 +1,4 @@
-"""Link 29: bending modes of a plate whose edge is clamped or simply supported.
+"""Step 29: bending modes of a plate whose edge is clamped or simply supported.
 
 A thin plate, D nabla^4 w + rho H w'' = p, with b = 1. The solution that is regular on the axis,
 has omega = k^2 sqrt(D/(rho H)) and vanishes at the edge is w = J0(k r) - c I0(k r) with
@@ -29,7 +29,7 @@ function is continuous and positive, its expansion converges to it (Mercer), and
     (3 + nu)/((1 + nu) 16 pi) simply supported, 1/(8 pi) on the paper's edge.
 
 Under a flat punch of radius a the mean of w is sh(k a) - c shc(k a), sh y = sin(y)/y and
-shc y = sinh(y)/y; divided by w(0) it is the mode's weight s_n in `closure`.
+shc y = sinh(y)/y; divided by w(0) it is the mode's weight s_n in `coupling`.
 """
 
 from functools import cache
@@ -37,7 +37,7 @@ from functools import cache
 import sympy as sp
 
 from derivation.engine.formula.proof import lower_bessel, prove
-from derivation.plate.contact.theory.curvature import flat_punch
+from derivation.plate.contact.theory.spherical_profile import flat_punch
 from derivation.plate.vocabulary import Formula, alpha, k_n, nu
 
 _r = sp.Symbol("r", positive=True)
@@ -113,7 +113,7 @@ def frequency_equations() -> tuple[Formula, Formula, Formula]:
     )
     return (
         Formula(
-            "held_part",
+            "thin_mode_part",
             "c",
             "amplitude of $I_0$ in the mode $J_0(k r/b) - c I_0(k r/b)$ of a plate",
             PART,
@@ -129,7 +129,7 @@ def frequency_equations() -> tuple[Formula, Formula, Formula]:
             clamped,
             "1",
             "",
-            ("held_part",),
+            ("thin_mode_part",),
             proof,
         ),
         Formula(
@@ -139,7 +139,7 @@ def frequency_equations() -> tuple[Formula, Formula, Formula]:
             supported,
             "1",
             "",
-            ("held_part",),
+            ("thin_mode_part",),
             proof,
         ),
     )
@@ -173,13 +173,13 @@ def norm() -> Formula:
         },
     )
     return Formula(
-        "held_norm",
+        "thin_mode_norm",
         "N",
         r"integral of the mode's square over the plate, divided by $2 \pi b^2$",
         NORM,
         "1",
         "",
-        ("held_part",),
+        ("thin_mode_part",),
         proof,
     )
 
@@ -226,13 +226,13 @@ def weight() -> tuple[Formula, ...]:
     return (
         N,
         Formula(
-            "held_weight",
+            "thin_mode_weight",
             "W_n",
             r"modal weight: acceleration on the axis by a unit force there, times $\rho H b^2$",
             WEIGHT,
             "1",
             "",
-            ("held_norm",),
+            ("thin_mode_norm",),
             proof,
         ),
         Formula(
@@ -242,7 +242,7 @@ def weight() -> tuple[Formula, ...]:
             CLAMPED_COMPLIANCE,
             "1",
             "",
-            ("held_weight",),
+            ("thin_mode_weight",),
             proof,
         ),
         Formula(
@@ -252,7 +252,7 @@ def weight() -> tuple[Formula, ...]:
             SUPPORTED_COMPLIANCE,
             "1",
             "",
-            ("held_weight",),
+            ("thin_mode_weight",),
             proof,
         ),
     )
@@ -278,17 +278,17 @@ def share() -> Formula:
         },
     )
     return Formula(
-        "held_share",
+        "thin_mode_share",
         "s_n",
         "mean of a plate mode under a flat punch divided by its deflection on the axis",
         value,
         "1",
         "",
-        ("held_part", "mode_share"),
+        ("thin_mode_part", "mode_share"),
         proof,
     )
 
 
-def held_modes() -> tuple[Formula, ...]:
-    """Return the formulas of the link."""
+def thin_plate_modes() -> tuple[Formula, ...]:
+    """Return the formulas of the step."""
     return (*frequency_equations(), *weight(), share())

@@ -1,4 +1,4 @@
-"""Link 30: bending waves of a plate of finite thickness with a clamped or supported edge.
+"""Step 30: bending waves of a plate of finite thickness with a clamped or supported edge.
 
 With w, psi, k2, g1 and g2 of `mindlin`, b = 1, kap = (omega h/c_T)^2 of A0 at x = k eta and
 w = 0 at the edge, c = J0(k)/I0(k2), rotation and moment there are
@@ -18,7 +18,7 @@ between j_(n-1) and j_n, j_0 = 0, for 1/2 < 1/(1 - nu) and chi eta < 1. With A0'
 Mindlin's this is tested, not proved. Above the cut-off, k2 = 0 or (1/k_s + n) kap = x^2, the other
 wave propagates, and there are no modes of this kind.
 
-A0 of link 27 gives the response of one wave to a load; its kinetic energy is that of w and psi for
+A0 of step 27 gives the response of one wave to a load; its kinetic energy is that of w and psi for
 c = 0. A mode has N = int_0^1 (w^2 + eta^2/3 psi^2) r dr, and
 
     W = (1 - c t)^2 (1 + (eta^2/3) g1^2 k^2)/(2 pi N),
@@ -35,7 +35,7 @@ In static loading such a plate differs from the paper's by w = A (1 - r^2), psi 
 in units of P b^2/D, that is (1 - nu)/(1 + nu)/(16 pi) and -(1 + chi eta)/(1 - chi eta)/(16 pi) for
 a force in the middle plane. For a force on the face the factor is 1 - 4 n_nu eta^2/3.
 
-The limit eta -> 0 is link 29.
+The limit eta -> 0 is step 29.
 """
 
 from functools import cache
@@ -152,7 +152,7 @@ def edges() -> tuple[Formula, ...]:
     proof = prove(
         "Edges of a shear-deformable plate",
         r"Rotation and its slope at the edge; $S/\Gamma$ by $\psi/M$, whose slope has the same "
-        "sign; and the limit of a thin plate, link 29's equations, where $k_2 = k$ and "
+        "sign; and the limit of a thin plate, step 29's equations, where $k_2 = k$ and "
         "$g_1 = g_2 = 1$.",
         {
             "deflection": DEFLECTION.subs({_r: 1, c: PART}),
@@ -211,7 +211,7 @@ def norm() -> Formula:
     psi = rotation(g_1, g_2)
     proof = prove(
         "Norm of a plate wave",
-        r"Primitives of $w^2 r$ and $\psi^2 r$, for any $k$, $k_2$, $g_1$, $g_2$ and $c$; link "
+        r"Primitives of $w^2 r$ and $\psi^2 r$, for any $k$, $k_2$, $g_1$, $g_2$ and $c$; step "
         r"29's for $\eta \to 0$.",
         {
             "deflection": lower_bessel(sp.diff(deflected, _r)) - _r * DEFLECTION**2,
@@ -287,7 +287,7 @@ def weight() -> Formula:
     soft = WEIGHT.subs(N, NORM).subs(c, 0).subs(J0, 0)
     proof = prove(
         "Modal weight of a plate wave",
-        "At $J_0 = 0$ it is that of the paper's edge, whose residue is A0's; link 29's for "
+        "At $J_0 = 0$ it is that of the paper's edge, whose residue is A0's; step 29's for "
         r"$\eta \to 0$. " + energy.proof.argument,
         {
             "paper's edge": sp.cancel(soft - 1 / (sp.pi * J1**2)),
@@ -309,7 +309,7 @@ def share() -> Formula:
     value = UNDER_PUNCH / (1 - c * t)
     proof = prove(
         "Mean of a plate wave under a flat punch",
-        "The transforms of link 29, of $J_0(k r)$ and of $I_0(k_2 r)$ on the contact face. "
+        "The transforms of step 29, of $J_0(k r)$ and of $I_0(k_2 r)$ on the contact face. "
         + means.proof.argument,
         {
             "thin": _thin(value.subs(c, PART)) - means.expression,
@@ -369,8 +369,8 @@ def at_rest() -> tuple[Formula, Formula]:
 
 
 @cache
-def held_waves() -> tuple[Formula, ...]:
-    """Return the formulas of the link."""
+def thick_plate_modes() -> tuple[Formula, ...]:
+    """Return the formulas of the step."""
     return (
         shear_coefficient(), *waves(), *edges(), norm(), face_ratio(), weight(), share(),
         *at_rest(),

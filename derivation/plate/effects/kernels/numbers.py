@@ -1,7 +1,7 @@
 """Constants of the effects: series of spherical profile and finite radius, bounds.
 
 With t = (a/R)^2 and L = (artanh sqrt(t) - sqrt(t))/t^(3/2) = 1/3 + t/5 + t^2/7 + ... the
-contact of link 21, relative to Hertz's at equal contact radius, is
+contact of step 21, relative to Hertz's at equal contact radius, is
 
     delta = 1 + t L,    P = (3/4) (1 + (1 + t) L),    S = (1 + t L + 1/(1 - t))/2.
 
@@ -76,7 +76,7 @@ def effect_numbers() -> Numbers:
 
 
 def factor(name: str) -> sp.Expr:
-    """Return the constant factor of a formula of link 23.
+    """Return the constant factor of a formula of step 23.
 
     E* is 1 for lam = 0 and mu = 1/2; j_1 of the first mode belongs to the factor.
     """

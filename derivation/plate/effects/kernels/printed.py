@@ -2,7 +2,7 @@
 
 import sympy as sp
 
-from derivation.engine.emit.named import Claims, named
+from derivation.engine.emit.named import Claims, named_routine
 from derivation.engine.emit.routine import (
     GUARDED,
     RAISED,
@@ -13,7 +13,7 @@ from derivation.engine.emit.routine import (
     Several,
     routine,
 )
-from derivation.plate.contact.theory.curvature import spherical_contact
+from derivation.plate.contact.theory.spherical_profile import spherical_contact
 from derivation.plate.effects.kernels.numbers import NEAR, arc_coefficients, factor
 from derivation.plate.effects.theory import bending
 from derivation.plate.factors import MODERATE, PRODUCT, YOUNG, multiplied, root
@@ -69,7 +69,7 @@ def sphere() -> Routine:
     )
 
 
-@named
+@named_routine
 def bent_plate() -> Claims:
     """Return the contributions of bending to F and S."""
     part, over, depth = sp.symbols("part over depth", positive=True)
@@ -113,7 +113,7 @@ def echo() -> Routine:
 def _of_motion(
     name: str, arguments: tuple[sp.Symbol, ...], roots: tuple[Several, ...], value: sp.Expr
 ) -> Routine:
-    """Return the routine of a formula of link 23."""
+    """Return the routine of a formula of step 23."""
     formula = {f.name: f for f in plate_motion()}[name]
     scaled = MODERATE if name != "echo_time" else ()
     return routine(

@@ -68,7 +68,7 @@ def sphere_contact(a_over_R: ArrayLike) -> Sphere:
 
 @in_manifest("W", equation="6", domain="alpha >= 0, alpha < 1")
 @quiet
-def side_wall(alpha: ArrayLike) -> Contribution:
+def finite_radius(alpha: ArrayLike) -> Contribution:
     """Compute the effect of the plate's finite radius for Hertz pressure and the paper's edge.
 
     Formula::
@@ -88,8 +88,8 @@ def side_wall(alpha: ArrayLike) -> Contribution:
 
     Examples
     --------
-    >>> from generated import side_wall
-    >>> print(f"{side_wall(0.1).depth:.6g}")
+    >>> from generated import finite_radius
+    >>> print(f"{finite_radius(0.1).depth:.6g}")
     -0.0369707
     """
     kind, [alpha] = as_doubles(alpha)

@@ -2,7 +2,7 @@
 
 import sympy as sp
 
-from derivation.engine.emit.named import Claims, named
+from derivation.engine.emit.named import Claims, named_routine
 from derivation.engine.emit.routine import Several
 from derivation.plate.contact.theory.hertz import contact_radius
 from derivation.plate.impact.kernels.inversion import MODULUS, root
@@ -13,7 +13,7 @@ from derivation.plate.vocabulary import R, a, h, m, mu, v0
 share, lift, modulus = sp.symbols("share lift modulus", positive=True)
 
 
-@named
+@named_routine
 def peak_shares() -> Claims:
     """Return largest indentation and force over those by Hertz's law, by the ratio of the radii."""
     return Claims(
@@ -28,7 +28,7 @@ def peak_shares() -> Claims:
     )
 
 
-@named
+@named_routine
 def hertz_impact() -> Claims:
     """Return the largest radius by Hertz's law; indentation and force as three factors each."""
     one, brought = sp.Integer(1), (sp.Rational(5, 4), m, v0, v0)
@@ -57,7 +57,7 @@ def hertz_impact() -> Claims:
     )
 
 
-@named
+@named_routine
 def number_of_energy() -> Claims:
     """Return the impact energy over (4/3) E* h^5/R^2."""
     number = sp.Symbol("number", positive=True)

@@ -2,7 +2,7 @@
 
 import sympy as sp
 
-from derivation.engine.emit.named import Claims, named
+from derivation.engine.emit.named import Claims, named_routine
 from derivation.engine.emit.package import Routines
 from derivation.engine.emit.routine import Let, Several
 from derivation.engine.formula.proof import prove
@@ -43,7 +43,7 @@ def root(
     return Several((symbol,), "root", (sp.Integer(degree), sp.Tuple(*factors), *below), (exact,))
 
 
-@named
+@named_routine
 def eps_over() -> Claims:
     """Return sqrt(R delta)/h over a radius of convergence."""
     eps = sp.Symbol("eps", positive=True)
@@ -56,7 +56,7 @@ def eps_over() -> Claims:
     )
 
 
-@named
+@named_routine
 def size_of_eps() -> Claims:
     """Return |sqrt(R delta)/h| for A on a circle; F may be complex."""
     depth = contact_split()[0].expression.subs(a, a_ratio * h) * (1 + F)
@@ -69,7 +69,7 @@ def size_of_eps() -> Claims:
     )
 
 
-@named
+@named_routine
 def lagrange() -> Claims:
     """Return the power of 1 + F whose coefficient of A^n gives p_n, and the factor."""
     exponent, factor = -(n + 3) / 2, 3 / (n + 3)
@@ -86,7 +86,7 @@ def lagrange() -> Claims:
     return Claims((n,), (), (exponent, factor), (exponent, factor), {})
 
 
-@named
+@named_routine
 def force_of_bracket() -> Claims:
     """Return Hertz's force times the bracket; `modulus` is (4/3) E*/mu."""
     hertz = {f.name: f.expression for f in force_formulas()}["P_half"]

@@ -8,7 +8,7 @@ With D_n as in the theory, q = a/a_m and E the work over C a^5, the code compute
 
 import sympy as sp
 
-from derivation.engine.emit.named import Claims, named
+from derivation.engine.emit.named import Claims, named_routine
 from derivation.engine.emit.package import Routines
 from derivation.engine.emit.routine import Facts, Let
 from derivation.plate.contact.theory.hertz import contact_radius
@@ -67,7 +67,7 @@ SHAPE: Facts = {
 """Quantities in the code at one point of an impact."""
 
 
-@named
+@named_routine
 def shapes() -> Claims:
     """Return (1 + F)/(1 + F_m), d(delta/delta_m)/dq and (1 - E/E_m)/(1 - q)."""
     return Claims(
@@ -83,7 +83,7 @@ def shapes() -> Claims:
     )
 
 
-@named
+@named_routine
 def time_density() -> Claims:
     """Return dt/dw in units of delta_m/v0, w = 1 - sqrt(1 - q)."""
     at = 1 - u_t**2
@@ -95,7 +95,7 @@ def time_density() -> Claims:
     return Claims((rate, quotient), (), (2 * rate / sp.sqrt(quotient),), (claim,), meaning)
 
 
-@named
+@named_routine
 def near_quotient() -> Claims:
     """Return (E_near - E)/((1 - s) A_near^5) from the first of the tails, and the sum of others."""
     first, rest, cube, fourth = sp.symbols("first rest cube fourth", positive=True)
@@ -118,7 +118,7 @@ def near_quotient() -> Claims:
     )
 
 
-@named
+@named_routine
 def work_share() -> Claims:
     """Return the contribution of D_n to the work, over D_n."""
     n = sp.Symbol("n", positive=True)
@@ -126,7 +126,7 @@ def work_share() -> Claims:
     return Claims((n,), (), (n / (n + 3),), (claim,), {})
 
 
-@named
+@named_routine
 def whole_work() -> Claims:
     """Return E/A^5 from the plate's contribution in addition to Hertz's."""
     return Claims(
@@ -134,7 +134,7 @@ def whole_work() -> Claims:
     )
 
 
-@named
+@named_routine
 def share_of_work() -> Claims:
     """Return A over Hertz's radius, from the plate's contribution to E/A^5 at A."""
     return Claims(
@@ -156,7 +156,7 @@ ENERGY = A**5 * _in_radius(WHOLE)
 DENSITY = A * sp.diff(ENERGY, A) / A**5
 
 
-@named
+@named_routine
 def deeper_step() -> Claims:
     """Return the work over that at A, minus 1, and the relative increase of A in the step."""
     residual, exponent = sp.symbols("residual exponent", positive=True)
@@ -179,7 +179,7 @@ def deeper_step() -> Claims:
     )
 
 
-@named
+@named_routine
 def work_density() -> Claims:
     """Return P d delta/dq over C a_m^5."""
     return Claims(
@@ -196,7 +196,7 @@ _E, _E_near = sp.symbols("E E_near", positive=True)
 _E_m = sp.Symbol("E_m", positive=True)
 
 
-@named
+@named_routine
 def far_quotient() -> Claims:
     """Return (E_m - E)/((1 - q) A^5) from its value at the first polynomial's end, q = ratio."""
     return Claims(
@@ -213,7 +213,7 @@ def far_quotient() -> Claims:
     )
 
 
-@named
+@named_routine
 def work_beyond() -> Claims:
     """Return (E - E_near)/A^5 from the mean of the work's density between A_near/A and 1."""
     return Claims(
@@ -225,7 +225,7 @@ def work_beyond() -> Claims:
     )
 
 
-@named
+@named_routine
 def far_work() -> Claims:
     """Return E from its value at A_near and its increase up to A over A^5."""
     return Claims(
@@ -237,7 +237,7 @@ def far_work() -> Claims:
     )
 
 
-@named
+@named_routine
 def far_step() -> Claims:
     """Return A^5, the missing work over it, and the relative increase of A in the step."""
     residual, fifth = sp.symbols("residual fifth", real=True)
@@ -253,7 +253,7 @@ def far_step() -> Claims:
     )
 
 
-@named
+@named_routine
 def far_whole() -> Claims:
     """Return E/A^5 from that at A_near = ratio A and the added work over A^5."""
     return Claims(
@@ -265,7 +265,7 @@ def far_whole() -> Claims:
     )
 
 
-@named
+@named_routine
 def state() -> Claims:
     """Return indentation, velocity and force over their largest values; v is sqrt(1 - q)."""
     root_left = sp.Symbol("v", positive=True)

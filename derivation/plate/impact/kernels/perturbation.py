@@ -8,7 +8,7 @@ of (16) smooth.
 
 import sympy as sp
 
-from derivation.engine.emit.named import Claims, named
+from derivation.engine.emit.named import Claims, named_routine
 from derivation.engine.emit.package import Routines
 from derivation.engine.emit.routine import QUIET_SCALARS, Facts, Let
 from derivation.plate.contact.theory.divergence import printed_term
@@ -67,7 +67,7 @@ def _number() -> sp.Expr:
     return -linearisation()[2].expression / v0**2
 
 
-@named
+@named_routine
 def linear() -> Claims:
     """Return the indentation by the linear term, (15)."""
     return Claims(
@@ -75,7 +75,7 @@ def linear() -> Claims:
     )
 
 
-@named
+@named_routine
 def turning_point() -> Claims:
     """Return contact time and largest indentation of the linear motion, (15)."""
     return Claims(
@@ -87,13 +87,13 @@ def turning_point() -> Claims:
     )
 
 
-@named
+@named_routine
 def excess_at_turn() -> Claims:
     """Return the radicand of (17), (18) at the linear motion's turning point, over -v0^2."""
     return Claims((*MOTION, xi_k[3]), (), (_number(),), (_number(),), {})
 
 
-@named
+@named_routine
 def end_of_radicand() -> Claims:
     """Return the radicand over -v0^2 at s^2 = y^3, and its derivative by y."""
     cube = sp.Symbol("cube", positive=True)
@@ -107,7 +107,7 @@ def end_of_radicand() -> Claims:
     )
 
 
-@named
+@named_routine
 def cosine_at_end() -> Claims:
     """Return sqrt(1 - s^2) at s = last from the radicand, also where s is almost 1."""
     return Claims(
@@ -119,7 +119,7 @@ def cosine_at_end() -> Claims:
     )
 
 
-@named
+@named_routine
 def integrands() -> Claims:
     """Return -F dt/du of (17), and -G dt/du of (18) over the largest indentation."""
     F, G, _ = (formula.expression for formula in linearisation())
@@ -155,14 +155,14 @@ def integrands() -> Claims:
     )
 
 
-@named
+@named_routine
 def radius_cubed() -> Claims:
     """Return a^3/P by (7)."""
     value = a**3 / contact_radius().expression
     return Claims((R, lam, mu), (), (value,), (value,), {})
 
 
-@named
+@named_routine
 def shares() -> Claims:
     """Return one mode's terms of gamma_2 and gamma_3 of (10), from K_j and a/P^(1/3)."""
     values = tuple(mode_share(k) for k in (2, 3))
@@ -181,7 +181,7 @@ def mode_share(k: int) -> sp.Expr:
     return K * sp.powsimp(share.subs(a, ratio * P ** sp.Rational(1, 3)), force=True)
 
 
-@named
+@named_routine
 def coefficients() -> Claims:
     """Return xi_2, and xi_3 as derived and as published, of (10)."""
     derived = {f.name: f.expression for f in formal_coefficients()}

@@ -1,8 +1,8 @@
-"""Impact by Hertz's law and by its first correction: proved formulas of single numbers."""
+"""Impact by Hertz's law and by its first correction: proved formulas for single numbers."""
 
 import sympy as sp
 
-from derivation.engine.emit.named import Claims, named
+from derivation.engine.emit.named import Claims, named_routine
 from derivation.engine.emit.routine import Facts, Let, Sums
 from derivation.plate.contact.theory.hertz import contact_radius
 from derivation.plate.contact.theory.plate_series import coefficient, small_contact
@@ -76,7 +76,7 @@ def most(c_1: sp.Expr, radius: sp.Expr) -> sp.Expr:
     return found
 
 
-@named
+@named_routine
 def thick_plate() -> Claims:
     """Return c_1, the size of its parts, K_3, and the contributions of omitted modes."""
     rows, zero, weight, fade, lack, share, linear, cubic = sp.symbols(
@@ -128,7 +128,7 @@ def thick_plate() -> Claims:
     )
 
 
-@named
+@named_routine
 def thin_plate() -> Claims:
     """Return c_1 and K_3 of a thin plate for 1/eta = v without the roots' part, and its decay."""
     logarithm = sp.Symbol("logarithm", real=True)
@@ -147,7 +147,7 @@ def thin_plate() -> Claims:
     )
 
 
-@named
+@named_routine
 def sphere() -> Claims:
     """Return E*, twice the initial kinetic energy, and the fifth power of Hertz's largest a."""
     energy = sp.Symbol("energy", positive=True)
@@ -162,7 +162,7 @@ def sphere() -> Claims:
     )
 
 
-@named
+@named_routine
 def hertz_bounds() -> Claims:
     """Return how much S at A may be below 1, and above 1."""
     upper, lower = most(bend + bend_error, A), most(bend - bend_error, A) - rest * A**3
@@ -176,13 +176,13 @@ def hertz_bounds() -> Claims:
     )
 
 
-@named
+@named_routine
 def steepness() -> Claims:
     """Return S_1 - 1 at A."""
     return Claims((bend, A), (), (3 * bend * A / 2,), (most(bend, A) - 1,), {})
 
 
-@named
+@named_routine
 def leading_bounds() -> Claims:
     """Return changes over S_1 at A, by an error of c_1 and by K_3 A^3; and d log S_1/d log A."""
     whole = sp.Symbol("whole", positive=True)
@@ -202,13 +202,13 @@ def _work(c_1: sp.Expr) -> sp.Expr:
     return sp.expand(work_of_contact(1) / work_of_contact(0)).subs(D[3], c_1)
 
 
-@named
+@named_routine
 def beside_hertz() -> Claims:
     """Return the first correction's relative contribution to the work up to Hertz's largest A."""
     return Claims((bend, over_h), (), (5 * bend * over_h / 4,), (_work(bend * over_h) - 1,), {})
 
 
-@named
+@named_routine
 def share_step() -> Claims:
     """Return s^5 (1 + y s) - 1, the work up to s times Hertz's radius, and its slope by s."""
     fourth, inner = sp.symbols("fourth inner", real=True)
@@ -224,7 +224,7 @@ def share_step() -> Claims:
     )
 
 
-@named
+@named_routine
 def leading_time() -> Claims:
     """Return the contact time by Gauss' rule; x is S_1 - 1 at the largest radius a."""
     q, fifth, sixth, weight, total = sp.symbols("q fifth sixth weight total", positive=True)
@@ -247,7 +247,7 @@ def leading_time() -> Claims:
     )
 
 
-@named
+@named_routine
 def hertz_peaks() -> Claims:
     """Return contact time, indentation and force on a half-space at the largest contact radius."""
     law = a**2 / R
@@ -260,7 +260,7 @@ def hertz_peaks() -> Claims:
     )
 
 
-@named
+@named_routine
 def peaks() -> Claims:
     """Return indentation and force at a contact radius; bent is c_1 A."""
     bent = sp.Symbol("bent", real=True)
@@ -274,7 +274,7 @@ def peaks() -> Claims:
     )
 
 
-@named
+@named_routine
 def elasticities() -> Claims:
     """Return logarithmic derivatives of work, indentation and time by the largest radius."""
     found = exponents(fall, rise)

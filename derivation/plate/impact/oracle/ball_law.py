@@ -14,7 +14,7 @@ from flint import acb, arb
 
 from derivation.engine.formula.ball import LOG2_10, to_ball
 from derivation.plate.contact.oracle import points as contact_points
-from derivation.plate.contact.oracle.balls import modulus, ratio_of, settle
+from derivation.plate.contact.oracle.balls import modulus, ratio_of, refine_to_digits
 from derivation.plate.contact.oracle.sums import excess, excess_bound, hankel_bound
 
 Progress = Callable[[str, int, int], None]
@@ -85,7 +85,7 @@ def law_of(
     return law
 
 
-def pressed(
+def static_contact(
     a: float, R: float, b: float, lam: float, mu: float, law: Callable[[int], BallLaw], digits: int
 ) -> tuple[arb, ...]:
     """Return indentation [m] and stiffness [N/m] at a contact radius [m]."""
@@ -96,7 +96,7 @@ def pressed(
         delta = to_ball(a) ** 2 / to_ball(R) * (1 + known.excess("hertz", x))
         return delta, 2 * modulus(lam, mu) * to_ball(a) / (1 + known.excess("sinc", x))
 
-    return settle(compute, digits, f"the law at {a}")
+    return refine_to_digits(compute, digits, f"the law at {a}")
 
 
 def by_series(eta: float, reach: float, digits: int) -> bool:

@@ -18,7 +18,7 @@ import flint
 from flint import acb, arb
 
 from derivation.engine.formula.ball import Exact, PrecisionError, to_ball
-from derivation.plate.contact.oracle.balls import modulus, ratio_of, ratio_where, settle
+from derivation.plate.contact.oracle.balls import modulus, ratio_of, ratio_where, refine_to_digits
 from derivation.plate.contact.oracle.sums import excess
 from derivation.plate.impact.oracle.ball_law import BallLaw, Integrals, law_of
 
@@ -141,7 +141,7 @@ def impact(
     def compute(bits: int) -> ImpactBalls:
         return _impact(R, m, v0, h, b, lam, mu, (), chosen(bits))[0]
 
-    return ImpactBalls(*settle(compute, digits, "impact"))
+    return ImpactBalls(*refine_to_digits(compute, digits, "impact"))
 
 
 def stored_energy(
@@ -154,7 +154,7 @@ def stored_energy(
         hertz = 8 * modulus(lam, mu) * to_ball(a) ** 5 / (15 * to_ball(R) ** 2)
         return (hertz * (1 + excess("work", to_ball(alpha), eta)),)
 
-    return settle(compute, digits, f"energy at {a, R, h, b}")[0]
+    return refine_to_digits(compute, digits, f"energy at {a, R, h, b}")[0]
 
 
 def history(
@@ -168,7 +168,7 @@ def history(
     def compute(bits: int) -> tuple[arb, ...]:
         return _impact(R, m, v0, h, b, lam, mu, radii, chosen(bits))[1]
 
-    return settle(compute, digits, "history")
+    return refine_to_digits(compute, digits, "history")
 
 
 def law_for(motion: Sequence[Exact], digits: int) -> Callable[[int], BallLaw]:

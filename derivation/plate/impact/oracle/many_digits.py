@@ -75,7 +75,7 @@ class Quantity(NamedTuple):
         return value, radius or "0"
 
 
-class Pressed(NamedTuple):
+class StaticContact(NamedTuple):
     """The contact law at a contact radius [m], which is exactly this double."""
 
     contact_radius: float
@@ -100,7 +100,7 @@ class ImpactReference(NamedTuple):
     motion: Motion
     digits: int
     impact: tuple[Quantity, ...]
-    law: tuple[Pressed, ...]
+    law: tuple[StaticContact, ...]
 
     @property
     def quantities(self) -> Iterator[Quantity]:
@@ -184,17 +184,21 @@ def reference(motion: Motion, digits: int, progress: ball_law.Progress) -> Impac
     wanted = digits + _SPARE
     found = contact_impact.impact(*motion, wanted, law)
     radii = [float(found.max_contact_radius) * share for share in SHARES]
-    balls = [ball_law.pressed(a, R, b, lam, mu, law, wanted) for a in radii]
-    laws: list[Pressed] = []
+    balls = [ball_law.static_contact(a, R, b, lam, mu, law, wanted) for a in radii]
+    laws: list[StaticContact] = []
     for a, both in zip(radii, balls, strict=True):
         progress("mpmath: law", len(laws) + 1, len(radii))
         again = (
             residue_law.indentation(a, R, h, b, digits),
             residue_law.stiffness(a, R, h, b, lam, mu, digits),
         )
-        laws.append(Pressed(a, _compared(("indentation", "stiffness"), both, again, digits)))
+        laws.append(
+            StaticContact(
+                a, _compared_quantities(("indentation", "stiffness"), both, again, digits)
+            )
+        )
     progress("mpmath: impact", 1, 1)
-    moved = _compared(found._fields, found, residue_law.impact(*motion, digits), digits)
+    moved = _compared_quantities(found._fields, found, residue_law.impact(*motion, digits), digits)
     return ImpactReference(motion, digits, moved, tuple(laws))
 
 
@@ -215,17 +219,17 @@ def expected_seconds(motion: Motion, radius: float, digits: int) -> float:
     return 1 + first + residue_law.seconds(h / b, radius / b, digits)
 
 
-def _compared(
+def _compared_quantities(
     names: Sequence[str], balls: Sequence[arb], others: Sequence[mpf], compared: int
 ) -> tuple[Quantity, ...]:
     """Return the balls as quantities, each with its agreement with mpmath."""
     return tuple(
-        Quantity(name, UNITS[name], ball, compared, shared(ball, other))
+        Quantity(name, UNITS[name], ball, compared, shared_digits(ball, other))
         for name, ball, other in zip(names, balls, others, strict=True)
     )
 
 
-def shared(ball: arb, other: mpf) -> float:
+def shared_digits(ball: arb, other: mpf) -> float:
     """Return a lower bound of the number of digits to which a number agrees with a ball."""
     value = exactly(other)
     with flint.ctx.workprec(64 + max(_bits(ball), _bits(value))):

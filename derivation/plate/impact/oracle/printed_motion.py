@@ -15,7 +15,7 @@ import sympy as sp
 from flint import arb, arb_mat
 
 from derivation.engine.formula.ball import Exact, enclose, to_ball
-from derivation.plate.contact.oracle.balls import settle
+from derivation.plate.contact.oracle.balls import refine_to_digits
 from derivation.plate.impact.theory.impact import linearisation
 from derivation.plate.vocabulary import delta_0, m, v0, xi_k
 
@@ -56,7 +56,7 @@ def corrected(
             fine, coarse = (_indentation(given, nodes) for nodes in (count + 12, count))
             return (fine + arb(0, (MARGIN * abs(fine - coarse)).upper()),)
 
-    return settle(compute, digits, f"the paper's motion at t = {t}")[0]
+    return refine_to_digits(compute, digits, f"the paper's motion at t = {t}")[0]
 
 
 def largest(mass: Exact, speed: Exact, xi_2: Exact) -> arb:

@@ -98,7 +98,7 @@ def rounding(scene: Sequence[Any], values: Sequence[arb]) -> list[arb]:
     lam, mu, bend = map(to_ball, shares)
     with flint.ctx.workprec(4 * _STEP_DIGITS):
         for number, (rows, (YY, Y_eta, eta_eta)) in enumerate(
-            zip(_exponents(), _curvatures(_coarsely(scene)), strict=True)
+            zip(_exponents(), _curvatures(_rounded_scene(scene)), strict=True)
         ):
             changes = [
                 [e * (x * YY + y * Y_eta) + q * (x * Y_eta + y * eta_eta) for _, x, y in rows]
@@ -150,7 +150,7 @@ def _by(scene: Sequence[Any], place: int, digits: int, bits: int) -> tuple[arb, 
     return logarithmic(results, Fraction(1, 2**halvings), bits, 10.0**-digits)
 
 
-def _coarsely(scene: Sequence[Any]) -> tuple[float, ...]:
+def _rounded_scene(scene: Sequence[Any]) -> tuple[float, ...]:
     """Return the scene to ten digits, sufficient for tolerances, so that neighbours share them."""
     return tuple(float(f"{float(x):.10g}") for x in scene)
 

@@ -1,4 +1,4 @@
-"""Link 16: motion of the sphere: energy integral (13), contact time, linearisation (15) to (18).
+"""Step 16: motion of the sphere: energy integral (13), contact time, linearisation (15) to (18).
 
 m delta'' + P(delta) = 0 has the integral m delta'^2/2 + int P d delta = m v0^2/2. With the
 corrected law both P and delta are polynomials in the contact radius a, so the contact time is an

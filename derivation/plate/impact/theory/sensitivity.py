@@ -1,4 +1,4 @@
-"""Link 17: slopes of the contact law, and sensitivities of the impact's results to each parameter.
+"""Step 17: slopes of the contact law, and sensitivities of the impact's results to each parameter.
 
 With a = h A in the energy integral, A_m depends on eta = h/b and on the energy number Y, which is m
 v0^2/2 over (4/3) E* h^5/R^2. Every result is a product of powers of the parameters times a function
@@ -7,7 +7,7 @@ derivatives follow from p and q, and
 
     p of A_m = E/(2 U),   q = -E_eta/(2 U),   A^5 E = int_0^A x^3 d(x^2 (1 + F)),
 
-with 2 U = sum n D_n, E = sum n D_n/(n + 3) of link 16. The contact time is sqrt(m/(E* h))
+with 2 U = sum n D_n, E = sum n D_n/(n + 3) of step 16. The contact time is sqrt(m/(E* h))
 A_m^(-1/2) I up to a constant factor; its integrand has no singularity that depends on the
 parameters.
 """
@@ -64,7 +64,7 @@ _MODULUS = sp.Symbol("E", positive=True)
 
 
 def reduced_modulus() -> sp.Expr:
-    """Return E* from the force of link 8, P = (4/3) E* a^3/R."""
+    """Return E* from the force of step 8, P = (4/3) E* a^3/R."""
     return sp.Rational(3, 4) * contact_radius().expression * R / a**3
 
 
@@ -121,8 +121,8 @@ def law_slopes() -> tuple[Formula, ...]:
         {
             "series": sp.diff(delta, a) - slope,
             "mode": sp.diff(alpha**2 * mode.expression, alpha) / (2 * alpha) - sinc,
-            "side wall": sp.diff(bracket, alpha) / (2 * alpha) - side,
-            "side wall's weight": wall.expression.function * alpha**2
+            "finite radius": sp.diff(bracket, alpha) / (2 * alpha) - side,
+            "finite radius's weight": wall.expression.function * alpha**2
             - bracket
             * sp.besselk(0, wall.expression.variables[0])
             / sp.besseli(0, wall.expression.variables[0]),
@@ -378,6 +378,6 @@ def times() -> tuple[Formula, ...]:
 
 
 def sensitivity() -> tuple[Formula, ...]:
-    """Return the formulas of this link."""
+    """Return the formulas of this step."""
     scaling()
     return (*law_slopes(), energy_number(), modulus_slope(), *peaks(), *times())

@@ -1,4 +1,4 @@
-"""Link 18: bounds of the change of an impact if its law is replaced by a simpler one.
+"""Step 18: bounds of the change of an impact if its law is replaced by a simpler one.
 
 With S = (R/2a) d delta/da = 1 + F + A F'/2 the work is W = K int_0^a x^4 S dx and the contact time
 2 int d delta/v. Two statements are proved.
@@ -42,7 +42,7 @@ _p, _r = sp.symbols("p r", nonnegative=True)
 
 @cache
 def slope_law() -> Formula:
-    """Return the finite radius's part of S; that of the modes is in link 17."""
+    """Return the finite radius's part of S; that of the modes is in step 17."""
     wall, mode = reduced_split()
 
     def sloped(part: sp.Expr) -> sp.Expr:
@@ -58,7 +58,7 @@ def slope_law() -> Formula:
         r"$F + \alpha F'/2$ of one mode and of the side wall's integrand.",
         {
             "modes": sloped(mode.expression) - 4 * alpha / sp.pi * sp.sin(y) / y * weight,
-            "side wall": sp.expand((sloped(kernel) - density).rewrite(sp.exp)),
+            "finite radius": sp.expand((sloped(kernel) - density).rewrite(sp.exp)),
         },
     )
     return Formula(
@@ -93,7 +93,7 @@ def one_sided() -> Formula:
             "1 - cos y below y^2/2": sp.diff(_y**2 / 2 - chord, _y) - (_y - sp.sin(_y)),
             "sinc above 1 - y^2/6": rising[1] - (_y**2 / 2 - chord),
             "modes": sp.Rational(3, 2) * first.mode - 4 * eta / sp.pi * weight,
-            "side wall": sp.Rational(3, 2) * first.side + 4 * eta / sp.pi**2 * kappa[0],
+            "finite radius": sp.Rational(3, 2) * first.side + 4 * eta / sp.pi**2 * kappa[0],
             "power": (alpha * _y) ** (2 * order + 1)
             - alpha ** (2 * order - 2) * alpha**3 * _y ** (2 * order + 1),
             "G - 1": plate_factors()[2].expression * (sp.sinh(T) ** 2 - T**2)
@@ -157,7 +157,7 @@ def lemma() -> Proof:
 
 
 def substitution() -> tuple[Formula, ...]:
-    """Return the formulas of the link, after proving the lemma."""
+    """Return the formulas of the step, after proving the lemma."""
     lemma()
     return slope_law(), one_sided()
 

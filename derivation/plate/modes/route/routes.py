@@ -27,7 +27,7 @@ from derivation.plate.modes.route.exponentials import (
     solve_tractions,
     unit_mode,
 )
-from derivation.plate.subjects import handed_in
+from derivation.plate.subjects import exports
 
 MAX_OSCILLATIONS = 60
 
@@ -253,7 +253,7 @@ ROUTES: dict[str, Callable[[Values], mpf]] = {
     "finite_part_ratio": lambda v: finite_part(int(v["k"]), mp.dps) / leading_finite_part(v["k"]),
 }
 """Method for the value of each formula, or for one mode's contribution to it."""
-for _routes in handed_in("route", "ROUTES"):
+for _routes in exports("route", "ROUTES"):
     ROUTES |= _routes
 
 

@@ -1,4 +1,4 @@
-"""Link 1: Hooke's law and equilibrium of one axisymmetric mode -> two ODEs in z.
+"""Step 1: Hooke's law and equilibrium of one axisymmetric mode -> two ODEs in z.
 
 The mode is u = g(z) phi J1(phi r), w = f(z) J0(phi r). Strains, stresses by
 Hooke's law and the two equilibrium equations follow by differentiation; the

@@ -1,4 +1,4 @@
-"""Link 4: tractions on both faces (3) -> Omega_1 ... Omega_4, the paper's equation (5)."""
+"""Step 4: tractions on both faces (3) -> Omega_1 ... Omega_4, the paper's equation (5)."""
 
 from collections.abc import Mapping
 from functools import cache

@@ -1,4 +1,4 @@
-"""Link 6: w on the faces per unit pressure coefficient, and its limit for a half-space.
+"""Step 6: w on the faces per unit pressure coefficient, and its limit for a half-space.
 
 C_top and C_bottom are the influence coefficients w_j(+h)/A_j and w_j(-h)/A_j;
 with T = 2 phi h they are 2 G(T)/(E* phi) and 2 G_m(T)/(E* phi).

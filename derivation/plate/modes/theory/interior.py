@@ -1,4 +1,4 @@
-"""Link 10: the whole interior: displacements and stresses at any (r, z) as modal sums."""
+"""Step 10: the whole interior: displacements and stresses at any (r, z) as modal sums."""
 
 from functools import cache
 

@@ -1,4 +1,4 @@
-"""Link 5: the loaded mode: f_j, g_j and the stresses with C_k = A_j Omega_k."""
+"""Step 5: the loaded mode: f_j, g_j and the stresses with C_k = A_j Omega_k."""
 
 from functools import cache
 

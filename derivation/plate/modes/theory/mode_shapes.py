@@ -1,4 +1,4 @@
-"""Link 2: the two ODEs -> general solution f_j, g_j, the paper's equation (2).
+"""Step 2: the two ODEs -> general solution f_j, g_j, the paper's equation (2).
 
 The ODEs have constant coefficients: on e^(s z) they become a 2x2 matrix whose
 determinant's roots, with their multiplicities, are the solution space.

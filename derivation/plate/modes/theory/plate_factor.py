@@ -1,4 +1,4 @@
-"""Link 7: the plate factors G(T) and G_m(T), T = 2 phi h: influence relative to a half-space."""
+"""Step 7: the plate factors G(T) and G_m(T), T = 2 phi h: influence relative to a half-space."""
 
 from functools import cache
 
@@ -18,8 +18,8 @@ def plate_factors() -> tuple[Formula, ...]:
         "Plate factors",
         r"The ratio of each influence coefficient to the half-space's depends on $\phi h$ alone.",
         {
-            "loaded face": G.subs(T, 2 * phi * h) * half - top,
-            "far face": G_m.subs(T, 2 * phi * h) * half - bottom,
+            "contact face": G.subs(T, 2 * phi * h) * half - top,
+            "back face": G_m.subs(T, 2 * phi * h) * half - bottom,
         },
     )
     return (

@@ -1,4 +1,4 @@
-"""Link 3: f_j, g_j -> displacements and stresses of one mode, anywhere in the plate."""
+"""Step 3: f_j, g_j -> displacements and stresses of one mode, anywhere in the plate."""
 
 from functools import cache
 

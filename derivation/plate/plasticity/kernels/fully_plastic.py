@@ -1,4 +1,4 @@
-"""Changes in a fully plastic contact, which are the model error of link 31."""
+"""Changes in a fully plastic contact, which are the model error of step 31."""
 
 import sympy as sp
 
@@ -10,7 +10,7 @@ grown, top = sp.symbols("grown top", positive=True)
 
 
 def risen() -> Routine:
-    """Return the mean pressure over that of link 31, and s of an indentation a^2/(s R)."""
+    """Return the mean pressure over that of step 31, and s of an indentation a^2/(s R)."""
     mean, risen_pressure = theory.mean_pressure(), theory.risen_pressure()
     steepness = theory.steepness()
     return routine(

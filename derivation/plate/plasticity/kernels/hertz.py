@@ -25,7 +25,7 @@ def hertz_radius() -> Routine:
         (a,),
         "Return the radius at which Hertz's law gives a force.",
         BODIES | {P: FORCE},
-        _cleared,
+        _without_roots,
     )
 
 
@@ -39,7 +39,7 @@ def hertz_modulus() -> Routine:
         (PLANE_STRAIN_MODULUS,),
         "Return the E* for which Hertz's law gives a force at a radius.",
         {P: FORCE},
-        _cleared,
+        _without_roots,
     )
 
 
@@ -54,7 +54,7 @@ def hertz_energy() -> Routine:
         (brought,),
         "Return the energy of a Hertz contact at a radius.",
         BODIES,
-        _cleared,
+        _without_roots,
     )
 
 
@@ -71,7 +71,7 @@ def widening() -> Routine:
         (sp.diff(radius, P).subs(P, wide),),
         "Return the growth of the contact radius with the force on loading, at a radius.",
         BODIES,
-        _cleared,
+        _without_roots,
     )
 
 
@@ -87,11 +87,11 @@ def reached() -> Routine:
         (xi_y,),
         "Return xi at which the loading energy is a multiple of Hertz's at the onset of yield.",
         {energy_ratio: brought},
-        _cleared,
+        _without_roots,
     )
 
 
-def _cleared(expression: sp.Expr) -> sp.Expr:
+def _without_roots(expression: sp.Expr) -> sp.Expr:
     """Expand products, and take roots of powers."""
     found = expression.replace(CUBE_ROOT, sp.cbrt)
     found = found.replace(PRODUCT, lambda above, below: sp.Mul(*above) / sp.Mul(*below))

@@ -2,4 +2,4 @@
 
 from derivation.plate.plasticity.theory.contact import yielding
 
-LINKS = (("plasticity", yielding),)
+STEPS = (("plasticity", yielding),)

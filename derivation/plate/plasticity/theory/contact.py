@@ -1,4 +1,4 @@
-"""Link 31: elastic-plastic contact with a pressure limit of 1.6 Y, and residual indentation.
+"""Step 31: elastic-plastic contact with a pressure limit of 1.6 Y, and residual indentation.
 
 Johnson (1985), Thornton (1997): the Hertz pressure reaches p_y = 1.6 Y, Y the smaller yield stress
 of the two bodies, at the contact radius a_y. Beyond a_y the pressure is limited to p_y, while the
@@ -162,7 +162,7 @@ def plastic_work() -> Formula:
         "Plastic work",
         "The energy of loading minus the energy returned on unloading.",
         {
-            "returned": sp.simplify(returned - ratio * xi_y**5),
+            "rebound energy": sp.simplify(returned - ratio * xi_y**5),
             "onset": sp.simplify(work.subs(xi_y, 1)),
         },
     )
@@ -221,7 +221,7 @@ def plastic_restitution() -> Formula:
 
 
 def yielding() -> tuple[Formula, ...]:
-    """Return the formulas of the link."""
+    """Return the formulas of the step."""
     return (
         yield_radius(), yield_speed(), plastic_indentation(), flattening(), dent(),
         plastic_work(), plastic_restitution(),

@@ -1,6 +1,6 @@
 """Model error of the limit 1.6 Y: in a metal the contact pressure rises above it.
 
-This is not part of link 31 but estimates its model error. As the plastic zone spreads, the mean
+This is not part of step 31 but estimates its model error. As the plastic zone spreads, the mean
 pressure rises from 1.07 Y at the onset to about 3 Y, the fully plastic contact (Johnson 1985,
 sections 6.3 and 11.5), and stays there. In between a cavity expands in a plastic core: the
 pressure rises by 2 Y ln(c/a), c the radius of the plastic zone, and c^3/a^3 is proportional to a/R:
@@ -41,7 +41,7 @@ class Beyond(NamedTuple):
 
 
 def mean_pressure() -> sp.Expr:
-    """Return the mean pressure of link 31 over Y, by the contact radius over that at the onset."""
+    """Return the mean pressure of step 31 over Y, by the contact radius over that at the onset."""
     found = ONSET * (1 - 1 / (3 * wide**2))
     onset = sp.Rational(2, 3) * ONSET  # the mean of Hertz pressure is two thirds of the largest
     at = {wide: sp.sqrt(loading().area)}
@@ -87,19 +87,19 @@ def beyond() -> Beyond:
     prove(
         "Results of a constant pressure",
         "At a given energy the force is proportional to $(p s)^{1/2}$, indentation and time to its "
-        "inverse, and the restitution to $p^{5/8} s^{3/8}$; far beyond the onset link 31 has "
+        "inverse, and the restitution to $p^{5/8} s^{3/8}$; far beyond the onset step 31 has "
         "$1.6 Y$ and $s = 1$.",
         {
             "force": sp.simplify(force / force.subs(calm) / changed.force) - 1,
             "restitution": sp.simplify(square / square.subs(calm) / changed.restitution**2) - 1,
-            "link 31": sp.simplify((square.subs(_at_onset()) / _limit()) ** 4) - 1,
+            "step 31": sp.simplify((square.subs(_at_onset()) / _limit()) ** 4) - 1,
         },
     )
     return changed
 
 
 def _at_onset() -> dict[sp.Symbol, sp.Expr]:
-    """Return link 31's pressure at the onset, and its energy for a large multiple of it.
+    """Return step 31's pressure at the onset, and its energy for a large multiple of it.
 
     The energy is that of the Hertz contact there times that of `_limit`, whose scale is free.
     """
@@ -110,7 +110,7 @@ def _at_onset() -> dict[sp.Symbol, sp.Expr]:
 
 
 def _limit() -> sp.Expr:
-    """Return e^2 of link 31 far beyond the onset, by the energy over that at the onset."""
+    """Return e^2 of step 31 far beyond the onset, by the energy over that at the onset."""
     own = plastic_restitution().expression
     whole = plastic_work().expression / (1 - own**2)
     found = sp.limit((own**8 * whole).subs(xi_y, 1 / _small), _small, 0)

@@ -23,7 +23,7 @@ from derivation.mathematics.bessel.kernels import nearest_double
 from derivation.plate.budgets import read_stated_limits
 from derivation.plate.contact.kernels.moments import BITS
 from derivation.plate.contact.theory.thin_plate import plate_excess
-from derivation.plate.pressure.theory.true_pressure import kernel, kernel_by_powers
+from derivation.plate.pressure.theory.integral_equation import kernel, kernel_by_powers
 from derivation.plate.vocabulary import c_A
 
 NODES = 24

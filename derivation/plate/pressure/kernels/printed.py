@@ -1,4 +1,4 @@
-"""Cosines of the kernel and profile of the sphere, each proved equal to that of link 20.
+"""Cosines of the kernel and profile of the sphere, each proved equal to that of step 20.
 
 The kernel is a sum of cosines, with imaginary arguments for the lateral surface. The code uses
 1 - cos and its slope by x = t/a, divided by x.
@@ -6,10 +6,10 @@ The kernel is a sum of cosines, with imaginary arguments for the lateral surface
 
 import sympy as sp
 
-from derivation.engine.emit.named import Claims, named
+from derivation.engine.emit.named import Claims, named_routine
 from derivation.engine.emit.routine import RAISED, Choice, Let, Routine, routine
 from derivation.plate.pressure.theory import results as theory
-from derivation.plate.pressure.theory.true_pressure import kernel, profile
+from derivation.plate.pressure.theory.integral_equation import kernel, profile
 from derivation.plate.vocabulary import R, a, alpha, r
 
 LOW = sp.Symbol("LOW", positive=True)
@@ -28,7 +28,7 @@ def _by_exponentials(expression: sp.Expr) -> sp.Expr:
     return sp.expand(found.rewrite(sp.exp))
 
 
-@named
+@named_routine
 def wave() -> Claims:
     """Return 1 - cos(phase x), and its slope by x divided by x."""
     turns = sp.Symbol("turns", positive=True)
@@ -43,7 +43,7 @@ def wave() -> Claims:
     )
 
 
-@named
+@named_routine
 def wall_wave() -> Claims:
     """Return 1 - cosh(rise x), and its slope by x divided by x, both divided by e^y."""
     grown, faded, half, chord = sp.symbols("grown faded half chord", positive=True)
@@ -83,7 +83,7 @@ def _by_logarithms(expression: sp.Expr) -> sp.Expr:
     return found.replace(sp.atanh, lambda v: sp.log((1 + v) / (1 - v)) / 2)
 
 
-@named
+@named_routine
 def paraboloid() -> Claims:
     """Return f R/a^2 of a paraboloid, and its slope by x over x; `unit` is 1 in their shape."""
     exact = _profile(False)
@@ -97,7 +97,7 @@ def paraboloid() -> Claims:
     )
 
 
-@named
+@named_routine
 def sphere() -> Claims:
     """Return f R/a^2 of a sphere, and its slope by x over x; c = a/R."""
     angle, share = sp.symbols("angle share", positive=True)
@@ -126,7 +126,7 @@ MEANING = {
 """`first` is the kernel's constant, lengths over `per`, for the plate's own modulus."""
 
 
-@named
+@named_routine
 def contact_results() -> Claims:
     """Return force, indentation, stiffness, slope, energy, central and mean pressure."""
     ratio, deep, stiff, series = sp.symbols("ratio deep stiff series", positive=True)
@@ -187,7 +187,7 @@ def _unit(name: str, value: sp.Expr, exact: sp.Expr, summary: str) -> Routine:
     return routine(name, (a, R, modulus), start, (by_ratio,), (exact,), summary, MEANING)
 
 
-@named
+@named_routine
 def pressure_points() -> Claims:
     """Return t/a for the pressure at r/a, and the factor of its sum."""
     within, node, gap = sp.symbols("within node gap", positive=True)

@@ -1,4 +1,4 @@
-"""Link 20, bound: the error of the law with Hertz pressure at given force.
+"""Step 20, bound: the error of the law with Hertz pressure at given force.
 
 Let a_H be the Hertz radius of the force P and S = (R/2 a_H) d delta/d a_H: S_T for the exact
 pressure, S_H for Hertz pressure. N_0 = N(0, 0) adds N_0 a_H to both. With x = t/a the rest M(x, s)
@@ -122,7 +122,7 @@ def estimates() -> Proof:
         "product.",
         {
             "Theta, modes": modes + sp.Rational(15, 2) * third.mode,
-            "Theta, side wall": side + sp.Rational(15, 2) * third.side,
+            "Theta, finite radius": side + sp.Rational(15, 2) * third.side,
             "1 - cos x cos y": (1 - sp.cos(_x) * sp.cos(_y)).expand()
             - sp.expand_trig(
                 (1 - sp.cos(_x + _y)) / 2 + (1 - sp.cos(_x - _y)) / 2,

@@ -3,7 +3,7 @@
 import sympy as sp
 from sympy.codegen.cfunctions import expm1, log1p
 
-from derivation.engine.emit.named import Claims, named
+from derivation.engine.emit.named import Claims, named_routine
 from derivation.engine.emit.routine import Let, Routine, routine
 from derivation.plate.factors import MODERATE, PRODUCT, YOUNG, multiplied, root
 from derivation.plate.viscosity.theory import bounds as theory
@@ -60,7 +60,7 @@ def _by_logarithms(expression: sp.Expr) -> sp.Expr:
     return sp.simplify(sp.expand_log(found.replace(sp.log, lambda x: sp.log(sp.factor(x)))))
 
 
-@named
+@named_routine
 def spiral_bounds() -> Claims:
     """Return logarithms for time, depth, radius and force, and the largest energy loss."""
     quarter, loss, square, pull = sp.symbols("quarter loss square pull", positive=True)
@@ -88,7 +88,7 @@ def spiral_bounds() -> Claims:
     )
 
 
-@named
+@named_routine
 def rebound_bounds() -> Claims:
     """Return logarithms for the restitution: from the energy loss, and from the weight."""
     of, t = theory.bounds(), theory

@@ -1,4 +1,4 @@
-"""Link 24: bounds of the effect of viscosity on an impact, from the spiral of `contact`.
+"""Step 24: bounds of the effect of viscosity on an impact, from the spiral of `contact`.
 
 The impact runs from phi = 0 over the turning point phi = pi/2 to tan(phi) = -epsilon. Below,
 epsilon is its largest value for s <= v0, n the ratio of the largest d log P_e/d log z to that at
@@ -140,6 +140,6 @@ def _proof(
 
 
 def viscosity() -> tuple[Formula, ...]:
-    """Return the formulas of the link; the bounds are proved as well."""
+    """Return the formulas of the step; the bounds are proved as well."""
     bounds()
     return viscous_number(), weak_restitution()

@@ -1,4 +1,4 @@
-"""Link 24: viscoelastic contact and its loss of speed.
+"""Step 24: viscoelastic contact and its loss of speed.
 
 Kuwabara and Kono (1987), Brilliantov et al. (1996): the indentation of the half-space lags the
 force, P = P_e + A_v dP_e/dt, A_v a retardation time, and the contact ends with P = 0, because

@@ -1,4 +1,4 @@
-"""Link 24: the retardation time of a contact between two viscoelastic bodies.
+"""Step 24: the retardation time of a contact between two viscoelastic bodies.
 
 Under one pressure p the surface of a body of retardation time A_i follows C_i p with a delay,
 (1 + A_i D) w_i = C_i p with D = d/dt and C_i = 1/E_i*, if shear and volume have the same A_i. The

@@ -6,9 +6,15 @@ from fractions import Fraction
 from itertools import chain, product
 
 from derivation.engine.measure.case import HardCase
-from derivation.engine.measure.places import Inputs, about, around, beside, exactly
+from derivation.engine.measure.neighbours import (
+    Inputs,
+    around,
+    case_around,
+    exact_inputs,
+    neighbour,
+)
 from derivation.plate.waves import oracle as inertia_balls
-from derivation.plate.waves.cases.places import CROSSINGS, crossing
+from derivation.plate.waves.cases.switch_points import CROSSINGS, crossing
 from generated.wave_numbers import NEAR, SHALLOW, SMALL
 
 WAVES = "switch points of the plate's waves"
@@ -47,8 +53,8 @@ def _lowest_switches() -> Iterator[HardCase]:
     }
     for (place, kernels), nu in product(everywhere.items(), (_METAL, _LAST, _FIRST)):
         for kernel in kernels:
-            given = exactly(x=around(place), nu=nu)
-            yield about(WAVES, kernel, f"x = {place:g}, {what[place]}", given)
+            given = exact_inputs(x=around(place), nu=nu)
+            yield case_around(WAVES, kernel, f"x = {place:g}, {what[place]}", given)
 
 
 def _influence_switches() -> Iterator[HardCase]:
@@ -60,14 +66,14 @@ def _influence_switches() -> Iterator[HardCase]:
             (square / gam, "gam kap = x^2, above which p is imaginary"),
             (3 * square / (4 - gam), "2 q = p, the switch point of two forms of a difference"),
         ):
-            given = exactly(x=x, kap=around(float(load)), nu=_METAL)
-            yield about(WAVES, INFLUENCE, f"{what}; x = {x:g}", given)
+            given = exact_inputs(x=x, kap=around(float(load)), nu=_METAL)
+            yield case_around(WAVES, INFLUENCE, f"{what}; x = {x:g}", given)
     for kap in (0.0, 2.0):
         # p + q = S and p - q = (1 - gam) kap/S.
         p = (Fraction(NEAR) + (1 - gam) * Fraction(kap) / Fraction(NEAR)) / 2
         x = math.sqrt(p * p + gam * Fraction(kap))
         why = f"p + q = {NEAR:g} at kap = {kap:g}, below which F is a power series"
-        yield about(WAVES, INFLUENCE, why, exactly(x=around(x), kap=kap, nu=_METAL))
+        yield case_around(WAVES, INFLUENCE, why, exact_inputs(x=around(x), kap=kap, nu=_METAL))
 
 
 def _level(nu: float) -> Fraction:
@@ -78,8 +84,8 @@ def _level(nu: float) -> Fraction:
 def _branch_switches() -> Iterator[HardCase]:
     for name, of in CROSSINGS.items():
         place = crossing(name)
-        given = exactly(x=around(place), nu=of.nu, index=float(of.index))
-        yield about(WAVES, f"{of.kind}_residue", f"x = {place:g}, where {name}", given)
+        given = exact_inputs(x=around(place), nu=of.nu, index=float(of.index))
+        yield case_around(WAVES, f"{of.kind}_residue", f"x = {place:g}, where {name}", given)
 
 
 # --- ends of ranges
@@ -90,24 +96,26 @@ def _lowest() -> Iterator[HardCase]:
     x = (thinnest, 1e-40, 1e-8, 1e-3, 0.3, 1.5, 17.0, 300.0, 1e5, 1e40, shortest)
     for kernel, nu in product(LOWEST, RATIOS):
         cause = f"From the thinnest plates to Rayleigh waves: nu = {nu:.17g}."
-        yield HardCase(HARD_WAVES, kernel, cause, exactly(x=x, nu=nu), "array")
+        yield HardCase(HARD_WAVES, kernel, cause, exact_inputs(x=x, nu=nu), "array")
     for kernel in LOWEST:
-        ends = (beside(thinnest, -1), beside(shortest, 1))
-        yield from _refused(HARD_WAVES, kernel, "x", (*ends, *_NO_LENGTHS), nu=_METAL)
-        yield from _refused(HARD_WAVES, kernel, "nu", _NO_RATIOS, x=1.0)
+        ends = (neighbour(thinnest, -1), neighbour(shortest, 1))
+        yield from _rejected_arguments(HARD_WAVES, kernel, "x", (*ends, *_NO_LENGTHS), nu=_METAL)
+        yield from _rejected_arguments(HARD_WAVES, kernel, "nu", _NO_RATIOS, x=1.0)
 
 
 _NO_LENGTHS = (0.0, -1.0, 5e-324, math.inf, math.nan)
 _NO_RATIOS = (0.5, -1.0, math.inf, -math.inf, math.nan)
 
 
-def _refused(
+def _rejected_arguments(
     group: str, kernel: str, name: str, places: tuple[float, ...], **same: float
 ) -> Iterator[HardCase]:
     """Yield values outside the domain of an argument: all in one array, and single ones."""
     cause = f"Values of {name} outside the domain."
     for given, form in ((places, "array"), (places[0], "scalar")):
-        yield HardCase(group, kernel, cause, exactly(**{name: given}, **same), form, expect="nan")
+        yield HardCase(
+            group, kernel, cause, exact_inputs(**{name: given}, **same), form, expect="nan"
+        )
 
 
 def _influence() -> Iterator[HardCase]:
@@ -116,10 +124,12 @@ def _influence() -> Iterator[HardCase]:
         loads = {"static": 0.0, "of a subnormal number": 5e-324}
         for what, load in loads.items():
             cause = f"A load that is {what}, at nu = {nu:.17g}."
-            yield HardCase(HARD_WAVES, INFLUENCE, cause, exactly(x=x, kap=load, nu=nu), "array")
+            yield HardCase(
+                HARD_WAVES, INFLUENCE, cause, exact_inputs(x=x, kap=load, nu=nu), "array"
+            )
     for nu in (_METAL, _LAST, -0.9):  # at nu = -1 the lowest symmetric branch is there
         cause = f"A load of kap = x^2, where the expression is 0/0: nu = {nu:.17g}."
-        given = exactly(x=x, kap=tuple(y * y for y in x), nu=nu)
+        given = exact_inputs(x=x, kap=tuple(y * y for y in x), nu=nu)
         yield HardCase(HARD_WAVES, INFLUENCE, cause, given, "array")
     for y in (1e-3, 0.7, 30.0):
         for index, kind in product((0, 1, 5), inertia_balls.KINDS):
@@ -128,37 +138,39 @@ def _influence() -> Iterator[HardCase]:
         for angle, what in ((0.5, "bending"), (1.0, "stretching")):
             yield _next_to(y, y * y + (angle * math.pi) ** 2, f"a zero of the part in {what}")
     cause = "Frequencies above all branches that can be separated."
-    given = exactly(x=(1.0, 1e-40, 1e39), kap=1e80, nu=_METAL)
+    given = exact_inputs(x=(1.0, 1e-40, 1e39), kap=1e80, nu=_METAL)
     yield HardCase(HARD_WAVES, INFLUENCE, cause, given, "array")
-    places = (beside(1e-40, -1), beside(1e40, 1), *_NO_LENGTHS)
-    yield from _refused(HARD_WAVES, INFLUENCE, "x", places, kap=0.5, nu=_METAL)
-    loads_beyond = (-5e-324, beside(1e80, 1), math.inf, math.nan)
-    yield from _refused(HARD_WAVES, INFLUENCE, "kap", loads_beyond, x=1.0, nu=_METAL)
-    yield from _refused(HARD_WAVES, INFLUENCE, "nu", _NO_RATIOS, x=1.0, kap=0.5)
+    places = (neighbour(1e-40, -1), neighbour(1e40, 1), *_NO_LENGTHS)
+    yield from _rejected_arguments(HARD_WAVES, INFLUENCE, "x", places, kap=0.5, nu=_METAL)
+    loads_beyond = (-5e-324, neighbour(1e80, 1), math.inf, math.nan)
+    yield from _rejected_arguments(HARD_WAVES, INFLUENCE, "kap", loads_beyond, x=1.0, nu=_METAL)
+    yield from _rejected_arguments(HARD_WAVES, INFLUENCE, "nu", _NO_RATIOS, x=1.0, kap=0.5)
 
 
 def _next_to(x: float, place: float, what: str) -> HardCase:
-    near = tuple(beside(place, offset) for offset in (-_NEAREST, _NEAREST))
+    near = tuple(neighbour(place, offset) for offset in (-_NEAREST, _NEAREST))
     cause = f"{_NEAREST} ULP to either side of {what}; x = {x:g}."
-    return HardCase(HARD_WAVES, INFLUENCE, cause, exactly(x=x, kap=near, nu=_METAL), "array")
+    return HardCase(HARD_WAVES, INFLUENCE, cause, exact_inputs(x=x, kap=near, nu=_METAL), "array")
 
 
 def _branches() -> Iterator[HardCase]:
     for kernel in BRANCHES:
         for nu, index in product((_METAL, _LAST, _FIRST), (0, 1, 7)):
             cause = f"Branch {index} of thin plates and of short waves, nu = {nu:.17g}."
-            given = exactly(x=(1e-40, 1e-6, 0.3, 3.0, 200.0, 1e40), nu=nu, index=float(index))
+            given = exact_inputs(x=(1e-40, 1e-6, 0.3, 3.0, 200.0, 1e40), nu=nu, index=float(index))
             yield HardCase(HARD_WAVES, kernel, cause, given, "array")
         for x, index in ((1.0, 300), (1e-6, 2000)):
             cause = f"Branch {index}, at high frequency."
-            yield HardCase(HARD_WAVES, kernel, cause, exactly(x=x, nu=_METAL, index=float(index)))
+            yield HardCase(
+                HARD_WAVES, kernel, cause, exact_inputs(x=x, nu=_METAL, index=float(index))
+            )
         # sqrt(gam) = 1/3: three times a pressure wave's frequency is a shear wave's.
         cause = "Two poles that lie 8 x^2 apart enclose a branch."
-        given = exactly(x=(1e-9, 1e-5, 1e-2), nu=0.4375, index=1.0)
+        given = exact_inputs(x=(1e-9, 1e-5, 1e-2), nu=0.4375, index=1.0)
         yield HardCase(HARD_WAVES, kernel, cause, given, "array")
-        places = (beside(1e-40, -1), beside(1e40, 1), *_NO_LENGTHS)
-        yield from _refused(HARD_WAVES, kernel, "x", places, nu=_METAL, index=2.0)
-        yield from _refused(HARD_WAVES, kernel, "nu", _NO_RATIOS, x=1.0, index=2.0)
+        places = (neighbour(1e-40, -1), neighbour(1e40, 1), *_NO_LENGTHS)
+        yield from _rejected_arguments(HARD_WAVES, kernel, "x", places, nu=_METAL, index=2.0)
+        yield from _rejected_arguments(HARD_WAVES, kernel, "nu", _NO_RATIOS, x=1.0, index=2.0)
 
 
 # --- shapes and types
@@ -171,25 +183,25 @@ _NONE: tuple[float, ...] = ()
 def _shapes() -> Iterator[HardCase]:
     cause = "Arguments of other shapes and types, with numbers on both sides of a switch point."
     for form in ("array", "strided", "read-only", "float32"):
-        for kernel, same in _same().items():
-            given = exactly(x=_SINGLES) | same
+        for kernel, same in _other_arguments().items():
+            given = exact_inputs(x=_SINGLES) | same
             yield HardCase(HARD_WAVES, kernel, cause, given, form)
     cause = "Not a number."
-    for kernel, same in _same().items():
-        yield HardCase(HARD_WAVES, kernel, cause, exactly(x=_NONE) | same, "empty")
-    both = exactly(x=_SINGLES, nu=(-0.5, 0.25))
+    for kernel, same in _other_arguments().items():
+        yield HardCase(HARD_WAVES, kernel, cause, exact_inputs(x=_NONE) | same, "empty")
+    both = exact_inputs(x=_SINGLES, nu=(-0.5, 0.25))
     for kernel in LOWEST:
         yield HardCase(HARD_WAVES, kernel, "Every x with every nu.", both, "broadcast")
-    cause, given = "Every x with every kap and nu.", both | exactly(kap=(0.0, 2.5))
+    cause, given = "Every x with every kap and nu.", both | exact_inputs(kap=(0.0, 2.5))
     yield HardCase(HARD_WAVES, INFLUENCE, cause, given, "broadcast")
-    cause, whole = "Whole numbers as arguments.", exactly(x=(1.0, 2.0, 300.0), nu=0.0)
+    cause, whole = "Whole numbers as arguments.", exact_inputs(x=(1.0, 2.0, 300.0), nu=0.0)
     for kernel in LOWEST:
         yield HardCase(HARD_WAVES, kernel, cause, whole, "integer")
-    yield HardCase(HARD_WAVES, INFLUENCE, cause, whole | exactly(kap=3.0), "integer")
+    yield HardCase(HARD_WAVES, INFLUENCE, cause, whole | exact_inputs(kap=3.0), "integer")
 
 
-def _same() -> dict[str, Inputs]:
+def _other_arguments() -> dict[str, Inputs]:
     """Return the other arguments of each function of a wave number."""
-    found = {kernel: exactly(nu=0.25) for kernel in LOWEST}
-    found[INFLUENCE] = exactly(kap=2.5, nu=0.25)
-    return found | {kernel: exactly(nu=0.25, index=2.0) for kernel in BRANCHES}
+    found = {kernel: exact_inputs(nu=0.25) for kernel in LOWEST}
+    found[INFLUENCE] = exact_inputs(kap=2.5, nu=0.25)
+    return found | {kernel: exact_inputs(nu=0.25, index=2.0) for kernel in BRANCHES}

@@ -12,7 +12,7 @@ from derivation.engine.measure.suite import Given, HardLaw, Values
 from derivation.plate.waves import oracle as inertia_balls
 
 _STEP, _DIGITS = Fraction(1, 2**40), 30
-_AT_REST = Fraction(1, 2**60)
+_STATIC_KAP = Fraction(1, 2**60)
 """kap over min(x^2, x^4) for condition numbers of a static load, where it has no effect."""
 
 
@@ -58,7 +58,7 @@ def _influence(given: Given, digits: int) -> tuple[arb, ...]:
 def _conditions(given: Given, values: Sequence[arb]) -> list[arb]:
     """Return condition numbers of the arguments and, above x^2, of p and q, as budgeted."""
     x, kap, nu = map(Fraction, given)
-    load = kap or min(x**2, x**4) * _AT_REST
+    load = kap or min(x**2, x**4) * _STATIC_KAP
     found = []
     for kind, value in zip(inertia_balls.KINDS, values, strict=True):
         of_arguments, of_roots = inertia_balls.condition(x, load, nu, kind)

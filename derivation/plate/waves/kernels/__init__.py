@@ -4,7 +4,7 @@ from pathlib import Path
 
 from derivation.engine.emit.package import Routines
 from derivation.plate.modules import ComputedModule, RuntimeModule
-from derivation.plate.waves.kernels import any_frequency, lowest_branch, residues, share_at_rest
+from derivation.plate.waves.kernels import any_frequency, lowest_branch, residues, static_fraction
 from derivation.plate.waves.kernels.numbers import numbers
 
 RUNTIME = Path(__file__).parents[1] / "runtime"
@@ -12,7 +12,7 @@ RUNTIME = Path(__file__).parents[1] / "runtime"
 
 def wave_kernels() -> Routines:
     """Return the routines of stiffness, residues and the lowest branch."""
-    parts = any_frequency, residues, lowest_branch, share_at_rest
+    parts = any_frequency, residues, lowest_branch, static_fraction
     made = [make for part in parts for make in part.ROUTINES]
     functions = "compared", "differences", "double", "fading", "hyperbolic", "least"
     imports = {

@@ -1,4 +1,4 @@
-"""cosh and sinh of p and q as entire functions of p^2 and q^2, the first values in the code.
+"""cosh and sinh of p and q as entire functions of p^2 and q^2, which the code computes first.
 
 cosh p and sinh(p)/p depend on p^2 alone, for either sign. The code scales both by E_p = e^(-p) for
 real p (by 1 otherwise), so that neither overflows; the claims contain the scales.
@@ -7,7 +7,7 @@ real p (by 1 otherwise), so that neither overflows; the claims contain the scale
 import sympy as sp
 
 from derivation.engine.emit.routine import Facts, Let, Several
-from derivation.engine.formula.functions import unspecified
+from derivation.engine.formula.functions import unspecified_function
 from derivation.plate.vocabulary import gam, kap, x_h
 from derivation.plate.waves.theory.bending_branch import quotient
 from derivation.plate.waves.theory.dynamic_modes import (
@@ -29,13 +29,15 @@ _BY_KAP = {over: sp.Integer(1), level: -gam, m: sp.Integer(-1)}
 """Slopes by kap of the first values in the code."""
 
 
-SlopeOfShc = unspecified("SlopeOfShc")
+SlopeOfShc = unspecified_function("SlopeOfShc")
 """(cosh p - sinh(p)/p)/(2 p^2) as a function of p^2."""
-Shc = unspecified("Shc", SlopeOfShc)
+Shc = unspecified_function("Shc", SlopeOfShc)
 """sinh(p)/p as a function of p^2."""
-Cosh = unspecified("Cosh", lambda square: Shc(square) / 2)
+Cosh = unspecified_function("Cosh", lambda square: Shc(square) / 2)
 """cosh p as a function of p^2."""
-RootTimesSinh = unspecified("RootTimesSinh", lambda square: (Shc(square) + Cosh(square)) / 2)
+RootTimesSinh = unspecified_function(
+    "RootTimesSinh", lambda square: (Shc(square) + Cosh(square)) / 2
+)
 """p sinh p as a function of p^2."""
 NAMES = {
     Cosh(level): cosh_p,

@@ -8,7 +8,7 @@ from functools import partial
 import sympy as sp
 from sympy.codegen.cfunctions import expm1
 
-from derivation.engine.emit.named import Claims, named
+from derivation.engine.emit.named import Claims, named_routine
 from derivation.engine.emit.routine import Facts, Let, Routine, Several, routine
 from derivation.plate.vocabulary import gam, kap, x_h
 from derivation.plate.waves.kernels.any_frequency import reduce_exponentials, scaled_shc
@@ -40,7 +40,7 @@ WAVE: Facts = {
 }
 
 
-@named
+@named_routine
 def shallow() -> Claims:
     """Return the quotient of both terms of Ba minus 1, and its slope."""
     fall, growth, F, change, ratio, other = sp.symbols("fall growth F change ratio other")
@@ -80,7 +80,7 @@ def shallow() -> Claims:
     )
 
 
-@named
+@named_routine
 def deep_steepness() -> Claims:
     """Return the slope of the quotient, accurate where the quotient is 1."""
     plus, faded_p, faded_q, less, fading = sp.symbols("plus faded_p faded_q less fading")
@@ -157,7 +157,7 @@ def residue(is_shallow: bool) -> Routine:
     )
 
 
-@named
+@named_routine
 def deep_excess() -> Claims:
     """Return the quotient of both terms minus 1 for short waves, from their difference."""
     first, second, difference, excess, lack = sp.symbols("first second difference excess lack")

@@ -1,6 +1,6 @@
-"""Link 27: the lowest branch of free waves, A0, which carries most of a static load.
+"""Step 27: the lowest branch of free waves, A0, which carries most of a static load.
 
-For kap < x^2 B_a of link 26 is finite, positive at kap = 0, negative at kap = x^2 (q = 0), and
+For kap < x^2 B_a of step 26 is finite, positive at kap = 0, negative at kap = x^2 (q = 0), and
 decreases: A0 is its only zero kap_0 there. The quotient of the two positive terms of B_a is
 
     quotient = 8 x^2 q^2 (1 - gam) F p/(kap sinh p cosh q) = 1,
@@ -319,7 +319,7 @@ def thin_plates() -> tuple[Formula, ...]:
             "residue": _below(1 + residue * change.subs(slope, found), s),
             "Kirchhoff": sp.cancel(kirchhoff - x_h**4 * rows[0][0]),
             "mass": residue.subs(s, 0) - sp.Rational(1, 2),
-            "all of the deflection": share[0] - 1,
+            "whole deflection": share[0] - 1,
         },
     )
     lines = (
@@ -366,5 +366,5 @@ def _share_at_rest(residue: tuple[sp.Expr, ...], slope: tuple[sp.Expr, ...]) -> 
 
 
 def bending_branch() -> tuple[Formula, ...]:
-    """Return the formulas of the link."""
+    """Return the formulas of the step."""
     return (*bending_zero(), bending_share(), *thin_plates(), *rayleigh())

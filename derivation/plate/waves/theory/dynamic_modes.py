@@ -1,7 +1,7 @@
-"""Link 26: the first six links with plate inertia, rho d^2/dt^2.
+"""Step 26: the first six steps with plate inertia, rho d^2/dt^2.
 
 A mode u = g(z) phi J1(phi r), w = f(z) J0(phi r), both times cos(omega t), adds rho omega^2 g and
-rho omega^2 f to link 1's equations. On e^(s z) they give s^2 = phi^2 - rho omega^2/(lam + 2 mu),
+rho omega^2 f to step 1's equations. On e^(s z) they give s^2 = phi^2 - rho omega^2/(lam + 2 mu),
 for motion without rotation, and s^2 = phi^2 - rho omega^2/mu for motion without dilatation.
 Half of A_j on both faces, in equal or opposite directions, leaves the back face free and separates
 the motion into bending (f even) and extension (f odd). With x = phi h, kap = (omega h/c_T)^2,
@@ -11,7 +11,7 @@ c_T^2 = mu/rho, gam = mu/(lam + 2 mu), p^2 = x^2 - gam kap and q^2 = x^2 - kap,
     B_a = -(2/kap) [(2 x^2 - kap)^2 tanh(p)/p - 4 x^2 q tanh(q)],
     B_s = -(2/kap) [(2 x^2 - kap)^2 coth(p)/p - 4 x^2 q coth(q)],
 
-the static link's C for kap -> 0. For kap < x^2 the brackets cancel; with shc y = sinh(y)/y,
+the static step's C for kap -> 0. For kap < x^2 the brackets cancel; with shc y = sinh(y)/y,
 S = p + q and d = p - q = (1 - gam) kap/S the same is
 
     B_a = 2 [8 x^2 q^2 (1 - gam) F/(cosh p cosh q) - kap tanh(p)/p],
@@ -89,7 +89,7 @@ class Wave(NamedTuple):
 
 @cache
 def wave_equations() -> tuple[Formula, Formula]:
-    """Return link 1's equations with inertia, as expressions that must vanish."""
+    """Return step 1's equations with inertia, as expressions that must vanish."""
     radial, axial = (ode.expression for ode in equilibrium())
     inertia = rho * omega**2
     u, w = g * phi * BESSEL_J1, f * BESSEL_J0
@@ -136,7 +136,7 @@ def wave_shapes() -> tuple[Formula, Formula]:
     ]
     proof = prove(
         "Solution of the waves",
-        "$f$ and $g$ are inserted into both equations; four independent functions, as in link 2.",
+        "$f$ and $g$ are inserted into both equations; four independent functions, as in step 2.",
         {"radial": residuals[0], "axial": residuals[1]},
     )
     sources = ("radial_wave", "axial_wave")
@@ -213,7 +213,7 @@ def dynamic_influence() -> tuple[Formula, ...]:
     parts = loaded_wave(bends=True), loaded_wave(bends=False)
     printed = stiffness(sp.tanh(p), sp.tanh(q)), stiffness(sp.coth(p), sp.coth(q))
     slow = slow_stiffness()
-    residuals = {"far face": in_sines(sum(part.zz.subs(z, -1) for part in parts))}
+    residuals = {"back face": in_sines(sum(part.zz.subs(z, -1) for part in parts))}
     for part, value, name in zip(parts, printed, ("B_a", "B_s"), strict=True):
         residuals[name] = in_sines(part.f.subs(z, 1) - 1 / in_p_and_q(value))
         residuals[f"shear of {name}"] = in_sines(part.rz.subs(z, -1))
@@ -257,7 +257,7 @@ def dynamic_influence() -> tuple[Formula, ...]:
 
 @cache
 def static_limit() -> Proof:
-    """Prove the limit kap -> 0: link 6's influence coefficient, and its two parts."""
+    """Prove the limit kap -> 0: step 6's influence coefficient, and its two parts."""
     top, _, half = (formula.expression for formula in influence_coefficients())
     plate = {lam: mu * (1 / gam - 2), phi: x_h / h}
     T = 2 * x_h
@@ -271,7 +271,7 @@ def static_limit() -> Proof:
         "$p$ and $q$ tend to $x$, and shc$(p - q)$ to 1.",
         {
             "bending": in_sines(1 / bent - mu * antisymmetric),
-            "stretching": in_sines(1 / stretched - mu * symmetric),
+            "extension": in_sines(1 / stretched - mu * symmetric),
             "sum": in_sines(antisymmetric + symmetric - (top / h).subs(plate)),
         },
     )
@@ -369,6 +369,6 @@ def in_sines(expression: sp.Expr) -> sp.Expr:
 
 
 def dynamic_modes() -> tuple[Formula, ...]:
-    """Return the formulas of the link."""
+    """Return the formulas of the step."""
     kinetic_slope()
     return (*wave_equations(), *wave_shapes(), *dynamic_influence())

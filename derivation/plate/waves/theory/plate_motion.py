@@ -1,4 +1,4 @@
-"""Link 23: criteria for plate inertia: Zener's parameter, bending period, reflections.
+"""Step 23: criteria for plate inertia: Zener's parameter, bending period, reflections.
 
 Bending waves: D nabla^4 w + rho H w'' = 0, D = E* H^3/12, H = 2h, has w = J0(phi r) cos(omega t)
 with omega = phi^2 sqrt(D/(rho H)); with the paper's edge phi_1 = j_1/b is the lowest mode.
@@ -120,5 +120,5 @@ def plate_times() -> tuple[Formula, Formula]:
 
 
 def plate_motion() -> tuple[Formula, ...]:
-    """Return the formulas of the link."""
+    """Return the formulas of the step."""
     return zener_number(), *plate_times()

@@ -1,4 +1,4 @@
-"""One formula with its position in the derivation: link, sources, and formulas that use it."""
+"""One formula with its position in the derivation: step, sources, and formulas that use it."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -10,23 +10,23 @@ from derivation.engine.paper import Paper
 
 
 @dataclass(frozen=True)
-class About:
+class FormulaDetails:
     """A formula with its position in the derivation.
 
     Parameters
     ----------
     formula
         The formula.
-    link
-        Name of the link that derives it.
+    step
+        Name of the derivation step that derives it.
     used_by
         Names of the formulas that are derived from it.
     references
-        The literature that the link uses; a text for each source.
+        The literature that the step uses; a text for each source.
     """
 
     formula: Record
-    link: str
+    step: str
     used_by: tuple[str, ...]
     references: tuple[str, ...]
 
@@ -42,11 +42,11 @@ class About:
 
     def to_json(self) -> dict[str, object]:
         """Return the formula as plain data, with its position in the derivation."""
-        place = {"link": self.link, "used_by": self.used_by, "references": self.references}
+        place = {"step": self.step, "used_by": self.used_by, "references": self.references}
         return self.formula.to_json() | place
 
 
-def about(paper: Paper, name: str) -> About:
+def formula_details(paper: Paper, name: str) -> FormulaDetails:
     """Return a formula of a paper with its position in the derivation.
 
     Raises
@@ -54,14 +54,14 @@ def about(paper: Paper, name: str) -> About:
     KeyError
         If the paper has no formula of that name.
     """
-    found = paper.chain.found()
-    links = {formula.name: link for link, formulas in found for formula in formulas}
+    found = paper.chain.derived_steps()
+    steps = {formula.name: step for step, formulas in found for formula in formulas}
     used_by = [f.name for _, formulas in found for f in formulas if name in f.sources]
     references = paper.report().prose.references
-    sources = [references.entries[key] for key in references.cited(links[name])]
-    return About(
+    sources = [references.entries[key] for key in references.cited(steps[name])]
+    return FormulaDetails(
         paper.chain.formulas()[name],
-        links[name],
+        steps[name],
         tuple(used_by),
         tuple(_source(entry) for entry in sources),
     )

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterator
 
-from derivation.engine.formula.notation import mixed, to_latex
+from derivation.engine.formula.notation import convert_parts, to_latex
 from derivation.engine.formula.parse import FormulaError, parse
 from derivation.engine.formula.vocabulary import Vocabulary
 from derivation.engine.report.latex import prose, unit
@@ -13,12 +13,12 @@ SYMBOL = re.compile(r"(?<!\w)([A-Za-z]\w*)(?:\^(\d+|\([\d/]+\)))?")
 """A word, and its power if there is one."""
 
 
-def spoken(text: str, vocabulary: Vocabulary) -> str:
+def typeset_sentence(text: str, vocabulary: Vocabulary) -> str:
     """Return a sentence as LaTeX; code that can be parsed is typeset as a formula, like units."""
-    return " ".join(_piece(piece, vocabulary) for piece in pieces(text))
+    return " ".join(_piece(piece, vocabulary) for piece in sentence_pieces(text))
 
 
-def pieces(text: str) -> Iterator[str]:
+def sentence_pieces(text: str) -> Iterator[str]:
     """Yield pieces of a sentence: words, or code.
 
     Code is a word that contains a star, followed by the words up to the closing bracket. A sum of
@@ -87,4 +87,4 @@ def _named(text: str, vocabulary: Vocabulary) -> str:
     def words(text: str) -> str:
         return re.sub(r"\)\^(\d+)", r")$^{\1}$", SYMBOL.sub(symbol, text))
 
-    return mixed(text, words, "${}$".format)
+    return convert_parts(text, words, "${}$".format)

@@ -23,7 +23,7 @@ NAMES = {
     "branches": "branches",
     "rtol": "tolerance",
 }
-KNOBS = {
+SETTINGS = {
     "elements, nodes": "nodes", "elements, tolerance": "tolerance", "DOP853": "tolerance",
     "velocity Verlet": "steps",
 }  # fmt: skip
@@ -35,7 +35,7 @@ def worst(row: Mapping[str, Any]) -> float:
     return max(map(float, row["errors"].values()))
 
 
-def moving_costs(data: Mapping[str, Any]) -> Figure:
+def dynamic_benchmark_figure(data: Mapping[str, Any]) -> Figure:
     """Draw error over time of integrators, and of modes and branches."""
     rows = data["rows"]
     with mpl.rc_context(STYLE | {"font.size": 8, "lines.linewidth": 1.0}):
@@ -61,7 +61,7 @@ def _line(ax: Any, rows: Sequence[Mapping[str, Any]], style: str, label: str) ->
     )
 
 
-def moving_context(data: Mapping[str, Any]) -> dict[str, Any]:
+def dynamic_benchmark_context(data: Mapping[str, Any]) -> dict[str, Any]:
     """Return the values of the section: scene, rows, and relative times."""
     shared = next(row for row in data["rows"] if row["study"] == "integrator")
     plate, ball = data["scene"]["plate"], data["scene"]["sphere"]
@@ -76,7 +76,9 @@ def moving_context(data: Mapping[str, Any]) -> dict[str, Any]:
         "most": data["truth"]["modes"],
         "all": data["truth"]["modes of all branches"],
         "gain": gain(data),
-        "rows": [" & ".join(_typeset(cell) for cell in row.values()) for row in moving_rows(data)],
+        "rows": [
+            " & ".join(_typeset(cell) for cell in row.values()) for row in benchmark_rows(data)
+        ],
     }
 
 
@@ -96,12 +98,12 @@ def _typeset(cell: str) -> str:
     return rounded(float(cell)) if "e-" in cell and " " not in cell else escape(cell)
 
 
-def moving_rows(data: Mapping[str, Any]) -> Iterator[dict[str, str]]:
+def benchmark_rows(data: Mapping[str, Any]) -> Iterator[dict[str, str]]:
     """Yield the rows of the table: study, method, oscillators, milliseconds, error and bound."""
     for row in data["rows"]:
         method, setting = row["method"], f"{row['setting']:g}"
         if row["study"] == "integrator":
-            what = f"{LINES[method].split(',')[0]}, {KNOBS[method]} {setting}"
+            what = f"{LINES[method].split(',')[0]}, {SETTINGS[method]} {setting}"
         elif row["study"] == "rtol":
             what = f"{_branches(method)}, rtol {setting}"
         else:

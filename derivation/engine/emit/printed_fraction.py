@@ -39,7 +39,7 @@ class ModuleArithmetic:
         return not self.reason
 
 
-def shares(sources: Mapping[str, str]) -> tuple[ModuleArithmetic, ...]:
+def arithmetic_of_modules(sources: Mapping[str, str]) -> tuple[ModuleArithmetic, ...]:
     """Return the arithmetic of the modules that contain any, from the source texts by name."""
     counted = ((name, operations(text), text) for name, text in sorted(sources.items()))
     return tuple(
@@ -47,13 +47,13 @@ def shares(sources: Mapping[str, str]) -> tuple[ModuleArithmetic, ...]:
     )
 
 
-def printed_share(found: Sequence[ModuleArithmetic]) -> float:
+def printed_fraction(found: Sequence[ModuleArithmetic]) -> float:
     """Return the printed fraction of all operations [1]."""
     printed = sum(part.operations for part in found if part.printed)
     return printed / sum(part.operations for part in found)
 
 
-def expect_growth(found: Sequence[ModuleArithmetic], kept: float) -> None:
+def expect_printed_fraction(found: Sequence[ModuleArithmetic], kept: float) -> None:
     """Reject a package whose printed fraction is smaller than the committed one.
 
     Parameters
@@ -68,7 +68,7 @@ def expect_growth(found: Sequence[ModuleArithmetic], kept: float) -> None:
     ValueError
         If the fraction is smaller.
     """
-    if (share := printed_share(found)) < kept:
+    if (share := printed_fraction(found)) < kept:
         raise ValueError(
             f"expected at least {100 * kept:.1f} % of the package's arithmetic to be printed from "
             f"proved expressions, as committed, got {100 * share:.1f} %; derive what was added"

@@ -2,7 +2,7 @@
 
 import sympy as sp
 
-from derivation.engine.emit.named import Claims, named
+from derivation.engine.emit.named import Claims, named_routine
 from derivation.engine.emit.routine import GUARDED, Let, Routine, Several, routine
 from derivation.plate.vocabulary import gam, kap, x_h
 from derivation.plate.waves.kernels.any_frequency import reduce_exponentials
@@ -51,7 +51,7 @@ def ratio_at_rest() -> Routine:
     )
 
 
-@named
+@named_routine
 def share_beyond() -> Claims:
     """Return the static fraction of A0 for x >= 1; `excess` is E - 1, `product` is 4 P Q."""
     scaled = 2 * sp.exp(-TWO) * (sp.sinh(TWO) - TWO) / 2**3
@@ -85,7 +85,7 @@ def product_at_zero() -> Routine:
     )
 
 
-@named
+@named_routine
 def share_near_one() -> Claims:
     """Return the static fraction of A0 for small x, as 1 minus a small difference."""
     near, F, less, first, second = sp.symbols("near F less first second")

@@ -1,4 +1,4 @@
-"""Link 28: coupling of a contact to the plate's modes that conserves energy.
+"""Step 28: coupling of a contact to the plate's modes that conserves energy.
 
 A growing contact is treated as a sequence of flat punches, each a step of its static law P(a),
 delta(a). A punch of radius c distributes dP so that J0(phi r) has the mean sh(c phi) under it,
@@ -36,9 +36,9 @@ from functools import cache
 import sympy as sp
 
 from derivation.engine.formula.proof import Proof, prove
-from derivation.plate.contact.theory.curvature import flat_punch
 from derivation.plate.contact.theory.hertz import SINE_MINUS, pressure, sonine
 from derivation.plate.contact.theory.law import contact_law
+from derivation.plate.contact.theory.spherical_profile import flat_punch
 from derivation.plate.vocabulary import Formula, P, R, a, k, phi, q_j, q_rate, r
 
 _t, _u, _y = sp.symbols("t u y", positive=True)
@@ -46,14 +46,16 @@ _m, _g, _A, _Y, _v, _z, _growth = sp.symbols("m g A_v Y v z a'", real=True)
 MODES = 3
 """Number of modes in the proofs; the energy contains no product of two modes."""
 _P, _D, _work = (sp.Function(name)(a) for name in ("P", "D", "W"))
-_felt, _share = ([sp.Function(f"{name}_{j}")(a) for j in range(MODES)] for name in ("P", "s"))
+_modal_forces, _modal_weights = (
+    [sp.Function(f"{name}_{j}")(a) for j in range(MODES)] for name in ("P", "s")
+)
 _q, _rate, _omega, _c = (
     sp.symbols(f"{name}_:{MODES}", positive=True) for name in ("q", "v", "omega", "c")
 )
 
-SHARE = sp.sin(a * phi) / (a * phi)
+MODAL_WEIGHT = sp.sin(a * phi) / (a * phi)
 """sh(a phi)."""
-FELT = P * 3 * SINE_MINUS / (a * phi) ** 3
+MODAL_FORCE = P * 3 * SINE_MINUS / (a * phi) ** 3
 """P_j for Hertz pressure."""
 
 
@@ -66,7 +68,7 @@ def growing_contact() -> Proof:
     # The punch's pressure is step/(2 pi c sqrt(c^2 - r^2)); with c^2 = r^2 + u^2, c dc = u du.
     density = (step / (2 * sp.pi * c**2)).subs(c, sp.sqrt(r**2 + _u**2))
     spread = sp.integrate(density, (_u, 0, depth)).subs(depth, sp.sqrt(a**2 - r**2))
-    felt = sp.integrate(step * SHARE.subs(a, c), (c, 0, a))
+    felt = sp.integrate(step * MODAL_WEIGHT.subs(a, c), (c, 0, a))
     hertz = pressure().expression
     return prove(
         "Growing contact",
@@ -74,9 +76,9 @@ def growing_contact() -> Proof:
         "to Hertz's, and their transforms to Sonine's integral.",
         {
             "pressure": spread + hertz,
-            "felt": felt - FELT,
-            "transform": -2 * sp.pi * hertz.subs(r, 0) * sonine().expression - FELT,
-            "share": sp.diff(FELT / P * a**3, a) / sp.diff(a**3, a) - SHARE,
+            "modal force": felt - MODAL_FORCE,
+            "transform": -2 * sp.pi * hertz.subs(r, 0) * sonine().expression - MODAL_FORCE,
+            "share": sp.diff(MODAL_FORCE / P * a**3, a) / sp.diff(a**3, a) - MODAL_WEIGHT,
         },
     )
 
@@ -88,13 +90,16 @@ def _along(energy: sp.Expr, rates: dict[sp.Expr, sp.Expr]) -> sp.Expr:
     """
     growth = sp.Add(*(sp.diff(energy, variable) * rate for variable, rate in rates.items()))
     slopes = {sp.diff(_work, a): _P * sp.diff(_D, a)}
-    slopes |= {sp.diff(f, a): s * sp.diff(_P, a) for f, s in zip(_felt, _share, strict=True)}
+    slopes |= {
+        sp.diff(f, a): s * sp.diff(_P, a)
+        for f, s in zip(_modal_forces, _modal_weights, strict=True)
+    }
     return growth.xreplace(slopes)
 
 
 def _plain(expression: sp.Expr) -> sp.Expr:
     """Replace generic functions and their slopes by symbols, and expand products."""
-    functions = (_P, _D, *_felt, *_share)
+    functions = (_P, _D, *_modal_forces, *_modal_weights)
     names = {sp.diff(f, a): sp.Symbol(f"{f.func}'") for f in functions}
     return sp.expand(expression.xreplace(names | {f: sp.Symbol(str(f.func)) for f in functions}))
 
@@ -104,7 +109,7 @@ def _loss(weights: list[sp.Expr], stored: sp.Expr, lag: sp.Expr, admittance: sp.
 
     The contact stores int P dD and `stored`; it is viscoelastic, in series with an infinite plate.
     """
-    load = [f * (1 + lag * _growth * sp.diff(_P, a) / _P) for f in (_P, *_felt)]
+    load = [f * (1 + lag * _growth * sp.diff(_P, a) / _P) for f in (_P, *_modal_forces)]
     energy = _m * _v**2 / 2 - _m * _g * _z + _work + stored
     for q, v, omega, c in zip(_q, _rate, _omega, _c, strict=True):
         energy += (v**2 + omega**2 * q**2) / (2 * omega**2 * c)
@@ -120,22 +125,24 @@ def _loss(weights: list[sp.Expr], stored: sp.Expr, lag: sp.Expr, admittance: sp.
 @cache
 def conservation() -> Proof:
     """Prove the energy along the motion: conserved, dissipated, radiated, or spuriously lost."""
-    triples = list(zip(_q, _share, _felt, strict=True))
+    triples = list(zip(_q, _modal_weights, _modal_forces, strict=True))
     stored = sp.Add(*(q * (_P * s - f) for q, s, f in triples))
     slope = sp.diff(_D + sp.Add(*(q * s for q, s, _ in triples)), a)
-    way = slope * _growth + sp.Add(*(s * v for s, v in zip(_share, _rate, strict=True)))
-    moved = sp.Add(*(f / _P * v for f, v in zip(_felt, _rate, strict=True)))
+    way = slope * _growth + sp.Add(*(s * v for s, v in zip(_modal_weights, _rate, strict=True)))
+    moved = sp.Add(*(f / _P * v for f, v in zip(_modal_forces, _rate, strict=True)))
     lost = _A * sp.diff(_P, a) * _growth * (way - moved)
     taken = _Y * (_P + _A * _growth * sp.diff(_P, a)) ** 2
     nothing, axis = sp.Integer(0), [sp.Integer(1)] * MODES
-    leaked = sp.Add(*((_P - f) * v for f, v in zip(_felt, _rate, strict=True)))
+    leaked = sp.Add(*((_P - f) * v for f, v in zip(_modal_forces, _rate, strict=True)))
     return prove(
         "Energy of contact and modes",
         f"For generic $P$, $D$ and $s_j$ and {MODES} modes, the energy is differentiated along the "
         "motion, with $z'$ from the coupling. In static loading $q_j = c_j P_j$.",
         {
-            "kept": _plain(_loss(_share, stored, nothing, nothing)),
-            "lag and endless plate": _plain(_loss(_share, stored, _A, _Y) + lost + taken),
+            "conserved energy": _plain(_loss(_modal_weights, stored, nothing, nothing)),
+            "retardation and infinite plate": _plain(
+                _loss(_modal_weights, stored, _A, _Y) + lost + taken
+            ),
             "at the axis": _plain(_loss(axis, nothing, nothing, nothing) + leaked),
         }
         | _at_rest(),
@@ -144,14 +151,14 @@ def conservation() -> Proof:
 
 def _at_rest() -> dict[str, sp.Expr]:
     """Return delta minus the modes' depth, and the energy of P d delta, for q_j = c_j P_j."""
-    rest = [c * f for c, f in zip(_c, _felt, strict=True)]
-    depth = _D + sp.Add(*(s * q for s, q in zip(_share, rest, strict=True)))
+    rest = [c * f for c, f in zip(_c, _modal_forces, strict=True)]
+    depth = _D + sp.Add(*(s * q for s, q in zip(_modal_weights, rest, strict=True)))
     law = sp.Function("delta")(a)
-    own = law - sp.Add(*(s * q for s, q in zip(_share, rest, strict=True)))
+    own = law - sp.Add(*(s * q for s, q in zip(_modal_weights, rest, strict=True)))
     stored = _work + sp.Add(
         *(
             q * (_P * s - f) + q**2 / (2 * c)
-            for q, s, f, c in zip(rest, _share, _felt, _c, strict=True)
+            for q, s, f, c in zip(rest, _modal_weights, _modal_forces, _c, strict=True)
         )
     )
     work = _along(stored, {a: sp.Integer(1)}) - _along(depth, {a: sp.Integer(1)}) * _P
@@ -174,9 +181,9 @@ def variational_law() -> Proof:
     gap = sp.integrate((a * sp.sin(_t)) ** 2 / (2 * R) * sp.sin(_t), (_t, 0, sp.pi / 2))
     whole = sp.integrate(_u**2 / R, (_u, 0, 2 * a)) / (4 * a)
     # Work P d delta compared with that of modes of compliance c, sum c P_j^2/2, and of the gap.
-    felt = (FELT / P).subs(P, 1) * a**3
+    felt = (MODAL_FORCE / P).subs(P, 1) * a**3
     compliance = sp.Symbol("c", positive=True)
-    depth = gap + compliance * felt * SHARE
+    depth = gap + compliance * felt * MODAL_WEIGHT
     gap_energy = sp.integrate(gap * 3 * a**2, a)
     stored = a**3 * depth - compliance * felt**2 / 2 - gap_energy
     return prove(
@@ -195,7 +202,7 @@ def variational_law() -> Proof:
     )
 
 
-def closure() -> tuple[Formula, ...]:
+def coupling() -> tuple[Formula, ...]:
     """Return modal force, modal weight, contact energy, spurious loss, and variational law."""
     growing, energy, variational = growing_contact(), conservation(), variational_law()
     contact = {formula.name: formula.expression for formula in contact_law()}
@@ -204,7 +211,7 @@ def closure() -> tuple[Formula, ...]:
             "mode_force",
             "P_j",
             "modal force: part of the force of Hertz pressure that acts on a mode",
-            FELT,
+            MODAL_FORCE,
             "N",
             "",
             ("p", "sonine"),
@@ -214,7 +221,7 @@ def closure() -> tuple[Formula, ...]:
             "mode_share",
             "s_j",
             "modal weight in the gap: mean of $J_0$ under a flat punch",
-            SHARE,
+            MODAL_WEIGHT,
             "1",
             "",
             ("mode_force",),
@@ -224,7 +231,7 @@ def closure() -> tuple[Formula, ...]:
             "gap_energy",
             r"E_c - \int P\,\mathrm{d}D",
             "energy of the contact in addition to its static part",
-            q_j * (P * SHARE - FELT),
+            q_j * (P * MODAL_WEIGHT - MODAL_FORCE),
             "J",
             "",
             ("mode_force", "mode_share"),
@@ -232,10 +239,10 @@ def closure() -> tuple[Formula, ...]:
             summed=True,
         ),
         Formula(
-            "axis_leak",
+            "coupling_loss",
             r"-\dot E",
             "spurious power loss of the pointwise coupling",
-            q_rate * (P - FELT),
+            q_rate * (P - MODAL_FORCE),
             "W",
             "",
             ("mode_force",),
@@ -246,7 +253,7 @@ def closure() -> tuple[Formula, ...]:
             "delta_variational",
             r"\delta_V - a^2/(3R)",
             "indentation by the variational law without the half-space's",
-            contact["K_j"] * SINE_MINUS * SHARE,
+            contact["K_j"] * SINE_MINUS * MODAL_WEIGHT,
             "m",
             "6",
             ("K_j", "mode_share"),

@@ -1,4 +1,4 @@
-"""Link 21: a sphere instead of a paraboloid, for a and delta not small against R (Sneddon 1965).
+"""Step 21: a sphere instead of a paraboloid, for a and delta not small against R (Sneddon 1965).
 
 A flat punch of radius c with force dP is displaced by d delta = dP/(2 E* c) and deflects the
 surface by
@@ -146,7 +146,7 @@ def growth() -> Proof:
     )
 
 
-def curvature() -> tuple[Formula, ...]:
-    """Return the formulas of the link, after proving that the slope increases."""
+def spherical_profile() -> tuple[Formula, ...]:
+    """Return the formulas of the step, after proving that the slope increases."""
     growth()
     return spherical_contact()

@@ -12,12 +12,12 @@ import sympy as sp
 
 from derivation.engine.formula.ball import PrecisionError, enclose, refine, to_ball
 from derivation.engine.formula.ulp import from_ordinal, neighbours, ordinal, overflows, ulp_error
+from derivation.engine.rewrite.difficult_points import derivative, difficult_points
 from derivation.engine.rewrite.stabilise import Stable, decayed
 from derivation.engine.rewrite.terms import UnreachableError
 from derivation.engine.rewrite.useful_range import ENDS, ENOUGH, LEAST_RATIO, rounded, useful_range
-from derivation.engine.rewrite.watch import derivative, hard_places
 
-ILL = 1e3
+MOST_CONDITIONING = 1e3
 """Half condition number above which a point counts as next to a zero."""
 SHARE = 0.6
 """Fraction of half the condition number that is subtracted from an error in the test; the stated
@@ -102,7 +102,7 @@ class _Reference:
             return None
 
 
-def tested(stable: Stable, function: Function) -> CodeCheck:
+def check_code(stable: Stable, function: Function) -> CodeCheck:
     """Test the code of a form, and return the range and the error that it may state.
 
     Errors are computed from exact values at random points, next to zeros, overflow and underflow
@@ -124,7 +124,7 @@ def tested(stable: Stable, function: Function) -> CodeCheck:
     draw = random.Random(str(stable.expression))
     low, high = ENDS
     errors: dict[float, float] = {}
-    new = {*ENDS, *around(hard_places(stable, low, high)), *_random(draw, low, high)}
+    new = {*ENDS, *around(difficult_points(stable, low, high)), *_random(draw, low, high)}
     for count in range(_ROUNDS):
         errors |= _errors(function, reference, sorted(new - errors.keys()))
         further = _next_to_zeros(draw, reference, low, high) - errors.keys()
@@ -132,7 +132,7 @@ def tested(stable: Stable, function: Function) -> CodeCheck:
         inside = {p: e for p, e in errors.items() if low <= p <= high}
         if max(inside.values()) <= ENOUGH:
             worst, at = max((e, p) for p, e in inside.items())
-            return CodeCheck(low, high, stated(worst), worst, at, len(inside))
+            return CodeCheck(low, high, stated_error(worst), worst, at, len(inside))
         before = low, high
         low, high = useful_range(sorted(inside.items()), ENDS)
         if count >= _PATIENT:  # errors that rise slowly towards an end would take many rounds
@@ -147,7 +147,7 @@ def tested(stable: Stable, function: Function) -> CodeCheck:
     )
 
 
-def stated(worst: float) -> float:
+def stated_error(worst: float) -> float:
     """Return the stated limit for a largest error: a fifth and 0.3 more, rounded up to halves."""
     return math.ceil(2 * (1.2 * worst + 0.3)) / 2
 
@@ -183,7 +183,7 @@ def _next_to_zeros(
     steep = [
         (known[1], point)
         for point, known in sorted(reference.known.items())
-        if low <= point <= high and known is not None and known[1] > ILL
+        if low <= point <= high and known is not None and known[1] > MOST_CONDITIONING
     ]
     peaks: list[tuple[float, float]] = []
     for slack, point in sorted(steep, reverse=True):

@@ -11,17 +11,17 @@ OFFSETS = (-32, -1, 0, 1, 32)
 Inputs = dict[str, tuple[str, ...]]
 
 
-def beside(place: float, offset: int) -> float:
+def neighbour(place: float, offset: int) -> float:
     """Return the double that is `offset` doubles above a number."""
     return from_ordinal(ordinal(place) + offset)
 
 
 def around(place: float) -> tuple[float, ...]:
     """Return the doubles at all `OFFSETS` from a number."""
-    return tuple(beside(place, offset) for offset in OFFSETS)
+    return tuple(neighbour(place, offset) for offset in OFFSETS)
 
 
-def exactly(**values: float | Sequence[float]) -> Inputs:
+def exact_inputs(**values: float | Sequence[float]) -> Inputs:
     """Return the arguments as hexadecimal doubles."""
     return {
         name: (value.hex(),) if isinstance(value, float) else tuple(x.hex() for x in value)
@@ -29,7 +29,9 @@ def exactly(**values: float | Sequence[float]) -> Inputs:
     }
 
 
-def about(group: str, kernel: str, why: str, given: Inputs, modes: int | None = None) -> HardCase:
+def case_around(
+    group: str, kernel: str, why: str, given: Inputs, modes: int | None = None
+) -> HardCase:
     """Return a case with an array of doubles on both sides of a number, described by `why`."""
     return HardCase(
         group, kernel, f"0, 1 and 32 ULP to either side of {why}.", given, "array", modes

@@ -1,4 +1,4 @@
-"""Link 20: the non-Hertzian contact pressure: an integral equation with a smooth kernel.
+"""Step 20: the non-Hertzian contact pressure: an integral equation with a smooth kernel.
 
 The pressure is written as q(r) = -int_r^a chi'(t)/sqrt(t^2 - r^2) dt, chi(a) = 0, so that its
 Hankel transform is int_0^a chi cos(phi t) dt and its resultant P = 2 pi int_0^a chi dt. Abel's
@@ -9,7 +9,7 @@ sphere for r < a into
     N(t, s) = [k((t + s)/b) + k((t - s)/b)]/(2 b),
 
 f = t^2/R for the paraboloid and t artanh(t/R) for the sphere. The part G = 1 of the modes gives
-chi itself and the lateral surface's part of k by the sum identity of link 12, as cos(t z) times
+chi itself and the lateral surface's part of k by the sum identity of step 12, as cos(t z) times
 the transform is entire, grows slower than e^(2 |Im z|) for t < b, and decreases like 1/z^2. The
 kernel is the derivative of the law's slope: k = dS/d alpha, S = (R/2a) d delta/da of Hertz
 pressure. chi(a) = 0 determines delta. A flat punch, (I + N) psi = 1, gives the stiffness.
@@ -176,9 +176,9 @@ def kernel() -> tuple[Formula, Formula]:
             "thickness": f.subs(_x, b * phi) / (b * phi * J1**2) * (G - 1)
             - _spread(paired(mode).subs(scaled), sp.cos),
             "half-space": f / 2 * b - 2 / sp.pi * sp.cos(_x * _t / b) * sp.cos(_x * _s / b),
-            "side wall": -both / (2 * sp.pi) - _spread(paired(wall), sp.cosh),
+            "finite radius": -both / (2 * sp.pi) - _spread(paired(wall), sp.cosh),
             "slope, modes": sp.diff(slope[0], alpha) - mode,
-            "slope, side wall": sp.diff(slope[1] / bessel, alpha).subs(height, _y) - wall,
+            "slope, finite radius": sp.diff(slope[1] / bessel, alpha).subs(height, _y) - wall,
         },
     )
     sources = ("slope_modes", "slope_wall", "C_half", "G")
@@ -311,7 +311,7 @@ def at_given_force() -> tuple[Formula, Formula]:
             proof,
         ),
         Formula(
-            "delta_true",
+            "delta_non_hertzian",
             r"\delta R/a_{\mathrm{Hertz}}^2",
             "reduced indentation at given force with non-Hertzian pressure, up to $(a/h)^4$",
             law.subs(q, 1),
@@ -328,8 +328,8 @@ def _truncated(expression: sp.Expr) -> sp.Expr:
     return sp.Add(*(expanded.coeff(a_ratio, n) * a_ratio**n for n in range(ORDER + 1)))
 
 
-def true_pressure() -> tuple[Formula, ...]:
-    """Return the formulas of this link; their lemmas are proved as well."""
+def non_hertzian_pressure() -> tuple[Formula, ...]:
+    """Return the formulas of this step; their lemmas are proved as well."""
     profiles()
     motion_of_the_edge()
     results()

@@ -81,7 +81,7 @@ def _horner(variable: sp.Expr, *coefficients: sp.Expr) -> sp.Expr:
     return value
 
 
-def hard_places(stable: Stable, low: float, high: float) -> list[float]:
+def difficult_points(stable: Stable, low: float, high: float) -> list[float]:
     """Return doubles next to which a part changes sign, overflows or underflows, and switch points.
 
     Parameters
@@ -96,15 +96,15 @@ def hard_places(stable: Stable, low: float, high: float) -> list[float]:
     if isinstance(stable.value, Switch):
         found.add(float(stable.value.at))
     with flint.ctx.workprec(BITS):
-        rows = [_marks(watched, x, point) for point in points]
+        rows = [_states(watched, x, point) for point in points]
         for index, part in enumerate(watched):
             changes = [k for k in range(1, len(points)) if rows[k - 1][index] != rows[k][index]]
-            for k in _some(changes):
+            for k in _selection(changes):
                 found.add(_change(part, x, points[k - 1], points[k]))
-    return [place for place in _some(sorted(found)) if low <= place <= high]
+    return [place for place in _selection(sorted(found)) if low <= place <= high]
 
 
-def _some(found: list[Number]) -> list[Number]:
+def _selection(found: list[Number]) -> list[Number]:
     """Return the first `_FIRST` entries, and an even selection of the others."""
     others = found[_FIRST:]
     if len(others) <= _SPREAD:
@@ -113,11 +113,11 @@ def _some(found: list[Number]) -> list[Number]:
     return found[:_FIRST] + [others[int(k * step)] for k in range(_SPREAD)]
 
 
-def _marks(watched: Sequence[sp.Expr], x: sp.Symbol, point: float) -> list[tuple[int, int]]:
+def _states(watched: Sequence[sp.Expr], x: sp.Symbol, point: float) -> list[tuple[int, int]]:
     known: dict[sp.Basic, flint.arb] = {x: flint.arb(point)}
     for part in watched:
         known[part] = _enclosed(part, known)
-    return [_mark(known[part]) for part in watched]
+    return [_state(known[part]) for part in watched]
 
 
 def _enclosed(part: sp.Expr, known: dict[sp.Basic, flint.arb]) -> flint.arb:
@@ -127,7 +127,7 @@ def _enclosed(part: sp.Expr, known: dict[sp.Basic, flint.arb]) -> flint.arb:
         return flint.arb("nan")
 
 
-def _mark(value: flint.arb) -> tuple[int, int]:
+def _state(value: flint.arb) -> tuple[int, int]:
     """Return sign (0 if unknown) and size class of a value: overflow, normal, subnormal, zero."""
     if not value.is_finite():
         return 0, 3
@@ -142,10 +142,10 @@ def _mark(value: flint.arb) -> tuple[int, int]:
 def _change(part: sp.Expr, x: sp.Symbol, below: float, above: float) -> float:
     """Return a double at which the sign or class of a part changes, by bisection of an interval."""
     first, last = ordinal(below), ordinal(above)
-    start = _mark(_enclosed(part, {x: flint.arb(below)}))
+    start = _state(_enclosed(part, {x: flint.arb(below)}))
     while last - first > 1:
         middle = (first + last) // 2
-        if _mark(_enclosed(part, {x: flint.arb(from_ordinal(middle))})) == start:
+        if _state(_enclosed(part, {x: flint.arb(from_ordinal(middle))})) == start:
             first = middle
         else:
             last = middle

@@ -1,4 +1,4 @@
-"""Contexts of the report's templates, from formulas, findings and measurements of any paper."""
+"""Values for the report's templates, from formulas, findings and measurements of any paper."""
 
 import re
 from collections import Counter
@@ -10,11 +10,11 @@ from typing import Any
 from derivation.engine.errata.findings import Finding
 from derivation.engine.formula.record import Record
 from derivation.engine.formula.vocabulary import Vocabulary
-from derivation.engine.report.equations import body, folded, right_side
+from derivation.engine.report.equations import body, function_by_name, right_side
 from derivation.engine.report.latex import escape, unit
 from derivation.engine.report.numbers import number
 from derivation.engine.report.references import References
-from derivation.engine.report.spoken import spoken
+from derivation.engine.report.sentences import typeset_sentence
 
 NO_REFERENCES = References()
 COLUMNS = (
@@ -27,12 +27,12 @@ COLUMNS = (
 
 @dataclass(frozen=True)
 class Prose:
-    """Text about the links of a derivation.
+    """Text about the steps of a derivation.
 
     Parameters
     ----------
     about
-        A few sentences for each link, by its name.
+        A few sentences for each step, by its name.
     references
         The sources.
     factor
@@ -44,17 +44,17 @@ class Prose:
     factor: str = ""
 
 
-def chain_context(links: Sequence[tuple[str, Sequence[Record]]]) -> dict[str, Any]:
-    """Return the summary of the derivation: each link, the links it uses, number of formulas."""
-    home = {f.name: place for place, (_, found) in enumerate(links, 1) for f in found}
+def chain_context(steps: Sequence[tuple[str, Sequence[Record]]]) -> dict[str, Any]:
+    """Return the summary of the derivation: each step, the steps it uses, number of formulas."""
+    home = {f.name: place for place, (_, found) in enumerate(steps, 1) for f in found}
     rows = []
-    for place, (name, found) in enumerate(links, start=1):
+    for place, (name, found) in enumerate(steps, start=1):
         built = {home[name] for f in found for name in f.sources if name in home} - {place}
         on = ", ".join(str(n) for n in sorted(built)) or "--"
         equations = sorted({f.equation for f in found if f.equation}, key=_equation_order)
         printed = ", ".join(f"({e})" for e in equations)
         rows.append(f"{place} & {escape(name)} & {on} & {len(found)} & {printed}")
-    decided = Counter(f.proof.method for _, found in links for f in found)
+    decided = Counter(f.proof.method for _, found in steps for f in found)
     return {
         "formulas": sum(decided.values()),
         "decided": ", ".join(f"{count} were decided {how}" for how, count in decided.items()),
@@ -68,20 +68,20 @@ def _equation_order(text: str) -> tuple[int, str]:
 
 
 def derivation_context(
-    links: Sequence[tuple[str, Sequence[Record]]], said: Prose
+    steps: Sequence[tuple[str, Sequence[Record]]], prose: Prose
 ) -> dict[str, Any]:
-    """Return the summary of the derivation, and the context of each link."""
-    formulas = {f.name: f for _, found in links for f in found}
+    """Return the summary of the derivation, and the context of each step."""
+    formulas = {f.name: f for _, found in steps for f in found}
     return {
-        "chain": chain_context(links),
-        "links": [link_context(name, found, formulas, said) for name, found in links],
+        "chain": chain_context(steps),
+        "steps": [step_context(name, found, formulas, prose) for name, found in steps],
     }
 
 
 def symbols_context(vocabulary: Vocabulary) -> dict[str, Any]:
     """Return the table of symbols with meaning and unit, two symbols in a row."""
     cells = [
-        f"${symbol.latex}$ & {spoken(symbol.meaning, vocabulary)} & {unit(symbol.unit)}"
+        f"${symbol.latex}$ & {typeset_sentence(symbol.meaning, vocabulary)} & {unit(symbol.unit)}"
         for symbol in vocabulary.arguments
     ]
     half = (len(cells) + 1) // 2
@@ -89,10 +89,10 @@ def symbols_context(vocabulary: Vocabulary) -> dict[str, Any]:
     return {"symbols": [" & ".join(pair) for pair in pairs]}
 
 
-def link_context(
+def step_context(
     name: str, formulas: Sequence[Record], shown: Mapping[str, Record], said: Prose
 ) -> dict[str, Any]:
-    """Return a link's context: its formulas, with references to `shown`, and each proof once."""
+    """Return a step's context: its formulas, with references to `shown`, and each proof once."""
     proofs = {formula.proof.step: formula.proof for formula in formulas}
     return {
         "title": name[0].upper() + name[1:],
@@ -122,8 +122,8 @@ def formula_context(
     whole, factor = right_side(formula), known.get(named)
     sources = [reference(source, known) for source in formula.sources]
     if factor and whole.free_symbols == factor.expression.free_symbols:
-        factor = None  # a formula of the factor's own link
-    if factor and folded(whole, factor) != whole and named not in formula.sources:
+        factor = None  # a formula of the factor's own step
+    if factor and function_by_name(whole, factor) != whole and named not in formula.sources:
         sources.append(f"with {reference(named, known)}")
     return {
         "name": formula.name,
@@ -161,10 +161,10 @@ def finding_context(finding: Finding) -> dict[str, Any]:
         "derived": body(formula),
         "equal": not finding.is_misprint,
         "kind": finding.kind[0].upper() + finding.kind[1:],
-        "repair": spoken(
+        "repair": typeset_sentence(
             finding.repair[0].upper() + finding.repair[1:].rstrip("."), formula.vocabulary
         ),
-        "dimension": spoken(diagnosis.dimension or "", formula.vocabulary),
+        "dimension": typeset_sentence(diagnosis.dimension or "", formula.vocabulary),
         "method": diagnosis.method,
         "consequence": "",
     }

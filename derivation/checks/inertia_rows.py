@@ -12,8 +12,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from derivation.checks.random_scenes import spreading
-from derivation.engine.measure.result import CheckResult, all_kept
+from derivation.checks.random_scenes import log_uniform_draw
+from derivation.engine.measure.result import CheckResult, all_passed
 from derivation.engine.outputs import json_by_line, plain_rows
 
 SEED = 1
@@ -68,7 +68,7 @@ class InertiaRow:
 
 
 @dataclass(frozen=True)
-class InertiaJudged:
+class InertiaResults:
     """The results of random scenes.
 
     Parameters
@@ -119,7 +119,7 @@ class Side:
     price: float
 
     @property
-    def kept(self) -> bool:
+    def passed(self) -> bool:
         """Whether no difference exceeds its tolerance or its bound."""
         return max(self.ratio, self.tightest, self.price) <= 1.0
 
@@ -130,7 +130,7 @@ def scene(number: int, seed: int = SEED) -> tuple[dict[str, dict[str, Any]], flo
     Over the plate radius, the sphere radius is 0.005 to 2 and half the thickness 0.002 to 1.
     """
     generator = random.Random(f"inertia {seed} {number}")
-    spread = spreading(generator)
+    spread = log_uniform_draw(generator)
     b = spread(0.05, 5.0)
     plate: dict[str, Any] = {
         "radius": b,
@@ -161,7 +161,7 @@ def _add_dissipation(tables: dict[str, dict[str, Any]], generator: random.Random
     """
     if generator.random() < 0.5:
         return
-    spread = spreading(generator)
+    spread = log_uniform_draw(generator)
     sphere, plate, v0 = tables["sphere"], tables["plate"], tables["impact"]["speed"]
     E = plate["youngs_modulus"]
     speed = sphere["density"] * v0 * v0 / E
@@ -208,7 +208,7 @@ COLUMNS = (
 """Column heads of the table of sides; `Side` describes the ratios, the largest of its scenes."""
 
 
-def as_data(judged: InertiaJudged, seed: int) -> dict[str, Any]:
+def as_data(judged: InertiaResults, seed: int) -> dict[str, Any]:
     """Return the results as plain data; infinite bounds become null."""
     rows = plain_rows(judged.rows)
     for row in rows:
@@ -223,7 +223,7 @@ def as_data(judged: InertiaJudged, seed: int) -> dict[str, Any]:
     }
 
 
-def result(judged: InertiaJudged, seed: int) -> CheckResult:
+def result(judged: InertiaResults, seed: int) -> CheckResult:
     """Return the table of sides, and the reasons why scenes were rejected or skipped."""
     cells = [
         (side.dissipation, "included" if side.included else "omitted", side.scenes,
@@ -237,7 +237,7 @@ def result(judged: InertiaJudged, seed: int) -> CheckResult:
         COLUMNS,
         cells,
         lambda: as_data(judged, seed),
-        all_kept(sides(judged.rows)),
+        all_passed(sides(judged.rows)),
         listings=[("Other scenes", others)],
         recorded=lambda: json_by_line(as_data(judged, seed), "rows"),
     )

@@ -7,7 +7,14 @@ from typing import TYPE_CHECKING, NoReturn
 import typer
 
 from derivation.engine.activity import Progress
-from derivation.engine.console import OUT, counted, listing, put, put_json, table
+from derivation.engine.console import (
+    OUT,
+    listing,
+    progress_bar,
+    table,
+    write_json_output,
+    write_output,
+)
 from derivation.engine.files import write_file
 from derivation.engine.outputs import expect_recordable
 
@@ -15,7 +22,7 @@ if TYPE_CHECKING:
     from derivation.engine.measure.result import CheckResult
 
 
-def shown(
+def show_check(
     measure: Callable[[Progress], "CheckResult"],
     json: str | None,
     suggest_budgets: bool = False,
@@ -24,7 +31,7 @@ def shown(
     """Run a check, save its result if `record` is given, and exit: 0 if it passed, 1 if not."""
     if record:
         expect_recordable(record)
-    with counted("check") as progress:
+    with progress_bar("check") as progress:
         found = measure(progress)
     if record:
         write_file(record, found.record())
@@ -34,11 +41,11 @@ def shown(
 
         budgets = suggestions(found.budgeted)
     tighter = {"suggested_budgets": {budget.name: budget.ulp for budget in budgets}}
-    if put_json(lambda: found.data() | tighter if suggest_budgets else found.data(), json):
+    if write_json_output(lambda: found.data() | tighter if suggest_budgets else found.data(), json):
         if found.columns:
             table(found.title, found.columns, found.cells)
         if found.note:
-            put(f"{found.note}\n")
+            write_output(f"{found.note}\n")
         for title, lines in found.listings:
             listing(title, lines)
         if suggest_budgets:

@@ -44,17 +44,17 @@ OSCILLATORS, FINEST = 40, 1e-13
 """Number of modes of all integrators, and tolerance of the reference Runge-Kutta method."""
 NODES, TOLERANCES = (6, 8, 10, 12, 16), (1e-3, 1e-5, 1e-7, 1e-9, 1e-11)
 """Nodes of a time element, at the program's tolerance; and tolerances, with 16 nodes."""
-STEPS, RELATIVE = (8, 10, 12), (1e-3, 1e-5, 1e-7, 1e-9, 1e-11)
+STEPS, RUNGE_KUTTA_RTOL = (8, 10, 12), (1e-3, 1e-5, 1e-7, 1e-9, 1e-11)
 """Binary logarithms of the number of Verlet steps; tolerances of the Runge-Kutta method."""
-MODES, MOST = (5, 10, 20, 40, 80, 160), 320
+MODES, MOST_MODES = (5, 10, 20, 40, 80, 160), 320
 ALL, MOST_ALL = (5, 10, 20, 40, 80), 160
-ASKED = ((1e-2, "A0"), (5e-3, "A0"), (1e-3, "all"), (3e-4, "all"))
+REQUESTED_RTOL = ((1e-2, "A0"), (5e-3, "A0"), (1e-3, "all"), (3e-4, "all"))
 ROUNDS = 5
-BEGUN = 0.1
+SEPARATION_START = 0.1
 """Square root of the time from which separation is detected, in the units of the problem."""
-LOOKS = 200
+PEAK_SAMPLES = 200
 """Number of times at which the force is sampled to locate its peak."""
-CLOSE = 1e-8
+PEAK_TOLERANCE = 1e-8
 """Tolerance of the time of the peak force, on which the force depends weakly."""
 Numbers = tuple[float, ...]
 
@@ -119,7 +119,7 @@ def measure(progress: Progress = quiet) -> dict[str, Any]:
         "machine": dict(machine()),
         "run": {"load_before": before, "load_after": os.getloadavg()[0], "spread": spread},
         "scene": SCENE,
-        "truth": {"tolerance": FINEST, "modes": MOST, "modes of all branches": MOST_ALL},
+        "truth": {"tolerance": FINEST, "modes": MOST_MODES, "modes of all branches": MOST_ALL},
         "rows": [
             {
                 "study": t.study,
@@ -190,15 +190,16 @@ def integrators() -> list[Trial]:
     """Return the trials for the first contact: time elements, Runge-Kutta, fixed steps."""
     reference = cache(lambda: by_runge_kutta(FINEST).numbers)
     settings: list[tuple[str, float, Callable[[], CostOutcome]]] = [
-        ("elements, nodes", n, partial(by_elements, n, contact_sequence.TOLERANCE)) for n in NODES
+        ("elements, nodes", n, partial(by_time_elements, n, contact_sequence.TOLERANCE))
+        for n in NODES
     ]
-    settings += [("elements, tolerance", t, partial(by_elements, 16, t)) for t in TOLERANCES]
-    settings += [("DOP853", t, partial(by_runge_kutta, t)) for t in RELATIVE]
+    settings += [("elements, tolerance", t, partial(by_time_elements, 16, t)) for t in TOLERANCES]
+    settings += [("DOP853", t, partial(by_runge_kutta, t)) for t in RUNGE_KUTTA_RTOL]
     settings += [("velocity Verlet", 2**k, partial(by_verlet, 2**k)) for k in STEPS]
     return [Trial("integrator", name, x, call, reference, FIRST) for name, x, call in settings]
 
 
-def by_elements(n: int, tolerance: float) -> CostOutcome:
+def by_time_elements(n: int, tolerance: float) -> CostOutcome:
     """Compute the first contact by time elements with n nodes."""
     problem = _problem()
     found = contact_sequence.contact(problem, n, problem.begin(), 0.0, 0.0, tolerance)
@@ -218,7 +219,7 @@ def by_runge_kutta(rtol: float) -> CostOutcome:
         return 2.0 * s * motion.rate(state)
 
     def apart(s: float, state: Array) -> float:
-        return motion.pressed(state) if s > BEGUN else 1.0
+        return motion.pressed(state) if s > SEPARATION_START else 1.0
 
     apart.terminal, apart.direction = True, -1  # type: ignore[attr-defined]
     found = solve_ivp(
@@ -230,9 +231,9 @@ def by_runge_kutta(rtol: float) -> CostOutcome:
     def force(s: float) -> float:
         return motion.force(found.sol(s))
 
-    near = max(np.linspace(0.0, end, LOOKS).tolist(), key=force)
-    around = near - end / LOOKS, near + end / LOOKS
-    near_enough = {"xatol": CLOSE * end}
+    near = max(np.linspace(0.0, end, PEAK_SAMPLES).tolist(), key=force)
+    around = near - end / PEAK_SAMPLES, near + end / PEAK_SAMPLES
+    near_enough = {"xatol": PEAK_TOLERANCE * end}
     top = minimize_scalar(lambda s: -force(s), bounds=around, method="bounded", options=near_enough)
     return CostOutcome((end * end, -float(top.fun), -float(found.y[1, -1])), OSCILLATORS)
 
@@ -328,7 +329,7 @@ class _Motion:
 
 def modes() -> list[Trial]:
     """Return the trials for numbers of modes of A0, compared with the largest number."""
-    reference = cache(lambda: _simulated(modes=MOST).numbers)
+    reference = cache(lambda: _simulated(modes=MOST_MODES).numbers)
     return [
         Trial("modes", "A0", n, partial(_simulated, modes=n), reference, OUTPUTS) for n in MODES
     ]
@@ -352,7 +353,7 @@ def tolerances() -> list[Trial]:
     reference = cache(lambda: _simulated(modes=MOST_ALL, branches="all").numbers)
     return [
         Trial("rtol", name, x, partial(_simulated, rtol=x, branches=name), reference, OUTPUTS)
-        for x, name in ASKED
+        for x, name in REQUESTED_RTOL
     ]
 
 

@@ -64,7 +64,7 @@ def plate(regime: Regime, ar: Floats) -> list[Array]:
     return [ar.number(x) for x in (r.R, r.h, r.b, r.lam, r.mu)]
 
 
-def called(ar: Floats = DOUBLE) -> Method:
+def generated_law(ar: Floats = DOUBLE) -> Method:
     """Return the method `indentation` as users call it, with all checks in every call."""
 
     def prepare(regime: Regime, _: Arithmetic) -> Call:
@@ -74,7 +74,7 @@ def called(ar: Floats = DOUBLE) -> Method:
     return Method("law", "production", "as called", prepare, ar, "all")
 
 
-def prepared() -> Method:
+def prepared_law() -> Method:
     """Return the method of the same polynomials, with the plate prepared and without checks."""
 
     def prepare(regime: Regime, _: Arithmetic) -> Call:
@@ -94,7 +94,7 @@ def prepared() -> Method:
     return Method("law", "production", "prepared", prepare, DOUBLE, "all")
 
 
-def newton(ar: Floats = DOUBLE) -> Method:
+def generated_force(ar: Floats = DOUBLE) -> Method:
     """Return the method `force`, the generated code's Newton iteration."""
 
     def prepare(regime: Regime, _: Arithmetic) -> Call:
@@ -104,7 +104,7 @@ def newton(ar: Floats = DOUBLE) -> Method:
     return Method("inversion", "Newton (production)", "as called", prepare, ar, "all")
 
 
-def bounce(ar: Floats = DOUBLE) -> Method:
+def generated_impact(ar: Floats = DOUBLE) -> Method:
     """Return the method `impact` as called: 24 nodes, and all four results."""
 
     def prepare(regime: Regime, _: Arithmetic) -> Call:
@@ -118,14 +118,14 @@ def bounce(ar: Floats = DOUBLE) -> Method:
 # --- the oracles
 
 
-def oracle(task: Task, digits: int, quick: bool = True) -> Method:
+def arb_reference(task: Task, digits: int, quick: bool = True) -> Method:
     """Return the method of certified balls; common quantities are computed at set-up."""
     family = {
         "law": "contour integrals", "inversion": "enclosed root", "impact": "integrals in balls",
     }  # fmt: skip
 
     def prepare(regime: Regime, ar: Arithmetic) -> Call:
-        one = _enclosed(task, regime, ar)
+        one = _ball_function(task, regime, ar)
         if task == "law":
             one(regime.high * regime.h)
         return lambda values: np.array([one(float(x)) for x in values], dtype=object)
@@ -134,7 +134,7 @@ def oracle(task: Task, digits: int, quick: bool = True) -> Method:
                   quick=quick)  # fmt: skip
 
 
-def _enclosed(task: Task, regime: Regime, ar: Arithmetic) -> Callable[[float], arb]:
+def _ball_function(task: Task, regime: Regime, ar: Arithmetic) -> Callable[[float], arb]:
     r, digits = regime, ar.digits
 
     def force(delta: float) -> arb:

@@ -10,8 +10,8 @@ import flint
 from flint import arb
 
 from derivation.engine.formula.ball import Exact, to_ball
-from derivation.plate.edge_modes.oracle import modes as held_balls
-from derivation.plate.edge_modes.oracle import waves as held_wave_balls
+from derivation.plate.edge_modes.oracle import modes as mode_balls
+from derivation.plate.edge_modes.oracle import waves as wave_balls
 from derivation.plate.waves import oracle as inertia_balls
 from generated.edge_mode_numbers import START
 from generated.wave_numbers import CLOSE
@@ -54,7 +54,7 @@ class Crossing:
     high: float
 
 
-def _lean(of: Both) -> arb:
+def _direction(of: Both) -> arb:
     """Return the smaller of both sinh over the smaller of both cosh, minus 1."""
     return of.sinh_p.min(of.sinh_q) - of.cosh_p.min(of.cosh_q)
 
@@ -71,9 +71,9 @@ def _lift(of: Both) -> arb:
 _BENT, _STRETCHED = inertia_balls.KINDS
 CROSSINGS = {
     "the smaller sinh is as small as the smaller cosh, in bending":
-        Crossing(_BENT, _lean, 0.3, 1, 1.15, 1.2),
+        Crossing(_BENT, _direction, 0.3, 1, 1.15, 1.2),
     "the smaller sinh is as small as the smaller cosh, in extension":
-        Crossing(_STRETCHED, _lean, 0.3, 1, 1.1, 1.15),
+        Crossing(_STRETCHED, _direction, 0.3, 1, 1.1, 1.15),
     "cosh p is as small as cosh q": Crossing(_BENT, _apart, -0.2, 1, 0.83, 0.89),
     "p sinh p is as small as sinh(q)/q": Crossing(_STRETCHED, _lift, -0.2, 1, 5.1, 5.2),
     "p^2 is small, real p":
@@ -99,11 +99,11 @@ def crossing(name: str) -> float:
 
 
 @cache
-def partner_crossing(edge: held_balls.Edge, n: int, nu: float) -> float:
+def partner_crossing(edge: mode_balls.Edge, n: int, nu: float) -> float:
     """Return the double nearest to h/b at which k2 of a mode reaches the series of I0."""
 
     def below(eta: Exact) -> bool:
-        return bool(held_wave_balls.wave(edge, n, eta, nu, _DIGITS).k2 < arb(START))
+        return bool(wave_balls.wave(edge, n, eta, nu, _DIGITS).k2 < arb(START))
 
     return _nearest(below, 0.012, 0.018)
 

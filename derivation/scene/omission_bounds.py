@@ -24,6 +24,7 @@ from derivation.scene.effects.effect import (
     PlateEffect,
 )
 from derivation.scene.effects.inertia import WIDER
+from derivation.scene.effects.viscosity import on_vibrating_plate
 from derivation.scene.law import ContactLaw, Shape
 from derivation.scene.law_errors import law_errors
 from derivation.scene.motion import largest_radii
@@ -176,12 +177,21 @@ def _bound(state: LargestContact, effect: Effect, stretch: Numbers | None) -> Bo
     else:
         rows = range(len(context.radii))
         found = _together([effect.bound(model.take(i), context.row(i)) for i in rows])
+    if effect.viscous and state.law.dynamic:
+        found = found._replace(results=on_vibrating_plate(found.results, _change_by_inertia(state)))
     if not effect.bounded(state.law):
         return found._replace(up=found.up + math.inf)
     if isinstance(effect, PlateEffect):
         part = 1.0 / (1.0 + state.law.softness)
         return found._replace(low=part * found.low, up=part * found.up)
     return found
+
+
+def _change_by_inertia(state: LargestContact) -> Numbers:
+    """Return the bound on the largest change of a result by the inertia of the plate [1]."""
+    [inertia] = [effect for effect in state.law.chosen if effect.dynamic]
+    still = state_of(state.law.only(lambda e: not (e.dynamic or e.damps)))
+    return reduce(np.maximum, bound_of(still, inertia).results)
 
 
 def _together(bounds: Sequence[Bound]) -> Bound:

@@ -5,7 +5,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from derivation.scene import kernels
-from derivation.scene.effects.effect import Bound, BoundContext, Effect, Numbers, none_of
+from derivation.scene.effects.effect import (
+    Bound,
+    BoundContext,
+    Changes,
+    Effect,
+    Numbers,
+    none_of,
+)
 from derivation.scene.model import Model
 
 if TYPE_CHECKING:
@@ -13,6 +20,9 @@ if TYPE_CHECKING:
 
 MARGIN = 1.05
 """Factor on the largest values along the law, which are sampled."""
+VIBRATION = 200.0
+"""Increase of the bound by vibration of the plate, over that of the restitution and the square of
+the change by inertia (at most 1): 4 times the largest increase in 200 random scenes."""
 
 
 class Viscosity(Effect):
@@ -63,6 +73,25 @@ class Viscosity(Effect):
     def proved(self, law: "ContactLaw") -> bool:  # noqa: ARG002
         """Return False: proved only for a half-space."""
         return False
+
+
+def on_vibrating_plate(changes: Changes, inertia: Numbers) -> Changes:
+    """Return the changes of the results on a plate with inertia, from those on one without.
+
+    On a light or compliant plate the contact outlasts many oscillations of sphere and plate on the
+    stiffness of the contact. Each of them loses as much as a whole impact, which changes the force.
+
+    Parameters
+    ----------
+    changes
+        Bounds of the results on a quasi-static plate.
+    inertia
+        Largest change of a result by plate inertia [1]; NaN or infinite if it is unknown.
+    """
+    size = np.where(np.isfinite(inertia), np.minimum(inertia, 1.0), 1.0)
+    more = VIBRATION * size * size * changes[-1]
+    time, depth, force, radius, speed = (change + more for change in changes)
+    return time, depth, force, radius, speed
 
 
 def viscous_number(model: Model) -> Numbers:

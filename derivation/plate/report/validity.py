@@ -62,8 +62,8 @@ def limit_rows() -> list[str]:
          "a metal yields below the contact"),
         ("Zener parameter", f"{limits.ZENER_LIMIT:g}", "warning without \\texttt{inertia}",
          "waves take 1\\,\\% of the speed"),
-        ("contact time / ($4H/c_P$)", "1", "warning below",
-         "through-thickness wave reflections return during the contact"),
+        ("contact time / ($4H/c_P$)", "1", "warning below, without all wave branches",
+         "waves need time to cross the thickness"),
         ("model error of the edge", f"{100 * edge_remainder.LARGEST:g}\\,\\%", "rejected",
          "the exact edge states leave too large a remainder"),
     )  # fmt: skip

@@ -1,5 +1,6 @@
 """Tables of a contact law with the modes of a plate: forces, depth and shares by the radius."""
 
+import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -12,6 +13,8 @@ from derivation.scene.modal import ModalPlate, Modes
 
 DEGREE, RESOLVED = 32, 0.75
 """Smallest degree of the tables, and its increase per largest wave number times a."""
+DIGITS = 33.0
+"""Natural logarithm of the accuracy that the degree of the tables gives for a sphere."""
 
 
 class ContactSamples(NamedTuple):
@@ -97,7 +100,8 @@ def contact_of(law: ContactLaw, plate: ModalPlate, top: float, pointwise: bool) 
     """
     # sin(a phi) requires a polynomial of a degree above a phi/2.
     fastest = float(np.max(plate.less.phi, initial=0.0))
-    x, analysis, mean = knots(max(DEGREE, int(16 + RESOLVED * top * fastest)))
+    degree = max(DEGREE, int(16 + RESOLVED * top * fastest), _of_sphere(law, top))
+    x, analysis, mean = knots(degree)
     a = top * x
     shape = law.at(a)
     slope = 2.0 * (a / law.model.R) * shape.slope
@@ -127,3 +131,14 @@ def contact_of(law: ContactLaw, plate: ModalPlate, top: float, pointwise: bool) 
     growths[:, count:] += 2.0 * table[:, count:]
     tables = (table[:, :count], table[:, count:], growths[:, :count], growths[:, count:])
     return ContactTables(plate.modes, law.model.R, top, np.array(tables), pointwise)
+
+
+def _of_sphere(law: ContactLaw, top: float) -> int:
+    """Return the degree that a sphere requires, whose slope is infinite at the radius R.
+
+    Chebyshev coefficients on [0, top] decrease as z^-n, with z + 1/z = 2 (2 R/top - 1).
+    """
+    if not law.spherical:
+        return 0
+    middle = 2.0 * law.model.R / top - 1.0
+    return math.ceil(DIGITS / math.acosh(middle))

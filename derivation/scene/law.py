@@ -34,8 +34,6 @@ THICK = 1.0
 """Largest h/b for which the model of simply supported and clamped edges was measured."""
 HALVINGS = 60
 """Number of halvings of an interval, after which it contains no other double."""
-LENGTHS = {"b": "plate radius", "R": "sphere radius", "h": "half the plate thickness"}
-"""The lengths that limit a contact radius, in the order of `Reach`."""
 CANCELLED = 8 * np.finfo(np.float64).eps
 """Relative rounding error of the contribution of the plate, tested."""
 
@@ -158,10 +156,7 @@ class ContactLaw:
 
     @cached_property
     def limit(self) -> float:
-        """Largest contact radius [m] of the law: min(b, R), or less if an effect requires it.
-
-        With non-Hertzian pressure it ends earlier if contact is lost at the centre.
-        """
+        """Largest contact radius [m] of the law, at most where contact is lost at the centre."""
         model, high = self.model, self._widest
         if not self.solved:
             return high
@@ -175,7 +170,7 @@ class ContactLaw:
 
         The deflection is evaluated at Hertz's radius of the force, which is on the plate too.
         """
-        high = self._shortest
+        high: float = self._reach.shortest(self.model)  # type: ignore[assignment]
         if not (self.spherical and self.plate_effects) or self.solved:
             return high
 
@@ -192,24 +187,13 @@ class ContactLaw:
         return low if np.ndim(low) else float(low)
 
     @property
-    def _shortest(self) -> float:
-        """The shortest of the lengths that limit a contact radius [m]."""
-        plate, sphere, thickness = self._reach
-        widest = np.minimum(plate * self.model.b, sphere * self.model.R)
-        found: float = np.minimum(widest, thickness * self.model.h)
-        return found
-
-    @property
     def limit_in_words(self) -> str:
         """The limit in words, with its value."""
         if self.limit < self._widest:
             return f"{self.limit:.6g} m, where contact is lost at the centre"
-        if self._widest < self._shortest:
+        if self._widest < self._reach.shortest(self.model):
             return f"{self.limit:.6g} m, where Hertz's radius of the force reaches the edge"
-        reached = [pair for pair in zip(self._reach, LENGTHS, strict=True) if pair[0] < math.inf]
-        lengths = ", ".join(x if reach == 1.0 else f"{reach:g} {x}" for reach, x in reached)
-        symbols = ", ".join(f"{x} {LENGTHS[x]}" for _, x in reached)
-        return f"min({lengths}) = {self.limit:.6g} m ({symbols})"
+        return self._reach.in_words(self.limit)
 
     @property
     def _reach(self) -> Reach:

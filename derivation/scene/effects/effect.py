@@ -129,12 +129,28 @@ class Bound(NamedTuple):
     results: Changes = (0.0, 0.0, 0.0, 0.0, 0.0)
 
 
+LENGTHS = {"b": "plate radius", "R": "sphere radius", "h": "half the plate thickness"}
+"""The lengths that limit a contact radius, in the order of `Reach`."""
+
+
 class Reach(NamedTuple):
     """Largest contact radius over plate radius, sphere radius and half-thickness [1]."""
 
     plate: float = 1.0
     sphere: float = 1.0
     thickness: float = math.inf
+
+    def shortest(self, model: Model) -> Numbers:
+        """Return the largest contact radius [m] in all three lengths."""
+        found: Numbers = np.minimum(self.plate * model.b, self.sphere * model.R)
+        return np.minimum(found, self.thickness * model.h)
+
+    def in_words(self, limit: float) -> str:
+        """Return the shortest of the lengths that count as symbols, value [m] and meaning."""
+        counting = [pair for pair in zip(self, LENGTHS, strict=True) if pair[0] < math.inf]
+        lengths = ", ".join(x if reach == 1.0 else f"{reach:g} {x}" for reach, x in counting)
+        symbols = ", ".join(f"{x} {LENGTHS[x]}" for _, x in counting)
+        return f"min({lengths}) = {limit:.6g} m ({symbols})"
 
 
 class Effect:

@@ -60,11 +60,9 @@ def pressed() -> Problem:
     depths = np.array([1e-4, 0.1])
     found = [contact_balls.contact_radius(d, THICK.R, THICK.h, THICK.b, 40) for d in depths]
     with flint.ctx.workprec(160):
-        reference_values = [
-            4 * contact_balls.modulus(THICK.lam, THICK.mu) * a**3 / (3 * arb(THICK.R))
-            for a in found
-        ]
-    return Problem("inversion", THICK, depths, tuple(reference_values), 38, np.full(50, 0.01))
+        stiffness = 4 * contact_balls.modulus(THICK.lam, THICK.mu) / (3 * arb(THICK.R))
+        forces = [stiffness * a**3 for a in found]
+    return Problem("inversion", THICK, depths, tuple(forces), 38, np.full(50, 0.01))
 
 
 def bounce(regime) -> Problem:
@@ -398,5 +396,5 @@ def test_radius_of_an_interval_is_rounding(bounced, monkeypatch) -> None:
     assert called_with
     monkeypatch.undo()
     found = measure_errors(ready_methods.arb_reference("impact", 30), bounced, lambda: 0.0).errors
-    assert (found.truncation, found.unsplit) == (None, None)
+    assert found.truncation is found.unsplit is None
     assert found.rounding == found.total > 30

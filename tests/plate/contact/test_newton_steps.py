@@ -1,5 +1,6 @@
 """Test Newton's iterations: the stated number of steps is sufficient, and they converge."""
 
+import math
 from collections.abc import Callable
 from types import ModuleType
 from typing import Any

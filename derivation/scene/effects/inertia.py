@@ -167,6 +167,8 @@ def higher_branch_error(model: Model, a: Numbers, T: Numbers, loss_factor: float
         this excites thickness vibration, which decreases with the duration of the contact.
     loss_factor
         Loss factor of the plate modes [1]; it dissipates part of the returning waves, at most all.
+        The change grows with it: with a loss factor of 1.5 one random scene exceeded the bound
+        without this growth by a third.
     """
     transit, number = 2.0 * model.h / model.shear_speed, PlateInertia().value(model, 0.0)
     wide, echo = a / (2.0 * model.h), transit / np.sqrt(T * np.minimum(T, _alone(model)))
@@ -176,7 +178,8 @@ def higher_branch_error(model: Model, a: Numbers, T: Numbers, loss_factor: float
     sudden = transit / np.minimum(T, _rise(model))
     ring = wide * wide * np.maximum(whole, sudden * sudden * sudden)
     time, depth, force, radius, speed = (
-        one * radiated + two * ring for one, two in zip(RADIATION, THICKNESS_RINGING, strict=True)
+        (1.0 + loss_factor) * (one * radiated + two * ring)
+        for one, two in zip(RADIATION, THICKNESS_RINGING, strict=True)
     )
     return time, depth, force, radius, speed
 

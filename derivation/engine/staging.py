@@ -167,12 +167,13 @@ def _take_over(old: Path, new: Path, contents: dict[str, bytes]) -> None:
     if (known.st_uid, known.st_gid) != (mine.st_uid, mine.st_gid):
         os.chown(new, known.st_uid, known.st_gid)
     new.chmod(known.st_mode & 0o7777)
-    for entry in os.scandir(old):
-        if entry.name in contents or entry.name == "__pycache__" or entry.name.startswith(MARK):
-            continue
-        if entry.is_dir(follow_symlinks=False):
-            raise OSError(errno.ENOTEMPTY, os.strerror(errno.ENOTEMPTY))
-        os.link(entry.path, new / entry.name, follow_symlinks=False)
+    with os.scandir(old) as entries:
+        for entry in entries:
+            if entry.name in contents or entry.name == "__pycache__" or entry.name.startswith(MARK):
+                continue
+            if entry.is_dir(follow_symlinks=False):
+                raise OSError(errno.ENOTEMPTY, os.strerror(errno.ENOTEMPTY))
+            os.link(entry.path, new / entry.name, follow_symlinks=False)
 
 
 def _swap(new: Path, target: Path) -> None:

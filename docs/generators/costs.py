@@ -2,7 +2,7 @@
 
 import json
 
-from derivation.checks import moving_costs
+from derivation.checks import dynamic_benchmark
 from derivation.plate.report import readme
 from derivation.plate.reporting import benchmark_record, measurement
 from docs.generators.markdown import table
@@ -15,5 +15,5 @@ def law() -> str:
 
 def inertia() -> str:
     """Return what impacts with plate inertia cost."""
-    heads = [head.lstrip("#") for head in moving_costs.COLUMNS]
-    return table(heads, moving_costs.cells(json.loads(measurement()["moving"])))
+    heads = [head.lstrip("#") for head in dynamic_benchmark.COLUMNS]
+    return table(heads, dynamic_benchmark.cells(json.loads(measurement()["moving"])))

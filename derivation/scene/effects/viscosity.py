@@ -21,10 +21,8 @@ if TYPE_CHECKING:
 MARGIN = 1.05
 """Factor on the largest values along the law, which are sampled."""
 VIBRATION = 1000.0
-"""Increase of the bound by vibration of the plate, over that of the restitution and the square of
-the change by inertia (at most 1). With a fifth of this factor the changes in 191 random scenes were
-at most 0.67 of the bound, and up to 2.4 times the bound in five others, in which viscosity changed
-the number of contacts."""
+"""Increase of the bound by vibration of the plate, over that of the restitution and the change by
+inertia (at most 1). In 323 random scenes the changes were at most 0.66 of the bound."""
 
 
 class Viscosity(Effect):
@@ -91,7 +89,7 @@ def on_vibrating_plate(changes: Changes, inertia: Numbers) -> Changes:
         Largest change of a result by plate inertia [1]; NaN or infinite if it is unknown.
     """
     size = np.where(np.isfinite(inertia), np.minimum(inertia, 1.0), 1.0)
-    more = VIBRATION * size * size * changes[-1]
+    more = VIBRATION * size * changes[-1]
     time, depth, force, radius, speed = (change + more for change in changes)
     return time, depth, force, radius, speed
 

@@ -196,7 +196,7 @@ def dynamic_impact(
     except OutOfReachError as error:
         least = math.expm1(math.log1p(selected.error) + math.log1p(error.least))
         raise SceneError(
-            f"rtol: expected about {rounded_up(least)} or more, because {error.why}, got "
+            f"rtol: expected at least about {rounded_up(least)}, because {error.why}, got "
             f"{rtol:.3g}; increase the tolerance, or {error.remedy}"
         ) from None
 

@@ -40,7 +40,7 @@ class OutOfReachError(SceneError):
         self.least, self.why, self.remedy = least, why, remedy
 
     def __str__(self) -> str:
-        return f"rtol: expected about {self.least:.2g} or more, because {self.why}; {self.remedy}"
+        return f"rtol: expected at least about {self.least:.2g}, because {self.why}; {self.remedy}"
 
 
 @dataclass(frozen=True)

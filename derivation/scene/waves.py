@@ -14,6 +14,7 @@ from functools import lru_cache
 import numpy as np
 
 from derivation.scene import contact_sequence
+from derivation.scene.contact_errors import check_whole_width
 from derivation.scene.contact_sequence import ENOUGH, ContactRun, ImpactHistory, expected_work
 from derivation.scene.dynamic_problem import DynamicProblem
 from derivation.scene.dynamic_results import UNKNOWN, dynamic_impact_of
@@ -229,6 +230,7 @@ def _converged(
     rough = known or _run(law, count, budget, close, FEWER, reach=reach)
     if not rough.inertia.complete:  # a finer run would not be complete either
         return rough
+    check_whole_width(rough.impact_history.problem, rough.max_contact_radius)
     coarser = None
     if _next_work(law, 2 * count, rough) > min(LONG, contact_sequence.WORK, budget.left):
         coarser = _by_coarser(rough, law, count, budget)

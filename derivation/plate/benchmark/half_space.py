@@ -96,7 +96,7 @@ run 0
 
 
 def lammps(steps: int) -> tuple[float, float]:
-    """Return error and run time [s] of the contact time with a granular Hertz wall.
+    """Return error and run time [s] of the contact time with a granular Hertz plane.
 
     The end is interpolated linearly between two steps.
     """

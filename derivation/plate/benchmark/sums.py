@@ -135,7 +135,7 @@ def u_transform(sums: Array, estimates: Array, places: Array) -> Array:
 
 
 @cache
-def wall_nodes(count: int, digits: int, double_exponential: bool, bits: int) -> list[list[arb]]:
+def lateral_nodes(count: int, digits: int, double_exponential: bool, bits: int) -> list[list[arb]]:
     """Return nodes y and weights times K0/(I0 y^3) of the finite-radius integral, alpha <= 1.
 
     Double exponential: the trapezoidal rule in t, y = exp(t - exp(-t)), which removes the
@@ -179,7 +179,7 @@ def split(
         return f"needs {modes} modes for each point in slow arithmetic" if dear else None
 
     def prepare(case: BenchmarkCase, ar: Arithmetic) -> Call:
-        y, W = (ar.array(row) for row in wall_nodes(nodes, end, double_exponential, ar.bits))
+        y, W = (ar.array(row) for row in lateral_nodes(nodes, end, double_exponential, ar.bits))
         R, h, b = (ar.number(x) for x in (case.R, case.h, case.b))
         j, slope = ar.zeros(modes_of(case, share))
         phi, pi = j / b, ar.pi()
@@ -194,7 +194,7 @@ def split(
             for k in range(0, a.size, _ELEMENTS // 64):
                 part = slice(k, k + _ELEMENTS // 64)
                 t = (a[part] / b)[:, None] * y
-                found[part] -= factor * (ar.wall_shape(t) * W).sum(axis=-1)
+                found[part] -= factor * (ar.lateral_shape(t) * W).sum(axis=-1)
             return found
 
         return call

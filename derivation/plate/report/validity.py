@@ -13,7 +13,7 @@ from derivation.scene.effects import edge, non_hertzian_pressure, spherical_prof
 from generated.simple_impact import PLATES
 
 FORMULAS = (
-    FACTOR, "P", "delta_half", "delta_side", "delta_thickness", "delta_reduced", "c_1_thin",
+    FACTOR, "P", "delta_half", "delta_lateral", "delta_thickness", "delta_reduced", "c_1_thin",
     "delta_slope", "contact_work", "contact_integrand",
 )  # fmt: skip
 """The plate factor, the law, its small contacts, its slope, and what an impact makes of it."""

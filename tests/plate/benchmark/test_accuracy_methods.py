@@ -112,7 +112,7 @@ def test_arithmetics_agree_with_interval_arithmetic(ar, right: float) -> None:
     with ar.context(), exact.context():
         y = ar.array(given)
         balls = exact.array([as_ball(x) for x in y])
-        for name in ("shape", "wall_shape", "excess"):
+        for name in ("shape", "lateral_shape", "excess"):
             values, reference = getattr(ar, name)(y), getattr(exact, name)(balls)
             assert min(map(digits, values, reference, [60] * len(y))) > right, name
         turned = [as_ball(x.imag) for x in ar.complex_shape(y)]
@@ -159,9 +159,11 @@ def test_coefficients_agree_with_the_reference(h: float, order: int) -> None:
 
 
 @pytest.mark.parametrize("double_exponential", [True, False])
-def test_both_quadrature_rules_give_the_moments_of_the_side_wall(double_exponential: bool) -> None:
+def test_both_quadrature_rules_give_the_moments_of_the_lateral_surface(
+    double_exponential: bool,
+) -> None:
     """The nodes and weights, which include 1/y^3, integrate y^n K0/I0 as the Arb reference does."""
-    nodes, weights = sums.wall_nodes(64, 16, double_exponential, 120)
+    nodes, weights = sums.lateral_nodes(64, 16, double_exponential, 120)
     y, w = (np.array([float(x) for x in column]) for column in (nodes, weights))
     for n in (0, 2, 4):
         reference = float(contact_balls.kappa(n, 20))

@@ -133,7 +133,7 @@ def _explain(study: "Study", scheduler: str | None, json: str | None) -> None:
     found = forecast(study, 1 if scheduler else os.cpu_count() or 1)
     if write_json_output(found.to_json, json):
         OUT.say(found.to_text())
-    warn([f"some points are rejected: {text}" for text in found.refused])
+    warn([f"some points are rejected: {text}" for text in found.rejected])
 
 
 def _run(

@@ -49,11 +49,11 @@ class Rows:
     model_error
         Largest relative error of the model itself [1], as in `Result`; NaN without a result.
     status
-        "finished", "incomplete" or "refused".
+        "finished", "incomplete" or "rejected".
     reason
-        Why a row is refused or incomplete; else its warnings, joined by "; ", if there are any.
+        Why a row is rejected or incomplete; else its warnings, joined by "; ", if there are any.
     effects
-        Names of the effects included, joined by spaces; empty if the row is refused.
+        Names of the effects included, joined by spaces; empty if the row is rejected.
     """
 
     results: dict[str, NDArray[np.float64]]
@@ -83,7 +83,7 @@ def solve(
     Returns
     -------
     Rows
-        The results of `simulate` for the scene of each row; an invalid row is refused.
+        The results of `simulate` for the scene of each row; an invalid row is rejected.
 
     Raises
     ------
@@ -111,7 +111,7 @@ def _empty(count: int) -> Rows:
     """Return rows without results."""
     results = {name: np.full(count, np.nan) for name in UNITS}
     bound, model_error = np.full(count, np.nan), np.full(count, np.nan)
-    status = np.full(count, "refused", dtype="<U10")
+    status = np.full(count, "rejected", dtype="<U10")
     reason, effects = np.full(count, "", dtype=object), np.full(count, "", dtype=object)
     return Rows(results, bound, model_error, status, reason, effects)
 

@@ -71,7 +71,7 @@ def sweep(
     scheduler
         Address of a Dask scheduler, whose workers are used instead of processes.
     retry
-        Whether to compute refused and incomplete points of a continued study again.
+        Whether to compute rejected and incomplete points of a continued study again.
 
     Returns
     -------
@@ -84,7 +84,7 @@ def sweep(
     Raises
     ------
     SceneError
-        If a key, value or option is not valid, all points are refused, or, with `sensitivity`, a
+        If a key, value or option is not valid, all points are rejected, or, with `sensitivity`, a
         point has no result; for more than two million points with `sensitivity`, or without `out`
         as .nc or .zarr.
 
@@ -173,7 +173,7 @@ def write_results(
     Raises
     ------
     SceneError
-        If all points are refused or, for sensitivities, a point has no result.
+        If all points are rejected or, for sensitivities, a point has no result.
     """
     _check_some(store)
     if out is not None:
@@ -182,15 +182,15 @@ def write_results(
 
 
 def _check_some(store: Store) -> None:
-    """Raise an error if every point is refused."""
+    """Raise an error if every point is rejected."""
     for start, _, table in store.tables(2**16):
         status = column(table, "status")
-        if (status != "refused").any():
+        if (status != "rejected").any():
             return
         if start == 0:
             first = column(table, "reason")[0]
     values = ", ".join(f"{k} = {v[0]:.6g}" for k, v in store.study.plan.points(0, 1).items())
     raise SceneError(
         "sweep: expected a point that can be simulated, but all "
-        f"{store.study.plan.size:,} are refused; at {values}: {first}"
+        f"{store.study.plan.size:,} are rejected; at {values}: {first}"
     )

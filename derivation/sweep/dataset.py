@@ -24,7 +24,7 @@ LABELS = {name: (name.replace("_", " "), unit) for name, unit in UNITS.items()} 
 }
 """Long name and unit of each number."""
 TEXT_LABELS = {
-    "status": "finished, incomplete or refused",
+    "status": "finished, incomplete or rejected",
     "reason": "why there is no result, or warnings",
     "effects": "included effects",
 }

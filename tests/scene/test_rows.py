@@ -39,7 +39,7 @@ def check(scene: Scene, columns: Mapping[str, Array], rtol: float | None = None)
     for row in range(len(found.bound)):
         one, reason = simulated(row_of(scene, columns, row), rtol)
         if one is None:
-            assert (found.status[row], found.reason[row]) == ("refused", reason)
+            assert (found.status[row], found.reason[row]) == ("rejected", reason)
             assert found.effects[row] == ""
             assert all(np.isnan(values[row]) for values in found.results.values())
             continue
@@ -163,7 +163,7 @@ def test_rejected_and_separately_solved_rows_are_simulations() -> None:
     scene = scene_with()
     speeds = np.array([0.2, -1.0, np.nan, 0.0, 1e4, 0.3])
     found = check(scene, {"impact.speed": speeds}, 1e-1)
-    assert found.status.tolist() == ["finished", *["refused"] * 4, "finished"]
+    assert found.status.tolist() == ["finished", *["rejected"] * 4, "finished"]
     thin = {"plate.thickness": np.array([0.004, 0.05]), "impact.speed": np.array([2.0, 0.2])}
     assert "non_hertzian_pressure" in check(scene, thin, 1e-4).effects[0]
 

@@ -196,7 +196,7 @@ def _pressure() -> Iterator[HardCase]:
         why = f"h/b = {switch:.4g}, beyond which the kernel takes a mode less"
         yield from _around_switch(PRESSURE, ("contact",), why, given)
     low = pressure_tables.LOW
-    nodes = [y for y in pressure_tables.wall_places() if low / y < 0.9]
+    nodes = [y for y in pressure_tables.lateral_places() if low / y < 0.9]
     for y in (nodes[0], nodes[len(nodes) // 2], nodes[-1]):
         given = exact_inputs(a=around(low / y), h=1.0, b=1.0, **constants)
         why = f"y a/b = {low:g} at y = {y:.4g}, where sinh(x)/x ceases to be a power series"

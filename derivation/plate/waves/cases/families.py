@@ -20,7 +20,7 @@ from generated.wave_numbers import NEAR, SHALLOW, SMALL
 WAVES = "switch points of the plate's waves"
 HARD_WAVES = "waves of the plate"
 
-LOWEST = ("bending_frequency", "bending_residue", "bending_share")
+LOWEST = ("bending_frequency", "bending_residue", "bending_fraction")
 BRANCHES = ("antisymmetric_frequency", "antisymmetric_residue", "symmetric_frequency",
             "symmetric_residue")  # fmt: skip
 INFLUENCE = "dynamic_influence"

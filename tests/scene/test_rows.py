@@ -156,7 +156,7 @@ def test_rows_without_a_required_density_are_rejected_in_arrays(
     scene = read({**tables, "plate": plate})
     assert "plate.density" in check(scene, columns).reason[0]
     monkeypatch.setattr(many, "simulate", never)
-    assert set(solve(scene, columns).status) == {"refused"}
+    assert set(solve(scene, columns).status) == {"rejected"}
 
 
 def test_rejected_and_separately_solved_rows_are_simulations() -> None:

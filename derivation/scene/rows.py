@@ -19,7 +19,7 @@ from derivation.scene.effects.effect import Array
 from derivation.scene.impact import selection_tolerance, simulate
 from derivation.scene.keys import number_key
 from derivation.scene.result import UNITS
-from derivation.scene.rows_selection import Group, Refused, selected
+from derivation.scene.rows_selection import Group, Rejected, selected
 from derivation.scene.rows_warnings import warnings_of_rows
 from derivation.scene.scene import OUTPUTS, Scene, SceneError, read
 from derivation.scene.selection import check_enabled
@@ -183,7 +183,7 @@ class _Block:
             return
         wanted = scene.effects.model_dump()
         for group in selected(model, wanted, np.full(len(rows), share), outputs):
-            if isinstance(group, Refused):
+            if isinstance(group, Rejected):
                 self.found.reason[self.start + rows[group.rows]] = group.reason
                 yield rows[group.rows]
             else:

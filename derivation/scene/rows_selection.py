@@ -51,7 +51,7 @@ class Group:
 
 
 @dataclass(frozen=True)
-class Refused:
+class Rejected:
     """Rows that an included effect cannot be computed for, because a key is missing."""
 
     rows: Rows
@@ -60,7 +60,7 @@ class Refused:
 
 def selected(
     model: Model, wanted: Mapping[str, Any], rtol: Array, outputs: Sequence[str]
-) -> list[Group | Refused]:
+) -> list[Group | Rejected]:
     """Group rows by their included effects; rows in no group are simulated singly.
 
     These are rows of laws that are not computed in arrays, invalid rows, and rows for which
@@ -77,7 +77,7 @@ def selected(
     outputs
         The results that the tolerance applies to.
     """
-    found: list[Group | Refused] = []
+    found: list[Group | Rejected] = []
     for rows in _alike(model, len(rtol)):
         part = model.take(rows)
         try:
@@ -98,7 +98,7 @@ def selected(
             try:
                 given.check(ContactLaw(part.take(0), included))
             except SceneError as error:
-                found.append(Refused(rows[own], str(error)))
+                found.append(Rejected(rows[own], str(error)))
                 continue
             group, others = _step(given, part, included, own, rtol[rows], outputs)
             if group is not None:

@@ -19,7 +19,7 @@ from derivation.scene.effects.effect import Array
 from derivation.scene.impact import selection_tolerance, simulate
 from derivation.scene.keys import number_key
 from derivation.scene.result import UNITS
-from derivation.scene.rows_selection import Group, selected
+from derivation.scene.rows_selection import Group, Rejected, selected
 from derivation.scene.rows_warnings import warnings_of_rows
 from derivation.scene.scene import OUTPUTS, Scene, SceneError, read
 from derivation.scene.selection import check_enabled
@@ -183,7 +183,11 @@ class _Block:
             return
         wanted = scene.effects.model_dump()
         for group in selected(model, wanted, np.full(len(rows), share), outputs):
-            yield rows[self._static(group, rows[group.rows], scene, rtol)]
+            if isinstance(group, Rejected):
+                self.found.reason[self.start + rows[group.rows]] = group.reason
+                yield rows[group.rows]
+            else:
+                yield rows[self._static(group, rows[group.rows], scene, rtol)]
 
     def _readable(self, rows: list[int]) -> Scene | None:
         """Return the scene of the first valid row; all rows have the same keys."""

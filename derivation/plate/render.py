@@ -14,7 +14,7 @@ from derivation.engine.emit.kernels import (
     rows_by_module,
 )
 from derivation.engine.emit.package import (
-    Copy,
+    CopiedModule,
     Module,
     Planned,
     common_modules,
@@ -94,7 +94,7 @@ def modules(kernels: tuple[EmittedKernel, ...]) -> tuple[Planned, ...]:
         *common_modules(known),
         own("as_printed", {"functions": printed_rows()}),
         *(x.make() for x in computed_modules()),
-        *(Copy(x.name, x.file, "generated", budgets, x.notes()) for x in runtime_modules()),
+        *(CopiedModule(x.name, x.file, "generated", budgets, x.notes()) for x in runtime_modules()),
         own(
             "manifest",
             {

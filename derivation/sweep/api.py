@@ -15,7 +15,7 @@ from derivation.sweep.run import compute
 from derivation.sweep.sensitivity import Sensitivities, sensitivities
 from derivation.sweep.store import Store, open_store
 from derivation.sweep.study import Study
-from derivation.sweep.write import check_out, write
+from derivation.sweep.write import check_output_file, write
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -162,7 +162,7 @@ def check(study: Study, out: Path | None) -> None:
     if study.rtol is not None:
         check_rtol(study.rtol)
     if out is not None:
-        check_out(out)
+        check_output_file(out)
 
 
 def write_results(

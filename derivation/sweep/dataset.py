@@ -50,8 +50,8 @@ def attributes(study: Study) -> dict[str, Any]:
     accuracy = study.scene.accuracy
     rtol = accuracy.rtol if study.rtol is None and accuracy is not None else study.rtol
     given = {"seed": study.plan.seed, "rtol": rtol}
-    about = {"scene": json.dumps(study.base["scene"]), "version": study.base["version"]}
-    return about | {name: value for name, value in given.items() if value is not None}
+    metadata = {"scene": json.dumps(study.base["scene"]), "version": study.base["version"]}
+    return metadata | {name: value for name, value in given.items() if value is not None}
 
 
 def check_memory(study: Study, what: str) -> None:

@@ -49,7 +49,7 @@ GROUPS = {
     "switch points of the contact law": 90,
     "Bessel zeros by index": 24,
     "doubles next to zeros of J0 and J1": 12,
-    "moments by index": 30,
+    "series constants by index": 30,
     "switch points of the closed formulas": 50,
     "switch points of the sums over modes": 30,
     "switch points of the edge": 56,

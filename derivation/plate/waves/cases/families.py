@@ -186,7 +186,7 @@ def _shapes() -> Iterator[HardCase]:
         for kernel, same in _other_arguments().items():
             given = exact_inputs(x=_SINGLES) | same
             yield HardCase(HARD_WAVES, kernel, cause, given, form)
-    cause = "Not a number."
+    cause = "An empty array."
     for kernel, same in _other_arguments().items():
         yield HardCase(HARD_WAVES, kernel, cause, exact_inputs(x=_NONE) | same, "empty")
     both = exact_inputs(x=_SINGLES, nu=(-0.5, 0.25))

@@ -14,6 +14,7 @@ from derivation.scene.dynamic_problem import DynamicProblem, ImpactState
 from derivation.scene.effects.effect import Array
 from derivation.scene.flight import meeting
 from derivation.scene.scene import IncompleteError
+from derivation.scene.separation import last_element, released
 from derivation.scene.time_element import LOST, A, P, TimeElement, element
 from derivation.scene.yield_events import UncutError, next_branch
 from derivation.scene.yielding import Yielding
@@ -103,6 +104,7 @@ def impact_history(
     tolerance: float = TOLERANCE,
     work: float = WORK,
     enough: Callable[[tuple[ContactRun, ...]], bool] | None = None,
+    watch: Callable[[float], None] | None = None,
 ) -> ImpactHistory:
     """Simulate an impact from the first contact on, by elements of n nodes.
 
@@ -115,6 +117,8 @@ def impact_history(
     enough
         Function of the contacts so far that returns whether no more are needed. It is called after
         1, 2, 4, ... contacts.
+    watch
+        Function that `contact` calls with radii, to raise an error if the simulation is useless.
 
     Returns
     -------
@@ -131,7 +135,7 @@ def impact_history(
     while True:
         most = min(ELEMENTS, tried + steps_of(problem, n, work - used))
         try:
-            touching = contact(problem, n, state, t, radius, tolerance, tried, most)
+            touching = contact(problem, n, state, t, radius, tolerance, tried, most, watch)
             found.append(touching)
             tried, used = tried + touching.tried, used + touching.tried * weight
             if enough and not len(found) & (len(found) - 1) and enough(tuple(found)):
@@ -203,6 +207,7 @@ def contact(
     tolerance: float = TOLERANCE,
     tried: int = 0,
     most: int = ELEMENTS,
+    watch: Callable[[float], None] | None = None,
 ) -> ContactRun:
     """Simulate a contact, element by element, until the force vanishes.
 
@@ -214,6 +219,8 @@ def contact(
         As for `impact_history`.
     tried, most
         Number of elements computed for earlier contacts, and the largest number in all.
+    watch
+        Function that is called with the radius, in units of the problem, when it has decreased.
 
     Raises
     ------
@@ -271,7 +278,7 @@ def contact(
         onset = problem.retardation_time and not x
         least = ROUGH * tolerance * float(largest[P, 0]) if onset else 0.0
         if ending and (end := made.element.fall(P, least)) is not None:
-            last = _let_go(problem, n, made, end, state, radius, enough)
+            last = last_element(problem, n, made, end, state, radius, enough)
             ended = origin + (last.element.x + last.element.length) ** ONSET
             pieces = (*found, last)
             tries = step + 1 - tried
@@ -282,6 +289,8 @@ def contact(
         found.append(made)
         x = made.element.x + made.element.length
         _check_weight(problem, x)
+        if watch and made.radius < radius:
+            watch(radius)
         state, radius, scale = made.end, made.radius, largest
         check_width(problem, radius)
         # Except near the onset, the allowed length is uniform in time, not in x.
@@ -290,7 +299,7 @@ def contact(
         length = min(LONGEST, (x**ONSET + more) ** (1.0 / ONSET) - x)
         left = _left(made)
         if left < CLOSED * x**ONSET and not problem.retardation_time:
-            more, after = _released(problem, made, left)
+            more, after = released(problem, made, left)
             ended = start + x**ONSET + more
             tries, pieces = step + 1 - tried, tuple(found)
             return ContactRun(start, ended, first, pieces, begin, after, tries, problem.yielding)
@@ -359,42 +368,3 @@ def _check_weight(problem: DynamicProblem, x: float) -> None:
             "the sphere does not rebound because its weight holds it on the plate",
             "increase impact.speed, or remove impact.gravity",
         )
-
-
-def _let_go(
-    problem: DynamicProblem,
-    n: int,
-    made: TimeElement,
-    end: float,
-    state: ImpactState,
-    radius: float,
-    enough: float = NEXT,
-) -> TimeElement:
-    """Return the element shortened to end where its force vanishes."""
-    for _ in range(3):
-        x = made.element.x
-        guess = made.element.slope_at(x + (end - x) * radau(n).x)
-        shorter = element(problem, n, x, end - x, state, radius, guess, enough)
-        if shorter is None:
-            break
-        made, end = shorter, shorter.element.zero_near_end(P)
-    return made
-
-
-def _released(problem: DynamicProblem, last: TimeElement, left: float) -> tuple[float, ImpactState]:
-    """Return duration and state at the end of the last step, in which P falls as t^(3/2)."""
-    state, force = last.end, float(np.sum(last.element.rows[P]))
-    after = state
-    for _ in range(3):
-        flown = problem.flown(state, left)
-        push, shift = 0.4 * left, 2.0 / 7.0 * left * left
-        pulled = problem.inverse_modal_mass * last.felt[problem.contact.modes.shape]
-        after = ImpactState(
-            flown.displacement - force * shift,
-            flown.velocity - force * push,
-            flown.q + pulled * shift,
-            flown.q_dot + pulled * push,
-            flown.approach - force * shift - float(np.sum(pulled)) * shift,
-        )
-        left += after.approach / after.separation_speed
-    return left, after._replace(approach=0.0)

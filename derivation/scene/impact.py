@@ -132,7 +132,8 @@ def _with_constant(scene: Scene, accuracy: AchievedAccuracy) -> AchievedAccuracy
 
     error = error_of(scene)
     found = replace(accuracy, constant=Part(error, ESTIMATED))
-    if found.rtol is not None and found.bound > found.rtol:
+    # An incomplete impact has no bound.
+    if found.rtol is not None and found.rtol < found.bound < math.inf:
         raise inaccurate_constant(found.bound, error, found.rtol)
     return found
 

@@ -156,7 +156,8 @@ def _polished(tables: dict[str, Any], key: str, goal: float) -> float | None:
             found = _accurate(tables, key, math.exp(x))
         except SceneError:
             return None
-        _check_error(tables, DYNAMIC * found.bound)
+        # The results have at least about the error of the measurement, and that of the constant.
+        _check_error(tables, DYNAMIC * found.bound, found.bound)
         before, off = off, found.restitution / goal - 1.0
         if abs(off) <= AGREES * found.bound:
             return math.exp(x)
@@ -185,11 +186,17 @@ def error_of(scene: "Scene") -> float:
     return error * CHANGE / abs(math.log(changed.restitution / found.restitution))
 
 
-def _check_error(tables: dict[str, Any], error: float) -> None:
-    """Raise an error if a constant from a measurement is not accurate enough for the results."""
+def _check_error(tables: dict[str, Any], error: float, others: float) -> None:
+    """Raise an error if a constant from a measurement is not accurate enough for the results.
+
+    Parameters
+    ----------
+    error, others
+        Error of the results due to the constant, and their other errors [1].
+    """
     rtol = tables["accuracy"]["rtol"] if "accuracy" in tables else math.inf
-    if error > rtol:
-        raise inaccurate_constant(error, error, rtol)
+    if error + others > rtol:
+        raise inaccurate_constant(error + others, error, rtol)
 
 
 def inaccurate_constant(bound: float, error: float, rtol: float) -> SceneError:

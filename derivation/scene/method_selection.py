@@ -77,7 +77,7 @@ def solve_selected(
     if law.of_paper:
         found, accuracy = solve(law.model, rest)
     elif law.dynamic:
-        found, accuracy = _with_inertia(selected, rtol)
+        found, accuracy = _with_inertia(selected, rtol, within)
     else:
         found, accuracy = _composed(law)
     accuracy = replace(
@@ -167,12 +167,12 @@ def _cancellation(law: ContactLaw, a: float) -> float:
 
 
 def _with_inertia(
-    selected: SelectedEffects, rtol: float | None
+    selected: SelectedEffects, rtol: float | None, within: bool
 ) -> tuple[Results, AchievedAccuracy]:
     """Return the outputs with plate inertia, with their accuracy."""
     from derivation.scene import waves
 
-    law, found = selected.law, dynamic_impact(selected, rtol)
+    law, found = selected.law, dynamic_impact(selected, rtol, within)
     return found.numbers, AchievedAccuracy(
         "full",
         None,
@@ -182,18 +182,36 @@ def _with_inertia(
     )
 
 
-def dynamic_impact(selected: SelectedEffects, rtol: float | None) -> "DynamicImpact":
+def dynamic_impact(
+    selected: SelectedEffects, rtol: float | None, within: bool = True
+) -> "DynamicImpact":
     """Return the impact on a plate with inertia, to a tolerance.
+
+    Parameters
+    ----------
+    within
+        Whether the tolerance must be met, so that the simulation may end early.
 
     Raises
     ------
     SceneError
-        If the impact exceeds the law's range, or the time integration fails.
+        If the impact exceeds the law's range, the time integration fails, or an early estimate of
+        the error exceeds the tolerance.
     """
     from derivation.scene import waves
+    from derivation.scene.reach import OutOfReachError
 
-    with np.errstate(all="ignore"):  # extreme scenes give NaN, which is checked
-        return waves.impact(selected.law, waves.goal(remaining(selected, rtol)), selected.outputs)
+    rest = remaining(selected, rtol)
+    need = math.inf if rest is None or not within else rest
+    try:
+        with np.errstate(all="ignore"):  # extreme scenes give NaN, which is checked
+            return waves.impact(selected.law, waves.goal(rest), selected.outputs, need)
+    except OutOfReachError as error:
+        least = math.expm1(math.log1p(selected.error) + math.log1p(error.least))
+        raise SceneError(
+            f"rtol: expected at least about {rounded_up(least)}, because {error.why}, got "
+            f"{rtol:.3g}; increase the tolerance, or {error.remedy}"
+        ) from None
 
 
 def moved(law: ContactLaw) -> motion.Motion:

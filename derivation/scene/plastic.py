@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from derivation.scene import contact_sequence, wave_motion
+from derivation.scene.collocation import largest_of
 from derivation.scene.contact_sequence import ContactRun
 from derivation.scene.contact_tables import contact_of
 from derivation.scene.dynamic_problem import DynamicProblem
@@ -86,9 +87,8 @@ def _motion(problem: DynamicProblem, n: int) -> PlasticMotion:
     touching = contact_sequence.contact(problem, n, problem.begin(), 0.0, 0.0)
     after, branch = touching.after, touching.yielding
     assert branch is not None
-    depth, force, radius = (
-        max(piece.element.largest(row) for piece in touching.pieces) for row in (Z, P, A)
-    )
+    elements = [piece.element for piece in touching.pieces]
+    depth, force, radius = (largest_of(elements, row) for row in (Z, P, A))
     energy = problem.m * problem.v0 * problem.v0
     balance = EnergyBalance(
         initial_kinetic=0.5 * energy,

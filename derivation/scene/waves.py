@@ -14,13 +14,12 @@ from functools import lru_cache
 import numpy as np
 
 from derivation.scene import contact_sequence
+from derivation.scene.contact_errors import check_whole_width
 from derivation.scene.contact_sequence import ENOUGH, ContactRun, ImpactHistory, expected_work
-from derivation.scene.contact_tables import contact_of
 from derivation.scene.dynamic_problem import DynamicProblem
 from derivation.scene.dynamic_results import UNKNOWN, dynamic_impact_of
-from derivation.scene.effects.inertia import WIDER
 from derivation.scene.law import ContactLaw
-from derivation.scene.modal import ModalPlate, Modes, bending_share, plate_of
+from derivation.scene.modal import Modes, plate_of
 from derivation.scene.mode_count import (
     LAST,
     affordable,
@@ -31,10 +30,11 @@ from derivation.scene.mode_count import (
     fast,
     followed,
 )
-from derivation.scene.model import Model
+from derivation.scene.reach import Reach
 from derivation.scene.scene import OUTPUTS, SceneError
 from derivation.scene.wave_motion import DynamicImpact
-from derivation.scene.yielding import units_of, yielding_of
+from derivation.scene.wave_problem import echo_time as echo_time
+from derivation.scene.wave_problem import problem_of as problem_of
 
 NODES, MANY = (32, 24, 16), (500, 5000)
 """Nodes of an element, and numbers of modes above which an element has fewer nodes."""
@@ -51,6 +51,10 @@ fraction of half its period in contact; random scenes have at least 0.77."""
 INTEGRATION, GROWTH, ROUNDING = 10.0, 1e-12, 2e-12
 """Tested bounds [1]: error of the results over the tolerance of the time elements and the number of
 contacts; rounding error amplified by contacts, over the cube of their number; other rounding."""
+LONG = 1.5e6
+"""Expected work of the second run above which coarser runs first check the first one."""
+FOURTH = 8
+"""Number of modes from which a run with a quarter of them is meaningful."""
 WORK = 4e7
 """Largest work of all runs of an impact, in the units of `contact_sequence.WORK`."""
 
@@ -94,7 +98,10 @@ class Budget:
 
 @lru_cache(maxsize=4)
 def impact(
-    law: ContactLaw, goal: float = LOOSE, outputs: tuple[str, ...] = OUTPUTS
+    law: ContactLaw,
+    goal: float = LOOSE,
+    outputs: tuple[str, ...] = OUTPUTS,
+    need: float = math.inf,
 ) -> DynamicImpact:
     """Return the impact by a law with inertia.
 
@@ -109,19 +116,23 @@ def impact(
         goal leaves of the tolerance.
     outputs
         The results that the goal applies to.
+    need
+        Largest error by omitted modes and branches with which the results are of use [1].
 
     Raises
     ------
+    OutOfReachError
+        If an early estimate of this error exceeds `need`.
     SceneError
         If an impact on a plate that does not deflect exceeds the range of the law, the modes of the
         plate are too slow or too many, or the first contact cannot be computed to its end.
     """
     _check_heavy(law)
-    budget = Budget(WORK)
+    budget, reach = Budget(WORK), Reach(law, outputs, need)
     rough: DynamicImpact | None = None
     if law.model.inertia.branches == "auto" and not law.viscous:
         law, rough = _branched(law, goal, outputs, budget)
-    found, first = _converged(law, goal, outputs, budget, rough), law.model.b
+    found, first = _converged(law, goal, reach, budget, rough), law.model.b
     while law.model.inertia.infinite_plate and _edge_heard(found):
         if law.model.b > WIDEST * first:
             raise SceneError(
@@ -129,7 +140,7 @@ def impact(
                 f"{found.inertia.total_time:.6g} s; use a thicker plate or a lighter sphere"
             )
         law = replace(law, model=replace(law.model, b=2.0 * law.model.b))
-        found = _converged(law, goal, outputs, budget)
+        found = _converged(law, goal, reach, budget)
     return found
 
 
@@ -203,7 +214,7 @@ def _edge_heard(found: DynamicImpact) -> bool:
 def _converged(
     law: ContactLaw,
     goal: float,
-    outputs: tuple[str, ...],
+    reach: Reach,
     budget: Budget,
     known: DynamicImpact | None = None,
 ) -> DynamicImpact:
@@ -216,9 +227,15 @@ def _converged(
     """
     count, close = affordable(law), time_tolerance(goal)
     check_followed(law, 2 * count)
-    rough = known or _run(law, count, budget, close, FEWER)
+    rough = known or _run(law, count, budget, close, FEWER, reach=reach)
     if not rough.inertia.complete:  # a finer run would not be complete either
         return rough
+    check_whole_width(rough.impact_history.problem, rough.max_contact_radius)
+    coarser = None
+    if _next_work(law, 2 * count, rough) > min(LONG, contact_sequence.WORK, budget.left):
+        coarser = _by_coarser(rough, law, count, budget)
+        if coarser and coarser.inertia.left(reach.outputs)[0] <= goal:
+            return coarser
     best: DynamicImpact | None = None
     while True:
         try:
@@ -228,27 +245,30 @@ def _converged(
                 raise
             return best  # the last run that was complete
         if not found.inertia.complete:
-            return best or found
+            unstarted = found.impact_history.problem is rough.impact_history.problem
+            return best or (coarser if unstarted else None) or found
         best, count, rough = _judged(rough, found), 2 * count, found
-        change, beyond = best.inertia.left(outputs)
+        change, beyond = best.inertia.left(reach.outputs)
         # Where omitted branches matter more than additional modes, a tenth of them is small enough.
         enough = goal if beyond <= goal / SHARE else max(goal, 0.1 * beyond)
         if law.model.inertia.modes:
             return _of_chosen_modes(best, law, count, budget)
         near = change <= LAST * enough
-        if change <= enough or beyond_limits(law, count, _work(best.impact_history), near):
+        used = _work(best.impact_history)
+        if change <= enough or beyond_limits(law, count, used, near):
             return best
+
+
+def _next_work(law: ContactLaw, count: int, rough: DynamicImpact) -> float:
+    """Return the expected work of a run with a number of bending modes."""
+    problem = problem_of(law, count)
+    return expected_work(problem, nodes_for(problem), rough.impact_history)
 
 
 def _work(history: ImpactHistory) -> float:
     """Return the work of the accepted time elements, in the units of `WORK`."""
     pieces = [piece.element for touching in history.contacts for piece in touching.pieces]
     return len(pieces) * contact_sequence.weight_of(history.problem, pieces[0].slope.size)
-
-
-def problem_of(law: ContactLaw, count: int) -> DynamicProblem:
-    """Return the dynamic problem of a law with a number of bending modes."""
-    return _problem(law, plate_of(law, count))
 
 
 def _run(
@@ -258,6 +278,7 @@ def _run(
     tolerance: float,
     fewer_nodes: int = 0,
     coarse: ImpactHistory | None = None,
+    reach: Reach | None = None,
 ) -> DynamicImpact:
     """Return the impact with a number of bending modes.
 
@@ -272,8 +293,10 @@ def _run(
         Number of nodes by which the elements are reduced.
     coarse
         A run with fewer modes, if there is one.
+    reach
+        The tolerance, if the run ends when omitted wave branches exceed it.
     """
-    problem = _problem(law, plate_of(law, count))
+    problem = problem_of(law, count)
     n = nodes_for(problem) - fewer_nodes
     work = min(contact_sequence.WORK, budget.left)
     if coarse and expected_work(problem, n, coarse) > work:
@@ -281,7 +304,9 @@ def _run(
         while fewer > 1 and expected_work(problem_of(law, fewer), n, coarse) > work:
             fewer //= 2
         return dynamic_impact_of(law, _unchecked(coarse, problem, fewer))
-    history = contact_sequence.impact_history(problem, n, tolerance, work)
+    enough = reach.enough(law, problem) if reach else None
+    watch = reach.watch(law, problem.a) if reach else None
+    history = contact_sequence.impact_history(problem, n, tolerance, work, enough, watch)
     budget.left -= history.work
     return dynamic_impact_of(law, history)
 
@@ -327,42 +352,31 @@ def _of_chosen_modes(
     return replace(found, inertia=replace(found.inertia, mode_convergence=change))
 
 
+def _by_coarser(
+    found: DynamicImpact, law: ContactLaw, count: int, budget: Budget
+) -> DynamicImpact | None:
+    """Return the first run with an error estimate by coarser ones, less work than a finer one.
+
+    As in `_of_chosen_modes`, the larger change since half and since a quarter as many modes counts.
+    None if the scene gives a number of modes, the modes of the first run are slower than the
+    contact, or a coarser run fails or is incomplete.
+    """
+    if law.model.inertia.modes or count < FOURTH or not fast(law, count):
+        return None
+    changes = []
+    for fewer in (count // 4, count // 2):
+        try:
+            coarse = _run(law, fewer, budget, time_tolerance(LOOSE), FEWER)
+        except SceneError:  # so few modes may bend the plate more than the sphere is curved
+            return None
+        if not coarse.inertia.complete:
+            return None
+        changes.append(_judged(coarse, found).inertia.mode_convergence)
+    time, depth, force, radius, speed = map(max, *changes)
+    change = time, depth, force, radius, speed
+    return replace(found, inertia=replace(found.inertia, mode_convergence=change))
+
+
 def _unjudged(found: DynamicImpact) -> DynamicImpact:
     """Return a run without an error estimate for its omitted modes."""
     return replace(found, inertia=replace(found.inertia, mode_convergence=UNKNOWN))
-
-
-def _problem(law: ContactLaw, plate: ModalPlate) -> DynamicProblem:
-    """Return the scene in units of the impact on a plate that does not deflect."""
-    model, (a, T) = law.model, units_of(law)
-    rest = law.only(lambda e: e.static and not e.other_edge)
-    contact = contact_of(rest, plate, min(WIDER * a, law.limit), model.inertia.pointwise)
-    retardation = model.retardation_time / T if law.viscous else 0.0
-    heard = echo_time(model) / T if model.inertia.infinite_plate else math.inf
-    weight = law.gravity * (T / model.v0)
-    units = a, T, model.m, model.v0
-    share = bending_share(model, plate.modes) if retardation else 1.0
-    limit = float(law.limit), law.limit_in_words
-    return DynamicProblem(
-        contact,
-        *units,
-        weight,
-        retardation,
-        heard,
-        law.damping_ratio,
-        yielding_of(law),
-        *limit,
-        share,
-    )
-
-
-def echo_time(model: Model) -> float:
-    """Return the time [s] before which no wave returns from the edge: 2 b over the largest speed.
-
-    The group speed of A0 is at most 1.1 times that of shear waves; that of any branch is at most
-    that of pressure waves.
-    """
-    fastest = 1.1
-    if model.inertia.branches == "all":
-        fastest = math.sqrt((model.lam + 2.0 * model.mu) / model.mu)
-    return 2.0 * model.b / (fastest * model.shear_speed)

@@ -19,6 +19,7 @@ from derivation.scene.effects import WHOLE_PLATE
 from derivation.scene.law import ContactLaw
 from derivation.scene.model import InertiaSettings, Model
 from derivation.scene.scene import IncompleteError
+from derivation.scene.wave_motion import IRREGULAR
 
 BALL = Model(
     R=0.02, m=0.25, v0=1.0, h=0.005, b=0.15, lam=40e9, mu=27e9, density=2700.0,
@@ -127,7 +128,7 @@ def test_search_in_a_long_flight_respects_the_work_limit() -> None:
 
 
 def test_run_above_the_work_limit_is_not_started(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The coarser run, which has no error estimate, is returned as incomplete."""
+    """Coarser runs judge the first run; without them it is returned as incomplete."""
     wide = replace(BALL, b=1.5, inertia=InertiaSettings(branches="A0"))
     law = ContactLaw(wide, EFFECTS)
     waves.impact.cache_clear()
@@ -142,14 +143,24 @@ def test_run_above_the_work_limit_is_not_started(monkeypatch: pytest.MonkeyPatch
     whole = waves.impact(law)
     assert whole.inertia.complete
     assert len(begun) > 1
-    used = [history.work for history in begun]
-    assert used[0] < used[1]
+    first, second = begun[:2]
+    assert first.work < second.work
     begun.clear()
     waves.impact.cache_clear()
-    monkeypatch.setattr(contact_sequence, "WORK", 0.5 * (used[0] + used[1]))
+    monkeypatch.setattr(contact_sequence, "WORK", 0.5 * (first.work + second.work))
+    judged = waves.impact(law)
+    assert max(history.problem.omega.size for history in begun) == first.problem.omega.size
+    assert judged.inertia.complete
+    # The estimated error covers the difference from the run with more modes.
+    for place, (coarse, fine) in enumerate(zip(judged.numbers, whole.numbers, strict=True)):
+        error = IRREGULAR * judged.inertia.mode_convergence[place]
+        assert coarse == pytest.approx(fine, rel=error)
+    begun.clear()
+    waves.impact.cache_clear()
+    monkeypatch.setattr(waves, "FOURTH", math.inf)
     part = waves.impact(law)
     waves.impact.cache_clear()
-    assert [history.work for history in begun] == used[:1]
+    assert [history.work for history in begun] == [first.work]
     assert not part.inertia.complete
     assert math.isnan(part.restitution)
     assert part.contact_time == pytest.approx(whole.contact_time, rel=0.05)

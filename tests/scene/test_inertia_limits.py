@@ -19,6 +19,7 @@ from derivation.scene import (
     contact_sequence,
     modal,
     mode_count,
+    wave_problem,
     waves,
 )
 from derivation.scene.contact_tables import contact_of
@@ -118,7 +119,7 @@ def history(
     model: Model, modes: Modes, n: int = 16, tolerance: float = contact_sequence.TOLERANCE
 ) -> contact_sequence.ImpactHistory:
     law = ContactLaw(model, REST | {"inertia"})
-    problem = waves._problem(law, ModalPlate(modes, modes, None))
+    problem = wave_problem.problem_with(law, ModalPlate(modes, modes, None))
     return contact_sequence.impact_history(problem, n, tolerance)
 
 

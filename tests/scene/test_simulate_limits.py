@@ -26,6 +26,7 @@ from derivation.scene import (
     mode_count,
     motion,
     read,
+    separation,
     simulate,
     sweep,
     viscous,
@@ -316,10 +317,10 @@ def test_element_that_cannot_be_shortened_is_kept(monkeypatch: pytest.MonkeyPatc
     problem, touching = found.impact_history.problem, found.impact_history.contacts[0]
     last, before = touching.pieces[-1], touching.pieces[-2]
     end, n = last.element.x + last.element.length, last.element.slope.size
-    again = contact_sequence._let_go(problem, n, last, end, before.end, before.radius)
+    again = separation.last_element(problem, n, last, end, before.end, before.radius)
     assert again.element.end(P) == pytest.approx(last.element.end(P), rel=1e-6)
-    monkeypatch.setattr(contact_sequence, "element", lambda *_: None)
-    assert contact_sequence._let_go(problem, n, last, end, before.end, before.radius) is last
+    monkeypatch.setattr(separation, "element", lambda *_: None)
+    assert separation.last_element(problem, n, last, end, before.end, before.radius) is last
 
 
 def test_initial_guess_with_nan_does_not_converge() -> None:

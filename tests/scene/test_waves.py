@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from derivation.scene import contact_sequence, motion, waves
+from derivation.scene import contact_sequence, motion, wave_problem, waves
 from derivation.scene.dynamic_results import dynamic_impact_of
 from derivation.scene.effects import WHOLE_PLATE
 from derivation.scene.law import ContactLaw
@@ -26,7 +26,7 @@ def history(model: Model, n: int = 16, modes: int = MODES) -> contact_sequence.I
     law = ContactLaw(model, EFFECTS | ({"gravity"} if model.gravity else frozenset()))
     if model.loss_factor:
         law = replace(law, effects=law.effects | {"damping"})
-    problem = waves._problem(law, plate_of(law, modes))
+    problem = wave_problem.problem_with(law, plate_of(law, modes))
     return contact_sequence.impact_history(problem, n)
 
 

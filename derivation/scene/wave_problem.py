@@ -1,0 +1,52 @@
+"""The dynamic problem of a scene with plate inertia."""
+
+import math
+
+from derivation.scene.contact_tables import contact_of
+from derivation.scene.dynamic_problem import DynamicProblem
+from derivation.scene.effects.inertia import WIDER
+from derivation.scene.law import ContactLaw
+from derivation.scene.modal import ModalPlate, bending_share, plate_of
+from derivation.scene.model import Model
+from derivation.scene.yielding import units_of, yielding_of
+
+
+def problem_of(law: ContactLaw, count: int) -> DynamicProblem:
+    """Return the dynamic problem of a law with a number of bending modes."""
+    return problem_with(law, plate_of(law, count))
+
+
+def problem_with(law: ContactLaw, plate: ModalPlate) -> DynamicProblem:
+    """Return the problem in units of the impact on a plate that does not deflect."""
+    model, (a, T) = law.model, units_of(law)
+    rest = law.only(lambda e: e.static and not e.other_edge)
+    contact = contact_of(rest, plate, min(WIDER * a, law.limit), model.inertia.pointwise)
+    retardation = model.retardation_time / T if law.viscous else 0.0
+    heard = echo_time(model) / T if model.inertia.infinite_plate else math.inf
+    weight = law.gravity * (T / model.v0)
+    units = a, T, model.m, model.v0
+    share = bending_share(model, plate.modes) if retardation else 1.0
+    limit = float(law.limit), law.limit_in_words
+    return DynamicProblem(
+        contact,
+        *units,
+        weight,
+        retardation,
+        heard,
+        law.damping_ratio,
+        yielding_of(law),
+        *limit,
+        share,
+    )
+
+
+def echo_time(model: Model) -> float:
+    """Return the time [s] before which no wave returns from the edge: 2 b over the largest speed.
+
+    The group speed of A0 is at most 1.1 times that of shear waves; that of any branch is at most
+    that of pressure waves.
+    """
+    fastest = 1.1
+    if model.inertia.branches == "all":
+        fastest = math.sqrt((model.lam + 2.0 * model.mu) / model.mu)
+    return 2.0 * model.b / (fastest * model.shear_speed)

@@ -107,4 +107,4 @@ def test_two_effects_without_a_bound_give_no_warning_of_numpy() -> None:
         }
     )  # fmt: skip
     found = solve(scene, {"impact.speed": np.array([1.0])}, 0.03)
-    assert found.status[0] == "refused"
+    assert found.status[0] == "rejected"

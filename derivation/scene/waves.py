@@ -233,7 +233,7 @@ def _converged(
     check_whole_width(rough.impact_history.problem, rough.max_contact_radius)
     coarser = None
     if _next_work(law, 2 * count, rough) > min(LONG, contact_sequence.WORK, budget.left):
-        coarser = _by_coarser(rough, law, count, budget)
+        coarser = _by_coarser(rough, law, count, Budget(budget.left))
         if coarser and coarser.inertia.left(reach.outputs)[0] <= goal:
             return coarser
     best: DynamicImpact | None = None
@@ -359,7 +359,7 @@ def _by_coarser(
 
     As in `_of_chosen_modes`, the larger change since half and since a quarter as many modes counts.
     None if the scene gives a number of modes, the modes of the first run are slower than the
-    contact, or a coarser run fails or is incomplete.
+    contact, or a coarser run fails, is incomplete or has entirely different results.
     """
     if law.model.inertia.modes or count < FOURTH or not fast(law, count):
         return None
@@ -374,6 +374,8 @@ def _by_coarser(
         changes.append(_judged(coarse, found).inertia.mode_convergence)
     time, depth, force, radius, speed = map(max, *changes)
     change = time, depth, force, radius, speed
+    if max(change) >= 1.0:
+        return None
     return replace(found, inertia=replace(found.inertia, mode_convergence=change))
 
 

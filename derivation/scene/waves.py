@@ -30,7 +30,7 @@ from derivation.scene.mode_count import (
     fast,
     followed,
 )
-from derivation.scene.reach import Reach
+from derivation.scene.reach import OutOfReachError, Reach
 from derivation.scene.scene import OUTPUTS, SceneError
 from derivation.scene.wave_motion import DynamicImpact
 from derivation.scene.wave_problem import echo_time as echo_time
@@ -150,10 +150,10 @@ def _branched(
     """Return the law with all branches if the higher ones matter, else with the lowest branch.
 
     They matter if their estimated change exceeds what the goal for the modes leaves of the
-    tolerance. The estimate follows from a rough run with the lowest branch; that from its first
-    contacts alone is a lower bound, at which the run may end. The rough run is also returned if the
-    lowest branch is sufficient. If the contact is so short that there would be too many modes, the
-    lowest branch is used.
+    tolerance. The estimate follows from a rough run with the lowest branch; those from its first
+    contacts or from a radius alone are lower bounds, at which the run may end. The rough run is
+    also returned if the lowest branch is sufficient. If the contact is so short that there would be
+    too many modes, the lowest branch is used.
     """
     every, lowest, close = branching(law, "all"), branching(law, "A0"), time_tolerance(goal)
     if not followed(every, 2 * affordable(every)):
@@ -167,7 +167,11 @@ def _branched(
         return begun.inertia.left(outputs)[1] > room
 
     n = nodes_for(problem) - FEWER
-    history = contact_sequence.impact_history(problem, n, close, enough=beyond)
+    watch = Reach(lowest, outputs, room).watch(lowest, problem.a)
+    try:
+        history = contact_sequence.impact_history(problem, n, close, enough=beyond, watch=watch)
+    except OutOfReachError:
+        return every, None
     budget.left -= history.work
     if history.reason == ENOUGH:
         return every, None

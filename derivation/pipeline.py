@@ -145,11 +145,11 @@ def accuracy(
             "--method, --quick, --scene or --out; remove --update, or these options"
         )
     path = recorded_in(MEASURED_ACCURACY, update, out)
-    regime = None
+    case = None
     if scene is not None:
-        case = model_of(load(scene))
-        regime = accuracy_run.scene_regime(**dict(zip(NUMBERS, case.numbers, strict=True)))
-    data = accuracy_run.measure(methods, quick, regime, progress)
+        model = model_of(load(scene))
+        case = accuracy_run.scene_case(**dict(zip(NUMBERS, model.numbers, strict=True)))
+    data = accuracy_run.measure(methods, quick, case, progress)
     if path is not None:
         write_file(path, sorted_json(data))
     return data, path

@@ -141,13 +141,13 @@ def by_coefficient(name: str) -> Check:
 
 
 def by_departure(_: str) -> Check:
-    """Check the part of the modes against the Arb reference of the total without the side wall."""
+    """Check the part of the modes against the Arb reference without the lateral surface."""
     alphas = Fraction(1, 5), Fraction(1, 2)
-    walls = [contact_balls.finite_radius(alpha, 20) for alpha in alphas]
+    lateral_surfaces = [contact_balls.finite_radius(alpha, 20) for alpha in alphas]
     points = [
         ({"alpha": mp.mpf(x.numerator) / x.denominator, "eta": mp.mpf(e.numerator) / e.denominator},
-         number(contact_balls.relative_correction(x, e, Fraction(1), 20)) - number(wall))
-        for x, wall in zip(alphas, walls, strict=True) for e in ETAS
+         number(contact_balls.relative_correction(x, e, Fraction(1), 20)) - number(lateral))
+        for x, lateral in zip(alphas, lateral_surfaces, strict=True) for e in ETAS
     ]  # fmt: skip
     return lambda e: all(close(summed(e, values), expected, 1e-16) for values, expected in points)
 
@@ -192,8 +192,8 @@ def by_inversion(name: str) -> Check:
     return passes
 
 
-def by_wall(_: str) -> Check:
-    """Check the side wall's integral by a Gauss rule (y = u^3) against the Arb reference."""
+def by_lateral(_: str) -> Check:
+    """Check the lateral surface's integral by a Gauss rule (y = u^3) against the Arb reference."""
     expected = float(number(contact_balls.finite_radius(Fraction(3, 5), 20)))
     nodes, weights = scipy.special.roots_legendre(300)
     u = 1.8 * (nodes + 1)
@@ -318,7 +318,7 @@ def by_edge_displacement(name: str) -> Check:
     """Check mean and first moment of u at the edge against the mpmath reference of a mode."""
     numbers = drawn({"phi", "h", "b", "lam", "mu", "A_j", "J1"}, name, 1)[0]
     given = {key: float(numbers[key]) for key in ("phi", "h", "lam", "mu", "A_j")}
-    h, b, rotation = numbers["h"], numbers["b"], name == "edge_turn"
+    h, b, rotation = numbers["h"], numbers["b"], name == "edge_rotation"
     nodes, weights = scipy.special.roots_legendre(24)
     total = mp.fsum(
         mp.mpf(w)

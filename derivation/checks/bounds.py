@@ -208,7 +208,7 @@ def judge(
 def to_json(known: Sequence[SceneReference], rows: Sequence[BoundRow]) -> str:
     """Return reference values and rows as JSON, one per line."""
     data = {"digits": DIGITS, "seed": SEED, "python-flint": flint.__version__}
-    listed = {"rows": plain_rows(rows), "truths": plain_rows(known)}
+    listed = {"rows": plain_rows(rows), "references": plain_rows(known)}
     return json_by_line(data | listed, *listed)
 
 
@@ -219,4 +219,4 @@ def committed_references() -> list[SceneReference]:
     data: dict[str, Any] = json.loads(MEASURED.read_text())
     if data["digits"] != DIGITS:
         return []
-    return [SceneReference(tuple(t["point"]), tuple(t["values"])) for t in data["truths"]]
+    return [SceneReference(tuple(t["point"]), tuple(t["values"])) for t in data["references"]]

@@ -40,7 +40,7 @@ SCENE: dict[str, dict[str, Any]] = {
     "effects": {"non_hertzian_pressure": False},
 }
 """A steel sphere on an aluminium plate with the paper's edge."""
-OSCILLATORS, FINEST = 40, 1e-13
+COMPARED_MODES, FINEST = 40, 1e-13
 """Number of modes of all integrators, and tolerance of the reference Runge-Kutta method."""
 NODES, TOLERANCES = (6, 8, 10, 12, 16), (1e-3, 1e-5, 1e-7, 1e-9, 1e-11)
 """Nodes of a time element, at the program's tolerance; and tolerances, with 16 nodes."""
@@ -63,7 +63,7 @@ class CostOutcome(NamedTuple):
     """Results, number of modes, and the stated error bound, if there is one."""
 
     numbers: Numbers
-    oscillators: int
+    modes: int
     bound: float | None = None
 
 
@@ -119,13 +119,13 @@ def measure(progress: Progress = quiet) -> dict[str, Any]:
         "machine": dict(machine()),
         "run": {"load_before": before, "load_after": os.getloadavg()[0], "spread": spread},
         "scene": SCENE,
-        "truth": {"tolerance": FINEST, "modes": MOST_MODES, "modes of all branches": MOST_ALL},
+        "reference": {"tolerance": FINEST, "modes": MOST_MODES, "modes of all branches": MOST_ALL},
         "rows": [
             {
                 "study": t.study,
                 "method": t.method,
                 "setting": t.setting,
-                "oscillators": out.oscillators,
+                "modes": out.modes,
                 "seconds": spent.seconds,
                 "errors": errors,
                 "bound": out.bound,
@@ -165,7 +165,7 @@ def cells(data: dict[str, Any]) -> list[tuple[str, ...]]:
         (
             row["study"],
             f"{row['method']} {row['setting']:g}",
-            str(row["oscillators"]),
+            str(row["modes"]),
             f"{1e3 * row['seconds']:.3g}",
             f"{max(row['errors'].values()):.1e}",
         )
@@ -204,7 +204,7 @@ def by_time_elements(n: int, tolerance: float) -> CostOutcome:
     problem = _problem()
     found = contact_sequence.contact(problem, n, problem.begin(), 0.0, 0.0, tolerance)
     peak = max(piece.element.largest(P) for piece in found.pieces)
-    return CostOutcome((found.end, peak, -found.after.velocity), OSCILLATORS)
+    return CostOutcome((found.end, peak, -found.after.velocity), COMPARED_MODES)
 
 
 def by_runge_kutta(rtol: float) -> CostOutcome:
@@ -235,7 +235,7 @@ def by_runge_kutta(rtol: float) -> CostOutcome:
     around = near - end / PEAK_SAMPLES, near + end / PEAK_SAMPLES
     near_enough = {"xatol": PEAK_TOLERANCE * end}
     top = minimize_scalar(lambda s: -force(s), bounds=around, method="bounded", options=near_enough)
-    return CostOutcome((end * end, -float(top.fun), -float(found.y[1, -1])), OSCILLATORS)
+    return CostOutcome((end * end, -float(top.fun), -float(found.y[1, -1])), COMPARED_MODES)
 
 
 def by_verlet(steps: int) -> CostOutcome:
@@ -259,7 +259,7 @@ def by_verlet(steps: int) -> CostOutcome:
         forces.append(motion.force(state))
     end = times[-1] + dt * before / (before - after)
     peak = _peak(np.array(times), np.array(forces))
-    return CostOutcome((end, peak, -float(velocity[0])), OSCILLATORS)
+    return CostOutcome((end, peak, -float(velocity[0])), COMPARED_MODES)
 
 
 def _peak(t: Array, force: Array) -> float:
@@ -372,4 +372,4 @@ def _scene(**inertia: Any) -> Scene:
 
 def _problem() -> DynamicProblem:
     """Return the scene as a dynamic problem with the modes of the integrators."""
-    return waves.problem_of(selected_effects(_scene(modes=OSCILLATORS))[1].law, OSCILLATORS)
+    return waves.problem_of(selected_effects(_scene(modes=COMPARED_MODES))[1].law, COMPARED_MODES)

@@ -47,42 +47,42 @@ class EffectCheckRow:
         The tolerance.
     scenes
         Number of compared scenes: within the range of the models, and not rejected.
-    ratio
+    error_over_rtol
         Largest relative difference from the reference, over the tolerance [1].
-    tightest
+    error_over_bound
         Largest relative difference over the stated bound [1].
     included
         Mean number of included effects, Hertz's contact not counted.
     applicable
         Mean number of applicable effects, Hertz's contact not counted.
     quantity, number
-        The result and the scene with the largest ratio.
-    refused
+        The result and the scene with the largest `error_over_rtol`.
+    rejected
         Number of scenes that were rejected at this tolerance.
     """
 
     rtol: float
     scenes: int
-    ratio: float
-    tightest: float
+    error_over_rtol: float
+    error_over_bound: float
     included: float
     applicable: float
     quantity: str
     number: int
-    refused: int
+    rejected: int
 
     @property
     def passed(self) -> bool:
         """Whether no difference exceeds its tolerance or its bound."""
-        return self.ratio <= 1.0 and self.tightest <= 1.0
+        return self.error_over_rtol <= 1.0 and self.error_over_bound <= 1.0
 
 
 def check_effects(count: int, progress: Progress = quiet) -> CheckResult:
     """Compare `count` random scenes at several tolerances with all applicable effects."""
     rows = judge(count, progress=progress)
     cells = [
-        (f"{r.rtol:g}", r.scenes, f"{r.ratio:.3f}", f"{r.tightest:.3f}", r.quantity,
-         f"{r.included:.1f}/{r.applicable:.1f}", r.refused)
+        (f"{r.rtol:g}", r.scenes, f"{r.error_over_rtol:.3f}", f"{r.error_over_bound:.3f}",
+         r.quantity, f"{r.included:.1f}/{r.applicable:.1f}", r.rejected)
         for r in rows
     ]  # fmt: skip
     return CheckResult(
@@ -132,7 +132,7 @@ def judge(count: int, seed: int = SEED, progress: Progress = quiet) -> tuple[Eff
     Scenes outside the range of the models are skipped.
     """
     found: dict[float, list[EffectCheckRow]] = {rtol: [] for rtol in TOLERANCES}
-    refused = dict.fromkeys(TOLERANCES, 0)
+    rejected = dict.fromkeys(TOLERANCES, 0)
     for number in range(count):
         progress("scene", number + 1, count)
         data = scene(number, seed)
@@ -143,7 +143,7 @@ def judge(count: int, seed: int = SEED, progress: Progress = quiet) -> tuple[Eff
         for rtol in TOLERANCES:
             solved = selected_impact(data, rtol)
             if solved is None:
-                refused[rtol] += 1
+                rejected[rtol] += 1
                 continue
             values, effects, bound = solved
             error, name = largest_change(values, true)
@@ -151,18 +151,21 @@ def judge(count: int, seed: int = SEED, progress: Progress = quiet) -> tuple[Eff
             found[rtol].append(
                 EffectCheckRow(rtol, 1, error / rtol, error / bound, *more, name, number, 0)
             )
-    return tuple(_combined_row(rows, refused[rtol]) for rtol, rows in found.items())
+    return tuple(_combined_row(rows, rejected[rtol]) for rtol, rows in found.items())
 
 
-def _combined_row(rows: Sequence[EffectCheckRow], refused: int) -> EffectCheckRow:
+def _combined_row(rows: Sequence[EffectCheckRow], rejected: int) -> EffectCheckRow:
     """Combine the rows of single scenes at one tolerance."""
     return replace(
-        max(rows, key=lambda row: (row.ratio, row.tightest, row.quantity, row.number)),
+        max(
+            rows,
+            key=lambda row: (row.error_over_rtol, row.error_over_bound, row.quantity, row.number),
+        ),
         scenes=len(rows),
-        tightest=max(row.tightest for row in rows),
+        error_over_bound=max(row.error_over_bound for row in rows),
         included=sum(row.included for row in rows) / len(rows),
         applicable=sum(row.applicable for row in rows) / len(rows),
-        refused=refused,
+        rejected=rejected,
     )
 
 

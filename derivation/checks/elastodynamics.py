@@ -41,7 +41,7 @@ class ComparedCase:
         Error bound and model error stated by the simulation [1].
     contacts
         Number of contacts in the finite-element solution and in the simulation.
-    refused
+    rejected
         The error message if the simulation rejects the scene; then there are no differences.
     """
 
@@ -51,7 +51,7 @@ class ComparedCase:
     bound: float
     model_error: float
     contacts: tuple[int, int]
-    refused: str = ""
+    rejected: str = ""
 
     @property
     def excess(self) -> dict[str, float]:
@@ -66,7 +66,7 @@ class ComparedCase:
     @property
     def passed(self) -> bool:
         """Whether no difference is larger than allowed, or the scene is rejected."""
-        return bool(self.refused) or max(self.excess.values()) <= 1.0
+        return bool(self.rejected) or max(self.excess.values()) <= 1.0
 
     def allowed(self, name: str) -> float:
         """Return the allowed difference of a result: the sum of all stated errors [1]."""
@@ -102,7 +102,7 @@ def compare(
 
 def result(found: Sequence[ComparedCase]) -> CheckResult:
     """Return the cases as lines of text, and those that are rejected."""
-    refused = [f"{case.name}: {case.refused}" for case in found if case.refused]
+    rejected = [f"{case.name}: {case.rejected}" for case in found if case.rejected]
     return CheckResult(
         "Impacts against finite elements",
         (),
@@ -112,7 +112,7 @@ def result(found: Sequence[ComparedCase]) -> CheckResult:
         note=paragraph(NOTE, 0),
         listings=[
             ("Impacts against finite elements", table(found)),
-            (f"{len(refused)} rejected", refused),
+            (f"{len(rejected)} rejected", rejected),
         ],
     )
 
@@ -136,7 +136,7 @@ def simulated(row: Mapping[str, Any]) -> dict[str, Any]:
     try:
         found = simulate(read({**row["scene"], "effects": effects}))
     except SceneError as error:
-        return {"refused": str(error)}
+        return {"rejected": str(error)}
     dynamics = found.dynamics
     assert dynamics is not None  # inertia is required
     values: dict[str, float] = {name: getattr(found, name) for name in OUTPUTS}
@@ -153,8 +153,10 @@ def simulated(row: Mapping[str, Any]) -> dict[str, Any]:
 def compared(row: Mapping[str, Any]) -> ComparedCase:
     """Return a case with its differences, from a recorded row with the simulated results."""
     program = row["program"]
-    if "refused" in program:
-        return ComparedCase(row["name"], {}, {}, 0.0, 0.0, (row["contacts"], 0), program["refused"])
+    if "rejected" in program:
+        return ComparedCase(
+            row["name"], {}, {}, 0.0, 0.0, (row["contacts"], 0), program["rejected"]
+        )
     names = _compared_results(row)
     differences = {k: program["values"][k] / row["elements"][k] - 1.0 for k in names}
     errors = {k: row["errors"][k] for k in names}
@@ -172,7 +174,7 @@ def _compared_results(row: Mapping[str, Any]) -> Sequence[str]:
 def cells(case: ComparedCase) -> tuple[str, ...]:
     """Return a case's entries under `COLUMNS`, as text."""
     edge = case.name.rpartition(" ")[2]
-    if case.refused:
+    if case.rejected:
         return (edge, "rejected", "", "", "", "")
     worst = case.worst
     return (

@@ -34,7 +34,7 @@ MAX_WEIGHT_WORK = 100.0
 """Largest work of the sphere's weight over its initial kinetic energy, of the scenes."""
 MODES = {"A0": 100, "all": 10}
 """Largest number of modes with which `simulate` begins, by branches; other scenes are skipped."""
-OSCILLATORS = 1200
+MAX_MODES = 1200
 """Largest number of modes of the reference simulation."""
 BOUND_RTOL, INERTIA_THRESHOLD = 1.0, 0.3
 """Tolerance with which the bound on the change by inertia is computed, and the value of that bound
@@ -47,22 +47,22 @@ BRANCH_BOUND_FACTOR, LEAST_RTOL = 3.0, 1e-4
 
 def judge(count: int, seed: int = inertia.SEED, progress: Progress = quiet) -> InertiaResults:
     """Draw and simulate scenes until `count` of them are neither skipped nor rejected."""
-    passed_over, refused, rows = Counter[str](), Counter[str](), list[InertiaRow]()
+    skipped, rejected, rows = Counter[str](), Counter[str](), list[InertiaRow]()
     for number in itertools.count():
         data, place = inertia.scene(number, seed)
         reason = reason_to_skip(data)
         if reason:
-            passed_over[reason] += 1
+            skipped[reason] += 1
             continue
         progress("scene", len(rows) + 1, count)
         found = solve(number, data, place)
         if isinstance(found, str):
-            refused[found] += 1
+            rejected[found] += 1
             continue
         rows.append(found)
         if len(rows) == count:
             break
-    return InertiaResults(number + 1, passed_over, refused, tuple(rows))
+    return InertiaResults(number + 1, skipped, rejected, tuple(rows))
 
 
 def reason_to_skip(data: Scene) -> str:
@@ -92,7 +92,7 @@ def with_tolerance(data: Scene, place: float) -> tuple[Scene, float]:
     still = quasi_static(model)
     assert still is not None  # such scenes are skipped
     others = dict.fromkeys(selectable_effects(model) - DYNAMIC_EFFECTS - {"hertz"}, True)
-    price = decide(model, others | {"inertia": "auto"}, BOUND_RTOL).error
+    omission_bound = decide(model, others | {"inertia": "auto"}, BOUND_RTOL).error
     radiated = max(
         map(float, higher_branch_error(model, still.max_contact_radius, still.contact_time))
     )
@@ -100,10 +100,10 @@ def with_tolerance(data: Scene, place: float) -> tuple[Scene, float]:
         BRANCH_BOUND_FACTOR * radiated * (1.0 + float(weight_share(model, still.max_indentation)))
         + LEAST_RTOL
     )
-    if price < INERTIA_THRESHOLD and (place < 0.5 or least > price):
-        return {**data, "effects": {**others, "inertia": "auto"}}, price * (1.0 + place)
+    if omission_bound < INERTIA_THRESHOLD and (place < 0.5 or least > omission_bound):
+        return {**data, "effects": {**others, "inertia": "auto"}}, omission_bound * (1.0 + place)
     return data, min(
-        least * math.pow(10.0, 2.0 * place - 1.0), max(least, 0.9 * min(price, BOUND_RTOL))
+        least * math.pow(10.0, 2.0 * place - 1.0), max(least, 0.9 * min(omission_bound, BOUND_RTOL))
     )
 
 
@@ -127,24 +127,24 @@ def solve(number: int, data: Scene, place: float) -> InertiaRow | str:
         modes = _modes(used or _moving(model, rtol))
         branches = "A0" if model.retardation_time else "all"
         many = replace(model, inertia=InertiaSettings(modes=2 * modes, branches=branches))
-        if oscillators_of(many) > OSCILLATORS:
-            return f"reference: more than {OSCILLATORS} modes"
+        if mode_count(many) > MAX_MODES:
+            return f"reference: more than {MAX_MODES} modes"
         reference = _moving(many, rtol)
-    except SceneError as refused:
-        return str(refused).partition(":")[0]
+    except SceneError as problem:
+        return str(problem).partition(":")[0]
     if not reference.inertia.complete:
         return "reference: incomplete"
     still = quasi_static(model)
     assert still is not None  # such scenes are skipped
-    price = sum(row.bound for row in selected.rows if row.name in DYNAMIC_EFFECTS)
+    omission_bound = sum(row.bound for row in selected.rows if row.name in DYNAMIC_EFFECTS)
     total = used.inertia.total_time if used is not None else values[0]
     error, quantity = largest_change(values, reference.numbers)
-    alone, worth = largest_change(still.numbers, reference.numbers)
+    change, changed = largest_change(still.numbers, reference.numbers)
     lasted = abs(total / reference.inertia.total_time - 1.0)
-    contacts, oscillators = len(reference.inertia.contacts), reference.inertia.modes
+    contacts, count = len(reference.inertia.contacts), reference.inertia.modes
     return InertiaRow(
         number, rtol, inertia.dissipation_of(data), known, accuracy.bound, error, quantity, lasted,
-        price, alone, worth, contacts, _modes(reference), oscillators,
+        omission_bound, change, changed, contacts, _modes(reference), count,
     )  # fmt: skip
 
 
@@ -166,7 +166,7 @@ def selectable_effects(model: Model) -> frozenset[str]:
     return frozenset(e.name for e in EFFECTS if e.selectable and not e.not_applicable_reason(model))
 
 
-def oscillators_of(model: Model) -> int:
+def mode_count(model: Model) -> int:
     """Return the approximate number of modes of all branches, by Weyl's law.
 
     Below the frequency Omega there are (2/pi) sqrt(Omega^2 - x^2) branches of shear waves, and

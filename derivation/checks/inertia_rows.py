@@ -44,10 +44,10 @@ class InertiaRow:
     total_time
         Relative difference from the reference's total time [1]: of the total time, or of the
         contact time if inertia is omitted.
-    price, alone, worth
+    omission_bound, omission_change, omission_quantity
         Stated bound on the change if inertia and damping are omitted [1], largest actual change
         [1], and the result that changes most.
-    contacts, modes, oscillators
+    contacts, wave_numbers, modes
         Numbers of contacts, wave numbers and modes (of all branches) of the reference.
     """
 
@@ -59,12 +59,12 @@ class InertiaRow:
     error: float
     quantity: str
     total_time: float
-    price: float
-    alone: float
-    worth: str
+    omission_bound: float
+    omission_change: float
+    omission_quantity: str
     contacts: int
+    wave_numbers: int
     modes: int
-    oscillators: int
 
 
 @dataclass(frozen=True)
@@ -75,17 +75,17 @@ class InertiaResults:
     ----------
     drawn
         Number of scenes drawn.
-    passed_over
+    skipped
         Number of skipped scenes by reason.
-    refused
+    rejected
         Number of rejected scenes by the key of the error message.
     rows
         Results of the other scenes.
     """
 
     drawn: int
-    passed_over: Mapping[str, int]
-    refused: Mapping[str, int]
+    skipped: Mapping[str, int]
+    rejected: Mapping[str, int]
     rows: tuple[InertiaRow, ...]
 
 
@@ -101,27 +101,27 @@ class Side:
         Whether inertia is included on this side.
     scenes
         Number of scenes.
-    ratio, quantity, number
+    error_over_rtol, quantity, number
         Largest relative difference over the tolerance [1], with its result and scene.
-    tightest
+    error_over_bound
         Largest relative difference over the stated bound [1].
-    price
+    change_over_bound
         Largest ratio of the change if inertia is omitted to its stated bound [1].
     """
 
     dissipation: str
     included: bool
     scenes: int
-    ratio: float
+    error_over_rtol: float
     quantity: str
     number: int
-    tightest: float
-    price: float
+    error_over_bound: float
+    change_over_bound: float
 
     @property
     def passed(self) -> bool:
         """Whether no difference exceeds its tolerance or its bound."""
-        return max(self.ratio, self.tightest, self.price) <= 1.0
+        return max(self.error_over_rtol, self.error_over_bound, self.change_over_bound) <= 1.0
 
 
 def scene(number: int, seed: int = SEED) -> tuple[dict[str, dict[str, Any]], float]:
@@ -198,7 +198,7 @@ def _side(rows: Sequence[InertiaRow]) -> Side:
         worst.quantity,
         worst.number,
         max(row.error / row.bound for row in rows),
-        max(row.alone / row.price for row in rows),
+        max(row.omission_change / row.omission_bound for row in rows),
     )
 
 
@@ -212,12 +212,14 @@ def as_data(judged: InertiaResults, seed: int) -> dict[str, Any]:
     """Return the results as plain data; infinite bounds become null."""
     rows = plain_rows(judged.rows)
     for row in rows:
-        row["price"] = None if isinstance(row["price"], str) else row["price"]
+        row["omission_bound"] = (
+            None if isinstance(row["omission_bound"], str) else row["omission_bound"]
+        )
     return {
         "drawn": judged.drawn,
         "seed": seed,
-        "passed_over": dict(sorted(judged.passed_over.items())),
-        "refused": dict(sorted(judged.refused.items())),
+        "skipped": dict(sorted(judged.skipped.items())),
+        "rejected": dict(sorted(judged.rejected.items())),
         "sides": plain_rows(sides(judged.rows)),
         "rows": rows,
     }
@@ -227,10 +229,11 @@ def result(judged: InertiaResults, seed: int) -> CheckResult:
     """Return the table of sides, and the reasons why scenes were rejected or skipped."""
     cells = [
         (side.dissipation, "included" if side.included else "omitted", side.scenes,
-         *(f"{x:.3f}" for x in (side.ratio, side.tightest, side.price)))
+         f"{side.error_over_rtol:.3f}", f"{side.error_over_bound:.3f}",
+         f"{side.change_over_bound:.3f}")
         for side in sides(judged.rows)
     ]  # fmt: skip
-    reasons = {"rejected": judged.refused, "skipped": judged.passed_over}
+    reasons = {"rejected": judged.rejected, "skipped": judged.skipped}
     others = [f"{n} {what}: {why}" for what, by in reasons.items() for why, n in by.items()]
     return CheckResult(
         f"Plate inertia in {len(judged.rows)} of {judged.drawn} random scenes",

@@ -1,5 +1,7 @@
 """The commands that write the files of a paper: build, generate, report and new."""
 
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Annotated
 
@@ -8,6 +10,9 @@ import typer
 from derivation.commands.options import PaperFolder, chosen_paper, expect_no_other_options
 from derivation.commands.scenes import check_outputs
 from derivation.engine.console import NOTES, OUT, progress_bar, stage, write_output
+
+MANY_FILES = 20
+"""Number of files in a folder above which `build` lists only their number."""
 
 Out = Annotated[
     Path | None,
@@ -18,7 +23,8 @@ Out = Annotated[
 def build(out: Out = None, paper: PaperFolder = None) -> None:
     """Derive the formulas, generate and check the code, and write the report.
 
-    At the end, the written files are listed. The exit status is 1 if an error exceeds its budget.
+    At the end, the written files are listed, or their number if a folder has many. The exit
+    status is 1 if an error exceeds its budget.
 
     Example: platecontact build
     """
@@ -26,8 +32,17 @@ def build(out: Out = None, paper: PaperFolder = None) -> None:
 
     expect_no_other_options(paper, "no other option", out)
     built = stages.build(chosen_paper(paper), out, progress_bar)
-    NOTES.say("\n".join([*built.notes, "files written:", *map(str, built.files)]))
+    NOTES.say("\n".join([*built.notes, "files written:", *_listed(built.files)]))
     raise typer.Exit(0 if built.passed else 1)
+
+
+def _listed(files: Sequence[Path]) -> Iterator[str]:
+    """Yield the paths of files, or of a folder with more than `MANY_FILES` the number."""
+    for folder, count in Counter(path.parent for path in files).items():
+        if count > MANY_FILES:
+            yield f"{folder}: {count} files"
+        else:
+            yield from (str(path) for path in files if path.parent == folder)
 
 
 def generate(
@@ -89,7 +104,7 @@ def _scene_code(scene: Path, out: Path | None, check: bool) -> None:
         raise SceneError(
             "--out: expected a file for the code of the scene, got none; add --out FILE.py"
         )
-    check_outputs(scene, None, csv=out)
+    check_outputs(scene, None, out=out)
     write_scene_code(load(scene), out)
     NOTES.say(f"{out}")
 

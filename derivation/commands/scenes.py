@@ -26,6 +26,11 @@ from derivation.engine.text import paragraph
 if TYPE_CHECKING:
     from derivation.scene.result import Result
 
+OUTPUT_SUFFIXES = frozenset(
+    (".json", ".csv", ".png", ".pdf", ".svg", ".gif", ".html", ".nc", ".zarr", ".parquet", ".xlsx")
+)
+"""Suffixes of output formats."""
+
 SceneFile = Annotated[Path, typer.Argument(metavar="SCENE.toml", help="Scene file.")]
 
 
@@ -238,13 +243,19 @@ def indent(
 
     Example: platecontact indent scene.toml --force 10 100 1000
     """
+    from derivation.scene import SceneError, load
     from derivation.scene import indent as run
-    from derivation.scene import load
 
     check_outputs(scene, json)
     loaded = load(scene)
     given = {"contact_radius": contact_radius, "force": force, "indentation": indentation}
     chosen = {name: _numbers(name, texts, more) for name, texts in given.items() if texts}
+    if len(chosen) != 1:
+        got = " and ".join(f"--{name.replace('_', '-')}" for name in chosen) or "none"
+        raise SceneError(
+            "expected exactly one of --contact-radius, --force and --indentation, "
+            f"got {got}; {'remove all but one' if chosen else 'add one of them'}"
+        )
     contacts = run(loaded, **chosen)
     if write_json_output(lambda: [contact.to_json() for contact in contacts], json):
         OUT.say(f"Static contact in {one_line(scene.name)}\n\n{contacts}")
@@ -284,16 +295,36 @@ def _numbers(name: str, texts: Sequence[str], more: Sequence[str] | None) -> lis
     return numbers
 
 
+def _expect_suffix(kind: str, files: Sequence[Path]) -> None:
+    """Reject JSON and CSV files with the suffix of another format.
+
+    Raises
+    ------
+    SceneError
+        If a file has such a suffix.
+    """
+    from derivation.scene import SceneError
+
+    for path in files:
+        if path.suffix.lower() in OUTPUT_SUFFIXES - {f".{kind}"}:
+            raise SceneError(
+                f"--{kind}: expected a file name with the suffix .{kind}, got {path.name}; "
+                "change the file name, or use the option for that format"
+            )
+
+
 def check_outputs(
     scene: Path,
     json: str | None,
     plot: Path | None = None,
     csv: Path | None = None,
     animate: Path | None = None,
+    out: Path | None = None,
 ) -> None:
     """Reject output files that are figures of unknown format, not writable, or named twice.
 
-    A name is taken if it is that of the scene file or of another output.
+    A name is taken if it is that of the scene file or of another output. JSON and CSV files must
+    not have the suffix of another format; the caller checks the suffix of `out`.
 
     Raises
     ------
@@ -314,7 +345,9 @@ def check_outputs(
 
         check_suffix(animate, SUFFIXES, "an animation")
     places = [Path(json)] if json and json != "-" else []
-    places += [path for path in (plot, csv, animate) if path is not None]
+    for kind, names in (("json", places), ("csv", [csv] if csv else [])):
+        _expect_suffix(kind, names)
+    places += [path for path in (plot, csv, animate, out) if path is not None]
     taken = {real(scene): "the scene file"}
     for place in places:
         if place == Path("-"):

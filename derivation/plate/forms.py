@@ -14,7 +14,7 @@ from derivation.engine.rewrite.automatic import automatic
 from derivation.engine.rewrite.every_variable import accurate
 from derivation.engine.rewrite.form import TIMES, Block, Form, Step, form
 from derivation.engine.rewrite.scales import Ratio, Scale, Scales
-from derivation.engine.rewrite.sections import sections
+from derivation.engine.rewrite.truncated_series import truncated_series
 from derivation.plate.blocks import blocks
 from derivation.plate.contact.theory.hertz import SINE_MINUS
 from derivation.plate.modes.kernels.forms import mode_forms
@@ -62,7 +62,7 @@ def stable_forms(formulas: Mapping[str, Record]) -> tuple[Form, ...]:
     for printed in printed_modules():
         groups[printed.name] = dict(printed.stated())
     return tuple(
-        form(name, module, formulas[name].expression, steps, value, known | sections())
+        form(name, module, formulas[name].expression, steps, value, known | truncated_series())
         for module, group in groups.items()
         for name, (steps, value) in group.items()
     )

@@ -14,7 +14,7 @@ from derivation.engine.emit.kernels import (
     rows_by_module,
 )
 from derivation.engine.emit.package import (
-    Copy,
+    CopiedModule,
     Module,
     Planned,
     common_modules,
@@ -26,12 +26,12 @@ from derivation.engine.emit.printed_fraction import arithmetic_of_modules, expec
 from derivation.engine.emit.printer import to_numpy
 from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.form import Form
-from derivation.engine.rewrite.sections import sections
+from derivation.engine.rewrite.truncated_series import truncated_series
 from derivation.plate.blocks import blocks
 from derivation.plate.budgets import counted_modules, read_budgets, read_printed_share
 from derivation.plate.manifest_rows import hand_written_rows
+from derivation.plate.modes.kernels.contributions import CONTRIBUTIONS
 from derivation.plate.modes.kernels.modal_sums import STYLE, kernel_of_sum
-from derivation.plate.modes.kernels.shares import SHARES
 from derivation.plate.modules import (
     computed_modules,
     printed_modules,
@@ -79,7 +79,7 @@ def kernel_rows(
     of_forms = tuple(kernel_of_form(f, formulas[f.name], budgets[f.name], STYLE) for f in closed)
     of_sums = tuple(
         kernel_of_sum(formulas[name], formulas, budgets[name], of_modes.get(name))
-        for name in (*of_modes, *SHARES)
+        for name in (*of_modes, *CONTRIBUTIONS)
     )
     return of_forms + of_sums
 
@@ -87,14 +87,14 @@ def kernel_rows(
 def modules(kernels: tuple[EmittedKernel, ...]) -> tuple[Planned, ...]:
     """Return the template and context of every file (stage 2)."""
     grouped = rows_by_module(kernels)
-    known, budgets = blocks() | sections(), read_budgets()
+    known, budgets = blocks() | truncated_series(), read_budgets()
 
     listed, others = hand_written_rows(budgets)
     planned: list[Planned] = [
         *common_modules(known),
         own("as_printed", {"functions": printed_rows()}),
         *(x.make() for x in computed_modules()),
-        *(Copy(x.name, x.file, "generated", budgets, x.notes()) for x in runtime_modules()),
+        *(CopiedModule(x.name, x.file, "generated", budgets, x.notes()) for x in runtime_modules()),
         own(
             "manifest",
             {
@@ -105,7 +105,10 @@ def modules(kernels: tuple[EmittedKernel, ...]) -> tuple[Planned, ...]:
         ),
     ]
     planned += (
-        own(module.name, {**module.context, "shares": [f"{name}_of_mode" for name in SHARES]})
+        own(
+            module.name,
+            {**module.context, "contributions": [f"{name}_of_mode" for name in CONTRIBUTIONS]},
+        )
         if module.name == "modal_sum"
         else module
         for module in kernel_modules(kernels, TITLES, known)

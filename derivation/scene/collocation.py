@@ -1,6 +1,7 @@
 """Collocation on a time element in x = (t/T)^(1/6): nodes, Newton's step, polynomials."""
 
 import math
+from collections.abc import Iterable
 from functools import cache
 from typing import NamedTuple
 
@@ -200,3 +201,18 @@ class Element(NamedTuple):
         inner = inner.real[(np.abs(inner.imag) < _REAL) & (np.abs(inner.real) < 1.0)]
         basis = legvander(np.concatenate(([-1.0, 1.0], inner)), self.slope.size - 1)
         return float(np.max(basis @ self.rows[row]))
+
+
+def largest_of(elements: Iterable[Element], row: int) -> float:
+    """Return the largest value of a row over all elements.
+
+    The sum of the absolute coefficients is an upper bound, because no Legendre polynomial exceeds
+    1. Elements with a bound below the largest value found are skipped.
+    """
+    found = -math.inf
+    bounds = [(float(np.sum(np.abs(element.rows[row]))), element) for element in elements]
+    for bound, element in sorted(bounds, key=lambda pair: -pair[0]):
+        if bound <= found:
+            break
+        found = max(found, element.largest(row))
+    return found

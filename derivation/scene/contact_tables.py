@@ -15,6 +15,9 @@ DEGREE, RESOLVED = 32, 0.75
 """Smallest degree of the tables, and its increase per largest wave number times a."""
 DIGITS = 33.0
 """Natural logarithm of the accuracy that the degree of the tables gives for a sphere."""
+TAIL, LAST, FINER, HIGHEST = 1e-13, 4, 1.5, 150
+"""Largest value of the last coefficients of force and depth over the largest one, number of these,
+and the factor by which the degree grows until it is met, up to a degree of `HIGHEST`."""
 
 
 class ContactSamples(NamedTuple):
@@ -101,13 +104,12 @@ def contact_of(law: ContactLaw, plate: ModalPlate, top: float, pointwise: bool) 
     # sin(a phi) requires a polynomial of a degree above a phi/2.
     fastest = float(np.max(plate.less.phi, initial=0.0))
     degree = max(DEGREE, int(16 + RESOLVED * top * fastest), _of_sphere(law, top))
+    sampled = _sampled(law, top, degree)
+    while degree < HIGHEST and not sampled.resolved(knots(degree)[1]):
+        degree = math.ceil(FINER * degree)
+        sampled = _sampled(law, top, degree)
     x, analysis, mean = knots(degree)
-    a = top * x
-    shape = law.at(a)
-    slope = 2.0 * (a / law.model.R) * shape.slope
-    force, depth = law.force(a, shape), law.indentation(a, shape)
-    # P' over x^2 is a polynomial, whose mean weighted by x^2 is P over x^3.
-    growth = (law.stiffness(a, shape) * slope * top / x**2)[:, None]
+    a, growth = top * x, sampled.growth[:, None]
 
     def driven(modes: Modes) -> tuple[Array, Array]:
         """Return P_j over x^3, and s_j - 1."""
@@ -120,10 +122,10 @@ def contact_of(law: ContactLaw, plate: ModalPlate, top: float, pointwise: bool) 
         return np.asarray((felt * (1.0 + less)) @ modes.compliance * x, dtype=np.float64)
 
     felt, less = driven(plate.modes)
-    rest = depth / x**2 - moved(plate.less)
+    rest = sampled.depth - moved(plate.less)
     if plate.more is not None:
         rest += moved(plate.more)
-    values = np.column_stack((force / x**3, felt, rest, less / x[:, None] ** 2))
+    values = np.column_stack((sampled.force, felt, rest, less / x[:, None] ** 2))
     table = analysis @ values
     growths = by_growth(table)
     count = table.shape[1] // 2
@@ -131,6 +133,32 @@ def contact_of(law: ContactLaw, plate: ModalPlate, top: float, pointwise: bool) 
     growths[:, count:] += 2.0 * table[:, count:]
     tables = (table[:, :count], table[:, count:], growths[:, :count], growths[:, count:])
     return ContactTables(plate.modes, law.model.R, top, np.array(tables), pointwise)
+
+
+class _Samples(NamedTuple):
+    """P over x^3, depth over x^2 and dP/dx over x^2 at the nodes, which are smooth in x.
+
+    The mean of the last one, weighted by x^2, is P over x^3.
+    """
+
+    force: Array
+    depth: Array
+    growth: Array
+
+    def resolved(self, analysis: Array) -> bool:
+        """Return whether the last coefficients of the polynomials are as small as `TAIL`."""
+        sizes = np.abs(analysis @ np.column_stack(self))
+        return bool(np.all(sizes[-LAST:] <= TAIL * np.max(sizes, axis=0)))
+
+
+def _sampled(law: ContactLaw, top: float, degree: int) -> _Samples:
+    """Return the law at the nodes of a degree, for radii [m] up to `top`."""
+    x = knots(degree)[0]
+    a = top * x
+    shape = law.at(a)
+    slope = 2.0 * (a / law.model.R) * shape.slope
+    force, depth = law.force(a, shape), law.indentation(a, shape)
+    return _Samples(force / x**3, depth / x**2, law.stiffness(a, shape) * slope * top / x**2)
 
 
 def _of_sphere(law: ContactLaw, top: float) -> int:

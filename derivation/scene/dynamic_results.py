@@ -1,10 +1,10 @@
 """Converts the contacts of an impact on a plate with inertia into results in SI units."""
 
 import math
-from collections.abc import Sequence
 
 import numpy as np
 
+from derivation.scene.collocation import Element, largest_of
 from derivation.scene.contact_sequence import ContactRun, ImpactHistory
 from derivation.scene.dynamic_energy import balance_of
 from derivation.scene.dynamic_problem import DynamicProblem
@@ -12,7 +12,7 @@ from derivation.scene.effects.effect import Results
 from derivation.scene.effects.inertia import after_yield, higher_branch_error, weight_share
 from derivation.scene.law import ContactLaw
 from derivation.scene.motion import EnergyBalance
-from derivation.scene.time_element import A, P, TimeElement, Z
+from derivation.scene.time_element import A, P, Z
 from derivation.scene.wave_motion import ContactInterval, DynamicImpact, InertiaDetails
 
 NONE: Results = (0.0, 0.0, 0.0, 0.0, 0.0)
@@ -26,8 +26,8 @@ def dynamic_impact_of(law: ContactLaw, history: ImpactHistory) -> DynamicImpact:
     """Return the results of an impact from its contacts."""
     problem, last = history.problem, history.contacts[-1].after
     energy = problem.m * problem.v0**2
-    pieces = [piece for touching in history.contacts for piece in touching.pieces]
-    largest = {row: _largest(pieces, row) for row in (A, Z, P)}
+    elements = [element for touching in history.contacts for element in _elements(touching)]
+    largest = {row: largest_of(elements, row) for row in (A, Z, P)}
     displacement = max(
         largest[Z], max(touching.before.displacement for touching in history.contacts)
     )
@@ -106,21 +106,11 @@ def _touch(problem: DynamicProblem, touching: ContactRun) -> ContactInterval:
         problem.T * touching.start,
         problem.T * touching.end,
         problem.m * problem.v0 * (before.velocity - after.velocity + problem.weight * lasted),
-        problem.force * _largest(touching.pieces, P),
+        problem.force * largest_of(_elements(touching), P),
         -before.separation_speed,
     )
 
 
-def _largest(pieces: Sequence[TimeElement], row: int) -> float:
-    """Return the largest value of a row over all elements.
-
-    The sum of the absolute coefficients is an upper bound, because no Legendre polynomial exceeds
-    1. Elements with a bound below the largest value found are skipped.
-    """
-    found = -math.inf
-    bounds = [(float(np.sum(np.abs(piece.element.rows[row]))), piece) for piece in pieces]
-    for bound, piece in sorted(bounds, key=lambda pair: -pair[0]):
-        if bound <= found:
-            break
-        found = max(found, piece.element.largest(row))
-    return found
+def _elements(touching: ContactRun) -> list[Element]:
+    """Return the polynomials of the time elements of a contact."""
+    return [piece.element for piece in touching.pieces]

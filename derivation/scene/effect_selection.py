@@ -178,12 +178,10 @@ def decide(
     Raises
     ------
     SceneError
-        As `select` does; or if a key that an included effect needs is missing.
+        As `select` does.
     """
     found = select(model, wanted, rtol, outputs)
     law = found.state.law
-    for effect in law.chosen:
-        effect.check(law, found.choice[effect.name] is True)
     tolerance = f"{'the default selection' if default else 'the'} tolerance {rtol:.3g}"
     rows = [_row(effect, found, tolerance, outputs) for effect in EFFECTS]
     return SelectedEffects(law, rtol, found.error, tuple(rows), tuple(outputs))

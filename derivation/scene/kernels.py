@@ -35,7 +35,7 @@ from generated.edge import (
     supported_edge_bound,
     supported_edge_slope,
 )
-from generated.effect_numbers import PRESSURE_WALL, WALL_CUBIC, WALL_GROWTH, WALL_LINEAR
+from generated.effect_numbers import LATERAL_CUBIC, LATERAL_GROWTH, LATERAL_LINEAR, PRESSURE_LATERAL
 from generated.effects import (
     Sphere,
     bending,
@@ -103,11 +103,11 @@ def plate_share(plates: Plates, a: Array, h: Numbers, b: Numbers) -> tuple[Array
 __all__ = [
     "COARSE_QUADRATURE",
     "FULL_QUADRATURE",
-    "PRESSURE_WALL",
+    "LATERAL_CUBIC",
+    "LATERAL_GROWTH",
+    "LATERAL_LINEAR",
+    "PRESSURE_LATERAL",
     "ROUNDING",
-    "WALL_CUBIC",
-    "WALL_GROWTH",
-    "WALL_LINEAR",
     "YIELD_LIMIT",
     "Estimate",
     "ImpactExtremes",

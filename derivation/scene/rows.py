@@ -19,7 +19,7 @@ from derivation.scene.effects.effect import Array
 from derivation.scene.impact import selection_tolerance, simulate
 from derivation.scene.keys import number_key
 from derivation.scene.result import UNITS
-from derivation.scene.rows_selection import Group, selected
+from derivation.scene.rows_selection import Group, Rejected, selected
 from derivation.scene.rows_warnings import warnings_of_rows
 from derivation.scene.scene import OUTPUTS, Scene, SceneError, read
 from derivation.scene.selection import check_enabled
@@ -49,11 +49,11 @@ class Rows:
     model_error
         Largest relative error of the model itself [1], as in `Result`; NaN without a result.
     status
-        "finished", "incomplete" or "refused".
+        "finished", "incomplete" or "rejected".
     reason
-        Why a row is refused or incomplete; else its warnings, joined by "; ", if there are any.
+        Why a row is rejected or incomplete; else its warnings, joined by "; ", if there are any.
     effects
-        Names of the effects included, joined by spaces; empty if the row is refused.
+        Names of the effects included, joined by spaces; empty if the row is rejected.
     """
 
     results: dict[str, NDArray[np.float64]]
@@ -83,7 +83,7 @@ def solve(
     Returns
     -------
     Rows
-        The results of `simulate` for the scene of each row; an invalid row is refused.
+        The results of `simulate` for the scene of each row; an invalid row is rejected.
 
     Raises
     ------
@@ -111,7 +111,7 @@ def _empty(count: int) -> Rows:
     """Return rows without results."""
     results = {name: np.full(count, np.nan) for name in UNITS}
     bound, model_error = np.full(count, np.nan), np.full(count, np.nan)
-    status = np.full(count, "refused", dtype="<U10")
+    status = np.full(count, "rejected", dtype="<U10")
     reason, effects = np.full(count, "", dtype=object), np.full(count, "", dtype=object)
     return Rows(results, bound, model_error, status, reason, effects)
 
@@ -183,7 +183,11 @@ class _Block:
             return
         wanted = scene.effects.model_dump()
         for group in selected(model, wanted, np.full(len(rows), share), outputs):
-            yield rows[self._static(group, rows[group.rows], scene, rtol)]
+            if isinstance(group, Rejected):
+                self.found.reason[self.start + rows[group.rows]] = group.reason
+                yield rows[group.rows]
+            else:
+                yield rows[self._static(group, rows[group.rows], scene, rtol)]
 
     def _readable(self, rows: list[int]) -> Scene | None:
         """Return the scene of the first valid row; all rows have the same keys."""

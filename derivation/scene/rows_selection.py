@@ -50,9 +50,17 @@ class Group:
     error: Array
 
 
+@dataclass(frozen=True)
+class Rejected:
+    """Rows that an included effect cannot be computed for, because a key is missing."""
+
+    rows: Rows
+    reason: str
+
+
 def selected(
     model: Model, wanted: Mapping[str, Any], rtol: Array, outputs: Sequence[str]
-) -> list[Group]:
+) -> list[Group | Rejected]:
     """Group rows by their included effects; rows in no group are simulated singly.
 
     These are rows of laws that are not computed in arrays, invalid rows, and rows for which
@@ -69,7 +77,7 @@ def selected(
     outputs
         The results that the tolerance applies to.
     """
-    found: list[Group] = []
+    found: list[Group | Rejected] = []
     for rows in _alike(model, len(rtol)):
         part = model.take(rows)
         try:
@@ -87,6 +95,11 @@ def selected(
         while waiting:
             included, parts = waiting.popitem()
             own = np.sort(np.concatenate(parts))
+            try:
+                given.check(ContactLaw(part.take(0), included))
+            except SceneError as error:
+                found.append(Rejected(rows[own], str(error)))
+                continue
             group, others = _step(given, part, included, own, rtol[rows], outputs)
             if group is not None:
                 found.append(Group(rows[group.rows], group.law, group.held, group.error))

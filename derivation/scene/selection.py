@@ -93,6 +93,11 @@ class Candidates:
         """Return the effects that the selection decides on and that are not yet included."""
         return [effect for effect in self.open_ if effect.name not in included]
 
+    def check(self, law: ContactLaw) -> None:
+        """Raise an error if a key that an included effect needs is missing."""
+        for effect in law.chosen:
+            effect.check(law, self.choice[effect.name] is True)
+
 
 def check_enabled(scene: Scene, model: Model) -> None:
     """Reject a scene that enables an effect without the key that this effect needs.
@@ -179,14 +184,15 @@ def select(
     ------
     SceneError
         If the scene disables an effect that is required by an effect which it enables or must not
-        omit.
+        omit; or if a key that an included effect needs is missing.
     """
     given = candidates_of(model, wanted)
     included, required, blocked = given.included, dict(given.required), given.blocked
     sizes: dict[str, float] = {}
     while True:
-        open_ = given.left(included)
-        state = state_of(ContactLaw(given.model, included))
+        open_, law = given.left(included), ContactLaw(given.model, included)
+        given.check(law)  # first, because the largest contact may take much longer
+        state = state_of(law)
         error = error_of(state, open_, outputs)
         candidates = [effect for effect in open_ if effect.name not in blocked]
         # With plate inertia, half of the tolerance is left to omitted modes and branches.

@@ -4,8 +4,9 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.polynomial.chebyshev import chebder, chebfit, chebval
+from numpy.polynomial.chebyshev import chebder, chebfit
 
+from derivation.scene.chebyshev import chebyshev
 from derivation.scene.effects.edge import MAX_A_OVER_B
 from derivation.scene.effects.effect import Array
 from derivation.scene.law import ContactLaw, Shape
@@ -50,7 +51,7 @@ class TabulatedCurve(Curve):
     def at(self, a: Array) -> CurvePoints:
         """Return force and indentation at radii [m]; NaN above `top`."""
         x = np.where(a <= self.top, a / self.top, np.nan)
-        force, depth, force_x, depth_x = chebval(2.0 * x - 1.0, self.table)
+        force, depth, force_x, depth_x = _values(self.table, x)
         force_a = (3.0 * force + x * force_x) * x * x / self.top
         depth_a = (2.0 * depth + x * depth_x) * x / self.top
         return CurvePoints(force * x**3, depth * x * x, force_a, depth_a)
@@ -62,6 +63,12 @@ def tabulated(x: Array, *values: Array) -> Array:
     slopes = np.zeros_like(rows)
     slopes[:, :-1] = 2.0 * chebder(rows, axis=1)
     return np.concatenate((rows, slopes)).T
+
+
+def _values(table: Array, x: Array) -> tuple[Array, ...]:
+    """Return the values of each column of a table at x in [0, 1]; NaN where x is NaN."""
+    found = chebyshev(2.0 * x - 1.0, DEGREE) @ table
+    return tuple(found[..., column] for column in range(table.shape[1]))
 
 
 def _knots() -> Array:
@@ -104,7 +111,7 @@ class ElasticBending:
         if self.table is None:
             return np.zeros_like(force), np.zeros_like(force)
         x = self.law.hertz_radius(np.abs(force)) / self.top
-        compliance, slope = chebval(2.0 * np.where(x <= 1.0, x, np.nan) - 1.0, self.table)
+        compliance, slope = _values(self.table, np.where(x <= 1.0, x, np.nan))
         return force * compliance, compliance + x * slope / 3.0
 
 

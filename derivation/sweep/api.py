@@ -15,7 +15,7 @@ from derivation.sweep.run import compute
 from derivation.sweep.sensitivity import Sensitivities, sensitivities
 from derivation.sweep.store import Store, open_store
 from derivation.sweep.study import Study
-from derivation.sweep.write import check_out, write
+from derivation.sweep.write import check_output_file, write
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -71,7 +71,7 @@ def sweep(
     scheduler
         Address of a Dask scheduler, whose workers are used instead of processes.
     retry
-        Whether to compute refused and incomplete points of a continued study again.
+        Whether to compute rejected and incomplete points of a continued study again.
 
     Returns
     -------
@@ -84,7 +84,7 @@ def sweep(
     Raises
     ------
     SceneError
-        If a key, value or option is not valid, all points are refused, or, with `sensitivity`, a
+        If a key, value or option is not valid, all points are rejected, or, with `sensitivity`, a
         point has no result; for more than two million points with `sensitivity`, or without `out`
         as .nc or .zarr.
 
@@ -162,7 +162,7 @@ def check(study: Study, out: Path | None) -> None:
     if study.rtol is not None:
         check_rtol(study.rtol)
     if out is not None:
-        check_out(out)
+        check_output_file(out)
 
 
 def write_results(
@@ -173,7 +173,7 @@ def write_results(
     Raises
     ------
     SceneError
-        If all points are refused or, for sensitivities, a point has no result.
+        If all points are rejected or, for sensitivities, a point has no result.
     """
     _check_some(store)
     if out is not None:
@@ -182,15 +182,15 @@ def write_results(
 
 
 def _check_some(store: Store) -> None:
-    """Raise an error if every point is refused."""
+    """Raise an error if every point is rejected."""
     for start, _, table in store.tables(2**16):
         status = column(table, "status")
-        if (status != "refused").any():
+        if (status != "rejected").any():
             return
         if start == 0:
             first = column(table, "reason")[0]
     values = ", ".join(f"{k} = {v[0]:.6g}" for k, v in store.study.plan.points(0, 1).items())
     raise SceneError(
         "sweep: expected a point that can be simulated, but all "
-        f"{store.study.plan.size:,} are refused; at {values}: {first}"
+        f"{store.study.plan.size:,} are rejected; at {values}: {first}"
     )

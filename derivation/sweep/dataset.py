@@ -24,7 +24,7 @@ LABELS = {name: (name.replace("_", " "), unit) for name, unit in UNITS.items()} 
 }
 """Long name and unit of each number."""
 TEXT_LABELS = {
-    "status": "finished, incomplete or refused",
+    "status": "finished, incomplete or rejected",
     "reason": "why there is no result, or warnings",
     "effects": "included effects",
 }
@@ -50,8 +50,8 @@ def attributes(study: Study) -> dict[str, Any]:
     accuracy = study.scene.accuracy
     rtol = accuracy.rtol if study.rtol is None and accuracy is not None else study.rtol
     given = {"seed": study.plan.seed, "rtol": rtol}
-    about = {"scene": json.dumps(study.base["scene"]), "version": study.base["version"]}
-    return about | {name: value for name, value in given.items() if value is not None}
+    metadata = {"scene": json.dumps(study.base["scene"]), "version": study.base["version"]}
+    return metadata | {name: value for name, value in given.items() if value is not None}
 
 
 def check_memory(study: Study, what: str) -> None:

@@ -35,8 +35,8 @@ class Forecast:
         Number of tested points: corners of a grid, or first points of a sample.
     effects
         Number of tested points at which each effect is included.
-    refused
-        Reasons why tested points are refused, each once.
+    rejected
+        Reasons why tested points are rejected, each once.
     timed
         Number of points that were timed.
     seconds
@@ -48,14 +48,14 @@ class Forecast:
     points: int
     probes: int
     effects: dict[str, int]
-    refused: tuple[str, ...]
+    rejected: tuple[str, ...]
     timed: int
     seconds: float
     workers: int
 
     def to_json(self) -> dict[str, Any]:
         """Return the forecast under fixed keys."""
-        return {**vars(self), "refused": list(self.refused)}
+        return {**vars(self), "rejected": list(self.rejected)}
 
     def to_text(self) -> str:
         """Return the forecast as text."""
@@ -75,27 +75,27 @@ def forecast(study: Study, workers: int) -> Forecast:
     Raises
     ------
     SceneError
-        If every tested point is refused.
+        If every tested point is rejected.
     """
     columns = study.plan.probes(MOST_PROBES)
     count = len(next(iter(columns.values())))
-    effects, refused = Counter[str](), dict[str, None]()
+    effects, rejected = Counter[str](), dict[str, None]()
     for number in range(count):
         values = {key: float(column[number]) for key, column in columns.items()}
         try:
             chosen = selected_effects(read(varied(study.scene, values)), study.rtol)[1]
         except SceneError as error:
-            refused[str(error)] = None
+            rejected[str(error)] = None
             continue
         effects.update(chosen.included)
     if not effects:
         raise SceneError(
             f"sweep: expected points that can be simulated, but all {count} tested points are "
-            f"rejected: {next(iter(refused))}"
+            f"rejected: {next(iter(rejected))}"
         )
     timed, seconds = _cost(study)
     return Forecast(
-        study.plan.size, count, dict(effects), tuple(refused), timed, seconds, max(workers, 1)
+        study.plan.size, count, dict(effects), tuple(rejected), timed, seconds, max(workers, 1)
     )
 
 

@@ -117,7 +117,7 @@ def compute(
     scheduler
         Address of a Dask scheduler, whose workers are used instead of processes.
     retry
-        Whether refused and incomplete points are computed again.
+        Whether rejected and incomplete points are computed again.
     progress
         Called first and after each batch with the index of the next point and the number of all.
 

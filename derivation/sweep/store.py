@@ -62,7 +62,7 @@ class Store:
 
     @property
     def done(self) -> int:
-        """Number of computed points, including refused and incomplete ones."""
+        """Number of computed points, including rejected and incomplete ones."""
         return sum(part.stop - part.start for part in self.parts)
 
     def missing(self) -> list[tuple[int, int]]:
@@ -71,7 +71,7 @@ class Store:
         return list(gaps(ranges, self.study.plan.size))
 
     def failed(self) -> Iterator[tuple[PartFile, list[int]]]:
-        """Yield each batch with refused or incomplete points, and the indices of these points."""
+        """Yield each batch with rejected or incomplete points, and the indices of these points."""
         for part in list(self.parts):
             status = np.array(self._read(part)["status"].to_pylist())
             wrong = (np.flatnonzero(status != "finished") + part.start).tolist()

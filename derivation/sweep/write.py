@@ -27,7 +27,7 @@ BLOCK = 2**16
 """Largest number of points that are in memory while a file is written."""
 
 
-def check_out(out: Path) -> None:
+def check_output_file(out: Path) -> None:
     """Raise an error if an output has no known suffix or cannot be written.
 
     Raises
@@ -92,13 +92,13 @@ def _csv(store: Store, path: Path, progress: Progress) -> None:
         writer = None
         for table in _with_points(store, progress):
             if writer is None:
-                writer = CSVWriter(stream, table.schema, write_options=_plain())
+                writer = CSVWriter(stream, table.schema, write_options=_csv_options())
             writer.write_table(table)
         if writer is not None:
             writer.close()
 
 
-def _plain() -> Any:
+def _csv_options() -> Any:
     """Return CSV options: no head, which pyarrow would quote; quotes only where needed."""
     from pyarrow.csv import WriteOptions
 
@@ -130,8 +130,8 @@ def _with_points(store: Store, progress: Progress) -> Iterator[Any]:
         columns |= {name: pa.array(column(found, name), from_pandas=True) for name in NUMBERS}
         columns |= {name: found[name].cast(pa.string()) for name in TEXTS}
         fields = [pa.field(name, v.type, metadata=labels(name)) for name, v in columns.items()]
-        about = {name: str(value) for name, value in attributes(study).items()}
-        yield pa.table(list(columns.values()), schema=pa.schema(fields, metadata=about))
+        metadata = {name: str(value) for name, value in attributes(study).items()}
+        yield pa.table(list(columns.values()), schema=pa.schema(fields, metadata=metadata))
         progress("write", stop + 1, study.plan.size)
 
 

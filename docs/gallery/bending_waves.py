@@ -21,4 +21,5 @@ axes.set(
     xlabel="wave number times half-thickness [1]", ylabel="phase speed / shear-wave speed [1]",
     title="Lowest wave branch (A0)",
 )  # fmt: skip
-axes.legend()
+axes.plot([], [], "k--", label="thin-plate theory")
+axes.legend(loc="lower right")

@@ -15,9 +15,9 @@ axes = figure.subplots()
 for ratio in (0.02, 0.05, 0.1, 0.2, 0.5):
     a = np.geomspace(1e-4, 0.05, 200)
     depth = indentation(a, sphere_radius, ratio * plate_radius, plate_radius)
-    axes.semilogx(a / sphere_radius, (depth * sphere_radius / a**2) ** -1.5, label=f"h/b = {ratio}")
+    axes.semilogx(a / sphere_radius, (depth * sphere_radius / a**2) ** -1.5, label=f"{ratio}")
 axes.set(
     xlabel="contact radius / sphere radius [1]", ylabel="force / Hertz's force [1]",
     title="Force at equal indentation",
 )  # fmt: skip
-figure.legend(loc="outside right center")
+figure.legend(loc="outside right center", title="half-thickness\n/ plate radius")

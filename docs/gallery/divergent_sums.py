@@ -16,9 +16,9 @@ terms = phi**3 * K_j(phi, h, b, sphere_radius, bessel_j1_at_j0_zeros(n.size))
 figure = Figure(figsize=(6.4, 3.8), layout="constrained")
 axes = figure.subplots()
 axes.loglog(n, np.cumsum(terms), label="sum over the first n modes")
-axes.loglog(n, 4 * n / (sphere_radius * b), "k--", label="4 n/(R b)")
+axes.loglog(n, 4 * n / (sphere_radius * b), "k--", label="$4 n/(R b)$")
 axes.set(
-    xlabel="number of modes n [1]", ylabel="sum of phi_j^3 K_j [1/m²]",
-    title="The sum for gamma_2 grows without limit",
+    xlabel="number of modes n [1]", ylabel=r"sum of $\phi_j^3 K_j$ [1/m²]",
+    title=r"The sum for $\gamma_2$ grows without limit",
 )  # fmt: skip
 axes.legend()

@@ -13,12 +13,12 @@ scene = pc.Scene(
     impact=pc.Impact(speed=2.2),
     accuracy=pc.Accuracy(rtol=2e-2),
 )
-history = pc.simulate(scene).history(401)
+history = pc.simulate(scene).history(1601)
 figure = Figure(figsize=(6.4, 5.0), layout="constrained")
 above, below = figure.subplots(2, sharex=True)
 above.plot(1e6 * history.time, 1e6 * history.indentation, label="sphere")
 above.plot(1e6 * history.time, 1e6 * history.deflection, label="plate on the axis")
-above.set(xlabel="time [µs]", ylabel="displacement [µm]", title="Several contacts")
+above.set(ylabel="displacement [µm]", title="Several contacts")
 above.legend()
 below.plot(1e6 * history.time, history.force, color="C2")
 below.set(xlabel="time [µs]", ylabel="contact force [N]")

@@ -1,7 +1,7 @@
 """Contact pressure over the radius.
 
 A small contact has Hertz's pressure. If the contact is wider than the plate is thick, the plate
-bends away from the sphere and the pressure moves to the rim of the contact.
+bends away from the sphere and the pressure moves to the edge of the contact.
 """
 
 import numpy as np
@@ -17,10 +17,11 @@ axes = figure.subplots()
 for ratio in (0.5, 2.0, 3.0, 4.0, 5.0):
     a = ratio * h
     mean = contact(thin, a, sphere_radius, modulus).mean_pressure
-    axes.plot(r, pressure(r * a, thin, a, sphere_radius, modulus) / mean, label=f"a/h = {ratio:g}")
+    axes.plot(r, pressure(r * a, thin, a, sphere_radius, modulus) / mean, label=f"{ratio:g}")
 axes.plot(r, 1.5 * np.sqrt(1 - r**2), "k--", label="Hertz")
+axes.set_ylim(bottom=0.0)
 axes.set(
     xlabel="radius / contact radius [1]", ylabel="pressure / mean pressure [1]",
     title="Pressure under contacts of growing width",
 )  # fmt: skip
-axes.legend()
+figure.legend(loc="outside right center", title="contact radius\n/ half-thickness")

@@ -13,7 +13,7 @@ scene = pc.Scene(
     effects=pc.Effects(inertia=False),
     accuracy=pc.Accuracy(rtol=1e-2),
 )
-vary = {"plate.thickness": "0.1:0.4:7", "impact.speed": "0.2:1:4"}
+vary = {"plate.thickness": "0.1:0.4:13", "impact.speed": "0.2:1:9"}
 data = 1e-3 * pc.sweep(scene, vary)["max_force"]
 figure = Figure(figsize=(6.4, 3.8), layout="constrained")
 axes = figure.subplots()

@@ -14,8 +14,8 @@ from derivation.scene.scene import OUTPUTS
 
 
 @pytest.fixture(autouse=True)
-def _few_oscillators(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(dynamic_benchmark, "OSCILLATORS", 10)
+def _few_modes(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(dynamic_benchmark, "COMPARED_MODES", 10)
 
 
 def test_three_integrators_agree() -> None:

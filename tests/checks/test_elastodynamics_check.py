@@ -140,10 +140,10 @@ def test_rejected_scene_is_reported(monkeypatch: pytest.MonkeyPatch, tmp_path: P
 
     monkeypatch.setattr(elastodynamics_check, "simulate", rejects)
     [case] = compare(path, save=True)
-    assert case.refused
+    assert case.rejected
     assert case.passed
     assert len(cells(case)) == len(COLUMNS)
-    assert read(path)["impacts"][0]["program"] == {"refused": case.refused}
+    assert read(path)["impacts"][0]["program"] == {"rejected": case.rejected}
     context = elastodynamics_context(read(path))
     assert (context["cases"], context["rejected"], context["rows"]) == (0, 1, [])
 

@@ -40,14 +40,14 @@ def test_both_sides_of_the_threshold(changes: dict[str, Any]) -> None:
     """Inertia is included just below its bound, and its change of the results is within it."""
     model = replace(SLOW, **changes)
     every = inertia_check.selectable_effects(model)
-    price = gate_of(model, 1.0).error
-    assert 0.0 < price < 3e-2
-    above, below = gate_of(model, price), gate_of(model, price * (1.0 - 1e-9))
+    omission_bound = gate_of(model, 1.0).error
+    assert 0.0 < omission_bound < 3e-2
+    above, below = gate_of(model, omission_bound), gate_of(model, omission_bound * (1.0 - 1e-9))
     assert above.law.effects == every - {"inertia"}
     assert below.law.effects == every
-    still, moving = impact(above.law), waves.impact(below.law, price / 100.0)
+    still, moving = impact(above.law), waves.impact(below.law, omission_bound / 100.0)
     changed = [abs(x / y - 1.0) for x, y in zip(still.numbers, moving.numbers, strict=True)]
-    assert 1e-3 * price < max(changed) <= price
+    assert 1e-3 * omission_bound < max(changed) <= omission_bound
 
 
 def test_weight_increases_the_effect_of_inertia() -> None:
@@ -84,7 +84,7 @@ def test_bounds_hold_in_random_scenes(number: int) -> None:
     assert isinstance(row, InertiaRow)
     assert row.included is (number not in OUT)
     assert row.error <= min(row.bound, row.rtol)
-    assert row.alone <= row.price
+    assert row.omission_change <= row.omission_bound
 
 
 EXACT = InertiaRow(
@@ -107,7 +107,7 @@ def test_violated_bound_is_detected(monkeypatch: pytest.MonkeyPatch) -> None:
     (side,) = measure.sides(found.rows)
     assert not side.passed
     assert side.quantity == "max_force"
-    assert side.tightest == pytest.approx(20.0)
+    assert side.error_over_bound == pytest.approx(20.0)
     assert found.drawn == 3
 
 
@@ -118,8 +118,8 @@ def test_rejected_and_skipped_scenes_are_counted(monkeypatch: pytest.MonkeyPatch
     )
     monkeypatch.setattr(inertia_check, "reason_to_skip", lambda _: next(turns))
     found = inertia_check.judge(1)
-    assert found.refused == {"rtol": 2}
-    assert found.passed_over == {"too slow": 1}
+    assert found.rejected == {"rtol": 2}
+    assert found.skipped == {"too slow": 1}
     assert [row.number for row in found.rows] == [3]
     assert measure.as_data(found, 1)["drawn"] == 4
 
@@ -132,7 +132,7 @@ def test_number_of_modes_agrees_with_the_law_of_weyl() -> None:
         model = replace(SLOW, h=eta * SLOW.b, edge="paper",
                         inertia=InertiaSettings(modes=modes, branches="all"))  # fmt: skip
         reference = free_modes(model, modes).omega.size
-        assert inertia_check.oscillators_of(model) == pytest.approx(reference, rel=0.15)
+        assert inertia_check.mode_count(model) == pytest.approx(reference, rel=0.15)
 
 
 def test_recorded_scenes_are_within_their_bounds() -> None:
@@ -144,7 +144,7 @@ def test_recorded_scenes_are_within_their_bounds() -> None:
             assert sum(s["scenes"] for s in sides if s["included"] is included) >= least
     for row in data["rows"]:
         assert row["error"] <= min(row["bound"], row["rtol"])
-        assert row["price"] is None or row["alone"] <= row["price"]
+        assert row["omission_bound"] is None or row["omission_change"] <= row["omission_bound"]
 
 
 def test_command_shows_both_sides_of_the_threshold(
@@ -153,7 +153,7 @@ def test_command_shows_both_sides_of_the_threshold(
     def solve(number: int, data: Scene, place: float) -> InertiaRow | str:
         known = data["inertia"]["branches"] == "A0"
         return replace(
-            EXACT, number=number, rtol=place, included=known, bound=place, price=math.inf
+            EXACT, number=number, rtol=place, included=known, bound=place, omission_bound=math.inf
         )
 
     monkeypatch.setattr(inertia_check, "solve", solve)
@@ -165,7 +165,7 @@ def test_command_shows_both_sides_of_the_threshold(
     stored = json.loads((tmp_path / "inertia.json").read_text())
     assert stored["seed"] == 7
     assert [side["included"] for side in stored["sides"]] == [True, False]
-    assert stored["rows"][0]["price"] is None
+    assert stored["rows"][0]["omission_bound"] is None
     assert set(OUTPUTS) >= {row["quantity"] for row in stored["rows"]}
 
 
@@ -202,10 +202,8 @@ def test_skipped_scenes_are_reported_with_the_reason(monkeypatch: pytest.MonkeyP
     data, place = measure.scene(9)
     found = inertia_check.solve(9, data, place)
     assert isinstance(found, InertiaRow)
-    monkeypatch.setattr(inertia_check, "OSCILLATORS", found.oscillators // 2)
-    assert inertia_check.solve(9, data, place) == (
-        f"reference: more than {found.oscillators // 2} modes"
-    )
+    monkeypatch.setattr(inertia_check, "MAX_MODES", found.modes // 2)
+    assert inertia_check.solve(9, data, place) == (f"reference: more than {found.modes // 2} modes")
 
     def beyond(law: ContactLaw, *_: object) -> None:
         limits.refuse(replace(law, model=replace(law.model, v0=1e9)))

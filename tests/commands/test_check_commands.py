@@ -313,9 +313,9 @@ def test_check_of_effects_is_printed_and_recorded(
     rows = rows_of(path)
     assert [row["rtol"] for row in rows] == list(TOLERANCES)
     assert [row["scenes"] for row in rows] == [4, 4, 4, 3]
-    assert [row["refused"] for row in rows] == [0, 0, 0, 1]
-    assert [row["ratio"] for row in rows] == pytest.approx([0.25] * 4, rel=1e-5)
-    assert [row["tightest"] for row in rows] == pytest.approx([0.5] * 4, rel=1e-5)
+    assert [row["rejected"] for row in rows] == [0, 0, 0, 1]
+    assert [row["error_over_rtol"] for row in rows] == pytest.approx([0.25] * 4, rel=1e-5)
+    assert [row["error_over_bound"] for row in rows] == pytest.approx([0.5] * 4, rel=1e-5)
     assert {(r["included"], r["applicable"], r["quantity"]) for r in rows} == {
         (0.0, 1.0, "max_contact_radius")
     }
@@ -325,7 +325,7 @@ def test_check_of_effects_is_printed_and_recorded(
     )
     assert main(["check", "effects", "-n", "1", "--json", "-"]) == 1
     found = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
-    assert {row["ratio"] for row in found} == {"inf"}
+    assert {row["error_over_rtol"] for row in found} == {"inf"}
     assert not path.exists()
 
 
@@ -346,7 +346,7 @@ def test_skipped_and_rejected_scenes_are_listed(monkeypatch: Patch, capsys: Capt
     monkeypatch.setattr(inertia_check, "solve", lambda *_: broken)
     assert main(["check", "inertia", "-n", "1", "--json", "-"]) == 1
     [side] = json.loads(capsys.readouterr().out)["sides"]
-    assert side["tightest"] == pytest.approx(20.0)
+    assert side["error_over_bound"] == pytest.approx(20.0)
 
 
 # --- speed

@@ -36,8 +36,10 @@ def name(page: Path) -> str:
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    """Return a folder that contains the example scenes at their path in the checkout."""
+    """Return a folder with the example scenes and the environment at their usual paths."""
     (tmp_path / "derivation").symlink_to(ROOT / "derivation")
+    (tmp_path / ".venv").mkdir()
+    (tmp_path / ".venv" / "bin").symlink_to(Path(sys.executable).parent)
     return tmp_path
 
 

@@ -42,7 +42,7 @@ MISTAKES = {
     ),
     "an unknown formula of a module": (
         "kernels.py",
-        ('"F_slipping", "C_slipping")),', '"F_slipping", "C_slippng")),'),
+        ('"F_slipping", "C_slipping"\n', '"F_slipping", "C_slippng"\n'),
         r"no formula 'C_slippng': did you mean C_slipping\?",
         2,
     ),
@@ -79,7 +79,7 @@ def slope() -> Routine:
     return routine("slipping", (T,), (), code, (ratio, sp.diff(ratio, T)), "F_s and slope.", {})
 
 
-PRINTING = Printing(
+PACKAGE = PackageSettings(
     routines=(Routines("slopes", "A coefficient with its slope.", (slope(),), {}),),
 '''
 """A routine of the skeleton's paper; its first result is written in another way."""
@@ -97,8 +97,11 @@ def test_a_routine_of_a_paper_is_proved_and_printed(
     assert main(["new", str(folder)]) == 0
     text = (folder / "kernels.py").read_text()
     routine = ROUTINE.replace("1 + T / sp.sinh", "1 - T / sp.sinh") if wrong else ROUTINE
-    text = text.replace("PRINTING = Printing(\n", routine.lstrip())
-    text = text.replace("import Part, Printing, Shape", "import Part, Printing, Routines, Shape")
+    text = text.replace("PACKAGE = PackageSettings(\n", routine.lstrip())
+    text = text.replace(
+        "import FormulaModule, PackageSettings, Shape",
+        "import FormulaModule, PackageSettings, Routines, Shape",
+    )
     head = "from derivation.engine.emit.routine import Routine, routine\n"
     head += "from .theory import closed_forms\n"
     text = text.replace("from .vocabulary", f"{head}from .vocabulary")

@@ -70,7 +70,7 @@ def elastic(lam: float, mu: float) -> mpf:
 
 def effect_cases() -> list[WithinUlp]:
     with mp.workdps(40):
-        return [*profile_cases(), *wall_cases(), *motion_cases()]
+        return [*profile_cases(), *lateral_cases(), *motion_cases()]
 
 
 def profile_cases() -> list[WithinUlp]:
@@ -94,7 +94,7 @@ def profile_cases() -> list[WithinUlp]:
     ]
 
 
-def wall_cases() -> list[WithinUlp]:
+def lateral_cases() -> list[WithinUlp]:
     balls = [contact_balls.kappa(2 * k, 20).mid() for k in range(20)]
     kappas = [mpf(ball.str(24, radius=False)) for ball in balls]
 

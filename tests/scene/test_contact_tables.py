@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from derivation.scene.contact_tables import contact_of
+from derivation.scene.effects import WHOLE_PLATE
 from derivation.scene.law import ContactLaw
 from derivation.scene.modal import ModalPlate, Modes
 from derivation.scene.model import Model
@@ -25,3 +26,15 @@ def test_tables_resolve_the_steep_side_of_a_sphere(reach: float) -> None:
     force = model.modulus * ((a * a + R * R) / 2.0 * logarithm - a * R)
     assert np.max(np.abs(found.depth / depth - 1.0)) < 1e-12
     assert np.max(np.abs(found.force / force - 1.0)) < 1e-11  # the formula cancels at small radii
+
+
+def test_tables_resolve_a_wide_contact_on_a_thin_plate() -> None:
+    """At a degree of 32 the error of force and depth was 5e-6 for a radius of 5.1 h."""
+    h, lam, mu = 0.0012, -1.5e8, 2.7e8
+    model = Model(R=0.114, m=12.0, v0=0.18, h=h, b=0.7, lam=lam, mu=mu)
+    law = ContactLaw(model, frozenset({"hertz", "non_hertzian_pressure"} | WHOLE_PLATE))
+    tables = contact_of(law, ModalPlate(STILL, STILL, None), 5.1 * h, False)
+    a = 5.1 * h * np.linspace(0.05, 1.0, 50)
+    found, shape = tables.at(a), law.at(a)
+    assert np.max(np.abs(found.depth / law.indentation(a, shape) - 1.0)) < 1e-12
+    assert np.max(np.abs(found.force / law.force(a, shape) - 1.0)) < 1e-12

@@ -96,7 +96,7 @@ def test_an_infinite_plate_has_no_edge() -> None:
 def test_rows_are_as_single_scenes() -> None:
     speeds = {"impact.speed": np.array([0.5, 1.0])}
     lacking = rows.solve(with_({"effects": {"gravity": True}}), speeds)
-    assert lacking.status.tolist() == ["refused", "refused"]
+    assert lacking.status.tolist() == ["rejected", "rejected"]
     assert all("give impact.gravity" in reason for reason in lacking.reason)
     given = {"impact.gravity": np.array([0.0, 9.81])}
     both = rows.solve(with_({"effects": {"gravity": True}}), given)

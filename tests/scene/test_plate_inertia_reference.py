@@ -67,7 +67,7 @@ def test_infinite_plate_does_not_depend_on_the_radius() -> None:
 def test_recorded_finite_elements_are_within_the_stated_errors(row: Mapping[str, Any]) -> None:
     """Differences are at most the sum of bound, model error and finite-element error."""
     program = row["program"]
-    assert "values" in program, program["refused"]
+    assert "values" in program, program["rejected"]
     for name in JUDGED:
         off = abs(program["values"][name] / row["elements"][name] - 1.0)
         assert off <= program["bound"] + program["model_error"] + row["errors"][name]

@@ -39,7 +39,7 @@ def check(scene: Scene, columns: Mapping[str, Array], rtol: float | None = None)
     for row in range(len(found.bound)):
         one, reason = simulated(row_of(scene, columns, row), rtol)
         if one is None:
-            assert (found.status[row], found.reason[row]) == ("refused", reason)
+            assert (found.status[row], found.reason[row]) == ("rejected", reason)
             assert found.effects[row] == ""
             assert all(np.isnan(values[row]) for values in found.results.values())
             continue
@@ -147,11 +147,23 @@ def test_rows_with_omitted_inertia_are_computed_in_arrays(
     in_arrays(monkeypatch, scene, columns, 0.1)
 
 
+def test_rows_without_a_required_density_are_rejected_in_arrays(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    tables = {name: table for name, table in STEEL_ON_GLASS.items() if name != "effects"}
+    plate = {"radius": 0.3, "thickness": 0.05, "youngs_modulus": 7e10, "poissons_ratio": 0.22}
+    columns = {"impact.speed": np.array([0.05, 0.5, 2.0]), "plate.thickness": np.full(3, 0.01)}
+    scene = read({**tables, "plate": plate})
+    assert "plate.density" in check(scene, columns).reason[0]
+    monkeypatch.setattr(many, "simulate", never)
+    assert set(solve(scene, columns).status) == {"rejected"}
+
+
 def test_rejected_and_separately_solved_rows_are_simulations() -> None:
     scene = scene_with()
     speeds = np.array([0.2, -1.0, np.nan, 0.0, 1e4, 0.3])
     found = check(scene, {"impact.speed": speeds}, 1e-1)
-    assert found.status.tolist() == ["finished", *["refused"] * 4, "finished"]
+    assert found.status.tolist() == ["finished", *["rejected"] * 4, "finished"]
     thin = {"plate.thickness": np.array([0.004, 0.05]), "impact.speed": np.array([2.0, 0.2])}
     assert "non_hertzian_pressure" in check(scene, thin, 1e-4).effects[0]
 

@@ -42,7 +42,7 @@ class Formula:
         wrong = (np.round(value * 1e6).astype(int) % 7 == 0) & self.broken
         numbers = {name: np.where(wrong, np.nan, value * i) for i, name in enumerate(UNITS, 1)}
         bound = np.full(len(first), 1e-12)
-        status = np.where(wrong, "refused", "finished")
+        status = np.where(wrong, "rejected", "finished")
         reason = np.array(['no, "so"\nnot' if w else "" for w in wrong], dtype=object)
         effects = np.array(["hertz bending"] * len(first), dtype=object)
         return Rows(numbers, bound, 0 * bound, status, reason, effects)
@@ -104,8 +104,8 @@ def test_files_contain_the_dataset(
         assert found[name].dims == made[name].dims
         assert found[name].attrs == made[name].attrs
         np.testing.assert_array_equal(found[name].astype(made[name].dtype), made[name])
-    assert {"finished", "refused"} == set(made["status"].values.ravel())
-    assert np.isnan(made["max_force"].values[made["status"].values == "refused"]).all()
+    assert {"finished", "rejected"} == set(made["status"].values.ravel())
+    assert np.isnan(made["max_force"].values[made["status"].values == "rejected"]).all()
     assert formula.calls == made["max_force"].size
 
 
@@ -207,6 +207,13 @@ def test_invalid_studies_are_rejected_before_the_computation(
     assert output in capsys.readouterr().err
     assert not formula.calls
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("suffix", write.SUFFIXES)
+def test_command_writes_each_format(formula: Formula, tmp_path: Path, suffix: str) -> None:
+    out = tmp_path / f"rows{suffix}"
+    assert main(["sweep", str(QUICK), "--vary", "impact.speed=1:2:3", "--out", str(out)]) == 0
+    assert (out.exists(), formula.calls) == (True, 3)
 
 
 def test_outputs_of_another_study_are_rejected(
@@ -320,7 +327,7 @@ def test_repeated_texts_take_little_space(suffix: str, tmp_path: Path) -> None:
 def test_more_points_than_fit_in_memory_are_read_from_the_file(
     suffix: str, formula: Formula, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Without a file that can be read in blocks, they are refused before any is computed."""
+    """Without a file that can be read in blocks, they are rejected before any is computed."""
     held = pc.sweep(scene(), GRID)
     calls = formula.calls
     monkeypatch.setattr(dataset, "MOST_IN_MEMORY", 5)

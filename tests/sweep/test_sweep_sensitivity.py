@@ -92,7 +92,7 @@ def test_points_without_a_result_have_no_sensitivities(
 ) -> None:
     def some(_: object, columns: dict[str, np.ndarray], __: object = None) -> Rows:
         made = rows(_, dict.fromkeys(KEYS, columns["impact.speed"]))
-        status = np.where(columns["impact.speed"] > 0, "finished", "refused")
+        status = np.where(columns["impact.speed"] > 0, "finished", "rejected")
         return replace(made, status=status)
 
     monkeypatch.setattr(run, "solve", some)

@@ -82,7 +82,7 @@ class Routines:
 
 
 @dataclass(frozen=True)
-class Copy:
+class CopiedModule:
     """A handwritten module that is copied.
 
     Parameters
@@ -106,11 +106,11 @@ class Copy:
     notes: Mapping[str, Sequence[str]] = field(default_factory=dict)
 
 
-Planned = Module | Numbers | Routines | Copy
+Planned = Module | Numbers | Routines | CopiedModule
 
 
 @dataclass(frozen=True)
-class Part:
+class FormulaModule:
     """A module of functions for formulas: its name, its first line, and the formulas' names."""
 
     name: str
@@ -126,7 +126,7 @@ def _nothing(_: Mapping[str, Block]) -> Mapping[str, Shape]:
 
 
 @dataclass(frozen=True, eq=False)
-class Printing:
+class PackageSettings:
     """Settings for the generated package of a paper.
 
     Parameters
@@ -152,7 +152,7 @@ class Printing:
 
     summary: str
     citation: str
-    parts: tuple[Part, ...]
+    parts: tuple[FormulaModule, ...]
     budgets: Path
     scales: Scales = NO_SCALES
     stated: Callable[[Mapping[str, Block]], Mapping[str, Shape]] = _nothing
@@ -224,9 +224,9 @@ class Printing:
 def common_modules(known: Mapping[str, Block]) -> tuple[Planned, ...]:
     """Return the modules that every package contains."""
     return (
-        Copy("arrays", RUNTIME / "arrays.py"),
-        Copy("polynomials", RUNTIME / "polynomials.py"),
-        Copy("ranges", RUNTIME / "ranges.py"),
+        CopiedModule("arrays", RUNTIME / "arrays.py"),
+        CopiedModule("polynomials", RUNTIME / "polynomials.py"),
+        CopiedModule("ranges", RUNTIME / "ranges.py"),
         Module("blocks", "blocks", {"functions": [block_text(b) for b in known.values()]}),
     )
 
@@ -250,12 +250,16 @@ def module_files(planned: Sequence[Planned]) -> dict[str, str]:
 
     Copies keep their lines; all other files are formatted by ruff.
     """
-    copied = {f"{part.name}.py": _copied(part) for part in planned if isinstance(part, Copy)}
-    printed = {f"{part.name}.py": _text(part) for part in planned if not isinstance(part, Copy)}
+    copied = {
+        f"{part.name}.py": _copied(part) for part in planned if isinstance(part, CopiedModule)
+    }
+    printed = {
+        f"{part.name}.py": _text(part) for part in planned if not isinstance(part, CopiedModule)
+    }
     return copied | format_files(printed) | {"py.typed": ""}
 
 
-def _copied(part: Copy) -> str:
+def _copied(part: CopiedModule) -> str:
     expect_reason(part.name, part.file.read_text())
     told = sorted(part.budgets.items()), *sorted(part.notes.items())
     source = f"{part.file.read_text()}{''.join(map(str, told))}"

@@ -21,8 +21,8 @@ from derivation.engine.errata.variant import (
     CONSTANT,
     COST,
     EXPONENT,
-    LOST,
     MISSING,
+    MISSING_PARENTHESES,
     SIGN,
     STRAY,
     SUM,
@@ -83,7 +83,7 @@ def _edit(kind: str, place: Position, new: sp.Expr, says: str, extra: float = 0.
 def edit_of(variant: Variant, place: Position) -> Edit:
     """Return the edit that replaces the expression at a position by a variant."""
     new = variant.build()
-    if variant.kind == LOST:
+    if variant.kind == MISSING_PARENTHESES:
         shown = variant.shown() if variant.shown else sp.sstr(new)
         says = f"set the parentheses {shown} in {name_of(place)}"
     elif variant.kind == SUPERFLUOUS:
@@ -275,7 +275,7 @@ def factored_edits(place: Position, need: Values, search: VariantSearch) -> Iter
                 new = total - term - place.node + factor * inside
                 says = f"set the parentheses {_text(factor)}*({_text(inside)})"
                 steep = 0.6 if (term / factor).count_ops() > term.count_ops() else 0.0
-                yield _edit(LOST, place.parent, new, says, steep)
+                yield _edit(MISSING_PARENTHESES, place.parent, new, says, steep)
 
 
 def _cancelled_sums(search: VariantSearch) -> tuple[sp.Expr, ...]:

@@ -16,7 +16,7 @@ from derivation.engine.errata.sample import Sample
 
 SIGN, CONSTANT, EXPONENT, SWAP = "sign", "constant ratio", "wrong exponent", "swapped function"
 STRAY, MISSING, SYMBOL = "extra factor", "missing factor", "swapped symbol"
-LOST, SUPERFLUOUS = "missing parentheses", "superfluous parentheses"
+MISSING_PARENTHESES, SUPERFLUOUS = "missing parentheses", "superfluous parentheses"
 FACE, TWICE, SUM = "other face", "factor counted twice", "wrong term"
 
 COST: Mapping[str, float] = {
@@ -27,7 +27,7 @@ COST: Mapping[str, float] = {
     MISSING: 2.4,
     SWAP: 2.5,
     SYMBOL: 2.5,
-    LOST: 2.8,
+    MISSING_PARENTHESES: 2.8,
     SUPERFLUOUS: 2.9,
     FACE: 3.0,
     TWICE: 3.2,
@@ -210,7 +210,7 @@ def lost_parentheses(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
             for group in groups(rest):
                 value = whole + (size - 1) * sum(values[i] for i in group)
                 grouped = _Grouped(terms, index, factors, group)
-                yield Variant(LOST, value, grouped.build, 0.0, grouped.shown)
+                yield Variant(MISSING_PARENTHESES, value, grouped.build, 0.0, grouped.shown)
 
 
 @dataclass(frozen=True)

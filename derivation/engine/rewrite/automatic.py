@@ -25,7 +25,7 @@ from derivation.engine.rewrite.series import leading_power
 from derivation.engine.rewrite.shape import Factor, Shape
 from derivation.engine.rewrite.terms import ONE, Key, UnreachableError, terms_of
 
-fade, rest = sp.symbols("fade rest", positive=True)
+exponential, rest = sp.symbols("exponential rest", positive=True)
 near, reach, stretch = sp.symbols("near reach stretch", positive=True)
 FADES = 700
 """Largest x for which e^-x is a normal double."""
@@ -117,9 +117,9 @@ def automatic(
     steps += _joined(powers, scale)
     if shape.rate < 0:
         decayed = -shape.rate * shape.x
-        steps.append(Step(fade, sp.exp(-sp.Min(decayed, FADES))))
+        steps.append(Step(exponential, sp.exp(-sp.Min(decayed, FADES))))
         steps.append(Step(rest, sp.exp(sp.Min(decayed, FADES) - decayed), "1 unless it underflows"))
-        powers[fade] = powers[rest] = 1
+        powers[exponential] = powers[rest] = 1
     core = core.xreplace({step.expression: near for step in steps if step.symbol == near})
     factors = [part for base in sorted(powers, key=str) for part in (base, powers[base])]
     value = sp.Mul(size, core, evaluate=False) if core.is_Add and size != 1 else size * core

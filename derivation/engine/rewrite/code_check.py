@@ -19,7 +19,7 @@ from derivation.engine.rewrite.useful_range import ENDS, ENOUGH, LEAST_RATIO, ro
 
 MOST_CONDITIONING = 1e3
 """Half condition number above which a point counts as next to a zero."""
-SHARE = 0.6
+CONDITION_FACTOR = 0.6
 """Fraction of half the condition number that is subtracted from an error in the test; the stated
 limit allows all of it, because other points may have larger errors than the tested ones."""
 _NEAR_ZERO, _MOST_ZEROS = 150, 12
@@ -44,8 +44,8 @@ class CodeCheck:
         The stated error [ULP in addition to half the condition number]: the largest one found,
         with a margin.
     worst, at
-        The largest error found [ULP in addition to `SHARE` times half the condition number], and
-        its point.
+        The largest error found [ULP in addition to `CONDITION_FACTOR` times half the condition
+        number], and its point.
     points
         Number of points in the range that were compared.
     """
@@ -207,7 +207,7 @@ def _towards(low: float, high: float) -> set[float]:
 def _errors(
     function: Function, reference: _Reference, points: Sequence[float]
 ) -> dict[float, float]:
-    """Return errors [ULP in addition to `SHARE` times half the condition number].
+    """Return errors [ULP in addition to `CONDITION_FACTOR` times half the condition number].
 
     The error is infinite if there is no certified value, or if it overflows.
     """
@@ -221,5 +221,5 @@ def _errors(
         if known is None or overflows(known[0]):
             found[point] = math.inf
         else:
-            found[point] = max(ulp_error(value, known[0]) - SHARE * known[1], 0.0)
+            found[point] = max(ulp_error(value, known[0]) - CONDITION_FACTOR * known[1], 0.0)
     return found

@@ -16,7 +16,7 @@ products may leave the range of doubles."""
 CLOSELY = sp.Function("times_closely")
 """The same product, with an error as if rounded once, for factors that use most of a budget."""
 
-LOST = sp.Function("lost")
+ROUNDING_ERROR = sp.Function("rounding_error")
 """The rounding error of a product of two numbers; it is zero in proofs."""
 
 SUM = sp.Function("sum_closely")
@@ -28,7 +28,7 @@ ONCE = sp.Integer(ranges.ONCE)
 TAIL = sp.Function("tail")
 """The factor e^(min(v, ONCE) - v), used where e^(-v) alone would underflow."""
 
-SCALINGS = (LOST, SUM, TAIL, TIMES, CLOSELY)
+SCALINGS = (ROUNDING_ERROR, SUM, TAIL, TIMES, CLOSELY)
 """Functions of the generated module `ranges`."""
 
 TINY, FAR, LARGEST = sp.Float("5e-324"), sp.Integer(10**9), sp.Float("1e308")
@@ -171,7 +171,7 @@ def substitute_steps(
     for step in reversed(steps):
         expression = expression.subs(step.symbol, step.expression)
     expression = expression.replace(TIMES, _product).replace(CLOSELY, _product)
-    expression = expression.replace(LOST, lambda *_: sp.Integer(0)).replace(SUM, sp.Add)
+    expression = expression.replace(ROUNDING_ERROR, lambda *_: sp.Integer(0)).replace(SUM, sp.Add)
     expression = expression.replace(TAIL, lambda v: sp.exp(sp.Min(v, ONCE) - v))
     for block in blocks.values():
         expression = expression.replace(sp.Function(block.name), block.definition)

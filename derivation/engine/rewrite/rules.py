@@ -1,7 +1,7 @@
 """The rewriting rules in the order of application, each with name, cause and condition.
 
 The first four transform an expression, and the others the decomposition that `decay` yields. A
-rule yields nothing if its condition is not met. Every rule is exact, except for `section`, whose
+rule yields nothing if its condition is not met. Every rule is exact, except for `series`, whose
 truncation error is bounded.
 """
 
@@ -13,7 +13,7 @@ from typing import TypeAlias
 import sympy as sp
 from sympy.codegen.cfunctions import expm1, log1p
 
-from derivation.engine.rewrite.series import leading_power, taylor_section
+from derivation.engine.rewrite.series import leading_power, truncated_taylor
 from derivation.engine.rewrite.shape import Factor, Shape, assembled_form, square
 from derivation.engine.rewrite.terms import (
     Key,
@@ -226,20 +226,22 @@ def balance(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
         yield given.with_factors(factors)
 
 
-def section(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
+def series(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
     """Replace sums that cancel at 0, below a switch point, by series times a power of x."""
     if not isinstance(given, Shape) or given.switch is not None:
         return
     for switch in SWITCHES:
         try:
             yield replace(
-                given, switch=switch, factors=tuple(_sectioned(f, x, switch) for f in given.factors)
+                given,
+                switch=switch,
+                factors=tuple(_with_series(f, x, switch) for f in given.factors),
             )
         except UnreachableError:
             continue
 
 
-def _sectioned(factor: Factor, x: sp.Symbol, switch: sp.Rational) -> Factor:
+def _with_series(factor: Factor, x: sp.Symbol, switch: sp.Rational) -> Factor:
     """Return the factor with its leading power, and a truncated series if its parts cancel."""
     terms = terms_of(factor.value, x)
     lead = leading_power(terms)
@@ -248,12 +250,12 @@ def _sectioned(factor: Factor, x: sp.Symbol, switch: sp.Rational) -> Factor:
     # About the middle of its rates a sum of hyperbolic functions is even or odd.
     rates = [key.rate for key in terms]
     shift = (max(rates) + min(rates)) / 2
-    found = taylor_section({k._replace(rate=k.rate - shift): v for k, v in terms.items()}, switch)
+    found = truncated_taylor({k._replace(rate=k.rate - shift): v for k, v in terms.items()}, switch)
     near = found.polynomial(square if found.stride == 2 else x)
     return replace(factor, near=near, lead=lead, rate=shift, truncation=found.bound)
 
 
-def share(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
+def reuse(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
     """Compute e^(-x) once for both sides of a switch point, and e^(-2x) as its square."""
     if isinstance(given, Shape) and given.switch is not None:
         _, switch = assembled_form(given)
@@ -271,9 +273,9 @@ RULES: Sequence[Rule] = (
     Rule("decay", "overflow", decay),
     Rule("difference", "cancellation", difference),
     Rule("balance", "overflow", balance),
-    Rule("section", "cancellation", section),
+    Rule("series", "cancellation", series),
 )
 """Rules in the order of application."""
 
-SHARE = Rule("share", "time", share)
+REUSE = Rule("reuse", "time", reuse)
 """The last rule, which saves an exponential; the loss of accuracy is negligible."""

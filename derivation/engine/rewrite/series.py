@@ -48,7 +48,7 @@ def leading_power(terms: Terms) -> int:
     raise UnreachableError("the sum vanishes at 0 with all its derivatives")
 
 
-def taylor_section(terms: Terms, switch: sp.Rational) -> Section:
+def truncated_taylor(terms: Terms, switch: sp.Rational) -> Section:
     """Return the truncated series of a sum about 0, with a relative error below 2^-55.
 
     The truncation error is bounded by Taylor's theorem term by term. The sum is at least its first

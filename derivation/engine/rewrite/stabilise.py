@@ -9,7 +9,7 @@ import sympy as sp
 
 from derivation.engine.rewrite.accuracy_test import AccuracyTest, accuracy_test, with_whole
 from derivation.engine.rewrite.form import Branch, Step, Switch
-from derivation.engine.rewrite.rules import RULES, SHARE, Rewritten, Rule
+from derivation.engine.rewrite.rules import REUSE, RULES, Rewritten, Rule
 from derivation.engine.rewrite.shape import Shape, assembled_form
 from derivation.engine.rewrite.terms import UnreachableError, terms_of
 from derivation.engine.rewrite.useful_range import ENDS, ENOUGH, LEAST_RATIO, useful_range
@@ -110,9 +110,9 @@ def stabilise(
             kept, form, worst, candidates = fewer, shorter, error, list(reversed(fewer))
     if worst > ENOUGH:
         raise UnreachableError(_reason(expression, x, worst))
-    shared, error = _apply_rules([*kept, SHARE], x, expression, at)
+    shared, error = _apply_rules([*kept, REUSE], x, expression, at)
     if error <= worst + NOTHING / 2 and shared != form:
-        kept, form, worst = [*kept, SHARE], shared, error
+        kept, form, worst = [*kept, REUSE], shared, error
     steps, value = assembled_form(form) if isinstance(form, Shape) else ((), form)
     applied = tuple(_account(rule, kept, x, expression, at) for rule in kept)
     truncation = sp.Add(*(f.truncation for f in form.factors)) if isinstance(form, Shape) else 0

@@ -88,7 +88,7 @@ def tail(v: Double) -> Double:
     return result
 
 
-def lost(a: Double, b: Double) -> Double:
+def rounding_error(a: Double, b: Double) -> Double:
     """Return the rounding error of the product of two numbers of moderate size."""
     with np.errstate(invalid="ignore"):  # infinities have no rounding error
         return lost_by_halves(halves(a), halves(b), a * b)

@@ -6,7 +6,7 @@ from pathlib import Path
 import sympy as sp
 from sympy.codegen.cfunctions import expm1
 
-from derivation.engine.emit.package import Part, Printing, Shape
+from derivation.engine.emit.package import FormulaModule, PackageSettings, Shape
 from derivation.engine.rewrite.blocks import HYPERBOLIC, Definition
 from derivation.engine.rewrite.form import FAR, Block, Step, limited
 from derivation.engine.rewrite.scales import Scale, Scales
@@ -38,12 +38,11 @@ def stated(known: Mapping[str, Block]) -> dict[str, Shape]:
     }
 
 
-PRINTING = Printing(
+FILM = "F_bonded", "F_slipping", "C_slipping"
+PACKAGE = PackageSettings(
     summary="Influence coefficients of an elastic film: functions that need only NumPy.",
     citation="A film on a rigid base",
-    parts=(
-        Part("film", "Influence coefficients of a film.", ("F_bonded", "F_slipping", "C_slipping")),
-    ),
+    parts=(FormulaModule("film", "Influence coefficients of a film.", FILM),),
     budgets=Path(__file__).with_name("budgets.toml"),
     scales=SCALES,
     stated=stated,

@@ -349,7 +349,7 @@ def back_face_edge() -> Formula:
         value,
         "1",
         "",
-        ("edge_stretch", "edge_turn", "back_face_sum"),
+        ("edge_extension", "edge_rotation", "back_face_sum"),
         proof,
         summed=True,
     )

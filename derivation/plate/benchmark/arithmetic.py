@@ -100,7 +100,7 @@ class Arithmetic:
         """Return s(y) = sin y - y cos y."""
         raise NotImplementedError
 
-    def wall_shape(self, t: Array) -> Array:
+    def lateral_shape(self, t: Array) -> Array:
         """Return t cosh t - sinh t = s(i t) i."""
         raise NotImplementedError
 
@@ -182,7 +182,7 @@ class Floats(Arithmetic):
         series = horner(self._sine, near * near) * (y * y * y)
         return np.where(y < SERIES_END, series, np.sin(y) - y * np.cos(y))
 
-    def wall_shape(self, t: Array) -> Array:
+    def lateral_shape(self, t: Array) -> Array:
         """Return the same series without alternating signs."""
         near = np.minimum(t, self.number(SERIES_END))
         series = horner(self._sinh, near * near) * (t * t * t)
@@ -241,7 +241,7 @@ class BallArithmetic(Wide):
         """Return the Arb reference's function, which uses its power series."""
         return np.frompyfunc(lambda x: kernel("hertz", acb(x)).real * x**3 / 3, 1, 1)(y)
 
-    def wall_shape(self, t: Array) -> Array:
+    def lateral_shape(self, t: Array) -> Array:
         """Return the same on the imaginary axis."""
         return np.frompyfunc(lambda x: kernel("hertz", acb(0, x)).real * x**3 / 3, 1, 1)(t)
 
@@ -274,7 +274,7 @@ class Mpmath(Wide):
         """Return the closed form."""
         return self._each(lambda x, c, s: s - x * c, 3, y)
 
-    def wall_shape(self, t: Array) -> Array:
+    def lateral_shape(self, t: Array) -> Array:
         """Return the closed form."""
         return self._each(lambda x, *_: x * mp.cosh(x) - mp.sinh(x), 3, t)
 

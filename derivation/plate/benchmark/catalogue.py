@@ -12,15 +12,15 @@ from derivation.plate.benchmark.arithmetic import (
     BallArithmetic,
     Mpmath,
 )
-from derivation.plate.benchmark.interface import PAPER, Method, Regime
+from derivation.plate.benchmark.interface import PAPER, BenchmarkCase, Method
 from derivation.plate.benchmark.ready_methods import hertz
 from derivation.plate.impact.oracle import ball_law
 
 SIMPLEST = (
-    "Hertz", "production", "Newton (production)", "Gauss-Legendre", "thin-plate closed form",
-    "small-a series", "Newton, small-a series", "Gauss-Legendre, small-a series",
-    "reversed series", "Chebyshev surrogate", "table of cubics", "split",
-    "split, y = u^3", "Levin u", "direct sum", "printed sum",
+    "Hertz", "generated code", "Gauss-Legendre", "thin-plate closed form",
+    "series in a/h", "Newton, series in a/h", "Gauss-Legendre, series in a/h",
+    "reversed series", "Chebyshev polynomial", "cubic interpolation", "split sum",
+    "split sum, y = u^3", "Levin u transform", "direct sum", "published sum",
 )  # fmt: skip
 """Families, the simplest to use first; among ties the first one is the winner."""
 
@@ -31,7 +31,7 @@ DEEPEST = 1000
 """Largest number of digits, in the paper's test case only."""
 
 TERMS = {30: 16, 50: 25, 100: 47, DEEPEST: 448}
-"""Number of terms of the small-a series in the paper's test case, by number of digits."""
+"""Number of terms of the series in a/h in the paper's test case, by number of digits."""
 
 NODES = {30: 84, 50: 156, 100: 360}
 """Number of nodes of the finite-radius integral, by number of digits."""
@@ -81,13 +81,13 @@ def _wide_laws() -> list[Method]:
 def _deepest_laws() -> list[Method]:
     """Return those with DEEPEST digits; methods that would take too long state the reason."""
 
-    def elsewhere(regime: Regime) -> str | None:
-        if regime == PAPER:
+    def elsewhere(case: BenchmarkCase) -> str | None:
+        if case == PAPER:
             return None
-        return f"left out: zeros of J0 to {DEEPEST} digits take minutes for each plate"
+        return f"omitted: zeros of J0 to {DEEPEST} digits take minutes for each plate"
 
     def refused(method: Method, reason: str) -> Method:
-        return replace(method, fails=lambda regime: f"left out: {reason}")  # noqa: ARG005
+        return replace(method, fails=lambda case: f"omitted: {reason}")  # noqa: ARG005
 
     found = []
     for ar in (Mpmath(DEEPEST), BallArithmetic(DEEPEST)):
@@ -95,8 +95,11 @@ def _deepest_laws() -> list[Method]:
         found.append(replace(small, fails=elsewhere))
         # The number of digits is about 1.7 nodes/log(nodes).
         split = sums.split(5000, 0.2 * DEEPEST, ar, quick=False)
-        dear = f"nodes, weights and zeros of J0 to {DEEPEST} digits take minutes, a point seconds"
-        found.append(refused(split, dear))
+        reason = (
+            f"nodes, weights and zeros of J0 to {DEEPEST} digits take minutes, "
+            "and each point takes seconds"
+        )
+        found.append(refused(split, reason))
     hours = ball_law.integrals_seconds(DEEPEST) / 3600
     oracle = ready_methods.arb_reference("law", DEEPEST, quick=False)
     return [*found, refused(oracle, f"{DEEPEST} digits take about {hours:.0f} hours")]

@@ -12,7 +12,7 @@ import flint
 from flint import arb
 
 from derivation.engine.formula.ball import LOG2_10
-from derivation.plate.benchmark.interface import Regime, largest_contact_radius
+from derivation.plate.benchmark.interface import BenchmarkCase, largest_contact_radius
 from derivation.plate.contact.oracle import points as contact_points
 from derivation.plate.contact.oracle.balls import ratio_of
 from derivation.plate.contact.oracle.moments import finite_part
@@ -39,18 +39,18 @@ def is_thin(h: float, b: float, digits: int) -> bool:
     return ROOT_HEIGHT * b / h > (digits + 5) * math.log(10)
 
 
-def coefficients(regime: Regime, count: int, digits: int) -> list[arb]:
+def coefficients(case: BenchmarkCase, count: int, digits: int) -> list[arb]:
     """Return c_1, c_3 ... to a number of digits; fewer if the others are negligible."""
-    if is_thin(regime.h, regime.b, digits):
-        return closed_form(regime.h, regime.b, count, digits)
+    if is_thin(case.h, case.b, digits):
+        return closed_form(case.h, case.b, count, digits)
     reach = max(
-        regime.high if regime.high < RADIUS else 0.0,
-        1.05 * largest_contact_radius(regime) / regime.h,
+        case.high if case.high < RADIUS else 0.0,
+        1.05 * largest_contact_radius(case) / case.h,
     )
-    return oracles(regime.h, regime.b, min(max(reach, LEAST), 0.95 / regime.eta), digits)[:count]
+    return oracles(case.h, case.b, min(max(reach, LEAST), 0.95 / case.eta), digits)[:count]
 
 
-def exact_law(regime: Regime) -> list[arb]:
+def exact_law(case: BenchmarkCase) -> list[arb]:
     """Return all coefficients up to a test case's largest contact, to LAW_DIGITS.
 
     Raises
@@ -59,14 +59,14 @@ def exact_law(regime: Regime) -> list[arb]:
         If they would take minutes.
     """
     top = min(
-        1.05 * largest_contact_radius(regime) / regime.h,
+        1.05 * largest_contact_radius(case) / case.h,
         RADIUS * contact_points.DEEPEST * (1 - 1e-9),
     )
-    if is_thin(regime.h, regime.b, LAW_DIGITS):
+    if is_thin(case.h, case.b, LAW_DIGITS):
         count = math.ceil(LAW_DIGITS / (2 * math.log10(RADIUS / top))) + 2 if top < RADIUS else 0
         if 0 < count < MOST_TERMS:
-            return closed_form(regime.h, regime.b, count, LAW_DIGITS)
-    return oracles(regime.h, regime.b, top, LAW_DIGITS)
+            return closed_form(case.h, case.b, count, LAW_DIGITS)
+    return oracles(case.h, case.b, top, LAW_DIGITS)
 
 
 @cache

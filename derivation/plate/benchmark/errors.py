@@ -25,8 +25,8 @@ RUNS, SEED = 5, 5
 """Number of runs in other units, and the seed for these units."""
 
 ESTIMATE = (
-    "an estimate: rounding is the spread of runs in other units of length and of time, which "
-    "change nothing but rounding, and by it the choice of steps; truncation below it is not seen"
+    "an estimate: rounding is the spread of runs in other units of length and time, which change "
+    "only rounding and, through it, the step sizes; a smaller truncation error is not detected"
 )
 
 
@@ -72,7 +72,7 @@ class MeasuredMethod:
 def measure_errors(method: Method, problem: Problem, clock: Callable[[], float]) -> MeasuredMethod:
     """Prepare a method and compare its results with the reference values."""
     begin = clock()
-    call = method.prepared(problem.regime)
+    call = method.prepared(problem.case)
     middle = clock()
     points = problem.points[-1:] if method.split == "ball" else problem.points
     values = list(np.atleast_1d(np.asarray(call(points), dtype=object)))
@@ -128,11 +128,11 @@ def without_rounding(method: Method, problem: Problem) -> list[arb]:
         raise NotImplementedError("the platform's long double is no longer than double")
     if method.split != "units":
         other = LONG_DOUBLE if method.split == "long" else exact_for(method.ar)
-        return [as_ball(value) for value in method.prepared(problem.regime, other)(problem.points)]
+        return [as_ball(value) for value in method.prepared(problem.case, other)(problem.points)]
     runs = []
     for length, time in np.random.default_rng(SEED).uniform(1, 2, (RUNS, 2)).tolist():
         given = time / length if method.task == "impact" else 1 / length
-        call = method.prepared(problem.regime.in_units(length, time))
+        call = method.prepared(problem.case.in_units(length, time))
         factor = {"law": arb(length), "inversion": arb(length) / arb(time) ** 2,
                   "impact": arb(time)}[method.task]  # fmt: skip
         # The scaled points are rounded to doubles, which contributes to the spread.

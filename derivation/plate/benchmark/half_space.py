@@ -96,7 +96,7 @@ run 0
 
 
 def lammps(steps: int) -> tuple[float, float]:
-    """Return error and run time [s] of the contact time with a granular Hertz wall.
+    """Return error and run time [s] of the contact time with a granular Hertz plane.
 
     The end is interpolated linearly between two steps.
     """
@@ -139,12 +139,12 @@ PROGRAMS: Mapping[str, tuple[str, str, str, Mapping[str, tuple[Callable[..., Any
     ),
     "LAMMPS": (
         "lammps", "contact time on a half-space",
-        "a plate: its Hertz contact is a half-space's; an end between two steps",
+        "a plate (its Hertz contact is that of a half-space); an end of contact between two steps",
         {f"{n} steps a contact": (lammps, (n,)) for n in (20, 100, 1000, 10000)},
     ),
     "SciPy quad": (
         "scipy", "indentation of a half-space",
-        "a plate: without an edge the integral diverges, with one it is a sum over modes",
+        "a plate (the integral diverges without an edge; with an edge it is a sum over modes)",
         {
             "quad to infinity": (quad_whole, (math.inf, 50)),
             "quad to k = 1e3/R": (quad_whole, (1e3, 2000)),
@@ -154,7 +154,7 @@ PROGRAMS: Mapping[str, tuple[str, str, str, Mapping[str, tuple[Callable[..., Any
     ),
     "tamaas": (
         "tamaas", "peak pressure at a force",
-        "an edge, a free back face, a single contact: it is periodic; motion",
+        "an edge, a free back face, a single contact (the problem is periodic), motion",
         {f"{n} x {n}, a = 0.1 of the period": (tamaas, (n,)) for n in (64, 128, 256)},
     ),
 }  # fmt: skip
@@ -163,7 +163,7 @@ PROGRAMS: Mapping[str, tuple[str, str, str, Mapping[str, tuple[Callable[..., Any
 
 def program_results(name: str) -> list[dict[str, Any]]:
     """Return a program's results: relative error of each setting, time of its second call [s]."""
-    package, problem, cannot, settings = PROGRAMS[name]
+    package, problem, limitation, settings = PROGRAMS[name]
     rows = []
     for setting, (call, arguments) in settings.items():
         with warnings.catch_warnings():
@@ -175,7 +175,7 @@ def program_results(name: str) -> list[dict[str, Any]]:
         error, seconds = found if isinstance(found, tuple) else (found, seconds)
         rows.append({
             "name": name, "version": version(package), "problem": problem, "setting": setting,
-            "error": error, "seconds": seconds, "cannot": cannot,
+            "error": error, "seconds": seconds, "limitation": limitation,
         })  # fmt: skip
     return rows
 

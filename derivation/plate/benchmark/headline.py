@@ -21,7 +21,7 @@ from derivation.plate.benchmark.arithmetic import (
     as_ball,
 )
 from derivation.plate.benchmark.errors import digits
-from derivation.plate.benchmark.interface import Regime, largest_contact_radius
+from derivation.plate.benchmark.interface import BenchmarkCase, largest_contact_radius
 from derivation.plate.contact.oracle import balls as contact_balls
 from generated.contact_law import indentation
 
@@ -62,37 +62,37 @@ class Headline:
     ----------
     contact_radius
         Contact radius of the comparison [m].
-    reached
+    direct_sum
         Modes and time of the direct sum for each number of digits that it reached.
-    modes, setup, per_mode
+    modes, setup, seconds_per_mode
         Total number of modes; time of their zeros and weights [s]; time of a mode [s].
-    digits, called, prepared
+    digits, seconds_with_setup, seconds_without_setup
         Of the generated law: digits, and time per point of a large array [s].
     """
 
     contact_radius: float
-    reached: tuple[DirectSum, ...]
+    direct_sum: tuple[DirectSum, ...]
     modes: int
     setup: float
-    per_mode: float
+    seconds_per_mode: float
     digits: float
-    called: float
-    prepared: float
+    seconds_with_setup: float
+    seconds_without_setup: float
 
 
-def headline(regime: Regime, quick: bool) -> Headline:
+def headline(case: BenchmarkCase, quick: bool) -> Headline:
     """Measure the comparison."""
-    a, r = largest_contact_radius(regime), regime
+    a, r = largest_contact_radius(case), case
     true = contact_balls.indentation(a, r.R, r.h, r.b, TRUE_DIGITS)
     own = float(indentation(a, r.R, r.h, r.b))
     miss = abs(own / float(true) - 1) or float(np.finfo(np.float64).eps) / 2
     partial, times, setup = direct_sums(r, a, QUICK_MODES if quick else MOST_MODES)
-    reached = tuple(_reached(regime, a, true, partial, times))
+    reached = tuple(_reached(case, a, true, partial, times))
     radii = np.random.default_rng(clock.SEED).uniform(0.1 * a, a, POINTS)
     # As called, with the whole array at once, which is the intended use.
     calls = [
-        ready_methods.generated_law().prepared(regime),
-        ready_methods.prepared_law().prepared(regime),
+        ready_methods.generated_law().prepared(case),
+        ready_methods.prepared_law().prepared(case),
     ]
     candidates = [clock.Candidate(call, radii, 1) for call in calls]
     called, prepared = clock.session(candidates, clock.QUICK if quick else clock.FULL).timings
@@ -104,11 +104,11 @@ def headline(regime: Regime, quick: bool) -> Headline:
 
 
 def direct_sums(
-    regime: Regime, a: float, most: int, ar: Floats = DOUBLE
+    case: BenchmarkCase, a: float, most: int, ar: Floats = DOUBLE
 ) -> tuple[Array, Array, float]:
     """Return the sum and the time after each block of modes, and the time of the set-up."""
     partial, times, setup, total, spent = [], [], 0.0, ar.number(0.0), 0.0
-    R, h, b, radius = (ar.number(x) for x in (regime.R, regime.h, regime.b, a))
+    R, h, b, radius = (ar.number(x) for x in (case.R, case.h, case.b, a))
     factor, eta, alpha = 8 * b * b / (ar.pi() * R), h / b, radius / b
     for begin in range(0, most, CHUNK):
         start = CPU()
@@ -131,7 +131,7 @@ def direct_sums(
 
 
 def _reached(
-    regime: Regime, a: float, true: arb, partial: Array, times: Array
+    case: BenchmarkCase, a: float, true: arb, partial: Array, times: Array
 ) -> Iterator[DirectSum]:
     """Return the first block with errors below each power of ten; truncation in long doubles."""
     errors, blocks = np.abs(partial / float(true) - 1), {}
@@ -141,7 +141,7 @@ def _reached(
         if first < errors.size:
             blocks[wanted] = first
     most = BLOCK * (max(blocks.values(), default=-1) + 1)
-    longer = direct_sums(regime, a, most, LONG_DOUBLE)[0] if HAS_LONG_DOUBLE else None
+    longer = direct_sums(case, a, most, LONG_DOUBLE)[0] if HAS_LONG_DOUBLE else None
     with flint.ctx.workprec(128):
         for wanted, first in blocks.items():
             parts: list[float | None] = [None, None]

@@ -19,7 +19,7 @@ TIE = 1.2
 
 
 @dataclass(frozen=True)
-class Regime:
+class BenchmarkCase:
     """A sphere on a plate and the range of its contacts; exact doubles.
 
     Attributes
@@ -59,7 +59,7 @@ class Regime:
         """E* = 4 mu (lam + mu)/(lam + 2 mu) [Pa]."""
         return 4 * self.mu * (self.lam + self.mu) / (self.lam + 2 * self.mu)
 
-    def in_units(self, length: float, time: float) -> "Regime":
+    def in_units(self, length: float, time: float) -> "BenchmarkCase":
         """Return the same contact in other units of length and time [m, s]."""
         press = length * time * time
         return replace(
@@ -68,25 +68,25 @@ class Regime:
         )  # fmt: skip
 
 
-REGIMES = (
-    Regime("thin", 1.3, 1e-3, 1.0, 0.01, 1.0, 0.0039),
-    Regime("paper", 0.13, 0.1, 1.0, 0.01, 0.3, 1.0),
-    Regime("thick", 1.3, 1.0, 1.0, 0.01, 0.5, 480.0),
-    Regime("small contacts", 0.13, 0.1, 1.0, 1e-8, 1e-3, 3.1e-11),
-    Regime("large contacts", 1.3, 0.1, 1.0, 3.0, 9.0, 4500.0),
+CASES = (
+    BenchmarkCase("thin", 1.3, 1e-3, 1.0, 0.01, 1.0, 0.0039),
+    BenchmarkCase("paper", 0.13, 0.1, 1.0, 0.01, 0.3, 1.0),
+    BenchmarkCase("thick", 1.3, 1.0, 1.0, 0.01, 0.5, 480.0),
+    BenchmarkCase("small contacts", 0.13, 0.1, 1.0, 1e-8, 1e-3, 3.1e-11),
+    BenchmarkCase("large contacts", 1.3, 0.1, 1.0, 3.0, 9.0, 4500.0),
 )
 """Impacts of these speeds reach a/h of 0.5, 0.13, 0.5, 1e-5 and 5.5."""
 
-PAPER = REGIMES[1]
+PAPER = CASES[1]
 
 
-def largest_contact_radius(regime: Regime) -> float:
+def largest_contact_radius(case: BenchmarkCase) -> float:
     """Return the contact radius of an impact at the test case's speed [m]."""
-    r = regime
+    r = case
     return float(impact(r.R, r.m, r.speed, r.h, r.b, r.lam, r.mu).max_contact_radius)
 
 
-def never_fails(regime: Regime) -> str | None:  # noqa: ARG001
+def never_fails(case: BenchmarkCase) -> str | None:  # noqa: ARG001
     """Return None: the method has no reason to fail."""
     return None
 
@@ -127,10 +127,10 @@ class Method:
     task: Task
     family: str
     setting: str
-    prepare: Callable[[Regime, Arithmetic], Call]
+    prepare: Callable[[BenchmarkCase, Arithmetic], Call]
     ar: Arithmetic = DOUBLE
     split: Split = "wide"
-    fails: Callable[[Regime], str | None] = never_fails
+    fails: Callable[[BenchmarkCase], str | None] = never_fails
     scalar: bool = False
     quick: bool = True
 
@@ -144,11 +144,11 @@ class Method:
         """Whether numbers are evaluated one by one, by the method or by its arithmetic."""
         return self.scalar or self.ar.wide
 
-    def prepared(self, regime: Regime, ar: Arithmetic | None = None) -> Call:
+    def prepared(self, case: BenchmarkCase, ar: Arithmetic | None = None) -> Call:
         """Return the function to be timed: of doubles, in its own arithmetic or in another."""
         numbers = ar or self.ar
         with numbers.context():
-            return numbers.for_doubles(self.prepare(regime, numbers))
+            return numbers.for_doubles(self.prepare(case, numbers))
 
     @property
     def name(self) -> str:

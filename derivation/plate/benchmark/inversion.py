@@ -8,7 +8,7 @@ from flint import arb, arb_series
 
 from derivation.plate.benchmark.arithmetic import DOUBLE, Arithmetic, Array, horner
 from derivation.plate.benchmark.coefficients import coefficients
-from derivation.plate.benchmark.interface import Call, Method, Regime, largest_contact_radius
+from derivation.plate.benchmark.interface import BenchmarkCase, Call, Method, largest_contact_radius
 from derivation.plate.benchmark.laws import SeriesLaw
 from derivation.plate.benchmark.polynomials import correction, hermite
 from derivation.plate.benchmark.problems import SPAN
@@ -20,15 +20,15 @@ from generated.reversed_series import _reversed
 def reversed_series(terms: int, ar: Arithmetic = DOUBLE) -> Method:
     """Return the method of Lagrange's truncated inversion, NaN beyond its convergence radius."""
 
-    def prepare(regime: Regime, ar: Arithmetic) -> Call:
+    def prepare(case: BenchmarkCase, ar: Arithmetic) -> Call:
         """Return (4/3) E* sqrt(R delta) delta (p_0 + p_1 eps + ...) as a function of delta.
 
         eps = sqrt(R delta)/(h radius).
         """
-        radius = radius_of(regime)
-        p, R = list(ar.array(reversed_balls(regime, terms, radius, ar))), ar.number(regime.R)
-        reach = ar.number(regime.h) * ar.number(radius)
-        lam, mu = ar.number(regime.lam), ar.number(regime.mu)
+        radius = radius_of(case)
+        p, R = list(ar.array(reversed_balls(case, terms, radius, ar))), ar.number(case.R)
+        reach = ar.number(case.h) * ar.number(radius)
+        lam, mu = ar.number(case.lam), ar.number(case.mu)
         stiff = 16 * mu * (lam + mu) / (3 * (lam + 2 * mu))
 
         def call(delta: Array) -> Array:
@@ -38,29 +38,29 @@ def reversed_series(terms: int, ar: Arithmetic = DOUBLE) -> Method:
 
         return call
 
-    def fails(regime: Regime) -> str | None:
-        radius, a = radius_of(regime), largest_contact_radius(regime)
-        delta = contact_law.indentation(a, regime.R, regime.h, regime.b)
-        eps = math.sqrt(delta * regime.R) / regime.h
+    def fails(case: BenchmarkCase) -> str | None:
+        radius, a = radius_of(case), largest_contact_radius(case)
+        delta = contact_law.indentation(a, case.R, case.h, case.b)
+        eps = math.sqrt(delta * case.R) / case.h
         if eps < radius:
             return None
-        return f"beyond its radius: sqrt(R delta)/h up to {eps:.3g}, radius {radius:.3g}"
+        return f"diverges: sqrt(R delta)/h up to {eps:.3g}, radius of convergence {radius:.3g}"
 
     return Method("inversion", "reversed series", f"{terms} terms", prepare, ar, fails=fails)
 
 
-def radius_of(regime: Regime) -> float:
+def radius_of(case: BenchmarkCase) -> float:
     """Return a lower bound of the radius of convergence in sqrt(R delta)/h."""
-    radius, _ = _reversed(contact_series.plates_of(np.array([regime.eta])), 0, 1)
+    radius, _ = _reversed(contact_series.plates_of(np.array([case.eta])), 0, 1)
     return float(radius)
 
 
-def reversed_balls(regime: Regime, terms: int, radius: float, ar: Arithmetic) -> list[arb]:
+def reversed_balls(case: BenchmarkCase, terms: int, radius: float, ar: Arithmetic) -> list[arb]:
     """Return the coefficients of (A/x)^3 in x/radius, A the inverse of x = A sqrt(1 + F)."""
     before = flint.ctx.cap
     with flint.ctx.workprec(ar.bits):
         lifted = [arb(1)]
-        for c in coefficients(regime, max(1, terms // 2), ar.constants):
+        for c in coefficients(case, max(1, terms // 2), ar.constants):
             lifted += [c, arb(0)]
         try:
             flint.ctx.cap = terms + 1  # the number of terms of the truncated series
@@ -74,8 +74,8 @@ def reversed_balls(regime: Regime, terms: int, radius: float, ar: Arithmetic) ->
 def table(knots: int, ar: Arithmetic = DOUBLE) -> Method:
     """Return the method of cubics for ln(a/h) in ln(R delta/h^2), with equal steps."""
 
-    def prepare(regime: Regime, ar: Arithmetic) -> Call:
-        r, top = regime, largest_contact_radius(regime)
+    def prepare(case: BenchmarkCase, ar: Arithmetic) -> Call:
+        r, top = case, largest_contact_radius(case)
         ends = contact_law.indentation(np.array([0.999 * top / SPAN, top]), r.R, r.h, r.b)
         low, high = np.log(ends * r.R / r.h**2).tolist()
         # The last knot must not lie beyond the largest contact by rounding.
@@ -91,25 +91,25 @@ def table(knots: int, ar: Arithmetic = DOUBLE) -> Method:
         scale = stiffness(r, ar) * h * h * h / (R * np.sqrt(R))
         return lambda delta: scale * ar.exp(3 * cubic(ar.log(delta * (R / (h * h)))))
 
-    return Method("inversion", "table of cubics", f"{knots} knots", prepare, ar)
+    return Method("inversion", "cubic interpolation", f"{knots} knots", prepare, ar)
 
 
 class GeneratedLaw:
-    """The law of a regime's plate by the generated code, like `SeriesLaw`."""
+    """The law of a case's plate by the generated code, like `SeriesLaw`."""
 
-    def __init__(self, regime: Regime) -> None:
-        self.regime = regime
+    def __init__(self, case: BenchmarkCase) -> None:
+        self.case = case
 
     def share(self, delta: Array) -> Array:
         """Return A = a/h at indentations [m] above 0."""
-        r = self.regime
+        r = self.case
         return contact_law.contact_radius(delta, r.R, r.h, r.b) / r.h
 
     def lift(self, A: Array) -> Array:
         """Return 1 + F."""
-        return 1 + correction(self.regime, DOUBLE, A)[0]
+        return 1 + correction(self.case, DOUBLE, A)[0]
 
     def slope(self, A: Array) -> Array:
         """Return S = 1 + F + A F'/2."""
-        F, rise = correction(self.regime, DOUBLE, A)
+        F, rise = correction(self.case, DOUBLE, A)
         return 1 + F + rise / 2

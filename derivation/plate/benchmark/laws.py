@@ -12,15 +12,17 @@ from flint import arb
 
 from derivation.plate.benchmark.arithmetic import DOUBLE, Arithmetic, Array, horner
 from derivation.plate.benchmark.coefficients import coefficients, exact_law
-from derivation.plate.benchmark.interface import Call, Method, Regime, largest_contact_radius
+from derivation.plate.benchmark.interface import BenchmarkCase, Call, Method, largest_contact_radius
 
 STEPS = 60
 
 
-def diverges(regime: Regime) -> str | None:
+def diverges(case: BenchmarkCase) -> str | None:
     """Return why the series cannot be used for a test case's impacts, or None."""
-    radius, most = min(4.0, 2 / regime.eta), largest_contact_radius(regime) / regime.h
-    return None if most < radius else f"diverges: a/h up to {most:.3g}, its radius is {radius:g}"
+    radius, most = min(4.0, 2 / case.eta), largest_contact_radius(case) / case.h
+    if most < radius:
+        return None
+    return f"diverges: a/h up to {most:.3g}, radius of convergence {radius:g}"
 
 
 class SeriesLaw:
@@ -29,14 +31,14 @@ class SeriesLaw:
     Without a number of terms it is the whole law, to forty digits.
     """
 
-    def __init__(self, regime: Regime, ar: Arithmetic, terms: int | None = None) -> None:
+    def __init__(self, case: BenchmarkCase, ar: Arithmetic, terms: int | None = None) -> None:
         found = (
-            exact_law(regime) if terms is None else coefficients(regime, terms, ar.constants)
+            exact_law(case) if terms is None else coefficients(case, terms, ar.constants)
         )  # fmt: skip
-        self.R, self.h, self.m = (ar.number(x) for x in (regime.R, regime.h, regime.m))
-        lam, mu = ar.number(regime.lam), ar.number(regime.mu)
+        self.R, self.h, self.m = (ar.number(x) for x in (case.R, case.h, case.m))
+        lam, mu = ar.number(case.lam), ar.number(case.mu)
         self.modulus = 4 * mu * (lam + mu) / (lam + 2 * mu)
-        self.top = ar.number(1.05 * largest_contact_radius(regime) / regime.h)
+        self.top = ar.number(1.05 * largest_contact_radius(case) / case.h)
         self.close = 10.0 ** (-0.6 * ar.digits)
         self.c = list(ar.array(found))
         self.s = [c * (2 * k + 3) / 2 for k, c in enumerate(self.c)]
@@ -123,18 +125,18 @@ class SeriesLaw:
 def newton(terms: int, ar: Arithmetic = DOUBLE) -> Method:
     """Return the method of Newton's iteration on the power series."""
 
-    def prepare(regime: Regime, ar: Arithmetic) -> Call:
-        return SeriesLaw(regime, ar, terms).force
+    def prepare(case: BenchmarkCase, ar: Arithmetic) -> Call:
+        return SeriesLaw(case, ar, terms).force
 
-    return Method("inversion", "Newton, small-a series", f"{terms} terms", prepare, ar,
+    return Method("inversion", "Newton, series in a/h", f"{terms} terms", prepare, ar,
                   fails=diverges)  # fmt: skip
 
 
 def gauss(nodes: int, terms: int, ar: Arithmetic = DOUBLE) -> Method:
     """Return the method of Gauss-Legendre quadrature on the power series."""
 
-    def prepare(regime: Regime, ar: Arithmetic) -> Call:
-        return SeriesLaw(regime, ar, terms).duration(nodes, ar)
+    def prepare(case: BenchmarkCase, ar: Arithmetic) -> Call:
+        return SeriesLaw(case, ar, terms).duration(nodes, ar)
 
-    return Method("impact", "Gauss-Legendre, small-a series", f"{nodes} nodes, {terms} terms",
+    return Method("impact", "Gauss-Legendre, series in a/h", f"{nodes} nodes, {terms} terms",
                   prepare, ar, fails=diverges)  # fmt: skip

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from derivation.plate.benchmark.arithmetic import DOUBLE, Arithmetic, Array, Floats
-from derivation.plate.benchmark.interface import Call, Doubles, Method, Regime
+from derivation.plate.benchmark.interface import BenchmarkCase, Call, Doubles, Method
 from derivation.plate.benchmark.laws import SeriesLaw
 from derivation.plate.benchmark.ready_methods import hertz_time, plate
 from generated import contact_law, contact_series
@@ -30,11 +30,9 @@ MOST_STEPS = 80_000
 def linear(modes: int) -> Method:
     """Return the method of the paper's linear term (15); its contact time is independent of v0."""
 
-    def prepare(regime: Regime, ar: Arithmetic) -> Call:
+    def prepare(case: BenchmarkCase, ar: Arithmetic) -> Call:
         """Return pi sqrt(m gamma_2), gamma_2 = R/(4 E*) sum phi^3 K, for any speed."""
-        h, b, m, lam, mu = (
-            ar.number(x) for x in (regime.h, regime.b, regime.m, regime.lam, regime.mu)
-        )
+        h, b, m, lam, mu = (ar.number(x) for x in (case.h, case.b, case.m, case.lam, case.mu))
         j, slope = ar.zeros(modes)
         factors = (1 + ar.excess(2 * h * j / b)) / (j * slope * slope)
         modulus = 4 * mu * (lam + mu) / (lam + 2 * mu)
@@ -44,24 +42,24 @@ def linear(modes: int) -> Method:
     return Method("impact", "paper's linear term", f"{modes} modes", prepare)
 
 
-def paper_motion(regime: Regime, v0: float, *, corrected: bool) -> PrintedMotion:
+def paper_motion(case: BenchmarkCase, v0: float, *, corrected: bool) -> PrintedMotion:
     """Return the paper's motion in a test case at a speed [m/s]."""
-    r = regime
+    r = case
     return printed_motion(r.R, r.m, v0, r.h, r.b, r.lam, r.mu, MODES, corrected=corrected)
 
 
 def perturbation(corrected: bool) -> Method:
     """Return the method of the paper's correction (16): twice the time of the turning point."""
-    kind = "corrected" if corrected else "as printed"
+    kind = "corrected" if corrected else "as published"
 
-    def fails(regime: Regime) -> str:
+    def fails(case: BenchmarkCase) -> str:
         # In every test case, because both forms of xi_3 are sums of positive terms.
-        share = paper_motion(regime, regime.speed, corrected=corrected).share
-        return f"root of a negative number in (17), (18) from {share:.3g} of the way to the top on"
+        share = paper_motion(case, case.speed, corrected=corrected).share
+        return f"(17), (18) not real after {share:.3g} of the time to the turning point"
 
-    def prepare(regime: Regime, _: Arithmetic) -> Call:
+    def prepare(case: BenchmarkCase, _: Arithmetic) -> Call:
         def one(v0: float) -> float:
-            motion = paper_motion(regime, v0, corrected=corrected)
+            motion = paper_motion(case, v0, corrected=corrected)
             t = np.linspace(0, motion.contact_time / 2, 2001)
             return float(2 * t[int(np.nanargmax(motion.corrected(t)))])
 
@@ -74,11 +72,11 @@ def perturbation(corrected: bool) -> Method:
 def gauss(nodes: int) -> Method:
     """Return the method of the generated integrand with another number of nodes."""
 
-    def prepare(regime: Regime, ar: Arithmetic) -> Call:
+    def prepare(case: BenchmarkCase, ar: Arithmetic) -> Call:
         if ar is not DOUBLE:
-            return SeriesLaw(regime, ar).duration(nodes, ar)
+            return SeriesLaw(case, ar).duration(nodes, ar)
         x, w = np.polynomial.legendre.leggauss(nodes)
-        x, w, r = (1 + x) / 2, w / 2, regime
+        x, w, r = (1 + x) / 2, w / 2, case
         R, m, h, b, lam, mu = (np.asarray(y, float) for y in (r.R, r.m, r.h, r.b, r.lam, r.mu))
 
         def call(v0: Array) -> Array:
@@ -98,21 +96,21 @@ def gauss(nodes: int) -> Method:
 # --- steps
 
 
-def scalar_force(regime: Regime) -> Callable[[float], float]:
+def scalar_force(case: BenchmarkCase) -> Callable[[float], float]:
     """Return a function that computes the force [N] at one indentation [m] in plain Python.
 
     Newton's iteration for a/h starts from the last contact radius found, because steps are
     small.
     """
-    plates = contact_series.plates_of(np.array([regime.eta]))
+    plates = contact_series.plates_of(np.array([case.eta]))
     pieces = [(plates.first, float(plates.reach[0]))]
-    if regime.eta < 1 / REACH:
+    if case.eta < 1 / REACH:
         pieces.append((contact_series.far_piece(plates.eta), float(plates.far[0])))
     rows = [
         (p.coefficients[::-1, 0].tolist(), float(p.middle[0]), 1 / float(p.half[0]), end)
         for p, end in pieces
     ]
-    stiff = 4 * regime.modulus * regime.h**3 / (3 * regime.R)
+    stiff = 4 * case.modulus * case.h**3 / (3 * case.R)
     last = 0.0
 
     def share(A: float) -> tuple[float, float]:
@@ -129,7 +127,7 @@ def scalar_force(regime: Regime) -> Callable[[float], float]:
         nonlocal last
         if delta <= 0:
             return 0.0
-        target = delta * regime.R / regime.h**2
+        target = delta * case.R / case.h**2
         # Hertz's radius may lie beyond the end of the polynomials.
         A = last or min(math.sqrt(target), rows[-1][3])
         for _ in range(60):
@@ -148,10 +146,10 @@ def solver(name: str, rtol: float, share: float | None = None, quick: bool = Tru
     """Return the method of SciPy's solve_ivp up to the turning point; `share` limits its steps."""
     limited = "" if share is None else f", steps below T/{1 / share:g}"
 
-    def one(regime: Regime, v0: float) -> float:
+    def one(case: BenchmarkCase, v0: float) -> float:
         from scipy.integrate import solve_ivp
 
-        r, force = regime, scalar_force(regime)
+        r, force = case, scalar_force(case)
         time = float(impact(r.R, r.m, v0, r.h, r.b, r.lam, r.mu).contact_time)
 
         def rate(t: float, state: Doubles) -> tuple[float, float]:  # noqa: ARG001
@@ -168,8 +166,8 @@ def solver(name: str, rtol: float, share: float | None = None, quick: bool = Tru
         )  # fmt: skip
         return 2 * float(found.t_events[0][0]) if found.t_events[0].size else math.nan
 
-    def prepare(regime: Regime, _: Arithmetic) -> Call:
-        return lambda v0: np.array([one(regime, float(v)) for v in v0])
+    def prepare(case: BenchmarkCase, _: Arithmetic) -> Call:
+        return lambda v0: np.array([one(case, float(v)) for v in v0])
 
     return Method("impact", f"solve_ivp {name}{limited}", f"rtol {rtol:g}", prepare,
                   split="units", scalar=True, quick=quick)  # fmt: skip
@@ -181,21 +179,21 @@ def verlet(steps: int, quick: bool = True, ar: Floats = DOUBLE) -> Method:
     All speeds advance together; the end is interpolated linearly in the last step.
     """
 
-    def fails(regime: Regime) -> str | None:
-        r = regime
+    def fails(case: BenchmarkCase) -> str | None:
+        r = case
         time = impact(r.R, r.m, r.speed, r.h, r.b, r.lam, r.mu).contact_time
         longer = float(time / hertz_time(r, DOUBLE)(r.speed))
         if longer < LONGEST:
             return None
-        return f"contact lasts {longer:.3g} times as long as Hertz's, whose time sets the step"
+        return f"contact lasts {longer:.3g} times as long as Hertz's, which determines the step"
 
-    def prepare(regime: Regime, _: Arithmetic) -> Call:
-        free, others = hertz_time(regime, ar), plate(regime, ar)
+    def prepare(case: BenchmarkCase, _: Arithmetic) -> Call:
+        free, others = hertz_time(case, ar), plate(case, ar)
 
         def force(delta: Any) -> Any:
             return contact_law.force(delta, *others)
 
-        return lambda v0: _verlet(v0, free(v0) / steps, ar.number(regime.m), force)
+        return lambda v0: _verlet(v0, free(v0) / steps, ar.number(case.m), force)
 
     return Method("impact", "velocity Verlet", f"Hertz's time/{steps}", prepare, ar, "units",
                   fails, quick=quick)  # fmt: skip

@@ -9,7 +9,7 @@ import numpy as np
 from derivation.engine.measure import clock
 from derivation.engine.measure.clock import CPU, FULL, QUICK, Effort, Session, Timing
 from derivation.plate.benchmark.errors import MeasuredMethod, measure_errors
-from derivation.plate.benchmark.interface import Call, Doubles, Method, Regime, Task
+from derivation.plate.benchmark.interface import BenchmarkCase, Call, Doubles, Method, Task
 from derivation.plate.benchmark.problems import Problem, problem
 from derivation.plate.benchmark.rows import BenchmarkRow
 
@@ -32,12 +32,14 @@ class BenchmarkPanel:
     single: Session | None
 
 
-def panel(task: Task, regime: Regime, methods: Sequence[Method], quick: bool) -> BenchmarkPanel:
+def panel(
+    task: Task, case: BenchmarkCase, methods: Sequence[Method], quick: bool
+) -> BenchmarkPanel:
     """Measure errors and run times of the methods for a task in a test case."""
     wanted = [method for method in methods if method.task == task]
     if not wanted:
         return BenchmarkPanel((), None, None)
-    set_task = problem(task, regime, quick)
+    set_task = problem(task, case, quick)
     # Suppressed once, so that methods that overflow need not do it in every call.
     with np.errstate(all="ignore"):
         judged = [measured_row(method, set_task) for method in wanted]
@@ -47,9 +49,9 @@ def panel(task: Task, regime: Regime, methods: Sequence[Method], quick: bool) ->
 
 def measured_row(method: Method, problem: Problem) -> tuple[BenchmarkRow, MeasuredMethod | None]:
     """Return the row of a method without times, and what to time unless the method fails."""
-    reason = method.fails(problem.regime)
+    reason = method.fails(problem.case)
     row = BenchmarkRow(
-        method.task, problem.regime.name, method.family, method.setting, method.arithmetic, reason
+        method.task, problem.case.name, method.family, method.setting, method.arithmetic, reason
     )
     if reason is not None:
         return row, None
@@ -57,9 +59,9 @@ def measured_row(method: Method, problem: Problem) -> tuple[BenchmarkRow, Measur
     total = judged.errors.total
     reason = None
     if total == -math.inf:
-        reason = "gives no number in part of the regime"
+        reason = "gives no number in part of the case"
     elif total < NO_DIGITS:
-        reason = f"no digit right: relative error up to {10**-total:.2g}"
+        reason = f"no correct digit: relative error up to {10**-total:.2g}"
     row = replace(row, fails=reason, errors=judged.errors, setup=judged.setup)
     if judged.first > SLOW_CALL:
         alone = Timing(judged.first, 1, 1.0, 1)

@@ -19,7 +19,7 @@ class Winner:
 
     Attributes
     ----------
-    task, regime, digits, kind
+    task, case, digits, kind
         The panel, the number of correct digits, and whether for arrays or single calls.
     family, setting, seconds
         The simplest among the ties, and its time per point [s].
@@ -27,12 +27,12 @@ class Winner:
         That time over the fastest method's of the panel that has at least three digits.
     ties
         Other families within a factor of 1.2 of the fastest.
-    doubtful
+    near_ties
         Families, also the winner, for which another run may decide otherwise about a tie.
     """
 
     task: str
-    regime: str
+    case: str
     digits: int
     kind: Kind
     family: str
@@ -40,17 +40,17 @@ class Winner:
     seconds: float
     relative: float
     ties: tuple[str, ...]
-    doubtful: tuple[str, ...]
+    near_ties: tuple[str, ...]
 
 
 def winners(rows: Sequence[BenchmarkRow]) -> list[Winner]:
     """Return the fastest methods of every panel, for arrays and for single calls."""
-    panels = dict.fromkeys((row.task, row.regime) for row in rows)
+    panels = dict.fromkeys((row.task, row.case) for row in rows)
     return [
         found
-        for task, regime in panels
+        for task, case in panels
         for kind in ("vector", "single")
-        for found in _panel([r for r in rows if (r.task, r.regime) == (task, regime)], kind)
+        for found in _panel([r for r in rows if (r.task, r.case) == (task, case)], kind)
     ]
 
 
@@ -73,7 +73,7 @@ def _panel(rows: Sequence[BenchmarkRow], kind: Kind) -> Iterator[Winner]:
         tied = sorted((f for f, ratio in ratios.items() if ratio <= TIE), key=simplicity)
         row, seconds = fastest[tied[0]]
         yield Winner(
-            row.task, row.regime, digits, kind, row.family, row.setting, seconds,
+            row.task, row.case, digits, kind, row.family, row.setting, seconds,
             seconds / cheapest, tuple(tied[1:]),
             tuple(f for f, ratio in ratios.items() if CLOSE_TIMES[0] <= ratio <= CLOSE_TIMES[1]),
         )  # fmt: skip

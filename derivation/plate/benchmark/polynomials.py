@@ -13,7 +13,7 @@ from flint import arb, arb_mat
 from derivation.engine.formula.ball import to_ball
 from derivation.plate.benchmark.arithmetic import DOUBLE, Arithmetic, Array, as_fraction, horner
 from derivation.plate.benchmark.coefficients import closed_form, coefficients
-from derivation.plate.benchmark.interface import Call, Method, Regime
+from derivation.plate.benchmark.interface import BenchmarkCase, Call, Method
 from derivation.plate.contact.oracle import balls as contact_balls
 from generated import contact_series
 
@@ -22,10 +22,10 @@ REFERENCE_DIGITS = 32
 
 
 def polynomial(
-    regime: Regime, ar: Arithmetic, found: list[arb], middle: float = 0.0, scale: float = 1.0
+    case: BenchmarkCase, ar: Arithmetic, found: list[arb], middle: float = 0.0, scale: float = 1.0
 ) -> Call:
     """Return (a^2/R) (1 + A (c_0 + c_1 t + ...)) as a function of a; t = scale (A^2 - middle)."""
-    R, h, c = ar.number(regime.R), ar.number(regime.h), list(ar.array(found))
+    R, h, c = ar.number(case.R), ar.number(case.h), list(ar.array(found))
     start, factor = ar.number(middle), ar.number(scale)
 
     def call(a: Array) -> Array:
@@ -48,26 +48,30 @@ def polynomial(
 def small_contacts(count: int, ar: Arithmetic = DOUBLE, quick: bool = True) -> Method:
     """Return the method of the power series in a/h with coefficients for this h/b."""
 
-    def fails(regime: Regime) -> str | None:
-        radius = min(4.0, 2 / regime.eta)
-        if regime.high < radius:
+    def fails(case: BenchmarkCase) -> str | None:
+        radius = min(4.0, 2 / case.eta)
+        if case.high < radius:
             return None
-        return f"diverges: a/h up to {regime.high:g}, its radius is {radius:g}"
+        return f"diverges: a/h up to {case.high:g}, radius of convergence {radius:g}"
 
-    def prepare(regime: Regime, ar: Arithmetic) -> Call:
-        return polynomial(regime, ar, coefficients(regime, count, ar.constants))
+    def prepare(case: BenchmarkCase, ar: Arithmetic) -> Call:
+        return polynomial(case, ar, coefficients(case, count, ar.constants))
 
-    return Method("law", "small-a series", f"{count} terms", prepare, ar, fails=fails, quick=quick)
+    return Method("law", "series in a/h", f"{count} terms", prepare, ar, fails=fails, quick=quick)
 
 
 def thin_plate(count: int) -> Method:
     """Return the method of the thin plate's closed form, also a power series in a/h."""
 
-    def fails(regime: Regime) -> str | None:
-        return f"diverges: a/h up to {regime.high:g}, its radius is 4" if regime.high >= 4 else None
+    def fails(case: BenchmarkCase) -> str | None:
+        return (
+            f"diverges: a/h up to {case.high:g}, radius of convergence 4"
+            if case.high >= 4
+            else None
+        )
 
-    def prepare(regime: Regime, ar: Arithmetic) -> Call:
-        return polynomial(regime, ar, closed_form(regime.h, regime.b, count, ar.constants))
+    def prepare(case: BenchmarkCase, ar: Arithmetic) -> Call:
+        return polynomial(case, ar, closed_form(case.h, case.b, count, ar.constants))
 
     return Method("law", "thin-plate closed form", f"{count} terms", prepare, fails=fails)
 
@@ -75,25 +79,25 @@ def thin_plate(count: int) -> Method:
 def chebyshev(degree: int, ar: Arithmetic = DOUBLE) -> Method:
     """Return the method of interpolation of F/A in A^2 between smallest and largest contact."""
 
-    def prepare(regime: Regime, ar: Arithmetic) -> Call:
-        low, high = regime.low**2, regime.high**2
+    def prepare(case: BenchmarkCase, ar: Arithmetic) -> Call:
+        low, high = case.low**2, case.high**2
         middle, scale = (high + low) / 2, 2 / (high - low)
         return polynomial(
-            regime, ar, interpolant(regime, degree, middle, scale, ar.bits), middle, scale
+            case, ar, interpolant(case, degree, middle, scale, ar.bits), middle, scale
         )  # fmt: skip
 
-    return Method("law", "Chebyshev surrogate", f"degree {degree}", prepare, ar)
+    return Method("law", "Chebyshev polynomial", f"degree {degree}", prepare, ar)
 
 
 def interpolant(
-    regime: Regime, degree: int, middle: float, scale: float, bits: int
+    case: BenchmarkCase, degree: int, middle: float, scale: float, bits: int
 ) -> list[arb]:  # fmt: skip
     """Return the coefficients of the polynomial in t that interpolates F/A at Chebyshev nodes."""
     nodes = np.cos(math.pi * (np.arange(degree + 1) + 0.5) / (degree + 1))
-    radii = (np.sqrt(middle + nodes / scale) * regime.h).tolist()
+    radii = (np.sqrt(middle + nodes / scale) * case.h).tolist()
     with flint.ctx.workprec(bits):
-        A = [arb(a) / arb(regime.h) for a in radii]
-        shares = [_departure(a, regime.h, regime.b) / x for a, x in zip(radii, A, strict=True)]
+        A = [arb(a) / arb(case.h) for a in radii]
+        shares = [_departure(a, case.h, case.b) / x for a, x in zip(radii, A, strict=True)]
         powers = [[(arb(scale) * (x * x - arb(middle))) ** k for k in range(degree + 1)] for x in A]
         found = arb_mat(powers).solve(arb_mat([[share.mid()] for share in shares]))
         return list(found.entries())
@@ -107,13 +111,13 @@ def _departure(a: float, h: float, b: float) -> arb:
 def table(knots: int) -> Method:
     """Return the method of cubics through values and slopes of F/A at equal steps of A^2."""
 
-    def prepare(regime: Regime, ar: Arithmetic) -> Call:
-        R, h = ar.number(regime.R), ar.number(regime.h)
-        ends = regime.low**2, regime.high**2
+    def prepare(case: BenchmarkCase, ar: Arithmetic) -> Call:
+        R, h = ar.number(case.R), ar.number(case.h)
+        ends = case.low**2, case.high**2
 
         def node(t: Array) -> tuple[Array, Array]:
             A = np.sqrt(t)
-            F, rise = correction(regime, ar, A)
+            F, rise = correction(case, ar, A)
             return F / A, (rise - F) / (2 * A * t)
 
         cubic = hermite(ar, ends, knots, node)
@@ -124,16 +128,16 @@ def table(knots: int) -> Method:
 
         return call
 
-    return Method("law", "table of cubics", f"{knots} knots", prepare)
+    return Method("law", "cubic interpolation", f"{knots} knots", prepare)
 
 
-def correction(regime: Regime, ar: Arithmetic, A: Array) -> tuple[Array, Array]:
+def correction(case: BenchmarkCase, ar: Arithmetic, A: Array) -> tuple[Array, Array]:
     """Return F and A F' at A = a/h, from the generated code or, in wide arithmetic, from Arb."""
     if not ar.wide:
-        plates = contact_series.plates_of(np.array([regime.eta]))
+        plates = contact_series.plates_of(np.array([case.eta]))
         F, rise = contact_series.correction_with_slope(A, plates, None)
         return F, rise
-    found = [_corrections(as_fraction(x) * Fraction(regime.h), regime.h, regime.b) for x in A]
+    found = [_corrections(as_fraction(x) * Fraction(case.h), case.h, case.b) for x in A]
     F, rise = (ar.array(list(column)) for column in zip(*found, strict=True))
     return F, rise
 

@@ -11,8 +11,8 @@ from flint import arb
 from derivation.engine.formula.ball import LOG2_10
 from derivation.plate.benchmark.interface import (
     PAPER,
+    BenchmarkCase,
     Doubles,
-    Regime,
     Task,
     largest_contact_radius,
 )
@@ -49,21 +49,21 @@ class Problem:
     """
 
     task: Task
-    regime: Regime
+    case: BenchmarkCase
     points: Doubles
     reference_values: tuple[arb, ...]
     digits: int
     sample: Doubles
 
 
-def problem(task: Task, regime: Regime, quick: bool) -> Problem:
+def problem(task: Task, case: BenchmarkCase, quick: bool) -> Problem:
     """Return the points and reference values of a task in a test case."""
-    makers: Mapping[Task, Callable[[Regime, bool], Problem]] = {
+    makers: Mapping[Task, Callable[[BenchmarkCase, bool], Problem]] = {
         "law": _law,
         "inversion": _inversion,
         "impact": _impact,
     }
-    return makers[task](regime, quick)
+    return makers[task](case, quick)
 
 
 def _spread(low: float, high: float, count: int, seed: int) -> Doubles:
@@ -73,55 +73,55 @@ def _spread(low: float, high: float, count: int, seed: int) -> Doubles:
     return np.concatenate([[low, high], inner])
 
 
-def _law(regime: Regime, quick: bool) -> Problem:
-    low, high = regime.low * regime.h, regime.high * regime.h
-    digits = QUICK_DIGITS if quick else MANY_DIGITS if regime is PAPER else LAW_DIGITS
+def _law(case: BenchmarkCase, quick: bool) -> Problem:
+    low, high = case.low * case.h, case.high * case.h
+    digits = QUICK_DIGITS if quick else MANY_DIGITS if case is PAPER else LAW_DIGITS
     radii = _spread(low, high, 10 if quick else 18, SEED)
     if digits == MANY_DIGITS:
-        reference_values = _many_digits(radii, regime)
+        reference_values = _many_digits(radii, case)
     else:
         reference_values = tuple(
-            contact_balls.indentation(float(a), regime.R, regime.h, regime.b, digits) for a in radii
+            contact_balls.indentation(float(a), case.R, case.h, case.b, digits) for a in radii
         )
     return Problem(
-        "law", regime, radii, reference_values, digits, _spread(low, high, ARRAY - 2, SEED + 1)
+        "law", case, radii, reference_values, digits, _spread(low, high, ARRAY - 2, SEED + 1)
     )  # fmt: skip
 
 
-def _many_digits(radii: Doubles, regime: Regime) -> tuple[arb, ...]:
+def _many_digits(radii: Doubles, case: BenchmarkCase) -> tuple[arb, ...]:
     """Return indentations with MANY_DIGITS digits."""
-    r, reach = regime, float(radii.max()) / regime.b
+    r, reach = case, float(radii.max()) / case.b
     law = ball_law.law_of(ratio_of(r.h, r.b), reach * (1 + 1e-9), MANY_DIGITS)
     return tuple(
         ball_law.static_contact(float(a), r.R, r.b, r.lam, r.mu, law, MANY_DIGITS)[0] for a in radii
     )
 
 
-def _inversion(regime: Regime, quick: bool) -> Problem:
+def _inversion(case: BenchmarkCase, quick: bool) -> Problem:
     """Return rounded indentations of known radii, with certified forces."""
-    top = largest_contact_radius(regime)
+    top = largest_contact_radius(case)
     radii = _spread(top / SPAN, 0.999 * top, 6 if quick else 14, SEED)
-    R, h, b = regime.R, regime.h, regime.b
+    R, h, b = case.R, case.h, case.b
     depths = np.array([float(contact_balls.indentation(float(a), R, h, b, 20)) for a in radii])
     with flint.ctx.workprec(math.ceil(2 * INVERSION_DIGITS * LOG2_10)):
-        reference_values = tuple(_force(float(d), regime) for d in depths)
+        reference_values = tuple(_force(float(d), case) for d in depths)
     sample = indentation(_spread(top / SPAN, 0.999 * top, ARRAY - 2, SEED + 1), R, h, b)
-    return Problem("inversion", regime, depths, reference_values, INVERSION_DIGITS, sample)
+    return Problem("inversion", case, depths, reference_values, INVERSION_DIGITS, sample)
 
 
-def _force(delta: float, regime: Regime) -> arb:
-    R, h, b = regime.R, regime.h, regime.b
+def _force(delta: float, case: BenchmarkCase) -> arb:
+    R, h, b = case.R, case.h, case.b
     radius = contact_balls.contact_radius(delta, R, h, b, INVERSION_DIGITS + 2)
-    return 4 * contact_balls.modulus(regime.lam, regime.mu) * radius**3 / (3 * arb(R))
+    return 4 * contact_balls.modulus(case.lam, case.mu) * radius**3 / (3 * arb(R))
 
 
-def _impact(regime: Regime, quick: bool) -> Problem:
+def _impact(case: BenchmarkCase, quick: bool) -> Problem:
     shares = (1.0,) if quick else (0.7, 0.85, 1.0)
-    speeds = np.array([share * regime.speed for share in shares])
-    r = regime
+    speeds = np.array([share * case.speed for share in shares])
+    r = case
     reference_values = tuple(
         contact_impact.impact(r.R, r.m, float(v), r.h, r.b, r.lam, r.mu, IMPACT_DIGITS).contact_time
         for v in speeds
     )
     sample = _spread(0.7 * r.speed, r.speed, ARRAY - 2, SEED + 1)
-    return Problem("impact", regime, speeds, reference_values, IMPACT_DIGITS, sample)
+    return Problem("impact", case, speeds, reference_values, IMPACT_DIGITS, sample)

@@ -13,7 +13,7 @@ from derivation.plate.benchmark.arithmetic import (
     BallArithmetic,
     Floats,
 )
-from derivation.plate.benchmark.interface import Call, Method, Regime, Task
+from derivation.plate.benchmark.interface import BenchmarkCase, Call, Method, Task
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.impact.oracle import impact as contact_impact
 from generated import contact_law, contact_series
@@ -22,30 +22,30 @@ from generated.impact import impact
 # --- Hertz's formulas
 
 
-def hertz_law(regime: Regime, ar: Arithmetic) -> Call:
+def hertz_law(case: BenchmarkCase, ar: Arithmetic) -> Call:
     """Return delta = a^2/R as a function of a."""
-    R = ar.number(regime.R)
+    R = ar.number(case.R)
     return lambda a: a * a / R
 
 
-def hertz_force(regime: Regime, ar: Arithmetic) -> Call:
+def hertz_force(case: BenchmarkCase, ar: Arithmetic) -> Call:
     """Return P = (4/3) E* sqrt(R) delta^(3/2) as a function of delta."""
-    stiff = stiffness(regime, ar)
+    stiff = stiffness(case, ar)
     return lambda delta: stiff * (delta * np.sqrt(delta))
 
 
-def hertz_time(regime: Regime, ar: Arithmetic) -> Call:
+def hertz_time(case: BenchmarkCase, ar: Arithmetic) -> Call:
     """Return the contact time on a half-space [s] as a function of speed [m/s]."""
     with flint.ctx.workprec(ar.bits):
         root, tenth = arb.pi().sqrt(), arb(1) / 10
         factor = ar.number(4 * root * (4 * tenth).gamma() / (5 * (9 * tenth).gamma()))
-    m, power, stiff = ar.number(regime.m), 2 * ar.number(1.0) / 5, stiffness(regime, ar)
+    m, power, stiff = ar.number(case.m), 2 * ar.number(1.0) / 5, stiffness(case, ar)
     return lambda v0: factor * (5 * m * v0 * v0 / (4 * stiff)) ** power / v0
 
 
-def stiffness(regime: Regime, ar: Arithmetic) -> Array:
+def stiffness(case: BenchmarkCase, ar: Arithmetic) -> Array:
     """Return (4/3) E* sqrt(R) [N/m^(3/2)]."""
-    R, lam, mu = (ar.number(x) for x in (regime.R, regime.lam, regime.mu))
+    R, lam, mu = (ar.number(x) for x in (case.R, case.lam, case.mu))
     return 16 * mu * (lam + mu) / (3 * (lam + 2 * mu)) * np.sqrt(R)
 
 
@@ -58,30 +58,30 @@ def hertz(task: Task) -> Method:
 # --- the generated code
 
 
-def plate(regime: Regime, ar: Floats) -> list[Array]:
+def plate(case: BenchmarkCase, ar: Floats) -> list[Array]:
     """Return R, h, b, lam and mu in doubles or singles."""
-    r = regime
+    r = case
     return [ar.number(x) for x in (r.R, r.h, r.b, r.lam, r.mu)]
 
 
 def generated_law(ar: Floats = DOUBLE) -> Method:
     """Return the method `indentation` as users call it, with all checks in every call."""
 
-    def prepare(regime: Regime, _: Arithmetic) -> Call:
-        R, h, b, *_elastic = plate(regime, ar)
+    def prepare(case: BenchmarkCase, _: Arithmetic) -> Call:
+        R, h, b, *_elastic = plate(case, ar)
         return lambda a: contact_law.indentation(a, R, h, b)
 
-    return Method("law", "production", "as called", prepare, ar, "all")
+    return Method("law", "generated code", "set-up included", prepare, ar, "all")
 
 
 def prepared_law() -> Method:
     """Return the method of the same polynomials, with the plate prepared and without checks."""
 
-    def prepare(regime: Regime, _: Arithmetic) -> Call:
-        plates = contact_series.plates_of(np.array([regime.eta]))
-        law = contact_series.sphere_on_plate(plates, np.array([regime.h]), np.array(regime.R))
+    def prepare(case: BenchmarkCase, _: Arithmetic) -> Call:
+        plates = contact_series.plates_of(np.array([case.eta]))
+        law = contact_series.sphere_on_plate(plates, np.array([case.h]), np.array(case.R))
         if law is None:
-            raise ValueError(f"expected ordinary lengths, got {regime}")
+            raise ValueError(f"expected ordinary lengths, got {case}")
 
         def call(a: Array) -> Array:
             found = np.empty(a.size)
@@ -91,28 +91,28 @@ def prepared_law() -> Method:
 
         return call
 
-    return Method("law", "production", "prepared", prepare, DOUBLE, "all")
+    return Method("law", "generated code", "set-up excluded", prepare, DOUBLE, "all")
 
 
 def generated_force(ar: Floats = DOUBLE) -> Method:
     """Return the method `force`, the generated code's Newton iteration."""
 
-    def prepare(regime: Regime, _: Arithmetic) -> Call:
-        others = plate(regime, ar)
+    def prepare(case: BenchmarkCase, _: Arithmetic) -> Call:
+        others = plate(case, ar)
         return lambda delta: contact_law.force(delta, *others)
 
-    return Method("inversion", "Newton (production)", "as called", prepare, ar, "all")
+    return Method("inversion", "generated code", "set-up included", prepare, ar, "all")
 
 
 def generated_impact(ar: Floats = DOUBLE) -> Method:
-    """Return the method `impact` as called: 24 nodes, and all four results."""
+    """Return the method `impact` set-up included: 24 nodes, and all four results."""
 
-    def prepare(regime: Regime, _: Arithmetic) -> Call:
-        R, *others = plate(regime, ar)
-        m = ar.number(regime.m)
+    def prepare(case: BenchmarkCase, _: Arithmetic) -> Call:
+        R, *others = plate(case, ar)
+        m = ar.number(case.m)
         return lambda v0: impact(R, m, v0, *others).contact_time
 
-    return Method("impact", "production", "as called", prepare, ar, "all")
+    return Method("impact", "generated code", "set-up included", prepare, ar, "all")
 
 
 # --- the oracles
@@ -121,21 +121,23 @@ def generated_impact(ar: Floats = DOUBLE) -> Method:
 def arb_reference(task: Task, digits: int, quick: bool = True) -> Method:
     """Return the method of certified balls; common quantities are computed at set-up."""
     family = {
-        "law": "contour integrals", "inversion": "enclosed root", "impact": "integrals in balls",
-    }  # fmt: skip
+        "law": "contour integrals",
+        "inversion": "interval root finding",
+        "impact": "interval quadrature",
+    }
 
-    def prepare(regime: Regime, ar: Arithmetic) -> Call:
-        one = _ball_function(task, regime, ar)
+    def prepare(case: BenchmarkCase, ar: Arithmetic) -> Call:
+        one = _ball_function(task, case, ar)
         if task == "law":
-            one(regime.high * regime.h)
+            one(case.high * case.h)
         return lambda values: np.array([one(float(x)) for x in values], dtype=object)
 
     return Method(task, family[task], f"{digits} digits", prepare, BallArithmetic(digits), "ball",
                   quick=quick)  # fmt: skip
 
 
-def _ball_function(task: Task, regime: Regime, ar: Arithmetic) -> Callable[[float], arb]:
-    r, digits = regime, ar.digits
+def _ball_function(task: Task, case: BenchmarkCase, ar: Arithmetic) -> Callable[[float], arb]:
+    r, digits = case, ar.digits
 
     def force(delta: float) -> arb:
         a = contact_balls.contact_radius(delta, r.R, r.h, r.b, digits)

@@ -16,7 +16,7 @@ class BenchmarkRow:
 
     Attributes
     ----------
-    task, regime, family, setting, arithmetic
+    task, case, family, setting, arithmetic
         Method, arithmetic and test case.
     fails
         Reason why it fails, or None.
@@ -29,7 +29,7 @@ class BenchmarkRow:
     """
 
     task: Task
-    regime: str
+    case: str
     family: str
     setting: str
     arithmetic: str

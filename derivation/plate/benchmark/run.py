@@ -13,11 +13,11 @@ from derivation.plate.benchmark import scaling
 from derivation.plate.benchmark.catalogue import methods
 from derivation.plate.benchmark.headline import headline
 from derivation.plate.benchmark.interface import (
+    CASES,
     PAPER,
-    REGIMES,
     TASKS,
     TIE,
-    Regime,
+    BenchmarkCase,
     largest_contact_radius,
 )
 from derivation.plate.benchmark.panels import panel
@@ -29,9 +29,9 @@ from derivation.plate.benchmark.tools import tools
 from derivation.plate.judge import PACKAGE
 
 
-def scene_regime(
+def scene_case(
     R: float, m: float, v0: float, h: float, b: float, lam: float, mu: float
-) -> Regime:  # fmt: skip
+) -> BenchmarkCase:  # fmt: skip
     """Return a scene as the test case that replaces the paper's.
 
     The law is evaluated from 1/13 of the impact's largest contact radius to twice that radius,
@@ -42,24 +42,24 @@ def scene_regime(
     ValueError
         If the impact goes beyond the contact law.
     """
-    regime = Regime("scene", R, h, b, 0.0, 0.0, v0, m, lam, mu)
-    top = largest_contact_radius(regime) / h
+    case = BenchmarkCase("scene", R, h, b, 0.0, 0.0, v0, m, lam, mu)
+    top = largest_contact_radius(case) / h
     if not top > 0:
         raise ValueError(
             "impact.speed: expected an impact within the contact law (a below R, b and 6 h), got "
             "one beyond it; reduce the speed or use a thicker plate"
         )
     high = min(2 * top, 0.95 * min(b, R) / h)
-    return Regime("scene", R, h, b, top / 13, max(high, top), v0, m, lam, mu)
+    return BenchmarkCase("scene", R, h, b, top / 13, max(high, top), v0, m, lam, mu)
 
 
-def regimes(scene: Regime | None) -> tuple[Regime, ...]:
+def cases(scene: BenchmarkCase | None) -> tuple[BenchmarkCase, ...]:
     """Return every test case, with a scene in place of the paper's if one is given."""
-    return tuple(scene if scene and regime is PAPER else regime for regime in REGIMES)
+    return tuple(scene if scene and case is PAPER else case for case in CASES)
 
 
 def measure(
-    names: Sequence[str] = (), quick: bool = False, scene: Regime | None = None,
+    names: Sequence[str] = (), quick: bool = False, scene: BenchmarkCase | None = None,
     progress: Progress = quiet,
 ) -> dict[str, Any]:  # fmt: skip
     """Measure all methods, or those named; a quick run takes seconds, a full one minutes.
@@ -69,20 +69,20 @@ def measure(
     ValueError
         If a method is unknown.
     """
-    chosen, places = methods(names, quick), regimes(scene)
+    chosen, places = methods(names, quick), cases(scene)
     studies = scaling.studies(quick)
     report = _Progress(progress, len(TASKS) * len(places) + len(studies) + 2)
     effort = QUICK if quick else FULL
     before = os.getloadavg()[0]
     rows: list[BenchmarkRow] = []
     sessions: list[dict[str, Any]] = []
-    for regime in places:
+    for case in places:
         for task in TASKS:
-            report(f"{task}, {regime.name}")
-            found = panel(task, regime, chosen, quick)
+            report(f"{task}, {case.name}")
+            found = panel(task, case, chosen, quick)
             rows += found.rows
             sessions += [
-                {"task": task, "regime": regime.name, "kind": kind, **_session(session)}
+                {"task": task, "case": case.name, "kind": kind, **_session(session)}
                 for kind, session in (("vector", found.vector), ("single", found.single))
                 if session is not None
             ]
@@ -101,7 +101,7 @@ def measure(
             "contended": CONTENDED, "methods": list(names),
             "load_before": before, "load_after": os.getloadavg()[0],
         },
-        "regimes": [asdict(regime) for regime in places],
+        "cases": [asdict(case) for case in places],
         "rows": [asdict(row) for row in rows],
         "sessions": sessions,
         "pareto": [asdict(winner) for winner in winners(rows)],

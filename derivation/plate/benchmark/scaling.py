@@ -27,7 +27,7 @@ FIT_DEVIATION = 1.5
 """Factor by which a time may differ from the fitted power law."""
 
 DIGITS_PER_TERM = 2.2
-"""Digits gained with each term of the small-a series at a/h = 0.3: 2 log10(4/0.3)."""
+"""Digits gained with each term of the series in a/h at a/h = 0.3: 2 log10(4/0.3)."""
 
 SPLIT_POINTS = 64
 """Number of points for the split sum, which is slower than the generated law."""
@@ -39,41 +39,45 @@ class Growth:
 
     Attributes
     ----------
-    what, method
+    quantity, method
         Name of the varied size, and of the method.
     x, seconds
         The sizes, and the time for each [s].
     slope
         Exponent of the power law through the last three sizes.
-    leaves
+    deviates_at
         Largest size at which the time differs from the power law by more than `OFF`, or None.
-    why
+    reason
         The reason for that difference, or for the exponent.
     peak_bytes
         Peak memory of the last call, including its result; None if not measured.
     """
 
-    what: str
+    quantity: str
     method: str
     x: tuple[float, ...]
     seconds: tuple[float, ...]
     slope: float
-    leaves: float | None
-    why: str
+    deviates_at: float | None
+    reason: str
     peak_bytes: int | None
 
 
 def growth(
-    what: str, method: str, x: Sequence[float], calls: Sequence[Callable[[], object]], why: str
+    quantity: str,
+    method: str,
+    x: Sequence[float],
+    calls: Sequence[Callable[[], object]],
+    reason: str,
 ) -> Growth:
     """Measure the time of each call, and the memory of the last."""
     seconds = tuple(_lower_quartile(call) for call in calls)
-    slope, leaves = line(x, seconds)
-    return Growth(what, method, tuple(x), seconds, slope, leaves, why, peak(calls[-1]))
+    slope, deviates_at = line(x, seconds)
+    return Growth(quantity, method, tuple(x), seconds, slope, deviates_at, reason, peak(calls[-1]))
 
 
 def line(x: Sequence[float], seconds: Sequence[float]) -> tuple[float, float | None]:
-    """Fit a power law to the last three points; return its exponent and `Growth.leaves`."""
+    """Fit a power law to the last three points; return its exponent and `Growth.deviates_at`."""
     logs, times = np.log(x), np.log(seconds)
     slope, start = np.polyfit(logs[-3:], times[-3:], 1)
     off = np.flatnonzero(np.abs(times - (start + slope * logs)) > math.log(FIT_DEVIATION))
@@ -107,15 +111,16 @@ def points() -> list[Growth]:
     sizes = [10**k for k in range(8)]
     radii = np.random.default_rng(1).uniform(1e-3, 0.03, sizes[-1])
     ready = ready_methods.prepared_law().prepared(PAPER)
-    whole = "set-up of a call (domain, plate) outweighs the points below"
+    whole = "below this size the set-up of a call (checks, plate) dominates"
     return [
         growth(
-            "points", "production, as called", sizes,
+            "points", "generated code, set-up included", sizes,
             [partial(indentation, radii[:n], PAPER.R, PAPER.h, PAPER.b) for n in sizes], whole,
         ),
         growth(
-            "points", "production, prepared", sizes, [partial(ready, radii[:n]) for n in sizes],
-            "the interpreter's share of a call outweighs the points below",
+            "points", "generated code, set-up excluded", sizes,
+            [partial(ready, radii[:n]) for n in sizes],
+            "below this size the overhead of the interpreter dominates",
         ),
     ]  # fmt: skip
 
@@ -130,22 +135,25 @@ def thickness_ratios() -> list[Growth]:
         prepared = [(method.prepared(plate), fractions[:count] * plate.h) for plate in plates]
         return [partial(call, a) for call, a in prepared]
 
-    flat = "flat: coefficients come from tables in h/b, the points see polynomials only"
-    modes = "grows with the modes, 4 b/h of them; for thick plates the wall's 48 nodes count"
+    flat = "constant: the coefficients come from tables in h/b, and each point is a polynomial"
+    modes = (
+        "proportional to the number of modes, 4 b/h; for thick plates the 48 nodes of the integral "
+        "dominate"
+    )
     return [
         growth(
-            "b/h", f"production, as called, {ARRAY} points", ratios,
+            "b/h", f"generated code, set-up included, {ARRAY} points", ratios,
             calls(ready_methods.generated_law(), ARRAY), flat,
         ),
         growth(
-            "b/h", f"split, 48 nodes, {SPLIT_POINTS} points", ratios,
+            "b/h", f"split sum, 48 nodes, {SPLIT_POINTS} points", ratios,
             calls(sums.split(48, 4), SPLIT_POINTS), modes,
         ),
     ]  # fmt: skip
 
 
 def digits(quick: bool) -> list[Growth]:
-    """Measure the small-a series by digits: set-up, and one point in Arb and in mpmath."""
+    """Measure the series in a/h by digits: set-up, and one point in Arb and in mpmath."""
     counts = [30, 50, 100] if quick else [30, 50, 100, 200, 300, 500, 1000]
     setups, balls, numbers = [], [], []
     for count in counts:
@@ -158,18 +166,18 @@ def digits(quick: bool) -> list[Growth]:
     a, setup_slope = np.array([0.3 * PAPER.h]), line(counts, setups)
     return [
         Growth(
-            "digits", "small-a series in balls, set-up", tuple(counts), tuple(setups), *setup_slope,
-            "zeros of J0 to that precision: more of them, each with a longer run time", None,
+            "digits", "series in a/h, Arb, set-up", tuple(counts), tuple(setups), *setup_slope,
+            "more zeros of J0 are needed, each to more digits", None,
         ),
         growth(
-            "digits", "small-a series in balls, one point", counts,
+            "digits", "series in a/h, Arb, one point", counts,
             [partial(call, a) for call in balls],
-            "the terms grow with the digits; the interpreter takes most of the time of each",
+            "more terms are needed; the overhead of the interpreter dominates each term",
         ),
         growth(
-            "digits", "small-a series in mpmath, one point", counts,
+            "digits", "series in a/h, mpmath, one point", counts,
             [partial(call, a) for call in numbers],
-            "the same terms; products of so many bits count earlier",
+            "more terms are needed; long products dominate from fewer digits on",
         ),
     ]  # fmt: skip
 
@@ -179,11 +187,11 @@ def scenes(quick: bool) -> list[Growth]:
     sizes = [10**k for k in range(5 if quick else 6)]
     batches = [speed.scenes(0.01, 2.9, n) for n in sizes]
     rows = [list(zip(*(x.tolist() for x in s.values()), strict=True)) for s in batches]
-    batch = "set-up of a call and NumPy's share of each operation outweigh the scenes below"
+    batch = "below this size the set-up of a call and the overhead of NumPy dominate"
     found = [
         growth(
             "scenes", name, sizes, [partial(_each, method, some) for some in rows],
-            "one scene after another in plain Python",
+            "one scene after another in Python",
         )
         for name, method in (("hertz", hertz), ("leading", leading))
     ]  # fmt: skip

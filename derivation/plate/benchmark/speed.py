@@ -115,7 +115,7 @@ def ratio(name: str, one: Callable[[], object], base: Callable[[], object], limi
 def law_over_exp(top: float, limit: float) -> SpeedTiming:
     """Measure the contact law for one plate, a/h up to `top`, relative to `numpy.exp`."""
     a = np.random.default_rng(1).uniform(1e-3, top, POINTS)
-    name = f"contact law over numpy.exp, {POINTS:.0e} points, h/b = {ETA}, a/h up to {top}"
+    name = f"contact law relative to numpy.exp, {POINTS:,} points, h/b = {ETA}, a/h up to {top}"
     return ratio(name, lambda: indentation(a, 100.0, 1.0, 1 / ETA), lambda: np.exp(a), limit)
 
 
@@ -178,7 +178,7 @@ def stable_over_naive(name: str) -> SpeedTiming:
     np.ones(4_000_000)
     stable, naive = NAIVE[name]
     x = np.random.default_rng(3).uniform(*NAIVE_RANGE, NAIVE_POINTS)
-    title = f"{name} over its naive form, {NAIVE_POINTS:.0e} points from 2 to 80"
+    title = f"{name} relative to its textbook form, {NAIVE_POINTS:,} points from 2 to 80"
     return ratio(title, lambda: stable(x), lambda: naive(x), 3.0, 20 * ROUNDS)
 
 
@@ -206,7 +206,7 @@ def impact_rate(low: float, high: float, limit: float) -> SpeedTiming:
 
 def cold_start(command: str, scene: Path, limit: float) -> SpeedTiming:
     """Measure a command in a new process, relative to a process that only imports its libraries."""
-    name = f"platecontact {command} {scene.name}, cold, over its libraries' imports"
+    name = f"platecontact {command} {scene.name}, first start, relative to importing its libraries"
     return ratio(name, process(COMMAND, command, str(scene), "--json", "-"), process(LIBRARIES),
                  limit, COLD_ROUNDS)  # fmt: skip
 
@@ -228,7 +228,10 @@ def hertz_alone(scene: Path, limit: float) -> SpeedTiming:
         plain = Path(folder) / scene.name
         keys = "".join(f"{name} = false\n" for name in SWITCHES)
         plain.write_text(f"{scene.read_text()}\n[effects]\n{keys}")
-        name = f"platecontact simulate {scene.name}, where Hertz is enough, over all else off"
+        name = (
+            f"platecontact simulate {scene.name}, Hertz only: selected, "
+            "relative to all others disabled"
+        )
         auto, off = (
             process(COMMAND, "simulate", str(path), "--json", "-") for path in (scene, plain)
         )

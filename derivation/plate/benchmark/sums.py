@@ -8,7 +8,7 @@ import numpy as np
 from flint import arb
 
 from derivation.plate.benchmark.arithmetic import DOUBLE, LONG_DOUBLE, Arithmetic, Array
-from derivation.plate.benchmark.interface import Call, Method, Regime
+from derivation.plate.benchmark.interface import BenchmarkCase, Call, Method
 
 WIDE_MODES = 1000
 """Direct sums of more modes are repeated in long doubles, in which their truncation error shows.
@@ -42,8 +42,8 @@ def modal(ar: Arithmetic, phi: Array, weights: Array) -> Call:
     return call
 
 
-def _direct(modes: int, is_printed: bool, regime: Regime, ar: Arithmetic) -> Call:
-    R, h, b = (ar.number(x) for x in (regime.R, regime.h, regime.b))
+def _direct(modes: int, is_printed: bool, case: BenchmarkCase, ar: Arithmetic) -> Call:
+    R, h, b = (ar.number(x) for x in (case.R, case.h, case.b))
     j, slope = ar.zeros(modes)
     phi = j / b
     factor = ar.printed_factor(phi * h) if is_printed else 1 + ar.excess(2 * phi * h)
@@ -54,15 +54,15 @@ def _direct(modes: int, is_printed: bool, regime: Regime, ar: Arithmetic) -> Cal
 def printed(modes: int) -> Method:
     """Return the method of the paper's sum (6) with its published plate factor, in doubles."""
 
-    def fails(regime: Regime) -> str | None:
-        most = 8 * math.pi * modes * regime.eta
+    def fails(case: BenchmarkCase) -> str | None:
+        most = 8 * math.pi * modes * case.eta
         return (
             f"overflow: e^(8 phi h) with phi h up to {most / 8:.3g} is infinite, inf/inf is NaN"
             if most > OVERFLOW
             else None
         )
 
-    return Method("law", "printed sum", f"{modes} modes", partial(_direct, modes, True),
+    return Method("law", "published sum", f"{modes} modes", partial(_direct, modes, True),
                   fails=fails)  # fmt: skip
 
 
@@ -84,20 +84,20 @@ def levin(samples: int) -> Method:
     (1 - i y) e^(iy) cancels there.
     """
 
-    def fails(regime: Regime) -> str | None:
-        needed = round((samples + 3) * TURN / (regime.low * regime.eta * math.pi))
+    def fails(case: BenchmarkCase) -> str | None:
+        needed = round((samples + 3) * TURN / (case.low * case.eta * math.pi))
         if needed > MOST_MODES:
-            return f"its {samples} samples, a third of a turn apart, take {needed:.1g} modes"
+            return f"its {samples} samples (three in each period) need {needed:.1g} modes"
         return None
 
-    def prepare(regime: Regime, ar: Arithmetic) -> Call:
-        R, h, b = (ar.number(x) for x in (regime.R, regime.h, regime.b))
-        j, slope = ar.zeros((samples + 3) * stride_at(regime.low * regime.eta))
+    def prepare(case: BenchmarkCase, ar: Arithmetic) -> Call:
+        R, h, b = (ar.number(x) for x in (case.R, case.h, case.b))
+        j, slope = ar.zeros((samples + 3) * stride_at(case.low * case.eta))
         square = j * j * slope
         weights = 8 * b * b * (1 + ar.excess(2 * j * h / b)) / (ar.pi() * R * square * square)
 
         def one(a: Array) -> Array:
-            stride = stride_at(float(a) / regime.b)
+            stride = stride_at(float(a) / case.b)
             count = stride * (samples + 2)
             y, w = a / b * j[:count], weights[:count]
             head = (w[:stride] * ar.shape(y[:stride])).sum()
@@ -109,7 +109,9 @@ def levin(samples: int) -> Method:
 
         return lambda a: np.array([one(x) for x in np.atleast_1d(a)])
 
-    return Method("law", "Levin u", f"{samples} samples", prepare, fails=fails, scalar=True)
+    return Method(
+        "law", "Levin u transform", f"{samples} samples", prepare, fails=fails, scalar=True
+    )
 
 
 def stride_at(alpha: float) -> int:
@@ -133,7 +135,7 @@ def u_transform(sums: Array, estimates: Array, places: Array) -> Array:
 
 
 @cache
-def wall_nodes(count: int, digits: int, double_exponential: bool, bits: int) -> list[list[arb]]:
+def lateral_nodes(count: int, digits: int, double_exponential: bool, bits: int) -> list[list[arb]]:
     """Return nodes y and weights times K0/(I0 y^3) of the finite-radius integral, alpha <= 1.
 
     Double exponential: the trapezoidal rule in t, y = exp(t - exp(-t)), which removes the
@@ -159,9 +161,9 @@ def wall_nodes(count: int, digits: int, double_exponential: bool, bits: int) -> 
         return [ys, weights]
 
 
-def modes_of(regime: Regime, share: float) -> int:
+def modes_of(case: BenchmarkCase, share: float) -> int:
     """Return the number of modes of the thickness term, which decays like e^(-4 pi n h/b)."""
-    return max(1, math.ceil(share / regime.eta))
+    return max(1, math.ceil(share / case.eta))
 
 
 def split(
@@ -171,15 +173,15 @@ def split(
     """Return the method of Hertz's term minus the radius integral plus a sum of share b/h modes."""
     end = ar.digits + 1  # digits for the ends of the integral
 
-    def fails(regime: Regime) -> str | None:
-        modes = modes_of(regime, share)
+    def fails(case: BenchmarkCase) -> str | None:
+        modes = modes_of(case, share)
         dear = modes > WIDE_MODES and ar.name != DOUBLE.name
-        return f"takes {modes} modes a point in numbers other than doubles" if dear else None
+        return f"needs {modes} modes for each point in slow arithmetic" if dear else None
 
-    def prepare(regime: Regime, ar: Arithmetic) -> Call:
-        y, W = (ar.array(row) for row in wall_nodes(nodes, end, double_exponential, ar.bits))
-        R, h, b = (ar.number(x) for x in (regime.R, regime.h, regime.b))
-        j, slope = ar.zeros(modes_of(regime, share))
+    def prepare(case: BenchmarkCase, ar: Arithmetic) -> Call:
+        y, W = (ar.array(row) for row in lateral_nodes(nodes, end, double_exponential, ar.bits))
+        R, h, b = (ar.number(x) for x in (case.R, case.h, case.b))
+        j, slope = ar.zeros(modes_of(case, share))
         phi, pi = j / b, ar.pi()
         square = phi * phi * slope
         thickness = modal(
@@ -192,11 +194,11 @@ def split(
             for k in range(0, a.size, _ELEMENTS // 64):
                 part = slice(k, k + _ELEMENTS // 64)
                 t = (a[part] / b)[:, None] * y
-                found[part] -= factor * (ar.wall_shape(t) * W).sum(axis=-1)
+                found[part] -= factor * (ar.lateral_shape(t) * W).sum(axis=-1)
             return found
 
         return call
 
     rule = "" if double_exponential else ", y = u^3"
-    return Method("law", f"split{rule}", f"{nodes} nodes, {share:g} b/h modes", prepare, ar,
+    return Method("law", f"split sum{rule}", f"{nodes} nodes, {share:g} b/h modes", prepare, ar,
                   fails=fails, quick=quick)  # fmt: skip

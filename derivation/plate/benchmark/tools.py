@@ -19,7 +19,7 @@ import numpy as np
 
 from derivation.plate.benchmark import half_space
 from derivation.plate.benchmark.arithmetic import DOUBLE
-from derivation.plate.benchmark.interface import Regime
+from derivation.plate.benchmark.interface import BenchmarkCase
 from derivation.plate.benchmark.ready_methods import hertz_law, hertz_time
 from generated.contact_law import indentation
 from generated.impact import impact
@@ -56,7 +56,7 @@ class Tool:
     setting: str = ""
     error: float | None = None
     seconds: float | None = None
-    cannot: str = ""
+    limitation: str = ""
     missing: str | None = None
 
 
@@ -88,7 +88,7 @@ def run(name: str, environment: Mapping[str, str]) -> list[Tool]:
 
 def own_results() -> list[Tool]:
     """Return the results of the generated code for indentation and contact time."""
-    far = Regime("half-space", 1.0, 0.1 * FAR, 0.1 * FAR, 0.0, 0.0, 1.0)
+    far = BenchmarkCase("half-space", 1.0, 0.1 * FAR, 0.1 * FAR, 0.0, 0.0, 1.0)
     r, a, setting = far, 0.1, f"h = b = {FAR:g} a"
     delta, law_time = _timed(lambda: float(indentation(a, r.R, r.h, r.b)))
     contact_time, impact_time = _timed(

@@ -38,7 +38,7 @@ def per_call(
 
     (duration,), spread = interleaved((block,), ROUNDS)
     value = MICRO * duration / repeats
-    return SpeedTiming(name, value, "us", limit, spread, value <= limit)
+    return SpeedTiming(name, value, "µs", limit, spread, value <= limit)
 
 
 def several_plates(own_axis_last: bool, limit: float) -> SpeedTiming:
@@ -48,7 +48,9 @@ def several_plates(own_axis_last: bool, limit: float) -> SpeedTiming:
     if own_axis_last:
         radii, h = np.ascontiguousarray(radii.T), h.T
     axis = "last" if own_axis_last else "first"
-    name = f"indentation of {POINTS:.0e} points, {PLATES} plates along the {axis} axis over one"
+    name = (
+        f"indentation of {POINTS:,} points, {PLATES} plates along the {axis} axis, relative to one"
+    )
     return ratio(
         name,
         lambda: contact_law.indentation(radii, R, h, b),
@@ -64,18 +66,26 @@ def comparisons() -> tuple[Planned, ...]:
     small = np.linspace(0.1 * A, A, SMALL)
     depths, batch = plate.indentation(small, R), scenes(0.01, 2.9, SMALL)
     calls: tuple[tuple[str, Callable[[], object], float], ...] = (
-        ("prepared plate, indentation of a number", lambda: plate.indentation(A, R), 30.0),
-        ("prepared plate, force of a number", lambda: plate.force(delta, R, *SOLID), 30.0),
+        ("prepared plate, indentation of one value", lambda: plate.indentation(A, R), 30.0),
+        ("prepared plate, force of one value", lambda: plate.force(delta, R, *SOLID), 30.0),
         ("prepare a plate", lambda: prepare(*PLATE), 1000.0),
-        ("indentation of a number", lambda: contact_law.indentation(A, R, *PLATE), 1000.0),
-        ("force of a number", lambda: contact_law.force(delta, R, *PLATE, *SOLID), 1000.0),
-        (f"prepared plate, indentation of {SMALL}", lambda: plate.indentation(small, R), 300.0),
-        (f"prepared plate, force of {SMALL}", lambda: plate.force(depths, R, *SOLID), 1500.0),
+        ("indentation of one value", lambda: contact_law.indentation(A, R, *PLATE), 1000.0),
+        ("force of one value", lambda: contact_law.force(delta, R, *PLATE, *SOLID), 1000.0),
+        (
+            f"prepared plate, indentation of {SMALL} values",
+            lambda: plate.indentation(small, R),
+            300.0,
+        ),
+        (
+            f"prepared plate, force of {SMALL} values",
+            lambda: plate.force(depths, R, *SOLID),
+            1500.0,
+        ),
         ("impact of one scene", lambda: impact(*SCENE), 5000.0),
         (f"impact of {SMALL} scenes", lambda: impact(**batch), 20000.0),
     )
     return (
-        *((name, partial(per_call, f"{name}, a call", call, limit, repeats))
+        *((name, partial(per_call, f"{name}, one call", call, limit, repeats))
           for (name, call, limit), repeats in zip(calls, (REPEATS,) * 7 + (20, 20), strict=True)),
         ("plates along the first axis", partial(several_plates, False, 2.0)),
         ("plates along the last axis", partial(several_plates, True, 4.0)),

@@ -120,7 +120,7 @@ def _edge_modes() -> list[Kernel]:
                max(stated_limits.values()))
         for name in ("clamped_waves", "supported_waves")
     ]  # fmt: skip
-    for name, at in (("wave_shape", "r"), ("wave_share", "a")):
+    for name, at in (("wave_shape", "r"), ("wave_mean", "a")):
         call = _for_arrays(partial(_face, name))
         found.append(Kernel(name, "edge_modes", ("k", "k2", "t", at), call, face))
     return found

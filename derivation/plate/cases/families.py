@@ -99,7 +99,7 @@ def _block_switches() -> Iterator[HardCase]:
                     if offset
                     else f"On {variable} = {place:g}"
                 )
-                cause += ", where a series hands over to exponentials or circular functions."
+                cause += ", the end of a series; beyond, exponentials or circular functions."
                 for kernel, inputs in _OF_SWITCH[variable]:
                     given = inputs(neighbour(place, offset))
                     yield HardCase("switch points of the building blocks", kernel, cause, given)
@@ -108,9 +108,9 @@ def _block_switches() -> Iterator[HardCase]:
 def _bessel_switches() -> Iterator[HardCase]:
     start = float(bessel_tables.asymptotic_start())
     for place in bessel_tables.switches()[1:]:
-        what = "one Taylor polynomial hands over to the next"
+        what = "the code changes to the next Taylor polynomial"
         if place == start:
-            what = "the last Taylor polynomial hands over to modulus and phase"
+            what = "the code changes from Taylor polynomials to modulus and phase"
         if place == bessel_tables.LARGEST_PHASE:
             what = "multiples of pi/4 cease to be exact doubles"
         cause = f"0, 1 and 32 ULP to either side of x = {place:g}, where {what}."
@@ -129,7 +129,7 @@ def _zeros_by_index() -> Iterator[HardCase]:
     for kernel, order in kernels:
         start = bessel_tables.mcmahon_start(order)
         for count in sorted({*INDICES, start - 1, start}):
-            cause = f"Zero number {count}: all bits of it are asked, and no iteration."
+            cause = f"Zero number {count}: all bits must be correct, without iteration."
             if count in (start - 1, start):
                 cause = f"Zero number {count}: the expansion begins with number {start}."
             yield HardCase("Bessel zeros by index", kernel, cause, exact_inputs(count=float(count)))
@@ -146,7 +146,7 @@ def _around_zeros() -> Iterator[HardCase]:
 
 
 def _moments() -> Iterator[HardCase]:
-    group = "moments by index"
+    group = "series constants by index"
     first, last = float(FIRST_K), float(LAST_FINITE_PART)
     for argument, kernel, low, high in (
         ("n", "kappa", 0.0, float(LAST_KAPPA)), ("k", "finite_part", first, last),

@@ -83,7 +83,7 @@ def _edge() -> Iterator[HardCase]:
     for width in (0.1, 0.5, 0.8):
         switch = float((1 - Fraction(width)) / edge_tables.THIN)
         given = exact_inputs(a=width, h=around(switch), b=1.0, **_STEEL)
-        why = f"b - a = {float(edge_tables.THIN):g} h, from which on a closed form stands alone"
+        why = f"b - a = {float(edge_tables.THIN):g} h, beyond which no sum is added"
         yield from _around_switch(EDGE, SUMS, f"{why}; a = {width:g} b", given)
         more = exact_inputs(P=_FORCE) | given
         yield from _around_switch(EDGE, BACK_FACE_EDGES[:1], f"{why}; a = {width:g} b", more)
@@ -95,12 +95,12 @@ def _edge() -> Iterator[HardCase]:
     for mode in (1, 10):
         switch = _last_mode(edge_tables.FADED, mode)
         constants = {"a": 0.3, "b": 1.0, **_STEEL}
-        why = f"h/b = {switch:.4g}, beyond which the sum takes a mode less"
+        why = f"h/b = {switch:.4g}, beyond which the sum has one mode less"
         yield from _one_by_one(EDGE, SUMS[1:], switch, why, "h", constants)
     yield from _shape(EDGE, SUMS[:1], {})
     yield from _materials()
     widest, constants = float(edge_tables.WIDEST), {"h": 0.3, "b": 1.0, **_STEEL}
-    why = f"a = {widest:g} b, the tables' end"
+    why = f"a = {widest:g} b, the end of the tables"
     yield from _last(EDGE, (SUMS[1], CLAMPED[0]), widest, why, constants)
     yield from _last(EDGE, BACK_FACE_EDGES[:1], widest, why, {"P": _FORCE, **constants})
 
@@ -124,19 +124,19 @@ def _shape(group: str, kernels: tuple[str, ...], more: dict[str, float]) -> Iter
 
 def _materials() -> Iterator[HardCase]:
     """Yield cases at zeros and switch points that depend on the elastic constants."""
-    why = "lam = mu, where the other of the two becomes the unit"
+    why = "lam = mu, where the unit of stress changes from one to the other"
     for kernels, more in (((*SUMS, *CLAMPED, *BOUNDS), {}), (BACK_FACE_EDGES, {"P": _FORCE})):
         given = exact_inputs(**more, a=0.3, h=0.2, b=1.0, lam=around(MU), mu=MU)
         yield from _around_switch(EDGE, kernels, why, given)
     switch = math.sqrt((LAM + 2 * MU) / (2 * LAM))
     given = exact_inputs(a=0.3, h=around(switch), b=1.0, **_STEEL)
-    why = f"h/b = {switch:.4g}, where 1 - 2 n eta^2, which goes with bending, passes zero"
+    why = f"h/b = {switch:.4g}, where 1 - 2 n eta^2, a factor of bending, changes sign"
     yield from _around_switch(EDGE, (*SUMS, *BOUNDS[:1]), why, given)
     n = LAM / (LAM + 2 * MU)
     level = 1000 / sum(c * n**i for i, c in enumerate(LEVEL_FIT))
     switch = math.sqrt(1 / (2 * n * (1 - 2 * level)))
     given = exact_inputs(a=0.3, h=around(switch), b=1.0, **_STEEL)
-    why = f"h/b = {switch:.4g}, where 1 - s, which goes with a clamp's bending, passes zero"
+    why = f"h/b = {switch:.4g}, where 1 - s, a factor of bending at a clamp, changes sign"
     yield from _around_switch(EDGE, (*CLAMPED, *BOUNDS[1:]), why, given)
 
 
@@ -149,11 +149,11 @@ def _back_face() -> Iterator[HardCase]:
     thin, wide = float(back_face_tables.THIN), float(back_face_tables.WIDE)
     for width in (1e-3, 0.3, 0.89):
         given = exact_inputs(P=_FORCE, a=width, h=around(thin), b=1.0, **_STEEL)
-        why = f"h/b = {thin:g}, below which another plate's sum serves; a = {width:g} b"
+        why = f"h/b = {thin:g}, below which the sum of another plate is used; a = {width:g} b"
         yield from _around_switch(BACK_FACE, every if width == 0.3 else every[:1], why, given)
     for h in (2.0**-5, 2.0**-8):
         given = exact_inputs(P=_FORCE, a=around(wide * h), h=h, b=1.0, **_STEEL)
-        why = f"a = {wide:g} h, from which on a series in (h/a)^2 serves; h = {h:g} b"
+        why = f"a = {wide:g} h, from which a series in (h/a)^2 is used; h = {h:g} b"
         yield from _around_switch(BACK_FACE, every if h == 2.0**-5 else every[:1], why, given)
     pair = float(blocks()["sinh_pair"].value.at)
     for mode in _MODES:
@@ -164,7 +164,7 @@ def _back_face() -> Iterator[HardCase]:
     for mode in (1, 10):
         switch = _last_mode(back_face_tables.FADED, mode)
         constants = {"P": _FORCE, "a": 0.3, "b": 1.0, **_STEEL}
-        why = f"h/b = {switch:.4g}, beyond which the sum takes a mode less"
+        why = f"h/b = {switch:.4g}, beyond which the sum has one mode less"
         yield from _one_by_one(BACK_FACE, every[:1], switch, why, "h", constants)
     yield from _shape(BACK_FACE, every, {"P": _FORCE})
 
@@ -175,7 +175,7 @@ def _back_face() -> Iterator[HardCase]:
 def _sphere() -> Iterator[HardCase]:
     """Yield cases at the switch point of the contact with a spherical profile."""
     switch = math.sqrt(effect_tables.NEAR)
-    why = f"(a/R)^2 = {float(effect_tables.NEAR):g}, where a series hands over to the logarithm"
+    why = f"(a/R)^2 = {float(effect_tables.NEAR):g}, the end of a series; beyond, a logarithm"
     yield from _around_switch(
         SPHERE, ("sphere_contact",), why, exact_inputs(a_over_R=around(switch))
     )
@@ -187,16 +187,16 @@ def _pressure() -> Iterator[HardCase]:
     thin = float(pressure_tables.THIN)
     for a in (0.01, 1.0, 3.0, 5.9):
         given = exact_inputs(a=a, h=1.0, b=around(thin), **constants)
-        why = f"b = {thin:g} h, beyond which a thin plate's integral serves; a = {a:g} h"
+        why = f"b = {thin:g} h, beyond which the integral of a thin plate is used; a = {a:g} h"
         yield from _around_switch(PRESSURE, ("contact",), why, given)
         yield from _around_switch(PRESSURE, ("pressure",), why, exact_inputs(r=0.75 * a) | given)
     for mode in (1, 20):
         switch = _last_mode(pressure_tables.FADED, mode)
         given = exact_inputs(a=0.3, h=around(switch), b=1.0, **constants)
-        why = f"h/b = {switch:.4g}, beyond which the kernel takes a mode less"
+        why = f"h/b = {switch:.4g}, beyond which the kernel has one mode less"
         yield from _around_switch(PRESSURE, ("contact",), why, given)
     low = pressure_tables.LOW
-    nodes = [y for y in pressure_tables.wall_places() if low / y < 0.9]
+    nodes = [y for y in pressure_tables.lateral_places() if low / y < 0.9]
     for y in (nodes[0], nodes[len(nodes) // 2], nodes[-1]):
         given = exact_inputs(a=around(low / y), h=1.0, b=1.0, **constants)
         why = f"y a/b = {low:g} at y = {y:.4g}, where sinh(x)/x ceases to be a power series"

@@ -21,7 +21,9 @@ from derivation.plate.damping.theory import POWER, ROOT, by_phase, free_motion, 
 from derivation.plate.modules import ComputedModule
 from derivation.plate.vocabulary import omega, q_j, q_rate, t, zeta
 
-phase, root, turn, spent, decay = sp.symbols("phase root turn spent decay", positive=True)
+phase, root, turn, decay_exponent, decay = sp.symbols(
+    "phase root turn decay_exponent decay", positive=True
+)
 half, sine, cosine, growth, double = sp.symbols("half sine cosine growth double", positive=True)
 swing, speed = sp.symbols("swing speed", real=True)
 TURNED, SPENT = sp.Rational(1, 2), sp.Rational(1, 8)
@@ -30,7 +32,7 @@ MEANING: Facts = {phase: omega * t}
 BEGIN = (
     Let(root, sp.sqrt((1 - zeta) * (1 + zeta)), means=ROOT),
     Let(turn, root * phase),
-    Let(spent, zeta * phase),
+    Let(decay_exponent, zeta * phase),
 )
 
 
@@ -56,7 +58,7 @@ def _reduced(expression: sp.Expr) -> sp.Expr:
 
 def free() -> Routine:
     """Return the routine of the free motion from an initial displacement, and from a velocity."""
-    late, later, gone, less = sp.symbols("late later gone less", positive=True)
+    late, later, decayed, less = sp.symbols("late later decayed less", positive=True)
     y = sp.Symbol("y", positive=True)
     of_turn = _series(1 - sp.sin(y) / y, y, 2, 2, 18)
     of_spent = _series(1 - (1 + y) * sp.exp(-y), y, 2, 1, 13)
@@ -67,7 +69,7 @@ def free() -> Routine:
         (phase, zeta),
         (
             *BEGIN,
-            Let(decay, sp.exp(-spent)),
+            Let(decay, sp.exp(-decay_exponent)),
             Let(half, sp.sin(turn / 2)),
             Let(sine, sp.sin(turn)),
             Several(
@@ -80,14 +82,19 @@ def free() -> Routine:
             Several(
                 (less,),
                 "polynomial",
-                (GUARDED(spent, SPENT), *of_spent),
-                ((1 - (1 + spent) * sp.exp(-spent)) / spent**2,),
+                (GUARDED(decay_exponent, SPENT), *of_spent),
+                ((1 - (1 + decay_exponent) * sp.exp(-decay_exponent)) / decay_exponent**2,),
             ),
-            Choice(gone, sp.Lt(spent, SPENT), spent * spent * less, -expm1(-spent) - spent * decay),
+            Choice(
+                decayed,
+                sp.Lt(decay_exponent, SPENT),
+                decay_exponent * decay_exponent * less,
+                -expm1(-decay_exponent) - decay_exponent * decay,
+            ),
         ),
         (
-            -(decay * (2 * half**2 + spent * late) + gone),
-            expm1(-spent) - decay * late,
+            -(decay * (2 * half**2 + decay_exponent * late) + decayed),
+            expm1(-decay_exponent) - decay * late,
             -decay * sine / root,
             decay * (1 - 2 * half**2 - zeta / root * sine),
         ),
@@ -111,8 +118,8 @@ def response() -> Routine:
         (phase, zeta),
         (
             *BEGIN,
-            Let(decay, sp.exp(-spent)),
-            Let(growth, sp.exp(spent)),
+            Let(decay, sp.exp(-decay_exponent)),
+            Let(growth, sp.exp(decay_exponent)),
             Let(cosine, sp.cos(turn)),
             Let(sine, sp.sin(turn)),
         ),
@@ -142,16 +149,16 @@ def loss() -> Routine:
             Let(B, (swing + zeta * speed) / root),
             Let(even, (speed - B) * (speed + B)),
             Let(odd, 2 * speed * B),
-            Let(fading, sp.exp(-2 * spent)),
+            Let(fading, sp.exp(-2 * decay_exponent)),
             Let(half, sp.sin(turn)),
-            Let(cosine, expm1(-2 * spent) - 2 * fading * half**2),
+            Let(cosine, expm1(-2 * decay_exponent) - 2 * fading * half**2),
             Let(sine, fading * sp.sin(2 * turn)),
             Let(
                 double,
                 root * (even * sine + odd * cosine) - zeta * (even * cosine - odd * sine),
             ),
         ),
-        (zeta / 2 * double - (speed * speed + B * B) / 2 * expm1(-2 * spent),),
+        (zeta / 2 * double - (speed * speed + B * B) / 2 * expm1(-2 * decay_exponent),),
         (free_motion().lost.subs(q_j, swing / omega).subs(q_rate, speed),),
         "Return the energy loss per mass of a free motion, swing = omega q_0 and speed = q_0'.",
         MEANING,

@@ -34,7 +34,7 @@ def edge_mode_families() -> Iterator[HardCase]:
         why = f"h/b = {place:g}, where k2 of mode {CROSSING} reaches the series at infinity"
         given = exact_inputs(count=float(CROSSING), eta=around(place), nu=_METAL)
         yield case_around(SWITCHES, kernel, why, given)
-    for kernel, at in (("wave_shape", "r"), ("wave_share", "a")):
+    for kernel, at in (("wave_shape", "r"), ("wave_mean", "a")):
         why = f"{at}/b = 0.5, where k {at} or k2 {at} = {SMALL:g} ends the power series"
         size = 2.0 * SMALL
         for k, k2 in ((size, 3.0), (5.0, size)):
@@ -124,6 +124,6 @@ LAWS: Mapping[str, HardLaw] = {
     "clamped_waves": _of_waves("clamped"),
     "supported_waves": _of_waves("supported"),
     "wave_shape": _of_face(punch=False),
-    "wave_share": _of_face(punch=True),
+    "wave_mean": _of_face(punch=True),
 }
 """References by function."""

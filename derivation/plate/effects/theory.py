@@ -23,7 +23,7 @@ import sympy as sp
 from derivation.engine.formula.proof import Proof, prove
 from derivation.plate.contact.theory.plate_series import coefficient
 from derivation.plate.contact.theory.thin_plate import thin_plate
-from derivation.plate.impact.theory.substitution import one_sided, wall_integral
+from derivation.plate.impact.theory.substitution import lateral_integral, one_sided
 from derivation.plate.vocabulary import Formula, a_ratio, alpha, c_A, eta, kappa
 
 _y, _u, _q = sp.symbols("y u q", positive=True)
@@ -67,8 +67,8 @@ def shares() -> Formula:
     """Return an upper bound of the finite thickness's contribution to S: the rest of 3/2 c_1 A."""
     one_sided()
     first = coefficient(2)
-    wall = -4 / sp.pi**2 * kappa[0] * alpha
-    most = sp.Rational(3, 2) * (c_A[1] * a_ratio - bending().expression) - wall
+    lateral = -4 / sp.pi**2 * kappa[0] * alpha
+    most = sp.Rational(3, 2) * (c_A[1] * a_ratio - bending().expression) - lateral
     proof = prove(
         "Contributions to the slope of the law",
         "$S - 1$ minus bending, which is linear, and minus the finite radius, between "
@@ -76,17 +76,17 @@ def shares() -> Formula:
         r"$\sinh y \le y + (\sinh 1 - 1) y^3$ ...",
         {
             "finite radius": sp.Rational(3, 2) * first.side * a_ratio
-            - wall.subs(alpha, a_ratio * eta)
+            - lateral.subs(alpha, a_ratio * eta)
         },
     )
     return Formula(
-        "S_thickness_most",
+        "S_thickness_bound",
         r"S_H",
         r"upper bound of the contribution of finite thickness to $(R/2a) d \delta/da$",
         most,
         "1",
         "6",
-        ("S_most", "F_bending"),
+        ("S_bound", "F_bending"),
         proof,
         where=("a_ratio * eta < 1",),
     )
@@ -145,7 +145,7 @@ def effects() -> tuple[Formula, ...]:
 # --- numbers, as balls
 
 
-def wall_growth_ball(digits: int = 12) -> flint.arb:
+def lateral_growth_ball(digits: int = 12) -> flint.arb:
     """Return (4/pi^2) int_0^oo (y cosh y - sinh y)/(2 y) K0/I0 dy.
 
     By parts, with (sinh y - Shi y)/2 divided by y I0^2. This is below y^3/12 + y^5/100 for y <= 1
@@ -155,4 +155,4 @@ def wall_growth_ball(digits: int = 12) -> flint.arb:
     def integrand(y: flint.acb, _: bool) -> flint.acb:
         return (y.sinh() - y.shi()) / (2 * y * y.bessel_i(0) ** 2)
 
-    return wall_integral(integrand, digits, "the growth of the finite-radius term")
+    return lateral_integral(integrand, digits, "the growth of the finite-radius term")

@@ -74,12 +74,12 @@ def _simple_impacts() -> Iterator[HardCase]:
     yield case_around(SIMPLE, "plate_of", thin, exact_inputs(eta=around(1 / inverse)))
     for mode in (1, 2, 17):
         place = simple_impact_tables.FADED / (2 * float(j0_zero(mode, 80)))
-        why = f"h/b = {place:.4g}, beyond which mode {mode} is left out"
+        why = f"h/b = {place:.4g}, beyond which mode {mode} is omitted"
         yield case_around(SIMPLE, "plate_of", why, exact_inputs(eta=around(place)))
         if mode == 1:
             yield from _estimates(why, around(place), 1.0)
     root = _root()
-    why = f"h/b = {root:.4f}, where c_1 passes zero"
+    why = f"h/b = {root:.4f}, where c_1 changes sign"
     yield case_around(SIMPLE, "plate_of", why, exact_inputs(eta=around(root)))
     yield from _estimates(why, around(root), 1.0)
 

@@ -131,7 +131,7 @@ def _rule(count: int, bits: int) -> tuple[_Column, _Column]:
 
 
 class _Waves(NamedTuple):
-    """a k(x a/b)/b = sum weight cos(rate x), x = t/a; `wall` rates stand for imaginary ones.
+    """a k(x a/b)/b = sum weight cos(rate x), x = t/a; `lateral` rates stand for imaginary ones.
 
     Their cosines are divided by e^y and their weights multiplied by e^(2y), `fades` being e^-y:
     sums of products in fixed point keep the digits of the largest term only.
@@ -139,8 +139,8 @@ class _Waves(NamedTuple):
 
     rates: _Column
     weights: _Column
-    wall_rates: _Column
-    wall_weights: _Column
+    lateral_rates: _Column
+    lateral_weights: _Column
     fades: _Column
     rest: arb
 
@@ -150,22 +150,22 @@ def _waves(case: Case, fineness: Fraction, bits: int) -> _Waves:
     pi = arb.pi()
     share = alpha * to_ball(case.share)
     modes = mode_points(case.eta, bits - _SPARE // 2, bits)
-    wall_rates, wall_weights, fades = [], [], []
+    lateral_rates, lateral_weights, fades = [], [], []
     first, last = _span(case, bits)
     for index in range(math.floor(first * fineness), math.ceil(last * fineness) + 1):
         u = arb(index) / to_ball(fineness)
         fade = (-u).exp()
         y = (u - fade).exp().mid()
-        wall_rates.append(alpha * y)
+        lateral_rates.append(alpha * y)
         fades.append((-y).exp())
         with flint.ctx.workprec(bits + 8 + 3 * math.ceil(float(y))):  # K0 cancels like e^(2y)
             bessel = y.bessel_k(arb(0)) / y.bessel_i(arb(0)) / (-2 * y).exp()
-        wall_weights.append(-4 * share / pi**2 * y * (1 + fade) / to_ball(fineness) * bessel)
+        lateral_weights.append(-4 * share / pi**2 * y * (1 + fade) / to_ball(fineness) * bessel)
     return _Waves(
         [alpha * j for j in modes.places],
         [4 * share / pi * q for q in modes.weights],
-        wall_rates,
-        wall_weights,
+        lateral_rates,
+        lateral_weights,
         fades,
         arb(0, (4 * share / pi * modes.rest).upper()),
     )
@@ -178,15 +178,15 @@ def _span(case: Case, bits: int) -> tuple[float, float]:
 
 
 def _cosines(waves: _Waves, x: arb) -> _Column:
-    wall = zip(waves.wall_rates, waves.fades, strict=True)
-    return [(r * x).cos() for r in waves.rates] + [(r * x).cosh() * fade for r, fade in wall]
+    lateral = zip(waves.lateral_rates, waves.fades, strict=True)
+    return [(r * x).cos() for r in waves.rates] + [(r * x).cosh() * fade for r, fade in lateral]
 
 
 def _slopes(waves: _Waves, x: arb) -> _Column:
     """Return -d/dx of the same, divided by x."""
     turning = [r * r * (r * x).sinc() for r in waves.rates]
-    wall = zip(waves.wall_rates, waves.fades, strict=True)
-    rising = [-r * (r * x).sinh() / x * fade for r, fade in wall]
+    lateral = zip(waves.lateral_rates, waves.fades, strict=True)
+    rising = [-r * (r * x).sinh() / x * fade for r, fade in lateral]
     return turning + rising
 
 
@@ -199,7 +199,7 @@ def _solve(case: Case, count: int, fineness: Fraction, bits: int) -> PressureSta
     with flint.ctx.workprec(bits):
         x, w = _rule(count, bits)
         waves = _waves(case, fineness, bits)
-        shares = waves.weights + waves.wall_weights
+        shares = waves.weights + waves.lateral_weights
         rows = [_cosines(waves, t) for t in [*x, arb(1)]]
         near = _table(rows[:-1]).transpose()
         kernel = _table([_times(row, shares) for row in rows]) * near

@@ -21,7 +21,7 @@ from mpmath import mp, mpf
 
 from derivation.engine.oracle.agreement import RouteError
 from derivation.plate.contact.route.modes import excess, mode
-from derivation.plate.contact.route.moments import wall_moments
+from derivation.plate.contact.route.moments import lateral_moments
 
 WIDEST = 0.5
 """Largest a/b: above, too many moments would be needed."""
@@ -130,7 +130,7 @@ def _modal(eta: mpf, alpha: mpf, count: int, goal: int) -> list[list[mpf]]:
     return [[mp.fdot(one, other) for other in columns] for one in shared]
 
 
-def _walled(alpha: mpf, count: int, goal: int) -> list[list[mpf]]:
+def _lateral(alpha: mpf, count: int, goal: int) -> list[list[mpf]]:
     """Return (4/pi^2) alpha int K0/I0 times the same with imaginary arguments, a power series.
 
     0F1(a, z) 0F1(b, z) = sum (a + b - 1 + p)_p z^p/(p! (a)_p (b)_p), z = (alpha y)^2/4.
@@ -139,7 +139,7 @@ def _walled(alpha: mpf, count: int, goal: int) -> list[list[mpf]]:
     factor = 4 / mp.pi**2 * alpha
     moments = [
         factor * (alpha * alpha / 4) ** p * kappa
-        for p, kappa in enumerate(wall_moments(terms, mp.dps))
+        for p, kappa in enumerate(lateral_moments(terms, mp.dps))
     ]
     found = [[mpf(0)] * count for _ in range(count)]
     for k in range(count):
@@ -180,7 +180,7 @@ def _solve(
     with mp.workdps(goal + most):
         alpha, part = _number(a_ratio * eta), _number(share)
         modal = _modal(_number(eta), alpha, most + 1, goal)
-        wall = _walled(alpha, most + 1, goal)
+        lateral = _lateral(alpha, most + 1, goal)
         half = [_beta(n, mp.dps) for n in range(2 * most + 2)]
         sides = [_profile(n, _number(curvature), goal) for n in range(most + 1)]
         found = []
@@ -188,7 +188,7 @@ def _solve(
             matrix = mp.zeros(size + 1)
             for n in range(size + 1):
                 for k in range(size):
-                    matrix[n, k] = half[n + k + 1] + part * (modal[n][k + 1] - wall[n][k + 1])
+                    matrix[n, k] = half[n + k + 1] + part * (modal[n][k + 1] - lateral[n][k + 1])
                 matrix[n, size] = -half[n]
             solution = mp.lu_solve(matrix, mp.matrix([-x for x in sides[: size + 1]]))
             chi = [solution[k] for k in range(size)]

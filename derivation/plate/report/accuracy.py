@@ -17,9 +17,9 @@ REQUIRED_DIGITS = 12
 """Number of digits required of the direct sum."""
 
 
-def case(data: Data) -> str:
+def shown_case(data: Data) -> str:
     """Return the name of the test case shown: the paper's, unless a scene replaces it."""
-    return str(data["regimes"][1]["name"])
+    return str(data["cases"][1]["name"])
 
 
 def accuracy_context(data: Data) -> dict[str, Any]:
@@ -33,9 +33,9 @@ def accuracy_context(data: Data) -> dict[str, Any]:
             }
             for task, title in TASKS.items()
         ],
-        "regimes": len(data["regimes"]),
+        "cases": len(data["cases"]),
         "tie": f"{100 * (TIE - 1):.0f}",
-        "case": case(data),
+        "case": shown_case(data),
         "errors": list(error_rows(data)),
         "unsplit": list(reasons(data, "unsplit")),
         "remarks": list(reasons(data, "remark")),
@@ -66,14 +66,14 @@ def factor(ratio: float | str) -> str:
 
 def winners(data: Data, task: str) -> Iterator[dict[str, Any]]:
     """Yield the tables of fastest methods by test case: digits, arrays, single calls."""
-    for regime in data["regimes"]:
-        mine = [w for w in data["pareto"] if (w["task"], w["regime"]) == (task, regime["name"])]
+    for case in data["cases"]:
+        mine = [w for w in data["pareto"] if (w["task"], w["case"]) == (task, case["name"])]
         rows = []
         for digits in sorted({found["digits"] for found in mine}):
             by_kind = {w["kind"]: w for w in mine if w["digits"] == digits}
             cells = [cell for kind in KINDS for cell in winner_cells(by_kind.get(kind))]
             rows.append(" & ".join([str(digits), *cells]))
-        yield {"name": escape(regime["name"]), "rows": rows}
+        yield {"name": escape(case["name"]), "rows": rows}
 
 
 def winner_cells(found: Data | None) -> tuple[str, str, str]:
@@ -81,10 +81,10 @@ def winner_cells(found: Data | None) -> tuple[str, str, str]:
     if found is None:
         return "", "", ""
     name = escape(", ".join(part for part in (found["family"], found["setting"]) if part))
-    doubtful = set(found["doubtful"])
-    name += "?" if found["family"] in doubtful else ""
-    ties = [escape(t) + ("?" if t in doubtful else "") for t in found["ties"]]
-    ties += [escape(t) + "?" for t in found["doubtful"] if t not in found["ties"]]
+    near_ties = set(found["near_ties"])
+    name += "?" if found["family"] in near_ties else ""
+    ties = [escape(t) + ("?" if t in near_ties else "") for t in found["ties"]]
+    ties += [escape(t) + "?" for t in found["near_ties"] if t not in found["ties"]]
     ties = [tie for tie in ties if tie.rstrip("?") != escape(found["family"])]
     tied = rf" (tie: {', '.join(ties)})" if ties else ""
     return name + tied, duration(found["seconds"]), factor(found["relative"])
@@ -92,9 +92,9 @@ def winner_cells(found: Data | None) -> tuple[str, str, str]:
 
 def error_rows(data: Data) -> Iterator[str]:
     """Yield the methods of the test case shown: digits by cause, set-up and times."""
-    regime = case(data)
+    case = shown_case(data)
     for row in data["rows"]:
-        if row["regime"] != regime or row["fails"] or not row["errors"]:
+        if row["case"] != case or row["fails"] or not row["errors"]:
             continue
         errors = [digits(row["errors"][key]) for key in ("total", "truncation", "rounding")]
         times = [duration(row[key]["seconds"] if row[key] else None) for key in KINDS]
@@ -109,7 +109,7 @@ def reasons(data: Data, key: Literal["unsplit", "remark"]) -> Iterator[str]:
         reason = (row["errors"] or {}).get(key)
         if reason and not row["fails"]:
             places = groups.setdefault(reason, {}).setdefault(row["family"], {})
-            places[row["regime"]] = None
+            places[row["case"]] = None
     for reason, families in groups.items():
         listed = [f"{family} ({', '.join(places)})" for family, places in families.items()]
         yield f"{prose(reason)}: {escape('; '.join(listed))}."
@@ -134,20 +134,21 @@ def failures(rows: Sequence[Data]) -> Iterator[str]:
     groups: dict[tuple[str, str, str], list[Data]] = {}
     for row in rows:
         if row["fails"]:
-            groups.setdefault((row["task"], row["family"], row["regime"]), []).append(row)
-    for (task, family, regime), failed in groups.items():
+            groups.setdefault((row["task"], row["family"], row["case"]), []).append(row)
+    for (task, family, case), failed in groups.items():
         settings = "; ".join(dict.fromkeys(row["setting"] for row in failed if row["setting"]))
-        cells = [TASKS[task], escape(family), escape(regime), escape(settings)]
+        cells = [TASKS[task], escape(family), escape(case), escape(settings)]
         yield " & ".join([*cells, prose(failed[-1]["fails"])])
 
 
 def scaling_row(growth: Data) -> str:
     """Return the cells of a study: size, method, slope, end of the line, reason, memory."""
-    leaves = "" if growth["leaves"] is None else factor(growth["leaves"])
+    deviates_at = "" if growth["deviates_at"] is None else factor(growth["deviates_at"])
     memory = growth["peak_bytes"]
     cells = [
-        escape(growth["what"]), escape(growth["method"]), f"{growth['slope']:z.2f}", leaves,
-        prose(growth["why"]), "" if memory is None else rf"{memory / 1e6:.3g}",
+        escape(growth["quantity"]), escape(growth["method"]),
+        f"{growth['slope']:z.2f}", deviates_at,
+        prose(growth["reason"]), "" if memory is None else rf"{memory / 1e6:.3g}",
     ]  # fmt: skip
     return " & ".join(cells)
 
@@ -164,21 +165,21 @@ def tool_rows(tools: Sequence[Data]) -> Iterator[str]:
         cells = [prose(tool["problem"]), setting, power(tool["error"])]
         cells += [
             duration(tool["seconds"]),
-            "" if tool["cannot"] == said else prose(tool["cannot"]),
+            "" if tool["limitation"] == said else prose(tool["limitation"]),
         ]
-        yield " & ".join(["" if tool["cannot"] == said else name, *cells])
-        said = tool["cannot"]
+        yield " & ".join(["" if tool["limitation"] == said else name, *cells])
+        said = tool["limitation"]
 
 
 def headline(found: Data) -> dict[str, Any]:
     """Return the comparison of the generated law with direct summation as numbers."""
-    best = found["reached"][-1]
+    best = found["direct_sum"][-1]
     return {
         "radius": f"{1e3 * found['contact_radius']:.2f}",
         "rows": [
             f"{r['digits']} & {power(r['modes'])} & {duration(r['seconds'])}"
             f" & {digits(r['truncation'])} & {digits(r['rounding'])}"
-            for r in found["reached"]
+            for r in found["direct_sum"]
         ],
         "best": best["digits"],
         "modes": power(best["modes"]),
@@ -186,11 +187,11 @@ def headline(found: Data) -> dict[str, Any]:
         "reached": best["digits"] >= REQUIRED_DIGITS,
         "wanted": REQUIRED_DIGITS,
         "setup": duration(found["setup"]),
-        "per_mode": duration(found["per_mode"]),
+        "per_mode": duration(found["seconds_per_mode"]),
         "digits": digits(found["digits"]),
-        "called": duration(found["called"]),
-        "prepared": duration(found["prepared"]),
-        "ratio": power(best["seconds"] / found["called"]),
+        "called": duration(found["seconds_with_setup"]),
+        "prepared": duration(found["seconds_without_setup"]),
+        "ratio": power(best["seconds"] / found["seconds_with_setup"]),
     }
 
 

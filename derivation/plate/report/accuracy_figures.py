@@ -50,16 +50,14 @@ def work_precision(data: Mapping[str, Any], task: str, kind: str) -> Figure:
     with mpl.rc_context(STYLE | {"font.size": 8, "lines.linewidth": 1.0}):
         figure = Figure(figsize=(6.5, 4.5), layout="constrained")
         *axes, legend = figure.subplots(2, 3, sharex=True).flat
-        for ax, regime in zip(axes, data["regimes"], strict=True):
-            shown = [
-                row for row in rows if row["regime"] == regime["name"] and is_plotted(row, kind)
-            ]
+        for ax, case in zip(axes, data["cases"], strict=True):
+            shown = [row for row in rows if row["case"] == case["name"] and is_plotted(row, kind)]
             draw_panel(ax, shown, kind, colours)
-            ax.set_title(f"{regime['name']}, h/b = {regime['h'] / regime['b']:g}", fontsize=8)
+            ax.set_title(f"{case['name']}, h/b = {case['h'] / case['b']:g}", fontsize=8)
         for ax in axes[2:]:
             ax.tick_params(labelbottom=True)
         figure.supxlabel(f"time per point {KINDS[kind]} [s]", fontsize=8)
-        figure.supylabel("digits", fontsize=8)
+        figure.supylabel("correct digits", fontsize=8)
         legend.axis("off")
         legend.legend(
             handles=[*keys(rows, colours)],
@@ -139,30 +137,39 @@ def keys(rows: Sequence[Row], colours: Mapping[str, Any]) -> Iterator[Line2D]:
     for name, marker in MARKERS.items():
         if name in used and name != "float64":
             yield Line2D([], [], color="0.3", marker=marker, ms=3, mfc="none", lw=0, label=name)
-    yield Line2D([], [], color="0.8", lw=3, label="fastest for its digits")
+    yield Line2D([], [], color="0.8", lw=3, label="fastest at this accuracy")
 
 
 def scaling(data: Mapping[str, Any]) -> Figure:
     """Draw run time against number of points, b/h, digits and number of scenes."""
-    titles = list(dict.fromkeys(growth["what"] for growth in data["scaling"]))
+    titles = list(dict.fromkeys(growth["quantity"] for growth in data["scaling"]))
     with mpl.rc_context(STYLE | {"font.size": 8}):
         figure = Figure(figsize=(6.5, 4.6), layout="constrained")
-        for ax, what in zip(figure.subplots(2, 2).flat, titles, strict=True):
+        for ax, quantity in zip(figure.subplots(2, 2).flat, titles, strict=True):
             for growth in data["scaling"]:
-                if growth["what"] == what:
+                if growth["quantity"] == quantity:
                     draw_growth(ax, growth)
-            ax.set(xscale="log", yscale="log", xlabel=what, ylabel="time [s]")
-            if what == "digits":  # tick labels at powers of ten would overlap with minor ones
-                sizes = sorted({x for g in data["scaling"] if g["what"] == what for x in g["x"]})
+            ax.set(xscale="log", yscale="log", xlabel=quantity, ylabel="time [s]")
+            if quantity == "digits":  # tick labels at powers of ten would overlap with minor ones
+                sizes = sorted(
+                    {x for g in data["scaling"] if g["quantity"] == quantity for x in g["x"]}
+                )
                 ax.set_xticks(sizes, [f"{x:g}" for x in sizes])
                 ax.xaxis.set_minor_locator(NullLocator())
-            ax.legend(fontsize=7)
+            ax.margins(y=0.3)  # space for the legend above the lines
+            ax.legend(fontsize=7, loc="upper left")
     return figure
+
+
+def _growth_label(growth: Mapping[str, Any]) -> str:
+    """Return the name of a method; those of `simulate` have short names."""
+    name = str(growth["method"])
+    return f"method {name}" if growth["quantity"] == "scenes" else name
 
 
 def draw_growth(ax: Axes, growth: Mapping[str, Any]) -> None:
     """Draw the times, and the power law fitted to the last three."""
     x, seconds = np.array(growth["x"]), np.array(growth["seconds"])
     middle = np.exp(np.log(seconds[-3:]).mean() - growth["slope"] * np.log(x[-3:]).mean())
-    (line,) = ax.plot(x, seconds, "o-", ms=3, label=growth["method"])
+    (line,) = ax.plot(x, seconds, "o-", ms=3, label=_growth_label(growth))
     ax.plot(x, middle * x ** growth["slope"], ":", lw=0.8, color=line.get_color())

@@ -85,7 +85,7 @@ class Consequences:
         if isinstance(finding.printed, PrintedSeries):
             cut = [rf"{number(self.summed(printed, modes))} with {modes}" for modes in TRUNCATIONS]
             right = number(self.value(derived))
-            return f"cut off, the sum is {' and '.join(cut)} modes, in place of {right} {unit}"
+            return f"truncated, the sum is {' and '.join(cut)} modes, in place of {right} {unit}"
         if finding.formula.summed:
             place, values = f"{MODES} modes", [self.summed(e, MODES) for e in (printed, derived)]
             if finding.printed.name in ("u", "w"):

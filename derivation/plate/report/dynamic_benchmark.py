@@ -67,14 +67,14 @@ def dynamic_benchmark_context(data: Mapping[str, Any]) -> dict[str, Any]:
     plate, ball = data["scene"]["plate"], data["scene"]["sphere"]
     return {
         "scene": (
-            f"A {ball['material']} ball of {2e3 * ball['radius']:g}\\,mm meets a plate of "
+            f"A {ball['material']} sphere of {2e3 * ball['radius']:g}\\,mm strikes a plate of "
             f"{plate['material']}, {1e3 * plate['thickness']:g}\\,mm thick and "
             f"{2 * plate['radius']:g}\\,m wide, at {data['scene']['impact']['speed']:g}\\,m/s"
         ),
-        "oscillators": shared["oscillators"],
-        "finest": rounded(data["truth"]["tolerance"]),
-        "most": data["truth"]["modes"],
-        "all": data["truth"]["modes of all branches"],
+        "modes": shared["modes"],
+        "finest": rounded(data["reference"]["tolerance"]),
+        "most": data["reference"]["modes"],
+        "all": data["reference"]["modes of all branches"],
         "gain": gain(data),
         "rows": [
             " & ".join(_typeset(cell) for cell in row.values()) for row in benchmark_rows(data)
@@ -99,7 +99,7 @@ def _typeset(cell: str) -> str:
 
 
 def benchmark_rows(data: Mapping[str, Any]) -> Iterator[dict[str, str]]:
-    """Yield the rows of the table: study, method, oscillators, milliseconds, error and bound."""
+    """Yield the rows of the table: study, method, modes, milliseconds, error and bound."""
     for row in data["rows"]:
         method, setting = row["method"], f"{row['setting']:g}"
         if row["study"] == "integrator":
@@ -111,7 +111,7 @@ def benchmark_rows(data: Mapping[str, Any]) -> Iterator[dict[str, str]]:
         yield {
             "study": NAMES[row["study"]],
             "method": what,
-            "oscillators": str(row["oscillators"]),
+            "modes": str(row["modes"]),
             "milliseconds": f"{1e3 * row['seconds']:.0f}",
             "error": f"{worst(row):.1e}",
             "bound": "" if row["bound"] is None else f"{row['bound']:.1e}",

@@ -30,7 +30,7 @@ SHOWN = 0.3
 def elastodynamics_context(data: Row) -> dict[str, Any]:
     """Return the values of the template: rows of both tables, and largest differences."""
     rows = list(_compared(data))
-    rejected = [row for row in data["impacts"] if "refused" in row.get("program", {})]
+    rejected = [row for row in data["impacts"] if "rejected" in row.get("program", {})]
     own = [row["errors"][name] for row in rows for name in RESULTS]
     return {
         "cases": len(rows),
@@ -45,7 +45,7 @@ def elastodynamics_context(data: Row) -> dict[str, Any]:
 
 
 def elastodynamics_figure(data: Row) -> Figure:
-    """Draw the largest difference over the stated error, and over contact time/edge echo."""
+    """Draw the largest difference against the stated error and against the contact time."""
     rows = list(_compared(data))
     with mpl.rc_context(STYLE | {"font.size": 8}):
         figure = Figure(figsize=(6.5, 2.9), layout="constrained")
@@ -62,7 +62,7 @@ def elastodynamics_figure(data: Row) -> Figure:
         right.axvline(1.0, color="k", ls=":", lw=0.8)
         left.set(xscale="log", yscale="log", xlabel="stated bound, model and element error",
                  ylabel="largest relative difference")  # fmt: skip
-        right.set(xscale="log", xlabel="contact time / earliest edge echo")
+        right.set(xscale="log", xlabel="contact time / earliest edge reflection [1]")
         left.legend(fontsize=7)
     return figure
 

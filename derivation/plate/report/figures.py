@@ -8,6 +8,7 @@ from typing import Any
 import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullLocator
 from numpy.typing import NDArray
 
 from derivation.engine.report.figures import STYLE
@@ -25,6 +26,8 @@ COUNTS = np.unique(np.geomspace(5, 1000, 25).astype(int))
 """Numbers of modes in the figure of the divergent sum."""
 THICKNESS = np.geomspace(0.04, 1.0, 49)
 """h/b in the figures of contact time and of largest force and indentation."""
+PEAK_TICKS = (0.2, 0.5, 1.0, 2.0, 4.0)
+"""Tick labels of the figure of largest force and indentation."""
 PLATES = (0.02, 0.05, 0.1, 0.2, 0.53, 2.0)
 """h/b in the figure of the contact law; at 0.53 the coefficient c_1 changes sign."""
 
@@ -122,7 +125,7 @@ def draw_contact_time(figure: Figure, case: Model) -> None:
     corrected = _impacts(case, THICKNESS)
     ax.plot(THICKNESS, 1e3 * corrected.contact_time, "k", label="corrected law")
     ax.axhline(1e3 * hertz_contact_time(case), color="tab:red", lw=0.9, label="Hertz")
-    ax.set(xscale="log", xlabel="h/b", ylabel="contact time [ms]")
+    ax.set(xscale="log", xlabel="h/b [1]", ylabel="contact time [ms]")
     ax.legend(fontsize=7)
 
 
@@ -131,15 +134,17 @@ def draw_peaks(figure: Figure, case: Model) -> None:
     ax = figure.subplots()
     corrected = _impacts(case, THICKNESS)
     force, indentation = hertz_peaks(case)
-    ax.plot(THICKNESS, corrected.max_force / force, "k", label="maximum force / Hertz's")
+    ax.plot(THICKNESS, corrected.max_force / force, "k", label="largest force")
     ax.plot(
         THICKNESS,
         corrected.max_indentation / indentation,
         "k--",
-        label="maximum indentation / Hertz's",
+        label="largest indentation",
     )
     ax.axhline(1.0, color="tab:red", lw=0.9)
-    ax.set(xscale="log", yscale="log", xlabel="h/b")
+    ax.set(xscale="log", yscale="log", xlabel="h/b [1]", ylabel="relative to Hertz [1]")
+    ax.set_yticks(PEAK_TICKS, [f"{tick:g}" for tick in PEAK_TICKS])
+    ax.yaxis.set_minor_locator(NullLocator())
     ax.legend(fontsize=7)
 
 
@@ -153,7 +158,7 @@ def draw_law(figure: Figure, case: Model) -> None:
         axes[0].plot(a / h, ratio_to_hertz, label=f"h/b = {ratio:g}")
         axes[1].plot(a / h, ratio_to_hertz**-1.5, label=f"h/b = {ratio:g}")
     for ax, what in zip(axes, ("indentation", "force"), strict=True):
-        ax.set(xscale="log", yscale="log", xlabel="a/h", title=f"{what} / Hertz's")
+        ax.set(xscale="log", yscale="log", xlabel="a/h [1]", title=f"{what} / Hertz's [1]")
     axes[0].legend(fontsize=7)
 
 
@@ -181,7 +186,7 @@ def draw_divergence(figure: Figure, case: Model, gamma_2: float) -> None:
     times = [linear_impact(case, int(modes)).contact_time for modes in COUNTS]
     ax.plot(COUNTS, (np.array(times) / pi) ** 2 / case.m, "o-", ms=3, label="published sum")
     ax.axhline(gamma_2, color="k", lw=0.9, label="corrected: convergent coefficient")
-    ax.set(xscale="log", yscale="log", xlabel="number of modes", ylabel=r"$\gamma_2$ [m/N]")
+    ax.set(xscale="log", yscale="log", xlabel="number of modes [1]", ylabel=r"$\gamma_2$ [m/N]")
     ax.legend(fontsize=8)
 
 

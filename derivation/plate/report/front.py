@@ -71,12 +71,12 @@ def _stability_in_short(findings: Sequence[Finding], rows: Sequence[Data]) -> di
 
 def _cost_in_short(found: Data) -> dict[str, Any]:
     """Return digits and run time of the generated law, and of the best direct sum."""
-    best = found["reached"][-1]
+    best = found["direct_sum"][-1]
     return {
-        "called": duration(found["called"]),
+        "called": duration(found["seconds_with_setup"]),
         "digits": digits(found["digits"]),
         "best": best["digits"],
-        "ratio": power(best["seconds"] / found["called"]),
+        "ratio": power(best["seconds"] / found["seconds_with_setup"]),
     }
 
 
@@ -92,7 +92,7 @@ def stages(
     yield (
         code("derive"),
         (
-            f"{len(formulas)} formulas in {len(steps)} steps, each proved; {len(residuals)} "
+            f"{len(formulas)} formulas in {len(steps)} steps, each verified; {len(residuals)} "
             "residuals reduced to zero"
         ),
     )
@@ -101,15 +101,15 @@ def stages(
         code("rewrite"),
         (
             f"{len(measured['rewrite']['rows'])} formulas made stable by {len(applied)} rules, "
-            "each kept for the error it saves"
+            "each kept because it reduces the error"
         ),
     )
     yield (
         code("generate"),
-        f"{len(sources)} NumPy modules, {len(KERNELS)} of their functions of one formula each",
+        f"{len(sources)} NumPy modules, {len(KERNELS)} of their functions with one formula each",
     )
     wrong = sum(finding.is_misprint for finding in findings)
-    yield code("misprints"), f"{len(findings)} printed formulas compared, {wrong} differ"
+    yield code("misprints"), f"{len(findings)} published formulas compared, {wrong} differ"
     yield from checks(measured)
 
 
@@ -139,13 +139,13 @@ def checks(measured: Mapping[str, Data]) -> Iterator[tuple[str, str]]:
         worst = max(float(row["ratio"]) for row in measured["bounds"]["rows"])
         yield code("check error-bounds"), f"{runs} impacts of random scenes, {used(worst, 'bound')}"
     if "effects" in measured:
-        worst = max(float(row["ratio"]) for row in measured["effects"]["rows"])
+        worst = max(float(row["error_over_rtol"]) for row in measured["effects"]["rows"])
         yield (
             code("check effects"),
             (f"{measured['effects']['drawn']} random scenes, {used(worst, 'bound')}"),
         )
     moving = measured["inertia"]
-    worst = max(float(side["tightest"]) for side in moving["sides"])
+    worst = max(float(side["error_over_bound"]) for side in moving["sides"])
     yield (
         code("check inertia"),
         f"{len(moving['rows'])} impacts on plates with inertia, {used(worst, 'bound')}",
@@ -158,7 +158,7 @@ def checks(measured: Mapping[str, Data]) -> Iterator[tuple[str, str]]:
     yield (
         code("benchmark"),
         (
-            f"{len(methods)} methods in {len(measured['accuracy']['regimes'])} cases, "
+            f"{len(methods)} methods in {len(measured['accuracy']['cases'])} cases, "
             f"{len(rows)} settings"
         ),
     )

@@ -5,19 +5,38 @@ from typing import Any
 
 from derivation.engine.report.latex import escape
 
+REASONS = {
+    "rtol": "the tolerance cannot be met",
+    "plate.edge": "the model error of the edge is too large",
+}
+"""Reasons for which scenes are rejected, by the key in the message."""
+
 
 def inertia_context(data: Mapping[str, Any]) -> dict[str, Any]:
     """Return the values of the template from the measurement."""
-    refused = data["refused"]
+    rejected = data["rejected"]
     return {
         "drawn": data["drawn"],
         "compared": len(data["rows"]),
-        "refused": sum(refused.values()),
-        "reasons": ", ".join(rf"{n} by \texttt{{{escape(key)}}}" for key, n in refused.items()),
-        "passed": sum(data["passed_over"].values()),
-        "most_contacts": max(row["contacts"] for row in data["rows"]),
+        "rejected": sum(rejected.values()),
+        "reasons": ", ".join(f"{n}: {_reason(key)}" for key, n in rejected.items()),
+        "skipped": sum(data["skipped"].values()),
+        "contacts": _contacts(max(row["contacts"] for row in data["rows"])),
         "rows": [_row(side) for side in data["sides"]],
     }
+
+
+def _reason(key: str) -> str:
+    """Return why scenes were rejected; `key` begins the message of the program."""
+    who, _, text = key.partition(": ")
+    if text:
+        return f"{who} with {text}"
+    return REASONS.get(key, rf"\texttt{{{escape(key)}}}")
+
+
+def _contacts(most: int) -> str:
+    """Return the largest number of contacts as text."""
+    return "each with one contact" if most == 1 else f"with up to {most} contacts"
 
 
 def _row(side: Mapping[str, Any]) -> str:
@@ -27,5 +46,7 @@ def _row(side: Mapping[str, Any]) -> str:
         "included" if side["included"] else "omitted",
         str(side["scenes"]),
     ]
-    cells += [f"{side[key]:.2f}" for key in ("ratio", "tightest", "price")]
+    cells += [
+        f"{side[key]:.2f}" for key in ("error_over_rtol", "error_over_bound", "change_over_bound")
+    ]
     return " & ".join([*cells, escape(side["quantity"].replace("_", " "))])

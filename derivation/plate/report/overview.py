@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from derivation.engine.report.figures import STYLE
-from derivation.plate.report.accuracy import case
+from derivation.plate.report.accuracy import shown_case
 from derivation.plate.report.accuracy_figures import pareto_front
 from derivation.scene.impact import simulate
 from derivation.scene.scene import Scene, read
@@ -16,9 +16,9 @@ from derivation.scene.scene import Scene, read
 POINTS, PLACES = 161, 4
 """Times of a history; places of numbers drawn, so that the last bits of a machine do not show."""
 SHOWN = {
-    "printed sum": "as printed",
+    "published sum": "as published",
     "direct sum": "sum over modes",
-    "production": "generated law",
+    "generated code": "generated law",
 }
 """Families of methods of the law."""
 
@@ -53,11 +53,11 @@ def _draw_force(ax: Any, pane: Scene) -> None:
 
 def _draw_digits(ax: Any, data: Mapping[str, Any]) -> None:
     """Draw correct digits of the contact law over time per point, in arrays."""
-    paper = case(data)
+    paper = shown_case(data)
     rows = [
         row
         for row in data["rows"]
-        if row["task"] == "law" and row["regime"] == paper and row["arithmetic"] == "float64"
+        if row["task"] == "law" and row["case"] == paper and row["arithmetic"] == "float64"
         and row["errors"] is not None and row["vector"] is not None
     ]  # fmt: skip
     for family, label in SHOWN.items():
@@ -69,7 +69,7 @@ def _draw_digits(ax: Any, data: Mapping[str, Any]) -> None:
         ax.plot(*np.array(mine).T, "o-", ms=4, label=label)
     front = np.array(pareto_front(rows, "vector")).T
     ax.step(*front, "k:", where="post", label="fastest at each accuracy")
-    ax.set(xscale="log", xlabel="time per point [s]", ylabel="correct digits")
+    ax.set(xscale="log", xlabel="time per point [s]", ylabel="correct digits [1]")
     ax.set_title("contact law, paper's case")
     ax.legend(fontsize=7)
 

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from textwrap import wrap
 from typing import Any
 
-from derivation.plate.report.accuracy import case, duration
+from derivation.plate.report.accuracy import duration, shown_case
 
 Data = Mapping[str, Any]
 
@@ -33,7 +33,7 @@ def lines(data: Data) -> Iterator[str]:
     """Yield the lines of the comparison, the fastest methods, and the run time of an impact."""
     yield from wrap(headline(data), 95)
     yield ""
-    yield f"| digits of the contact law, {case(data)} | fastest method for arrays | per point |"
+    yield f"| digits ({shown_case(data)}) | fastest method for arrays | per point |"
     yield "|---|---|---|"
     yield from winners(data)
     yield ""
@@ -45,19 +45,19 @@ def lines(data: Data) -> Iterator[str]:
 def headline(data: Data) -> str:
     """Return a comparison of the generated law with the best direct summation."""
     found = data["headline"]
-    best = found["reached"][-1]
+    best, own = found["direct_sum"][-1], found["seconds_with_setup"]
     return (
         f"Measured on {data['machine']['processor']}: the generated contact law has "
-        f"{found['digits']:.1f} correct digits and takes {time(found['called'])} per point. For "
+        f"{found['digits']:.1f} correct digits and takes {time(own)} per point. For "
         f"{best['digits']} digits, direct summation needs {best['modes']:,} modes and "
-        f"{time(best['seconds'])}, {best['seconds'] / found['called']:.2g} times as long."
+        f"{time(best['seconds'])}, {best['seconds'] / own:.2g} times as long."
     )
 
 
 def winners(data: Data) -> Iterator[str]:
     """Yield the rows of the law's fastest methods for arrays."""
     for won in data["pareto"]:
-        mine = (won["task"], won["regime"], won["kind"]) == ("law", case(data), "vector")
+        mine = (won["task"], won["case"], won["kind"]) == ("law", shown_case(data), "vector")
         if mine and won["digits"] in DIGITS:
             name = ", ".join(part for part in (won["family"], won["setting"]) if part)
             tied = f" (or {', '.join(won['ties'])})" if won["ties"] else ""
@@ -75,4 +75,4 @@ def impacts(data: Data) -> Iterator[str]:
 
 def time(seconds: float) -> str:
     """Return a time to two figures as plain text."""
-    return duration(seconds).replace(r"\,", " ").replace(r"$\mu$s", "us")
+    return duration(seconds).replace(r"\,", " ").replace(r"$\mu$s", "µs")

@@ -13,7 +13,7 @@ from derivation.scene.effects import edge, non_hertzian_pressure, spherical_prof
 from generated.simple_impact import PLATES
 
 FORMULAS = (
-    FACTOR, "P", "delta_half", "delta_side", "delta_thickness", "delta_reduced", "c_1_thin",
+    FACTOR, "P", "delta_half", "delta_lateral", "delta_thickness", "delta_reduced", "c_1_thin",
     "delta_slope", "contact_work", "contact_integrand",
 )  # fmt: skip
 """The plate factor, the law, its small contacts, its slope, and what an impact makes of it."""
@@ -45,12 +45,12 @@ def limit_rows() -> list[str]:
     rows = (
         (r"$a/b$, $a/R$", "1", "rejected", "the contact would reach the edge or the whole sphere"),
         (r"$a/b$", held, "rejected with another edge than the paper's, or non-Hertzian pressure",
-         "the sums of the edge and the kernel are known up to here"),
+         "the series for the edge and for the pressure are tabulated up to this limit"),
         (r"$a/R$", curved, "rejected with \\texttt{spherical\\_profile}",
          "the slope of the spherical profile tends to infinity"),
         (r"$a/h$", open_, "rejected with \\texttt{non\\_hertzian\\_pressure}",
          "contact is lost at the centre"),
-        (r"$h/b$", f"{thin} to {thick}", "rejected", "the bounds are known for these plates"),
+        (r"$h/b$", f"{thin} to {thick}", "rejected", "the error bounds are proved for this range"),
         (r"$\nu$", r"$-1$ to $1/2$", "rejected", "the material would be unstable"),
         (r"$a/H$", f"{limits.HERTZ_LIMIT:g}",
          "warning without \\texttt{non\\_hertzian\\_pressure}",
@@ -61,10 +61,10 @@ def limit_rows() -> list[str]:
         (r"$p_0$ / yield stress", f"{kernels.YIELD_LIMIT:g}", "warning",
          "a metal yields below the contact"),
         ("Zener parameter", f"{limits.ZENER_LIMIT:g}", "warning without \\texttt{inertia}",
-         "waves take 1\\,\\% of the speed"),
+         "bending waves reduce the rebound speed by 1\\,\\%"),
         ("contact time / ($4H/c_P$)", "1", "warning below, without all wave branches",
-         "waves need time to cross the thickness"),
+         "waves across the thickness are neglected"),
         ("model error of the edge", f"{100 * edge_remainder.LARGEST:g}\\,\\%", "rejected",
-         "the exact edge states leave too large a remainder"),
+         "the approximation of the edge is too inaccurate"),
     )  # fmt: skip
     return [" & ".join(row) for row in rows]

@@ -266,6 +266,9 @@ class Effect:
     def check(self, law: "ContactLaw", asked: bool) -> None:
         """Raise an error if a scene includes the effect and cannot compute it.
 
+        The message depends on the keys that the scene gives, not on their numbers: it is the same
+        for many scenes that are simulated together.
+
         Parameters
         ----------
         law

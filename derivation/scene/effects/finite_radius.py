@@ -23,13 +23,13 @@ class FiniteRadius(PlateEffect):
 
     def value(self, model: Model, a: float) -> float:
         """Return the leading term of its contribution to the indentation over Hertz's."""
-        return 2.0 / 3.0 * kernels.WALL_LINEAR * a / model.b
+        return 2.0 / 3.0 * kernels.LATERAL_LINEAR * a / model.b
 
     def bound(self, model: Model, context: BoundContext) -> Bound:
         """Return the bound: between zero and the leading terms."""
         a = context.radii
         alpha = a / model.b
-        growing = kernels.WALL_LINEAR + kernels.WALL_CUBIC * (alpha * alpha)
+        growing = kernels.LATERAL_LINEAR + kernels.LATERAL_CUBIC * (alpha * alpha)
         return Bound(alpha * growing, none_of(a))
 
     def contribution(self, model: Model, a: Array) -> Contribution:

@@ -40,7 +40,7 @@ class FiniteThickness(PlateEffect):
         plate, A, alpha = model.correction, a / model.h, a / model.b
         linear = 1.5 * plate.bend * A - kernels.bending(A, model.eta).slope
         wrong = 1.5 * plate.bend_error * A
-        wall = alpha * (kernels.WALL_LINEAR + kernels.WALL_CUBIC * (alpha * alpha))
+        wall = alpha * (kernels.LATERAL_LINEAR + kernels.LATERAL_CUBIC * (alpha * alpha))
         up = np.maximum(linear + wrong + wall, 0.0)
         low = np.maximum(plate.rest * (A * A * A) + wrong - linear, 0.0)
         # The sign may change; the bound is the largest one up to each radius.

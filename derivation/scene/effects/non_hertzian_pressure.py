@@ -46,7 +46,8 @@ class NonHertzianPressure(Effect):
         """
         a = context.radii
         cubic = (
-            3.0 * model.correction.rest + kernels.PRESSURE_WALL * model.eta * model.eta * model.eta
+            3.0 * model.correction.rest
+            + kernels.PRESSURE_LATERAL * model.eta * model.eta * model.eta
         )
         A = a / model.h
         theta = cubic * (A * A * A) * context.sphere_force(model.R)

@@ -36,7 +36,7 @@ class SphereElasticity(Effect):
         log = np.log1p(model.softness) / 3.0
         growth = np.expm1(2.0 * log)
         plate, A, alpha = model.correction, a / model.h, a / model.b
-        cubic = plate.rest * (A * A * A) + kernels.WALL_GROWTH * (alpha * alpha * alpha)
+        cubic = plate.rest * (A * A * A) + kernels.LATERAL_GROWTH * (alpha * alpha * alpha)
         sound = np.exp(log) * alpha < 1.0
         up = np.where(sound, growth * (1.0 + cubic), np.inf)
         low = np.where(sound, growth * np.maximum(cubic - 1.0, 0.0), np.inf)

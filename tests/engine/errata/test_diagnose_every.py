@@ -56,7 +56,7 @@ def test_formulas_with_other_symbols_are_rejected_or_compared(name: str, text: s
 
 def test_quantities_that_cannot_be_compared_are_rejected() -> None:
     others = set(CHAIN) - set(COMPARABLE)
-    assert {"radial_ode", "F_wall", "c_1_roots"} <= others
+    assert {"radial_ode", "F_lateral", "c_1_roots"} <= others
     for name in others:
         with pytest.raises(FormulaError, match="cannot be compared"):
             diagnose_text(name, "2", CHAIN)
@@ -151,16 +151,18 @@ def test_conditions_are_tested_exactly() -> None:
 
 
 def test_default_point_moves_to_a_real_value_but_a_given_point_does_not() -> None:
-    found = diagnose_text("partner_wave", "k_n*sqrt(1 - kap*(17 - 7*nu)/(10*eta**2*k_n**2))", CHAIN)
+    found = diagnose_text(
+        "evanescent_wave_number", "k_n*sqrt(1 - kap*(17 - 7*nu)/(10*eta**2*k_n**2))", CHAIN
+    )
     assert found.verdict == "equal"
     assert found.given_value == found.derived_value
     given = {"eta": "0.1", "k_n": "0.5", "kap": "0.01"}
     assert sum(dict(found.point)[name] != value for name, value in given.items()) == 1
     with pytest.raises(FormulaError, match=r"no real value at .*: choose another point"):
-        diagnose_text("partner_wave", "k_n", CHAIN, at=given)
+        diagnose_text("evanescent_wave_number", "k_n", CHAIN, at=given)
     far = {"eta": "1e-9"}
     with pytest.raises(FormulaError, match=r"choose another point; \d+ points near it have none"):
-        diagnose_text("partner_wave", "k_n", CHAIN, at=far)
+        diagnose_text("evanescent_wave_number", "k_n", CHAIN, at=far)
 
 
 def test_evaluation_points_are_parsed_or_rejected() -> None:

@@ -47,7 +47,7 @@ def agree(one: sp.Expr, other: sp.Expr, seed: int) -> bool:
             "read R instead of h in the whole expression",
         ),
         (
-            "wave_part",
+            "evanescent_amplitude",
             "besselj(0, eta)/besseli(0, k_n*sqrt(1 - kap*(17/10 - 7*nu/10)/(eta**2*k_n**2)))",
             "swapped symbol",
             "read k_n instead of eta in besselj(0, eta)",

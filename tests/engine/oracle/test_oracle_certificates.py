@@ -19,9 +19,9 @@ from derivation.plate.back_face import oracle as back_face_references
 from derivation.plate.back_face import route as back_face_routes
 from derivation.plate.contact.oracle import balls as contact_references
 from derivation.plate.contact.oracle import forces as contact_forces
+from derivation.plate.contact.oracle import lateral as contact_lateral
 from derivation.plate.contact.oracle import points as contact_points
 from derivation.plate.contact.oracle import sums as contact_sums
-from derivation.plate.contact.oracle import wall as contact_wall
 from derivation.plate.contact.route import residue_law
 from derivation.plate.edge.oracle import supported as edge_references
 from derivation.plate.edge.route import supported as edge_routes
@@ -181,16 +181,18 @@ def test_bounds_are_rejected_outside_their_region_of_validity() -> None:
     assert not near.is_finite()
 
 
-def test_bound_on_the_side_wall_is_checked_where_it_begins(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(contact_wall, "NEAR", 1.4)  # sinh(1.4) < 2
+def test_bound_on_the_lateral_surface_is_checked_where_it_begins(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(contact_lateral, "NEAR", 1.4)  # sinh(1.4) < 2
     with pytest.raises(PrecisionError, match=r"does not hold from t = 1\.4 on"):
-        contact_wall.shifted_bound.__wrapped__()
+        contact_lateral.shifted_bound.__wrapped__()
 
 
 def test_sums_that_end_too_early_are_rejected(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(contact_wall, "trapezoidal", lambda *_: ([arb(0), arb(1)], [arb(1)] * 2))
+    monkeypatch.setattr(contact_lateral, "trapezoidal", lambda *_: ([arb(0), arb(1)], [arb(1)] * 2))
     with pytest.raises(PrecisionError, match=r"sum ends at 1\.0.*, too early"):
-        contact_wall.wall_points.__wrapped__(64)
+        contact_lateral.lateral_points.__wrapped__(64)
     monkeypatch.setattr(contact_points, "mode_count", lambda *_: 1)
     few = SimpleNamespace(**vars(math) | {"ceil": lambda _: 0})
     monkeypatch.setattr(back_face_references, "math", few)

@@ -20,16 +20,16 @@ def test_missing_values_give_empty_cells() -> None:
     assert winner_cells(None) == ("", "", "")
     assert duration(2.5e-3) == r"2.5\,ms"
     assert (factor(2.0), factor("1.5")) == ("2", "1.5")
-    found = {"family": "split", "setting": "8 nodes", "seconds": 1.0, "relative": "nan",
-             "ties": ["a_b", "split"], "doubtful": ["a_b", "c"]}  # fmt: skip
+    found = {"family": "split sum", "setting": "8 nodes", "seconds": 1.0, "relative": "nan",
+             "ties": ["a_b", "split sum"], "near_ties": ["a_b", "c"]}  # fmt: skip
     name, time, relative = winner_cells(found)
-    assert name == r"split, 8 nodes (tie: a\_b?, c?)"
+    assert name == r"split sum, 8 nodes (tie: a\_b?, c?)"
     assert (time, relative) == (r"1\,s", "")
 
 
 def test_row_of_a_missing_tool_states_the_reason() -> None:
     tool = {"name": "Some", "version": "2", "problem": "a law", "setting": "8 x 8", "error": 1e-3,
-            "seconds": 1.0, "cannot": "plates", "missing": None}  # fmt: skip
+            "seconds": 1.0, "limitation": "plates", "missing": None}  # fmt: skip
     absent = tool | {"name": "Other_one", "version": "", "missing": "not installed: 100 %"}
     first, second, third = tool_rows([tool, absent, tool])
     assert second == r"Other\_one & \multicolumn{5}{l}{not installed: 100 \%}"

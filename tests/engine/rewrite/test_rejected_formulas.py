@@ -11,10 +11,10 @@ import pytest
 import sympy as sp
 from flint import arb
 
-from derivation.engine.rewrite import account, rules, sections
+from derivation.engine.rewrite import account, rules, truncated_series
 from derivation.engine.rewrite.automatic import automatic
 from derivation.engine.rewrite.doubles import rounded_value
-from derivation.engine.rewrite.series import leading_power, taylor_section
+from derivation.engine.rewrite.series import leading_power, truncated_taylor
 from derivation.engine.rewrite.shape import Shape
 from derivation.engine.rewrite.stabilise import stabilise
 from derivation.engine.rewrite.terms import UnreachableError, terms_of
@@ -69,7 +69,7 @@ def test_series_with_irrational_coefficients_is_rejected() -> None:
     k = sp.Symbol("k", positive=True)
     terms = terms_of(k * x - sp.sin(x), x)
     with pytest.raises(UnreachableError, match="with further variables is not rational"):
-        taylor_section(terms, sp.Rational(1, 2))
+        truncated_taylor(terms, sp.Rational(1, 2))
 
 
 def test_formula_that_cannot_be_tested_is_rejected() -> None:
@@ -137,12 +137,12 @@ def test_table_with_a_large_truncation_error_is_rejected(
 def test_series_that_end_too_early_are_rejected(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(effect_tables, "kappas", lambda: [arb(1), arb(0), arb(1)])
     with pytest.raises(ArithmeticError, match="needs more moments kappa_n"):
-        effect_tables.wall_rows()
+        effect_tables.lateral_rows()
     with pytest.raises(ValueError, match="F needs more than 40 terms up to S = 100"):
         wave_terms(sp.Integer(100))
     with pytest.raises(ValueError, match=r"needs more than 30 terms up to 9/4"):
-        sections._coefficients(1 / (1 - sections.y**2), 0)
-    cosh, _ = sections._coefficients(sp.cosh(sections.y), 0)
+        truncated_series._coefficients(1 / (1 - truncated_series.y**2), 0)
+    cosh, _ = truncated_series._coefficients(sp.cosh(truncated_series.y), 0)
     assert [1 / c for c in cosh] == [math.factorial(2 * k) for k in range(len(cosh))]
 
 

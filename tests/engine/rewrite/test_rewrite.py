@@ -22,7 +22,7 @@ from derivation.engine.rewrite.automatic import automatic
 from derivation.engine.rewrite.doubles import rounded_value
 from derivation.engine.rewrite.form import Switch
 from derivation.engine.rewrite.rules import RULES, Rewritten
-from derivation.engine.rewrite.series import POLYNOMIAL, taylor_section
+from derivation.engine.rewrite.series import POLYNOMIAL, truncated_taylor
 from derivation.engine.rewrite.shape import Shape, assembled_form
 from derivation.engine.rewrite.stabilise import stabilise
 from derivation.engine.rewrite.terms import UnreachableError, taylor, terms_of, truncation_bound
@@ -42,7 +42,7 @@ UNCHANGED = (
     (rules.logarithm, sp.log(2 + x), "likewise"),
     (rules.fraction, (x - sp.sin(x)) / x**3, "it is already one quotient"),
     (rules.difference, sp.sinh(x), "the rule applies only after `decay`"),
-    (rules.section, x - sp.sin(x), "likewise"),
+    (rules.series, x - sp.sin(x), "likewise"),
 )
 
 # Every rule with formulas that it changes.
@@ -57,10 +57,10 @@ CHANGED: tuple[tuple[str, sp.Expr], ...] = (
     ("decay", sp.sqrt(1 + x) * sp.sinh(x)),
     ("difference", (x * sp.sinh(x) + 2 * sp.sinh(2 * x)) / sp.cosh(x)),
     ("balance", (x - sp.sin(x)) / x**3),
-    ("share", (sp.sinh(x) - x) * sp.exp(-x)),
+    ("reuse", (sp.sinh(x) - x) * sp.exp(-x)),
 )
 UP_TO = {rule.name: RULES[: index + 1] for index, rule in enumerate(RULES)}
-UP_TO["share"] = (*RULES, rules.SHARE)
+UP_TO["reuse"] = (*RULES, rules.REUSE)
 
 # Formulas that do not occur in the paper.
 OTHER_FORMULAS = (
@@ -140,7 +140,7 @@ def _delta(source: sp.Expr) -> sp.Symbol:
     [sp.sinh(x) - x, sp.sin(x) - x * sp.cos(x), sp.exp(x) - 1 - x, sp.exp(-x) * sp.sin(x) - x],
 )
 def test_truncated_series_is_within_its_bound(core: sp.Expr, share: float, switch: float) -> None:
-    section = taylor_section(terms_of(core, x), sp.Rational(switch))
+    section = truncated_taylor(terms_of(core, x), sp.Rational(switch))
     point = flint.arb(switch * max(share, 1e-6))
     with flint.ctx.workprec(600):
         total = sum(
@@ -247,7 +247,7 @@ def test_every_rule_is_needed() -> None:
         variable = next(iter(expression.atoms(sp.sin, sp.sinh))).args[0].free_symbols
         if len(variable) == 1:
             needed |= {a.rule for a in stabilise(expression, variable.pop(), (1e-150, 1e6)).applied}
-    assert needed >= {"conjugate", "logarithm", "fraction", "decay", "balance", "section"}
+    assert needed >= {"conjugate", "logarithm", "fraction", "decay", "balance", "series"}
     applied = [a for e in OTHER_FORMULAS[:5] for a in stabilise(e, x).applied]
     assert all(a.worst[1] <= 8 for a in applied)
     for rule in (a for a in applied if a.cause != "time"):

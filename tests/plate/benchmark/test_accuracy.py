@@ -13,7 +13,7 @@ from derivation.engine.files import ROOT
 from derivation.engine.report.figures import figure_file
 from derivation.plate import reporting
 from derivation.plate.benchmark import run, scaling
-from derivation.plate.benchmark.interface import PAPER, REGIMES
+from derivation.plate.benchmark.interface import CASES, PAPER
 from derivation.plate.benchmark.rows import BenchmarkRow
 from derivation.plate.report import readme
 from derivation.plate.report.accuracy import accuracy_context, duration, reasons
@@ -30,15 +30,15 @@ def committed() -> dict[str, Any]:
 
 def test_data_have_rows_of_every_kind(committed: dict[str, Any]) -> None:
     assert {"generated", "numpy", "python"} <= committed["provenance"].keys()
-    assert [r["name"] for r in committed["regimes"]] == [r.name for r in REGIMES]
+    assert [r["name"] for r in committed["cases"]] == [r.name for r in CASES]
     for entry in committed["rows"]:
         assert entry.keys() == set(BenchmarkRow.__dataclass_fields__)
         assert entry["fails"] or (entry["errors"] and entry["vector"] and entry["single"])
         # For every method that works, the rounding error is known separately.
         assert entry["fails"] or entry["errors"]["rounding"] is not None
     assert {entry["task"] for entry in committed["rows"]} == {"law", "inversion", "impact"}
-    assert {g["what"] for g in committed["scaling"]} == {"points", "b/h", "digits", "scenes"}
-    assert committed["headline"]["reached"]
+    assert {g["quantity"] for g in committed["scaling"]} == {"points", "b/h", "digits", "scenes"}
+    assert committed["headline"]["direct_sum"]
     assert committed["tools"]
 
 
@@ -47,9 +47,9 @@ def test_generated_law_is_a_thousand_times_as_fast_as_direct_summation(
 ) -> None:
     found = committed["headline"]
     assert found["digits"] >= 15
-    best = found["reached"][-1]
+    best = found["direct_sum"][-1]
     assert best["digits"] >= 9
-    assert best["seconds"] / found["called"] > 1000
+    assert best["seconds"] / found["seconds_with_setup"] > 1000
 
 
 def test_figures_are_reproducible(committed: dict[str, Any]) -> None:
@@ -62,7 +62,7 @@ def test_figures_are_reproducible(committed: dict[str, Any]) -> None:
 
 def test_section_lists_every_failure(committed: dict[str, Any]) -> None:
     found = accuracy_context(committed)
-    failing = {(r["task"], r["family"], r["regime"]) for r in committed["rows"] if r["fails"]}
+    failing = {(r["task"], r["family"], r["case"]) for r in committed["rows"] if r["fails"]}
     assert len(found["failures"]) == len(failing)
     assert duration(1.5e-9) == r"1.5\,ns"
     assert duration(0.0012) == r"1.2\,ms"
@@ -92,7 +92,7 @@ def brief(monkeypatch: pytest.MonkeyPatch) -> None:
     """Disable slow parts of the benchmark that other tests cover."""
     monkeypatch.setattr(run, "tools", list)
     monkeypatch.setattr(scaling, "studies", lambda quick: ())  # noqa: ARG005
-    monkeypatch.setattr(run, "REGIMES", (PAPER,))
+    monkeypatch.setattr(run, "CASES", (PAPER,))
     monkeypatch.setattr(run, "TASKS", ("law",))
     monkeypatch.setattr("derivation.plate.benchmark.problems.QUICK_DIGITS", 20)
     monkeypatch.setattr("derivation.plate.benchmark.headline.QUICK_MODES", 1 << 19)
@@ -105,12 +105,12 @@ def test_command_writes_results_of_the_named_methods(
 ) -> None:
     out = tmp_path / "accuracy.json"
     scene = ROOT / "derivation" / "scene" / "examples" / "paper.toml"
-    arguments = ["--quick", "--method", "table of cubics", "--scene", str(scene)]
+    arguments = ["--quick", "--method", "cubic interpolation", "--scene", str(scene)]
     assert main(["accuracy", *arguments, "--out", str(out)]) == 0
     data = json.loads(out.read_text())
-    assert {r["family"] for r in data["rows"]} == {"table of cubics"}
-    assert [r["name"] for r in data["regimes"]] == ["scene"]
-    assert data["regimes"][0]["low"] < 0.1342 < data["regimes"][0]["high"]
+    assert {r["family"] for r in data["rows"]} == {"cubic interpolation"}
+    assert [r["name"] for r in data["cases"]] == ["scene"]
+    assert data["cases"][0]["low"] < 0.1342 < data["cases"][0]["high"]
     assert "direct sum" in capsys.readouterr().out
 
 
@@ -123,10 +123,10 @@ def test_record_is_replaced_only_with_update(
     monkeypatch.setattr(pipeline, "MEASURED_ACCURACY", committed)
     measured = {"rows": []}
     monkeypatch.setattr(pipeline.accuracy_run, "measure", lambda *_: measured)
-    for options in (("--quick",), ("--method", "table of cubics"), ()):
+    for options in (("--quick",), ("--method", "cubic interpolation"), ()):
         assert pipeline.accuracy(options[1:], quick=bool(options)) == (measured, None)
     assert committed.read_text() == "committed"
-    for other in (["--method", "table of cubics"], ["--out", str(tmp_path / "x.json")]):
+    for other in (["--method", "cubic interpolation"], ["--out", str(tmp_path / "x.json")]):
         assert main(["benchmark", "--update", *other]) == 2
         assert "--update" in capsys.readouterr().err
     assert committed.read_text() == "committed"
@@ -141,9 +141,9 @@ def test_contact_too_small_for_a_direct_sum_is_measured(
     paper = ROOT / "derivation" / "scene" / "examples" / "paper.toml"
     slow, out = tmp_path / "slow.toml", tmp_path / "accuracy.json"
     slow.write_text(paper.read_text().replace("speed = 1.0", "speed = 1e-9"))
-    arguments = ["--quick", "--method", "table of cubics", "--scene", str(slow)]
+    arguments = ["--quick", "--method", "cubic interpolation", "--scene", str(slow)]
     assert main(["accuracy", *arguments, "--out", str(out)]) == 0
-    assert json.loads(out.read_text())["headline"]["reached"] == []
+    assert json.loads(out.read_text())["headline"]["direct_sum"] == []
     assert "direct sum of 524288 modes to fewer than 6 digits" in capsys.readouterr().out
 
 
@@ -168,7 +168,7 @@ def test_invalid_input_gives_one_message(
 
 def test_scene_beyond_the_law_is_rejected() -> None:
     with pytest.raises(ValueError, match=r"^impact\.speed: "):
-        run.scene_regime(0.13, 72.2, 1e6, 0.1, 1.0, 0.36e9, 0.43e9)
+        run.scene_case(0.13, 72.2, 1e6, 0.1, 1.0, 0.36e9, 0.43e9)
 
 
 def test_interrupted_run_keeps_the_old_file(tmp_path: Path) -> None:
@@ -192,10 +192,10 @@ sys.exit(cli.main(["accuracy", "--quick", "--out", sys.argv[1]]))
 def test_report_lists_reasons_and_remarks_on_separated_errors() -> None:
     """Each reason is listed once with families and test cases; other rows are not listed."""
     why = "no long J0 here"
-    row = {"family": "a_b", "regime": "thin", "fails": None, "errors": {"unsplit": why}}
+    row = {"family": "a_b", "case": "thin", "fails": None, "errors": {"unsplit": why}}
     rows = [
         row,
-        row | {"regime": "thick"},
+        row | {"case": "thick"},
         row | {"family": "c", "fails": "overflow"},
         row | {"family": "d", "errors": {"unsplit": None}},
         row | {"family": "e", "errors": None},

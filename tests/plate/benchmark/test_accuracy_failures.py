@@ -36,7 +36,7 @@ from derivation.plate.benchmark.arithmetic import (
     as_ball,
 )
 from derivation.plate.benchmark.errors import BenchmarkErrors, digits
-from derivation.plate.benchmark.interface import PAPER, REGIMES, Method, largest_contact_radius
+from derivation.plate.benchmark.interface import CASES, PAPER, Method, largest_contact_radius
 from derivation.plate.benchmark.rows import BenchmarkRow
 from derivation.plate.report.accuracy_figures import pareto_front
 from derivation.scene.achieved_accuracy import METHODS
@@ -52,15 +52,15 @@ Patch = pytest.MonkeyPatch
 def test_methods_fail_as_recorded() -> None:
     """Each recorded failure is predicted by the method or was found by evaluating its numbers."""
     rows = json.loads(pipeline.MEASURED_ACCURACY.read_text())["rows"]
-    names = "task", "regime", "family", "setting", "arithmetic"
+    names = "task", "case", "family", "setting", "arithmetic"
     recorded = {tuple(row[name] for name in names): row["fails"] for row in rows}
     reported = 0
     for method in catalogue.methods():
-        for regime in REGIMES:
-            key = method.task, regime.name, method.family, method.setting, method.arithmetic
-            known, reason = recorded.pop(key), method.fails(regime)
+        for case in CASES:
+            key = method.task, case.name, method.family, method.setting, method.arithmetic
+            known, reason = recorded.pop(key), method.fails(case)
             if reason is None:
-                assert known is None or known.startswith(("no digit right", "gives no number"))
+                assert known is None or known.startswith(("no correct digit", "gives no number"))
             else:
                 assert reason == known
                 reported += 1
@@ -68,30 +68,30 @@ def test_methods_fail_as_recorded() -> None:
     assert reported > 20
 
 
-@pytest.mark.parametrize("regime", REGIMES, ids=lambda r: r.name)
-def test_fast_methods_in_doubles_give_numbers_or_a_reason(regime) -> None:
+@pytest.mark.parametrize("case", CASES, ids=lambda r: r.name)
+def test_fast_methods_in_doubles_give_numbers_or_a_reason(case) -> None:
     for method in catalogue.methods(quick=True):
         if method.task != "law" or method.arithmetic != "float64" or method.one_by_one:
             continue
-        if method.fails(regime) is None and not method.family.startswith(("split", "Chebyshev")):
-            found = method.prepared(regime)(regime.h * np.array([regime.low, regime.high]))
+        if method.fails(case) is None and not method.family.startswith(("split sum", "Chebyshev")):
+            found = method.prepared(case)(case.h * np.array([case.low, case.high]))
             assert np.isfinite(found).all(), method.name
 
 
 def test_names_are_unique_and_unknown_ones_are_rejected() -> None:
     every = [(m.task, m.name) for m in catalogue.methods()]
     assert len(set(every)) == len(every)
-    with pytest.raises(ValueError, match="Levin u"):
+    with pytest.raises(ValueError, match="Levin u transform"):
         catalogue.methods(["Levin"])
-    assert {m.family for m in catalogue.methods(["Levin u"])} == {"Levin u"}
+    assert {m.family for m in catalogue.methods(["Levin u transform"])} == {"Levin u transform"}
 
 
 def test_thousand_digits_only_for_the_paper_or_omitted_with_a_reason() -> None:
     deep = [m for m in catalogue.methods() if m.arithmetic.endswith("1000 digits")]
-    assert {m.family for m in deep if m.fails(PAPER) is None} == {"small-a series"}
-    for regime in REGIMES:
-        if regime is not PAPER:
-            assert all((m.fails(regime) or "").startswith("left out") for m in deep)
+    assert {m.family for m in deep if m.fails(PAPER) is None} == {"series in a/h"}
+    for case in CASES:
+        if case is not PAPER:
+            assert all((m.fails(case) or "").startswith("omitted") for m in deep)
     assert not any(m.arithmetic.endswith("1000 digits") for m in catalogue.methods(quick=True))
 
 
@@ -108,9 +108,9 @@ def test_without_long_doubles_the_headline_uses_doubles(monkeypatch: Patch) -> N
     monkeypatch.setattr(headline, "POINTS", 1000)
     found = headline.headline(PAPER, quick=True)
     assert found.digits > 14.0
-    reached = [(r.digits, r.modes) for r in found.reached]
+    reached = [(r.digits, r.modes) for r in found.direct_sum]
     assert reached == sorted(reached)
-    assert {r.truncation for r in found.reached} == {None}
+    assert {r.truncation for r in found.direct_sum} == {None}
     assert found.modes == 1 << 19
 
 
@@ -162,12 +162,12 @@ def test_failing_methods_are_named_and_not_timed() -> None:
     found = panels.panel("law", PAPER, [partly, method(right, fails=lambda _: "too thin")], True)
     assert (found.vector, found.single) == (None, None)
     assert [row.fails for row in found.rows] == [
-        "gives no number in part of the regime",
+        "gives no number in part of the case",
         "too thin",
     ]
     assert [row.vector for row in found.rows] == [None, None]
     [row] = panels.panel("law", PAPER, [method(lambda a: 9.0 * right(a))], True).rows
-    assert row.fails == "no digit right: relative error up to 8"
+    assert row.fails == "no correct digit: relative error up to 8"
     assert row.vector is not None  # it is timed because it returns numbers
     assert list(pareto._panel([found.rows[0]], "vector")) == []
 
@@ -214,18 +214,18 @@ def row(family: str, total: float, seconds: float, setting: str = "") -> Benchma
 
 def test_simplest_of_equally_fast_methods_wins() -> None:
     rows = [
-        row("Chebyshev surrogate", 15.1, 2.0), row("production", 15.5, 2.3),
-        row("table of cubics", 15.9, 2.42), row("split", 15.9, 9.0), row("Hertz", 0.1, 0.1),
-        row("small-a series", 3.5, 1.0, "1 terms"), row("small-a series", 6.5, 3.0, "2 terms"),
-        replace(row("Levin u", 15.0, 0.1), fails="why", vector=None, single=None),
+        row("Chebyshev polynomial", 15.1, 2.0), row("generated code", 15.5, 2.3),
+        row("cubic interpolation", 15.9, 2.42), row("split sum", 15.9, 9.0), row("Hertz", 0.1, 0.1),
+        row("series in a/h", 3.5, 1.0, "1 terms"), row("series in a/h", 6.5, 3.0, "2 terms"),
+        replace(row("Levin u transform", 15.0, 0.1), fails="why", vector=None, single=None),
     ]  # fmt: skip
     found = {w.digits: w for w in pareto.winners(rows) if w.kind == "vector"}
     assert sorted(found) == [3, 6, 9, 12, 15]
-    assert (found[3].family, found[3].setting) == ("small-a series", "1 terms")
+    assert (found[3].family, found[3].setting) == ("series in a/h", "1 terms")
     assert found[3].relative == 1
-    assert found[15].family == "production"
-    assert found[15].ties == ("Chebyshev surrogate",)
-    assert found[15].doubtful == ("production", "table of cubics")
+    assert found[15].family == "generated code"
+    assert found[15].ties == ("Chebyshev polynomial",)
+    assert found[15].near_ties == ("generated code", "cubic interpolation")
     assert found[15].relative == pytest.approx(2.3)
 
 
@@ -239,9 +239,9 @@ def test_pareto_front_has_the_undominated_methods() -> None:
 
 def test_power_law_and_the_end_of_its_range() -> None:
     x = [1.0, 10.0, 100.0, 1000.0, 1e4]
-    slope, leaves = scaling.line(x, [1 + t for t in x])
+    slope, deviates_at = scaling.line(x, [1 + t for t in x])
     assert slope == pytest.approx(1.0, abs=0.01)
-    assert leaves == 1.0
+    assert deviates_at == 1.0
     assert scaling.line(x, x)[1] is None
 
 
@@ -263,7 +263,9 @@ def test_growth_is_measured_with_a_simulated_clock(monkeypatch: Patch) -> None:
 
 def test_timed_methods_of_a_study_agree(monkeypatch: Patch) -> None:
     """The methods that a study times agree on their results."""
-    monkeypatch.setattr(scaling, "growth", lambda what, _, x, calls, why: (what, x, calls, why))
+    monkeypatch.setattr(
+        scaling, "growth", lambda name, _, x, calls, reason: (name, x, calls, reason)
+    )
     monkeypatch.setattr(scaling, "ARRAY", scaling.SPLIT_POINTS)
     for one, other in (scaling.points(), scaling.thickness_ratios()):
         assert one[1] == other[1]

@@ -32,7 +32,7 @@ from derivation.plate.benchmark.arithmetic import (
 from derivation.plate.benchmark.catalogue import NODES, methods
 from derivation.plate.benchmark.coefficients import coefficients
 from derivation.plate.benchmark.errors import BenchmarkErrors, digits, measure_errors
-from derivation.plate.benchmark.interface import PAPER, REGIMES, Method, largest_contact_radius
+from derivation.plate.benchmark.interface import CASES, PAPER, Method, largest_contact_radius
 from derivation.plate.benchmark.problems import Problem
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.contact.oracle import sums as contact_sums
@@ -41,7 +41,7 @@ from generated.contact_law import force, indentation
 from generated.impact import impact
 
 needs_long = pytest.mark.skipif(not HAS_LONG_DOUBLE, reason="long double is a double")
-THIN, THICK, LARGE = REGIMES[0], REGIMES[2], REGIMES[4]
+THIN, THICK, LARGE = CASES[0], CASES[2], CASES[4]
 RADII = np.array([0.002, 0.01, 0.03])
 
 
@@ -65,8 +65,8 @@ def pressed() -> Problem:
     return Problem("inversion", THICK, depths, tuple(forces), 38, np.full(50, 0.01))
 
 
-def bounce(regime) -> Problem:
-    r, speeds = regime, np.array([regime.speed])
+def bounce(case) -> Problem:
+    r, speeds = case, np.array([case.speed])
     found = contact_impact.impact(r.R, r.m, r.speed, r.h, r.b, r.lam, r.mu, 32)
     return Problem("impact", r, speeds, (found.contact_time,), 32, speeds)
 
@@ -112,7 +112,7 @@ def test_arithmetics_agree_with_interval_arithmetic(ar, right: float) -> None:
     with ar.context(), exact.context():
         y = ar.array(given)
         balls = exact.array([as_ball(x) for x in y])
-        for name in ("shape", "wall_shape", "excess"):
+        for name in ("shape", "lateral_shape", "excess"):
             values, reference = getattr(ar, name)(y), getattr(exact, name)(balls)
             assert min(map(digits, values, reference, [60] * len(y))) > right, name
         turned = [as_ball(x.imag) for x in ar.complex_shape(y)]
@@ -159,9 +159,11 @@ def test_coefficients_agree_with_the_reference(h: float, order: int) -> None:
 
 
 @pytest.mark.parametrize("double_exponential", [True, False])
-def test_both_quadrature_rules_give_the_moments_of_the_side_wall(double_exponential: bool) -> None:
+def test_both_quadrature_rules_give_the_moments_of_the_lateral_surface(
+    double_exponential: bool,
+) -> None:
     """The nodes and weights, which include 1/y^3, integrate y^n K0/I0 as the Arb reference does."""
-    nodes, weights = sums.wall_nodes(64, 16, double_exponential, 120)
+    nodes, weights = sums.lateral_nodes(64, 16, double_exponential, 120)
     y, w = (np.array([float(x) for x in column]) for column in (nodes, weights))
     for n in (0, 2, 4):
         reference = float(contact_balls.kappa(n, 20))
@@ -176,26 +178,26 @@ def test_levin_transformation_sums_an_alternating_series() -> None:
     assert found.real == pytest.approx(math.log(2), rel=1e-10)
 
 
-@pytest.mark.parametrize("regime", [THIN, PAPER, THICK, LARGE], ids=lambda r: r.name)
-def test_force_in_plain_python_agrees_with_the_generated_code(regime) -> None:
-    r, scalar = regime, motion.scalar_force(regime)
+@pytest.mark.parametrize("case", [THIN, PAPER, THICK, LARGE], ids=lambda r: r.name)
+def test_force_in_plain_python_agrees_with_the_generated_code(case) -> None:
+    r, scalar = case, motion.scalar_force(case)
     depths = indentation(np.array([1e-3, 0.1, 0.5, 1.0]) * r.h * min(r.high, 5.5), r.R, r.h, r.b)
     expected = force(depths, r.R, r.h, r.b, r.lam, r.mu)
     np.testing.assert_allclose([scalar(float(d)) for d in depths], expected, rtol=1e-13)
     assert scalar(0.0) == scalar(-1.0) == 0.0
 
 
-@pytest.mark.parametrize("regime", REGIMES[:4], ids=lambda r: r.name)
-def test_series_agree_with_the_generated_inverse_and_impact(regime) -> None:
-    r, top = regime, largest_contact_radius(regime)
+@pytest.mark.parametrize("case", CASES[:4], ids=lambda r: r.name)
+def test_series_agree_with_the_generated_inverse_and_impact(case) -> None:
+    r, top = case, largest_contact_radius(case)
     depths = indentation(top * np.array([0.01, 0.3, 1.0]), r.R, r.h, r.b)
     expected = force(depths, r.R, r.h, r.b, r.lam, r.mu)
     speeds = r.speed * np.array([0.5, 1.0])
     times = impact(r.R, r.m, speeds, r.h, r.b, r.lam, r.mu).contact_time
     for ar, tolerance in ((SINGLE, 2e-6), (DOUBLE, 3e-15)):
-        found = laws.newton(20, ar).prepared(regime)(depths)
+        found = laws.newton(20, ar).prepared(case)(depths)
         np.testing.assert_allclose(found, expected, rtol=tolerance)
-        found = laws.gauss(24, 20, ar).prepared(regime)(speeds)
+        found = laws.gauss(24, 20, ar).prepared(case)(speeds)
         np.testing.assert_allclose(found, times, rtol=tolerance)
     assert laws.diverges(LARGE)
 
@@ -208,10 +210,10 @@ def test_integration_without_enough_steps_gives_nan(monkeypatch: pytest.MonkeyPa
 # --- the law used as exact reference
 
 
-@pytest.mark.parametrize("regime", [THIN, PAPER, LARGE], ids=lambda r: r.name)
-def test_complete_series_agrees_with_the_reference(regime) -> None:
-    r, ar = regime, exact_for(DOUBLE)
-    a = largest_contact_radius(regime) * np.array([0.01, 0.3, 1.0])
+@pytest.mark.parametrize("case", [THIN, PAPER, LARGE], ids=lambda r: r.name)
+def test_complete_series_agrees_with_the_reference(case) -> None:
+    r, ar = case, exact_for(DOUBLE)
+    a = largest_contact_radius(case) * np.array([0.01, 0.3, 1.0])
     with ar.context():
         law, A = laws.SeriesLaw(r, ar), ar.array(a) / ar.number(r.h)
         lift, slope = law.lift(A), law.slope(A)
@@ -329,8 +331,8 @@ def test_separation_by_units_agrees_with_separation_by_digits(law, pressed, boun
 def test_force_with_fewer_bits_counts_as_rounding(bounced, monkeypatch) -> None:
     exact = motion.scalar_force
 
-    def short(regime):
-        force = exact(regime)
+    def short(case):
+        force = exact(case)
         return lambda x: float(np.float32(force(x)))
 
     monkeypatch.setattr(motion, "scalar_force", short)

@@ -57,13 +57,13 @@ def G(T: mp.mpf) -> mp.mpf:
 
 
 @cache
-def wall_moment(n: int) -> mp.mpf:
+def lateral_moment(n: int) -> mp.mpf:
     """Return kappa_n by quadrature; y = u^3 weakens the logarithmic singularity at 0."""
     with mp.workdps(20):
-        return wall_integral(lambda y: y**n, "1e-6")
+        return lateral_integral(lambda y: y**n, "1e-6")
 
 
-def wall_integral(density: Callable[[mp.mpf], mp.mpf], start: str = "1e-3") -> mp.mpf:
+def lateral_integral(density: Callable[[mp.mpf], mp.mpf], start: str = "1e-3") -> mp.mpf:
     """Return int density(y) K0(y)/I0(y) dy from y = start^3 to infinity, to 20 digits."""
 
     def spread(u: mp.mpf) -> mp.mpf:
@@ -85,7 +85,7 @@ def c_by_sum(k: int, ratio: mp.mpf) -> mp.mpf:
         j ** (2 * k - 5) * (G(2 * ratio * j) - 1) / J**2 for j, J in zeros(count_for(ratio))
     )
     size = mp.mpf(2 * k - 2) / mp.factorial(2 * k - 1)
-    inner = (-1) ** k * 8 / mp.pi * total - 8 / mp.pi**2 * wall_moment(2 * k - 4)
+    inner = (-1) ** k * 8 / mp.pi * total - 8 / mp.pi**2 * lateral_moment(2 * k - 4)
     return ratio ** (2 * k - 3) * size * inner
 
 
@@ -93,11 +93,11 @@ def recorded(motion: Mapping[str, Formula], k: int, ratio: str) -> mp.mpf:
     """Return c_(2k-3) from the two derived parts, with the sum evaluated by mpmath."""
     order = 2 * k - 3
     mode = sp.lambdify((eta, j_n, J1), motion[f"c_{order}_modes"].expression, "mpmath")
-    side = sp.lambdify((eta, kappa[2 * k - 4]), motion[f"c_{order}_side"].expression, "mpmath")
+    side = sp.lambdify((eta, kappa[2 * k - 4]), motion[f"c_{order}_lateral"].expression, "mpmath")
     number = mp.mpf(ratio)
     with mp.workdps(60):
         total = mp.fsum(mode(number, j, J) for j, J in zeros(count_for(number)))
-    return total + side(number, wall_moment(2 * k - 4))
+    return total + side(number, lateral_moment(2 * k - 4))
 
 
 def ball(value: flint.arb, digits: int = 25) -> mp.mpf:
@@ -166,7 +166,7 @@ def test_sum_identity_with_the_sonine_integral(ratio: str) -> None:
     with mp.workdps(30):
         r = mp.mpf(ratio)
         terms = [(mp.sin(r * j) - r * j * mp.cos(r * j)) / (j**4 * J**2) for j, J in zeros(800)]
-        side = wall_integral(lambda y: (r * y * mp.cosh(r * y) - mp.sinh(r * y)) / y**3)
+        side = lateral_integral(lambda y: (r * y * mp.cosh(r * y) - mp.sinh(r * y)) / y**3)
         expected = mp.pi * r**2 / 8 - side / mp.pi
         assert abs(calmed(terms) - expected) < mp.mpf("1e-8")
 
@@ -182,12 +182,12 @@ def test_certified_zeros_agree_with_mpmath() -> None:
 
 def split_of(motion: Mapping[str, Formula], r: mp.mpf, e: mp.mpf) -> mp.mpf:
     """Return F(alpha, eta) from the two derived parts."""
-    integrand, (y, *_) = motion["F_wall"].expression.args
+    integrand, (y, *_) = motion["F_lateral"].expression.args
     weight = sp.besselk(0, y) / sp.besseli(0, y)
     density = sp.lambdify((alpha, y), integrand / weight, "mpmath")
     mode = sp.lambdify((alpha, eta, j_n, J1), motion["F_modes"].expression, "mpmath")
     modes = mp.fsum(mode(r, e, j, J) for j, J in zeros(count_for(e)))
-    return modes + wall_integral(lambda value: density(r, value))
+    return modes + lateral_integral(lambda value: density(r, value))
 
 
 @pytest.mark.parametrize(("ratio", "eta_text"), [("0.3", "0.2"), ("0.7", "0.4")])
@@ -234,8 +234,8 @@ def test_c1_vanishes_near_h_over_b_0_5302() -> None:
     assert abs(root - mp.mpf("0.5302")) < 1e-4
 
 
-def test_only_the_side_wall_remains_for_thick_plates() -> None:
-    """For h >> b only the side wall remains: delta R/a^2 = 1 - 0.36953 a/b + ..."""
+def test_only_the_lateral_surface_remains_for_thick_plates() -> None:
+    """For h >> b only the lateral surface remains: delta R/a^2 = 1 - 0.36953 a/b + ..."""
     _, side = plate_series.coefficient(2).by_plate_radius
     value = side.subs(kappa[0], sp.Float(plate_series.kappa_ball(0, 20).str(20, radius=False)))
     assert abs(float(value) + 0.36953) < 5e-6
@@ -245,7 +245,7 @@ def test_only_the_side_wall_remains_for_thick_plates() -> None:
 def test_kappa(n: int) -> None:
     got = plate_series.kappa_ball(n, 30)
     assert got.rel_accuracy_bits() > 99
-    assert abs(ball(got) / wall_moment(n) - 1) < mp.mpf("1e-10")
+    assert abs(ball(got) / lateral_moment(n) - 1) < mp.mpf("1e-10")
     assert plate_series.kappa_ball(n, 45).overlaps(got)
 
 

@@ -47,14 +47,14 @@ def fraction(value: sp.Rational) -> arb:
 # --- values
 
 
-def test_wall_moments() -> None:
+def test_lateral_moments() -> None:
     start = tables.kappa_start()
     indices = [*range(7), 9, 12, 19, 33, 50, 76, start - 1, start, 150, LAST_N - 1, LAST_N]
     assert max(errors(kappa, reference.kappa, indices)) <= BUDGET
     assert max(errors(kappa_ratio, reference.kappa_ratio, [*indices, *LARGE])) <= BUDGET
 
 
-def test_wall_moments_around_the_switch_point() -> None:
+def test_lateral_moments_around_the_switch_point() -> None:
     start = tables.kappa_start()
     near = [*range(start - 3, start + 4)]
     assert max(errors(kappa_ratio, reference.kappa_ratio, near)) <= BUDGET
@@ -127,7 +127,7 @@ def test_quotient_follows_from_the_phase() -> None:
     exponent = 2 * sum((-1) ** i * d * t ** (1 + 2 * i) for i, d in enumerate(shift))
     series = sp.series(sp.exp(exponent), t, 0, terms).removeO()
     found = [series.coeff(t, i) for i in range(terms)]
-    assert tuple(found) == theory.wall_quotient(terms)
+    assert tuple(found) == theory.lateral_quotient(terms)
 
 
 def test_hankel_coefficients() -> None:
@@ -143,7 +143,7 @@ def test_bound_of_the_quotient_holds(y: float) -> None:
     plain, fading = theory.quotient_bound(terms)
     with flint.ctx.workprec(400):
         point = arb(y)
-        series = sum(fraction(q) * point**-j for j, q in enumerate(theory.wall_quotient(terms)))
+        series = sum(fraction(q) * point**-j for j, q in enumerate(theory.lateral_quotient(terms)))
         exact = (2 * point).exp() * point.bessel_k(arb(0)) / point.bessel_i(arb(0)) / arb.pi()
         bound = theory._at(plain, point) + (-point).exp() * theory._at(fading, point)
         assert abs(exact - series) < bound
@@ -213,11 +213,11 @@ def test_bound_of_the_finite_part_holds(k: int) -> None:
 
 
 def test_wrong_coefficient_is_rejected(monkeypatch: pytest.MonkeyPatch) -> None:
-    right = theory.wall_quotient(12)
+    right = theory.lateral_quotient(12)
     wrong = (right[0], -right[1], *right[2:])
-    monkeypatch.setattr(theory, "wall_quotient", lambda _: wrong)
+    monkeypatch.setattr(theory, "lateral_quotient", lambda _: wrong)
     with pytest.raises(ProofError, match="K0/I0"):
-        theory.wall_constant.__wrapped__(12)
+        theory.lateral_constant.__wrapped__(12)
 
 
 # --- tables and references

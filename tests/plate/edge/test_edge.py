@@ -90,8 +90,8 @@ def test_resultants_equal_integrals_over_the_thickness(wave: float, ratio: float
             )
 
         expected = {
-            "edge_stretch": moment(0) / (2 * mpf(radius)),
-            "edge_turn": 3 * moment(1) / (2 * mpf(radius)),
+            "edge_extension": moment(0) / (2 * mpf(radius)),
+            "edge_rotation": 3 * moment(1) / (2 * mpf(radius)),
             "edge_force": -2 * second / mpf(radius) * moment(0),
             "edge_moment": -2 * second / mpf(radius) * moment(1),
         }

@@ -109,7 +109,7 @@ def test_modal_weight_is_the_mean_under_a_flat_punch(contact: str) -> None:
             return mp.sin(t) * (mp.besselj(0, r) - part * mp.besseli(0, r)) / (1 - part)
 
         values = {k_n: Fraction("9.4394991378764"), alpha: Fraction(contact)}
-        closed = evaluate(derived.formulas()["thin_mode_share"].expression, values, 22)
+        closed = evaluate(derived.formulas()["thin_mode_mean"].expression, values, 22)
         with flint.ctx.workprec(BITS):
             mean = arb(mp.nstr(mp.quad(shape, mp.linspace(0, mp.pi / 2, 4)), 25))
             assert abs(closed - mean) < 1e-20

@@ -20,7 +20,7 @@ def static_law(ratio: float, half: float) -> float:
 
 def static_modes(ratio: float, half: float) -> float:
     """Return the same of all modes of the clamped plate."""
-    difference = next(f for f in waves.at_rest() if f.name == "clamped_rest").expression
+    difference = next(f for f in waves.at_rest() if f.name == "clamped_static_change").expression
     return float((-16 * sp.pi * difference).subs({nu: ratio, eta: half}))
 
 

@@ -15,7 +15,7 @@ from derivation.scene import (
     kernels,
 )
 from derivation.scene.effects import BY_NAME
-from generated.effect_numbers import WALL_CUBIC, WALL_LINEAR
+from generated.effect_numbers import LATERAL_CUBIC, LATERAL_LINEAR
 from generated.effects import (
     bending,
     bending_period,
@@ -32,14 +32,14 @@ def test_wrong_slope_is_rejected() -> None:
         curvature_theory.prove("Sphere", "", {"halved": slope - slope / 2})
 
 
-def test_growth_of_the_side_wall_agrees_with_another_quadrature() -> None:
+def test_growth_of_the_lateral_surface_agrees_with_another_quadrature() -> None:
     with mp.workdps(20):
         found = 4 / mp.pi**2 * mp.quad(
             lambda y: (y * mp.cosh(y) - mp.sinh(y)) / (2 * y) * mp.besselk(0, y) / mp.besseli(0, y),
             [0, 0.1, 1, 5, 20, 60],
         )  # fmt: skip
-    assert abs(float(effects_theory.wall_growth_ball()) - float(found)) < 1e-12
-    assert found < kernels.WALL_GROWTH < 1.01 * found
+    assert abs(float(effects_theory.lateral_growth_ball()) - float(found)) < 1e-12
+    assert found < kernels.LATERAL_GROWTH < 1.01 * found
 
 
 def test_sphere_on_a_half_space_agrees_with_sneddon() -> None:
@@ -81,8 +81,8 @@ def test_sphere_function_is_within_its_budget() -> None:
                 )
 
 
-def test_side_wall_is_within_its_budget() -> None:
-    """The side-wall correction agrees with its integral, and its slope is below the bound.
+def test_lateral_surface_is_within_its_budget() -> None:
+    """The correction for the lateral surface agrees with its integral; its slope is bounded.
 
     The integral (with y = u^3) takes 40 digits because its numerator cancels.
     """
@@ -103,7 +103,7 @@ def test_side_wall_is_within_its_budget() -> None:
     slope = (high - low) / (2 * step * alpha) / (2 * alpha)
     np.testing.assert_allclose(finite_radius(alpha).slope, slope, rtol=1e-8)
     assert (finite_radius(alpha).slope <= 0).all()
-    assert (-finite_radius(alpha).slope <= WALL_LINEAR * alpha + WALL_CUBIC * alpha**3).all()
+    assert (-finite_radius(alpha).slope <= LATERAL_LINEAR * alpha + LATERAL_CUBIC * alpha**3).all()
 
 
 def test_bending_agrees_with_thin_plate_theory() -> None:

@@ -49,7 +49,7 @@ GROUPS = {
     "switch points of the contact law": 90,
     "Bessel zeros by index": 24,
     "doubles next to zeros of J0 and J1": 12,
-    "moments by index": 30,
+    "series constants by index": 30,
     "switch points of the closed formulas": 50,
     "switch points of the sums over modes": 30,
     "switch points of the edge": 56,
@@ -157,7 +157,7 @@ def test_references_are_reproducible(suite: Suite, references: dict[str, Known])
     closed = [case for case in values if case.kernel not in LAWS]
     laws = [c for c in values if c.kernel in ("indentation", "stiffness") and not c.shape]
     quick = ("sphere_contact", "plate_of", "back_face_stress", "contact", "clamped_edge_bound",
-             "dynamic_influence", "bending_share", "symmetric_residue")  # fmt: skip
+             "dynamic_influence", "bending_fraction", "symmetric_residue")  # fmt: skip
     switches = [next(c for c in values if c.kernel == kernel) for kernel in quick]
     for case in (*generator.sample(closed, 24), *generator.sample(laws, 3), *switches):
         fresh = suite.references(case)

@@ -15,9 +15,9 @@ from shared_scenes import PAPER
 from derivation.cli import main
 from derivation.engine.formula.ball import PrecisionError
 from derivation.engine.oracle.agreement import RouteError, to_ball
+from derivation.plate.contact.oracle import lateral as contact_lateral
 from derivation.plate.contact.oracle import points as contact_points
 from derivation.plate.contact.oracle import sums as contact_sums
-from derivation.plate.contact.oracle import wall as contact_wall
 from derivation.plate.contact.oracle.balls import ratio_of
 from derivation.plate.contact.route import residue_law
 from derivation.plate.contact.route import residues as residue_routes
@@ -124,19 +124,19 @@ def test_bound_of_the_trapezoidal_rule_holds(share: float) -> None:
     with flint.ctx.workprec(400):
         sums = []
         for step in (arb(share), arb(share) / 2):
-            places, weights = contact_wall.trapezoidal(step, 200.0)
+            places, weights = contact_lateral.trapezoidal(step, 200.0)
             pairs = zip(places, weights, strict=True)
             sums.append(sum((w * y.cosh() for y, w in pairs), arb(0)))
         changed = abs(sums[0] - sums[1])
         assert changed > 0
-        assert changed < contact_wall.step_bound(arb(share))
-        assert changed > contact_wall.step_bound(arb(share)) ** 1.5
+        assert changed < contact_lateral.step_bound(arb(share))
+        assert changed > contact_lateral.step_bound(arb(share)) ** 1.5
 
 
 def test_bound_on_the_shifted_line_holds() -> None:
     """The bound is 1 to 3 times the quadrature of the largest allowed integrand."""
     with mp.workdps(20):
-        shift = mp.mpc(0, contact_wall.SHIFT)
+        shift = mp.mpc(0, contact_lateral.SHIFT)
 
         def size(t: mpf) -> mpf:
             y = 2 * mp.sinh(t + shift)
@@ -144,7 +144,7 @@ def test_bound_on_the_shifted_line_holds() -> None:
             return mp.exp(abs(y.real)) * abs(slope) / abs(mp.besseli(0, y)) ** 2
 
         direct = 2 * mp.quad(size, [0, 0.5, 1, 1.5, 2, 3, 4, 5])
-        bound = mpf(float(contact_wall.shifted_bound()))
+        bound = mpf(float(contact_lateral.shifted_bound()))
     assert direct <= bound <= 3 * direct
 
 
@@ -197,9 +197,9 @@ def test_interval_containing_a_zero_of_the_bessel_function_has_no_bound(
 
     On the shifted line y = 2 i sin d passes near i j_1.
     """
-    monkeypatch.setattr(contact_wall, "PIECES", 1)
+    monkeypatch.setattr(contact_lateral, "PIECES", 1)
     with pytest.raises(PrecisionError, match="1/I0"):
-        contact_wall.shifted_bound.__wrapped__()
+        contact_lateral.shifted_bound.__wrapped__()
     assert acb(0, 2.404825557695773).bessel_i(0).abs_lower() < 1e-12
 
 

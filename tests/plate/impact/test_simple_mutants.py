@@ -105,13 +105,13 @@ def plate(eta: float) -> tuple[float, float]:
     """Return c_1 from Arb and K_3 from the theory of the substitution."""
     c_1, c_3 = (contact_balls.coefficient(n, eta, 1.0, 25) for n in (1, 3))
     if eta < 1 / tables.THIN:
-        return float(c_1), float(-5 * c_3 / 2) + numbers.WALL_CUBIC * eta**3
+        return float(c_1), float(-5 * c_3 / 2) + numbers.LATERAL_CUBIC * eta**3
     with mp.workdps(25):
         total, n = mpf(0), 1
         while 2 * eta * (j := mp.besseljzero(0, n)) < 35:
             total += (plate_factor(2 * eta * j) - 1) / (j * mp.j1(j) ** 2) * j**2
             n += 1
-        return float(c_1), float((2 * total / (3 * mp.pi) + numbers.WALL_REST) * mpf(eta) ** 3)
+        return float(c_1), float((2 * total / (3 * mp.pi) + numbers.LATERAL_REST) * mpf(eta) ** 3)
 
 
 def lemma(low: Any, up: Any, fall: Any, rise: Any, energy: Any = 0) -> list[mpf]:

@@ -14,16 +14,16 @@ from generated import simple_impact
 from generated import simple_impact_numbers as numbers
 
 
-def test_remainder_of_the_wall_is_the_series_without_its_first_term() -> None:
+def test_remainder_of_the_lateral_is_the_series_without_its_first_term() -> None:
     total, factorial = flint.arb(0), flint.arb(1)
     for n in range(2, 40, 2):
         factorial *= n * (n + 1)
         total += kappa_ball(n, 15) / factorial
     series = 4 * total / flint.arb.pi() ** 2
-    assert abs(substitution.wall_rest_ball() - series) < 1e-11
+    assert abs(substitution.lateral_rest_ball() - series) < 1e-11
 
 
-def test_generated_bounds_of_the_wall_are_rounded_up() -> None:
+def test_generated_bounds_of_the_lateral_are_rounded_up() -> None:
     """The bounds slightly exceed the integrals of sinh y without its first one or two terms."""
 
     def share(y: float, taken: float) -> float:
@@ -32,8 +32,8 @@ def test_generated_bounds_of_the_wall_are_rounded_up() -> None:
 
     rest = integrate.quad(lambda y: share(y, y), 1e-3, 60.0, epsabs=1e-13, limit=200)[0]
     cubic = integrate.quad(lambda y: share(y, y + y**3 / 6), 1e-2, 60.0, epsabs=1e-13, limit=200)[0]
-    assert rest < numbers.WALL_REST < 1.003 * rest
-    assert cubic < numbers.WALL_CUBIC < 1.003 * cubic
+    assert rest < numbers.LATERAL_REST < 1.003 * rest
+    assert cubic < numbers.LATERAL_CUBIC < 1.003 * cubic
 
 
 def test_generated_bounds_of_omitted_terms_are_rounded_up() -> None:

@@ -11,7 +11,7 @@ import pytest
 from derivation.engine.formula.ball import enclose
 from derivation.engine.measure.point import Point
 from derivation.engine.measure.target import Target
-from derivation.engine.rewrite.sections import END, sections
+from derivation.engine.rewrite.truncated_series import END, truncated_series
 from derivation.plate.search.draw import draw
 from derivation.plate.search.targets import targets
 from generated import blocks as generated_blocks
@@ -193,10 +193,10 @@ def test_results_do_not_depend_on_units(name: str) -> None:
     assert judged > 12
 
 
-@pytest.mark.parametrize("name", list(sections()))
+@pytest.mark.parametrize("name", list(truncated_series()))
 def test_truncated_series_are_accurate_up_to_the_end_of_their_range(name: str) -> None:
     """Each truncated Taylor series is accurate to two ULP from 0 to the end of its range."""
-    section = sections()[name]
+    section = truncated_series()[name]
     (square,) = section.arguments
     inner = np.random.default_rng(3).uniform(0.0, float(END) ** 2, 300)
     points = np.concatenate([inner, [1e-300, 1e-16, float(END) ** 2]])

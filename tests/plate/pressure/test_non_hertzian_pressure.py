@@ -41,12 +41,12 @@ def test_cubic_coefficient_is_eight_thirds() -> None:
     assert ratio == 1 + sp.Rational(5, 3) * c_A[3] * a_ratio**3
 
 
-def test_too_small_contribution_of_the_side_wall_is_rejected(
+def test_too_small_contribution_of_the_lateral_surface_is_rejected(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(bound, "WALL_EXTRA", sp.Rational(3, 40))
+    monkeypatch.setattr(bound, "LATERAL_EXTRA", sp.Rational(3, 40))
     with pytest.raises(ProofError, match="contribution of the edge"):
-        bound.wall_share.__wrapped__()
+        bound.lateral_share.__wrapped__()
 
 
 def law(case: pressure_balls.Case) -> tuple[float, float]:

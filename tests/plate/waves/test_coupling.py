@@ -52,7 +52,7 @@ def test_means_under_punch_and_sphere_agree_with_quadrature(y: str) -> None:
     With r = sin t the weights are sin t dt (flat punch) and 3 sin t cos^2 t dt (Hertz).
     """
     with mp.workdps(25):
-        for weight, name in ((mp.sin, "mode_share"), (_hertz, "mode_force")):
+        for weight, name in ((mp.sin, "mode_mean"), (_hertz, "mode_force")):
 
             def mean(t: mpf, weight: Callable[[mpf], mpf] = weight) -> mpf:
                 return weight(t) * mp.besselj(0, mpf(y) * mp.sin(t))

@@ -10,9 +10,9 @@ from derivation.plate.vocabulary import xi_R
 from derivation.plate.waves.oracle import KINDS
 from derivation.plate.waves.theory import bending_branch
 from generated.inertia import (
+    bending_fraction,
     bending_frequency,
     bending_residue,
-    bending_share,
     dynamic_influence,
 )
 from generated.plate_waves import branches
@@ -92,7 +92,7 @@ def test_thin_plates_have_the_kirchhoff_frequency() -> None:
     rigidity = 2.0 * 2.0**3 / (12.0 * (1.0 - nu))  # D/(mu h^3), E = 2 mu (1 + nu)
     assert bending_frequency(x, nu) == pytest.approx(x * x * np.sqrt(rigidity / 2), rel=1e-9)
     assert bending_residue(x, nu) == pytest.approx(0.5, rel=1e-9)
-    assert bending_share(x, nu) == pytest.approx(1.0, rel=1e-9)
+    assert bending_fraction(x, nu) == pytest.approx(1.0, rel=1e-9)
 
 
 def test_short_waves_have_the_rayleigh_speed() -> None:
@@ -143,10 +143,10 @@ def test_branches_add_up_to_the_static_load(x: float, nu: float, parity: str) ->
     assert lack[:2] / lack[1:] == pytest.approx([2.0, 2.0], rel=0.15)
     if parity == KINDS[0]:
         other = float(dynamic_influence(x, 0.0, nu)[1])
-        share = float(bending_share(x, nu)) * (1 + other / whole)
+        share = float(bending_fraction(x, nu)) * (1 + other / whole)
         assert shares[0] == pytest.approx(share, rel=1e-14)
 
 
 def test_contribution_of_the_lowest_branch() -> None:
     """For nu = 1/4, A0 carries 98 % of the static deflection at x = 0.5 and 79 % at x = 1."""
-    assert bending_share([0.5, 1.0], 0.25) == pytest.approx([0.9765, 0.7945], abs=5e-5)
+    assert bending_fraction([0.5, 1.0], 0.25) == pytest.approx([0.9765, 0.7945], abs=5e-5)

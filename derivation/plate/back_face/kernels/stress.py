@@ -16,11 +16,11 @@ from derivation.plate.back_face.theory import (
 )
 from derivation.plate.blocks import blocks
 from derivation.plate.edge.kernels.supported import (
-    bent,
+    bending_part,
+    extension_part,
     in_ratio,
     n,
     one_mode,
-    stretched,
     support,
 )
 from derivation.plate.edge.theory.clamped import HERTZ_MEAN, indentation_loss, turn
@@ -63,13 +63,13 @@ def other_plate() -> Routine:
     """Return the plate whose sum is computed: for a thin plate, a thicker one with the same a/h."""
     width = sp.Symbol("width", positive=True)
     is_thin = sp.Lt(eta, THIN)
-    held = sp.Max(eta, THIN)
+    limited = sp.Max(eta, THIN)
     return routine(
         "summed_plate",
         (alpha, eta, A),
-        (Choice(width, is_thin, A * THIN, alpha, if_yes={held: THIN}, if_no={held: eta}),),
-        (width, held),
-        (a_ratio * held, None),
+        (Choice(width, is_thin, A * THIN, alpha, if_yes={limited: THIN}, if_no={limited: eta}),),
+        (width, limited),
+        (a_ratio * limited, None),
         "Return a/b and h/b of the plate whose sum is computed.",
         {alpha: a_ratio * eta, A: a_ratio},
     )
@@ -121,9 +121,9 @@ def supported() -> Routine:
     """Return S plus the correction for a simple support."""
     return routine(
         "with_support",
-        (total, eta, n, support, bent, stretched),
+        (total, eta, n, support, bending_part, extension_part),
         (),
-        (total + support * (12 * bent + 8 * n * eta * stretched),),
+        (total + support * (12 * bending_part + 8 * n * eta * extension_part),),
         (_sum + support_ratio().expression * back_face_edge().expression,),
         "Return S plus the correction for a simple support, from both sums over the modes.",
         {**one_mode(indentation_kernel), total: _sum},
@@ -133,15 +133,15 @@ def supported() -> Routine:
 
 def clamped() -> Routine:
     """Return S plus the correction for a clamped edge."""
-    chi, lost, wide, moment = sp.symbols("chi lost wide moment", real=True)
+    chi, loss, wide, moment = sp.symbols("chi loss wide moment", real=True)
     return routine(
         "with_clamp",
         (total, alpha, eta, n),
         (
             Several((chi,), "turn_of_clamp", (n,), (turn(),)),
-            Several((lost,), "indentation_loss", (eta, n), (indentation_loss() / eta,)),
+            Several((loss,), "indentation_loss", (eta, n), (indentation_loss() / eta,)),
             Let(wide, 1 - HERTZ_MEAN * alpha**2),
-            Let(moment, wide * (1 + 2 * chi * eta) - eta * lost),
+            Let(moment, wide * (1 + 2 * chi * eta) - eta * loss),
         ),
         (total - sp.Rational(3, 2) * moment - 2 * n * eta**2,),
         (_sum - back_face_clamp().expression,),

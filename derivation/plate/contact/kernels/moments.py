@@ -62,10 +62,10 @@ def _nodes() -> list[tuple[Ball, Ball]]:
     found = []
     for index in range(-5 * _STEP, 6 * _STEP + 1):
         v = step * index
-        fade = (-v).exp()
-        y = (v - fade).exp()
+        exponential = (-v).exp()
+        y = (v - exponential).exp()
         if y > Ball(2) ** _TAIL and y < _END:
-            found.append((y, step * y * (1 + fade)))
+            found.append((y, step * y * (1 + exponential)))
     return found
 
 
@@ -122,9 +122,9 @@ def _singular_parts() -> tuple[Ball, Ball]:
     """
     second, third = Ball(0), Ball(0)
     for T, weight, excess in excess_nodes():
-        fade = (-T * T).exp()
-        second += weight * (excess - fade * (6 / T**3 + Ball(36) / 5 / T))
-        third += weight * (T * T * excess - 6 * fade / T)
+        exponential = (-T * T).exp()
+        second += weight * (excess - exponential * (6 / T**3 + Ball(36) / 5 / T))
+        third += weight * (T * T * excess - 6 * exponential / T)
     euler = Ball.const_euler()
     poles_second = 3 * (euler - 1) - Ball(18) / 5 * euler
     return midpoint(second + poles_second), midpoint(third - 3 * euler)
@@ -185,10 +185,10 @@ def _doubles(values: Sequence[Ball]) -> tuple[float, ...]:
     ArithmeticError
         If a rounding cannot be decided, or if no value exceeds the range of doubles.
     """
-    held = [value for value in values if abs(value) < Ball(float_info.max)]
-    if len(held) == len(values):
+    limited = [value for value in values if abs(value) < Ball(float_info.max)]
+    if len(limited) == len(values):
         raise ArithmeticError(f"a table of {len(values)} values does not reach the largest double")
-    return _round(held)
+    return _round(limited)
 
 
 def _round(values: Sequence[Ball]) -> tuple[float, ...]:

@@ -197,9 +197,9 @@ def _near_terms(name: str, hertz: int, summary: str) -> Routine:
     rest, square, cube, six, start, rise = sp.symbols("rest square cube six start rise")
     every = _weights(D, hertz)
     deeper = {j: weight for j, weight in every.items() if j > 2}
-    held = [_work(j) * weight * k.ratio ** (j - 2) for j, weight in deeper.items()]
+    limited = [_work(j) * weight * k.ratio ** (j - 2) for j, weight in deeper.items()]
     at = q / k.ratio
-    further = [sp.Add(*held[i:]) * at ** (2 * i - 2) for i in range(1, len(held))]
+    further = [sp.Add(*limited[i:]) * at ** (2 * i - 2) for i in range(1, len(limited))]
     nested = 1 + s * (1 + s * (1 + s * (1 + s)))
     statements: tuple[Statement, ...] = (
         Let(square, s**2),
@@ -217,7 +217,7 @@ def _near_terms(name: str, hertz: int, summary: str) -> Routine:
         summary,
         {
             rate: weighted(deeper, lambda j: j * k.ratio ** (j - 2) * at ** (j - 3)),
-            first: sp.Add(*held),
+            first: sp.Add(*limited),
             rest: sp.Add(*further),
             rise: weighted(every, lambda j: _work(j) * (1 - k.ratio ** (j + 3))),
             k.share: (1 - at) * k.ratio**5 / (1 - q),

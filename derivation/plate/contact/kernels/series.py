@@ -23,8 +23,8 @@ A, square, middle, half, inverse_half = sp.symbols(
     "A square middle half inverse_half", positive=True
 )
 F, S, slope, curve, step, order = sp.symbols("F S slope curve step order", real=True)
-y, weight, excess, total, rise, held, shape, ratio = sp.symbols(
-    "y weight excess total rise held shape ratio", positive=True
+y, weight, excess, total, rise, limited, shape, ratio = sp.symbols(
+    "y weight excess total rise limited shape ratio", positive=True
 )
 change, steep, first, second = sp.symbols("change steep first second", real=True)
 
@@ -166,9 +166,9 @@ def mode_terms() -> Claims:
     return Claims(
         (y, weight),
         (
-            Let(held, sp.Min(y, block.near(sp.oo)), opaque=True),
-            Several((shape,), "hertz_shape", (y,), ((sp.sin(y) / y - sp.cos(y)) / held**2,)),
-            Let(ratio, held / y),
+            Let(limited, sp.Min(y, block.near(sp.oo)), opaque=True),
+            Several((shape,), "hertz_shape", (y,), ((sp.sin(y) / y - sp.cos(y)) / limited**2,)),
+            Let(ratio, limited / y),
             Let(first, shape * ratio**2),
         ),
         (weight * first, weight * (sp.sinc(y) - 2 * first)),

@@ -7,7 +7,7 @@ the finite thickness,
     L = -1/pi int_0^oo k(i alpha y) K0(y)/I0(y) dy + sum k(alpha j) (G(2 eta j) - 1)/(j J1(j)^2).
 
 By parts, (K0/I0)' = -1/(y I0^2), the first integral is int k^(alpha y)/I0^2 dy with
-k^(w) = int_0^1 k(i w s) ds, which `wall` replaces by a finite sum; the second part is truncated
+k^(w) = int_0^1 k(i w s) ds, which `lateral` replaces by a finite sum; the second part is truncated
 after N modes. With k(w) = sum (-1)^m C_m w^(2m) the result is a power series in alpha,
 
     L = sum (-1)^m C_m L_m alpha^(2m),
@@ -28,8 +28,8 @@ from flint import acb, arb, arb_poly
 
 from derivation.engine.formula.ball import PrecisionError, to_ball
 from derivation.mathematics.bessel.oracle import j0_zero
+from derivation.plate.contact.oracle.lateral import Points, lateral_points
 from derivation.plate.contact.oracle.sums import COEFFICIENTS, SHARES, plate_excess
-from derivation.plate.contact.oracle.wall import Points, wall_points
 
 PLATES = 64
 """Number of cached plates, limited by memory."""
@@ -180,12 +180,12 @@ def series(eta: Fraction, reach: float, bits: int) -> PointSeries:
     if depth > DEEPEST:
         raise PrecisionError(f"the series serves up to a/(4h) = {DEEPEST}, got {depth:.4g}")
     working = working_bits(eta, reach, bits)
-    wall, modes = wall_points(working), mode_points(eta, bits, working)
+    lateral, modes = lateral_points(working), mode_points(eta, bits, working)
     with flint.ctx.workprec(working):
         alpha, small = arb(reach), arb(2) ** -bits
-        farthest = (alpha * wall.places[-1].max(modes.places[-1])) ** 2
-        first, second = list(wall.weights), list(modes.weights)
-        squares = [y * y for y in wall.places], [j * j for j in modes.places]
+        farthest = (alpha * lateral.places[-1].max(modes.places[-1])) ** 2
+        first, second = list(lateral.weights), list(modes.weights)
+        squares = [y * y for y in lateral.places], [j * j for j in modes.places]
         moments: list[arb] = []
         bound = arb(2)
         while True:
@@ -198,7 +198,7 @@ def series(eta: Fraction, reach: float, bits: int) -> PointSeries:
             first = [p * y for p, y in zip(first, squares[0], strict=True)]
             second = [q * j for q, j in zip(second, squares[1], strict=True)]
             bound *= alpha * alpha / ((2 * m + 2) * (2 * m + 3))
-        rest += wall.rest / arb.pi() + modes.rest
+        rest += lateral.rest / arb.pi() + modes.rest
         powers = {
             name: arb_poly([(-1) ** m * arb(size(m)) * term for m, term in enumerate(moments)])
             for name, size in COEFFICIENTS.items()

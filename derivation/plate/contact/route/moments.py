@@ -7,19 +7,19 @@ from mpmath import mp, mpf
 
 
 @cache
-def wall_moment(n: int, digits: int) -> mpf:
+def lateral_moment(n: int, digits: int) -> mpf:
     """Return int_0^oo y^n K0/I0 dy."""
     with mp.workdps(digits):
-        return _trapezoids(lambda y: y**n * _wall(y), n)
+        return _trapezoids(lambda y: y**n * _lateral(y), n)
 
 
 @cache
-def wall_moments(count: int, digits: int) -> tuple[mpf, ...]:
+def lateral_moments(count: int, digits: int) -> tuple[mpf, ...]:
     """Return the first `count` of kappa_0, kappa_2, ..., from one set of nodes."""
     with mp.workdps(digits):
         step = 1 / (8 + mpf(4) / 5 * mp.dps + mp.sqrt(2 * count))
         points = list(_nodes(step, 2 * count))
-        shares, squares = [w * _wall(y) for y, w in points], [y * y for y, _ in points]
+        shares, squares = [w * _lateral(y) for y, w in points], [y * y for y, _ in points]
         found = []
         for _ in range(count):
             found.append(step * mp.fsum(shares))
@@ -27,7 +27,7 @@ def wall_moments(count: int, digits: int) -> tuple[mpf, ...]:
         return tuple(found)
 
 
-def _wall(y: mpf) -> mpf:
+def _lateral(y: mpf) -> mpf:
     """Return K0/I0 = -log(y/2) - gamma + sum H_m (y/2)^(2m)/m!^2 / I0, at raised precision.
 
     The sums are sums of integers, in units of 2^-bits.
@@ -84,7 +84,7 @@ def _nodes(step: mpf, power: int) -> Iterator[tuple[mpf, mpf]]:
         yield y, y * (1 + fade)
 
 
-def leading_wall_moment(n: mpf) -> mpf:
+def leading_lateral_moment(n: mpf) -> mpf:
     """Return pi n!/2^(n+1), the leading term of kappa_n for large n."""
     return mp.pi * mp.factorial(n) / mpf(2) ** (n + 1)
 

@@ -80,7 +80,7 @@ def series(eta: mpf, reach: mpf, digits: int) -> ResidueSeries:
         roots: list[_Node] = []
         near: Iterator[int] = repeat(0)
         if 4 * FIRST_ZERO * eta > bits * math.log(2):
-            axis = list(_wall(bits, eta))
+            axis = list(_lateral(bits, eta))
         else:
             axis, roots = list(_axis(bits, A)), list(_roots(bits, eta, float(reach)))
             near = _near(bits, half, eta)
@@ -116,7 +116,7 @@ class _Node(NamedTuple):
     weight: mpf | mpc
 
 
-def _wall(bits: int, eta: mpf) -> Iterator[_Node]:
+def _lateral(bits: int, eta: mpf) -> Iterator[_Node]:
     """Yield the nodes T = 2 i eta y and weights of a sum for -2/pi int_0^oo K0/I0 dy."""
     need = bits * math.log(2)
     for y, w in _nodes(2 * math.pi * STRIP / need, need, need + 2 * math.log(need)):

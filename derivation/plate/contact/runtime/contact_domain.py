@@ -21,8 +21,8 @@ def plates_of_lengths(h: Double, b: Double) -> tuple[Plates, np.ndarray]:
     h/b are prepared once.
     """
     h, b = np.broadcast_arrays(h, b)
-    sound = (h > 0) & (b > 0)
-    eta = np.where(sound, h, np.nan) / b
+    valid = (h > 0) & (b > 0)
+    eta = np.where(valid, h, np.nan) / b
     [eta] = inside([eta], eta >= THINNEST, eta <= THICKEST)
     if _repeats(eta.ravel()):
         different, number = np.unique(eta, return_inverse=True)

@@ -86,7 +86,7 @@ class Single(NamedTuple):
     h: Double
     inverse_R: Double
     scale: float
-    brief: float  # largest a of the short polynomial
+    short_limit: float  # largest a of the short polynomial
     end: float  # largest a of the first polynomial
     short: list[float]  # coefficients divided by h R
     first: list[float]
@@ -134,11 +134,11 @@ def plates_of(eta: Double) -> Plates:
     reach, coefficients = np.minimum(REACH, inverse), _first(eta)
     whole = np.zeros_like(eta)
     count = SHORTENED.shape[0]
-    brief = coefficients[:count].copy()
+    short_limit = coefficients[:count].copy()
     for power in range(SHORTENED.shape[1]):
-        brief += SHORTENED[:, power, None] * coefficients[count + power]
+        short_limit += SHORTENED[:, power, None] * coefficients[count + power]
     first = Piece(coefficients, whole, reach * reach)
-    short = Piece(brief, whole, first.half)
+    short = Piece(short_limit, whole, first.half)
     return Plates(eta, reach, np.minimum(FAR_REACH, inverse), short, first)
 
 
@@ -298,8 +298,8 @@ def sphere_on_plate(plates: Plates, h: Double, R: Double) -> Single | None:
     over, scaled = kernels.depth_coefficients(both, R.ravel()[0], height)
     count = plates.short.coefficients.shape[0]
     short, first = scaled[:count].tolist(), scaled[count:].tolist()
-    brief, end = reach * SHORT * height, reach * ROUNDED * height
-    return Single(plates, height, over, 1.0 / (height * reach), brief, end, short, first)
+    short_limit, end = reach * SHORT * height, reach * ROUNDED * height
+    return Single(plates, height, over, 1.0 / (height * reach), short_limit, end, short, first)
 
 
 def indent(a: Double, most: float, law: Single, out: Double) -> None:
@@ -307,11 +307,11 @@ def indent(a: Double, most: float, law: Single, out: Double) -> None:
 
     NaN stays NaN. `most` is the largest radius, or NaN if some radii may be NaN.
     """
-    if most <= law.brief:
+    if most <= law.short_limit:
         _indent(a, law, law.short, out)
     elif most <= law.end:
         _indent(a, law, law.first, out)
-        chosen = np.flatnonzero(a <= law.brief)
+        chosen = np.flatnonzero(a <= law.short_limit)
         if chosen.size:
             part = np.empty(chosen.size)
             _indent(a[chosen], law, law.short, part)
@@ -345,11 +345,11 @@ def _indent(a: Double, law: Single, coefficients: list[float], out: Double) -> N
 def correction(A: Double, plates: Plates, index: np.ndarray | None) -> Double:
     """Return F at a block of points A >= 0 of shape (points,), alpha < 1; NaN stays NaN."""
     reach = plates.reach[slice(None) if index is None else index]
-    brief = reach * SHORT >= A
-    if brief.all():
+    short_limit = reach * SHORT >= A
+    if short_limit.all():
         return value_of(A, columns(plates.short, index))
     found = value_of(A, columns(plates.first, index))
-    chosen = np.flatnonzero(brief)
+    chosen = np.flatnonzero(short_limit)
     if chosen.size:
         at = None if index is None else index[chosen]
         found[chosen] = value_of(A[chosen], columns(plates.short, at))
@@ -387,11 +387,11 @@ def _beyond(
         found.append((outside[within], *with_slope(A[outside[within]], piece)))
     rest, owner = outside[~within], owner[~within]
     for plate in np.unique(owner):
-        mine, eta = rest[owner == plate], float(plates.eta[plate])
-        summable = (A[mine] * eta <= ROUNDED) & (eta >= THINNEST_SUM)
+        selected, eta = rest[owner == plate], float(plates.eta[plate])
+        summable = (A[selected] * eta <= ROUNDED) & (eta >= THINNEST_SUM)
         if summable.any():
-            found.append((mine[summable], *direct(A[mine[summable]], eta)))
-        found.append((mine[~summable], np.nan, np.nan))
+            found.append((selected[summable], *direct(A[selected[summable]], eta)))
+        found.append((selected[~summable], np.nan, np.nan))
     return found
 
 

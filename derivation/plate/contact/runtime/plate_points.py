@@ -48,7 +48,7 @@ class PlatePoints:
     plates: Plates
 
     @cached_property
-    def brief(self) -> float:
+    def short_limit(self) -> float:
         """Largest A = a/h [1] of the shortened polynomial."""
         return self.reach * SHORT
 
@@ -107,7 +107,7 @@ def indentation(plate: PlatePoints, a: float, R: float) -> float | None:
     if not (_ordinary(a, R) and a < plate.b and a < R):
         return None
     A = a / plate.h
-    if plate.brief >= A:
+    if plate.short_limit >= A:
         value = _value(A, plate.short)
     elif plate.reach * ROUNDED >= A:
         value = _value(A, plate.first)

@@ -200,8 +200,8 @@ def prepare(h: ArrayLike, b: ArrayLike) -> PreparedPlate:
     h, b = _kept(h), _kept(b)
     _, [half, radius] = as_doubles(h, b)
     plates, owner = plates_of_lengths(half, radius)
-    [sound] = inside([half], half > 0)
-    return PreparedPlate(h, b, PlateArrays(sound, radius, plates, owner))
+    [valid] = inside([half], half > 0)
+    return PreparedPlate(h, b, PlateArrays(valid, radius, plates, owner))
 
 
 def _kept(length: ArrayLike) -> ArrayLike:

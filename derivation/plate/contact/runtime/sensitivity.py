@@ -173,8 +173,8 @@ def impact_sensitivities(
         by_energy[:, part], by_eta[:, part] = _changes(
             found, part, plates.eta[which], _Law(*_scaled(slopes, which, scale, plates.reach))
         )
-    lost = np.isnan(np.ravel(radius))
-    by_energy[:, lost], by_eta[:, lost] = np.nan, np.nan
+    undefined = np.isnan(np.ravel(radius))
+    by_energy[:, undefined], by_eta[:, undefined] = np.nan, np.nan
     parameters = POWERS[:, :, None], ENERGY[:, None], ETA[:, None]
     powers = kernels.parameter_power(*parameters, by_energy[:, None], by_eta[:, None])
     powers = powers.reshape(*POWERS.shape, *ok.shape)

@@ -168,5 +168,5 @@ def _looked_up(table: Double, place: Double) -> Double:
 
 def _representable(value: Double, kind: np.dtype) -> np.ndarray:
     """Return the value in the requested type; NaN where it would overflow."""
-    held = np.abs(value) <= float(np.finfo(kind).max)
-    return as_result(np.where(held, value, np.nan), kind)
+    limited = np.abs(value) <= float(np.finfo(kind).max)
+    return as_result(np.where(limited, value, np.nan), kind)

@@ -96,7 +96,7 @@ def _bessel_operator(v: sp.Expr, sign: int) -> sp.Expr:
 
 
 @cache
-def wall_quotient(terms: int) -> Coefficients:
+def lateral_quotient(terms: int) -> Coefficients:
     """Return q_j of D = e^(2y) K0/(pi I0) ~ sum q_j y^-j: the quotient of Hankel's expansions."""
     a = hankel(terms)
     q: list[sp.Rational] = []
@@ -130,7 +130,7 @@ def quotient_bound(terms: int) -> tuple[Laurent, Laurent]:
       sqrt(y) <= (1 + y)/2, 2 sqrt(2/pi) < 8/5 and sqrt(2) < 3/2.
     - i >= erf(sqrt(2y)) >= sqrt(1 - e^(-2y)), hence 1/i <= 1 + 1/(2y).
     """
-    a, q = hankel(terms + 1), wall_quotient(terms)
+    a, q = hankel(terms + 1), lateral_quotient(terms)
     size = {-j: abs(value) for j, value in enumerate(q)}
     product = multiply(q, a[:terms], 2 * terms - 1)
     over = {-j: abs(value) for j, value in enumerate(product) if j >= terms}
@@ -153,7 +153,7 @@ def _product(first: Laurent, *others: Laurent) -> Laurent:
 
 
 @cache
-def wall_constant(terms: int = 12) -> Proof:
+def lateral_constant(terms: int = 12) -> Proof:
     """Prove D -> 1: the factor pi of K0/I0 = pi e^(-2y) D, which Bessel's equation leaves open.
 
     The truncated expansion, widened by the bound, must contain D.
@@ -165,7 +165,7 @@ def wall_constant(terms: int = 12) -> Proof:
                 y = flint.arb(point)
                 ratio = y.bessel_k(flint.arb(0)) / y.bessel_i(flint.arb(0))
                 left = (2 * y).exp() * ratio / flint.arb.pi()
-                middle = _at({-j: value for j, value in enumerate(wall_quotient(terms))}, y)
+                middle = _at({-j: value for j, value in enumerate(lateral_quotient(terms))}, y)
                 width = _at(plain, y) + (-y).exp() * _at(fading, y)
                 if not (middle + flint.arb(0, width.upper())).contains(left):
                     raise ProofError(f"Expansion of K0/I0: {left} at {point} is not {middle}")
@@ -180,16 +180,16 @@ def _at(series: Laurent, y: flint.arb) -> flint.arb:
 def kappa_steps(terms: int) -> Coefficients:
     """Return 2^j q_j, numerators of the first terms of r_n = sum 2^j q_j/(n (n-1) ... (n-j+1))."""
     gamma_moment()
-    wall_constant()
+    lateral_constant()
     n = terms + 3
-    steps = tuple(2**j * value for j, value in enumerate(wall_quotient(terms)))
+    steps = tuple(2**j * value for j, value in enumerate(lateral_quotient(terms)))
     scale = sp.Rational(2 ** (n + 1), sp.factorial(n))
     prove(
         "Expansion of kappa_n",
         f"The terms of y^n e^(-2y) D are integrated, n = {n}.",
         {
             f"q_{j}": scale * q * moment(n - j, 2) - steps[j] / sp.ff(n, j)
-            for j, q in enumerate(wall_quotient(terms))
+            for j, q in enumerate(lateral_quotient(terms))
         },
     )
     return steps

@@ -17,7 +17,7 @@ import sympy as sp
 from derivation.engine.formula.ball import LOG2_10, refine
 from derivation.engine.formula.dimension import thirds
 from derivation.engine.formula.proof import Proof, prove
-from derivation.plate.contact.theory.split import reduced_split, wall_bracket, wall_tail
+from derivation.plate.contact.theory.split import lateral_bracket, lateral_tail, reduced_split
 from derivation.plate.modes.theory.plate_factor import plate_factors
 from derivation.plate.vocabulary import (
     J1,
@@ -89,7 +89,7 @@ def coefficient(k: int) -> Coefficient:
     factor = 8 * alpha / (3 * sp.pi) / (j_n * J1**2)
     spread = 3 * (sp.sin(_y) - _y * sp.cos(_y)) / _y**3
     taylor = sp.series(spread, _y, 0, order + 1).removeO().coeff(_y, order - 1)
-    wall = sp.series(wall_bracket(alpha), alpha, 0, 2 * k).removeO().coeff(alpha, 2 * k - 1)
+    lateral = sp.series(lateral_bracket(alpha), alpha, 0, 2 * k).removeO().coeff(alpha, 2 * k - 1)
     proof = prove(
         f"Coefficient c_{order}",
         r"Taylor coefficients of both parts of the split; $\alpha = \eta A$.",
@@ -98,7 +98,7 @@ def coefficient(k: int) -> Coefficient:
             "modes": factor / alpha * taylor * j_n ** (order - 1) * eta**order * excess - mode,
             "finite radius": -8
             / sp.pi**2
-            * wall
+            * lateral
             * kappa[2 * k - 4]
             / _y ** (2 * k - 4)
             * eta**order
@@ -146,13 +146,13 @@ def kappa_ball(n: int, digits: int = 30) -> flint.arb:
 
     def compute() -> flint.arb:
         end = flint.arb(int(digits * LOG2_10 / 2) + 8 * (n + 5))
-        body = flint.acb.integral(_wall_integrand(n), flint.acb(0), flint.acb(end)).real
-        return (body + flint.arb(0, wall_tail(n, end).upper())) / (n + 1)
+        body = flint.acb.integral(_lateral_integrand(n), flint.acb(0), flint.acb(end)).real
+        return (body + flint.arb(0, lateral_tail(n, end).upper())) / (n + 1)
 
     return refine(compute, digits, f"kappa_{n}")
 
 
-def _wall_integrand(n: int) -> Callable[[flint.acb, bool], flint.acb]:
+def _lateral_integrand(n: int) -> Callable[[flint.acb, bool], flint.acb]:
     return lambda y, _: y**n / y.bessel_i(0) ** 2
 
 
@@ -172,7 +172,7 @@ def series_formulas() -> tuple[Formula, ...]:
                     value,
                     "1",
                     "10",
-                    ("F_modes",) if summed else ("F_wall",),
+                    ("F_modes",) if summed else ("F_lateral",),
                     c.proof,
                     summed=summed,
                 )
@@ -200,7 +200,7 @@ def regular_gamma(k: int) -> Formula:
         value,
         f"m/{thirds('N', 2 * k - 1)}",
         "10",
-        (f"c_{order}_modes", f"c_{order}_side"),
+        (f"c_{order}_modes", f"c_{order}_lateral"),
         proof,
     )
 

@@ -25,7 +25,7 @@ from derivation.plate.modes.theory.plate_factor import plate_factors
 from derivation.plate.vocabulary import J1, Formula, R, T, a, alpha, b, eta, h, j_n, phi
 
 _y = sp.Symbol("y", positive=True)
-WALL = sp.besselk(0, _y) / sp.besseli(0, _y)
+LATERAL = sp.besselk(0, _y) / sp.besseli(0, _y)
 """K0(y)/I0(y), the weight function of the finite radius."""
 
 
@@ -149,13 +149,13 @@ def _axes(example: _TestFunction, bits: int) -> flint.arb:
     start = flint.arb(2) ** (-bits)
     body = flint.acb.integral(integrand, flint.acb(start), flint.acb(end)).real
     # |primitive| <= 2 y and I0 >= 1 below `start`, |primitive| <= 2 (1 + y) beyond `end`.
-    rest = 2 * start + 2 * (1 + 1 / end) * wall_tail(0, end)
+    rest = 2 * start + 2 * (1 + 1 / end) * lateral_tail(0, end)
     return flint.arb(example.integral) / 2 - (body + flint.arb(0, rest.upper())) / (
         2 * flint.arb.pi()
     )
 
 
-def wall_tail(n: int, end: flint.arb) -> flint.arb:
+def lateral_tail(n: int, end: flint.arb) -> flint.arb:
     """Return a bound of int_end^oo y^n/I0(y)^2 dy for end >= n + 1, end >= 1.
 
     I0(y) = (1/pi) int_0^pi e^(y cos t) dt and cos t >= 1 - t^2/2 give, by integrating over
@@ -204,14 +204,14 @@ def half_space_integral() -> Proof:
     )
 
 
-def wall_bracket(ratio: sp.Expr) -> sp.Expr:
+def lateral_bracket(ratio: sp.Expr) -> sp.Expr:
     """Return (u cosh u - sinh u)/y^3, u = ratio y: the value of s(u)/y^3 on the imaginary axis."""
     return (ratio * _y * sp.cosh(ratio * _y) - sp.sinh(ratio * _y)) / _y**3
 
 
 def _side_density() -> sp.Expr:
     """Return the weight of K0/I0 in the finite-radius part of the indentation."""
-    return -8 * b**2 / (sp.pi**2 * R) * wall_bracket(a / b)
+    return -8 * b**2 / (sp.pi**2 * R) * lateral_bracket(a / b)
 
 
 @cache
@@ -256,11 +256,11 @@ def contact_split() -> tuple[Formula, ...]:
             where=("a < b",),
         )
 
-    side = sp.Integral(_side_density() * WALL, (_y, 0, sp.oo))
+    side = sp.Integral(_side_density() * LATERAL, (_y, 0, sp.oo))
     thickness = flat * SINE_MINUS * excess
     return (
         part("delta_half", r"\delta_\infty", "indentation of the half-space", a**2 / R),
-        part("delta_side", r"\delta_b", "change of the indentation by the finite radius", side),
+        part("delta_lateral", r"\delta_b", "change of the indentation by the finite radius", side),
         part("delta_thickness", r"\delta_h", "that by the finite thickness", thickness, True),
     )
 
@@ -273,7 +273,7 @@ def reduced_split() -> tuple[Formula, Formula]:
     g = 3 * (sp.sin(y) - y * sp.cos(y)) / y**3
     excess = plate_factors()[2].expression.subs(T, 2 * eta * j_n)
     mode = 8 * alpha / (3 * sp.pi) * g * excess / (j_n * J1**2)
-    wall = -8 / (sp.pi**2 * alpha**2) * wall_bracket(alpha)
+    lateral = -8 / (sp.pi**2 * alpha**2) * lateral_bracket(alpha)
     reduced = {a: alpha * b, h: eta * b, phi: j_n / b}
     scale = R / (alpha * b) ** 2
     proof = prove(
@@ -281,19 +281,19 @@ def reduced_split() -> tuple[Formula, Formula]:
         r"With $\alpha = a/b$, $\eta = h/b$, $\phi = j_n/b$ both parts over $a^2/R$ depend on "
         r"$\alpha$ and $\eta$.",
         {
-            "finite radius": _side_density().subs(reduced) * scale - wall,
+            "finite radius": _side_density().subs(reduced) * scale - lateral,
             "thickness": thickness.subs(reduced) * scale - mode,
         },
     )
     return (
         Formula(
-            "F_wall",
+            "F_lateral",
             r"W(\alpha)",
             r"contribution of the finite radius to $\delta R/a^2$",
-            sp.Integral(wall * WALL, (_y, 0, sp.oo)),
+            sp.Integral(lateral * LATERAL, (_y, 0, sp.oo)),
             "1",
             "6",
-            ("delta_side",),
+            ("delta_lateral",),
             proof,
         ),
         Formula(

@@ -82,7 +82,7 @@ def _taylor_below(i: int) -> sp.Rational:
 
 
 @cache
-def wall_at_zero() -> Laurent:
+def lateral_at_zero() -> Laurent:
     """Return K0/I0 = -log(y/2) - gamma + y^2/4 + ...: coefficients without the logarithm, by power.
 
     K0 = -(log(y/2) + gamma) I0 + sum H_m (y/2)^(2m)/m!^2, so the logarithm appears only with the
@@ -112,7 +112,7 @@ def zero_sum(s: int) -> Laurent:
     its square; the rest of the integral is regular. For s < 1 it is kappa_(-s).
     """
     contour()
-    wall = wall_at_zero()
+    lateral = lateral_at_zero()
     # -cos(pi (s + u)/2)/pi: value and slope at u = 0.
     angle = sp.pi * (s + _u) / 2
     value, slope, bend = (sp.diff(-sp.cos(angle) / sp.pi, _u, n).subs(_u, 0) for n in range(3))
@@ -122,7 +122,7 @@ def zero_sum(s: int) -> Laurent:
         residuals = {"odd": value if s % 2 else sp.Integer(0)}
     else:
         # The power y^(s-1) of K0/I0 gives a pole: -(c)/u, and -log y gives 1/u^2 at s = 1.
-        simple, double = -wall.at(s - 1), sp.Integer(1 if s == 1 else 0)
+        simple, double = -lateral.at(s - 1), sp.Integer(1 if s == 1 else 0)
         found = {-1: slope * double, 0: slope * simple + bend / 2 * double}
         residuals = {"value": value, "bend": bend}
     proof = prove(
@@ -186,7 +186,7 @@ def thin_coefficient(k: int) -> Formula:
         _collected(total, k),
         "1",
         "10",
-        (f"c_{order}_modes", f"c_{order}_side", "G"),
+        (f"c_{order}_modes", f"c_{order}_lateral", "G"),
         proof,
     )
 
@@ -195,12 +195,12 @@ def _low_rest(k: int, size: sp.Rational) -> sp.Expr:
     """Return c_1 or c_3 without M_k: SymPy's residue of the double pole, plus the bending term."""
     g = plate_factor_at_zero()
     pole = g.at(3 - 2 * k)
-    wall = wall_at_zero()
-    near = sp.cos(sp.pi * (1 + _u) / 2) / sp.pi * (-1 / _u**2 + wall.at(0) / _u)
+    lateral = lateral_at_zero()
+    near = sp.cos(sp.pi * (1 + _u) / 2) / sp.pi * (-1 / _u**2 + lateral.at(0) / _u)
     double = sp.series(_u * pole / _u * near * sp.exp(-_u * _LOG), _u, 0, 1).removeO()
     result = size * 8 / sp.pi * double.coeff(_u, 0) / 2 ** (2 * k - 3)
     if k == 2:
-        bending = sp.limit(sp.cos(sp.pi * (3 + _u) / 2) / sp.pi / _u, _u, 0) * wall.at(2)
+        bending = sp.limit(sp.cos(sp.pi * (3 + _u) / 2) / sp.pi / _u, _u, 0) * lateral.at(2)
         result += size * 8 / sp.pi * g.at(-3) * bending / (8 * eta**2)
     return sp.expand(result)
 

@@ -27,12 +27,12 @@ import sympy as sp
 from derivation.engine.formula.ball import Exact, refine, to_ball
 from derivation.engine.formula.proof import Proof, prove
 from derivation.plate.contact.theory.plate_series import FIRST, LAST, coefficient, sine_coefficient
-from derivation.plate.contact.theory.split import WALL, contour, imaginary_axis, reduced_split
+from derivation.plate.contact.theory.split import LATERAL, contour, imaginary_axis, reduced_split
 from derivation.plate.contact.theory.thin_law import sine_kernel, universal_part
 from derivation.plate.contact.theory.thin_plate import (
+    lateral_at_zero,
     plate_factor_at_zero,
     thin_modal_sum,
-    wall_at_zero,
 )
 from derivation.plate.contact.theory.thin_roots import SIZE_OVER_INDEX, numbering, root
 from derivation.plate.modes.theory.plate_factor import plate_factors
@@ -136,11 +136,11 @@ def axes(k: int) -> Mapping[int, sp.Expr]:
     contour_with_poles()
     imaginary_part()
     imaginary_axis()
-    g, wall = plate_factor_at_zero().coefficients, wall_at_zero()
+    g, lateral = plate_factor_at_zero().coefficients, lateral_at_zero()
     own = 2 * k - 3
     scale = (2 * eta) ** -own * (1 - _w * _LOG)
     real = scale / 2 * (g.get(-own, sp.Integer(0)) / _w + M[k])
-    near = {-1: 1 / _w**2 + wall.at(0) / _w, -3: wall.at(2) / _w}
+    near = {-1: 1 / _w**2 + lateral.at(0) / _w, -3: lateral.at(2) / _w}
     turned = sp.Add(
         *(
             (-1) ** ((p - 1) // 2) * value * (2 * eta) ** p * near.get(2 * k - 4 + p, sp.Integer(0))
@@ -191,7 +191,7 @@ def coefficient_remainder(k: int) -> Formula:
         factor * _sum_of_roots(lambda at: at ** (2 * k - 6)),
         "1",
         "10",
-        (f"c_{order}_modes", f"c_{order}_side", f"c_{order}_thin"),
+        (f"c_{order}_modes", f"c_{order}_lateral", f"c_{order}_thin"),
         proof,
     )
 
@@ -214,8 +214,8 @@ def law_remainder() -> Formula:
     universal_part()
     for k in range(FIRST, LAST + 1):
         axes(k)
-    wall, modes = (formula.expression for formula in reduced_split())
-    (height,) = wall.variables
+    lateral, modes = (formula.expression for formula in reduced_split())
+    (height,) = lateral.variables
     mode = 8 * alpha / sp.pi  # factor of q(z) = s(alpha z)/(alpha z)^3
     on_axis = mode / sp.pi * sine_kernel(sp.I * alpha * height)
     x = T / (2 * eta)
@@ -228,7 +228,7 @@ def law_remainder() -> Formula:
         "imaginary one cancels the finite radius, and the poles inside give the sum.",
         {
             "modes": modes - mode * sine_kernel(alpha * j_n) * _mode_factor(0),
-            "finite radius": sp.expand((on_axis + wall.function / WALL).rewrite(sp.exp)),
+            "finite radius": sp.expand((on_axis + lateral.function / LATERAL).rewrite(sp.exp)),
             "Phi": real.subs(alpha, eta * a_ratio) - 2 * a_ratio / sp.pi * sine_kernel(y),
             "share": mode.subs(alpha, eta * a_ratio) * _share(sine_kernel(y))
             - 16 / a_ratio**2 * _law_weight(T) * (1 + sp.sqrt(1 + T**2)) ** 2,
@@ -241,7 +241,7 @@ def law_remainder() -> Formula:
         16 / a_ratio**2 * _sum_of_roots(_law_weight),
         "1",
         "10",
-        ("F_wall", "F_modes", "Phi", "c_1_thin", "c_3_thin"),
+        ("F_lateral", "F_modes", "Phi", "c_1_thin", "c_3_thin"),
         proof,
         where=("a_ratio * eta < 1",),
     )

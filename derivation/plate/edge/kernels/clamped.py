@@ -17,8 +17,8 @@ from derivation.plate.edge.theory.clamped import (
 from derivation.plate.edge.theory.supported import RATIO
 from derivation.plate.vocabulary import Formula, alpha, eta
 
-chi, lost, inverse, wide, bending, thinned, scale = sp.symbols(
-    "chi lost inverse wide bending thinned scale", real=True
+chi, loss, inverse, wide, bending, thinning, scale = sp.symbols(
+    "chi loss inverse wide bending thinning scale", real=True
 )
 PUNCH_MEAN = sp.Rational(2, 3)
 """Mean of r^2/a^2 under a flat punch, which is the load in the slope."""
@@ -65,13 +65,13 @@ def _parts() -> tuple[Statement, ...]:
     """Return the statements common to the law and its bound."""
     return (
         Let(inverse, 1 / eta),
-        Several((lost,), "indentation_loss", (eta, n), (indentation_loss() / eta,)),
+        Several((loss,), "indentation_loss", (eta, n), (indentation_loss() / eta,)),
         Several((chi,), "turn_of_clamp", (n,), (turn(),)),
-        Let(thinned, sp.Rational(16, 3) * n**2),
+        Let(thinning, sp.Rational(16, 3) * n**2),
     )
 
 
-REST = SHEAR_TERM + thinned * eta
+REST = SHEAR_TERM + thinning * eta
 """Contribution of the shear at the edge and of extension."""
 
 
@@ -84,7 +84,7 @@ def law(name: str, formula: int, spread: sp.Rational, times: sp.Rational) -> Rou
         (
             *_parts(),
             Let(wide, 1 - spread * alpha**2),
-            Let(bending, (inverse - lost) * (wide * inverse - lost) * inverse),
+            Let(bending, (inverse - loss) * (wide * inverse - loss) * inverse),
             Let(scale, -times / (8 * sp.pi)),
         ),
         (scale * alpha * (bending + 2 * chi * wide * inverse**2 + REST),),
@@ -103,7 +103,7 @@ def bound() -> Routine:
         (alpha, eta, n),
         (
             *_parts(),
-            Let(left, inverse - lost),
+            Let(left, inverse - loss),
             Let(bending, (left * left + inverse * (sp.Abs(left) - left) / 3) * inverse),
             Let(scale, 3 / (16 * sp.pi)),
         ),

@@ -19,7 +19,7 @@ from sympy.codegen.cfunctions import expm1
 from derivation.engine.emit.named import Claims, named_routine
 from derivation.engine.emit.routine import GUARDED, Choice, Facts, Let, Routine, Several, routine
 from derivation.engine.rewrite.form import substitute_steps
-from derivation.engine.rewrite.series import taylor_section
+from derivation.engine.rewrite.series import truncated_taylor
 from derivation.engine.rewrite.terms import terms_of
 from derivation.plate.blocks import blocks
 from derivation.plate.edge.kernels.tables import SWITCH
@@ -44,7 +44,7 @@ SMALLEST = sp.Float("1e-300")
 """Argument below which sin(y)/y is 1."""
 n = sp.Symbol("n", real=True)
 j, y, share, support = sp.symbols("j y share support", positive=True)
-bent, stretched, plain = sp.symbols("bent stretched plain", real=True)
+bending_part, extension_part, plain = sp.symbols("bending_part extension_part plain", real=True)
 _unit, _size = sp.symbols("unit M", positive=True)
 Q, H = bending_function(), stretching_function()
 KERNELS = {"indentation": indentation_kernel, "slope": slope_kernel}
@@ -117,13 +117,13 @@ def of_slope() -> Routine:
 def thin(kind: str) -> Routine:
     """Return P, and the sums of a thin plate in closed form."""
     half = closed_sums(KERNELS[kind])
-    parts = half.plain, plain - n * half.bent, half.stretched
+    parts = half.plain, plain - n * half.bending_part, half.extension_part
     return routine(
         f"thin_{kind}",
         (alpha, eta, n),
         (Let(plain, half.plain),),
         (plain, *parts[1:]),
-        (half.plain, half.plain - RATIO * half.bent, half.stretched),
+        (half.plain, half.plain - RATIO * half.bending_part, half.extension_part),
         "Return sum k/(j^3 J1), and both sums of a thin plate.",
         {n: RATIO},
         in_ratio,
@@ -133,7 +133,7 @@ def thin(kind: str) -> Routine:
 def _bent_series(square: sp.Symbol, series: sp.Symbol) -> Several:
     """Return (T cosh T + 2 T - 3 sinh T)/T^5 in powers of T^2, truncated below rounding."""
     total = sp.expand(sp.numer(sp.together(Q - 3)))
-    section = taylor_section(terms_of(total, T), sp.Integer(SWITCH))
+    section = truncated_taylor(terms_of(total, T), sp.Integer(SWITCH))
     return Several(
         (series,), "polynomial", (square, *section.coefficients), (total / T**section.lead,)
     )
@@ -141,12 +141,12 @@ def _bent_series(square: sp.Symbol, series: sp.Symbol) -> Several:
 
 def _of_T() -> tuple[dict[str, sp.Symbol], tuple[Let | Several, ...]]:
     """Return the statements common to Q and H."""
-    names = "fading", "gone", "lower", "upper", "square", "series"
+    names = "fading", "decayed", "lower", "upper", "square", "series"
     s = {name: sp.Symbol(name, real=True) for name in names}
     known = blocks()
     return s, (
         Let(s["fading"], sp.exp(-T)),
-        Let(s["gone"], expm1(-T)),
+        Let(s["decayed"], expm1(-T)),
         *(
             Several((s[name],), block, (T,), (known[block].definition(T),))
             for name, block in (("lower", "sinh_minus"), ("upper", "sinh_plus"))
@@ -167,11 +167,11 @@ def _sides(mode: sp.Symbol) -> tuple[sp.Basic, Facts, Facts]:
 def later_modes() -> Claims:
     """Return k (T - Q)/(j^3 J1) and k (H - 1)/(j^2 J1) of modes; `share` is k."""
     s, statements = _of_T()
-    fading, gone, lower, upper, square, series = s.values()
+    fading, decayed, lower, upper, square, series = s.values()
     weight, above = sp.symbols("weight above", real=True)
     condition, near, far = _sides(j_n)
     of_series = T - 3 - 2 * fading * square * series / lower
-    of_decay = -T * fading * (T + gone) / (SWITCH**2 * lower)
+    of_decay = -T * fading * (T + decayed) / (SWITCH**2 * lower)
     kernel = sp.Symbol("k", real=True)
     mode = kernel / (j_n**2 * J1)
     size = {T: 2 * eta * j_n}
@@ -183,7 +183,7 @@ def later_modes() -> Claims:
             Choice(above, condition, of_series, of_decay, if_yes=near, if_no=far),
             Let(weight, share / (j**2 * J1)),
         ),
-        (weight * above / j, -2 * weight * fading * (T - gone) / upper),
+        (weight * above / j, -2 * weight * fading * (T - decayed) / upper),
         (mode * (T - Q).subs(size) / j_n, mode * (H - 1).subs(size)),
         {j: j_n, share: kernel},
         in_ratio,
@@ -194,7 +194,7 @@ def later_modes() -> Claims:
 def all_modes() -> Claims:
     """Return sum k (1 + 3 n - n Q)/(j^3 J1) and sum k H/(j^2 J1)."""
     s, statements = _of_T()
-    fading, gone, lower, upper, square, series = s.values()
+    fading, decayed, lower, upper, square, series = s.values()
     names = "FIRST_THIRD FIRST_SQUARE rest_third rest_square fading_third fading_square below"
     third, square_1, rest_third, rest_square, fading_third, fading_square, below = sp.symbols(
         names, real=True
@@ -204,7 +204,7 @@ def all_modes() -> Claims:
     condition, near, far = _sides(j_n)
     of_series = -2 * fading * square * series / lower
     lead = sp.Symbol("lead", real=True)
-    of_decay = lead - T * fading * (T + gone) / (SWITCH**2 * lower)
+    of_decay = lead - T * fading * (T + decayed) / (SWITCH**2 * lower)
     modes = ((k_1, j_n, J1), (k_2, j_2, J1_2))
     (cube_1, cube_2), (square_of_1, square_of_2) = (
         [k / (zero**power * slope) for k, zero, slope in modes] for power in (3, 2)
@@ -230,7 +230,7 @@ def all_modes() -> Claims:
             *statements,
             Let(lead, 3 - T),
             Choice(below, condition, of_series, of_decay, if_yes=near, if_no=far),
-            Let(ratio, gone**2 / upper, means=H_1),
+            Let(ratio, decayed**2 / upper, means=H_1),
         ),
         (plain + n * bracket, square_1 * share * ratio + rest_square + fading_square),
         (
@@ -248,8 +248,8 @@ def one_mode(kernel: Kernel) -> Facts:
     return {
         n: RATIO,
         support: support_ratio().expression,
-        bent: kernel(alpha * j_n) * (1 + 3 * RATIO - RATIO * Q.subs(at)) / (j_n**3 * J1),
-        stretched: kernel(alpha * j_n) * H.subs(at) / (j_n**2 * J1),
+        bending_part: kernel(alpha * j_n) * (1 + 3 * RATIO - RATIO * Q.subs(at)) / (j_n**3 * J1),
+        extension_part: kernel(alpha * j_n) * H.subs(at) / (j_n**2 * J1),
     }
 
 
@@ -257,11 +257,13 @@ def of_law() -> Routine:
     """Return the change of the indentation or of the slope by a simple support, from both sums."""
     square, stiff = sp.symbols("square stiff", positive=True)
     law, slope = edge_law()
-    value = support * alpha / sp.pi * (stiff * bent + sp.Rational(8, 3) * n**2 * stretched)
+    value = (
+        support * alpha / sp.pi * (stiff * bending_part + sp.Rational(8, 3) * n**2 * extension_part)
+    )
     proved = [
         routine(
             "of_support",
-            (alpha, eta, n, support, bent, stretched),
+            (alpha, eta, n, support, bending_part, extension_part),
             (Let(square, eta * eta), Let(stiff, (1 - 2 * n * square) / (eta * square))),
             (value,),
             (support_ratio().expression * formula.expression,),

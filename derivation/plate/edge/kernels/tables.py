@@ -159,9 +159,9 @@ def _nodes() -> list[tuple[Ball, Ball, Ball, Ball]]:
         step = Ball(1) / _STEP
         for index in range(-5 * _STEP, 8 * _STEP):
             v = step * index
-            fade = (-v).exp()
-            y = (v - fade).exp()
+            exponential = (-v).exp()
+            y = (v - exponential).exp()
             if y > Ball(2) ** _LAST and y < _END:
                 bell = (-y * y).exp()
-                _cached.append((y, step * (1 + fade) / y, y.bessel_i(0), bell))
+                _cached.append((y, step * (1 + exponential) / y, y.bessel_i(0), bell))
     return _cached

@@ -62,14 +62,14 @@ def edge_sums(alpha: Double, eta: Double, n: Double, kernel: SummedKernel) -> tu
     """Return both sums: closed forms for a thin plate where these suffice, else modal sums."""
     shape = np.broadcast_shapes(alpha.shape, eta.shape, n.shape)
     alpha, eta, n = (np.ravel(np.broadcast_to(x, shape)) for x in (alpha, eta, n))
-    plain, bent, stretched = kernel.thin(alpha, eta, n)
+    plain, bending_part, extension_part = kernel.thin(alpha, eta, n)
     thick = np.flatnonzero(1.0 - alpha < numbers.THIN * eta)
     thick = thick[np.argsort(eta[thick])]
     for start in range(0, thick.size, _POINTS):
         part = thick[start : start + _POINTS]
         sums = _summed(alpha[part], eta[part], n[part], plain[part], kernel)
-        bent[part], stretched[part] = sums
-    return bent.reshape(shape), stretched.reshape(shape)
+        bending_part[part], extension_part[part] = sums
+    return bending_part.reshape(shape), extension_part.reshape(shape)
 
 
 def _summed(

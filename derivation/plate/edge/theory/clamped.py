@@ -178,17 +178,17 @@ def clamp_constants() -> tuple[Formula, Formula]:
     proof = strip()
     return (
         Formula(
-            "clamp_turn", r"\chi_c", (
+            "clamp_rotation", r"\chi_c", (
                 r"rotation constant of a clamped edge under a moment, $\psi = \chi \eta \psi'$"
             ),
-            turn(), "1", "", ("edge_turn",), proof,
+            turn(), "1", "", ("edge_rotation",), proof,
         ),
         Formula(
-            "clamp_level", "G_c", (
+            "clamp_deflection", "G_c", (
                 "deflection of a clamped edge's middle plane, divided by $n h^2$ and the sum of "
                 "the curvatures"
             ),
-            level(), "1", "", ("edge_turn",), proof,
+            level(), "1", "", ("edge_rotation",), proof,
         ),
     )  # fmt: skip
 
@@ -208,7 +208,7 @@ def clamp_law() -> tuple[Formula, Formula]:
         r"$\alpha$.",
         {"slope": sp.diff(alpha**2 * symbolic, alpha) / (2 * alpha) - steep},
     )
-    sources = ("clamp_turn", "clamp_level", "P")
+    sources = ("clamp_rotation", "clamp_deflection", "P")
     return (
         Formula(
             "F_clamp", r"X_c(\alpha, \eta)", r"reduction of $\delta R/a^2$ by a clamped edge",
@@ -255,7 +255,7 @@ def clamp_bound() -> Formula:
         },
     )  # fmt: skip
     return Formula(
-        "S_clamp_most",
+        "S_clamp_bound",
         r"S_c",
         r"bound of the reduction of $(R/2a) d \delta/da$ by a clamped edge for all radii up to $a$",
         value,

@@ -94,8 +94,8 @@ class ClosedSums:
     """Halves of the residues at 0 of k/(z^3 J0), of k (Q - 3)/(z^3 J0) and of k H/(z^2 J0)."""
 
     plain: sp.Expr
-    bent: sp.Expr
-    stretched: sp.Expr
+    bending_part: sp.Expr
+    extension_part: sp.Expr
 
 
 def _low(expression: sp.Expr) -> sp.Expr:
@@ -124,11 +124,11 @@ def closed_sums(kernel: Kernel) -> ClosedSums:
         return sp.series(above - series[name] * below, _z, 0, order + 3).removeO()
 
     wave = sp.expand(series["k"] * series["1/J0"])
-    bent, stretched = (sp.expand(wave * series[name]) for name in ("Q", "H"))
+    bending_part, extension_part = (sp.expand(wave * series[name]) for name in ("Q", "H"))
     found = ClosedSums(
         wave.coeff(_z, 2) / 2,
-        (bent - 3 * wave).expand().coeff(_z, 2) / 2,
-        stretched.coeff(_z, 1) / 2,
+        (bending_part - 3 * wave).expand().coeff(_z, 2) / 2,
+        extension_part.coeff(_z, 1) / 2,
     )
     prove(
         "Residues at 0",
@@ -139,10 +139,10 @@ def closed_sums(kernel: Kernel) -> ClosedSums:
     return found
 
 
-def _assembled(bent: sp.Expr, stretched: sp.Expr) -> sp.Expr:
+def _assembled(bending_part: sp.Expr, extension_part: sp.Expr) -> sp.Expr:
     """Return X from the sums of k (1 + 3 n - n Q)/(j^3 J1) and of k H/(j^2 J1)."""
-    bending = (1 - 2 * RATIO * eta**2) / eta**3 * bent
-    return alpha / sp.pi * (bending + sp.Rational(8, 3) * RATIO**2 * stretched)
+    bending = (1 - 2 * RATIO * eta**2) / eta**3 * bending_part
+    return alpha / sp.pi * (bending + sp.Rational(8, 3) * RATIO**2 * extension_part)
 
 
 def _roots(kernel: Kernel) -> tuple[sp.Expr, sp.Expr]:
@@ -155,9 +155,9 @@ def _roots(kernel: Kernel) -> tuple[sp.Expr, sp.Expr]:
 
     even, odd = PlateRoot(2 * _n), PlateRoot(2 * _n - 1)
     # T/(2 eta)/z^3 = (2 eta)^2/T^2, and the square (sqrt(1 + T^2) + 1)^2/T^2 over 2 eta z^2.
-    bent = total(even, -RATIO * (2 * eta) ** 2 / even**2)
-    stretched = total(odd, 2 * eta * (1 + sp.sqrt(1 + odd**2)) ** 2 / odd**4)
-    return bent, stretched
+    bending_part = total(even, -RATIO * (2 * eta) ** 2 / even**2)
+    extension_part = total(odd, 2 * eta * (1 + sp.sqrt(1 + odd**2)) ** 2 / odd**4)
+    return bending_part, extension_part
 
 
 @cache
@@ -175,7 +175,7 @@ def thin_edge() -> tuple[Formula, ...]:
         mode = _assembled(
             one * (1 + 3 * RATIO - RATIO * Q) / (j_n**3 * J1), one * H / (j_n**2 * J1)
         )
-        value = _assembled(half.plain - RATIO * half.bent, half.stretched)
+        value = _assembled(half.plain - RATIO * half.bending_part, half.extension_part)
         proof = prove(
             f"Closed form of {name}",
             "The term of one mode is a combination of the sums whose residues are known.",
@@ -322,7 +322,7 @@ def edge_bound() -> Formula:
         },
     )
     return Formula(
-        "S_edge_most",
+        "S_edge_bound",
         r"S_e",
         r"bound of the reduction of $(R/2a) d \delta/da$ without mean motion of the edge, for all "
         "radii up to $a$",

@@ -147,9 +147,9 @@ def edge_resultants() -> tuple[Formula, ...]:
         },
     )
     rows = (
-        ("edge_stretch", r"\bar e", "mean of $u/b$ at the edge", mean / (2 * h * b), "1"),
+        ("edge_extension", r"\bar e", "mean of $u/b$ at the edge", mean / (2 * h * b), "1"),
         (
-            "edge_turn",
+            "edge_rotation",
             r"\bar k",
             ("mean rotation of the edge divided by $b$"),
             turn * 3 / (2 * h**3 * b),
@@ -227,7 +227,7 @@ def edge_law() -> tuple[Formula, Formula]:
             "pressure": (SINE_MINUS.subs(reduced) / _y**3 * 3) - g,
         },
     )
-    sources = ("edge_stretch", "edge_turn", "A_j")
+    sources = ("edge_extension", "edge_rotation", "A_j")
     return (
         Formula(
             "F_edge",

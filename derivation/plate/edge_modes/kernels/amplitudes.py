@@ -13,7 +13,7 @@ from derivation.engine.emit.routine import Let, Several
 from derivation.engine.formula.proof import lower_bessel
 from derivation.plate.edge_modes.kernels.states import (
     NAMES,
-    bent,
+    bending_part,
     c,
     j0,
     j1,
@@ -56,15 +56,15 @@ def weight() -> Claims:
     total, of_w, of_psi = sp.symbols("total of_w of_psi", real=True)
     square = 1 + (q**2 - left * (k * mean / 2) ** 2) / 2 - 2 * (q / k + left * mean / 2) / total
     turning = (
-        bent**2 * (1 + q**2 - 2 * q / k) / 2
+        bending_part**2 * (1 + q**2 - 2 * q / k) / 2
         + (turned * k) ** 2 * (mean**2 / 4 - less) / 2
-        + 2 * bent * turned * (q / k - mean / 2) / total
+        + 2 * bending_part * turned * (q / k - mean / 2) / total
     )
     norm = of_w + turn * of_psi
-    value = ((1 - c * t) / j0) ** 2 * (1 + turn * bent**2) / (2 * sp.pi * norm)
+    value = ((1 - c * t) / j0) ** 2 * (1 + turn * bending_part**2) / (2 * sp.pi * norm)
     at_mode = {theory.J1: q * theory.J0}
     return Claims(
-        (k, eta, nu, left, bent, turned, mean, less, scaled, k_2, q, j1),
+        (k, eta, nu, left, bending_part, turned, mean, less, scaled, k_2, q, j1),
         (
             Let(j0, j1 / q),
             Let(c, PART),
@@ -91,7 +91,7 @@ def energy() -> Claims:
         (sp.besselj(1, k_n * r), k_n * r), (sp.besseli(1, k_2 * r), k_2 * r)
     )]  # fmt: skip
     return Claims(
-        (k, eta, r, c, left, bent, turned),
+        (k, eta, r, c, left, bending_part, turned),
         (
             Let(y, -(k**2)),
             Let(partner, k**2 * left, "k2^2"),
@@ -100,7 +100,7 @@ def energy() -> Claims:
             Several((short,), "odd", (y * r**2,), (means[0],)),
             Several((short_2,), "odd", (partner * r**2,), (means[1],)),
             Let(w, c * growth_2 - growth),
-            Let(psi, k**2 * r / 2 * (bent * short + c * turned * short_2)),
+            Let(psi, k**2 * r / 2 * (bending_part * short + c * turned * short_2)),
         ),
         ((w**2 + eta**2 / 3 * psi**2) * r,),
         (stated.subs(mindlin.c, theory.PART),),
@@ -115,7 +115,7 @@ def first_weight() -> Claims:
     bulge, axis = sp.symbols("bulge axis", real=True)
     less_one = (theory.J0 - 1) / -(k_n**2), (theory.I0 - 1) / k_2**2
     return Claims(
-        (k, eta, nu, left, bent, c, kinetic),
+        (k, eta, nu, left, bending_part, c, kinetic),
         (
             Let(partner, k**2 * left, "k2^2"),
             Several((series,), "even_beyond", (-(k**2),), less_one[:1]),
@@ -126,7 +126,7 @@ def first_weight() -> Claims:
             Let(bulge, theory.BULGE * turn * (1 + left), "t - 1"),
             Let(axis, (growth_2 + growth) / (1 + growth_2) - c * bulge, "1 - c t"),
         ),
-        (1 + bulge, axis**2 * (1 + turn * bent**2) / (2 * sp.pi * kinetic)),
+        (1 + bulge, axis**2 * (1 + turn * bending_part**2) / (2 * sp.pi * kinetic)),
         (theory.FACE, _weight_of(theory.N)),
         {**NAMES, kinetic: theory.N},
     )

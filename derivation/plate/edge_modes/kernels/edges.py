@@ -2,11 +2,11 @@
 
 The condition of the edge is J1 = q J0,
 
-    q = k [beta (1 + left) - turned M/2]/bent.
+    q = k [beta (1 + left) - turned M/2]/bending_part.
 
 For the first mode of a supported plate, whose k vanishes at nu = -1, it is
 
-    bent R(-k^2) + J0 [turned R(k2^2)/I0 + (n xi k^2/8 - goal)(1 + left)] = 0,
+    bending_part R(-k^2) + J0 [turned R(k2^2)/I0 + (n xi k^2/8 - goal)(1 + left)] = 0,
     R(y) = y/8 I0 - I2 at sqrt(y), R(-k^2) = J2 - (k^2/8) J0,   goal = (1 + nu)/(1 - nu),
 
 where all terms but the last are positive for k < j_1.
@@ -19,7 +19,7 @@ from derivation.engine.emit.routine import Let, Several
 from derivation.engine.formula.proof import lower_bessel
 from derivation.plate.edge_modes.kernels.states import (
     NAMES,
-    bent,
+    bending_part,
     beta,
     by_wave_number,
     change,
@@ -66,12 +66,12 @@ def _between(expression: sp.Expr) -> sp.Expr:
 @named_routine
 def edge() -> Claims:
     """Return q, J1 - q J0, which vanishes at a mode, and its slope by k."""
-    value = k * (beta * (1 + left) - turned * mean / 2) / bent
+    value = k * (beta * (1 + left) - turned * mean / 2) / bending_part
     steep_q = slope_of(value, {mean: (less - mean**2 / 4) * square})
     stated = condition(beta)
     (root,) = sp.solve(stated, theory.J1)
     return Claims(
-        (k, nu, beta, xi, left, bent, turned, mean, less, j0, j1),
+        (k, nu, beta, xi, left, bending_part, turned, mean, less, j0, j1),
         (
             Let(q, value),
             *changes(),
@@ -108,7 +108,7 @@ def first_edge() -> Claims:
     """Return the function that vanishes at the first supported mode, and its slope by k."""
     partner = sp.Symbol("partner", real=True)
     bracket = turned * curl_2 / i0 + (ROTARY * xi * k**2 / 8 - goal) * (1 + left)
-    value = bent * curl + j0 * bracket
+    value = bending_part * curl + j0 * bracket
     others = {
         curl: -2 * k * steep,
         curl_2: steep_2 * square,
@@ -117,7 +117,7 @@ def first_edge() -> Claims:
     }
     stated = condition(theory.SUPPORTED) * 2 * theory.g_1 / k_n
     return Claims(
-        (k, nu, goal, xi, left, bent, turned, mean, j0, j1),
+        (k, nu, goal, xi, left, bending_part, turned, mean, j0, j1),
         (
             Let(partner, k**2 * left, "k2^2"),
             Several((i0,), "even", (partner,), (in_xi(theory.I0),)),

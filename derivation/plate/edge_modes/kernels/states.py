@@ -1,7 +1,7 @@
 """A wave of a clamped or supported plate: variables of the code, and their slopes by k.
 
-With xi = kap/x^2, k2^2 = k^2 left, g1 = bent and g2 k2^2 = k^2 turned, no terms cancel for thin
-plates. With M = 2 I1/(k2 I0) and L = (1 - M)/k2^2 = I2/(k2^2 I0), none do where k2 vanishes.
+With xi = kap/x^2, k2^2 = k^2 left, g1 = bending_part and g2 k2^2 = k^2 turned, no terms cancel for
+thin plates. With M = 2 I1/(k2 I0) and L = (1 - M)/k2^2 = I2/(k2^2 I0), none do where k2 vanishes.
 """
 
 import sympy as sp
@@ -14,7 +14,9 @@ from derivation.plate.edge_modes.theory.mindlin import k_2, shear, slack
 from derivation.plate.vocabulary import eta, k_n, kap, nu, x_h
 
 k, x, xi, root = sp.symbols("k x xi root", positive=True)
-left, bent, turned, mean, less, q = sp.symbols("left bent turned mean less q", real=True)
+left, bending_part, turned, mean, less, q = sp.symbols(
+    "left bending_part turned mean less q", real=True
+)
 j0, j1, c, t, beta = sp.symbols("j0 j1 c t beta", real=True)
 change, square, rate = sp.symbols("change square rate", real=True)
 
@@ -22,7 +24,7 @@ _RATIO = 2 * theory.I1 / (k_2 * theory.I0)
 NAMES: Facts = {
     k: k_n,
     left: k_2**2 / k_n**2,
-    bent: theory.g_1,
+    bending_part: theory.g_1,
     turned: theory.g_2 * k_2**2 / k_n**2,
     mean: _RATIO,
     less: (1 - _RATIO) / k_2**2,
@@ -35,15 +37,15 @@ NAMES: Facts = {
 
 
 def parts() -> dict[sp.Symbol, sp.Expr]:
-    """Return left, bent and turned in terms of xi, with the shear coefficient of A0."""
-    found = {left: mindlin.left(), bent: mindlin.u_1(), turned: mindlin.u_2()}
+    """Return left, bending_part and turned in terms of xi, with the shear coefficient of A0."""
+    found = {left: mindlin.left(), bending_part: mindlin.u_1(), turned: mindlin.u_2()}
     return {s: sp.collect(sp.expand(v.subs(shear, slack())), xi) for s, v in found.items()}
 
 
 def in_xi(expression: sp.Expr) -> sp.Expr:
     """Return an expression of the theory in k and xi."""
     found = parts()
-    known = {theory.g_1: found[bent], theory.g_2: found[turned] / found[left]}
+    known = {theory.g_1: found[bending_part], theory.g_2: found[turned] / found[left]}
     return expression.subs(known).subs(k_2, k_n * sp.sqrt(found[left]))
 
 
@@ -64,7 +66,7 @@ def branch_rate() -> sp.Expr:
     return mindlin.on_lower_branch().subs(x_h**2, there).subs(shear, slack())
 
 
-RATE = 2 * bent * turned / (bent + turned - bent * turned)
+RATE = 2 * bending_part * turned / (bending_part + turned - bending_part * turned)
 """The same in the code's variables."""
 
 
@@ -88,7 +90,7 @@ def changes() -> tuple[Let, Let]:
 @named_routine
 def wave() -> Claims:
     """Return xi, k2^2/k^2, g1, g2 k2^2/k^2 and k2."""
-    held = sp.Symbol("held", real=True)
+    limited = sp.Symbol("limited", real=True)
     beyond = "beyond the cut-off there are no modes"
     partner, first, second = (formula.expression for formula in mindlin.waves())
     return Claims(
@@ -96,9 +98,9 @@ def wave() -> Claims:
         (
             Let(xi, (root / (k * eta)) ** 2, "kap/x^2"),
             *(Let(symbol, value) for symbol, value in parts().items()),
-            Choice(held, left > 0, left, sp.Integer(0), unclaimed="no", reason=beyond),
+            Choice(limited, left > 0, left, sp.Integer(0), unclaimed="no", reason=beyond),
         ),
-        (xi, left, bent, turned, k * sp.sqrt(held)),
+        (xi, left, bending_part, turned, k * sp.sqrt(limited)),
         (kap / (k_n * eta) ** 2, partner**2 / k_n**2, first, second * partner**2 / k_n**2, partner),
         {k: k_n, root: sp.sqrt(kap)},
     )

@@ -82,7 +82,7 @@ def wave(edge: Edge, n: int, thickness: Exact, ratio: Exact, digits: int = 30) -
 @cache
 def cutoff(ratio: Exact, digits: int = 30) -> tuple[Fraction, Fraction]:
     """Return numbers below and above x = k h/b at which k2 vanishes."""
-    partner = _expression("partner_wave") ** 2
+    partner = _expression("evanescent_wave_number") ** 2
     low, high = Fraction(1), Fraction(3)
     while high - low > low / 10**digits:
         x = (low + high) / 2
@@ -100,8 +100,8 @@ def _expression(name: str) -> sp.Expr:
     """Return quantities of step 30 in k, kap, eta and nu."""
     return theory.in_k(
         {
-            "partner_wave": k_2,
-            "wave_part": theory.PART,
+            "evanescent_wave_number": k_2,
+            "evanescent_amplitude": theory.PART,
             "face_ratio": theory.FACE,
             "wave_weight": theory.WEIGHT.subs(theory.N, theory.NORM),
             "supported_wave": theory.TURN - theory.SUPPORTED * theory.BEND,
@@ -191,7 +191,7 @@ def _values(
 
     k, load = to_ball(low).union(to_ball(high)), between(inertia_balls.zero)
     known = _known(k, load, thickness, ratio)
-    names = ("partner_wave", "wave_part", "face_ratio", "wave_weight")
+    names = ("evanescent_wave_number", "evanescent_amplitude", "face_ratio", "wave_weight")
     k2, c, t, weight = (enclose(_expression(name), known) for name in names)
     return k, load.sqrt(), k2, c, t, weight, between(inertia_balls.residue)
 

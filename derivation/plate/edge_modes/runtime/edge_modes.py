@@ -259,7 +259,7 @@ class _State(NamedTuple):
     ----------
     root
         omega h/c_T.
-    xi, left, bent, turned
+    xi, left, bending_part, turned
         kap/x^2, k2^2/k^2, g1 and g2 k2^2/k^2.
     k2
         Wave number of the evanescent part.
@@ -270,7 +270,7 @@ class _State(NamedTuple):
     root: Double
     xi: Double
     left: Double
-    bent: Double
+    bending_part: Double
     turned: Double
     k2: Double
     mean: Double
@@ -301,9 +301,9 @@ def _below_cutoff(count: int, eta: Double, nu: Double, beta: Double) -> Waves:
 
 def _residual(k: Double, eta: Double, nu: Double, beta: Double) -> tuple[Double, ...]:
     """Return q, J1 - q J0 and its slope by k."""
-    _, xi, left, bent, turned, _, mean, less, _ = _state(k, eta, nu)
+    _, xi, left, bending_part, turned, _, mean, less, _ = _state(k, eta, nu)
     bessel = bessel_j0(k), bessel_j1(k)
-    return kernels.edge(k, nu, beta, xi, left, bent, turned, mean, less, *bessel)
+    return kernels.edge(k, nu, beta, xi, left, bending_part, turned, mean, less, *bessel)
 
 
 def _solved(
@@ -330,12 +330,12 @@ def _solved(
         if close.all():
             break
     lacking = step - (k - near) if k.size else step
-    root, xi, left, bent, turned, k_2, mean, less, scaled = _state(k, eta, nu)
+    root, xi, left, bending_part, turned, k_2, mean, less, scaled = _state(k, eta, nu)
     j0, j1 = bessel_j0(k), bessel_j1(k)
-    q = kernels.edge(k, nu, beta, xi, left, bent, turned, mean, less, j0, j1)[0]
+    q = kernels.edge(k, nu, beta, xi, left, bending_part, turned, mean, less, j0, j1)[0]
     _, j1 = kernels.moved(k, lacking, j0, j1)
     c, t, weight = kernels.weight(
-        k, eta, nu, left, bent, turned, mean, less, scaled, k_2, q, j1
+        k, eta, nu, left, bending_part, turned, mean, less, scaled, k_2, q, j1
     )  # fmt: skip
     return Waves(k, root, k_2, c, t, weight, bending_residue(k * eta, nu))
 
@@ -347,19 +347,19 @@ def _lowest(eta: Double, nu: Double, goal: Double) -> Waves:
     k = np.sqrt(np.sqrt(power / (1.0 + power / pole**4)))
     for _ in range(_STEPS):
         near = k
-        _, xi, left, bent, turned, _, mean, _, _ = _state(near, eta, nu)
+        _, xi, left, bending_part, turned, _, mean, _, _ = _state(near, eta, nu)
         bessel = bessel_j0(near), bessel_j1(near)
         excess, rise = kernels.first_edge(
-            near, nu, goal, xi, left, bent, turned, mean, *bessel
+            near, nu, goal, xi, left, bending_part, turned, mean, *bessel
         )  # fmt: skip
         step = -excess / rise
         k = np.minimum(near + step, 0.5 * (near + pole))
         if (np.abs(step) <= _CLOSE * near).all():
             break
     lacking = step - (k - near)
-    root, _, left, bent, turned, k_2, _, _, scaled = _state(k, eta, nu)
+    root, _, left, bending_part, turned, k_2, _, _, scaled = _state(k, eta, nu)
     j0, _ = kernels.moved(k, lacking, bessel_j0(k), bessel_j1(k))
     c = kernels.first_part(j0, scaled, k_2)
-    kinetic = WEIGHTS @ kernels.energy(k, eta, NODES, c, left, bent, turned)
-    t, weight = kernels.first_weight(k, eta, nu, left, bent, c, kinetic)
+    kinetic = WEIGHTS @ kernels.energy(k, eta, NODES, c, left, bending_part, turned)
+    t, weight = kernels.first_weight(k, eta, nu, left, bending_part, c, kinetic)
     return Waves(k, root, k_2, c, t, weight, bending_residue(k * eta, nu))

@@ -168,7 +168,7 @@ def waves() -> tuple[Formula, ...]:
     squared = sp.Symbol("k_2", positive=True)
     rows = (
         (
-            "partner_wave", "k_2", "wave number of a mode's evanescent part times $b$",
+            "evanescent_wave_number", "k_2", "wave number of a mode's evanescent part times $b$",
             sp.sqrt(partner.subs(known)), None, ("shear_coefficient",),
         ),
         (
@@ -176,9 +176,9 @@ def waves() -> tuple[Formula, ...]:
             g_1.subs(of_kap).subs(known), None, ("shear_coefficient",),
         ),
         (
-            "partner_rotation", "g_2", "rotation divided by slope, of the part $I_0$",
+            "evanescent_rotation", "g_2", "rotation divided by slope, of the part $I_0$",
             stated.subs(known).subs(k_2, sp.sqrt(partner.subs(known))),
-            1 + kap * slack() / (eta * squared) ** 2, ("partner_wave",),
+            1 + kap * slack() / (eta * squared) ** 2, ("evanescent_wave_number",),
         ),
     )  # fmt: skip
     return tuple(

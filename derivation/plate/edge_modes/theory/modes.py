@@ -113,7 +113,7 @@ def frequency_equations() -> tuple[Formula, Formula, Formula]:
     )
     return (
         Formula(
-            "thin_mode_part",
+            "thin_mode_amplitude",
             "c",
             "amplitude of $I_0$ in the mode $J_0(k r/b) - c I_0(k r/b)$ of a plate",
             PART,
@@ -129,7 +129,7 @@ def frequency_equations() -> tuple[Formula, Formula, Formula]:
             clamped,
             "1",
             "",
-            ("thin_mode_part",),
+            ("thin_mode_amplitude",),
             proof,
         ),
         Formula(
@@ -139,7 +139,7 @@ def frequency_equations() -> tuple[Formula, Formula, Formula]:
             supported,
             "1",
             "",
-            ("thin_mode_part",),
+            ("thin_mode_amplitude",),
             proof,
         ),
     )
@@ -179,7 +179,7 @@ def norm() -> Formula:
         NORM,
         "1",
         "",
-        ("thin_mode_part",),
+        ("thin_mode_amplitude",),
         proof,
     )
 
@@ -278,13 +278,13 @@ def share() -> Formula:
         },
     )
     return Formula(
-        "thin_mode_share",
+        "thin_mode_mean",
         "s_n",
         "mean of a plate mode under a flat punch divided by its deflection on the axis",
         value,
         "1",
         "",
-        ("thin_mode_part", "mode_share"),
+        ("thin_mode_amplitude", "mode_mean"),
         proof,
     )
 

@@ -170,18 +170,18 @@ def edges() -> tuple[Formula, ...]:
     )
     total = k_n**2 + k_2**2
     rows = (
-        ("wave_part", "c", (
+        ("evanescent_amplitude", "c", (
             "amplitude of $I_0$ in the mode $J_0(k r/b) - c I_0(k_2 r/b)$ of a plate"
         ), PART,
          PART, ()),
         ("supported_wave", "F_s", "frequency function, zero at wave numbers of a supported plate",
-         TURN - SUPPORTED * BEND, TURN - SUPPORTED * total, ("wave_part",)),
+         TURN - SUPPORTED * BEND, TURN - SUPPORTED * total, ("evanescent_amplitude",)),
         ("clamped_wave", "F_c", "frequency function, zero at wave numbers of a clamped plate",
-         TURN - CLAMPED * BEND, TURN - CLAMPED * total, ("wave_part",)),
+         TURN - CLAMPED * BEND, TURN - CLAMPED * total, ("evanescent_amplitude",)),
     )  # fmt: skip
     return tuple(
         Formula(
-            name, latex, meaning, in_k(value), "1", "", ("partner_wave", *sources), proof,
+            name, latex, meaning, in_k(value), "1", "", ("evanescent_wave_number", *sources), proof,
             stated=stated,
         )
         for name, latex, meaning, value, stated, sources in rows
@@ -224,7 +224,8 @@ def norm() -> Formula:
     stated = sp.Integral((DEFLECTION**2 + eta**2 / 3 * sp.Symbol("psi") ** 2) * _r, (_r, 0, 1))
     return Formula(
         "wave_norm", "N", "kinetic energy of a plate mode, rotary inertia included",
-        in_k(NORM), "1", "", ("wave_part", "wave_rotation", "partner_rotation"), proof,
+        in_k(NORM), "1", "",
+        ("evanescent_amplitude", "wave_rotation", "evanescent_rotation"), proof,
         stated=stated,
     )  # fmt: skip
 
@@ -275,7 +276,7 @@ def face_ratio() -> Formula:
         "face_ratio", "t", (
             "contact-face over mean deflection of a mode's part $I_0$, divided by that of $J_0$"
         ),
-        in_k(FACE), "1", "", ("wave_f", "partner_wave"), proof, stated=FACE,
+        in_k(FACE), "1", "", ("wave_f", "evanescent_wave_number"), proof, stated=FACE,
     )  # fmt: skip
 
 
@@ -317,7 +318,7 @@ def share() -> Formula:
         },
     )
     return Formula(
-        "wave_share", "s_n",
+        "wave_mean", "s_n",
         "mean of the contact face under a flat punch over its deflection on the axis",
         in_k(value), "1", "", ("face_ratio", means.name), proof, stated=value,
     )  # fmt: skip
@@ -354,8 +355,8 @@ def at_rest() -> tuple[Formula, Formula]:
         },
     )
     rows = (
-        ("supported_rest", "a simply supported", SUPPORTED_REST * lift**2),
-        ("clamped_rest", "a clamped", CLAMPED_REST * (lift**2 + 2 * CLAMP * eta)),
+        ("supported_static_change", "a simply supported", SUPPORTED_REST * lift**2),
+        ("clamped_static_change", "a clamped", CLAMPED_REST * (lift**2 + 2 * CLAMP * eta)),
     )
     found = tuple(
         Formula(

@@ -22,10 +22,10 @@ from derivation.mathematics.bessel.kernels import nearest_double
 from derivation.plate.contact.kernels.moments import BITS, kappas
 from derivation.plate.contact.theory.plate_series import sine_coefficient
 from derivation.plate.contact.theory.split import zero_of_j0
-from derivation.plate.effects.theory import wall_growth_ball
+from derivation.plate.effects.theory import lateral_growth_ball
 from derivation.plate.impact.kernels.simple import above
-from derivation.plate.impact.theory.substitution import wall_rest_ball
-from derivation.plate.pressure.theory.bound import WALL_EXTRA
+from derivation.plate.impact.theory.substitution import lateral_rest_ball
+from derivation.plate.pressure.theory.bound import LATERAL_EXTRA
 from derivation.plate.vocabulary import j_n, lam, mu
 from derivation.plate.waves.theory.plate_motion import plate_motion
 
@@ -40,36 +40,40 @@ _STEEPER = sp.simplify(sp.diff(_a ** (_n + 2), _a) / (2 * _a ** (_n + 1)))
 def effect_numbers() -> Numbers:
     """Return the series, bounds for the finite radius, and factors of the inertia formulas."""
     with flint.ctx.workprec(BITS):
-        depth, slope = wall_rows()
-        wall_linear = above(Ball(3) / 2 * depth[0])
+        depth, slope = lateral_rows()
+        lateral_linear = above(Ball(3) / 2 * depth[0])
         rows = tuple(tuple(nearest_double(c) for c in row) for row in (depth, slope))
         factors = tuple(_factor_double(name) for name in ("zener_number", "bending_period"))
     return Numbers(
         "effect_numbers",
         "Constants of the effects: power series, bounds for the finite radius, factors.",
         (
-            Constant("WALL_DEPTH", rows[0], "-F/alpha of the finite radius in powers of alpha^2."),
-            Constant("WALL_SLOPE", rows[1], "-S/alpha of the finite radius in powers of alpha^2."),
+            Constant(
+                "LATERAL_DEPTH", rows[0], "-F/alpha of the finite radius in powers of alpha^2."
+            ),
+            Constant(
+                "LATERAL_SLOPE", rows[1], "-S/alpha of the finite radius in powers of alpha^2."
+            ),
             Constant("ZENER", factors[0], "Factor of Zener's parameter."),
             Constant("PERIOD", factors[1], "Factor of the bending period."),
             Constant(
-                "WALL_LINEAR",
-                wall_linear,
-                "Largest reduction of S by the finite radius: WALL_LINEAR alpha + "
-                "WALL_CUBIC alpha^3.",
+                "LATERAL_LINEAR",
+                lateral_linear,
+                "Largest reduction of S by the finite radius: LATERAL_LINEAR alpha + "
+                "LATERAL_CUBIC alpha^3.",
             ),
-            Constant("WALL_CUBIC", above(wall_rest_ball()), "See WALL_LINEAR."),
+            Constant("LATERAL_CUBIC", above(lateral_rest_ball()), "See LATERAL_LINEAR."),
             Constant(
-                "PRESSURE_WALL",
-                float(WALL_EXTRA),
+                "PRESSURE_LATERAL",
+                float(LATERAL_EXTRA),
                 "Contribution of the finite radius to theta/(a/b)^3, in the bound for Hertz "
                 "pressure.",
             ),
             Constant(
-                "WALL_GROWTH",
-                above(wall_growth_ball()),
+                "LATERAL_GROWTH",
+                above(lateral_growth_ball()),
                 "If a grows to s a < b, S changes by at most "
-                "(s^2 - 1) (K A^3 + WALL_GROWTH alpha^3).",
+                "(s^2 - 1) (K A^3 + LATERAL_GROWTH alpha^3).",
             ),
         ),
     )
@@ -99,7 +103,7 @@ def arc_coefficients() -> list[sp.Rational]:
         found.append(sp.Rational(1, 2 * k + 3))
 
 
-def wall_rows() -> tuple[list[Ball], list[Ball]]:
+def lateral_rows() -> tuple[list[Ball], list[Ball]]:
     """Return coefficients of -W/alpha, and of -S/alpha, in alpha^2, as far as they matter.
 
     At alpha = 1 the ratio of neighbours is 1/4 at most, so that all omitted terms are below a third

@@ -44,13 +44,13 @@ def sphere() -> Routine:
     delta, force = (formula.expression for formula in spherical_contact())
     hertz = sp.Rational(4, 3) * PLANE_STRAIN_MODULUS * a**3 / R
     near = sp.Rational(NEAR)
-    held, cube = GUARDED(square, near), RAISED(square * a_over_R, near ** sp.Rational(3, 2))
+    limited, cube = GUARDED(square, near), RAISED(square * a_over_R, near ** sp.Rational(3, 2))
     return routine(
         "sphere_over_paraboloid",
         (a_over_R,),
         (
             Let(square, a_over_R * a_over_R),
-            Several((series,), "polynomial", (held, *arc_coefficients()), (ARC,)),
+            Several((series,), "polynomial", (limited, *arc_coefficients()), (ARC,)),
             Let(far, RAISED(a_over_R, sp.sqrt(near))),
             Choice(arc, sp.Lt(square, near), series, (sp.atanh(far) - far) / cube),
             Let(depth, 1 + square * arc),

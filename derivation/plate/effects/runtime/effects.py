@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from generated import effect_kernels as kernels
 from generated.arrays import as_doubles, as_result, in_manifest, inside, quiet
 from generated.blocks import polynomial
-from generated.effect_numbers import WALL_DEPTH, WALL_SLOPE
+from generated.effect_numbers import LATERAL_DEPTH, LATERAL_SLOPE
 
 
 class Sphere(NamedTuple):
@@ -95,7 +95,7 @@ def finite_radius(alpha: ArrayLike) -> Contribution:
     kind, [alpha] = as_doubles(alpha)
     [alpha] = inside([alpha], alpha >= 0, alpha < 1)
     square = alpha * alpha
-    depth, slope = (-alpha * polynomial(square, *row) for row in (WALL_DEPTH, WALL_SLOPE))
+    depth, slope = (-alpha * polynomial(square, *row) for row in (LATERAL_DEPTH, LATERAL_SLOPE))
     return Contribution(as_result(depth, kind), as_result(slope, kind))
 
 

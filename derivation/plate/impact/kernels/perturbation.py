@@ -165,7 +165,7 @@ def radius_cubed() -> Claims:
 @named_routine
 def shares() -> Claims:
     """Return one mode's terms of gamma_2 and gamma_3 of (10), from K_j and a/P^(1/3)."""
-    values = tuple(mode_share(k) for k in (2, 3))
+    values = tuple(mode_mean(k) for k in (2, 3))
     return Claims(
         (phi, K, ratio),
         (),
@@ -175,7 +175,7 @@ def shares() -> Claims:
     )
 
 
-def mode_share(k: int) -> sp.Expr:
+def mode_mean(k: int) -> sp.Expr:
     """Return one mode's term of gamma_k in K_j = K and a/P^(1/3) = ratio."""
     share = printed_term(k) / contact_law()[0].expression
     return K * sp.powsimp(share.subs(a, ratio * P ** sp.Rational(1, 3)), force=True)

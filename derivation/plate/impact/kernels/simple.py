@@ -24,14 +24,14 @@ from derivation.plate.impact.kernels.simple_laws import (
     CUBIC,
     ROW,
     gauss,
-    wall_cubic,
-    wall_linear,
+    lateral_cubic,
+    lateral_linear,
 )
 from derivation.plate.impact.theory.impact import hertz_time
 from derivation.plate.impact.theory.substitution import (
+    lateral_rest_ball,
     roots_bound,
     time_quadrature_bound,
-    wall_rest_ball,
 )
 from derivation.plate.vocabulary import u_t
 
@@ -48,11 +48,11 @@ def numbers() -> Numbers:
     if not 2 * zero_of_j0(count, 64) > FADED * THIN:
         raise ArithmeticError("too few modes for the tail's bound")
     with flint.ctx.workprec(BITS):
-        rest = wall_rest_ball()
-        bent = 1 / (4 * Ball.pi())
+        rest = lateral_rest_ball()
+        bending_part = 1 / (4 * Ball.pi())
         thin = {k: thin_coefficient_ball(k, 1) for k in (2, 3)}
         pairs = tuple((nearest_double(j), nearest_double(w)) for j, w in modes(count))
-        cubic = rest - _cubic(_wall(wall_cubic, 2))
+        cubic = rest - _cubic(_lateral(lateral_cubic, 2))
         constants = (
             Constant("MODES", pairs, "j_n and 1/(j_n J1(j_n)^2)."),
             Constant("RULE", _rule(), "Gauss' rule: a/a_m, 6 g_5, 5 g_6, and its weights."),
@@ -61,14 +61,16 @@ def numbers() -> Numbers:
             Constant("FADED_LINEAR", above(_faded(0)), "Bound of the sum of their weights w_n."),
             Constant("FADED_CUBIC", above(_faded(2)), "Bound of the sum of w_n T_n^2 over them."),
             Constant(
-                "WALL",
-                nearest_double(_wall(wall_linear, 0)),
+                "LATERAL",
+                nearest_double(_lateral(lateral_linear, 0)),
                 "Reduction of c_1 by the finite radius, over eta.",
             ),
-            Constant("WALL_REST", above(rest), "Bound of its part of K_3/eta^3."),
-            Constant("WALL_CUBIC", above(cubic), "Bound of its part of (K_3 + 5/2 c_3)/eta^3."),
+            Constant("LATERAL_REST", above(rest), "Bound of its part of K_3/eta^3."),
+            Constant("LATERAL_CUBIC", above(cubic), "Bound of its part of (K_3 + 5/2 c_3)/eta^3."),
             Constant(
-                "THIN_LINEAR", nearest_double(thin[2] - bent), "c_1 - v^2/(4 pi) at v = 1/eta = 1."
+                "THIN_LINEAR",
+                nearest_double(thin[2] - bending_part),
+                "c_1 - v^2/(4 pi) at v = 1/eta = 1.",
             ),
             Constant("THIN_CUBIC", nearest_double(-_cubic(thin[3])), "-5/2 c_3 at v = 1."),
             Constant(
@@ -107,7 +109,7 @@ def above(bound: Ball) -> float:
     return float(f"{1.001 * float(bound.abs_upper()):.4g}")
 
 
-def _wall(share: sp.Expr, index: int) -> Ball:
+def _lateral(share: sp.Expr, index: int) -> Ball:
     """Return the reduction of a coefficient by the finite radius, over the power of eta."""
     (kappa_n,) = share.free_symbols
     return evaluate(share / kappa_n, {}) * kappa_ball(index)

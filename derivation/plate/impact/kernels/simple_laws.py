@@ -39,7 +39,9 @@ from derivation.plate.vocabulary import (
     v0,
 )
 
-WALL, WALL_REST, WALL_CUBIC = sp.symbols("WALL WALL_REST WALL_CUBIC", positive=True)
+LATERAL, LATERAL_REST, LATERAL_CUBIC = sp.symbols(
+    "LATERAL LATERAL_REST LATERAL_CUBIC", positive=True
+)
 THIN_LINEAR, THIN_CUBIC, HERTZ_TIME = sp.symbols("THIN_LINEAR THIN_CUBIC HERTZ_TIME", real=True)
 FADED_LINEAR, FADED_CUBIC = sp.symbols("FADED_LINEAR FADED_CUBIC", positive=True)
 RULE = sp.Symbol("RULE")
@@ -55,11 +57,11 @@ def slope_share(power: int) -> sp.Rational:
 
 
 CUBIC = slope_share(3)
-wall_linear, wall_cubic = (-coefficient(k).by_plate_radius[1] for k in (2, 3))
+lateral_linear, lateral_cubic = (-coefficient(k).by_plate_radius[1] for k in (2, 3))
 """Reductions of c_1 and c_3 by the finite radius, over the power of eta."""
 MEANING: Facts = {
-    WALL: wall_linear,
-    WALL_CUBIC: WALL_REST - CUBIC * wall_cubic,
+    LATERAL: lateral_linear,
+    LATERAL_CUBIC: LATERAL_REST - CUBIC * lateral_cubic,
     THIN_LINEAR: (thin_coefficient(2).expression - eta**-2 / (4 * sp.pi)).subs(eta, 1),
     THIN_CUBIC: -CUBIC * thin_coefficient(3).expression.subs(eta, 1),
     HERTZ_TIME: hertz_time().expression,
@@ -79,8 +81,8 @@ def most(c_1: sp.Expr, radius: sp.Expr) -> sp.Expr:
 @named_routine
 def thick_plate() -> Claims:
     """Return c_1, the size of its parts, K_3, and the contributions of omitted modes."""
-    rows, zero, weight, fade, lack, share, linear, cubic = sp.symbols(
-        "modes zero weight fade lack share linear cubic", positive=True
+    rows, zero, weight, exponential, deficit, share, linear, cubic = sp.symbols(
+        "modes zero weight exponential deficit share linear cubic", positive=True
     )
     height, square = sp.symbols("T square", positive=True)
     sums = Sums(
@@ -91,10 +93,16 @@ def thick_plate() -> Claims:
         (
             Let(height, 2 * eta * zero),
             Let(square, height**2),
-            Let(fade, sp.exp(-2 * height), "(sinh T)^2 = (1 - fade)^2/(4 fade)"),
-            Let(lack, 1 - fade),
-            Let(fade, 4 * fade),
-            Let(share, weight * fade * (lack / 2 + height + square) / (lack**2 - fade * square)),
+            Let(exponential, sp.exp(-2 * height), "(sinh T)^2 = (1 - e)^2/(4 e), e = e^(-2T)"),
+            Let(deficit, 1 - exponential),
+            Let(exponential, 4 * exponential),
+            Let(
+                share,
+                weight
+                * exponential
+                * (deficit / 2 + height + square)
+                / (deficit**2 - exponential * square),
+            ),
         ),
     )
     first, third = coefficient(2), coefficient(3)
@@ -104,16 +112,16 @@ def thick_plate() -> Claims:
         (eta, rows),
         (sums,),
         (
-            eta * (8 * linear / (3 * sp.pi) - WALL),
-            eta * (8 * linear / (3 * sp.pi) + WALL),
-            2 * cubic / (3 * sp.pi) * eta**3 + WALL_REST * eta**3,
+            eta * (8 * linear / (3 * sp.pi) - LATERAL),
+            eta * (8 * linear / (3 * sp.pi) + LATERAL),
+            2 * cubic / (3 * sp.pi) * eta**3 + LATERAL_REST * eta**3,
             8 * eta * FADED_LINEAR / (3 * sp.pi),
             eta * FADED_CUBIC / (6 * sp.pi),
         ),
         (
             first.mode + first.side,
             first.mode - first.side,
-            -CUBIC * third.mode + WALL_REST * alpha**3 / a_ratio**3,
+            -CUBIC * third.mode + LATERAL_REST * alpha**3 / a_ratio**3,
             first.mode,
             -CUBIC * third.mode,
         ),
@@ -138,10 +146,10 @@ def thin_plate() -> Claims:
         (Let(logarithm, sp.log(v)),),
         (
             v**2 / (4 * sp.pi) + (THIN_LINEAR + 4 * logarithm / (5 * sp.pi)),
-            THIN_CUBIC + logarithm / (4 * sp.pi) + WALL_CUBIC / v**3,
+            THIN_CUBIC + logarithm / (4 * sp.pi) + LATERAL_CUBIC / v**3,
             sp.exp(-sp.pi * v),
         ),
-        (thin_coefficient(2).expression, claim + WALL_REST * eta**3, sp.exp(-sp.pi / eta)),
+        (thin_coefficient(2).expression, claim + LATERAL_REST * eta**3, sp.exp(-sp.pi / eta)),
         {**MEANING, v: 1 / eta},
         lambda e: sp.expand(sp.expand_log(e, force=True)),
     )
@@ -262,15 +270,15 @@ def hertz_peaks() -> Claims:
 
 @named_routine
 def peaks() -> Claims:
-    """Return indentation and force at a contact radius; bent is c_1 A."""
-    bent = sp.Symbol("bent", real=True)
+    """Return indentation and force at a contact radius; bending_part is c_1 A."""
+    bending_part = sp.Symbol("bending_part", real=True)
     law = small_contact().expression.subs({c: 0 for n, c in c_A.items() if n > 1})
     return Claims(
-        (a, R, modulus, bent),
+        (a, R, modulus, bending_part),
         (),
-        (a**2 / R * (1 + bent), 4 * modulus / 3 * a**2 * (a / R)),
+        (a**2 / R * (1 + bending_part), 4 * modulus / 3 * a**2 * (a / R)),
         (a**2 / R * law, contact_radius().expression),
-        {modulus: reduced_modulus(), bent: c_A[1] * a_ratio},
+        {modulus: reduced_modulus(), bending_part: c_A[1] * a_ratio},
     )
 
 

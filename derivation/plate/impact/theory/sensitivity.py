@@ -22,7 +22,7 @@ from derivation.engine.formula.dimension import unit as dimension_of
 from derivation.engine.formula.proof import Proof, prove
 from derivation.plate.contact.theory.hertz import contact_radius
 from derivation.plate.contact.theory.plate_series import small_contact
-from derivation.plate.contact.theory.split import reduced_split, wall_bracket
+from derivation.plate.contact.theory.split import lateral_bracket, reduced_split
 from derivation.plate.impact.theory.impact import contact_time, orders, work_of_contact
 from derivation.plate.modes.theory.plate_factor import plate_factor_slope, plate_factors
 from derivation.plate.vocabulary import (
@@ -105,14 +105,14 @@ def law_slopes() -> tuple[Formula, ...]:
     series = small_contact().expression
     delta = a**2 / R * series.subs(a_ratio, a / h)
     slope = a / R * (2 + sp.Add(*((n + 2) * c * (a / h) ** n for n, c in _shown(series).items())))
-    wall, mode = reduced_split()
+    lateral, mode = reduced_split()
     weight = plate_factors()[2].expression.subs(T, 2 * eta * j_n) / (j_n * J1**2)
     excess_slope = plate_factor_slope().expression.subs(T, 2 * eta * j_n)
     sinc = 4 * alpha / sp.pi * sp.sin(alpha * j_n) / (alpha * j_n) * weight
     y = alpha * j_n
     shape = 3 * (sp.sin(y) - y * sp.cos(y)) / y**3
     deeper = 8 * alpha / (3 * sp.pi) * shape * excess_slope / (j_n * J1**2)
-    bracket = -8 / sp.pi**2 * wall_bracket(alpha)
+    bracket = -8 / sp.pi**2 * lateral_bracket(alpha)
     side = -4 / sp.pi**2 * sp.sinh(alpha * _y) / _y
     proof = prove(
         "Slopes of the contact law",
@@ -122,10 +122,10 @@ def law_slopes() -> tuple[Formula, ...]:
             "series": sp.diff(delta, a) - slope,
             "mode": sp.diff(alpha**2 * mode.expression, alpha) / (2 * alpha) - sinc,
             "finite radius": sp.diff(bracket, alpha) / (2 * alpha) - side,
-            "finite radius's weight": wall.expression.function * alpha**2
+            "finite radius's weight": lateral.expression.function * alpha**2
             - bracket
-            * sp.besselk(0, wall.expression.variables[0])
-            / sp.besseli(0, wall.expression.variables[0]),
+            * sp.besselk(0, lateral.expression.variables[0])
+            / sp.besseli(0, lateral.expression.variables[0]),
             "thickness": eta * sp.diff(mode.expression, eta) - deeper,
         },
     )
@@ -275,7 +275,7 @@ def peaks() -> tuple[Formula, ...]:
     work_slope = weighted(slopes, lambda n: sp.Rational(n, n + 3))
     lift_slope = weighted(slopes, lambda _: sp.Integer(1))
     by_energy, by_eta = work / rise, -work_slope / rise
-    depth_by_energy, depth_by_eta = work / lift, (lift_slope - work_slope) / lift
+    indentation_by_energy, depth_by_eta = work / lift, (lift_slope - work_slope) / lift
 
     def grown(value: sp.Expr) -> sp.Expr:
         """Return the derivative by log A_m, where D_n is proportional to A^(n - 2)."""
@@ -295,15 +295,19 @@ def peaks() -> tuple[Formula, ...]:
             "work": work - work_of_contact(),
             "by energy": energy_by_radius * by_energy - 1,
             "by eta": energy_by_radius * by_eta + energy_by_eta,
-            "indentation by energy": depth * by_energy - depth_by_energy,
+            "indentation by energy": depth * by_energy - indentation_by_energy,
             "indentation by eta": depth * by_eta + deeper(lift) / lift - depth_by_eta,
         },
     )
     rows = (
         ("radius_by_energy", r"\partial\log a_m/\partial\log\mathcal{Y}", by_energy),
         ("radius_by_thickness", r"\partial\log(a_m/h)/\partial\log\eta", by_eta),
-        ("depth_by_energy", r"\partial\log\delta_m/\partial\log\mathcal{Y}", depth_by_energy),
-        ("depth_by_thickness", r"\partial\log(\delta_m/h^2)/\partial\log\eta", depth_by_eta),
+        (
+            "indentation_by_energy",
+            r"\partial\log\delta_m/\partial\log\mathcal{Y}",
+            indentation_by_energy,
+        ),
+        ("indentation_by_thickness", r"\partial\log(\delta_m/h^2)/\partial\log\eta", depth_by_eta),
     )
     meanings = (
         r"derivative of $\log a_m$ by the log of the energy; that of the force is three times this",

@@ -29,7 +29,7 @@ import sympy as sp
 from derivation.engine.formula.ball import refine
 from derivation.engine.formula.proof import Proof, prove
 from derivation.plate.contact.theory.plate_series import coefficient, sine_coefficient
-from derivation.plate.contact.theory.split import WALL, reduced_split, wall_tail
+from derivation.plate.contact.theory.split import LATERAL, lateral_tail, reduced_split
 from derivation.plate.contact.theory.thin_roots import SIZE_OVER_INDEX
 from derivation.plate.impact.theory.impact import geometric
 from derivation.plate.modes.theory.plate_factor import plate_factors
@@ -43,7 +43,7 @@ _p, _r = sp.symbols("p r", nonnegative=True)
 @cache
 def slope_law() -> Formula:
     """Return the finite radius's part of S; that of the modes is in step 17."""
-    wall, mode = reduced_split()
+    lateral, mode = reduced_split()
 
     def sloped(part: sp.Expr) -> sp.Expr:
         return part + alpha * sp.diff(part, alpha) / 2
@@ -51,24 +51,24 @@ def slope_law() -> Formula:
     weight = plate_factors()[2].expression.subs(T, 2 * eta * j_n) / (j_n * J1**2)
     y = alpha * j_n
     density = -4 / sp.pi**2 * sp.sinh(alpha * _y) / _y
-    (height,) = wall.expression.variables
-    kernel = (wall.expression.function / WALL).subs(height, _y)
+    (height,) = lateral.expression.variables
+    kernel = (lateral.expression.function / LATERAL).subs(height, _y)
     proof = prove(
         "Slope of the law",
-        r"$F + \alpha F'/2$ of one mode and of the side wall's integrand.",
+        r"$F + \alpha F'/2$ of one mode and of the lateral surface's integrand.",
         {
             "modes": sloped(mode.expression) - 4 * alpha / sp.pi * sp.sin(y) / y * weight,
             "finite radius": sp.expand((sloped(kernel) - density).rewrite(sp.exp)),
         },
     )
     return Formula(
-        "slope_wall",
+        "slope_lateral",
         r"\frac{R}{2a}\frac{\mathrm{d}\delta_b}{\mathrm{d}a}",
         r"contribution of the finite radius to $d \delta/da$, divided by the half-space's",
-        sp.Integral(density * WALL.subs(height, _y), (_y, 0, sp.oo)),
+        sp.Integral(density * LATERAL.subs(height, _y), (_y, 0, sp.oo)),
         "1",
         "6",
-        ("F_wall",),
+        ("F_lateral",),
         proof,
     )
 
@@ -101,13 +101,13 @@ def one_sided() -> Formula:
         },
     )
     return Formula(
-        "S_most",
+        "S_bound",
         r"S_1",
         r"upper bound of $(R/2a) d \delta/da$ for every $a < b$",
         1 + sp.Rational(3, 2) * c_A[1] * a_ratio,
         "1",
         "6",
-        ("c_1_modes", "c_1_side", "slope_modes", "slope_wall"),
+        ("c_1_modes", "c_1_lateral", "slope_modes", "slope_lateral"),
         proof,
         where=("a_ratio * eta < 1",),
     )
@@ -165,7 +165,7 @@ def substitution() -> tuple[Formula, ...]:
 # --- numbers, as balls
 
 
-def wall_rest_ball(digits: int = 12) -> flint.arb:
+def lateral_rest_ball(digits: int = 12) -> flint.arb:
     """Return (4/pi^2) int_0^oo (sinh y - y)/y K0/I0 dy = (4/pi^2) int (Shi y - y)/(y I0^2) dy.
 
     By parts, Shi being the integral of sinh y/y and (K0/I0)' = -1/(y I0^2). For y <= 1
@@ -175,10 +175,10 @@ def wall_rest_ball(digits: int = 12) -> flint.arb:
     def integrand(y: flint.acb, _: bool) -> flint.acb:
         return (y.shi() - y) / (y * y.bessel_i(0) ** 2)
 
-    return wall_integral(integrand, digits, "the side wall's rest")
+    return lateral_integral(integrand, digits, "the lateral surface's rest")
 
 
-def wall_integral(
+def lateral_integral(
     integrand: Callable[[flint.acb, bool], flint.acb], digits: int, what: str
 ) -> flint.arb:
     """Return (4/pi^2) int_0^oo of a function below y^2/12 for y <= 1 and below e^y/I0^2 beyond."""
@@ -188,7 +188,7 @@ def wall_integral(
         start, end = flint.arb(2) ** -(bits // 2), flint.arb(bits)
         with flint.ctx.workprec(2 * bits):
             body = flint.acb.integral(integrand, flint.acb(start), flint.acb(end)).real
-        rest = start**3 / 36 + end.exp() * wall_tail(0, end)
+        rest = start**3 / 36 + end.exp() * lateral_tail(0, end)
         return 4 * (body + flint.arb(0, rest.upper())) / flint.arb.pi() ** 2
 
     return refine(compute, digits, what)

@@ -8,7 +8,7 @@ import sympy as sp
 from sympy.codegen.cfunctions import expm1
 
 from derivation.engine.rewrite.form import CLOSELY, TIMES, Branch, Step, Switch
-from derivation.engine.rewrite.sections import sections
+from derivation.engine.rewrite.truncated_series import truncated_series
 from derivation.plate.blocks import blocks
 from derivation.plate.modes.kernels.in_plane import in_plane
 from derivation.plate.modes.kernels.steps import (
@@ -24,12 +24,12 @@ from derivation.plate.modes.kernels.steps import (
     WHOLE_T,
     Shape,
     decay,
-    fade,
+    deficit,
+    exponential,
     far_u,
     far_v,
-    lack,
     ratio,
-    slip,
+    rounding,
     u,
     v,
 )
@@ -73,7 +73,7 @@ def mode_forms() -> dict[str, Shape]:
 
 def _deflection() -> Shape:
     """Return a sum of terms of one sign; the terms added to 1 are summed first."""
-    cubic_of = sections()["sinh_cubic"]
+    cubic_of = truncated_series()["sinh_cubic"]
     fields = (
         *DEPTHS,
         *ELASTIC,
@@ -82,20 +82,20 @@ def _deflection() -> Shape:
         ODD_U,
         ODD_V,
         Step(depth, h - z),
-        Step(slip, phi * (h - depth - z), "exact correction of v for rounding of h - z"),
+        Step(rounding, phi * (h - depth - z), "exact correction of v for rounding of h - z"),
         Step(rest, excess + (v * odd_u + far_u * ratio), "half-space value - 1 in thick plates"),
     )
     by_far = 2 * T * (ratio * (1 + far_v) + u * odd_v)
     scale = (A_j, 1, mu, -1, phi, -1)
 
     def lacking(main: sp.Expr) -> Step:
-        return Step(others, others - slip * (main + others), "with the correction of e^(-v)")
+        return Step(others, others - rounding * (main + others), "with the correction of e^(-v)")
 
     thin = Branch(
         (
             *fields,
             ODD_T,
-            Step(fade, sp.exp(-v), FADE.comment),
+            Step(exponential, sp.exp(-v), FADE.comment),
             Step(square_T, T**2),
             Step(cubic, cubic_of(square_T)),
             Step(both, 2 + square_T * cubic, "(sinh T + T)/T"),
@@ -106,7 +106,7 @@ def _deflection() -> Shape:
             lacking(head),
             Step(core, head + others),
         ),
-        CLOSELY(core / 2, fade, 1, *scale, T, -3),
+        CLOSELY(core / 2, exponential, 1, *scale, T, -3),
     )
     thick = Branch(
         (
@@ -117,7 +117,7 @@ def _deflection() -> Shape:
             LACK,
             Step(share, decay * (odd_T + 4 * T**2) * (1 + rest), "excess of sinh^2 T over D"),
             Step(over, by_far * far_u),
-            Step(others, rest + (share + over) / (1 - lack)),
+            Step(others, rest + (share + over) / (1 - deficit)),
             lacking(ONE),
             Step(core, 1 + others),
         ),
@@ -128,7 +128,7 @@ def _deflection() -> Shape:
 
 def _axial() -> Shape:
     """Return S_zz: for zero thickness alpha^2 (1 + 2 beta), to which a correction is added."""
-    known = sections()
+    known = truncated_series()
     square_of, cubic_of = known["cosh_square"], known["sinh_cubic"]
     quartic_of, quintic_of = known["cosh_quartic"], known["sinh_quintic"]
     fifth, third, first = sp.symbols("fifth third first", real=True)
@@ -185,7 +185,7 @@ def _axial() -> Shape:
 
 def _shear() -> Shape:
     """Return S_rz, which vanishes on both faces."""
-    cubic_of = sections()["sinh_cubic"]
+    cubic_of = truncated_series()["sinh_cubic"]
     thin = Branch(
         (
             *DEPTHS,

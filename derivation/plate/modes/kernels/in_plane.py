@@ -6,8 +6,8 @@ instead. In thick plates those would cancel.
 
 import sympy as sp
 
-from derivation.engine.rewrite.form import CLOSELY, LOST, SUM, TIMES, Branch, Step, Switch
-from derivation.engine.rewrite.sections import sections
+from derivation.engine.rewrite.form import CLOSELY, ROUNDING_ERROR, SUM, TIMES, Branch, Step, Switch
+from derivation.engine.rewrite.truncated_series import truncated_series
 from derivation.plate.modes.kernels.steps import (
     DECAY,
     DEPTHS,
@@ -22,10 +22,10 @@ from derivation.plate.modes.kernels.steps import (
     Shape,
     Steps,
     decay,
+    deficit,
     far_u,
     far_v,
-    lack,
-    slip,
+    rounding,
     u,
     v,
     x,
@@ -34,7 +34,7 @@ from derivation.plate.vocabulary import A_j, T, h, lam, mu, phi, z
 
 t, zeta, narrow, gap = sp.symbols("t zeta narrow gap", real=True)
 square_T, square_x, square_t = sp.symbols("square_T square_x square_t", real=True)
-depth, dist, height, rest_u = sp.symbols("depth dist height rest_u", real=True)
+depth, distance, height, rest_u = sp.symbols("depth distance height rest_u", real=True)
 rise, sag, excess, others = sp.symbols("rise sag excess others", real=True)
 by_v, whole, tip, rest = sp.symbols("by_v whole tip rest", real=True)
 over, core, level = sp.symbols("over core level", real=True)
@@ -47,12 +47,17 @@ small_x, small_t, lift, gain, lean = sp.symbols("small_x small_t lift gain lean"
 CROSSING = sp.Integer(3)
 """Switch point of the radial displacement, like `THIN`."""
 
-TO_FAR = (Step(dist, h + z), Step(height, dist - h))
+TO_FAR = (Step(distance, h + z), Step(height, distance - h))
 REST_U = Step(rest_u, phi * (z - height), "correction of u for rounding of h + z")
-EXACT_U = (*TO_FAR, Step(rest_u, REST_U.expression + LOST(phi, dist), "rounding correction of u"))
+EXACT_U = (
+    *TO_FAR,
+    Step(rest_u, REST_U.expression + ROUNDING_ERROR(phi, distance), "rounding correction of u"),
+)
 EXACT_V = (
     Step(depth, h - z),
-    Step(slip, phi * (h - depth - z) + LOST(phi, depth), "correction of v for rounding"),
+    Step(
+        rounding, phi * (h - depth - z) + ROUNDING_ERROR(phi, depth), "correction of v for rounding"
+    ),
 )
 MIDDLE = (Step(t, phi * z), Step(zeta, z / h, "t/x"))
 
@@ -64,7 +69,7 @@ def in_plane() -> dict[str, Shape]:
 
 def _of_middle(*unused: sp.Symbol) -> Steps:
     """Return the factors of bending and extension, each divided by its power."""
-    square_of, cubic_of = sections()["cosh_square"], sections()["sinh_cubic"]
+    square_of, cubic_of = truncated_series()["cosh_square"], truncated_series()["sinh_cubic"]
     steps = (
         Step(square_T, T**2),
         Step(square_x, square_T / 4),
@@ -88,7 +93,7 @@ def _of_middle(*unused: sp.Symbol) -> Steps:
 
 def _growth() -> Steps:
     """Return the growth of `level`, which both stresses share."""
-    quintic_of = sections()["sinh_quintic"]
+    quintic_of = truncated_series()["sinh_quintic"]
     growth = (cosh_x * small_t + rise - 6 * square_T * quintic_of(square_T)) / (6 * cubic)
     return (
         Step(gain, growth, "cosh x sinh t/(6 t cubic) exceeds 1 by"),
@@ -106,7 +111,11 @@ def _from_faces(main: tuple[sp.Expr, ...], far: sp.Expr, less: sp.Expr) -> Steps
         Step(tip, far_u * far, "contribution of the back face"),
         Step(over, less - 2 * rest_u * tip),
         Step(whole, sum(main) - (tip + over)),
-        Step(rest, whole * (lack / (1 - lack) - slip) - over, "with the correction of e^(-v)"),
+        Step(
+            rest,
+            whole * (deficit / (1 - deficit) - rounding) - over,
+            "with the correction of e^(-v)",
+        ),
         Step(core, SUM(*main, -tip, rest)),
     )
 
@@ -118,9 +127,9 @@ def _radial_displacement() -> Shape:
     1 - (x^2 - t^2)/2 and smaller terms. Any one of three terms may dominate, or cancel the others:
     they are added with compensation, rounding errors of x and v included.
     """
-    quartic_of = sections()["cosh_quartic"]
+    quartic_of = truncated_series()["cosh_quartic"]
     above_x, above_t, mixed = sp.symbols("above_x above_t mixed", real=True)
-    bent = sp.Symbol("bent", real=True)
+    bending_part = sp.Symbol("bending_part", real=True)
     base, shift = sp.symbols("base shift", real=True)
     scale = (A_j, 1, mu, -1, phi, -2)
     elastic = (
@@ -135,7 +144,11 @@ def _radial_displacement() -> Shape:
             *elastic,
             Step(t, phi * z),
             Step(c_less_1, -lam / modulus, "-2 nu"),
-            Step(gap, 2 * x * LOST(phi, h) + LOST(x, x), "correction of x^2 for rounding"),
+            Step(
+                gap,
+                2 * x * ROUNDING_ERROR(phi, h) + ROUNDING_ERROR(x, x),
+                "correction of x^2 for rounding",
+            ),
             Step(square_x, x**2 + gap),
             *(made[s] for s in (square_t, small_x, small_t, sinh_x, sinh_t)),
             Step(above_x, square_x * quartic_of(square_x), "(cosh x - 1)/x^2 - 1/2"),
@@ -148,10 +161,14 @@ def _radial_displacement() -> Shape:
             Step(mixed, rise * versine - square_x * small_t * sinh_x),
             Step(others, square_x * (above_x - small_x) + (square_t * above_t + mixed)),
             Step(sag, (square_x - square_t) / 2 - others),
-            Step(bent, c * (rise * sinh_t + small_t) - sag),
-            Step(bent, 1 + (c + bent), "cosh x cosh t + (c cosh x - x sinh x) sinh t/t"),
-            Step(bending, CLOSELY(bent / 2, plus, 1, minus, -1, z, 1, h, -1), "odd in z"),
-            Step(gap, square_x**2 * sections()["cosh_quintic"](square_x)),
+            Step(bending_part, c * (rise * sinh_t + small_t) - sag),
+            Step(
+                bending_part,
+                1 + (c + bending_part),
+                "cosh x cosh t + (c cosh x - x sinh x) sinh t/t",
+            ),
+            Step(bending, CLOSELY(bending_part / 2, plus, 1, minus, -1, z, 1, h, -1), "odd in z"),
+            Step(gap, square_x**2 * truncated_series()["cosh_quintic"](square_x)),
             Step(narrow, square_x / 3 + gap, "cosh x - sinh x/x"),
             Step(stretching, square_t * sinh_t * sinh_x - narrow * versine - gap),
             Step(rest, c_less_1 * lift + stretching, "small in thin plates"),
@@ -172,7 +189,7 @@ def _radial_displacement() -> Shape:
             FADE,
             Step(plus, c + v),
             Step(by_v, c - v - (2 * T * (c + u) + far_u * plus)),
-            *_from_faces((base, -v, shift), plus + 2 * T * (c - u), slip + decay * by_v),
+            *_from_faces((base, -v, shift), plus + 2 * T * (c - u), rounding + decay * by_v),
         ),
         TIMES(core / 2, *FADED, *scale),
     )
@@ -191,7 +208,7 @@ def _radial() -> Shape:
                 (cosh_x * (versine - small_t) - square_x * sinh_t * sinh_x) / (6 * cubic),
                 "factor of `level` that gives the bending part of twice mode_tt",
             ),
-            Step(gap, square_x * sections()["cosh_quintic"](square_x)),
+            Step(gap, square_x * truncated_series()["cosh_quintic"](square_x)),
             Step(narrow, square_x * (sp.Rational(1, 3) + gap), "cosh x - sinh x/x"),
             Step(stretching, (square_t * sinh_t * sinh_x - narrow * versine) - narrow, "even in z"),
             Step(core, SUM(2 * level, 2 * lean, level * bending + stretching / plus)),
@@ -208,7 +225,7 @@ def _radial() -> Shape:
             FADE,
             Step(plus, 1 + v),
             Step(by_v, 1 - v - (2 * T * (1 + u) + far_u * plus)),
-            *_from_faces((ONE, -v), plus + 2 * T * (1 - u), slip + decay * by_v),
+            *_from_faces((ONE, -v), plus + 2 * T * (1 - u), rounding + decay * by_v),
         ),
         TIMES(core, *FADED, A_j, 1),
     )

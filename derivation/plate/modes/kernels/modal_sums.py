@@ -10,7 +10,7 @@ from derivation.engine.emit.kernels import EmittedKernel, Style, kernel, lines
 from derivation.engine.emit.printer import to_numpy
 from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.form import Form
-from derivation.plate.modes.kernels.shares import ARGUMENTS as SHARE_ARGUMENTS
+from derivation.plate.modes.kernels.contributions import ARGUMENTS as CONTRIBUTION_ARGUMENTS
 from derivation.plate.vocabulary import ARGUMENTS, C1, C2, C3, C4, J1, PLATE, A_j, b, phi
 
 TESTED = {
@@ -41,7 +41,7 @@ def kernel_of_sum(
 ) -> EmittedKernel:
     """Return the row of a modal sum: its arguments are those of its parts without phi and J1.
 
-    The contribution of one mode has a stable form of its own, or is a routine of `shares`.
+    The contribution of one mode has a stable form of its own, or is a routine of `contributions`.
     """
     expression, coefficient = formula.expression, formulas["A_j"]
     parts: tuple[Record, ...] = (formula,)
@@ -52,7 +52,7 @@ def kernel_of_sum(
     arguments = tuple(x for x in ARGUMENTS if x.name in names)
     under = f"{coefficient.name}({', '.join(x.name for x in coefficient.arguments)})"
     steps = () if share is None else lines(share.steps)
-    given = ", ".join(under if x == A_j else str(x) for x in SHARE_ARGUMENTS)
+    given = ", ".join(under if x == A_j else str(x) for x in CONTRIBUTION_ARGUMENTS)
     value = f"{formula.name}_of_mode({given})" if share is None else to_numpy(share.value)
     result = _of_modes(expression, formulas)
     return kernel(

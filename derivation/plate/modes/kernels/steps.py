@@ -22,7 +22,7 @@ from derivation.plate.vocabulary import T, h, lam, mu, phi, z
 x, u, v = sp.symbols("x u v", real=True)
 far_u, far_v, decay = sp.symbols("far_u far_v decay", real=True)
 ratio = sp.Symbol("ratio", positive=True)
-slip, fade, lack = sp.symbols("slip fade lack", real=True)
+rounding, exponential, deficit = sp.symbols("rounding exponential deficit", real=True)
 
 Steps = tuple[Step, ...]
 Shape = tuple[Steps, sp.Expr | Switch]
@@ -39,9 +39,9 @@ DEPTHS = (
     Step(u, phi * (h + z), "from the back face"),
     Step(v, phi * (h - z), "from the contact face"),
 )
-FADE = Step(fade, sp.exp(-sp.Min(v, ONCE)), "decay from the contact face")
-FADED = (fade, 1, TAIL(v), 1)
+FADE = Step(exponential, sp.exp(-sp.Min(v, ONCE)), "decay from the contact face")
+FADED = (exponential, 1, TAIL(v), 1)
 FAR_U = Step(far_u, sp.exp(-2 * u), "decay to the back face and back")
 FAR_V = Step(far_v, sp.exp(-2 * v))
 DECAY = Step(decay, sp.exp(-2 * T))
-LACK = Step(lack, decay * (4 * T**2 + 2 - decay), "1 - 4 e^(-2T) D")
+LACK = Step(deficit, decay * (4 * T**2 + 2 - decay), "1 - 4 e^(-2T) D")

@@ -15,9 +15,9 @@ from derivation.engine.oracle.agreement import FLOOR_DIGITS, RouteError, Routes,
 from derivation.plate import oracle as balls
 from derivation.plate.contact.route.moments import (
     finite_part,
+    lateral_moment,
     leading_finite_part,
-    leading_wall_moment,
-    wall_moment,
+    leading_lateral_moment,
 )
 from derivation.plate.modes.route.exponentials import (
     Exponential,
@@ -247,8 +247,8 @@ ROUTES: dict[str, Callable[[Values], mpf]] = {
     "bessel_j0_zeros": lambda v: _zero(int(v["count"]), mp.dps),
     "bessel_j1_zeros": lambda v: mp.besseljzero(1, int(v["count"])),
     "bessel_j1_at_j0_zeros": lambda v: mp.besselj(1, _zero(int(v["count"]), mp.dps)),
-    "kappa": lambda v: wall_moment(int(v["n"]), mp.dps),
-    "kappa_ratio": lambda v: wall_moment(int(v["n"]), mp.dps) / leading_wall_moment(v["n"]),
+    "kappa": lambda v: lateral_moment(int(v["n"]), mp.dps),
+    "kappa_ratio": lambda v: lateral_moment(int(v["n"]), mp.dps) / leading_lateral_moment(v["n"]),
     "finite_part": lambda v: finite_part(int(v["k"]), mp.dps),
     "finite_part_ratio": lambda v: finite_part(int(v["k"]), mp.dps) / leading_finite_part(v["k"]),
 }

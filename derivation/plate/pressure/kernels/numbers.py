@@ -40,7 +40,7 @@ FADED = 23
 """T = 2 eta j_n up to which modes are summed in plates that are not thin."""
 WIDEST_SHARE = 0.95
 """Largest a/b: the kernel is singular where t + s = 2 b."""
-WALL_STEPS, WALL_FIRST, WALL_LAST = 5, -12, 30
+LATERAL_STEPS, LATERAL_FIRST, LATERAL_LAST = 5, -12, 30
 """Number of trapezoids per unit of u for the integral of the lateral surface, y = exp(u - e^(-u)).
 
 The integrand behaves like y^2 log y and is below 1e-20 before the first; the last y is 400.
@@ -51,7 +51,9 @@ def pressure_numbers() -> Numbers:
     """Return collocation points, wave numbers of the thin plate, nodes in y, and limits."""
     first, cubic = _powers()
     with flint.ctx.workprec(3 * BITS):
-        nodes, waves, wall = (_doubles(pairs) for pairs in (_collocation(), _waves(), _wall()))
+        nodes, waves, lateral = (
+            _doubles(pairs) for pairs in (_collocation(), _waves(), _lateral())
+        )
         modes = nearest_double(_front(0))
     square = math.fsum((waves[1] * waves[0] ** 2).tolist()) / 2
     return Numbers(
@@ -78,8 +80,8 @@ def pressure_numbers() -> Numbers:
             Constant("WEIGHTS", nodes[1], "Weights of int_0^1 of an even function."),
             Constant("WAVES", waves[0], "Wave numbers w h = T/2, thin plate."),
             Constant("WAVE_WEIGHTS", waves[1], "Their weights (G(T) - 1)/pi dT."),
-            Constant("WALL", wall[0], "Nodes y of the lateral surface."),
-            Constant("WALL_WEIGHTS", wall[1], "Their weights (4/pi^2) K0/I0 e^(2y) dy."),
+            Constant("LATERAL", lateral[0], "Nodes y of the lateral surface."),
+            Constant("LATERAL_WEIGHTS", lateral[1], "Their weights (4/pi^2) K0/I0 e^(2y) dy."),
         ),
     )
 
@@ -119,19 +121,19 @@ def _waves() -> list[tuple[Ball, Ball]]:
     return [(T / 2, w * plate_excess(T) / Ball.pi()) for T, w in places]
 
 
-def wall_places() -> list[float]:
+def lateral_places() -> list[float]:
     """Return the nodes y of the lateral surface's integral, ascending."""
     with flint.ctx.workprec(3 * BITS):
-        return [nearest_double(y) for y, _ in _wall()]
+        return [nearest_double(y) for y, _ in _lateral()]
 
 
-def _wall() -> list[tuple[Ball, Ball]]:
+def _lateral() -> list[tuple[Ball, Ball]]:
     """Return nodes y and weights of that integral, times e^(2y) and (4/pi^2) K0/I0."""
     front, found = _front(1), []
-    for index in range(WALL_FIRST, WALL_LAST + 1):
-        u = Ball(index) / WALL_STEPS
-        fade = (-u).exp()
-        y = (u - fade).exp()
+    for index in range(LATERAL_FIRST, LATERAL_LAST + 1):
+        u = Ball(index) / LATERAL_STEPS
+        exponential = (-u).exp()
+        y = (u - exponential).exp()
         bessel = y.bessel_k(Ball(0)) / y.bessel_i(Ball(0)) * (2 * y).exp()
-        found.append((y, y * (1 + fade) / WALL_STEPS * bessel * front))
+        found.append((y, y * (1 + exponential) / LATERAL_STEPS * bessel * front))
     return found

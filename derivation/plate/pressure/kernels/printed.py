@@ -16,10 +16,10 @@ LOW = sp.Symbol("LOW", positive=True)
 phase, rise, x, y, c, unit = sp.symbols("phase rise x y c unit", positive=True)
 
 
-def _shape(of_wall: bool, turn: sp.Expr) -> sp.Expr:
+def _shape(of_lateral: bool, turn: sp.Expr) -> sp.Expr:
     """Return the kernel's cosine."""
-    expression = kernel()[of_wall].expression
-    (cosine,) = expression.atoms(sp.cosh if of_wall else sp.cos)
+    expression = kernel()[of_lateral].expression
+    (cosine,) = expression.atoms(sp.cosh if of_lateral else sp.cos)
     return cosine.subs(alpha, turn * alpha / cosine.args[0])
 
 
@@ -44,7 +44,7 @@ def wave() -> Claims:
 
 
 @named_routine
-def wall_wave() -> Claims:
+def lateral_wave() -> Claims:
     """Return 1 - cosh(rise x), and its slope by x divided by x, both divided by e^y."""
     grown, faded, half, chord = sp.symbols("grown faded half chord", positive=True)
     risen = sp.exp(-y) * (1 - _shape(True, rise * x))
@@ -211,7 +211,7 @@ def pressure_points() -> Claims:
 
 ROUTINES = (
     wave,
-    wall_wave,
+    lateral_wave,
     paraboloid,
     sphere,
     contact_results,

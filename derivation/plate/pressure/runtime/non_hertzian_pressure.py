@@ -32,12 +32,12 @@ from generated.pressure_numbers import (
     CUBIC,
     FADED,
     FIRST,
+    LATERAL,
+    LATERAL_WEIGHTS,
     MODES,
     NODES,
     SQUARE,
     THIN,
-    WALL,
-    WALL_WEIGHTS,
     WAVE_WEIGHTS,
     WAVES,
     WEIGHTS,
@@ -143,7 +143,7 @@ def plate(h: float, b: float) -> Plate:
     count = int(FADED / (2.0 * np.pi * eta)) + 2
     zeros, weights = _weights(np.asarray(eta), count)
     modes = MODES * weights
-    return Plate(h, b, b, first / eta, 0.0, zeros, modes, WALL, WALL_WEIGHTS)
+    return Plate(h, b, b, first / eta, 0.0, zeros, modes, LATERAL, LATERAL_WEIGHTS)
 
 
 @quiet
@@ -242,8 +242,10 @@ def _waves(plate: Plate, a: Double, x: Double, share: Double) -> _Waves:
     ratio = (a / plate.unit)[:, None]
     points, phase, rise = x[:, :, None], ratio * plate.waves, ratio * plate.rises
     waves = kernels.wave(points, phase[:, None, :])
-    walls = kernels.wall_wave(points, rise[:, None, :], plate.rises)
-    rises, bends = (np.concatenate(pair, axis=2) for pair in zip(waves, walls, strict=True))
+    lateral_surfaces = kernels.lateral_wave(points, rise[:, None, :], plate.rises)
+    rises, bends = (
+        np.concatenate(pair, axis=2) for pair in zip(waves, lateral_surfaces, strict=True)
+    )
     faded = np.concatenate((np.ones(plate.waves.size), np.exp(-plate.rises)))
     weights = np.concatenate((ratio * plate.wave_weights, -ratio * plate.rise_weights), axis=1)
     return _Waves(rises, bends, weights * share[:, None], faded)

@@ -8,7 +8,7 @@ of a N lies between -tau (x^2 + s^2) and 0, and M(x, s) - M(1, s) within tau (1 
 
 for every a <= g b/2. For a mode, 1 - cos x cos y <= (x^2 + y^2)/2 and |sin x cos y| <= x; for the
 lateral surface (cosh z - 1)/z^2 and sinh(z)/z increase with z. The two parts of Theta are those of
--(15/2) c_3/h^3 except for sinh(g y)/g instead of y, which adds at most WALL_EXTRA to the sum.
+-(15/2) c_3/h^3 except for sinh(g y)/g instead of y, which adds at most LATERAL_EXTRA to the sum.
 Let tau <= 1/4.
 
 The solution is chi = (E* a^2/(pi R)) (1 - x^2) z, and z differs from 1 by at most
@@ -42,7 +42,7 @@ WIDTH = sp.Rational(7, 8)
 """g: the actual contact radius is at most g b/2."""
 WIDEST = sp.Rational(2, 5)
 """Largest ratio of the Hertz radius to that of the plate."""
-WALL_EXTRA = sp.Rational(2, 25)
+LATERAL_EXTRA = sp.Rational(2, 25)
 """Upper bound of (2/pi^2) int (y sinh(g y)/g - y^2) K0/I0 dy."""
 LARGEST = sp.Rational(1, 5)
 """Largest theta."""
@@ -53,11 +53,11 @@ _x, _s, _y = sp.symbols("x s y", positive=True)
 _tau, _theta = sp.symbols("tau theta", positive=True)
 
 
-def wall_share_ball(digits: int = 12) -> flint.arb:
+def lateral_share_ball(digits: int = 12) -> flint.arb:
     """Return int_0^oo y sinh(g y)/g K0/I0 dy over kappa_2.
 
     By parts, (K0/I0)' = -1/(y I0^2): int (y cosh(g y) - sinh(g y)/g)/(g^2 y I0^2) dy. Its tail is
-    below e^y/(g^2 I0^2) <= pi^2 e y e^(-y)/g^2, as `contact.theory.split.wall_tail` has I0.
+    below e^y/(g^2 I0^2) <= pi^2 e y e^(-y)/g^2, as `contact.theory.split.lateral_tail` has I0.
     """
 
     def integrand(y: flint.acb, _: bool) -> flint.acb:
@@ -81,17 +81,17 @@ def wall_share_ball(digits: int = 12) -> flint.arb:
 
 
 @cache
-def wall_share() -> flint.arb:
-    """Return the contribution as a ball; prove WALL_EXTRA and that a stays below g b/2.
+def lateral_share() -> flint.arb:
+    """Return the contribution as a ball; prove LATERAL_EXTRA and that a stays below g b/2.
 
     Raises
     ------
     ProofError
         If one of both fails.
     """
-    share = wall_share_ball()
+    share = lateral_share_ball()
     extra = 2 / flint.arb.pi() ** 2 * (share - 1) * kappa_ball(2)
-    if not extra < flint.arb(int(WALL_EXTRA.p)) / int(WALL_EXTRA.q):
+    if not extra < flint.arb(int(LATERAL_EXTRA.p)) / int(LATERAL_EXTRA.q):
         raise ProofError(f"Bound for Hertz pressure: the contribution of the edge is {share}")
     # a^3 <= a_H^3/(1 - zeta) with zeta <= theta.
     if not WIDEST**3 / (1 - LARGEST) <= (WIDTH / 2) ** 3:
@@ -156,9 +156,9 @@ def pressure_bound() -> tuple[Formula, Formula]:
 
     c_3 < 0 for every plate, because both of its parts are negative: the bounds are positive.
     """
-    wall_share()
+    lateral_share()
     proof = estimates()
-    factor = WALL_EXTRA * eta**3 - sp.Rational(15, 2) * c_A[3]
+    factor = LATERAL_EXTRA * eta**3 - sp.Rational(15, 2) * c_A[3]
     theta = factor * a_ratio**3
     holds = (f"({factor}) * a_ratio**3 <= {LARGEST}", f"a_ratio * eta <= {WIDEST}")
 
@@ -170,7 +170,7 @@ def pressure_bound() -> tuple[Formula, Formula]:
             share * theta,
             "1",
             "",
-            ("c_3_modes", "c_3_side", "k_modes", "k_wall"),
+            ("c_3_modes", "c_3_lateral", "k_modes", "k_lateral"),
             proof,
             where=holds,
         )
@@ -179,5 +179,7 @@ def pressure_bound() -> tuple[Formula, Formula]:
         bound(
             "pressure_slope_bound", r"|\Delta S|_{\max}", r"the slope $(R/2a) d \delta/da$", BELOW
         ),
-        bound("pressure_depth_bound", r"|\Delta\delta|_{\max} R/a^2", r"$\delta R/a^2$", DEPTH),
+        bound(
+            "pressure_indentation_bound", r"|\Delta\delta|_{\max} R/a^2", r"$\delta R/a^2$", DEPTH
+        ),
     )

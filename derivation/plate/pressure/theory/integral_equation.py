@@ -22,7 +22,7 @@ import sympy as sp
 from derivation.engine.formula.proof import Proof, prove
 from derivation.plate.contact.theory.hertz import contact_radius, norm_of_bessel, pressure
 from derivation.plate.contact.theory.plate_series import coefficient
-from derivation.plate.contact.theory.split import WALL, contour
+from derivation.plate.contact.theory.split import LATERAL, contour
 from derivation.plate.impact.theory.sensitivity import law_slopes, reduced_modulus
 from derivation.plate.impact.theory.substitution import slope_law
 from derivation.plate.modes.theory.influence import influence_coefficients
@@ -153,7 +153,7 @@ def kernel() -> tuple[Formula, Formula]:
     share = reduced_modulus() / sp.pi * half * G * load * sp.cos(phi * _t)
     weight = plate_factors()[2].expression.subs(T, 2 * eta * j_n) / (j_n * J1**2)
     mode = 4 / sp.pi * weight * sp.cos(alpha * j_n)
-    wall = -4 / sp.pi**2 * sp.cosh(alpha * _y)
+    lateral = -4 / sp.pi**2 * sp.cosh(alpha * _y)
 
     def paired(part: sp.Expr) -> sp.Expr:
         ends = (part.subs(alpha, (_t + sign * _s) / b) for sign in (1, -1))
@@ -176,12 +176,12 @@ def kernel() -> tuple[Formula, Formula]:
             "thickness": f.subs(_x, b * phi) / (b * phi * J1**2) * (G - 1)
             - _spread(paired(mode).subs(scaled), sp.cos),
             "half-space": f / 2 * b - 2 / sp.pi * sp.cos(_x * _t / b) * sp.cos(_x * _s / b),
-            "finite radius": -both / (2 * sp.pi) - _spread(paired(wall), sp.cosh),
+            "finite radius": -both / (2 * sp.pi) - _spread(paired(lateral), sp.cosh),
             "slope, modes": sp.diff(slope[0], alpha) - mode,
-            "slope, finite radius": sp.diff(slope[1] / bessel, alpha).subs(height, _y) - wall,
+            "slope, finite radius": sp.diff(slope[1] / bessel, alpha).subs(height, _y) - lateral,
         },
     )
-    sources = ("slope_modes", "slope_wall", "C_half", "G")
+    sources = ("slope_modes", "slope_lateral", "C_half", "G")
     return (
         Formula(
             "k_modes",
@@ -195,10 +195,10 @@ def kernel() -> tuple[Formula, Formula]:
             summed=True,
         ),
         Formula(
-            "k_wall",
+            "k_lateral",
             r"k_b(\alpha)",
             "contribution of the lateral surface to the kernel",
-            sp.Integral(wall * WALL, (_y, 0, sp.oo)),
+            sp.Integral(lateral * LATERAL, (_y, 0, sp.oo)),
             "1",
             "",
             sources,
@@ -307,7 +307,7 @@ def at_given_force() -> tuple[Formula, Formula]:
             ratio,
             "1",
             "",
-            ("k_modes", "k_wall", "delta_reduced"),
+            ("k_modes", "k_lateral", "delta_reduced"),
             proof,
         ),
         Formula(
@@ -317,7 +317,7 @@ def at_given_force() -> tuple[Formula, Formula]:
             law.subs(q, 1),
             "1",
             "",
-            ("k_modes", "k_wall", "delta_reduced"),
+            ("k_modes", "k_lateral", "delta_reduced"),
             proof,
         ),
     )

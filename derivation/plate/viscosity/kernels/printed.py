@@ -19,7 +19,7 @@ from derivation.plate.viscosity.theory.two_bodies import (
 from derivation.plate.vocabulary import R, lam, m, mu, v0, viscous_time, x_v
 
 LOSS = sp.Symbol("LOSS", positive=True)
-gone = sp.Symbol("gone", positive=True)
+energy_loss = sp.Symbol("energy_loss", positive=True)
 STIFFNESS = sp.Rational(16, 3), *YOUNG[1:]
 """(4/3) E* as factors."""
 
@@ -82,7 +82,7 @@ def spiral_bounds() -> Claims:
             (1 + t.rise) * quarter,
             -expm1(-2 * (loss + pull)) * t.energy,
         ),
-        (of.longer, of.shorter, of.depth, of.radius, of.pull, of.weaker, of.gone),
+        (of.longer, of.shorter, of.depth, of.radius, of.pull, of.weaker, of.energy_loss),
         {},
         _by_logarithms,
     )
@@ -93,11 +93,11 @@ def rebound_bounds() -> Claims:
     """Return logarithms for the restitution: from the energy loss, and from the weight."""
     of, t = theory.bounds(), theory
     return Claims(
-        (gone, epsilon, t.steepness, t.energy),
+        (energy_loss, epsilon, t.steepness, t.energy),
         (),
-        (-log1p(-gone) / 2, log1p((t.energy - 1) * t.steepness * epsilon) / 2),
+        (-log1p(-energy_loss) / 2, log1p((t.energy - 1) * t.steepness * epsilon) / 2),
         (of.slower, of.faster),
-        {gone: of.gone},
+        {energy_loss: of.energy_loss},
         _by_logarithms,
     )
 

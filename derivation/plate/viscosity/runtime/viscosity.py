@@ -139,10 +139,10 @@ def viscous_logarithms(extremes: ImpactExtremes) -> tuple[float, float, float, f
     epsilon, steepness, *_, energy = extremes
     if not (epsilon < 1.0 and steepness * epsilon < 2.0):
         return inf, inf, inf, inf, inf
-    longer, shorter, shallower, narrower, pull, weaker, gone = spiral_bounds(*extremes)
-    if not gone < 1.0:
+    longer, shorter, shallower, narrower, pull, weaker, energy_loss = spiral_bounds(*extremes)
+    if not energy_loss < 1.0:
         return inf, inf, inf, inf, inf  # the weight may prevent separation
-    leaving = max(rebound_bounds(gone, epsilon, steepness, energy))
+    leaving = max(rebound_bounds(energy_loss, epsilon, steepness, energy))
     time = max(longer, shorter)
     if energy > 1.0:  # a slower sphere needs more time to rise against its weight
         time += leaving

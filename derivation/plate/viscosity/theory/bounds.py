@@ -57,7 +57,7 @@ class Bounds(NamedTuple):
         Indentation and contact radius, which can only decrease.
     pull, weaker
         Largest force.
-    gone
+    energy_loss
         Fraction of the sphere's own energy that may be lost.
     slower, faster
         Restitution.
@@ -71,7 +71,7 @@ class Bounds(NamedTuple):
     radius: sp.Expr
     pull: sp.Expr
     weaker: sp.Expr
-    gone: sp.Expr
+    energy_loss: sp.Expr
     slower: sp.Expr
     faster: sp.Expr
     end: sp.Expr
@@ -88,7 +88,7 @@ def bounds() -> Bounds:
     whole = -sp.integrate(radial, (phi, 0, sp.pi)) / least
     amplitude = sp.sqrt(sp.trigsimp(sp.expand(force**2 + sp.diff(force, phi) ** 2)))
     end = _end()
-    gone = energy * (1 - (sp.exp(-whole) / amplitude) ** 2)
+    energy_loss = energy * (1 - (sp.exp(-whole) / amplitude) ** 2)
     return Bounds(
         rise * whole - sp.log(least),
         fall * whole + sp.log(most) - sp.log(1 - end),
@@ -96,8 +96,8 @@ def bounds() -> Bounds:
         radius * till_turned,
         sp.log(amplitude),
         (1 + rise) * till_turned,
-        gone,
-        -sp.log(1 - gone) / 2,
+        energy_loss,
+        -sp.log(1 - energy_loss) / 2,
         sp.log(1 + (energy - 1) * 2 * end) / 2,
         end,
         _proof(till_turned, whole, least, most, amplitude),

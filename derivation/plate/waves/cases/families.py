@@ -20,7 +20,7 @@ from generated.wave_numbers import NEAR, SHALLOW, SMALL
 WAVES = "switch points of the plate's waves"
 HARD_WAVES = "waves of the plate"
 
-LOWEST = ("bending_frequency", "bending_residue", "bending_share")
+LOWEST = ("bending_frequency", "bending_residue", "bending_fraction")
 BRANCHES = ("antisymmetric_frequency", "antisymmetric_residue", "symmetric_frequency",
             "symmetric_residue")  # fmt: skip
 INFLUENCE = "dynamic_influence"
@@ -186,7 +186,7 @@ def _shapes() -> Iterator[HardCase]:
         for kernel, same in _other_arguments().items():
             given = exact_inputs(x=_SINGLES) | same
             yield HardCase(HARD_WAVES, kernel, cause, given, form)
-    cause = "Not a number."
+    cause = "An empty array."
     for kernel, same in _other_arguments().items():
         yield HardCase(HARD_WAVES, kernel, cause, exact_inputs(x=_NONE) | same, "empty")
     both = exact_inputs(x=_SINGLES, nu=(-0.5, 0.25))

@@ -69,7 +69,7 @@ def zero_of(bends: bool) -> Routine:
         _slope(slope_q, -over, (cosh_q, sinh_q), q, E_q),
     )
     return routine(
-        "bent" if bends else "stretched",
+        "bending_part" if bends else "extension_part",
         (over, x, gam, rest),
         (*FIRST, slopes[0 if bends else 1]),
         (
@@ -105,7 +105,9 @@ def above_shear() -> Routine:
 
 
 total, d, low, F, small, even = sp.symbols("S d low F small even", positive=True)
-alike, bent, bending, stretching = sp.symbols("alike bent bending stretching", positive=True)
+alike, bending_part, bending, stretching = sp.symbols(
+    "alike bending_part bending stretching", positive=True
+)
 shc_d, shc_S, shc_p, shc_q = sp.symbols("shc_d shc_S shc_p shc_q", positive=True)
 fading_p, fading_q, tanh_p, tanh_q = sp.symbols("fading_p fading_q tanh_p tanh_q", positive=True)
 
@@ -122,7 +124,7 @@ def _bracket() -> tuple[Let | Several | Choice, ...]:
         Several((F,), "series", (low**2, GUARDED(d, low) ** 2), (differences(),)),
         Let(small, 2 * rest * F / (sp.cosh(GUARDED(p, low)) * sp.cosh(GUARDED(q, low)))),
         Choice(alike, unlike, apart, together, safe_yes={load: sp.Integer(1)}, safe_no={q: p}),
-        Choice(bent, near, small, alike),
+        Choice(bending_part, near, small, alike),
     )
 
 
@@ -140,7 +142,7 @@ def below_shear() -> Routine:
         Let(tanh_p, sp.tanh(p) / p),
         Several((tanh_q,), "tanhc", (q,), (sp.tanh(q) / q,)),
         *_bracket(),
-        Let(bending, 4 * square * (q * q * bent) - load * tanh_p),
+        Let(bending, 4 * square * (q * q * bending_part) - load * tanh_p),
         Several((shc_S,), "shc", (total,), (scaled_shc(p + q),)),
         Several((shc_p,), "shc", (p,), (scaled_shc(p),)),
         Several((shc_q,), "shc", (q,), (scaled_shc(q),)),

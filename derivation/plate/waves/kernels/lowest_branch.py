@@ -84,7 +84,7 @@ def shallow() -> Claims:
 def deep_steepness() -> Claims:
     """Return the slope of the quotient, accurate where the quotient is 1."""
     plus, faded_p, faded_q, less, fading = sp.symbols("plus faded_p faded_q less fading")
-    lost = fading_q / (1 + fading_q) ** 2 - fading_p / (1 + fading_p) ** 2
+    loss = fading_q / (1 + fading_q) ** 2 - fading_p / (1 + fading_p) ** 2
     statements = (
         Let(own_p, x * P),
         Let(own_q, x * Q),
@@ -98,7 +98,7 @@ def deep_steepness() -> Claims:
             means=2 * p / sp.sinh(2 * p),
         ),
         Let(faded_q, 4 * own_q * fading_q / -expm1(-4 * own_q), means=2 * q / sp.sinh(2 * q)),
-        Let(less, 4 * lost, means=sp.tanh(p) ** 2 - sp.tanh(q) ** 2),
+        Let(less, 4 * loss, means=sp.tanh(p) ** 2 - sp.tanh(q) ** 2),
         Let(
             fading,
             plus / 2 * (faded_q - faded_p * gam * left / (P * P))
@@ -160,19 +160,21 @@ def residue(is_shallow: bool) -> Routine:
 @named_routine
 def deep_excess() -> Claims:
     """Return the quotient of both terms minus 1 for short waves, from their difference."""
-    first, second, difference, excess, lack = sp.symbols("first second difference excess lack")
+    first, second, difference, excess, deficit = sp.symbols(
+        "first second difference excess deficit"
+    )
     E = (sp.sinh(p + q) - (p + q) * shc(p - q)) / (sp.cosh(p + q) + sp.cosh(p - q))
     short = 2 * q / x_h, kap * (p + q) / (2 * (1 - gam) * x_h**3)
     meaning = {first: short[0], second: short[1], difference: short[0] - short[1], excess: E - 1}
     statements = (
         Let(fading_p, sp.exp(-2 * x * P)),
-        Let(lack, 2 * fading_p / (1 + fading_p), "1 - tanh p", means=1 - sp.tanh(p)),
+        Let(deficit, 2 * fading_p / (1 + fading_p), "1 - tanh p", means=1 - sp.tanh(p)),
     )
-    above = difference + first * excess + second * lack
+    above = difference + first * excess + second * deficit
     return Claims(
         (x, P, first, second, difference, excess),
         statements,
-        (above / (second * (1 - lack)),),
+        (above / (second * (1 - deficit)),),
         (quotient() - 1,),
         {**WAVE, **meaning},
         reduce_exponentials,

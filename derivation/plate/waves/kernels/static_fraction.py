@@ -8,10 +8,10 @@ from derivation.plate.vocabulary import gam, kap, x_h
 from derivation.plate.waves.kernels.any_frequency import reduce_exponentials
 from derivation.plate.waves.kernels.entire import at_zero, rest, square, x
 from derivation.plate.waves.kernels.lowest_branch import WAVE, P, Q, S, d, left, steep, xi
-from derivation.plate.waves.theory.bending_branch import bending_share, differences
+from derivation.plate.waves.theory.bending_branch import bending_fraction, differences
 from derivation.plate.waves.theory.dynamic_modes import in_p_and_q, p, q, shc, slow_stiffness
 
-T, held, lower, upper = sp.symbols("T held lower upper", positive=True)
+T, limited, lower, upper = sp.symbols("T limited lower upper", positive=True)
 unlike, product, excess = sp.symbols("unlike product excess", positive=True)
 TWO = 2 * x_h
 
@@ -25,26 +25,26 @@ def _at_rest(expression: sp.Expr) -> sp.Expr:
 def _share() -> sp.Expr:
     """Return the derived fraction in terms of its steepness and static B_a/B_s."""
     names = {"s": steep, "beta": unlike}
-    stated: sp.Expr = bending_share().stated
+    stated: sp.Expr = bending_fraction().stated
     return stated.subs({k: names[k.name] for k in stated.free_symbols if k.name in names})
 
 
 def ratio_at_rest() -> Routine:
     """Return B_a/B_s at kap = 0."""
-    bent, stretched = (_at_rest(form) for form in slow_stiffness())
+    bending_part, extension_part = (_at_rest(form) for form in slow_stiffness())
     fading = 2 * sp.exp(-TWO)
     statements = (
         Let(T, 2 * x),
-        Let(held, GUARDED(T, sp.Integer(2)), opaque=True),
-        Several((lower,), "sinh_minus", (T,), (fading * (sp.sinh(TWO) - TWO) / held**3,)),
+        Let(limited, GUARDED(T, sp.Integer(2)), opaque=True),
+        Several((lower,), "sinh_minus", (T,), (fading * (sp.sinh(TWO) - TWO) / limited**3,)),
         Several((upper,), "sinh_plus", (T,), (fading * (sp.sinh(TWO) + TWO),)),
     )
     return routine(
         "unlike",
         (x,),
         statements,
-        (sp.tanh(x) ** 2 * lower * held**3 / upper,),
-        (bent / stretched,),
+        (sp.tanh(x) ** 2 * lower * limited**3 / upper,),
+        (bending_part / extension_part,),
         "Return Ba/Bs at kap = 0.",
         {x: x_h},
         reduce_exponentials,

@@ -29,7 +29,7 @@ from numpy.typing import ArrayLike
 from generated import wave_kernels as kernels
 from generated.arrays import Double, as_doubles, as_result, in_manifest, inside, quiet
 from generated.blocks import polynomial
-from generated.ranges import lost
+from generated.ranges import rounding_error
 from generated.wave_numbers import RAYLEIGH, SHALLOW, SMALL, STEPS
 
 
@@ -138,7 +138,7 @@ def bending_residue(x: ArrayLike, nu: ArrayLike) -> np.ndarray:
 
 @in_manifest("s_0", domain="x >= 1e-90, x <= 1e90, nu > -1, nu < 0.5")
 @quiet
-def bending_share(x: ArrayLike, nu: ArrayLike) -> np.ndarray:
+def bending_fraction(x: ArrayLike, nu: ArrayLike) -> np.ndarray:
     """Compute the fraction of the static contact-face deflection that belongs to A0.
 
     Formula::
@@ -160,8 +160,8 @@ def bending_share(x: ArrayLike, nu: ArrayLike) -> np.ndarray:
 
     Examples
     --------
-    >>> from generated import bending_share
-    >>> print(f"{bending_share(0.1, 0.22):.6g}")
+    >>> from generated import bending_fraction
+    >>> print(f"{bending_fraction(0.1, 0.22):.6g}")
     0.999957
     """
     return _evaluated(x, nu, (_shallow_share, _deep_share))
@@ -261,21 +261,23 @@ def _rayleigh(nu: Double, xi: Double, left: Double) -> tuple[Double, Double, Dou
     ratio = 1.0 - nu
     ratio_rest, left_rest = (1.0 - ratio) - nu, (1.0 - left) - xi
     Q = np.sqrt(left)
-    Q_rest = 0.5 * ((left - Q * Q) - lost(Q, Q) + left_rest) / Q
+    Q_rest = 0.5 * ((left - Q * Q) - rounding_error(Q, Q) + left_rest) / Q
     # P^2 = 1 - xi + xi/(2 (1 - nu))
     share = 0.5 * xi / ratio
-    share_rest = ((0.5 * xi - share * ratio) - lost(share, ratio) - share * ratio_rest) / ratio
+    share_rest = (
+        (0.5 * xi - share * ratio) - rounding_error(share, ratio) - share * ratio_rest
+    ) / ratio
     square = left + share
     inner = square - left
     square_rest = (left - (square - inner)) + (share - inner) + share_rest + left_rest
     P = np.sqrt(square)
-    P_rest = 0.5 * ((square - P * P) - lost(P, P) + square_rest) / P
+    P_rest = 0.5 * ((square - P * P) - rounding_error(P, P) + square_rest) / P
     S = P + Q
     S_rest = (P - S) + Q + P_rest + Q_rest
     speed = ratio * xi
-    speed_rest = lost(ratio, xi) + ratio_rest * xi
+    speed_rest = rounding_error(ratio, xi) + ratio_rest * xi
     second = speed * S
-    rest = lost(speed, S) + speed_rest * S + speed * S_rest
+    rest = rounding_error(speed, S) + speed_rest * S + speed * S_rest
     return 2.0 * Q, second, (2.0 * Q - second) + (2.0 * Q_rest - rest)
 
 

@@ -19,7 +19,13 @@ from numpy.typing import ArrayLike
 
 from generated.arrays import Double, as_doubles, as_result, inside, quiet
 from generated.inertia import bending_frequency, bending_residue
-from generated.wave_kernels import bending_residues, bent, material, stretched, stretching_residues
+from generated.wave_kernels import (
+    bending_part,
+    bending_residues,
+    extension_part,
+    material,
+    stretching_residues,
+)
 
 _MOST = 200  # largest number of steps: of Newton's method, or bisections between two poles
 
@@ -92,7 +98,7 @@ def _bending(x: Double, gam: Double, rest: Double, count: int) -> tuple[Double, 
     """Return all branches but A0: one between two poles, the lowest of which is above x^2."""
     wave, gam, rest = (y[:, None] for y in (x, gam, rest))
     edges = _edges(wave, gam, rest, (np.arange(count) + 0.5) * np.pi)[:, :count]
-    over = _between(edges, np.zeros_like(edges[:, 1:]), bent, wave, gam, rest)
+    over = _between(edges, np.zeros_like(edges[:, 1:]), bending_part, wave, gam, rest)
     return np.sqrt(wave * wave + over), bending_residues(over, wave, gam, rest)
 
 
@@ -104,7 +110,7 @@ def _stretching(x: Double, gam: Double, rest: Double, count: int) -> tuple[Doubl
     edges = np.hstack((-square, poles[:, 1 : count + 1]))  # q = 0 is not a pole
     floor = np.zeros_like(edges[:, 1:])
     floor[:, :1] = square  # S0 may have kap = x^2
-    over = _between(edges, floor, stretched, wave, gam, rest)
+    over = _between(edges, floor, extension_part, wave, gam, rest)
     return np.sqrt(square + over), stretching_residues(over, wave, gam, rest)
 
 

@@ -156,7 +156,7 @@ def bending_zero() -> tuple[Formula, ...]:
 
 
 @cache
-def bending_share() -> Formula:
+def bending_fraction() -> Formula:
     """Return the fraction of A0 in the deflection under a static load."""
     static_limit()
     residue = bending_zero()[2]
@@ -187,7 +187,7 @@ def bending_share() -> Formula:
     beta = sp.Symbol("beta", positive=True)
     stated = (value / (1 + beta)).subs(steep, sp.Symbol("s", positive=True))
     return Formula(
-        "bending_share", "s_0", (
+        "bending_fraction", "s_0", (
             r"fraction of A0 in the static deflection, $\beta$ being $B_a/B_s$ there"
         ),
         with_roots(value.subs(steep, steep_value) / (1 + unlike)), "1", "",
@@ -325,7 +325,13 @@ def thin_plates() -> tuple[Formula, ...]:
     lines = (
         ("bending_kap_thin", r"\kappa_0", r"$(\omega h/c_T)^2$ of A0, thin plates", 4, rows[0]),
         ("residue_thin", r"\rho h\,r_0", "residue of A0, thin plates", 0, rows[1]),
-        ("share_thin", "s_0", "fraction of A0 in the static deflection, thin plates", 0, share),
+        (
+            "bending_fraction_thin",
+            "s_0",
+            "fraction of A0 in the static deflection, thin plates",
+            0,
+            share,
+        ),
     )
     return tuple(
         Formula(
@@ -367,4 +373,4 @@ def _share_at_rest(residue: tuple[sp.Expr, ...], slope: tuple[sp.Expr, ...]) -> 
 
 def bending_branch() -> tuple[Formula, ...]:
     """Return the formulas of the step."""
-    return (*bending_zero(), bending_share(), *thin_plates(), *rayleigh())
+    return (*bending_zero(), bending_fraction(), *thin_plates(), *rayleigh())

@@ -94,7 +94,7 @@ def trapezoidal(step: arb, end: float) -> tuple[list[arb], list[arb]]:
 
 
 @cache
-def wall_points(bits: int) -> Points:
+def lateral_points(bits: int) -> Points:
     """Return nodes and weights of int_0^oo g/I0^2 dy = sum weight g(y), for |g(y)| <= e^|Re y|.
 
     The sum ends at a y >= 2. Because I0 >= e^y/(3 sqrt y) from y = 1 on (`balls.kappa`), the
@@ -117,6 +117,8 @@ def wall_points(bits: int) -> Points:
         places, weights = trapezoidal(step, bits * math.log(2) + math.log(bits) + 8)
         end = places[-1]
         if not end >= 2:
-            raise PrecisionError(f"the wall's sum ends at {end}, too early for its bound")
+            raise PrecisionError(
+                f"the lateral surface's sum ends at {end}, too early for its bound"
+            )
         rest = step_bound(step) + 9 * (end + 1) * (-end).exp()
         return Points(tuple(places), tuple(weights), rest.abs_upper())

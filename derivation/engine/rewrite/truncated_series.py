@@ -29,12 +29,12 @@ _MOST = 60
 
 
 @cache
-def sections() -> dict[str, Block]:
+def truncated_series() -> dict[str, Block]:
     """Return all truncated series by name."""
-    return {name: _section(name, total, power) for name, total, power in DEFINITIONS}
+    return {name: _truncated(name, total, power) for name, total, power in DEFINITIONS}
 
 
-def _section(name: str, total: sp.Expr, power: int) -> Block:
+def _truncated(name: str, total: sp.Expr, power: int) -> Block:
     coefficients, bound = _coefficients(total, power)
     return Block(
         name,

@@ -11,7 +11,7 @@ from derivation.plate.modes.theory.interior import interior_fields
 from derivation.plate.modes.theory.loaded_mode import loaded_mode
 from derivation.plate.vocabulary import A_j, h, lam, mu, phi, r, z
 
-SHARES = ("u", "w", "sigma_rr", "sigma_tt", "sigma_zz", "sigma_rz")
+CONTRIBUTIONS = ("u", "w", "sigma_rr", "sigma_tt", "sigma_zz", "sigma_rz")
 SMALLEST = sp.Rational(1, 2**30)
 """Closer to the axis, J1(y)/y rounds to 1/2."""
 POWER_OF_TWO = sp.Function("power_of_two")
@@ -104,7 +104,7 @@ def _routine(name: str, statements: tuple[Statement, ...], result: sp.Expr) -> R
     )
 
 
-def shares() -> Routines:
+def contributions() -> Routines:
     """Return the module of these contributions."""
     routines = (
         of_bessel(),
@@ -121,4 +121,4 @@ def shares() -> Routines:
         "mode_sums": ("power_of_two",),
     }
     title = "Contributions of one mode to the interior fields."
-    return Routines("mode_shares", title, routines, imports)
+    return Routines("mode_contributions", title, routines, imports)

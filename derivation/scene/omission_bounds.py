@@ -24,7 +24,12 @@ from derivation.scene.effects.effect import (
     PlateEffect,
 )
 from derivation.scene.effects.inertia import WIDER, least_restitution, weight_share
-from derivation.scene.effects.viscosity import on_vibrating_plate
+from derivation.scene.effects.plasticity import plastic_depth
+from derivation.scene.effects.viscosity import (
+    inverse_restitution,
+    on_vibrating_plate,
+    viscous_number,
+)
 from derivation.scene.law import ContactLaw, Shape
 from derivation.scene.law_errors import law_errors
 from derivation.scene.motion import largest_radii
@@ -39,6 +44,11 @@ FEW = 3
 """Number of nodes for laws with S = 1, whose bounds are largest at the largest radius."""
 MARGIN = 1.05
 """Factor on elasticities of S, which are sampled at nodes."""
+PLASTIC_GROWTH = 1.5
+"""Largest d log(contact radius)/d log(Hertz's radius of the force) of a contact that yields."""
+VIBRATING = 2.0, 30.0
+"""Increase of the changes of a result by vibration of the plate: the smaller one of the first
+number, and of the second times the change by inertia (at most 1)."""
 RADIATED, REMAINING = 3.0, 0.75
 """Change of the logarithm of the restitution e on a plate with inertia, over that of the worst
 other result, the change by inertia (at most 1) and 1 + work of the weight over kinetic energy: the
@@ -116,10 +126,12 @@ def state_of(law: ContactLaw, top: float = TOP) -> LargestContact:
         equal = _begun(0.0, radii * np.cbrt(shape.force) if own else radii)
     fall, rise = np.maximum(0.0, -_least(elasticity)), np.maximum(0.0, _most(elasticity))
     growth = np.ones_like(rise)
+    if law.plastic:  # derivation step 31: S grows with xi, and a^2 with xi^3
+        rise, growth = rise + 1.0, PLASTIC_GROWTH * growth
     if own:  # P goes with the cube of Hertz's radius, and dP = 2 E* a_H d delta/S.
         with np.errstate(all="ignore"):  # extreme scenes give NaN, which is checked
             swelling = inner.slope / (inner.additive * np.cbrt(inner.force) ** 2)
-            growth = 1.0 + MARGIN * np.maximum(0.0, _most(1.0 / swelling) - 1.0)
+            growth = growth * (1.0 + MARGIN * np.maximum(0.0, _most(1.0 / swelling) - 1.0))
     depth = a * (a / law.model.R) * shape.depth[..., -1:]
     context = BoundContext(equal, _number(depth), lambda: _samples(law, upper))
     slope = _begun(1.0, shape.additive)
@@ -296,7 +308,8 @@ def _worst(state: LargestContact, bound: Bound, outputs: Sequence[str]) -> Array
         # The bound of a viscoelastic contact by this law is increased to cover the whole law.
         wider = (1.0 + largest) ** 2
         others = (*found, np.zeros_like(largest))
-        logs = [np.log1p(x) + wider * y for x, y in zip(others, results, strict=True)]
+        logs = [x * np.log1p(y) for x, y in zip(_steepness(state), others, strict=True)]
+        logs = [x + wider * y for x, y in zip(logs, results, strict=True)]
         kept = [bound_of(state, e).results[-1] for e in state.law.chosen if e.viscous]
         if kept:
             # Without a change of the law this bound does not change, even if it is infinite.
@@ -304,7 +317,7 @@ def _worst(state: LargestContact, bound: Bound, outputs: Sequence[str]) -> Array
         if state.law.dynamic:
             # The force determines how much energy the vibration of the plate takes.
             model = state.law.model
-            heavier = 1.0 + weight_share(model, state.context.depth)
+            heavier = 1.0 + weight_share(model, plastic_depth(model, state.context))
             steepness = np.maximum(RADIATED, REMAINING / least_restitution(model))
             taken = steepness * heavier * _at_most_one(state.by_inertia[-1])
             logs[-1] = logs[-1] + taken * np.log1p(largest)
@@ -315,6 +328,26 @@ def _worst(state: LargestContact, bound: Bound, outputs: Sequence[str]) -> Array
         errors = [np.expm1(log) for name, log in zip(OUTPUTS, logs, strict=True) if name in outputs]
         worst = np.maximum.reduce(errors) + 0.0 * largest
         return np.where(known & np.isfinite(found[0]) & ~np.isnan(worst), worst, np.inf)
+
+
+def _steepness(state: LargestContact) -> Changes:
+    """Return the factors on the changes of the results by derivation step 18 [1].
+
+    That step is for an elastic contact on a quasi-static plate. The force of a viscoelastic contact
+    depends more on its stiffness, and the sphere leaves it slowly, so that the weight has more
+    effect. Vibration of the plate can add to any change.
+    """
+    one: Numbers = 1.0
+    time: Numbers = 1.0
+    if any(effect.viscous for effect in state.law.chosen):
+        one = inverse_restitution(viscous_number(state.law.model))
+        time = one * one
+    if state.law.dynamic:
+        most, steep = VIBRATING
+        changed = _at_most_one(reduce(np.maximum, state.by_inertia))
+        moving = 1.0 + np.minimum(most, steep * changed)
+        one, time = moving * one, moving * time
+    return time, one, one, one, one
 
 
 def _plastic_sensitivity(state: LargestContact) -> float:

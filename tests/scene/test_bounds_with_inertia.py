@@ -92,3 +92,57 @@ def test_radius_of_a_non_hertzian_contact_is_within_its_bound() -> None:
     )
     [row] = [row for row in reference.effects.rows if row.name == "non_hertzian_pressure"]
     assert 5e-3 < change(without, reference, "max_contact_radius") < row.bound
+
+
+SOFT: dict[str, Any] = {
+    "sphere": {"radius": 0.01, "density": 7800.0, "youngs_modulus": 2e13, "poissons_ratio": 0.3},
+    "plate": {"radius": 0.5, "thickness": 0.3, "material": "aluminium", "edge": "clamped"},
+    "impact": {"speed": 0.1, "gravity": 9.81},
+}
+"""A nearly rigid sphere on a thick plate."""
+
+
+@pytest.mark.parametrize(
+    ("plate", "omitted", "output"),
+    [
+        ({"yield_stress": 3e6}, "gravity", "max_indentation"),
+        ({"yield_stress": 3e6}, "gravity", "max_force"),
+        ({"yield_stress": 3e6}, "gravity", "contact_time"),
+        ({"retardation_time": 8e-5}, "sphere_elasticity", "max_force"),
+        ({"retardation_time": 8e-5}, "gravity", "contact_time"),
+    ],
+)
+def test_omissions_from_a_contact_that_dissipates_are_within_their_bounds(
+    plate: dict[str, Any], omitted: str, output: str
+) -> None:
+    """A contact that yields is deeper; a viscoelastic one is stiffer and separates slowly.
+
+    The changes were 1.5 to 13 times the bounds.
+    """
+    data = SOFT | {"plate": SOFT["plate"] | plate, "accuracy": {"rtol": 0.1, "outputs": [output]}}
+    without, reference = (
+        simulate(read(data | {"effects": CONTACT | {"inertia": False, omitted: included}}))
+        for included in (False, True)
+    )
+    [row] = [row for row in without.effects.rows if row.name == omitted]
+    assert 0.05 * row.bound < change(without, reference, output) < row.bound
+
+
+def test_force_of_a_vibrating_plate_is_within_its_bound() -> None:
+    """Vibration adds to the change by the weight, which was 3 % larger than its bound."""
+    data = {
+        "sphere": {"radius": 1.3855, "density": 1736.0, "youngs_modulus": 5.431e9,
+                   "poissons_ratio": 0.3},
+        "plate": {"radius": 2.03244, "half_thickness": 1.04264, "youngs_modulus": 1.3516e7,
+                  "poissons_ratio": -0.43016, "density": 127.286},
+        "impact": {"speed": 1.0561, "gravity": 0.004577},
+        "inertia": {"branches": "A0"},
+        "accuracy": {"rtol": 0.01, "outputs": ["max_force"]},
+    }  # fmt: skip
+    effects = CONTACT | {"inertia": True, "spherical_profile": False}
+    without, reference = (
+        simulate(read(data | {"effects": effects | {"gravity": gravity}}))
+        for gravity in (False, True)
+    )
+    [row] = [row for row in without.effects.rows if row.name == "gravity"]
+    assert 3.2e-4 < change(without, reference, "max_force") < row.bound

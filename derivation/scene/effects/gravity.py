@@ -3,6 +3,8 @@
 import numpy as np
 
 from derivation.scene.effects.effect import Bound, BoundContext, Effect, none_of
+from derivation.scene.effects.inertia import weight_share
+from derivation.scene.effects.plasticity import plastic_depth
 from derivation.scene.model import Model
 from derivation.scene.scene import Scene
 
@@ -36,8 +38,11 @@ class Gravity(Effect):
         return 2.0 * model.gravity * a * (a / model.R) / model.v0 / model.v0
 
     def bound(self, model: Model, context: BoundContext) -> Bound:
-        """Return -log(1 - e), with e the work of the weight over the kinetic energy."""
-        share = 2.0 * model.gravity * context.depth / model.v0 / model.v0
+        """Return -log(1 - e), with e the work of the weight over the kinetic energy.
+
+        A contact that yields is deeper, so that the weight does more work.
+        """
+        share = weight_share(model, plastic_depth(model, context))
         energy = np.where(np.less(share, 1.0), -np.log1p(-np.minimum(share, 1.0)), np.inf)
         none = none_of(context.radii)
         return Bound(none, none, energy=energy)

@@ -19,7 +19,7 @@ from derivation.scene.effects.effect import (
 )
 from derivation.scene.effects.finite_thickness import WHOLE_PLATE
 from derivation.scene.effects.plasticity import plastic_restitution
-from derivation.scene.effects.viscosity import viscous_number
+from derivation.scene.effects.viscosity import inverse_restitution, viscous_number
 from derivation.scene.model import Model
 from derivation.scene.scene import SceneError
 
@@ -45,8 +45,6 @@ t^(1/2)."""
 MOST_VISCOUS = 2.0
 """Largest x_v with a bound. Beyond it the sphere nearly stops in the contact, and the vibration of
 the plate may change the little that remains of its speed by any factor."""
-DISSIPATION = 1.2, 0.4
-"""Coefficients of x_v and x_v^2 in a bound on 1/e - 1, e the restitution of Hertz's contact."""
 LOSS_BY_ZENER, LEAST = 2.0, 0.03
 """Coefficient of the Zener parameter lambda in the logarithm of a small restitution, 1.72 on an
 infinite plate with a small lambda (Zener 1941), and the least restitution that bounds assume."""
@@ -274,9 +272,8 @@ def dissipated(logs: Sequence[Numbers], viscous: Numbers) -> Changes:
 
     A change of the speed of the sphere is relative to the speed that remains, 1/e times as much.
     """
-    one, two = DISSIPATION
     known = np.asarray(viscous) <= MOST_VISCOUS
-    factor = np.where(known, 1.0 + viscous * (one + two * viscous), np.inf)
+    factor = np.where(known, inverse_restitution(viscous), np.inf)
     time, depth, force, radius, speed = (_number(log * factor) for log in logs)
     return time, depth, force, radius, speed
 

@@ -64,6 +64,22 @@ def plastic_restitution(model: Model, context: BoundContext) -> Numbers:
     return _restitution(_over_onset(model, context))
 
 
+def plastic_depth(model: Model, context: BoundContext) -> Numbers:
+    """Return a bound on the largest indentation [m] of a contact that may yield.
+
+    It is that of the elastic contact, times the increase by yield on a half-space; an elastic plate
+    decreases it.
+    """
+    if not np.any(np.isfinite(model.yield_stress)):
+        return context.depth
+    from generated.plasticity_kernels import loaded, reached
+
+    elastic = np.maximum(_over_onset(model, context)[..., -1:], 1.0)
+    xi = reached(elastic**5)
+    deeper: Array = (np.square(xi) + loaded(xi)[0]) / np.square(elastic)
+    return context.depth * (float(deeper.item()) if deeper.ndim == 1 else deeper)
+
+
 def _restitution(ratio: Array) -> Array:
     """Return the restitution for the last of Hertz's radii over that at the onset of yield [1]."""
     from generated.plasticity_kernels import worked

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 MARGIN = 1.05
 """Factor on the largest values along the law, which are sampled."""
+DISSIPATION = 1.2, 0.4
+"""Coefficients of x_v and x_v^2 in a bound on 1/e - 1, e the restitution of Hertz's contact."""
 VIBRATION = 1000.0
 """Increase of the bound by vibration of the plate, over that of the restitution and the change by
 inertia (at most 1). In 323 random scenes the changes were at most 0.66 of the bound."""
@@ -91,6 +93,12 @@ def on_vibrating_plate(changes: Changes, inertia: Numbers) -> Changes:
     more = VIBRATION * inertia * changes[-1]
     time, depth, force, radius, speed = (change + more for change in changes)
     return time, depth, force, radius, speed
+
+
+def inverse_restitution(viscous: Numbers) -> Numbers:
+    """Return a bound on 1/e of Hertz's contact, by its viscous parameter x_v [1]."""
+    one, two = DISSIPATION
+    return 1.0 + viscous * (one + two * viscous)
 
 
 def viscous_number(model: Model) -> Numbers:

@@ -55,6 +55,11 @@ other result, the change by inertia (at most 1) and 1 + work of the weight over 
 larger one of both numbers, the second divided by e. Fitted: in 180 random scenes whose sphere was
 given another radius the change was at most 1.33, and without weight at most 0.6/e."""
 
+WEIGHT = 8.0
+"""Change of the restitution e by the impulse of the weight, over its work over the kinetic energy:
+a plate that takes nearly all energy carries the sphere for a long time. The largest one in 326
+scenes with e below 0.12 was 5.0."""
+
 
 @dataclass(frozen=True)
 class LargestContact:
@@ -318,9 +323,9 @@ def _worst(state: LargestContact, bound: Bound, outputs: Sequence[str]) -> Array
             # The force determines how much energy the vibration of the plate takes.
             model = state.law.model
             heavier = 1.0 + weight_share(model, plastic_depth(model, state.context))
-            steepness = np.maximum(RADIATED, REMAINING / least_restitution(model))
-            taken = steepness * heavier * _at_most_one(state.by_inertia[-1])
-            logs[-1] = logs[-1] + taken * np.log1p(largest)
+            least, most = least_restitution(model), _at_most_one(state.by_inertia[-1])
+            taken = np.maximum(RADIATED, REMAINING / least) * heavier * most
+            logs[-1] = logs[-1] + taken * np.log1p(largest) + WEIGHT / least * most * energy
         if state.law.plastic:
             logs[-1] = logs[-1] + _plastic_sensitivity(state) * np.log1p(largest)
         # Derivation step 18 is for Hertz's radius of the force; the contact radius may grow faster.

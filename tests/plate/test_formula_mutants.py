@@ -28,7 +28,11 @@ TARGETS: Mapping[str, Callable[[str], checks.Check]] = {
     "g_j": checks.in_the_equations,
     **{f"Omega_{k}": checks.in_the_tractions for k in range(1, 5)},
     **dict.fromkeys(ROUTED, checks.by_route),
-    **{f"c_{n}_{part}": checks.by_coefficient for n in (1, 3, 5, 7) for part in ("modes", "side")},
+    **{
+        f"c_{n}_{part}": checks.by_coefficient
+        for n in (1, 3, 5, 7)
+        for part in ("modes", "lateral")
+    },
     "F_modes": checks.by_departure,
     "F_lateral": checks.by_lateral,
     "delta_reduced": checks.by_the_law,

@@ -303,7 +303,7 @@ def test_sums_are_the_static_differences(edge: str, nu: float, eta: float, most:
 
     Beyond the cut-off the modes of both edges are assumed equal.
     """
-    known = derived.formulas()[f"{edge}_rest"].expression
+    known = derived.formulas()[f"{edge}_static_change"].expression
     value = float(known.subs({poisson: nu, thickness: eta}))
     held = WAVES_OF[edge](1000, eta, nu)
     count = held.k.size

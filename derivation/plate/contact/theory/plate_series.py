@@ -162,7 +162,7 @@ def series_formulas() -> tuple[Formula, ...]:
     formulas: list[Formula] = []
     for k in range(FIRST, LAST + 1):
         c = coefficient(k)
-        parts = (("modes", "modes", c.mode, True), ("side", "finite radius", c.side, False))
+        parts = (("modes", "modes", c.mode, True), ("lateral", "finite radius", c.side, False))
         for part, source, value, summed in parts:
             formulas.append(
                 Formula(

@@ -104,7 +104,7 @@ def _scene_code(scene: Path, out: Path | None, check: bool) -> None:
         raise SceneError(
             "--out: expected a file for the code of the scene, got none; add --out FILE.py"
         )
-    check_outputs(scene, None, csv=out)
+    check_outputs(scene, None, out=out)
     write_scene_code(load(scene), out)
     NOTES.say(f"{out}")
 

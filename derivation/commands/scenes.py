@@ -319,11 +319,12 @@ def check_outputs(
     plot: Path | None = None,
     csv: Path | None = None,
     animate: Path | None = None,
+    out: Path | None = None,
 ) -> None:
     """Reject output files that are figures of unknown format, not writable, or named twice.
 
     A name is taken if it is that of the scene file or of another output. JSON and CSV files must
-    not have the suffix of another format.
+    not have the suffix of another format; the caller checks the suffix of `out`.
 
     Raises
     ------
@@ -346,7 +347,7 @@ def check_outputs(
     places = [Path(json)] if json and json != "-" else []
     for kind, names in (("json", places), ("csv", [csv] if csv else [])):
         _expect_suffix(kind, names)
-    places += [path for path in (plot, csv, animate) if path is not None]
+    places += [path for path in (plot, csv, animate, out) if path is not None]
     taken = {real(scene): "the scene file"}
     for place in places:
         if place == Path("-"):

@@ -84,7 +84,8 @@ def sweep(
     from derivation.sweep.dataset import check_memory
     from derivation.sweep.study import Study
 
-    check_outputs(scene, json, plot, out if out is None or out.suffix != ".zarr" else None)
+    folder = out is not None and out.suffix == ".zarr"
+    check_outputs(scene, json, plot, out=None if folder else out)
     sampling = (distributions, sample, seed, method, sensitivity or None)
     given = _given(vary, distributions, sample, any(x is not None for x in sampling))
     seed, method = 1 if seed is None else seed, method or "random"

@@ -343,11 +343,11 @@ def _left(last: TimeElement) -> float:
     state, x = last.end, last.element.x + last.element.length
     if state.separation_speed <= 0.0:
         return math.inf
-    left = state.approach / state.separation_speed
     narrowing = -2.0 * float(np.sum(last.element.slope)) / (ONSET * x ** (ONSET - 1))
-    if left * narrowing > WITHIN * last.radius:
-        return left
-    return last.radius / narrowing if narrowing > 0.0 else math.inf
+    if narrowing <= 0.0:
+        return math.inf
+    left = state.approach / state.separation_speed
+    return left if left * narrowing > WITHIN * last.radius else last.radius / narrowing
 
 
 def _longest(problem: DynamicProblem, n: int, x: float, left: float) -> float:

@@ -83,7 +83,7 @@ def solve_selected(
     accuracy = replace(
         accuracy,
         rtol=rtol,
-        effects=Part(selected.error, _basis(selected)),
+        effects=Part(_omitted(selected, found[-1]), _basis(selected)),
         outputs=selected.outputs,
     )
     # An incomplete impact has no bound; it is returned and marked as incomplete.
@@ -118,6 +118,19 @@ def _out_of_reach(rtol: float, accuracy: AchievedAccuracy, law: ContactLaw, a: f
 def remaining(selected: SelectedEffects, rtol: float | None) -> float | None:
     """Return the part of a tolerance that the omitted effects leave [1]."""
     return None if rtol is None else (rtol - selected.error) / (1.0 + selected.error)
+
+
+def _omitted(selected: SelectedEffects, restitution: float) -> float:
+    """Return the bound on the omitted effects, larger for a small restitution than the selection's.
+
+    A plate with inertia may take nearly all energy. What then remains of the speed changes by a
+    multiple.
+    """
+    if not selected.law.dynamic or "restitution" not in selected.outputs:
+        return selected.error
+    from derivation.scene.effects.inertia import LEAST
+
+    return selected.error * max(1.0, LEAST / max(restitution, 1e-300))
 
 
 def _basis(selected: SelectedEffects) -> str:

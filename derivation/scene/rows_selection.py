@@ -194,7 +194,8 @@ def _next(
     worst = np.argmax(sizes, axis=1)
     if len(candidates) > 1:  # rounding might decide which is larger
         second = np.partition(sizes, -2, axis=1)[:, -2:]
-        going_on = going_on & (second[:, 1] - second[:, 0] > NEAR * second[:, 1])
+        with np.errstate(invalid="ignore"):  # two infinite sizes are not distinguished
+            going_on = going_on & (second[:, 1] - second[:, 0] > NEAR * second[:, 1])
     found: dict[frozenset[str], Rows] = {}
     for number, effect in enumerate(candidates):
         mine = rows[going_on & (worst == number)]

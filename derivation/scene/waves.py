@@ -30,7 +30,7 @@ from derivation.scene.mode_count import (
     fast,
     followed,
 )
-from derivation.scene.reach import Reach
+from derivation.scene.reach import OutOfReachError, Reach
 from derivation.scene.scene import OUTPUTS, SceneError
 from derivation.scene.wave_motion import DynamicImpact
 from derivation.scene.wave_problem import echo_time as echo_time
@@ -150,10 +150,10 @@ def _branched(
     """Return the law with all branches if the higher ones matter, else with the lowest branch.
 
     They matter if their estimated change exceeds what the goal for the modes leaves of the
-    tolerance. The estimate follows from a rough run with the lowest branch; that from its first
-    contacts alone is a lower bound, at which the run may end. The rough run is also returned if the
-    lowest branch is sufficient. If the contact is so short that there would be too many modes, the
-    lowest branch is used.
+    tolerance. The estimate follows from a rough run with the lowest branch; those from its first
+    contacts or from a radius alone are lower bounds, at which the run may end. The rough run is
+    also returned if the lowest branch is sufficient. If the contact is so short that there would be
+    too many modes, the lowest branch is used.
     """
     every, lowest, close = branching(law, "all"), branching(law, "A0"), time_tolerance(goal)
     if not followed(every, 2 * affordable(every)):
@@ -167,7 +167,11 @@ def _branched(
         return begun.inertia.left(outputs)[1] > room
 
     n = nodes_for(problem) - FEWER
-    history = contact_sequence.impact_history(problem, n, close, enough=beyond)
+    watch = Reach(lowest, outputs, room).watch(lowest, problem.a)
+    try:
+        history = contact_sequence.impact_history(problem, n, close, enough=beyond, watch=watch)
+    except OutOfReachError:
+        return every, None
     budget.left -= history.work
     if history.reason == ENOUGH:
         return every, None
@@ -233,7 +237,7 @@ def _converged(
     check_whole_width(rough.impact_history.problem, rough.max_contact_radius)
     coarser = None
     if _next_work(law, 2 * count, rough) > min(LONG, contact_sequence.WORK, budget.left):
-        coarser = _by_coarser(rough, law, count, budget)
+        coarser = _by_coarser(rough, law, count, Budget(budget.left))
         if coarser and coarser.inertia.left(reach.outputs)[0] <= goal:
             return coarser
     best: DynamicImpact | None = None
@@ -359,7 +363,7 @@ def _by_coarser(
 
     As in `_of_chosen_modes`, the larger change since half and since a quarter as many modes counts.
     None if the scene gives a number of modes, the modes of the first run are slower than the
-    contact, or a coarser run fails or is incomplete.
+    contact, or a coarser run fails, is incomplete or has entirely different results.
     """
     if law.model.inertia.modes or count < FOURTH or not fast(law, count):
         return None
@@ -374,6 +378,8 @@ def _by_coarser(
         changes.append(_judged(coarse, found).inertia.mode_convergence)
     time, depth, force, radius, speed = map(max, *changes)
     change = time, depth, force, radius, speed
+    if max(change) >= 1.0:
+        return None
     return replace(found, inertia=replace(found.inertia, mode_convergence=change))
 
 

@@ -102,3 +102,37 @@ def test_contact_without_solution_is_refused_for_the_same_reason_at_any_length(
     times = [float(re.search(r"contact at (\S+) s", text)[1]) for text in (early, late)]  # type: ignore[index]
     assert early.partition(" s ")[2] == late.partition(" s ")[2]
     assert times[0] == pytest.approx(times[1], rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("sphere", "plate", "speed"),
+    [
+        (
+            {"radius": 0.003, "material": "silicon nitride"},
+            {"radius": 0.1, "thickness": 0.005, "material": "stainless steel"}
+            | {"edge": "clamped", "retardation_time": 1.78e-7},
+            5.0,
+        ),
+        (
+            {"radius": 0.005, "material": "steel"},
+            {"radius": 0.05, "thickness": 0.005, "material": "PMMA"}
+            | {"edge": "clamped", "retardation_time": 2.44e-5},
+            2.0,
+        ),
+    ],
+    ids=["yielding", "elastic"],
+)
+def test_tolerance_that_omitted_branches_exceed_is_refused_at_the_first_contact(
+    sphere: dict[str, Any], plate: dict[str, Any], speed: float
+) -> None:
+    """The whole simulation has a larger error; the tolerance that the refusal states is met."""
+    scene = {"sphere": sphere, "plate": plate, "impact": {"speed": speed}}
+    whole = simulate(read(scene)).accuracy.bound
+    stated = re.match(
+        r"rtol: expected at least about (\S+), because",
+        refusal(scene | {"accuracy": {"rtol": 0.3 * whole}}),
+    )
+    assert stated
+    assert 0.3 * whole < float(stated[1])
+    met = simulate(read(scene | {"accuracy": {"rtol": float(stated[1])}}))
+    assert met.accuracy.bound <= float(stated[1])

@@ -32,7 +32,7 @@ Captured = pytest.CaptureFixture[str]
 def test_bounds_hold_in_random_scenes() -> None:
     rows = measure.judge(25)
     assert [row for row in rows if not row.passed] == []
-    assert max(row.tightest for row in rows) > 0.5  # at least one bound is tight
+    assert max(row.error_over_bound for row in rows) > 0.5  # at least one bound is tight
     included = [row.included for row in rows]
     assert included == sorted(included)
 
@@ -187,7 +187,7 @@ def test_explain_does_not_simulate_and_gives_reasons(capsys: Captured, tmp_path:
         "[sphere]\nradius = 0.01\nmaterial = 'steel'\n[plate]\nradius = 0.5\nthickness = 0.01\n"
         "material = 'glass'\n[impact]\nspeed = 1\n[effects]\nfinite_radius = false\n"
     )
-    assert main(["explain", str(path), "--rtol", "1e-2", "--json", f"{tmp_path}/e.json"]) == 0
+    assert main(["explain", str(path), "--rtol", "5e-2", "--json", f"{tmp_path}/e.json"]) == 0
     shown = capsys.readouterr().out
     data = json.loads((tmp_path / "e.json").read_text())
     assert [row["name"] for row in data["effects"]] == [effect.name for effect in EFFECTS]

@@ -9,6 +9,7 @@ from test_rows import check
 
 from derivation.scene import SceneError, read
 from derivation.scene.effects.effect import Array
+from derivation.scene.rows import solve
 from derivation.scene.scene import OUTPUTS, Scene
 
 ROWS = 3
@@ -93,3 +94,17 @@ def studies(draw: st.DrawFn) -> Study:
 @settings(max_examples=60)
 def test_each_row_equals_its_simulation(study: Study) -> None:
     check(*study)
+
+
+def test_two_effects_without_a_bound_give_no_warning_of_numpy() -> None:
+    """In a strongly viscoelastic contact plate inertia and damping have no bound."""
+    scene = read(
+        {
+            "sphere": {"radius": 0.007, "material": "PMMA"},
+            "plate": {"radius": 0.09, "thickness": 0.0036, "material": "rubber",
+                      "retardation_time": 1e-2, "loss_factor": 0.1},
+            "impact": {"speed": 1.0},
+        }
+    )  # fmt: skip
+    found = solve(scene, {"impact.speed": np.array([1.0])}, 0.03)
+    assert found.status[0] == "rejected"

@@ -1,18 +1,20 @@
 """Impacts by time elements of any number of nodes: their stated error, and where contacts end."""
 
+import math
 from typing import Any
 
 import numpy as np
 import pytest
 
 from derivation.scene import contact_sequence, read, waves
+from derivation.scene.collocation import Element
 from derivation.scene.contact_sequence import ImpactHistory
-from derivation.scene.dynamic_problem import DynamicProblem
+from derivation.scene.dynamic_problem import DynamicProblem, ImpactState
 from derivation.scene.dynamic_results import dynamic_impact_of
 from derivation.scene.effects import PAPER
 from derivation.scene.law import ContactLaw
 from derivation.scene.model import model_of
-from derivation.scene.time_element import P
+from derivation.scene.time_element import P, TimeElement
 
 RADIUS = 0.01
 PANE = {"radius": 0.1, "thickness": 0.01, "material": "glass"}
@@ -82,6 +84,17 @@ def test_viscoelastic_force_is_not_negative(name: str) -> None:
             for piece in touching.pieces:
                 x = piece.element.x + piece.element.length * np.linspace(0.0, 1.0, 2001)
                 assert np.min(piece.element.at(x)[P]) > -1e-6
+
+
+def test_contact_that_widens_behind_the_plate_has_no_remaining_time() -> None:
+    """The approach of a viscoelastic contact may be negative; the length of the next element was
+    then a complex number.
+    """
+    rows, none = np.zeros((9, 4)), np.zeros(1)
+    element = Element(1.0, 0.1, rows, np.array([0.5, 0.0, 0.0, 0.0]))
+    state = ImpactState(0.0, -1.0, none, none, approach=-10.0)
+    last = TimeElement(element, state, 1.0, none, None)
+    assert contact_sequence._left(last) == math.inf
 
 
 def test_elements_end_at_yield_events_for_any_number_of_nodes() -> None:

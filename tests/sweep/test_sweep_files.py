@@ -209,6 +209,13 @@ def test_invalid_studies_are_rejected_before_the_computation(
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.parametrize("suffix", write.SUFFIXES)
+def test_command_writes_each_format(formula: Formula, tmp_path: Path, suffix: str) -> None:
+    out = tmp_path / f"rows{suffix}"
+    assert main(["sweep", str(QUICK), "--vary", "impact.speed=1:2:3", "--out", str(out)]) == 0
+    assert (out.exists(), formula.calls) == (True, 3)
+
+
 def test_outputs_of_another_study_are_rejected(
     formula: Formula, tmp_path: Path, capsys: Captured
 ) -> None:

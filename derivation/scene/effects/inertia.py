@@ -47,6 +47,9 @@ MOST_VISCOUS = 2.0
 the plate may change the little that remains of its speed by any factor."""
 DISSIPATION = 1.2, 0.4
 """Coefficients of x_v and x_v^2 in a bound on 1/e - 1, e the restitution of Hertz's contact."""
+LOSS_BY_ZENER, LEAST = 2.0, 0.03
+"""Coefficient of the Zener parameter lambda in the logarithm of a small restitution, 1.72 on an
+infinite plate with a small lambda (Zener 1941), and the least restitution that bounds assume."""
 NOTHING = 1e-30
 """Smallest fraction of the kinetic energy that counts as remaining."""
 COUNTED, NODES_BEYOND = 32, 64
@@ -153,6 +156,16 @@ def weight_share(model: Model, depth: Numbers) -> Numbers:
     energy and of this work, but the restitution refers to the initial kinetic energy alone.
     """
     return 2.0 * model.gravity * depth / model.v0 / model.v0
+
+
+def least_restitution(model: Model) -> Numbers:
+    """Return a small value of the restitution of an elastic contact on a plate with inertia [1].
+
+    Beyond lambda = 1.7 waves that return from the edge determine the restitution.
+    """
+    number = PlateInertia().value(model, 0.0)
+    found: Numbers = np.maximum(LEAST, np.exp(-LOSS_BY_ZENER * number))
+    return found
 
 
 def higher_branch_error(model: Model, a: Numbers, T: Numbers, loss_factor: float = 0.0) -> Changes:

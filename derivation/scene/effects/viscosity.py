@@ -86,10 +86,9 @@ def on_vibrating_plate(changes: Changes, inertia: Numbers) -> Changes:
     changes
         Bounds of the results on a quasi-static plate.
     inertia
-        Largest change of a result by plate inertia [1]; NaN or infinite if it is unknown.
+        Largest change of a result by plate inertia [1]; 1 if it is larger or unknown.
     """
-    size = np.where(np.isfinite(inertia), np.minimum(inertia, 1.0), 1.0)
-    more = VIBRATION * size * changes[-1]
+    more = VIBRATION * inertia * changes[-1]
     time, depth, force, radius, speed = (change + more for change in changes)
     return time, depth, force, radius, speed
 

@@ -55,7 +55,7 @@ LONG = 1.5e6
 """Expected work of the second run above which coarser runs first check the first one."""
 FOURTH = 8
 """Number of modes from which a run with a quarter of them is meaningful."""
-WORK = 4e7
+WORK = 4.5e7
 """Largest work of all runs of an impact, in the units of `contact_sequence.WORK`."""
 
 

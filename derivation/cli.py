@@ -4,7 +4,6 @@ Exit status: 0 success, 1 a check failed or formulas differ, 2 invalid input, 14
 output has closed the pipe.
 """
 
-import os
 import sys
 from collections.abc import Sequence
 from functools import partial
@@ -48,10 +47,6 @@ from derivation.engine.failed import FailedError
 from derivation.engine.files import ROOT, in_checkout
 from derivation.engine.staging import recover
 from derivation.scene.old_names import OldNameWarning
-
-ONE_THREAD = "OMP_NUM_THREADS", "MKL_NUM_THREADS", "OPENBLAS_NUM_THREADS"
-"""Environment variables with the number of threads of matrix products, unless the user sets them.
-The matrices are small: with two threads, a simulation took up to four times the processor time."""
 
 app = typer.Typer(
     cls=GroupedHelp,
@@ -235,8 +230,6 @@ command()(scene_commands.schema)
 def main(argv: Sequence[str] | None = None) -> int:
     """Run a command and return its exit status; an error of the user is shown as one message."""
     platecontact = get_command(app)
-    for variable in ONE_THREAD:  # read when NumPy is loaded
-        os.environ.setdefault(variable, "1")
     try:
         if in_checkout():
             recover(ROOT / "generated")

@@ -128,7 +128,7 @@ def by_coefficient(name: str) -> Check:
     moment = {f"kappa_{order - 1}": number(contact_balls.kappa(order - 1, 25))}
     assert str(kappa[order - 1]) in moment
     etas = [{"eta": mp.mpf(eta.numerator) / eta.denominator} for eta in ETAS]
-    rest = chain()[f"c_{order}_{'side' if part == 'modes' else 'modes'}"].expression
+    rest = chain()[f"c_{order}_{'lateral' if part == 'modes' else 'modes'}"].expression
 
     def passes(expression: sp.Expr) -> bool:
         modes, side = (expression, rest) if part == "modes" else (rest, expression)

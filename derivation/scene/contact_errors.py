@@ -77,7 +77,8 @@ def check_whole_width(problem: DynamicProblem, widest: float) -> None:
 
 def narrower(problem: DynamicProblem) -> str:
     """Return what makes a contact narrower, with a speed that is low enough if there is one."""
-    speed, weight = sufficient_speed(problem), " or impact.gravity" if problem.weight else ""
+    weight = " or impact.gravity" if problem.weight else ""
+    speed = sufficient_speed(problem)
     enough = f" to {speed:.2g} m/s" if 0.0 < speed < problem.v0 else ""
     return f"reduce impact.speed{enough}{weight}, or use a lighter sphere or a thicker plate"
 
@@ -86,17 +87,20 @@ def sufficient_speed(problem: DynamicProblem) -> float:
     """Return a speed [m/s] from which a first contact stays within the limit of the law.
 
     The sphere then has less energy than the contact absorbs up to the limit without any motion of
-    the modes; these only take energy from it. 0 if the weight alone exceeds the limit.
+    the modes; these only take energy from it. 0 if the tables of the contact end before the limit,
+    or the weight alone exceeds it.
     """
     a = min(problem.limit, problem.contact.top) * np.linspace(0.0, 1.0, GRID)[1:]
     at = problem.contact.at(a)
-    depth_a, last = at.depth_a, a.size
+    depth_a, wide = at.depth_a, a
     if problem.yielding is not None:
         begun = replace(problem.yielding, ratio=1.0, loading=True)
         yields = begun.hertz_radius(at.force) > begun.onset
         depth_a = depth_a + np.where(yields, begun.added(at.force, at.force_a).depth_a, 0.0)
         wide = np.where(yields, begun.widened(a, at.force), a)
-        last = int(np.searchsorted(wide, problem.limit))
+    if wide[-1] < problem.limit:
+        return 0.0
+    last = int(np.searchsorted(wide, problem.limit))
     # Each sum has less force than the integral, and the last interval is omitted.
     work = float(np.sum(at.force[: last - 1] * np.diff(a[:last]) * depth_a[: last - 1]))
     depth = float(np.sum(np.diff(a[:last]) * depth_a[: last - 1]))
@@ -127,10 +131,9 @@ def lost(
             f"grows wider than {problem.contact.top:.4g} m, {WIDER:g} times what the impact on a "
             "plate that does not deflect reaches"
         )
-        remedy = "use a thicker plate or a lighter sphere"
         if problem.contact.top >= problem.limit:
             why = f"grows wider than the contact law allows, {problem.range_end}"
-            remedy = narrower(problem)
+        remedy = narrower(problem)
     bent = problem.contact.modes.by_shape(state.q)
     # The present radius and a larger one, of a plastic contact also where unloading begins.
     for branch in (problem, turned(problem, radius)):

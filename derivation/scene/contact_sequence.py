@@ -39,7 +39,7 @@ SOLVED = 1e-3
 """Tolerance of Newton's iteration over that of the element, if its derivative is exact."""
 ROUGH = 1e2
 """Factor of the tolerance for the force of a viscoelastic contact."""
-CONTACTS, ELEMENTS, WORK = 100, 20_000, 3e7
+CONTACTS, ELEMENTS, WORK = 100, 20_000, 3.5e7
 """Largest numbers of contacts and of computed elements of an impact, and largest work: elements and
 evaluations in flight, weighted by the run time of each."""
 PROGRESS = 50

@@ -16,7 +16,7 @@ DEGREE, RESOLVED = 32, 0.75
 DIGITS = 33.0
 """Natural logarithm of the accuracy that the degree of the tables gives for a sphere."""
 TAIL, LAST, FINER, HIGHEST = 1e-13, 4, 1.5, 150
-"""Largest value of the last coefficients of force and depth over the largest one, number of these,
+"""Least bound of the last coefficients of force and depth over the largest one, number of these,
 and the factor by which the degree grows until it is met, up to a degree of `HIGHEST`."""
 
 
@@ -91,7 +91,9 @@ class ContactTables:
         return np.where((a >= 0.0) & (a <= self.top), a / self.top, np.nan)
 
 
-def contact_of(law: ContactLaw, plate: ModalPlate, top: float, pointwise: bool) -> ContactTables:
+def contact_of(
+    law: ContactLaw, plate: ModalPlate, top: float, pointwise: bool, tail: float = TAIL
+) -> ContactTables:
     """Return the tables of a law with the paper's edge and the modes of a plate.
 
     Parameters
@@ -100,12 +102,14 @@ def contact_of(law: ContactLaw, plate: ModalPlate, top: float, pointwise: bool) 
         Largest contact radius [m].
     pointwise
         Whether the indentation is defined at the axis: s_j = 1.
+    tail
+        Largest value of the last coefficients over the largest one [1].
     """
     # sin(a phi) requires a polynomial of a degree above a phi/2.
     fastest = float(np.max(plate.less.phi, initial=0.0))
     degree = max(DEGREE, int(16 + RESOLVED * top * fastest), _of_sphere(law, top))
     sampled = _sampled(law, top, degree)
-    while degree < HIGHEST and not sampled.resolved(knots(degree)[1]):
+    while degree < HIGHEST and not sampled.resolved(knots(degree)[1], tail):
         degree = math.ceil(FINER * degree)
         sampled = _sampled(law, top, degree)
     x, analysis, mean = knots(degree)
@@ -145,10 +149,10 @@ class _Samples(NamedTuple):
     depth: Array
     growth: Array
 
-    def resolved(self, analysis: Array) -> bool:
-        """Return whether the last coefficients of the polynomials are as small as `TAIL`."""
+    def resolved(self, analysis: Array, tail: float) -> bool:
+        """Return whether the last coefficients of the polynomials are small enough."""
         sizes = np.abs(analysis @ np.column_stack(self))
-        return bool(np.all(sizes[-LAST:] <= TAIL * np.max(sizes, axis=0)))
+        return bool(np.all(sizes[-LAST:] <= tail * np.max(sizes, axis=0)))
 
 
 def _sampled(law: ContactLaw, top: float, degree: int) -> _Samples:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from derivation.engine.threads import one_thread
 from derivation.scene import kernels, motion
 from derivation.scene.achieved_accuracy import (
     ESTIMATED,
@@ -204,7 +205,7 @@ def dynamic_impact(
     rest = remaining(selected, rtol)
     need = math.inf if rest is None or not within else rest
     try:
-        with np.errstate(all="ignore"):  # extreme scenes give NaN, which is checked
+        with one_thread(), np.errstate(all="ignore"):  # extreme scenes give NaN, which is checked
             return waves.impact(selected.law, waves.goal(rest), selected.outputs, need)
     except OutOfReachError as error:
         least = math.expm1(math.log1p(selected.error) + math.log1p(error.least))

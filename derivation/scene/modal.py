@@ -312,8 +312,9 @@ def _edge_waves(edge: str, eta: float, nu: float) -> "Waves":
 def _too_thick(model: Model) -> SceneError:
     """Return the error for a plate too thick for bending modes of its edge."""
     return SceneError(
-        f"plate.edge: expected a {model.edge} plate with bending modes, h/b up to about 0.4, got "
-        f'h/b = {model.eta:.3g}; write edge = "paper", or effects.inertia = false'
+        f"plate.edge: expected a {model.edge} plate with bending modes, thickness up to about 0.8 "
+        f"times its radius, got {2.0 * model.h:.3g} m and {model.b:.3g} m; reduce the thickness, "
+        'write edge = "paper", or effects.inertia = false'
     )
 
 

@@ -10,7 +10,7 @@ from pydantic import Field, ValidationError
 
 from derivation.engine.files import read_file
 from derivation.engine.printable import one_line
-from derivation.scene import old_names
+from derivation.scene import old_names, toml_errors
 from derivation.scene.bodies import Material as Material
 from derivation.scene.bodies import Plate as Plate
 from derivation.scene.bodies import Positive
@@ -248,9 +248,11 @@ def load(path: str | Path) -> Scene:
     'simply-supported'
     """
     name = one_line(str(path), 200)
+    text = ""
     try:
         # Some editors begin a file with a byte-order mark, which TOML does not know.
-        data = tomllib.loads(read_file(Path(path), LARGEST).decode("utf-8-sig"))
+        text = read_file(Path(path), LARGEST).decode("utf-8-sig")
+        data = tomllib.loads(text)
     except OSError as error:
         reason = error.strerror or error
         raise SceneError(
@@ -262,10 +264,7 @@ def load(path: str | Path) -> Scene:
             "file as UTF-8"
         ) from None
     except tomllib.TOMLDecodeError as error:
-        raise SceneError(
-            f"{name}: not valid TOML: {error}; write each line as `key = value`, such as "
-            "`radius = 0.13`"
-        ) from None
+        raise SceneError(f"{name}: not valid TOML: {toml_errors.in_words(error, text)}") from None
     except (ValueError, RecursionError):  # more digits or brackets than Python can read
         raise SceneError(
             f"{name}: expected TOML, got a number or nested brackets that are too long to read; "

@@ -2,7 +2,7 @@
 
 import math
 
-from derivation.scene.contact_tables import contact_of
+from derivation.scene.contact_tables import TAIL, contact_of
 from derivation.scene.dynamic_problem import DynamicProblem
 from derivation.scene.effects.inertia import WIDER
 from derivation.scene.law import ContactLaw
@@ -10,17 +10,32 @@ from derivation.scene.modal import ModalPlate, bending_share, plate_of
 from derivation.scene.model import Model
 from derivation.scene.yielding import units_of, yielding_of
 
-
-def problem_of(law: ContactLaw, count: int) -> DynamicProblem:
-    """Return the dynamic problem of a law with a number of bending modes."""
-    return problem_with(law, plate_of(law, count))
+FINER = 1e-2
+"""Last coefficients of the contact tables over the tolerance of the time elements."""
 
 
-def problem_with(law: ContactLaw, plate: ModalPlate) -> DynamicProblem:
-    """Return the problem in units of the impact on a plate that does not deflect."""
+def problem_of(law: ContactLaw, count: int, tolerance: float = 0.0) -> DynamicProblem:
+    """Return the dynamic problem of a law with a number of bending modes.
+
+    Parameters
+    ----------
+    tolerance
+        Tolerance of the time elements [1], than which the contact tables are more accurate.
+    """
+    return problem_with(law, plate_of(law, count), max(TAIL, FINER * tolerance))
+
+
+def problem_with(law: ContactLaw, plate: ModalPlate, tail: float = TAIL) -> DynamicProblem:
+    """Return the problem in units of the impact on a plate that does not deflect.
+
+    Parameters
+    ----------
+    tail
+        Largest value of the last coefficients of the contact tables over the largest one [1].
+    """
     model, (a, T) = law.model, units_of(law)
     rest = law.only(lambda e: e.static and not e.other_edge)
-    contact = contact_of(rest, plate, min(WIDER * a, law.limit), model.inertia.pointwise)
+    contact = contact_of(rest, plate, min(WIDER * a, law.limit), model.inertia.pointwise, tail)
     retardation = model.retardation_time / T if law.viscous else 0.0
     heard = echo_time(model) / T if model.inertia.infinite_plate else math.inf
     weight = law.gravity * (T / model.v0)

@@ -55,7 +55,7 @@ LONG = 1.5e6
 """Expected work of the second run above which coarser runs first check the first one."""
 FOURTH = 8
 """Number of modes from which a run with a quarter of them is meaningful."""
-WORK = 4e7
+WORK = 4.5e7
 """Largest work of all runs of an impact, in the units of `contact_sequence.WORK`."""
 
 
@@ -127,7 +127,7 @@ def impact(
         If an impact on a plate that does not deflect exceeds the range of the law, the modes of the
         plate are too slow or too many, or the first contact cannot be computed to its end.
     """
-    _check_heavy(law)
+    _check_heavy(law, time_tolerance(goal))
     budget, reach = Budget(WORK), Reach(law, outputs, need)
     rough: DynamicImpact | None = None
     if law.model.inertia.branches == "auto" and not law.viscous:
@@ -158,7 +158,7 @@ def _branched(
     every, lowest, close = branching(law, "all"), branching(law, "A0"), time_tolerance(goal)
     if not followed(every, 2 * affordable(every)):
         return lowest, None
-    problem = problem_of(lowest, count_of(law))
+    problem = problem_of(lowest, count_of(law), close)
     room = goal / SHARE - goal - _integration_error(problem, close)
 
     def beyond(contacts: tuple[ContactRun, ...]) -> bool:
@@ -186,7 +186,7 @@ def half_period(m: float, modes: Modes) -> float:
     return math.pi * math.sqrt(m * float(np.sum(modes.compliance)))
 
 
-def _check_heavy(law: ContactLaw) -> None:
+def _check_heavy(law: ContactLaw, tolerance: float) -> None:
     """Reject a sphere so heavy that it stays on the plate for more time steps than are allowed.
 
     The contacts last about half a period, and the fastest mode limits the time step.
@@ -196,7 +196,7 @@ def _check_heavy(law: ContactLaw) -> None:
     if ratio < HEAVY or model.inertia.modes or model.inertia.infinite_plate:
         return
     swing = half_period(model.m, modes)
-    problem = problem_of(law, 2 * affordable(law))
+    problem = problem_of(law, 2 * affordable(law), tolerance)
     n = nodes_for(problem)
     steps = IN_CONTACT * swing / problem.T * problem.fastest / (contact_sequence.PHASE * n)
     most = contact_sequence.steps_of(problem, n)
@@ -265,7 +265,7 @@ def _converged(
 
 def _next_work(law: ContactLaw, count: int, rough: DynamicImpact) -> float:
     """Return the expected work of a run with a number of bending modes."""
-    problem = problem_of(law, count)
+    problem = problem_of(law, count, rough.impact_history.tolerance)
     return expected_work(problem, nodes_for(problem), rough.impact_history)
 
 
@@ -300,12 +300,12 @@ def _run(
     reach
         The tolerance, if the run ends when omitted wave branches exceed it.
     """
-    problem = problem_of(law, count)
+    problem = problem_of(law, count, tolerance)
     n = nodes_for(problem) - fewer_nodes
     work = min(contact_sequence.WORK, budget.left)
     if coarse and expected_work(problem, n, coarse) > work:
         fewer = count // 2
-        while fewer > 1 and expected_work(problem_of(law, fewer), n, coarse) > work:
+        while fewer > 1 and expected_work(problem_of(law, fewer, tolerance), n, coarse) > work:
             fewer //= 2
         return dynamic_impact_of(law, _unchecked(coarse, problem, fewer))
     enough = reach.enough(law, problem) if reach else None

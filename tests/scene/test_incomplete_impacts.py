@@ -191,6 +191,6 @@ def test_all_runs_of_an_impact_count_towards_one_limit(monkeypatch: pytest.Monke
     monkeypatch.setattr(waves, "WORK", 0.9 * whole)
     found = waves.impact(law, 1e-9)
     waves.impact.cache_clear()
-    assert sum(used) <= 0.9 * whole
+    assert sum(used) <= 0.9 * whole * (1.0 + 1e-12)  # sums are rounded
     assert found.inertia.complete
     assert found.inertia.modes < best.inertia.modes

@@ -86,7 +86,9 @@ BAD = [
     ("lame_mu = 0.43e9", "lame_mu = 0.0", "plate.lame_mu: |0"),
     ("lame_lambda = 0.36e9", "lame_lambda = -0.3e9", "3 lame_lambda + 2 lame_mu|-3e+08"),
     ("lame_lambda = 0.36e9", "lame_lambda = -inf", "plate.lame_lambda: |-inf"),
-    ("lame_lambda = 0.36e9", "lame_lambda = 0,36e9", "TOML|line 7"),
+    ("lame_lambda = 0.36e9", "lame_lambda = 0,36e9", "TOML|line 7|decimal point"),
+    ("lame_lambda = 0.36e9", "lame_lambda = 0.36 GPa", "TOML|line 7|0.36 GPa|SI units"),
+    ("lame_lambda = 0.36e9", "material = steel", 'TOML|line 7|quotes|material = "steel"'),
     ("radius = 1.0", "radius = 1.0\nradius = 2.0", "TOML|line 6"),
 ]  # fmt: skip
 

@@ -67,7 +67,7 @@ def winners(data: Data) -> Iterator[str]:
 def impacts(data: Data) -> Iterator[str]:
     """Yield the run times of impacts: of one, and of the largest number measured."""
     for growth in data["scaling"]:
-        if growth["what"] == "scenes":
+        if growth["quantity"] == "scenes":
             sizes, seconds = growth["x"], growth["seconds"]
             each = time(seconds[-1] / sizes[-1])
             yield f"| {growth['method']} | {time(seconds[0] / sizes[0])} | {each} | {sizes[-1]:,} |"

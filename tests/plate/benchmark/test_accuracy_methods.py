@@ -159,9 +159,7 @@ def test_coefficients_agree_with_the_reference(h: float, order: int) -> None:
 
 
 @pytest.mark.parametrize("double_exponential", [True, False])
-def test_both_quadrature_rules_give_the_moments_of_the_lateral_surface(
-    double_exponential: bool,
-) -> None:
+def test_both_quadrature_rules_give_the_moments(double_exponential: bool) -> None:
     """The nodes and weights, which include 1/y^3, integrate y^n K0/I0 as the Arb reference does."""
     nodes, weights = sums.lateral_nodes(64, 16, double_exponential, 120)
     y, w = (np.array([float(x) for x in column]) for column in (nodes, weights))

@@ -15,7 +15,7 @@ def _controller() -> Any:
 def one_thread() -> AbstractContextManager[Any]:
     """Return a context in which NumPy computes matrix products in one thread.
 
-    With two threads an impact on a plate with many modes took four times as long.
+    With two threads a simulation with many small matrices took four times as long.
     """
     found: AbstractContextManager[Any] = _controller().limit(limits=1, user_api="blas")
     return found

@@ -39,10 +39,13 @@ def stated(known: Mapping[str, Block]) -> dict[str, Shape]:
 
 
 FILM = "F_bonded", "F_slipping", "C_slipping"
+MODULES = [
+    FormulaModule("film", "Influence coefficients of a film.", FILM),
+]
 PACKAGE = PackageSettings(
     summary="Influence coefficients of an elastic film: functions that need only NumPy.",
     citation="A film on a rigid base",
-    parts=(FormulaModule("film", "Influence coefficients of a film.", FILM),),
+    parts=tuple(MODULES),
     budgets=Path(__file__).with_name("budgets.toml"),
     scales=SCALES,
     stated=stated,

@@ -54,7 +54,7 @@ RADIATED, REMAINING = 3.0, 0.75
 """Change of the logarithm of the restitution e on a plate with inertia, over that of the worst
 other result, the change by inertia (at most 1) and 1 + work of the weight over kinetic energy: the
 larger one of both numbers, the second divided by e. Fitted: in 300 random scenes whose sphere was
-given another radius the change of an elastic contact was at most 1.33. In seven scenes that yield
+given another radius the change of an elastic contact was at most 2.0. In seven scenes that yield
 or are viscoelastic it was 5 to 312, which `_plastic_sensitivity` and the bound of viscosity cover:
 in 392 random scenes the restitution changed by at most 0.3 of its whole bound."""
 WEIGHT = 8.0

@@ -35,8 +35,9 @@ HEADS = (
     "#radius [m]", "#indentation [m]", "#force [N]", "#stiffness [N/m]", "#max. pressure [Pa]",
 )  # fmt: skip
 """Column heads of the table of contacts."""
-_STEPS, _CLOSE, _FOUND = 60, 4e-16, 1e-12
-"""Largest number of Newton's steps; relative step that ends them, and that a result may have."""
+_STEPS, _CLOSE, _FOUND, _HALVINGS = 60, 4e-16, 1e-12, 60
+"""Largest number of Newton's steps; relative step that ends them, and that a result may have;
+halvings of an interval."""
 Values = float | Iterable[float]
 
 
@@ -245,13 +246,12 @@ def _radius(law: ContactLaw, name: str, value: float) -> float:
     SceneError
         If the value exceeds the range of the law, or the law gives no finite number.
     """
-    R, last = law.model.R, last_radius(law)
+    R, (last, end) = law.model.R, _range_end(law, name)
     largest, _ = _with_slope(law, name, last)
     if not value < largest:
         raise SceneError(
             f"{name}: expected less than {largest:.6g} {UNITS[name]}, where the contact radius "
-            f"reaches {law.limit_in_words}, got {value:.6g} {UNITS[name]}; "
-            f"reduce the {_in_words(name)}"
+            f"reaches {end}, got {value:.6g} {UNITS[name]}; reduce the {_in_words(name)}"
         )
     a = value if name == "contact_radius" else math.sqrt(R) * math.sqrt(value)
     if name == "force":
@@ -269,6 +269,27 @@ def _radius(law: ContactLaw, name: str, value: float) -> float:
             f"{name}: found no contact with {value:.6g} {UNITS[name]}; use less extreme values"
         )
     return a
+
+
+def _range_end(law: ContactLaw, name: str) -> tuple[float, str]:
+    """Return the largest radius [m] up to which a quantity grows with it, and the radius in words.
+
+    Near the edge of a thick plate, the law may have no value or decrease before its limit.
+    """
+    last = last_radius(law)
+    if _grows(law, name, last):
+        return last, law.limit_in_words
+    low, high = 0.0, last
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if _grows(law, name, middle) else (low, middle)
+    return low, f"{low:.6g} m, beyond which the law of this plate does not hold"
+
+
+def _grows(law: ContactLaw, name: str, a: float) -> bool:
+    """Return whether a quantity is positive and grows with the radius."""
+    value, slope = _with_slope(law, name, a)
+    return value > 0.0 and slope > 0.0
 
 
 def _with_slope(law: ContactLaw, name: str, a: float) -> tuple[float, float]:

@@ -179,8 +179,9 @@ def test_all_runs_of_an_impact_count_towards_one_limit(monkeypatch: pytest.Monke
     follow = contact_sequence.impact_history
 
     def noted(*args: Any, **options: Any) -> ImpactHistory:
-        used.append(follow(*args, **options).work)
-        return follow(*args, **options)
+        history = follow(*args, **options)
+        used.append(history.work)
+        return history
 
     monkeypatch.setattr(contact_sequence, "impact_history", noted)
     waves.impact.cache_clear()

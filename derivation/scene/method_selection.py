@@ -75,23 +75,36 @@ def solve_selected(
         If the impact exceeds the law's range, or the tolerance cannot be met.
     """
     law, rest = selected.law, remaining(selected, rtol)
+    moving: DynamicImpact | None = None
     if law.of_paper:
         found, accuracy = solve(law.model, rest)
     elif law.dynamic:
-        found, accuracy = _with_inertia(selected, rtol, within)
+        moving = dynamic_impact(selected, rtol, within)
+        found, accuracy = moving.numbers, _accuracy_with_inertia(selected, moving)
     else:
         found, accuracy = _composed(law)
     accuracy = replace(
         accuracy,
         rtol=rtol,
-        effects=Part(_omitted(selected, found[-1]), _basis(selected)),
+        effects=Part(_omitted(selected, found, moving), _basis(selected)),
         outputs=selected.outputs,
     )
     # An incomplete impact has no bound; it is returned and marked as incomplete.
     if within and rtol is not None and rtol < accuracy.bound and not math.isnan(found[-1]):
+        if _may_jump(selected, moving):
+            raise _jump(rtol)
         raise _out_of_reach(rtol, accuracy, law, found[3])
     check_numbers(law.model, *(found[:-1] if math.isnan(found[-1]) else found))
     return found, accuracy
+
+
+def _jump(rtol: float) -> SceneError:
+    """Return the error for a first contact whose duration may jump."""
+    return SceneError(
+        f"rtol: expected a first contact whose duration is determined to {rtol:.3g}, got one that "
+        "the omitted effects may split or join with the second; reduce the tolerance, so that more "
+        "effects are included, or leave contact_time out of accuracy.outputs"
+    )
 
 
 def _out_of_reach(rtol: float, accuracy: AchievedAccuracy, law: ContactLaw, a: float) -> SceneError:
@@ -121,17 +134,29 @@ def remaining(selected: SelectedEffects, rtol: float | None) -> float | None:
     return None if rtol is None else (rtol - selected.error) / (1.0 + selected.error)
 
 
-def _omitted(selected: SelectedEffects, restitution: float) -> float:
-    """Return the bound on the omitted effects, larger for a small restitution than the selection's.
+def _omitted(selected: SelectedEffects, found: Results, motion: "DynamicImpact | None") -> float:
+    """Return the bound on the omitted effects; with plate inertia it may exceed the selection's.
 
-    A plate with inertia may take nearly all energy. What then remains of the speed changes by a
-    multiple.
+    A plate may take nearly all energy. What then remains of the speed changes by a multiple. If the
+    omitted effects may split the first contact or join it with the second, there is no bound on its
+    duration, which jumps.
     """
-    if not selected.law.dynamic or "restitution" not in selected.outputs:
+    if motion is None:
+        return selected.error
+    if _may_jump(selected, motion):
+        return math.inf
+    if "restitution" not in selected.outputs:
         return selected.error
     from derivation.scene.effects.inertia import LEAST
 
-    return selected.error * max(1.0, LEAST / max(restitution, 1e-300))
+    return selected.error * max(1.0, LEAST / max(found[-1], 1e-300))
+
+
+def _may_jump(selected: SelectedEffects, motion: "DynamicImpact | None") -> bool:
+    """Return whether the omitted effects may change the duration of the first contact by a jump."""
+    if motion is None or "contact_time" not in selected.outputs or not selected.error:
+        return False
+    return motion.decisive_change <= selected.error
 
 
 def _basis(selected: SelectedEffects) -> str:
@@ -167,19 +192,16 @@ def _cancellation(law: ContactLaw, a: float) -> float:
     return float(law.cancellation(np.array([a]))[0])
 
 
-def _with_inertia(
-    selected: SelectedEffects, rtol: float | None, within: bool
-) -> tuple[Results, AchievedAccuracy]:
-    """Return the outputs with plate inertia, with their accuracy."""
+def _accuracy_with_inertia(selected: SelectedEffects, found: "DynamicImpact") -> AchievedAccuracy:
+    """Return the accuracy of an impact on a plate with inertia, without the omitted effects."""
     from derivation.scene import waves
 
-    law, found = selected.law, dynamic_impact(selected, rtol, within)
-    return found.numbers, AchievedAccuracy(
+    return AchievedAccuracy(
         "full",
         None,
         law=Part(math.fsum(found.inertia.left(selected.outputs)), ESTIMATED),
         quadrature=Part(waves.integration_error(found.impact_history), TESTED),
-        rounding=Part(rounding_of(law), TESTED),
+        rounding=Part(rounding_of(selected.law), TESTED),
     )
 
 

@@ -130,12 +130,24 @@ class DynamicImpact(Motion):
     @property
     def least(self) -> float:
         """Smallest force between two maxima in a contact, over the peak force [1]; 1 if none."""
-        found = [1.0]
-        for rows in self._touching:
-            force = rows[P] / self.max_force
-            inner = (force[1:-1] <= force[:-2]) & (force[1:-1] < force[2:])
-            found += force[1:-1][inner].tolist()
-        return min(found)
+        return min(self._least_force(rows) for rows in self._touching)
+
+    @property
+    def decisive_change(self) -> float:
+        """Relative change that may split the first contact, or join it with the second [1].
+
+        It is the smallest force between two maxima of the first contact, over the peak force; or
+        the time up to the second contact over the duration of the first.
+        """
+        first, *others = self.inertia.contacts
+        gap = (others[0].start - first.end) / (first.end - first.start) if others else math.inf
+        return min(self._least_force(self._touching[0]), gap)
+
+    def _least_force(self, rows: Array) -> float:
+        """Return the smallest force between two maxima, over the peak force [1]; 1 if none."""
+        force = rows[P] / self.max_force
+        inner = (force[1:-1] <= force[:-2]) & (force[1:-1] < force[2:])
+        return float(np.min(force[1:-1][inner], initial=1.0))
 
     def largest_deflection(self, law: ContactLaw) -> float:
         """Return the largest deflection of the plate at the axis [m], in either direction.

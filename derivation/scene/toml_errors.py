@@ -8,7 +8,6 @@ REMEDIES = {
     r"=\s*[-+]?\d+,\d": "write numbers with a decimal point",
     r"=\s*[A-Za-z_]": 'put text in quotes, such as `material = "steel"`',
     r"=\s*[-+]?[\d.]+(e[-+]?\d+)?\s*[A-Za-z]+": "write numbers in SI units without the unit",
-    r"^\s*[^=\[#]+$": ORDINARY,
 }
 """What to write instead, by regular expressions of common mistakes in a line."""
 

@@ -3,7 +3,7 @@
 Impacts on quasi-static plates with Hertzian pressure are computed in arrays. All other rows
 (non-Hertzian pressure, a viscoelastic or plastic contact, plate inertia), invalid rows, and rows
 for which rounding could change a decision are simulated one by one. Each row is equal to the result
-of `simulate` for its scene: effects, status and reason are the same, numbers differ by rounding.
+of `simulate` for its scene: effects, status and reason are the same, and numbers to the last bit.
 """
 
 import math

@@ -51,7 +51,8 @@ class Result:
         Largest contact radius [m].
     restitution
         Rebound speed over impact speed [1]: 1 in an elastic contact on a quasi-static plate; NaN if
-        the simulation is incomplete.
+        the simulation is incomplete. It is the speed at the last separation: under its weight, a
+        sphere that leaves a deflected plate may be faster than it was.
     max_pressure
         Largest contact pressure, at the centre of the widest contact [Pa]; at most 1.6 times the
         yield stress in a plastic contact, only the elastic part in a viscoelastic contact.

@@ -68,11 +68,7 @@ class Domain(NamedTuple):
     name: str
 
     def holds(self, kernels: Mapping[str, Kernel]) -> bool:
-        names, call = ROWS[self.name]["arguments"], kernels[self.name].call
-        own = OUTSIDE.get(self.name, {}).items()
-        outside = [dict(moved) for _, moved in violations(self.name)]
-        outside += [{key: bad} for key, several in own for bad in several]
-        given = [tuple((EXAMPLE | point)[key] for key in names) for point in (*outside, {})]
+        given, call = domain_points(self.name), kernels[self.name].call
         more = {"modes": 5} if ROWS[self.name].get("modes") else {}
         with np.errstate(all="ignore"):
             alone = [np.asarray(call(*point, **more)) for point in given]
@@ -82,6 +78,15 @@ class Domain(NamedTuple):
         # Results of a point lie along a last axis of their own, or along the first ones.
         same = np.isnan(together if together.shape == nan.shape else np.moveaxis(together, -1, 0))
         return bool(nan[:-1].all() and not nan[-1].any() and (same == nan).all())
+
+
+@cache
+def domain_points(name: str) -> tuple[tuple[float, ...], ...]:
+    """Return points outside the domain of a function, and its example."""
+    outside = [dict(moved) for _, moved in violations(name)]
+    outside += [{key: bad} for key, several in OUTSIDE.get(name, {}).items() for bad in several]
+    names = ROWS[name]["arguments"]
+    return tuple(tuple((EXAMPLE | point)[key] for key in names) for point in (*outside, {}))
 
 
 class Layouts(NamedTuple):

@@ -13,6 +13,7 @@ from generated.contact_domain import elastic, modulus_factors, plates_of_lengths
 from generated.contact_series import Plates
 
 _CIRCLE = 129  # number of directions in the search for the radius of convergence
+_TOGETHER = 64  # number of circles searched together
 
 
 @in_manifest(
@@ -105,13 +106,17 @@ def _reversed(plates: Plates, plate: int, terms: int) -> tuple[float, Double]:
     circles = reach * np.geomspace(start / reach, 1.0, 1 + int(400 * (1 - np.log10(start / reach))))
     directions = np.exp(1j * np.linspace(0.0, np.pi, _CIRCLE))  # the others are conjugate
     radius = scale = 0.0
-    for circle in circles:
-        A = circle * directions
+    for begin in range(0, circles.size, _TOGETHER):
+        some = circles[begin : begin + _TOGETHER]
+        A = some[:, None] * directions
         value = np.polyval(row[::-1], (A / reach) ** 2)
-        least = float(np.min(kernels.size_of_eps(circle, A * value)))
-        if least < radius:
+        least = kernels.size_of_eps(some[:, None], A * value).min(axis=1)
+        fallen = np.flatnonzero(least < np.append(radius, least[:-1]))
+        count = int(fallen[0]) if fallen.size else some.size
+        if count:
+            radius, scale = float(least[count - 1]), float(some[count - 1])
+        if fallen.size:
             break
-        radius, scale = least, float(circle)
     scaled = np.zeros(terms)  # F in powers of A/scale
     for k in range(min(row.size, terms // 2)):
         scaled[2 * k + 1] = row[k] * scale * (scale / reach) ** (2 * k)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from derivation.engine.threads import one_thread
-from derivation.scene import kernels, motion
+from derivation.scene import kernels, motion, simple_laws
 from derivation.scene.achieved_accuracy import (
     ESTIMATED,
     PROVED,
@@ -298,7 +298,7 @@ def _half_space(law: ContactLaw) -> tuple[Results, AchievedAccuracy] | None:
     """Return the outputs by Hertz's law in closed form; None for extreme values."""
     R, m, v0, h, b, lam, mu = law.model.numbers
     share = 1.0 / (1.0 + law.softness)
-    found = kernels.hertz(R, m, v0, h, b, share * lam, share * mu)
+    found = simple_laws.single(simple_laws.hertz, R, m, v0, h, b, share * lam, share * mu)
     if found is None:
         return None
     rounding = Part(found.rounding, ROUNDING_ANALYSIS)
@@ -324,8 +324,8 @@ def solve(model: Model, rtol: float | None = None) -> tuple[Results, AchievedAcc
     """
     within = False
     if rtol is not None:
-        for method, run in (("hertz", kernels.hertz), ("leading", kernels.leading)):
-            found = run(*model.numbers)
+        for method, run in (("hertz", simple_laws.hertz), ("leading", simple_laws.leading)):
+            found = simple_laws.single(run, *model.numbers)
             if found is None:  # no bound is known
                 continue
             accuracy = estimated(method, found, rtol)
@@ -336,8 +336,9 @@ def solve(model: Model, rtol: float | None = None) -> tuple[Results, AchievedAcc
         check_energy(ContactLaw(model, PAPER))
     coarse = rtol is not None and whole_law("coarse", rtol).bound <= rtol
     with np.errstate(all="ignore"):  # extreme scenes give NaN, which is checked
-        values = kernels.impact(*model.numbers, coarse=coarse)
-    contact_time, delta, P, a = (float(value) for value in values)
+        # An array of one, so that the result is that of a row, to the last bit.
+        values = kernels.impact(*(np.array([x]) for x in model.numbers), coarse=coarse)
+    contact_time, delta, P, a = (np.asarray(value).item() for value in values)
     check_numbers(model, contact_time, delta, P, a)
     return (contact_time, delta, P, a, 1.0), whole_law("coarse" if coarse else "full", rtol)
 

@@ -10,7 +10,8 @@ from derivation.engine.formula.parse import FUNCTIONS, FormulaError, parse
 from derivation.engine.formula.size import terms_when_expanded
 from derivation.engine.formula.vocabulary import NOTHING
 from derivation.engine.rewrite.code_check import CodeCheck
-from derivation.engine.rewrite.stabilise import Stable, stabilised
+from derivation.engine.rewrite.search import stabilised
+from derivation.engine.rewrite.stabilise import Stable
 
 MAX_TERMS = 5000
 """Largest estimated number of terms of an expanded formula that is rewritten."""

@@ -27,6 +27,13 @@ FUNCTIONS: dict[type[sp.Basic], Unary] = {
     expm1: (lambda x: x.expm1(), lambda x, _: x.exp()),
     sp.exp: (lambda x: x.exp(), lambda _, value: value),
     sp.asin: (lambda x: x.asin(), lambda x, _: 1 / (1 - x**2).sqrt()),
+    sp.acos: (lambda x: x.acos(), lambda x, _: -1 / (1 - x**2).sqrt()),
+    sp.atan: (lambda x: x.atan(), lambda x, _: 1 / (1 + x**2)),
+    sp.asinh: (lambda x: x.asinh(), lambda x, _: 1 / (1 + x**2).sqrt()),
+    sp.acosh: (lambda x: x.acosh(), lambda x, _: 1 / (x**2 - 1).sqrt()),
+    sp.atanh: (lambda x: x.atanh(), lambda x, _: 1 / (1 - x**2)),
+    sp.erf: (lambda x: x.erf(), lambda x, _: 2 * (-(x**2)).exp() / arb.pi().sqrt()),
+    sp.erfc: (lambda x: x.erfc(), lambda x, _: -2 * (-(x**2)).exp() / arb.pi().sqrt()),
     sp.Abs: (abs, lambda x, _: x.sgn()),
     sp.gamma: (lambda x: x.gamma(), lambda x, value: value * x.digamma()),
 }

@@ -13,6 +13,7 @@ import flint
 import sympy as sp
 
 from derivation.engine.formula.ball import enclose
+from derivation.engine.formula.elementary import ELEMENTARY, INSTEAD, OTHER_NAMES
 from derivation.engine.formula.size import degree
 from derivation.engine.formula.vocabulary import Vocabulary
 from derivation.engine.nearest import did_you_mean
@@ -58,6 +59,8 @@ _HINTS = {
     "'": "quoted text is not part of a formula",
     '"': "quoted text is not part of a formula",
     ":": "':' is not part of a formula",
+    "|": "write abs(...) for an absolute value",
+    "!": "write gamma(n + 1) for a factorial",
 }
 _STRANGE = re.compile(r"[^A-Za-z0-9_.+\-*/(), ]")
 _NUMBER = re.compile(r"(\d+\.?\d*|\.\d+)(?:[eE]([+-]?\d+))?")
@@ -202,23 +205,25 @@ class _Reader:
     def _named(self, name: str) -> sp.Expr:
         if name in self.names:
             return self.names[name]
-        if name in FUNCTIONS:
+        if OTHER_NAMES.get(name, name) in FUNCTIONS:
             raise FormulaError(f"expected an argument after {name}: write {name}(x)")
         allowed = ", ".join(sorted(self.names))
         hint = f"{_NAME_HINTS[name]}; " if name in _NAME_HINTS else did_you_mean(name, self.names)
         raise FormulaError(f"unknown name {_short(name)}: {hint}expected one of {allowed}")
 
     def _call(self, name: str, node: ast.Call, depth: int) -> sp.Expr:
+        name = OTHER_NAMES.get(name, name)
         if name not in FUNCTIONS:
             near = did_you_mean(name, FUNCTIONS)
             allowed = f"{near}expected one of {', '.join(sorted(FUNCTIONS))}"
-            hint = f"write {name}*(...)" if name in self.names else allowed
+            hint = f"write {name}*(...)" if name in self.names else INSTEAD.get(name, allowed)
             raise FormulaError(f"unknown function {_short(name)}: {hint}")
         count = 2 if name in _OF_TWO else 1
         if node.keywords or len(node.args) != count:
+            instead = {"log": "; write log(x)/log(b)", "sqrt": "; write x**(1/n)"}.get(name, "")
             raise FormulaError(
                 f"expected {name} with {count} plain argument{'s' * (count > 1)}, "
-                f"got {_short(self._source(node))}"
+                f"got {_short(self._source(node))}{instead}"
             )
         arguments = [self.read(argument, depth) for argument in node.args]
         _check_constant(arguments[-1], name)
@@ -256,6 +261,8 @@ def power(base: sp.Expr, exponent: sp.Expr, numbers: Set[sp.Symbol]) -> sp.Expr:
         return sp.exp(exponent)
     if not exponent.is_number and exponent.free_symbols <= numbers:
         return base**exponent
+    if isinstance(base, sp.Rational) and base > 0 and not exponent.is_number:
+        return sp.exp(exponent * sp.log(base))
     if not isinstance(exponent, sp.Rational):
         raise FormulaError(
             f"expected a number as exponent, got {_short(str(exponent))}: "
@@ -332,17 +339,7 @@ def _order(order: sp.Expr) -> sp.Integer:
 
 _OF_TWO = ("besselj", "besseli", "beta")
 FUNCTIONS: Mapping[str, Callable[..., sp.Expr]] = {
-    "exp": sp.exp,
-    "log": sp.log,
-    "sqrt": sp.sqrt,
-    "sin": sp.sin,
-    "cos": sp.cos,
-    "tan": sp.tan,
-    "cot": lambda argument: sp.cos(argument) / sp.sin(argument),
-    "sinh": sp.sinh,
-    "cosh": sp.cosh,
-    "tanh": sp.tanh,
-    "coth": sp.coth,
+    **ELEMENTARY,
     "Abs": sp.Abs,
     "abs": sp.Abs,
     "gamma": sp.gamma,

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 
 import sympy as sp
 
+from derivation.engine.formula.elementary import ELEMENTARY, INSTEAD, OTHER_NAMES
 from derivation.engine.formula.parse import (
     MAX_NESTING,
     MAX_TEXT,
@@ -17,13 +18,42 @@ from derivation.engine.formula.parse import (
 )
 from derivation.engine.formula.vocabulary import Vocabulary
 
-_TOKEN = re.compile(r"\\[A-Za-z]+|\\.|\d+(?:\.\d+)?|[A-Za-z]|[{}()\[\]^_+\-*/,.;&]")
+_TOKEN = re.compile(r"\\[A-Za-z]+|\\.|\d+(?:\.\d+)?|[A-Za-z]|[{}()\[\]^_+\-*/,.;&|]")
 _SPACING = re.compile(
     r"\\(?:left|right|[bB]igg?[lr]?|displaystyle|textstyle|q?quad|limits)(?![A-Za-z])"
     r"|\\[,;:!>\\ ]|[&~\s]"
 )
-_WORDS = re.compile(r"\\(?:operatorname|mathrm) *\{([A-Za-z]+)\}")
-_FUNCTIONS = ("exp", "log", "ln", "sin", "cos", "tan", "cot", "sinh", "cosh", "tanh", "coth")
+_BARS = {r"\left|": r"\lvert ", r"\right|": r"\rvert ", r"\left\vert": r"\lvert",
+         r"\right\vert": r"\rvert"}  # fmt: skip
+_STYLE = r"\\(?:text|textrm|textit|mathrm|mathit|rm|operatorname\*?) *"
+_WORDS = re.compile(rf"{_STYLE}\{{ *([A-Za-z]+) *\}}")
+_INDEX = re.compile(rf"_ *(?:\{{ *{_STYLE}\{{ *(\w+) *\}} *\}}|{_STYLE}\{{ *(\w+) *\}})")
+_FUNCTIONS = {*ELEMENTARY, *OTHER_NAMES}
+_INVERTIBLE = re.compile(r"sinh?|cosh?|tanh?|coth?")
+_INSTEAD = {
+    **{rf"\{name}": text for name, text in INSTEAD.items()},
+    **dict.fromkeys((r"\sum", r"\prod", r"\partial", r"\nabla"), INSTEAD["sum"]),
+    **dict.fromkeys(
+        (r"\bar", r"\hat", r"\tilde", r"\dot", r"\ddot", r"\vec", r"\overline", r"\prime", "'"),
+        "use the symbol without accent",
+    ),
+    **dict.fromkeys(
+        (r"\mathbf", r"\boldsymbol", r"\mathcal", r"\mathbb", r"\text", r"\textbf"),
+        "write the symbol without a style",
+    ),
+    **dict.fromkeys(
+        ("=", "<", ">", r"\leq", r"\geq", r"\le", r"\ge", r"\approx", r"\equiv"),
+        "give only the right-hand side",
+    ),
+    r"\pm": "give the formula with one of the two signs",
+    r"\mp": "give the formula with one of the two signs",
+    r"\infty": "formulas are finite: leave it out",
+    r"\over": r"write \frac{...}{...}",
+    r"\begin": "give one formula without environments",
+    r"\|": r"write \left| ... \right|",
+    "!": INSTEAD["factorial"],
+}
+"""What to write instead of tokens that are not read."""
 _GREEK = {r"\lambda": "lam", r"\mu": "mu", r"\phi": "phi", r"\varphi": "phi", r"\pi": "pi"} | {
     rf"\{name}": name
     for name in (
@@ -32,7 +62,7 @@ _GREEK = {r"\lambda": "lam", r"\mu": "mu", r"\phi": "phi", r"\varphi": "phi", r"
         *("varepsilon", "varkappa", "vartheta"),
     )
 }
-_BRACKETS = {"(": ")", "[": "]", r"\{": r"\}", "{": "}"}
+_BRACKETS = {"(": ")", "[": "]", r"\{": r"\}", "{": "}", r"\lvert": r"\rvert"}
 _NAME = r"(?:\\[A-Za-z]+|[A-Za-z])(?: _ (?:\w+|\{ \w+ \}))?"
 _ARGUMENTS = re.compile(rf"[(\[] ({_NAME}(?: , {_NAME})*) [)\]]")
 """Only symbols in brackets, as tokens separated by spaces."""
@@ -78,6 +108,9 @@ def parse_latex(
 def _tokens(text: str) -> list[str]:
     check_nesting(text, "{", "}")
     check_nesting(text, "([", ")]")
+    for bar, bracket in _BARS.items():
+        text = text.replace(bar, bracket)
+    text = _INDEX.sub(lambda found: f"_{{{found[1] or found[2]}}}", text)
     plain = _WORDS.sub(lambda found: rf"\{found[1]} " if len(found[1]) > 1 else found[1], text)
     rest = _SPACING.sub(" ", plain.strip("$")).rstrip(" .,;")
     tokens: list[str] = []
@@ -88,12 +121,17 @@ def _tokens(text: str) -> list[str]:
             continue
         match = _TOKEN.match(rest, position)
         if match is None:
-            raise FormulaError(f"LaTeX token {rest[position]!r} is not known here: leave it out")
+            raise _unknown(rest[position])
         tokens.append(match.group())
         position = match.end()
     if not tokens:
         raise FormulaError(r"expected a formula in LaTeX, got nothing: write for instance \phi_j h")
     return tokens
+
+
+def _unknown(token: str) -> FormulaError:
+    instead = _INSTEAD.get(token, "write it another way")
+    return FormulaError(f"LaTeX token {token!r} is not known here: {instead}")
 
 
 class _Translator:
@@ -112,6 +150,7 @@ class _Translator:
         self.allowed = allowed
         self.position = 0
         self.depth = 0
+        self.bars = 0
 
     @property
     def here(self) -> str | None:
@@ -143,12 +182,18 @@ class _Translator:
 
     def product(self) -> str:
         parts = [self.factor()]
-        while self.here is not None and self.here not in ("+", "-", ",", ")", "]", "}", r"\}"):
+        while not self._at_end():
             operator = "*"
             if self.here in _PRODUCT or self.here == "/":
                 operator = "/" if self.take() == "/" else "*"
             parts.append(operator + self.factor())
         return "".join(parts)
+
+    def _at_end(self) -> bool:
+        """Return whether a product ends here."""
+        return self.here in (None, "+", "-", ",", *_BRACKETS.values()) or (
+            self.here == "|" and self.bars > 0
+        )
 
     def factor(self) -> str:
         base = self.primary()
@@ -196,12 +241,16 @@ class _Translator:
 
     def _primary(self) -> str:
         token = self.here
+        if token == r"\lvert":
+            return f"abs({self.bracket()})"
         if token in _BRACKETS:
             return f"({self.bracket()})"
         token = self.take()
+        if token == "|":
+            return self._between_bars()
         if token[0].isdigit():
             return token
-        if token in (r"\frac", r"\dfrac", r"\tfrac"):
+        if token in (r"\frac", r"\dfrac", r"\tfrac", r"\cfrac"):
             above, below = (self.bracket() if self.here == "{" else self.single() for _ in range(2))
             return f"(({above})/({below}))"
         if token == r"\sqrt":
@@ -214,25 +263,62 @@ class _Translator:
             return f"exp({self.exponent()})" if self.here == "^" else "exp(1)"
         if token in _GREEK or token.isalpha():
             return self._symbol(_GREEK.get(token, token))
-        raise FormulaError(f"LaTeX token {token!r} is not known here: write it another way")
+        raise _unknown(token)
+
+    def _between_bars(self) -> str:
+        self.bars += 1
+        inside = self.sum()
+        self.take("|")
+        self.bars -= 1
+        return f"abs({inside})"
 
     def _root(self) -> str:
         if self.here == "[":
             degree = self.bracket()
             return f"({self.bracket()})**(1/({degree}))"
-        return f"sqrt({self.bracket()})"
+        return f"sqrt({self.bracket() if self.here == '{' else self.single()})"
 
     def _function(self, name: str) -> str:
-        """Return a function with its power, if any, and its argument in brackets."""
+        """Return a function with its power, if any, and its argument."""
+        base = ""
+        if name == "log" and self.here == "_":
+            self.take()
+            base = f"/log({self.single()})"
         exponent = self.exponent() if self.here == "^" else None
-        applied = f"{'log' if name == 'ln' else name}({self.bracket()})"
+        if exponent == "-1" and _INVERTIBLE.fullmatch(name):
+            raise FormulaError(
+                rf"\{name}^{{-1}} may be 1/{name} or the inverse function: "
+                rf"write \frac{{1}}{{\{name}(...)}} or \operatorname{{arc{name}}}(...)"
+            )
+        applied = f"{name}({self._argument(name)}){base}"
         return applied if exponent is None else f"({applied})**({exponent})"
+
+    def _argument(self, name: str) -> str:
+        """Return a function's argument: in brackets, or one symbol, fraction or root.
+
+        It may have numbers in front of it; of longer products the end would be ambiguous.
+        """
+        if self.here in _BRACKETS:
+            return self.bracket()
+        parts = []
+        while (self.here or "").isdecimal() or self.here == r"\pi":
+            parts.append(self.factor())
+        if not (parts and (self._at_end() or self._is_function())):
+            parts.append(self.factor())
+        if not (self._at_end() or self._is_function()):
+            raise FormulaError(
+                rf"expected brackets or braces around the argument of \{name}, "
+                f"got {self.here!r} after it: add them"
+            )
+        return "*".join(parts)
+
+    def _is_function(self) -> bool:
+        return (self.here or "").removeprefix("\\") in _FUNCTIONS and len(self.here or "") > 1
 
     def _symbol(self, name: str) -> str:
         if self.here == "_":
             self.take()
-            index = self.bracket() if self.here == "{" else self.single()
-            name = f"{name}_{index}"
+            name = f"{name}_{self._index()}"
         if name in ("J_0", "J_1", "I_0", "I_1"):
             return self._bessel(name.replace("_", ""))
         self._pass_index()
@@ -242,6 +328,22 @@ class _Translator:
         if name in self.preferred:
             return self.preferred[name]
         return name if name in self.allowed else self.vocabulary.name_of_latex.get(name, name)
+
+    def _index(self) -> str:
+        """Return a subscript; letters and digits in braces are one name."""
+        if self.here != "{":
+            return self.single()
+        self.take()
+        parts = []
+        while self.here != "}":
+            token = self.take()
+            parts.append(_GREEK.get(token, token))
+            if not parts[-1].isalnum():
+                raise FormulaError(
+                    f"expected letters and digits in a subscript, got {token!r}: leave it out"
+                )
+        self.take()
+        return "".join(parts)
 
     def _refuse_unknown_function(self, name: str) -> None:
         """Reject a symbol before symbols in brackets, which would be read as a product."""

@@ -27,8 +27,13 @@ SAMPLES = (1.3, 0.7, 2.1, 0.45, 1.7, 0.9)
 """Values of further variables, which are positive."""
 
 
-KNOWN = {function.__name__ for function in FUNCTIONS}
-"""Names of the functions that can be evaluated both in doubles and in balls."""
+KNOWN = {function.__name__ for function in FUNCTIONS} - {"erf", "erfc", "gamma"}
+"""Names of the functions that can be evaluated in NumPy, in doubles and in balls."""
+
+
+def assembled(form: sp.Expr | Shape) -> tuple[tuple[Step, ...], sp.Expr | Switch]:
+    """Return steps and value of a form."""
+    return assembled_form(form) if isinstance(form, Shape) else ((), form)
 
 
 @dataclass(frozen=True)
@@ -73,7 +78,7 @@ class AccuracyTest:
 
     def worst(self, form: sp.Expr | Shape) -> float:
         """Return the largest error in ULP, in addition to conditioning; infinite if none."""
-        steps, value = assembled_form(form) if isinstance(form, Shape) else ((), form)
+        steps, value = assembled(form)
         if not (isinstance(value, Switch) and self.lead):
             return max(self._error(point, steps, value) for point in self.exact)
         at, kept = float(value.at), float(value.at**self.lead)
@@ -81,9 +86,10 @@ class AccuracyTest:
         above = (self._error(t, steps, value, kept) for t in self.beyond if t.x >= at)
         return max(*below, *above)
 
-    def errors(self, form: sp.Expr | Shape) -> list[tuple[ExactPoint, float]]:
+    def errors(
+        self, steps: tuple[Step, ...], value: sp.Expr | Switch
+    ) -> list[tuple[ExactPoint, float]]:
         """Return the points in ascending order, with the error of a form at each [ULP]."""
-        steps, value = assembled_form(form) if isinstance(form, Shape) else ((), form)
         return [(point, self._error(point, steps, value)) for point in self.exact]
 
     def _error(
@@ -162,7 +168,10 @@ def accuracy_test(
     """
     unknown = {f.func.__name__ for f in expression.atoms(sp.Function)} - KNOWN
     if unknown:
-        raise UnreachableError(f"no rule applies to the function {', '.join(sorted(unknown))}")
+        raise UnreachableError(
+            f"no rule applies to the function {', '.join(sorted(unknown))}, expected functions of "
+            "NumPy; rewrite the other parts of the formula by themselves"
+        )
     others = sorted(expression.free_symbols - {x}, key=str)
     fixed = tuple(zip(others, SAMPLES, strict=False))
     if len(fixed) < len(others):

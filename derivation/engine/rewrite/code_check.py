@@ -13,7 +13,7 @@ import sympy as sp
 from derivation.engine.formula.ball import PrecisionError, enclose, refine, to_ball
 from derivation.engine.formula.ulp import from_ordinal, neighbours, ordinal, overflows, ulp_error
 from derivation.engine.rewrite.difficult_points import derivative, difficult_points
-from derivation.engine.rewrite.stabilise import Stable, decayed
+from derivation.engine.rewrite.stabilise import Stable
 from derivation.engine.rewrite.terms import UnreachableError
 from derivation.engine.rewrite.useful_range import ENDS, ENOUGH, LEAST_RATIO, rounded, useful_range
 
@@ -61,10 +61,10 @@ class CodeCheck:
 class _Reference:
     """Exact values of an expression at doubles, each computed once."""
 
-    def __init__(self, expression: sp.Expr, x: sp.Symbol) -> None:
-        equal = decayed(expression, x)
-        self.x = x
-        self.candidates = [(form, derivative(form, x)) for form in (expression, equal)]
+    def __init__(self, stable: Stable) -> None:
+        self.x = stable.variable
+        forms = stable.expression, stable.equal
+        self.candidates = [(form, derivative(form, self.x)) for form in forms]
         self.known: dict[float, tuple[flint.arb, float] | None] = {}
 
     def at(self, point: float) -> tuple[flint.arb, float] | None:
@@ -120,7 +120,7 @@ def check_code(stable: Stable, function: Function) -> CodeCheck:
     UnreachableError
         If its error stays within `ENOUGH` in no useful range.
     """
-    reference = _Reference(stable.expression, stable.variable)
+    reference = _Reference(stable)
     draw = random.Random(str(stable.expression))
     low, high = ENDS
     errors: dict[float, float] = {}

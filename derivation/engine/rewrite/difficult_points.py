@@ -9,7 +9,7 @@ import sympy as sp
 
 from derivation.engine.formula.ball import enclose
 from derivation.engine.formula.ulp import from_ordinal, ordinal
-from derivation.engine.rewrite.form import Branch, Switch
+from derivation.engine.rewrite.form import Branch, Step, Switch
 from derivation.engine.rewrite.series import POLYNOMIAL
 from derivation.engine.rewrite.stabilise import Stable
 
@@ -37,6 +37,8 @@ def parts(stable: Stable) -> list[sp.Expr]:
     """Return the parts of formula and form, and derivatives of sums, to search for sign changes."""
     x = stable.variable
     whole = [stable.expression, *_written_out(stable)]
+    if isinstance(stable.value, Switch):
+        whole.append(_in_variable(stable.value.variable - stable.value.at, stable.steps))
     found: dict[sp.Expr, None] = {}
     for expression in whole:
         for node in sp.postorder_traversal(expression):
@@ -69,9 +71,14 @@ def _written_out(stable: Stable) -> Iterator[sp.Expr]:
     for side in sides:
         steps = (*stable.steps, *side.steps)
         for place, expression in enumerate((*(s.expression for s in steps), side.value)):
-            for step in reversed(steps[:place]):
-                expression = expression.xreplace({step.symbol: step.expression})
-            yield expression
+            yield _in_variable(expression, steps[:place])
+
+
+def _in_variable(expression: sp.Expr, steps: Sequence[Step]) -> sp.Expr:
+    """Return an expression with the steps substituted."""
+    for step in reversed(steps):
+        expression = expression.xreplace({step.symbol: step.expression})
+    return expression
 
 
 def _horner(variable: sp.Expr, *coefficients: sp.Expr) -> sp.Expr:
@@ -82,7 +89,9 @@ def _horner(variable: sp.Expr, *coefficients: sp.Expr) -> sp.Expr:
 
 
 def difficult_points(stable: Stable, low: float, high: float) -> list[float]:
-    """Return doubles next to which a part changes sign, overflows or underflows, and switch points.
+    """Return doubles next to which a part changes sign, overflows or underflows.
+
+    Switch points are among them.
 
     Parameters
     ----------
@@ -93,8 +102,6 @@ def difficult_points(stable: Stable, low: float, high: float) -> list[float]:
     """
     x, watched, points = stable.variable, parts(stable), grid(low, high)
     found: set[float] = set()
-    if isinstance(stable.value, Switch):
-        found.add(float(stable.value.at))
     with flint.ctx.workprec(BITS):
         rows = [_states(watched, x, point) for point in points]
         for index, part in enumerate(watched):

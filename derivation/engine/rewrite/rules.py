@@ -5,7 +5,7 @@ rule yields nothing if its condition is not met. Every rule is exact, except for
 truncation error is bounded.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 from typing import TypeAlias
@@ -16,6 +16,8 @@ from sympy.codegen.cfunctions import expm1, log1p
 from derivation.engine.rewrite.series import leading_power, truncated_taylor
 from derivation.engine.rewrite.shape import Factor, Shape, assembled_form, square
 from derivation.engine.rewrite.terms import (
+    ENTIRE,
+    RISING,
     Key,
     Terms,
     UnreachableError,
@@ -30,6 +32,17 @@ Rewritten: TypeAlias = sp.Expr | Shape
 SWITCHES = tuple(sp.Rational(n, 4) for n in (1, 2, 4, 8, 16))
 """Possible switch points of a truncated series; the first with sufficient accuracy is used. They
 are powers of two, so that a power of x can be constant there without rounding."""
+
+
+QUOTIENTS: Mapping[type[sp.Function], Callable[[sp.Expr], sp.Expr]] = {
+    sp.tan: lambda u: sp.sin(u) / sp.cos(u),
+    sp.tanh: lambda u: sp.sinh(u) / sp.cosh(u),
+    sp.coth: lambda u: sp.cosh(u) / sp.sinh(u),
+}
+
+
+INSIDE = (*SWITCHES[:2], sp.Rational(3, 4))
+"""Possible switch points of series that converge below 1 only."""
 
 
 @dataclass(frozen=True)
@@ -97,11 +110,9 @@ def fraction(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
     """Write a sum of quotients as one quotient of products of sums, with common factors removed."""
     if isinstance(given, Shape):
         return
-    whole = sp.together(
-        given.replace(sp.tanh, lambda u: sp.sinh(u) / sp.cosh(u)).replace(
-            sp.coth, lambda u: sp.cosh(u) / sp.sinh(u)
-        )
-    )
+    for function, quotient in QUOTIENTS.items():
+        given = given.replace(function, quotient)
+    whole = sp.together(given)
     above, below = (_split(part, x) for part in sp.fraction(whole))
     if above / below != given:
         yield above / below
@@ -218,7 +229,7 @@ def balance(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
     factors = []
     for factor in given.factors:
         keys, parts = _terms(factor.value, x), sp.Add.make_args(factor.value)
-        top = max((k.power for k in keys if k.rate == 0 and k.wave != "log1p"), default=0)
+        top = max((k.power for k in keys if k.rate == 0 and k.wave not in RISING), default=0)
         top = top if given.power * factor.exponent < 0 else 0
         far = sp.Add(*(part / x**top for part in parts))
         factors.append(factor if far == factor.value else replace(factor, far=far, top=top))
@@ -230,7 +241,8 @@ def series(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
     """Replace sums that cancel at 0, below a switch point, by series times a power of x."""
     if not isinstance(given, Shape) or given.switch is not None:
         return
-    for switch in SWITCHES:
+    waves = {key.wave for factor in given.factors for key in _terms(factor.value, x)}
+    for switch in SWITCHES if waves <= ENTIRE else INSIDE:
         try:
             yield replace(
                 given,

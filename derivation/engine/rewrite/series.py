@@ -8,7 +8,8 @@ import sympy as sp
 from derivation.engine.rewrite.terms import Terms, UnreachableError, taylor, truncation_bound
 
 UNIT_ROUNDOFF = sp.Rational(1, 2**53)
-MOST_TERMS = 64
+MOST_TERMS = 72
+"""Largest number of coefficients other than 0."""
 
 POLYNOMIAL = sp.Function("polynomial")
 """The generated Horner scheme, from variable, constant term, and coefficients in rising order."""
@@ -61,11 +62,10 @@ def truncated_taylor(terms: Terms, switch: sp.Rational) -> Section:
     """
     if any(value.free_symbols for value in terms.values()):
         raise UnreachableError("the series of a sum with further variables is not rational")
-    found = list(islice(taylor(terms), MOST_TERMS))
     lead = leading_power(terms)
-    found = found[lead:]
+    found = list(islice(taylor(terms), lead, 2 * MOST_TERMS))
     stride = 1 if any(found[1::2]) else 2
-    found = found[::stride]
+    found = found[::stride][:MOST_TERMS]
     sizes = [abs(c) * switch ** (stride * k) for k, c in enumerate(found)]
     for degree in range(2, len(found)):
         rest = truncation_bound(terms, lead + stride * degree, switch) / switch**lead

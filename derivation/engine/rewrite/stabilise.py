@@ -1,18 +1,25 @@
 """Search for the stable form of an expression, by rules that are kept if they improve it."""
 
-import contextlib
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import sympy as sp
 
-from derivation.engine.rewrite.accuracy_test import AccuracyTest, accuracy_test, with_whole
+from derivation.engine.rewrite.accuracy_test import (
+    AccuracyTest,
+    accuracy_test,
+    assembled,
+    with_whole,
+)
 from derivation.engine.rewrite.form import Branch, Step, Switch
 from derivation.engine.rewrite.rules import REUSE, RULES, Rewritten, Rule
 from derivation.engine.rewrite.shape import Shape, assembled_form
 from derivation.engine.rewrite.terms import UnreachableError, terms_of
-from derivation.engine.rewrite.useful_range import ENDS, ENOUGH, LEAST_RATIO, useful_range
+from derivation.engine.rewrite.useful_range import (
+    ENDS,
+    ENOUGH,
+)
 
 EXACT = 0.75
 """Error in ULP below which the results of a rule count as equally accurate."""
@@ -55,6 +62,8 @@ class Stable:
         Largest error of the form in ULP, in addition to conditioning.
     truncation
         Bound of the relative truncation error of its series.
+    equal
+        The expression in decaying exponentials.
     """
 
     expression: sp.Expr
@@ -64,6 +73,27 @@ class Stable:
     applied: tuple[Applied, ...]
     worst: float
     truncation: sp.Rational
+    equal: sp.Expr
+
+    def mapped(
+        self,
+        value: Callable[[sp.Expr], sp.Expr],
+        step: Callable[[sp.Expr], sp.Expr] = lambda given: given,
+    ) -> "Stable":
+        """Return the form with functions applied to the value of each branch, and to all steps."""
+
+        def stepped(steps: tuple[Step, ...]) -> tuple[Step, ...]:
+            return tuple(replace(s, expression=step(s.expression)) for s in steps)
+
+        def branch(side: Branch) -> Branch:
+            return Branch(stepped(side.steps), value(side.value))
+
+        whole = self.value
+        if isinstance(whole, Switch):
+            whole = replace(whole, below=branch(whole.below), above=branch(whole.above))
+        else:
+            whole = value(whole)
+        return replace(self, steps=stepped(self.steps), value=whole)
 
 
 def stabilise(
@@ -90,70 +120,37 @@ def stabilise(
         If the error of the form exceeds 8 ULP, or the expression cannot be tested; the message
         states the reason.
     """
-    points = accuracy_test(expression, x, ends, decayed(expression, x))
+    equal = decayed(expression, x)
+    points = accuracy_test(expression, x, ends, equal)
     if lead:
         whole = expression * x**lead
         points = with_whole(
             points, accuracy_test(whole, x, ends, decayed(whole, x), str(expression)), lead
         )
-    at = _FormErrors(points)
+    at = FormErrors(points)
     kept = list(RULES)
-    form, worst = _apply_rules(kept, x, expression, at)
+    form, worst = apply_rules(kept, x, expression, at)
     candidates = list(reversed(RULES))
     while candidates:
         rule = candidates.pop(0)
         fewer = [other for other in kept if other != rule]
-        shorter, error = _apply_rules(fewer, x, expression, at)
+        shorter, error = apply_rules(fewer, x, expression, at)
         no_longer = sum(_operations(shorter)) <= sum(_operations(form))
         if error < worst or (error <= max(worst, NOTHING) and no_longer):
             # Other rules may have been necessary only with this one, so they are tested again.
             kept, form, worst, candidates = fewer, shorter, error, list(reversed(fewer))
     if worst > ENOUGH:
-        raise UnreachableError(_reason(expression, x, worst))
-    shared, error = _apply_rules([*kept, REUSE], x, expression, at)
+        raise UnreachableError(failure(expression, x, worst))
+    shared, error = apply_rules([*kept, REUSE], x, expression, at)
     if error <= worst + NOTHING / 2 and shared != form:
         kept, form, worst = [*kept, REUSE], shared, error
-    steps, value = assembled_form(form) if isinstance(form, Shape) else ((), form)
+    steps, value = assembled(form)
     applied = tuple(_account(rule, kept, x, expression, at) for rule in kept)
     truncation = sp.Add(*(f.truncation for f in form.factors)) if isinstance(form, Shape) else 0
-    return Stable(expression, x, steps, value, applied, worst, sp.sympify(truncation))
+    return Stable(expression, x, steps, value, applied, worst, sp.sympify(truncation), equal)
 
 
-def stabilised(expression: sp.Expr, x: sp.Symbol) -> Stable:
-    """Return the stable form of an expression in the largest range in which there is one.
-
-    Points are excluded from the range only if the value is ill-conditioned there or the form
-    overflows.
-
-    Raises
-    ------
-    UnreachableError
-        If the best form is inaccurate elsewhere, or in every useful range; the message states the
-        reason.
-    """
-    try:
-        return stabilise(expression, x)
-    except UnreachableError as error:
-        reason = error
-    test = accuracy_test(expression, x, ENDS, decayed(expression, x))
-    whole, _ = _apply_rules(RULES, x, expression, _FormErrors(test, partial=True))
-    for form in dict.fromkeys((whole, expression)):
-        errors = test.errors(form)
-        low, high = useful_range([(point.x, error) for point, error in errors], ENDS)
-        excluded = [(at.slack, error) for at, error in errors if not low <= at.x <= high]
-        if low * LEAST_RATIO > high or any(_is_avoidable(*point) for point in excluded):
-            continue
-        with contextlib.suppress(UnreachableError):
-            return stabilise(expression, x, (low, high))
-    raise reason
-
-
-def _is_avoidable(slack: float, error: float) -> bool:
-    """Return whether a form is inaccurate at a point at which the formula is well-conditioned."""
-    return ENOUGH < error < math.inf and slack < ENOUGH
-
-
-class _FormErrors:
+class FormErrors:
     """An accuracy test that stores the error of each form."""
 
     def __init__(self, test: AccuracyTest, partial: bool = False) -> None:
@@ -173,11 +170,11 @@ class _FormErrors:
         """
         if not self.partial or self.worst(form) <= ENOUGH:
             return 0
-        return sum(error > ENOUGH for _, error in self.test.errors(form))
+        return sum(error > ENOUGH for _, error in self.test.errors(*assembled(form)))
 
 
-def _apply_rules(
-    rules: Sequence[Rule], x: sp.Symbol, expression: sp.Expr, at: _FormErrors
+def apply_rules(
+    rules: Sequence[Rule], x: sp.Symbol, expression: sp.Expr, at: FormErrors
 ) -> tuple[Rewritten, float]:
     """Return the form that results from the rules, and its largest error."""
     form: Rewritten = expression
@@ -197,11 +194,11 @@ def _with_lead(form: Rewritten, lead: int) -> Rewritten:
 
 
 def _account(
-    rule: Rule, kept: Sequence[Rule], x: sp.Symbol, expression: sp.Expr, at: _FormErrors
+    rule: Rule, kept: Sequence[Rule], x: sp.Symbol, expression: sp.Expr, at: FormErrors
 ) -> Applied:
     """Return number of operations and error of the form, without and with a rule."""
     with_it, without = list(kept), [other for other in kept if other != rule]
-    pairs = [_apply_rules(rules, x, expression, at) for rules in (without, with_it)]
+    pairs = [apply_rules(rules, x, expression, at) for rules in (without, with_it)]
     before, after = (operations(form) for form, _ in pairs)
     return Applied(rule.name, rule.cause, (before, after), (pairs[0][1], pairs[1][1]))
 
@@ -225,7 +222,7 @@ def operations(form: Rewritten) -> int:
 
 def _operations(form: Rewritten) -> list[int]:
     """Return the number of operations of every branch."""
-    steps, value = assembled_form(form) if isinstance(form, Shape) else ((), form)
+    steps, value = assembled(form)
     sides = (value.below, value.above) if isinstance(value, Switch) else (Branch((), value),)
     return [
         int(sum(sp.count_ops(step.expression) for step in (*steps, *side.steps)))
@@ -234,7 +231,7 @@ def _operations(form: Rewritten) -> list[int]:
     ]
 
 
-def _reason(expression: sp.Expr, x: sp.Symbol, worst: float) -> str:
+def failure(expression: sp.Expr, x: sp.Symbol, worst: float) -> str:
     """Return the message: the remaining error, and the first rule that failed, with the reason."""
     size = "overflows or has no value" if math.isinf(worst) else f"has an error of {worst:.3g} ULP"
     form: Rewritten = expression

@@ -1,6 +1,7 @@
 """Sums of c x^k e^(m x) w(x): normal form, Taylor coefficients, truncation errors.
 
-w is 1, or sin, cos or log(1 + .) of a multiple of x. The rules apply to quotients of such sums.
+w is 1, or a function of a multiple of x, such as sin or log(1 + .). The rules apply to quotients of
+such sums.
 """
 
 from collections.abc import Iterator, Mapping
@@ -9,7 +10,13 @@ from typing import NamedTuple
 import sympy as sp
 from sympy.codegen.cfunctions import expm1, log1p
 
-WAVES = {sp.sin: "sin", sp.cos: "cos", log1p: "log1p"}
+WAVES: dict[type[sp.Function], str] = {sp.sin: "sin", sp.cos: "cos", log1p: "log1p"} | {
+    function: function.__name__ for function in (sp.atan, sp.atanh, sp.asin, sp.asinh)
+}
+ENTIRE = {"", "sin", "cos"}
+"""Functions whose series converge for every argument."""
+RISING = ("log1p", "asinh")
+"""Functions that have no limit and no bound for large arguments."""
 
 
 class UnreachableError(ValueError):
@@ -85,18 +92,36 @@ def _sum(*parts: Terms) -> dict[Key, sp.Expr]:
 def _product(one: Terms, other: Terms) -> dict[Key, sp.Expr]:
     return _sum(
         *(
-            {_times(key, further): coefficient * factor}
+            {product: size * coefficient * factor}
             for key, coefficient in one.items()
             for further, factor in other.items()
+            for product, size in _times(key, further).items()
         )
     )
 
 
-def _times(one: Key, other: Key) -> Key:
-    if one.wave and other.wave:
+def _times(one: Key, other: Key) -> dict[Key, sp.Expr]:
+    """Return the product of two terms; products of sines and cosines are sums of these."""
+    power, rate = one.power + other.power, one.rate + other.rate
+    if not (one.wave and other.wave):
+        wave = one if one.wave else other
+        return {Key(power, rate, wave.wave, wave.scale): sp.Integer(1)}
+    if not {one.wave, other.wave} <= {"sin", "cos"}:
         raise UnreachableError(f"no rule applies to the product of {one.wave} and {other.wave}")
-    wave = one if one.wave else other
-    return Key(one.power + other.power, one.rate + other.rate, wave.wave, wave.scale)
+    if (one.wave, other.wave) == ("sin", "cos"):
+        one, other = other, one
+    half, odd = sp.Rational(1, 2), one.wave != other.wave
+    found: list[Terms] = []
+    for scale, size in (
+        (other.scale + one.scale, -half if other.wave == one.wave == "sin" else half),
+        (other.scale - one.scale, half),
+    ):
+        if scale != 0:
+            sign = -1 if odd and scale < 0 else 1
+            found.append({Key(power, rate, "sin" if odd else "cos", abs(scale)): sign * size})
+        elif not odd:
+            found.append({Key(power, rate): size})
+    return _sum(*found)
 
 
 def expression_of(terms: Terms, x: sp.Symbol) -> sp.Expr:
@@ -129,11 +154,18 @@ def coefficient(key: Key, n: int) -> sp.Rational:
 
 
 def _wave_coefficient(key: Key, order: int) -> sp.Rational:
+    unit = key.scale**order
     if key.wave == "log1p":
-        return (-1) ** (order + 1) * key.scale**order / order if order else sp.Integer(0)
-    if order % 2 != (key.wave == "sin"):
+        return (-1) ** (order + 1) * unit / order if order else sp.Integer(0)
+    if order % 2 != (key.wave != "cos"):
         return sp.Integer(0)
-    return (-1) ** (order // 2) * key.scale**order / sp.factorial(order)
+    half = order // 2
+    sign = 1 if key.wave in ("atanh", "asin") else (-1) ** half
+    if key.wave in ("sin", "cos"):
+        return sign * unit / sp.factorial(order)
+    if key.wave in ("asin", "asinh"):
+        sign *= sp.binomial(2 * half, half) / sp.Integer(4) ** half
+    return sign * unit / order
 
 
 def taylor(terms: Terms) -> Iterator[sp.Expr]:
@@ -148,16 +180,16 @@ def truncation_bound(terms: Terms, n: int, end: sp.Rational) -> sp.Rational:
     """Return a bound of the sum of all powers from x^n on, for 0 <= x <= end.
 
     Taylor's theorem: the error of e^(m x) times a sine of p x after its first J terms is at most
-    ((|m| + |p|) x)^J/J! e^(|m| x); that of log(1 + p x), whose terms alternate or have one sign, is
-    at most that of a geometric series.
+    ((|m| + |p|) x)^J/J! e^(|m| x). Coefficients of log(1 + p x) and of the inverse functions are at
+    most p^J/J, so that their error is at most that of a geometric series.
     """
     total = sp.Integer(0)
     for key, size in terms.items():
         order, growth = max(n - key.power, 0), abs(key.rate) * end
         reach = growth + abs(key.scale) * end
-        if key.wave == "log1p":
+        if key.wave not in ENTIRE:
             if reach >= 1 or key.rate != 0:
-                raise UnreachableError(f"the series of log(1 + {key.scale} x) ends before {end}")
+                raise UnreachableError(f"the series of {key.wave}({key.scale} x) ends before {end}")
             share = reach ** max(order, 1) / (max(order, 1) * (1 - reach))
         else:
             share = reach**order / sp.factorial(order) * sp.Integer(3) ** sp.ceiling(growth)

@@ -44,7 +44,7 @@ def useful_range(
         if kept:
             low, high = kept[0][0], kept[-1][0]
             ranges.append((rounded(low, math.ceil, ends), rounded(high, math.floor, ends)))
-    return max(ranges, key=_range_size, default=(1.0, 0.0))
+    return max(ranges, key=range_size, default=(1.0, 0.0))
 
 
 def _quiet(errors: Sequence[float]) -> int:
@@ -55,7 +55,8 @@ def _quiet(errors: Sequence[float]) -> int:
     return len(errors)
 
 
-def _range_size(ends: tuple[float, float]) -> tuple[float, float]:
+def range_size(ends: tuple[float, float]) -> tuple[float, float]:
+    """Return the size by which ranges are compared."""
     low, high = ends
     if not low < high:
         return -math.inf, 0.0

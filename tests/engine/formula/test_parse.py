@@ -1,8 +1,11 @@
 """Parsers for formulas in Python syntax and in LaTeX: exact results; other text is rejected."""
 
+import re
 from contextlib import suppress
 from functools import partial
 
+import flint
+import mpmath
 import pytest
 import sympy as sp
 from hypothesis import given, settings
@@ -10,7 +13,10 @@ from hypothesis import strategies as st
 
 from derivation.engine.formula import parse as plain
 from derivation.engine.formula import parse_latex as in_latex
+from derivation.engine.formula.ball import evaluate
+from derivation.engine.formula.elementary import ELEMENTARY, INSTEAD, OTHER_NAMES
 from derivation.engine.formula.notation import to_latex
+from derivation.engine.formula.operations import operation
 from derivation.engine.formula.parse import FormulaError
 from derivation.engine.formula.proof import decide_zero
 from derivation.engine.formula.vocabulary import NOTHING
@@ -163,6 +169,41 @@ REJECTED = {
 }
 
 
+def _mpmath_value(name: str, at: mpmath.mpf) -> mpmath.mpf:
+    """Return the value of an elementary function by its usual name."""
+    own = {
+        "log10": mpmath.log10,
+        "log2": lambda t: mpmath.log(t, 2),
+        "log1p": lambda t: mpmath.log(1 + t),
+        "expm1": lambda t: mpmath.exp(t) - 1,
+    }
+    return own[name](at) if name in own else getattr(mpmath, OTHER_NAMES.get(name, name))(at)
+
+
+@settings(max_examples=10)
+@given(point=st.floats(1e-3, 0.999))
+@pytest.mark.parametrize("name", [*ELEMENTARY, *OTHER_NAMES])
+def test_elementary_functions_have_the_values_of_mpmath(name: str, point: float) -> None:
+    """The function is read from both notations, and its ball and slope are those of mpmath."""
+    at = point + (name in ("acosh", "arccosh", "arcosh"))  # defined from 1 on
+    x = sp.Symbol("x", positive=True)
+    expression = plain.parse(f"{name}(x)", NOTHING, {"x": x})
+    latex = rf"\operatorname{{{name}}}\left(x\right)"
+    if name.isalpha():
+        assert in_latex.parse_latex(latex, NOTHING, {"x": x}) == expression
+    with mpmath.workdps(40):
+        exact = _mpmath_value(name, mpmath.mpf(at))
+        slope = mpmath.diff(lambda t: _mpmath_value(name, t), mpmath.mpf(at))
+        for found, expected in ((expression, exact), (expression.diff(x), slope)):
+            value = mpmath.mpf(evaluate(found, {x: at}, 20).str(25, radius=False))
+            assert abs(value - expected) <= abs(expected) * mpmath.mpf("1e-15")
+    if expression.args == (x,):
+        with flint.ctx.workprec(100):
+            step = operation(expression)
+            (found,) = step.slopes(step.value(flint.arb(at)), flint.arb(at))
+            assert abs(float(found.mid()) - float(slope)) <= 1e-14 * abs(float(slope))
+
+
 def expect_error(read: object, text: object, reason: str) -> None:
     with pytest.raises(FormulaError, match=reason):
         read(text)  # type: ignore[operator]
@@ -227,6 +268,13 @@ LATEX = {
     r"\left(1 - \frac{r^2}{a^2}\right)^{\frac{1}{2}}": sp.sqrt(1 - r**2 / a**2),
     r"a^23": 3 * a**2,
     r"\nu + \rho \omega^2 + \kappa_0 + \kappa": nu + rho * omega**2 + kappa[0] + kap,
+    r"\sin 2 \pi a \cos\frac{a}{b} - \ln h": sp.sin(2 * sp.pi * a) * sp.cos(a / b) - sp.log(h),
+    r"\operatorname{arsinh}^2(a) \arctan h": sp.asinh(a) ** 2 * sp.atan(h),
+    r"\left| a - b \right| + |h - r| \sqrt a": abs(a - b) + abs(h - r) * sp.sqrt(a),
+    r"\lvert a - \lvert b - h \rvert \rvert": abs(a - abs(b - h)),
+    r"\phi_{\text{j}} C_\mathrm{1}": C1 * phi,
+    r"\operatorname*{erf}(a) + \mathrm{sech}\,b": sp.erf(a) + 1 / sp.cosh(b),
+    r"\log_{10} a + \log_2(b)": sp.log(a) / sp.log(10) + sp.log(b) / sp.log(2),
     r"v_0 A \Gamma(3) I_0(\phi_j r)": 2 * v0 * a_ratio * sp.besseli(0, phi * r),
 }
 
@@ -241,8 +289,12 @@ LATEX_REJECTED = {
     r"a)": "missing '\\('",
     r"a ]": "missing '\\['|missing|pairs",
     r"(a]": r"expected '\)'",
-    r"\sin a": "brackets",
-    r"\sqrt 2": "brackets",
+    r"\sin a h": "brackets or braces around the argument",
+    r"\sin a (h + b)": "brackets or braces around the argument",
+    r"\sin a/2": "brackets or braces around the argument",
+    r"\tan^{-1} a": "or the inverse function",
+    r"a_{\dot{b}}": "letters and digits",
+    r"|a": "ends",
     "J_0": "argument",
     "Q": "unknown name 'Q'",
     "a = b": "'='",
@@ -254,7 +306,7 @@ LATEX_REJECTED = {
     "{" * 5000 + "a" + "}" * 5000: "nested",
     r"\left(" * 2000 + "a" + r"\right)" * 2000: "nested|characters",
     "a^" * 4000 + "a": "second '\\^'",
-    r"\sqrt" * 3000 + "{a}": "brackets",
+    r"\sqrt" * 3000 + "{a}": "nested",
     r"\frac" * 3000: "nest|ends",
 }
 
@@ -277,3 +329,10 @@ def test_printed_latex_of_all_formulas_is_parsed_to_the_same() -> None:
             assert decide_zero(back - formula.expression) is not None, formula.name
             count += 1
     assert count > 30
+
+
+@pytest.mark.parametrize("name", INSTEAD)
+def test_functions_that_are_not_read_are_refused_with_what_to_write_instead(name: str) -> None:
+    expect_error(parse, f"{name}(a, b)", re.escape(INSTEAD[name]))
+    if name.isalpha():
+        expect_error(parse_latex, rf"\{name}(a, b)", re.escape(INSTEAD[name]))

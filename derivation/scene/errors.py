@@ -43,3 +43,20 @@ class IncompleteError(SceneError):
 
     def __str__(self) -> str:
         return f"effects.inertia: {self.why}; {self.remedy}"
+
+
+class GrownError(SceneError):
+    """The error of a tolerance that a simulated impact exceeds by the growth of bounds.
+
+    Parameters
+    ----------
+    growth
+        Factor by which the impact increased the bound on the omitted effects [1].
+    """
+
+    def __init__(self, message: str, growth: float) -> None:
+        super().__init__(message, growth)  # the arguments from which pickle restores it
+        self.message, self.growth = message, growth
+
+    def __str__(self) -> str:
+        return self.message

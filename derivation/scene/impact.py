@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 from derivation.scene.achieved_accuracy import ESTIMATED, AchievedAccuracy, Part
 from derivation.scene.edge_remainder import edge_remainder
 from derivation.scene.effect_selection import SelectedEffects, decide
+from derivation.scene.effects.effect import Results
+from derivation.scene.errors import GrownError
 from derivation.scene.law import ContactLaw
 from derivation.scene.limits import (
     check_radius,
@@ -39,6 +41,8 @@ if TYPE_CHECKING:
 
 DEFAULT = 1e-3
 """Tolerance of the effect selection if the scene has no tolerance [1]."""
+REPEATED = 0.5
+"""Part of the tolerance for the omitted effects, if the simulation is repeated with more [1]."""
 
 
 def simulate(
@@ -85,7 +89,7 @@ def simulate(
     """
     scene = toleranced(scene, None if rtol is None else check_rtol(rtol))
     rtol, selected = selected_effects(scene, rtol)
-    numbers, accuracy = solve_selected(selected, rtol)
+    selected, numbers, accuracy = _solved(scene, selected, rtol)
     accuracy = _with_constant(scene, accuracy)
     contact_time, delta, force, a, _ = numbers
     law, model = selected.law, selected.law.model
@@ -118,6 +122,22 @@ def simulate(
         selected.grown(growth_of(motion)), inertia_neglected=neglected,
     )  # fmt: skip
     return result if times is None else result.at(times)
+
+
+def _solved(
+    scene: Scene, selected: SelectedEffects, rtol: float | None
+) -> tuple[SelectedEffects, Results, AchievedAccuracy]:
+    """Return the effects, the outputs and their accuracy.
+
+    If the simulation increases the bounds beyond the tolerance, it is repeated with more effects.
+    """
+    try:
+        return selected, *solve_selected(selected, rtol)
+    except GrownError as error:
+        more = selected_effects(scene, rtol, error.growth / REPEATED)[1]
+        if more.law.effects == selected.law.effects:
+            raise
+        return more, *solve_selected(more, rtol)
 
 
 def _yield_warnings(law: ContactLaw, a: float, pressure: float) -> tuple[str, ...]:
@@ -164,9 +184,14 @@ def _model_error(selected: SelectedEffects, a: float, motion: "DynamicImpact | N
 
 
 def selected_effects(
-    scene: Scene, rtol: float | None = None
+    scene: Scene, rtol: float | None = None, growth: float = 1.0
 ) -> tuple[float | None, SelectedEffects]:
     """Return the tolerance of a scene and the effects that it requires, without a simulation.
+
+    Parameters
+    ----------
+    growth
+        Factor by which the simulation is expected to increase the bounds [1].
 
     Raises
     ------
@@ -178,7 +203,7 @@ def selected_effects(
     if scene.accuracy is not None:
         outputs = scene.accuracy.outputs
         rtol = scene.accuracy.rtol if rtol is None else rtol
-    wanted, tolerance = scene.effects.model_dump(), selection_tolerance(rtol)
+    wanted, tolerance = scene.effects.model_dump(), selection_tolerance(rtol) / growth
     model = model_of(toleranced(scene, rtol))
     check_enabled(scene, model)
     return rtol, decide(model, wanted, tolerance, outputs, default=rtol is None)

@@ -26,6 +26,7 @@ from derivation.scene.achieved_accuracy import (
 from derivation.scene.effect_selection import NO_GROWTH, SelectedEffects, largest_growth
 from derivation.scene.effects import BY_NAME, PAPER
 from derivation.scene.effects.effect import Results
+from derivation.scene.errors import GrownError
 from derivation.scene.law import ContactLaw
 from derivation.scene.limits import check_energy, check_numbers
 from derivation.scene.messages import shown
@@ -71,6 +72,8 @@ def solve_selected(
 
     Raises
     ------
+    GrownError
+        If the tolerance is not met, but would be if the impact had not increased the bounds.
     SceneError
         If the impact exceeds the law's range, or the tolerance cannot be met.
     """
@@ -93,7 +96,12 @@ def solve_selected(
     if within and rtol is not None and rtol < accuracy.bound and not math.isnan(found[-1]):
         if _may_jump(selected, moving):
             raise _jump(rtol)
-        raise _out_of_reach(rtol, accuracy, law, found[3])
+        problem = _out_of_reach(rtol, accuracy, law, found[3])
+        before = replace(accuracy, effects=Part(selected.error, _basis(selected)))
+        if before.bound <= rtol:
+            growth = largest_growth(growth_of(moving), selected.outputs)
+            raise GrownError(str(problem), growth)
+        raise problem
     check_numbers(law.model, *(found[:-1] if math.isnan(found[-1]) else found))
     return found, accuracy
 

@@ -248,3 +248,22 @@ def test_bound_on_a_small_restitution_does_not_shrink_with_it() -> None:
     assert found.restitution < 0.006
     [row] = [row for row in found.effects.rows if row.name == "sphere_elasticity"]
     assert row.bound * found.restitution > 0.5 * row.parameter_value
+
+
+def test_an_impact_that_increases_its_bounds_is_repeated_with_more_effects() -> None:
+    """Three contacts increase the bound on the omitted weight from 0.011 to 0.030."""
+    data = {
+        "sphere": {"radius": 2.0177e-3, "material": "steel"},
+        "plate": {"radius": 2.79455e-2, "half_thickness": 6.2504e-4, "material": "glass",
+                  "edge": "clamped"},
+        "impact": {"speed": 3.628, "gravity": 9.81},
+        "inertia": {"branches": "A0"},
+    }  # fmt: skip
+    loose, tight = (
+        simulate(read(data | {"accuracy": {"rtol": rtol, "outputs": ["restitution"]}}))
+        for rtol in (0.1, 0.03)
+    )
+    assert set(tight.effects.included) - set(loose.effects.included) == {"gravity"}
+    assert loose.effects.error < 0.03 < loose.accuracy.bound < 0.1
+    assert tight.accuracy.bound < 0.03
+    assert 1e-3 < change(loose, tight, "restitution") < loose.accuracy.bound

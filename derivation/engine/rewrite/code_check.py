@@ -103,7 +103,7 @@ class _Reference:
         if known is None or not self.roundings or known[0] == 0 or overflows(known[0]):
             return 0.0
         for argument, effect in self.roundings:
-            change = self._refined(effect, point, 3, _LOW_PRECISION)
+            change = self._refined(effect, point, 3, _HIGH_PRECISION)
             power = self._refined(argument, point, 3, _LOW_PRECISION)
             if change is None or power is None:
                 return math.inf

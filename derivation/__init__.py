@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 # python-flint would silently become SymPy's ground types and change printed forms.
 os.environ["SYMPY_GROUND_TYPES"] = "python"
+# SymPy keeps 1000 results per function; derivation and generation are an eighth faster with all.
+os.environ.setdefault("SYMPY_CACHE_SIZE", "None")
 
 
 def formula(name: str) -> "Record":

@@ -4,6 +4,8 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from derivation.scene.scene import OUTPUTS
 
 METHODS = {
@@ -87,7 +89,8 @@ class AchievedAccuracy:
     @property
     def bound(self) -> float:
         """Bound on the relative error of each output [1]."""
-        return math.expm1(sum(math.log1p(part.bound) for part in self.parts.values()))
+        # With NumPy's functions, so that the bound is that of a row, to the last bit.
+        return float(np.expm1(sum(np.log1p(part.bound) for part in self.parts.values())))
 
     def to_json(self) -> dict[str, Any]:
         """Return method, tolerance and bound, with the parts of the bound and their bases."""

@@ -2,12 +2,12 @@
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from derivation.engine.text import aligned, paragraph
 from derivation.scene.effects import BY_NAME, EFFECTS
-from derivation.scene.effects.effect import NO_BOUND, Effect
+from derivation.scene.effects.effect import NO_BOUND, Effect, Results
 from derivation.scene.html import html_table
 from derivation.scene.law import ContactLaw
 from derivation.scene.model import Model
@@ -23,6 +23,10 @@ HEADS = (
 
 SYMBOLS = "a contact radius, R sphere radius, b plate radius, H = 2 h thickness, E* = E/(1 - nu^2)"
 """Symbols of the parameters."""
+
+
+NO_GROWTH: Results = (1.0, 1.0, 1.0, 1.0, 1.0)
+"""Factors on the bounds on each result that a simulated impact does not increase [1]."""
 
 
 @dataclass(frozen=True)
@@ -90,6 +94,8 @@ class SelectedEffects:
         The effects table.
     outputs
         The results that the tolerance and the bounds apply to.
+    growth
+        Factors by which the simulated impact increased the bounds on each result [1].
     """
 
     law: ContactLaw
@@ -97,6 +103,20 @@ class SelectedEffects:
     error: float
     rows: tuple[EffectRow, ...]
     outputs: tuple[str, ...] = OUTPUTS
+    growth: Results = NO_GROWTH
+    _selection: Selection | None = field(default=None, repr=False, compare=False)
+    _tolerance: str = field(default="", repr=False, compare=False)
+
+    def grown(self, growth: Results) -> "SelectedEffects":
+        """Return the effects with a table whose bounds on each result are multiplied by factors."""
+        if growth == NO_GROWTH or self._selection is None:
+            return self
+        return _selected(self._selection, self.rtol, self.outputs, self._tolerance, growth)
+
+    @property
+    def stated_error(self) -> float:
+        """Bound on the change by all effects omitted by the selection, after the simulation [1]."""
+        return largest_growth(self.growth, self.outputs) * self.error
 
     @property
     def forced_out(self) -> tuple[str, ...]:
@@ -121,7 +141,7 @@ class SelectedEffects:
     @property
     def summary(self) -> str:
         """The included effects, and the bound on the change by the omitted ones."""
-        omitted = f"; the omitted effects change the results by at most {self.error:.1e}"
+        omitted = f"; the omitted effects change the results by at most {self.stated_error:.1e}"
         return ", ".join(self.included) + (omitted if self.omits else "")
 
     def lines(self) -> list[tuple[str, str, str, str, str, str]]:
@@ -153,6 +173,11 @@ class SelectedEffects:
     _repr_html_ = to_html
 
 
+def largest_growth(growth: Results, outputs: Sequence[str]) -> float:
+    """Return the largest factor of some outputs [1]."""
+    return max(growth[OUTPUTS.index(name)] for name in outputs)
+
+
 def decide(
     model: Model,
     wanted: Mapping[str, Any],
@@ -181,10 +206,17 @@ def decide(
         As `select` does.
     """
     found = select(model, wanted, rtol, outputs)
-    law = found.state.law
     tolerance = f"{'the default selection' if default else 'the'} tolerance {rtol:.3g}"
-    rows = [_row(effect, found, tolerance, outputs) for effect in EFFECTS]
-    return SelectedEffects(law, rtol, found.error, tuple(rows), tuple(outputs))
+    return _selected(found, rtol, tuple(outputs), tolerance, NO_GROWTH)
+
+
+def _selected(
+    found: Selection, rtol: float, outputs: tuple[str, ...], tolerance: str, growth: Results
+) -> SelectedEffects:
+    """Return the selected effects with their table, for factors on the bounds on each result."""
+    rows = tuple(_row(effect, found, tolerance, outputs, growth) for effect in EFFECTS)
+    law, error = found.state.law, found.error
+    return SelectedEffects(law, rtol, error, rows, outputs, growth, found, tolerance)
 
 
 def _grouped(texts: Iterable[tuple[str, str]]) -> list[str]:
@@ -200,6 +232,7 @@ def _row(
     found: Selection,
     tolerance: str,
     outputs: Sequence[str],
+    growth: Results,
 ) -> EffectRow:
     """Return the row of an effect, at the largest contact radius of the selected law."""
     state, choice, reasons, error = found.state, found.choice, found.reasons, found.error
@@ -209,11 +242,22 @@ def _row(
     if reasons[name]:
         return EffectRow(name, effect.adds, effect.parameter, math.nan, 0.0, False, reasons[name])
     value = effect.value(model, radius)
-    bound = change_of(state, effect, outputs) if included else error_of(state, [effect], outputs)
+
+    def bound_on(outputs: Sequence[str]) -> float:
+        """Return the bound on the change of the worst of some outputs."""
+        if not included:
+            return error_of(state, [effect], outputs)
+        return change_of(state, effect, outputs)
+
+    def grown_on(output: str) -> float:
+        """Return the bound on the change of an output, after the simulation."""
+        return growth[OUTPUTS.index(output)] * bound_on([output])
+
+    bound = bound_on(outputs) if growth == NO_GROWTH else max(map(grown_on, outputs))
     if effect.always_included:
         why = "always included"
     elif choice[name] != "auto":
-        worst = max(outputs, key=lambda output: error_of(state, [effect], [output]))
+        worst = max(outputs, key=grown_on)
         why = _forced(bool(choice[name]), bound, worst)
     elif name in found.required:
         why = f"required by {found.required[name]}"
@@ -222,7 +266,8 @@ def _row(
     elif included:
         why = f"needed to meet {tolerance}"
     else:
-        why = f"all omitted effects together change the results by at most {error:.1e}"
+        most = largest_growth(growth, outputs) * error
+        why = f"all omitted effects together change the results by at most {most:.1e}"
     disabled = choice[name] is False and effect.selectable
     return EffectRow(name, effect.adds, effect.parameter, value, bound, included, why, disabled)
 

@@ -56,7 +56,7 @@ class Explanation:
                 name.replace("_", " ") for name in self.effects.outputs
             )
         omitted = (
-            f"The omitted effects change {results} by at most {self.effects.error:.1e} "
+            f"The omitted effects change {results} by at most {self.effects.stated_error:.1e} "
             f"(tolerance {self.effects.rtol:.3g})."
             if self.effects.omits
             else "No applicable effect was omitted automatically."

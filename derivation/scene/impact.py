@@ -21,7 +21,12 @@ from derivation.scene.limits import (
     warnings_at,
 )
 from derivation.scene.measured import toleranced
-from derivation.scene.method_selection import check_rtol, dynamic_impact, solve_selected
+from derivation.scene.method_selection import (
+    check_rtol,
+    dynamic_impact,
+    growth_of,
+    solve_selected,
+)
 from derivation.scene.model import model_of
 from derivation.scene.model_error import inertia_error
 from derivation.scene.result import Result
@@ -109,8 +114,8 @@ def simulate(
         speeds = [touch.relative_approach_speed for touch in motion.inertia.contacts]
         warnings += contact_warnings(speeds, motion.least)
     result = Result(
-        *numbers, pressure, accuracy, model_error, warnings, scene, selected,
-        inertia_neglected=neglected,
+        *numbers, pressure, accuracy, model_error, warnings, scene,
+        selected.grown(growth_of(motion)), inertia_neglected=neglected,
     )  # fmt: skip
     return result if times is None else result.at(times)
 

@@ -49,7 +49,7 @@ from generated.impact import COARSE_QUADRATURE, FULL_QUADRATURE, ROUNDING, histo
 from generated.impact_shapes import cut
 from generated.plasticity_numbers import YIELD_LIMIT
 from generated.sensitivity import indentation_slope
-from generated.simple_impact import Estimate, Plate, hertz, law_errors, leading, plate_of
+from generated.simple_impact import Estimate, Plate, law_errors
 from generated.viscosity import ImpactExtremes, viscous_logarithms, viscous_number
 from generated.viscous_bodies import retardation_of_two
 
@@ -127,15 +127,12 @@ __all__ = [
     "echo_time",
     "finite_radius",
     "force_of_radius",
-    "hertz",
     "history",
     "impact",
     "indentation",
     "indentation_slope",
     "law_errors",
-    "leading",
     "max_pressure",
-    "plate_of",
     "plate_share",
     "plates_at",
     "radius_of_force",

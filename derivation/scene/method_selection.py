@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from derivation.engine.threads import one_thread
-from derivation.scene import kernels, motion
+from derivation.scene import kernels, motion, simple_laws
 from derivation.scene.achieved_accuracy import (
     ESTIMATED,
     PROVED,
@@ -23,7 +23,7 @@ from derivation.scene.achieved_accuracy import (
     Part,
     rounded_up,
 )
-from derivation.scene.effect_selection import SelectedEffects
+from derivation.scene.effect_selection import NO_GROWTH, SelectedEffects, largest_growth
 from derivation.scene.effects import BY_NAME, PAPER
 from derivation.scene.effects.effect import Results
 from derivation.scene.law import ContactLaw
@@ -86,7 +86,7 @@ def solve_selected(
     accuracy = replace(
         accuracy,
         rtol=rtol,
-        effects=Part(_omitted(selected, found, moving), _basis(selected)),
+        effects=Part(_omitted(selected, moving), _basis(selected)),
         outputs=selected.outputs,
     )
     # An incomplete impact has no bound; it is returned and marked as incomplete.
@@ -134,22 +134,33 @@ def remaining(selected: SelectedEffects, rtol: float | None) -> float | None:
     return None if rtol is None else (rtol - selected.error) / (1.0 + selected.error)
 
 
-def _omitted(selected: SelectedEffects, found: Results, motion: "DynamicImpact | None") -> float:
+def _omitted(selected: SelectedEffects, motion: "DynamicImpact | None") -> float:
     """Return the bound on the omitted effects; with plate inertia it may exceed the selection's.
 
-    A plate may take nearly all energy. What then remains of the speed changes by a multiple. If the
-    omitted effects may split the first contact or join it with the second, there is no bound on its
-    duration, which jumps.
+    If the omitted effects may split the first contact or join it with the second, there is no bound
+    on its duration, which jumps.
     """
-    if motion is None:
-        return selected.error
     if _may_jump(selected, motion):
         return math.inf
-    if "restitution" not in selected.outputs:
-        return selected.error
-    from derivation.scene.effects.inertia import LEAST
+    return largest_growth(growth_of(motion), selected.outputs) * selected.error
 
-    return selected.error * max(1.0, LEAST / max(found[-1], 1e-300))
+
+def growth_of(motion: "DynamicImpact | None") -> Results:
+    """Return the factors by which a simulated impact increases the bounds on each result [1].
+
+    A plate may take nearly all energy. What then remains of the speed changes by a multiple. Also,
+    between contacts a change of the speed displaces the sphere, which then meets the plate at
+    another phase of its vibration, and the weight acts during flight. This changes the restitution,
+    and the largest values if they may be those of a later contact.
+    """
+    if motion is None or not motion.inertia.complete:
+        return NO_GROWTH
+    from derivation.scene.effects.inertia import FLIGHT_GROWTH, LATER_PEAK, LEAST
+
+    largest, speed = (1.0 + factor * motion.flight for factor in FLIGHT_GROWTH)
+    later = max((one.peak_force for one in motion.inertia.contacts[1:]), default=0.0)
+    peak = largest if later > LATER_PEAK * motion.max_force else 1.0
+    return 1.0, peak, peak, peak, speed * max(1.0, LEAST / max(motion.restitution, 1e-300))
 
 
 def _may_jump(selected: SelectedEffects, motion: "DynamicImpact | None") -> bool:
@@ -279,7 +290,7 @@ def _half_space(law: ContactLaw) -> tuple[Results, AchievedAccuracy] | None:
     """Return the outputs by Hertz's law in closed form; None for extreme values."""
     R, m, v0, h, b, lam, mu = law.model.numbers
     share = 1.0 / (1.0 + law.softness)
-    found = kernels.hertz(R, m, v0, h, b, share * lam, share * mu)
+    found = simple_laws.single(simple_laws.hertz, R, m, v0, h, b, share * lam, share * mu)
     if found is None:
         return None
     rounding = Part(found.rounding, ROUNDING_ANALYSIS)
@@ -305,8 +316,8 @@ def solve(model: Model, rtol: float | None = None) -> tuple[Results, AchievedAcc
     """
     within = False
     if rtol is not None:
-        for method, run in (("hertz", kernels.hertz), ("leading", kernels.leading)):
-            found = run(*model.numbers)
+        for method, run in (("hertz", simple_laws.hertz), ("leading", simple_laws.leading)):
+            found = simple_laws.single(run, *model.numbers)
             if found is None:  # no bound is known
                 continue
             accuracy = estimated(method, found, rtol)
@@ -317,8 +328,9 @@ def solve(model: Model, rtol: float | None = None) -> tuple[Results, AchievedAcc
         check_energy(ContactLaw(model, PAPER))
     coarse = rtol is not None and whole_law("coarse", rtol).bound <= rtol
     with np.errstate(all="ignore"):  # extreme scenes give NaN, which is checked
-        values = kernels.impact(*model.numbers, coarse=coarse)
-    contact_time, delta, P, a = (float(value) for value in values)
+        # An array of one, so that the result is that of a row, to the last bit.
+        values = kernels.impact(*(np.array([x]) for x in model.numbers), coarse=coarse)
+    contact_time, delta, P, a = (np.asarray(value).item() for value in values)
     check_numbers(model, contact_time, delta, P, a)
     return (contact_time, delta, P, a, 1.0), whole_law("coarse" if coarse else "full", rtol)
 

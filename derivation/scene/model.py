@@ -118,13 +118,13 @@ class Model:
 
     @cached_property
     def supports(self) -> Supports:
-        """Contribution of simple supports of many plates, up to about Hertz's largest radius."""
+        """Contribution of simple supports, up to about Hertz's largest radius, in columns."""
         modulus = self.modulus / (1.0 + self.softness)
         plate = (self.h, self.b, self.lam, self.mu)
         with np.errstate(all="ignore"):  # extreme scenes give NaN, which is checked
             energy = 0.9375 * self.R * (self.R / modulus) * self.m * (self.v0 * self.v0)
             columns = np.broadcast_arrays(np.power(energy, 0.2), *plate)
-            return supports_of(*columns)
+            return supports_of(*map(np.atleast_2d, columns))
 
     def take(self, index: Any) -> "Model":
         """Return some of many scenes by their indices; an int gives a single scene."""
@@ -232,7 +232,11 @@ def model_of(scene: Scene) -> Model:
     return model
 
 
-_plate_of = lru_cache(maxsize=8)(kernels.plate_of)
+@lru_cache(maxsize=8)
+def _plate_of(eta: float) -> kernels.Plate:
+    """Return the plate of one scene, the same to the last bit as among others."""
+    columns: Any = plates_of(np.array([eta]))
+    return kernels.Plate(*(column.item() for column in columns))
 
 
 def numbers_of(scene: Scene) -> Model:

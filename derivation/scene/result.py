@@ -50,8 +50,8 @@ class Result:
     max_contact_radius
         Largest contact radius [m].
     restitution
-        Rebound speed over impact speed [1]: 1 in an elastic contact on a quasi-static plate; NaN if
-        the simulation is incomplete.
+        Rebound speed, at the last separation, over impact speed [1]: 1 in an elastic contact on a
+        quasi-static plate; above 1 if a plate deflected by the weight lifts it; NaN if incomplete.
     max_pressure
         Largest contact pressure, at the centre of the widest contact [Pa]; at most 1.6 times the
         yield stress in a plastic contact, only the elastic part in a viscoelastic contact.

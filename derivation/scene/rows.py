@@ -3,9 +3,11 @@
 Impacts on quasi-static plates with Hertzian pressure are computed in arrays. All other rows
 (non-Hertzian pressure, a viscoelastic or plastic contact, plate inertia), invalid rows, and rows
 for which rounding could change a decision are simulated one by one. Each row is equal to the result
-of `simulate` for its scene: effects, status and reason are the same, numbers differ by rounding.
+of `simulate` for its scene: effects, status and reason are the same, and numbers to the last bit.
 """
 
+import math
+import time
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
@@ -63,9 +65,27 @@ class Rows:
     reason: NDArray[np.object_]
     effects: NDArray[np.object_]
 
+    def __len__(self) -> int:
+        return len(self.status)
+
+    def first(self, count: int) -> "Rows":
+        """Return the first rows."""
+        results = {name: values[:count] for name, values in self.results.items()}
+        return Rows(
+            results,
+            self.bound[:count],
+            self.model_error[:count],
+            self.status[:count],
+            self.reason[:count],
+            self.effects[:count],
+        )
+
 
 def solve(
-    scene: Scene, columns: Mapping[str, NDArray[np.float64]], rtol: float | None = None
+    scene: Scene,
+    columns: Mapping[str, NDArray[np.float64]],
+    rtol: float | None = None,
+    seconds: float = math.inf,
 ) -> Rows:
     """Simulate the scenes of many rows.
 
@@ -79,11 +99,14 @@ def solve(
         example, half_thickness replaces thickness.
     rtol
         Relative tolerance of the results [1], as for `simulate`.
+    seconds
+        Run time after which no more rows are simulated one by one [s].
 
     Returns
     -------
     Rows
-        The results of `simulate` for the scene of each row; an invalid row is rejected.
+        The results of `simulate` for the scene of each row; an invalid row is rejected. After
+        `seconds` these are only the rows before the first one that is left, at least one.
 
     Raises
     ------
@@ -100,10 +123,12 @@ def solve(
     for place in given:
         number_key(place)
     [(count,)] = lengths
-    found = _empty(count)
+    found, until = _empty(count), time.perf_counter() + seconds
     for start in range(0, count, BLOCK):
         part = {place: values[start : start + BLOCK] for place, values in given.items()}
-        _Block(scene, part, rtol, found, start).run()
+        left = _Block(scene, part, rtol, found, start).run(until)
+        if left is not None:
+            return found.first(left)
     return found
 
 
@@ -126,14 +151,20 @@ class _Block:
     found: Rows
     start: int
 
-    def run(self) -> None:
-        """Simulate the rows, in arrays where possible and the others one by one."""
+    def run(self, until: float) -> int | None:
+        """Simulate the rows, in arrays where possible and the others one by one.
+
+        Return the first row that is left when the time is over, or None. It is never row 0.
+        """
         count = len(next(iter(self.columns.values())))
         left = np.ones(count, dtype=bool)
         for rows in self._in_arrays():
             left[rows] = False
         for row in np.flatnonzero(left).tolist():
+            if self.start + row and time.perf_counter() > until:
+                return self.start + row
             self._one(row)
+        return None
 
     def _one(self, row: int) -> None:
         """Simulate a single row."""

@@ -1,9 +1,10 @@
-"""Impacts of many scenes by Hertz's law and by its first correction: `kernels.hertz` in arrays.
+"""Impacts by Hertz's law and by its first correction: `generated.simple_impact` in arrays.
 
 The formulas are the printed ones for single numbers. In arrays they use the functions of NumPy
 instead of those of `math`.
 """
 
+import math
 from collections.abc import Callable
 from types import FunctionType
 from typing import Any, NamedTuple
@@ -56,7 +57,7 @@ def plates_of(eta: Array) -> kernels.Plate:
 
 
 def hertz(R: Array, m: Array, v0: Array, h: Array, b: Array, lam: Array, mu: Array) -> Estimates:
-    """Compute impacts by Hertz's law, like `kernels.hertz`, for arrays of the same length."""
+    """Compute impacts by Hertz's law, like `simple_impact.hertz`, for arrays of the same length."""
     modulus, radius, known = _spheres(R, m, v0, h, b, lam, mu)
     plate, top = plates_of(np.where(known, h / b, 1.0)), TOP * radius / h
     low, up = _formulas.hertz_bounds(*plate, top)
@@ -67,7 +68,7 @@ def hertz(R: Array, m: Array, v0: Array, h: Array, b: Array, lam: Array, mu: Arr
 
 
 def leading(R: Array, m: Array, v0: Array, h: Array, b: Array, lam: Array, mu: Array) -> Estimates:
-    """Compute impacts by delta = (a^2/R) (1 + c_1 a/h), like `kernels.leading`."""
+    """Compute impacts by delta = (a^2/R) (1 + c_1 a/h), like `simple_impact.leading`."""
     modulus, radius, known = _spheres(R, m, v0, h, b, lam, mu)
     plate, over_h = plates_of(np.where(known, h / b, 1.0)), radius / h
     share = _share(_formulas.beside_hertz(plate.bend, over_h))
@@ -82,6 +83,17 @@ def leading(R: Array, m: Array, v0: Array, h: Array, b: Array, lam: Array, mu: A
     depth, force = _formulas.peaks(a, R, modulus, plate.bend * A)
     time = _leading_time(a, R, v0, _formulas.steepness(plate.bend, A))
     return _estimates(known, a, np.minimum(b, R), (time, depth, force), law, QUADRATURE)
+
+
+def single(run: Callable[..., Estimates], *numbers: float) -> kernels.Estimate | None:
+    """Return the estimate of one impact, the same to the last bit as among others.
+
+    None where no bound is proved.
+    """
+    with np.errstate(all="ignore"):
+        found = run(*(np.array([number]) for number in numbers))
+    estimate = kernels.Estimate(*(np.asarray(column).item() for column in found))
+    return estimate if math.isfinite(estimate.law) else None
 
 
 def _law_error(low: Array, up: Array, fall: Array, rise: Array) -> Array:

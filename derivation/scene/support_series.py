@@ -1,4 +1,4 @@
-"""Contribution of simple supports to the contact law of many plates, as Chebyshev series.
+"""Contribution of simple supports to the contact law of plates, as Chebyshev series.
 
 The contribution divided by alpha = a/b is an even function of alpha with its nearest singularity
 near alpha = 1. It is expanded in Chebyshev polynomials of alpha^2 up to a multiple of Hertz's
@@ -39,7 +39,7 @@ def supports_of(hertz: Array, h: Array, b: Array, lam: Array, mu: Array) -> Supp
     nodes, values, slopes = _rules()
     alpha = reach * np.sqrt(0.5 * (1.0 + nodes))
     share = kernels.supported_edge(alpha * b, h, b, lam, mu) / alpha
-    return Supports(reach, share @ values.T, share @ slopes.T)
+    return Supports(reach, *(np.vecdot(matrix, share[:, None]) for matrix in (values, slopes)))
 
 
 def support_share(supports: Supports, alpha: Array) -> tuple[Array, Array]:

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from html import escape
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -142,6 +143,12 @@ class DynamicImpact(Motion):
         first, *others = self.inertia.contacts
         gap = (others[0].start - first.end) / (first.end - first.start) if others else math.inf
         return min(self._least_force(self._touching[0]), gap)
+
+    @property
+    def flight(self) -> float:
+        """Total time between contacts, over the contact time on a plate without deflection [1]."""
+        contacts = self.impact_history.contacts
+        return sum(after.start - before.end for before, after in pairwise(contacts))
 
     def _least_force(self, rows: Array) -> float:
         """Return the smallest force between two maxima, over the peak force [1]; 1 if none."""

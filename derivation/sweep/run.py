@@ -6,7 +6,7 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import CancelledError
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.metadata import version
 from typing import Any
 
@@ -28,7 +28,8 @@ LARGEST_BATCH = 2**16
 GROWTH = 8
 """Largest ratio of the sizes of successive batches."""
 BATCH_SECONDS = 3.0
-"""Intended run time of a batch [s], which an interrupted run loses in each process."""
+"""Intended run time of a batch [s], which an interrupted run loses in each process. A batch that
+turns out to take longer ends before its next simulation; its other points become a new batch."""
 LEAST_SECONDS = 0.3
 """Smallest intended run time of a batch [s], because a file for each batch takes time too."""
 PARALLEL_FROM = 6.0
@@ -64,6 +65,14 @@ class Batch:
         """Number of points to compute."""
         return len(self.numbers) if self.renewed else self.stop - self.start
 
+    def split(self, count: int) -> tuple["Batch", "Batch"]:
+        """Return the first points as a batch, and the others as another one."""
+        if self.renewed:
+            first, others = self.numbers[:count], self.numbers[count:]
+            return replace(self, numbers=first), replace(self, numbers=others)
+        middle = self.start + count
+        return Batch(self.start, middle), Batch(middle, self.stop)
+
 
 class Queue:
     """The remaining points, in batches that take about `BATCH_SECONDS`."""
@@ -94,6 +103,14 @@ class Queue:
             return None
         self.left -= batch.count
         return batch
+
+    def put_back(self, batch: Batch) -> None:
+        """Add points that a batch has left, to be computed next."""
+        if batch.renewed:
+            self._again.appendleft(batch)
+        else:
+            self._ranges.appendleft((batch.start, batch.stop))
+        self.left += batch.count
 
     def learn(self, points: int, seconds: float) -> None:
         """Set the size of the next batches from the run time of one [s]."""
@@ -129,8 +146,11 @@ def compute(
     queue = Queue(store.missing(), store.failed() if retry else ())
     todo, total, done = queue.left, store.study.plan.size, 0
 
-    def keep(batch: Batch, content: bytes, seconds: float) -> None:
+    def keep(batch: Batch, content: bytes, count: int, seconds: float) -> None:
         nonlocal done
+        if count < batch.count:
+            batch, others = batch.split(count)
+            queue.put_back(others)
         if batch.renewed:
             store.renew(batch.renewed, list(batch.numbers), content, seconds)
         else:
@@ -149,15 +169,15 @@ def compute(
     return todo
 
 
-Keep = Callable[[Batch, bytes, float], None]
+Keep = Callable[[Batch, bytes, int, float], None]
 
 
 def _here(store: Store, queue: Queue, keep: Keep, workers: int) -> None:
     """Compute batches in this process, until the remaining time justifies other processes."""
     spent, batches = 0.0, 0
     while batch := queue.next():
-        content, seconds = solve_batch(*_task(store, batch))
-        keep(batch, content, seconds)
+        content, count, seconds = solve_batch(*_task(store, batch))
+        keep(batch, content, count, seconds)
         spent, batches = spent + seconds, batches + 1
         long = queue.left * queue.seconds_per_point > PARALLEL_FROM
         if workers > 1 and batches > 1 and spent > TRIED and long:
@@ -182,7 +202,7 @@ def _on_cluster(store: Store, queue: Queue, keep: Keep, client: Any) -> None:
     for future in finished:
         batch = running.pop(future.key)
         try:
-            content, seconds = future.result()
+            content, count, seconds = future.result()
         except KilledWorker:
             raise SceneError(
                 f"sweep: expected workers that finish the points {batch.start} to "
@@ -199,7 +219,7 @@ def _on_cluster(store: Store, queue: Queue, keep: Keep, client: Any) -> None:
                 f"sweep: expected platecontact on every worker, got: {error}; install it there"
             ) from None
         future.release()
-        keep(batch, content, seconds)
+        keep(batch, content, count, seconds)
         fill()
 
 
@@ -218,8 +238,10 @@ def _task(store: Store, batch: Batch) -> Task:
 
 def solve_batch(
     scene: dict[str, Any], columns: dict[str, Array], rtol: float | None, wanted: str
-) -> tuple[bytes, float]:
-    """Simulate some points; return the content of their file and the run time [s].
+) -> tuple[bytes, int, float]:
+    """Simulate some points: all of them, or the first ones if they take long.
+
+    Return the content of their file, their number and the run time [s].
 
     Raises
     ------
@@ -233,8 +255,9 @@ def solve_batch(
             "the same version everywhere"
         )
     start = time.perf_counter()
-    content = to_parquet(solve(read(scene), columns, rtol))
-    return content, time.perf_counter() - start
+    found = solve(read(scene), columns, rtol, BATCH_SECONDS)
+    content = to_parquet(found)
+    return content, len(found), time.perf_counter() - start
 
 
 @contextmanager

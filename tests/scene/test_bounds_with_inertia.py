@@ -166,3 +166,85 @@ def test_weight_of_a_sphere_that_hardly_rebounds_is_within_its_bound() -> None:
     assert without.restitution < 0.03
     [row] = [row for row in without.effects.rows if row.name == "gravity"]
     assert 0.3 < change(without, reference, "restitution") < row.bound
+
+
+DROP: dict[str, Any] = {
+    "sphere": {"density": 7800.0, "youngs_modulus": 2e14, "poissons_ratio": 0.3},
+    "plate": {"half_thickness": 9.6842e-4, "material": "PMMA", "edge": "simply-supported"},
+    "impact": {"speed": 5.0},
+}
+"""A sphere that a plate nearly stops, and meets again when waves return from its edge."""
+
+
+@pytest.mark.parametrize(
+    ("radius", "plate_radius", "modes"), [(2.993488e-3, 0.3, 70), (3.245364e-3, 0.6, 140)]
+)
+def test_restitution_after_a_long_flight_is_within_its_bound(
+    radius: float, plate_radius: float, modes: int
+) -> None:
+    """A change of the speed displaces the sphere until the next contact, whose phase it changes.
+
+    The bounds did not grow with the time of flight; the changes were 1.1 and 1.7 times as large.
+    """
+    data = DROP | {
+        "sphere": DROP["sphere"] | {"radius": radius},
+        "plate": DROP["plate"] | {"radius": plate_radius},
+        "inertia": {"branches": "A0", "modes": modes},
+    }
+    effects = {"inertia": True, "spherical_profile": False, "non_hertzian_pressure": False}
+    without, reference = (
+        simulate(read(data | {"effects": effects | {"sphere_elasticity": elastic}}))
+        for elastic in (False, True)
+    )
+    [row] = [row for row in without.effects.rows if row.name == "sphere_elasticity"]
+    assert 0.05 * row.bound < change(without, reference, "restitution") < row.bound
+
+
+@pytest.mark.parametrize(
+    ("sphere", "plate", "speed", "output"),
+    [
+        # The weight decides between two and three contacts.
+        ({"radius": 2.071422935186539e-3, "material": "steel"},
+         {"radius": 9.282799461484904e-2, "half_thickness": 5.143521198752183e-4,
+          "material": "concrete", "edge": "clamped"}, 2.3367750151915487, "restitution"),
+        # The third contact of four has the largest force.
+        ({"radius": 2.467382476605497e-3, "material": "aluminium"},
+         {"radius": 1.523479084981601e-2, "half_thickness": 4.1820954755633264e-4,
+          "material": "PMMA", "edge": "paper"}, 1.71205904864244, "max_force"),
+    ],
+)  # fmt: skip
+def test_weight_during_a_long_flight_is_within_its_bound(
+    sphere: dict[str, Any], plate: dict[str, Any], speed: float, output: str
+) -> None:
+    """The weight acts between contacts too; the changes were 1.7 and 2.0 times the bounds."""
+    data = {
+        "sphere": sphere,
+        "plate": plate,
+        "impact": {"speed": speed, "gravity": 9.81},
+        "inertia": {"branches": "A0"},
+        "accuracy": {"rtol": 0.9, "outputs": [output]},
+    }
+    effects = CONTACT | {"inertia": True, "plasticity": False, "non_hertzian_pressure": False}
+    without, reference = (
+        simulate(read(data | {"effects": effects | {"gravity": gravity}}))
+        for gravity in (False, True)
+    )
+    [row] = [row for row in without.effects.rows if row.name == "gravity"]
+    assert 0.1 * row.bound < change(without, reference, output) < row.bound
+
+
+def test_bound_on_a_small_restitution_does_not_shrink_with_it() -> None:
+    """Changes of the speed, over those of the force, are up to 0.75, however little remains.
+
+    The bound was relative to a restitution of at least 0.03.
+    """
+    data = DROP | {
+        "sphere": DROP["sphere"] | {"radius": 3.1e-3},
+        "plate": DROP["plate"] | {"radius": 0.6},
+        "inertia": {"branches": "A0", "modes": 140},
+    }
+    effects = {"inertia": True, "sphere_elasticity": False, "spherical_profile": False}
+    found = simulate(read(data | {"effects": effects}))
+    assert found.restitution < 0.006
+    [row] = [row for row in found.effects.rows if row.name == "sphere_elasticity"]
+    assert row.bound * found.restitution > 0.5 * row.parameter_value

@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import math
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -186,3 +187,31 @@ def test_explain_states_plate_inertia() -> None:
     explanation = explain(scene())
     assert any("inertia" in note for note in explanation.notes)
     assert explanation.evaluation_times["inertia"] > 0.0
+
+
+def test_weight_may_increase_the_speed_of_separation_but_no_energy() -> None:
+    """The sphere leaves the plate below the place where it met it: its restitution is 1.21."""
+    speed, gravity = 3.938e-5, 0.015288
+    found = simulate(read({
+        "sphere": {"radius": 0.11199, "density": 830.06, "youngs_modulus": 1.095e14,
+                   "poissons_ratio": 0.3},
+        "plate": {"radius": 0.31961, "half_thickness": 6.5405e-3, "youngs_modulus": 5.6393e9,
+                  "poissons_ratio": 0.3709, "density": 856.6, "edge": "simply-supported"},
+        "impact": {"speed": speed, "gravity": gravity},
+        "effects": {"inertia": True},
+        "inertia": {"branches": "A0", "modes": 8},
+    }))  # fmt: skip
+    balance, dynamics = found.energy_balance, found.dynamics
+    assert balance is not None
+    assert dynamics is not None
+    # By the momentum, not by the energy: the impulse of the contact and that of the weight.
+    mass = 2.0 * balance.initial_kinetic / speed**2
+    impulse = sum(touch.impulse for touch in dynamics.inertia.contacts)
+    rebound = impulse / mass - speed - gravity * dynamics.inertia.total_time
+    assert found.restitution == pytest.approx(rebound / speed, rel=1e-9)
+    assert found.restitution > 1.2
+    # At the height of the first contact less speed would remain than the sphere had.
+    depth = balance.gravity_work / mass / gravity
+    assert 0.0 < depth < 0.1 * found.max_indentation
+    assert 0.9 < math.sqrt(rebound**2 - 2.0 * gravity * depth) / speed < 1.0
+    assert abs(balance.residual) < 1e-9

@@ -213,7 +213,7 @@ def test_method_changes_at_its_bound(v0: float) -> None:
     model = paper(v0=v0)
     stated = {"coarse": method_selection.whole_law("coarse", None).bound}
     for method in ("hertz", "leading"):
-        found = getattr(kernels, method)(*model.numbers)
+        found = getattr(simple_impact, method)(*model.numbers)
         stated[method] = method_selection.estimated(method, found, None).bound
     for method, bound in stated.items():
         above, below = (

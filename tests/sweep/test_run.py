@@ -162,3 +162,35 @@ def test_processes_keep_freed_memory_beside_another_study() -> None:
         found = client.submit(os.environ.get, "MALLOC_TRIM_THRESHOLD_").result()
         threads = client.submit(os.environ.get, "OPENBLAS_NUM_THREADS").result()
     assert (found, threads) == (os.environ.get("MALLOC_TRIM_THRESHOLD_"), "1")
+
+
+def test_slow_batches_are_divided(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    # The first points need no viscosity and are computed in arrays, the last ones singly.
+    vary = {"plate.retardation_time": "1e-12:1e-4:20:log"}
+    pc.sweep(scene(), vary, out=tmp_path / "whole.csv")
+    monkeypatch.setattr(run, "BATCH_SECONDS", 0.0)
+    monkeypatch.setattr(run, "FIRST_BATCH", 20)
+    monkeypatch.setattr(run.Queue, "learn", lambda *_: None)
+    out = tmp_path / "divided.csv"
+    found = pc.sweep(scene(), vary, out=out)
+    assert (journal(out, 20) == 1).all()
+    assert (counts(out, 20) == 1).all()
+    effects = found["effects"].values.astype(str)
+    singles = int(np.count_nonzero(np.char.find(effects, "viscosity") >= 0))
+    assert 0 < singles < 20
+    assert len(parts(out)) == 1 + singles
+    assert out.read_bytes() == (tmp_path / "whole.csv").read_bytes()
+
+
+def test_failed_points_of_a_slow_batch_are_computed_again_in_parts(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    vary = {"impact.speed": "1:-1:10"}  # the last five are rejected
+    out = tmp_path / "rows.csv"
+    pc.sweep(scene(), vary, out=out)
+    before = out.read_bytes()
+    monkeypatch.setattr(run, "BATCH_SECONDS", 0.0)
+    pc.sweep(scene(), vary, out=out, retry=True)
+    lines = out.with_name("rows.csv.parts").joinpath("journal.txt").read_text().splitlines()
+    assert sum(int(line.split()[2]) for line in lines) == 15
+    assert out.read_bytes() == before

@@ -18,7 +18,7 @@ SPREAD = {"distribution": "uniform", "low": 1.0, "high": 2.0}
 KEYS = ("impact.speed", "sphere.radius", "plate.radius")
 
 
-def rows(_: object, columns: dict[str, np.ndarray], __: object = None) -> Rows:
+def rows(_: object, columns: dict[str, np.ndarray], *__: object) -> Rows:
     """Return results that include a sum, a product, a constant, and noise below the bound."""
     x, y, z = (columns[key] for key in KEYS)
     made = [x + 2 * y, (x - 1.5) * (y - 1.5) + z, 0 * x + 1, 1 + 1e-9 * x, x, y, z]
@@ -90,7 +90,7 @@ def test_command_prints_and_plots_indices(
 def test_points_without_a_result_have_no_sensitivities(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def some(_: object, columns: dict[str, np.ndarray], __: object = None) -> Rows:
+    def some(_: object, columns: dict[str, np.ndarray], *__: object) -> Rows:
         made = rows(_, dict.fromkeys(KEYS, columns["impact.speed"]))
         status = np.where(columns["impact.speed"] > 0, "finished", "rejected")
         return replace(made, status=status)

@@ -64,17 +64,15 @@ class Edge(PlateEffect):
 
     def contribution(self, model: Model, a: Array) -> Contribution:
         """Return the contribution by sums over a few modes, or a closed form for thin plates."""
-        if model.edge == SUPPORTED and a.ndim > 1:
-            return self._supported(model, a)
-        plate = model.h, model.b, model.lam, model.mu
         if model.edge == SUPPORTED:
-            runs = kernels.supported_edge, kernels.supported_edge_slope
-        else:
-            runs = kernels.clamped_edge, kernels.clamped_edge_slope
+            depth, slope = self._supported(model, np.atleast_2d(a))
+            return Contribution(depth.reshape(a.shape), slope.reshape(a.shape))
+        plate = model.h, model.b, model.lam, model.mu
+        runs = kernels.clamped_edge, kernels.clamped_edge_slope
         return Contribution(*(run(a, *plate) for run in runs))
 
     def _supported(self, model: Model, a: Array) -> Contribution:
-        """Return the sums of many plates by their series, and directly for wide contacts."""
+        """Return the sums of one or many plates by their series; directly for wide contacts."""
         depth, slope = support_share(model.supports, a / model.b)
         wide = np.isnan(depth) & np.isfinite(a)
         if wide.any():

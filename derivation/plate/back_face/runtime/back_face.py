@@ -33,9 +33,7 @@ from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
 from generated.contact_series import THICKEST, THINNEST
 from generated.edge_kernels import indentation_kernel
 from generated.edge_numbers import WIDEST
-from generated.edge_sums import INDENTATION, edge_sums, elastic_ratios
-
-_POINTS = 64  # number of points in one block of the sum
+from generated.edge_sums import INDENTATION, blocks_of_modes, edge_sums, elastic_ratios
 
 
 @in_manifest(
@@ -215,17 +213,11 @@ def _sum(alpha: Double, eta: Double, A: Double) -> Double:
     alpha, eta, A = (np.ravel(np.broadcast_to(x, shape)) for x in (alpha, eta, A))
     value = kernels.under_wide_contact(alpha, np.maximum(A, numbers.WIDE))
     near = np.flatnonzero(A < numbers.WIDE)
-    near = near[np.argsort(eta[near])]
-    for start in range(0, near.size, _POINTS):
-        part = near[start : start + _POINTS]
-        value[part] = _summed(alpha[part], eta[part], A[part])
+    width, thick = kernels.summed_plate(alpha[near], eta[near], A[near])
+    sums = np.empty_like(thick)
+    for some, count in blocks_of_modes(thick, numbers.FADED):
+        j, J1 = bessel_j0_zeros(count), bessel_j1_at_j0_zeros(count)
+        share = indentation_kernel(width[some, None], j)
+        sums[some] = kernels.back_face_modes(thick[some, None], j, J1, share).sum(axis=1)
+    value[near] = kernels.of_thin_plate(sums, thick, eta[near])
     return value.reshape(shape)
-
-
-def _summed(alpha: Double, eta: Double, A: Double) -> Double:
-    """Return the modal sum for points sorted by eta."""
-    width, thick = kernels.summed_plate(alpha, eta, A)
-    count = 2 + int(numbers.FADED / (2.0 * np.pi * thick[0]))
-    j, J1 = bessel_j0_zeros(count), bessel_j1_at_j0_zeros(count)
-    shares = kernels.back_face_modes(thick[:, None], j, J1, indentation_kernel(width[:, None], j))
-    return kernels.of_thin_plate(shares.sum(axis=1), thick, eta)

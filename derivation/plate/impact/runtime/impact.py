@@ -235,14 +235,15 @@ def _state(since: Double, left: Double, scenes: Scenes, owner: np.ndarray, whole
     inside_contact = nearest > 0
     half = 0.5 * whole[owner]
     goal = np.sqrt(np.where(inside_contact, nearest, half))
-    w = goal / np.sqrt(half)
+    w, moving = goal / np.sqrt(half), np.ones(goal.shape, dtype=bool)
     for _ in range(_STEPS):
         rate = time_rate(w[:, None] * NODES, scenes, owner)
         time = np.sqrt(w * (rate * WEIGHTS).sum(axis=1))
         residual = goal - time
         slope = time_rate(w[:, None], scenes, owner)[:, 0]
-        w = np.clip(w + 2.0 * time * residual / slope, 0.1 * w, 1.0)
-        if not (np.abs(residual) > _CLOSE * goal).any():
+        w = np.where(moving, np.clip(w + 2.0 * time * residual / slope, 0.1 * w, 1.0), w)
+        moving &= np.abs(residual) > _CLOSE * goal
+        if not moving.any():
             break
     lift, _, quotient = (shape[:, 0] for shape in shapes(w[:, None], scenes, owner))
     q = np.where(inside_contact, w * (2.0 - w), 0.0)
@@ -322,10 +323,13 @@ def _deepest(
     # For a thin plate, from 2 hertz^5/5 = bending A^6.
     thin = (0.4 / bending / hertz) ** (1.0 / 6.0)
     share = np.where(far, np.nan, np.minimum(np.minimum(thin, 1.0), most))
+    moving = np.ones(share.shape, dtype=bool)  # each impact ends separately from the others
     for _ in range(_STEPS):
         residual, step = kernels.deeper_step(share, *with_slope(share * hertz, piece))
-        share = np.minimum(share * np.clip(1.0 + step, 0.3, 3.0), most)
-        if not (np.abs(residual) > _CLOSE).any():
+        after = np.minimum(share * np.clip(1.0 + step, 0.3, 3.0), most)
+        share = np.where(moving, after, share)
+        moving &= np.abs(residual) > _CLOSE
+        if not moving.any():
             break
     return share, far
 
@@ -352,10 +356,12 @@ def _far_deepest(
     limit = kernels.far_work(known, end, rise(end)) * ROUNDED
     [goal] = inside([goal], end > near, goal <= limit)
     A = np.minimum(near * (goal / known) ** 0.2, end)
+    moving = np.ones(A.shape, dtype=bool)
     for _ in range(_STEPS):
         fifth, residual, step = kernels.far_step(A, goal, known, rise(A), *with_slope(A, piece))
-        A = np.clip(A * (1.0 + step), near, end)
-        if not (np.abs(residual) > _CLOSE * goal / fifth).any():
+        A = np.where(moving, np.clip(A * (1.0 + step), near, end), A)
+        moving &= np.abs(residual) > _CLOSE * goal / fifth
+        if not moving.any():
             break
     added, ratio = rise(A), near / A
     whole, lift = kernels.far_whole(inner, ratio, added), 1.0 + with_slope(A, piece)[0]

@@ -5,11 +5,15 @@ from functools import cache
 
 import sympy as sp
 
+from derivation.engine.cache import cached
 from derivation.engine.formula.hyperbolic import to_hyperbolic
-from derivation.engine.formula.proof import prove
+from derivation.engine.formula.proof import Proof, prove
 from derivation.plate.modes.theory.mode_shapes import CONSTANTS
 from derivation.plate.modes.theory.stresses import modal_stresses
 from derivation.plate.vocabulary import A_j, Formula, h, phi, z
+
+SOURCES = ("engine/cache.py", "engine/formula", "plate/vocabulary.py", "plate/modes/theory")
+"""Sources on which the constants depend."""
 
 
 def tractions() -> dict[str, sp.Expr]:
@@ -25,7 +29,15 @@ def tractions() -> dict[str, sp.Expr]:
 
 @cache
 def omegas() -> tuple[Formula, ...]:
-    """Return Omega_k = C_k / A_j, from the four traction conditions."""
+    """Return Omega_k = C_k / A_j, from the four traction conditions.
+
+    They are cached in a file: modules of kernels need them when they are imported, and their
+    derivation would take most of that time.
+    """
+    return cached("omegas", SOURCES, _omegas, Formula, Proof)
+
+
+def _omegas() -> tuple[Formula, ...]:
     conditions = tractions()
     (solution,) = sp.linsolve(list(conditions.values()), *CONSTANTS)
     expressions = [to_hyperbolic(sp.cancel(value / A_j), phi * h) for value in solution]

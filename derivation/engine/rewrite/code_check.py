@@ -25,6 +25,8 @@ limit allows all of it, because other points may have larger errors than the tes
 _NEAR_ZERO, _MOST_ZEROS = 150, 12
 _DIGITS = 25
 _ROUNDS = 8
+_OTHER_ERRORS = 2.0
+"""Error [ULP] that is added to that by the rounding of powers of the variable."""
 _PATIENT, _MARGIN = 3, 0.03
 """Number of rounds after which an end that still moves is moved further, and by what fraction."""
 _RANDOM = 500
@@ -65,6 +67,7 @@ class _Reference:
         self.x = stable.variable
         forms = stable.expression, stable.equal
         self.candidates = [(form, derivative(form, self.x)) for form in forms]
+        self.roundings = stable.roundings
         self.known: dict[float, tuple[flint.arb, float] | None] = {}
 
     def at(self, point: float) -> tuple[flint.arb, float] | None:
@@ -90,6 +93,24 @@ class _Reference:
                     condition = abs(steep * to_ball(point) / value).abs_upper()
                 return value, float(condition) / 2
         return None
+
+    def by_rounding(self, point: float) -> float:
+        """Return a bound of the error [ULP] by the rounding of powers of the variable.
+
+        A tested point shows a part of it only, because the rounding errors are smaller there.
+        """
+        known, total = self.at(point), 0.0
+        if known is None or not self.roundings or known[0] == 0 or overflows(known[0]):
+            return 0.0
+        for argument, effect in self.roundings:
+            change = self._refined(effect, point, 3, _HIGH_PRECISION)
+            power = self._refined(argument, point, 3, _LOW_PRECISION)
+            if change is None or power is None:
+                return math.inf
+            units = 0.5 if argument in (self.x**2, 1 / self.x, sp.sqrt(self.x)) else 1.0
+            relative = units * math.ulp(float(power)) / float(power)
+            total += relative * float(abs(change).abs_upper()) / math.ulp(float(known[0]))
+        return total + _OTHER_ERRORS
 
     def _finite(self, form: sp.Expr, point: float) -> bool:
         with flint.ctx.workprec(_LOW_PRECISION):
@@ -221,5 +242,6 @@ def _errors(
         if known is None or overflows(known[0]):
             found[point] = math.inf
         else:
-            found[point] = max(ulp_error(value, known[0]) - CONDITION_FACTOR * known[1], 0.0)
+            error = ulp_error(value, known[0]) - CONDITION_FACTOR * known[1]
+            found[point] = max(error, reference.by_rounding(point) - known[1], 0.0)
     return found

@@ -160,6 +160,8 @@ def _powers(expression: sp.Expr) -> Iterator[tuple[sp.Expr, sp.Expr]]:
 
 def _scaled(terms: Terms) -> tuple[sp.Rational, sp.Expr, dict[Key, sp.Expr]]:
     """Return the largest rate, its coefficient, and the terms divided by both."""
+    if not terms:
+        raise UnreachableError("a sum is 0")
     rate = max(key.rate for key in terms)
     leading = min((key for key in terms if key.rate == rate), key=lambda key: key[2:] + key[:2])
     size = terms[leading]

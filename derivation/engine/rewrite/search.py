@@ -110,7 +110,10 @@ def _joined(found: Sequence[_Found], ends: tuple[float, float]) -> Iterator[_Fou
             value = Switch(low.stable.variable, at, inner, outer)
             both = (*high.stable.applied, *low.stable.applied)
             applied = tuple({row.rule: row for row in both}.values())
-            stable = replace(low.stable, steps=(), value=value, applied=applied)
+            roundings = (*low.stable.roundings, *high.stable.roundings)
+            stable = replace(
+                low.stable, steps=(), value=value, applied=applied, roundings=roundings
+            )
             yield _Found(stable, errors, range_size(_well_conditioned(errors, ends)))
 
 
@@ -139,9 +142,18 @@ def _composed(
     inner = max(low, _LEAST), min(high, 1 / _LEAST)
     form = stabilised(row.expression, row.variable, inner, depth - 1).mapped(row.outer)
     first = () if row.variable == x else (Step(row.variable, row.argument),)
-    equal = row.outer(form.equal).xreplace({row.variable: row.argument})
+    steps, inner_value, u = (*first, *form.steps), sp.Dummy(), {row.variable: row.argument}
+    slope = row.outer(inner_value).diff(inner_value).xreplace({inner_value: form.equal})
+    effects = [(at, slope * effect) for at, effect in form.roundings]
+    if first:
+        effects.append((row.variable, slope * form.equal.diff(row.variable) * row.variable))
     return replace(
-        form, expression=expression, variable=x, steps=(*first, *form.steps), equal=equal
+        form,
+        expression=expression,
+        variable=x,
+        steps=steps,
+        equal=row.outer(form.equal).xreplace(u),
+        roundings=tuple((at.xreplace(u), effect.xreplace(u)) for at, effect in effects),
     )
 
 

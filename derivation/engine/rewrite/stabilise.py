@@ -64,6 +64,9 @@ class Stable:
         Bound of the relative truncation error of its series.
     equal
         The expression in decaying exponentials.
+    roundings
+        Powers of the variable that are rounded, and the change of the value by a relative change of
+        each, divided by the latter.
     """
 
     expression: sp.Expr
@@ -74,6 +77,7 @@ class Stable:
     worst: float
     truncation: sp.Rational
     equal: sp.Expr
+    roundings: tuple[tuple[sp.Expr, sp.Expr], ...] = ()
 
     def mapped(
         self,

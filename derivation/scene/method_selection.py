@@ -94,7 +94,8 @@ def solve_selected(
     )
     # An incomplete impact has no bound; it is returned and marked as incomplete.
     if within and rtol is not None and rtol < accuracy.bound and not math.isnan(found[-1]):
-        if _may_jump(selected, moving):
+        timed = moving is not None and "contact_time" in selected.outputs
+        if _may_jump(selected, moving) or (moving and timed and moving.inertia.jump > rtol):
             raise _jump(rtol)
         problem = _out_of_reach(rtol, accuracy, law, found[3])
         before = replace(accuracy, effects=Part(selected.error, _basis(selected)))
@@ -110,8 +111,8 @@ def _jump(rtol: float) -> SceneError:
     """Return the error for a first contact whose duration may jump."""
     return SceneError(
         f"rtol: expected a first contact whose duration is determined to {rtol:.3g}, got one that "
-        "the omitted effects may split or join with the second; reduce the tolerance, so that more "
-        "effects are included, or leave contact_time out of accuracy.outputs"
+        "the omitted effects or modes may split or join with the second; reduce the tolerance, so "
+        "that more of them are included, or leave contact_time out of accuracy.outputs"
     )
 
 
@@ -218,7 +219,7 @@ def _accuracy_with_inertia(selected: SelectedEffects, found: "DynamicImpact") ->
     return AchievedAccuracy(
         "full",
         None,
-        law=Part(math.fsum(found.inertia.left(selected.outputs)), ESTIMATED),
+        law=Part(found.inertia.error(selected.outputs), ESTIMATED),
         quadrature=Part(waves.integration_error(found.impact_history), TESTED),
         rounding=Part(rounding_of(selected.law), TESTED),
     )

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.polynomial.legendre import legvander
+from numpy.typing import NDArray
 
 from derivation.scene import contact_sequence
 from derivation.scene.collocation import ONSET, Element
@@ -87,6 +88,9 @@ class InertiaDetails:
     omitted_octaves
         Doublings of the largest wave number that would each change the results as much as the last
         one, because the omitted modes would be damped in the contact [1]; 0 without damping.
+    jump
+        Relative change of the first contact's duration if more modes split it, or join it with the
+        second contact [1]; 0 if that is not expected.
     """
 
     contacts: tuple[ContactInterval, ...]
@@ -98,6 +102,7 @@ class InertiaDetails:
     mode_convergence: Results
     omitted_branch_error: Results
     omitted_octaves: float = 0.0
+    jump: float = 0.0
 
     @property
     def complete(self) -> bool:
@@ -110,6 +115,10 @@ class InertiaDetails:
         modes = max(self.mode_convergence[k] for k in places)
         remaining = (IRREGULAR + self.omitted_octaves) * modes
         return remaining, max(self.omitted_branch_error[k] for k in places)
+
+    def error(self, outputs: Sequence[str]) -> float:
+        """Return the largest estimated error of outputs by all that is omitted [1]."""
+        return max(math.fsum(self.left(outputs)), self.jump if "contact_time" in outputs else 0.0)
 
 
 @dataclass(frozen=True)
@@ -144,6 +153,26 @@ class DynamicImpact(Motion):
         gap = (others[0].start - first.end) / (first.end - first.start) if others else math.inf
         return min(self._least_force(self._touching[0]), gap)
 
+    def jump_since(self, coarser: "DynamicImpact") -> float:
+        """Return the relative change of the first contact's duration if it splits or joins [1].
+
+        It may split where a minimum of the force is below the error of the force there, and join
+        the second contact if the gap is below the error of its ends. Both errors are estimated from
+        a run with fewer modes.
+        """
+        first, *others = self.inertia.contacts[:2]
+        known, *same = coarser.inertia.contacts[:2]
+        times, force = np.linspace(first.start, first.end, LOOKS), self._touching[0][P]
+        error = IRREGULAR * np.abs(force - coarser.rows(times)[P])
+        places = _minima(force)
+        places = places[force[places] <= error[places]]
+        jump = float(np.max(first.end / times[places] - 1.0, initial=0.0))
+        for after, before in zip(others, same, strict=False):
+            moved = abs(first.end - known.end) + abs(after.start - before.start)
+            if after.start - first.end <= IRREGULAR * moved:
+                jump = max(jump, 1.0 - first.end / after.end)
+        return jump
+
     @property
     def flight(self) -> float:
         """Total time between contacts, over the contact time on a plate without deflection [1]."""
@@ -153,8 +182,7 @@ class DynamicImpact(Motion):
     def _least_force(self, rows: Array) -> float:
         """Return the smallest force between two maxima, over the peak force [1]; 1 if none."""
         force = rows[P] / self.max_force
-        inner = (force[1:-1] <= force[:-2]) & (force[1:-1] < force[2:])
-        return float(np.min(force[1:-1][inner], initial=1.0))
+        return float(np.min(force[_minima(force)], initial=1.0))
 
     def largest_deflection(self, law: ContactLaw) -> float:
         """Return the largest deflection of the plate at the axis [m], in either direction.
@@ -287,6 +315,11 @@ def oscillating(
     nodes = nodes_of(problem, found.slope.size, found.x, length, start)
     q = deflections_at(problem, nodes, radius, found.slope_at(nodes.x))
     return np.asarray(q[-1], dtype=np.float64)
+
+
+def _minima(force: Array) -> NDArray[np.intp]:
+    """Return the places of the minima between two maxima."""
+    return 1 + np.flatnonzero((force[1:-1] <= force[:-2]) & (force[1:-1] < force[2:]))
 
 
 def rows_of(problem: DynamicProblem, touching: contact_sequence.ContactRun, t: Array) -> Array:

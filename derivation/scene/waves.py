@@ -330,8 +330,9 @@ def _judged(rough: DynamicImpact, found: DynamicImpact) -> DynamicImpact:
     """Return the finer run with the relative change of each result since the coarser run."""
     pairs = zip(found.numbers, rough.numbers, strict=True)
     time, depth, force, radius, speed = (abs(new - old) / abs(new) for new, old in pairs)
-    change = time, depth, force, radius, speed
-    return replace(found, inertia=replace(found.inertia, mode_convergence=change))
+    change, jump = (time, depth, force, radius, speed), found.jump_since(rough)
+    inertia = replace(found.inertia, mode_convergence=change, jump=jump)
+    return replace(found, inertia=inertia)
 
 
 def _of_chosen_modes(
@@ -367,7 +368,7 @@ def _by_coarser(
     """
     if law.model.inertia.modes or count < FOURTH or not fast(law, count):
         return None
-    changes = []
+    changes, jump = [], 0.0
     for fewer in (count // 4, count // 2):
         try:
             coarse = _run(law, fewer, budget, time_tolerance(LOOSE), FEWER)
@@ -375,12 +376,14 @@ def _by_coarser(
             return None
         if not coarse.inertia.complete:
             return None
-        changes.append(_judged(coarse, found).inertia.mode_convergence)
+        judged = _judged(coarse, found).inertia
+        changes.append(judged.mode_convergence)
+        jump = max(jump, judged.jump)
     time, depth, force, radius, speed = map(max, *changes)
     change = time, depth, force, radius, speed
     if max(change) >= 1.0:
         return None
-    return replace(found, inertia=replace(found.inertia, mode_convergence=change))
+    return replace(found, inertia=replace(found.inertia, mode_convergence=change, jump=jump))
 
 
 def _unjudged(found: DynamicImpact) -> DynamicImpact:

@@ -184,6 +184,7 @@ def decide(
     rtol: float,
     outputs: Sequence[str] = OUTPUTS,
     default: bool = False,
+    growth: float = 1.0,
 ) -> SelectedEffects:
     """Include effects until the tolerance is met, and make the effects table.
 
@@ -199,13 +200,15 @@ def decide(
         The results that the tolerance applies to.
     default
         Whether the tolerance is the default one.
+    growth
+        Factor by which the simulation is expected to increase the bounds [1].
 
     Raises
     ------
     SceneError
         As `select` does.
     """
-    found = select(model, wanted, rtol, outputs)
+    found = select(model, wanted, rtol / growth, outputs)
     tolerance = f"{'the default selection' if default else 'the'} tolerance {rtol:.3g}"
     return _selected(found, rtol, tuple(outputs), tolerance, NO_GROWTH)
 

@@ -203,10 +203,10 @@ def selected_effects(
     if scene.accuracy is not None:
         outputs = scene.accuracy.outputs
         rtol = scene.accuracy.rtol if rtol is None else rtol
-    wanted, tolerance = scene.effects.model_dump(), selection_tolerance(rtol) / growth
+    wanted, tolerance = scene.effects.model_dump(), selection_tolerance(rtol)
     model = model_of(toleranced(scene, rtol))
     check_enabled(scene, model)
-    return rtol, decide(model, wanted, tolerance, outputs, default=rtol is None)
+    return rtol, decide(model, wanted, tolerance, outputs, rtol is None, growth)
 
 
 def selection_tolerance(rtol: float | None) -> float:

@@ -89,8 +89,8 @@ class InertiaDetails:
         Doublings of the largest wave number that would each change the results as much as the last
         one, because the omitted modes would be damped in the contact [1]; 0 without damping.
     jump
-        Relative change of the first contact's duration if more modes split it, or join it with the
-        second contact [1]; 0 if that is not expected.
+        Relative change of a viscoelastic first contact's duration if more modes split it, or join
+        it with the second contact [1]; 0 if that is not expected.
     """
 
     contacts: tuple[ContactInterval, ...]
@@ -158,8 +158,11 @@ class DynamicImpact(Motion):
 
         It may split where a minimum of the force is below the error of the force there, and join
         the second contact if the gap is below the error of its ends. Both errors are estimated from
-        a run with fewer modes.
+        a run with fewer modes. This applies to viscoelastic contacts, whose force follows the rate
+        of the radius and converges slowly; minima of elastic forces converge faster than that.
         """
+        if not self.impact_history.problem.retardation_time:
+            return 0.0
         first, *others = self.inertia.contacts[:2]
         known, *same = coarser.inertia.contacts[:2]
         times, force = np.linspace(first.start, first.end, LOOKS), self._touching[0][P]

@@ -1,4 +1,4 @@
-"""Bounds on the duration of the first contact, where omitted effects or modes change it by a jump."""
+"""Bounds on the duration of the first contact, which omitted effects or modes change by a jump."""
 
 import math
 from dataclasses import replace

@@ -19,7 +19,7 @@ from derivation.scene.method_selection import moved
 from generated import contact_series, edge_sums, non_hertzian_pressure
 
 BOUNDS = {
-    "bending", "sphere_contact", "supported_edge_bound", "clamped_edge_bound", "plate_of",
+    "bending", "sphere_contact", "supported_edge_bound", "clamped_edge_bound",
     "law_errors",
 }  # fmt: skip
 """Kernels that the bounds call, also those of omitted effects in the table."""
@@ -34,7 +34,7 @@ ALONE: dict[str, set[str]] = {
     "bending": {"bending"},
     "finite_radius": {"finite_radius"},
     "finite_thickness": WHOLE | {"bending", "finite_radius"},
-    "edge": ZEROS | {"supported_edge", "supported_edge_slope"},
+    "edge": ZEROS | {"supported_edge"},  # a series, from which the slope follows
     "non_hertzian_pressure": ZEROS | {"contact", "plate"},
 }
 """Functions that an impact calls for Hertz's contact and one more effect."""
@@ -117,13 +117,13 @@ def test_half_space_calls_only_bounds_and_the_closed_form(calls: set[str]) -> No
         "non_hertzian_pressure",
         *auto,
     }
-    assert calls <= BOUNDS | {"hertz"}
+    assert calls <= BOUNDS
 
 
 def test_functions_of_omitted_effects_are_not_called(monkeypatch: pytest.MonkeyPatch) -> None:
     """An impact on a half-space calls no kernel of the plate's contact law."""
     calls: list[str] = []
-    for name in ("indentation", "indentation_slope", "impact", "leading", "finite_radius"):
+    for name in ("indentation", "indentation_slope", "impact", "finite_radius"):
         monkeypatch.setattr(
             kernels, name, lambda *_, name=name, **__: calls.append(name) or math.nan
         )

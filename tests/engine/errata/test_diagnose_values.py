@@ -82,7 +82,7 @@ def test_a_latex_sum_of_another_kind_is_refused_with_its_remedy(text: str) -> No
         pc.diagnose("delta", text, latex=True)
 
 
-@pytest.mark.parametrize("name", ["sum", "Sin", "sech", "arctan"])
+@pytest.mark.parametrize("name", ["Sin", "sin2", "sinus"])
 def test_an_unknown_function_is_not_taken_for_a_factor(name: str) -> None:
     with pytest.raises(FormulaError, match=f"unknown function '{name}'.*expected one of") as caught:
         pc.diagnose("G", f"{name}(T)")

@@ -104,7 +104,7 @@ def test_tape_gradient_equals_the_sympy_derivative() -> None:
 @pytest.mark.parametrize(
     "expression",
     [
-        *(function(X) for function in FUNCTIONS),
+        *(function(1 / X if function is sp.acosh else X) for function in FUNCTIONS),
         X**Y,
         X ** sp.Rational(-3, 2),
         sp.besseli(2, X),

@@ -22,6 +22,7 @@ CLOSE = 1e-12
 
 GUARD = "a guard against what is outside the domain, or what no input reaches"
 LOOP = "keeps an iteration within its bracket"
+LAST = "ends an iteration, whose last step is far below the limit"
 ELSEWHERE = "its own tests have both sides, the hard cases do not"
 SIZES = "sizes of arrays, of which `test_prepared_plate` and `test_impact_batches` have both sides"
 ARRAY = "beyond it a plain number is computed as an array is"
@@ -37,6 +38,8 @@ MAY_STAY: Mapping[str, tuple[int, str]] = {
     "edge_modes._solved": (3, LOOP),
     "edge_modes._within": (2, GUARD),
     "edge_modes.supported_waves": (1, "a count of no modes"),
+    "edge_sums.blocks_of_modes": (1, "whole numbers"),
+    **dict.fromkeys(("impact._deepest", "impact._far_deepest", "impact._state"), (1, LAST)),
     "impact._solve": (4, GUARD),
     "non_hertzian_pressure._contact": (1, ELSEWHERE),
     "non_hertzian_pressure.contact": (5, GUARD),
@@ -55,6 +58,7 @@ MAY_STAY: Mapping[str, tuple[int, str]] = {
     "plate_points.indentation": (1, ARRAY),
     "plate_points.stiffness": (1, ARRAY),
     "plate_waves._between": (3, LOOP),
+    "reversed_series._reversed": (1, "ends a search, of which the best circle counts"),
     "series_constants._representable": (1, "a constant grows faster from index to index"),
     "series_constants.finite_part_ratio": (1, "whether an index is whole"),
     "series_constants.kappa_ratio": (1, "whether an index is whole"),

@@ -99,8 +99,8 @@ def time_density() -> Claims:
 def near_quotient() -> Claims:
     """Return (E_near - E)/((1 - s) A_near^5) from the first of the tails, and the sum of others."""
     first, rest, cube, fourth = sp.symbols("first rest cube fourth", positive=True)
-    shares = [sp.Rational(n, n + 3) * weight(n) for n in NUMBERS[1:]]
-    tails = [sp.Add(*shares[k:]) for k in range(len(shares))]
+    terms = [sp.Rational(n, n + 3) * weight(n) for n in NUMBERS[1:]]
+    tails = [sp.Add(*terms[k:]) for k in range(len(terms))]
     return Claims(
         (s, first, rest),
         (

@@ -177,8 +177,8 @@ def shares() -> Claims:
 
 def mode_mean(k: int) -> sp.Expr:
     """Return one mode's term of gamma_k in K_j = K and a/P^(1/3) = ratio."""
-    share = printed_term(k) / contact_law()[0].expression
-    return K * sp.powsimp(share.subs(a, ratio * P ** sp.Rational(1, 3)), force=True)
+    relative = printed_term(k) / contact_law()[0].expression
+    return K * sp.powsimp(relative.subs(a, ratio * P ** sp.Rational(1, 3)), force=True)
 
 
 @named_routine

@@ -51,12 +51,12 @@ rest, v, over_h, A, modulus, depth = sp.symbols("rest v over_h A modulus depth",
 fall, rise = sp.symbols("fall rise", nonnegative=True)
 
 
-def slope_share(power: int) -> sp.Rational:
+def slope_factor(power: int) -> sp.Rational:
     """Return the factor of c A^power in (R/2a) d delta/da, for a term c A^power of delta R/a^2."""
     return sp.diff(A ** (power + 2), A) / (2 * A ** (power + 1))
 
 
-CUBIC = slope_share(3)
+CUBIC = slope_factor(3)
 lateral_linear, lateral_cubic = (-coefficient(k).by_plate_radius[1] for k in (2, 3))
 """Reductions of c_1 and c_3 by the finite radius, over the power of eta."""
 MEANING: Facts = {

@@ -49,13 +49,13 @@ def judge(count: int, seed: int = inertia.SEED, progress: Progress = quiet) -> I
     """Draw and simulate scenes until `count` of them are neither skipped nor rejected."""
     skipped, rejected, rows = Counter[str](), Counter[str](), list[InertiaRow]()
     for number in itertools.count():
-        data, place = inertia.scene(number, seed)
+        data, position = inertia.scene(number, seed)
         reason = reason_to_skip(data)
         if reason:
             skipped[reason] += 1
             continue
         progress("scene", len(rows) + 1, count)
-        found = solve(number, data, place)
+        found = solve(number, data, position)
         if isinstance(found, str):
             rejected[found] += 1
             continue
@@ -81,12 +81,12 @@ def reason_to_skip(data: Scene) -> str:
     return ""
 
 
-def with_tolerance(data: Scene, place: float) -> tuple[Scene, float]:
-    """Return a scene and its tolerance, from a number `place` in [0, 1).
+def with_tolerance(data: Scene, position: float) -> tuple[Scene, float]:
+    """Return a scene and its tolerance, from a number `position` in [0, 1).
 
-    If the bound on the change by inertia is below `MUCH`, and `place` is below 1/2 or no tolerance
-    that requires inertia can be met, the scene has all other effects and a tolerance with which
-    inertia is omitted. Otherwise the tolerance can be met and, if possible, requires inertia.
+    If the bound on the change by inertia is below `MUCH`, and `position` is below 1/2 or no
+    tolerance that requires inertia can be met, the scene has all other effects and a tolerance with
+    which inertia is omitted. Otherwise the tolerance can be met and, if possible, requires inertia.
     """
     model = model_of(read(data))
     still = quasi_static(model)
@@ -102,14 +102,15 @@ def with_tolerance(data: Scene, place: float) -> tuple[Scene, float]:
         * (1.0 + float(weight_work_ratio(model, still.max_indentation)))
         + LEAST_RTOL
     )
-    if omission_bound < INERTIA_THRESHOLD and (place < 0.5 or least > omission_bound):
-        return {**data, "effects": {**others, "inertia": "auto"}}, omission_bound * (1.0 + place)
+    if omission_bound < INERTIA_THRESHOLD and (position < 0.5 or least > omission_bound):
+        return {**data, "effects": {**others, "inertia": "auto"}}, omission_bound * (1.0 + position)
     return data, min(
-        least * math.pow(10.0, 2.0 * place - 1.0), max(least, 0.9 * min(omission_bound, BOUND_RTOL))
+        least * math.pow(10.0, 2.0 * position - 1.0),
+        max(least, 0.9 * min(omission_bound, BOUND_RTOL)),
     )
 
 
-def solve(number: int, data: Scene, place: float) -> InertiaRow | str:
+def solve(number: int, data: Scene, position: float) -> InertiaRow | str:
     """Compare `simulate` with the reference; return the key of the error of a rejected scene.
 
     Parameters
@@ -120,7 +121,7 @@ def solve(number: int, data: Scene, place: float) -> InertiaRow | str:
         A number in [0, 1) that determines the tolerance, see `placed`.
     """
     try:
-        data, rtol = with_tolerance(data, place)
+        data, rtol = with_tolerance(data, position)
         _, selected = selected_effects(read(data), rtol)
         values, accuracy = solve_selected(selected, rtol)
         known = "inertia" in selected.law.effects

@@ -91,8 +91,8 @@ class Modes:
 
     def _split(self, most: int) -> Parts:
         bounds = np.append(self.first, self.omega.size)
-        places = np.searchsorted(bounds, np.arange(0, self.omega.size, most))
-        ends = [*np.unique(places).tolist(), self.first.size]
+        indices = np.searchsorted(bounds, np.arange(0, self.omega.size, most))
+        ends = [*np.unique(indices).tolist(), self.first.size]
         return tuple(
             (
                 slice(low, high),

@@ -60,10 +60,10 @@ def _rules() -> tuple[Array, Array, Array]:
     return nodes, np.asarray(values, dtype=np.float64), slopes
 
 
-def _sum(coefficients: Array, place: Array) -> Array:
+def _sum(coefficients: Array, point: Array) -> Array:
     """Sum the series by Clenshaw's rule."""
-    twice, older = 2.0 * place, np.zeros_like(place)
-    newer = np.broadcast_to(coefficients[:, -1:], place.shape)
+    twice, older = 2.0 * point, np.zeros_like(point)
+    newer = np.broadcast_to(coefficients[:, -1:], point.shape)
     for k in range(TERMS - 2, 0, -1):
         newer, older = coefficients[:, k : k + 1] + twice * newer - older, newer
-    return coefficients[:, :1] + place * newer - older
+    return coefficients[:, :1] + point * newer - older

@@ -111,10 +111,10 @@ class InertiaDetails:
 
     def left(self, outputs: Sequence[str]) -> tuple[float, float]:
         """Return the largest estimated errors of outputs by omitted modes and by branches [1]."""
-        places = [OUTPUTS.index(name) for name in outputs]
-        modes = max(self.mode_convergence[k] for k in places)
+        indices = [OUTPUTS.index(name) for name in outputs]
+        modes = max(self.mode_convergence[k] for k in indices)
         remaining = (IRREGULAR + self.omitted_octaves) * modes
-        return remaining, max(self.omitted_branch_error[k] for k in places)
+        return remaining, max(self.omitted_branch_error[k] for k in indices)
 
     def error(self, outputs: Sequence[str]) -> float:
         """Return the largest estimated error of outputs by all that is omitted [1]."""
@@ -167,9 +167,9 @@ class DynamicImpact(Motion):
         known, *same = coarser.inertia.contacts[:2]
         times, force = np.linspace(first.start, first.end, LOOKS), self._touching[0][P]
         error = IRREGULAR * np.abs(force - coarser.rows(times)[P])
-        places = _minima(force)
-        places = places[force[places] <= error[places]]
-        jump = float(np.max(first.end / times[places] - 1.0, initial=0.0))
+        indices = _minima(force)
+        indices = indices[force[indices] <= error[indices]]
+        jump = float(np.max(first.end / times[indices] - 1.0, initial=0.0))
         for after, before in zip(others, same, strict=False):
             moved = abs(first.end - known.end) + abs(after.start - before.start)
             if after.start - first.end <= IRREGULAR * moved:

@@ -60,10 +60,10 @@ class GridPlan:
 
     def points(self, start: int, stop: int) -> dict[str, Array]:
         """Return the values of each key at the points from `start` to `stop` (exclusive)."""
-        places = np.unravel_index(np.arange(start, stop), tuple(self.dims.values()))
+        indices = np.unravel_index(np.arange(start, stop), tuple(self.dims.values()))
         return {
-            key: np.asarray(values)[place]
-            for (key, values), place in zip(self.axes.items(), places, strict=True)
+            key: np.asarray(values)[index]
+            for (key, values), index in zip(self.axes.items(), indices, strict=True)
         }
 
     def probes(self, most: int) -> dict[str, Array]:
@@ -71,7 +71,7 @@ class GridPlan:
         ends = [sorted({0, length - 1}) for length in self.dims.values()]
         corners = np.array([corner for corner, _ in zip(product(*ends), range(most), strict=False)])
         columns = zip(self.axes.items(), corners.T, strict=True)
-        return {key: np.asarray(values)[places] for (key, values), places in columns}
+        return {key: np.asarray(values)[indices] for (key, values), indices in columns}
 
     def to_json(self) -> dict[str, Any]:
         """Return the plan as JSON data, from which the hash of the study follows."""

@@ -231,8 +231,8 @@ def _task(store: Store, batch: Batch) -> Task:
     study = store.study
     columns = study.plan.points(batch.start, batch.stop)
     if batch.renewed:
-        places = np.array(batch.numbers) - batch.start
-        columns = {key: values[places] for key, values in columns.items()}
+        indices = np.array(batch.numbers) - batch.start
+        columns = {key: values[indices] for key, values in columns.items()}
     return study.base["scene"], columns, study.rtol, study.base["version"]
 
 

@@ -81,9 +81,9 @@ NUMBERS, OUT = (1, 5, 9, 16, 17, 44, 76), (5, 17, 76)
 
 @pytest.mark.parametrize("number", NUMBERS)
 def test_bounds_hold_in_random_scenes(number: int) -> None:
-    data, place = measure.scene(number)
+    data, position = measure.scene(number)
     assert inertia_check.reason_to_skip(data) == ""
-    row = inertia_check.solve(number, data, place)
+    row = inertia_check.solve(number, data, position)
     assert isinstance(row, InertiaRow)
     assert row.included is (number not in OUT)
     assert row.error <= min(row.bound, row.rtol)
@@ -153,10 +153,15 @@ def test_recorded_scenes_are_within_their_bounds() -> None:
 def test_command_shows_both_sides_of_the_threshold(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def solve(number: int, data: Scene, place: float) -> InertiaRow | str:
+    def solve(number: int, data: Scene, position: float) -> InertiaRow | str:
         known = data["inertia"]["branches"] == "A0"
         return replace(
-            EXACT, number=number, rtol=place, included=known, bound=place, omission_bound=math.inf
+            EXACT,
+            number=number,
+            rtol=position,
+            included=known,
+            bound=position,
+            omission_bound=math.inf,
         )
 
     monkeypatch.setattr(inertia_check, "solve", solve)
@@ -202,14 +207,16 @@ def test_scenes_are_skipped_for_stated_reasons() -> None:
 
 def test_skipped_scenes_are_reported_with_the_reason(monkeypatch: pytest.MonkeyPatch) -> None:
     """A skipped scene is reported with its reason: too many modes, or speed out of range."""
-    data, place = measure.scene(9)
-    found = inertia_check.solve(9, data, place)
+    data, position = measure.scene(9)
+    found = inertia_check.solve(9, data, position)
     assert isinstance(found, InertiaRow)
     monkeypatch.setattr(inertia_check, "MAX_MODES", found.modes // 2)
-    assert inertia_check.solve(9, data, place) == (f"reference: more than {found.modes // 2} modes")
+    assert inertia_check.solve(9, data, position) == (
+        f"reference: more than {found.modes // 2} modes"
+    )
 
     def beyond(law: ContactLaw, *_: object) -> None:
         limits.refuse(replace(law, model=replace(law.model, v0=1e9)))
 
     monkeypatch.setattr(inertia_check.waves, "impact", beyond)
-    assert inertia_check.solve(9, data, place) == "impact.speed"
+    assert inertia_check.solve(9, data, position) == "impact.speed"

@@ -134,9 +134,9 @@ def in_domain(
     """Return cases for valid solids, and NaN for invalid solids or non-positive arguments."""
     points = [of(*elasticity) for elasticity in SOLID]
     outside = [of(*elasticity) for elasticity in NO_SOLID]
-    for place in positive:
+    for index in positive:
         for value in (0.0, -1.0):
-            outside.append((*points[0][:place], value, *points[0][place + 1 :]))
+            outside.append((*points[0][:index], value, *points[0][index + 1 :]))
     values = [*(exact(*map(mpf, point)) for point in points), *[NAN] * len(outside)]
     return expected(name, [*points, *outside], values, ulp)  # fmt: skip
 

@@ -217,25 +217,25 @@ def test_reference_supports_only_the_law_of_the_paper(tmp_path: Path) -> None:
         paper_law.in_doubles(load(example))
     assert main(["reference", str(example), "--digits", "15"]) == 2
     lines = str(caught.value).rpartition("[effects] ")[2].split(", ")
-    place = tmp_path / "scene.toml"
-    place.write_text(example.read_text() + "\n[effects]\n" + "\n".join(lines) + "\n")
-    found = paper_law.in_doubles(load(place))
+    path = tmp_path / "scene.toml"
+    path.write_text(example.read_text() + "\n[effects]\n" + "\n".join(lines) + "\n")
+    found = paper_law.in_doubles(load(path))
     assert found.effects.law.effects == WHOLE_PLATE | {"hertz"}
     paper = (EXAMPLES / "paper.toml").read_text()
     for key in ("bending = false", "finite_radius = false"):
-        place.write_text(f"{paper}{key}\n")
+        path.write_text(f"{paper}{key}\n")
         with pytest.raises(SceneError, match=key.partition(" ")[0]):
-            paper_law.in_doubles(load(place))
+            paper_law.in_doubles(load(path))
 
 
 def test_reference_of_a_quasi_static_plate_needs_no_density(tmp_path: Path) -> None:
-    text, place = (EXAMPLES / "paper.toml").read_text(), tmp_path / "scene.toml"
-    place.write_text(text.replace("inertia = false", "inertia = true"))
+    text, path = (EXAMPLES / "paper.toml").read_text(), tmp_path / "scene.toml"
+    path.write_text(text.replace("inertia = false", "inertia = true"))
     with pytest.raises(SceneError, match=r"plate\.density"):
-        paper_law.in_doubles(load(place))
+        paper_law.in_doubles(load(path))
     known = paper_law.in_doubles(load(EXAMPLES / "paper.toml"))
-    place.write_text(text.replace("inertia = false", 'inertia = "auto"'))
-    assert paper_law.in_doubles(load(place)).contact_time == known.contact_time
+    path.write_text(text.replace("inertia = false", 'inertia = "auto"'))
+    assert paper_law.in_doubles(load(path)).contact_time == known.contact_time
 
 
 def test_rows_are_shown_in_every_output() -> None:

@@ -162,10 +162,10 @@ for effect, module in (
 def test_only_required_modules_are_imported(
     name: str, more: str, effects: set[str], tmp_path: Path
 ) -> None:
-    place = tmp_path / "scene.toml"
-    place.write_text(f"{(EXAMPLES / name).with_suffix('.toml').read_text()}\n[effects]\n{more}\n")
+    path = tmp_path / "scene.toml"
+    path.write_text(f"{(EXAMPLES / name).with_suffix('.toml').read_text()}\n[effects]\n{more}\n")
     run = subprocess.run(
-        [sys.executable, "-c", COUNT, str(place)],
+        [sys.executable, "-c", COUNT, str(path)],
         cwd=Path(derivation.__file__).parent.parent, capture_output=True, text=True, check=True,
     )  # fmt: skip
     requested = ("non_hertzian_pressure", "viscosity", "inertia", "inertia")

@@ -85,8 +85,8 @@ def integrated(model: Model, end: float) -> tuple[float, float, float]:
         rtol=1e-12, atol=small, dense_output=True,
     )  # fmt: skip
     s = float(found.t_events[0][-1])
-    places = np.linspace(0.2 * s, 0.9 * s, 401)
-    near = places[int(np.argmax(found.sol(places)[2]))]
+    points = np.linspace(0.2 * s, 0.9 * s, 401)
+    near = points[int(np.argmax(found.sol(points)[2]))]
     fine = np.linspace(near - 0.01 * s, near + 0.01 * s, 41)
     shape = np.polynomial.Chebyshev.fit(fine, [force(found.sol(x)[2]) for x in fine], 8)
     peak = max(float(shape(x.real)) for x in shape.deriv().roots() if abs(x.imag) < 1e-9 * s)

@@ -94,14 +94,14 @@ def _joined(found: Sequence[_Found], ends: tuple[float, float]) -> Iterator[_Fou
         below, above = low.stable.value, high.stable.value
         if isinstance(above, Switch):
             continue
-        places, inner = SWITCHES, Branch(low.stable.steps, below)
+        points, inner = SWITCHES, Branch(low.stable.steps, below)
         if isinstance(below, Switch):
             if below.variable != low.stable.variable:
                 continue
-            places, inner = (below.at,), below.below
+            points, inner = (below.at,), below.below
             inner = replace(inner, steps=(*low.stable.steps, *inner.steps))
         known = {point.x: error for point, error in low.errors}
-        for at in places:
+        for at in points:
             errors = tuple(
                 (point, known.get(point.x, math.inf) if point.x < at else error)
                 for point, error in high.errors

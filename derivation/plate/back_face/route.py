@@ -67,12 +67,12 @@ def back_face_edge(a: float, h: float, b: float, nu: float, digits: int = 30) ->
     """
     with mp.workdps(digits + 15):
         eta, alpha, n = mpf(h) / mpf(b), mpf(a) / mpf(b), mpf(nu) / (1 - mpf(nu))
-        places = [mpf(0), mpf(1) / 2, -mpf(1) / 4]
+        points = [mpf(0), mpf(1) / 2, -mpf(1) / 4]
         values = [
             mp.pi / alpha * edge_routes.edge_part("indentation", a, h, b, x / (1 + x), mp.dps)
-            for x in places
+            for x in points
         ]
-        rows = mp.matrix([[x**power for power in range(3)] for x in places])
+        rows = mp.matrix([[x**power for power in range(3)] for x in points])
         first, second, third = mp.lu_solve(rows, mp.matrix(values))
         B = first * eta**3
         C = (second + 2 * B / eta) * eta**3

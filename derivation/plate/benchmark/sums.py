@@ -103,8 +103,8 @@ def levin(samples: int) -> Method:
             head = (w[:stride] * ar.shape(y[:stride])).sum()
             terms = w[stride:] * ar.complex_shape(y[stride:])
             at = stride * np.arange(1, samples + 2) - 1
-            place = ar.array(at + 1.0 + stride)
-            limit = u_transform(np.cumsum(terms)[at], place * terms[at], place)
+            index = ar.array(at + 1.0 + stride)
+            limit = u_transform(np.cumsum(terms)[at], index * terms[at], index)
             return head + limit.imag
 
         return lambda a: np.array([one(x) for x in np.atleast_1d(a)])
@@ -119,7 +119,7 @@ def stride_at(alpha: float) -> int:
     return max(1, round(TURN / (alpha * math.pi)))
 
 
-def u_transform(sums: Array, estimates: Array, places: Array) -> Array:
+def u_transform(sums: Array, estimates: Array, indices: Array) -> Array:
     """Return Levin's limit of partial sums, from estimates of their remainders.
 
     It is the quotient of the k-th divided differences of places^(k-1) sums/estimates and
@@ -127,7 +127,7 @@ def u_transform(sums: Array, estimates: Array, places: Array) -> Array:
     """
     k = len(sums) - 1
     binomials = np.array([(-1.0) ** i * math.comb(k, i) for i in range(k + 1)])
-    weights = binomials * (places / places[-1]) ** (k - 1) / estimates
+    weights = binomials * (indices / indices[-1]) ** (k - 1) / estimates
     return (weights * sums).sum() / weights.sum()
 
 

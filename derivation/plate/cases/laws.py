@@ -205,8 +205,8 @@ def _of_means(_: Given, values: Sequence[arb]) -> tuple[arb, ...]:
 
 def _pressure(given: Given, digits: int) -> tuple[arb, ...]:
     r, a, R, h, b, modulus = given
-    place = Fraction(r) / Fraction(a)
-    state = pressure_balls.solve(pressure_balls.case(a, h, b, places=(place,)), digits)
+    ratio = Fraction(r) / Fraction(a)
+    state = pressure_balls.solve(pressure_balls.case(a, h, b, places=(ratio,)), digits)
     with flint.ctx.workprec(_bits(digits)):
         return (to_ball(modulus) * to_ball(a) / to_ball(R) * state.pressures[0],)
 

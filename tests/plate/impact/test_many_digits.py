@@ -124,8 +124,8 @@ def test_bound_of_the_trapezoidal_rule_holds(coarse: float) -> None:
     with flint.ctx.workprec(400):
         sums = []
         for step in (arb(coarse), arb(coarse) / 2):
-            places, weights = contact_lateral.trapezoidal(step, 200.0)
-            pairs = zip(places, weights, strict=True)
+            points, weights = contact_lateral.trapezoidal(step, 200.0)
+            pairs = zip(points, weights, strict=True)
             sums.append(sum((w * y.cosh() for y, w in pairs), arb(0)))
         changed = abs(sums[0] - sums[1])
         assert changed > 0

@@ -178,14 +178,14 @@ def test_published_exponent_depends_on_the_units() -> None:
 
 @pytest.mark.filterwarnings("error")
 def test_nan_outside_the_domain_and_for_extreme_numbers() -> None:
-    for place in range(7):
+    for index in range(7):
         for bad in (0.0, -1e9, math.nan, math.inf, 1e-300):
             case = [*PAPER]
-            case[place] = bad
+            case[index] = bad
             motion = printed_motion(*case, 10)
             found = motion.corrected(1e-4), motion.breaks_at, motion.last, motion.contact_time
-            if bad != 1e-300 and (place, bad) != (5, 0.0):
-                assert all(map(math.isnan, found)), (place, bad)
+            if bad != 1e-300 and (index, bad) != (5, 0.0):
+                assert all(map(math.isnan, found)), (index, bad)
 
 
 def compared(**effects: object) -> dict[str, dict[str, object]]:

@@ -179,9 +179,9 @@ def test_hertz_limit() -> None:
         got = contact(plate(1.0, v), 1e-5, R, E)
         assert abs(got.centre_pressure / got.mean_pressure - 1.5) < 1e-14
         assert abs(got.force / (4 / 3 * E * 1e-15 / R) - 1) < 1e-13
-        place = np.linspace(0.0, 1e-5, 9)
-        shape = pressure(place, plate(1.0, v), 1e-5, R, E) / got.centre_pressure
-        assert np.abs(shape - np.sqrt(1 - (place / 1e-5) ** 2)).max() < 1e-14
+        r = np.linspace(0.0, 1e-5, 9)
+        shape = pressure(r, plate(1.0, v), 1e-5, R, E) / got.centre_pressure
+        assert np.abs(shape - np.sqrt(1 - (r / 1e-5) ** 2)).max() < 1e-14
 
 
 @pytest.mark.parametrize("a_over_R", [1e-6, 0.1, 0.5, 0.99])
@@ -291,9 +291,9 @@ def test_pressure_profile_in_thin_plates_depends_only_on_the_thickness() -> None
 
     b/h changes the kernel only by terms t^2 + s^2, which act like a curvature of the sphere.
     """
-    places = np.linspace(0.0, 3.0, 7)
+    radii = np.linspace(0.0, 3.0, 7)
     shapes = [
-        pressure(places, of, 3.0, R, E) / contact(of, 3.0, R, E).mean_pressure
+        pressure(radii, of, 3.0, R, E) / contact(of, 3.0, R, E).mean_pressure
         for of in (plate(1.0, v) for v in (20.0, 300.0, 1e5))
     ]
     assert np.abs(shapes[1] - shapes[0]).max() < 1e-13

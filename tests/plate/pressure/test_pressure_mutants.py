@@ -41,9 +41,9 @@ def pressure_cases() -> list[WithinUlp]:
 def state(
     a: float, v: float, R: float, modulus_ratio: float, sphere: bool
 ) -> pressure_balls.PressureState:
-    places = () if sphere else PLACES
+    points = () if sphere else PLACES
     return pressure_balls.solve(
-        pressure_balls.case(a, 1.0, v, R if sphere else 0, modulus_ratio, places), 18
+        pressure_balls.case(a, 1.0, v, R if sphere else 0, modulus_ratio, points), 18
     )
 
 
@@ -97,8 +97,8 @@ def distribution(a: float, v: float, R: float, modulus_ratio: float, sphere: boo
         return [carried, *([] if sphere else q[40:]), *ends, alone]
 
     force = own * width**3 / radius * float(exact.force)
-    places = [own * width / radius * float(x) for x in exact.pressures]
-    return WithinUlp(call, np.array([force, *places, NAN, NAN, 0.0]), 20000.0)
+    pressures = [own * width / radius * float(x) for x in exact.pressures]
+    return WithinUlp(call, np.array([force, *pressures, NAN, NAN, 0.0]), 20000.0)
 
 
 def work(a: float, v: float, R: float, modulus_ratio: float, sphere: bool) -> WithinUlp:

@@ -45,10 +45,10 @@ def test_no_branch_is_missed(x: float, nu: float) -> None:
         poles = [*(x * x + angles**2), *((x * x + angles**2) / level)]
         if least == 1.0:
             poles.append(x * x / level)
-        places, _ = np.histogram([*line, *np.sqrt(poles)], omega)
+        counts, _ = np.histogram([*line, *np.sqrt(poles)], omega)
         changed = np.diff(np.sign(compliance)) != 0
-        assert (places > 0).sum() > 0.8 * count
-        np.testing.assert_array_equal(changed, places % 2 == 1)
+        assert (counts > 0).sum() > 0.8 * count
+        np.testing.assert_array_equal(changed, counts % 2 == 1)
 
 
 def test_branches_without_response_to_pressure() -> None:

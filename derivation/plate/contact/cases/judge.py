@@ -64,7 +64,7 @@ def judge(
     ValueError
         If the number of results differs from that of the reference.
     """
-    names = tuple(str(place) for place in range(len(found[0].point)))
+    names = tuple(str(index) for index in range(len(found[0].point)))
     kernel = OneByOne("the kernel", "", names, call, budget)
     with flint.ctx.workprec(256):  # to read the balls from text and to round the errors
         reference_values = [

@@ -84,9 +84,10 @@ def reason_to_skip(data: Scene) -> str:
 def with_tolerance(data: Scene, position: float) -> tuple[Scene, float]:
     """Return a scene and its tolerance, from a number `position` in [0, 1).
 
-    If the bound on the change by inertia is below `MUCH`, and `position` is below 1/2 or no
-    tolerance that requires inertia can be met, the scene has all other effects and a tolerance with
-    which inertia is omitted. Otherwise the tolerance can be met and, if possible, requires inertia.
+    If the bound on the change by inertia is below `INERTIA_THRESHOLD`, and `position` is below 1/2
+    or no tolerance that requires inertia can be met, the scene has all other effects and a
+    tolerance with which inertia is omitted. Otherwise the tolerance can be met and, if possible,
+    requires inertia.
     """
     model = model_of(read(data))
     still = quasi_static(model)

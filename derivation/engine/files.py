@@ -157,11 +157,11 @@ def expect_writable(path: Path) -> None:
     """
     target = real(path)
     with _explained(path):
-        there, fine = target.exists(), target.is_file()
+        exists, fine = target.exists(), target.is_file()
         if fine and not os.access(target, os.W_OK):
             raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
         _try_folder(target.parent)
-    if there and not fine:
+    if exists and not fine:
         kind = "folder" if target.is_dir() else "device"
         raise OSError(f"cannot write {path}: expected a file, got a {kind}; name a file")
 

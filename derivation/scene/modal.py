@@ -228,9 +228,9 @@ def _branches(model: Model, lowest: _Shapes, highest: float, without: int = 0) -
     strength = np.hstack((lowest.strength[:, None], further))
     taken = (root <= highest * (1.0 + 1e-12)) & (strength > 0.0)
     taken[:, 0] = np.arange(x.size) >= without
-    some = np.any(taken, axis=1)
-    sizes = np.sum(taken[some], axis=1)
-    return _Shapes(lowest.k[some], root[taken], strength[taken], np.cumsum(sizes) - sizes)
+    any_taken = np.any(taken, axis=1)
+    sizes = np.sum(taken[any_taken], axis=1)
+    return _Shapes(lowest.k[any_taken], root[taken], strength[taken], np.cumsum(sizes) - sizes)
 
 
 def _held_plate(law: ContactLaw, count: int) -> ModalPlate:

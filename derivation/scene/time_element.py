@@ -297,21 +297,21 @@ def _driven(
     bent = np.empty_like(felt)
     rates = np.empty(nodes.free.shape if by_shape else (1, 0))
     for part in nodes.parts:
-        some = part.oscillators
-        inverse_mass, omega = problem.inverse_modal_mass[some], problem.omega[some]
+        oscillators = part.oscillators
+        inverse_mass, omega = problem.inverse_modal_mass[oscillators], problem.omega[oscillators]
         of, waves = nodes.response, _driven_waves(problem, nodes, part, felt)
-        q_0, q_dot = start.q[some], start.q_dot[some]
-        swing = waves * of.rate[..., some]
+        q_0, q_dot = start.q[oscillators], start.q_dot[oscillators]
+        swing = waves * of.rate[..., oscillators]
         rate = (swing[:, 0] + swing[:, 1]) * omega
-        rate += q_dot * of.rate[:, 0, some] - q_0 * omega * of.moved[:, 0, some]
-        waves *= of.moved[..., some]
+        rate += q_dot * of.rate[:, 0, oscillators] - q_0 * omega * of.moved[:, 0, oscillators]
+        waves *= of.moved[..., oscillators]
         q = waves[:, 0] + waves[:, 1]
         bent[:, part.shapes] = part.by_shape(q)
         q += q_0 + nodes.since[:, None] * q_dot
-        q += nodes.free[:, some]
-        end[some], end_rate[some] = q[-1], rate[-1]
+        q += nodes.free[:, oscillators]
+        end[oscillators], end_rate[oscillators] = q[-1], rate[-1]
         if by_shape:
-            rates[:, some] = rate
+            rates[:, oscillators] = rate
         if problem.damping_ratio:
             from generated.damping_kernels import power_lost
 

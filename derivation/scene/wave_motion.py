@@ -346,8 +346,8 @@ def rows_of(problem: DynamicProblem, touching: contact_sequence.ContactRun, t: A
             found[A, here] = branch.widened(a, problem.contact.at(a).force) / problem.a
     flight = np.flatnonzero(~inside)
     block = max(1, AT_ONCE // max(problem.omega.size, 1))
-    for some in (flight[k : k + block] for k in range(0, flight.size, block)):
-        flights = problem.flights(touching.after, t[some] - touching.end)
-        found[V, some], found[Z, some], found[W, some], found[E, some] = flights
+    for indices in (flight[k : k + block] for k in range(0, flight.size, block)):
+        flights = problem.flights(touching.after, t[indices] - touching.end)
+        found[V, indices], found[Z, indices], found[W, indices], found[E, indices] = flights
     found[[A, P]] = np.maximum(found[[A, P]], 0.0)
     return found

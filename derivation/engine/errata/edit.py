@@ -292,8 +292,8 @@ def _products(term: sp.Expr) -> Iterator[sp.Expr]:
     """Yield products of some of a term's sums and functions, including the empty one."""
     parts = [f for f in sp.Mul.make_args(term) if f.atoms(sp.Add, sp.Function)]
     for size in range(min(len(parts), 6) + 1):
-        for some in combinations(parts, size):
-            yield sp.Mul(*some)
+        for subset in combinations(parts, size):
+            yield sp.Mul(*subset)
 
 
 def factor_pool(

@@ -286,17 +286,17 @@ def _partial_products(
     factors = sp.Mul.make_args(term)
     if len(factors) > _MAX_FACTORS:
         return
-    for some in chain.from_iterable(
+    for subset in chain.from_iterable(
         combinations(factors, size) for size in range(1, len(factors) + 1)
     ):
-        if some == (sp.S.NegativeOne,):
+        if subset == (sp.S.NegativeOne,):
             continue
         value = flint.acb(1)
-        for factor in some:
+        for factor in subset:
             value *= search.points.value(factor, 0)
-        yield some, value
-        if some[0].is_number and some[0].is_negative:
-            yield (sp.S.NegativeOne, *some), -value
+        yield subset, value
+        if subset[0].is_number and subset[0].is_negative:
+            yield (sp.S.NegativeOne, *subset), -value
 
 
 def groups(members: Sequence[int]) -> Iterator[tuple[int, ...]]:

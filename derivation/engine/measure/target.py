@@ -59,8 +59,8 @@ class Domain:
     def moved(self, point: Point, name: str, steps: int) -> Point:
         """Return the point with one argument changed by a number of floats, or of integers."""
         value = point.values[name]
-        there = value + steps if self.whole else _moved_value(value, steps)
-        return Point({**point.values, name: there}, point.modes)
+        moved_value = value + steps if self.whole else _moved_value(value, steps)
+        return Point({**point.values, name: moved_value}, point.modes)
 
 
 @cache

@@ -32,10 +32,10 @@ def modal(ar: Arithmetic, phi: Array, weights: Array) -> Call:
     def call(a: Array) -> Array:
         total = a * 0
         for begin in reversed(range(0, phi.size, _MODES)):
-            some, factors = phi[begin : begin + _MODES], weights[begin : begin + _MODES]
-            step = max(1, _ELEMENTS // some.size)
+            block, factors = phi[begin : begin + _MODES], weights[begin : begin + _MODES]
+            step = max(1, _ELEMENTS // block.size)
             for k in range(0, a.size, step):
-                terms = ar.shape(a[k : k + step, None] * some) * factors
+                terms = ar.shape(a[k : k + step, None] * block) * factors
                 total[k : k + step] += terms.sum(axis=-1)
         return total
 

@@ -77,9 +77,9 @@ def contact_forces(compliance: Double, gap: Double, start: Nodes) -> tuple[Doubl
     active = start
     for _ in range(MAX_ITERATIONS):
         force = np.zeros_like(gap)
-        indices = np.flatnonzero(active)
-        if indices.size:
-            force[indices] = np.linalg.solve(compliance[np.ix_(indices, indices)], -gap[indices])
+        place = np.flatnonzero(active)
+        if place.size:
+            force[place] = np.linalg.solve(compliance[np.ix_(place, place)], -gap[place])
         open_gap = compliance @ force + gap
         following = np.where(active, force > 0.0, open_gap < -1e-13 * np.abs(gap).max())
         if np.array_equal(following, active):
@@ -328,8 +328,8 @@ def _end(history: History, start: int, stop: int) -> float:
 
 def _peak(history: History, contact_time: float) -> float:
     """Return the largest force [N], without the fluctuations from node to node."""
-    index = int(np.argmax(history.force))
-    near = np.abs(history.time - history.time[index]) < PEAK_WINDOW * contact_time
+    place = int(np.argmax(history.force))
+    near = np.abs(history.time - history.time[place]) < PEAK_WINDOW * contact_time
     near &= history.force > 0.0
     time = history.time[near]
     fit = np.polynomial.Polynomial.fit(time, history.force[near], 4)

@@ -237,8 +237,8 @@ def _solve(case: Case, count: int, fineness: Fraction, bits: int) -> PressureSta
             """Return -chi'(x)/x."""
             return _profile(t, curvature)[1] - _dot(_slopes(waves, t), transform)
 
-        def pressure(point: Fraction) -> arb:
-            ratio = to_ball(point)
+        def pressure(place: Fraction) -> arb:
+            ratio = to_ball(place)
             gap = 1 - ratio * ratio
             values = [bend((ratio**2 + gap * u * u).sqrt()) for u in x]
             return gap.sqrt() * _dot(values, w) / arb.pi()
@@ -250,7 +250,7 @@ def _solve(case: Case, count: int, fineness: Fraction, bits: int) -> PressureSta
             2 * flat,
             bend(arb(1)) / ends[0],
             pressure(Fraction(0)),
-            tuple(pressure(point) for point in case.places),
+            tuple(pressure(place) for place in case.places),
         )
 
 

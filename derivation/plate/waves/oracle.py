@@ -35,10 +35,10 @@ def influence(x: Exact, kap: Exact, nu: Exact, digits: int = 30) -> tuple[arb, a
     digits
         Correct decimal digits required of the balls.
     """
-    points = _next_to_cutoff(Fraction(x), Fraction(kap), digits)
+    places = _next_to_cutoff(Fraction(x), Fraction(kap), digits)
 
     def between(kind: str) -> arb:
-        values = [1 / _value(kind, x, to_ball(point), nu) for point in points]
+        values = [1 / _value(kind, x, to_ball(place), nu) for place in places]
         return values[0].union(values[-1])
 
     def compliance(kind: str) -> arb:
@@ -214,18 +214,18 @@ def _zero(kind: str, x: Exact, nu: Exact, index: int, digits: int) -> arb:
             high = middle
         else:
             break
-    root = ((low + high) / 2).mid()
+    place = ((low + high) / 2).mid()
     for _ in range(_NEWTON):
-        step = _value(kind, x, root, nu) / _slope(kind, x, root, nu)
-        new = (root - step).mid()
+        step = _value(kind, x, place, nu) / _slope(kind, x, place, nu)
+        new = (place - step).mid()
         if not (new > low and new < high):
             return arb("nan")
-        moved, root = abs(new - root), new
-        if moved < abs(root) * arb(10) ** -(digits + 4):
+        moved, place = abs(new - place), new
+        if moved < abs(place) * arb(10) ** -(digits + 4):
             break
-    width = abs(root) * arb(10) ** -(digits + 3)
-    width = width.min((root - poles[0]) / 4).min((poles[1] - root) / 4)
-    before, after = root - width, root + width
+    width = abs(place) * arb(10) ** -(digits + 3)
+    width = width.min((place - poles[0]) / 4).min((poles[1] - place) / 4)
+    before, after = place - width, place + width
     certain = _value(kind, x, before.mid(), nu) > 0 and _value(kind, x, after.mid(), nu) < 0
     return before.union(after) if certain else arb("nan")
 

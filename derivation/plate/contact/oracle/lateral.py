@@ -85,12 +85,12 @@ def step_bound(step: arb) -> arb:
 def trapezoidal(step: arb, end: float) -> tuple[list[arb], list[arb]]:
     """Return nodes y and weights of the rule of a step; the last y is the first one above `end`."""
     count = math.ceil(math.asinh(end / 2) / float(step))
-    points, weights = [arb(0)], [step]
+    places, weights = [arb(0)], [step]
     for k in range(1, count + 1):
         y = 2 * (step * k).sinh()
-        points.append(y)
+        places.append(y)
         weights.append(step * (4 + y * y).sqrt() / y.bessel_i(0) ** 2)
-    return points, weights
+    return places, weights
 
 
 @cache
@@ -114,11 +114,11 @@ def lateral_points(bits: int) -> Points:
     with flint.ctx.workprec(bits + _SPARE):
         need = (bits + 1) * math.log(2) + float(shifted_bound().log())
         step = arb(2 * math.pi * SHIFT / (need + 1))
-        points, weights = trapezoidal(step, bits * math.log(2) + math.log(bits) + 8)
-        end = points[-1]
+        places, weights = trapezoidal(step, bits * math.log(2) + math.log(bits) + 8)
+        end = places[-1]
         if not end >= 2:
             raise PrecisionError(
                 f"the lateral surface's sum ends at {end}, too early for its bound"
             )
         rest = step_bound(step) + 9 * (end + 1) * (-end).exp()
-        return Points(tuple(points), tuple(weights), rest.abs_upper())
+        return Points(tuple(places), tuple(weights), rest.abs_upper())

@@ -137,17 +137,17 @@ def mode_points(eta: Fraction, bits: int, working: int) -> Points:
         If the modes end before the bound is valid.
     """
     with flint.ctx.workprec(working + _SPARE):
-        scale, points, weights = 2 * to_ball(eta), [], []
+        scale, places, weights = 2 * to_ball(eta), [], []
         count = mode_count(float(eta), bits)
         for index in range(1, count + 1):
             j = j0_zero(index, working + _SPARE)
-            points.append(j)
+            places.append(j)
             weights.append(plate_excess(acb(scale * j)).real / (j * j.bessel_j(1) ** 2))
         last = scale * arb.pi() * (count + arb(3) / 4)
         if not last >= 3:
             raise PrecisionError(f"the modes end at T = {last}, too early for their bound")
         rest = 14 * last**2 * (-2 * last).exp() / (1 - (-3 * scale).exp())
-        return Points(tuple(points), tuple(weights), rest.abs_upper())
+        return Points(tuple(places), tuple(weights), rest.abs_upper())
 
 
 @lru_cache(maxsize=PLATES)

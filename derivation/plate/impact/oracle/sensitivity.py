@@ -83,7 +83,7 @@ def impact_sensitivities(scene: Sequence[Any], digits: int) -> tuple[arb, ...]:
         Number of decimal places.
     """
     bits = 8 * digits + 64
-    by_speed, by_radius = (_by(scene, index, digits, bits) for index in (_SPEED, _RADIUS))
+    by_speed, by_radius = (_by(scene, place, digits, bits) for place in (_SPEED, _RADIUS))
     of_modulus, found = _modulus_exponents(scene), list[arb]()
     with flint.ctx.workprec(bits):
         for rows, speed, radius in zip(_exponents(), by_speed, by_radius, strict=True):
@@ -139,13 +139,13 @@ def _results(scene: Sequence[Any], speed: Fraction, radius: Fraction, digits: in
     return contact_impact.impact(R, m, v0, h, b, lam, mu, digits)
 
 
-def _by(scene: Sequence[Any], index: int, digits: int, bits: int) -> tuple[arb, ...]:
+def _by(scene: Sequence[Any], place: int, digits: int, bits: int) -> tuple[arb, ...]:
     """Return the logarithmic derivatives of every result by v0 or b."""
     halvings = digits + 3 * _SPARE
     wanted, one = digits + halvings // 3 + _SPARE, Fraction(1)
 
     def results(factor: Fraction) -> Sequence[arb]:
-        pair = (factor, one) if index == _SPEED else (one, factor)
+        pair = (factor, one) if place == _SPEED else (one, factor)
         return tuple(_results(scene, *pair, wanted))
 
     return logarithmic(results, Fraction(1, 2**halvings), bits, 10.0**-digits)

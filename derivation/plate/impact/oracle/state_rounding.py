@@ -28,7 +28,7 @@ State = Callable[[Sequence[Any], int], tuple[arb, ...]]
 
 def rounding(state: State, given: Sequence[Any], values: Sequence[arb]) -> list[arb]:
     """Return, for each component of the state `values`, the sum of |x d/dx| over the arguments."""
-    by_speed, by_radius = (state(_moved(given, index), _DIGITS) for index in (_SPEED, _RADIUS))
+    by_speed, by_radius = (state(_moved(given, place), _DIGITS) for place in (_SPEED, _RADIUS))
     lam, mu = (Fraction(x) for x in given[6:])
     by_lam = lam * mu / ((lam + mu) * (lam + 2 * mu))
     of_modulus = to_ball(abs(by_lam) + abs(1 - by_lam))
@@ -56,8 +56,8 @@ def rounding(state: State, given: Sequence[Any], values: Sequence[arb]) -> list[
     return found
 
 
-def _moved(given: Sequence[Any], index: int) -> list[Any]:
-    return [Fraction(x) * (1 + _STEP) if i == index else x for i, x in enumerate(given)]
+def _moved(given: Sequence[Any], place: int) -> list[Any]:
+    return [Fraction(x) * (1 + _STEP) if i == place else x for i, x in enumerate(given)]
 
 
 def _ball(number: Any) -> arb:

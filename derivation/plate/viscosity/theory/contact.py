@@ -47,10 +47,10 @@ def polar() -> Proof:
     # m s s' = P_e v, and m v' = -(P_e + A P_e' v) with A P_e' = epsilon P_e/s.
     rate_s = _Omega * _v
     rate_v = -_Omega * _s - epsilon * _Omega * _v
-    substitution = {_s: _rho * sp.sin(phi), _v: _rho * sp.cos(phi)}
+    there = {_s: _rho * sp.sin(phi), _v: _rho * sp.cos(phi)}
 
     def turned(x: sp.Expr) -> sp.Expr:
-        return on_circle(x.subs(substitution))
+        return on_circle(x.subs(there))
 
     radial, turning, force = spiral()
     return prove(

@@ -118,7 +118,7 @@ def _radius_ratio(y: Array) -> Array:
     s = np.where(y > 0.0, np.minimum(1.0, np.abs(y) ** (-1.0 / 6.0)), 1.0)
     moving = np.ones(y.shape, dtype=bool)
     for _ in range(STEPS):
-        excess, slope = _formulas.share_step(s, y)
+        excess, slope = _formulas.work_step(s, y)
         moving &= ~(np.abs(excess) <= CLOSE)
         if not moving.any():
             return s

@@ -21,7 +21,7 @@ from derivation.plate.vocabulary import a_ratio, c_A
 from derivation.plate.vocabulary import eta as eta_symbol
 from generated.contact_series import plates_of
 from generated.non_hertzian_pressure import contact, plate, pressure
-from generated.pressure_numbers import ERROR, THIN, WIDEST, WIDEST_SHARE
+from generated.pressure_numbers import ERROR, THIN, WIDEST, WIDEST_OVER_B
 
 R, E = 1e3, 7e10
 OPEN = 3.012493
@@ -305,7 +305,7 @@ def test_pressure_profile_in_thin_plates_depends_only_on_the_thickness() -> None
 
 def test_results_are_nan_outside_the_domain() -> None:
     of = plate(1.0, 2.0)
-    for a in (0.0, -1.0, np.nan, WIDEST_SHARE * 2.0001, 2.5):
+    for a in (0.0, -1.0, np.nan, WIDEST_OVER_B * 2.0001, 2.5):
         assert np.isnan(contact(of, a, R, E).force)
     assert np.isnan(contact(of, 0.5, 0.4, E).force)
     assert np.isnan(contact(of, 0.5, R, -E).force)

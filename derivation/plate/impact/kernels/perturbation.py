@@ -163,7 +163,7 @@ def radius_cubed() -> Claims:
 
 
 @named_routine
-def shares() -> Claims:
+def mode_terms() -> Claims:
     """Return one mode's terms of gamma_2 and gamma_3 of (10), from K_j and a/P^(1/3)."""
     values = tuple(mode_mean(k) for k in (2, 3))
     return Claims(
@@ -190,7 +190,7 @@ def coefficients() -> Claims:
     return Claims((gamma_k[2], gamma_k[3]), (), values, values, {})
 
 
-ROUTINES = linear, integrands, shares
+ROUTINES = linear, integrands, mode_terms
 OF_ONE_MOTION = (
     turning_point,
     excess_at_turn,

@@ -81,13 +81,13 @@ def most(c_1: sp.Expr, radius: sp.Expr) -> sp.Expr:
 @named_routine
 def thick_plate() -> Claims:
     """Return c_1, the size of its parts, K_3, and the contributions of omitted modes."""
-    rows, zero, weight, exponential, deficit, share, linear, cubic = sp.symbols(
-        "modes zero weight exponential deficit share linear cubic", positive=True
+    rows, zero, weight, exponential, deficit, term, linear, cubic = sp.symbols(
+        "modes zero weight exponential deficit term linear cubic", positive=True
     )
     height, square = sp.symbols("T square", positive=True)
     sums = Sums(
         (linear, cubic),
-        (share, share * zero**2),
+        (term, term * zero**2),
         rows,
         (zero, weight),
         (
@@ -97,7 +97,7 @@ def thick_plate() -> Claims:
             Let(deficit, 1 - exponential),
             Let(exponential, 4 * exponential),
             Let(
-                share,
+                term,
                 weight
                 * exponential
                 * (deficit / 2 + height + square)
@@ -217,7 +217,7 @@ def beside_hertz() -> Claims:
 
 
 @named_routine
-def share_step() -> Claims:
+def work_step() -> Claims:
     """Return s^5 (1 + y s) - 1, the work up to s times Hertz's radius, and its slope by s."""
     fourth, inner = sp.symbols("fourth inner", real=True)
     work = s**5 * _work(s * sp.Symbol("z", real=True))
@@ -299,7 +299,7 @@ ROUTINES = (
     steepness,
     leading_bounds,
     beside_hertz,
-    share_step,
+    work_step,
     leading_time,
     hertz_peaks,
     peaks,

@@ -93,7 +93,7 @@ def in_file(
         @functools.cache
         @functools.wraps(function)
         def read(*arguments: int) -> Value:
-            name = "-".join((function.__name__, *map(str, arguments)))
+            name = "-".join((function.__module__, function.__name__, *map(str, arguments)))
             return cached(name, source_names, lambda: function(*arguments), *kinds)
 
         return read

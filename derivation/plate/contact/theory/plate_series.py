@@ -14,9 +14,11 @@ from functools import cache
 import flint
 import sympy as sp
 
+from derivation.engine.cache import in_file
 from derivation.engine.formula.ball import LOG2_10, refine
 from derivation.engine.formula.dimension import thirds
 from derivation.engine.formula.proof import Proof, prove
+from derivation.plate.contact.theory.hertz import SOURCES
 from derivation.plate.contact.theory.split import lateral_bracket, lateral_tail, reduced_split
 from derivation.plate.modes.theory.plate_factor import plate_factors
 from derivation.plate.vocabulary import (
@@ -77,7 +79,7 @@ def sine_coefficient(k: int) -> sp.Rational:
     return sp.Rational((-1) ** k * (2 * k - 2), sp.factorial(2 * k - 1))
 
 
-@cache
+@in_file(SOURCES, Coefficient, Proof)  # modules of kernels need it when they are imported
 def coefficient(k: int) -> Coefficient:
     """Return c_(2k-3), k >= 2, from the coefficient of alpha^(2k-3) in the split, alpha = eta A."""
     order = 2 * k - 3

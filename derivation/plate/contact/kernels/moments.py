@@ -101,11 +101,11 @@ def kappas() -> tuple[Ball, ...]:
 
 
 def _by_power(points: Sequence[tuple[Ball, Ball]], step: int, count: int) -> tuple[Ball, ...]:
-    """Return the sums of share y^(step i) over the nodes, i = 0 ... count - 1."""
+    """Return the sums of weight y^(step i) over the nodes, i = 0 ... count - 1."""
     found = []
     for _ in range(count):
-        found.append(midpoint(sum((share for _, share in points), Ball(0))))
-        points = [(y, share * y**step) for y, share in points]
+        found.append(midpoint(sum((weight for _, weight in points), Ball(0))))
+        points = [(y, weight * y**step) for y, weight in points]
     return tuple(found)
 
 

@@ -87,7 +87,7 @@ def coefficient(k: int) -> Coefficient:
     size = abs(sine_coefficient(k))
     mode = eta**order * size * (-1) ** k * 8 / sp.pi * j_n ** (2 * k - 5) * excess / J1**2
     side = -(eta**order) * size * 8 / sp.pi**2 * kappa[2 * k - 4]
-    shares = reduced_split()[1].expression
+    mode_term = reduced_split()[1].expression
     factor = 8 * alpha / (3 * sp.pi) / (j_n * J1**2)
     spread = 3 * (sp.sin(_y) - _y * sp.cos(_y)) / _y**3
     taylor = sp.series(spread, _y, 0, order + 1).removeO().coeff(_y, order - 1)
@@ -96,7 +96,7 @@ def coefficient(k: int) -> Coefficient:
         f"Coefficient c_{order}",
         r"Taylor coefficients of both parts of the split; $\alpha = \eta A$.",
         {
-            "share": shares - factor * spread.subs(_y, alpha * j_n) * excess,
+            "share": mode_term - factor * spread.subs(_y, alpha * j_n) * excess,
             "modes": factor / alpha * taylor * j_n ** (order - 1) * eta**order * excess - mode,
             "finite radius": -8
             / sp.pi**2

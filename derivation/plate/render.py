@@ -27,6 +27,7 @@ from derivation.engine.emit.printer import to_numpy
 from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.form import Form
 from derivation.engine.rewrite.truncated_series import truncated_series
+from derivation.plate import CITATION
 from derivation.plate.blocks import blocks
 from derivation.plate.budgets import counted_modules, read_budgets, read_printed_fraction
 from derivation.plate.manifest_rows import hand_written_rows
@@ -42,7 +43,6 @@ from derivation.plate.vocabulary import BY_NAME, arguments_of
 
 TEMPLATES = Path(__file__).parent / "templates"
 SUMMARY = "Contact of a rigid sphere with an elastic plate: functions that need only NumPy."
-CITATION = "Elastodynamic contact in plate-like bodies"
 TITLES = {
     "omega": "Integration constants C_k = A_j Omega_k of a mode, scaled by e^(phi h) and plain.",
     "influence": "Influence coefficients of both faces, plate factors and K_j.",

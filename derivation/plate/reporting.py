@@ -12,8 +12,8 @@ from derivation.engine.files import PACKAGE, measurements
 from derivation.engine.paper import Report
 from derivation.engine.report.document import Parts
 from derivation.engine.report.figures import figure_file
+from derivation.plate import CITATION
 from derivation.plate.derived import chain, misprints
-from derivation.plate.render import CITATION
 from derivation.plate.report import readme
 from derivation.plate.report.accuracy_figures import accuracy_figures
 from derivation.plate.report.consequence import Consequences

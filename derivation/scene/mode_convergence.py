@@ -12,7 +12,7 @@ from derivation.scene.mode_count import beyond_limits
 from derivation.scene.reach import Reach
 from derivation.scene.wave_motion import DynamicImpact
 
-REGULAR, QUICK = 3.0, 16.0
+REGULAR, QUICK = 2.2, 16.0
 """Largest expected factors by which twice as many modes reduce an error: of the contact time, which
 decreases regularly (see `wave_motion.LATE`) with modes shorter than the thickness; of others."""
 SHORT = 4.0

@@ -242,9 +242,10 @@ def _converged(
         if compared:
             coarser, halved = compared
             change, work = coarser.inertia.left(reach.outputs)[0], _next_work(law, 2 * count, rough)
-            met = change <= _accepted_change(coarser, goal, reach)
-            if met or unreachable(halved, law, count, work, reach):
+            if change <= _accepted_change(coarser, goal, reach):
                 return coarser
+            if unreachable(halved, law, count, work, reach):
+                return halved
     rough = _with_earlier(rough, law, count, reach, budget)
     best: DynamicImpact | None = None
     while True:

@@ -105,8 +105,8 @@ class Layouts(NamedTuple):
         ]  # fmt: skip
         for radii, R, h in layouts:
             found = call(radii, R, h, 1.0)
-            some = [x.ravel()[::37].tolist() for x in np.broadcast_arrays(radii, R, h)]
-            alone = [call(*one, 1.0) for one in zip(*some, strict=True)]
+            sampled = [x.ravel()[::37].tolist() for x in np.broadcast_arrays(radii, R, h)]
+            alone = [call(*one, 1.0) for one in zip(*sampled, strict=True)]
             if not np.allclose(found.ravel()[::37], alone, rtol=1e-14, atol=0.0):
                 return False
         return True

@@ -16,7 +16,7 @@ from derivation.engine.files import measurements
 from derivation.scene import motion, waves
 from derivation.scene.effect_selection import decide
 from derivation.scene.effects import EFFECTS
-from derivation.scene.effects.inertia import higher_branch_error, weight_share
+from derivation.scene.effects.inertia import higher_branch_error, weight_work_ratio
 from derivation.scene.impact import selected_effects
 from derivation.scene.law import ContactLaw
 from derivation.scene.limits import zener_number
@@ -49,13 +49,13 @@ def judge(count: int, seed: int = inertia.SEED, progress: Progress = quiet) -> I
     """Draw and simulate scenes until `count` of them are neither skipped nor rejected."""
     skipped, rejected, rows = Counter[str](), Counter[str](), list[InertiaRow]()
     for number in itertools.count():
-        data, place = inertia.scene(number, seed)
+        data, position = inertia.scene(number, seed)
         reason = reason_to_skip(data)
         if reason:
             skipped[reason] += 1
             continue
         progress("scene", len(rows) + 1, count)
-        found = solve(number, data, place)
+        found = solve(number, data, position)
         if isinstance(found, str):
             rejected[found] += 1
             continue
@@ -73,7 +73,7 @@ def reason_to_skip(data: Scene) -> str:
     still = quasi_static(model)
     if still is None:
         return "no impact on the quasi-static plate"
-    if weight_share(model, still.max_indentation) > MAX_WEIGHT_WORK:
+    if weight_work_ratio(model, still.max_indentation) > MAX_WEIGHT_WORK:
         return f"work of the weight over the initial kinetic energy above {MAX_WEIGHT_WORK:g}"
     most = MODES[data["inertia"]["branches"]]
     if count_of(ContactLaw(model, frozenset({"hertz", "inertia"}))) > most:
@@ -81,12 +81,13 @@ def reason_to_skip(data: Scene) -> str:
     return ""
 
 
-def with_tolerance(data: Scene, place: float) -> tuple[Scene, float]:
-    """Return a scene and its tolerance, from a number `place` in [0, 1).
+def with_tolerance(data: Scene, position: float) -> tuple[Scene, float]:
+    """Return a scene and its tolerance, from a number `position` in [0, 1).
 
-    If the bound on the change by inertia is below `MUCH`, and `place` is below 1/2 or no tolerance
-    that requires inertia can be met, the scene has all other effects and a tolerance with which
-    inertia is omitted. Otherwise the tolerance can be met and, if possible, requires inertia.
+    If the bound on the change by inertia is below `INERTIA_THRESHOLD`, and `position` is below 1/2
+    or no tolerance that requires inertia can be met, the scene has all other effects and a
+    tolerance with which inertia is omitted. Otherwise the tolerance can be met and, if possible,
+    requires inertia.
     """
     model = model_of(read(data))
     still = quasi_static(model)
@@ -97,17 +98,20 @@ def with_tolerance(data: Scene, place: float) -> tuple[Scene, float]:
         map(float, higher_branch_error(model, still.max_contact_radius, still.contact_time))
     )
     least = (
-        BRANCH_BOUND_FACTOR * radiated * (1.0 + float(weight_share(model, still.max_indentation)))
+        BRANCH_BOUND_FACTOR
+        * radiated
+        * (1.0 + float(weight_work_ratio(model, still.max_indentation)))
         + LEAST_RTOL
     )
-    if omission_bound < INERTIA_THRESHOLD and (place < 0.5 or least > omission_bound):
-        return {**data, "effects": {**others, "inertia": "auto"}}, omission_bound * (1.0 + place)
+    if omission_bound < INERTIA_THRESHOLD and (position < 0.5 or least > omission_bound):
+        return {**data, "effects": {**others, "inertia": "auto"}}, omission_bound * (1.0 + position)
     return data, min(
-        least * math.pow(10.0, 2.0 * place - 1.0), max(least, 0.9 * min(omission_bound, BOUND_RTOL))
+        least * math.pow(10.0, 2.0 * position - 1.0),
+        max(least, 0.9 * min(omission_bound, BOUND_RTOL)),
     )
 
 
-def solve(number: int, data: Scene, place: float) -> InertiaRow | str:
+def solve(number: int, data: Scene, position: float) -> InertiaRow | str:
     """Compare `simulate` with the reference; return the key of the error of a rejected scene.
 
     Parameters
@@ -118,7 +122,7 @@ def solve(number: int, data: Scene, place: float) -> InertiaRow | str:
         A number in [0, 1) that determines the tolerance, see `placed`.
     """
     try:
-        data, rtol = with_tolerance(data, place)
+        data, rtol = with_tolerance(data, position)
         _, selected = selected_effects(read(data), rtol)
         values, accuracy = solve_selected(selected, rtol)
         known = "inertia" in selected.law.effects

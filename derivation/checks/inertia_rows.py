@@ -149,9 +149,9 @@ def scene(number: int, seed: int = SEED) -> tuple[dict[str, dict[str, Any]], flo
     branches = "all" if generator.random() < 0.2 else "A0"
     tables = {"sphere": sphere, "plate": plate, "impact": impact}
     asked = {"effects": {"inertia": "auto"}, "inertia": {"branches": branches}}
-    place = generator.random()
+    position = generator.random()
     _add_dissipation(tables | asked, random.Random(f"dissipation {seed} {number}"))
-    return tables | asked, place
+    return tables | asked, position
 
 
 def _add_dissipation(tables: dict[str, dict[str, Any]], generator: random.Random) -> None:

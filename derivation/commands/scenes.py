@@ -344,12 +344,12 @@ def check_outputs(
         from derivation.scene.plot import check_suffix
 
         check_suffix(animate, SUFFIXES, "an animation")
-    places = [Path(json)] if json and json != "-" else []
-    for kind, names in (("json", places), ("csv", [csv] if csv else [])):
+    paths = [Path(json)] if json and json != "-" else []
+    for kind, names in (("json", paths), ("csv", [csv] if csv else [])):
         _expect_suffix(kind, names)
-    places += [path for path in (plot, csv, animate, out) if path is not None]
+    paths += [path for path in (plot, csv, animate, out) if path is not None]
     taken = {real(scene): "the scene file"}
-    for place in places:
+    for place in paths:
         if place == Path("-"):
             raise SceneError("-: expected a file name; only --json accepts - for standard output")
         expect_writable(place)

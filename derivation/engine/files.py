@@ -117,7 +117,7 @@ def _bytes(content: str | bytes) -> bytes:
 
 def _make_folder(folder: Path) -> list[Path]:
     """Create a folder; return the folders that were created, outermost first."""
-    missing = [place for place in (folder, *folder.parents) if not place.exists()][::-1]
+    missing = [parent for parent in (folder, *folder.parents) if not parent.exists()][::-1]
     folder.mkdir(parents=True, exist_ok=True)
     return missing
 
@@ -157,11 +157,11 @@ def expect_writable(path: Path) -> None:
     """
     target = real(path)
     with _explained(path):
-        there, fine = target.exists(), target.is_file()
+        exists, fine = target.exists(), target.is_file()
         if fine and not os.access(target, os.W_OK):
             raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
         _try_folder(target.parent)
-    if there and not fine:
+    if exists and not fine:
         kind = "folder" if target.is_dir() else "device"
         raise OSError(f"cannot write {path}: expected a file, got a {kind}; name a file")
 
@@ -184,8 +184,8 @@ def expect_folder(folder: Path) -> None:
 
 def _try_folder(folder: Path) -> None:
     """Write a test file into a folder, or into its nearest existing parent."""
-    there = next(place for place in (folder, *folder.parents) if place.exists())
-    with tempfile.TemporaryFile(dir=there) as stream:
+    existing = next(parent for parent in (folder, *folder.parents) if parent.exists())
+    with tempfile.TemporaryFile(dir=existing) as stream:
         stream.write(bytes(PAGE))
 
 
@@ -209,8 +209,8 @@ def sources(*rooms: str | Path) -> Iterator[Path]:
     ``mathematics/*/theory*``; other folders and files are given by path.
     """
     for room in rooms:
-        for place in sorted(PACKAGE.glob(room)) if isinstance(room, str) else [room]:
-            found = place.rglob("*") if place.is_dir() else [place]
+        for path in sorted(PACKAGE.glob(room)) if isinstance(room, str) else [room]:
+            found = path.rglob("*") if path.is_dir() else [path]
             yield from sorted(p for p in found if p.suffix in {".py", ".j2", ".toml"})
 
 

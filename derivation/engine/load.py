@@ -29,20 +29,20 @@ def load(folder: Path) -> Paper:
     derivation.engine.failed.FailedError
         If a proof fails during the import.
     """
-    place = folder.resolve()
-    if not (place / "paper.py").is_file():
+    path = folder.resolve()
+    if not (path / "paper.py").is_file():
         raise PaperError(
             f"--paper: expected a folder with a file paper.py, got {folder}; "
             f"create one with `platecontact new {folder}`"
         )
-    name = PREFIX + "".join(c if c.isalnum() else "_" for c in place.name)
+    name = PREFIX + "".join(c if c.isalnum() else "_" for c in path.name)
     try:
-        paper = _imported(name, place).PAPER
+        paper = _imported(name, path).PAPER
     except FailedError:
         raise
     except Exception as error:  # any exception that a module of the folder raises
         raise PaperError(
-            f"--paper: {folder} cannot be imported: {_place(error, place)}"
+            f"--paper: {folder} cannot be imported: {_place(error, path)}"
             f"{type(error).__name__}: {error}; correct it"
         ) from error
     if not isinstance(paper, Paper):
@@ -50,12 +50,12 @@ def load(folder: Path) -> Paper:
     return paper
 
 
-def _imported(name: str, place: Path) -> ModuleType:
+def _imported(name: str, path: Path) -> ModuleType:
     """Return the module `paper` of a folder, imported as a package of the given name."""
     for known in [known for known in sys.modules if known == name or known.startswith(f"{name}.")]:
         del sys.modules[known]  # from another folder of this name, or from edited files
     package = ModuleType(name)
-    package.__path__ = [str(place)]
+    package.__path__ = [str(path)]
     sys.modules[name] = package
     importlib.invalidate_caches()
     return importlib.import_module(f"{name}.paper")

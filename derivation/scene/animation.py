@@ -74,9 +74,9 @@ def render(result: Result, suffix: str) -> bytes:
         with mpl.rc_context({"animation.embed_limit": 50.0}):
             return movie.to_jshtml(fps=PER_SECOND).encode()
     with tempfile.TemporaryDirectory() as folder:
-        place = Path(folder) / "impact.gif"
-        movie.save(place, writer=PillowWriter(fps=PER_SECOND), dpi=100)
-        return place.read_bytes()
+        path = Path(folder) / "impact.gif"
+        movie.save(path, writer=PillowWriter(fps=PER_SECOND), dpi=100)
+        return path.read_bytes()
 
 
 def _limits(profiles: Array, displacement: Array) -> tuple[float, float]:

@@ -41,5 +41,5 @@ def knots(degree: int) -> tuple[Array, Array, Array]:
     analysis = (2.0 / n) * np.cos(np.pi / (2 * n) * turned)
     analysis[0] *= 0.5
     t, weights = gauss(degree + 8)
-    mean = [(weights * t * t) @ chebyshev(2.0 * place * t - 1.0, degree) for place in x]
+    mean = [(weights * t * t) @ chebyshev(2.0 * point * t - 1.0, degree) for point in x]
     return x, analysis, np.array(mean)

@@ -22,19 +22,19 @@ _BODIES = ("sphere", "plate", "impact", OWN_MATERIALS)
 
 def row_of(scene: Scene, columns: Columns, row: int) -> dict[str, Any]:
     """Return the tables of the scene of a row, like those of a scene file."""
-    return varied(scene, {place: float(values[row]) for place, values in columns.items()})
+    return varied(scene, {key: float(values[row]) for key, values in columns.items()})
 
 
 def of_bodies(columns: Columns) -> bool:
     """Return whether all columns are numbers of the bodies and of the impact."""
-    return all(place.split(".", 1)[0] in _BODIES for place in columns)
+    return all(key.split(".", 1)[0] in _BODIES for key in columns)
 
 
 def allowed(columns: Columns) -> NDArray[np.bool_]:
     """Return the rows in which each number is allowed for its key."""
     found = np.ones(len(next(iter(columns.values()))), dtype=bool)
-    for place, values in columns.items():
-        field = field_of(place)
+    for key, values in columns.items():
+        field = field_of(key)
         found &= np.isfinite(values)
         for limit in _limits(field):
             found &= _within(values, limit)

@@ -182,7 +182,7 @@ def expected_work(problem: DynamicProblem, n: int, coarse: ImpactHistory) -> flo
     Its contacts are assumed to last as long. Elements are shorter only where `PHASE` limits them.
     """
     lasted = sum(touching.end - touching.start for touching in coarse.contacts)
-    more, fewer = (lasted * some.fastest / PHASE for some in (problem, coarse.problem))
+    more, fewer = (lasted * one.fastest / PHASE for one in (problem, coarse.problem))
     others = sum(touching.tried for touching in coarse.contacts) - fewer / n
     return (more / n + max(0.0, others)) * weight_of(problem, n)
 

@@ -52,16 +52,16 @@ def edge_remainder(model: Model, a: float) -> float:
     """
     kind = "supported" if model.edge == SUPPORTED else "clamped"
     nu = model.lam / (2.0 * (model.lam + model.mu))
-    place = {"h_over_b": model.eta, "nu": nu, "a_over_b": a / model.b}
+    coordinates = {"h_over_b": model.eta, "nu": nu, "a_over_b": a / model.b}
     axes = _axes()
     for name, axis in zip(_KEYS, axes, strict=True):
-        if name != "nu" and place[name] > axis[-1]:
+        if name != "nu" and coordinates[name] > axis[-1]:
             raise SceneError(
                 f"plate.edge: expected {name.replace('_over_', '/')} up to {axis[-1]} for a "
                 f"{model.edge} edge, the range in which its model error is known, got "
-                f'{place[name]:.4g}; write edge = "paper", or effects.edge = false'
+                f'{coordinates[name]:.4g}; write edge = "paper", or effects.edge = false'
             )
-    around = [_neighbours(axis, place[name]) for name, axis in zip(_KEYS, axes, strict=True)]
+    around = [_neighbours(axis, coordinates[name]) for name, axis in zip(_KEYS, axes, strict=True)]
     found = max(_table()[(kind, *point)] for point in product(*around))
     if found > LARGEST:
         raise SceneError(
@@ -76,12 +76,12 @@ def edge_remainders(model: Model, a: Array) -> Array:
     """Return the model errors of many scenes as a column; NaN if `edge_remainder` rejects one."""
     kind = "supported" if model.edge == SUPPORTED else "clamped"
     nu = model.lam / (2.0 * (model.lam + model.mu))
-    axes, places = _axes(), np.broadcast_arrays(model.eta, nu, a / model.b)
-    known = (places[0] <= axes[0][-1]) & (places[2] <= axes[2][-1])
+    axes, coordinates = _axes(), np.broadcast_arrays(model.eta, nu, a / model.b)
+    known = (coordinates[0] <= axes[0][-1]) & (coordinates[2] <= axes[2][-1])
     ends = []
-    for axis, place in zip(axes, places, strict=True):
-        below = np.searchsorted(axis, place, side="right") - 1
-        above = np.searchsorted(axis, place, side="left")
+    for axis, coordinate in zip(axes, coordinates, strict=True):
+        below = np.searchsorted(axis, coordinate, side="right") - 1
+        above = np.searchsorted(axis, coordinate, side="left")
         ends.append([np.clip(end, 0, len(axis) - 1) for end in (below, above)])
     table = np.array([_table()[(kind, *point)] for point in product(*axes)])
     table = table.reshape([len(axis) for axis in axes])

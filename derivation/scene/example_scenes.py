@@ -62,10 +62,10 @@ def copy(names: Sequence[str], folder: Path, replace: bool = False) -> tuple[Exa
     """
     found = [_named(name) for name in dict.fromkeys(names)]
     targets = {folder / example.file.name: example.file for example in found}
-    there = [str(path) for path in targets if path.exists()]
-    if there and not replace:
+    existing = [str(path) for path in targets if path.exists()]
+    if existing and not replace:
         raise SceneError(
-            f"examples: {', '.join(there)} exists already; add --out DIR to write into another "
+            f"examples: {', '.join(existing)} exists already; add --out DIR to write into another "
             "folder, or --force to replace it"
         )
     write_files({path: source.read_bytes() for path, source in targets.items()})

@@ -36,9 +36,9 @@ def number_key(place: str) -> tuple[str, str]:
     return table, key
 
 
-def described(place: str) -> str:
+def described(key: str) -> str:
     """Return the description of a key `table.key`, with its unit in brackets."""
-    return field_of(place).description or place.rpartition(".")[2]
+    return field_of(key).description or key.rpartition(".")[2]
 
 
 def field_of(place: str) -> FieldInfo:

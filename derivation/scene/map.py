@@ -138,7 +138,7 @@ def figure(result: Result, rtol: float) -> "Figure":
     from matplotlib.figure import Figure
     from matplotlib.patches import Patch
 
-    place = result.model.eta, result.max_contact_radius / result.model.h
+    point = result.model.eta, result.max_contact_radius / result.model.h
     found, wanted = grid(result, rtol), result.scene.effects.model_dump()
     made = Figure(figsize=(7.5, 6.5), layout="constrained")
     axes = made.subplots()
@@ -155,12 +155,12 @@ def figure(result: Result, rtol: float) -> "Figure":
             continue
         _line(axes, found, ratio, next(colours), label)
     axes.plot(
-        *place, marker="*", markersize=14, color="black", linestyle="none", label="this scene"
+        *point, marker="*", markersize=14, color="black", linestyle="none", label="this scene"
     )
     axes.set(xlabel="half-thickness / plate radius, $h/b$ [1]")
     axes.set(ylabel="largest contact radius / half-thickness, $a/h$ [1]")
-    axes.set_xlim(min(THICKNESSES[0], place[0] / 2), max(THICKNESSES[-1], place[0] * 2))
-    axes.set_ylim(found.radii[0], max(found.radii[-1], place[1] * 2))
+    axes.set_xlim(min(THICKNESSES[0], point[0] / 2), max(THICKNESSES[-1], point[0] * 2))
+    axes.set_ylim(found.radii[0], max(found.radii[-1], point[1] * 2))
     axes.set_title(
         "Shaded (the side with the ticks): omitting the effect\n"
         f"may change a result by more than {rtol:g} (relative)",

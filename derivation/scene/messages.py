@@ -118,7 +118,7 @@ def shown(value: Any) -> str:
         return "an integer with too many digits"
 
 
-def explain(kind: str, place: tuple[int | str, ...], value: Any, fields: Fields) -> str:
+def explain(kind: str, location: tuple[int | str, ...], value: Any, fields: Fields) -> str:
     """Return the message for one problem of a key or table.
 
     Parameters
@@ -132,24 +132,24 @@ def explain(kind: str, place: tuple[int | str, ...], value: Any, fields: Fields)
     fields
         The fields of each table by key.
     """
-    name = _name(place)
+    name = _name(location)
     if kind in {"extra_forbidden", "invalid_key"}:
-        return _unknown(place, fields)
-    if kind == "string_unicode" and len(place) < 2:
+        return _unknown(location, fields)
+    if kind == "string_unicode" and len(location) < 2:
         where = name or "scene"
         return f"{where}: expected a name in valid Unicode, got {shown(value)}; rename it"
-    if place == (OWN_MATERIALS,):
+    if location == (OWN_MATERIALS,):
         return (
             f"{name}: expected tables [{name}.NAME], got {shown(value)}; write [{name}.NAME] and "
             "below it the constants of the material"
         )
-    if len(place) == 1:
+    if len(location) == 1:
         example = _line(name, next(iter(fields[name].items())))
         if kind == "missing":
             return f"{name}: expected a table [{name}], got none; add [{name}] with {example}, ..."
         expected = f"expected a table [{name}], got {shown(value)}"
         return f"{name}: {expected}; write [{name}] and below it {example}"
-    table, key = str(place[0]), str(place[1])
+    table, key = str(location[0]), str(location[1])
     field = fields[table][key]
     usual = WANTED if table == "effects" else "a positive number"
     name = f"{table}.{key}"  # without the alternative that failed
@@ -208,25 +208,25 @@ def choice_problem(
     return f"[{table}]: expected either {wanted}, got {got}; {remedy}"
 
 
-def _unknown(place: tuple[int | str, ...], fields: Fields) -> str:
-    name = _name(place)
-    key = str(place[-1])
-    if place in UNKNOWN:
-        return f"{name}: unknown key: {UNKNOWN[place]}"
+def _unknown(location: tuple[int | str, ...], fields: Fields) -> str:
+    name = _name(location)
+    key = str(location[-1])
+    if location in UNKNOWN:
+        return f"{name}: unknown key: {UNKNOWN[location]}"
     homes = [f"[{table}]" for table, keys in fields.items() if key in keys]
-    if len(place) == 1:
+    if len(location) == 1:
         known = [*(table for table in fields if "." not in table), OWN_MATERIALS]
         problem = f"{name}: unknown table, expected one of {', '.join(known)}"
     else:
-        table = str(place[0])
+        table = str(location[0])
         known = list(fields[table])
         problem = f"{name}: unknown key, expected in [{table}] one of {', '.join(known)}"
-    table_meant = len(place) == 1 and nearest(key, known, TABLE_ALIKE)
+    table_meant = len(location) == 1 and nearest(key, known, TABLE_ALIKE)
     if homes and not table_meant:
         return f"{problem}; move it to {' or '.join(homes)}"
-    places = {other: f"{table}.{other}" for table, keys in fields.items() for other in keys}
-    elsewhere = nearest(key, places, OTHER_TABLE_ALIKE)
-    near = did_you_mean(key, known) or "".join(f"did you mean {places[k]}?" for k in elsewhere)
+    qualified = {other: f"{table}.{other}" for table, keys in fields.items() for other in keys}
+    elsewhere = nearest(key, qualified, OTHER_TABLE_ALIKE)
+    near = did_you_mean(key, known) or "".join(f"did you mean {qualified[k]}?" for k in elsewhere)
     return f"{problem}; {near.rstrip() or 'remove it'}"
 
 
@@ -237,9 +237,9 @@ def listed(problems: Sequence[Callable[[], str]]) -> str:
     return f"{len(problems):,} problems{''.join(lines)}{more}"
 
 
-def _name(place: tuple[int | str, ...]) -> str:
+def _name(location: tuple[int | str, ...]) -> str:
     """Return a key with its table on one line, shortened if it is long."""
-    return ".".join(one_line(str(part), LONG) for part in place)
+    return ".".join(one_line(str(part), LONG) for part in location)
 
 
 def _names(table: str, keys: Iterable[str]) -> str:

@@ -91,8 +91,8 @@ class Modes:
 
     def _split(self, most: int) -> Parts:
         bounds = np.append(self.first, self.omega.size)
-        places = np.searchsorted(bounds, np.arange(0, self.omega.size, most))
-        ends = [*np.unique(places).tolist(), self.first.size]
+        indices = np.searchsorted(bounds, np.arange(0, self.omega.size, most))
+        ends = [*np.unique(indices).tolist(), self.first.size]
         return tuple(
             (
                 slice(low, high),
@@ -120,7 +120,7 @@ class Modes:
 
         return np.concatenate((shape(self.held, r / self.b), free))
 
-    def shares_less_one(self, a: Array) -> Array:
+    def modal_weights_less_one(self, a: Array) -> Array:
         """Return s_j - 1 at contact radii [m], shape (radii, shapes)."""
         y = np.outer(a, self.phi[self._held :])
         free = sine_less_one(np.sin(y), y)
@@ -166,7 +166,7 @@ def free_modes(model: Model, count: int) -> Modes:
     return _modes(model, _branches(model, found, float(found.root[-1])) if branches else found)
 
 
-def bending_share(model: Model, modes: Modes) -> Array:
+def bending_fraction(model: Model, modes: Modes) -> Array:
     """Return the static compliance of a thin plate over that of each mode of A0 [1]."""
     from generated import inertia
 
@@ -228,9 +228,9 @@ def _branches(model: Model, lowest: _Shapes, highest: float, without: int = 0) -
     strength = np.hstack((lowest.strength[:, None], further))
     taken = (root <= highest * (1.0 + 1e-12)) & (strength > 0.0)
     taken[:, 0] = np.arange(x.size) >= without
-    some = np.any(taken, axis=1)
-    sizes = np.sum(taken[some], axis=1)
-    return _Shapes(lowest.k[some], root[taken], strength[taken], np.cumsum(sizes) - sizes)
+    any_taken = np.any(taken, axis=1)
+    sizes = np.sum(taken[any_taken], axis=1)
+    return _Shapes(lowest.k[any_taken], root[taken], strength[taken], np.cumsum(sizes) - sizes)
 
 
 def _held_plate(law: ContactLaw, count: int) -> ModalPlate:
@@ -323,9 +323,9 @@ def _edge_compliance(law: ContactLaw) -> float:
     model = law.model
     edge = kernels.supported_edge if model.edge == SUPPORTED else kernels.clamped_edge
     a = SMALL * min(model.h, model.b)
-    share = float(edge(np.array([a]), model.h, model.b, model.lam, model.mu)[0])
+    contribution = float(edge(np.array([a]), model.h, model.b, model.lam, model.mu)[0])
     # delta = (a^2/R) F and P = (4/3) E* a^3/R with the plate's own E*.
-    return 0.75 * share / (model.modulus * a)
+    return 0.75 * contribution / (model.modulus * a)
 
 
 def sine_less_one(sine: Array, y: Array) -> Array:

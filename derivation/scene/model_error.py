@@ -71,11 +71,13 @@ def _cases() -> tuple[_Simulation, ...]:
     rows = json.loads((measurements() / "elastodynamics.json").read_text())["impacts"]
     found = []
     for row in rows:
-        program, place = row.get("program", {}), row["parameters"]
+        program, parameters = row.get("program", {}), row["parameters"]
         if "values" not in program:
             continue
         values, elements = program["values"], row["elements"]
-        rough = _rough(place["contact_time_over_echo"], place["contact_radius_over_thickness"])
+        rough = _rough(
+            parameters["contact_time_over_echo"], parameters["contact_radius_over_thickness"]
+        )
         errors: dict[str, float] = {
             name: abs(values[name] / elements[name] - 1.0) + row["errors"][name] - program["bound"]
             for name in OUTPUTS

@@ -113,19 +113,19 @@ def solve(
     SceneError
         If a key is not a numeric key of a scene file, or the columns differ in length.
     """
-    given = {place: np.asarray(values, dtype=np.float64) for place, values in columns.items()}
+    given = {key: np.asarray(values, dtype=np.float64) for key, values in columns.items()}
     lengths = {values.shape for values in given.values()}
     if len(lengths) != 1 or any(len(shape) != 1 for shape in lengths):
         raise SceneError(
             "columns: expected one or more arrays of the same length, got shapes "
             f"{sorted(lengths)}; give each key one number for each row"
         )
-    for place in given:
-        number_key(place)
+    for key in given:
+        number_key(key)
     [(count,)] = lengths
     found, until = _empty(count), time.perf_counter() + seconds
     for start in range(0, count, BLOCK):
-        part = {place: values[start : start + BLOCK] for place, values in given.items()}
+        part = {key: values[start : start + BLOCK] for key, values in given.items()}
         left = _Block(scene, part, rtol, found, start).run(until)
         if left is not None:
             return found.first(left)
@@ -168,24 +168,24 @@ class _Block:
 
     def _one(self, row: int) -> None:
         """Simulate a single row."""
-        found, place = self.found, self.start + row
+        found, index = self.found, self.start + row
         try:
             result = simulate(read(row_of(self.scene, self.columns, row)), rtol=self.rtol)
             included = " ".join(result.effects.included)
             numbers = {name: float(getattr(result, name)) for name in UNITS}
         except SceneError as error:
-            found.reason[place] = str(error)
+            found.reason[index] = str(error)
             return
-        found.effects[place] = included
+        found.effects[index] = included
         if not result.complete:
-            found.status[place] = "incomplete"
-            found.reason[place] = result.incomplete_note
+            found.status[index] = "incomplete"
+            found.reason[index] = result.incomplete_note
             return
-        found.status[place] = "finished"
-        found.reason[place] = "; ".join(result.warnings)
-        found.bound[place], found.model_error[place] = result.accuracy.bound, result.model_error
+        found.status[index] = "finished"
+        found.reason[index] = "; ".join(result.warnings)
+        found.bound[index], found.model_error[index] = result.accuracy.bound, result.model_error
         for name, number in numbers.items():
-            found.results[name][place] = number
+            found.results[name][index] = number
 
     def _in_arrays(self) -> Iterable[NDArray[np.intp]]:
         """Simulate rows in arrays, and yield their indices."""
@@ -195,14 +195,14 @@ class _Block:
         scene = self._readable(rows[:TRIED].tolist())
         if scene is None:
             return
-        columns = {place: values[rows] for place, values in self.columns.items()}
+        columns = {key: values[rows] for key, values in self.columns.items()}
         model, sound = models_of(scene, columns)
         accuracy, rtol = scene.accuracy, self.rtol
         if rtol is None and accuracy is not None:
             rtol = accuracy.rtol
         outputs = accuracy.outputs if accuracy is not None else OUTPUTS
         try:
-            share = selection_tolerance(rtol)
+            tolerance = selection_tolerance(rtol)
         except SceneError:
             return
         rows, model = rows[sound], model.take(sound)
@@ -213,7 +213,7 @@ class _Block:
         except SceneError:
             return
         wanted = scene.effects.model_dump()
-        for group in selected(model, wanted, np.full(len(rows), share), outputs):
+        for group in selected(model, wanted, np.full(len(rows), tolerance), outputs):
             if isinstance(group, Rejected):
                 self.found.reason[self.start + rows[group.rows]] = group.reason
                 yield rows[group.rows]
@@ -262,11 +262,14 @@ class _Block:
         if STRENGTH in self.columns:
             strength = self.columns[STRENGTH][rows]
         reasons = warnings_of_rows(law, numbers, strength, which)
-        places = self.start + rows[which]
+        indices = self.start + rows[which]
         for name, values in numbers.items():
-            self.found.results[name][places] = values[which]
-        self.found.bound[places], self.found.model_error[places] = bound[which], model_error[which]
-        self.found.status[places], self.found.reason[places] = "finished", reasons
+            self.found.results[name][indices] = values[which]
+        self.found.bound[indices], self.found.model_error[indices] = (
+            bound[which],
+            model_error[which],
+        )
+        self.found.status[indices], self.found.reason[indices] = "finished", reasons
         included = " ".join(effect.name for effect in EFFECTS if effect.name in law.effects)
-        self.found.effects[places] = included
+        self.found.effects[indices] = included
         return group.rows[which]

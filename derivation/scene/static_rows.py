@@ -84,16 +84,16 @@ def _by_papers_law(law: ContactLaw, rest: Array | None, found: Impacts) -> None:
     if rest is not None:
         coarse = whole_law("coarse", None).bound <= rest
         for run in (simple_laws.hertz, simple_laws.leading):
-            some = np.flatnonzero(left)
+            selected = np.flatnonzero(left)
             with np.errstate(all="ignore"):
-                estimates = run(*(x[some] for x in numbers))
+                estimates = run(*(x[selected] for x in numbers))
                 parts = np.broadcast_arrays(*estimates)
                 bound = np.expm1(np.sum(np.log1p(parts[-3:]), axis=0))
-            good = bound <= rest[some]
-            found.put(some[good], [part[good] for part in parts])
-            near = np.abs(bound - rest[some]) <= NEAR * rest[some]  # rounding could decide
-            found.put(some[near], [np.nan] * len(parts))
-            left[some[good | near]] = False
+            good = bound <= rest[selected]
+            found.put(selected[good], [part[good] for part in parts])
+            near = np.abs(bound - rest[selected]) <= NEAR * rest[selected]  # rounding could decide
+            found.put(selected[near], [np.nan] * len(parts))
+            left[selected[good | near]] = False
     for method, rows in (("coarse", left & coarse), ("full", left & ~coarse)):
         if rows.any():
             with np.errstate(all="ignore"):
@@ -113,10 +113,10 @@ def _limits(law: ContactLaw, count: int) -> Array:
 def _on_half_space(law: ContactLaw, found: Impacts) -> None:
     """Use Hertz's law in closed form, with the modulus E* of the contact."""
     count = len(found.law)
-    share = np.broadcast_to(1.0 / (1.0 + law.softness), (count, 1))[:, 0]
+    modulus_ratio = np.broadcast_to(1.0 / (1.0 + law.softness), (count, 1))[:, 0]
     R, m, v0, h, b, lam, mu = flat_numbers(law, count)
     with np.errstate(all="ignore"):
-        one = simple_laws.hertz(R, m, v0, h, b, share * lam, share * mu)
+        one = simple_laws.hertz(R, m, v0, h, b, modulus_ratio * lam, modulus_ratio * mu)
     known = np.isfinite(one.law)
     found.put(known, (*(x[known] for x in one[:4]), 0.0, 0.0, one.rounding))
 

@@ -123,16 +123,16 @@ class InertiaDetails:
 
     def left(self, outputs: Sequence[str]) -> tuple[float, float]:
         """Return the largest estimated errors of outputs by omitted modes and by branches [1]."""
-        places = [OUTPUTS.index(name) for name in outputs]
-        remaining = max(self._omitted_modes(OUTPUTS[k]) for k in places)
-        return remaining, max(self.omitted_branch_error[k] for k in places)
+        remaining = max(map(self._omitted_modes, outputs))
+        indices = [OUTPUTS.index(name) for name in outputs]
+        return remaining, max(self.omitted_branch_error[k] for k in indices)
 
     def _omitted_modes(self, output: str) -> float:
         """Return the estimated error of an output by omitted modes [1]."""
-        place, regular = OUTPUTS.index(output), output == "contact_time"
+        index, regular = OUTPUTS.index(output), output == "contact_time"
         factor = (LATE if regular else IRREGULAR) + self.omitted_octaves
-        earlier = 0.0 if regular else EARLIER * self.earlier_change[place]
-        return max(factor * self.mode_convergence[place], earlier)
+        earlier = 0.0 if regular else EARLIER * self.earlier_change[index]
+        return max(factor * self.mode_convergence[index], earlier)
 
     def error(self, outputs: Sequence[str]) -> float:
         """Return the largest estimated error of outputs by all that is omitted [1]."""
@@ -185,9 +185,9 @@ class DynamicImpact(Motion):
         known, *same = coarser.inertia.contacts[:2]
         times, force = np.linspace(first.start, first.end, LOOKS), self._touching[0][P]
         error = IRREGULAR * np.abs(force - coarser.rows(times)[P])
-        places = _minima(force)
-        places = places[force[places] <= error[places]]
-        jump = float(np.max(first.end / times[places] - 1.0, initial=0.0))
+        indices = _minima(force)
+        indices = indices[force[indices] <= error[indices]]
+        jump = float(np.max(first.end / times[indices] - 1.0, initial=0.0))
         for after, before in zip(others, same, strict=False):
             moved = abs(first.end - known.end) + abs(after.start - before.start)
             if after.start - first.end <= IRREGULAR * moved:
@@ -364,8 +364,8 @@ def rows_of(problem: DynamicProblem, touching: contact_sequence.ContactRun, t: A
             found[A, here] = branch.widened(a, problem.contact.at(a).force) / problem.a
     flight = np.flatnonzero(~inside)
     block = max(1, AT_ONCE // max(problem.omega.size, 1))
-    for some in (flight[k : k + block] for k in range(0, flight.size, block)):
-        flights = problem.flights(touching.after, t[some] - touching.end)
-        found[V, some], found[Z, some], found[W, some], found[E, some] = flights
+    for indices in (flight[k : k + block] for k in range(0, flight.size, block)):
+        flights = problem.flights(touching.after, t[indices] - touching.end)
+        found[V, indices], found[Z, indices], found[W, indices], found[E, indices] = flights
     found[[A, P]] = np.maximum(found[[A, P]], 0.0)
     return found

@@ -43,7 +43,7 @@ FEWER = 2
 """Difference in the number of nodes between a run and the coarser one that checks it."""
 WIDEST = 30.0
 """Largest radius that represents an infinite plate, over the first guess of `model_of`."""
-LOOSE, SHARE, KEPT = 4e-4, 1.0 / 3.0, 0.75
+LOOSE, TOLERANCE_FRACTION, KEPT = 4e-4, 1.0 / 3.0, 0.75
 """Largest accepted error by omitted modes: without a tolerance [1], and as a part of one; the part
 that omitted modes and branches together may take."""
 HEAVY, IN_CONTACT = 10.0, 0.7
@@ -62,7 +62,7 @@ WORK = 4.5e7
 
 def goal(rtol: float | None) -> float:
     """Return the largest accepted change with the number of modes [1] for a tolerance."""
-    return LOOSE if rtol is None else SHARE * rtol
+    return LOOSE if rtol is None else TOLERANCE_FRACTION * rtol
 
 
 def nodes_for(problem: DynamicProblem) -> int:
@@ -160,7 +160,7 @@ def _branched(
     if not followed(every, 2 * affordable(every)):
         return lowest, None
     problem = problem_of(lowest, count_of(law), close)
-    room = goal / SHARE - goal - _integration_error(problem, close)
+    room = goal / TOLERANCE_FRACTION - goal - _integration_error(problem, close)
 
     def beyond(contacts: tuple[ContactRun, ...]) -> bool:
         """Return whether the higher branches matter because of some contacts alone."""
@@ -274,7 +274,7 @@ def _accepted_change(found: DynamicImpact, goal: float, reach: Reach) -> float:
     """Return the largest accepted error by omitted modes [1]."""
     beyond = found.inertia.left(reach.outputs)[1]
     # Where omitted branches matter more than additional modes, a tenth of them is small enough.
-    enough = goal if beyond <= goal / SHARE else max(goal, 0.1 * beyond)
+    enough = goal if beyond <= goal / TOLERANCE_FRACTION else max(goal, 0.1 * beyond)
     whole = KEPT * reach.need
     if not found.inertia.jump <= whole < math.inf:
         return enough

@@ -101,24 +101,24 @@ def cut(
         If no element that ends at the event is found.
     """
     first = element_of(made)
-    place, nodes = _event(branch, unit, first, 1.0), radau(first.slope.size).x
-    if place is None:
+    position, nodes = _event(branch, unit, first, 1.0), radau(first.slope.size).x
+    if position is None:
         return None
     close = False
     for _ in range(_TRIES):
-        length = place - first.x
+        length = position - first.x
         remade = shorter(length, element_of(made).slope_at(first.x + length * nodes))
         if remade is None:
             raise UncutError
         made, again = remade, _event(branch, unit, element_of(remade), _BEYOND)
         if again is None:
             return made
-        off = abs(again - place) / length
+        off = abs(again - position) / length
         # Where the radius is largest, it hardly depends on the place, which rounding changes.
         close = off <= _NEAR or _radius_change(element_of(made), again) <= _SAME
         if off <= _CLOSE:
             break
-        place = again
+        position = again
     if not close:
         raise UncutError
     return made

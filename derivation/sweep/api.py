@@ -101,14 +101,14 @@ def sweep(
     (('impact.speed',), 'N', 'm/s')
     """
     study = Study(scene, make_plan(vary, sample, seed, method, sensitivity), rtol)
-    place = None if out is None else Path(out)
-    check(study, place)
-    if sensitivity or place is None or place.suffix not in READ_AS_NEEDED:
+    path = None if out is None else Path(out)
+    check(study, path)
+    if sensitivity or path is None or path.suffix not in READ_AS_NEEDED:
         check_memory(study, "sweep")
-    with open_store(study, place) as store:
+    with open_store(study, path) as store:
         compute(store, workers, scheduler, retry, quiet)
-        found = write_results(store, place, sensitivity, quiet)
-        data = data_set(store) if place is None or fits_in_memory(study) else _of_file(place)
+        found = write_results(store, path, sensitivity, quiet)
+        data = data_set(store) if path is None or fits_in_memory(study) else _of_file(path)
     return data if found is None else found.add_to(data)
 
 

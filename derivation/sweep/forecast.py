@@ -104,15 +104,15 @@ def _cost(study: Study) -> tuple[int, float]:
     size = study.plan.size
     for most in TIMING_SIZES:
         count = min(most, size)
-        places = np.unique(np.linspace(0, size - 1, count).astype(np.int64))
-        points = [study.plan.points(int(place), int(place) + 1) for place in places]
+        indices = np.unique(np.linspace(0, size - 1, count).astype(np.int64))
+        points = [study.plan.points(int(index), int(index) + 1) for index in indices]
         columns = {key: np.concatenate([p[key] for p in points]) for key in study.plan.keys}
         start = time.perf_counter()
         solve(study.scene, columns, study.rtol)
         seconds = time.perf_counter() - start
         if seconds > ENOUGH_SECONDS or count == size:
             break
-    return len(places), seconds * size / len(places)
+    return len(indices), seconds * size / len(indices)
 
 
 def _duration(seconds: float) -> str:

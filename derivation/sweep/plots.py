@@ -173,19 +173,19 @@ def _bars(axes: "Axes", data: "xr.Dataset", name: str) -> None:
     """Draw first-order and total indices of a result, a pair of bars for each key."""
     one = data.sel(result=name)
     keys = [str(key) for key in data["key"].values]
-    places = np.arange(len(keys))
+    positions = np.arange(len(keys))
     orders = (("first_order", -0.2, BLUE), ("total_order", 0.2, BROWN))
     for order, shift, color in orders:
         index = one[order].values
         error = np.abs(np.array([one[f"{order}_low"].values, one[f"{order}_high"].values]) - index)
         axes.barh(
-            places + shift, index, 0.36, xerr=error, color=color, ecolor="0.3", capsize=2,
+            positions + shift, index, 0.36, xerr=error, color=color, ecolor="0.3", capsize=2,
             label=order.replace("_", " "),
         )  # fmt: skip
     if np.isnan(one["first_order"].values).all():
         axes.text(0.5, 0.5, "no scatter", transform=axes.transAxes, ha="center", va="center")
         axes.set_xlim(0.0, 1.0)
-    axes.set_yticks(places, [_words(key) for key in keys], fontsize=8)
+    axes.set_yticks(positions, [_words(key) for key in keys], fontsize=8)
     axes.set_ylim(len(keys) - 0.5, -0.5)
     axes.set_xlabel("fraction of the variance [1]")
     _frame(axes)

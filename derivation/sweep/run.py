@@ -94,8 +94,8 @@ class Queue:
             batch = self._again.popleft()
         elif self._ranges:
             start, stop = self._ranges.popleft()
-            share = self.left if workers == 1 else self.left // (2 * workers)
-            size = min(self._size, max(share, self._least))
+            per_worker = self.left if workers == 1 else self.left // (2 * workers)
+            size = min(self._size, max(per_worker, self._least))
             batch = Batch(start, min(stop, start + size))
             if batch.stop < stop:
                 self._ranges.appendleft((batch.stop, stop))
@@ -231,8 +231,8 @@ def _task(store: Store, batch: Batch) -> Task:
     study = store.study
     columns = study.plan.points(batch.start, batch.stop)
     if batch.renewed:
-        places = np.array(batch.numbers) - batch.start
-        columns = {key: values[places] for key, values in columns.items()}
+        indices = np.array(batch.numbers) - batch.start
+        columns = {key: values[indices] for key, values in columns.items()}
     return study.base["scene"], columns, study.rtol, study.base["version"]
 
 

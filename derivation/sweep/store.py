@@ -91,10 +91,10 @@ class Store:
         import pyarrow as pa
 
         old = self._read(part)
-        places = np.arange(part.stop - part.start)
-        places[np.array(numbers) - part.start] = len(old) + np.arange(len(numbers))
+        indices = np.arange(part.stop - part.start)
+        indices[np.array(numbers) - part.start] = len(old) + np.arange(len(numbers))
         both = pa.concat_tables([old, _parquet_table(content)])
-        self._write(part.path.name, _parquet_content(both.take(places)))
+        self._write(part.path.name, _parquet_content(both.take(indices)))
         self._last = None
         self._note(part.start, part.stop, len(numbers), seconds)
 

@@ -104,10 +104,10 @@ def _add_reasons(reasons: dict[str, str], store: Store, start: int, status: Any,
     """Add new reasons and warnings to `reasons`, each with its first point."""
     if len(reasons) >= MOST_WARNINGS:
         return
-    for text, place in zip(*np.unique(new.astype(str), return_index=True), strict=True):
+    for text, index in zip(*np.unique(new.astype(str), return_index=True), strict=True):
         if text and text not in reasons and len(reasons) < MOST_WARNINGS:
-            number = start + int(place)
+            number = start + int(index)
             points = store.study.plan.points(number, number + 1)
             where = ", ".join(f"{key} = {values[0]:.6g}" for key, values in points.items())
-            state = "" if status[place] == "finished" else f" ({status[place]})"
+            state = "" if status[index] == "finished" else f" ({status[index]})"
             reasons[str(text)] = f"at {where}{state}"

@@ -195,10 +195,10 @@ def _characters(
     )
     made.attrs.update(about | {"_Encoding": "utf-8"})
 
-    def fill(place: Slices, texts: Any) -> None:
+    def fill(slices: Slices, texts: Any) -> None:
         which, different = pd.factorize(texts.ravel())
         coded = np.array([text.encode() for text in different], dtype=f"S{length}")
-        made[place] = coded[which].view("S1").reshape(*texts.shape, length)
+        made[slices] = coded[which].view("S1").reshape(*texts.shape, length)
 
     return fill
 
@@ -216,14 +216,14 @@ def _arrays(store: Store, create: Callable[..., Fill], progress: Progress) -> No
         points = {key: create(key, dims, chunks, labels(key)) for key in plan.keys}
     beside = {"coordinates": " ".join(points)} if points else {}  # as CF calls them
     made = {name: create(name, dims, chunks, labels(name) | beside) for name in (*NUMBERS, *TEXTS)}
-    for place, start, stop in blocks(shape):
+    for slices, start, stop in blocks(shape):
         table = store.table(start, stop)
         for name, fill in made.items():
-            fill(place, column(table, name).reshape(_extent(shape, place)))
+            fill(slices, column(table, name).reshape(_extent(shape, slices)))
         if points:
             found = study.plan.points(start, stop)
             for key, fill in points.items():
-                fill(place, found[key])
+                fill(slices, found[key])
         progress("write", stop + 1, plan.size)
 
 
@@ -236,19 +236,19 @@ def blocks(shape: tuple[int, ...]) -> Iterator[tuple[Slices, int, int]]:
     counts = tuple(-(-length // part) for length, part in zip(shape, chunks, strict=True))
     start = 0
     for number in range(prod(counts)):
-        where, place = number, []
+        where, slices = number, []
         for length, part, count in list(zip(shape, chunks, counts, strict=True))[::-1]:
             where, index = divmod(where, count)
-            place.append(slice(index * part, min((index + 1) * part, length)))
-        piece = tuple(place[::-1])
+            slices.append(slice(index * part, min((index + 1) * part, length)))
+        piece = tuple(slices[::-1])
         stop = start + prod(_extent(shape, piece))
         yield piece, start, stop
         start = stop
 
 
-def _extent(shape: tuple[int, ...], place: Slices) -> tuple[int, ...]:
+def _extent(shape: tuple[int, ...], slices: Slices) -> tuple[int, ...]:
     """Return the lengths of a piece."""
-    pairs = zip(shape, place, strict=True)
+    pairs = zip(shape, slices, strict=True)
     return tuple(len(range(*part.indices(length))) for length, part in pairs)
 
 

@@ -103,9 +103,9 @@ def test_contact_set_is_the_only_admissible_one() -> None:
         forces, active = contact_forces(compliance, gap, np.zeros(5, dtype=bool))
         solutions = []
         for chosen in itertools.product([False, True], repeat=5):
-            place = np.flatnonzero(chosen)
+            indices = np.flatnonzero(chosen)
             trial = np.zeros(5)
-            trial[place] = np.linalg.solve(compliance[np.ix_(place, place)], -gap[place])
+            trial[indices] = np.linalg.solve(compliance[np.ix_(indices, indices)], -gap[indices])
             if (trial >= 0.0).all() and (compliance @ trial + gap > -1e-10).all():
                 solutions.append(trial)
         assert len(solutions) == 1

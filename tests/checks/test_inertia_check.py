@@ -16,7 +16,7 @@ from derivation.cli import main
 from derivation.engine.files import measurements
 from derivation.scene import limits, waves
 from derivation.scene.effect_selection import SelectedEffects, decide
-from derivation.scene.effects.inertia import higher_branch_error, weight_share
+from derivation.scene.effects.inertia import higher_branch_error, weight_work_ratio
 from derivation.scene.law import ContactLaw
 from derivation.scene.limits import zener_number
 from derivation.scene.model import Model, model_of
@@ -58,9 +58,9 @@ def test_weight_increases_the_effect_of_inertia() -> None:
     every = [inertia_check.selectable_effects(model) for model in (light, heavy)]
     still = inertia_check.quasi_static(heavy)
     assert still is not None
-    share = weight_share(heavy, still.max_indentation)
-    assert share > 1.0
-    assert prices[1] > share * prices[0]
+    work_ratio = weight_work_ratio(heavy, still.max_indentation)
+    assert work_ratio > 1.0
+    assert prices[1] > work_ratio * prices[0]
     lost = []
     for model, effects in zip((light, heavy), every, strict=True):
         moving = waves.impact(ContactLaw(model, effects), 1e-4)
@@ -70,7 +70,10 @@ def test_weight_increases_the_effect_of_inertia() -> None:
     # The bound on the omitted branches grows with the weight too.
     found = waves.impact(ContactLaw(heavy, every[1]), 1e-3)
     a, time = found.max_contact_radius, found.contact_time
-    assert found.inertia.omitted_branch_error[-1] > share * higher_branch_error(heavy, a, time)[-1]
+    assert (
+        found.inertia.omitted_branch_error[-1]
+        > work_ratio * higher_branch_error(heavy, a, time)[-1]
+    )
 
 
 NUMBERS, OUT = (1, 5, 9, 16, 17, 44, 76), (5, 17, 76)
@@ -78,9 +81,9 @@ NUMBERS, OUT = (1, 5, 9, 16, 17, 44, 76), (5, 17, 76)
 
 @pytest.mark.parametrize("number", NUMBERS)
 def test_bounds_hold_in_random_scenes(number: int) -> None:
-    data, place = measure.scene(number)
+    data, position = measure.scene(number)
     assert inertia_check.reason_to_skip(data) == ""
-    row = inertia_check.solve(number, data, place)
+    row = inertia_check.solve(number, data, position)
     assert isinstance(row, InertiaRow)
     assert row.included is (number not in OUT)
     assert row.error <= min(row.bound, row.rtol)
@@ -150,10 +153,15 @@ def test_recorded_scenes_are_within_their_bounds() -> None:
 def test_command_shows_both_sides_of_the_threshold(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def solve(number: int, data: Scene, place: float) -> InertiaRow | str:
+    def solve(number: int, data: Scene, position: float) -> InertiaRow | str:
         known = data["inertia"]["branches"] == "A0"
         return replace(
-            EXACT, number=number, rtol=place, included=known, bound=place, omission_bound=math.inf
+            EXACT,
+            number=number,
+            rtol=position,
+            included=known,
+            bound=position,
+            omission_bound=math.inf,
         )
 
     monkeypatch.setattr(inertia_check, "solve", solve)
@@ -199,14 +207,16 @@ def test_scenes_are_skipped_for_stated_reasons() -> None:
 
 def test_skipped_scenes_are_reported_with_the_reason(monkeypatch: pytest.MonkeyPatch) -> None:
     """A skipped scene is reported with its reason: too many modes, or speed out of range."""
-    data, place = measure.scene(9)
-    found = inertia_check.solve(9, data, place)
+    data, position = measure.scene(9)
+    found = inertia_check.solve(9, data, position)
     assert isinstance(found, InertiaRow)
     monkeypatch.setattr(inertia_check, "MAX_MODES", found.modes // 2)
-    assert inertia_check.solve(9, data, place) == (f"reference: more than {found.modes // 2} modes")
+    assert inertia_check.solve(9, data, position) == (
+        f"reference: more than {found.modes // 2} modes"
+    )
 
     def beyond(law: ContactLaw, *_: object) -> None:
         limits.refuse(replace(law, model=replace(law.model, v0=1e9)))
 
     monkeypatch.setattr(inertia_check.waves, "impact", beyond)
-    assert inertia_check.solve(9, data, place) == "impact.speed"
+    assert inertia_check.solve(9, data, position) == "impact.speed"

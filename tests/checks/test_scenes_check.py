@@ -49,8 +49,8 @@ def test_scenes_are_valid_reproducible_and_varied() -> None:
         assert 0.01 <= scene["impact"]["speed"] <= 50.0
     inertia = sum(scene["effects"]["inertia"] for scene in found)
     assert 70 < inertia < 130
-    for some in ("gravity", "retardation_time", "mass", "non_hertzian_pressure"):
-        assert any(some in str(scene) for scene in found), some
+    for key in ("gravity", "retardation_time", "mass", "non_hertzian_pressure"):
+        assert any(key in str(scene) for scene in found), key
     assert {scene["plate"]["edge"] for scene in found} == {
         "paper", "simply-supported", "clamped",
     }  # fmt: skip

@@ -19,8 +19,8 @@ def executed(tmp_path_factory: pytest.TempPathFactory) -> list[Any]:
     """Return the code cells as executed by a new kernel with its settings in another folder."""
     home = tmp_path_factory.mktemp("jupyter")
     notebook = nbformat.read(NOTEBOOK, as_version=4)
-    places = ("IPYTHONDIR", "JUPYTER_RUNTIME_DIR", "JUPYTER_CONFIG_DIR", "JUPYTER_DATA_DIR")
-    environment = {**os.environ, **dict.fromkeys(places, str(home)), "PYTHONPATH": str(ROOT)}
+    variables = ("IPYTHONDIR", "JUPYTER_RUNTIME_DIR", "JUPYTER_CONFIG_DIR", "JUPYTER_DATA_DIR")
+    environment = {**os.environ, **dict.fromkeys(variables, str(home)), "PYTHONPATH": str(ROOT)}
     NotebookClient(notebook, timeout=300, kernel_name="python3").execute(
         cwd=str(home), env=environment
     )

@@ -57,9 +57,9 @@ def test_differences_are_a_distance(one: str, other: str, third: str) -> None:
 
 @given(WORD, st.data())
 def test_one_wrong_letter_is_one_difference(word: str, data: st.DataObject) -> None:
-    place = data.draw(st.integers(0, len(word) - 1))
-    assert _differences(word, word[:place] + word[place + 1 :]) == 1
-    assert _differences(word, word[:place] + "x" + word[place + 1 :]) == 1
-    assert _differences(word, word[:place] + "x" + word[place:]) == 1
-    swapped = word[:place] + word[place : place + 2][::-1] + word[place + 2 :]
+    index = data.draw(st.integers(0, len(word) - 1))
+    assert _differences(word, word[:index] + word[index + 1 :]) == 1
+    assert _differences(word, word[:index] + "x" + word[index + 1 :]) == 1
+    assert _differences(word, word[:index] + "x" + word[index:]) == 1
+    swapped = word[:index] + word[index : index + 2][::-1] + word[index + 2 :]
     assert _differences(word, swapped) == (swapped != word)

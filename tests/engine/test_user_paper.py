@@ -26,13 +26,13 @@ WORDS = re.compile(r"\b(plates?|spheres?)\b", re.IGNORECASE)
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Build a paper from the examples of the guide; all commands share a cache next to it."""
-    place = tmp_path_factory.mktemp("own") / "my film"
-    run("new", str(place), home=place.parent)
-    assert apply_examples(place, paper=True) >= 15
-    shown = run("build", "--paper", str(place), home=place.parent)
+    path = tmp_path_factory.mktemp("own") / "my film"
+    run("new", str(path), home=path.parent)
+    assert apply_examples(path, paper=True) >= 15
+    shown = run("build", "--paper", str(path), home=path.parent)
     timed = re.findall(r"✓ (\w+) +[\d.]+ s", shown)
     assert timed == ["derive", "rewrite", "generate", "misprints", "check", "report"]
-    return place
+    return path
 
 
 def run(*arguments: str, home: Path, status: int = 0) -> str:

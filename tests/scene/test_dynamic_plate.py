@@ -131,9 +131,9 @@ def test_animation_shows_the_motion_of_the_plate(tmp_path: Path, monkeypatch: An
 
     monkeypatch.setattr(animation, "FRAMES", 6)
     toml = written(tmp_path, SCENE)
-    place = tmp_path / "plate.gif"
-    assert main(["simulate", str(toml), "--animate", str(place), "--json", "-"]) == 0
-    with Image.open(place) as movie:
+    path = tmp_path / "plate.gif"
+    assert main(["simulate", str(toml), "--animate", str(path), "--json", "-"]) == 0
+    with Image.open(path) as movie:
         assert movie.n_frames == 6
     assert main(["simulate", str(toml), "--animate", str(tmp_path / "plate.mp4")]) == 2
     toml.write_text(toml.read_text().replace('inertia = "auto"', "inertia = false"))

@@ -137,8 +137,8 @@ def test_parameters_are_those_of_the_largest_contact() -> None:
     assert rows["finite_radius"].parameter_value == pytest.approx(0.37 * a / m.b, rel=0.01)
     # Static deflection, simply supported over the paper's edge: (3 + nu)/(2 (1 + nu)).
     nu = m.lam / (2 * (m.lam + m.mu))
-    share = rows["bending"].parameter_value * ((3 + nu) / (2 * (1 + nu)) - 1)
-    assert rows["edge"].parameter_value == pytest.approx(share, rel=0.15)
+    extra = rows["bending"].parameter_value * ((3 + nu) / (2 * (1 + nu)) - 1)
+    assert rows["edge"].parameter_value == pytest.approx(extra, rel=0.15)
 
 
 def test_unneeded_outputs_include_no_effects() -> None:
@@ -217,25 +217,25 @@ def test_reference_supports_only_the_law_of_the_paper(tmp_path: Path) -> None:
         paper_law.in_doubles(load(example))
     assert main(["reference", str(example), "--digits", "15"]) == 2
     lines = str(caught.value).rpartition("[effects] ")[2].split(", ")
-    place = tmp_path / "scene.toml"
-    place.write_text(example.read_text() + "\n[effects]\n" + "\n".join(lines) + "\n")
-    found = paper_law.in_doubles(load(place))
+    path = tmp_path / "scene.toml"
+    path.write_text(example.read_text() + "\n[effects]\n" + "\n".join(lines) + "\n")
+    found = paper_law.in_doubles(load(path))
     assert found.effects.law.effects == WHOLE_PLATE | {"hertz"}
     paper = (EXAMPLES / "paper.toml").read_text()
     for key in ("bending = false", "finite_radius = false"):
-        place.write_text(f"{paper}{key}\n")
+        path.write_text(f"{paper}{key}\n")
         with pytest.raises(SceneError, match=key.partition(" ")[0]):
-            paper_law.in_doubles(load(place))
+            paper_law.in_doubles(load(path))
 
 
 def test_reference_of_a_quasi_static_plate_needs_no_density(tmp_path: Path) -> None:
-    text, place = (EXAMPLES / "paper.toml").read_text(), tmp_path / "scene.toml"
-    place.write_text(text.replace("inertia = false", "inertia = true"))
+    text, path = (EXAMPLES / "paper.toml").read_text(), tmp_path / "scene.toml"
+    path.write_text(text.replace("inertia = false", "inertia = true"))
     with pytest.raises(SceneError, match=r"plate\.density"):
-        paper_law.in_doubles(load(place))
+        paper_law.in_doubles(load(path))
     known = paper_law.in_doubles(load(EXAMPLES / "paper.toml"))
-    place.write_text(text.replace("inertia = false", 'inertia = "auto"'))
-    assert paper_law.in_doubles(load(place)).contact_time == known.contact_time
+    path.write_text(text.replace("inertia = false", 'inertia = "auto"'))
+    assert paper_law.in_doubles(load(path)).contact_time == known.contact_time
 
 
 def test_rows_are_shown_in_every_output() -> None:

@@ -69,8 +69,8 @@ def test_former_name_gives_the_same_scene_and_one_warning(
 
 def test_only_new_names_are_keys() -> None:
     for old, new in KEYS.items():
-        (table, name), (there, known) = old.split("."), new.split(".")
-        assert table == there
+        (table, name), (new_table, known) = old.split("."), new.split(".")
+        assert table == new_table
         assert known in TABLES[table].model_fields
         assert name not in TABLES[table].model_fields
 

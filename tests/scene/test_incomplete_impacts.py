@@ -152,8 +152,8 @@ def test_run_above_the_work_limit_is_not_started(monkeypatch: pytest.MonkeyPatch
     assert max(history.problem.omega.size for history in begun) == first.problem.omega.size
     assert judged.inertia.complete
     # The estimated error covers the difference from the run with more modes.
-    for place, (coarse, fine) in enumerate(zip(judged.numbers, whole.numbers, strict=True)):
-        error = IRREGULAR * judged.inertia.mode_convergence[place]
+    for index, (coarse, fine) in enumerate(zip(judged.numbers, whole.numbers, strict=True)):
+        error = IRREGULAR * judged.inertia.mode_convergence[index]
         assert coarse == pytest.approx(fine, rel=error)
     begun.clear()
     waves.impact.cache_clear()

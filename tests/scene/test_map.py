@@ -73,11 +73,11 @@ def test_explain_agrees_on_both_sides_of_each_line(name: str) -> None:
     compared = 0
     for row, column in np.argwhere(known[:-1] & known[1:]):
         if (included[:, row, column] != included[:, row + 1, column]).any():
-            for place in ((row, column), (row + 1, column)):
-                point_scene = _scene_at(result, found, *place)
+            for index in ((row, column), (row + 1, column)):
+                point_scene = _scene_at(result, found, *index)
                 _, selection = selected_effects(point_scene, result.accuracy.rtol)
-                shown = [x for k, x in enumerate(auto) if included[(k, *place)]]
-                assert [x for x in selection.included if x in auto] == shown, place
+                shown = [x for k, x in enumerate(auto) if included[(k, *index)]]
+                assert [x for x in selection.included if x in auto] == shown, index
                 compared += 1
     assert compared >= 2
 
@@ -110,8 +110,8 @@ def test_ticks_point_to_the_side_where_the_effect_matters(name: str) -> None:
     drawn = [r for r in map_.lines(found).values() if np.nanmin(r) < 1.0 < np.nanmax(r)]
     to_screen = made.axes[0].transData
     for line, ratio in zip(ticked, drawn, strict=True):
-        places = np.stack(np.meshgrid(found.thicknesses, found.radii), axis=-1)[ratio > 1.0]
-        side = to_screen.transform(places)
+        points = np.stack(np.meshgrid(found.thicknesses, found.radii), axis=-1)[ratio > 1.0]
+        side = to_screen.transform(points)
         votes = 0.0
         for path in line.get_paths():
             for begin, end in pairwise(to_screen.transform(path.vertices)):
@@ -136,8 +136,8 @@ def test_map_marks_the_scene(tmp_path: Path) -> None:
 def test_marker_is_at_the_contact_of_the_scene() -> None:
     result = simulate(shared_scenes.scene())
     [star] = [x for x in map_.figure(result, 1e-3).axes[0].lines if x.get_marker() == "*"]
-    place = 0.02 / 0.5, result.max_contact_radius / 0.02
-    assert np.ravel(star.get_data()) == pytest.approx(place, rel=1e-12)
+    point = 0.02 / 0.5, result.max_contact_radius / 0.02
+    assert np.ravel(star.get_data()) == pytest.approx(point, rel=1e-12)
 
 
 @pytest.mark.usefixtures("coarse")

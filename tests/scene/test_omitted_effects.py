@@ -23,7 +23,7 @@ BOUNDS = {
     "law_errors",
 }  # fmt: skip
 """Kernels that the bounds call, also those of omitted effects in the table."""
-WHOLE = {"contact_plates", "plate_share"}
+WHOLE = {"contact_plates", "plate_contribution"}
 ZEROS = {"bessel_j0_zeros", "bessel_j1_at_j0_zeros"}
 ALONE: dict[str, set[str]] = {
     "hertz": set(),
@@ -162,10 +162,10 @@ for effect, module in (
 def test_only_required_modules_are_imported(
     name: str, more: str, effects: set[str], tmp_path: Path
 ) -> None:
-    place = tmp_path / "scene.toml"
-    place.write_text(f"{(EXAMPLES / name).with_suffix('.toml').read_text()}\n[effects]\n{more}\n")
+    path = tmp_path / "scene.toml"
+    path.write_text(f"{(EXAMPLES / name).with_suffix('.toml').read_text()}\n[effects]\n{more}\n")
     run = subprocess.run(
-        [sys.executable, "-c", COUNT, str(place)],
+        [sys.executable, "-c", COUNT, str(path)],
         cwd=Path(derivation.__file__).parent.parent, capture_output=True, text=True, check=True,
     )  # fmt: skip
     requested = ("non_hertzian_pressure", "viscosity", "inertia", "inertia")

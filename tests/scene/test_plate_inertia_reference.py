@@ -137,8 +137,8 @@ def test_short_contacts_have_a_larger_model_error() -> None:
 def test_wide_contacts_have_the_larger_model_error() -> None:
     """The larger model error applies if the contact radius on a half-space would be above 0.3 H."""
     for row in DATA["impacts"]:
-        place, model = row["parameters"], model_of(read(row["scene"]))
-        wide = place["contact_radius_over_thickness"] > 0.3
+        parameters, model = row["parameters"], model_of(read(row["scene"]))
+        wide = parameters["contact_radius_over_thickness"] > 0.3
         rough = inertia_error(model, 1e-3 * model.h, 1.0)["max_force"] > 5e-3
         assert rough == wide, row["name"]
 

@@ -212,11 +212,11 @@ def test_rows_in_other_units_of_length_are_the_same_impacts(length: float) -> No
     plate |= {key: plate[key] * length for key in ("radius", "half_thickness")}
     plate |= {key: plate[key] / length for key in ("lame_lambda", "lame_mu")}
     scene = read(paper | {"sphere": sphere, "plate": plate})
-    there = solve(scene, {"impact.speed": speeds * length})
+    in_other_units = solve(scene, {"impact.speed": speeds * length})
     powers = {"max_indentation": 1, "max_force": 1, "max_contact_radius": 1, "max_pressure": -1}
     for name in ("contact_time", "restitution", *powers):
         scaled = here.results[name] * length ** powers.get(name, 0)
-        assert there.results[name] == pytest.approx(scaled, rel=1e-12)
+        assert in_other_units.results[name] == pytest.approx(scaled, rel=1e-12)
 
 
 @pytest.mark.parametrize(

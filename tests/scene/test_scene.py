@@ -231,8 +231,8 @@ def test_damaged_scene_raises_a_scene_error(tmp_path: Path) -> None:
     text, refused = GOOD, 0
     path = tmp_path / "scene.toml"
     for _ in range(400):
-        place = chance.randrange(len(text))
-        path.write_text(text[:place] + chance.choice('[]=."-0\nx{}') + text[place + 1 :])
+        index = chance.randrange(len(text))
+        path.write_text(text[:index] + chance.choice('[]=."-0\nx{}') + text[index + 1 :])
         try:
             load(path)
         except SceneError:

@@ -179,10 +179,10 @@ def test_history_with_nan_is_rejected(
     hole = History(*np.full((5, 3), math.nan))
     monkeypatch.setattr(Result, "_history", lambda *_: hole)
     file = shared_scenes.written(tmp_path, scene(effects={"inertia": False}).to_json())
-    place = tmp_path / "a.csv"
-    assert main(["simulate", str(file), "--csv", str(place)]) == 2
+    path = tmp_path / "a.csv"
+    assert main(["simulate", str(file), "--csv", str(path)]) == 2
     assert "expected finite numbers" in capsys.readouterr().err
-    assert not place.exists()
+    assert not path.exists()
 
 
 def test_json_with_nan_is_rejected() -> None:

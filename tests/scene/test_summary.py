@@ -137,8 +137,8 @@ def test_notebook_shows_the_summary_and_hides_details(example: Path) -> None:
     marks = ["<table>", "Accuracy: ", "Effects: "]
     marks += ["<b>Warning:</b>"] if result.warnings else []
     marks += ["<details>", "max. change if omitted"]
-    places = [page.index(mark) for mark in marks]
-    assert places == sorted(places)
+    positions = [page.index(mark) for mark in marks]
+    assert positions == sorted(positions)
     assert page.endswith("</details>")
 
 

@@ -19,12 +19,11 @@ Captured = pytest.CaptureFixture[str]
 
 
 def test_rows_are_the_simulations_of_their_values(tmp_path: Path) -> None:
-    place = tmp_path / "rows.csv"
+    path = tmp_path / "rows.csv"
     assert (
-        main(["simulate", str(PAPER), "--sweep", "impact.speed=0.5:1.5:3", "--csv", str(place)])
-        == 0
+        main(["simulate", str(PAPER), "--sweep", "impact.speed=0.5:1.5:3", "--csv", str(path)]) == 0
     )
-    with place.open() as stream:
+    with path.open() as stream:
         rows = list(csv.DictReader(stream))
     assert [float(row["impact.speed"]) for row in rows] == [0.5, 1.0, 1.5]
     for row in rows:

@@ -56,9 +56,9 @@ def integrated(model: Model, end: float) -> tuple[float, float, float]:
     def slope(a: float, q: np.ndarray) -> float:
         """Return R/(2 a) times the static slope less the deviation of the modes from statics."""
         y, P = a * phi, force(a * a)
-        share = np.sinc(y / np.pi)
-        turned = np.cos(y) - share
-        missed = compliance * P * (3.0 * share**2 + turned * felt(y)) - turned * q
+        modal_weights = np.sinc(y / np.pi)
+        turned = np.cos(y) - modal_weights
+        missed = compliance * P * (3.0 * modal_weights**2 + turned * felt(y)) - turned * q
         whole = float(indentation_slope(a, model.R, model.h, model.b)) - float(np.sum(missed)) / a
         return whole * model.R / (2.0 * a)
 
@@ -85,8 +85,8 @@ def integrated(model: Model, end: float) -> tuple[float, float, float]:
         rtol=1e-12, atol=small, dense_output=True,
     )  # fmt: skip
     s = float(found.t_events[0][-1])
-    places = np.linspace(0.2 * s, 0.9 * s, 401)
-    near = places[int(np.argmax(found.sol(places)[2]))]
+    points = np.linspace(0.2 * s, 0.9 * s, 401)
+    near = points[int(np.argmax(found.sol(points)[2]))]
     fine = np.linspace(near - 0.01 * s, near + 0.01 * s, 41)
     shape = np.polynomial.Chebyshev.fit(fine, [force(found.sol(x)[2]) for x in fine], 8)
     peak = max(float(shape(x.real)) for x in shape.deriv().roots() if abs(x.imag) < 1e-9 * s)
@@ -133,8 +133,8 @@ def test_results_do_not_depend_on_nodes_and_energy_balance_closes(h: float) -> N
     assert abs(found.energy_balance.residual) <= 1e-11
     assert 0.0 < found.restitution < 1.0
     for one, two in zip(fine.contacts[:-1], fine.contacts[1:], strict=True):
-        for share in np.linspace(0.01, 0.99, 197):
-            state = fine.problem.flown(one.after, share * (two.start - one.end))
+        for fraction in np.linspace(0.01, 0.99, 197):
+            state = fine.problem.flown(one.after, fraction * (two.start - one.end))
             assert state.approach <= 1e-12
 
 

@@ -117,10 +117,10 @@ def test_invalid_grids_are_rejected(wrong: list[str], message: str) -> None:
     ],
 )
 def test_invalid_distributions_are_rejected(tmp_path: Path, line: str, message: str) -> None:
-    place = tmp_path / "vary.toml"
-    place.write_text(f"[vary]\n{line}\n")
+    path = tmp_path / "vary.toml"
+    path.write_text(f"[vary]\n{line}\n")
     with pytest.raises(SceneError) as error:
-        load_distributions(place)
+        load_distributions(path)
     assert message in str(error.value)
     assert "vary.toml" in str(error.value)
 

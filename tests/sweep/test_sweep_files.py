@@ -237,21 +237,21 @@ def test_study_of_only_rejected_points_fails(tmp_path: Path, capsys: Captured) -
 
 @pytest.mark.parametrize("keys", [1, 2])
 def test_study_is_plotted(formula: Formula, tmp_path: Path, keys: int) -> None:
-    place = tmp_path / "rows.png"
+    path = tmp_path / "rows.png"
     vary = ["--vary", "impact.speed=1:3:9:log", "--vary", "plate.thickness=0.1:0.2:4"][: 2 * keys]
-    assert main(["sweep", str(QUICK), *vary, "--plot", str(place)]) == 0
-    assert place.read_bytes().startswith(b"\x89PNG")
+    assert main(["sweep", str(QUICK), *vary, "--plot", str(path)]) == 0
+    assert path.read_bytes().startswith(b"\x89PNG")
     assert formula.calls
 
 
 def test_explain_computes_only_a_few_points(
     formula: Formula, capsys: Captured, tmp_path: Path
 ) -> None:
-    place = tmp_path / "forecast.json"
+    path = tmp_path / "forecast.json"
     vary = ["--vary", "impact.speed=1:3:1000", "--vary", "plate.thickness=0.1:0.2:1000"]
-    assert main(["sweep", str(QUICK), *vary, "--explain", "--json", str(place)]) == 0
+    assert main(["sweep", str(QUICK), *vary, "--explain", "--json", str(path)]) == 0
     assert "1,000,000 points" in capsys.readouterr().out
-    found = json.loads(place.read_text())
+    found = json.loads(path.read_text())
     assert found["probes"] == 4
     assert found["effects"]["hertz"] == 4
     assert found["seconds"] > 0

@@ -76,14 +76,14 @@ def test_command_prints_and_plots_indices(
     line = '{distribution = "uniform", low = 1, high = 2}'
     given.write_text("[vary]\n" + "".join(f'"{key}" = {line}\n' for key in KEYS))
     begin = ["sweep", str(QUICK), "--distributions", str(given), "--sample", "64"]
-    picture, place = tmp_path / "bars.png", tmp_path / "found.json"
-    more = ["--sensitivity", "--plot", str(picture), "--json", str(place)]
+    picture, path = tmp_path / "bars.png", tmp_path / "found.json"
+    more = ["--sensitivity", "--plot", str(picture), "--json", str(path)]
     assert main([*begin, *more]) == 0
     shown = capsys.readouterr().out
     assert "from 320 runs" in shown
     assert "no scatter" in shown
     assert picture.read_bytes().startswith(b"\x89PNG")
-    found = json.loads(place.read_text())["sensitivities"]
+    found = json.loads(path.read_text())["sensitivities"]
     assert len(found) == len(KEYS) * len(UNITS)
 
 

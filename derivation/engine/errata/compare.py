@@ -372,8 +372,8 @@ def _partial_products(expression: sp.Expr) -> Iterator[sp.Expr]:
     """Yield products of some factors, the smallest first."""
     factors = sp.Mul.make_args(expression)
     for size in range(1, len(factors)):
-        for some in combinations(factors, size):
-            yield sp.Mul(*some)
+        for subset in combinations(factors, size):
+            yield sp.Mul(*subset)
 
 
 def _as_power(case: _Case, repair: Repair) -> Repair:

@@ -62,40 +62,40 @@ class Edit:
 def single_edits(root: Position, reference: Values, search: VariantSearch) -> list[Edit]:
     """Return all edits below a position that give the correct values, the most likely first."""
     found: list[Edit] = []
-    for place, need in with_required_values(root, reference, search.points):
-        found += ratio_edits(place, need, search)
-        found += exponent_edits(place, need, search)
-        found += term_edits(place, need, search)
-        found += factored_edits(place, need, search)
-        for variant in variants(place, search):
+    for position, need in with_required_values(root, reference, search.points):
+        found += ratio_edits(position, need, search)
+        found += exponent_edits(position, need, search)
+        found += term_edits(position, need, search)
+        found += factored_edits(position, need, search)
+        for variant in variants(position, search):
             if agree(variant.value, need[0]):
-                edit = edit_of(variant, place)
+                edit = edit_of(variant, position)
                 if search.points.same(edit.new, need):
                     found.append(edit)
     return sorted(found, key=Edit.order)
 
 
-def _edit(kind: str, place: Position, new: sp.Expr, says: str, extra: float = 0.0) -> Edit:
-    group = 0.5 if place.role == TERMS else 0.0
-    return Edit(kind, place, new, says, COST[kind] + group + extra)
+def _edit(kind: str, position: Position, new: sp.Expr, says: str, extra: float = 0.0) -> Edit:
+    group = 0.5 if position.role == TERMS else 0.0
+    return Edit(kind, position, new, says, COST[kind] + group + extra)
 
 
-def edit_of(variant: Variant, place: Position) -> Edit:
+def edit_of(variant: Variant, position: Position) -> Edit:
     """Return the edit that replaces the expression at a position by a variant."""
     new = variant.build()
     if variant.kind == MISSING_PARENTHESES:
         shown = variant.shown() if variant.shown else sp.sstr(new)
-        says = f"set the parentheses {shown} in {name_of(place)}"
+        says = f"set the parentheses {shown} in {name_of(position)}"
     elif variant.kind == SUPERFLUOUS:
         shown = variant.shown() if variant.shown else sp.sstr(new)
-        says = f"take the parentheses away, {shown}, in {name_of(place)}"
+        says = f"take the parentheses away, {shown}, in {name_of(position)}"
     elif variant.kind == SYMBOL:
         says = variant.shown() if variant.shown else f"read {_text(new)}"
-    elif variant.kind in (SIGN, STRAY, MISSING, CONSTANT, TWICE) and own_ratio(place):
-        return ratio_edit(place, new / place.node, variant.extra, variant.kind)
+    elif variant.kind in (SIGN, STRAY, MISSING, CONSTANT, TWICE) and own_ratio(position):
+        return ratio_edit(position, new / position.node, variant.extra, variant.kind)
     else:
-        says = f"read {_text(new)} instead of {_text(place.node)}"
-    return _edit(variant.kind, place, new, says, variant.extra)
+        says = f"read {_text(new)} instead of {_text(position.node)}"
+    return _edit(variant.kind, position, new, says, variant.extra)
 
 
 def _text(expression: sp.Expr) -> str:
@@ -105,17 +105,17 @@ def _text(expression: sp.Expr) -> str:
 # Ratio: the required value is a simple multiple of the given one.
 
 
-def ratio_edits(place: Position, need: Values, search: VariantSearch) -> Iterator[Edit]:
+def ratio_edits(position: Position, need: Values, search: VariantSearch) -> Iterator[Edit]:
     """Yield edits of sign, constant, extra or missing factor, and a factor counted twice."""
-    if not own_ratio(place):
+    if not own_ratio(position):
         return
-    have = search.points.values(place.node)
+    have = search.points.values(position.node)
     ratio = [w / v for w, v in zip(need, have, strict=True)]
     simple = monomial(ratio, search.points)
     if simple is not None:
-        yield ratio_edit(place, simple)
+        yield ratio_edit(position, simple)
         return
-    yield from _lone_terms(place, ratio, search)
+    yield from _lone_terms(position, ratio, search)
     for factor in search.factors:
         values = search.points.values(factor)
         for power in (-1, 1, -2, 2):
@@ -126,40 +126,42 @@ def ratio_edits(place: Position, need: Values, search: VariantSearch) -> Iterato
                 extra = 0.3 * (abs(power) - 1) + (
                     0.0 if left == 1 else 1.0 if left.is_number else 3.0
                 )
-                twice = power < 0 and place.node.has(factor)
+                twice = power < 0 and position.node.has(factor)
                 kind = TWICE if twice else MISSING
                 extra += 0.0 if twice else 1.0
-                yield ratio_edit(place, left * factor**power, extra, kind)
+                yield ratio_edit(position, left * factor**power, extra, kind)
 
 
 def ratio_edit(
-    place: Position, ratio: sp.Expr, extra: float = 0.0, kind: str | None = None
+    position: Position, ratio: sp.Expr, extra: float = 0.0, kind: str | None = None
 ) -> Edit:
     """Return the multiplication of an expression by a ratio, as an edit with a description."""
-    new, where = ratio * place.node, name_of(place)
+    new, where = ratio * position.node, name_of(position)
     if ratio == -1:
-        return _edit(SIGN, place, new, f"reverse the sign of {where}", extra)
+        return _edit(SIGN, position, new, f"reverse the sign of {where}", extra)
     if ratio.is_number:
-        if place.node.is_number:
-            return _edit(CONSTANT, place, new, f"read {_text(new)} for {_text(place.node)}", extra)
-        return _edit(CONSTANT, place, new, f"multiply {where} by {_text(ratio)}", extra)
-    swapped = _symbol_swap(place, ratio)
+        if position.node.is_number:
+            return _edit(
+                CONSTANT, position, new, f"read {_text(new)} for {_text(position.node)}", extra
+            )
+        return _edit(CONSTANT, position, new, f"multiply {where} by {_text(ratio)}", extra)
+    swapped = _symbol_swap(position, ratio)
     if swapped is not None:
         old, other = swapped
-        inside = "" if place.node == old else f" in {where}"
+        inside = "" if position.node == old else f" in {where}"
         says = f"read {_text(other)} instead of {_text(old)}{inside}"
-        return _edit(SYMBOL, place, new, says, extra)
+        return _edit(SYMBOL, position, new, says, extra)
     if kind not in (TWICE, MISSING) or ratio.as_numer_denom()[0].is_Symbol:
-        kind, extra = _stray_or_missing(place, ratio), extra + _size(ratio)
-    return _edit(kind, place, new, _ratio_words(where, ratio, kind), extra)
+        kind, extra = _stray_or_missing(position, ratio), extra + _size(ratio)
+    return _edit(kind, position, new, _ratio_words(where, ratio, kind), extra)
 
 
-def _symbol_swap(place: Position, ratio: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:
+def _symbol_swap(position: Position, ratio: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:
     """Return a power of a symbol and that of another one with which the ratio replaces it."""
     powers = ratio.as_powers_dict()
     if len(powers) != 2 or sum(powers.values()) != 0 or not all(s.is_Symbol for s in powers):
         return None
-    printed = place.node.as_powers_dict()
+    printed = position.node.as_powers_dict()
     for old, other in (tuple(powers), tuple(powers)[::-1]):
         if (printed.get(old, sp.Integer(0)) * powers[old]).is_negative:
             size = abs(powers[old])
@@ -167,7 +169,7 @@ def _symbol_swap(place: Position, ratio: sp.Expr) -> tuple[sp.Expr, sp.Expr] | N
     return None
 
 
-def _lone_terms(place: Position, ratio: Values, search: VariantSearch) -> Iterator[Edit]:
+def _lone_terms(position: Position, ratio: Values, search: VariantSearch) -> Iterator[Edit]:
     """Yield edits that add a term to a sum that has become a factor, as its only other term.
 
     A sum x + y is then printed as x: the ratio of required to given value is a power of (x + y)/x.
@@ -178,17 +180,17 @@ def _lone_terms(place: Position, ratio: Values, search: VariantSearch) -> Iterat
             values = search.points.values(total / rest)
             for power in _POWERS:
                 if agree(values[0] ** power, ratio[0]):
-                    new = place.node * (total / rest) ** sp.Rational(power)
-                    if search.points.same(new / place.node, ratio):
+                    new = position.node * (total / rest) ** sp.Rational(power)
+                    if search.points.same(new / position.node, ratio):
                         says = f"add the missing term {_text(term)} to {_text(rest)}"
-                        inside = "" if place.parent is None else f" in {name_of(place)}"
-                        yield _edit(SUM, place, new, says + inside, _LONE)
+                        inside = "" if position.parent is None else f" in {name_of(position)}"
+                        yield _edit(SUM, position, new, says + inside, _LONE)
 
 
-def _stray_or_missing(place: Position, ratio: sp.Expr) -> str:
+def _stray_or_missing(position: Position, ratio: sp.Expr) -> str:
     """Return the kind of error: the ratio removes a factor of the expression, or adds one."""
     above, below = sp.fraction(ratio)
-    numerator, denominator = sp.fraction(place.node)
+    numerator, denominator = sp.fraction(position.node)
     taken = denominator.has(*above.free_symbols) or numerator.has(*below.free_symbols)
     return STRAY if taken else MISSING
 
@@ -217,10 +219,10 @@ def _size(ratio: sp.Expr) -> float:
 # Exponent: the required value is a power of the given one.
 
 
-def exponent_edits(place: Position, need: Values, search: VariantSearch) -> Iterator[Edit]:
+def exponent_edits(position: Position, need: Values, search: VariantSearch) -> Iterator[Edit]:
     """Yield an edit to another power of the same base."""
-    node = place.node
-    if node.is_number or place.role in (BASE, TERMS):
+    node = position.node
+    if node.is_number or position.role in (BASE, TERMS):
         return
     have, want = real(search.points.value(node, 0)), real(need[0])
     if have is None or want is None or abs(abs(have) - 1) < 1e-9:
@@ -231,39 +233,41 @@ def exponent_edits(place: Position, need: Values, search: VariantSearch) -> Iter
     new = raised_to(node, sp.Rational(power.numerator, power.denominator))
     if search.points.same(new, need):
         says = f"read {_text(new)} instead of {_text(node)}"
-        yield _edit(EXPONENT, place, new, says, 0.0 if node.is_Pow or node.is_Atom else 0.4)
+        yield _edit(EXPONENT, position, new, says, 0.0 if node.is_Pow or node.is_Atom else 0.4)
 
 
 # Terms: one is superfluous in a sum, or a simple one is missing.
 
 
-def term_edits(place: Position, need: Values, search: VariantSearch) -> Iterator[Edit]:
+def term_edits(position: Position, need: Values, search: VariantSearch) -> Iterator[Edit]:
     """Yield edits that remove or add a term."""
-    if not isinstance(place.node, sp.Add) or place.role == TERMS:
+    if not isinstance(position.node, sp.Add) or position.role == TERMS:
         return
-    have = search.points.values(place.node)
+    have = search.points.values(position.node)
     lack = [w - v for w, v in zip(need, have, strict=True)]
-    for part in inner_positions(place):
+    for part in inner_positions(position):
         if part.role == TERM and search.points.same(-part.node, lack):
-            yield _edit(SUM, place, place.node - part.node, f"leave out {name_of(part)}")
+            yield _edit(SUM, position, position.node - part.node, f"leave out {name_of(part)}")
     simple = monomial(lack, search.points)
     for term in search.terms if simple is None else (simple,):
         if term is simple or search.points.same(term, lack):
-            yield _edit(SUM, place, place.node + term, f"add the missing term {_text(term)}", 0.5)
+            yield _edit(
+                SUM, position, position.node + term, f"add the missing term {_text(term)}", 0.5
+            )
 
 
 # Parentheses: a factor of one term must be applied to other terms too.
 
 
-def factored_edits(place: Position, need: Values, search: VariantSearch) -> Iterator[Edit]:
+def factored_edits(position: Position, need: Values, search: VariantSearch) -> Iterator[Edit]:
     """Yield c (x + y) for c x + y, where c is the ratio of required to given value of y."""
-    if place.role not in (TERM, TERMS) or place.parent is None:
+    if position.role not in (TERM, TERMS) or position.parent is None:
         return
-    have = search.points.values(place.node)
+    have = search.points.values(position.node)
     ratio = [w / v for w, v in zip(need, have, strict=True)]
-    total = place.parent.node
+    total = position.parent.node
     for index, term in enumerate(total.args):
-        if index in place.taken:
+        if index in position.taken:
             continue
         lost = _cancelled_sums(search) if len(total.args) <= _FEW else (sp.Integer(1),)
         for product in (p * c for p in _products(term) for c in lost):
@@ -271,11 +275,11 @@ def factored_edits(place: Position, need: Values, search: VariantSearch) -> Iter
             left = monomial([q / v for q, v in zip(ratio, values, strict=True)], search.points)
             if left is not None and not (product == 1 and left.is_number):
                 factor = left * product
-                inside = term / factor + place.node
-                new = total - term - place.node + factor * inside
+                inside = term / factor + position.node
+                new = total - term - position.node + factor * inside
                 says = f"set the parentheses {_text(factor)}*({_text(inside)})"
                 steep = 0.6 if (term / factor).count_ops() > term.count_ops() else 0.0
-                yield _edit(MISSING_PARENTHESES, place.parent, new, says, steep)
+                yield _edit(MISSING_PARENTHESES, position.parent, new, says, steep)
 
 
 def _cancelled_sums(search: VariantSearch) -> tuple[sp.Expr, ...]:
@@ -288,8 +292,8 @@ def _products(term: sp.Expr) -> Iterator[sp.Expr]:
     """Yield products of some of a term's sums and functions, including the empty one."""
     parts = [f for f in sp.Mul.make_args(term) if f.atoms(sp.Add, sp.Function)]
     for size in range(min(len(parts), 6) + 1):
-        for some in combinations(parts, size):
-            yield sp.Mul(*some)
+        for subset in combinations(parts, size):
+            yield sp.Mul(*subset)
 
 
 def factor_pool(

@@ -95,12 +95,12 @@ def _changes(root: Position, search: VariantSearch) -> Iterator[_Change]:
     for index, node in enumerate(root.node.args):
         part = Position(node, FACTOR if product else TERM, root, (index,))
         own = search.points.value(node, 0)
-        for place in all_positions(part):
-            for variant in all_variants(place, search):
-                value = _outer_value(place, variant.value, part, search)
+        for position in all_positions(part):
+            for variant in all_variants(position, search):
+                value = _outer_value(position, variant.value, part, search)
                 effect = real(value / own if product else value - own)
                 if effect is not None:
-                    yield _Change(index, place, variant, effect)
+                    yield _Change(index, position, variant, effect)
     if product:
         have = search.points.value(root.node, 0)
         for variant in _of_the_whole(root.node, search):
@@ -119,23 +119,25 @@ def _of_the_whole(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
 
 
 def _outer_value(
-    place: Position, value: flint.acb, top: Position, search: VariantSearch
+    position: Position, value: flint.acb, top: Position, search: VariantSearch
 ) -> flint.acb:
     """Return the value of the position `top` if a position inside it has another value."""
-    while place is not top and place.parent is not None:
-        node = place.parent.node
+    while position is not top and position.parent is not None:
+        node = position.parent.node
         whole = search.points.value(node, 0)
         if isinstance(node, sp.Add):
-            value = whole - search.points.value(place.node, 0) + value
+            value = whole - search.points.value(position.node, 0) + value
         elif isinstance(node, sp.Mul):
-            value = whole / search.points.value(place.node, 0) * value
-        elif isinstance(node, sp.Pow) and place.role == FACTOR:
-            value = whole * (value / search.points.value(place.node, 0)) ** int(sp.sign(node.exp))
+            value = whole / search.points.value(position.node, 0) * value
+        elif isinstance(node, sp.Pow) and position.role == FACTOR:
+            value = whole * (value / search.points.value(position.node, 0)) ** int(
+                sp.sign(node.exp)
+            )
         elif isinstance(node, sp.Pow):
             value = value ** flint.arb(flint.fmpq(int(node.exp.p), int(node.exp.q)))
         else:
             value = search.points.applied(node.func, value)
-        place = place.parent
+        position = position.parent
     return value
 
 

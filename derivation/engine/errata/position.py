@@ -67,33 +67,33 @@ class Position:
         return self.parent.put(node.func(*rest), top)
 
 
-def inner_positions(place: Position) -> Iterator[Position]:
+def inner_positions(position: Position) -> Iterator[Position]:
     """Yield the positions directly inside a position, groups of terms included."""
-    node, args = place.node, place.node.args
+    node, args = position.node, position.node.args
     if isinstance(node, sp.Add):
         for index, term in enumerate(args):
-            yield Position(term, TERM, place, (index,))
+            yield Position(term, TERM, position, (index,))
         if len(args) <= MAX_TERMS:
             for size in range(2, len(args)):
                 for group in combinations(range(len(args)), size):
-                    yield Position(sp.Add(*(args[i] for i in group)), TERMS, place, group)
+                    yield Position(sp.Add(*(args[i] for i in group)), TERMS, position, group)
     elif isinstance(node, sp.Mul):
         for index, factor in enumerate(args):
-            yield Position(factor, FACTOR, place, (index,))
+            yield Position(factor, FACTOR, position, (index,))
     elif isinstance(node, sp.Pow) and isinstance(node.exp, sp.Rational) and not node.base.is_Atom:
-        yield Position(node.base, BASE, place, (0,))
+        yield Position(node.base, BASE, position, (0,))
         if isinstance(node.exp, sp.Integer) and abs(node.exp) > 1:
             # SymPy writes equal factors as a power; the misprint may be in one of them
-            yield Position(node.base, FACTOR, place, (0,))
+            yield Position(node.base, FACTOR, position, (0,))
     elif isinstance(node, sp.Function) and len(args) == 1:
-        yield Position(args[0], ARGUMENT, place, (0,))
+        yield Position(args[0], ARGUMENT, position, (0,))
 
 
-def all_positions(place: Position) -> Iterator[Position]:
+def all_positions(position: Position) -> Iterator[Position]:
     """Yield the position and all positions inside it; groups of terms are not divided further."""
-    yield place
-    if place.role != TERMS:
-        for part in inner_positions(place):
+    yield position
+    if position.role != TERMS:
+        for part in inner_positions(position):
             yield from all_positions(part)
 
 

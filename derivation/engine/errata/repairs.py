@@ -50,6 +50,6 @@ def repairs(given: sp.Expr, reference: Values, search: VariantSearch) -> Iterato
                     yield from _pairs(base, inside, search) if inside else ()
 
 
-def _pairs(place: Position, need: Values, search: VariantSearch) -> Iterator[Repair]:
-    for pair in pair_edits(place, need, search):
+def _pairs(position: Position, need: Values, search: VariantSearch) -> Iterator[Repair]:
+    for pair in pair_edits(position, need, search):
         yield Repair(TWO, pair.says, pair.new, 2)

@@ -69,7 +69,7 @@ def parse_contribution(text: str, vocabulary: Vocabulary, also: Mapping[str, sp.
         return parse(text, vocabulary, also)
     if any(_holds(call, other) for call in calls for other in calls):
         raise FormulaError(_ONE_SUM)
-    marks = {f"summand_{place}": sp.Symbol(f"summand_{place}") for place in range(len(calls))}
+    marks = {f"summand_{index}": sp.Symbol(f"summand_{index}") for index in range(len(calls))}
     outer, terms = plain, {}
     for (name, mark), call in zip(marks.items(), calls, strict=True):
         source = plain[call.col_offset : call.end_col_offset]

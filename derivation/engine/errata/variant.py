@@ -101,25 +101,25 @@ class VariantSearch:
         return Variant(kind, self.points.value(new, 0), lambda: new, extra)
 
 
-def variants(place: Position, search: VariantSearch) -> Iterator[Variant]:
+def variants(position: Position, search: VariantSearch) -> Iterator[Variant]:
     """Yield alternatives in functions, parentheses and faces, which can only be found by trial."""
-    if place.role != TERMS:
-        yield from other_functions(place.node, search)
-        yield from lost_parentheses(place.node, search)
-        if place.role != FACTOR:
-            yield from superfluous_parentheses(place.node, search)
-        yield from other_faces(place.node, search)
+    if position.role != TERMS:
+        yield from other_functions(position.node, search)
+        yield from lost_parentheses(position.node, search)
+        if position.role != FACTOR:
+            yield from superfluous_parentheses(position.node, search)
+        yield from other_faces(position.node, search)
 
 
-def all_variants(place: Position, search: VariantSearch) -> Iterator[Variant]:
+def all_variants(position: Position, search: VariantSearch) -> Iterator[Variant]:
     """Yield all variants, with simple multiples and powers, if no required value is known."""
-    yield from variants(place, search)
-    node, value = place.node, search.points.value(place.node, 0)
-    if own_ratio(place):
+    yield from variants(position, search)
+    node, value = position.node, search.points.value(position.node, 0)
+    if own_ratio(position):
         for kind, factor, extra in multipliers(search):
             times = value * search.points.value(factor, 0)
             yield Variant(kind, times, lambda f=factor: f * node, extra)  # type: ignore[misc]
-    if not node.is_number and place.role not in (BASE, TERMS):
+    if not node.is_number and position.role not in (BASE, TERMS):
         for power in _EXPONENTS:
             raised = value ** flint.arb(flint.fmpq(int(power.p), int(power.q)))
             yield Variant(EXPONENT, raised, lambda k=power: raised_to(node, k))  # type: ignore[misc]
@@ -131,11 +131,11 @@ def raised_to(node: sp.Expr, power: sp.Rational) -> sp.Expr:
     return base ** (exponent * power)
 
 
-def own_ratio(place: Position) -> bool:
+def own_ratio(position: Position) -> bool:
     """Return whether a ratio at a position is not one of the product or power around it."""
-    if place.role == BASE:
-        return bool(place.parent is not None and abs(place.parent.node.exp) != 1)
-    return place.role != FACTOR
+    if position.role == BASE:
+        return bool(position.parent is not None and abs(position.parent.node.exp) != 1)
+    return position.role != FACTOR
 
 
 def multipliers(search: VariantSearch) -> Iterator[tuple[str, sp.Expr, float]]:
@@ -286,17 +286,17 @@ def _partial_products(
     factors = sp.Mul.make_args(term)
     if len(factors) > _MAX_FACTORS:
         return
-    for some in chain.from_iterable(
+    for subset in chain.from_iterable(
         combinations(factors, size) for size in range(1, len(factors) + 1)
     ):
-        if some == (sp.S.NegativeOne,):
+        if subset == (sp.S.NegativeOne,):
             continue
         value = flint.acb(1)
-        for factor in some:
+        for factor in subset:
             value *= search.points.value(factor, 0)
-        yield some, value
-        if some[0].is_number and some[0].is_negative:
-            yield (sp.S.NegativeOne, *some), -value
+        yield subset, value
+        if subset[0].is_number and subset[0].is_negative:
+            yield (sp.S.NegativeOne, *subset), -value
 
 
 def groups(members: Sequence[int]) -> Iterator[tuple[int, ...]]:
@@ -306,8 +306,8 @@ def groups(members: Sequence[int]) -> Iterator[tuple[int, ...]]:
     return chain.from_iterable(combinations(members, size) for size in sizes)
 
 
-def name_of(place: Position) -> str:
+def name_of(position: Position) -> str:
     """Return a short description of a position."""
-    text = sp.sstr(place.node)
+    text = sp.sstr(position.node)
     short = text if len(text) <= 90 else text[:87] + "..."
-    return "the whole expression" if place.role == WHOLE else f"the {place.role} {short}"
+    return "the whole expression" if position.role == WHOLE else f"the {position.role} {short}"

@@ -114,6 +114,6 @@ def _derive_step(step: DerivationStep) -> tuple[Record, ...]:
             raise
         folder = Path(inspect.getfile(inspect.unwrap(step.derive))).parent
         frames = [f for f in extract_tb(error.__traceback__) if Path(f.filename).parent == folder]
-        place = f"{Path(frames[-1].filename).name}, line {frames[-1].lineno}: " if frames else ""
-        what = f"{place}{type(error).__name__}: {error}"
+        location = f"{Path(frames[-1].filename).name}, line {frames[-1].lineno}: " if frames else ""
+        what = f"{location}{type(error).__name__}: {error}"
         raise DerivationStepError(f"derivation step {step.name!r}: {what}; correct it") from error

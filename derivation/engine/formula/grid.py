@@ -99,8 +99,8 @@ def _ends(domain: Sequence[str]) -> Iterator[float]:
                 continue
 
 
-def around(places: Sequence[float]) -> Iterator[float]:
+def around(points: Sequence[float]) -> Iterator[float]:
     """Yield numbers, their neighbours, and the doubles at a distance of 32 ULP."""
-    for place in places:
-        near = neighbours(place, 32)
+    for point in points:
+        near = neighbours(point, 32)
         yield from (near[0], near[31], near[32], near[33], near[64])

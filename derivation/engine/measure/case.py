@@ -108,8 +108,8 @@ class HardCase:
     def points(self) -> list[dict[str, float]]:
         """Arguments of each point, in the order of the results."""
         numbers, found = self.numbers, []
-        for place in itertools.product(*(range(length) for length in self.shape)):
-            axes = place if self.form == "broadcast" else place * len(self.listed)
+        for index in itertools.product(*(range(length) for length in self.shape)):
+            axes = index if self.form == "broadcast" else index * len(self.listed)
             at = dict(zip(self.listed, axes, strict=True))
             found.append({name: values[at.get(name, 0)] for name, values in numbers.items()})
         return found

@@ -11,14 +11,14 @@ OFFSETS = (-32, -1, 0, 1, 32)
 Inputs = dict[str, tuple[str, ...]]
 
 
-def neighbour(place: float, offset: int) -> float:
+def neighbour(point: float, offset: int) -> float:
     """Return the double that is `offset` doubles above a number."""
-    return from_ordinal(ordinal(place) + offset)
+    return from_ordinal(ordinal(point) + offset)
 
 
-def around(place: float) -> tuple[float, ...]:
+def around(point: float) -> tuple[float, ...]:
     """Return the doubles at all `OFFSETS` from a number."""
-    return tuple(neighbour(place, offset) for offset in OFFSETS)
+    return tuple(neighbour(point, offset) for offset in OFFSETS)
 
 
 def exact_inputs(**values: float | Sequence[float]) -> Inputs:

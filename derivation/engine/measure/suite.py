@@ -174,15 +174,15 @@ class Suite:
         given = list(point.values())
         here = law.values(given, _SLOPE_DIGITS)
         totals = [arb(0)] * len(here)
-        for place, name in enumerate(point):
+        for index, name in enumerate(point):
             step = _SLOPE_STEP if name in self.outwards else -_SLOPE_STEP
             moved: list[Any] = list(given)
-            moved[place] = Fraction(given[place]) * (1 + step)
-            there = law.values(moved, _SLOPE_DIGITS)
+            moved[index] = Fraction(given[index]) * (1 + step)
+            changed = law.values(moved, _SLOPE_DIGITS)
             with flint.ctx.workprec(_SLOPE_BITS):
                 totals = [
                     total + abs(new - old) / to_ball(_SLOPE_STEP)
-                    for total, new, old in zip(totals, there, here, strict=True)
+                    for total, new, old in zip(totals, changed, here, strict=True)
                 ]
         return totals
 

@@ -150,8 +150,8 @@ def _rows(
     """Return a left side and its sum in lines; all lines but the first are indented."""
     begin = f"& {left} = "
     rows = [begin]
-    for place, term in enumerate(_signed_terms(value, vocabulary)):
-        text = term if place else prefix + term
+    for index, term in enumerate(_signed_terms(value, vocabulary)):
+        text = term if index else prefix + term
         if typeset_width(rows[-1] + text) > room and rows[-1] != FURTHER:
             rows.append(FURTHER)
         rows[-1] += f" {text}"
@@ -172,12 +172,12 @@ def in_parts(
     parts = list[tuple[sp.Symbol, sp.Expr]]()
     if whole:
         parts, value = [(next(symbols), value)], sp.Symbol("Z_1")
-    values, place = [value, *(part for _, part in parts)], 0
+    values, index = [value, *(part for _, part in parts)], 0
     names: list[sp.Symbol] = [symbol for symbol, _ in parts]
-    while place < len(values):
-        chosen = _part(values[place], room, vocabulary)
+    while index < len(values):
+        chosen = _part(values[index], room, vocabulary)
         if chosen is None:
-            place += 1
+            index += 1
             continue
         names.append(next(symbols))
         for k, text in enumerate(values):

@@ -24,18 +24,18 @@ def sentence_pieces(text: str) -> Iterator[str]:
     Code is a word that contains a star, followed by the words up to the closing bracket. A sum of
     such parts is one piece.
     """
-    words, place, said = text.split(" "), 0, list[str]()
-    while place < len(words):
-        end = place + 1
-        if "*" not in words[place]:
-            said.append(words[place])
+    words, index, said = text.split(" "), 0, list[str]()
+    while index < len(words):
+        end = index + 1
+        if "*" not in words[index]:
+            said.append(words[index])
         else:
-            end = _end(words, place)
+            end = _end(words, index)
             while end + 1 < len(words) and words[end] in _SIGNS and _begins(words[end + 1]):
                 end = _end(words, end + 1)
-            yield from filter(None, (" ".join(said), " ".join(words[place:end])))
+            yield from filter(None, (" ".join(said), " ".join(words[index:end])))
             said = []
-        place = end
+        index = end
     yield from filter(None, (" ".join(said),))
 
 
@@ -44,10 +44,10 @@ def _begins(word: str) -> bool:
     return "*" in word or "(" in word
 
 
-def _end(words: list[str], place: int) -> int:
+def _end(words: list[str], index: int) -> int:
     """Return the position after the term of code that begins at a word."""
-    end = place + 1
-    while end < len(words) and _open(words[place:end]):
+    end = index + 1
+    while end < len(words) and _open(words[index:end]):
         end += 1
     return end
 

@@ -178,13 +178,13 @@ def stated_error(worst: float) -> float:
     return math.ceil(2 * (1.4 * worst + 0.4)) / 2
 
 
-def around(places: Iterable[float]) -> set[float]:
+def around(points: Iterable[float]) -> set[float]:
     """Return doubles next to the given numbers, and at distances of 2^2, 2^5, ..., 2^56 doubles."""
     last = ordinal(ENDS[1])
     found: set[float] = set()
-    for place in places:
-        found.update(neighbours(place, 2))
-        start = ordinal(place)
+    for point in points:
+        found.update(neighbours(point, 2))
+        start = ordinal(point)
         for power in range(2, 57, 3):
             for position in (start - (1 << power), start + (1 << power)):
                 if 0 < position <= last:

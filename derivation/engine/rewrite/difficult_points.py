@@ -70,8 +70,8 @@ def _written_out(stable: Stable) -> Iterator[sp.Expr]:
     sides = (value.below, value.above) if isinstance(value, Switch) else (Branch((), value),)
     for side in sides:
         steps = (*stable.steps, *side.steps)
-        for place, expression in enumerate((*(s.expression for s in steps), side.value)):
-            yield _in_variable(expression, steps[:place])
+        for index, expression in enumerate((*(s.expression for s in steps), side.value)):
+            yield _in_variable(expression, steps[:index])
 
 
 def _in_variable(expression: sp.Expr, steps: Sequence[Step]) -> sp.Expr:

@@ -82,7 +82,7 @@ def switch_points(values: Iterable[object]) -> dict[str, tuple[float, ...]]:
     for value in values:
         if isinstance(value, Switch):
             found.setdefault(str(value.variable), set()).add(float(value.at))
-    return {variable: tuple(sorted(places)) for variable, places in found.items()}
+    return {variable: tuple(sorted(points)) for variable, points in found.items()}
 
 
 @dataclass(frozen=True)

@@ -17,10 +17,10 @@ def over_half_space(s: mpf, T: mpf, held: str) -> mpf:
     a, b = (1 - s) / (1 + s), s / (1 + s)
     system = matrix([[0, 1, 1, 0], [-a, 0, 0, b], [4 / (1 + s), 0, 0, a], [0, 0, -1, 0]])
     through = mp.expm(system * (T / 2))
-    free = [place for place in range(4) if place not in KNOWN[held]]
-    tractions = matrix([[through[row, place] for place in free] for row in (2, 3)])
+    free = [index for index in range(4) if index not in KNOWN[held]]
+    tractions = matrix([[through[row, index] for index in free] for row in (2, 3)])
     base = mp.lu_solve(tractions, matrix([0, -1]))
-    top = sum(through[1, place] * base[i] for i, place in enumerate(free))
+    top = sum(through[1, index] * base[i] for i, index in enumerate(free))
     return -2 * top / (1 + s)
 
 

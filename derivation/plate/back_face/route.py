@@ -52,9 +52,9 @@ def _roots(eta: mpf, A: mpf) -> mpf:
         # H/J0 at z = i u is (2/(pi i)) K0/I0 at u, without overflow and cancellation.
         turned = mpc(z.imag, -z.real)
         wave = mp.besselk(0, turned) / mp.besseli(0, turned) * mpc(0, -2) / mp.pi
-        share = (-1) ** n * g * (1 + mp.sqrt(1 + T * T)) * wave
-        total += share.imag
-        if abs(share) < mp.eps:
+        term = (-1) ** n * g * (1 + mp.sqrt(1 + T * T)) * wave
+        total += term.imag
+        if abs(term) < mp.eps:
             return mp.pi * total
     raise RouteError(f"too few roots at h/b = {mp.nstr(eta)}")
 
@@ -67,12 +67,12 @@ def back_face_edge(a: float, h: float, b: float, nu: float, digits: int = 30) ->
     """
     with mp.workdps(digits + 15):
         eta, alpha, n = mpf(h) / mpf(b), mpf(a) / mpf(b), mpf(nu) / (1 - mpf(nu))
-        places = [mpf(0), mpf(1) / 2, -mpf(1) / 4]
+        points = [mpf(0), mpf(1) / 2, -mpf(1) / 4]
         values = [
             mp.pi / alpha * edge_routes.edge_part("indentation", a, h, b, x / (1 + x), mp.dps)
-            for x in places
+            for x in points
         ]
-        rows = mp.matrix([[x**power for power in range(3)] for x in places])
+        rows = mp.matrix([[x**power for power in range(3)] for x in points])
         first, second, third = mp.lu_solve(rows, mp.matrix(values))
         B = first * eta**3
         C = (second + 2 * B / eta) * eta**3

@@ -85,18 +85,18 @@ def _timed_rows(
     effort: Effort,
 ) -> BenchmarkPanel:
     """Return the rows with times, measured in interleaved rounds for arrays and single calls."""
-    known = [(place, judged) for place, judged in enumerate(calls) if judged is not None]
+    known = [(index, judged) for index, judged in enumerate(calls) if judged is not None]
     if not known:
         return BenchmarkPanel(tuple(rows), None, None)
     one = problem.points[-1:]
     alone = clock.session([clock.plan(judged.call, one) for _, judged in known], effort)
-    for (place, _), timing in zip(known, alone.timings, strict=True):
-        rows[place] = replace(rows[place], vector=timing, single=timing)
-    known = [(place, judged) for place, judged in known if not methods[place].one_by_one]
+    for (index, _), timing in zip(known, alone.timings, strict=True):
+        rows[index] = replace(rows[index], vector=timing, single=timing)
+    known = [(index, judged) for index, judged in known if not methods[index].one_by_one]
     if not known:
         return BenchmarkPanel(tuple(rows), None, alone)
     arrays = [clock.plan(judged.call, problem.sample) for _, judged in known]
     vector = clock.session(arrays, effort)
-    for (place, _), timing in zip(known, vector.timings, strict=True):
-        rows[place] = replace(rows[place], vector=timing)
+    for (index, _), timing in zip(known, vector.timings, strict=True):
+        rows[index] = replace(rows[index], vector=timing)
     return BenchmarkPanel(tuple(rows), vector, alone)

@@ -69,14 +69,14 @@ def measure(
     ValueError
         If a method is unknown.
     """
-    chosen, places = methods(names, quick), cases(scene)
+    chosen, test_cases = methods(names, quick), cases(scene)
     studies = scaling.studies(quick)
-    report = _Progress(progress, len(TASKS) * len(places) + len(studies) + 2)
+    report = _Progress(progress, len(TASKS) * len(test_cases) + len(studies) + 2)
     effort = QUICK if quick else FULL
     before = os.getloadavg()[0]
     rows: list[BenchmarkRow] = []
     sessions: list[dict[str, Any]] = []
-    for case in places:
+    for case in test_cases:
         for task in TASKS:
             report(f"{task}, {case.name}")
             found = panel(task, case, chosen, quick)
@@ -101,7 +101,7 @@ def measure(
             "contended": CONTENDED, "methods": list(names),
             "load_before": before, "load_after": os.getloadavg()[0],
         },
-        "cases": [asdict(case) for case in places],
+        "cases": [asdict(case) for case in test_cases],
         "rows": [asdict(row) for row in rows],
         "sessions": sessions,
         "pareto": [asdict(winner) for winner in winners(rows)],

@@ -32,10 +32,10 @@ def modal(ar: Arithmetic, phi: Array, weights: Array) -> Call:
     def call(a: Array) -> Array:
         total = a * 0
         for begin in reversed(range(0, phi.size, _MODES)):
-            some, factors = phi[begin : begin + _MODES], weights[begin : begin + _MODES]
-            step = max(1, _ELEMENTS // some.size)
+            block, factors = phi[begin : begin + _MODES], weights[begin : begin + _MODES]
+            step = max(1, _ELEMENTS // block.size)
             for k in range(0, a.size, step):
-                terms = ar.shape(a[k : k + step, None] * some) * factors
+                terms = ar.shape(a[k : k + step, None] * block) * factors
                 total[k : k + step] += terms.sum(axis=-1)
         return total
 
@@ -103,8 +103,8 @@ def levin(samples: int) -> Method:
             head = (w[:stride] * ar.shape(y[:stride])).sum()
             terms = w[stride:] * ar.complex_shape(y[stride:])
             at = stride * np.arange(1, samples + 2) - 1
-            place = ar.array(at + 1.0 + stride)
-            limit = u_transform(np.cumsum(terms)[at], place * terms[at], place)
+            index = ar.array(at + 1.0 + stride)
+            limit = u_transform(np.cumsum(terms)[at], index * terms[at], index)
             return head + limit.imag
 
         return lambda a: np.array([one(x) for x in np.atleast_1d(a)])
@@ -119,7 +119,7 @@ def stride_at(alpha: float) -> int:
     return max(1, round(TURN / (alpha * math.pi)))
 
 
-def u_transform(sums: Array, estimates: Array, places: Array) -> Array:
+def u_transform(sums: Array, estimates: Array, indices: Array) -> Array:
     """Return Levin's limit of partial sums, from estimates of their remainders.
 
     It is the quotient of the k-th divided differences of places^(k-1) sums/estimates and
@@ -127,7 +127,7 @@ def u_transform(sums: Array, estimates: Array, places: Array) -> Array:
     """
     k = len(sums) - 1
     binomials = np.array([(-1.0) ** i * math.comb(k, i) for i in range(k + 1)])
-    weights = binomials * (places / places[-1]) ** (k - 1) / estimates
+    weights = binomials * (indices / indices[-1]) ** (k - 1) / estimates
     return (weights * sums).sum() / weights.sum()
 
 
@@ -161,27 +161,27 @@ def lateral_nodes(count: int, digits: int, double_exponential: bool, bits: int) 
         return [ys, weights]
 
 
-def modes_of(case: BenchmarkCase, share: float) -> int:
+def modes_of(case: BenchmarkCase, multiple: float) -> int:
     """Return the number of modes of the thickness term, which decays like e^(-4 pi n h/b)."""
-    return max(1, math.ceil(share / case.eta))
+    return max(1, math.ceil(multiple / case.eta))
 
 
 def split(
-    nodes: int, share: float, ar: Arithmetic = DOUBLE, double_exponential: bool = True,
+    nodes: int, multiple: float, ar: Arithmetic = DOUBLE, double_exponential: bool = True,
     quick: bool = True,
 ) -> Method:  # fmt: skip
-    """Return the method of Hertz's term minus the radius integral plus a sum of share b/h modes."""
+    """Return the method of Hertz's term, the radius integral and a sum of `multiple` b/h modes."""
     end = ar.digits + 1  # digits for the ends of the integral
 
     def fails(case: BenchmarkCase) -> str | None:
-        modes = modes_of(case, share)
+        modes = modes_of(case, multiple)
         dear = modes > WIDE_MODES and ar.name != DOUBLE.name
         return f"needs {modes} modes for each point in slow arithmetic" if dear else None
 
     def prepare(case: BenchmarkCase, ar: Arithmetic) -> Call:
         y, W = (ar.array(row) for row in lateral_nodes(nodes, end, double_exponential, ar.bits))
         R, h, b = (ar.number(x) for x in (case.R, case.h, case.b))
-        j, slope = ar.zeros(modes_of(case, share))
+        j, slope = ar.zeros(modes_of(case, multiple))
         phi, pi = j / b, ar.pi()
         square = phi * phi * slope
         thickness = modal(
@@ -200,5 +200,5 @@ def split(
         return call
 
     rule = "" if double_exponential else ", y = u^3"
-    return Method("law", f"split sum{rule}", f"{nodes} nodes, {share:g} b/h modes", prepare, ar,
+    return Method("law", f"split sum{rule}", f"{nodes} nodes, {multiple:g} b/h modes", prepare, ar,
                   fails=fails, quick=quick)  # fmt: skip

@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable, Iterator
 from itertools import chain
 
-from derivation.engine.cache import cached
+from derivation.engine.cache import in_file
 from derivation.engine.formula.ulp import neighbours
 from derivation.engine.measure.case import HardCase, checked_case
 from derivation.engine.measure.neighbours import OFFSETS, Inputs, around, exact_inputs, neighbour
@@ -16,7 +16,12 @@ from derivation.mathematics.bessel.oracle import j0_zero, j1_zero
 from derivation.plate.cases.scene_families import scene_families
 from derivation.plate.cases.steel import LAM, MU
 from derivation.plate.contact.kernels import tables as contact_tables
-from derivation.plate.contact.kernels.moments import FIRST_K, finite_part_start, kappa_start
+from derivation.plate.contact.kernels.moments import (
+    FIRST_K,
+    SOURCES,
+    finite_part_start,
+    kappa_start,
+)
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.grids import switches
 from derivation.plate.impact.oracle import impact as contact_impact
@@ -27,27 +32,22 @@ LAST_KAPPA, LAST_FINITE_PART = 196, 99
 """Largest indices whose value does not overflow in double precision."""
 
 
-def families() -> tuple[HardCase, ...]:
-    """Return every systematic case, cached until the sources it depends on change."""
-    folders = (
-        "engine/cache.py",
-        "engine/formula",
-        "plate/*.py",
-        "plate/*/theory*",
-        "mathematics",
-        "engine/rewrite",
-        "plate/*/kernels*",
+@in_file(
+    (
+        *SOURCES,
         "engine/oracle",
         "plate/*/oracle*",
         "plate/*/route*",
         "engine/emit",
-    )
-    cases = ("engine/measure/case.py", "engine/measure/neighbours.py")
-    own = (*cases, "plate/grids.py", "plate/cases", "plate/*/cases*")
-    return cached("hard_families", (*folders, *own), _families, HardCase)
-
-
-def _families() -> tuple[HardCase, ...]:
+        "engine/measure/case.py",
+        "engine/measure/neighbours.py",
+        "plate/cases",
+        "plate/*/cases*",
+    ),
+    HardCase,
+)
+def families() -> tuple[HardCase, ...]:
+    """Return every systematic case."""
     made = chain(
         _block_switches(),
         _bessel_switches(),
@@ -91,35 +91,35 @@ lengths are 1."""
 
 
 def _block_switches() -> Iterator[HardCase]:
-    for variable, places in switches().items():
-        for place in places:
+    for variable, points in switches().items():
+        for point in points:
             for offset in OFFSETS:
                 cause = (
-                    f"{abs(offset)} ULP {'below' if offset < 0 else 'above'} {variable} = {place:g}"
+                    f"{abs(offset)} ULP {'below' if offset < 0 else 'above'} {variable} = {point:g}"
                     if offset
-                    else f"On {variable} = {place:g}"
+                    else f"On {variable} = {point:g}"
                 )
                 cause += ", the end of a series; beyond, exponentials or circular functions."
                 for kernel, inputs in _OF_SWITCH[variable]:
-                    given = inputs(neighbour(place, offset))
+                    given = inputs(neighbour(point, offset))
                     yield HardCase("switch points of the building blocks", kernel, cause, given)
 
 
 def _bessel_switches() -> Iterator[HardCase]:
     start = float(bessel_tables.asymptotic_start())
-    for place in bessel_tables.switches()[1:]:
+    for point in bessel_tables.switches()[1:]:
         what = "the code changes to the next Taylor polynomial"
-        if place == start:
+        if point == start:
             what = "the code changes from Taylor polynomials to modulus and phase"
-        if place == bessel_tables.LARGEST_PHASE:
+        if point == bessel_tables.LARGEST_PHASE:
             what = "multiples of pi/4 cease to be exact doubles"
-        cause = f"0, 1 and 32 ULP to either side of x = {place:g}, where {what}."
+        cause = f"0, 1 and 32 ULP to either side of x = {point:g}, where {what}."
         for kernel in ("bessel_j0", "bessel_j1"):
             yield HardCase(
                 "switch points of the Bessel functions",
                 kernel,
                 cause,
-                exact_inputs(x=around(place)),
+                exact_inputs(x=around(point)),
                 "array",
             )
 
@@ -179,24 +179,24 @@ def _contact_switches() -> Iterator[HardCase]:
             ends.append((reach, "the polynomial about 0 ends"))
         if b > contact_tables.FAR_REACH:
             ends.append((float(contact_tables.FAR_REACH), "the second polynomial ends"))
-        for place, what in ends:
-            cause = f"0, 1 and 32 ULP to either side of a = {place:g} h, where {what}."
+        for point, what in ends:
+            cause = f"0, 1 and 32 ULP to either side of a = {point:g} h, where {what}."
             same: dict[str, float] = {"R": 50.0, "h": 1.0, "b": b}
-            near = around(place)
+            near = around(point)
             yield HardCase(group, "indentation", cause, exact_inputs(a=near, **same), "array")
             yield HardCase(
                 group, "stiffness", cause, exact_inputs(a=near, **same, lam=LAM, mu=MU), "array"
             )
-            if place in (contact_tables.REACH, contact_tables.FAR_REACH):
+            if point in (contact_tables.REACH, contact_tables.FAR_REACH):
                 yield HardCase(
                     group, "indentation_slope", cause, exact_inputs(a=near, **same), "array"
                 )
-            if place == contact_tables.FAR_REACH:
+            if point == contact_tables.FAR_REACH:
                 continue  # the inversion ends here
-            depth = float(contact_balls.indentation(place, 50.0, 1.0, b, 30))
+            depth = float(contact_balls.indentation(point, 50.0, 1.0, b, 30))
             given = exact_inputs(delta=around(depth), **same)
             yield HardCase(group, "contact_radius", cause, given, "array")
-            if b == 10.0 and place == reach:
+            if b == 10.0 and point == reach:
                 yield HardCase(group, "force", cause, given | exact_inputs(lam=LAM, mu=MU), "array")
 
 
@@ -205,11 +205,11 @@ def _thickness_switches() -> Iterator[HardCase]:
     ends = {float(end) for cell in contact_tables.CELLS for end in cell[:2]}
     far_ends = {float(end) for cell in contact_tables.FAR_CELLS for end in cell[:2]}
     far_ends -= {float(contact_tables.REACH)}  # such a plate has no second polynomial
-    for near, places in ((True, ends), (False, far_ends)):
-        for b in sorted(places):
+    for near, points in ((True, ends), (False, far_ends)):
+        for b in sorted(points):
             a = 2.5 if near else min(4.5, (contact_tables.REACH + b) / 2)
             cause = f"0, 1 and 32 ULP to either side of b = {b:g} h, where "
-            cause += "the closed form of thin plates" if b == max(places) else "another table"
+            cause += "the closed form of thin plates" if b == max(points) else "another table"
             cause += f" takes over; a = {a:g} h."
             same: dict[str, float] = {"a": a, "R": 50.0, "h": 1.0}
             group = "switch points of the contact law"
@@ -234,9 +234,9 @@ def _thinnest() -> Iterator[HardCase]:
 def _impact_switches() -> Iterator[HardCase]:
     """Yield cases at speeds that just reach a = 3 h, in a thin plate and in the paper's."""
     for b in (100.0, 10.0):
-        place = float(contact_tables.REACH)
-        energy = float(contact_impact.stored_energy(place, 50.0, 1.0, b, LAM, MU, 30))
+        point = float(contact_tables.REACH)
+        energy = float(contact_impact.stored_energy(point, 50.0, 1.0, b, LAM, MU, 30))
         speeds = around(math.sqrt(2.0 * energy / 1e3))
-        cause = f"0, 1 and 32 ULP to either side of the speed that reaches a = {place:g} h."
+        cause = f"0, 1 and 32 ULP to either side of the speed that reaches a = {point:g} h."
         given = exact_inputs(R=50.0, m=1e3, v0=speeds, h=1.0, b=b, lam=LAM, mu=MU)
         yield HardCase("switch points of the contact law", "impact", cause, given, "array")

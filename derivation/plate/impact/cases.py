@@ -57,11 +57,11 @@ def _history() -> Iterator[HardCase]:
     (crossing,) = contact_impact.history([reach], R, m, v0, h, b, LAM, MU, _FEW)
     end = contact_impact.impact(R, m, v0, h, b, LAM, MU, _FEW).contact_time
     same: dict[str, float] = {**_SPHERE, "v0": v0, "h": h, "b": b, **_STEEL}
-    for place, what in (
+    for point, what in (
         (float(crossing), f"the time when a = {reach:g} h, where the second polynomial comes in"),
         (float(end) / 2, "the turning point, where the rate changes its sign"),
     ):
-        yield case_around(IMPACTS, "history", what, exact_inputs(t=around(place), **same))
+        yield case_around(IMPACTS, "history", what, exact_inputs(t=around(point), **same))
 
 
 # --- simple impacts
@@ -73,11 +73,11 @@ def _simple_impacts() -> Iterator[HardCase]:
     yield from _estimates(thin, 1.0, around(inverse))
     yield case_around(SIMPLE, "plate_of", thin, exact_inputs(eta=around(1 / inverse)))
     for mode in (1, 2, 17):
-        place = simple_impact_tables.FADED / (2 * float(j0_zero(mode, 80)))
-        why = f"h/b = {place:.4g}, beyond which mode {mode} is omitted"
-        yield case_around(SIMPLE, "plate_of", why, exact_inputs(eta=around(place)))
+        point = simple_impact_tables.FADED / (2 * float(j0_zero(mode, 80)))
+        why = f"h/b = {point:.4g}, beyond which mode {mode} is omitted"
+        yield case_around(SIMPLE, "plate_of", why, exact_inputs(eta=around(point)))
         if mode == 1:
-            yield from _estimates(why, around(place), 1.0)
+            yield from _estimates(why, around(point), 1.0)
     root = _root()
     why = f"h/b = {root:.4f}, where c_1 changes sign"
     yield case_around(SIMPLE, "plate_of", why, exact_inputs(eta=around(root)))
@@ -110,11 +110,11 @@ def _root() -> float:
 def _paper() -> Iterator[HardCase]:
     m, v0, xi_2, xi_3 = 72.0, 1.0, 7e6, 1e8
     with flint.ctx.workprec(128):
-        last = float(printed_motion_balls.last_share(m, v0, xi_2, xi_3))
+        last = float(printed_motion_balls.last_fraction(m, v0, xi_2, xi_3))
     for power in (1, 2, 5):
         u = 0.5**power
-        place = math.asin(last * (1 - u * u) ** 3) / math.sqrt(xi_2 / m)
-        given = exact_inputs(t=around(place), m=m, v0=v0, xi_2=xi_2, xi_3=xi_3)
+        time = math.asin(last * (1 - u * u) ** 3) / math.sqrt(xi_2 / m)
+        given = exact_inputs(t=around(time), m=m, v0=v0, xi_2=xi_2, xi_3=xi_3)
         why = f"the time when u = {u:g}, where one panel of the integrals ends"
         yield case_around(PAPER, "corrected", why, given)
 

@@ -84,41 +84,41 @@ def _closed() -> Iterator[HardCase]:
         why = f"T = {pair:g}, the end of the power series of sinh^2 T - T^2"
         yield _by_depth(kernel, pair, why)
     for kernel, rate in _FADING.items():
-        place = FADES / rate
-        why = f"T = {place:g}, above which {_DECAY[rate]} is applied as two factors"
-        yield _by_depth(kernel, place, why)
+        point = FADES / rate
+        why = f"T = {point:g}, above which {_DECAY[rate]} is applied as two factors"
+        yield _by_depth(kernel, point, why)
     for kernel in (*_BY_T[:8], *_BY_X, *_SCALED):
-        place = float(FAR) * (1 if "T" in arguments(kernel) else 2)
-        yield _by_depth(kernel, place, f"T = {place:g}, beyond which the result is constant")
+        point = float(FAR) * (1 if "T" in arguments(kernel) else 2)
+        yield _by_depth(kernel, point, f"T = {point:g}, beyond which the result is constant")
 
 
 def _mode_shapes() -> Iterator[HardCase]:
     for kernel, (_, form) in mode_forms().items():
-        place = float(form.at)
-        phi = tuple(x / 2 for x in around(place))
-        why = f"T = {place:g}, where power series are replaced by exponentials"
+        point = float(form.at)
+        phi = tuple(x / 2 for x in around(point))
+        why = f"T = {point:g}, where power series are replaced by exponentials"
         yield _case(CLOSED, kernel, why, {**_LENGTHS, "z": 0.375, "phi": phi})
         phi = tuple(2 * x for x in around(float(ONCE)))
         why = f"phi (h - z) = {ONCE}, above which e^(-phi (h - z)) is applied as two factors"
         yield _case(CLOSED, kernel, why, {**_LENGTHS, "z": 0.5, "phi": phi})
     why = "lam = mu, where 1 - 2 nu becomes closer to 1 than to 0"
     yield _case(CLOSED, "mode_g", why, {**_LENGTHS, "z": -0.25, "phi": 4.0, "lam": around(MU)})
-    place = float(blocks()["sinh_minus"].value.at)
-    why = f"phi (h + z) = {place:g}, the end of the power series of sinh u - u"
-    phi = tuple(2 * x for x in around(place))
+    point = float(blocks()["sinh_minus"].value.at)
+    why = f"phi (h + z) = {point:g}, the end of the power series of sinh u - u"
+    phi = tuple(2 * x for x in around(point))
     yield _case(CLOSED, "mode_zz", why, {**_LENGTHS, "z": -0.5, "phi": phi})
 
 
 def _sums() -> Iterator[HardCase]:
     zero = float(j0_zero(1, 80))
     for kernel in _OF_SUMS:
-        for place in switches()["T"]:
-            why = f"T = {place:g} of the first mode, where it changes branches"
-            h = around(place / (2 * zero))
+        for point in switches()["T"]:
+            why = f"T = {point:g} of the first mode, where it changes branches"
+            h = around(point / (2 * zero))
             yield _case(SUMS, kernel, why, {**_PLATE, "h": h}, _MODES)
-        for place in switches()["y"]:
-            why = f"y = a phi = {place:g} of the first mode, where the load changes branches"
-            yield _case(SUMS, kernel, why, {**_PLATE, "a": around(place / zero)}, _MODES)
+        for point in switches()["y"]:
+            why = f"y = a phi = {point:g} of the first mode, where the load changes branches"
+            yield _case(SUMS, kernel, why, {**_PLATE, "a": around(point / zero)}, _MODES)
     for kernel in ("sigma_rr", "sigma_tt"):
         why = "phi r = 2^-30 of the first mode, below which r = 0 is assumed"
         yield _case(SUMS, kernel, why, {**_PLATE, "r": around(_AXIS / zero)}, _MODES)
@@ -126,22 +126,22 @@ def _sums() -> Iterator[HardCase]:
 
 def _one_plate() -> Iterator[HardCase]:
     """Yield cases at the limits of the single-point law in plain numbers, and of the direct sum."""
-    for places, moved, what in (
+    for points, moved, what in (
         (_ORDINARY, "R", "sphere radius"), (_ORDINARY, "h", "half-thickness"),
     ):  # fmt: skip
-        for place in places:
+        for point in points:
             for offset in OFFSETS:
-                x = neighbour(place, offset)
+                x = neighbour(point, offset)
                 size = {"R": x, "h": 1.0, "b": 2.0} if moved == "R" else {"R": 1.0, "h": x, "b": x}
                 a = 1e-3 * min(size.values())
                 given = exact_inputs(a=a, **size)
-                cause = f"{offset:+d} ULP from a {what} of {place:g}, beyond which factors are kept"
+                cause = f"{offset:+d} ULP from a {what} of {point:g}, beyond which factors are kept"
                 yield HardCase(PLATES, "indentation", f"{cause} in range.", given)
-    for place in _USUAL:
+    for point in _USUAL:
         for offset in OFFSETS:
-            h = neighbour(place, offset)
+            h = neighbour(point, offset)
             given = exact_inputs(a=1e-3 * min(h, 1.0), R=50.0, h=h, b=1.0)
-            cause = f"{offset:+d} ULP from h/b = {place:g}, beyond which factors are kept in range"
+            cause = f"{offset:+d} ULP from h/b = {point:g}, beyond which factors are kept in range"
             yield HardCase(PLATES, "indentation", f"{cause}.", given)
     count = 30
     for offset in OFFSETS:

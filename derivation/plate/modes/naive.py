@@ -51,8 +51,8 @@ def naive_field(name: str, *given: Any) -> Any:
         [z, phi, h, lam, mu, A_j], abs(z) <= h, phi > 0, h > 0, 3 * lam > -2 * mu, mu > 0
     )
     T = 2 * phi * h
-    place = _Point(T, phi * (h + z), phi * (h - z), mu / (lam + mu), np.sinh(T))
-    value = A_j * FIELDS[name](place) / (place.s**2 - T**2)
+    point = _Point(T, phi * (h + z), phi * (h - z), mu / (lam + mu), np.sinh(T))
+    value = A_j * FIELDS[name](point) / (point.s**2 - T**2)
     if name == "mode_f":
         value = value / (mu * phi)
     elif name == "mode_g":

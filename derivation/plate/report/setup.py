@@ -45,8 +45,8 @@ def draw_setup(figure: Figure, _: Any) -> None:
         ax.annotate(
             "", end, start, arrowprops={"arrowstyle": style, "lw": 0.7, "shrinkA": 0, "shrinkB": 0}
         )
-    for text, place in LABELS.items():
-        ax.text(*place, text, fontsize=9)
+    for text, position in LABELS.items():
+        ax.text(*position, text, fontsize=9)
     ax.set(xlim=(-EDGE - 0.3, EDGE + 1.3), ylim=(-1.3, 2.7), aspect="equal")
     ax.axis("off")
 

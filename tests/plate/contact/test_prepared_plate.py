@@ -79,10 +79,10 @@ def test_arrays_of_any_layout_equal_single_points(name: str) -> None:
         np.testing.assert_array_equal(found, as_called(name, x, R, h, b))
         assert found.shape == np.broadcast_shapes(*(np.shape(y) for y in (x, h, b)))
         every = np.broadcast_arrays(x, h, b)
-        for place in generator.integers(0, found.size, 25):
-            one, half, radius = (float(y.flat[place]) for y in every)
+        for index in generator.integers(0, found.size, 25):
+            one, half, radius = (float(y.flat[index]) for y in every)
             alone = calls(prepare(half, radius))[name](one, R)
-            assert found.flat[place] == pytest.approx(number(alone), rel=CLOSE)
+            assert found.flat[index] == pytest.approx(number(alone), rel=CLOSE)
 
 
 def test_points_outside_the_domain_are_nan_without_warning() -> None:

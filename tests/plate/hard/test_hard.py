@@ -102,8 +102,8 @@ def test_every_switch_point_of_the_blocks_has_cases(cases: tuple[HardCase, ...])
     }
     assert switches()
     for variable, places in switches().items():
-        for place in places:
-            wanted = {from_ordinal(ordinal(place) + offset) for offset in (-32, -1, 0, 1, 32)}
+        for point in places:
+            wanted = {from_ordinal(ordinal(point) + offset) for offset in (-32, -1, 0, 1, 32)}
             assert wanted <= reached[variable]
 
 
@@ -112,7 +112,7 @@ def test_switch_points_have_cases_at_all_offsets(cases: tuple[HardCase, ...]) ->
     arrays = [c for c in cases if c.group == "switch points of the Bessel functions"]
     for case in arrays:
         at = [ordinal(x) for x in case.numbers["x"]]
-        assert tuple(place - at[2] for place in at) == OFFSETS
+        assert tuple(point - at[2] for point in at) == OFFSETS
 
 
 def test_cases_of_zeros_reach_from_index_1_to_a_million(cases: tuple[HardCase, ...]) -> None:

@@ -132,12 +132,12 @@ def test_missing_reference_is_rejected(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    data, place = json.loads(PAPER.hard.read_text()), tmp_path / "hard.json"
-    monkeypatch.setattr(Paper, "hard", place)
+    data, path = json.loads(PAPER.hard.read_text()), tmp_path / "hard.json"
+    monkeypatch.setattr(Paper, "hard", path)
     assert main(["check", "hard-cases"]) == 2
     assert "check hard-cases --update" in capsys.readouterr().err.replace("\n", " ")
     rows = [row for row in data["cases"] if row["key"] != cases[0].key]
-    place.write_text(json.dumps({"cases": rows}))
+    path.write_text(json.dumps({"cases": rows}))
     assert main(["check", "hard-cases"]) == 2
     message = capsys.readouterr().err
     assert "check hard-cases --update" in message

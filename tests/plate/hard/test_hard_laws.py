@@ -61,9 +61,9 @@ def test_stated_errors_are_tested(suite: Suite, references: dict[str, Known]) ->
     assert isinstance(known, Stating)
     case = next(c for c in suite.cases if c.kernel == "leading")
 
-    def with_stated(share: float) -> hard.HardRow:
+    def with_stated(fraction: float) -> hard.HardRow:
         less = dataclasses.replace(
-            known, stated=lambda *x: tuple(share * error for error in known.stated(*x))
+            known, stated=lambda *x: tuple(fraction * error for error in known.stated(*x))
         )
         one = dataclasses.replace(suite, cases=(case,), kernels={"leading": less})
         (row,) = hard.check(one, references)
@@ -77,9 +77,9 @@ def test_conditioning_of_a_state_is_the_change_by_the_arguments() -> None:
     """The conditioning is the sum of the changes due to each argument, by finite differences."""
     given, step = (7e-3, 0.13, 72.2, 1.0, 0.1, 1.0, 0.36e9, 0.43e9), 1e-4
     total = np.zeros(4)
-    for place in range(len(given)):
+    for index in range(len(given)):
         ends = [
-            [*given[:place], given[place] * f, *given[place + 1 :]] for f in (1 + step, 1 - step)
+            [*given[:index], given[index] * f, *given[index + 1 :]] for f in (1 + step, 1 - step)
         ]
         upper, lower = (np.array(history(*moved)) for moved in ends)
         total += np.abs(upper - lower) / (2 * step)

@@ -12,9 +12,9 @@ def test_batch_equals_single_impacts() -> None:
     """Results agree at both sides of a batch boundary, also for contacts wider than 3 h."""
     given = scenes(0.01, 5.9, _BATCH + 600)
     found = np.stack(impact(**given))
-    for place in (0, 511, 512, _BATCH - 1, _BATCH, _BATCH + 1, _BATCH + 599):
-        alone = np.stack(impact(**{name: float(x[place]) for name, x in given.items()}))
-        np.testing.assert_allclose(found[:, place], alone, rtol=2e-15)
+    for index in (0, 511, 512, _BATCH - 1, _BATCH, _BATCH + 1, _BATCH + 599):
+        alone = np.stack(impact(**{name: float(x[index]) for name, x in given.items()}))
+        np.testing.assert_allclose(found[:, index], alone, rtol=2e-15)
 
 
 def test_batch_broadcasts_its_arguments() -> None:

@@ -211,10 +211,10 @@ def test_plate_with_inertia_agrees_with_another_integrator() -> None:
     steps = itertools.pairwise(times.tolist())
     expected = np.array([marched.step(t, later - t) for t, later in steps])
     x = times[1:] ** (1.0 / ONSET)
-    place = np.searchsorted([piece.element.x for piece in pieces], x, side="right") - 1
+    index = np.searchsorted([piece.element.x for piece in pieces], x, side="right") - 1
     found = [
         problem.force * float(pieces[k].element.at(np.array([one]))[P, 0])
-        for k, one in zip(place, x, strict=True)
+        for k, one in zip(index, x, strict=True)
     ]
     # The largest radius is updated once per step, so its square has an error of first order.
     assert marched.top > 1.5 * branch.onset

@@ -288,15 +288,15 @@ def test_outputs_of_a_heavy_sphere_are_within_their_bounds(
     }
     selected = decide(model, AT_REST | wanted | {"non_hertzian_pressure": False}, 1.0, (output,))
     bound = {row.name: row.bound for row in selected.rows}["viscosity"]
-    place = OUTPUTS.index(output)
+    index = OUTPUTS.index(output)
     try:
         exact = moves(replace(selected.law, effects=selected.law.effects | {"viscosity"})).numbers[
-            place
+            index
         ]
     except SceneError:  # the sphere does not rebound
         assert bound == math.inf
     else:
-        assert abs(moves(selected.law).numbers[place] / exact - 1.0) <= bound
+        assert abs(moves(selected.law).numbers[index] / exact - 1.0) <= bound
 
 
 def test_bending_is_included_with_the_edge() -> None:

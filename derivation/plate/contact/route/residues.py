@@ -84,7 +84,7 @@ def series(eta: mpf, reach: mpf, digits: int) -> ResidueSeries:
         else:
             axis, roots = list(_axis(bits, A)), list(_roots(bits, eta, float(reach)))
             near = _near(bits, half, eta)
-        real, poles = (_powers(places, half, bits) for places in (axis, roots))
+        real, poles = (_powers(nodes, half, bits) for nodes in (axis, roots))
         terms: Scaled = []
         while True:
             parts = next(real), next(poles), next(near)
@@ -230,10 +230,10 @@ class _Term:
         return self.far > step or abs(self.re) > 1 or abs(self.im or 0) > 1
 
 
-def _powers(places: list[_Node], half: mpf, bits: int) -> Iterator[int | None]:
+def _powers(nodes: list[_Node], half: mpf, bits: int) -> Iterator[int | None]:
     """Yield sums over the nodes (imaginary parts for poles), j = 0, 1, ...; None after the last."""
     running = []
-    for T, weight in places:
+    for T, weight in nodes:
         swell = math.ceil(float(half * abs(T)) / math.log(2))
         with mp.workprec(bits + swell + _SPARE):
             square, more = (half * T) ** 2, bits + swell

@@ -51,10 +51,10 @@ def _lowest_switches() -> Iterator[HardCase]:
         SMALL: "above which the fraction of A0 is no longer 1 minus a small difference",
         1.0: "above which sinh T - T, T = 2 x, is no longer a power series",
     }
-    for (place, kernels), nu in product(everywhere.items(), (_METAL, _LAST, _FIRST)):
+    for (point, kernels), nu in product(everywhere.items(), (_METAL, _LAST, _FIRST)):
         for kernel in kernels:
-            given = exact_inputs(x=around(place), nu=nu)
-            yield case_around(WAVES, kernel, f"x = {place:g}, {what[place]}", given)
+            given = exact_inputs(x=around(point), nu=nu)
+            yield case_around(WAVES, kernel, f"x = {point:g}, {what[point]}", given)
 
 
 def _influence_switches() -> Iterator[HardCase]:
@@ -83,9 +83,9 @@ def _level(nu: float) -> Fraction:
 
 def _branch_switches() -> Iterator[HardCase]:
     for name, of in CROSSINGS.items():
-        place = crossing(name)
-        given = exact_inputs(x=around(place), nu=of.nu, index=float(of.index))
-        yield case_around(WAVES, f"{of.kind}_residue", f"x = {place:g}, where {name}", given)
+        point = crossing(name)
+        given = exact_inputs(x=around(point), nu=of.nu, index=float(of.index))
+        yield case_around(WAVES, f"{of.kind}_residue", f"x = {point:g}, where {name}", given)
 
 
 # --- ends of ranges
@@ -108,11 +108,11 @@ _NO_RATIOS = (0.5, -1.0, math.inf, -math.inf, math.nan)
 
 
 def _rejected_arguments(
-    group: str, kernel: str, name: str, places: tuple[float, ...], **same: float
+    group: str, kernel: str, name: str, points: tuple[float, ...], **same: float
 ) -> Iterator[HardCase]:
     """Yield values outside the domain of an argument: all in one array, and single ones."""
     cause = f"Values of {name} outside the domain."
-    for given, form in ((places, "array"), (places[0], "scalar")):
+    for given, form in ((points, "array"), (points[0], "scalar")):
         yield HardCase(
             group, kernel, cause, exact_inputs(**{name: given}, **same), form, expect="nan"
         )
@@ -133,22 +133,22 @@ def _influence() -> Iterator[HardCase]:
         yield HardCase(HARD_WAVES, INFLUENCE, cause, given, "array")
     for y in (1e-3, 0.7, 30.0):
         for index, kind in product((0, 1, 5), inertia_balls.KINDS):
-            place = float(inertia_balls.zero(y, _METAL, kind, index))
-            yield _next_to(y, place, f"branch {index} ({kind}), a pole")
+            point = float(inertia_balls.zero(y, _METAL, kind, index))
+            yield _next_to(y, point, f"branch {index} ({kind}), a pole")
         for angle, what in ((0.5, "bending"), (1.0, "stretching")):
             yield _next_to(y, y * y + (angle * math.pi) ** 2, f"a zero of the part in {what}")
     cause = "Frequencies above all branches that can be separated."
     given = exact_inputs(x=(1.0, 1e-40, 1e39), kap=1e80, nu=_METAL)
     yield HardCase(HARD_WAVES, INFLUENCE, cause, given, "array")
-    places = (neighbour(1e-40, -1), neighbour(1e40, 1), *_NO_LENGTHS)
-    yield from _rejected_arguments(HARD_WAVES, INFLUENCE, "x", places, kap=0.5, nu=_METAL)
+    points = (neighbour(1e-40, -1), neighbour(1e40, 1), *_NO_LENGTHS)
+    yield from _rejected_arguments(HARD_WAVES, INFLUENCE, "x", points, kap=0.5, nu=_METAL)
     loads_beyond = (-5e-324, neighbour(1e80, 1), math.inf, math.nan)
     yield from _rejected_arguments(HARD_WAVES, INFLUENCE, "kap", loads_beyond, x=1.0, nu=_METAL)
     yield from _rejected_arguments(HARD_WAVES, INFLUENCE, "nu", _NO_RATIOS, x=1.0, kap=0.5)
 
 
-def _next_to(x: float, place: float, what: str) -> HardCase:
-    near = tuple(neighbour(place, offset) for offset in (-_NEAREST, _NEAREST))
+def _next_to(x: float, point: float, what: str) -> HardCase:
+    near = tuple(neighbour(point, offset) for offset in (-_NEAREST, _NEAREST))
     cause = f"{_NEAREST} ULP to either side of {what}; x = {x:g}."
     return HardCase(HARD_WAVES, INFLUENCE, cause, exact_inputs(x=x, kap=near, nu=_METAL), "array")
 
@@ -168,8 +168,8 @@ def _branches() -> Iterator[HardCase]:
         cause = "Two poles that lie 8 x^2 apart enclose a branch."
         given = exact_inputs(x=(1e-9, 1e-5, 1e-2), nu=0.4375, index=1.0)
         yield HardCase(HARD_WAVES, kernel, cause, given, "array")
-        places = (neighbour(1e-40, -1), neighbour(1e40, 1), *_NO_LENGTHS)
-        yield from _rejected_arguments(HARD_WAVES, kernel, "x", places, nu=_METAL, index=2.0)
+        points = (neighbour(1e-40, -1), neighbour(1e40, 1), *_NO_LENGTHS)
+        yield from _rejected_arguments(HARD_WAVES, kernel, "x", points, nu=_METAL, index=2.0)
         yield from _rejected_arguments(HARD_WAVES, kernel, "nu", _NO_RATIOS, x=1.0, index=2.0)
 
 

@@ -16,20 +16,20 @@ _STATIC_KAP = Fraction(1, 2**60)
 """kap over min(x^2, x^4) for condition numbers of a static load, where it has no effect."""
 
 
-def differences(values: Values, *places: int) -> Callable[[Given, Sequence[arb]], Sequence[arb]]:
+def differences(values: Values, *indices: int) -> Callable[[Given, Sequence[arb]], Sequence[arb]]:
     """Return for each result the sum of |x df/dx| over these arguments, by differences."""
 
     def slopes(given: Given, _: Sequence[arb]) -> list[arb]:
         here = values(given, _DIGITS)
         totals = [arb(0)] * len(here)
-        for place in places:
+        for index in indices:
             moved: list[Any] = list(given)
-            moved[place] = Fraction(given[place]) * (1 - _STEP)
-            there = values(moved, _DIGITS)
+            moved[index] = Fraction(given[index]) * (1 - _STEP)
+            changed = values(moved, _DIGITS)
             with flint.ctx.workprec(4 * _DIGITS):
                 totals = [
                     total + abs(new - old) / to_ball(_STEP)
-                    for total, new, old in zip(totals, there, here, strict=True)
+                    for total, new, old in zip(totals, changed, here, strict=True)
                 ]
         return totals
 
@@ -90,7 +90,7 @@ _FREQUENCY, _RESIDUE = inertia_balls.zero, inertia_balls.residue
 LAWS: Mapping[str, HardLaw] = {
     "bending_frequency": _of_lowest(_FREQUENCY, root=True),
     "bending_residue": _of_lowest(_RESIDUE),
-    "bending_fraction": _of_lowest(inertia_balls.share),
+    "bending_fraction": _of_lowest(inertia_balls.fraction),
     "dynamic_influence": HardLaw(
         _influence, slopes=_conditions, results=2, oracle=(inertia_balls.__name__,)
     ),

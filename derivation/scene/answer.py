@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from derivation.engine.text import aligned, paragraph
 from derivation.scene.quantity import prefixed
+from derivation.scene.yield_warnings import assumed_yield_stress
 
 if TYPE_CHECKING:
     from derivation.scene.result import Result
@@ -70,6 +71,10 @@ def _remarks(result: "Result") -> Iterator[str]:
         yield result.disabled_note
     if result.strength_note:
         yield f"Strength: {result.strength_note}"
+    if not result.effects.law.viscous:  # its pressure is known only in part
+        assumed = assumed_yield_stress(result.scene, result.max_pressure, result.max_tensile_stress)
+        if assumed:
+            yield f"Yield: {assumed}"
 
 
 def details(result: "Result") -> str:

@@ -130,7 +130,7 @@ def find(name: str, own: Mapping[str, KnownMaterial] | None = None) -> KnownMate
 
 def unknown(name: str, own: Iterable[str] = ()) -> str:
     """Return the message for an unknown material, with the nearest name; hollow balls differ."""
-    if plain(name) in HOLLOW:
+    if plain(name) in HOLLOW or "hollow" in plain(name):
         return (
             f"expected the material of a solid sphere, got {shown(name)}, which is hollow; the "
             "model does not include the bending of a shell"

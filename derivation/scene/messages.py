@@ -47,13 +47,53 @@ _SOLID = (
     "the sphere is solid, and the model does not include the bending of a hollow sphere; remove "
     "the key"
 )
+_ROUND = (
+    'the plate is circular; give its radius, or set extent = "infinite" in [inertia] if the '
+    "contact ends before waves return from the edge"
+)
+_CENTRAL = (
+    "the sphere strikes the centre of the plate at a right angle and without friction; remove the "
+    "key, and give the normal component of the velocity as impact.speed"
+)
+_MEASURED = (
+    "a restitution is a result, or a measurement that determines a material constant; write "
+    'restitution and solve_for = "yield_stress" or "retardation_time" in [measured]'
+)
+_FOUNDATION = "the plate is supported at its edge only, without a foundation; remove the key"
+_DAMPING = "damping is given by the loss factor, twice the damping ratio of each mode; write "
+_EXPECTED_KEYS = {
+    ("sphere", _SOLID): (
+        "thickness", "wall_thickness", "shell_thickness", "wall", "hollow", "inner_radius",
+        "inner_diameter",
+    ),
+    ("sphere", "give the radius, half of the diameter, as sphere.radius"): ("diameter",),
+    ("plate", "give the radius, half of the diameter, as plate.radius"): ("diameter",),
+    ("plate", _ROUND): ("length", "width", "shape", "side", "a", "b", "lx", "ly", "size"),
+    ("plate", "the support of the edge is plate.edge; write for example `edge = \"clamped\"`"): (
+        "support", "supports", "boundary", "boundary_condition", "bc", "edges", "mounting",
+    ),
+    ("plate", _FOUNDATION): ("foundation", "backing", "bedding", "winkler"),
+    ("plate", _DAMPING + "plate.loss_factor"): ("damping", "damping_ratio", "zeta", "q_factor"),
+    ("impact", _CENTRAL): (
+        "x", "y", "offset", "position", "location", "point", "eccentricity", "angle", "direction",
+        "friction", "spin", "rotation",
+    ),
+    ("impact", "give the impact speed, sqrt(2 g height) for a free fall, as impact.speed"): (
+        "height", "drop_height", "fall_height", "h", "energy", "drop",
+    ),
+    ("impact", "the impact speed [m/s] is impact.speed; rename the key"): ("velocity", "v", "v0"),
+    ("accuracy", "the relative tolerance is accuracy.rtol; rename the key"): (
+        "tolerance", "tol", "accuracy", "error", "relative_tolerance", "eps",
+    ),
+}  # fmt: skip
 UNKNOWN = {
-    ("sphere", key): _SOLID
-    for key in ("thickness", "wall_thickness", "shell_thickness", "wall", "hollow", "inner_radius")
-}
-"""Reasons why keys that users may expect do not exist."""
+    (table, key): reason for (table, reason), keys in _EXPECTED_KEYS.items() for key in keys
+} | {(table, "restitution"): _MEASURED for table in ("sphere", "plate", "impact")}
+"""What to do instead of each key that users may expect but that does not exist."""
 
 ELSEWHERE = {
+    "edge": '; if the contact ends before waves return from the edge, set extent = "infinite" in '
+    "[inertia]: then the edge has no effect",
     "rtol": "; for more digits than double precision has, run "
     "`platecontact reference SCENE.toml --digits N`",
 }

@@ -26,8 +26,16 @@ from derivation.scene.quantity import counted
 from derivation.scene.scene import OUTPUTS
 from derivation.scene.time_element import DAMPED, A, E, P, V, W, Z, deflections_at, nodes_of
 
-IRREGULAR = 2.0
-"""Estimated error of the omitted modes over the change since half as many modes [1]."""
+IRREGULAR, LATE = 2.0, 2.5
+"""Estimated error of the omitted modes over the change since half as many modes [1]: of a result,
+and of the contact time. Just before the separation the force falls as the power 3/2 of the time
+left, and a mode lags it by a power -3/2 of its frequency. The sum over the omitted modes of a
+half-space, and with it the error of the contact time, decreases as the square root of their number:
+it tends to 1/(sqrt(2) - 1) = 2.42 times the change."""
+EARLIER = 1.0
+"""Estimated error of the omitted modes over the change between the two runs before [1]. Waves that
+reach the contact during it make results converge irregularly, so that two runs may agree by
+chance."""
 LOOKS = 2001
 """Number of times at which the force of a contact is evaluated."""
 FLIGHT = 129
@@ -82,6 +90,9 @@ class InertiaDetails:
     mode_convergence
         Relative change of each result since the run with half as many modes [1]; infinite if there
         is no estimate, for example if all modes are slower than the contact.
+    earlier_change
+        Relative change of each result between the two runs before, with half and with a quarter as
+        many modes [1]; 0 if there was none.
     omitted_branch_error
         Estimated relative change of each result by the omitted wave branches [1]; 0 if all
         branches are included.
@@ -103,6 +114,7 @@ class InertiaDetails:
     omitted_branch_error: Results
     omitted_octaves: float = 0.0
     jump: float = 0.0
+    earlier_change: Results = (0.0, 0.0, 0.0, 0.0, 0.0)
 
     @property
     def complete(self) -> bool:
@@ -111,10 +123,16 @@ class InertiaDetails:
 
     def left(self, outputs: Sequence[str]) -> tuple[float, float]:
         """Return the largest estimated errors of outputs by omitted modes and by branches [1]."""
+        remaining = max(map(self._omitted_modes, outputs))
         indices = [OUTPUTS.index(name) for name in outputs]
-        modes = max(self.mode_convergence[k] for k in indices)
-        remaining = (IRREGULAR + self.omitted_octaves) * modes
         return remaining, max(self.omitted_branch_error[k] for k in indices)
+
+    def _omitted_modes(self, output: str) -> float:
+        """Return the estimated error of an output by omitted modes [1]."""
+        index, regular = OUTPUTS.index(output), output == "contact_time"
+        factor = (LATE if regular else IRREGULAR) + self.omitted_octaves
+        earlier = 0.0 if regular else EARLIER * self.earlier_change[index]
+        return max(factor * self.mode_convergence[index], earlier)
 
     def error(self, outputs: Sequence[str]) -> float:
         """Return the largest estimated error of outputs by all that is omitted [1]."""

@@ -1,6 +1,7 @@
 """The dynamic problem of a scene with plate inertia."""
 
 import math
+from functools import lru_cache
 
 from derivation.scene.contact_tables import TAIL, contact_of
 from derivation.scene.dynamic_problem import DynamicProblem
@@ -14,6 +15,7 @@ FINER = 1e-2
 """Last coefficients of the contact tables over the tolerance of the time elements."""
 
 
+@lru_cache(maxsize=1)  # the work of a run is estimated before it starts
 def problem_of(law: ContactLaw, count: int, tolerance: float = 0.0) -> DynamicProblem:
     """Return the dynamic problem of a law with a number of bending modes.
 

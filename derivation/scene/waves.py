@@ -17,9 +17,10 @@ from derivation.scene import contact_sequence
 from derivation.scene.contact_errors import check_whole_width
 from derivation.scene.contact_sequence import ENOUGH, ContactRun, ImpactHistory, expected_work
 from derivation.scene.dynamic_problem import DynamicProblem
-from derivation.scene.dynamic_results import UNKNOWN, dynamic_impact_of
+from derivation.scene.dynamic_results import dynamic_impact_of
 from derivation.scene.law import ContactLaw
 from derivation.scene.modal import Modes, plate_of
+from derivation.scene.mode_convergence import judged, unchecked, unjudged, unreachable
 from derivation.scene.mode_count import (
     LAST,
     affordable,
@@ -42,9 +43,9 @@ FEWER = 2
 """Difference in the number of nodes between a run and the coarser one that checks it."""
 WIDEST = 30.0
 """Largest radius that represents an infinite plate, over the first guess of `model_of`."""
-LOOSE, TOLERANCE_FRACTION = 3e-4, 1.0 / 3.0
-"""Largest accepted change with the number of modes: without a tolerance [1], and as a fraction of a
-tolerance."""
+LOOSE, TOLERANCE_FRACTION, KEPT = 4e-4, 1.0 / 3.0, 0.75
+"""Largest accepted error by omitted modes: without a tolerance [1], and as a part of one; the part
+that omitted modes and branches together may take."""
 HEAVY, IN_CONTACT = 10.0, 0.7
 """Sphere mass over mass of the first mode above which the plate acts as a spring, and the least
 fraction of half its period in contact; random scenes have at least 0.77."""
@@ -237,9 +238,15 @@ def _converged(
     check_whole_width(rough.impact_history.problem, rough.max_contact_radius)
     coarser = None
     if _next_work(law, 2 * count, rough) > min(LONG, contact_sequence.WORK, budget.left):
-        coarser = _by_coarser(rough, law, count, Budget(budget.left))
-        if coarser and coarser.inertia.left(reach.outputs)[0] <= goal:
-            return coarser
+        compared = _by_coarser(rough, law, count, Budget(budget.left))
+        if compared:
+            coarser, halved = compared
+            change, work = coarser.inertia.left(reach.outputs)[0], _next_work(law, 2 * count, rough)
+            if change <= _accepted_change(coarser, goal, reach):
+                return coarser
+            if unreachable(halved, law, count, work, reach):
+                return halved
+    rough = _with_earlier(rough, law, count, reach, budget)
     best: DynamicImpact | None = None
     while True:
         try:
@@ -251,16 +258,40 @@ def _converged(
         if not found.inertia.complete:
             unstarted = found.impact_history.problem is rough.impact_history.problem
             return best or (coarser if unstarted else None) or found
-        best, count, rough = _judged(rough, found), 2 * count, found
-        change, beyond = best.inertia.left(reach.outputs)
-        # Where omitted branches matter more than additional modes, a tenth of them is small enough.
-        enough = goal if beyond <= goal / TOLERANCE_FRACTION else max(goal, 0.1 * beyond)
+        best = rough = judged(rough, found)
+        count = 2 * count
         if law.model.inertia.modes:
             return _of_chosen_modes(best, law, count, budget)
-        near = change <= LAST * enough
-        used = _work(best.impact_history)
+        change, enough = best.inertia.left(reach.outputs)[0], _accepted_change(best, goal, reach)
+        used, near = _work(best.impact_history), change <= LAST * enough
         if change <= enough or beyond_limits(law, count, used, near):
             return best
+        if unreachable(best, law, count, _next_work(law, 2 * count, best), reach):
+            return best
+
+
+def _accepted_change(found: DynamicImpact, goal: float, reach: Reach) -> float:
+    """Return the largest accepted error by omitted modes [1]."""
+    beyond = found.inertia.left(reach.outputs)[1]
+    # Where omitted branches matter more than additional modes, a tenth of them is small enough.
+    enough = goal if beyond <= goal / TOLERANCE_FRACTION else max(goal, 0.1 * beyond)
+    whole = KEPT * reach.need
+    if not found.inertia.jump <= whole < math.inf:
+        return enough
+    return max(enough, whole - beyond - integration_error(found.impact_history))
+
+
+def _with_earlier(
+    found: DynamicImpact, law: ContactLaw, count: int, reach: Reach, budget: Budget
+) -> DynamicImpact:
+    """Return the first run with its change since half as many: the next may agree by chance."""
+    if "contact_time" in reach.outputs or law.model.inertia.modes or count < FOURTH:
+        return found
+    try:
+        coarse = _run(law, count // 2, budget, time_tolerance(LOOSE), FEWER)
+    except SceneError:  # so few modes may bend the plate more than the sphere is curved
+        return found
+    return judged(coarse, found) if coarse.inertia.complete else found
 
 
 def _next_work(law: ContactLaw, count: int, rough: DynamicImpact) -> float:
@@ -307,32 +338,12 @@ def _run(
         fewer = count // 2
         while fewer > 1 and expected_work(problem_of(law, fewer, tolerance), n, coarse) > work:
             fewer //= 2
-        return dynamic_impact_of(law, _unchecked(coarse, problem, fewer))
+        return dynamic_impact_of(law, unchecked(coarse, problem, fewer))
     enough = reach.enough(law, problem) if reach else None
     watch = reach.watch(law, problem.a) if reach else None
     history = contact_sequence.impact_history(problem, n, tolerance, work, enough, watch)
     budget.left -= history.work
     return dynamic_impact_of(law, history)
-
-
-def _unchecked(coarse: ImpactHistory, problem: DynamicProblem, fewer: int) -> ImpactHistory:
-    """Return a run as incomplete, because a finer one for its error estimate is too much work."""
-    return replace(
-        coarse,
-        reason=f"the error of {coarse.problem.omega.size} modes is unknown, because the "
-        f"{problem.omega.size} modes for its estimate exceed the limit of work",
-        remedy=f"set inertia.modes = {fewer} and remove the tolerance, or set "
-        "effects.inertia = false",
-    )
-
-
-def _judged(rough: DynamicImpact, found: DynamicImpact) -> DynamicImpact:
-    """Return the finer run with the relative change of each result since the coarser run."""
-    pairs = zip(found.numbers, rough.numbers, strict=True)
-    time, depth, force, radius, speed = (abs(new - old) / abs(new) for new, old in pairs)
-    change, jump = (time, depth, force, radius, speed), found.jump_since(rough)
-    inertia = replace(found.inertia, mode_convergence=change, jump=jump)
-    return replace(found, inertia=inertia)
 
 
 def _of_chosen_modes(
@@ -347,11 +358,11 @@ def _of_chosen_modes(
     if fast(law, count // 2):
         return found
     if not fast(law, count):
-        return _unjudged(found)
+        return unjudged(found)
     coarse = _run(law, max(1, count // 4), budget, time_tolerance(LOOSE), FEWER)
     if not coarse.inertia.complete:
-        return _unjudged(found)
-    further = _judged(coarse, found).inertia.mode_convergence
+        return unjudged(found)
+    further = judged(coarse, found).inertia.mode_convergence
     time, depth, force, radius, speed = map(max, found.inertia.mode_convergence, further)
     change = time, depth, force, radius, speed
     return replace(found, inertia=replace(found.inertia, mode_convergence=change))
@@ -359,8 +370,10 @@ def _of_chosen_modes(
 
 def _by_coarser(
     found: DynamicImpact, law: ContactLaw, count: int, budget: Budget
-) -> DynamicImpact | None:
+) -> tuple[DynamicImpact, DynamicImpact] | None:
     """Return the first run with an error estimate by coarser ones, less work than a finer one.
+
+    The second one has the change since half as many modes alone.
 
     As in `_of_chosen_modes`, the larger change since half and since a quarter as many modes counts.
     None if the scene gives a number of modes, the modes of the first run are slower than the
@@ -368,7 +381,7 @@ def _by_coarser(
     """
     if law.model.inertia.modes or count < FOURTH or not fast(law, count):
         return None
-    changes, jump = [], 0.0
+    changes, jump, halved = [], 0.0, found
     for fewer in (count // 4, count // 2):
         try:
             coarse = _run(law, fewer, budget, time_tolerance(LOOSE), FEWER)
@@ -376,16 +389,12 @@ def _by_coarser(
             return None
         if not coarse.inertia.complete:
             return None
-        judged = _judged(coarse, found).inertia
-        changes.append(judged.mode_convergence)
-        jump = max(jump, judged.jump)
+        halved = judged(coarse, found)
+        changes.append(halved.inertia.mode_convergence)
+        jump = max(jump, halved.inertia.jump)
     time, depth, force, radius, speed = map(max, *changes)
     change = time, depth, force, radius, speed
     if max(change) >= 1.0:
         return None
-    return replace(found, inertia=replace(found.inertia, mode_convergence=change, jump=jump))
-
-
-def _unjudged(found: DynamicImpact) -> DynamicImpact:
-    """Return a run without an error estimate for its omitted modes."""
-    return replace(found, inertia=replace(found.inertia, mode_convergence=UNKNOWN))
+    inertia = replace(found.inertia, mode_convergence=change, jump=jump)
+    return replace(found, inertia=inertia), halved

@@ -5,11 +5,15 @@ As the plastic zone of a metal spreads, the mean pressure rises beyond 1.6 Y to 
 the contact radius over that at the onset of yield.
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 
+from derivation.scene.body_materials import body_of, own_materials
 from derivation.scene.law import ContactLaw
+from derivation.scene.quantity import prefixed
+from derivation.scene.scene import Scene
 from derivation.scene.yielding import onset_of
 from generated.plasticity_kernels import beyond, risen
 from generated.plasticity_numbers import FULLY_PLASTIC, YIELD_LIMIT
@@ -72,6 +76,36 @@ def static_warnings(law: ContactLaw, a: float) -> tuple[str, ...]:
         f"about {found.stiffness:.2g}"
     )
     return (text,)
+
+
+def assumed_yield_stress(scene: Scene, pressure: float, bending: float) -> str:
+    """Return which yield stress the results assume of bodies without one; empty if there is none.
+
+    Parameters
+    ----------
+    pressure
+        Largest contact pressure [Pa].
+    bending
+        Largest tensile stress on the back face of the plate [Pa].
+    """
+    own, contact = own_materials(scene.materials), pressure / YIELD_LIMIT
+    bodies = {"sphere": body_of(scene.sphere, own), "plate": body_of(scene.plate, own)}
+    assumed = {
+        name: max(contact, bending) if name == "plate" else contact
+        for name, body in bodies.items()
+        if math.isinf(body.yield_stress) and math.isfinite(body.mu)
+    }
+    if not assumed:
+        return ""
+    stresses = {name: " ".join(prefixed(x, "Pa", 3)) for name, x in assumed.items()}
+    bent = ", in bending" if bending > contact else ""
+    least = " and ".join(
+        f"{x} ({name}{bent if name == 'plate' else ''})" for name, x in stresses.items()
+    )
+    if len(set(stresses.values())) == 1:
+        least = next(iter(stresses.values()))
+    named = " and ".join(f"the {name}" for name in assumed)
+    return f"no yield stress is given for {named}; the results assume at least {least}"
 
 
 def _reason(wide: float) -> str:

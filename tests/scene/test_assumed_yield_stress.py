@@ -1,0 +1,48 @@
+"""The yield stress that a summary states for bodies without one: with more, nothing changes."""
+
+import re
+from typing import Any
+
+import pytest
+
+from derivation.scene import read, simulate
+from derivation.scene.yield_warnings import assumed_yield_stress
+
+SCALES = {"k": 1e3, "M": 1e6, "G": 1e9}
+SCENE: dict[str, dict[str, Any]] = {
+    "sphere": {"radius": 0.01, "material": "steel"},
+    "plate": {"radius": 0.2, "thickness": 0.05, "material": "steel"},
+    "impact": {"speed": 0.5},
+    "effects": {"inertia": False},
+}
+
+
+def changed(**tables: dict[str, Any]) -> dict[str, dict[str, Any]]:
+    return {name: keys | tables.get(name, {}) for name, keys in SCENE.items()}
+
+
+def assumed(scene: dict[str, dict[str, Any]]) -> float | None:
+    """Return the stress [Pa] that the summary states; None if it states none."""
+    found = re.search(r"at least ([\d.]+) ([kMG])Pa", " ".join(str(simulate(read(scene))).split()))
+    return float(found[1]) * SCALES[found[2]] if found else None
+
+
+@pytest.mark.parametrize("body", ["sphere", "plate"])
+def test_body_yields_below_the_assumed_stress_and_not_above(body: str) -> None:
+    stress = assumed(SCENE)
+    assert stress
+    for factor, yields in ((1.01, False), (0.99, True)):
+        found = simulate(read(changed(**{body: {"yield_stress": factor * stress}})))
+        assert (found.dent > 0.0) == yields
+
+
+def test_nothing_is_assumed_of_rigid_bodies_and_of_known_yield_stresses() -> None:
+    known = {"yield_stress": 1e12}
+    assert assumed(changed(sphere=known, plate=known)) is None
+    rigid = changed(plate=known) | {"sphere": {"radius": 0.01, "mass": 0.03}}
+    assert assumed(rigid) is None
+
+
+def test_plate_in_bending_needs_the_stress_of_its_back_face() -> None:
+    text = assumed_yield_stress(read(SCENE), pressure=1.6e9, bending=2e9)
+    assert "1.00 GPa (sphere) and 2.00 GPa (plate, in bending)" in text

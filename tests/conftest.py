@@ -1,6 +1,8 @@
 """Fixtures that several test files share."""
 
 import json
+import os
+import sys
 import warnings
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
@@ -15,6 +17,11 @@ from derivation.plate.vocabulary import Formula
 if TYPE_CHECKING:  # these modules import the generated package, which may be missing in a test
     from derivation.engine.measure.case import HardCase
     from derivation.engine.measure.suite import Known, Suite
+
+# Compiled modules are kept, even where the environment forbids it: the tests start hundreds of
+# processes, and each would compile again what it imports.
+sys.dont_write_bytecode = False
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
 # The same draws in every run, however slow; `pytest --hypothesis-profile default` draws others.
 settings.register_profile("same", derandomize=True, deadline=None, database=None)

@@ -16,7 +16,7 @@ from derivation.engine.files import measurements
 from derivation.scene import motion, waves
 from derivation.scene.effect_selection import decide
 from derivation.scene.effects import EFFECTS
-from derivation.scene.effects.inertia import higher_branch_error, weight_share
+from derivation.scene.effects.inertia import higher_branch_error, weight_work_ratio
 from derivation.scene.impact import selected_effects
 from derivation.scene.law import ContactLaw
 from derivation.scene.limits import zener_number
@@ -73,7 +73,7 @@ def reason_to_skip(data: Scene) -> str:
     still = quasi_static(model)
     if still is None:
         return "no impact on the quasi-static plate"
-    if weight_share(model, still.max_indentation) > MAX_WEIGHT_WORK:
+    if weight_work_ratio(model, still.max_indentation) > MAX_WEIGHT_WORK:
         return f"work of the weight over the initial kinetic energy above {MAX_WEIGHT_WORK:g}"
     most = MODES[data["inertia"]["branches"]]
     if count_of(ContactLaw(model, frozenset({"hertz", "inertia"}))) > most:
@@ -97,7 +97,9 @@ def with_tolerance(data: Scene, place: float) -> tuple[Scene, float]:
         map(float, higher_branch_error(model, still.max_contact_radius, still.contact_time))
     )
     least = (
-        BRANCH_BOUND_FACTOR * radiated * (1.0 + float(weight_share(model, still.max_indentation)))
+        BRANCH_BOUND_FACTOR
+        * radiated
+        * (1.0 + float(weight_work_ratio(model, still.max_indentation)))
         + LEAST_RTOL
     )
     if omission_bound < INERTIA_THRESHOLD and (place < 0.5 or least > omission_bound):

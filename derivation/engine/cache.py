@@ -6,6 +6,7 @@ executes nothing else. A file that cannot be read is ignored, and its result is 
 """
 
 import contextlib
+import functools
 import hashlib
 import json
 import os
@@ -46,7 +47,7 @@ def cached(
     ----------
     name
         Name of the result.
-    rooms
+    source_names
         Sources on which it depends: parts of this package by name, others by path; see
         `derivation.engine.files.sources`.
     compute
@@ -75,6 +76,29 @@ def cached(
     # ones, the result is read from what was written.
     value: Value = _deserialised(key, content, known)
     return value
+
+
+def in_file(
+    source_names: tuple[str | Path, ...], *kinds: type
+) -> Callable[[Callable[..., Value]], Callable[..., Value]]:
+    """Return a decorator that caches the results of a function in memory and in files.
+
+    Parameters
+    ----------
+    source_names, kinds
+        As for `cached`. The function has integers as arguments.
+    """
+
+    def decorate(function: Callable[..., Value]) -> Callable[..., Value]:
+        @functools.cache
+        @functools.wraps(function)
+        def read(*arguments: int) -> Value:
+            name = "-".join((function.__module__, function.__name__, *map(str, arguments)))
+            return cached(name, source_names, lambda: function(*arguments), *kinds)
+
+        return read
+
+    return decorate
 
 
 def cache_folder() -> Path | None:

@@ -32,10 +32,10 @@ def read_budgets() -> dict[str, budgets.Budget]:
     return budgets.parse_budgets(read_tables())
 
 
-def read_printed_share() -> float:
+def read_printed_fraction() -> float:
     """Return the committed lower limit for the printed part of the package's arithmetic [1]."""
-    share: float = read_tables()["package"]["printed"]
-    return share
+    fraction: float = read_tables()["package"]["printed"]
+    return fraction
 
 
 def read_stated_limits(table: str = "impact") -> dict[str, float]:
@@ -44,7 +44,7 @@ def read_stated_limits(table: str = "impact") -> dict[str, float]:
 
 
 def counted_modules(sources: Mapping[str, str]) -> dict[str, str]:
-    """Return the modules whose arithmetic is counted for the printed share, by name.
+    """Return the modules whose arithmetic is counted for the printed fraction, by name.
 
     `as_printed`, which repeats the paper's formulas with their misprints, is not counted.
     """

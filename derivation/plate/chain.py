@@ -39,11 +39,14 @@ and from the contact law to the motion:
 32 damping          damped modes: response, free motion, dissipated energy
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 
+from derivation.engine.cache import in_file
+from derivation.engine.formula.proof import Proof
 from derivation.plate.back_face.theory import back_face_formulas
 from derivation.plate.contact.theory.divergence import divergence
 from derivation.plate.contact.theory.hertz import (
+    SOURCES,
     contact_radius,
     pressure,
     pressure_coefficient,
@@ -118,12 +121,7 @@ MOTION_STEPS: tuple[Step, ...] = (
 """Steps after the contact law. They are separate, because they contain integrals and constants."""
 
 
-def derived_steps() -> Iterator[tuple[str, tuple[Formula, ...]]]:
-    """Yield each step's name and formulas up to the interior; each is proved on request."""
-    for name, derive_link in STEPS:
-        yield name, derive_link()
-
-
+@in_file((*SOURCES, "plate/chain.py"), Formula, Proof)
 def derive() -> dict[str, Formula]:
     """Return every formula up to the interior by name, each proved.
 
@@ -132,4 +130,4 @@ def derive() -> dict[str, Formula]:
     ProofError
         Naming the step whose proof fails.
     """
-    return {formula.name: formula for _, formulas in derived_steps() for formula in formulas}
+    return {formula.name: formula for _, step in STEPS for formula in step()}

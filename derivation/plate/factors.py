@@ -12,13 +12,13 @@ from derivation.plate.vocabulary import lam, mu
 PRODUCT = sp.Function("product")
 """The product of a tuple of factors, divided by that of a second one."""
 _first, _second, _scale = sp.symbols("first second scale", positive=True)
-_share = sp.Symbol("share", positive=True)
+_modulus_ratio = sp.Symbol("modulus_ratio", positive=True)
 MODERATE = (
     Several((_first, _second), "moderate", (lam, mu), (lam / _scale, mu / _scale)),
-    Let(_share, (_first + _second) / (_first + 2 * _second)),
+    Let(_modulus_ratio, (_first + _second) / (_first + 2 * _second)),
 )
 """Statements that YOUNG needs: the Lame constants divided by a power of two."""
-YOUNG = 4, mu, _share
+YOUNG = 4, mu, _modulus_ratio
 """E* as factors."""
 
 

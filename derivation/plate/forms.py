@@ -22,7 +22,7 @@ from derivation.plate.modes.kernels.steps import RATIO, ratio
 from derivation.plate.modules import printed_modules
 from derivation.plate.vocabulary import P, R, a, h, lam, mu, phi, r
 
-share = sp.Symbol("share", real=True)
+r_over_a = sp.Symbol("r_over_a", real=True)
 x, y, T = sp.symbols("x y T", positive=True)
 SCALES = Scales(
     (
@@ -79,8 +79,8 @@ CLOSE = ("G_m",)
 
 def _pressure() -> dict[str, Shape]:
     """Return forms of Hertz pressure, whose root is split into two factors, and of the force."""
-    fraction = Step(share, r / a)
-    root = sp.sqrt((1 - share) * (1 + share))
+    fraction = Step(r_over_a, r / a)
+    root = sp.sqrt((1 - r_over_a) * (1 + r_over_a))
     return {
         "p": ((fraction,), TIMES(-3 * root / (2 * sp.pi), P, 1, a, -2)),
         "P": ((RATIO,), TIMES(16 / (3 * ratio), mu, 1, a, 3, R, -1)),

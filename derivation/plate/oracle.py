@@ -22,7 +22,7 @@ def _mode(j: int, values: Mapping[str, flint.arb], bits: int) -> dict[str, flint
     return {"phi": j0_zero(j, bits) / values["b"], "J1": j1_at_zero(j, bits)}
 
 
-def _share(formula: Record) -> sp.Expr:
+def _loaded_term(formula: Record) -> sp.Expr:
     """Return one term of a modal sum, with the constants that the load determines."""
     coefficient, _ = ORACLE.stated("A_j")
     return loaded(formula.expression).subs(symbols.A_j, coefficient.expression)
@@ -55,7 +55,7 @@ ORACLE = Balls(
         "finite_part_ratio": ("k", moments.finite_part_ratio),
     },
     # b also acts through phi = j_n/b; phi and J1 stand for j_n and J1(j_n) from a table.
-    terms=Terms((symbols.phi, symbols.J1), _mode, {"phi": ("b", -1)}, _share),
+    terms=Terms((symbols.phi, symbols.J1), _mode, {"phi": ("b", -1)}, _loaded_term),
     limit=("r", _limit_on_axis),
 )
 certified_value, reference, stated = ORACLE.value, ORACLE.reference, ORACLE.stated

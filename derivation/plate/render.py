@@ -28,7 +28,7 @@ from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.form import Form
 from derivation.engine.rewrite.truncated_series import truncated_series
 from derivation.plate.blocks import blocks
-from derivation.plate.budgets import counted_modules, read_budgets, read_printed_share
+from derivation.plate.budgets import counted_modules, read_budgets, read_printed_fraction
 from derivation.plate.manifest_rows import hand_written_rows
 from derivation.plate.modes.kernels.contributions import CONTRIBUTIONS
 from derivation.plate.modes.kernels.modal_sums import STYLE, kernel_of_sum
@@ -65,7 +65,9 @@ def render(formulas: Mapping[str, Record], forms: tuple[Form, ...]) -> dict[str,
     planned = modules(kernels)
     files = module_files(planned)
     sources = {name.removesuffix(".py"): text for name, text in files.items()}
-    expect_printed_fraction(arithmetic_of_modules(counted_modules(sources)), read_printed_share())
+    expect_printed_fraction(
+        arithmetic_of_modules(counted_modules(sources)), read_printed_fraction()
+    )
     return files
 
 

@@ -1,4 +1,4 @@
-"""Tables of a contact law with the modes of a plate: forces, depth and shares by the radius."""
+"""Tables of a contact law with the modes of a plate: forces, depth, modal weights by radius."""
 
 import math
 from dataclasses import dataclass
@@ -117,7 +117,7 @@ def contact_of(
 
     def driven(modes: Modes) -> tuple[Array, Array]:
         """Return P_j over x^3, and s_j - 1."""
-        less = modes.shares_less_one(a)
+        less = modes.modal_weights_less_one(a)
         return mean @ (analysis @ (growth * (1.0 + less))), 0.0 * less if pointwise else less
 
     def moved(modes: Modes) -> Array:

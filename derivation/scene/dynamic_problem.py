@@ -62,7 +62,7 @@ class DynamicProblem:
         Largest contact radius [m] of the contact law; infinite if it is not checked.
     range_end
         This limit in words.
-    bending_share
+    bending_fraction
         Fraction of the static compliance of each shape that is bending, and thus elastic in a
         viscoelastic contact [1].
     """
@@ -79,7 +79,7 @@ class DynamicProblem:
     yielding: Yielding | None = None
     limit: float = math.inf
     range_end: str = ""
-    bending_share: Array | float = 1.0
+    bending_fraction: Array | float = 1.0
 
     @property
     def force(self) -> float:
@@ -128,7 +128,7 @@ class DynamicProblem:
         at = self.contact.at(np.array([self.a * radius]))
         felt, narrow = at.felt[0], at.forces_a[0, 1:] * (at.force[0] / at.force_a[0])
         forces = np.array([2.0 * felt - narrow, narrow - felt]) / self.force
-        driving = ((1.0 - self.bending_share) * forces)[:, self.contact.modes.shape]
+        driving = ((1.0 - self.bending_fraction) * forces)[:, self.contact.modes.shape]
         rates = np.array([[1.0], [2.0]]) / self.retardation_time
         stiff = self.omega**2 + rates * (rates - 2.0 * self.damping_ratio * self.omega)
         deflections = self.inverse_modal_mass * driving / stiff

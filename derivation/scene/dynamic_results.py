@@ -9,7 +9,7 @@ from derivation.scene.contact_sequence import ContactRun, ImpactHistory
 from derivation.scene.dynamic_energy import balance_of
 from derivation.scene.dynamic_problem import DynamicProblem
 from derivation.scene.effects.effect import Results
-from derivation.scene.effects.inertia import after_yield, higher_branch_error, weight_share
+from derivation.scene.effects.inertia import after_yield, higher_branch_error, weight_work_ratio
 from derivation.scene.law import ContactLaw
 from derivation.scene.motion import EnergyBalance
 from derivation.scene.time_element import A, P, Z
@@ -74,7 +74,7 @@ def _branches(
     model = law.model
     if model.inertia.branches == "all":
         return NONE
-    heavier = float(1.0 + weight_share(model, displacement))
+    heavier = float(1.0 + weight_work_ratio(model, displacement))
     lost = balance.plastic_loss + balance.viscous_loss + balance.unrecovered_elastic
     supplied = balance.initial_kinetic + max(0.0, balance.gravity_work)
     restitution = math.sqrt(max(0.0, 1.0 - lost / supplied))

@@ -70,7 +70,7 @@ def plates_at(plates: Plates, index: Array) -> Plates:
     return Plates(eta, reach, far, short, first)
 
 
-def plate_share(plates: Plates, a: Array, h: Numbers, b: Numbers) -> tuple[Array, Array]:
+def plate_contribution(plates: Plates, a: Array, h: Numbers, b: Numbers) -> tuple[Array, Array]:
     """Return F and S - 1 of the contact law for one plate, or for many with a row of radii each.
 
     Parameters
@@ -133,7 +133,7 @@ __all__ = [
     "indentation_slope",
     "law_errors",
     "max_pressure",
-    "plate_share",
+    "plate_contribution",
     "plates_at",
     "radius_of_force",
     "retardation_of_two",

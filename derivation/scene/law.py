@@ -321,9 +321,9 @@ class ContactLaw:
         one = np.ones_like(a)
         if not self.plate_effects:
             return Shape(one, one, one, one)
-        part, share = 1.0 / (1.0 + self.softness), self.deflection(a)
-        slope = 1.0 + part * share.slope
-        return Shape(one, 1.0 + part * share.depth, slope, slope)
+        part, deflection = 1.0 / (1.0 + self.softness), self.deflection(a)
+        slope = 1.0 + part * deflection.slope
+        return Shape(one, 1.0 + part * deflection.depth, slope, slope)
 
     def _solved(self, a: Array) -> Shape:
         """Return the shape with non-Hertzian pressure; the edge contributes as under Hertz's."""

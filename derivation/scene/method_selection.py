@@ -298,8 +298,10 @@ def rounding_of(law: ContactLaw) -> float:
 def _half_space(law: ContactLaw) -> tuple[Results, AchievedAccuracy] | None:
     """Return the outputs by Hertz's law in closed form; None for extreme values."""
     R, m, v0, h, b, lam, mu = law.model.numbers
-    share = 1.0 / (1.0 + law.softness)
-    found = simple_laws.single(simple_laws.hertz, R, m, v0, h, b, share * lam, share * mu)
+    modulus_ratio = 1.0 / (1.0 + law.softness)
+    found = simple_laws.single(
+        simple_laws.hertz, R, m, v0, h, b, modulus_ratio * lam, modulus_ratio * mu
+    )
     if found is None:
         return None
     rounding = Part(found.rounding, ROUNDING_ANALYSIS)

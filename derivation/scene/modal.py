@@ -120,7 +120,7 @@ class Modes:
 
         return np.concatenate((shape(self.held, r / self.b), free))
 
-    def shares_less_one(self, a: Array) -> Array:
+    def modal_weights_less_one(self, a: Array) -> Array:
         """Return s_j - 1 at contact radii [m], shape (radii, shapes)."""
         y = np.outer(a, self.phi[self._held :])
         free = sine_less_one(np.sin(y), y)
@@ -166,7 +166,7 @@ def free_modes(model: Model, count: int) -> Modes:
     return _modes(model, _branches(model, found, float(found.root[-1])) if branches else found)
 
 
-def bending_share(model: Model, modes: Modes) -> Array:
+def bending_fraction(model: Model, modes: Modes) -> Array:
     """Return the static compliance of a thin plate over that of each mode of A0 [1]."""
     from generated import inertia
 
@@ -323,9 +323,9 @@ def _edge_compliance(law: ContactLaw) -> float:
     model = law.model
     edge = kernels.supported_edge if model.edge == SUPPORTED else kernels.clamped_edge
     a = SMALL * min(model.h, model.b)
-    share = float(edge(np.array([a]), model.h, model.b, model.lam, model.mu)[0])
+    contribution = float(edge(np.array([a]), model.h, model.b, model.lam, model.mu)[0])
     # delta = (a^2/R) F and P = (4/3) E* a^3/R with the plate's own E*.
-    return 0.75 * share / (model.modulus * a)
+    return 0.75 * contribution / (model.modulus * a)
 
 
 def sine_less_one(sine: Array, y: Array) -> Array:

@@ -23,7 +23,7 @@ from derivation.scene.effects.effect import (
     Numbers,
     PlateEffect,
 )
-from derivation.scene.effects.inertia import WIDER, least_restitution, weight_share
+from derivation.scene.effects.inertia import WIDER, least_restitution, weight_work_ratio
 from derivation.scene.effects.plasticity import plastic_depth
 from derivation.scene.effects.viscosity import (
     inverse_restitution,
@@ -188,14 +188,14 @@ def _samples(law: ContactLaw, top: Array) -> LawSamples:
         radii = np.append(nodes.x, 1.0) * top
         shape = law.at(radii)
         power = (shape.force * shape.slope)[..., :-1]
-        whole = np.sum(nodes.weights * nodes.x**4 * power, axis=-1, keepdims=True)
-        share = np.concatenate((mapped(stored(NODES[0]), power), whole), axis=-1)
+        total_work = np.sum(nodes.weights * nodes.x**4 * power, axis=-1, keepdims=True)
+        work = np.concatenate((mapped(stored(NODES[0]), power), total_work), axis=-1)
         unit = law.force(top, Shape(*np.ones(4))) * law.indentation(top, Shape(*np.ones(4)))
         return LawSamples(
             law.force(radii, shape),
             law.indentation(radii, shape),
             law.stiffness(radii, shape),
-            2.0 * unit * share,
+            2.0 * unit * work,
             2.0 * shape.slope / shape.depth,
         )
 
@@ -323,7 +323,7 @@ def _worst(state: LargestContact, bound: Bound, outputs: Sequence[str]) -> Array
         if state.law.dynamic:
             # The force determines how much energy the vibration of the plate takes.
             model = state.law.model
-            heavier = 1.0 + weight_share(model, plastic_depth(model, state.context))
+            heavier = 1.0 + weight_work_ratio(model, plastic_depth(model, state.context))
             least, most = least_restitution(model), _at_most_one(state.by_inertia[-1])
             taken = np.maximum(RADIATED, REMAINING / least) * heavier * most
             logs[-1] = logs[-1] + taken * np.log1p(largest) + WEIGHT / least * most * energy

@@ -202,7 +202,7 @@ class _Block:
             rtol = accuracy.rtol
         outputs = accuracy.outputs if accuracy is not None else OUTPUTS
         try:
-            share = selection_tolerance(rtol)
+            tolerance = selection_tolerance(rtol)
         except SceneError:
             return
         rows, model = rows[sound], model.take(sound)
@@ -213,7 +213,7 @@ class _Block:
         except SceneError:
             return
         wanted = scene.effects.model_dump()
-        for group in selected(model, wanted, np.full(len(rows), share), outputs):
+        for group in selected(model, wanted, np.full(len(rows), tolerance), outputs):
             if isinstance(group, Rejected):
                 self.found.reason[self.start + rows[group.rows]] = group.reason
                 yield rows[group.rows]

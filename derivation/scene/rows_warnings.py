@@ -76,7 +76,7 @@ def _numbers(law: ContactLaw, results: Mapping[str, Array]) -> dict[str, Array]:
     a, delta = results["max_contact_radius"][:, None], results["max_indentation"][:, None]
     local = np.broadcast_to(local_indentation(law, a), a.shape)
     columns = {name: getattr(model, name) for name in _MODEL}
-    columns |= {"deflection": delta - local, "share": 1.0 - local / delta}
+    columns |= {"deflection": delta - local, "deflection_fraction": 1.0 - local / delta}
     columns |= {name: values[:, None] for name, values in results.items()}
     times = plate_times(model) if np.any(model.density) else PlateTimes(0.0, 0.0, 0.0)
     columns |= times._asdict()
@@ -107,8 +107,10 @@ def _possible(law: ContactLaw, known: Mapping[str, Array]) -> tuple[Mask, ...]:
     if not law.spherical:
         wide = wide | (one.max_contact_radius > less * PARABOLOID_LIMIT * one.R)
     fast = QUASI_STATIC_PERIODS * one.period > less * one.contact_time
-    much = (one.zener > less * ZENER_LIMIT) | (one.share > less * DEFLECTION_LIMIT)
-    moving = (fast & much) | (one.echoes > less * one.contact_time)
+    affected = (one.zener > less * ZENER_LIMIT) | (
+        one.deflection_fraction > less * DEFLECTION_LIMIT
+    )
+    moving = (fast & affected) | (one.echoes > less * one.contact_time)
     limit = np.minimum(one.plate_yield_stress, one.strength)
     return (
         less * one.m < SOLID_LIMIT * solid,
@@ -137,7 +139,7 @@ def _texts(law: ContactLaw) -> tuple[Texts, ...]:
     def moving(one: Any) -> tuple[str, ...]:
         one.inertia = inertia
         times = PlateTimes(one.zener, one.period, one.echoes)
-        return motion_warnings(one, one.contact_time, one.share, known=times)
+        return motion_warnings(one, one.contact_time, one.deflection_fraction, known=times)
 
     def yielding(one: Any) -> tuple[str, ...]:
         weaker = "sphere" if one.yield_stress < one.plate_yield_stress else "plate"

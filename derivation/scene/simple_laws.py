@@ -71,8 +71,8 @@ def leading(R: Array, m: Array, v0: Array, h: Array, b: Array, lam: Array, mu: A
     """Compute impacts by delta = (a^2/R) (1 + c_1 a/h), like `simple_impact.leading`."""
     modulus, radius, known = _spheres(R, m, v0, h, b, lam, mu)
     plate, over_h = plates_of(np.where(known, h / b, 1.0)), radius / h
-    share = _share(_formulas.beside_hertz(plate.bend, over_h))
-    A, a = share * over_h, share * radius
+    radius_ratio = _radius_ratio(_formulas.beside_hertz(plate.bend, over_h))
+    A, a = radius_ratio * over_h, radius_ratio * radius
     top = TOP * A
     steep = _formulas.steepness(plate.bend, top)
     known &= steep > -DEEP
@@ -113,12 +113,12 @@ def _spheres(
     return modulus, work**0.2, known
 
 
-def _share(y: Array) -> Array:
+def _radius_ratio(y: Array) -> Array:
     """Return the root s > 0 of s^5 (1 + y s) = 1; NaN if there is none."""
     s = np.where(y > 0.0, np.minimum(1.0, np.abs(y) ** (-1.0 / 6.0)), 1.0)
     moving = np.ones(y.shape, dtype=bool)
     for _ in range(STEPS):
-        excess, slope = _formulas.share_step(s, y)
+        excess, slope = _formulas.work_step(s, y)
         moving &= ~(np.abs(excess) <= CLOSE)
         if not moving.any():
             return s

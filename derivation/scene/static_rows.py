@@ -113,10 +113,10 @@ def _limits(law: ContactLaw, count: int) -> Array:
 def _on_half_space(law: ContactLaw, found: Impacts) -> None:
     """Use Hertz's law in closed form, with the modulus E* of the contact."""
     count = len(found.law)
-    share = np.broadcast_to(1.0 / (1.0 + law.softness), (count, 1))[:, 0]
+    modulus_ratio = np.broadcast_to(1.0 / (1.0 + law.softness), (count, 1))[:, 0]
     R, m, v0, h, b, lam, mu = flat_numbers(law, count)
     with np.errstate(all="ignore"):
-        one = simple_laws.hertz(R, m, v0, h, b, share * lam, share * mu)
+        one = simple_laws.hertz(R, m, v0, h, b, modulus_ratio * lam, modulus_ratio * mu)
     known = np.isfinite(one.law)
     found.put(known, (*(x[known] for x in one[:4]), 0.0, 0.0, one.rounding))
 

@@ -25,7 +25,7 @@ class Supports(NamedTuple):
     """Series of plates (first axis): largest alpha, coefficients of the value and its slope."""
 
     reach: Array
-    share: Array
+    value: Array
     growth: Array
 
     def take(self, index: Any) -> "Supports":
@@ -38,16 +38,16 @@ def supports_of(hertz: Array, h: Array, b: Array, lam: Array, mu: Array) -> Supp
     reach = np.minimum(WIDER * hertz / b, WIDEST)
     nodes, values, slopes = _rules()
     alpha = reach * np.sqrt(0.5 * (1.0 + nodes))
-    share = kernels.supported_edge(alpha * b, h, b, lam, mu) / alpha
-    return Supports(reach, *(np.vecdot(matrix, share[:, None]) for matrix in (values, slopes)))
+    sampled = kernels.supported_edge(alpha * b, h, b, lam, mu) / alpha
+    return Supports(reach, *(np.vecdot(matrix, sampled[:, None]) for matrix in (values, slopes)))
 
 
-def support_share(supports: Supports, alpha: Array) -> tuple[Array, Array]:
+def support_contribution(supports: Supports, alpha: Array) -> tuple[Array, Array]:
     """Return the contributions to F and S at rows of alpha; NaN beyond the series."""
-    place = 2.0 * (alpha / supports.reach) ** 2 - 1.0
-    share, growth = _sum(supports.share, place), _sum(supports.growth, place)
-    share = np.where(alpha <= supports.reach, share, np.nan)
-    return alpha * share, alpha * (1.5 * share + (1.0 + place) * growth)
+    point = 2.0 * (alpha / supports.reach) ** 2 - 1.0
+    value, growth = _sum(supports.value, point), _sum(supports.growth, point)
+    value = np.where(alpha <= supports.reach, value, np.nan)
+    return alpha * value, alpha * (1.5 * value + (1.0 + point) * growth)
 
 
 @cache

@@ -118,9 +118,9 @@ def _driven_waves(problem: DynamicProblem, nodes: Nodes, part: Part, driven: Arr
 
     The deflection is the sum of both, each multiplied by `moved`.
     """
-    n, some = nodes.t.size, part.oscillators
-    force = part.by_oscillator(driven[:, part.shapes]) * problem.strength[some]
-    forces = nodes.response.drive[..., some] * force[:, None]
+    n, oscillators = nodes.t.size, part.oscillators
+    force = part.by_oscillator(driven[:, part.shapes]) * problem.strength[oscillators]
+    forces = nodes.response.drive[..., oscillators] * force[:, None]
     return np.asarray((nodes.by_t @ forces.reshape(n, -1)).reshape(forces.shape))
 
 
@@ -134,15 +134,17 @@ def _bent(problem: DynamicProblem, nodes: Nodes, driven: Array) -> Array:
     return found
 
 
-def _bent_by(problem: DynamicProblem, nodes: Nodes, share: Array, driven: Array) -> Array:
+def _bent_by(problem: DynamicProblem, nodes: Nodes, modal_weights: Array, driven: Array) -> Array:
     """Return the sum of weighted deflections at each node, per contact force at each node."""
     n = nodes.t.size
     found = np.zeros((n, n))
     for part in nodes.parts:
-        some = part.oscillators
-        load = part.by_oscillator(driven[:, part.shapes]) * problem.strength[some]
-        moved = nodes.response.moved[..., some] * part.by_oscillator(share[:, None, part.shapes])
-        drive = nodes.response.drive[..., some] * load[:, None]
+        oscillators = part.oscillators
+        load = part.by_oscillator(driven[:, part.shapes]) * problem.strength[oscillators]
+        moved = nodes.response.moved[..., oscillators] * part.by_oscillator(
+            modal_weights[:, None, part.shapes]
+        )
+        drive = nodes.response.drive[..., oscillators] * load[:, None]
         found += moved.reshape(n, -1) @ drive.reshape(n, -1).T
     return found * nodes.by_t
 
@@ -171,9 +173,9 @@ def _load_at(
         return _Load(a, y, load, load_a, None)
     # The pressure keeps its shape: the retarded part drives each shape in the same proportion,
     # but only the bending, because all other deflection lags it.
-    share = problem.retardation_time / nodes.rate * load_a[:, 0] / load[:, 0]
-    load_y = share[:, None] * load
-    load_y[:, 1:] *= problem.bending_share
+    viscous_ratio = problem.retardation_time / nodes.rate * load_a[:, 0] / load[:, 0]
+    load_y = viscous_ratio[:, None] * load
+    load_y[:, 1:] *= problem.bending_fraction
     load = load + load_y * y[:, None]
     load_a = load_a + 2.0 * load_y * (y / a)[:, None]  # d2P/da2 is nearly (2/a) dP/da
     return _Load(a, y, load, load_a, load_y)
@@ -258,10 +260,10 @@ def _system(
     problem: DynamicProblem, nodes: Nodes, at: ContactSamples, load: _Load, q: Array
 ) -> Array:
     """Return the derivative of depth less approach with respect to da/dx, at the nodes."""
-    share = 1.0 + at.less
+    modal_weights = 1.0 + at.less
 
     def by_load(by: Array) -> Array:
-        moved = _bent_by(problem, nodes, share, by[:, 1:])
+        moved = _bent_by(problem, nodes, modal_weights, by[:, 1:])
         return np.asarray(nodes.twice * by[:, 0] + moved, dtype=np.float64)
 
     found = by_load(load.by_a)

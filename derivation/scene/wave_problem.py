@@ -6,7 +6,7 @@ from derivation.scene.contact_tables import TAIL, contact_of
 from derivation.scene.dynamic_problem import DynamicProblem
 from derivation.scene.effects.inertia import WIDER
 from derivation.scene.law import ContactLaw
-from derivation.scene.modal import ModalPlate, bending_share, plate_of
+from derivation.scene.modal import ModalPlate, bending_fraction, plate_of
 from derivation.scene.model import Model
 from derivation.scene.yielding import units_of, yielding_of
 
@@ -40,7 +40,7 @@ def problem_with(law: ContactLaw, plate: ModalPlate, tail: float = TAIL) -> Dyna
     heard = echo_time(model) / T if model.inertia.infinite_plate else math.inf
     weight = law.gravity * (T / model.v0)
     units = a, T, model.m, model.v0
-    share = bending_share(model, plate.modes) if retardation else 1.0
+    elastic_fraction = bending_fraction(model, plate.modes) if retardation else 1.0
     limit = float(law.limit), law.limit_in_words
     return DynamicProblem(
         contact,
@@ -51,7 +51,7 @@ def problem_with(law: ContactLaw, plate: ModalPlate, tail: float = TAIL) -> Dyna
         law.damping_ratio,
         yielding_of(law),
         *limit,
-        share,
+        elastic_fraction,
     )
 
 

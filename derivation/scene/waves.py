@@ -42,7 +42,7 @@ FEWER = 2
 """Difference in the number of nodes between a run and the coarser one that checks it."""
 WIDEST = 30.0
 """Largest radius that represents an infinite plate, over the first guess of `model_of`."""
-LOOSE, SHARE = 3e-4, 1.0 / 3.0
+LOOSE, TOLERANCE_FRACTION = 3e-4, 1.0 / 3.0
 """Largest accepted change with the number of modes: without a tolerance [1], and as a fraction of a
 tolerance."""
 HEAVY, IN_CONTACT = 10.0, 0.7
@@ -61,7 +61,7 @@ WORK = 4.5e7
 
 def goal(rtol: float | None) -> float:
     """Return the largest accepted change with the number of modes [1] for a tolerance."""
-    return LOOSE if rtol is None else SHARE * rtol
+    return LOOSE if rtol is None else TOLERANCE_FRACTION * rtol
 
 
 def nodes_for(problem: DynamicProblem) -> int:
@@ -159,7 +159,7 @@ def _branched(
     if not followed(every, 2 * affordable(every)):
         return lowest, None
     problem = problem_of(lowest, count_of(law), close)
-    room = goal / SHARE - goal - _integration_error(problem, close)
+    room = goal / TOLERANCE_FRACTION - goal - _integration_error(problem, close)
 
     def beyond(contacts: tuple[ContactRun, ...]) -> bool:
         """Return whether the higher branches matter because of some contacts alone."""
@@ -254,7 +254,7 @@ def _converged(
         best, count, rough = _judged(rough, found), 2 * count, found
         change, beyond = best.inertia.left(reach.outputs)
         # Where omitted branches matter more than additional modes, a tenth of them is small enough.
-        enough = goal if beyond <= goal / SHARE else max(goal, 0.1 * beyond)
+        enough = goal if beyond <= goal / TOLERANCE_FRACTION else max(goal, 0.1 * beyond)
         if law.model.inertia.modes:
             return _of_chosen_modes(best, law, count, budget)
         near = change <= LAST * enough

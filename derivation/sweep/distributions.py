@@ -49,19 +49,21 @@ class Distribution:
     first: float
     second: float
 
-    def quantiles(self, shares: Array) -> Array:
+    def quantiles(self, probabilities: Array) -> Array:
         """Return the quantiles of probabilities in (0, 1)."""
         from scipy import stats
 
         a, b = self.first, self.second
         if self.distribution == "uniform":
-            return a + (b - a) * shares
+            return a + (b - a) * probabilities
         if self.distribution == "loguniform":
-            return np.asarray(stats.loguniform(a, b).ppf(shares))
+            return np.asarray(stats.loguniform(a, b).ppf(probabilities))
         if self.distribution == "normal":
-            return np.asarray(stats.norm(a, b).ppf(shares))
+            return np.asarray(stats.norm(a, b).ppf(probabilities))
         spread = math.sqrt(math.log1p((b / a) ** 2))
-        return np.asarray(stats.lognorm(spread, scale=a * math.exp(-(spread**2) / 2)).ppf(shares))
+        return np.asarray(
+            stats.lognorm(spread, scale=a * math.exp(-(spread**2) / 2)).ppf(probabilities)
+        )
 
     def to_json(self) -> dict[str, Any]:
         """Return the distribution with the keys of a file."""

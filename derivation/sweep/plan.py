@@ -26,7 +26,7 @@ MOST_LATIN = 10**6
 METHODS = ("random", "latin-hypercube", "sobol")
 BLOCK = 4096
 """Number of points of a random sample that are drawn from one seed."""
-LEAST_SHARE = 2.0**-40
+LEAST_PROBABILITY = 2.0**-40
 """Smallest distance of probabilities from 0 and 1, where a normal distribution has no value."""
 
 
@@ -111,7 +111,7 @@ class SamplePlan:
 
     def points(self, start: int, stop: int) -> dict[str, Array]:
         """Return the values of each key at the points from `start` to `stop` (exclusive)."""
-        return _values(self.distributions, self._shares(start, stop))
+        return _values(self.distributions, self._probabilities(start, stop))
 
     def probes(self, most: int) -> dict[str, Array]:
         """Return the first points, at most `most`, for a forecast."""
@@ -122,7 +122,7 @@ class SamplePlan:
         found = {key: one.to_json() for key, one in self.distributions.items()}
         return {"vary": found, "sample": self.size, "seed": self.seed, "method": self.method}
 
-    def _shares(self, start: int, stop: int) -> Array:
+    def _probabilities(self, start: int, stop: int) -> Array:
         """Return points of the unit cube, one in each row."""
         if self.method == "latin-hypercube":
             return self._latin[start:stop]
@@ -195,8 +195,8 @@ class SaltelliPlan:
         rows = np.stack([a, b, *([a] * number)], axis=1)
         for key in range(number):
             rows[:, 2 + key, key] = b[:, key]
-        shares = rows.reshape(-1, number)[start - first * each : stop - first * each]
-        return _values(self.distributions, shares)
+        probabilities = rows.reshape(-1, number)[start - first * each : stop - first * each]
+        return _values(self.distributions, probabilities)
 
     def probes(self, most: int) -> dict[str, Array]:
         """Return the first points, at most `most`, for a forecast."""
@@ -325,9 +325,9 @@ def _check_power(size: int, what: str) -> None:
         )
 
 
-def _values(distributions: Mapping[str, Distribution], shares: Array) -> dict[str, Array]:
+def _values(distributions: Mapping[str, Distribution], probabilities: Array) -> dict[str, Array]:
     """Return the values of the keys at points of the unit cube."""
-    inside = np.clip(shares, LEAST_SHARE, 1 - LEAST_SHARE)
+    inside = np.clip(probabilities, LEAST_PROBABILITY, 1 - LEAST_PROBABILITY)
     columns = zip(distributions.items(), inside.T, strict=True)
     return {key: one.quantiles(column) for (key, one), column in columns}
 

@@ -94,8 +94,8 @@ class Queue:
             batch = self._again.popleft()
         elif self._ranges:
             start, stop = self._ranges.popleft()
-            share = self.left if workers == 1 else self.left // (2 * workers)
-            size = min(self._size, max(share, self._least))
+            per_worker = self.left if workers == 1 else self.left // (2 * workers)
+            size = min(self._size, max(per_worker, self._least))
             batch = Batch(start, min(stop, start + size))
             if batch.stop < stop:
                 self._ranges.appendleft((batch.stop, stop))

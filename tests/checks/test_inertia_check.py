@@ -16,7 +16,7 @@ from derivation.cli import main
 from derivation.engine.files import measurements
 from derivation.scene import limits, waves
 from derivation.scene.effect_selection import SelectedEffects, decide
-from derivation.scene.effects.inertia import higher_branch_error, weight_share
+from derivation.scene.effects.inertia import higher_branch_error, weight_work_ratio
 from derivation.scene.law import ContactLaw
 from derivation.scene.limits import zener_number
 from derivation.scene.model import Model, model_of
@@ -58,9 +58,9 @@ def test_weight_increases_the_effect_of_inertia() -> None:
     every = [inertia_check.selectable_effects(model) for model in (light, heavy)]
     still = inertia_check.quasi_static(heavy)
     assert still is not None
-    share = weight_share(heavy, still.max_indentation)
-    assert share > 1.0
-    assert prices[1] > share * prices[0]
+    work_ratio = weight_work_ratio(heavy, still.max_indentation)
+    assert work_ratio > 1.0
+    assert prices[1] > work_ratio * prices[0]
     lost = []
     for model, effects in zip((light, heavy), every, strict=True):
         moving = waves.impact(ContactLaw(model, effects), 1e-4)
@@ -70,7 +70,10 @@ def test_weight_increases_the_effect_of_inertia() -> None:
     # The bound on the omitted branches grows with the weight too.
     found = waves.impact(ContactLaw(heavy, every[1]), 1e-3)
     a, time = found.max_contact_radius, found.contact_time
-    assert found.inertia.omitted_branch_error[-1] > share * higher_branch_error(heavy, a, time)[-1]
+    assert (
+        found.inertia.omitted_branch_error[-1]
+        > work_ratio * higher_branch_error(heavy, a, time)[-1]
+    )
 
 
 NUMBERS, OUT = (1, 5, 9, 16, 17, 44, 76), (5, 17, 76)

@@ -102,8 +102,8 @@ def wait():
     print("deriving", flush=True)
     time.sleep(300)
 object.__setattr__(derived.CHAIN, "steps", (DerivationStep("wait", wait),))
-sys.exit(cli.main(["generate", "--out", sys.argv[1]]))
+sys.exit(cli.main(["derive", "--json", sys.argv[1]]))
 """
-    out = tmp_path / "plate"
+    out = tmp_path / "formulas.json"
     interrupted(program, out, "deriving", {"XDG_CACHE_HOME": str(tmp_path / "cache")})
     assert not out.exists()

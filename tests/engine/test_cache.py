@@ -11,7 +11,7 @@ import pytest
 import sympy as sp
 
 from derivation.engine import build, cache
-from derivation.engine.cache import cache_folder, cached, from_plain, to_plain
+from derivation.engine.cache import cache_folder, cached, from_plain, in_file, to_plain
 from derivation.engine.formula.proof import Proof
 from derivation.engine.rewrite.form import Block, Branch, Form, Step, Switch
 from derivation.plate import derived
@@ -53,6 +53,20 @@ def test_cached_value_is_computed_once(folder: Path) -> None:
     assert len(calls) == 1
     [path] = folder.iterdir()
     json.loads(path.read_bytes().partition(b"\n")[2])
+
+
+def test_results_of_a_function_are_computed_once_for_each_argument(folder: Path) -> None:
+    calls = list[int]()
+
+    def square(n: int) -> sp.Expr:
+        calls.append(n)
+        return x**n
+
+    for _ in range(2):  # the second finds the files of the first
+        decorated = in_file(())(square)
+        assert [decorated(2), decorated(3), decorated(2)] == [x**2, x**3, x**2]
+    assert calls == [2, 3]
+    assert len([*folder.iterdir()]) == 2
 
 
 def test_results_of_the_project_are_restored(formulas: Mapping[str, Formula]) -> None:

@@ -80,7 +80,7 @@ def test_products_below_the_tested_range_give_nan(row: Any) -> None:
 def test_results_are_within_the_budget_in_any_units(target: Target) -> None:
     """Finite results are within the budget; the unit of subnormal values is the smallest double."""
     generator = Random(f"units of {target.name}")
-    for _ in range(8 if target.domain.modes or target.every > 1 or target.share < 48 else 24):
+    for _ in range(8 if target.domain.modes or target.every > 1 or target.turn_size < 48 else 24):
         point = draw(target.domain, generator)
         length, stress, force = (generator.randint(-n, n) for n in (500, 500, 900))
         powers = {name: power * length for name, power in LENGTHS.items()}

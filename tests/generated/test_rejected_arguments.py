@@ -35,6 +35,6 @@ def test_leading_correction_is_none_for_wide_contacts() -> None:
 def test_maximum_radius_exists_only_for_small_corrections() -> None:
     """s^5 (1 + y s) = 1 has a root up to y s = -2/3, where s = 3^(1/5)."""
     limit = -2.0 / 3.0 / 3.0**0.2
-    root = simple_impact._share(0.9 * limit)
+    root = simple_impact._radius_ratio(0.9 * limit)
     assert root**5 * (1.0 + 0.9 * limit * root) == pytest.approx(1.0, rel=1e-13)
-    assert np.isnan(simple_impact._share(1.02 * limit))
+    assert np.isnan(simple_impact._radius_ratio(1.02 * limit))

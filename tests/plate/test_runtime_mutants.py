@@ -85,11 +85,14 @@ def profile_cases() -> list[WithinUlp]:
     exact = [*map(sneddon, radii), (1.0, 1.0, 1.0), *[(NAN,) * 3] * 4]
     bent = [(0.3, 0.1), (0.0, 2.0), (5.0, 1e-3)]
     beyond = [(-0.3, 0.1), (0.3, 0.0), (0.3, -1.0)]
-    shares = [mpf(a) / (4 * mp.pi * mpf(eta) ** 2) for a, eta in bent]
+    contributions = [mpf(a) / (4 * mp.pi * mpf(eta) ** 2) for a, eta in bent]
     return [
         *expected("sphere_contact", [(x,) for x in (*radii, 0.0, *outside)], exact, 8.0),
         *expected(
-            "bending", [*bent, *beyond], [*((s, 1.5 * s) for s in shares), *[(NAN,) * 2] * 3], 4.0
+            "bending",
+            [*bent, *beyond],
+            [*((s, 1.5 * s) for s in contributions), *[(NAN,) * 2] * 3],
+            4.0,
         ),
     ]
 
@@ -98,7 +101,7 @@ def lateral_cases() -> list[WithinUlp]:
     balls = [contact_balls.kappa(2 * k, 20).mid() for k in range(20)]
     kappas = [mpf(ball.str(24, radius=False)) for ball in balls]
 
-    def share(alpha: float) -> tuple[mpf, mpf]:
+    def contribution(alpha: float) -> tuple[mpf, mpf]:
         terms = [
             -8
             / mp.pi**2
@@ -112,7 +115,7 @@ def lateral_cases() -> list[WithinUlp]:
         return mp.fsum(terms), mp.fsum(steeper)
 
     alphas = [1e-3, 0.3, 0.6]
-    exact = [*map(share, alphas), (0.0, 0.0), *[(NAN,) * 2] * 3]
+    exact = [*map(contribution, alphas), (0.0, 0.0), *[(NAN,) * 2] * 3]
     return expected("finite_radius", [(x,) for x in (*alphas, 0.0, -0.1, 1.0, 1.5)], exact, 8.0)
 
 

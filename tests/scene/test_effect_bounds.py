@@ -93,7 +93,7 @@ def test_change_by_an_effect_is_within_its_bound_and_close_to_it(
     )
     wanted = {effect.name: effect.name in every - {name} for effect in EFFECTS}
     one, other = impact(m, every - {name}).numbers, impact(m, every).numbers
-    shares = []
+    used_fractions = []
     for output, x, y in zip(OUTPUTS, one, other, strict=True):
         selected = decide(m, AT_REST | wanted, 1.0, (output,))
         assert selected.law.effects == every - {name}
@@ -101,9 +101,9 @@ def test_change_by_an_effect_is_within_its_bound_and_close_to_it(
         if output == "restitution":  # which is 1 without viscosity
             assert (x, y, bound) == (1.0, 1.0, 0.0)
         else:
-            shares.append(abs(x / y - 1) / bound)
-    assert used < max(shares)
-    assert all(share <= 1 for share in shares)
+            used_fractions.append(abs(x / y - 1) / bound)
+    assert used < max(used_fractions)
+    assert all(fraction <= 1 for fraction in used_fractions)
 
 
 @pytest.mark.parametrize("name", ["sphere_elasticity", "gravity", "edge"])

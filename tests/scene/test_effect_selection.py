@@ -137,8 +137,8 @@ def test_parameters_are_those_of_the_largest_contact() -> None:
     assert rows["finite_radius"].parameter_value == pytest.approx(0.37 * a / m.b, rel=0.01)
     # Static deflection, simply supported over the paper's edge: (3 + nu)/(2 (1 + nu)).
     nu = m.lam / (2 * (m.lam + m.mu))
-    share = rows["bending"].parameter_value * ((3 + nu) / (2 * (1 + nu)) - 1)
-    assert rows["edge"].parameter_value == pytest.approx(share, rel=0.15)
+    extra = rows["bending"].parameter_value * ((3 + nu) / (2 * (1 + nu)) - 1)
+    assert rows["edge"].parameter_value == pytest.approx(extra, rel=0.15)
 
 
 def test_unneeded_outputs_include_no_effects() -> None:

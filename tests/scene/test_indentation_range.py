@@ -24,10 +24,12 @@ THICK: dict[str, Any] = {
 
 
 @pytest.mark.parametrize("tables", [STIFF_EDGE, THICK], ids=["negative", "nan"])
-@pytest.mark.parametrize("share", [1e-3, 1e-2, 0.1])
-def test_contacts_are_found_where_the_law_ends_early(tables: dict[str, Any], share: float) -> None:
+@pytest.mark.parametrize("a_over_b", [1e-3, 1e-2, 0.1])
+def test_contacts_are_found_where_the_law_ends_early(
+    tables: dict[str, Any], a_over_b: float
+) -> None:
     scene = read(tables)
-    [contact] = indent(scene, contact_radius=share * scene.plate.radius)
+    [contact] = indent(scene, contact_radius=a_over_b * scene.plate.radius)
     for name in ("force", "indentation"):
         [again] = indent(scene, **{name: getattr(contact, name)})
         assert again.contact_radius == pytest.approx(contact.contact_radius, rel=1e-12)

@@ -143,9 +143,9 @@ def motion_numbers(result: Result) -> tuple[float, float, float]:
     D = E * H**3 / 12
     That = (m**2 / ((4 / 3 * E * math.sqrt(R)) ** 2 * v0)) ** 0.2
     omega = 5.783185962946785 / b**2 * math.sqrt(D / (rho * H))  # for the paper's edge
-    share = 1 - result.max_contact_radius**2 / R / result.max_indentation
+    deflection_fraction = 1 - result.max_contact_radius**2 / R / result.max_indentation
     zener = m / (8 * That * math.sqrt(D * rho * H))
-    return zener, result.contact_time * omega / (2 * math.pi), share
+    return zener, result.contact_time * omega / (2 * math.pi), deflection_fraction
 
 
 @pytest.mark.parametrize(
@@ -166,9 +166,9 @@ def test_warning_of_inertia_on_one_side_of_each_limit(
     for result in (below, above):
         for found, limit in zip(motion_numbers(result), limits, strict=True):
             assert limit is None or found == pytest.approx(limit, rel=3e-6)
-    zener, slow, share = motion_numbers(above)
+    zener, slow, deflection_fraction = motion_numbers(above)
     shown = [float(x) for x in numbers[0]]
-    assert shown == [pytest.approx(x, rel=0.06) for x in (zener, slow, 100 * share)]
+    assert shown == [pytest.approx(x, rel=0.06) for x in (zener, slow, 100 * deflection_fraction)]
 
 
 def test_warning_of_reflections_below_four_transit_times() -> None:

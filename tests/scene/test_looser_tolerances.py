@@ -83,7 +83,9 @@ def test_looser_tolerance_calls_no_additional_functions(scene: Scene) -> None:
     for rtol in TOLERANCES[::3]:
         law = selected_effects(scene, rtol)[1].law
         with pytest.MonkeyPatch.context() as patch:
-            calls = _counted(patch, "plate_share", "finite_radius", "bending", "sphere_contact")
+            calls = _counted(
+                patch, "plate_contribution", "finite_radius", "bending", "sphere_contact"
+            )
             law.at(np.array([1e-4, 2e-4]))
         assert sum(before.values()) <= sum(calls.values())
         before = calls

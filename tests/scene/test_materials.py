@@ -142,8 +142,8 @@ def test_unused_material_is_accepted_and_scene_is_unchanged() -> None:
 
 def test_warning_of_a_light_sphere_mentions_a_hollow_one() -> None:
     solid = 7850 * math.pi * 0.02**3 / 6
-    for share, warned in ((0.32, True), (0.34, False), (2.0, False)):
-        found = simulate(read(tables({"material": "steel", "mass": share * solid}, STEEL)))
+    for fraction, warned in ((0.32, True), (0.34, False), (2.0, False)):
+        found = simulate(read(tables({"material": "steel", "mass": fraction * solid}, STEEL)))
         assert any("hollow" in text for text in found.warnings) == warned
 
 

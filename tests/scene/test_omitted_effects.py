@@ -23,7 +23,7 @@ BOUNDS = {
     "law_errors",
 }  # fmt: skip
 """Kernels that the bounds call, also those of omitted effects in the table."""
-WHOLE = {"contact_plates", "plate_share"}
+WHOLE = {"contact_plates", "plate_contribution"}
 ZEROS = {"bessel_j0_zeros", "bessel_j1_at_j0_zeros"}
 ALONE: dict[str, set[str]] = {
     "hertz": set(),

@@ -172,16 +172,16 @@ def test_remainder_of_the_edge_is_the_measured_one_or_rejected() -> None:
     refused = 0
     for row in REMAINDER:
         parts = ("share_of_indentation", "lower_degree", "fewer_layers")
-        nu, share = row["nu"], sum(abs(row[part]) for part in parts)
+        nu, size = row["nu"], sum(abs(row[part]) for part in parts)
         m = model(
             b=1.0, h=row["h_over_b"], lam=2 * 3e9 * nu / (1 - 2 * nu), edge=EDGES[row["support"]]
         )
         # A ratio with a rounding error is treated as lying between two points of the table.
-        if share < 0.0099:
-            assert edge_remainder(m, row["a_over_b"]) == pytest.approx(share, rel=0.9)
-        elif share > 0.01:
+        if size < 0.0099:
+            assert edge_remainder(m, row["a_over_b"]) == pytest.approx(size, rel=0.9)
+        elif size > 0.01:
             refused += 1
-            with pytest.raises(SceneError, match=rf"^plate\.edge: .*{100 * share:.2g} %"):
+            with pytest.raises(SceneError, match=rf"^plate\.edge: .*{100 * size:.2g} %"):
                 edge_remainder(m, row["a_over_b"])
     assert refused > 5
 

@@ -110,8 +110,8 @@ def static_of(case: str) -> Callable[..., Any]:
 
 def radii(case: str) -> np.ndarray:
     """Return contact radii up to the largest one of the code."""
-    shares = np.concatenate((np.geomspace(1e-5, 1e-2, 20), np.linspace(0.02, 1.0, 50)))
-    return shares * names_of(case)["LIMIT"]
+    fractions = np.concatenate((np.geomspace(1e-5, 1e-2, 20), np.linspace(0.02, 1.0, 50)))
+    return fractions * names_of(case)["LIMIT"]
 
 
 @pytest.mark.parametrize("case", CASES)

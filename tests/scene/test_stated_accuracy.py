@@ -137,8 +137,8 @@ def test_slow_modes_exclude_contact_for_a_time() -> None:
         wait = two.start - one.end
         clear = flight._clear(problem, one.after)
         assert clear <= wait
-        for share in (0.25, 0.5, 1.0):
-            assert problem.flown(one.after, share * clear).approach <= 1e-12
+        for fraction in (0.25, 0.5, 1.0):
+            assert problem.flown(one.after, fraction * clear).approach <= 1e-12
     assert len(history.contacts) > 1
 
 

@@ -56,9 +56,9 @@ def integrated(model: Model, end: float) -> tuple[float, float, float]:
     def slope(a: float, q: np.ndarray) -> float:
         """Return R/(2 a) times the static slope less the deviation of the modes from statics."""
         y, P = a * phi, force(a * a)
-        share = np.sinc(y / np.pi)
-        turned = np.cos(y) - share
-        missed = compliance * P * (3.0 * share**2 + turned * felt(y)) - turned * q
+        modal_weights = np.sinc(y / np.pi)
+        turned = np.cos(y) - modal_weights
+        missed = compliance * P * (3.0 * modal_weights**2 + turned * felt(y)) - turned * q
         whole = float(indentation_slope(a, model.R, model.h, model.b)) - float(np.sum(missed)) / a
         return whole * model.R / (2.0 * a)
 
@@ -133,8 +133,8 @@ def test_results_do_not_depend_on_nodes_and_energy_balance_closes(h: float) -> N
     assert abs(found.energy_balance.residual) <= 1e-11
     assert 0.0 < found.restitution < 1.0
     for one, two in zip(fine.contacts[:-1], fine.contacts[1:], strict=True):
-        for share in np.linspace(0.01, 0.99, 197):
-            state = fine.problem.flown(one.after, share * (two.start - one.end))
+        for fraction in np.linspace(0.01, 0.99, 197):
+            state = fine.problem.flown(one.after, fraction * (two.start - one.end))
             assert state.approach <= 1e-12
 
 

@@ -68,10 +68,10 @@ def expect_printed_fraction(found: Sequence[ModuleArithmetic], kept: float) -> N
     ValueError
         If the fraction is smaller.
     """
-    if (share := printed_fraction(found)) < kept:
+    if (fraction := printed_fraction(found)) < kept:
         raise ValueError(
             f"expected at least {100 * kept:.1f} % of the package's arithmetic to be printed from "
-            f"proved expressions, as committed, got {100 * share:.1f} %; derive what was added"
+            f"proved expressions, as committed, got {100 * fraction:.1f} %; derive what was added"
         )
 
 

@@ -172,7 +172,7 @@ def _search_in_turns(
                 continue  # slow functions begin after the first turns of the others
             if progress is not None:
                 progress(target.name, found.evaluations, found.ratio)
-            for _ in range(target.share):
+            for _ in range(target.turn_size):
                 if over():
                     return
                 next(steps)

@@ -99,7 +99,7 @@ class Target:
     bound
         Function of point and results that returns an upper bound of the ratio of error to allowance
         in less time than `measure`; None if there is none.
-    share, every
+    turn_size, every
         Number of points in a turn, and number of rounds from one turn to the next.
     """
 
@@ -108,7 +108,7 @@ class Target:
     call: Callable[[Sequence[Point]], list[Numbers]]
     measure: Measure
     bound: Callable[[Point, Numbers], float] | None
-    share: int
+    turn_size: int
     every: int
 
     @property
@@ -134,7 +134,7 @@ def measure_by(references: Callable[[Point], Sequence[Reference] | None], budget
 
 
 def closed_target(
-    by: Judge, domain: Domain, kernel: Kernel, draw: Draw, share: int = 48, every: int = 1
+    by: Judge, domain: Domain, kernel: Kernel, draw: Draw, turn_size: int = 48, every: int = 1
 ) -> Target:
     """Return the search target for a function with a budget, and an allowance for conditioning."""
     balls, budget = by.routes.balls, float(kernel.budget or 0.0)
@@ -154,4 +154,4 @@ def closed_target(
     def references(point: Point) -> tuple[Reference]:
         return (balls.reference(kernel.name, point.values, _DIGITS, point.modes),)
 
-    return Target(domain, draw, call, measure_by(references, budget), bound, share, every)
+    return Target(domain, draw, call, measure_by(references, budget), bound, turn_size, every)

@@ -248,9 +248,9 @@ def _refine(compute: Callable[[int], Reference], digits: int, what: str) -> Refe
         with flint.ctx.workprec(bits):
             found = compute(bits)
             unit = abs(found.value) * flint.arb(2) ** -SLOPE_BITS
-            shares = found.sensitivity.values()
+            sensitivities = found.sensitivity.values()
             if _is_narrow(found.value, target) and all(
-                _is_narrow(share, SLOPE_BITS) or bool(share < unit) for share in shares
+                _is_narrow(one, SLOPE_BITS) or bool(one < unit) for one in sensitivities
             ):
                 value = flint.arb(0) if abs(found.value) < FLOOR else found.value
                 return Reference(value, found.sensitivity, found.magnitude)
@@ -274,20 +274,21 @@ def _at(
     inputs = [known[key] for key in keys]
     slots = tape.run(inputs)
     gradient = tape.gradient(slots) if slopes else []
-    shares = {k: x * g for k, x, g in zip(keys, inputs, gradient, strict=False)}
+    sensitivities = {k: x * g for k, x, g in zip(keys, inputs, gradient, strict=False)}
     for symbol, (argument, power) in through.items():
-        if symbol in shares:
-            shares[argument] = shares.get(argument, flint.arb(0)) + power * shares[symbol]
-    sizes = {key: abs(share) for key, share in shares.items()}
+        if symbol in sensitivities:
+            direct = sensitivities.get(argument, flint.arb(0))
+            sensitivities[argument] = direct + power * sensitivities[symbol]
+    sizes = {key: abs(value) for key, value in sensitivities.items()}
     return Reference(slots[-1], sizes, abs(slots[-1]))
 
 
 def _added(terms: Iterable[Reference]) -> Reference:
     """Return the sum: values are added with their signs, sensitivities without."""
-    value, magnitude, shares = flint.arb(0), flint.arb(0), dict[str, flint.arb]()
+    value, magnitude, sensitivities = flint.arb(0), flint.arb(0), dict[str, flint.arb]()
     for term in terms:
         value += term.value
         magnitude += term.magnitude
-        for key, share in term.sensitivity.items():
-            shares[key] = shares.get(key, flint.arb(0)) + share
-    return Reference(value, shares, magnitude)
+        for key, sensitivity in term.sensitivity.items():
+            sensitivities[key] = sensitivities.get(key, flint.arb(0)) + sensitivity
+    return Reference(value, sensitivities, magnitude)

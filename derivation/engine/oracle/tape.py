@@ -43,8 +43,8 @@ class Tape:
                 continue
             slopes = done.slopes(slots[position], *(slots[i] for i in reads))
             for i, slope in zip(reads, slopes, strict=True):
-                share, known = weight * slope, weights[i]
-                weights[i] = share if known is None else known + share
+                contribution, known = weight * slope, weights[i]
+                weights[i] = contribution if known is None else known + contribution
         return [weight if weight is not None else flint.arb(0) for weight in weights[:first]]
 
 

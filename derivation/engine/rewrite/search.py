@@ -14,13 +14,16 @@ from derivation.engine.rewrite.compositions import Composition, compositions
 from derivation.engine.rewrite.form import Branch, Step, Switch
 from derivation.engine.rewrite.rules import RULES, SWITCHES
 from derivation.engine.rewrite.stabilise import (
+    Applied,
     FormErrors,
     Stable,
     apply_rules,
     decayed,
     failure,
+    operations_of,
     stabilise,
 )
+from derivation.engine.rewrite.substitutions import Substitution, substitutions
 from derivation.engine.rewrite.terms import UnreachableError
 from derivation.engine.rewrite.useful_range import (
     ENDS,
@@ -32,6 +35,8 @@ from derivation.engine.rewrite.useful_range import (
 
 _LEAST = 1e-300
 """Smallest power of x, and inverse of the largest, for which forms are searched."""
+SURELY = 0.5 * ENOUGH
+"""Error [ULP] up to which the first form is taken, because the code is tested at more points."""
 
 
 def stabilised(
@@ -49,43 +54,78 @@ def stabilised(
     """
     reasons: list[UnreachableError] = []
     found: list[_Found] = []
-    for search, loss in _searches(expression, x, ends, depth):
+    for search, loss, rule in _searches(expression, x, ends, depth):
         try:
-            found.append(_tested(search(), ends, loss))
+            found.append(_tested(search(), ends, loss, rule))
         except UnreachableError as error:
             reasons.append(error)
             continue
-        if all(error <= ENOUGH for _, error in found[-1].errors):
-            return found[-1].stable
+        if found[-1].worst <= SURELY:
+            return _with_account(found[-1], ends)
     if depth:
         with contextlib.suppress(UnreachableError):
-            found.append(_tested(_direct(expression, x), ends, 1.0))
+            for direct in (_direct(expression, x), _without_series(expression, x, ends)):
+                found.append(_tested(direct, ends, 1.0))
         found += _joined(found, ends)
-    best = max(found, key=lambda one: one.size, default=None)
+    best = max(found, key=lambda one: (one.size, -one.worst), default=None)
     if best is None or best.size[0] < 0:
         raise reasons[0] if reasons else UnreachableError(f"{expression} is ill-conditioned")
-    return best.stable
+    return _with_account(best, ends)
 
 
 @dataclass(frozen=True)
 class _Found:
-    """A form with its errors in a range, and the size of the part in which it is accurate."""
+    """A form with its errors in a range, and the size of the part in which it is accurate.
+
+    `rule` is the name of the rule that led to the form of another function, empty if there is none.
+    """
 
     stable: Stable
     errors: tuple[tuple[ExactPoint, float], ...]
     size: tuple[float, float]
+    rule: str = ""
+
+    @property
+    def worst(self) -> float:
+        """The largest error at any point [ULP]."""
+        return max(error for _, error in self.errors)
 
 
-def _tested(stable: Stable, ends: tuple[float, float], loss: float) -> _Found:
+def _tested(stable: Stable, ends: tuple[float, float], loss: float, rule: str = "") -> _Found:
     test = accuracy_test(stable.expression, stable.variable, ends, stable.equal)
     errors = tuple(test.errors(stable.steps, stable.value))
-    return _Found(stable, errors, range_size(_well_conditioned(errors, ends, loss)))
+    return _Found(stable, errors, range_size(_well_conditioned(errors, ends, loss)), rule)
+
+
+def _with_account(found: _Found, ends: tuple[float, float]) -> Stable:
+    """Return the form, with an account of the rule that led to the form of another function."""
+    stable, given = found.stable, found.stable.expression
+    if not found.rule:
+        return stable
+    low, high = _well_conditioned(found.errors, ends)
+    test = accuracy_test(given, stable.variable, ends, stable.equal)
+    worst, left = (
+        max((error for at, error in errors if low <= at.x <= high), default=math.inf)
+        for errors in (test.errors((), given), found.errors)
+    )
+    count = max(operations_of(stable.steps, stable.value))
+    row = Applied(found.rule, "cancellation", (given.count_ops(), count), (worst, left))
+    return replace(stable, applied=(row, *stable.applied))
 
 
 def _direct(expression: sp.Expr, x: sp.Symbol) -> Stable:
     """Return the expression itself as a form."""
     zero = sp.Integer(0)
     return Stable(expression, x, (), expression, (), math.inf, zero, decayed(expression, x))
+
+
+def _without_series(expression: sp.Expr, x: sp.Symbol, ends: tuple[float, float]) -> Stable:
+    """Return the form by all rules but the last, accurate or not."""
+    equal = decayed(expression, x)
+    at = FormErrors(accuracy_test(expression, x, ends, equal))
+    form, worst = apply_rules(RULES[:-1], x, expression, at)
+    steps, value = assembled(form)
+    return Stable(expression, x, steps, value, (), worst, sp.Integer(0), equal)
 
 
 def _joined(found: Sequence[_Found], ends: tuple[float, float]) -> Iterator[_Found]:
@@ -114,24 +154,27 @@ def _joined(found: Sequence[_Found], ends: tuple[float, float]) -> Iterator[_Fou
             stable = replace(
                 low.stable, steps=(), value=value, applied=applied, roundings=roundings
             )
-            yield _Found(stable, errors, range_size(_well_conditioned(errors, ends)))
+            size = range_size(_well_conditioned(errors, ends))
+            yield _Found(stable, errors, size, low.rule or high.rule)
 
 
 def _searches(
     expression: sp.Expr, x: sp.Symbol, ends: tuple[float, float], depth: int
-) -> Iterator[tuple[Callable[[], Stable], float]]:
-    """Yield functions that search for a form in one way, each with its loss by rounding.
+) -> Iterator[tuple[Callable[[], Stable], float, str]]:
+    """Yield functions that search for a form in one way, each with its loss by rounding and a rule.
 
     The loss is the largest error [ULP] by the rounding of u = c x^r, in addition to half the
     condition number, divided by the latter: 2/|r| - 1, because the relative error of a rounded
     number is up to one ULP of another one.
     """
-    yield partial(stabilise, expression, x, ends), 1.0
+    yield partial(stabilise, expression, x, ends), 1.0, ""
     for row in compositions(expression, x) if depth else ():
         _, rate = row.argument.as_independent(x)[1].as_base_exp()
         loss = max(1.0, 2 / abs(float(rate)) - 1)
-        yield partial(_composed, row, expression, x, ends, depth), loss
-    yield partial(_in_part, expression, x, ends), 1.0
+        yield partial(_composed, row, expression, x, ends, depth), loss, "composition"
+    for other in substitutions(expression, x) if depth else ():
+        yield partial(_substituted, other, expression, x, ends, depth), 1.0, "substitution"
+    yield partial(_in_part, expression, x, ends), 1.0, ""
 
 
 def _composed(
@@ -154,6 +197,37 @@ def _composed(
         steps=steps,
         equal=row.outer(form.equal).xreplace(u),
         roundings=tuple((at.xreplace(u), effect.xreplace(u)) for at, effect in effects),
+    )
+
+
+def _substituted(
+    row: Substitution, expression: sp.Expr, x: sp.Symbol, ends: tuple[float, float], depth: int
+) -> Stable:
+    """Return the form of a formula by that in another variable; switch points become those in x."""
+    known: dict[sp.Symbol, sp.Expr] = {}
+    for step in row.steps:
+        known[step.symbol] = step.expression.xreplace(known)
+    argument, last = known[row.variable], min(ends[1], float(row.end))
+    low, high = (float(argument.subs(x, sp.Float(end))) for end in (ends[0], last))
+    inner = max(low, _LEAST), min(high, 1 / _LEAST)
+    form = stabilised(row.expression, row.variable, inner, depth - 1).mapped(
+        lambda v: row.front * v
+    )
+    steps, value, u = (*row.steps, *form.steps), form.value, {row.variable: argument}
+    if isinstance(value, Switch) and value.variable == row.variable:
+        at = row.inverse.subs(row.variable, value.at)
+        below, above = (Branch((*steps, *s.steps), s.value) for s in (value.below, value.above))
+        steps, value = (), Switch(x, at, below, above)
+    return replace(
+        form,
+        expression=expression,
+        variable=x,
+        steps=steps,
+        value=value,
+        equal=row.front * form.equal.xreplace(u),
+        roundings=tuple(
+            (at.xreplace(u), row.front * effect.xreplace(u)) for at, effect in form.roundings
+        ),
     )
 
 

@@ -226,7 +226,11 @@ def operations(form: Rewritten) -> int:
 
 def _operations(form: Rewritten) -> list[int]:
     """Return the number of operations of every branch."""
-    steps, value = assembled(form)
+    return operations_of(*assembled(form))
+
+
+def operations_of(steps: tuple[Step, ...], value: sp.Expr | Switch) -> list[int]:
+    """Return the number of operations of every branch of steps and value."""
     sides = (value.below, value.above) if isinstance(value, Switch) else (Branch((), value),)
     return [
         int(sum(sp.count_ops(step.expression) for step in (*steps, *side.steps)))

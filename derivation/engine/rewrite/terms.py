@@ -190,8 +190,8 @@ def truncation_bound(terms: Terms, n: int, end: sp.Rational) -> sp.Rational:
         if key.wave not in ENTIRE:
             if reach >= 1 or key.rate != 0:
                 raise UnreachableError(f"the series of {key.wave}({key.scale} x) ends before {end}")
-            share = reach ** max(order, 1) / (max(order, 1) * (1 - reach))
+            remainder = reach ** max(order, 1) / (max(order, 1) * (1 - reach))
         else:
-            share = reach**order / sp.factorial(order) * sp.Integer(3) ** sp.ceiling(growth)
-        total += abs(size) * end**key.power * share
+            remainder = reach**order / sp.factorial(order) * sp.Integer(3) ** sp.ceiling(growth)
+        total += abs(size) * end**key.power * remainder
     return total

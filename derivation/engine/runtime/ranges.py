@@ -68,8 +68,8 @@ def sum_closely(*parts: Double | float) -> Double:
     total, rest = np.asarray(parts[0]), parts[-1]
     for part in parts[1:-1]:
         before, total = total, total + part
-        share = total - before
-        rest = rest + ((before - (total - share)) + (part - share))  # exact (Knuth)
+        added = total - before
+        rest = rest + ((before - (total - added)) + (part - added))  # exact (Knuth)
     result: Double = total + rest
     return result
 

@@ -52,9 +52,9 @@ def _roots(eta: mpf, A: mpf) -> mpf:
         # H/J0 at z = i u is (2/(pi i)) K0/I0 at u, without overflow and cancellation.
         turned = mpc(z.imag, -z.real)
         wave = mp.besselk(0, turned) / mp.besseli(0, turned) * mpc(0, -2) / mp.pi
-        share = (-1) ** n * g * (1 + mp.sqrt(1 + T * T)) * wave
-        total += share.imag
-        if abs(share) < mp.eps:
+        term = (-1) ** n * g * (1 + mp.sqrt(1 + T * T)) * wave
+        total += term.imag
+        if abs(term) < mp.eps:
             return mp.pi * total
     raise RouteError(f"too few roots at h/b = {mp.nstr(eta)}")
 

@@ -130,11 +130,11 @@ def back_face_stress() -> tuple[Formula, ...]:
     back_face_factor()
     stress = -ONE_AND_NU / 2 * A_j * back_face_function().subs(T, 2 * phi * h)
     stress = stress.subs(A_j, pressure_coefficient().expression)
-    share, force = _mode(), contact_radius().expression
+    mode_term, force = _mode(), contact_radius().expression
     proof = prove(
         "Stress on the axis",
         "$A_j$ of Hertz pressure, with $R$ expressed by the force $P$.",
-        {"stress": (stress - SCALE.subs(P, force) * share).subs(_REDUCED)},
+        {"stress": (stress - SCALE.subs(P, force) * mode_term).subs(_REDUCED)},
     )
     sources = ("back_face_factor", "A_j", "P")
     rows = (
@@ -148,7 +148,7 @@ def back_face_stress() -> tuple[Formula, ...]:
     )
     return tuple(
         Formula(
-            name, latex, meaning, factor * share, unit, "", sources, proof, summed=True,
+            name, latex, meaning, factor * mode_term, unit, "", sources, proof, summed=True,
             where=("a < b",),
         )
         for (name, latex, meaning, unit), factor in zip(rows, (SCALE, 1), strict=True)
@@ -230,8 +230,8 @@ def thin_plate_stress() -> tuple[Formula, Formula]:
     value = (near + far) / 2 + 3 * (sp.EulerGamma - sp.log(4 * eta))
     at = PlateRoot(_n)
     hankel = sp.hankel1(0, at / (2 * eta)) / sp.besselj(0, at / (2 * eta))
-    share = (-1) ** _n * indentation_kernel(a_ratio * at / 2) * (1 + sp.sqrt(1 + at**2)) * hankel
-    roots = sp.pi * sp.im(sp.Sum(share, (_n, 1, sp.oo)))
+    term = (-1) ** _n * indentation_kernel(a_ratio * at / 2) * (1 + sp.sqrt(1 + at**2)) * hankel
+    roots = sp.pi * sp.im(sp.Sum(term, (_n, 1, sp.oo)))
     where = ("a_ratio * eta < 1",)
     return (
         Formula(

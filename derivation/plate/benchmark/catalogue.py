@@ -144,7 +144,7 @@ def impact_methods() -> list[Method]:
             quick = name != "Radau" or rtol > 1e-8
             found.append(motion.solver(name, rtol, quick=quick))
             if name != "DOP853":
-                found.append(motion.solver(name, rtol, share=0.05, quick=False))
+                found.append(motion.solver(name, rtol, largest_step=0.05, quick=False))
     found += [motion.verlet(n, n == 20) for n in (20, 100, 1000)]
     found += [motion.verlet(100, False, SINGLE)]
     return found + [ready_methods.arb_reference("impact", digits, quick=False) for digits in DEEP]

@@ -16,7 +16,7 @@ from derivation.plate.benchmark.interface import BenchmarkCase, largest_contact_
 from derivation.plate.contact.oracle import points as contact_points
 from derivation.plate.contact.oracle.balls import ratio_of
 from derivation.plate.contact.oracle.moments import finite_part
-from derivation.plate.contact.oracle.sums import SHARES
+from derivation.plate.contact.oracle.sums import FACTORS
 
 ROOT_HEIGHT = 4.2
 """The first residue is of the order e^(-ROOT_HEIGHT b/h)."""
@@ -78,9 +78,9 @@ def oracles(h: float, b: float, top: float, digits: int) -> list[arb]:
     known = contact_points.series(eta, top * float(eta) * (1 + 1e-9), bits)
     with flint.ctx.workprec(known.working + 64):
         ratio = arb(eta.numerator) / eta.denominator
-        share = SHARES["hertz"] * ratio / arb.pi()
+        factor = FACTORS["hertz"] * ratio / arb.pi()
         return [
-            share * ratio ** (2 * k) * power
+            factor * ratio ** (2 * k) * power
             for k, power in enumerate(known.powers["hertz"].coeffs())
         ]  # fmt: skip
 
@@ -98,6 +98,6 @@ def closed_form(h: float, b: float, count: int, digits: int) -> list[arb]:
             -(M[1] + 6 * log) / (60 * pi),
         ]
         for k in range(4, count + 2):
-            share = (-1) ** k * 8 * (2 * k - 2) / (pi * math.factorial(2 * k - 1))
-            found.append(share * M[k - 2] / arb(2) ** (2 * k - 2))
+            factor = (-1) ** k * 8 * (2 * k - 2) / (pi * math.factorial(2 * k - 1))
+            found.append(factor * M[k - 2] / arb(2) ** (2 * k - 2))
         return found[:count]

@@ -84,7 +84,7 @@ def table(knots: int, ar: Arithmetic = DOUBLE) -> Method:
         law = SeriesLaw(r, ar) if ar.wide else GeneratedLaw(r)
 
         def node(t: Array) -> tuple[Array, Array]:
-            A = law.share(ar.exp(t) * h * h / R)
+            A = law.radius_ratio(ar.exp(t) * h * h / R)
             return ar.log(A), law.lift(A) / (2 * law.slope(A))
 
         cubic = hermite(ar, (low, high), knots, node)
@@ -100,7 +100,7 @@ class GeneratedLaw:
     def __init__(self, case: BenchmarkCase) -> None:
         self.case = case
 
-    def share(self, delta: Array) -> Array:
+    def radius_ratio(self, delta: Array) -> Array:
         """Return A = a/h at indentations [m] above 0."""
         r = self.case
         return contact_law.contact_radius(delta, r.R, r.h, r.b) / r.h

@@ -65,7 +65,7 @@ class SeriesLaw:
         rest = tails[0] + q * (1 + q) * horner([*tails[1:], 0 * A], q * q + 0 * A)
         return (1 + q * (1 + q * (1 + q * (1 + q)))) + q**5 * rest / (1 + tails[0])
 
-    def share(self, delta: Array) -> Array:
+    def radius_ratio(self, delta: Array) -> Array:
         """Return A = a/h at indentations [m] above 0."""
         goal = delta * self.R / (self.h * self.h)
 
@@ -76,7 +76,7 @@ class SeriesLaw:
 
     def force(self, delta: Array) -> Array:
         """Return P = 4 E* a^3/(3 R) at indentations [m]."""
-        a = self.share(delta) * self.h
+        a = self.radius_ratio(delta) * self.h
         return 4 * self.modulus * a * a * a / (3 * self.R)
 
     def largest(self, v0: Array) -> Array:

@@ -54,8 +54,8 @@ def perturbation(corrected: bool) -> Method:
 
     def fails(case: BenchmarkCase) -> str:
         # In every test case, because both forms of xi_3 are sums of positive terms.
-        share = paper_motion(case, case.speed, corrected=corrected).share
-        return f"(17), (18) not real after {share:.3g} of the time to the turning point"
+        fraction = paper_motion(case, case.speed, corrected=corrected).share
+        return f"(17), (18) not real after {fraction:.3g} of the time to the turning point"
 
     def prepare(case: BenchmarkCase, _: Arithmetic) -> Call:
         def one(v0: float) -> float:
@@ -113,7 +113,7 @@ def scalar_force(case: BenchmarkCase) -> Callable[[float], float]:
     stiff = 4 * case.modulus * case.h**3 / (3 * case.R)
     last = 0.0
 
-    def share(A: float) -> tuple[float, float]:
+    def correction(A: float) -> tuple[float, float]:
         """Return F and A F'."""
         row, middle, inverse, _ = next((r for r in rows if r[3] >= A), rows[-1])
         t = (A * A - middle) * inverse
@@ -131,7 +131,7 @@ def scalar_force(case: BenchmarkCase) -> Callable[[float], float]:
         # Hertz's radius may lie beyond the end of the polynomials.
         A = last or min(math.sqrt(target), rows[-1][3])
         for _ in range(60):
-            F, rise = share(A)
+            F, rise = correction(A)
             step = (A * A * (1 + F) - target) / (A * (2 * (1 + F) + rise))
             A = min(max(A - step, 0.3 * A), rows[-1][3])
             if abs(step) < 1e-15 * A:
@@ -142,9 +142,12 @@ def scalar_force(case: BenchmarkCase) -> Callable[[float], float]:
     return force
 
 
-def solver(name: str, rtol: float, share: float | None = None, quick: bool = True) -> Method:
-    """Return the method of SciPy's solve_ivp up to the turning point; `share` limits its steps."""
-    limited = "" if share is None else f", steps below T/{1 / share:g}"
+def solver(name: str, rtol: float, largest_step: float | None = None, quick: bool = True) -> Method:
+    """Return the method of SciPy's solve_ivp up to the turning point.
+
+    `largest_step` is the largest time step over the contact time by Hertz's law; None is no limit.
+    """
+    limited = "" if largest_step is None else f", steps below T/{1 / largest_step:g}"
 
     def one(case: BenchmarkCase, v0: float) -> float:
         from scipy.integrate import solve_ivp
@@ -162,7 +165,7 @@ def solver(name: str, rtol: float, share: float | None = None, quick: bool = Tru
         found = solve_ivp(
             rate, (0, 2 * time), (0.0, v0), method=name, rtol=rtol, events=top,
             atol=(1e-3 * rtol * v0 * time, 1e-3 * rtol * v0),
-            max_step=np.inf if share is None else share * time,
+            max_step=np.inf if largest_step is None else largest_step * time,
         )  # fmt: skip
         return 2 * float(found.t_events[0][0]) if found.t_events[0].size else math.nan
 
@@ -209,8 +212,8 @@ def _verlet(v0: Array, dt: Array, m: Any, force: Callable[[Array], Array]) -> Ar
         load = np.where(pressed, force(np.where(pressed, ahead, dt * v0)), 0 * v0)
         v = v - dt * (load / m - acceleration) / 2
         over = touching & ~pressed
-        share = x / np.where(over, x - ahead, 1)
-        ended = np.where(over, dt * (step + share), ended)
+        fraction = x / np.where(over, x - ahead, 1)
+        ended = np.where(over, dt * (step + fraction), ended)
         touching = touching & pressed
         x, acceleration = ahead, -load / m
         if not touching.any():

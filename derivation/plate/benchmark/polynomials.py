@@ -97,9 +97,9 @@ def interpolant(
     radii = (np.sqrt(middle + nodes / scale) * case.h).tolist()
     with flint.ctx.workprec(bits):
         A = [arb(a) / arb(case.h) for a in radii]
-        shares = [_departure(a, case.h, case.b) / x for a, x in zip(radii, A, strict=True)]
+        values = [_departure(a, case.h, case.b) / x for a, x in zip(radii, A, strict=True)]
         powers = [[(arb(scale) * (x * x - arb(middle))) ** k for k in range(degree + 1)] for x in A]
-        found = arb_mat(powers).solve(arb_mat([[share.mid()] for share in shares]))
+        found = arb_mat(powers).solve(arb_mat([[value.mid()] for value in values]))
         return list(found.entries())
 
 

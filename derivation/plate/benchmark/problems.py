@@ -116,8 +116,8 @@ def _force(delta: float, case: BenchmarkCase) -> arb:
 
 
 def _impact(case: BenchmarkCase, quick: bool) -> Problem:
-    shares = (1.0,) if quick else (0.7, 0.85, 1.0)
-    speeds = np.array([share * case.speed for share in shares])
+    fractions = (1.0,) if quick else (0.7, 0.85, 1.0)
+    speeds = np.array([fraction * case.speed for fraction in fractions])
     r = case
     reference_values = tuple(
         contact_impact.impact(r.R, r.m, float(v), r.h, r.b, r.lam, r.mu, IMPACT_DIGITS).contact_time

@@ -161,27 +161,27 @@ def lateral_nodes(count: int, digits: int, double_exponential: bool, bits: int) 
         return [ys, weights]
 
 
-def modes_of(case: BenchmarkCase, share: float) -> int:
+def modes_of(case: BenchmarkCase, multiple: float) -> int:
     """Return the number of modes of the thickness term, which decays like e^(-4 pi n h/b)."""
-    return max(1, math.ceil(share / case.eta))
+    return max(1, math.ceil(multiple / case.eta))
 
 
 def split(
-    nodes: int, share: float, ar: Arithmetic = DOUBLE, double_exponential: bool = True,
+    nodes: int, multiple: float, ar: Arithmetic = DOUBLE, double_exponential: bool = True,
     quick: bool = True,
 ) -> Method:  # fmt: skip
-    """Return the method of Hertz's term minus the radius integral plus a sum of share b/h modes."""
+    """Return the method of Hertz's term, the radius integral and a sum of `multiple` b/h modes."""
     end = ar.digits + 1  # digits for the ends of the integral
 
     def fails(case: BenchmarkCase) -> str | None:
-        modes = modes_of(case, share)
+        modes = modes_of(case, multiple)
         dear = modes > WIDE_MODES and ar.name != DOUBLE.name
         return f"needs {modes} modes for each point in slow arithmetic" if dear else None
 
     def prepare(case: BenchmarkCase, ar: Arithmetic) -> Call:
         y, W = (ar.array(row) for row in lateral_nodes(nodes, end, double_exponential, ar.bits))
         R, h, b = (ar.number(x) for x in (case.R, case.h, case.b))
-        j, slope = ar.zeros(modes_of(case, share))
+        j, slope = ar.zeros(modes_of(case, multiple))
         phi, pi = j / b, ar.pi()
         square = phi * phi * slope
         thickness = modal(
@@ -200,5 +200,5 @@ def split(
         return call
 
     rule = "" if double_exponential else ", y = u^3"
-    return Method("law", f"split sum{rule}", f"{nodes} nodes, {share:g} b/h modes", prepare, ar,
+    return Method("law", f"split sum{rule}", f"{nodes} nodes, {multiple:g} b/h modes", prepare, ar,
                   fails=fails, quick=quick)  # fmt: skip

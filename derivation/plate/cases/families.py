@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable, Iterator
 from itertools import chain
 
-from derivation.engine.cache import cached
+from derivation.engine.cache import in_file
 from derivation.engine.formula.ulp import neighbours
 from derivation.engine.measure.case import HardCase, checked_case
 from derivation.engine.measure.neighbours import OFFSETS, Inputs, around, exact_inputs, neighbour
@@ -16,7 +16,12 @@ from derivation.mathematics.bessel.oracle import j0_zero, j1_zero
 from derivation.plate.cases.scene_families import scene_families
 from derivation.plate.cases.steel import LAM, MU
 from derivation.plate.contact.kernels import tables as contact_tables
-from derivation.plate.contact.kernels.moments import FIRST_K, finite_part_start, kappa_start
+from derivation.plate.contact.kernels.moments import (
+    FIRST_K,
+    SOURCES,
+    finite_part_start,
+    kappa_start,
+)
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.grids import switches
 from derivation.plate.impact.oracle import impact as contact_impact
@@ -27,27 +32,22 @@ LAST_KAPPA, LAST_FINITE_PART = 196, 99
 """Largest indices whose value does not overflow in double precision."""
 
 
-def families() -> tuple[HardCase, ...]:
-    """Return every systematic case, cached until the sources it depends on change."""
-    folders = (
-        "engine/cache.py",
-        "engine/formula",
-        "plate/*.py",
-        "plate/*/theory*",
-        "mathematics",
-        "engine/rewrite",
-        "plate/*/kernels*",
+@in_file(
+    (
+        *SOURCES,
         "engine/oracle",
         "plate/*/oracle*",
         "plate/*/route*",
         "engine/emit",
-    )
-    cases = ("engine/measure/case.py", "engine/measure/neighbours.py")
-    own = (*cases, "plate/grids.py", "plate/cases", "plate/*/cases*")
-    return cached("hard_families", (*folders, *own), _families, HardCase)
-
-
-def _families() -> tuple[HardCase, ...]:
+        "engine/measure/case.py",
+        "engine/measure/neighbours.py",
+        "plate/cases",
+        "plate/*/cases*",
+    ),
+    HardCase,
+)
+def families() -> tuple[HardCase, ...]:
+    """Return every systematic case."""
     made = chain(
         _block_switches(),
         _bessel_switches(),

@@ -107,8 +107,8 @@ def _edge_bound(support: str) -> HardLaw:
         known = dict(zip(names, (a / b, h / b, lam, mu), strict=True))
         found = evaluate(bound().expression, known, digits)
         with flint.ctx.workprec(_bits(digits)):
-            share = edge_balls.support_ratio(lam, mu) if support == "supported" else Fraction(1)
-            return (to_ball(share) * found,)
+            ratio = edge_balls.support_ratio(lam, mu) if support == "supported" else Fraction(1)
+            return (to_ball(ratio) * found,)
 
     supported = (edge_sums.__name__, edge_balls.__name__)
     return HardLaw(values, oracle=supported if support == "supported" else (clamp.__name__,))
@@ -120,8 +120,8 @@ def _edge_bound(support: str) -> HardLaw:
 def _stress_unit(P: Exact, h: Exact, lam: Exact, mu: Exact) -> arb:
     """Return (1 + nu) P/(2 pi H^2) at the current precision."""
     first, second = Fraction(lam), Fraction(mu)
-    share = (3 * first + 2 * second) * Fraction(P) / (16 * (first + second) * Fraction(h) ** 2)
-    return to_ball(share) / arb.pi()
+    factor = (3 * first + 2 * second) * Fraction(P) / (16 * (first + second) * Fraction(h) ** 2)
+    return to_ball(factor) / arb.pi()
 
 
 def _back_face(support: str) -> HardLaw:
@@ -134,8 +134,8 @@ def _back_face(support: str) -> HardLaw:
         eta, alpha = Fraction(h) / Fraction(b), Fraction(a) / Fraction(b)
         n = Fraction(lam) / (Fraction(lam) + 2 * Fraction(mu))
         bent, stretched = edge_balls.sums("indentation", alpha, eta, n, _bits(digits))
-        share = to_ball(edge_balls.support_ratio(lam, mu))
-        return 12 * share * bent, 8 * share * to_ball(n * eta) * stretched
+        ratio = to_ball(edge_balls.support_ratio(lam, mu))
+        return 12 * ratio * bent, 8 * ratio * to_ball(n * eta) * stretched
 
     def values(given: Given, digits: int) -> tuple[arb]:
         P, a, h, b, lam, mu = given

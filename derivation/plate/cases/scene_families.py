@@ -201,6 +201,6 @@ def _pressure() -> Iterator[HardCase]:
         given = exact_inputs(a=around(low / y), h=1.0, b=1.0, **constants)
         why = f"y a/b = {low:g} at y = {y:.4g}, where sinh(x)/x ceases to be a power series"
         yield from _around_switch(PRESSURE, ("contact",), why, given)
-    widest = float(pressure_tables.WIDEST_SHARE)
+    widest = float(pressure_tables.WIDEST_OVER_B)
     why = f"a = {widest:g} b, the widest contact that is solved"
     yield from _last(PRESSURE, ("contact",), widest, why, {"h": 1.0, "b": 1.0, **constants})

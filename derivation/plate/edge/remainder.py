@@ -254,7 +254,7 @@ class Field(Elements):
             load[rim[0]] = pushed * self.rim_weights
             found.append(solver.solve(load[free] - rows @ values))
         top = np.searchsorted(free, self.number(np.array([0]), ring[-1:], 1)[0])
-        return [share - float(one[top]) for share, one in zip(known, found, strict=True)]
+        return [of_states - float(one[top]) for of_states, one in zip(known, found, strict=True)]
 
     def _of_states(self, a: float) -> float:
         """Return the contribution of the states, -w at the contact face's centre."""
@@ -299,12 +299,12 @@ def rows(
     found: list[dict[str, object]] = []
     for support, h, nu in itertools.product(SUPPORTS, sizes, poisson):
         case = RemainderCase(support, h, nu)
-        shares, *others = (remainders(case, mesh) for mesh in MESHES)
-        for a, share, *rest in zip(WIDTHS, shares, *others, strict=True):
-            changes = (float(f"{other - share:.1e}") for other in rest)
+        finest, *others = (remainders(case, mesh) for mesh in MESHES)
+        for a, remainder, *rest in zip(WIDTHS, finest, *others, strict=True):
+            changes = (float(f"{other - remainder:.1e}") for other in rest)
             head = {"support": support, "h_over_b": h, "nu": nu, "a_over_b": a}
             names = ("share_of_indentation", "lower_degree", "fewer_layers")
-            numbers = (float(f"{share:.4g}"), *changes)
+            numbers = (float(f"{remainder:.4g}"), *changes)
             found.append({**head, **dict(zip(names, numbers, strict=True))})
     return found
 

@@ -35,7 +35,7 @@ _s = sp.Symbol("s", positive=True)
 def bending() -> Formula:
     """Return the leading term of a thin plate as an effect of its own: delta = P b^2/(8 pi D)."""
     first = {formula.name: formula for formula in thin_plate()}["c_1_thin"].expression
-    share = sp.limit(first * eta**2, eta, 0) * a_ratio / eta**2
+    contribution = sp.limit(first * eta**2, eta, 0) * a_ratio / eta**2
     radius, half, wide, sphere, modulus = sp.symbols("a h b R E", positive=True)
     force = sp.Rational(4, 3) * modulus * radius**3 / sphere
     rigidity = modulus * (2 * half) ** 3 / 12
@@ -45,7 +45,7 @@ def bending() -> Formula:
         r"The leading term of $c_1 A$ for $h/b \to 0$ is the deflection $P b^2/(8 \pi D)$ of a "
         "thin plate, $D = E^* (2h)^3/12$, divided by $a^2/R$.",
         {
-            "deflection": share.subs({a_ratio: radius / half, eta: half / wide})
+            "deflection": contribution.subs({a_ratio: radius / half, eta: half / wide})
             - deflection * sphere / radius**2
         },
     )
@@ -53,7 +53,7 @@ def bending() -> Formula:
         "F_bending",
         "F_B",
         r"contribution of bending to $\delta R/a^2$",
-        share,
+        contribution,
         "1",
         "6",
         ("c_1_thin",),
@@ -63,7 +63,7 @@ def bending() -> Formula:
 
 
 @cache
-def shares() -> Formula:
+def thickness_bound() -> Formula:
     """Return an upper bound of the finite thickness's contribution to S: the rest of 3/2 c_1 A."""
     one_sided()
     first = coefficient(2)
@@ -121,15 +121,15 @@ def elastic_sphere() -> Proof:
 @cache
 def weight() -> Proof:
     """Prove the bounds for energy and time with weight by the convexity of U."""
-    whole, share = sp.symbols("U_m x", positive=True)
+    whole, fraction = sp.symbols("U_m x", positive=True)
     # v^2 m/2 at the fraction x of delta_m is smallest for U on its chord.
-    speed = whole * (1 - share) - _g * (1 - share)
+    speed = whole * (1 - fraction) - _g * (1 - fraction)
     return prove(
         "Weight during contact",
         "U <= U_m x by convexity; U_g = E + m g delta_g <= E + m g delta_1 U_g/E, because "
         "delta grows no faster than U.",
         {
-            "chord": speed - whole * (1 - share) * (1 - _g / whole),
+            "chord": speed - whole * (1 - fraction) * (1 - _g / whole),
             "energy": sp.solve(_u - 1 - _e * _u, _u)[0] - 1 / (1 - _e),
         },
     )
@@ -139,7 +139,7 @@ def effects() -> tuple[Formula, ...]:
     """Return the formulas of the step; its lemmas are proved as well."""
     elastic_sphere()
     weight()
-    return bending(), shares()
+    return bending(), thickness_bound()
 
 
 # --- numbers, as balls

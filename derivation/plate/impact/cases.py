@@ -110,7 +110,7 @@ def _root() -> float:
 def _paper() -> Iterator[HardCase]:
     m, v0, xi_2, xi_3 = 72.0, 1.0, 7e6, 1e8
     with flint.ctx.workprec(128):
-        last = float(printed_motion_balls.last_share(m, v0, xi_2, xi_3))
+        last = float(printed_motion_balls.last_fraction(m, v0, xi_2, xi_3))
     for power in (1, 2, 5):
         u = 0.5**power
         place = math.asin(last * (1 - u * u) ** 3) / math.sqrt(xi_2 / m)

@@ -50,13 +50,18 @@ class Case(NamedTuple):
     a_ratio: Fraction
     eta: Fraction
     curvature: Fraction = Fraction(0)
-    share: Fraction = Fraction(1)
+    modulus_ratio: Fraction = Fraction(1)
     places: tuple[Fraction, ...] = ()
     """r/a < 1 at which the pressure is requested."""
 
 
 def case(
-    a: Exact, h: Exact, b: Exact, R: Exact = 0, share: Exact = 1, places: Sequence[Exact] = ()
+    a: Exact,
+    h: Exact,
+    b: Exact,
+    R: Exact = 0,
+    modulus_ratio: Exact = 1,
+    places: Sequence[Exact] = (),
 ) -> Case:
     """Return the case of the given lengths; R = 0 stands for a paraboloid.
 
@@ -69,7 +74,9 @@ def case(
         raise ValueError(f"expected 0 < a < b, h > 0, a < R, got a={a}, h={h}, b={b}, R={R}")
     a, h, b = Fraction(a), Fraction(h), Fraction(b)
     curvature = a / Fraction(R) if R else Fraction(0)
-    return Case(a / h, h / b, curvature, Fraction(share), tuple(Fraction(x) for x in places))
+    return Case(
+        a / h, h / b, curvature, Fraction(modulus_ratio), tuple(Fraction(x) for x in places)
+    )
 
 
 def solve(case: Case, digits: int = 25) -> PressureState:
@@ -148,7 +155,7 @@ class _Waves(NamedTuple):
 def _waves(case: Case, fineness: Fraction, bits: int) -> _Waves:
     alpha = to_ball(case.a_ratio * case.eta)
     pi = arb.pi()
-    share = alpha * to_ball(case.share)
+    factor = alpha * to_ball(case.modulus_ratio)
     modes = mode_points(case.eta, bits - _SPARE // 2, bits)
     lateral_rates, lateral_weights, fades = [], [], []
     first, last = _span(case, bits)
@@ -160,14 +167,14 @@ def _waves(case: Case, fineness: Fraction, bits: int) -> _Waves:
         fades.append((-y).exp())
         with flint.ctx.workprec(bits + 8 + 3 * math.ceil(float(y))):  # K0 cancels like e^(2y)
             bessel = y.bessel_k(arb(0)) / y.bessel_i(arb(0)) / (-2 * y).exp()
-        lateral_weights.append(-4 * share / pi**2 * y * (1 + fade) / to_ball(fineness) * bessel)
+        lateral_weights.append(-4 * factor / pi**2 * y * (1 + fade) / to_ball(fineness) * bessel)
     return _Waves(
         [alpha * j for j in modes.places],
-        [4 * share / pi * q for q in modes.weights],
+        [4 * factor / pi * q for q in modes.weights],
         lateral_rates,
         lateral_weights,
         fades,
-        arb(0, (4 * share / pi * modes.rest).upper()),
+        arb(0, (4 * factor / pi * modes.rest).upper()),
     )
 
 
@@ -199,10 +206,10 @@ def _solve(case: Case, count: int, fineness: Fraction, bits: int) -> PressureSta
     with flint.ctx.workprec(bits):
         x, w = _rule(count, bits)
         waves = _waves(case, fineness, bits)
-        shares = waves.weights + waves.lateral_weights
+        kernel_weights = waves.weights + waves.lateral_weights
         rows = [_cosines(waves, t) for t in [*x, arb(1)]]
         near = _table(rows[:-1]).transpose()
-        kernel = _table([_times(row, shares) for row in rows]) * near
+        kernel = _table([_times(row, kernel_weights) for row in rows]) * near
         matrix = arb_mat(count, count)
         for i in range(count):
             for j in range(count):
@@ -220,9 +227,9 @@ def _solve(case: Case, count: int, fineness: Fraction, bits: int) -> PressureSta
         weighted = _times(chi, w)
         # int_0^1 chi cos(rate x) dx, with the kernel's weights, determines chi'.
         transform = [
-            value[0] * share
-            for value, share in zip(
-                (near * _table([[c] for c in weighted])).tolist(), shares, strict=True
+            value[0] * weight
+            for value, weight in zip(
+                (near * _table([[c] for c in weighted])).tolist(), kernel_weights, strict=True
             )
         ]
 
@@ -260,5 +267,5 @@ def _profile(x: arb, curvature: arb) -> tuple[arb, arb]:
     if curvature == 0:
         return x * x, arb(2)
     y = curvature * x
-    share = y.atanh() / y
-    return x * x * share, share + 1 / (1 - y * y)
+    arctanh_ratio = y.atanh() / y
+    return x * x * arctanh_ratio, arctanh_ratio + 1 / (1 - y * y)

@@ -39,7 +39,7 @@ def solve(
     a_ratio: Fraction,
     eta: Fraction,
     curvature: Fraction = Fraction(0),
-    share: Fraction = Fraction(1),
+    modulus_ratio: Fraction = Fraction(1),
     digits: int = 25,
 ) -> RouteState:
     """Return the contact for a/h, h/b, a/R (0 for a paraboloid) and E* over the plate's.
@@ -52,7 +52,7 @@ def solve(
     if a_ratio * eta > WIDEST:
         raise RouteError(f"a/b = {float(a_ratio * eta):.3g} is above {WIDEST}")
     size = _size(a_ratio, eta, curvature, digits)
-    few, many = _solve((a_ratio, eta, curvature, share), (size, size + 4), digits)
+    few, many = _solve((a_ratio, eta, curvature, modulus_ratio), (size, size + 4), digits)
     with mp.workdps(digits + 10):
         for one, other in zip(few, many, strict=True):
             if not abs(one - other) < mpf(10) ** -digits * (abs(other) + mpf(2) ** -10):
@@ -144,14 +144,14 @@ def _lateral(alpha: mpf, count: int, goal: int) -> list[list[mpf]]:
     found = [[mpf(0)] * count for _ in range(count)]
     for k in range(count):
         for n in range(k + 1):
-            share = _beta(k, mp.dps) * _beta(n, mp.dps)
-            shares = []
+            coefficient = _beta(k, mp.dps) * _beta(n, mp.dps)
+            coefficients = []
             for p in range(terms):
-                shares.append(share)
+                coefficients.append(coefficient)
                 s = k + n + 2 + p
                 over = (p + 1) * (k + p + mpf(3) / 2) * (n + p + mpf(3) / 2) * s
-                share *= (s + p) * (s + p + 1) / over
-            found[k][n] = found[n][k] = mp.fdot(moments, shares)
+                coefficient *= (s + p) * (s + p + 1) / over
+            found[k][n] = found[n][k] = mp.fdot(moments, coefficients)
     return found
 
 
@@ -174,11 +174,11 @@ def _solve(
 
     The matrices are as ill-conditioned as for Bernstein's powers.
     """
-    a_ratio, eta, curvature, share = case
+    a_ratio, eta, curvature, modulus_ratio = case
     most = max(sizes)
     goal = digits + 10 + most + math.ceil(max(0.0, -2 * math.log10(float(eta))))
     with mp.workdps(goal + most):
-        alpha, part = _number(a_ratio * eta), _number(share)
+        alpha, part = _number(a_ratio * eta), _number(modulus_ratio)
         modal = _modal(_number(eta), alpha, most + 1, goal)
         lateral = _lateral(alpha, most + 1, goal)
         half = [_beta(n, mp.dps) for n in range(2 * most + 2)]

@@ -14,7 +14,7 @@ _TRUNCATION = "the sum truncated after its second term"
 
 @dataclass(frozen=True)
 class PrintedSeries(Printed):
-    """A printed sum over all modes, `expression` being one mode's share of it."""
+    """A printed sum over all modes, `expression` being one mode's term of it."""
 
 
 @dataclass(frozen=True)

@@ -64,8 +64,8 @@ class Consequences:
         found[phi], found[J1] = self.zeros[j - 1] / self.case.b, self.weights[j - 1]
         found[A_j] = evaluated(self.formulas["A_j"].expression, found)
         for index in range(1, 5):
-            share = evaluated(self.formulas[f"Omega_{index}"].expression, found)
-            found[BY_NAME[f"C{index}"].symbol] = found[A_j] * share
+            ratio = evaluated(self.formulas[f"Omega_{index}"].expression, found)
+            found[BY_NAME[f"C{index}"].symbol] = found[A_j] * ratio
         return found
 
     def value(self, expression: sp.Expr) -> float:
@@ -103,11 +103,11 @@ class Consequences:
     def _power(self, printed: sp.Expr, derived: sp.Expr) -> str:
         """Return the effect of another leading power at half the largest indentation."""
         powers = [sp.Rational(e.subs(k, 2)) for e in (printed, derived)]
-        shares = [0.5 ** float(power) for power in powers]
+        fractions = [0.5 ** float(power) for power in powers]
         deep = float(self.fixed[BY_NAME["delta"].symbol])
         return (
             f"at half the largest indentation, {1e3 * deep / 2:.2f}" + r"\,mm, the leading term "
-            f"is {shares[0]:.3f} of its largest value, in place of {shares[1]:.3f}"
+            f"is {fractions[0]:.3f} of its largest value, in place of {fractions[1]:.3f}"
         )
 
     def context(self) -> dict[str, str]:

@@ -43,9 +43,9 @@ def roots_context(formulas: Mapping[str, Record]) -> dict[str, Any]:
     rows = []
     for ratio in ("1/20", "1/10", "1/5", "1/3", "1/2", "1"):
         value = enclose(closed, {eta: to_ball(Fraction(ratio)), M[2]: M_2})
-        share = coefficient_remainder_ball(2, Fraction(ratio), ROOT_DIGITS)
-        texts = (value.str(6, radius=False), (value + share).str(6, radius=False))
-        rows.append(f"${ratio}$ & ${texts[0]}$ & {number(float(share))} & ${texts[1]}$")
+        remainder = coefficient_remainder_ball(2, Fraction(ratio), ROOT_DIGITS)
+        texts = (value.str(6, radius=False), (value + remainder).str(6, radius=False))
+        rows.append(f"${ratio}$ & ${texts[0]}$ & {number(float(remainder))} & ${texts[1]}$")
     return {
         "first": [root_text(n) for n in (1, 2)],
         "height": root(1).imag.str(5, radius=False),

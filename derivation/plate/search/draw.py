@@ -132,7 +132,7 @@ def _sizes(generator: Random, of_mode: bool) -> dict[str, float]:
     widest = min(CONTACTS[1] * h, b)
     a = h * _between(generator, *CONTACTS)
     if a >= widest or generator.random() < 0.25:
-        a = min(widest * _share(generator), math.nextafter(widest, 0.0))
+        a = min(widest * _fraction(generator), math.nextafter(widest, 0.0))
     mu = _unit(generator, STRESS)
     nu = _poisson(generator)
     sign = generator.choice((-1, 1))
@@ -142,9 +142,9 @@ def _sizes(generator: Random, of_mode: bool) -> dict[str, float]:
         "h": h,
         "b": b,
         "a": a,
-        "R": a / _share(generator),
-        "r": generator.choice((0.0, b, b * _share(generator), b * _share(generator))),
-        "z": sign * h * generator.choice((0.0, 1.0, *(_share(generator) for _ in range(6)))),
+        "R": a / _fraction(generator),
+        "r": generator.choice((0.0, b, b * _fraction(generator), b * _fraction(generator))),
+        "z": sign * h * generator.choice((0.0, 1.0, *(_fraction(generator) for _ in range(6)))),
         "mu": mu,
         "lam": 2 * mu * nu / (1 - 2 * nu),
         "P": _unit(generator, FORCE),
@@ -164,7 +164,7 @@ def _between(generator: Random, low: float, high: float) -> float:
     return from_ordinal(generator.randint(ordinal(first), ordinal(last)))
 
 
-def _share(generator: Random) -> float:
+def _fraction(generator: Random) -> float:
     """Return a number in (0, 1): any, a float near 0, or one near 1."""
     near = from_ordinal(generator.randint(ordinal(2.0**-53), ordinal(0.5)))
     return generator.choice((generator.uniform(2.0**-20, 1.0), near, 1.0 - near))

@@ -36,14 +36,14 @@ _OF_LAW = 24
 """Number of digits of the contact law's reference."""
 
 _SLOW, _SLOWEST = (1, 16), (1, 32)
-_SHARES = {
+_TURNS = {
     "impact": _SLOW, "kappa": _SLOWEST, "finite_part": _SLOWEST, "kappa_ratio": _SLOW,
     "finite_part_ratio": _SLOW, "contact_radius": (1, 1), "indentation": (3, 1),
     "stiffness": (3, 1),
 }  # fmt: skip
 """Points per turn, and number of rounds per turn, for slow references."""
 
-_SHARE, _SHARE_OF_SUMS = (48, 1), (4, 1)
+_TURN, _TURN_OF_SUMS = (48, 1), (4, 1)
 
 
 def targets(names: Sequence[str] = ()) -> tuple[Target, ...]:
@@ -86,8 +86,8 @@ def recorded(check: Path, contact: Path) -> tuple[dict[str, float], dict[str, li
 
 def closed_target(domain: Domain, kernel: Kernel) -> Target:
     """Return the target of a function of the manifest, with its budget and conditioning."""
-    share, every = _SHARES.get(kernel.name, _SHARE_OF_SUMS if kernel.modes else _SHARE)
-    return target.closed_target(JUDGE, domain, kernel, draw, share, every)
+    turn_size, every = _TURNS.get(kernel.name, _TURN_OF_SUMS if kernel.modes else _TURN)
+    return target.closed_target(JUDGE, domain, kernel, draw, turn_size, every)
 
 
 # --- the contact law
@@ -117,9 +117,9 @@ def _law_target(name: str) -> Target:
         scale = tolerance(name, given, float(balls[0])) if scaled else 1.0
         return [exact_reference(ball, scale) for ball in balls]
 
-    share, every = _SHARES.get(name, _SHARE)
+    turn_size, every = _TURNS.get(name, _TURN)
     measure = measure_by(references, ULP_OF_LAW)
-    return Target(domain, draw, call, measure, None, share, every)
+    return Target(domain, draw, call, measure, None, turn_size, every)
 
 
 @lru_cache(maxsize=8)

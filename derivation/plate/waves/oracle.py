@@ -70,17 +70,17 @@ def condition(x: Exact, kap: Exact, nu: Exact, kind: str) -> tuple[float, float]
         p, q = _roots(wave, acb(load), _gam_of(ratio))
         here = _printed(kind, wave, acb(load), p, q)
 
-        def share(there: acb) -> float:
-            return float(abs((there / here - 1).real / shift))
+        def sensitivity(value: acb) -> float:
+            return float(abs((value / here - 1).real / shift))
 
         more = 1 + shift
         of_arguments = 0.0
         for a, b, c in ((more, 1, 1), (1, more, 1), (1, 1, more)):
             moved = wave * a, acb(load * b)
             roots = _roots(*moved, _gam_of(ratio * c))
-            of_arguments += share(_printed(kind, *moved, *roots))
-        of_roots = share(_printed(kind, wave, acb(load), p * more, q))
-        return of_arguments, of_roots + share(_printed(kind, wave, acb(load), p, q * more))
+            of_arguments += sensitivity(_printed(kind, *moved, *roots))
+        of_roots = sensitivity(_printed(kind, wave, acb(load), p * more, q))
+        return of_arguments, of_roots + sensitivity(_printed(kind, wave, acb(load), p, q * more))
 
 
 def zero(x: Exact, nu: Exact, kind: str = KINDS[0], index: int = 0, digits: int = 30) -> arb:
@@ -114,7 +114,7 @@ def residue(x: Exact, nu: Exact, kind: str = KINDS[0], index: int = 0, digits: i
     return _refined(x, digits, compute)
 
 
-def share(x: Exact, nu: Exact, digits: int = 30) -> arb:
+def fraction(x: Exact, nu: Exact, digits: int = 30) -> arb:
     """Return the fraction of A0 in the static deflection, C = 2 G(2 x)/(E* phi) by step 7."""
 
     def compute() -> arb:

@@ -51,7 +51,7 @@ def residue(x: float, nu: float, digits: int = 30) -> mpf:
         return +((sides[0] + sides[1]) / 2)
 
 
-def share(x: float, nu: float, digits: int = 30) -> mpf:
+def fraction(x: float, nu: float, digits: int = 30) -> mpf:
     """Return the fraction of A0 in the static deflection, at a negligibly low frequency."""
     with mp.workdps(3 * digits):
         kap, answer = zero(x, nu, digits), residue(x, nu, digits)

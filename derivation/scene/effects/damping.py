@@ -22,7 +22,7 @@ from derivation.scene.effects.inertia import (
     dissipated,
     dynamic_deviation,
     total_deviation,
-    weight_share,
+    weight_work_ratio,
 )
 from derivation.scene.effects.plasticity import plastic_restitution
 from derivation.scene.effects.viscosity import viscous_number
@@ -79,7 +79,7 @@ class Damping(Effect):
         amplitude. Random scenes use at most 6 % of the bound.
         """
         none = none_of(context.radii)
-        heavier = 1.0 + weight_share(model, context.depth)
+        heavier = 1.0 + weight_work_ratio(model, context.depth)
         T = SLOWEST * context.depth / (model.v0 * math.sqrt(heavier))
         a, force = float(context.radii[-1]), float(context.samples.force[-1])
         viscous = viscous_number(model)

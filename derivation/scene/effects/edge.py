@@ -14,7 +14,7 @@ from derivation.scene.effects.effect import (
 )
 from derivation.scene.model import Model
 from derivation.scene.scene import Scene
-from derivation.scene.support_series import support_share
+from derivation.scene.support_series import support_contribution
 
 SUPPORTED, CLAMPED = "simply-supported", "clamped"
 MAX_A_OVER_B = 0.9
@@ -73,7 +73,7 @@ class Edge(PlateEffect):
 
     def _supported(self, model: Model, a: Array) -> Contribution:
         """Return the sums of one or many plates by their series; directly for wide contacts."""
-        depth, slope = support_share(model.supports, a / model.b)
+        depth, slope = support_contribution(model.supports, a / model.b)
         wide = np.isnan(depth) & np.isfinite(a)
         if wide.any():
             plate = (np.broadcast_to(x, a.shape)[wide] for x in model.numbers[3:])

@@ -58,4 +58,4 @@ class FiniteThickness(PlateEffect):
 
 def plate_contribution(model: Model, a: Array) -> Contribution:
     """Return the sum of bending, finite thickness and finite radius: law minus half-space."""
-    return Contribution(*kernels.plate_share(model.plates, a, model.h, model.b))
+    return Contribution(*kernels.plate_contribution(model.plates, a, model.h, model.b))

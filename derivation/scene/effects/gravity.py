@@ -3,7 +3,7 @@
 import numpy as np
 
 from derivation.scene.effects.effect import Bound, BoundContext, Effect, none_of
-from derivation.scene.effects.inertia import weight_share
+from derivation.scene.effects.inertia import weight_work_ratio
 from derivation.scene.effects.plasticity import plastic_depth
 from derivation.scene.model import Model
 from derivation.scene.scene import Scene
@@ -42,7 +42,7 @@ class Gravity(Effect):
 
         A contact that yields is deeper, so that the weight does more work.
         """
-        share = weight_share(model, plastic_depth(model, context))
-        energy = np.where(np.less(share, 1.0), -np.log1p(-np.minimum(share, 1.0)), np.inf)
+        work_ratio = weight_work_ratio(model, plastic_depth(model, context))
+        energy = np.where(np.less(work_ratio, 1.0), -np.log1p(-np.minimum(work_ratio, 1.0)), np.inf)
         none = none_of(context.radii)
         return Bound(none, none, energy=energy)

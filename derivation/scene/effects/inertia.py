@@ -101,7 +101,7 @@ class PlateInertia(Effect):
 
     def bound(self, model: Model, context: BoundContext) -> Bound:
         """Return the tested bound: deviation of the modes from their quasi-static response."""
-        heavier = 1.0 + weight_share(model, context.depth)
+        heavier = 1.0 + weight_work_ratio(model, context.depth)
         T = SLOWEST * context.depth / (model.v0 * np.sqrt(heavier))
         a, force = context.radii[..., -1:], context.samples.force[..., -1:]
         viscous = viscous_number(model)
@@ -151,7 +151,7 @@ class PlateInertia(Effect):
         )
 
 
-def weight_share(model: Model, depth: Numbers) -> Numbers:
+def weight_work_ratio(model: Model, depth: Numbers) -> Numbers:
     """Return the work of the weight over the kinetic energy [1], at a largest indentation [m].
 
     The weight accelerates the sphere during contact. The plate takes a fraction of the kinetic

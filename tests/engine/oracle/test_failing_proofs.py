@@ -86,7 +86,7 @@ def test_bounds_on_the_remainder_of_the_plate_factor_are_checked(
 def test_contact_wider_than_the_bound_allows_is_rejected(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(pressure_bound, "WIDEST", pressure_bound.WIDTH / 2)
     with pytest.raises(ProofError, match="the actual contact may be too wide"):
-        pressure_bound.lateral_share.__wrapped__()
+        pressure_bound.lateral_ratio.__wrapped__()
 
 
 def test_quadrature_bound_rejects_zeros_of_the_radicand() -> None:

@@ -225,17 +225,18 @@ def test_every_derivation_step_and_formula_is_in_the_report(formulas) -> None:
 
 
 @NEEDS_TEX
-def test_pdfs_are_reproducible_and_free_of_warnings(tmp_path: Path) -> None:
-    files = report_files.write(PAPER, tmp_path / "one")
-    written = {path.name for path in files if path.parent == tmp_path / "one"}
-    assert written == {"report.bib"} | {
+def test_pdfs_are_reproducible_and_free_of_warnings(
+    written: tuple[Path, ...], tmp_path: Path
+) -> None:
+    folder = written[0].parent
+    assert {path.name for path in written if path.parent == folder} == {"report.bib"} | {
         f"{name}{suffix}" for name in DOCUMENTS for suffix in (".tex", ".html", ".pdf")
     }
-    assert set(files) == {path for path in (tmp_path / "one").rglob("*") if path.is_file()}
-    shutil.copytree(tmp_path / "one", tmp_path / "two")
+    assert set(written) == {path for path in folder.rglob("*") if path.is_file()}
+    shutil.copytree(folder, tmp_path / "two")
     for name in DOCUMENTS:
         again, log = typeset(tmp_path / "two" / f"{name}.tex")
-        assert again == (tmp_path / "one" / f"{name}.pdf").read_bytes()
+        assert again == (folder / f"{name}.pdf").read_bytes()
         assert problems(log) == []
         pages = int(re.findall(r"Output written on .*\((\d+) pages", log)[0])
         assert pages <= 40 or name == APPENDICES

@@ -3,6 +3,7 @@
 import math
 import random
 from collections.abc import Callable
+from fractions import Fraction
 from typing import Any
 
 import mpmath
@@ -20,6 +21,7 @@ from derivation.engine.formula.vocabulary import NOTHING
 from derivation.engine.rewrite.compositions import compositions
 from derivation.engine.rewrite.powers import powers
 from derivation.engine.rewrite.search import stabilised
+from derivation.engine.rewrite.substitutions import substitutions
 
 Exact = Callable[[mpf], mpf]
 x = sp.Symbol("x", positive=True)
@@ -47,6 +49,24 @@ CASES: dict[str, tuple[Exact, float, float]] = {
     "log(1 + x) - log(x)": (lambda t: mp.log(1 + t) - mp.log(t), 1e-150, 1e150),
     "(x + 1)**(1/3) - x**(1/3)": (lambda t: mp.cbrt(t + 1) - mp.cbrt(t), 1e-150, 1e150),
     "(1 + x)**(1/3) - 1": (lambda t: mp.cbrt(1 + t) - 1, 1e-150, 1e150),
+    "sqrt(1 + x) - 1 - x/2": (lambda t: mp.sqrt(1 + t) - 1 - t / 2, 1e-150, 1e150),
+    "(1 + 2*x)**(1/3) - 1 - 2*x/3": (lambda t: mp.cbrt(1 + 2 * t) - 1 - 2 * t / 3, 1e-150, 1e150),
+    "1/sqrt(1 - x**2) - 1 - x**2/2": (
+        lambda t: 1 / mp.sqrt(1 - t**2) - 1 - t**2 / 2,
+        1e-75,
+        0.999,
+    ),
+    "log(1 + x) - x + x**2/2": (lambda t: mp.log(1 + t) - t + t**2 / 2, 1e-100, 1e150),
+    "(log(1 + x) - x + x**2/2)/x**3": (
+        lambda t: (mp.log(1 + t) - t + t**2 / 2) / t**3,
+        1e-150,
+        1e150,
+    ),
+    "(1 - x)*log(1 - x) + x - x**2/2": (
+        lambda t: (1 - t) * mp.log(1 - t) + t - t**2 / 2,
+        1e-100,
+        0.99,
+    ),
     "tan(x) - x": (lambda t: mp.tan(t) - t, 1e-150, 1e150),
     "x - atan(x)": (lambda t: t - mp.atan(t), 1e-150, 1e150),
     "x - sin(x)*cos(x)": (lambda t: t - mp.sin(t) * mp.cos(t), 1e-150, 1e150),
@@ -61,6 +81,33 @@ def relative(function: Exact, point: float) -> tuple[mpf, float]:
         value = function(at)
         slope = (function(at * (1 + step)) - function(at * (1 - step))) / (2 * step)
         return +value, float(abs(slope / value)) / 2
+
+
+@settings(deadline=None, max_examples=40)
+@given(
+    st.fractions(-3, 3, max_denominator=6).filter(lambda power: power.denominator > 1),
+    st.fractions(-4, 4, max_denominator=3).filter(bool),
+    st.integers(-2, 2),
+)
+def test_a_substitution_does_not_change_the_formula(
+    power: Fraction, slope: Fraction, factor: int
+) -> None:
+    b = sp.Rational(slope)
+    for formula in (
+        (1 + b * x) ** sp.Rational(power) - 1 - sp.Rational(power) * b * x,
+        x**factor * sp.log(1 + b * x) + x**2,
+    ):
+        (found,) = substitutions(formula, x)
+        known: dict[sp.Symbol, sp.Expr] = {}
+        for step in found.steps:
+            known[step.symbol] = step.expression.xreplace(known)
+        at = {x: sp.Rational(1, 7) / abs(b)}
+        u = known[found.variable]
+        assert found.inverse.xreplace({found.variable: u.xreplace(at)}).evalf(30) == pytest.approx(
+            at[x], rel=1e-25
+        )
+        equal = (found.front * found.expression.xreplace({found.variable: u})).xreplace(at)
+        assert equal.evalf(30) == pytest.approx(formula.xreplace(at).evalf(30), rel=1e-20)
 
 
 @pytest.mark.parametrize("formula", CASES)

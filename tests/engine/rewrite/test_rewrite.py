@@ -134,15 +134,17 @@ def _delta(source: sp.Expr) -> sp.Symbol:
 
 
 @settings(max_examples=60)
-@given(share=st.floats(0.0, 1.0), switch=st.sampled_from((0.25, 0.5, 1.0, 1.5)))
+@given(fraction=st.floats(0.0, 1.0), switch=st.sampled_from((0.25, 0.5, 1.0, 1.5)))
 @pytest.mark.parametrize(
     "core",
     [sp.sinh(x) - x, sp.sin(x) - x * sp.cos(x), sp.exp(x) - 1 - x, sp.exp(-x) * sp.sin(x) - x]
     + [function(x / 2) - x / 2 for function in (sp.asin, sp.atan, sp.asinh, sp.atanh)],
 )
-def test_truncated_series_is_within_its_bound(core: sp.Expr, share: float, switch: float) -> None:
+def test_truncated_series_is_within_its_bound(
+    core: sp.Expr, fraction: float, switch: float
+) -> None:
     section = truncated_taylor(terms_of(core, x), sp.Rational(switch))
-    point = flint.arb(switch * max(share, 1e-6))
+    point = flint.arb(switch * max(fraction, 1e-6))
     with flint.ctx.workprec(600):
         total = sum(
             (

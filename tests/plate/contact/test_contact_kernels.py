@@ -39,8 +39,8 @@ def test_coefficients_give_the_correction(eta: float, fmt: Format) -> None:
     assert rows.dtype == fmt.name
     with flint.ctx.workprec(200):
         reach = min(arb(3), 1 / arb(eta))
-        for share in (0.02, 0.16, 0.5, 0.8, 0.98):
-            A = reach * arb(share)
+        for fraction in (0.02, 0.16, 0.5, 0.8, 0.98):
+            A = reach * arb(fraction)
             alpha = float(A * arb(eta))
             A = arb(alpha) / arb(eta)
             value = arb(0)

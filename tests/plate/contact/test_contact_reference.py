@@ -164,8 +164,8 @@ def test_states_near_the_turning_point_conserve_energy() -> None:
     """
     case = (0.01, 0.03, 1.0, 0.1, 1.0, 1.2e11, 8e10)
     whole = contact_impact.impact(*case, digits=60).contact_time
-    shares = (-4e-13, -5e-14, 2e-16, 5e-14, 4e-13)
-    times = [float(whole) / 2 * (1 + 2 * share) for share in shares]
+    offsets = (-4e-13, -5e-14, 2e-16, 5e-14, 4e-13)
+    times = [float(whole) / 2 * (1 + 2 * offset) for offset in offsets]
     rates = []
     for t in times:
         depth, speed, radius, load = contact_quantities.state(t, *case, digits=40)

@@ -141,8 +141,8 @@ def test_divergence_follows_from_the_terms() -> None:
     assert divergence.tail(J1 / (phi * K)).exponent == sp.Rational(-3, 2)
     for k in range(2, 7):
         assert divergence.tail(divergence.printed_term(k)).kind == divergence.DIVERGENT
-    share = divergence.printed_term(2) / phi**3 * sp.sin(a * phi)
-    assert divergence.tail(share).kind == divergence.CONVERGENT
+    term = divergence.printed_term(2) / phi**3 * sp.sin(a * phi)
+    assert divergence.tail(term).kind == divergence.CONVERGENT
 
 
 def calmed(terms: Sequence[mp.mpf]) -> mp.mpf:

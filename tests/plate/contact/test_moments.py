@@ -176,9 +176,9 @@ def test_inequalities_behind_the_bound(y: float) -> None:
         assert fading <= (-point).exp() * (1 + point) * 4 / 5
         cut, limit = arb(0), arb(0)
         for j, a in enumerate(theory.hankel(5)):
-            share = fraction(a)
-            cut += share * (2 * point).gamma_upper(j + half) / (j + half).gamma() * point**-j
-            limit += share * 2**j * point**-j * 3 / 2
+            coefficient = fraction(a)
+            cut += coefficient * (2 * point).gamma_upper(j + half) / (j + half).gamma() * point**-j
+            limit += coefficient * 2**j * point**-j * 3 / 2
         assert cut <= (-point).exp() * limit
 
 

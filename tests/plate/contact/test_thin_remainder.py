@@ -144,13 +144,13 @@ def test_error_of_the_closed_form_is_the_first_root(k: int, ratio: str) -> None:
     with mp.workdps(60), flint.ctx.workprec(400):
         e = mp.mpf(ratio)
         miss = number(oracle(k, ratio) - closed(k, ratio), 20)
-        first, second = (share(k, newton(n), e) for n in (1, 2))
+        first, second = (root_term(k, newton(n), e) for n in (1, 2))
         assert abs(miss - first.imag) < 2 * abs(second) + mp.mpf("1e-39")
         envelope = 2 * abs(first) / abs(wave(newton(1), e)) * mp.exp(mp.mpf("-4.2124") / e)
         assert mp.mpf("0.9") < abs(first) / envelope < mp.mpf("1.1")
 
 
-def share(k: int, T: mp.mpc, ratio: mp.mpf) -> mp.mpc:
+def root_term(k: int, T: mp.mpc, ratio: mp.mpf) -> mp.mpc:
     """Return a root's term in c_(2k-3), from the residue coth(u/2)^2/2 of G, u = asinh T."""
     size = (-1) ** k * mp.mpf(2 * k - 2) / mp.factorial(2 * k - 1)
     residue = mp.coth(mp.asinh(T) / 2) ** 2 / 2
@@ -173,7 +173,7 @@ def check_bounds(
         if not n * flint.arb.pi() > 8 * ratio:
             continue
         at = thin_roots.root(n, 2100)
-        assert abs(weight(at) * thin_remainder.root_share(at, ratio)) < first(n)
+        assert abs(weight(at) * thin_remainder.root_term(at, ratio)) < first(n)
         assert abs(at) < thin_roots.SIZE_OVER_INDEX * n
         for later in (n, n + 1, n + 9):
             assert first(later + 1) < first(later) * quotient(n) * (1 + flint.arb("1e-20"))
@@ -257,10 +257,10 @@ def test_wrong_residue_is_detected_by_the_reference(change: str) -> None:
         e = mp.mpf("0.2")
         miss = number(oracle(2, "0.2") - closed(2, "0.2"), 20)
         roots = [newton(n) for n in range(1, 6)]
-        right = mp.fsum(share(2, T, e).imag for T in roots)
+        right = mp.fsum(root_term(2, T, e).imag for T in roots)
         assert abs(right / miss - 1) < mp.mpf("1e-15")
         ratios = [WRONG[change](T, c) / thin_remainder.residue(T, c) for T, c in with_cosh(roots)]
-        wrong = mp.fsum((share(2, T, e) * r).imag for T, r in zip(roots, ratios, strict=True))
+        wrong = mp.fsum((root_term(2, T, e) * r).imag for T, r in zip(roots, ratios, strict=True))
         assert abs(wrong / miss - 1) > mp.mpf("0.1")
 
 

@@ -53,10 +53,10 @@ def test_thin_plates_agree_with_plate_theory() -> None:
     """
     soft = alpha / eta**3 / (4 * sp.pi)
     (thin,) = (f.expression for f in edge_sums.thin_edge() if f.name == "F_edge_thin")
-    share = sp.limit(sp.limit((thin / soft), eta, 0), alpha, 0)
-    assert sp.simplify(share - sp.Rational(1, 2)) == 0
+    relative_reduction = sp.limit(sp.limit((thin / soft), eta, 0), alpha, 0)
+    assert sp.simplify(relative_reduction - sp.Rational(1, 2)) == 0
     ratio = edge.support_ratio().expression.subs(lam, LAM_OF_NU)
-    assert sp.simplify(1 + ratio * share - (3 + nu) / (2 * (1 + nu))) == 0
+    assert sp.simplify(1 + ratio * relative_reduction - (3 + nu) / (2 * (1 + nu))) == 0
 
 
 def test_moment_at_the_edge_of_a_thin_plate() -> None:

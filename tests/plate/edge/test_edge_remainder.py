@@ -58,11 +58,11 @@ def test_edge_states_and_elements_add_up_to_the_total(support: str) -> None:
     case = RemainderCase(support, 0.2, 0.3)
     whole = Field(case, COARSE).depths(WIDTHS, states=False)
     rest = Field(case, COARSE).depths(WIDTHS)
-    shares = remainders(case, COARSE)
-    for a, one, other, share in zip(WIDTHS, whole, rest, shares, strict=True):
+    relative = remainders(case, COARSE)
+    for a, one, other, remainder in zip(WIDTHS, whole, rest, relative, strict=True):
         assert abs(one / other - 1) < 1e-8
         more, indentation = edge_contribution(case, a)
-        assert abs(other - more - share * indentation) < 1e-12 * indentation
+        assert abs(other - more - remainder * indentation) < 1e-12 * indentation
 
 
 def test_remainder_converges() -> None:
@@ -78,15 +78,15 @@ def test_record_is_complete_and_accurate() -> None:
     assert len(rows) == len(SUPPORTS) * len(SIZES) * len(POISSON) * len(WIDTHS)
     assert [mesh["degree"] for mesh in record["meshes"]] == [mesh.degree for mesh in MESHES]
     for row in rows:
-        share = abs(row["share_of_indentation"])
+        size = abs(row["share_of_indentation"])
         # The corners of a clamped edge are singular; those of a supported edge are not.
         floor = 1e-7 if row["support"] == "supported" else 3e-5
-        assert abs(row["lower_degree"]) + abs(row["fewer_layers"]) < 0.01 * share + floor
-        assert share < 0.03
+        assert abs(row["lower_degree"]) + abs(row["fewer_layers"]) < 0.01 * size + floor
+        assert size < 0.03
         if row["support"] == "supported" and row["nu"] >= 0 and row["a_over_b"] <= 0.1:
-            assert share < (1e-3 if row["h_over_b"] <= 0.5 else 3e-3)
+            assert size < (1e-3 if row["h_over_b"] <= 0.5 else 3e-3)
         if row["support"] == "clamped" and row["h_over_b"] <= 0.3:
-            assert share < 1e-3
+            assert size < 1e-3
 
 
 def test_rows_state_contributions_and_their_changes(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -106,13 +106,13 @@ def test_rows_state_contributions_and_their_changes(monkeypatch: pytest.MonkeyPa
         best = known[tuple(row[key] for key in head)]["share_of_indentation"]
         assert abs(row["share_of_indentation"] / best - 1) < 1e-2
     for support in SUPPORTS:
-        shares, lower, fewer = (
+        finest, lower, fewer = (
             remainders(RemainderCase(support, 1.0, 0.3), mesh) for mesh in meshes
         )
         mine = [row for row in found["rows"] if row["support"] == support]
-        for row, share, one, other in zip(mine, shares, lower, fewer, strict=True):
-            assert row["lower_degree"] == pytest.approx(one - share, rel=0.06)
-            assert row["fewer_layers"] == pytest.approx(other - share, rel=0.06)
+        for row, remainder, one, other in zip(mine, finest, lower, fewer, strict=True):
+            assert row["lower_degree"] == pytest.approx(one - remainder, rel=0.06)
+            assert row["fewer_layers"] == pytest.approx(other - remainder, rel=0.06)
 
 
 @pytest.mark.parametrize("h", [0.22213133, *np.geomspace(0.01, 9.0, 60)])

@@ -110,8 +110,8 @@ def test_bending_agrees_with_thin_plate_theory() -> None:
     """The bending deflection is that of a thin plate, P b^2/(8 pi D) with D = E* H^3/12."""
     a, R, h, b, E = 0.01, 0.3, 0.02, 0.7, 3e9
     P, D = 4 / 3 * E * a**3 / R, E * (2 * h) ** 3 / 12
-    share = P * b**2 / (8 * math.pi * D) * R / a**2
-    assert bending(a / h, h / b).depth == pytest.approx(share, rel=1e-15)
+    contribution = P * b**2 / (8 * math.pi * D) * R / a**2
+    assert bending(a / h, h / b).depth == pytest.approx(contribution, rel=1e-15)
     assert BY_NAME["bending"].value(model(R=R, h=h, b=b), a) == pytest.approx(
         2 / math.pi * a * b**2 / (2 * h) ** 3, rel=1e-15
     )

@@ -61,9 +61,9 @@ def test_stated_errors_are_tested(suite: Suite, references: dict[str, Known]) ->
     assert isinstance(known, Stating)
     case = next(c for c in suite.cases if c.kernel == "leading")
 
-    def with_stated(share: float) -> hard.HardRow:
+    def with_stated(fraction: float) -> hard.HardRow:
         less = dataclasses.replace(
-            known, stated=lambda *x: tuple(share * error for error in known.stated(*x))
+            known, stated=lambda *x: tuple(fraction * error for error in known.stated(*x))
         )
         one = dataclasses.replace(suite, cases=(case,), kernels={"leading": less})
         (row,) = hard.check(one, references)

@@ -65,7 +65,7 @@ MAY_STAY: Mapping[str, tuple[int, str]] = {
     "simple_impact._estimate": (2, GUARD),
     "simple_impact._relative": (1, GUARD),
     "simple_impact._scene": (4, GUARD),
-    "simple_impact._share": (1, LOOP),
+    "simple_impact._radius_ratio": (1, LOOP),
     "simple_impact.law_errors": (4, GUARD),
     "simple_impact.leading": (1, GUARD),
     "viscosity.viscous_logarithms": (4, ELSEWHERE),

@@ -118,19 +118,19 @@ def test_nodes_of_the_quadrature_of_an_impact() -> None:
         assert abs(sum(w * u**24 for u, w in nodes) - mpf(1) / 25) > mpf(10) ** -20
 
 
-@pytest.mark.parametrize("share", [1 / 8, 1 / 12, 1 / 16])
-def test_bound_of_the_trapezoidal_rule_holds(share: float) -> None:
+@pytest.mark.parametrize("coarse", [1 / 8, 1 / 12, 1 / 16])
+def test_bound_of_the_trapezoidal_rule_holds(coarse: float) -> None:
     """For the fastest growing g, halving the step changes the integral by less than the bound."""
     with flint.ctx.workprec(400):
         sums = []
-        for step in (arb(share), arb(share) / 2):
+        for step in (arb(coarse), arb(coarse) / 2):
             places, weights = contact_lateral.trapezoidal(step, 200.0)
             pairs = zip(places, weights, strict=True)
             sums.append(sum((w * y.cosh() for y, w in pairs), arb(0)))
         changed = abs(sums[0] - sums[1])
         assert changed > 0
-        assert changed < contact_lateral.step_bound(arb(share))
-        assert changed > contact_lateral.step_bound(arb(share)) ** 1.5
+        assert changed < contact_lateral.step_bound(arb(coarse))
+        assert changed > contact_lateral.step_bound(arb(coarse)) ** 1.5
 
 
 def test_bound_on_the_shifted_line_holds() -> None:

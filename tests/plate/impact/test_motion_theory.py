@@ -180,9 +180,9 @@ def test_statements_about_each_equation(findings: dict[str, Finding]) -> None:
 
 
 def test_convergent_series_is_compared_like_any_formula(formulas: Mapping[str, Formula]) -> None:
-    share = formulas["delta"].expression
-    assert diagnose_series("delta", share, formulas).kind == "equal"
-    assert diagnose_series("delta", -share, formulas).kind == "sign"
+    expression = formulas["delta"].expression
+    assert diagnose_series("delta", expression, formulas).kind == "equal"
+    assert diagnose_series("delta", -expression, formulas).kind == "sign"
 
 
 def test_correct_power_is_equal(motion: Mapping[str, Formula]) -> None:

@@ -89,11 +89,11 @@ def test_correction_agrees_with_equation_16(corrected: bool) -> None:
     assert eta < 0
 
 
-@pytest.mark.parametrize("share", [0.2, 0.9])
-def test_arb_reference_agrees(share: float) -> None:
+@pytest.mark.parametrize("fraction", [0.2, 0.9])
+def test_arb_reference_agrees(fraction: float) -> None:
     """The Arb reference agrees with the direct integrals over time and the generated code."""
     motion = printed_motion(*PAPER, 100, corrected=True)
-    t = share * motion.breaks_at
+    t = fraction * motion.breaks_at
     numbers = (motion.m, motion.v0, motion.xi_2, motion.xi_3)
     ball = printed_motion_balls.corrected(t, *numbers, digits=45)
     with mp.workdps(16):
@@ -108,7 +108,7 @@ def test_arb_reference_ends_at_the_zero_of_the_radicand() -> None:
     motion = printed_motion(*PAPER, 100)
     numbers = (motion.m, motion.v0, motion.xi_2, motion.xi_3)
     with flint.ctx.workprec(100):
-        last = printed_motion_balls.last_share(*numbers)
+        last = printed_motion_balls.last_fraction(*numbers)
     assert float(last) == pytest.approx(motion.last, rel=1e-14)
     with pytest.raises(ValueError, match="has vanished"):
         printed_motion_balls.corrected(1.001 * motion.breaks_at, *numbers)

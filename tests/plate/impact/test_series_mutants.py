@@ -56,7 +56,7 @@ def by_sums(scene: Point, corrected: bool) -> list[float]:
 def by_motion(numbers: Point) -> ExpectedResult:
     """Return the case of a motion: end values, (15), and (16) within and outside its range."""
     m, v0, xi_2, xi_3 = map(mpf, numbers)
-    shares = (0.01, 0.11, 0.5, 0.93)
+    fractions = (0.01, 0.11, 0.5, 0.93)
     with mp.workdps(30):
         rate, excess = mp.sqrt(xi_2 / m), 3 * xi_3 / 4 * (v0 * mp.sqrt(m / xi_2)) ** (mpf(8) / 3)
         excess /= m * v0**2
@@ -64,7 +64,7 @@ def by_motion(numbers: Point) -> ExpectedResult:
             lambda s: s**2 + excess * s ** (mpf(8) / 3) - 1, (1e-9, 1), solver="anderson"
         )
         breaks = float(mp.asin(last) / rate)
-        times = [share * breaks for share in shares]
+        times = [fraction * breaks for fraction in fractions]
         linear = [float(v0 / rate * mp.sin(rate * t)) for t in times]
         ends = [mp.pi / rate, v0 / rate, excess, last, breaks, 2 * mp.asin(last) / mp.pi]
     whole = [float(motion_balls.corrected(t, *numbers, digits=16)) for t in times]

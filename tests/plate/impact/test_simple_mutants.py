@@ -171,7 +171,7 @@ TESTS = {
             **dict.fromkeys(("ORDINARY", "PLATES"), (2, "which numbers are ordinary")),
             "_scene": (1, "which numbers are ordinary"),
             "DEEP": (1, GUARDS),
-            "_share": (4, GUARDS),
+            "_radius_ratio": (4, GUARDS),
             "ROUNDING": (1, MARGIN),
             "with_margins_of_thin": (1, MARGIN),
             "with_margins_of_thick": (4, MARGIN),

@@ -26,12 +26,14 @@ def test_remainder_of_the_lateral_is_the_series_without_its_first_term() -> None
 def test_generated_bounds_of_the_lateral_are_rounded_up() -> None:
     """The bounds slightly exceed the integrals of sinh y without its first one or two terms."""
 
-    def share(y: float, taken: float) -> float:
+    def integrand(y: float, taken: float) -> float:
         rising = special.k0e(y) / special.i0e(y) * np.exp(-2 * y) / y
         return float(4 / np.pi**2 * (np.sinh(y) - taken) * rising)
 
-    rest = integrate.quad(lambda y: share(y, y), 1e-3, 60.0, epsabs=1e-13, limit=200)[0]
-    cubic = integrate.quad(lambda y: share(y, y + y**3 / 6), 1e-2, 60.0, epsabs=1e-13, limit=200)[0]
+    rest = integrate.quad(lambda y: integrand(y, y), 1e-3, 60.0, epsabs=1e-13, limit=200)[0]
+    cubic = integrate.quad(
+        lambda y: integrand(y, y + y**3 / 6), 1e-2, 60.0, epsabs=1e-13, limit=200
+    )[0]
     assert rest < numbers.LATERAL_REST < 1.003 * rest
     assert cubic < numbers.LATERAL_CUBIC < 1.003 * cubic
 
@@ -49,8 +51,8 @@ def test_generated_bounds_of_omitted_terms_are_rounded_up() -> None:
 @pytest.mark.parametrize("k", [2, 3])
 @pytest.mark.parametrize("inverse", [6.0, 9.0])
 def test_contribution_of_the_roots_is_below_its_bound(k: int, inverse: float) -> None:
-    share = abs(coefficient_remainder_ball(k, 1 / inverse, 10))
-    assert share < tables._roots(k) * (-flint.arb.pi() * inverse).exp()
+    contribution = abs(coefficient_remainder_ball(k, 1 / inverse, 10))
+    assert contribution < tables._roots(k) * (-flint.arb.pi() * inverse).exp()
 
 
 def test_omitted_modes_are_below_their_bound() -> None:

@@ -21,7 +21,7 @@ from derivation.plate.vocabulary import a_ratio, c_A
 from derivation.plate.vocabulary import eta as eta_symbol
 from generated.contact_series import plates_of
 from generated.non_hertzian_pressure import contact, plate, pressure
-from generated.pressure_numbers import ERROR, THIN, WIDEST, WIDEST_SHARE
+from generated.pressure_numbers import ERROR, THIN, WIDEST, WIDEST_OVER_B
 
 R, E = 1e3, 7e10
 OPEN = 3.012493
@@ -46,7 +46,7 @@ def test_too_small_contribution_of_the_lateral_surface_is_rejected(
 ) -> None:
     monkeypatch.setattr(bound, "LATERAL_EXTRA", sp.Rational(3, 40))
     with pytest.raises(ProofError, match="contribution of the edge"):
-        bound.lateral_share.__wrapped__()
+        bound.lateral_ratio.__wrapped__()
 
 
 def law(case: pressure_balls.Case) -> tuple[float, float]:
@@ -67,8 +67,8 @@ def test_bounds_hold_and_are_positive(eta: float) -> None:
     third = contact_balls.coefficient(3, eta, 1)
     assert third < 0
     most = min((5 * (0.08 * eta**3 - 7.5 * float(third))) ** (-1 / 3), 0.4 / eta)
-    for share in (0.3, 0.97):
-        a = share * most
+    for fraction in (0.3, 0.97):
+        a = fraction * most
         # The Hertz radius of the solution at contact radius a is slightly smaller than a.
         case = pressure_balls.case(a, 1, 1 / eta)
         state = pressure_balls.solve(case)
@@ -184,14 +184,14 @@ def test_hertz_limit() -> None:
         assert np.abs(shape - np.sqrt(1 - (place / 1e-5) ** 2)).max() < 1e-14
 
 
-@pytest.mark.parametrize("share", [1e-6, 0.1, 0.5, 0.99])
-def test_spherical_profile_on_a_half_space_agrees_with_sneddon(share: float) -> None:
+@pytest.mark.parametrize("a_over_R", [1e-6, 0.1, 0.5, 0.99])
+def test_spherical_profile_on_a_half_space_agrees_with_sneddon(a_over_R: float) -> None:
     a = 1e-9
-    radius = a / share
+    radius = a / a_over_R
     got = contact(plate(1.0, 1.0), a, radius, E, sphere=True)
-    logarithm = 2 * math.atanh(share)
+    logarithm = 2 * math.atanh(a_over_R)
     assert abs(got.indentation / (a / 2 * logarithm) - 1) < 1e-8
-    if share > 0.01:  # the closed form loses digits by cancellation for smaller values
+    if a_over_R > 0.01:  # the closed form loses digits by cancellation for smaller values
         force = E * ((a**2 + radius**2) / 2 * logarithm - a * radius)
         assert abs(got.force / force - 1) < 1e-8
 
@@ -305,7 +305,7 @@ def test_pressure_profile_in_thin_plates_depends_only_on_the_thickness() -> None
 
 def test_results_are_nan_outside_the_domain() -> None:
     of = plate(1.0, 2.0)
-    for a in (0.0, -1.0, np.nan, WIDEST_SHARE * 2.0001, 2.5):
+    for a in (0.0, -1.0, np.nan, WIDEST_OVER_B * 2.0001, 2.5):
         assert np.isnan(contact(of, a, R, E).force)
     assert np.isnan(contact(of, 0.5, 0.4, E).force)
     assert np.isnan(contact(of, 0.5, R, -E).force)

@@ -15,7 +15,7 @@ from derivation.plate.pressure import oracle as pressure_balls
 NAN = math.nan
 
 SOLVED = (
-    # a/h, b/h, R/h, share of E*, sphere
+    # a/h, b/h, R/h, E* over that of the plate, sphere
     (0.5, 2.0, 0.8, 0.75, True),
     (3.0, 10.0, 50.0, 1.0, False),
     (0.9, 1.2, 2.0, 0.6, False),
@@ -38,18 +38,20 @@ def pressure_cases() -> list[WithinUlp]:
 
 
 @cache
-def state(a: float, v: float, R: float, share: float, sphere: bool) -> pressure_balls.PressureState:
+def state(
+    a: float, v: float, R: float, modulus_ratio: float, sphere: bool
+) -> pressure_balls.PressureState:
     places = () if sphere else PLACES
     return pressure_balls.solve(
-        pressure_balls.case(a, 1.0, v, R if sphere else 0, share, places), 18
+        pressure_balls.case(a, 1.0, v, R if sphere else 0, modulus_ratio, places), 18
     )
 
 
 def solved(
-    a: float, v: float, R: float, share: float, sphere: bool, compliance: float
+    a: float, v: float, R: float, modulus_ratio: float, sphere: bool, compliance: float
 ) -> WithinUlp:
     """Return the case of force, indentation, stiffness, slope, pressures and chi at the nodes."""
-    exact, own = state(a, v, R, share, sphere), share * E
+    exact, own = state(a, v, R, modulus_ratio, sphere), modulus_ratio * E
     width, radius = a * H, R * H
     force = own * width**3 / radius * float(exact.force)
     stiffness = own * width * float(exact.stiffness)
@@ -78,9 +80,9 @@ def solved(
     return WithinUlp(call, np.array(values), 20000.0)
 
 
-def distribution(a: float, v: float, R: float, share: float, sphere: bool) -> WithinUlp:
+def distribution(a: float, v: float, R: float, modulus_ratio: float, sphere: bool) -> WithinUlp:
     """Return the case of the pressure: total force, two reference values, NaN outside."""
-    exact, own = state(a, v, R, share, sphere), share * E
+    exact, own = state(a, v, R, modulus_ratio, sphere), modulus_ratio * E
     width, radius = a * H, R * H
     nodes, weights = np.polynomial.legendre.leggauss(40)
     u, w = (1 + nodes) / 2, weights / 2
@@ -99,15 +101,15 @@ def distribution(a: float, v: float, R: float, share: float, sphere: bool) -> Wi
     return WithinUlp(call, np.array([force, *places, NAN, NAN, 0.0]), 20000.0)
 
 
-def work(a: float, v: float, R: float, share: float, sphere: bool) -> WithinUlp:
+def work(a: float, v: float, R: float, modulus_ratio: float, sphere: bool) -> WithinUlp:
     """Return the case that dU = P d delta holds along a."""
     width, radius = a * H, R * H
     nodes, weights = np.polynomial.legendre.leggauss(30)
 
     def call(m: ModuleType) -> float:
         of, kept = m.plate(H, v * H), {"sphere": sphere, "compliance": 2e-10}
-        path = m.contact(of, width * (1 + nodes) / 2, radius, share * E, E, **kept)
-        end = m.contact(of, width, radius, share * E, E, **kept)
+        path = m.contact(of, width * (1 + nodes) / 2, radius, modulus_ratio * E, E, **kept)
+        end = m.contact(of, width, radius, modulus_ratio * E, E, **kept)
         return float(width * (path.force * path.slope) @ weights / 2 / end.energy)
 
     return WithinUlp(call, np.asarray(1.0), 1e6)

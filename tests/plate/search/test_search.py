@@ -75,8 +75,8 @@ def test_search_of_a_single_function_takes_the_same_steps(fast: tuple[Target, ..
 
 
 def test_every_function_is_searched(fast: tuple[Target, ...]) -> None:
-    found = search(fast, seed=1, evaluations=sum(t.share for t in fast))
-    assert [s.evaluations for s in found.standings.values()] == [t.share for t in fast]
+    found = search(fast, seed=1, evaluations=sum(t.turn_size for t in fast))
+    assert [s.evaluations for s in found.standings.values()] == [t.turn_size for t in fast]
 
 
 def test_search_ends_at_its_time_limit(fast: tuple[Target, ...]) -> None:

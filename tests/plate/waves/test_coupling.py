@@ -89,18 +89,18 @@ class EnergyBalance:
         y = a * PHI
         felt, own = a**3 * of_sphere(y), sinc(y)
         tilt = PHI * (np.cos(y) - own) / y
-        share = np.ones(3) if self.axis else own
+        modal_weights = np.ones(3) if self.axis else own
         bend = np.zeros(3) if self.axis else tilt
-        depth = a**2 + a**4 * np.sin(a) / 2 - COMPLIANCE @ (felt * share)
+        depth = a**2 + a**4 * np.sin(a) / 2 - COMPLIANCE @ (felt * modal_weights)
         rise = 2 * a + 2 * a**3 * np.sin(a) + a**4 * np.cos(a) / 2
-        rise -= COMPLIANCE @ (3 * a**2 * own * share + felt * bend)
-        return felt, share, bend, float(depth), float(rise)
+        rise -= COMPLIANCE @ (3 * a**2 * own * modal_weights + felt * bend)
+        return felt, modal_weights, bend, float(depth), float(rise)
 
     def growth(self, y: np.ndarray) -> float:
         """Return da/dt."""
         a, v, q, rate = y[0], y[1], y[2:5], y[5:8]
-        _, share, bend, _, rise = self.at(a)
-        return float((v - share @ rate) / (rise + bend @ q))
+        _, modal_weights, bend, _, rise = self.at(a)
+        return float((v - modal_weights @ rate) / (rise + bend @ q))
 
     def rates(self, _: float, y: np.ndarray) -> np.ndarray:
         """Return the rates of a, v, q, q', the work int P dD, and the loss of the coupling."""
@@ -118,8 +118,8 @@ class EnergyBalance:
     def energy(self, y: np.ndarray) -> float:
         """Return the energy of sphere, contact and modes."""
         a, v, q, rate, work = y[0], y[1], y[2:5], y[5:8], y[8]
-        felt, share, *_ = self.at(a)
-        gap = 0.0 if self.axis else q @ (a**3 * share - felt)
+        felt, modal_weights, *_ = self.at(a)
+        gap = 0.0 if self.axis else q @ (a**3 * modal_weights - felt)
         modes = (rate**2 + OMEGA**2 * q**2) / (2 * OMEGA**2 * COMPLIANCE)
         return float(MASS * v**2 / 2 + work + gap + modes.sum())
 
@@ -163,9 +163,9 @@ def test_mean_over_twice_the_radius_equals_the_sum_over_modes(a: float, h: float
     count = 40000
     j, J1 = generated.bessel_j0_zeros(count), generated.bessel_j1_at_j0_zeros(count)
     y = a * j
-    shares = generated.K_j(j, h, 1.0, 1e3, J1) * (np.sin(y) - y * np.cos(y)) * sinc(y)
+    terms = generated.K_j(j, h, 1.0, 1e3, J1) * (np.sin(y) - y * np.cos(y)) * sinc(y)
     # The omitted modes add little: K_j tends to 4/(R phi^3), the other factors to -sin(2 y)/2.
-    total = float(shares.sum()) + a**2 / 3e3
+    total = float(terms.sum()) + a**2 / 3e3
     assert variational(a, h, 1.0) == pytest.approx(total, rel=2e-9)
 
 

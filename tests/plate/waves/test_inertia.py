@@ -98,8 +98,8 @@ def test_references_agree_on_the_influence(x: float, load: float, nu: float) -> 
 def test_references_agree_on_the_lowest_branch(x: float, nu: float) -> None:
     digits = 12
     pairs = zip(
-        (inertia_balls.zero, inertia_balls.residue, inertia_balls.share),
-        (inertia_routes.zero, inertia_routes.residue, inertia_routes.share),
+        (inertia_balls.zero, inertia_balls.residue, inertia_balls.fraction),
+        (inertia_routes.zero, inertia_routes.residue, inertia_routes.fraction),
         strict=True,
     )
     for first, second in pairs:

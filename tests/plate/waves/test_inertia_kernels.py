@@ -135,16 +135,16 @@ def test_branches_add_up_to_the_static_load(x: float, nu: float, parity: str) ->
     """sum r/kap converges to the static 1/B; N branches omit a part proportional to 1/N."""
     whole = float(dynamic_influence(x, 0.0, nu)[KINDS.index(parity)])
     frequency, residue = branches(x, nu, 400, parity)
-    shares = residue / frequency**2 / whole
-    assert (shares >= 0).all()
-    lack = 1.0 - np.cumsum(shares)[[99, 199, 399]]
+    fractions = residue / frequency**2 / whole
+    assert (fractions >= 0).all()
+    lack = 1.0 - np.cumsum(fractions)[[99, 199, 399]]
     assert (lack > 0).all()
     assert lack[0] < 0.02
     assert lack[:2] / lack[1:] == pytest.approx([2.0, 2.0], rel=0.15)
     if parity == KINDS[0]:
         other = float(dynamic_influence(x, 0.0, nu)[1])
-        share = float(bending_fraction(x, nu)) * (1 + other / whole)
-        assert shares[0] == pytest.approx(share, rel=1e-14)
+        lowest = float(bending_fraction(x, nu)) * (1 + other / whole)
+        assert fractions[0] == pytest.approx(lowest, rel=1e-14)
 
 
 def test_contribution_of_the_lowest_branch() -> None:

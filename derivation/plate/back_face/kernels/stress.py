@@ -28,7 +28,7 @@ from derivation.plate.edge.theory.sums import indentation_kernel
 from derivation.plate.edge.theory.supported import RATIO, support_ratio
 from derivation.plate.vocabulary import J1, P, T, a_ratio, alpha, eta, h, j_n, lam, mu
 
-A, j, share, thick, unit = sp.symbols("A j share thick unit", positive=True)
+A, j, kernel, thick, unit = sp.symbols("A j kernel thick unit", positive=True)
 total, stiff = sp.symbols("total stiff", real=True)
 THIN = sp.Symbol("THIN", positive=True)
 _sum = sp.Symbol("S", real=True)
@@ -43,7 +43,7 @@ def modes() -> Routine:
     cubed = T * square / low_square**2
     return routine(
         "back_face_modes",
-        (eta, j, J1, share),
+        (eta, j, J1, kernel),
         (
             Let(T, 2 * eta * j),
             Let(low, sp.Min(T, block.value.at)),
@@ -51,10 +51,10 @@ def modes() -> Routine:
             Let(square, T * T),
             Several((pair,), "sinh_pair", (T,), (block.definition(T),)),
         ),
-        (-4 * share * cubed * sp.exp(-T) * expm1(-2 * T) / (pair * (j * J1) ** 2),),
+        (-4 * kernel * cubed * sp.exp(-T) * expm1(-2 * T) / (pair * (j * J1) ** 2),),
         (mode.expression,),
-        "Return 4 eta^2 k B(2 eta j)/J1^2 of modes; `share` is k.",
-        {j: j_n, share: indentation_kernel(alpha * j_n)},
+        "Return 4 eta^2 k B(2 eta j)/J1^2 of modes; `kernel` is k.",
+        {j: j_n, kernel: indentation_kernel(alpha * j_n)},
         in_ratio,
     )
 

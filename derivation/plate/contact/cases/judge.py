@@ -81,9 +81,9 @@ def _references(call: Callable[..., Any], true: ContactReference) -> tuple[Refer
     if totals.size != len(true.values):
         raise ValueError(f"{totals.size} results at {true.point}, {len(true.values)} are expected")
     # Without a value of the function there is no conditioning, and no error is allowed.
-    shares = np.where(np.isfinite(totals), totals, 0.0).tolist()
+    conditions = np.where(np.isfinite(totals), totals, 0.0).tolist()
     balls = [flint.arb(value) for value in true.values]
     return tuple(
-        Reference(ball, {"all": flint.arb(abs(float(ball)) * share)}, abs(ball))
-        for ball, share in zip(balls, shares, strict=True)
+        Reference(ball, {"all": flint.arb(abs(float(ball)) * condition)}, abs(ball))
+        for ball, condition in zip(balls, conditions, strict=True)
     )

@@ -17,7 +17,9 @@ from derivation.plate.contact.theory.hertz import contact_radius, pressure
 from derivation.plate.contact.theory.split import contact_split
 from derivation.plate.vocabulary import P, R, a, delta, eps, h, lam, mu, r
 
-F, S, slope, rise, share, whole = sp.symbols("F S slope rise share whole", positive=True)
+F, S, slope, rise, radius_ratio, whole = sp.symbols(
+    "F S slope rise radius_ratio whole", positive=True
+)
 modulus, first, second, scale, A, inverse_R = sp.symbols(
     "modulus first second scale A inverse_R", positive=True
 )
@@ -51,7 +53,7 @@ LAW: Facts = {
     F: CORRECTION,
     slope: a * sp.diff(CORRECTION, a),
     rise: R / a * sp.diff(DEPTH, a),
-    share: a / sp.sqrt(R * DEPTH),
+    radius_ratio: a / sp.sqrt(R * DEPTH),
     delta: DEPTH,
     A: a / h,
     inverse_R: 1 / R,
@@ -230,20 +232,25 @@ def depth_ratio_at() -> Claims:
 
 
 @named_routine
-def radius_of_share() -> Claims:
+def radius_of_ratio() -> Claims:
     """Return a from its ratio to Hertz's radius sqrt(R delta)."""
     return Claims(
-        (share, delta, R), (root(radius, 2, (delta, R)),), (share * radius,), (a,), LAW, reduce
+        (radius_ratio, delta, R),
+        (root(radius, 2, (delta, R)),),
+        (radius_ratio * radius,),
+        (a,),
+        LAW,
+        reduce,
     )
 
 
 @named_routine
-def force_of_share() -> Claims:
+def force_of_ratio() -> Claims:
     """Return P from delta, a and a/sqrt(R delta), because a^3 would triple the error of a."""
     return Claims(
-        (share, delta, a, mu, modulus),
+        (radius_ratio, delta, a, mu, modulus),
         (),
-        (TIMES(modulus, mu, 1, share, 2, delta, 1, a, 1),),
+        (TIMES(modulus, mu, 1, radius_ratio, 2, delta, 1, a, 1),),
         (FORCE,),
         LAW,
         reduce,
@@ -261,16 +268,18 @@ def depth_ratio_in_range() -> Claims:
 @named_routine
 def radius_in_range() -> Claims:
     """Return a from its ratio to Hertz's radius, for products without overflow or underflow."""
-    return Claims((share, delta, R), (), (share * sp.sqrt(R * delta),), (a,), LAW, reduce)
+    return Claims(
+        (radius_ratio, delta, R), (), (radius_ratio * sp.sqrt(R * delta),), (a,), LAW, reduce
+    )
 
 
 @named_routine
 def force_in_range() -> Claims:
     """Return P from delta, a and a over Hertz's radius, if no product over- or underflows."""
     return Claims(
-        (share, delta, a, mu, modulus),
+        (radius_ratio, delta, a, mu, modulus),
         (),
-        (mu * modulus * share**2 * delta * a,),
+        (mu * modulus * radius_ratio**2 * delta * a,),
         (FORCE,),
         LAW,
         reduce,
@@ -298,16 +307,16 @@ def newton_step() -> Claims:
     step = sp.series((1 + residual) ** exponent - 1, residual, 0, 3).removeO()
     bend = residual * (exponent / 2 - sp.Rational(1, 2))
     return Claims(
-        (share, F, slope),
+        (radius_ratio, F, slope),
         (
             Let(whole, 1 + F),
-            Let(square, share**2),
+            Let(square, radius_ratio**2),
             Let(residual, (1 / square - whole) / whole),
             Let(exponent, whole / (2 * whole + slope)),
         ),
         (residual, exponent * residual * (1 + bend)),
         (goal, step.subs({residual: goal, exponent: power})),
-        {share: a / (h * eps), F: CORRECTION, slope: a * sp.diff(CORRECTION, a)},
+        {radius_ratio: a / (h * eps), F: CORRECTION, slope: a * sp.diff(CORRECTION, a)},
         sp.simplify,
     )
 
@@ -325,8 +334,8 @@ ROUTINES = (
     stiffness,
     depth_ratio,
     depth_ratio_at,
-    radius_of_share,
-    force_of_share,
+    radius_of_ratio,
+    force_of_ratio,
     newton_step,
 )
 """Routines for arrays."""

@@ -19,7 +19,7 @@ import numpy as np
 import sympy as sp
 from flint import arb as Ball
 
-from derivation.engine.cache import cached
+from derivation.engine.cache import in_file
 from derivation.engine.emit.package import Numbers
 from derivation.engine.emit.tables import Constant
 from derivation.mathematics.bessel.kernels import first_true, nearest_double
@@ -33,6 +33,16 @@ from derivation.plate.contact.theory.thin_plate import plate_excess
 from derivation.plate.modules import ComputedModule, RuntimeModule
 from derivation.plate.vocabulary import k
 
+SOURCES = (
+    "engine/cache.py",
+    "engine/formula",
+    "plate/*.py",
+    "plate/*/theory*",
+    "mathematics",
+    "engine/rewrite",
+    "plate/*/kernels*",
+)
+"""Sources on which numbers in the code depend."""
 TOLERANCE = Fraction(1, 2**60)
 """Tolerance of the expansions' truncation error, for values near 1."""
 TERMS = 13
@@ -91,11 +101,11 @@ def kappas() -> tuple[Ball, ...]:
 
 
 def _by_power(points: Sequence[tuple[Ball, Ball]], step: int, count: int) -> tuple[Ball, ...]:
-    """Return the sums of share y^(step i) over the nodes, i = 0 ... count - 1."""
+    """Return the sums of weight y^(step i) over the nodes, i = 0 ... count - 1."""
     found = []
     for _ in range(count):
-        found.append(midpoint(sum((share for _, share in points), Ball(0))))
-        points = [(y, share * y**step) for y, share in points]
+        found.append(midpoint(sum((weight for _, weight in points), Ball(0))))
+        points = [(y, weight * y**step) for y, weight in points]
     return tuple(found)
 
 
@@ -148,31 +158,15 @@ def finite_part_ratios() -> tuple[Ball, ...]:
         )
 
 
-@cache
+@in_file(SOURCES)
 def kappa_start() -> int:
     """Return the smallest n from which the expansion of kappa_n is within the tolerance."""
     return first_true(lambda n: bool(kappa_bound(n, TERMS) <= TOLERANCE))
 
 
-@cache
+@in_file(SOURCES)
 def finite_part_start() -> int:
-    """Return the smallest k from which M_k's ratio is within TOLERANCE of its limit.
-
-    The result is cached on disk.
-    """
-    folders = (
-        "engine/cache.py",
-        "engine/formula",
-        "plate/*.py",
-        "plate/*/theory*",
-        "mathematics",
-        "engine/rewrite",
-        "plate/*/kernels*",
-    )
-    return cached("finite_part_start", folders, _finite_part_start)
-
-
-def _finite_part_start() -> int:
+    """Return the smallest k from which M_k's ratio is within TOLERANCE of its limit."""
     finite_part_limit()
     return first_true(lambda index: bool(finite_part_bound(index) <= TOLERANCE))
 

@@ -52,7 +52,7 @@ def power_slope() -> Claims:
 class NearNodes:
     """Positions of the inner integral's nodes, w = 1 - u from 0 to 1 - sqrt(1 - ratio)."""
 
-    node, ratio, root, share = sp.symbols("node ratio root share", positive=True)
+    node, ratio, root, factor = sp.symbols("node ratio root factor", positive=True)
     last, w, rest, left, short, height = sp.symbols("last w rest left short height", positive=True)
 
 
@@ -72,12 +72,12 @@ def near_nodes() -> Claims:
         Let(k.short, k.rest * (k.root + k.height) / k.ratio, "1 - s"),
     )
     results = q, q / k.ratio, k.left, k.short * k.ratio**5 / k.left, k.last
-    share = (1 - s_there) * (1 - k.root**2) ** 5 / (1 - there)
+    factor = (1 - s_there) * (1 - k.root**2) ** 5 / (1 - there)
     return Claims(
         (k.node, k.ratio, k.root),
         statements,
         results,
-        (there, s_there, 1 - there, share, 1 - k.root),
+        (there, s_there, 1 - there, factor, 1 - k.root),
         {k.ratio: 1 - k.root**2},
         sp.cancel,
     )
@@ -210,9 +210,9 @@ def _near_terms(name: str, hertz: int, summary: str) -> Routine:
     left = start + cube**2 * (1 + s) * rest
     return routine(
         name,
-        (q, s, k.left, k.share, rate, first, rest, rise),
+        (q, s, k.left, k.factor, rate, first, rest, rise),
         statements,
-        (q * (s * rate + 2 * hertz), left * k.share + rise / k.left),
+        (q * (s * rate + 2 * hertz), left * k.factor + rise / k.left),
         _time_parts(every, q),
         summary,
         {
@@ -220,7 +220,7 @@ def _near_terms(name: str, hertz: int, summary: str) -> Routine:
             first: sp.Add(*limited),
             rest: sp.Add(*further),
             rise: weighted(every, lambda j: _work(j) * (1 - k.ratio ** (j + 3))),
-            k.share: (1 - at) * k.ratio**5 / (1 - q),
+            k.factor: (1 - at) * k.ratio**5 / (1 - q),
             k.left: 1 - q,
             s: at,
         },

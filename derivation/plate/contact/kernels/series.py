@@ -55,15 +55,15 @@ def _with_logarithm(expression: sp.Expr) -> sp.Expr:
 def thin_coefficients() -> Claims:
     """Return c1 and c3 of a thin plate."""
     found = _with_logarithm(thin(2)), _with_logarithm(thin(3))
-    shares = [part.coeff(sp.log(v)) for part in found]
+    by_log = [part.coeff(sp.log(v)) for part in found]
     grows = found[0].coeff(v**2)
     return Claims(
         (v,),
         (
             Let(log_v, sp.log(v)),
-            Let(rest, LINEAR + shares[0] * log_v),
+            Let(rest, LINEAR + by_log[0] * log_v),
         ),
-        (grows * v**2 + rest, CUBIC + shares[1] * log_v),
+        (grows * v**2 + rest, CUBIC + by_log[1] * log_v),
         (thin(2), thin(3)),
         THIN,
         _with_logarithm,
@@ -126,7 +126,7 @@ def cubic_by_log() -> sp.Expr:
 
 # --- modes
 
-SHARE = reduced_split()[1].expression
+MODE_TERM = reduced_split()[1].expression
 """One mode's term of F."""
 WEIGHT = plate_factors()[2].expression.subs(T, 2 * eta * j_n) / (j_n * J1**2)
 """w_n."""
@@ -140,7 +140,7 @@ def mode_weight() -> Claims:
         (eta, j_n, J1),
         (Several((excess,), "G_minus_1", (2 * eta * j_n,), (exact,)),),
         (excess / (j_n * J1**2),),
-        (SHARE / (8 * alpha / sp.pi * sine_kernel(alpha * j_n)),),
+        (MODE_TERM / (8 * alpha / sp.pi * sine_kernel(alpha * j_n)),),
         {},
         sp.simplify,
     )
@@ -190,7 +190,7 @@ def of_modes() -> Claims:
         (alpha, total, rise),
         (Let(ratio, 8 * alpha / sp.pi),),
         (ratio * total, ratio * rise),
-        (SHARE, alpha * sp.diff(SHARE, alpha)),
+        (MODE_TERM, alpha * sp.diff(MODE_TERM, alpha)),
         {name: WEIGHT * value.subs(y, alpha * j_n) for name, value in sums.items()},
         sp.simplify,
     )

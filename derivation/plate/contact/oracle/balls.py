@@ -148,8 +148,8 @@ def coefficient(order: int, h: Exact, b: Exact, digits: int = 50) -> arb:
 
     def compute(_: int) -> tuple[arb]:
         weight = Weight(lambda z: z ** (2 * m), 2 * m, 0.0)
-        share = (-1) ** m * arb(COEFFICIENTS["hertz"](m)) * 8 / (3 * arb.pi())
-        return (share * to_ball(eta) ** order * functional(weight, eta),)
+        factor = (-1) ** m * arb(COEFFICIENTS["hertz"](m)) * 8 / (3 * arb.pi())
+        return (factor * to_ball(eta) ** order * functional(weight, eta),)
 
     return refine_to_digits(compute, digits, f"c_{order} at h/b = {float(eta)}")[0]
 

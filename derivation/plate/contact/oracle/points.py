@@ -29,7 +29,7 @@ from flint import acb, arb, arb_poly
 from derivation.engine.formula.ball import PrecisionError, to_ball
 from derivation.mathematics.bessel.oracle import j0_zero
 from derivation.plate.contact.oracle.lateral import Points, lateral_points
-from derivation.plate.contact.oracle.sums import COEFFICIENTS, SHARES, plate_excess
+from derivation.plate.contact.oracle.sums import COEFFICIENTS, FACTORS, plate_excess
 
 PLATES = 64
 """Number of cached plates, limited by memory."""
@@ -72,12 +72,12 @@ class PointSeries(NamedTuple):
             raise PrecisionError(f"the series is made for a/b up to {self.reach}, got {alpha}")
         with flint.ctx.workprec(max(flint.ctx.prec, self.working)):
             value = self.powers[name](alpha * alpha) + arb(0, self.rest)
-        return SHARES[name] * alpha / arb.pi() * value
+        return FACTORS[name] * alpha / arb.pi() * value
 
     def slope(self, alpha: arb) -> tuple[arb_poly, arb]:
         """Return p of `impact.Law`: exact coefficients, and a bound of p's error on [0, 1]."""
-        share, square = SHARES["sinc"] * alpha / arb.pi(), alpha * alpha
-        error, exact, power = share * self.rest, [], share
+        factor, square = FACTORS["sinc"] * alpha / arb.pi(), alpha * alpha
+        error, exact, power = factor * self.rest, [], factor
         for term in self.powers["sinc"].coeffs():
             value = term * power
             exact.append(value.mid())

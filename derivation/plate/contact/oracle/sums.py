@@ -50,7 +50,7 @@ _CLOSED: dict[str, Callable[[acb], acb]] = {
 }  # fmt: skip
 """3 (sin w - w cos w)/w^3, sin w/w, and int_0^1 t^5 sinc(w t) dt; all below e^|Im w|."""
 
-SHARES = {"hertz": flint.fmpq(8, 3), "sinc": flint.fmpq(4), "work": flint.fmpq(20)}
+FACTORS = {"hertz": flint.fmpq(8, 3), "sinc": flint.fmpq(4), "work": flint.fmpq(20)}
 
 
 class Weight(NamedTuple):
@@ -302,4 +302,4 @@ def excess(name: str, alpha: arb, eta: Fraction | None) -> arb:
         raise ValueError(f"the law has meaning for 0 < a/b < 1, got {alpha}")
     rate = 2.0 ** math.ceil(math.log2(float(alpha.abs_upper())))
     weight = Weight(lambda z: kernel(name, alpha * z), rate=min(1.0, 2 * rate))
-    return SHARES[name] * alpha / arb.pi() * functional(weight, eta)
+    return FACTORS[name] * alpha / arb.pi() * functional(weight, eta)

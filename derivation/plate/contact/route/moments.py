@@ -19,11 +19,11 @@ def lateral_moments(count: int, digits: int) -> tuple[mpf, ...]:
     with mp.workdps(digits):
         step = 1 / (8 + mpf(4) / 5 * mp.dps + mp.sqrt(2 * count))
         points = list(_nodes(step, 2 * count))
-        shares, squares = [w * _lateral(y) for y, w in points], [y * y for y, _ in points]
+        terms, squares = [w * _lateral(y) for y, w in points], [y * y for y, _ in points]
         found = []
         for _ in range(count):
-            found.append(step * mp.fsum(shares))
-            shares = [s * q for s, q in zip(shares, squares, strict=True)]
+            found.append(step * mp.fsum(terms))
+            terms = [s * q for s, q in zip(terms, squares, strict=True)]
         return tuple(found)
 
 

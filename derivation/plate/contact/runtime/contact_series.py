@@ -237,9 +237,9 @@ def direct(A: Double, eta: float) -> tuple[Double, Double]:
             terms = kernels.mode_terms(near * zeros[modes], weights[modes])
             total += terms[0].sum(axis=1)
             rise += terms[1].sum(axis=1)
-        shares = kernels.of_modes(alpha[part], total, rise)
-        value[part] += shares[0]
-        slope[part] += shares[1]
+        modal = kernels.of_modes(alpha[part], total, rise)
+        value[part] += modal[0]
+        slope[part] += modal[1]
     return value, slope
 
 

@@ -157,8 +157,8 @@ def _rises(some: PlateArrays, a: Double) -> Double:
 
 
 def _forces(some: PlateArrays, delta: Double, R: Double, lam: Double, mu: Double) -> Double:
-    a, share = _contact(some, delta, R)
-    return kernels.force_of_share(share, delta + 0.0, a, *modulus_factors(lam, mu))
+    a, radius_ratio = _contact(some, delta, R)
+    return kernels.force_of_ratio(radius_ratio, delta + 0.0, a, *modulus_factors(lam, mu))
 
 
 def _contact(some: PlateArrays, delta: Double, R: Double) -> tuple[Double, Double]:
@@ -172,10 +172,10 @@ def _contact(some: PlateArrays, delta: Double, R: Double) -> tuple[Double, Doubl
     found = np.empty(eps.size)
     for part in blocks_of(eps.size):
         found[part] = _invert(eps[part], some, limit, cut_index(index, part))
-    share: Double = found.reshape(shape)
-    a = kernels.radius_of_share(share, delta, R)
+    radius_ratio: Double = found.reshape(shape)
+    a = kernels.radius_of_ratio(radius_ratio, delta, R)
     a = np.where(a <= ROUNDED * some.b, np.minimum(a, some.b), np.nan)
-    return inside([a], a < R)[0], share
+    return inside([a], a < R)[0], radius_ratio
 
 
 def _invert(eps: Double, some: PlateArrays, limits: Double, index: np.ndarray | None) -> Double:
@@ -186,14 +186,14 @@ def _invert(eps: Double, some: PlateArrays, limits: Double, index: np.ndarray | 
     linear = np.maximum(plates.first.coefficients[0][pick], 0.0)
     [eps] = inside([eps], eps <= ROUNDED * limit)
     most = np.where(eps <= near, plates.reach[pick], plates.far[pick]) / eps
-    share = np.minimum(np.minimum(1.0 / np.cbrt(eps * linear), 1.0), most)
+    radius_ratio = np.minimum(np.minimum(1.0 / np.cbrt(eps * linear), 1.0), most)
     for _ in range(_STEPS):
-        value, slope = correction_with_slope(share * eps, plates, index)
-        residual, step = kernels.newton_step(share, value, slope)
-        share = np.minimum(share * np.clip(1.0 + step, 0.3, 3.0), most)
+        value, slope = correction_with_slope(radius_ratio * eps, plates, index)
+        residual, step = kernels.newton_step(radius_ratio, value, slope)
+        radius_ratio = np.minimum(radius_ratio * np.clip(1.0 + step, 0.3, 3.0), most)
         if not (np.abs(residual) > _CLOSE).any():
             break
-    return share
+    return radius_ratio
 
 
 def _limits(eps: Double, some: PlateArrays, index: np.ndarray | None) -> Double:

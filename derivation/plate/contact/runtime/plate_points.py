@@ -130,8 +130,8 @@ def force(plate: PlatePoints, delta: float, R: float, lam: float, mu: float) -> 
     found = None if modulus is None else _contact(plate, delta, R)
     if modulus is None or found is None:
         return None
-    a, share = found
-    return kernels.force_in_range(share, delta, a, mu, modulus)
+    a, radius_ratio = found
+    return kernels.force_in_range(radius_ratio, delta, a, mu, modulus)
 
 
 def stiffness(plate: PlatePoints, a: float, R: float, lam: float, mu: float) -> float | None:
@@ -153,24 +153,24 @@ def _contact(plate: PlatePoints, delta: float, R: float) -> tuple[float, float] 
     eps = kernels.depth_ratio_in_range(delta, R, plate.h)
     if eps > plate.near_ratio and not eps <= plate.far_ratio:
         return None
-    share = _invert(plate, eps)
-    a = kernels.radius_in_range(share, delta, R)
-    return (a, share) if a < plate.b and a < R else None
+    radius_ratio = _invert(plate, eps)
+    a = kernels.radius_in_range(radius_ratio, delta, R)
+    return (a, radius_ratio) if a < plate.b and a < R else None
 
 
 def _invert(plate: PlatePoints, eps: float) -> float:
     """Return A/eps, where A sqrt(1 + F) equals eps."""
     most = (plate.reach if eps <= plate.near_ratio else plate.far) / eps
     thin = 1.0 / cbrt(eps * plate.linear) if plate.linear > 0.0 else 1.0
-    share = min(thin, 1.0, most)
+    radius_ratio = min(thin, 1.0, most)
     for _ in range(_STEPS):
-        A = share * eps
+        A = radius_ratio * eps
         value, slope = _with_slope(A, _piece_at(plate, A))
-        residual, step = kernels.newton_step(share, value, slope)
-        share = min(share * min(max(1.0 + step, 0.3), 3.0), most)
+        residual, step = kernels.newton_step(radius_ratio, value, slope)
+        radius_ratio = min(radius_ratio * min(max(1.0 + step, 0.3), 3.0), most)
         if abs(residual) <= _CLOSE:
             break
-    return share
+    return radius_ratio
 
 
 def _ordinary(one: float, other: float) -> bool:

@@ -234,11 +234,11 @@ def _inner(laws: tuple[_Law, _Law, _Law], ratio: Double, gap: Double, rises: Dou
 
     Here q = w (2 - w), w <= 1 - sqrt(gap) and gap = 1 - ratio; `rises` is the work beyond q.
     """
-    q, s, left, share, last = kernels.near_nodes(NODES, ratio[:, None], np.sqrt(gap)[:, None])
+    q, s, left, factor, last = kernels.near_nodes(NODES, ratio[:, None], np.sqrt(gap)[:, None])
     found = []
     made = kernels.near_terms, kernels.near_slope_terms, kernels.near_slope_terms
     for law, rise, terms in zip(laws, rises, made, strict=True):
-        sums = terms(q, s, left, share, *_near_sums(s, law), rise[:, None])
+        sums = terms(q, s, left, factor, *_near_sums(s, law), rise[:, None])
         found.append(_Sums(*sums))
     return _integrals(found, WEIGHTS * last)
 

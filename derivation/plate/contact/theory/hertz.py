@@ -8,10 +8,20 @@ from functools import cache
 
 import sympy as sp
 
+from derivation.engine.cache import in_file
 from derivation.engine.formula.proof import Proof, lower_bessel, prove
 from derivation.plate.modes.theory.influence import influence_coefficients
 from derivation.plate.vocabulary import J1, Formula, P, R, a, b, phi, r
 
+SOURCES = (
+    "engine/cache.py",
+    "engine/formula",
+    "mathematics",
+    "plate/vocabulary.py",
+    "plate/modes/theory",
+    "plate/contact/theory",
+)
+"""Sources on which the formulas of a contact depend."""
 _m = sp.Symbol("m", integer=True, nonnegative=True)
 _y, _t, _s = sp.symbols("y t s", positive=True)
 
@@ -91,7 +101,7 @@ def dirichlet_under_bessel() -> tuple[sp.Expr, sp.Expr]:
     return 2 / sp.pi * dirichlet * sp.asin(_t / r), 2 / sp.pi * dirichlet * sp.pi / 2
 
 
-@cache
+@in_file(SOURCES, Formula, Proof)  # modules of kernels need it when they are imported
 def contact_radius() -> Formula:
     """Return Hertz's relation between a and P in (7), for a sphere on the half-space.
 

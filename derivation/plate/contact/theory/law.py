@@ -23,14 +23,14 @@ def contact_law() -> tuple[Formula, ...]:
     faces = {
         name: face.expression * prefactor for name, face in (("K_j", top), ("K_j_bottom", bottom))
     }
-    share = -loaded(mode_shapes()[0].expression).subs(A_j, coefficient)
+    mode_term = -loaded(mode_shapes()[0].expression).subs(A_j, coefficient)
     proof = prove(
         "Contact law",
         r"$K_j s(a \phi_j)$ equals $-f_j(\pm h)$ with the constants of the face conditions and "
         "the coefficients of Hertz pressure.",
         {
-            "contact face": faces["K_j"] * SINE_MINUS - share.subs(z, h),
-            "back face": faces["K_j_bottom"] * SINE_MINUS - share.subs(z, -h),
+            "contact face": faces["K_j"] * SINE_MINUS - mode_term.subs(z, h),
+            "back face": faces["K_j_bottom"] * SINE_MINUS - mode_term.subs(z, -h),
         },
     )
     return (

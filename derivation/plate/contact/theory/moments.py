@@ -256,8 +256,8 @@ def finite_part_limit() -> sp.Expr:
     limit = (2 * k - 1) / (2 * k - 3)
     m = 2 * k - 4
     # int T^(m+p) e^(-2T) dT over m!/2^(m+1), and the scale 2^(2k-3)/(2k-2)! over 2^(m+1)/m!.
-    shares = {p: sp.expand_func(sp.rf(m + 1, p)) / 2**p for p in range(3)}
-    total = 4 * (shares[2] + shares[1] + shares[0] / 2) / ((m + 1) * (m + 2))
+    moments = {p: sp.expand_func(sp.rf(m + 1, p)) / 2**p for p in range(3)}
+    total = 4 * (moments[2] + moments[1] + moments[0] / 2) / ((m + 1) * (m + 2))
     prove(
         "Finite part for large k",
         "The three moments of the first exponential are added.",

@@ -14,9 +14,11 @@ from functools import cache
 import flint
 import sympy as sp
 
+from derivation.engine.cache import in_file
 from derivation.engine.formula.ball import LOG2_10, refine
 from derivation.engine.formula.dimension import thirds
 from derivation.engine.formula.proof import Proof, prove
+from derivation.plate.contact.theory.hertz import SOURCES
 from derivation.plate.contact.theory.split import lateral_bracket, lateral_tail, reduced_split
 from derivation.plate.modes.theory.plate_factor import plate_factors
 from derivation.plate.vocabulary import (
@@ -77,7 +79,7 @@ def sine_coefficient(k: int) -> sp.Rational:
     return sp.Rational((-1) ** k * (2 * k - 2), sp.factorial(2 * k - 1))
 
 
-@cache
+@in_file(SOURCES, Coefficient, Proof)  # modules of kernels need it when they are imported
 def coefficient(k: int) -> Coefficient:
     """Return c_(2k-3), k >= 2, from the coefficient of alpha^(2k-3) in the split, alpha = eta A."""
     order = 2 * k - 3
@@ -85,7 +87,7 @@ def coefficient(k: int) -> Coefficient:
     size = abs(sine_coefficient(k))
     mode = eta**order * size * (-1) ** k * 8 / sp.pi * j_n ** (2 * k - 5) * excess / J1**2
     side = -(eta**order) * size * 8 / sp.pi**2 * kappa[2 * k - 4]
-    shares = reduced_split()[1].expression
+    mode_term = reduced_split()[1].expression
     factor = 8 * alpha / (3 * sp.pi) / (j_n * J1**2)
     spread = 3 * (sp.sin(_y) - _y * sp.cos(_y)) / _y**3
     taylor = sp.series(spread, _y, 0, order + 1).removeO().coeff(_y, order - 1)
@@ -94,7 +96,7 @@ def coefficient(k: int) -> Coefficient:
         f"Coefficient c_{order}",
         r"Taylor coefficients of both parts of the split; $\alpha = \eta A$.",
         {
-            "share": shares - factor * spread.subs(_y, alpha * j_n) * excess,
+            "share": mode_term - factor * spread.subs(_y, alpha * j_n) * excess,
             "modes": factor / alpha * taylor * j_n ** (order - 1) * eta**order * excess - mode,
             "finite radius": -8
             / sp.pi**2

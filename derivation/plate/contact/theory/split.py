@@ -18,8 +18,9 @@ from functools import cache
 import flint
 import sympy as sp
 
+from derivation.engine.cache import in_file
 from derivation.engine.formula.proof import BY_BALLS, Proof, ProofError, prove
-from derivation.plate.contact.theory.hertz import SINE_MINUS
+from derivation.plate.contact.theory.hertz import SINE_MINUS, SOURCES
 from derivation.plate.contact.theory.law import contact_law
 from derivation.plate.modes.theory.plate_factor import plate_factors
 from derivation.plate.vocabulary import J1, Formula, R, T, a, alpha, b, eta, h, j_n, phi
@@ -214,7 +215,7 @@ def _side_density() -> sp.Expr:
     return -8 * b**2 / (sp.pi**2 * R) * lateral_bracket(a / b)
 
 
-@cache
+@in_file(SOURCES, Formula, Proof)  # modules of kernels need it when they are imported
 def contact_split() -> tuple[Formula, ...]:
     """Return the three parts of the indentation: half-space, finite radius, finite thickness."""
     contour()

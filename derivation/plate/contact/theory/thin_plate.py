@@ -22,8 +22,10 @@ from typing import TypeVar
 import flint
 import sympy as sp
 
+from derivation.engine.cache import in_file
 from derivation.engine.formula.ball import LOG2_10, refine
 from derivation.engine.formula.proof import Proof, prove
+from derivation.plate.contact.theory.hertz import SOURCES
 from derivation.plate.contact.theory.plate_series import FIRST, LAST, coefficient, sine_coefficient
 from derivation.plate.contact.theory.split import contour, imaginary_axis
 from derivation.plate.modes.theory.plate_factor import plate_factors
@@ -159,7 +161,7 @@ def _residue(*factors: dict[int, sp.Expr]) -> sp.Expr:
     return sp.expand(product).coeff(_u, -1)
 
 
-@cache
+@in_file(SOURCES, Formula, Proof)  # modules of kernels need it when they are imported
 def thin_coefficient(k: int) -> Formula:
     """Return c_(2k-3) of a thin plate."""
     order = 2 * k - 3

@@ -159,7 +159,7 @@ def _sum_of_roots(weight: Callable[[sp.Expr], sp.Expr]) -> sp.Expr:
     return sp.im(sp.Sum(weight(at) * (1 + sp.sqrt(1 + at**2)) ** 2 * wave, (_n, 1, sp.oo)))
 
 
-def _share(weight: sp.Expr) -> sp.Expr:
+def _residue_factor(weight: sp.Expr) -> sp.Expr:
     """Return pi times a root's residue f/(2 eta) without H/J0, q = weight(z), z = T/(2 eta)."""
     return sp.pi * weight * residue(T, sp.sqrt(1 + T**2)) / (2 * eta)
 
@@ -171,7 +171,7 @@ def coefficient_remainder(k: int) -> Formula:
     order, size, found = 2 * k - 3, sine_coefficient(k), axes(k)
     factor = size * sp.Integer(2) ** (5 - 2 * k)
     mode = eta**order * size * 8 / sp.pi
-    one = mode * _share((T / (2 * eta)) ** (2 * k - 4))
+    one = mode * _residue_factor((T / (2 * eta)) ** (2 * k - 4))
     modes = coefficient(k).mode - mode * _mode_factor(2 * k - 4)
     proof = prove(
         f"Contribution of the roots to c_{order}",
@@ -230,7 +230,7 @@ def law_remainder() -> Formula:
             "modes": modes - mode * sine_kernel(alpha * j_n) * _mode_factor(0),
             "finite radius": sp.expand((on_axis + lateral.function / LATERAL).rewrite(sp.exp)),
             "Phi": real.subs(alpha, eta * a_ratio) - 2 * a_ratio / sp.pi * sine_kernel(y),
-            "share": mode.subs(alpha, eta * a_ratio) * _share(sine_kernel(y))
+            "share": mode.subs(alpha, eta * a_ratio) * _residue_factor(sine_kernel(y))
             - 16 / a_ratio**2 * _law_weight(T) * (1 + sp.sqrt(1 + T**2)) ** 2,
         },
     )
@@ -253,7 +253,7 @@ def thin_remainder() -> tuple[Formula, ...]:
     return (universal_part(), *coefficients, law_remainder())
 
 
-def root_share(at: flint.acb, ratio: flint.arb) -> flint.acb:
+def root_term(at: flint.acb, ratio: flint.arb) -> flint.acb:
     """Return (1 + sqrt(1 + T^2))^2 H(z)/J0(z) at z = T/(2 eta), H/J0 = (2/(pi i)) K0/I0 at -iz."""
     z = at / (2 * ratio)
     turned = flint.acb(z.imag, -z.real)
@@ -267,7 +267,7 @@ def _sum_over_roots(
     quotient: Callable[[int], flint.arb],
     ratio: flint.arb,
 ) -> flint.arb:
-    """Return sum Im[weight(T_n) root_share(T_n)] with a ball for the terms after the last one.
+    """Return sum Im[weight(T_n) root_term(T_n)] with a ball for the terms after the last one.
 
     `first(n)` bounds term n, and `quotient(n)` bounds the ratio of successive terms from there on.
     Used are |1 + sqrt(1 + T^2)|^2/|T|^2 = |coth(u/2)|^2 <= (pi + 1)/(pi - 1) < 2, since
@@ -280,7 +280,7 @@ def _sum_over_roots(
     while True:
         n += 1
         at = root(n, bits)
-        term = weight(at) * root_share(at, ratio)
+        term = weight(at) * root_term(at, ratio)
         total += term.imag
         largest = largest.max(abs(term))
         if not (n + 1) * flint.arb.pi() > 8 * ratio or not quotient(n + 1) < 1:
@@ -309,4 +309,4 @@ def coefficient_remainder_ball(k: int, ratio: Exact, digits: int = 30) -> flint.
         )
         return total * flint.arb(flint.fmpq(int(size.p), int(size.q)))
 
-    return refine(compute, digits, f"the roots' share of c_{2 * k - 3} at {ratio}")
+    return refine(compute, digits, f"the roots' contribution to c_{2 * k - 3} at {ratio}")

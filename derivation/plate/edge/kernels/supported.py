@@ -43,7 +43,7 @@ from derivation.plate.vocabulary import J1, T, alpha, eta, j_n, lam, mu
 SMALLEST = sp.Float("1e-300")
 """Argument below which sin(y)/y is 1."""
 n = sp.Symbol("n", real=True)
-j, y, share, support = sp.symbols("j y share support", positive=True)
+j, y, kernel, support = sp.symbols("j y kernel support", positive=True)
 bending_part, extension_part, plain = sp.symbols("bending_part extension_part plain", real=True)
 _unit, _size = sp.symbols("unit M", positive=True)
 Q, H = bending_function(), stretching_function()
@@ -165,27 +165,27 @@ def _sides(mode: sp.Symbol) -> tuple[sp.Basic, Facts, Facts]:
 
 @named_routine
 def later_modes() -> Claims:
-    """Return k (T - Q)/(j^3 J1) and k (H - 1)/(j^2 J1) of modes; `share` is k."""
+    """Return k (T - Q)/(j^3 J1) and k (H - 1)/(j^2 J1) of modes; `kernel` is k."""
     s, statements = _of_T()
     fading, decayed, lower, upper, square, series = s.values()
     weight, above = sp.symbols("weight above", real=True)
     condition, near, far = _sides(j_n)
     of_series = T - 3 - 2 * fading * square * series / lower
     of_decay = -T * fading * (T + decayed) / (SWITCH**2 * lower)
-    kernel = sp.Symbol("k", real=True)
-    mode = kernel / (j_n**2 * J1)
+    k = sp.Symbol("k", real=True)
+    mode = k / (j_n**2 * J1)
     size = {T: 2 * eta * j_n}
     return Claims(
-        (eta, j, J1, share),
+        (eta, j, J1, kernel),
         (
             Let(T, 2 * eta * j),
             *statements,
             Choice(above, condition, of_series, of_decay, if_yes=near, if_no=far),
-            Let(weight, share / (j**2 * J1)),
+            Let(weight, kernel / (j**2 * J1)),
         ),
         (weight * above / j, -2 * weight * fading * (T - decayed) / upper),
         (mode * (T - Q).subs(size) / j_n, mode * (H - 1).subs(size)),
-        {j: j_n, share: kernel},
+        {j: j_n, kernel: k},
         in_ratio,
     )
 
@@ -199,7 +199,7 @@ def all_modes() -> Claims:
     third, square_1, rest_third, rest_square, fading_third, fading_square, below = sp.symbols(
         names, real=True
     )
-    ratio = sp.Symbol("ratio", real=True)
+    decay_ratio = sp.Symbol("decay_ratio", real=True)
     j_2, J1_2, k_1, k_2 = sp.symbols("j_2 J1_2 k_1 k_2", positive=True)
     condition, near, far = _sides(j_n)
     of_series = -2 * fading * square * series / lower
@@ -213,7 +213,7 @@ def all_modes() -> Claims:
     meaning = {
         n: RATIO,
         j: j_n,
-        share: k_1,
+        kernel: k_1,
         third: cube_1 / k_1,
         square_1: square_of_1 / k_1,
         plain: cube_1 + cube_2,
@@ -222,17 +222,17 @@ def all_modes() -> Claims:
         fading_third: cube_2 * (2 * eta * j_2 - Q_2),
         fading_square: square_of_2 * (H_2 - 1),
     }
-    bracket = third * share * below + (3 * rest_third - 2 * eta * rest_square) + fading_third
+    bracket = third * kernel * below + (3 * rest_third - 2 * eta * rest_square) + fading_third
     return Claims(
-        (eta, n, j, share, plain, rest_third, rest_square, fading_third, fading_square),
+        (eta, n, j, kernel, plain, rest_third, rest_square, fading_third, fading_square),
         (
             Let(T, 2 * eta * j),
             *statements,
             Let(lead, 3 - T),
             Choice(below, condition, of_series, of_decay, if_yes=near, if_no=far),
-            Let(ratio, decayed**2 / upper, means=H_1),
+            Let(decay_ratio, decayed**2 / upper, means=H_1),
         ),
-        (plain + n * bracket, square_1 * share * ratio + rest_square + fading_square),
+        (plain + n * bracket, square_1 * kernel * decay_ratio + rest_square + fading_square),
         (
             sum(cube * (1 + 3 * RATIO - RATIO * f) for cube, f in ((cube_1, Q_1), (cube_2, Q_2))),
             square_of_1 * H_1 + square_of_2 * H_2,

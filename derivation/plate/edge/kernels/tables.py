@@ -90,14 +90,14 @@ def _tables(kernel: Kernel, first: Ball, weights: list[Ball]) -> tuple[tuple[flo
     middle = enclose(WIDEST**2 / 2, {})
     points = [(middle * (1 + t)).sqrt() for t in chebyshev_nodes(TERMS)]
     plain = closed_sums(kernel).plain
-    shares = [value_of(kernel, at * first) for at in points]
+    kernel_values = [value_of(kernel, at * first) for at in points]
     cubes = [
-        enclose(plain, {alpha: at}) - weights[0] * share
-        for at, share in zip(points, shares, strict=True)
+        enclose(plain, {alpha: at}) - weights[0] * value
+        for at, value in zip(points, kernel_values, strict=True)
     ]
     squares = [
-        alternating_sum(kernel, at) - weights[1] * share
-        for at, share in zip(points, shares, strict=True)
+        alternating_sum(kernel, at) - weights[1] * value
+        for at, value in zip(points, kernel_values, strict=True)
     ]
     found = []
     for name, values in zip(TABLES, (cubes, squares), strict=True):

@@ -105,8 +105,8 @@ def _roots(parity: int, residue: Callable[[mpc], mpc], eta: mpf) -> mpf:
     total, floor = mpf(0), mp.eps * min(mpf(1), eta**4)
     for n in range(2 - parity, MOST, 2):
         T = root(n)
-        share = residue(T)
-        total += 2 * share.real
-        if abs(share) < floor:
+        term = residue(T)
+        total += 2 * term.real
+        if abs(term) < floor:
             return total
     raise RouteError(f"{MOST} roots are not enough at h/b = {mp.nstr(eta)}")

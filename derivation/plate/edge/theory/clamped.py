@@ -165,9 +165,9 @@ def amplitudes() -> Proof:
     )
 
 
-def _bracket(share: sp.Expr, lost: sp.Expr, chi: sp.Expr) -> sp.Expr:
-    """Return X_c 8 pi eta^3/alpha, where w under the load is 1 - share alpha^2 - s."""
-    wide = 1 - share * alpha**2
+def _bracket(factor: sp.Expr, lost: sp.Expr, chi: sp.Expr) -> sp.Expr:
+    """Return X_c 8 pi eta^3/alpha, where w under the load is 1 - factor alpha^2 - s."""
+    wide = 1 - factor * alpha**2
     rest = SHEAR_TERM * eta**3 + sp.Rational(16, 3) * RATIO**2 * eta**4
     return (1 - lost) * (wide - lost) + 2 * chi * eta * wide + rest
 
@@ -198,7 +198,7 @@ def clamp_law() -> tuple[Formula, Formula]:
     """Return X_c, the reduction of delta R/a^2 by a clamped edge, and that of the slope S."""
     amplitudes()
     front = alpha / (8 * sp.pi * eta**3)
-    share = front * _bracket(HERTZ_MEAN, indentation_loss(), turn())
+    reduction = front * _bracket(HERTZ_MEAN, indentation_loss(), turn())
     slope = sp.Rational(3, 2) * front * _bracket(sp.Rational(2, 3), indentation_loss(), turn())
     symbolic = front * _bracket(HERTZ_MEAN, _s, _chi)
     steep = sp.Rational(3, 2) * front * _bracket(sp.Rational(2, 3), _s, _chi)
@@ -212,7 +212,7 @@ def clamp_law() -> tuple[Formula, Formula]:
     return (
         Formula(
             "F_clamp", r"X_c(\alpha, \eta)", r"reduction of $\delta R/a^2$ by a clamped edge",
-            share, "1", "6", sources, proof,
+            reduction, "1", "6", sources, proof,
         ),
         Formula(
             "S_clamp", r"\frac{R}{2a}\frac{\mathrm{d}}{\mathrm{d}a}\frac{a^2 X_c}{R}",

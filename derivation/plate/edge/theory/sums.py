@@ -150,8 +150,8 @@ def _roots(kernel: Kernel) -> tuple[sp.Expr, sp.Expr]:
 
     def total(at: sp.Expr, weight: sp.Expr) -> sp.Expr:
         z = at / (2 * eta)
-        share = weight * kernel(alpha * z) / sp.besselj(0, z)
-        return 2 * sp.re(sp.Sum(share, (_n, 1, sp.oo)))
+        term = weight * kernel(alpha * z) / sp.besselj(0, z)
+        return 2 * sp.re(sp.Sum(term, (_n, 1, sp.oo)))
 
     even, odd = PlateRoot(2 * _n), PlateRoot(2 * _n - 1)
     # T/(2 eta)/z^3 = (2 eta)^2/T^2, and the square (sqrt(1 + T^2) + 1)^2/T^2 over 2 eta z^2.

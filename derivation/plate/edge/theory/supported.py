@@ -214,7 +214,7 @@ def edge_law() -> tuple[Formula, Formula]:
     depth = depth.subs(A_j, pressure_coefficient().expression)
     g = 3 * (sp.sin(_y) - _y * sp.cos(_y)) / _y**3
     sinc = sp.Rational(3, 2) * sp.sin(_y) / _y
-    share, slope = _reduced(g), _reduced(sinc)
+    reduction, slope = _reduced(g), _reduced(sinc)
     scale = R / (alpha * b) ** 2
     reduced = {a: alpha * b, h: eta * b, phi: j_n / b}
     proof = prove(
@@ -222,8 +222,8 @@ def edge_law() -> tuple[Formula, Formula]:
         "The states' $w$ at the contact face, centre minus edge, in $a/b$ and $h/b$; "
         r"$\alpha^2 X$ is differentiated by $\alpha$.",
         {
-            "indentation": -depth.subs(reduced) * scale - share,
-            "slope": sp.diff(alpha**2 * share, alpha) / (2 * alpha) - slope,
+            "indentation": -depth.subs(reduced) * scale - reduction,
+            "slope": sp.diff(alpha**2 * reduction, alpha) / (2 * alpha) - slope,
             "pressure": (SINE_MINUS.subs(reduced) / _y**3 * 3) - g,
         },
     )
@@ -233,7 +233,7 @@ def edge_law() -> tuple[Formula, Formula]:
             "F_edge",
             r"X(\alpha, \eta)",
             r"reduction of $\delta R/a^2$ without mean motion of the edge",
-            share,
+            reduction,
             "1",
             "6",
             sources,

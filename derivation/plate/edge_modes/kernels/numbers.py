@@ -92,15 +92,15 @@ def _counted(values: tuple[sp.Rational, ...]) -> tuple[sp.Rational, ...]:
 
 def _of_turns(steps: int) -> tuple[Constant, ...]:
     """Return Bessel's integral as a sum over half a turn; the end points have half weight."""
-    places = turns(steps)
-    count = len(places) - 1
-    shares = [flint.arb(1) / (count if 0 < i < count else 2 * count) for i in range(count + 1)]
+    points = turns(steps)
+    count = len(points) - 1
+    weights = [flint.arb(1) / (count if 0 < i < count else 2 * count) for i in range(count + 1)]
     rows = {
-        "TURNS": (places, "x = 1 - cos t over half a turn."),
-        "MEAN": (shares, "Weights of e^(-y x) whose sum is I0 e^(-y)."),
-        "SECOND": (_times_sine(shares, places), "Weights of e^(-y x) whose sum is I1 e^(-y)/y."),
+        "TURNS": (points, "x = 1 - cos t over half a turn."),
+        "MEAN": (weights, "Weights of e^(-y x) whose sum is I0 e^(-y)."),
+        "SECOND": (_times_sine(weights, points), "Weights of e^(-y x) whose sum is I1 e^(-y)/y."),
         "FOURTH": (
-            _times_sine(_times_sine(shares, places), places),
+            _times_sine(_times_sine(weights, points), points),
             "Weights of e^(-y x) whose sum is 3 I2 e^(-y)/y^2.",
         ),
     }

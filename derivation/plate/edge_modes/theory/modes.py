@@ -259,7 +259,7 @@ def weight() -> tuple[Formula, ...]:
 
 
 @cache
-def share() -> Formula:
+def modal_weight() -> Formula:
     """Return s_n: the mean of a mode under a flat punch, divided by w(0)."""
     flat_punch()
     m = sp.Symbol("m", integer=True, nonnegative=True)
@@ -291,4 +291,4 @@ def share() -> Formula:
 
 def thin_plate_modes() -> tuple[Formula, ...]:
     """Return the formulas of the step."""
-    return (*frequency_equations(), *weight(), share())
+    return (*frequency_equations(), *weight(), modal_weight())

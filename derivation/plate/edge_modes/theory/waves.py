@@ -304,9 +304,9 @@ def weight() -> Formula:
 
 
 @cache
-def share() -> Formula:
+def modal_weight() -> Formula:
     """Return s_n."""
-    means = thin.share()
+    means = thin.modal_weight()
     value = UNDER_PUNCH / (1 - c * t)
     proof = prove(
         "Mean of a plate wave under a flat punch",
@@ -373,6 +373,6 @@ def at_rest() -> tuple[Formula, Formula]:
 def thick_plate_modes() -> tuple[Formula, ...]:
     """Return the formulas of the step."""
     return (
-        shear_coefficient(), *waves(), *edges(), norm(), face_ratio(), weight(), share(),
+        shear_coefficient(), *waves(), *edges(), norm(), face_ratio(), weight(), modal_weight(),
         *at_rest(),
     )  # fmt: skip

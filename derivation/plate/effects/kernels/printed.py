@@ -73,7 +73,7 @@ def sphere() -> Routine:
 def bent_plate() -> Claims:
     """Return the contributions of bending to F and S."""
     part, over, depth = sp.symbols("part over depth", positive=True)
-    share = bending().expression
+    depth_term = bending().expression
     return Claims(
         (a_ratio, eta),
         (
@@ -82,7 +82,7 @@ def bent_plate() -> Claims:
             Let(depth, over / eta),
         ),
         (depth, THREE_HALVES * depth),
-        (share, share + a_ratio * sp.diff(share, a_ratio) / 2),
+        (depth_term, depth_term + a_ratio * sp.diff(depth_term, a_ratio) / 2),
         {},
     )
 

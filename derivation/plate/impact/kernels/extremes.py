@@ -10,19 +10,19 @@ from derivation.plate.impact.theory.impact import work_of_contact
 from derivation.plate.impact.theory.sensitivity import energy_number
 from derivation.plate.vocabulary import R, a, h, m, mu, v0
 
-share, lift, modulus = sp.symbols("share lift modulus", positive=True)
+radius_ratio, lift, modulus = sp.symbols("radius_ratio lift modulus", positive=True)
 
 
 @named_routine
-def peak_shares() -> Claims:
+def peak_ratios() -> Claims:
     """Return largest indentation and force over those by Hertz's law, by the ratio of the radii."""
     return Claims(
-        (share, lift),
+        (radius_ratio, lift),
         (),
-        (share**2 * lift, share**3),
+        (radius_ratio**2 * lift, radius_ratio**3),
         (
-            (share * a) ** 2 / R * lift / (a**2 / R),
-            contact_radius().expression.subs(a, share * a) / contact_radius().expression,
+            (radius_ratio * a) ** 2 / R * lift / (a**2 / R),
+            contact_radius().expression.subs(a, radius_ratio * a) / contact_radius().expression,
         ),
         {},
     )

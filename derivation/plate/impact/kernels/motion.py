@@ -12,7 +12,7 @@ from derivation.engine.emit.named import Claims, named_routine
 from derivation.engine.emit.package import Routines
 from derivation.engine.emit.routine import Facts, Let
 from derivation.plate.contact.theory.hertz import contact_radius
-from derivation.plate.impact.kernels.extremes import hertz_impact, number_of_energy, peak_shares
+from derivation.plate.impact.kernels.extremes import hertz_impact, number_of_energy, peak_ratios
 from derivation.plate.impact.theory.impact import (
     contact_time,
     geometric,
@@ -22,7 +22,9 @@ from derivation.plate.impact.theory.impact import (
 )
 from derivation.plate.vocabulary import a, u_t
 
-q, s, A, A_h, near, share, ratio = sp.symbols("q s A A_h near share ratio", positive=True)
+q, s, A, A_h, near, radius_ratio, ratio = sp.symbols(
+    "q s A A_h near radius_ratio ratio", positive=True
+)
 lift, slope, quotient, whole, energy, rate = sp.symbols(
     "lift slope quotient whole energy rate", positive=True
 )
@@ -99,8 +101,8 @@ def time_density() -> Claims:
 def near_quotient() -> Claims:
     """Return (E_near - E)/((1 - s) A_near^5) from the first of the tails, and the sum of others."""
     first, rest, cube, fourth = sp.symbols("first rest cube fourth", positive=True)
-    shares = [sp.Rational(n, n + 3) * weight(n) for n in NUMBERS[1:]]
-    tails = [sp.Add(*shares[k:]) for k in range(len(shares))]
+    terms = [sp.Rational(n, n + 3) * weight(n) for n in NUMBERS[1:]]
+    tails = [sp.Add(*terms[k:]) for k in range(len(terms))]
     return Claims(
         (s, first, rest),
         (
@@ -119,7 +121,7 @@ def near_quotient() -> Claims:
 
 
 @named_routine
-def work_share() -> Claims:
+def work_factor() -> Claims:
     """Return the contribution of D_n to the work, over D_n."""
     n = sp.Symbol("n", positive=True)
     claim = sp.integrate(s ** (n + 2), (s, 0, 1)) * n
@@ -135,7 +137,7 @@ def whole_work() -> Claims:
 
 
 @named_routine
-def share_of_work() -> Claims:
+def ratio_of_work() -> Claims:
     """Return A over Hertz's radius, from the plate's contribution to E/A^5 at A."""
     return Claims(
         (extra,),
@@ -165,17 +167,17 @@ def deeper_step() -> Claims:
     step = sp.series((1 + residual) ** exponent - 1, residual, 0, 3).removeO()
     plain = _in_radius(WHOLE) - work_of_contact(0)
     return Claims(
-        (share, extra, slope),
+        (radius_ratio, extra, slope),
         (
             Let(whole, extra + sp.Rational(2, 5)),
-            Let(square, share**2),
-            Let(residual, 2 / (5 * (square * (square * share))) / whole - 1),
+            Let(square, radius_ratio**2),
+            Let(residual, 2 / (5 * (square * (square * radius_ratio))) / whole - 1),
             Let(exponent, whole / (5 * whole + slope)),
             Let(inner, residual * (exponent - 1) / 2),
         ),
         (residual, exponent * residual * (1 + inner)),
         (missing, step.subs({residual: missing, exponent: power})),
-        {share: A / A_h, extra: plain, slope: A * sp.diff(plain, A)},
+        {radius_ratio: A / A_h, extra: plain, slope: A * sp.diff(plain, A)},
     )
 
 
@@ -291,9 +293,9 @@ ROUTINES = (
     shapes,
     time_density,
     near_quotient,
-    work_share,
+    work_factor,
     whole_work,
-    share_of_work,
+    ratio_of_work,
     deeper_step,
     work_density,
     far_quotient,
@@ -302,7 +304,7 @@ ROUTINES = (
     far_step,
     far_whole,
     state,
-    peak_shares,
+    peak_ratios,
     hertz_impact,
     number_of_energy,
 )

@@ -163,7 +163,7 @@ def radius_cubed() -> Claims:
 
 
 @named_routine
-def shares() -> Claims:
+def mode_terms() -> Claims:
     """Return one mode's terms of gamma_2 and gamma_3 of (10), from K_j and a/P^(1/3)."""
     values = tuple(mode_mean(k) for k in (2, 3))
     return Claims(
@@ -177,8 +177,8 @@ def shares() -> Claims:
 
 def mode_mean(k: int) -> sp.Expr:
     """Return one mode's term of gamma_k in K_j = K and a/P^(1/3) = ratio."""
-    share = printed_term(k) / contact_law()[0].expression
-    return K * sp.powsimp(share.subs(a, ratio * P ** sp.Rational(1, 3)), force=True)
+    relative = printed_term(k) / contact_law()[0].expression
+    return K * sp.powsimp(relative.subs(a, ratio * P ** sp.Rational(1, 3)), force=True)
 
 
 @named_routine
@@ -190,7 +190,7 @@ def coefficients() -> Claims:
     return Claims((gamma_k[2], gamma_k[3]), (), values, values, {})
 
 
-ROUTINES = linear, integrands, shares
+ROUTINES = linear, integrands, mode_terms
 OF_ONE_MOTION = (
     turning_point,
     excess_at_turn,

@@ -109,10 +109,10 @@ def above(bound: Ball) -> float:
     return float(f"{1.001 * float(bound.abs_upper()):.4g}")
 
 
-def _lateral(share: sp.Expr, index: int) -> Ball:
+def _lateral(reduction: sp.Expr, index: int) -> Ball:
     """Return the reduction of a coefficient by the finite radius, over the power of eta."""
-    (kappa_n,) = share.free_symbols
-    return evaluate(share / kappa_n, {}) * kappa_ball(index)
+    (kappa_n,) = reduction.free_symbols
+    return evaluate(reduction / kappa_n, {}) * kappa_ball(index)
 
 
 def _cubic(coefficient: Ball) -> Ball:

@@ -51,12 +51,12 @@ rest, v, over_h, A, modulus, depth = sp.symbols("rest v over_h A modulus depth",
 fall, rise = sp.symbols("fall rise", nonnegative=True)
 
 
-def slope_share(power: int) -> sp.Rational:
+def slope_factor(power: int) -> sp.Rational:
     """Return the factor of c A^power in (R/2a) d delta/da, for a term c A^power of delta R/a^2."""
     return sp.diff(A ** (power + 2), A) / (2 * A ** (power + 1))
 
 
-CUBIC = slope_share(3)
+CUBIC = slope_factor(3)
 lateral_linear, lateral_cubic = (-coefficient(k).by_plate_radius[1] for k in (2, 3))
 """Reductions of c_1 and c_3 by the finite radius, over the power of eta."""
 MEANING: Facts = {
@@ -81,13 +81,13 @@ def most(c_1: sp.Expr, radius: sp.Expr) -> sp.Expr:
 @named_routine
 def thick_plate() -> Claims:
     """Return c_1, the size of its parts, K_3, and the contributions of omitted modes."""
-    rows, zero, weight, exponential, deficit, share, linear, cubic = sp.symbols(
-        "modes zero weight exponential deficit share linear cubic", positive=True
+    rows, zero, weight, exponential, deficit, term, linear, cubic = sp.symbols(
+        "modes zero weight exponential deficit term linear cubic", positive=True
     )
     height, square = sp.symbols("T square", positive=True)
     sums = Sums(
         (linear, cubic),
-        (share, share * zero**2),
+        (term, term * zero**2),
         rows,
         (zero, weight),
         (
@@ -97,7 +97,7 @@ def thick_plate() -> Claims:
             Let(deficit, 1 - exponential),
             Let(exponential, 4 * exponential),
             Let(
-                share,
+                term,
                 weight
                 * exponential
                 * (deficit / 2 + height + square)
@@ -217,7 +217,7 @@ def beside_hertz() -> Claims:
 
 
 @named_routine
-def share_step() -> Claims:
+def work_step() -> Claims:
     """Return s^5 (1 + y s) - 1, the work up to s times Hertz's radius, and its slope by s."""
     fourth, inner = sp.symbols("fourth inner", real=True)
     work = s**5 * _work(s * sp.Symbol("z", real=True))
@@ -299,7 +299,7 @@ ROUTINES = (
     steepness,
     leading_bounds,
     beside_hertz,
-    share_step,
+    work_step,
     leading_time,
     hertz_peaks,
     peaks,

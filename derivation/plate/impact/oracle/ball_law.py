@@ -183,7 +183,7 @@ def _slope_polynomial(alpha: arb, eta: Fraction) -> tuple[flint.arb_poly, arb]:
             cosines = (
                 arb.cos_pi_fmpq(flint.fmpq(k * (2 * i + 1), 2 * count)) for i in range(count)
             )
-            share = sum((v.mid() * c for v, c in zip(values, cosines, strict=True)), arb(0))
-            polynomial += before * (share * (2 if k else 1) / count)
+            coefficient = sum((v.mid() * c for v, c in zip(values, cosines, strict=True)), arb(0))
+            polynomial += before * (coefficient * (2 if k else 1) / count)
             before, now = now, flint.arb_poly([-2, 4]) * now - before
         return polynomial, error.abs_upper()

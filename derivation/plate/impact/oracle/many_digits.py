@@ -23,7 +23,7 @@ Motion = tuple[float, float, float, float, float, float, float]
 
 INPUTS = ("R", "m", "v0", "h", "b", "lam", "mu")
 
-SHARES = (0.25, 0.5, 1.0)
+FRACTIONS = (0.25, 0.5, 1.0)
 """Fractions of the largest contact radius at which the law is given."""
 
 UNITS = {
@@ -183,7 +183,7 @@ def reference(motion: Motion, digits: int, progress: ball_law.Progress) -> Impac
     law = ball_law.law_of(ratio_of(h, b), contact_impact.reach_of(motion), digits, progress)
     wanted = digits + _SPARE
     found = contact_impact.impact(*motion, wanted, law)
-    radii = [float(found.max_contact_radius) * share for share in SHARES]
+    radii = [float(found.max_contact_radius) * fraction for fraction in FRACTIONS]
     balls = [ball_law.static_contact(a, R, b, lam, mu, law, wanted) for a in radii]
     laws: list[StaticContact] = []
     for a, both in zip(radii, balls, strict=True):

@@ -64,7 +64,7 @@ def largest(mass: Exact, speed: Exact, xi_2: Exact) -> arb:
     return to_ball(speed) * (to_ball(mass) / to_ball(xi_2)).sqrt()
 
 
-def last_share(mass: Exact, speed: Exact, xi_2: Exact, xi_3: Exact) -> arb:
+def last_fraction(mass: Exact, speed: Exact, xi_2: Exact, xi_3: Exact) -> arb:
     """Return delta_0 over its largest value where the radicand vanishes, at the current precision.
 
     Newton's iteration from above, in y with s^2 = y^3, on midpoints; the result is not an
@@ -93,7 +93,7 @@ def _indentation(given: tuple[Exact, ...], count: int) -> arb:
     t, *motion = given
     peak, values = largest(*motion[:3]), _values(*motion)
     rate = (values[xi_k[2]] / values[m]).sqrt()
-    here, end = (rate * to_ball(t)).sin(), last_share(*motion).mid()
+    here, end = (rate * to_ball(t)).sin(), last_fraction(*motion).mid()
     left = 1 - (here / end).root(3)
     if not left > 0:
         raise ValueError(f"the radicand of (17) has vanished before t = {t}")
@@ -147,9 +147,9 @@ def _rule(count: int, bits: int) -> tuple[list[arb], list[arb], list[list[arb]]]
         powers = [_legendre(x, count + 1) for x in nodes]
         within = []
         for row in powers:
-            shares = [1 + row[1]] + [row[k + 1] - row[k - 1] for k in range(1, count)]
+            integrals = [1 + row[1]] + [row[k + 1] - row[k - 1] for k in range(1, count)]
             within.append(
-                [w * _dot(shares, p[:count]) / 2 for w, p in zip(weights, powers, strict=True)]
+                [w * _dot(integrals, p[:count]) / 2 for w, p in zip(weights, powers, strict=True)]
             )
         return nodes, weights, within
 

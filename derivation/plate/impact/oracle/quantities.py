@@ -33,21 +33,23 @@ def truncated_series(
         for order in range(1, terms, 2):
             law[order] = contact_balls.coefficient(order, h, b, digits + 10)
         eps = (to_ball(R) * to_ball(delta)).sqrt() / to_ball(h)
-        shares = []
+        contributions = []
         for n in range(terms):
             coefficient = power(law, arb(flint.fmpq(-(n + 3), 2)))[n]
-            shares.append(arb(flint.fmpq(3, n + 3)) * coefficient * eps**n)
-        total = sum(shares, arb(0))
+            contributions.append(arb(flint.fmpq(3, n + 3)) * coefficient * eps**n)
+        total = sum(contributions, arb(0))
         hertz = 4 * modulus(lam, mu) / 3 * (to_ball(R) * to_ball(delta)).sqrt() * to_ball(delta)
-        return hertz * total, sum(map(abs, shares), arb(0)) / abs(total)
+        return hertz * total, sum(map(abs, contributions), arb(0)) / abs(total)
 
 
 def power(series: Sequence[arb], exponent: arb) -> list[arb]:
     """Return a power of a power series 1 + ..., with as many terms (Euler's recurrence)."""
     found = [arb(1)]
     for n in range(1, len(series)):
-        shares = ((exponent * k - (n - k)) * series[k] * found[n - k] for k in range(1, n + 1))
-        found.append(sum(shares, arb(0)) / n)
+        contributions = (
+            (exponent * k - (n - k)) * series[k] * found[n - k] for k in range(1, n + 1)
+        )
+        found.append(sum(contributions, arb(0)) / n)
     return found
 
 

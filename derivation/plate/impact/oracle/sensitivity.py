@@ -61,7 +61,7 @@ def logarithmic(
         )
 
 
-class _Shares(NamedTuple):
+class _ModulusExponents(NamedTuple):
     """d log E*/d log lam, d log E*/d log mu, and lam times the derivative by lam of the former."""
 
     lam: Fraction
@@ -84,18 +84,18 @@ def impact_sensitivities(scene: Sequence[Any], digits: int) -> tuple[arb, ...]:
     """
     bits = 8 * digits + 64
     by_speed, by_radius = (_by(scene, place, digits, bits) for place in (_SPEED, _RADIUS))
-    shares, found = _shares(scene), list[arb]()
+    of_modulus, found = _modulus_exponents(scene), list[arb]()
     with flint.ctx.workprec(bits):
         for rows, speed, radius in zip(_exponents(), by_speed, by_radius, strict=True):
             *lengths, modulus = (own + e * speed / 2 - q * radius for own, e, q in rows)
-            found += [*lengths, modulus * to_ball(shares.lam), modulus * to_ball(shares.mu)]
+            found += [*lengths, modulus * to_ball(of_modulus.lam), modulus * to_ball(of_modulus.mu)]
     return tuple(found)
 
 
 def rounding(scene: Sequence[Any], values: Sequence[arb]) -> list[arb]:
     """Return, for each sensitivity in `values`, the sum of |x d/dx| over the scene's numbers x."""
-    shares, found = _shares(scene), list[arb]()
-    lam, mu, bend = map(to_ball, shares)
+    of_modulus, found = _modulus_exponents(scene), list[arb]()
+    lam, mu, bend = map(to_ball, of_modulus)
     with flint.ctx.workprec(4 * _STEP_DIGITS):
         for number, (rows, (YY, Y_eta, eta_eta)) in enumerate(
             zip(_exponents(), _curvatures(_rounded_scene(scene)), strict=True)
@@ -115,10 +115,11 @@ def rounding(scene: Sequence[Any], values: Sequence[arb]) -> list[arb]:
     return found
 
 
-def _shares(scene: Sequence[Any]) -> _Shares:
+def _modulus_exponents(scene: Sequence[Any]) -> _ModulusExponents:
     lam, mu = map(Fraction, scene[5:])
-    share = lam * mu / ((lam + mu) * (lam + 2 * mu))
-    return _Shares(share, 1 - share, share * (1 - lam / (lam + mu) - lam / (lam + 2 * mu)))
+    by_lam = lam * mu / ((lam + mu) * (lam + 2 * mu))
+    bend = by_lam * (1 - lam / (lam + mu) - lam / (lam + 2 * mu))
+    return _ModulusExponents(by_lam, 1 - by_lam, bend)
 
 
 def _exponents() -> Iterator[list[tuple[arb, ...]]]:

@@ -30,8 +30,8 @@ def rounding(state: State, given: Sequence[Any], values: Sequence[arb]) -> list[
     """Return, for each component of the state `values`, the sum of |x d/dx| over the arguments."""
     by_speed, by_radius = (state(_moved(given, place), _DIGITS) for place in (_SPEED, _RADIUS))
     lam, mu = (Fraction(x) for x in given[6:])
-    share = lam * mu / ((lam + mu) * (lam + 2 * mu))
-    of_modulus = to_ball(abs(share) + abs(1 - share))
+    by_lam = lam * mu / ((lam + mu) * (lam + 2 * mu))
+    of_modulus = to_ball(abs(by_lam) + abs(1 - by_lam))
     table = exponents()
     units = [table["max_indentation"], (), table["max_contact_radius"], table["max_force"]]
     units[1] = tuple(x - y for x, y in zip(units[0], table["contact_time"], strict=True))

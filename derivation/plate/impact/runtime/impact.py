@@ -272,13 +272,13 @@ def _solve(
     over_h = np.minimum(np.ravel(hertz / h), 1e200)  # larger values lie outside the domain
     owner = np.ravel(np.broadcast_to(numbers, ok.shape))
     pieces = plates.first.coefficients
-    shares = kernels.work_share(np.arange(3.0, 2.0 * pieces.shape[0] + 3.0, 2.0))
-    energy = Piece(pieces * shares[:, None], plates.first.middle, plates.first.half)
-    share, far = np.empty(over_h.size), np.zeros(over_h.size, dtype=bool)
+    work_factors = kernels.work_factor(np.arange(3.0, 2.0 * pieces.shape[0] + 3.0, 2.0))
+    energy = Piece(pieces * work_factors[:, None], plates.first.middle, plates.first.half)
+    radius_ratio, far = np.empty(over_h.size), np.zeros(over_h.size, dtype=bool)
     for part in _parts(over_h.size, 8):
-        share[part], far[part] = _deepest(over_h[part], energy, plates, owner[part])
-    near = np.where(far, plates.reach[owner], share * over_h)
-    terms, tails = _scaled(pieces[:, owner], near, plates.reach[owner], shares)
+        radius_ratio[part], far[part] = _deepest(over_h[part], energy, plates, owner[part])
+    near = np.where(far, plates.reach[owner], radius_ratio * over_h)
+    terms, tails = _scaled(pieces[:, owner], near, plates.reach[owner], work_factors)
     A, lift, whole = near.copy(), 1.0 + terms[::-1].sum(axis=0), kernels.whole_work(tails[0])
     far_ones, slot = np.flatnonzero(far), np.full(over_h.size, -1)
     slot[far_ones] = np.arange(far_ones.size)
@@ -286,18 +286,20 @@ def _solve(
     whole[far_ones], lift[far_ones], A[far_ones], beyond = _far_deepest(
         number[far_ones], near[far_ones], whole[far_ones], plates, owner[far_ones]
     )
-    whole_share = np.where(far, A / over_h, share).reshape(ok.shape)
-    radius = whole_share * hertz
+    final_ratio = np.where(far, A / over_h, radius_ratio).reshape(ok.shape)
+    radius = final_ratio * hertz
     radius = np.where(radius <= ROUNDED * b, np.minimum(radius, b), np.nan)
     [radius] = inside([radius], radius < R)
     lift = np.where(np.isnan(radius.ravel()), np.nan, lift)
-    x = np.where(np.isnan(radius), np.nan, whole_share)
-    deep, loaded = kernels.peak_shares(x, lift.reshape(ok.shape))
+    x = np.where(np.isnan(radius), np.nan, final_ratio)
+    deep, loaded = kernels.peak_ratios(x, lift.reshape(ok.shape))
     found = Scenes(A, lift, whole, terms, tails, slot, beyond)
     return found, radius, (*factors[:3], deep), (*factors[3:], loaded), ok
 
 
-def _scaled(pieces: Double, near: Double, reach: Double, shares: Double) -> tuple[Double, Double]:
+def _scaled(
+    pieces: Double, near: Double, reach: Double, work_factors: Double
+) -> tuple[Double, Double]:
     """Return terms and tails of `Scenes` from coefficients of powers of A/reach."""
     terms = pieces * near
     ratio = (near / reach) ** 2
@@ -305,7 +307,7 @@ def _scaled(pieces: Double, near: Double, reach: Double, shares: Double) -> tupl
     for k in range(1, terms.shape[0]):
         terms[k] *= power
         power *= ratio
-    tails = terms * shares[:, None]
+    tails = terms * work_factors[:, None]
     for k in range(terms.shape[0] - 2, -1, -1):
         tails[k] += tails[k + 1]
     return terms, tails
@@ -319,19 +321,19 @@ def _deepest(
     bending = np.maximum(np.asarray(piece.coefficients[0]), 0.0)
     value, _ = with_slope(end, piece)
     most = end / hertz
-    far = most < kernels.share_of_work(value)
+    far = most < kernels.ratio_of_work(value)
     # For a thin plate, from 2 hertz^5/5 = bending A^6.
     thin = (0.4 / bending / hertz) ** (1.0 / 6.0)
-    share = np.where(far, np.nan, np.minimum(np.minimum(thin, 1.0), most))
-    moving = np.ones(share.shape, dtype=bool)  # each impact ends separately from the others
+    radius_ratio = np.where(far, np.nan, np.minimum(np.minimum(thin, 1.0), most))
+    moving = np.ones(radius_ratio.shape, dtype=bool)  # each impact ends separately from the others
     for _ in range(_STEPS):
-        residual, step = kernels.deeper_step(share, *with_slope(share * hertz, piece))
-        after = np.minimum(share * np.clip(1.0 + step, 0.3, 3.0), most)
-        share = np.where(moving, after, share)
+        residual, step = kernels.deeper_step(radius_ratio, *with_slope(radius_ratio * hertz, piece))
+        after = np.minimum(radius_ratio * np.clip(1.0 + step, 0.3, 3.0), most)
+        radius_ratio = np.where(moving, after, radius_ratio)
         moving &= np.abs(residual) > _CLOSE
         if not moving.any():
             break
-    return share, far
+    return radius_ratio, far
 
 
 def _far_deepest(

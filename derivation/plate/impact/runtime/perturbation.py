@@ -29,7 +29,7 @@ from generated.motion_kernels import (
     radius_cubed,
     turning_point,
 )
-from generated.perturbation_kernels import integrands, linear, shares
+from generated.perturbation_kernels import integrands, linear, mode_terms
 
 _NODES = 24  # number of Gauss nodes on each part
 _PARTS = 27  # [1/2, 1], [1/4, 1/2], ..., [0, 2^-26] of u, for a radicand that vanishes late
@@ -168,12 +168,12 @@ class PrintedMotion:
             return np.append(0.0, np.cumsum(legval(-1.0, parts))[:-1]), parts
 
         begun, parts = integral(F)
-        start, shares = integral(G * np.exp(begun[:, None] + legval(nodes, parts)))
+        start, pieces = integral(G * np.exp(begun[:, None] + legval(nodes, parts)))
         _, power = np.frexp(u)
         own = np.where(u > 0.0, np.maximum(-power, 0), _PARTS - 1)
         place = (u - middle[own]) / half[own]
         growth = begun[own] + legval(place, parts[:, own], tensor=False)
-        total = start[own] + legval(place, shares[:, own], tensor=False)
+        total = start[own] + legval(place, pieces[:, own], tensor=False)
         return -total * np.exp(-growth)
 
 
@@ -230,7 +230,7 @@ def printed_motion(
     K = K_j(phi, h, b, R, J1)
     elastic = mu > 0 and 3 * lam > -2 * mu
     cubed = radius_cubed(R, *map(np.float64, (lam, mu) if elastic else (np.nan, np.nan)))
-    xi_2, derived, printed = coefficients(*map(np.sum, shares(phi, K, np.cbrt(cubed))))
+    xi_2, derived, printed = coefficients(*map(np.sum, mode_terms(phi, K, np.cbrt(cubed))))
     motion = PrintedMotion(m, v0, float(xi_2), float(derived if corrected else printed))
     known = (m, v0, motion.xi_2, motion.xi_3, motion.max_indentation)
     if all(0 < x < np.inf for x in known):

@@ -23,11 +23,11 @@ from generated.simple_impact_kernels import (
     leading_bounds,
     leading_time,
     peaks,
-    share_step,
     sphere,
     steepness,
     thick_plate,
     thin_plate,
+    work_step,
 )
 from generated.simple_impact_numbers import (
     FADED,
@@ -169,8 +169,8 @@ def leading(
     if scene is None:
         return None
     plate, over_h = plate_of(h / b), scene.radius / h
-    share = _share(beside_hertz(plate.bend, over_h))
-    A = share * over_h
+    radius_ratio = _radius_ratio(beside_hertz(plate.bend, over_h))
+    A = radius_ratio * over_h
     top = TOP * A
     steep = steepness(plate.bend, top)
     if not steep > -DEEP:
@@ -178,7 +178,7 @@ def leading(
     # Error of S relative to S_1, which grows with A.
     wrong, low, elasticity = leading_bounds(plate.bend_error, plate.rest, steep, top)
     law = law_error(low + wrong, wrong, max(0.0, -elasticity), max(0.0, elasticity))
-    a = share * scene.radius
+    a = radius_ratio * scene.radius
     depth, force = peaks(a, R, scene.modulus, plate.bend * A)
     time = leading_time(a, R, v0, steepness(plate.bend, A))
     return _estimate(scene, a, (time, depth, force), law, QUADRATURE)
@@ -245,7 +245,7 @@ def _scene(
     return _Scene(work**0.2, modulus, R, v0, h, b)
 
 
-def _share(y: float) -> float:
+def _radius_ratio(y: float) -> float:
     """Return the root s > 0 of s^5 (1 + y s) = 1, the largest radius divided by Hertz's.
 
     Newton's iteration starts above the root for y > 0, where the left side is convex. For y < 0
@@ -253,7 +253,7 @@ def _share(y: float) -> float:
     """
     s = min(1.0, y ** (-1.0 / 6.0)) if y > 0.0 else 1.0
     for _ in range(STEPS):
-        excess, slope = share_step(s, y)
+        excess, slope = work_step(s, y)
         if abs(excess) <= CLOSE:
             return s
         s -= excess / slope

@@ -185,8 +185,8 @@ def hertz_time() -> Formula:
     x = s ** sp.Rational(2, 5)
     integrand = sp.diff(x, s) / sp.sqrt(1 - sp.powdenest(x ** sp.Rational(5, 2), force=True))
     euler = s ** (sp.Rational(2, 5) - 1) * (1 - s) ** (sp.Rational(1, 2) - 1)
-    share = sp.simplify(integrand / euler)
-    value = 2 * share * sp.gamma(sp.Rational(2, 5)) * sp.sqrt(sp.pi) / sp.gamma(sp.Rational(9, 10))
+    factor = sp.simplify(integrand / euler)
+    value = 2 * factor * sp.gamma(sp.Rational(2, 5)) * sp.sqrt(sp.pi) / sp.gamma(sp.Rational(9, 10))
     largest = sp.Symbol("d", positive=True)
     C = sp.Symbol("C", positive=True)
     # a_m from the work, and the prefactor of I, with D_2 alone.
@@ -200,7 +200,7 @@ def hertz_time() -> Formula:
         "The substitution $x = s^{2/5}$ in Euler's Beta integral; $x = q^2$, $q = 1 - u^2$ in "
         "the integral of the contact time with $D_2$ alone.",
         {
-            "Beta": integrand - share * euler,
+            "Beta": integrand - factor * euler,
             "prefactor": ratio - sp.sqrt(work_of_contact(0)),
             "same integral": direct**2 - 16 * q**2 * u_t**2 / sp.expand(1 - q**5),
         },

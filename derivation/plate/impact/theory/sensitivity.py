@@ -253,9 +253,9 @@ def modulus_slope() -> Formula:
 # --- an impact by its energy and by h/b
 
 
-def weighted(weights: Mapping[int, sp.Expr], share: Callable[[int], sp.Expr]) -> sp.Expr:
+def weighted(weights: Mapping[int, sp.Expr], factor: Callable[[int], sp.Expr]) -> sp.Expr:
     """Return the sum of D_n times a factor for each n."""
-    return sp.Add(*(share(n) * weight for n, weight in weights.items()))
+    return sp.Add(*(factor(n) * weight for n, weight in weights.items()))
 
 
 def _weights() -> dict[int, sp.Expr]:

@@ -38,7 +38,7 @@ from derivation.plate.vocabulary import A_j, T, h, lam, mu, phi, z
 odd_u, odd_v, odd_T = sp.symbols("odd_u odd_v odd_T", real=True)
 square_T, square_u, square_v = sp.symbols("square_T square_u square_v", real=True)
 rise, sag, alpha, beta = sp.symbols("rise sag alpha beta", real=True)
-depth, near, both, share = sp.symbols("depth near both share", real=True)
+depth, near, both, surplus = sp.symbols("depth near both surplus", real=True)
 excess, rest, others = sp.symbols("excess rest others", real=True)
 head, over, core = sp.symbols("head over core", real=True)
 versine, cubic, plus = sp.symbols("versine cubic plus", real=True)
@@ -99,10 +99,10 @@ def _deflection() -> Shape:
             Step(square_T, T**2),
             Step(cubic, cubic_of(square_T)),
             Step(both, 2 + square_T * cubic, "(sinh T + T)/T"),
-            Step(share, (odd_T + 4 * square_T) * (1 + rest), "what e^(2T) sinh^2 T exceeds D by"),
+            Step(surplus, (odd_T + 4 * square_T) * (1 + rest), "what e^(2T) sinh^2 T exceeds D by"),
             Step(over, by_far / far_v),
             Step(head, square_T * T),
-            Step(others, head * rest + (share + over) / (4 * T * cubic * both)),
+            Step(others, head * rest + (surplus + over) / (4 * T * cubic * both)),
             lacking(head),
             Step(core, head + others),
         ),
@@ -115,9 +115,9 @@ def _deflection() -> Shape:
             Step(decay, far_u * far_v),
             Step(odd_T, 1 - decay, ODD_T.comment),
             LACK,
-            Step(share, decay * (odd_T + 4 * T**2) * (1 + rest), "excess of sinh^2 T over D"),
+            Step(surplus, decay * (odd_T + 4 * T**2) * (1 + rest), "excess of sinh^2 T over D"),
             Step(over, by_far * far_u),
-            Step(others, rest + (share + over) / (1 - deficit)),
+            Step(others, rest + (surplus + over) / (1 - deficit)),
             lacking(ONE),
             Step(core, 1 + others),
         ),

@@ -37,7 +37,7 @@ STYLE = Style(TESTED, _constants, "generated")
 
 
 def kernel_of_sum(
-    formula: Record, formulas: Mapping[str, Record], budget: Budget, share: Form | None
+    formula: Record, formulas: Mapping[str, Record], budget: Budget, term: Form | None
 ) -> EmittedKernel:
     """Return the row of a modal sum: its arguments are those of its parts without phi and J1.
 
@@ -51,9 +51,9 @@ def kernel_of_sum(
     names -= {"phi", "J1", "A_j", "C1", "C2", "C3", "C4"}
     arguments = tuple(x for x in ARGUMENTS if x.name in names)
     under = f"{coefficient.name}({', '.join(x.name for x in coefficient.arguments)})"
-    steps = () if share is None else lines(share.steps)
+    steps = () if term is None else lines(term.steps)
     given = ", ".join(under if x == A_j else str(x) for x in CONTRIBUTION_ARGUMENTS)
-    value = f"{formula.name}_of_mode({given})" if share is None else to_numpy(share.value)
+    value = f"{formula.name}_of_mode({given})" if term is None else to_numpy(term.value)
     result = _of_modes(expression, formulas)
     return kernel(
         formula, arguments, "modal_sum", budget, STYLE,

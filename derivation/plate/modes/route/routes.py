@@ -174,7 +174,7 @@ def _field(v: Values, quantity: str) -> mpf:
     return _pressure_coefficient(v) * shapes[quantity]
 
 
-def _share_of_delta(v: Values) -> mpf:
+def _term_of_delta(v: Values) -> mpf:
     inner = {**v, "lam": mpf(1), "mu": mpf(1)}
     return -_pressure_coefficient(inner) * _face(inner, 1)
 
@@ -241,7 +241,7 @@ ROUTES: dict[str, Callable[[Values], mpf]] = {
     "A_j": _pressure_coefficient,
     "K_j": lambda v: _indentation(v, 1),
     "K_j_bottom": lambda v: _indentation(v, -1),
-    "delta": _share_of_delta,
+    "delta": _term_of_delta,
     "bessel_j0": lambda v: mp.besselj(0, v["x"]),
     "bessel_j1": lambda v: mp.besselj(1, v["x"]),
     "bessel_j0_zeros": lambda v: _zero(int(v["count"]), mp.dps),

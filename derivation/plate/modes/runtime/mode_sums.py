@@ -14,8 +14,8 @@ BLOCK = 128
 """Number of modes in one block: limits the memory to BLOCK times the number of points."""
 
 
-def sum_modes(share: Callable[[Double, Double], np.ndarray], b: Double, modes: int) -> Double:
-    """Return the sum of share(phi, J1) over the modes, the last axis, smallest terms first.
+def sum_modes(term: Callable[[Double, Double], np.ndarray], b: Double, modes: int) -> Double:
+    """Return the sum of term(phi, J1) over the modes, the last axis, smallest terms first.
 
     Raises
     ------
@@ -28,7 +28,7 @@ def sum_modes(share: Callable[[Double, Double], np.ndarray], b: Double, modes: i
     total: Double = np.zeros(())
     for start in reversed(range(0, modes, BLOCK)):
         block = slice(start, min(start + BLOCK, modes))
-        total = total + share(zeros[block] / b, J1[block]).sum(axis=-1)
+        total = total + term(zeros[block] / b, J1[block]).sum(axis=-1)
     return total
 
 

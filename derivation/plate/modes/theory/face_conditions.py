@@ -5,7 +5,7 @@ from functools import cache
 
 import sympy as sp
 
-from derivation.engine.cache import cached
+from derivation.engine.cache import in_file
 from derivation.engine.formula.hyperbolic import to_hyperbolic
 from derivation.engine.formula.proof import Proof, prove
 from derivation.plate.modes.theory.mode_shapes import CONSTANTS
@@ -27,17 +27,9 @@ def tractions() -> dict[str, sp.Expr]:
     }
 
 
-@cache
+@in_file(SOURCES, Formula, Proof)  # modules of kernels need them when they are imported
 def omegas() -> tuple[Formula, ...]:
-    """Return Omega_k = C_k / A_j, from the four traction conditions.
-
-    They are cached in a file: modules of kernels need them when they are imported, and their
-    derivation would take most of that time.
-    """
-    return cached("omegas", SOURCES, _omegas, Formula, Proof)
-
-
-def _omegas() -> tuple[Formula, ...]:
+    """Return Omega_k = C_k / A_j, from the four traction conditions."""
     conditions = tractions()
     (solution,) = sp.linsolve(list(conditions.values()), *CONSTANTS)
     expressions = [to_hyperbolic(sp.cancel(value / A_j), phi * h) for value in solution]

@@ -4,13 +4,12 @@ C_top and C_bottom are the influence coefficients w_j(+h)/A_j and w_j(-h)/A_j;
 with T = 2 phi h they are 2 G(T)/(E* phi) and 2 G_m(T)/(E* phi).
 """
 
-from functools import cache
-
 import sympy as sp
 
+from derivation.engine.cache import in_file
 from derivation.engine.formula.hyperbolic import to_hyperbolic
-from derivation.engine.formula.proof import prove
-from derivation.plate.modes.theory.face_conditions import loaded
+from derivation.engine.formula.proof import Proof, prove
+from derivation.plate.modes.theory.face_conditions import SOURCES, loaded
 from derivation.plate.modes.theory.mode_shapes import mode_shapes
 from derivation.plate.vocabulary import A_j, Formula, h, lam, mu, phi, z
 
@@ -18,7 +17,7 @@ PLANE_STRAIN_MODULUS = 4 * mu * (lam + mu) / (lam + 2 * mu)
 """E*, the modulus E/(1 - nu^2) of the half-space, in Lame's constants."""
 
 
-@cache
+@in_file(SOURCES, Formula, Proof)  # modules of kernels need them when they are imported
 def influence_coefficients() -> tuple[Formula, Formula, Formula]:
     """Return C_top, C_bottom and their common limit C_half for phi h -> oo on the contact face."""
     deflection = loaded(mode_shapes()[0].expression) / A_j

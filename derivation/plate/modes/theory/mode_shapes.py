@@ -73,8 +73,10 @@ def by_constants(expression: sp.Expr) -> sp.Expr:
     linear = sp.expand(expression)
     total = sp.Integer(0)
     for constant in CONSTANTS:
-        share = linear.coeff(constant)
-        total += constant * sp.Add(*(sp.factor(share.coeff(shape)) * shape for shape in shapes))
+        coefficient = linear.coeff(constant)
+        total += constant * sp.Add(
+            *(sp.factor(coefficient.coeff(shape)) * shape for shape in shapes)
+        )
     return total
 
 

@@ -9,7 +9,7 @@ from derivation.plate.vocabulary import R, lam, m, mu, xi_y, yield_stress
 
 beyond, cube, ratio, cubed = sp.symbols("beyond cube ratio cubed", positive=True)
 THREE = sp.Integer(3)
-SHARE, DOUBLED = YOUNG[2], 2 * cube + 1
+MODULUS_RATIO, DOUBLED = YOUNG[2], 2 * cube + 1
 BEYOND = Let(beyond, xi_y - 1)
 CUBE = Let(cube, xi_y * xi_y * xi_y)
 RATIO = Let(ratio, xi_y * sp.sqrt(THREE / DOUBLED))
@@ -21,7 +21,7 @@ def yield_radius() -> Routine:
         "yield_radius_of_factors",
         (R, lam, mu, yield_stress),
         MODERATE,
-        (PRODUCT(sp.Tuple(sp.pi / 5, R, yield_stress), sp.Tuple(mu, SHARE)),),
+        (PRODUCT(sp.Tuple(sp.pi / 5, R, yield_stress), sp.Tuple(mu, MODULUS_RATIO)),),
         (theory.yield_radius().expression,),
         "Return the contact radius at which the largest Hertz pressure is 1.6 Y.",
         {},
@@ -38,7 +38,11 @@ def yield_speed() -> Routine:
         "yield_speed_of_factors",
         (R, m, lam, mu, yield_stress),
         (*MODERATE, rate),
-        (PRODUCT(sp.Tuple(*strain, *rate.symbols), sp.Tuple(mu, SHARE, mu, SHARE)),),
+        (
+            PRODUCT(
+                sp.Tuple(*strain, *rate.symbols), sp.Tuple(mu, MODULUS_RATIO, mu, MODULUS_RATIO)
+            ),
+        ),
         (theory.yield_speed().expression,),
         "Return the impact speed at which a half-space begins to yield.",
         {},

@@ -38,7 +38,7 @@ LOW = 1e-3
 """Argument below which sinh(x)/x is 1 + x^2/6, to 1e-14."""
 FADED = 23
 """T = 2 eta j_n up to which modes are summed in plates that are not thin."""
-WIDEST_SHARE = 0.95
+WIDEST_OVER_B = 0.95
 """Largest a/b: the kernel is singular where t + s = 2 b."""
 LATERAL_STEPS, LATERAL_FIRST, LATERAL_LAST = 5, -12, 30
 """Number of trapezoids per unit of u for the integral of the lateral surface, y = exp(u - e^(-u)).
@@ -63,7 +63,7 @@ def pressure_numbers() -> Numbers:
             Constant("THIN", float(THIN), "1/eta = b/h above which a plate is thin."),
             Constant("WIDEST", float(WIDEST), "Largest a/h."),
             Constant(
-                "WIDEST_SHARE", WIDEST_SHARE, "Largest a/b: the kernel is singular at the edge."
+                "WIDEST_OVER_B", WIDEST_OVER_B, "Largest a/b: the kernel is singular at the edge."
             ),
             Constant(
                 "ERROR",

@@ -100,12 +100,12 @@ def paraboloid() -> Claims:
 @named_routine
 def sphere() -> Claims:
     """Return f R/a^2 of a sphere, and its slope by x over x; c = a/R."""
-    angle, share = sp.symbols("angle share", positive=True)
+    angle, arctanh_ratio = sp.symbols("angle arctanh_ratio", positive=True)
     exact = _profile(True)
     return Claims(
         (x, c),
-        (Let(angle, c * x), Let(share, sp.atanh(angle) / angle)),
-        (x**2 * share, share + 1 / ((1 - angle) * (1 + angle))),
+        (Let(angle, c * x), Let(arctanh_ratio, sp.atanh(angle) / angle)),
+        (x**2 * arctanh_ratio, arctanh_ratio + 1 / ((1 - angle) * (1 + angle))),
         (exact, sp.diff(exact, x) / x),
         {},
         _by_logarithms,
@@ -130,7 +130,9 @@ MEANING = {
 def contact_results() -> Claims:
     """Return force, indentation, stiffness, slope, energy, central and mean pressure."""
     ratio, deep, stiff, series = sp.symbols("ratio deep stiff series", positive=True)
-    pressed, peak, reach, share = sp.symbols("pressed peak reach share", positive=True)
+    pressed, peak, reach, relative_modulus = sp.symbols(
+        "pressed peak reach relative_modulus", positive=True
+    )
     found = theory.results()
     return Claims(
         (*GIVEN, *SOLVED),
@@ -139,8 +141,8 @@ def contact_results() -> Claims:
             Let(deep, a * ratio),
             Let(stiff, 2 * modulus * a),
             Let(reach, a / per),
-            Let(share, modulus / plate_modulus),
-            Let(series, first * reach * share + stiff * compliance),
+            Let(relative_modulus, modulus / plate_modulus),
+            Let(series, first * reach * relative_modulus + stiff * compliance),
             Let(pressed, stiff * deep),
             Let(peak, modulus * ratio / sp.pi),
         ),

@@ -42,7 +42,7 @@ from generated.pressure_numbers import (
     WAVES,
     WEIGHTS,
     WIDEST,
-    WIDEST_SHARE,
+    WIDEST_OVER_B,
 )
 
 _POINTS = np.append(NODES, 1.0)
@@ -204,7 +204,7 @@ def contact(
     own = modulus if plate_modulus is None else plate_modulus
     _, given = as_doubles(a, R, modulus, own, compliance)
     a, R, modulus, own, compliance = (np.array(x) for x in np.broadcast_arrays(*given))
-    holds = (a > 0, a <= WIDEST_SHARE * plate.b, a <= WIDEST * plate.h, a < R)
+    holds = (a > 0, a <= WIDEST_OVER_B * plate.b, a <= WIDEST * plate.h, a < R)
     elastic = (modulus > 0, own >= modulus, ~np.isnan(compliance))
     a, R, modulus, own = inside([a, R, modulus, own], *holds, *elastic)
     shape = a.shape
@@ -237,7 +237,7 @@ def _contact(plate: Plate, found: _Solution, given: tuple[Double, ...]) -> Conta
     return Contact(*arrays, *wide)
 
 
-def _waves(plate: Plate, a: Double, x: Double, share: Double) -> _Waves:
+def _waves(plate: Plate, a: Double, x: Double, modulus_ratio: Double) -> _Waves:
     """Return the waves at points x = t/a of shape (contacts, points)."""
     ratio = (a / plate.unit)[:, None]
     points, phase, rise = x[:, :, None], ratio * plate.waves, ratio * plate.rises
@@ -248,14 +248,14 @@ def _waves(plate: Plate, a: Double, x: Double, share: Double) -> _Waves:
     )
     faded = np.concatenate((np.ones(plate.waves.size), np.exp(-plate.rises)))
     weights = np.concatenate((ratio * plate.wave_weights, -ratio * plate.rise_weights), axis=1)
-    return _Waves(rises, bends, weights * share[:, None], faded)
+    return _Waves(rises, bends, weights * modulus_ratio[:, None], faded)
 
 
-def _solve(plate: Plate, a: Double, R: Double, share: Double, sphere: bool) -> _Solution:
-    """Return chi at the nodes by Nystroem's method; `share` is E* divided by the plate's E*."""
+def _solve(plate: Plate, a: Double, R: Double, modulus_ratio: Double, sphere: bool) -> _Solution:
+    """Return chi at the nodes by Nystroem's method; `modulus_ratio` is E* over the plate's."""
     x = np.broadcast_to(_POINTS, (a.size, _POINTS.size))
-    waves = _waves(plate, a, x, share)
-    square = plate.square * (a / plate.unit) ** 3 * share
+    waves = _waves(plate, a, x, modulus_ratio)
+    square = plate.square * (a / plate.unit) ** 3 * modulus_ratio
     weighted = waves.rises * waves.weights[:, None, :]
     alone = weighted @ waves.faded - square[:, None] * x**2
     kernel = weighted @ np.swapaxes(waves.rises[:, :-1], 1, 2)
@@ -337,17 +337,17 @@ def pressure(
     if not whole.force > 0:
         return np.full(r.shape, np.nan)[()]
     own = modulus if plate_modulus is None else plate_modulus
-    radius, share = np.array([float(a)]), np.array([float(modulus) / float(own)])
+    radius, modulus_ratio = np.array([float(a)]), np.array([float(modulus) / float(own)])
     points = np.broadcast_to(_POINTS, (1, _POINTS.size))
-    solution = _solve(plate, radius, np.array([float(R)]), share, sphere)
-    transform = _transform(_waves(plate, radius, points, share), solution.chi)
-    square = 2.0 * plate.square * (radius / plate.unit) ** 3 * share * solution.force
+    solution = _solve(plate, radius, np.array([float(R)]), modulus_ratio, sphere)
+    transform = _transform(_waves(plate, radius, points, modulus_ratio), solution.chi)
+    square = 2.0 * plate.square * (radius / plate.unit) ** 3 * modulus_ratio * solution.force
     ratio = np.ravel(r) / float(a)
     result = np.empty(ratio.size)
     for start in range(0, ratio.size, _BLOCK):
         part = slice(start, start + _BLOCK)
         x, front = kernels.pressure_points(ratio[part, None], NODES)
-        waves = _waves(plate, radius, x.reshape(1, -1), share)
+        waves = _waves(plate, radius, x.reshape(1, -1), modulus_ratio)
         _, bend = _profile(x, np.asarray(a / R), sphere)
         bends = bend - _bends(waves, transform).reshape(x.shape) + square
         result[part] = front[:, 0] * (bends @ WEIGHTS)

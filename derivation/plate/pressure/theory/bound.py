@@ -53,7 +53,7 @@ _x, _s, _y = sp.symbols("x s y", positive=True)
 _tau, _theta = sp.symbols("tau theta", positive=True)
 
 
-def lateral_share_ball(digits: int = 12) -> flint.arb:
+def lateral_ratio_ball(digits: int = 12) -> flint.arb:
     """Return int_0^oo y sinh(g y)/g K0/I0 dy over kappa_2.
 
     By parts, (K0/I0)' = -1/(y I0^2): int (y cosh(g y) - sinh(g y)/g)/(g^2 y I0^2) dy. Its tail is
@@ -81,7 +81,7 @@ def lateral_share_ball(digits: int = 12) -> flint.arb:
 
 
 @cache
-def lateral_share() -> flint.arb:
+def lateral_ratio() -> flint.arb:
     """Return the contribution as a ball; prove LATERAL_EXTRA and that a stays below g b/2.
 
     Raises
@@ -89,14 +89,14 @@ def lateral_share() -> flint.arb:
     ProofError
         If one of both fails.
     """
-    share = lateral_share_ball()
-    extra = 2 / flint.arb.pi() ** 2 * (share - 1) * kappa_ball(2)
+    ratio = lateral_ratio_ball()
+    extra = 2 / flint.arb.pi() ** 2 * (ratio - 1) * kappa_ball(2)
     if not extra < flint.arb(int(LATERAL_EXTRA.p)) / int(LATERAL_EXTRA.q):
-        raise ProofError(f"Bound for Hertz pressure: the contribution of the edge is {share}")
+        raise ProofError(f"Bound for Hertz pressure: the contribution of the edge is {ratio}")
     # a^3 <= a_H^3/(1 - zeta) with zeta <= theta.
     if not WIDEST**3 / (1 - LARGEST) <= (WIDTH / 2) ** 3:
         raise ProofError("Bound for Hertz pressure: the actual contact may be too wide")
-    return share
+    return ratio
 
 
 @cache
@@ -156,18 +156,18 @@ def pressure_bound() -> tuple[Formula, Formula]:
 
     c_3 < 0 for every plate, because both of its parts are negative: the bounds are positive.
     """
-    lateral_share()
+    lateral_ratio()
     proof = estimates()
     factor = LATERAL_EXTRA * eta**3 - sp.Rational(15, 2) * c_A[3]
     theta = factor * a_ratio**3
     holds = (f"({factor}) * a_ratio**3 <= {LARGEST}", f"a_ratio * eta <= {WIDEST}")
 
-    def bound(name: str, latex: str, what: str, share: sp.Rational) -> Formula:
+    def bound(name: str, latex: str, what: str, multiple: sp.Rational) -> Formula:
         return Formula(
             name,
             latex,
             f"bound of the error of {what} with Hertz pressure at given force",
-            share * theta,
+            multiple * theta,
             "1",
             "",
             ("c_3_modes", "c_3_lateral", "k_modes", "k_lateral"),

@@ -81,8 +81,8 @@ def representation() -> Proof:
     by_parts = sp.diff(chi * sp.sin(phi * _t) / phi, _t) - sp.diff(chi, _t) * sp.sin(phi * _t) / phi
     hertz = _MODULUS / (sp.pi * R) * (a**2 - _t**2)
     # t = sqrt(r^2 + (a^2 - r^2) u^2) makes dt/sqrt(t^2 - r^2) = sqrt(a^2 - r^2) du/t.
-    share = sp.cancel(-sp.diff(hertz, _t) / _t)
-    peak = a * sp.integrate(share, (_u, 0, 1))
+    integrand = sp.cancel(-sp.diff(hertz, _t) / _t)
+    peak = a * sp.integrate(integrand, (_u, 0, 1))
     force = 2 * sp.pi * sp.integrate(hertz, (_t, 0, a))
     return prove(
         "Pressure by its Abel transform",
@@ -150,7 +150,7 @@ def kernel() -> tuple[Formula, Formula]:
     half = influence_coefficients()[2].expression
     # A mode's coefficient is 2 Q/(b^2 J1^2); its deflection is cos(phi t) by Abel's operator.
     load = 2 * sp.cos(phi * _s) / (b**2 * J1**2)
-    share = reduced_modulus() / sp.pi * half * G * load * sp.cos(phi * _t)
+    one_mode = reduced_modulus() / sp.pi * half * G * load * sp.cos(phi * _t)
     weight = plate_factors()[2].expression.subs(T, 2 * eta * j_n) / (j_n * J1**2)
     mode = 4 / sp.pi * weight * sp.cos(alpha * j_n)
     lateral = -4 / sp.pi**2 * sp.cosh(alpha * _y)
@@ -172,7 +172,7 @@ def kernel() -> tuple[Formula, Formula]:
         r"gives $(2/\pi) \int \cos(x t) \cos(x s) dx$, which is $\chi$, and the lateral surface. "
         "$S$ is differentiated.",
         {
-            "one mode": share - f.subs(_x, b * phi) / (b * phi * J1**2) * G,
+            "one mode": one_mode - f.subs(_x, b * phi) / (b * phi * J1**2) * G,
             "thickness": f.subs(_x, b * phi) / (b * phi * J1**2) * (G - 1)
             - _spread(paired(mode).subs(scaled), sp.cos),
             "half-space": f / 2 * b - 2 / sp.pi * sp.cos(_x * _t / b) * sp.cos(_x * _s / b),
@@ -275,11 +275,11 @@ def at_given_force() -> tuple[Formula, Formula]:
         residuals[f"equation, A^{order}"] = sp.expand(chi[order] + shift - depth[order])
         residuals[f"chi(a), A^{order}"] = chi[order].subs(_x, 1)
     for n in parts:
-        share = coefficient((n + 3) // 2).mode
+        by_law = coefficient((n + 3) // 2).mode
         density = 4 / sp.pi * (plate_factors()[2].expression.subs(T, 2 * eta * j_n) / (j_n * J1**2))
         taylor = density * sp.series(sp.cos(_u), _u, 0, n + 1).removeO().coeff(_u, n - 1)
         value = taylor * j_n ** (n - 1) * eta**n
-        residuals[f"k by powers, {n}"] = sp.Rational(n * (n + 2), 2) * share - value
+        residuals[f"k by powers, {n}"] = sp.Rational(n * (n + 2), 2) * by_law - value
     cube = sp.Rational(3, 2) * sp.Add(
         *(sp.integrate(value, (_x, 0, 1)) * a_ratio**n for n, value in chi.items())
     )

@@ -18,7 +18,7 @@ The weight, moving down by delta_m, makes the largest U equal to that of the sph
 same fraction of it is lost, so that e^2 >= 1 - u (1 - exp(-2 Lambda)/(1 + epsilon^2)). A sphere
 that moves down more than up, z <= n_z A_v |v| at the end, may leave faster:
 e^2 <= 1 + (u - 1) n epsilon.
-The time of a sphere that rises against its weight increases with its loss of speed, by which the
+The time of a sphere that rises afactorst its weight increases with its loss of speed, by which the
 bound is extended. The statements about the end assume that epsilon(s) and P_e decrease with s and
 that P_e is convex; with weight and plates they are not proved but tested on random scenes.
 """
@@ -121,7 +121,7 @@ def _proof(
     radial, turning, force = spiral()
     sine, cosine = sp.sin(phi), sp.cos(phi)
     per_angle = radial / turning
-    share = epsilon * cosine**2 / (turning * least)
+    factor = epsilon * cosine**2 / (turning * least)
     return prove(
         "Bounds of the viscous spiral",
         r"The differences between $\phi'/\Omega$ and its bounds are squares; over the first "
@@ -131,7 +131,7 @@ def _proof(
             "least": on_circle(turning - least - epsilon * (sine + cosine) ** 2 / 2),
             "most": on_circle(most - turning - epsilon * (sine - cosine) ** 2 / 2),
             "quarter": per_angle - radial - epsilon**2 * cosine**3 * sine / turning,
-            "half": sp.together(per_angle - radial / least - (turning - least) * share),
+            "half": sp.together(per_angle - radial / least - (turning - least) * factor),
             "largest force": on_circle(amplitude**2 - force**2 - (cosine - epsilon * sine) ** 2),
             "at the turning point": till_turned - sp.pi / 4 * epsilon,
             "Lambda": whole - sp.pi / 2 * epsilon / (1 - epsilon / 2),

@@ -118,8 +118,8 @@ def weak_restitution() -> Formula:
     c_1, c_2, x = sp.symbols("c_1 c_2 x", positive=True)
     back = 1 + c_1 * x * (1 - c_1 * x) ** _FIFTH + c_2 * x**2
     product = sp.series((1 - c_1 * x + c_2 * x**2) * back, x, 0, 3).removeO()
-    share = phi**_FIFTH * sp.sqrt(1 - phi**2)  # phi -> arcsin, both halves: twice
-    loss = 2 * sp.hyperexpand(sp.integrate(share, (phi, 0, 1)))
+    integrand = phi**_FIFTH * sp.sqrt(1 - phi**2)  # phi -> arcsin, both halves: twice
+    loss = 2 * sp.hyperexpand(sp.integrate(integrand, (phi, 0, 1)))
     loss *= sp.Rational(4, 5) ** sp.Rational(2, 5)
     proof = prove(
         "Restitution of a weakly viscoelastic contact",

@@ -90,7 +90,7 @@ _FREQUENCY, _RESIDUE = inertia_balls.zero, inertia_balls.residue
 LAWS: Mapping[str, HardLaw] = {
     "bending_frequency": _of_lowest(_FREQUENCY, root=True),
     "bending_residue": _of_lowest(_RESIDUE),
-    "bending_fraction": _of_lowest(inertia_balls.share),
+    "bending_fraction": _of_lowest(inertia_balls.fraction),
     "dynamic_influence": HardLaw(
         _influence, slopes=_conditions, results=2, oracle=(inertia_balls.__name__,)
     ),

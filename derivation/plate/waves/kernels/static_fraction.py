@@ -22,7 +22,7 @@ def _at_rest(expression: sp.Expr) -> sp.Expr:
     return still
 
 
-def _share() -> sp.Expr:
+def _fraction() -> sp.Expr:
     """Return the derived fraction in terms of its steepness and static B_a/B_s."""
     names = {"s": steep, "beta": unlike}
     stated: sp.Expr = bending_fraction().stated
@@ -52,7 +52,7 @@ def ratio_at_rest() -> Routine:
 
 
 @named_routine
-def share_beyond() -> Claims:
+def fraction_beyond() -> Claims:
     """Return the static fraction of A0 for x >= 1; `excess` is E - 1, `product` is 4 P Q."""
     scaled = 2 * sp.exp(-TWO) * (sp.sinh(TWO) - TWO) / 2**3
     statements = (
@@ -65,7 +65,7 @@ def share_beyond() -> Claims:
         (x, left, Q, steep, unlike, excess, product),
         statements,
         (product * (product + 4 * left) * lower / (upper * (1 + unlike)),),
-        (_share(),),
+        (_fraction(),),
         {**WAVE, excess: E - 1, product: 4 * p * q / x_h**2},
         reduce_exponentials,
     )
@@ -86,7 +86,7 @@ def product_at_zero() -> Routine:
 
 
 @named_routine
-def share_near_one() -> Claims:
+def fraction_near_one() -> Claims:
     """Return the static fraction of A0 for small x, as 1 minus a small difference."""
     near, F, less, first, second = sp.symbols("near F less first second")
     steeper, below = sp.symbols("steeper below")
@@ -116,10 +116,10 @@ def share_near_one() -> Claims:
         (x, gam, rest, xi, P, Q, steep, unlike),
         statements,
         (1 - (below - first - second - first * second) / (1 + below),),
-        (_share(),),
+        (_fraction(),),
         WAVE,
         in_p_and_q,
     )
 
 
-ROUTINES = (ratio_at_rest, share_beyond, product_at_zero, share_near_one)
+ROUTINES = (ratio_at_rest, fraction_beyond, product_at_zero, fraction_near_one)

@@ -164,7 +164,7 @@ def bending_fraction(x: ArrayLike, nu: ArrayLike) -> np.ndarray:
     >>> print(f"{bending_fraction(0.1, 0.22):.6g}")
     0.999957
     """
-    return _evaluated(x, nu, (_shallow_share, _deep_share))
+    return _evaluated(x, nu, (_shallow_fraction, _deep_fraction))
 
 
 def _evaluated(
@@ -213,22 +213,22 @@ def _frequency(wave: _Wave, _: _Balance) -> Double:
     return value
 
 
-def _shallow_share(wave: _Wave, balance: _Balance) -> Double:
+def _shallow_fraction(wave: _Wave, balance: _Balance) -> Double:
     x, _, gam, rest, _, xi, _, P, Q = wave
     unlike = kernels.unlike(x)
-    near_one = kernels.share_near_one(x, gam, rest, xi, P, Q, balance.steep, unlike)
-    return np.where(x < SMALL, near_one, _share_beyond(wave, balance, 4.0 * P * Q))
+    near_one = kernels.fraction_near_one(x, gam, rest, xi, P, Q, balance.steep, unlike)
+    return np.where(x < SMALL, near_one, _fraction_beyond(wave, balance, 4.0 * P * Q))
 
 
-def _deep_share(wave: _Wave, balance: _Balance) -> Double:
+def _deep_fraction(wave: _Wave, balance: _Balance) -> Double:
     product = kernels.deep_product(wave.x, wave.left, wave.P, wave.Q)
-    return _share_beyond(wave, balance, product)
+    return _fraction_beyond(wave, balance, product)
 
 
-def _share_beyond(wave: _Wave, balance: _Balance, product: Double) -> Double:
+def _fraction_beyond(wave: _Wave, balance: _Balance, product: Double) -> Double:
     x, excess = wave.x, _less_than_one(wave)
     unlike = kernels.unlike(x)
-    return kernels.share_beyond(x, wave.left, wave.Q, balance.steep, unlike, excess, product)
+    return kernels.fraction_beyond(x, wave.left, wave.Q, balance.steep, unlike, excess, product)
 
 
 def _shallow(wave: _Wave) -> _Balance:
@@ -263,13 +263,13 @@ def _rayleigh(nu: Double, xi: Double, left: Double) -> tuple[Double, Double, Dou
     Q = np.sqrt(left)
     Q_rest = 0.5 * ((left - Q * Q) - rounding_error(Q, Q) + left_rest) / Q
     # P^2 = 1 - xi + xi/(2 (1 - nu))
-    share = 0.5 * xi / ratio
-    share_rest = (
-        (0.5 * xi - share * ratio) - rounding_error(share, ratio) - share * ratio_rest
+    added = 0.5 * xi / ratio
+    added_rest = (
+        (0.5 * xi - added * ratio) - rounding_error(added, ratio) - added * ratio_rest
     ) / ratio
-    square = left + share
+    square = left + added
     inner = square - left
-    square_rest = (left - (square - inner)) + (share - inner) + share_rest + left_rest
+    square_rest = (left - (square - inner)) + (added - inner) + added_rest + left_rest
     P = np.sqrt(square)
     P_rest = 0.5 * ((square - P * P) - rounding_error(P, P) + square_rest) / P
     S = P + Q

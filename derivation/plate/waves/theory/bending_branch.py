@@ -204,8 +204,8 @@ def rayleigh() -> tuple[Formula, Formula]:
     proof_of_residue = bending_zero()[2].proof
     w, P = 1 - xi_R, sp.sqrt(1 - gam * xi_R)
     cubic = xi_R**3 - 8 * xi_R**2 + 8 * (3 - 2 * gam) * xi_R - 16 * (1 - gam)
-    share = bending_residue(sp.Integer(1), sp.Integer(1)) / x_h
-    share = share.subs({q: x_h * sp.sqrt(w), p: x_h * P, kap: x_h**2 * xi_R})
+    ratio = bending_residue(sp.Integer(1), sp.Integer(1)) / x_h
+    ratio = ratio.subs({q: x_h * sp.sqrt(w), p: x_h * P, kap: x_h**2 * xi_R})
     plus = (2 - xi_R) ** 2
     limit = plus * sp.sqrt(w) / (8 * (sp.Rational(1, 2) + w * (1 - 2 / plus)))
     proof = prove(
@@ -214,7 +214,7 @@ def rayleigh() -> tuple[Formula, Formula]:
         "decaying terms. " + proof_of_residue.argument,
         {
             "cubic": sp.expand((2 - xi_R) ** 4 - 16 * w * P**2 - xi_R * cubic),
-            "residue": sp.cancel(share - limit),
+            "residue": sp.cancel(ratio - limit),
         },
     )
     return (
@@ -310,7 +310,7 @@ def thin_plates() -> tuple[Formula, ...]:
     change = sp.diff(stiff, slope)
     omega_square = phi**4 * PLANE_STRAIN_MODULUS * (2 * h) ** 2 / (12 * rho)
     kirchhoff = (rho * h**2 / mu * omega_square).subs(lam, mu * (1 / gam - 2)).subs(phi, x_h / h)
-    share = _share_at_rest(rows[1], rows[0])
+    fraction = _static_fraction(rows[1], rows[0])
     proof = prove(
         "Bending of thin plates",
         "The power series are inserted into $B_a$ and its slope; $y_0$ is Kirchhoff's plate.",
@@ -319,7 +319,7 @@ def thin_plates() -> tuple[Formula, ...]:
             "residue": _below(1 + residue * change.subs(slope, found), s),
             "Kirchhoff": sp.cancel(kirchhoff - x_h**4 * rows[0][0]),
             "mass": residue.subs(s, 0) - sp.Rational(1, 2),
-            "whole deflection": share[0] - 1,
+            "whole deflection": fraction[0] - 1,
         },
     )
     lines = (
@@ -330,7 +330,7 @@ def thin_plates() -> tuple[Formula, ...]:
             "s_0",
             "fraction of A0 in the static deflection, thin plates",
             0,
-            share,
+            fraction,
         ),
     )
     return tuple(
@@ -348,7 +348,7 @@ def _below(value: sp.Expr, s: sp.Symbol) -> sp.Expr:
     return sp.expand(sp.Add(*(c * s**n for (n,), c in terms if n < ORDER)))
 
 
-def _share_at_rest(residue: tuple[sp.Expr, ...], slope: tuple[sp.Expr, ...]) -> list[sp.Expr]:
+def _static_fraction(residue: tuple[sp.Expr, ...], slope: tuple[sp.Expr, ...]) -> list[sp.Expr]:
     """Return (rho h r/kap)/(mu C/h) in powers of x^2; C = 2 G/(E* phi) for a static load.
 
     With T = 2 x and G = above/below, x^3 G = (above/T)/(below/T^4)/8.

@@ -36,10 +36,10 @@ def bending_waves() -> Proof:
 
     omega = phi**2 * sp.sqrt(_D / (rho * _H))
     # The response of wave number phi to a force step, integrated with s = omega t.
-    share = phi / (2 * sp.pi * rho * _H) / omega
+    response = phi / (2 * sp.pi * rho * _H) / omega
     measure = sp.diff(sp.sqrt(_s / _t) * (rho * _H / _D) ** sp.Rational(1, 4), _s)
     at = sp.sqrt(_s / _t) * (rho * _H / _D) ** sp.Rational(1, 4)
-    density = share.subs(phi, at) * measure
+    density = response.subs(phi, at) * measure
     speed = sp.integrate(sp.sin(_s) / _s, (_s, 0, sp.oo)) * sp.simplify(density * _s)
     return prove(
         "Bending waves",

@@ -9,7 +9,7 @@ from derivation.engine.emit.printed_fraction import (
     operations,
     printed_fraction,
 )
-from derivation.plate.budgets import counted_modules, read_printed_share
+from derivation.plate.budgets import counted_modules, read_printed_fraction
 from derivation.plate.paper import PAPER
 
 BY_HAND = '''"""A sum.
@@ -53,6 +53,6 @@ def test_committed_fraction_agrees_with_the_package() -> None:
     files = PAPER.package_folder.glob("*.py")
     sources = {path.stem: path.read_text() for path in files}
     fraction = printed_fraction(arithmetic_of_modules(counted_modules(sources)))
-    assert read_printed_share() <= fraction < read_printed_share() + 0.01, (
+    assert read_printed_fraction() <= fraction < read_printed_fraction() + 0.01, (
         "raise `[package] printed` in budgets.toml"
     )

@@ -40,8 +40,8 @@ class EffectRow:
     parameter, parameter_value
         Its dimensionless parameter, and the value in this scene [1]; NaN if it does not apply.
     bound
-        Bound on the largest relative change of a result if the effect is omitted [1]; infinite if
-        there is no bound.
+        Bound on the largest relative change of a result if the effect is omitted, with the effects
+        that are a part of it [1]; infinite if there is no bound.
     included
         Whether the effect is included.
     reason

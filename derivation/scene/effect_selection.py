@@ -40,8 +40,8 @@ class EffectRow:
     parameter, parameter_value
         Its dimensionless parameter, and the value in this scene [1]; NaN if it does not apply.
     bound
-        Bound on the largest relative change of a result if the effect is omitted [1]; infinite if
-        there is no bound.
+        Bound on the largest relative change of a result if the effect is omitted, with the effects
+        that are a part of it [1]; infinite if there is no bound.
     included
         Whether the effect is included.
     reason
@@ -244,13 +244,13 @@ def _row(
     included = name in state.law.effects or not effect.selectable
     if reasons[name]:
         return EffectRow(name, effect.adds, effect.parameter, math.nan, 0.0, False, reasons[name])
-    value = effect.value(model, radius)
+    value, omitted = effect.value(model, radius), [effect, *_parts(effect, found)]
 
     def bound_on(outputs: Sequence[str]) -> float:
         """Return the bound on the change of the worst of some outputs."""
         if not included:
-            return error_of(state, [effect], outputs)
-        return change_of(state, effect, outputs)
+            return error_of(state, omitted, outputs)
+        return change_of(state, omitted, outputs)
 
     def grown_on(output: str) -> float:
         """Return the bound on the change of an output, after the simulation."""
@@ -273,6 +273,22 @@ def _row(
         why = f"all omitted effects together change the results by at most {most:.1e}"
     disabled = choice[name] is False and effect.selectable
     return EffectRow(name, effect.adds, effect.parameter, value, bound, included, why, disabled)
+
+
+def _parts(effect: Effect, found: Selection) -> list[Effect]:
+    """Return the effects that are omitted with another one, because they are a part of it.
+
+    A part that the scene disables has its own bound, unless the scene disables the whole effect.
+    """
+    model, choice = found.state.law.model, found.choice
+    whole = choice[effect.name] is False
+    return [
+        part
+        for part in EFFECTS
+        if part.within == effect.name
+        and not part.not_applicable_reason(model)
+        and (whole or choice[part.name] is not False)
+    ]
 
 
 def _forced(included: bool, bound: float, output: str) -> str:

@@ -389,12 +389,12 @@ def sizes_of(state: LargestContact, effect: Effect, outputs: Sequence[str]) -> A
     )
 
 
-def change_of(state: LargestContact, effect: Effect, outputs: Sequence[str]) -> float:
-    """Return the bound on the change if an included effect is omitted."""
+def change_of(state: LargestContact, effects: Sequence[Effect], outputs: Sequence[str]) -> float:
+    """Return the bound on the change if an included effect is omitted, with the parts after it."""
+    effect = effects[0]
     if effect.always_included or np.isnan(state.a):
         return math.inf
     if effect.dynamic:
-        state = state_of(_quasi_static(state.law))
-        return error_of(state, [effect], outputs)
+        return error_of(state_of(_quasi_static(state.law)), effects, outputs)
     bound = bound_of(state, effect)
     return float(_worst(state, bound._replace(low=bound.up, up=bound.low), outputs).item())

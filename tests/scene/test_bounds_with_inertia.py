@@ -267,3 +267,25 @@ def test_an_impact_that_increases_its_bounds_is_repeated_with_more_effects() -> 
     assert loose.effects.error < 0.03 < loose.accuracy.bound < 0.1
     assert tight.accuracy.bound < 0.03
     assert 1e-3 < change(loose, tight, "restitution") < loose.accuracy.bound
+
+
+@pytest.mark.parametrize("chosen", [{"inertia": False}, {"inertia": False, "damping": False}])
+def test_bound_without_inertia_covers_the_damping_omitted_with_it(chosen: dict[str, bool]) -> None:
+    """The bound was that of the vibration alone, which the change by its damping exceeds."""
+    tables: dict[str, Any] = {
+        "sphere": {"radius": 0.061, "density": 4844.0},
+        "plate": {
+            "radius": 0.105, "half_thickness": 0.0354, "youngs_modulus": 3.2e10,
+            "poissons_ratio": -0.5, "density": 153.0, "edge": "simply-supported",
+            "loss_factor": 1.0,
+        },
+        "impact": {"speed": 5.6e-3},
+        "inertia": {"branches": "A0"},
+    }  # fmt: skip
+    omitted = simulate(read(tables | {"effects": chosen}))
+    included = simulate(read(tables | {"effects": {"inertia": True, "damping": True}}))
+    changes = [abs(getattr(omitted, name) / getattr(included, name) - 1.0) for name in OUTPUTS]
+    assert max(changes) > 1e-3
+    for found in (omitted, included):
+        [row] = [row for row in found.effects.rows if row.name == "inertia"]
+        assert max(changes) < row.bound < 0.1

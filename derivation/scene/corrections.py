@@ -7,7 +7,7 @@ from derivation.scene.model import Model
 SMALL_CORRECTION = 0.3
 """Relative correction above which its leading term is no longer an estimate."""
 STRETCHING = 0.2
-"""Stiffening of a plate by stretching over (w/H)^2, under a central load at rest: of a clamped edge
+"""Stiffening of a plate by stretching over (w/H)^2, under a central static load: of a clamped edge
 that is free to move in its plane, the least of four edges (Timoshenko and Woinowsky-Krieger, Theory
 of Plates and Shells, 2nd ed., table 82)."""
 

@@ -198,7 +198,8 @@ def warnings_at(
         found.append(
             f"plate deflection over thickness w/H = {deflection / thickness:.3g} exceeds "
             f"{STRETCH_LIMIT}: membrane stretching makes the plate stiffer than in the linear law, "
-            f"at rest by a factor of about {stretching(deflection / thickness):.3g} or more"
+            "under a static load by a factor of about "
+            f"{stretching(deflection / thickness):.3g} or more"
         )
     return tuple(found)
 

@@ -32,7 +32,7 @@ and of the contact time. Just before the separation the force falls as the power
 left, and a mode lags it by a power -3/2 of its frequency. The sum over the omitted modes of a
 half-space, and with it the error of the contact time, decreases as the square root of their number:
 it tends to 1/(sqrt(2) - 1) = 2.42 times the change."""
-EARLIER = 0.5
+EARLIER = 1.0
 """Estimated error of the omitted modes over the change between the two runs before [1]. Waves that
 reach the contact during it make results converge irregularly, so that two runs may agree by
 chance."""

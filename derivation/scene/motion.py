@@ -37,6 +37,8 @@ _CLOSEST = 4e-16
 exact), with weight, and on a half-space (the contact time is a unit of time)."""
 _ROUNDED = 1e-12
 """Step below which the iteration ends if the step is not smaller than the one before."""
+NOTABLE_WORK = 5e-3
+"""Least work of the weight over the initial kinetic energy that is stated with the energies."""
 
 
 @dataclass(frozen=True)
@@ -81,11 +83,15 @@ class EnergyBalance:
             "plastic deformation": self.plastic_loss,
             "lost by the pointwise coupling": self.coupling_loss,
         }
-        return ", ".join(
-            f"{100 * energy / self.initial_kinetic:.3g} % {name}"
-            for name, energy in parts.items()
-            if energy
+        words = ", ".join(
+            f"{self._percent(energy)} {name}" for name, energy in parts.items() if energy
         )
+        if abs(self.gravity_work) < NOTABLE_WORK * self.initial_kinetic:
+            return words
+        return f"{words}; the weight contributes {self._percent(self.gravity_work)}"
+
+    def _percent(self, energy: float) -> str:
+        return f"{100 * energy / self.initial_kinetic:#.3g}".rstrip(".") + " %"
 
     @property
     def residual(self) -> float:

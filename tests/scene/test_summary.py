@@ -46,6 +46,18 @@ def value_of(text: str, unit: str, plain: str) -> float:
 # --- values
 
 
+@pytest.mark.parametrize("speed", [0.05, 0.2, 1.0])
+def test_printed_energies_are_the_kinetic_energy_and_the_work_of_the_weight(speed: float) -> None:
+    scene = tomllib.loads((EXAMPLES / "ball_drop.toml").read_text())
+    scene["impact"]["speed"] = speed
+    balance = simulate(read(scene)).energy_balance
+    assert balance is not None
+    energies, _, weight = balance.in_words().partition("; the weight contributes")
+    final = sum(map(float, re.findall(r"([\d.]+) %", energies)))
+    added = sum(map(float, re.findall(r"([\d.]+) %", weight)))
+    assert final == pytest.approx(100.0 + added, abs=0.6 if not added else 0.2)
+
+
 @given(
     st.floats(1e-12, 1e12) | st.floats(-1e12, -1e-12),
     st.integers(2, 12),

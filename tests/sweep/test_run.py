@@ -59,13 +59,14 @@ def test_killed_run_is_continued(tmp_path: Path) -> None:
 
 def test_interrupted_run_states_how_to_continue(tmp_path: Path) -> None:
     out = tmp_path / "rows.csv"
-    process = begin("--vary", "impact.speed=0.5:2:20000", "--out", str(out))
+    keys = "impact.speed=0.5:2:2000", "sphere.density=7000:8000:1000"
+    process = begin("--vary", keys[0], "--vary", keys[1], "--out", str(out))
     wait(lambda: parts(out))
     process.send_signal(signal.SIGINT)
     _, output = process.communicate(timeout=PATIENCE)
     assert process.returncode == 2
     assert "Traceback" not in output
-    assert "of 20,000 points" in output
+    assert "of 2,000,000 points" in output
     assert "run the same command again" in " ".join(output.split())
     assert not out.exists()
 

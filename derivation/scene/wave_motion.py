@@ -271,9 +271,11 @@ class DynamicImpact(Motion):
         change = "an error estimate requires more modes"
         if math.isfinite(max(inertia.mode_convergence)):
             change = (
-                "halving the number of modes changes the results by at most "
+                "halving the number of bending modes changes the results by at most "
                 f"{max(inertia.mode_convergence):.1e}"
             )
+            if any(inertia.earlier_change):
+                change += f", and halving it again by {max(inertia.earlier_change):.1e}"
         return energies, ended + f"{counted(inertia.modes, 'mode')} ({branches}); {change}."
 
     def to_html(self) -> str:

@@ -44,8 +44,9 @@ def stabilised(
 ) -> Stable:
     """Return the stable form of an expression in the largest range in which there is one.
 
-    The rules are applied to the expression, then to inner functions of compositions, up to the
-    given depth, then to the expression in a part of the range.
+    The rules are applied to the expression, then to inner functions of compositions and to the
+    expression in another variable, up to the given depth, then in a part of the range. If no form
+    is clearly accurate everywhere, two are joined at a switch point.
 
     Raises
     ------

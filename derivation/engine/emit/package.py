@@ -178,8 +178,8 @@ class PackageSettings:
         def shape(name: str) -> Shape:
             if name in stated:
                 return stated[name]
-            found = automatic(formulas[name].expression, known, self.scales)
-            return accurate(formulas[name], *found, known)
+            automatic_shape = automatic(formulas[name].expression, known, self.scales)
+            return accurate(formulas[name], *automatic_shape, known)
 
         return tuple(
             form(name, part.name, formulas[name].expression, *shape(name), known)
@@ -190,9 +190,9 @@ class PackageSettings:
     def _expect(self, names: set[str], formulas: Mapping[str, Record]) -> None:
         """Reject names that are not those of formulas."""
         for name in sorted(names - formulas.keys()):
-            near = did_you_mean(name, formulas)
+            suggestion = did_you_mean(name, formulas)
             raise ValueError(
-                f"parts of the package: no formula {name!r}: {near}expected some of "
+                f"parts of the package: no formula {name!r}: {suggestion}expected some of "
                 f"{', '.join(formulas)}"
             )
 

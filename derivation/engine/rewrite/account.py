@@ -59,7 +59,7 @@ def accounts(
     UnreachableError
         If the rules do not find a form of a formula.
     """
-    found = []
+    rows = []
     for number, name in enumerate(names, start=1):
         progress(name, number, len(names))
         reduced = dimensionless(formulas[name].expression, scales)
@@ -67,5 +67,5 @@ def accounts(
         stable = stabilise(reduced.expression, scale.variable, ENDS)
         said = f"{scale.variable} = {scale.product}"
         said = said if scale.length != scale.variable else str(scale.variable)
-        found.append(Account(name, said, stable.applied, stable.worst))
-    return tuple(found)
+        rows.append(Account(name, said, stable.applied, stable.worst))
+    return tuple(rows)

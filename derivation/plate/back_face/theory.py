@@ -254,16 +254,19 @@ def wide_contact_powers(count: int = WIDE_TERMS) -> tuple[sp.Rational, ...]:
     """Return b_k of B = 6/T^2 + sum b_k T^(2k): 2 (sinh T)/T over (sinh^2 T - T^2)/T^4."""
     above = [sp.Rational(2, sp.factorial(2 * i + 1)) for i in range(count + 1)]
     below = [sp.Rational(2 ** (2 * i + 3), sp.factorial(2 * i + 4)) for i in range(count + 1)]
-    found: list[sp.Rational] = []
+    powers: list[sp.Rational] = []
     for i in range(count + 1):
-        found.append((above[i] - sum(found[k] * below[i - k] for k in range(i))) / below[0])
+        powers.append((above[i] - sum(powers[k] * below[i - k] for k in range(i))) / below[0])
     series = sp.series(back_face_function(), T, 0, 4).removeO()
     prove(
         "Stress factor at T = 0",
         "The first powers from SymPy's own series.",
-        {f"T^{2 * k - 2}": series.coeff(T, 2 * k - 2) - found[k] for k in range(min(3, count + 1))},
+        {
+            f"T^{2 * k - 2}": series.coeff(T, 2 * k - 2) - powers[k]
+            for k in range(min(3, count + 1))
+        },
     )
-    return tuple(found[1:])
+    return tuple(powers[1:])
 
 
 def moment_of_wave(order: int) -> sp.Rational:

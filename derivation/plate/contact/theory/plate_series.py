@@ -96,8 +96,9 @@ def coefficient(k: int) -> Coefficient:
         f"Coefficient c_{order}",
         r"Taylor coefficients of both parts of the split; $\alpha = \eta A$.",
         {
-            "share": mode_term - factor * spread.subs(_y, alpha * j_n) * excess,
-            "modes": factor / alpha * taylor * j_n ** (order - 1) * eta**order * excess - mode,
+            "mode term": mode_term - factor * spread.subs(_y, alpha * j_n) * excess,
+            "Taylor coefficient": factor / alpha * taylor * j_n ** (order - 1) * eta**order * excess
+            - mode,
             "finite radius": -8
             / sp.pi**2
             * lateral

@@ -47,11 +47,11 @@ def inverted_coefficients(
     series: Sequence[sp.Expr], d: int, g: int, p: int, terms: int
 ) -> tuple[sp.Expr, ...]:
     """Return coefficients of y^(p + g n) in x^p, where y^d = x^d (series in x^g), by Lagrange."""
-    found = []
+    coefficients = []
     for n in range(terms):
         exponent = sp.Rational(-(p + g * n), d)
-        found.append(sp.Rational(p, p + g * n) * power_series(series, exponent, n + 1)[n])
-    return tuple(found)
+        coefficients.append(sp.Rational(p, p + g * n) * power_series(series, exponent, n + 1)[n])
+    return tuple(coefficients)
 
 
 def composition(

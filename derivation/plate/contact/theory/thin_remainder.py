@@ -181,7 +181,7 @@ def coefficient_remainder(k: int) -> Formula:
             "modes": modes,
             "pole": found[-1],
             "axes": sp.expand(found[0] - thin_modal_sum(k)),
-            "share": one - factor * T ** (2 * k - 6) * (1 + sp.sqrt(1 + T**2)) ** 2,
+            "residue": one - factor * T ** (2 * k - 6) * (1 + sp.sqrt(1 + T**2)) ** 2,
         },
     )
     return Formula(
@@ -230,7 +230,7 @@ def law_remainder() -> Formula:
             "modes": modes - mode * sine_kernel(alpha * j_n) * _mode_factor(0),
             "finite radius": sp.expand((on_axis + lateral.function / LATERAL).rewrite(sp.exp)),
             "Phi": real.subs(alpha, eta * a_ratio) - 2 * a_ratio / sp.pi * sine_kernel(y),
-            "share": mode.subs(alpha, eta * a_ratio) * _residue_factor(sine_kernel(y))
+            "residue": mode.subs(alpha, eta * a_ratio) * _residue_factor(sine_kernel(y))
             - 16 / a_ratio**2 * _law_weight(T) * (1 + sp.sqrt(1 + T**2)) ** 2,
         },
     )

@@ -194,13 +194,13 @@ def weight() -> tuple[Formula, ...]:
     """Return W, and prove the sums of W/k^4."""
     N = norm()
     clamped, supported = sp.Rational(1, 2), (3 + nu) / (2 * (1 + nu))
-    found = {
+    formulas = {
         name: static_deflection(span)
         for name, span in (("clamped", clamped), ("supported", supported), ("paper's edge", 1))
     }
-    slopes = {name: sp.diff(w, _r).subs(_r, 1) for name, w in found.items()}
-    bends = {name: sp.diff(w, _r, 2).subs(_r, 1) for name, w in found.items()}
-    axis = {name: sp.limit(w, _r, 0) for name, w in found.items()}
+    slopes = {name: sp.diff(w, _r).subs(_r, 1) for name, w in formulas.items()}
+    bends = {name: sp.diff(w, _r, 2).subs(_r, 1) for name, w in formulas.items()}
+    axis = {name: sp.limit(w, _r, 0) for name, w in formulas.items()}
     # Near the axis w is even in r.
     w_0, w_2, w_4 = sp.symbols("w_0 w_2 w_4", real=True)
     near = _bracket(w_0 + w_2 * _r**2 + w_4 * _r**4, static_deflection(_A))

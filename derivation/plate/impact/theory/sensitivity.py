@@ -193,9 +193,9 @@ def logarithmic(expression: sp.Expr) -> tuple[sp.Rational, ...]:
 @cache
 def exponents() -> dict[str, tuple[sp.Rational, ...]]:
     """Return the exponents of R, m, v0, h, b and E* in every result, in `energy` and in `eta`."""
-    found = {name: logarithmic(law) for name, law in power_laws().items()}
+    exponents_by_name = {name: logarithmic(law) for name, law in power_laws().items()}
     energy = logarithmic(m * v0**2 / 2 / energy_scale())
-    return {**found, "energy": energy, "eta": logarithmic(h / b)}
+    return {**exponents_by_name, "energy": energy, "eta": logarithmic(h / b)}
 
 
 @cache

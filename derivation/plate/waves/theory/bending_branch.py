@@ -110,7 +110,7 @@ def bending_zero() -> tuple[Formula, ...]:
     tanh_p, tanh_q = sp.symbols("t_p t_q", positive=True)
     at_zero = 4 * x_h**2 * p * q * tanh_q / (x_h**2 + q**2) ** 2
     bare = slope.subs({sp.tanh(p): tanh_p, sp.tanh(q): tanh_q}).subs(tanh_p, at_zero)
-    found = in_p_and_q(bending_residue(tanh_p, tanh_q)).subs(tanh_p, at_zero)
+    residue = in_p_and_q(bending_residue(tanh_p, tanh_q)).subs(tanh_p, at_zero)
     anywhere = p * q**2 / (2 * x_h**2 * at_zero * in_p_and_q(steepness(at_zero, tanh_q)))
     x_i, w, s = sp.symbols("xi w s", positive=True)
     plus, tanh = (1 + w) ** 2, (sp.tanh(p), sp.tanh(q))
@@ -126,7 +126,7 @@ def bending_zero() -> tuple[Formula, ...]:
         {
             "quotient": in_sines(in_p_and_q(B_a - 2 * kap * sp.tanh(p) / p * (quotient() - 1))),
             "zero": sp.cancel(in_p_and_q(stiffness(at_zero, tanh_q))),
-            "residue": sp.cancel(1 / bare + found),
+            "residue": sp.cancel(1 / bare + residue),
             "by the quotient": sp.cancel(1 / bare + anywhere),
             "steepness": in_sines(in_p_and_q(steep.subs(reduced) - steepness(*tanh))),
         },
@@ -179,7 +179,7 @@ def bending_fraction() -> Formula:
         {
             "static B_a": in_sines(both[0] - bent),
             "B_a over B_s": in_sines(both[0] / both[1] - unlike),
-            "share": in_sines(answer / load * bent - plain),
+            "static fraction": in_sines(answer / load * bent - plain),
             "E": in_sines(plain - value),
         },
     )
@@ -245,11 +245,11 @@ def _cut(value: PolyElement, order: int) -> PolyElement:
 
 def _tanh_powers(count: int) -> list[sp.Rational]:
     """Return t_0, t_1, ...: sinh(y)/y = cosh(y) tanh(y)/y."""
-    found: list[sp.Rational] = []
+    powers: list[sp.Rational] = []
     for n in range(count):
-        rest = sum(found[k] / sp.factorial(2 * (n - k)) for k in range(n))
-        found.append(sp.Rational(1, sp.factorial(2 * n + 1)) - rest)
-    return found
+        rest = sum(powers[k] / sp.factorial(2 * (n - k)) for k in range(n))
+        powers.append(sp.Rational(1, sp.factorial(2 * n + 1)) - rest)
+    return powers
 
 
 def _stiffness_of(slope: PolyElement, order: int) -> PolyElement:
@@ -364,11 +364,11 @@ def _static_fraction(residue: tuple[sp.Expr, ...], slope: tuple[sp.Expr, ...]) -
     first = sp.Add(*(c * s**n for n, c in enumerate(residue))) * rest * 16
     second = sp.Add(*(sp.cancel(c / (1 - gam)) * s**n for n, c in enumerate(slope))) * compliance
     rows = [[sp.expand(part).coeff(s, n) for n in range(ORDER)] for part in (first, second)]
-    found: list[sp.Expr] = []
+    coefficients: list[sp.Expr] = []
     for n in range(ORDER):
-        known = sum(found[k] * rows[1][n - k] for k in range(n))
-        found.append(sp.factor((rows[0][n] - known) / rows[1][0]))
-    return found
+        known = sum(coefficients[k] * rows[1][n - k] for k in range(n))
+        coefficients.append(sp.factor((rows[0][n] - known) / rows[1][0]))
+    return coefficients
 
 
 def bending_branch() -> tuple[Formula, ...]:

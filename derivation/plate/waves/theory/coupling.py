@@ -78,7 +78,7 @@ def growing_contact() -> Proof:
             "pressure": spread + hertz,
             "modal force": felt - MODAL_FORCE,
             "transform": -2 * sp.pi * hertz.subs(r, 0) * sonine().expression - MODAL_FORCE,
-            "share": sp.diff(MODAL_FORCE / P * a**3, a) / sp.diff(a**3, a) - MODAL_WEIGHT,
+            "modal weight": sp.diff(MODAL_FORCE / P * a**3, a) / sp.diff(a**3, a) - MODAL_WEIGHT,
         },
     )
 

@@ -129,8 +129,9 @@ def oscillator() -> Proof:
     # d/dt of int_0^t g(t - s) P(s) ds is g(0) P(t) + int g'(t - s) P(s) ds.
     return prove(
         "Damped oscillator",
-        "Both are inserted into the equation and evaluated at $t = 0$. Duhamel's integral solves "
-        "it, because its second derivative is $g'(0) P$ plus the integral over $g''$.",
+        "Both motions are inserted into the equation and evaluated at $t = 0$. Duhamel's "
+        "integral solves it, because its second derivative is $g'(0) P$ plus the integral "
+        "over $g''$.",
         {
             "impulse": by_phase(_equation(g)),
             "from rest": g.subs(start),

@@ -262,7 +262,13 @@ def contact_split() -> tuple[Formula, ...]:
     return (
         part("delta_half", r"\delta_\infty", "indentation of the half-space", a**2 / R),
         part("delta_lateral", r"\delta_b", "change of the indentation by the finite radius", side),
-        part("delta_thickness", r"\delta_h", "that by the finite thickness", thickness, True),
+        part(
+            "delta_thickness",
+            r"\delta_h",
+            "change of the indentation by the finite thickness",
+            thickness,
+            True,
+        ),
     )
 
 

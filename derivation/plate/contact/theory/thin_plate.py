@@ -173,8 +173,8 @@ def thin_coefficient(k: int) -> Formula:
     rest = sp.expand(total - leading * M[k])
     proof = prove(
         f"Thin plate's c_{order}",
-        "Residues of the Mellin integral; the pole of $G - 1$ at $s = 0$ cancels the finite "
-        "radius, and beyond $k = 3$ only the finite part $M_k$ remains.",
+        "The coefficients are residues of a Mellin integral. The pole of $G - 1$ at $s = 0$ "
+        "cancels the finite radius; beyond $k = 3$ only the finite part $M_k$ remains.",
         {
             "kappa": total.coeff(kappa[2 * k - 4]),
             "finite part": leading - size * 8 / sp.pi / 2 ** (2 * k - 2),

@@ -151,9 +151,9 @@ def edges() -> tuple[Formula, ...]:
     free = turn - CLAMP * eta * (bend - turn)
     proof = prove(
         "Edges of a shear-deformable plate",
-        r"Rotation and its slope at the edge; $S/\Gamma$ by $\psi/M$, whose slope has the same "
-        "sign; and the limit of a thin plate, step 29's equations, where $k_2 = k$ and "
-        "$g_1 = g_2 = 1$.",
+        r"Rotation and its slope are taken at the edge. $S/\Gamma$ is expressed by "
+        r"$\psi/M$, whose slope has the same sign. For a thin plate, where $k_2 = k$ and $g_1 "
+        r"= g_2 = 1$, the equations become those of step 29.",
         {
             "deflection": DEFLECTION.subs({_r: 1, c: PART}),
             "rotation": psi.subs(_r, 1) - J0 * TURN,
@@ -310,8 +310,8 @@ def modal_weight() -> Formula:
     value = UNDER_PUNCH / (1 - c * t)
     proof = prove(
         "Mean of a plate wave under a flat punch",
-        "The transforms of step 29, of $J_0(k r)$ and of $I_0(k_2 r)$ on the contact face. "
-        + means.proof.argument,
+        "The transforms are those of step 29, applied to $J_0(k r)$ and to $I_0(k_2 r)$ on the "
+        "contact face. " + means.proof.argument,
         {
             "thin": _thin(value.subs(c, PART)) - means.expression,
             "small contact": sp.limit(value, alpha, 0) - 1,

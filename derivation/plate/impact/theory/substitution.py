@@ -55,7 +55,8 @@ def slope_law() -> Formula:
     kernel = (lateral.expression.function / LATERAL).subs(height, _y)
     proof = prove(
         "Slope of the law",
-        r"$F + \alpha F'/2$ of one mode and of the lateral surface's integrand.",
+        r"The expression $F + \alpha F'/2$ is evaluated for one mode and for the integrand of "
+        r"the lateral surface.",
         {
             "modes": sloped(mode.expression) - 4 * alpha / sp.pi * sp.sin(y) / y * weight,
             "finite radius": sp.expand((sloped(kernel) - density).rewrite(sp.exp)),

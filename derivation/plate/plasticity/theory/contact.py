@@ -184,7 +184,8 @@ def yield_speed() -> Formula:
     )
     proof = prove(
         "Yield speed",
-        "The energy of the Hertz contact at the onset; it equals Thornton's (1997) formula.",
+        "The energy of the Hertz contact at the onset of yield gives the speed, which equals "
+        "Thornton's (1997) formula.",
         {"Thornton": sp.simplify((thornton / speed) ** 2 - 1)},
     )
     return Formula(
@@ -205,8 +206,9 @@ def plastic_restitution() -> Formula:
     ends = sp.limit(square / slow ** sp.Rational(1, 2), xi_y, sp.oo)
     proof = prove(
         "Restitution of an elastic-plastic contact",
-        "The energy returned over the initial energy; equal to Thornton's (1997) formula in "
-        "$v_y/v_0$, which tends to $1.185 (v_y/v_0)^{1/4}$.",
+        "The coefficient is the square root of the energy returned over the initial energy. It "
+        "equals Thornton's (1997) formula in $v_y/v_0$, which tends to $1.185 "
+        "(v_y/v_0)^{1/4}$.",
         {
             "Thornton": sp.simplify((thornton / square) ** 4 - 1),
             "fast": sp.simplify(

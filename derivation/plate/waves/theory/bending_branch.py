@@ -133,12 +133,14 @@ def bending_zero() -> tuple[Formula, ...]:
     )
     rows = (
         (
-            "bending_quotient", r"q_0(\kappa)", "quotient of the two terms of $B_a$, 1 on A0",
+            "bending_quotient", r"q_0(\kappa)", ("quotient of the two terms of $B_a$, equal to 1 "
+            "on the branch A0"),
             quotient(), quotient(), "B_a_slow",
         ),
         (
             "steepness", "s", (
-                r"slope of that quotient on A0 by $\log \kappa$ with reversed sign, times $w$"
+                r"derivative of the quotient of both terms of $B_a$ by $\log \kappa$ on the "
+                r"branch A0, with reversed sign, times $w$"
             ),
             steepness(*tanh), steep, "bending_quotient",
         ),
@@ -175,7 +177,8 @@ def bending_fraction() -> Formula:
     value = p * q * (p + q) * B / (2 * x_h**3 * E * steep)
     proof = prove(
         "Static fraction of the lowest branch",
-        r"The residue over $\kappa$, with $\kappa$ from the quotient, times the static $B_a$.",
+        r"The residue is divided by $\kappa$, with $\kappa$ from the quotient, and multiplied by "
+        r"the static $B_a$.",
         {
             "static B_a": in_sines(both[0] - bent),
             "B_a over B_s": in_sines(both[0] / both[1] - unlike),
@@ -188,7 +191,8 @@ def bending_fraction() -> Formula:
     stated = (value / (1 + beta)).subs(steep, sp.Symbol("s", positive=True))
     return Formula(
         "bending_fraction", "s_0", (
-            r"fraction of A0 in the static deflection, $\beta$ being $B_a/B_s$ there"
+            r"fraction of the static deflection that belongs to the branch A0; $\beta$ is the "
+            r"static $B_a/B_s$"
         ),
         with_roots(value.subs(steep, steep_value) / (1 + unlike)), "1", "",
         (residue.name, "C_top"), proof, stated=stated,
@@ -220,12 +224,14 @@ def rayleigh() -> tuple[Formula, Formula]:
     return (
         Formula(
             "rayleigh_cubic", "0", (
-                r"squared speed $\xi$ of short waves, divided by $c_T^2$"
+                r"polynomial in the squared speed $\xi = (c_R/c_T)^2$ of short waves, zero at "
+                r"that of Rayleigh's wave"
             ), cubic, "1", "",
             ("B_a",), proof,
         ),
         Formula(
-            "rayleigh_residue", r"\lim_{x\to\infty}\rho h\,r_0/x", "residue of A0 for short waves",
+            "rayleigh_residue", r"\lim_{x\to\infty}\rho h\,r_0/x", "residue of the branch A0 "
+            "for short waves",
             limit, "1", "", ("bending_residue",), proof,
         ),
     )  # fmt: skip
@@ -324,11 +330,11 @@ def thin_plates() -> tuple[Formula, ...]:
     )
     lines = (
         ("bending_kap_thin", r"\kappa_0", r"$(\omega h/c_T)^2$ of A0, thin plates", 4, rows[0]),
-        ("residue_thin", r"\rho h\,r_0", "residue of A0, thin plates", 0, rows[1]),
+        ("residue_thin", r"\rho h\,r_0", "residue of the branch A0, thin plates", 0, rows[1]),
         (
             "bending_fraction_thin",
             "s_0",
-            "fraction of A0 in the static deflection, thin plates",
+            "fraction of the static deflection that belongs to the branch A0, thin plates",
             0,
             fraction,
         ),

@@ -79,6 +79,6 @@ def create_paper(folder: Path) -> tuple[Path, ...]:
     """
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
         raise PaperError(f"new: expected an empty folder or a new one, got {folder}; name another")
-    found = sorted(path for path in SKELETON.iterdir() if path.is_file())
-    sources = [path for path in found if path.name != "__init__.py"]
+    files = sorted(path for path in SKELETON.iterdir() if path.is_file())
+    sources = [path for path in files if path.name != "__init__.py"]
     return write_files({folder / path.name: path.read_text() for path in sources})

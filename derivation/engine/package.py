@@ -53,8 +53,8 @@ def forms_of(chain: Chain, package: Package) -> tuple[Form, ...]:
 
 def files_of(chain: Chain, package: Package) -> dict[str, str]:
     """Return the contents of the package's files by name."""
-    own = ("engine/rewrite", "engine/errata", "engine/emit", "engine/runtime")
-    rooms = (*own, *package.sources)
+    folders = ("engine/rewrite", "engine/errata", "engine/emit", "engine/runtime")
+    rooms = (*folders, *package.sources)
 
     def compute() -> dict[str, str]:
         return package.files(chain.formulas(), forms_of(chain, package))

@@ -58,8 +58,8 @@ def read_budgets(file: Path) -> dict[str, Budget]:
 
 def read_stated_limits(file: Path, table: str) -> dict[str, float]:
     """Return the relative errors of a table in a TOML file; they are measured, not proved."""
-    found: dict[str, float] = tomllib.loads(file.read_text())[table]
-    return found
+    limits: dict[str, float] = tomllib.loads(file.read_text())[table]
+    return limits
 
 
 def parse_budgets(data: Mapping[str, Any]) -> dict[str, Budget]:

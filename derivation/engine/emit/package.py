@@ -128,7 +128,7 @@ def _nothing(_: Mapping[str, Block]) -> Mapping[str, Shape]:
     return {}
 
 
-def _found(formula: Record, known: Mapping[str, Block], scales: Scales) -> ProductForm:
+def _automatic(formula: Record, known: Mapping[str, Block], scales: Scales) -> ProductForm:
     """Return the form that the rules find, by the paper's scales or by a product of symbols."""
     with contextlib.suppress(UnreachableError):
         return ProductForm(*automatic(formula.expression, known, scales))
@@ -191,29 +191,29 @@ class PackageSettings:
         def shape(name: str) -> ProductForm:
             if name in stated:
                 return ProductForm(*stated[name])
-            found = _found(formulas[name], known, self.scales)
-            own = {block.name: block for block in found.blocks}
-            accurate(formulas[name], found.steps, found.value, {**known, **own})
-            return found
+            made = _automatic(formulas[name], known, self.scales)
+            blocks = {**known, **{block.name: block for block in made.blocks}}
+            accurate(formulas[name], made.steps, made.value, blocks)
+            return made
 
-        def made(name: str, module: str) -> Form:
+        def stable(name: str, module: str) -> Form:
             steps, value, own = shape(name)
             return form(name, module, formulas[name].expression, steps, value, known, own)
 
-        return tuple(made(name, part.name) for part in self.parts for name in part.formulas)
+        return tuple(stable(name, part.name) for part in self.parts for name in part.formulas)
 
     def _expect(self, names: set[str], formulas: Mapping[str, Record]) -> None:
         """Reject names that are not those of formulas."""
         for name in sorted(names - formulas.keys()):
-            near = did_you_mean(name, formulas)
+            suggestion = did_you_mean(name, formulas)
             raise ValueError(
-                f"parts of the package: no formula {name!r}: {near}expected some of "
+                f"parts of the package: no formula {name!r}: {suggestion}expected some of "
                 f"{', '.join(formulas)}"
             )
 
     def files(self, formulas: Mapping[str, Record], forms: tuple[Form, ...]) -> dict[str, str]:
         """Return the contents of the package's files by name."""
-        own = {block.name: block for made in forms for block in made.blocks}
+        own = {block.name: block for stable in forms for block in stable.blocks}
         known, budgets = {**build_blocks(self.blocks), **own}, read_budgets(self.budgets)
         if missing := [f.name for f in forms if f.name not in budgets]:
             raise ValueError(

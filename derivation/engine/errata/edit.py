@@ -61,18 +61,18 @@ class Edit:
 
 def single_edits(root: Position, reference: Values, search: VariantSearch) -> list[Edit]:
     """Return all edits below a position that give the correct values, the most likely first."""
-    found: list[Edit] = []
+    edits: list[Edit] = []
     for position, need in with_required_values(root, reference, search.points):
-        found += ratio_edits(position, need, search)
-        found += exponent_edits(position, need, search)
-        found += term_edits(position, need, search)
-        found += factored_edits(position, need, search)
+        edits += ratio_edits(position, need, search)
+        edits += exponent_edits(position, need, search)
+        edits += term_edits(position, need, search)
+        edits += factored_edits(position, need, search)
         for variant in variants(position, search):
             if agree(variant.value, need[0]):
                 edit = edit_of(variant, position)
                 if search.points.same(edit.new, need):
-                    found.append(edit)
-    return sorted(found, key=Edit.order)
+                    edits.append(edit)
+    return sorted(edits, key=Edit.order)
 
 
 def _edit(kind: str, position: Position, new: sp.Expr, says: str, extra: float = 0.0) -> Edit:
@@ -304,17 +304,17 @@ def factor_pool(
     Powers of dependent symbols, which are no monomials in the others, are included. The order is
     fixed.
     """
-    found: set[sp.Expr] = set()
+    factors: set[sp.Expr] = set()
     for expression in expressions:
-        found |= expression.atoms(sp.Function)
+        factors |= expression.atoms(sp.Function)
         for product in (expression, *expression.atoms(sp.Mul)):
             for factor in sp.Mul.make_args(product):
                 base, exponent = factor.as_base_exp()
                 if isinstance(base, sp.Add):
-                    found.add(base)
+                    factors.add(base)
                 if base in dependent or (isinstance(base, sp.Add) and not exponent.is_Integer):
-                    found.add(base ** abs(exponent))
-    return tuple(sorted(found, key=sp.default_sort_key))
+                    factors.add(base ** abs(exponent))
+    return tuple(sorted(factors, key=sp.default_sort_key))
 
 
 def sum_pool(expression: sp.Expr) -> tuple[sp.Add, ...]:
@@ -324,5 +324,5 @@ def sum_pool(expression: sp.Expr) -> tuple[sp.Add, ...]:
 
 def term_pool(expression: sp.Expr) -> tuple[sp.Expr, ...]:
     """Return terms of all sums in an expression, in a fixed order."""
-    found = {term for total in expression.atoms(sp.Add) for term in total.args}
-    return tuple(sorted(found, key=sp.default_sort_key))
+    terms = {term for total in expression.atoms(sp.Add) for term in total.args}
+    return tuple(sorted(terms, key=sp.default_sort_key))

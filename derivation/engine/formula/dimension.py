@@ -103,13 +103,13 @@ def _below(text: str) -> Dimension | None:
 
 def _product(text: str) -> Dimension | None:
     """Return the dimension of factors separated by spaces; None if one is not a unit."""
-    found = ONE
+    product = ONE
     for part in text.split(" "):
         factor = _factor(part)
         if factor is None:
             return None
-        found = found * factor
-    return found
+        product = product * factor
+    return product
 
 
 def _factor(text: str) -> Dimension | None:
@@ -169,10 +169,11 @@ def dimension(expression: sp.Basic, known: Mapping[sp.Basic, Dimension]) -> Dime
         return result
     if isinstance(expression, sp.Function | sp.Pow) and expression.args:
         for argument in expression.args:
-            found = dimension(argument, known)
-            if found != ONE:
+            term_dimension = dimension(argument, known)
+            if term_dimension != ONE:
                 raise DimensionError(
-                    f"{argument} in {expression} has dimension [{found}], expected a pure number"
+                    f"{argument} in {expression} has dimension [{term_dimension}], "
+                    "expected a pure number"
                 )
         return ONE
     raise DimensionError(f"the dimension of {expression} is not known")
@@ -183,9 +184,10 @@ def _of_sum(expression: sp.Expr, known: Mapping[sp.Basic, Dimension]) -> Dimensi
     first, *rest = expression.args
     expected = dimension(first, known)
     for term in rest:
-        found = dimension(term, known)
-        if found != expected:
+        term_dimension = dimension(term, known)
+        if term_dimension != expected:
             raise DimensionError(
-                f"in {expression} the terms {first} [{expected}] and {term} [{found}] are combined"
+                f"in {expression} the terms {first} [{expected}] and {term} [{term_dimension}] "
+                "are combined"
             )
     return expected

@@ -64,9 +64,11 @@ class Record:
 
     def __post_init__(self) -> None:
         self.vocabulary.arguments_of(self.expression)
-        found = dimension(self.expression, self.vocabulary.dimensions)
-        if found != unit(self.unit):
-            raise DimensionError(f"{self.name} has dimension [{found}], expected [{self.unit}]")
+        dimensions = dimension(self.expression, self.vocabulary.dimensions)
+        if dimensions != unit(self.unit):
+            raise DimensionError(
+                f"{self.name} has dimension [{dimensions}], expected [{self.unit}]"
+            )
 
     @property
     def arguments(self) -> tuple[Argument, ...]:
@@ -77,8 +79,8 @@ class Record:
     def domain(self) -> tuple[str, ...]:
         """Every condition on the arguments, in Python syntax."""
         names = {argument.name for argument in self.arguments}
-        own = [c for argument in self.arguments for c in argument.domain]
-        return applicable((*own, *self.where), names)
+        conditions = [c for argument in self.arguments for c in argument.domain]
+        return applicable((*conditions, *self.where), names)
 
     @property
     def sum_sign(self) -> str:

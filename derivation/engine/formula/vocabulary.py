@@ -94,8 +94,8 @@ class Vocabulary:
     @cached_property
     def names(self) -> dict[str, sp.Symbol]:
         """The symbols by name, aliases included."""
-        own = {name: argument.symbol for name, argument in self.by_name.items()}
-        return {**own, **self.aliases}
+        symbols = {name: argument.symbol for name, argument in self.by_name.items()}
+        return {**symbols, **self.aliases}
 
     @cached_property
     def guest_names(self) -> dict[str, sp.Symbol]:

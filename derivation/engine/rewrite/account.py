@@ -63,11 +63,11 @@ def accounts(
     UnreachableError
         If the rules do not find a form of a formula.
     """
-    found: list[Account] = []
+    rows: list[Account] = []
     for number, name in enumerate(names, start=1):
         progress(name, number, len(names))
-        found += _accounts(formulas[name], scales)
-    return tuple(found)
+        rows += _accounts(formulas[name], scales)
+    return tuple(rows)
 
 
 def _accounts(formula: Record, scales: Scales) -> Iterator[Account]:

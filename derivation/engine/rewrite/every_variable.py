@@ -73,22 +73,22 @@ def measured_error(
     UnreachableError
         If too few of the points have a value.
     """
-    own = [argument.name for argument in formula.arguments]
+    names = [argument.name for argument in formula.arguments]
     symbols = {argument.name: argument.symbol for argument in formula.arguments}
-    found = []
-    for point in domain_grid(formula.name, own, formula.vocabulary, switch_points([value])):
+    errors = []
+    for point in domain_grid(formula.name, names, formula.vocabulary, switch_points([value])):
         if all(x == 0 or abs(x) >= SMALLEST for x in point.values()):
             at = {symbols[name]: x for name, x in point.items()}
             reference = _reference(formula.expression, at)
             if reference is not None:
                 got = _computed(steps, value, at, blocks)
-                found.append((_beyond(formula.expression, reference, got, at), point))
-    if len(found) < ENOUGH_POINTS:
+                errors.append((_beyond(formula.expression, reference, got, at), point))
+    if len(errors) < ENOUGH_POINTS:
         raise UnreachableError(
-            f"{formula.name} has values at {len(found)} test points, expected {ENOUGH_POINTS}"
+            f"{formula.name} has values at {len(errors)} test points, expected {ENOUGH_POINTS}"
         )
-    error, at_worst = max(found, key=lambda pair: pair[0])
-    return LargestError(error, at_worst, len(found))
+    error, at_worst = max(errors, key=lambda pair: pair[0])
+    return LargestError(error, at_worst, len(errors))
 
 
 def _reference(expression: sp.Expr, at: Mapping[sp.Symbol, float]) -> flint.arb | None:

@@ -78,11 +78,11 @@ class Switch:
 
 def switch_points(values: Iterable[object]) -> dict[str, tuple[float, ...]]:
     """Return the switch points among the values of forms, by variable."""
-    found: dict[str, set[float]] = {}
+    by_symbol: dict[str, set[float]] = {}
     for value in values:
         if isinstance(value, Switch):
-            found.setdefault(str(value.variable), set()).add(float(value.at))
-    return {variable: tuple(sorted(points)) for variable, points in found.items()}
+            by_symbol.setdefault(str(value.variable), set()).add(float(value.at))
+    return {variable: tuple(sorted(points)) for variable, points in by_symbol.items()}
 
 
 @dataclass(frozen=True)
@@ -157,14 +157,14 @@ class Block:
 
     def definition(self, argument: sp.Expr) -> sp.Expr:
         """Return the exact definition of the block for an argument."""
-        (own,) = self.arguments
-        return self.divided.subs(own, argument) / self.near(argument) ** self.constant_power
+        (variable,) = self.arguments
+        return self.divided.subs(variable, argument) / self.near(argument) ** self.constant_power
 
     @property
     def divided(self) -> sp.Expr:
         """The sum divided by the part of the power that is never constant."""
-        (own,) = self.arguments
-        return self.total / own ** (self.lead - self.constant_power)
+        (variable,) = self.arguments
+        return self.total / variable ** (self.lead - self.constant_power)
 
 
 def substitute_steps(

@@ -96,12 +96,12 @@ def factored(formula: Record) -> Factored:
         cores[product] *= factor
     constant = _core(cores.pop((), sp.Integer(1)), formula)
     names = (sp.Symbol(name, positive=True) for name in NAMES if name not in _names(formula))
-    found = []
+    forms = []
     for product, factor in cores.items():
         own, power = _eliminated(product, formula)
         x = own if len(product) == 1 else next(names)
-        found.append((product, stabilised(_core(factor, formula, own, x ** (1 / power)), x)))
-    return Factored(constant, tuple(front.items()), tuple(found))
+        forms.append((product, stabilised(_core(factor, formula, own, x ** (1 / power)), x)))
+    return Factored(constant, tuple(front.items()), tuple(forms))
 
 
 def _core(
@@ -165,7 +165,7 @@ def _may_vanish(formula: Record) -> list[sp.Symbol]:
 def _slopes(factor: sp.Expr, formula: Record, symbols: Sequence[sp.Symbol]) -> list[Slopes]:
     """Return the logarithmic slopes at random points of the domain."""
     expressions = [symbol * factor.diff(symbol) / factor for symbol in symbols]
-    names, found = _names(formula), []
+    names, slopes = _names(formula), []
     for point in domain_grid(formula.name, names, formula.vocabulary, {})[:DRAWN]:
         with flint.ctx.workprec(BITS):
             at = {a.symbol: to_ball(point[a.name]) for a in formula.arguments}
@@ -174,10 +174,10 @@ def _slopes(factor: sp.Expr, formula: Record, symbols: Sequence[sp.Symbol]) -> l
             except NotImplementedError as error:
                 raise UnreachableError(f"{factor} cannot be evaluated: {error}") from None
         if all(ball.rad() < RADIUS for ball in balls):
-            found.append([_middle(ball) for ball in balls])
-    if len(found) < ENOUGH_POINTS:
-        raise UnreachableError(f"{factor} has slopes at {len(found)} of {DRAWN} points")
-    return found
+            slopes.append([_middle(ball) for ball in balls])
+    if len(slopes) < ENOUGH_POINTS:
+        raise UnreachableError(f"{factor} has slopes at {len(slopes)} of {DRAWN} points")
+    return slopes
 
 
 def _middle(ball: flint.arb) -> Fraction:
@@ -188,10 +188,10 @@ def _middle(ball: flint.arb) -> Fraction:
 
 def _rational(factor: sp.Expr, symbols: Sequence[sp.Symbol], values: Slopes) -> Powers:
     """Return values as rational exponents of the symbols."""
-    found = [value.limit_denominator(LARGEST_DENOMINATOR) for value in values]
-    if any(abs(a - b) > ROUNDING for a, b in zip(found, values, strict=True)):
+    exponents = [value.limit_denominator(LARGEST_DENOMINATOR) for value in values]
+    if any(abs(a - b) > ROUNDING for a, b in zip(exponents, values, strict=True)):
         raise UnreachableError(f"{factor} is no function of a product of powers")
-    pairs = zip(symbols, found, strict=True)
+    pairs = zip(symbols, exponents, strict=True)
     return tuple((symbol, sp.Rational(p.numerator, p.denominator)) for symbol, p in pairs if p)
 
 

@@ -52,6 +52,7 @@ POWER = FORCE * LENGTH / TIME
 
 BASE = {
     "1": ONE,
+    "rad": ONE,
     "m": LENGTH,
     "kg": MASS,
     "s": TIME,

@@ -108,7 +108,7 @@ def test_units_are_parsed(text: str, expected: str) -> None:
     "text", ["", "q", "m^", "m^-1", "m/s/s", "J/kg m", "m//s", "1/", "/m", "(m)", "m  s", "m^(1/2"]
 )
 def test_invalid_units_are_rejected(text: str) -> None:
-    with pytest.raises(ValueError, match="use the units 1, m, kg, s, N, J, W, Pa, Hz, K, A"):
+    with pytest.raises(ValueError, match="use the units 1, rad, m, kg, s, N"):
         unit(text)
 
 

@@ -11,9 +11,11 @@ from derivation.engine.console import OUT, Json, progress_bar, stage, table, wri
 
 def rewrite(
     formula: Annotated[
-        str, typer.Argument(help="A formula of one variable (default: the paper's formulas).")
+        str, typer.Argument(help="A formula of positive numbers (default: the paper's formulas).")
     ] = "",
-    variable: Annotated[str, typer.Option(help="Name of the variable, a positive number.")] = "x",
+    variable: Annotated[
+        str, typer.Option(help="Name of the variable of a formula that contains none.")
+    ] = "x",
     update: Annotated[
         bool, typer.Option("--update", help="Save the paper's result as its rewrite.json.")
     ] = False,
@@ -41,8 +43,8 @@ def rewrite(
             )
         with stage("rewrite"):
             stable, source, tested = rewrite_text(formula, variable)
-        transformations = [("", applied) for applied in stable.applied]
-        applied = [asdict(a) for a in stable.applied]
+        transformations = [("", rule) for rule in stable.applied]
+        applied = [asdict(rule) for rule in stable.applied]
         data: object = {"source": source, "tested": asdict(tested), "applied": applied}
     else:
         with progress_bar("rewrite") as progress:

@@ -1,7 +1,8 @@
 """A tested NumPy module for a formula of several positive variables."""
 
+import contextlib
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from importlib.metadata import version
 
 import numpy as np
@@ -14,12 +15,28 @@ from derivation.engine.emit.printer import to_numpy
 from derivation.engine.emit.source import format_files
 from derivation.engine.emit.standalone import WIDTH, compiled_function
 from derivation.engine.formula.vocabulary import Argument, Vocabulary
+from derivation.engine.rewrite.accuracy_test import KNOWN
 from derivation.engine.rewrite.form import form
 from derivation.engine.rewrite.products import GivenFormula, ProductForm, of_products
-from derivation.engine.rewrite.several_variables import SeveralCheck, check_several
+from derivation.engine.rewrite.several_variables import (
+    LARGEST_VALUE,
+    LEAST_VALUE,
+    STATED,
+    SeveralCheck,
+    check_several,
+)
 from derivation.engine.rewrite.terms import UnreachableError
 from derivation.engine.rewrite.useful_range import ENDS
 
+HELPERS = {
+    "polynomial": ("polynomials.py",),
+    "times": ("ranges.py",),
+    "times_closely": ("ranges.py", "halves", "lost_by_halves"),
+}
+"""File of each function that a form may call, and the functions that it calls itself."""
+Tested = tuple[ProductForm, SeveralCheck]
+WIDE = 1e30
+"""Upper end of a range that is wide enough."""
 RESERVED = {"np", "f", "times", "polynomial"}
 """Names that the module uses itself."""
 
@@ -37,22 +54,45 @@ def standalone_several(
     names = {str(variable) for variable in variables}
     words = Vocabulary(tuple(Argument(v, "1", str(v), "", (f"{v} > 0",)) for v in variables))
 
-    def accepted(made: ProductForm) -> tuple[ProductForm, SeveralCheck]:
+    def accepted(made: ProductForm) -> Tested:
         if taken := names & (RESERVED | {str(step.symbol) for step in made.steps}):
             raise UnreachableError(f"{min(taken)} is a name of the code: rename the variable")
         form("f", "f", expression, made.steps, made.value, {}, made.blocks)  # proves equality
         code = compiled_function(_source(expression, variables, made, *ENDS, ""))
         return made, check_several(expression, variables, code)
 
-    found, tested = of_products(GivenFormula("f", expression, words), accepted)
+    found, tested = _best(expression, words, accepted)
     where = ", ".join(f"{name} = {x!r}" for name, x in tested.at.items())
     statement = (
-        f"Error at most {tested.limit:g} ULP plus half the sum of the condition numbers, where the "
-        f"value is a normal number. Tested, not proved: with NumPy {np.__version__} against exact "
-        f"values at {tested.points} points, including the ends of the range and points at which "
-        f"variables are nearly equal; largest error {tested.worst:.2f} ULP, at {where}."
+        f"Error at most {tested.limit:g} ULP plus {STATED} times the sum of the condition numbers, "
+        f"for values of magnitudes from {LEAST_VALUE:g} to {LARGEST_VALUE:g}. Tested, not proved: "
+        f"with NumPy {np.__version__} against exact values at {tested.points} points, including "
+        "the ends of the range and points at which variables are nearly equal; largest error "
+        f"{tested.worst:.2f} ULP, at {where}."
     )
     return found, _source(expression, variables, found, tested.low, tested.high, statement), tested
+
+
+def _best(
+    expression: sp.Expr, words: Vocabulary, accepted: Callable[[ProductForm], Tested]
+) -> Tested:
+    """Return the formula as it is, or its factors, or its form by products of the variables.
+
+    The first of them with a wide range is taken, or else the one with the widest.
+    """
+    results: list[Tested] = []
+    known = {f.func.__name__ for f in expression.atoms(sp.Function)} <= KNOWN
+    for plain in dict.fromkeys((expression, sp.factor(expression))) if known else ():
+        with contextlib.suppress(UnreachableError):
+            results.append(accepted(ProductForm((), plain)))
+            if results[-1][1].high >= WIDE:
+                return results[-1]
+    try:
+        results.append(of_products(GivenFormula("f", expression, words), accepted))
+    except UnreachableError:
+        if not results:
+            raise
+    return max(results, key=lambda result: result[1].high)
 
 
 def _source(
@@ -66,11 +106,11 @@ def _source(
     blocks = [block_text(block) for block in found.blocks]
     rows, value = lines(found.steps), to_numpy(found.value)
     used = repr((blocks, rows, value))
-    files = {"polynomial": "polynomials.py", "times": "ranges.py"}
     helpers = [
-        function_text(RUNTIME / file, name).replace("Double", "np.ndarray")
-        for name, file in files.items()
+        function_text(RUNTIME / file, part).replace("Double", "np.ndarray")
+        for name, (file, *parts) in HELPERS.items()
         if f"{name}(" in used
+        for part in (*parts, name)
     ]
     context = {
         "summary": f"Stable form of a formula, by platecontact {version('platecontact')}.",

@@ -17,11 +17,11 @@ import flint
 import sympy as sp
 
 from derivation.engine.formula.ball import enclose, to_ball
-from derivation.engine.formula.grid import DRAWN, domain_grid, inside
+from derivation.engine.formula.grid import domain_grid, inside
 from derivation.engine.formula.record import Record
 from derivation.engine.formula.vocabulary import Argument, Vocabulary
 from derivation.engine.rewrite.blocks import block_of
-from derivation.engine.rewrite.form import TIMES, Block, Step, Switch
+from derivation.engine.rewrite.form import CLOSELY, TIMES, Block, Step, Switch
 from derivation.engine.rewrite.search import stabilised
 from derivation.engine.rewrite.series import POLYNOMIAL
 from derivation.engine.rewrite.stabilise import Applied, Stable
@@ -29,7 +29,9 @@ from derivation.engine.rewrite.terms import UnreachableError
 
 BITS, RADIUS, ROUNDING = 400, 1e-60, Fraction(1, 10**30)
 """Precision of the slopes, their largest error, and that of numbers that follow from them."""
-ENOUGH_POINTS = 12
+LARGEST_SLOPE = 1e30
+"""Largest slope from which exponents are computed."""
+ENOUGH_POINTS = 5
 """Smallest number of points with slopes for a decision."""
 LARGEST_DENOMINATOR = 60
 """Largest denominator of an exponent."""
@@ -213,25 +215,27 @@ def _may_vanish(formula: Stated) -> list[sp.Symbol]:
 
 
 def _slopes(factor: sp.Expr, formula: Stated, symbols: Sequence[sp.Symbol]) -> list[Slopes]:
-    """Return the logarithmic slopes at random points of the domain."""
+    """Return the logarithmic slopes at difficult points of the domain."""
     expressions = [symbol * factor.diff(symbol) / factor for symbol in symbols]
     names, slopes = _names(formula), []
-    for point in domain_grid(formula.name, names, formula.vocabulary, {})[:DRAWN]:
+    for point in domain_grid(formula.name, names, formula.vocabulary, {}):
         with flint.ctx.workprec(BITS):
             at = {a.symbol: to_ball(point[a.name]) for a in formula.arguments}
             try:
                 balls = [enclose(expression, at) for expression in expressions]
             except NotImplementedError as error:
                 raise UnreachableError(f"{factor} cannot be evaluated: {error}") from None
-        if all(ball.rad() < RADIUS for ball in balls):
+        if all(ball.rad() < RADIUS and abs(ball) < LARGEST_SLOPE for ball in balls):
             slopes.append([_middle(ball) for ball in balls])
     if len(slopes) < ENOUGH_POINTS:
-        raise UnreachableError(f"{factor} has slopes at {len(slopes)} of {DRAWN} points")
+        raise UnreachableError(f"{factor} has slopes at {len(slopes)} points only")
     return slopes
 
 
 def _middle(ball: flint.arb) -> Fraction:
-    """Return the middle of a ball."""
+    """Return the middle of a ball; 0 if it is so small that its fraction would be huge."""
+    if abs(ball) < RADIUS:
+        return Fraction(0)
     mantissa, exponent = ball.mid().man_exp()
     return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
 
@@ -246,10 +250,10 @@ def _rational(factor: sp.Expr, symbols: Sequence[sp.Symbol], values: Slopes) -> 
 
 
 def _product(powers: Powers) -> sp.Expr:
-    """Return the product of powers; one of two factors is rounded once, and has no other limits."""
+    """Return the product of powers, rounded once."""
     if sum(abs(power) for _, power in powers) == 2:
         return sp.Mul(*(symbol**power for symbol, power in powers))
-    return _times(sp.Integer(1), powers)
+    return CLOSELY(1, *(part for pair in powers for part in pair))
 
 
 def _times(value: sp.Expr, powers: Powers) -> sp.Expr:

@@ -15,8 +15,8 @@ import numpy as np
 import sympy as sp
 
 from derivation.engine.formula.ball import PrecisionError, enclose, refine, to_ball
-from derivation.engine.formula.ulp import overflows, ulp_error
-from derivation.engine.rewrite.code_check import CONDITION_FACTOR, stated_error
+from derivation.engine.formula.ulp import ulp_error
+from derivation.engine.rewrite.code_check import stated_error
 from derivation.engine.rewrite.terms import UnreachableError
 from derivation.engine.rewrite.useful_range import ENOUGH
 
@@ -29,8 +29,11 @@ ROUNDS = 3
 """Number of times that a range must pass with new points."""
 ENOUGH_POINTS = 100
 """Smallest number of points with a value for a statement."""
-LEAST_VALUE = 1e-300
-"""Smallest value that is tested; smaller ones may be subnormal and have fewer digits."""
+LEAST_VALUE, LARGEST_VALUE = 1e-200, 1e200
+"""Smallest and largest magnitude that is tested, because parts of other values may overflow."""
+TESTED, STATED = 0.5, 0.6
+"""Errors per sum of the condition numbers that are allowed in the test, and by the statement. A
+product of variables that is rounded once has an error of up to 0.5."""
 _DIGITS, MOST_BITS = 25, 4096
 Function: TypeAlias = Callable[..., np.ndarray]
 Point = tuple[float, ...]
@@ -45,10 +48,10 @@ class SeveralCheck:
     low, high
         Range of each variable, both included.
     limit
-        The stated error [ULP in addition to half the sum of the condition numbers]: the largest one
-        found, with a margin.
+        The stated error [ULP in addition to `STATED` times the sum of the condition numbers]: the
+        largest one found, with a margin.
     worst, at
-        The largest error found [ULP in addition to `CONDITION_FACTOR` times that], and its point.
+        The largest error found [ULP in addition to `TESTED` times that sum], and its point.
     points
         Number of points that were compared.
     """
@@ -66,7 +69,7 @@ def check_several(
 ) -> SeveralCheck:
     """Return the largest range in which code passes, and the error that it may state.
 
-    Only points at which the formula has a real value that is a normal number are compared.
+    Only real values with a magnitude between `LEAST_VALUE` and `LARGEST_VALUE` are compared.
 
     Raises
     ------
@@ -76,19 +79,20 @@ def check_several(
     draw = random.Random(str(expression))
     slopes = [expression.diff(variable) for variable in variables]
     worst: tuple[float, Point] = math.inf, ()
-    for decade in DECADES:
+    for decade, rounds in ((DECADES[-1], 1), *((decade, ROUNDS) for decade in DECADES)):
         errors: dict[Point, float] = {}
-        for _ in range(ROUNDS):
+        for _ in range(rounds):
             points = list(_points(draw, decade, len(variables)))
             errors |= _errors(expression, slopes, variables, function, points)
             worst = max(((error, point) for point, error in errors.items()), default=worst)
             if worst[0] > ENOUGH:
                 break
-        else:
-            if len(errors) >= ENOUGH_POINTS:
-                at = {str(v): x for v, x in zip(variables, worst[1], strict=True)}
-                low, high = float(f"1e-{decade}"), float(f"1e{decade}")
-                return SeveralCheck(low, high, stated_error(worst[0]), worst[0], at, len(errors))
+        if rounds == 1 and worst[0] > ENOUGH:
+            break  # nor is it accurate in a larger range
+        if rounds > 1 and worst[0] <= ENOUGH and len(errors) >= ENOUGH_POINTS:
+            at = {str(v): x for v, x in zip(variables, worst[1], strict=True)}
+            low, high = float(f"1e-{decade}"), float(f"1e{decade}")
+            return SeveralCheck(low, high, stated_error(worst[0]), worst[0], at, len(errors))
     where = ", ".join(f"{v} = {x!r}" for v, x in zip(variables, worst[1], strict=False))
     raise UnreachableError(
         f"the form found for {expression} has an error of {worst[0]:.2g} ULP"
@@ -132,25 +136,25 @@ def _errors(
     for point, computed in zip(points, got, strict=True):
         at = dict(zip(variables, point, strict=True))
         exact = _value(expression, at, _DIGITS)
-        if exact is None or overflows(exact) or not abs(exact) > LEAST_VALUE:
+        if exact is None or not LEAST_VALUE < abs(exact) < LARGEST_VALUE:
             continue
         error = ulp_error(computed, exact)
         if 0.5 < error < math.inf:
-            error = max(0.0, error - CONDITION_FACTOR * _half_conditioning(slopes, at, exact))
+            error = max(0.0, error - TESTED * _conditioning(slopes, at, exact))
         errors[point] = error
     return errors
 
 
-def _half_conditioning(
+def _conditioning(
     slopes: Sequence[sp.Expr], at: Mapping[sp.Symbol, float], exact: flint.arb
 ) -> float:
-    """Return half the sum of the condition numbers."""
+    """Return the sum of the condition numbers."""
     total = 0.0
     for slope, x in zip(slopes, at.values(), strict=True):
         steep = _value(slope, at, 3)
         if steep is not None:
             with flint.ctx.workprec(64):
-                total += float(abs(steep * to_ball(x) / exact).abs_upper()) / 2
+                total += float(abs(steep * to_ball(x) / exact).abs_upper())
     return total
 
 

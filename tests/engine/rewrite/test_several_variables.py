@@ -1,0 +1,98 @@
+"""`rewrite` of formulas in several variables: the stated error against mpmath at other points."""
+
+import math
+import random
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from mpmath import mp, mpf
+
+from derivation.engine.emit.own_formula import rewrite_text
+from derivation.engine.rewrite.several_variables import STATED, SeveralCheck
+
+FORMULAS = {
+    "R - sqrt(R**2 - a**2)": lambda R, a: R - mp.sqrt(R * R - a * a),
+    "(1 - exp(-k*h))/k": lambda k, h: -mp.expm1(-k * h) / k,
+    "P/(2*pi*a*sqrt(a**2 - r**2))": lambda P, a, r: P / (2 * mp.pi * a * mp.sqrt(a * a - r * r)),
+    "4*E*a**3/(3*R) - sqrt(8*pi*gam*E*a**3)": lambda E, a, R, gam: (
+        4 * E * a**3 / (3 * R) - mp.sqrt(8 * mp.pi * gam * E * a**3)
+    ),
+    "(sin(a*b) - a*b)/a**3": lambda a, b: (mp.sin(a * b) - a * b) / a**3,
+    "(exp(a*t) - 1 - a*t)/t**2": lambda a, t: (mp.exp(a * t) - 1 - a * t) / t**2,
+    "exp(-E/(k*T))": lambda E, k, T: mp.exp(-E / (k * T)),
+    "1/a - 1/b": lambda a, b: 1 / a - 1 / b,
+    "sqrt(a**2 + b**2 + c**2)": lambda a, b, c: mp.sqrt(a**2 + b**2 + c**2),
+    "cbrt(a**3 + b**3) - a": lambda a, b: mp.cbrt(a**3 + b**3) - a,
+}
+POINTS = 300
+
+
+def allowed_errors(
+    exact: Callable[..., mpf], point: tuple[float, ...], computed: float
+) -> tuple[float, float] | None:
+    """Return the error and the sum of the condition numbers [ULP]; None without a value."""
+    with mp.workdps(400):
+        at = [mpf(x) for x in point]
+        value = exact(*at)
+        if mp.im(value) != 0 or not 1e-200 < abs(value) < 1e200:
+            return None
+        conditioning = mpf(0)
+        for index, x in enumerate(at):
+            step = x * mpf(10) ** -120
+            moved = exact(*(y + step * (i == index) for i, y in enumerate(at)))
+            conditioning += abs((moved - value) / value / mpf(10) ** -120)
+        return float(abs(mpf(computed) - value) / mpf(math.ulp(float(value)))), float(conditioning)
+
+
+@pytest.mark.parametrize("text", FORMULAS)
+def test_stated_error_holds_at_other_points(text: str) -> None:
+    _, source, tested = rewrite_text(text)
+    assert isinstance(tested, SeveralCheck)
+    space: dict[str, Callable[..., np.ndarray]] = {}
+    exec(source, space)
+    draw, exact = random.Random(f"others {text}"), FORMULAS[text]
+    count, most = len(tested.at), math.log10(tested.high)
+    compared = 0
+    for number in range(POINTS):
+        decades = most if number % 3 == 0 else 2.0
+        point = [10 ** draw.uniform(-decades, decades) for _ in range(count)]
+        if number % 2:  # two variables are nearly equal
+            one, other = draw.sample(range(count), 2)
+            point[one] = point[other] * (1 - 10 ** draw.uniform(-14, -1))
+        errors = allowed_errors(exact, tuple(point), float(space["f"](*point)))
+        if errors is not None:
+            error, conditioning = errors
+            assert error <= tested.limit + STATED * conditioning, point
+            compared += 1
+    assert compared > POINTS / 6
+    outside = [1.0] * (count - 1) + [10 * tested.high]
+    assert np.isnan(space["f"](*outside))
+
+
+def test_arrays_are_broadcast() -> None:
+    _, source, _ = rewrite_text("R - sqrt(R**2 - a**2)")
+    space: dict[str, Callable[..., np.ndarray]] = {}
+    exec(source, space)
+    got = space["f"]([[1.0], [2.0]], [0.5, 1e-9, 3.0])
+    assert got.shape == (2, 3)
+    assert got[1, 1] == pytest.approx(1e-18 / 4, rel=1e-15)
+    assert np.isnan(got[:, 2]).all()  # the radius is larger than R
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("sqrt(a**2 + b) - a + c - sin(c)", "several dimensionless products"),
+        ("np - sqrt(np**2 - a**2)", "rename the variable"),
+        ("besselj(0, a)*b", "expected functions of NumPy"),
+    ],
+)
+def test_other_formulas_are_refused(text: str, reason: str) -> None:
+    with pytest.raises(ValueError, match=reason):
+        rewrite_text(text)
+
+
+def test_a_single_variable_may_have_any_name() -> None:
+    _, source, _ = rewrite_text("(u - sin(u))/u**3")
+    assert "def f(u" in source

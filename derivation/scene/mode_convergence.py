@@ -27,7 +27,11 @@ def judged(rough: DynamicImpact, found: DynamicImpact) -> DynamicImpact:
     time, depth, force, radius, speed = (abs(new - old) / abs(new) for new, old in pairs)
     change, jump = (time, depth, force, radius, speed), found.jump_since(rough)
     before = rough.inertia.mode_convergence
-    inertia = replace(found.inertia, mode_convergence=change, jump=jump, earlier_change=before)
+    recounted = len(found.inertia.contacts) != len(rough.inertia.contacts)
+    inertia = replace(
+        found.inertia,
+        mode_convergence=change, jump=jump, earlier_change=before, recounted=recounted,
+    )  # fmt: skip
     return replace(found, inertia=inertia)
 
 
@@ -42,6 +46,8 @@ def unreachable(
 ) -> bool:
     """Return whether no number of modes within the limits can be expected to meet the tolerance.
 
+    If the runs differ in the number of contacts, nothing can be expected.
+
     Parameters
     ----------
     found
@@ -51,6 +57,8 @@ def unreachable(
     work
         Expected work of the run with twice as many.
     """
+    if found.inertia.recounted:  # the next run may have the same contacts, and agree
+        return False
     dearer = DEARER["all" if law.model.inertia.branches == "all" else "A0"]
     shortest = float(np.max(found.impact_history.problem.contact.modes.phi)) * law.model.h
     timed = REGULAR if shortest > SHORT else QUICK

@@ -169,11 +169,11 @@ def _with_constant(scene: Scene, accuracy: AchievedAccuracy) -> AchievedAccuracy
     from derivation.scene.measured import error_of, inaccurate_constant
 
     error = error_of(scene)
-    found = replace(accuracy, constant=Part(error, ESTIMATED))
+    result = replace(accuracy, constant=Part(error, ESTIMATED))
     # An incomplete impact has no bound.
-    if found.rtol is not None and found.rtol < found.bound < math.inf:
-        raise inaccurate_constant(found.bound, error, found.rtol)
-    return found
+    if result.rtol is not None and result.rtol < result.bound < math.inf:
+        raise inaccurate_constant(result.bound, error, result.rtol)
+    return result
 
 
 def _known(stress: float) -> float | None:
@@ -186,8 +186,8 @@ def _model_error(selected: SelectedEffects, a: float, motion: "DynamicImpact | N
     model, other_edge = selected.law.model, selected.law.other_edge
     if motion is None:
         return edge_remainder(model, a) if other_edge else 0.0
-    found = inertia_error(model, a, motion.contact_time)
-    size = max(found[name] for name in selected.outputs)
+    error = inertia_error(model, a, motion.contact_time)
+    size = max(error[name] for name in selected.outputs)
     from derivation.scene.waves import echo_time
 
     # The edge has no effect before a wave has returned from it.

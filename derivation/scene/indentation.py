@@ -202,11 +202,11 @@ def _contact(law: ContactLaw, name: str, value: float) -> StaticContact:
     pressure = min(law.max_pressure(a), law.pressure_limit)
     check_numbers(model, *at, pressure)
     # The given value is returned unchanged, without the rounding errors of the inversion.
-    found = {"contact_radius": at.radius, "indentation": at.depth, "force": at.force} | {
+    values = {"contact_radius": at.radius, "indentation": at.depth, "force": at.force} | {
         name: value
     }
     return StaticContact(
-        **found,
+        **values,
         stiffness=at.stiffness,
         max_pressure=pressure,
         warnings=(*warnings_at(law, at.radius, at.depth), *static_warnings(law, at.radius)),
@@ -267,9 +267,9 @@ def _radius(law: ContactLaw, name: str, value: float) -> float:
         a = math.cbrt(0.75 * (value / law.modulus) * R)
     a = min(a, last)
     for _ in range(_STEPS):
-        found, slope = _with_slope(law, name, a)
-        check_numbers(law.model, found, slope)
-        step = math.log(value / found) / slope
+        reached, slope = _with_slope(law, name, a)
+        check_numbers(law.model, reached, slope)
+        step = math.log(value / reached) / slope
         if not abs(step) > _CLOSE:
             break
         a = min(a * math.exp(max(-1.0, min(1.0, step))), last)

@@ -41,8 +41,8 @@ def enclose(expression: sp.Basic, values: Mapping[sp.Basic, flint.arb]) -> flint
 
     def visit(node: sp.Basic) -> flint.arb:
         if node not in memo:
-            found = operation(node)
-            memo[node] = found.value(*(visit(operand) for operand in found.operands))
+            enclosure = operation(node)
+            memo[node] = enclosure.value(*(visit(operand) for operand in enclosure.operands))
         return memo[node]
 
     return visit(expression)

@@ -66,8 +66,8 @@ def record(expression: sp.Expr, inputs: Sequence[sp.Symbol]) -> Tape:
 
     def visit(node: sp.Basic) -> int:
         if node not in slots:
-            found = operation(node)
-            step = found, tuple(visit(operand) for operand in found.operands)
+            index = operation(node)
+            step = index, tuple(visit(operand) for operand in index.operands)
             slots[node] = len(inputs) + len(steps)
             steps.append(step)
         return slots[node]

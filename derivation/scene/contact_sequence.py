@@ -190,11 +190,13 @@ def expected_work(problem: DynamicProblem, n: int, coarse: ImpactHistory) -> flo
 def _check_count(problem: DynamicProblem, runs: list[ContactRun], t: float) -> None:
     """Raise an error if the simulation has reached the largest number of contacts."""
     if len(runs) >= CONTACTS:
+        undamped = "give the damping of the plate as plate.loss_factor if it has any, "
+        damped = "" if problem.damping_ratio else undamped
         raise IncompleteError(
             f"the sphere had not separated for good after {len(runs)} contacts and "
             f"{problem.T * t:.6g} s, the limit",
-            "use a thicker plate or a lighter sphere, or set effects.inertia = false for a "
-            "quasi-static plate",
+            f"{damped}use a thicker plate or a lighter sphere, or set effects.inertia = false for "
+            "a quasi-static plate",
         )
 
 

@@ -97,6 +97,9 @@ class InertiaDetails:
     earlier_change
         Relative change of each result between the two runs before, with half and with a quarter as
         many modes [1]; 0 if there was none.
+    recounted
+        Whether the run with half as many modes has another number of contacts, so that its results
+        are no measure of the convergence.
     omitted_branch_error
         Estimated relative change of each result by the omitted wave branches [1]; 0 if all
         branches are included.
@@ -119,6 +122,7 @@ class InertiaDetails:
     omitted_octaves: float = 0.0
     jump: float = 0.0
     earlier_change: Results = (0.0, 0.0, 0.0, 0.0, 0.0)
+    recounted: bool = False
 
     @property
     def complete(self) -> bool:

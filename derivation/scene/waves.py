@@ -11,15 +11,12 @@ import math
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-import numpy as np
-
 from derivation.scene import contact_sequence
 from derivation.scene.contact_errors import check_whole_width
 from derivation.scene.contact_sequence import ENOUGH, ContactRun, ImpactHistory, expected_work
 from derivation.scene.dynamic_problem import DynamicProblem
 from derivation.scene.dynamic_results import dynamic_impact_of
 from derivation.scene.law import ContactLaw
-from derivation.scene.modal import Modes, plate_of
 from derivation.scene.mode_convergence import judged, unchecked, unjudged, unreachable
 from derivation.scene.mode_count import (
     LAST,
@@ -33,22 +30,16 @@ from derivation.scene.mode_count import (
 )
 from derivation.scene.reach import OutOfReachError, Reach
 from derivation.scene.scene import OUTPUTS, SceneError
+from derivation.scene.time_in_contact import FEWER, check_long, nodes_for
 from derivation.scene.wave_motion import DynamicImpact
 from derivation.scene.wave_problem import echo_time as echo_time
 from derivation.scene.wave_problem import problem_of as problem_of
 
-NODES, MANY = (32, 24, 16), (500, 5000)
-"""Nodes of an element, and numbers of modes above which an element has fewer nodes."""
-FEWER = 2
-"""Difference in the number of nodes between a run and the coarser one that checks it."""
 WIDEST = 30.0
 """Largest radius that represents an infinite plate, over the first guess of `model_of`."""
 LOOSE, TOLERANCE_FRACTION, KEPT = 4e-4, 1.0 / 3.0, 0.75
 """Largest accepted error by omitted modes: without a tolerance [1], and as a part of one; the part
 that omitted modes and branches together may take."""
-HEAVY, IN_CONTACT = 10.0, 0.7
-"""Sphere mass over mass of the first mode above which the plate acts as a spring, and the least
-fraction of half its period in contact; random scenes have at least 0.77."""
 INTEGRATION, GROWTH, ROUNDING = 10.0, 1e-12, 2e-12
 """Tested bounds [1]: error of the results over the tolerance of the time elements and the number of
 contacts; rounding error amplified by contacts, over the cube of their number; other rounding."""
@@ -63,11 +54,6 @@ WORK = 4.5e7
 def goal(rtol: float | None) -> float:
     """Return the largest accepted change with the number of modes [1] for a tolerance."""
     return LOOSE if rtol is None else TOLERANCE_FRACTION * rtol
-
-
-def nodes_for(problem: DynamicProblem) -> int:
-    """Return the number of nodes of an element: fewer for many modes, to save time."""
-    return NODES[int(np.searchsorted(MANY, problem.omega.size))]
 
 
 def time_tolerance(goal: float) -> float:
@@ -128,7 +114,7 @@ def impact(
         If an impact on a plate that does not deflect exceeds the range of the law, the modes of the
         plate are too slow or too many, or the first contact cannot be computed to its end.
     """
-    _check_heavy(law, time_tolerance(goal))
+    check_long(law, time_tolerance(goal))
     budget, reach = Budget(WORK), Reach(law, outputs, need)
     rough: DynamicImpact | None = None
     if law.model.inertia.branches == "auto" and not law.viscous:
@@ -180,34 +166,6 @@ def _branched(
     if rough.inertia.complete and rough.inertia.left(outputs)[1] > room:
         return every, None
     return lowest, rough
-
-
-def half_period(m: float, modes: Modes) -> float:
-    """Return half the period [s] of a mass [kg] on the static compliance of the plate."""
-    return math.pi * math.sqrt(m * float(np.sum(modes.compliance)))
-
-
-def _check_heavy(law: ContactLaw, tolerance: float) -> None:
-    """Reject a sphere so heavy that it stays on the plate for more time steps than are allowed.
-
-    The contacts last about half a period, and the fastest mode limits the time step.
-    """
-    model, modes = law.model, plate_of(law, count_of(law)).modes
-    ratio = model.m * float(modes.inverse_modal_mass[0])
-    if ratio < HEAVY or model.inertia.modes or model.inertia.infinite_plate:
-        return
-    swing = half_period(model.m, modes)
-    problem = problem_of(law, 2 * affordable(law), tolerance)
-    n = nodes_for(problem)
-    steps = IN_CONTACT * swing / problem.T * problem.fastest / (contact_sequence.PHASE * n)
-    most = contact_sequence.steps_of(problem, n)
-    if steps > most:
-        raise SceneError(
-            f"effects.inertia: the sphere is {ratio:.3g} times as heavy as the first mode of the "
-            f"plate and stays on it for about {swing:.2g} s, which needs at least {steps:.2g} time "
-            f"steps, more than the limit of {most}; set effects.inertia = false (for such a sphere "
-            "the plate is nearly quasi-static), or choose inertia.modes"
-        )
 
 
 def _edge_heard(found: DynamicImpact) -> bool:

@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from derivation.cli import main
-from derivation.scene import SceneError, read, schema, simulate, sweep, waves
+from derivation.scene import SceneError, read, schema, simulate, sweep, time_in_contact
 from derivation.scene.materials import MATERIALS, find, plain
 from derivation.scene.model import Model, model_of
 from generated.viscous_bodies import retardation_of_two
@@ -279,9 +279,9 @@ def test_contact_of_a_heavy_sphere_lasts_most_of_its_half_period(
     history = found.dynamics.impact_history
     problem = history.problem
     modes = problem.contact.modes
-    assert problem.m * modes.inverse_modal_mass[0] > waves.HEAVY
+    assert problem.m * modes.inverse_modal_mass[0] > time_in_contact.HEAVY
     touched = problem.T * sum(touching.end - touching.start for touching in history.contacts)
-    assert touched > waves.IN_CONTACT * waves.half_period(problem.m, modes)
+    assert touched > time_in_contact.IN_CONTACT * time_in_contact.half_period(problem.m, modes)
 
 
 def test_material_keys_can_be_swept() -> None:

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from derivation.scene import contact_sequence, read, waves
+from derivation.scene import contact_sequence, read, time_in_contact, waves
 from derivation.scene.collocation import Element
 from derivation.scene.contact_sequence import ImpactHistory
 from derivation.scene.dynamic_problem import DynamicProblem, ImpactState
@@ -64,7 +64,7 @@ def test_results_agree_within_the_tolerance_of_the_elements(
     runs = [
         contact_sequence.impact_history(problem, n, tolerance)
         for tolerance in (loose, contact_sequence.TOLERANCE)
-        for n in (waves.NODES[0], waves.NODES[-1])
+        for n in (time_in_contact.NODES[0], time_in_contact.NODES[-1])
     ]
     # The reference has much shorter elements with another number of nodes.
     monkeypatch.setattr(contact_sequence, "PHASE", 0.3)

@@ -247,6 +247,14 @@ def main(argv: Sequence[str] | None = None) -> int:
     except (OSError, ValueError, FailedError) as error:
         NOTES.say(f"platecontact: {error}")
         return 1 if isinstance(error, FailedError) else 2
+    except Exception as error:
+        from derivation.engine.load import location_in_paper  # imports SymPy: slow
+
+        place = location_in_paper(error)
+        if not place:
+            raise
+        NOTES.say(f"platecontact: {place}{type(error).__name__}: {error}; correct it")
+        return 2
     if status == INTERRUPTED_STATUS:
         NOTES.say(
             "platecontact: interrupted; no file is incomplete, so the command can be run again"

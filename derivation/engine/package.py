@@ -8,7 +8,7 @@ from derivation.engine.emit.freshness import Freshness, compare
 from derivation.engine.files import real, write_folder
 from derivation.engine.formula.chain import Chain
 from derivation.engine.formula.record import Record
-from derivation.engine.rewrite.form import Branch, Form, Step, Switch
+from derivation.engine.rewrite.form import Block, Branch, Form, Step, Switch
 from derivation.engine.rewrite.scales import Scales
 from derivation.engine.staging import recover
 
@@ -46,7 +46,7 @@ class Package:
 
 def forms_of(chain: Chain, package: Package) -> tuple[Form, ...]:
     """Return the stable forms, proved equal to the formulas."""
-    kinds = (Form, Step, Branch, Switch)
+    kinds = (Form, Block, Step, Branch, Switch)
     rooms = ("engine/rewrite", *package.sources)
     return chain.cached_result("forms", lambda: package.forms(chain.formulas()), *kinds, also=rooms)
 

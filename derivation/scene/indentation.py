@@ -7,7 +7,7 @@ logarithms.
 
 import math
 from collections.abc import Iterable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from html import escape
 from typing import Any, NamedTuple
 
@@ -27,6 +27,7 @@ from derivation.scene.messages import shown
 from derivation.scene.model import model_of
 from derivation.scene.scene import Scene, SceneError
 from derivation.scene.selection import check_enabled
+from derivation.scene.units import doubted, unit_warnings
 from derivation.scene.yield_warnings import static_warnings
 from derivation.scene.yielding import yielding_of
 
@@ -141,10 +142,18 @@ def indent(
             f"got {got}; {'remove all but one' if given else 'add one of them'}"
         )
     [(name, values)] = given
-    law = static_law(scene)
-    numbers = _numbers(name, values)
-    with np.errstate(all="ignore"):  # extreme scenes give NaN, which is checked
-        return StaticContacts(_contact(law, name, value) for value in numbers)
+    numbers, doubts = _numbers(name, values), unit_warnings(scene)
+    try:
+        law = static_law(scene)
+        with np.errstate(all="ignore"):  # extreme scenes give NaN, which is checked
+            found = [_contact(law, name, value) for value in numbers]
+    except SceneError as error:
+        if not doubts:
+            raise
+        raise doubted(error, doubts) from error
+    return StaticContacts(
+        replace(contact, warnings=(*doubts, *contact.warnings)) for contact in found
+    )
 
 
 def static_law(scene: Scene) -> ContactLaw:

@@ -119,7 +119,7 @@ def state_of(law: ContactLaw, top: float = TOP) -> LargestContact:
     with np.errstate(all="ignore"):
         try:
             a = largest_radii(law, count, close=NEAR)
-        except SceneError:  # with more effects the impact may be within the range
+        except SceneError:
             a = np.array([np.nan])
         # With more effects the impact may be within the range.
         upper = np.where(np.isnan(a), law.limit, np.minimum(top * a, law.limit))
@@ -172,13 +172,13 @@ def _number(x: Array) -> Numbers:
 
 
 def _most(values: Array) -> Array:
-    """Return the largest value of each scene."""
-    return np.asarray(np.max(values, axis=-1, keepdims=True))
+    """Return the largest value of each scene; NumPy compares few long rows faster than many."""
+    return np.asarray(np.ascontiguousarray(values.T).max(axis=0))[..., None]
 
 
 def _least(values: Array) -> Array:
     """Return the smallest value of each scene."""
-    return np.asarray(np.min(values, axis=-1, keepdims=True))
+    return -_most(-values)
 
 
 def _samples(law: ContactLaw, top: Array) -> LawSamples:

@@ -26,6 +26,7 @@ from derivation.scene.rows_warnings import warnings_of_rows
 from derivation.scene.scene import OUTPUTS, Scene, SceneError, read
 from derivation.scene.selection import check_enabled
 from derivation.scene.static_rows import impacts_of
+from derivation.scene.units import unit_warnings_of_rows
 
 BLOCK = 2**15
 """Number of rows computed together, which bounds the memory."""
@@ -160,6 +161,7 @@ class _Block:
         left = np.ones(count, dtype=bool)
         for rows in self._in_arrays():
             left[rows] = False
+        self._doubt(np.flatnonzero(~left))
         for row in np.flatnonzero(left).tolist():
             if self.start + row and time.perf_counter() > until:
                 return self.start + row
@@ -186,6 +188,17 @@ class _Block:
         found.bound[index], found.model_error[index] = result.accuracy.bound, result.model_error
         for name, number in numbers.items():
             found.results[name][index] = number
+
+    def _doubt(self, rows: NDArray[np.intp]) -> None:
+        """Begin the reasons of rows with the warnings about their units."""
+        scene = self._readable(rows[:1].tolist())
+        if scene is None:
+            return
+        columns = {key: values[rows] for key, values in self.columns.items()}
+        for row, texts in unit_warnings_of_rows(scene, columns).items():
+            index = self.start + rows[row]
+            rest = self.found.reason[index]
+            self.found.reason[index] = "; ".join((*texts, rest) if rest else texts)
 
     def _in_arrays(self) -> Iterable[NDArray[np.intp]]:
         """Simulate rows in arrays, and yield their indices."""

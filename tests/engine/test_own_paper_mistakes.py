@@ -40,6 +40,21 @@ MISTAKES = {
         r"budgets\.toml: expected an error budget for F_bonded; add for example `F_bonded = 4`",
         2,
     ),
+    "an exception in a function of the paper": (
+        "kernels.py",
+        (
+            '    difference, kappa = known["sinh_minus"]',
+            '    difference, kappa = known["sinhminus"]',
+        ),
+        r"kernels\.py, line \d+: KeyError: 'sinhminus'; correct it",
+        2,
+    ),
+    "an unknown unit": (
+        "vocabulary.py",
+        ('Argument(G, "Pa"', 'Argument(G, "psi"'),
+        r"vocabulary\.py, line \d+: ValueError: argument G: expected a unit .* got 'psi'",
+        2,
+    ),
     "an unknown formula of a module": (
         "kernels.py",
         ('"F_slipping", "C_slipping"\n', '"F_slipping", "C_slippng"\n'),

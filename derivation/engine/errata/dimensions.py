@@ -36,7 +36,7 @@ def unit_name(value: Dimension) -> str:
     """Return the unit of a dimension, in metres and pascals if possible."""
     if value in _NAMES:
         return _NAMES[value]
-    if value.time != -2 * value.mass:
+    if value != Dimension(value.length, value.mass, -2 * value.mass):
         return str(value)
     powers = (("m", value.length + value.mass), ("Pa", value.mass))
     above = " ".join(_power(unit, k) for unit, k in powers if k > 0) or "1"

@@ -147,25 +147,25 @@ def ratio_edit(
         return _edit(CONSTANT, position, new, f"multiply {where} by {_text(ratio)}", extra)
     swapped = _symbol_swap(position, ratio)
     if swapped is not None:
-        old, other = swapped
-        inside = "" if position.node == old else f" in {where}"
-        says = f"read {_text(other)} instead of {_text(old)}{inside}"
-        return _edit(SYMBOL, position, new, says, extra)
+        return _edit(SYMBOL, position, new, swapped, extra)
     if kind not in (TWICE, MISSING) or ratio.as_numer_denom()[0].is_Symbol:
         kind, extra = _stray_or_missing(position, ratio), extra + _size(ratio)
     return _edit(kind, position, new, _ratio_words(where, ratio, kind), extra)
 
 
-def _symbol_swap(position: Position, ratio: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:
-    """Return a power of a symbol and that of another one with which the ratio replaces it."""
+def _symbol_swap(position: Position, ratio: sp.Expr) -> str | None:
+    """Return in words that one symbol is replaced by another or exchanged with it, if so."""
     powers = ratio.as_powers_dict()
     if len(powers) != 2 or sum(powers.values()) != 0 or not all(s.is_Symbol for s in powers):
         return None
-    printed = position.node.as_powers_dict()
+    printed, where = position.node.as_powers_dict(), name_of(position)
     for old, other in (tuple(powers), tuple(powers)[::-1]):
-        if (printed.get(old, sp.Integer(0)) * powers[old]).is_negative:
-            size = abs(powers[old])
-            return old**size, other**size
+        power, size = printed.get(old, sp.Integer(0)), abs(powers[old])
+        if (power * powers[old]).is_negative and size <= abs(power):
+            inside = "" if position.node == old**size else f" in {where}"
+            return f"read {_text(other**size)} instead of {_text(old**size)}{inside}"
+    if old in printed and other in printed and powers[old] == printed[other] - printed[old]:
+        return f"exchange {_text(other)} and {_text(old)} in {where}"
     return None
 
 

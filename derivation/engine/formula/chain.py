@@ -4,10 +4,10 @@ import inspect
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from traceback import extract_tb
 from typing import TypeVar
 
 from derivation.engine.cache import cached
+from derivation.engine.failed import location
 from derivation.engine.formula.proof import Proof
 from derivation.engine.formula.record import Record
 from derivation.engine.formula.vocabulary import Vocabulary
@@ -113,7 +113,5 @@ def _derive_step(step: DerivationStep) -> tuple[Record, ...]:
         if type(error) not in _OF_CODE:
             raise
         folder = Path(inspect.getfile(inspect.unwrap(step.derive))).parent
-        frames = [f for f in extract_tb(error.__traceback__) if Path(f.filename).parent == folder]
-        location = f"{Path(frames[-1].filename).name}, line {frames[-1].lineno}: " if frames else ""
-        what = f"{location}{type(error).__name__}: {error}"
+        what = f"{location(error, folder)}{type(error).__name__}: {error}"
         raise DerivationStepError(f"derivation step {step.name!r}: {what}; correct it") from error

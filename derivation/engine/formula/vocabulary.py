@@ -38,6 +38,12 @@ class Argument:
     meaning: str
     domain: tuple[str, ...]
 
+    def __post_init__(self) -> None:
+        try:
+            unit(self.unit)
+        except ValueError as error:
+            raise ValueError(f"argument {self.symbol}: {error}") from None
+
     @property
     def name(self) -> str:
         """The symbol's name in formulas typed by hand and in generated code."""

@@ -57,7 +57,8 @@ def accurate(
         where = ", ".join(f"{name} = {x!r}" for name, x in worst.at.items())
         raise UnreachableError(
             f"the form found for {formula.name} has an error of {worst.error:.2g} ULP at {where}, "
-            f"expected at most {ENOUGH:g}; state a form, or use a variable that is small there"
+            f"expected at most {ENOUGH:g}; narrow the domains of its arguments if such values do "
+            "not occur, or state a form"
         )
     return steps, value
 

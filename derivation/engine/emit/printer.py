@@ -67,6 +67,11 @@ class _Printer(NumPyPrinter):
     def _print_Pow(self, expr: sp.Pow, rational: bool = False) -> str:
         if expr.exp == -1:
             return f"1/{self.parenthesize(expr.base, PRECEDENCE['Pow'], strict=False)}"
+        if expr.exp.is_Rational and expr.exp.q == 3:  # a double is not exactly 1/3 as an exponent
+            root = f"{self._module_format('numpy.cbrt')}({self._print(expr.base)})"
+            power = abs(expr.exp.p)
+            text = root if power == 1 else f"{root}**{power}"
+            return text if expr.exp > 0 else f"1/{text}"
         return str(super()._print_Pow(expr, rational))
 
     def _print_Mul(self, expr: sp.Mul) -> str:

@@ -18,7 +18,6 @@ from derivation.engine.rewrite.stabilise import Stable
 from derivation.engine.rewrite.useful_range import ENDS
 
 _WIDTH = 90
-CUBE_ROOT = sp.Function("np.cbrt")
 
 
 def standalone(stable: Stable) -> tuple[str, CodeCheck]:
@@ -29,7 +28,7 @@ def standalone(stable: Stable) -> tuple[str, CodeCheck]:
     UnreachableError
         If the code is not accurate in any useful range.
     """
-    x, stable = stable.variable, _with_cube_roots(stable)
+    x = stable.variable
     found = check_code(stable, _compiled_function(_source(stable, *ENDS, "")))
     statement = (
         f"Error at most {found.limit:g} ULP plus half the condition number |{x} f'/f|. "
@@ -38,18 +37,6 @@ def standalone(stable: Stable) -> tuple[str, CodeCheck]:
         f"of the formula and its parts; largest error {found.worst:.2f} ULP, at {x} = {found.at!r}."
     )
     return _source(stable, found.low, found.high, statement), found
-
-
-def _with_cube_roots(stable: Stable) -> Stable:
-    """Return the form with cube roots, because a double is not exactly 1/3 as an exponent."""
-
-    def rooted(value: sp.Expr) -> sp.Expr:
-        return value.replace(
-            lambda node: node.is_Pow and node.exp.is_Rational and node.exp.q == 3,
-            lambda node: CUBE_ROOT(node.base) ** node.exp.p,
-        )
-
-    return stable.mapped(rooted, rooted)
 
 
 def _compiled_function(source: str) -> Function:

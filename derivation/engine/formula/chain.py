@@ -11,6 +11,7 @@ from derivation.engine.failed import location
 from derivation.engine.formula.proof import Proof
 from derivation.engine.formula.record import Record
 from derivation.engine.formula.vocabulary import Vocabulary
+from derivation.engine.formula.vocabulary_check import check_vocabulary
 
 Value = TypeVar("Value")
 Found = tuple[tuple[str, tuple[Record, ...]], ...]
@@ -60,6 +61,15 @@ class Chain:
     steps: tuple[DerivationStep, ...]
     sources: tuple[str | Path, ...]
     kinds: tuple[type, ...]
+
+    def __post_init__(self) -> None:
+        check_vocabulary(self.vocabulary)
+        for step in self.steps:
+            if not callable(step.derive):
+                raise ValueError(
+                    f"derivation step {step.name!r}: expected a function that returns formulas, "
+                    f"got a {type(step.derive).__name__}; name the function without brackets"
+                )
 
     def derived_steps(self) -> Found:
         """Return the steps with their formulas, cached until the sources change.

@@ -1,6 +1,7 @@
 """The class of proved formulas: symbol, expression, unit, sources and proof."""
 
 from dataclasses import dataclass
+from keyword import iskeyword
 from typing import ClassVar
 
 import sympy as sp
@@ -46,6 +47,8 @@ class Record:
         If the dimension of the expression differs from that of `unit`.
     KeyError
         If it contains a symbol that the paper does not define.
+    ValueError
+        If the name is no Python name.
     """
 
     vocabulary: ClassVar[Vocabulary]
@@ -63,6 +66,8 @@ class Record:
     stated: sp.Expr | None = None
 
     def __post_init__(self) -> None:
+        if not self.name.isidentifier() or iskeyword(self.name):
+            raise ValueError(f"expected a Python name for a formula, got {self.name!r}; rename it")
         self.vocabulary.arguments_of(self.expression)
         dimensions = dimension(self.expression, self.vocabulary.dimensions)
         if dimensions != unit(self.unit):

@@ -131,7 +131,12 @@ class Routes:
         with flint.ctx.workprec(int(LOG2_10 * digits) + 64):
             if bool(abs(ball - other) <= abs(ball) * flint.arb(10) ** -digits):
                 return ball
-        raise OracleError(f"{name} at {dict(values)}, modes {modes}: {ball} against {other}")
+        point = ", ".join(f"{symbol} = {value!r}" for symbol, value in values.items())
+        terms = f" ({modes} terms)" if modes else ""
+        raise OracleError(
+            f"the references of {name} contradict each other at {point}{terms}: {ball.str(20)} by "
+            f"the derived formula against {other.str(20)} by the second route; correct one of them"
+        )
 
 
 def _agree(one: mpf, other: mpf, digits: int) -> bool:

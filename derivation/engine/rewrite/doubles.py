@@ -112,8 +112,9 @@ def _power(base: float, exponent: sp.Expr) -> float:
         return _function(lambda x: x ** int(exponent), base)
     if base == 0.0:
         return 0.0
-    power = flint.fmpq(int(exponent.p), int(exponent.q))
-    return _function(lambda x: x ** flint.arb(power), base)
+    if exponent.q == 3:  # printed as a cube root
+        return _power(_function(lambda x: x ** (flint.arb(1) / 3), base), sp.Integer(exponent.p))
+    return _function(lambda x: x ** flint.arb(float(exponent)), base)
 
 
 def _function(function: Callable[[flint.arb], flint.arb], argument: float) -> float:

@@ -6,6 +6,8 @@ from derivation.engine.emit import own_formula
 from derivation.engine.errata.findings import Finding
 from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.code_check import CodeCheck
+from derivation.engine.rewrite.products import ProductForm
+from derivation.engine.rewrite.several_variables import SeveralCheck
 from derivation.engine.rewrite.stabilise import Stable
 from derivation.plate import derived
 
@@ -25,9 +27,9 @@ class Rewritten:
         The range in which the function was tested, and the largest error found [ULP].
     """
 
-    form: Stable
+    form: Stable | ProductForm
     source: str
-    tested: CodeCheck
+    tested: CodeCheck | SeveralCheck
 
     def __str__(self) -> str:
         return self.source
@@ -69,7 +71,7 @@ def misprints() -> tuple[Finding, ...]:
 
 
 def rewrite(formula: str, variable: str = "x") -> Rewritten:
-    """Find a numerically stable form of a formula of one variable, and test its code.
+    """Find a numerically stable form of a formula of positive numbers, and test its code.
 
     The function returns NaN outside the range in which it was tested. Points at which the formula
     is ill-conditioned, or its code would overflow, may be excluded from the range.
@@ -77,9 +79,10 @@ def rewrite(formula: str, variable: str = "x") -> Rewritten:
     Parameters
     ----------
     formula
-        The formula in SymPy syntax; it is parsed, not executed.
+        The formula in SymPy syntax; it is parsed, not executed. Each factor of a formula of several
+        variables must depend on one product of powers of them, such as ``a/b``.
     variable
-        Name of its variable, which is positive.
+        Name of the variable of a formula that contains none.
 
     Returns
     -------
@@ -97,6 +100,8 @@ def rewrite(formula: str, variable: str = "x") -> Rewritten:
     >>> import platecontact as pc
     >>> found = pc.rewrite("(x - sin(x))/x**3")
     >>> found.tested.limit < 8
+    True
+    >>> "R" in pc.rewrite("R - sqrt(R**2 - a**2)").source
     True
     """
     return Rewritten(*own_formula.rewrite_text(formula, variable))

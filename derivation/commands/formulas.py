@@ -13,11 +13,12 @@ def rewrite(
     formula: Annotated[
         str,
         typer.Argument(
-            metavar="FORMULA", help="A formula of one variable (default: the paper's formulas)."
+            metavar="FORMULA", help="A formula of positive numbers (default: the paper's formulas)."
         ),
     ] = "",
     variable: Annotated[
-        str, typer.Option(metavar="NAME", help="Name of the variable, a positive number.")
+        str,
+        typer.Option(metavar="NAME", help="Name of the variable of a formula that contains none."),
     ] = "x",
     update: Annotated[
         bool, typer.Option("--update", help="Save the paper's result as its rewrite.json.")
@@ -46,8 +47,8 @@ def rewrite(
             )
         with stage("rewrite"):
             stable, source, tested = rewrite_text(formula, variable)
-        transformations = [("", applied) for applied in stable.applied]
-        applied = [asdict(a) for a in stable.applied]
+        transformations = [("", rule) for rule in stable.applied]
+        applied = [asdict(rule) for rule in stable.applied]
         data: object = {"source": source, "tested": asdict(tested), "applied": applied}
     else:
         with progress_bar("rewrite") as progress:

@@ -129,11 +129,17 @@ def _nothing(_: Mapping[str, Block]) -> Mapping[str, Shape]:
 
 
 def _automatic(formula: Record, known: Mapping[str, Block], scales: Scales) -> ProductForm:
-    """Return the form that the rules find, by the paper's scales or by a product of symbols."""
+    """Return the accurate form that the rules find, by the paper's scales or by products."""
+
+    def accepted(made: ProductForm) -> ProductForm:
+        own = {block.name: block for block in made.blocks}
+        accurate(formula, made.steps, made.value, {**known, **own})
+        return made
+
     with contextlib.suppress(UnreachableError):
-        return ProductForm(*automatic(formula.expression, known, scales))
+        return accepted(ProductForm(*automatic(formula.expression, known, scales)))
     try:
-        return of_products(formula)
+        return of_products(formula, accepted)
     except UnreachableError as error:
         raise UnreachableError(f"{formula.name}: {error}; or state a form in `stated`") from None
 
@@ -191,14 +197,11 @@ class PackageSettings:
         def shape(name: str) -> ProductForm:
             if name in stated:
                 return ProductForm(*stated[name])
-            made = _automatic(formulas[name], known, self.scales)
-            blocks = {**known, **{block.name: block for block in made.blocks}}
-            accurate(formulas[name], made.steps, made.value, blocks)
-            return made
+            return _automatic(formulas[name], known, self.scales)
 
         def stable(name: str, module: str) -> Form:
-            steps, value, own = shape(name)
-            return form(name, module, formulas[name].expression, steps, value, known, own)
+            given, made = formulas[name].expression, shape(name)
+            return form(name, module, given, made.steps, made.value, known, made.blocks)
 
         return tuple(stable(name, part.name) for part in self.parts for name in part.formulas)
 

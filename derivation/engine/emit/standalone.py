@@ -17,7 +17,7 @@ from derivation.engine.rewrite.series import POLYNOMIAL
 from derivation.engine.rewrite.stabilise import Stable
 from derivation.engine.rewrite.useful_range import ENDS
 
-_WIDTH = 90
+WIDTH = 90
 
 
 def standalone(stable: Stable) -> tuple[str, CodeCheck]:
@@ -29,7 +29,7 @@ def standalone(stable: Stable) -> tuple[str, CodeCheck]:
         If the code is not accurate in any useful range.
     """
     x = stable.variable
-    found = check_code(stable, _compiled_function(_source(stable, *ENDS, "")))
+    found = check_code(stable, compiled_function(_source(stable, *ENDS, "")))
     statement = (
         f"Error at most {found.limit:g} ULP plus half the condition number |{x} f'/f|. "
         f"Tested, not proved: with NumPy {np.__version__} against exact values at {found.points} "
@@ -39,7 +39,8 @@ def standalone(stable: Stable) -> tuple[str, CodeCheck]:
     return _source(stable, found.low, found.high, statement), found
 
 
-def _compiled_function(source: str) -> Function:
+def compiled_function(source: str) -> Function:
+    """Return the function `f` of a module's source."""
     space: dict[str, Function] = {}
     exec(compile(source, "f.py", "exec"), space)  # generated from a parsed formula
     return space["f"]
@@ -64,7 +65,7 @@ def _source(stable: Stable, low: float, high: float, statement: str) -> str:
         "formula": sp.sstr(stable.expression),
         "low": repr(low),
         "high": repr(high),
-        "statement": textwrap.wrap(statement, _WIDTH),
+        "statement": textwrap.wrap(statement, WIDTH),
         "polynomial": function_text(RUNTIME / "polynomials.py", "polynomial") if powers else "",
         "function": {
             "steps": lines(stable.steps),

@@ -35,7 +35,7 @@ class FormulaError(ValueError):
     """A formula or point that cannot be used; the message states what is expected, and a remedy."""
 
 
-_CONSTANTS: Mapping[str, sp.Basic] = {"pi": sp.pi, "EulerGamma": sp.EulerGamma}
+CONSTANTS: Mapping[str, sp.Basic] = {"pi": sp.pi, "EulerGamma": sp.EulerGamma}
 
 _NAME_HINTS = {
     "E": "E usually is Young's modulus, which has no meaning in this formula; "
@@ -153,7 +153,7 @@ class _Reader:
     def __init__(self, text: str, vocabulary: Vocabulary, also: Mapping[str, sp.Basic]) -> None:
         self.text = text
         self.vocabulary = vocabulary
-        self.names = {**_CONSTANTS, **also, **vocabulary.names}
+        self.names = {**CONSTANTS, **also, **vocabulary.names}
         self.degrees: dict[sp.Basic, float] = {}
 
     def read(self, node: ast.expr, depth: int) -> sp.Expr:

@@ -8,7 +8,8 @@ import sympy as sp
 from derivation.engine.activity import Progress, quiet
 from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.automatic import dimensionless
-from derivation.engine.rewrite.products import factored
+from derivation.engine.rewrite.every_variable import accurate
+from derivation.engine.rewrite.products import ProductForm, of_products
 from derivation.engine.rewrite.scales import Scales
 from derivation.engine.rewrite.stabilise import Applied, Stable, stabilise
 from derivation.engine.rewrite.terms import UnreachableError
@@ -75,13 +76,20 @@ def _accounts(formula: Record, scales: Scales) -> Iterator[Account]:
     try:
         reduced = dimensionless(formula.expression, scales)
     except UnreachableError:
-        for product, stable in factored(formula).factors:
+        found = of_products(formula, lambda made: _accurate(formula, made))
+        for product, stable in found.factors:
             whole = sp.Mul(*(symbol**power for symbol, power in product))
             yield _account(formula.name, stable, whole)
         return
     scale = reduced.scale
     stable = stabilise(reduced.expression, scale.variable, ENDS)
     yield _account(formula.name, stable, scale.product)
+
+
+def _accurate(formula: Record, made: ProductForm) -> ProductForm:
+    """Return a form if it is accurate in every variable of its formula."""
+    accurate(formula, made.steps, made.value, {block.name: block for block in made.blocks})
+    return made
 
 
 def _account(name: str, stable: Stable, product: sp.Expr) -> Account:

@@ -5,11 +5,13 @@ d log f/d log v_i = p_i + q_i d log g/d log x lie on a straight line, whose dire
 exponents follow from the slopes at some points. The form is proved afterwards, as all forms are.
 """
 
+import contextlib
 import math
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import flint
 import sympy as sp
@@ -17,11 +19,12 @@ import sympy as sp
 from derivation.engine.formula.ball import enclose, to_ball
 from derivation.engine.formula.grid import DRAWN, domain_grid, inside
 from derivation.engine.formula.record import Record
+from derivation.engine.formula.vocabulary import Argument, Vocabulary
 from derivation.engine.rewrite.blocks import block_of
 from derivation.engine.rewrite.form import TIMES, Block, Step, Switch
 from derivation.engine.rewrite.search import stabilised
 from derivation.engine.rewrite.series import POLYNOMIAL
-from derivation.engine.rewrite.stabilise import Stable
+from derivation.engine.rewrite.stabilise import Applied, Stable
 from derivation.engine.rewrite.terms import UnreachableError
 
 BITS, RADIUS, ROUNDING = 400, 1e-60, Fraction(1, 10**30)
@@ -35,38 +38,84 @@ NAMES = "x", "y", "ratio", "product", "other_product"
 Powers = tuple[tuple[sp.Symbol, sp.Rational], ...]
 """Symbols with their exponents, without zeros."""
 Slopes = list[Fraction]
+Result = TypeVar("Result")
 
 
-class ProductForm(NamedTuple):
-    """Steps and value of a form, and the building blocks for factors that need one."""
+class GivenFormula(NamedTuple):
+    """A formula that is given, without a proof."""
+
+    name: str
+    expression: sp.Expr
+    vocabulary: Vocabulary
+
+    @property
+    def arguments(self) -> tuple[Argument, ...]:
+        """The symbols on which it depends."""
+        return self.vocabulary.arguments_of(self.expression)
+
+
+Stated = Record | GivenFormula
+
+
+@dataclass(frozen=True)
+class ProductForm:
+    """A form of a formula in several variables.
+
+    Parameters
+    ----------
+    steps, value
+        Intermediate values, and the result.
+    blocks
+        Building blocks for the factors that need one.
+    factors
+        The product of each factor, and its stable form in that product.
+    """
 
     steps: tuple[Step, ...]
     value: sp.Expr | Switch
     blocks: tuple[Block, ...] = ()
+    factors: tuple[tuple[Powers, Stable], ...] = ()
+
+    @property
+    def applied(self) -> tuple[Applied, ...]:
+        """The rules that were kept, for each factor in turn."""
+        return tuple(rule for _, stable in self.factors for rule in stable.applied)
 
 
-class Factored(NamedTuple):
-    """A constant, powers of symbols, and the stable form of each other factor by its product."""
+def of_products(formula: Stated, accept: Callable[[ProductForm], Result]) -> Result:
+    """Return what a function returns for the first stable form that it accepts.
 
-    constant: sp.Expr
-    front: Powers
-    factors: tuple[tuple[Powers, Stable], ...]
+    The forms use each product x, or its inverse, which may be more accurate.
 
-
-def of_products(formula: Record) -> ProductForm:
-    """Return the stable form of a formula whose factors each depend on one product.
+    Parameters
+    ----------
+    formula
+        A formula whose factors each depend on one product.
+    accept
+        Function that tests a form, and raises UnreachableError if it is not accurate.
 
     Raises
     ------
     UnreachableError
-        If a factor depends on several such products, or the rules find no accurate form.
+        If a factor depends on several such products, or no form is accurate; the message is that
+        for the first form.
     """
-    value, front, factors = factored(formula)
+    try:
+        return accept(_form(formula, inverted=False))
+    except UnreachableError:
+        with contextlib.suppress(UnreachableError):
+            return accept(_form(formula, inverted=True))
+        raise
+
+
+def _form(formula: Stated, inverted: bool) -> ProductForm:
+    """Return the stable form of a formula whose factors each depend on one product."""
+    value, front, factors = _factored(formula, inverted)
     steps: list[Step] = []
     blocks: list[Block] = []
     for product, stable in factors:
         x, core = stable.variable, stable.value
-        steps += [Step(x, _times(sp.Integer(1), product))] if len(product) > 1 else []
+        steps += [Step(x, _product(product))] if len(product) > 1 else []
         alone = len(factors) == 1 or not stable.steps  # else names of steps could occur twice
         if alone and isinstance(core, sp.Expr) and not core.has(POLYNOMIAL):
             steps += stable.steps
@@ -76,21 +125,17 @@ def of_products(formula: Record) -> ProductForm:
             summary = f"A dimensionless factor of {formula.name}."
             blocks.append(block_of(f"{formula.name}_factor{number}", stable, summary))
             value *= blocks[-1](x)
-    return ProductForm(tuple(steps), _times(value, front), tuple(blocks))
+    return ProductForm(tuple(steps), _times(value, front), tuple(blocks), factors)
 
 
-def factored(formula: Record) -> Factored:
-    """Return the factors of a formula, each in the stable form in its product.
-
-    Raises
-    ------
-    UnreachableError
-        If a factor depends on several products, or the rules find no form in a useful range.
-    """
+def _factored(
+    formula: Stated, inverted: bool
+) -> tuple[sp.Expr, Powers, tuple[tuple[Powers, Stable], ...]]:
+    """Return a constant, powers of symbols, and the other factors, stable in their products."""
     cores: dict[Powers, sp.Expr] = defaultdict(lambda: sp.Integer(1))
     front: dict[sp.Symbol, sp.Rational] = defaultdict(lambda: sp.Integer(0))
     for factor in sp.Mul.make_args(sp.factor_terms(formula.expression)):
-        powers, product = _exponents(factor, formula)
+        powers, product = _exponents(factor, formula, inverted)
         for symbol, power in powers:
             front[symbol] += power
         cores[product] *= factor
@@ -101,18 +146,18 @@ def factored(formula: Record) -> Factored:
         own, power = _eliminated(product, formula)
         x = own if len(product) == 1 else next(names)
         forms.append((product, stabilised(_core(factor, formula, own, x ** (1 / power)), x)))
-    return Factored(constant, tuple(front.items()), tuple(forms))
+    return constant, tuple(front.items()), tuple(forms)
 
 
 def _core(
-    factor: sp.Expr, formula: Record, own: sp.Symbol | None = None, value: sp.Expr | None = None
+    factor: sp.Expr, formula: Stated, own: sp.Symbol | None = None, value: sp.Expr | None = None
 ) -> sp.Expr:
     """Return a factor with a value for one symbol, and 1 for all others."""
     ones = {argument.symbol: sp.Integer(1) for argument in formula.arguments}
     return factor.subs(ones if own is None else {**ones, own: value})
 
 
-def _exponents(factor: sp.Expr, formula: Record) -> tuple[Powers, Powers]:
+def _exponents(factor: sp.Expr, formula: Stated, inverted: bool) -> tuple[Powers, Powers]:
     """Return the exponents in front of g, and those of its product; both may be empty."""
     symbols = [a.symbol for a in formula.arguments if factor.has(a.symbol)]
     if not symbols:
@@ -126,7 +171,7 @@ def _exponents(factor: sp.Expr, formula: Record) -> tuple[Powers, Powers]:
     line, *more = ([part / change[index] for part in change] for change in changes if change[index])
     if any(abs(a - b) > ROUNDING for other in more for a, b in zip(line, other, strict=True)):
         raise UnreachableError(f"{factor} depends on several dimensionless products")
-    product = _oriented(_rational(factor, symbols, line), formula)
+    product = _oriented(_rational(factor, symbols, line), formula, inverted)
     own, power = _eliminated(product, formula)
     rate = first[symbols.index(own)] / int(power)
     rest = dict(product)
@@ -134,15 +179,20 @@ def _exponents(factor: sp.Expr, formula: Record) -> tuple[Powers, Powers]:
     return _rational(factor, symbols, powers), product
 
 
-def _oriented(product: Powers, formula: Record) -> Powers:
-    """Return a product with integer exponents, in which symbols that may vanish are no divisors."""
+def _oriented(product: Powers, formula: Stated, inverted: bool) -> Powers:
+    """Return a product or its inverse with integer exponents.
+
+    Symbols that may vanish are no divisors, and a single symbol is not inverted.
+    """
     unit = sp.Integer(math.lcm(*(power.q for _, power in product)))
     zeros = [power for symbol, power in product if symbol in _may_vanish(formula)]
     sign = sp.sign((*zeros, product[0][1])[0])
+    if inverted and len(product) > 1 and not zeros:
+        sign = -sign
     return tuple((symbol, sign * unit * power) for symbol, power in product)
 
 
-def _eliminated(product: Powers, formula: Record) -> tuple[sp.Symbol, sp.Rational]:
+def _eliminated(product: Powers, formula: Stated) -> tuple[sp.Symbol, sp.Rational]:
     """Return the symbol that a product replaces, with its exponent.
 
     It is one that may vanish if there is one, because all others may become divisors.
@@ -151,18 +201,18 @@ def _eliminated(product: Powers, formula: Record) -> tuple[sp.Symbol, sp.Rationa
     return min(product, key=lambda pair: (pair[0] not in zeros, abs(pair[1]), str(pair[0])))
 
 
-def _names(formula: Record) -> list[str]:
+def _names(formula: Stated) -> list[str]:
     """Return the names of the arguments."""
     return [argument.name for argument in formula.arguments]
 
 
-def _may_vanish(formula: Record) -> list[sp.Symbol]:
+def _may_vanish(formula: Stated) -> list[sp.Symbol]:
     """Return the arguments that may be zero."""
     pairs = ((argument.symbol, argument.name) for argument in formula.arguments)
     return [symbol for symbol, name in pairs if inside(formula.vocabulary, {name: 0.0})]
 
 
-def _slopes(factor: sp.Expr, formula: Record, symbols: Sequence[sp.Symbol]) -> list[Slopes]:
+def _slopes(factor: sp.Expr, formula: Stated, symbols: Sequence[sp.Symbol]) -> list[Slopes]:
     """Return the logarithmic slopes at random points of the domain."""
     expressions = [symbol * factor.diff(symbol) / factor for symbol in symbols]
     names, slopes = _names(formula), []
@@ -193,6 +243,13 @@ def _rational(factor: sp.Expr, symbols: Sequence[sp.Symbol], values: Slopes) -> 
         raise UnreachableError(f"{factor} is no function of a product of powers")
     pairs = zip(symbols, exponents, strict=True)
     return tuple((symbol, sp.Rational(p.numerator, p.denominator)) for symbol, p in pairs if p)
+
+
+def _product(powers: Powers) -> sp.Expr:
+    """Return the product of powers; one of two factors is rounded once, and has no other limits."""
+    if sum(abs(power) for _, power in powers) == 2:
+        return sp.Mul(*(symbol**power for symbol, power in powers))
+    return _times(sp.Integer(1), powers)
 
 
 def _times(value: sp.Expr, powers: Powers) -> sp.Expr:

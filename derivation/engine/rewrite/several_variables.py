@@ -1,0 +1,163 @@
+"""Test of the code of a formula in several positive variables: its range, and the error it states.
+
+Each variable takes the same range. Points are random, next to points at which two variables are
+equal, and on the sides of the range.
+"""
+
+import math
+import random
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import flint
+import numpy as np
+import sympy as sp
+
+from derivation.engine.formula.ball import PrecisionError, enclose, refine, to_ball
+from derivation.engine.formula.ulp import overflows, ulp_error
+from derivation.engine.rewrite.code_check import CONDITION_FACTOR, stated_error
+from derivation.engine.rewrite.terms import UnreachableError
+from derivation.engine.rewrite.useful_range import ENOUGH
+
+DECADES = (100, 50, 30, 20, 12, 9, 6, 4, 3)
+"""Exponents of ten of the ranges that are tried, the largest first."""
+RANDOM, NEAR, SIDES = 400, 40, 20
+"""Numbers of random points, of points next to equality for each pair of variables, and of points
+on each side of the range."""
+ROUNDS = 3
+"""Number of times that a range must pass with new points."""
+ENOUGH_POINTS = 100
+"""Smallest number of points with a value for a statement."""
+LEAST_VALUE = 1e-300
+"""Smallest value that is tested; smaller ones may be subnormal and have fewer digits."""
+_DIGITS, MOST_BITS = 25, 4096
+Function: TypeAlias = Callable[..., np.ndarray]
+Point = tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class SeveralCheck:
+    """Result of the test of code in several variables.
+
+    Attributes
+    ----------
+    low, high
+        Range of each variable, both included.
+    limit
+        The stated error [ULP in addition to half the sum of the condition numbers]: the largest one
+        found, with a margin.
+    worst, at
+        The largest error found [ULP in addition to `CONDITION_FACTOR` times that], and its point.
+    points
+        Number of points that were compared.
+    """
+
+    low: float
+    high: float
+    limit: float
+    worst: float
+    at: dict[str, float]
+    points: int
+
+
+def check_several(
+    expression: sp.Expr, variables: Sequence[sp.Symbol], function: Function
+) -> SeveralCheck:
+    """Return the largest range in which code passes, and the error that it may state.
+
+    Only points at which the formula has a real value that is a normal number are compared.
+
+    Raises
+    ------
+    UnreachableError
+        If its error stays within `ENOUGH` in no range.
+    """
+    draw = random.Random(str(expression))
+    slopes = [expression.diff(variable) for variable in variables]
+    worst: tuple[float, Point] = math.inf, ()
+    for decade in DECADES:
+        errors: dict[Point, float] = {}
+        for _ in range(ROUNDS):
+            points = list(_points(draw, decade, len(variables)))
+            errors |= _errors(expression, slopes, variables, function, points)
+            worst = max(((error, point) for point, error in errors.items()), default=worst)
+            if worst[0] > ENOUGH:
+                break
+        else:
+            if len(errors) >= ENOUGH_POINTS:
+                at = {str(v): x for v, x in zip(variables, worst[1], strict=True)}
+                low, high = float(f"1e-{decade}"), float(f"1e{decade}")
+                return SeveralCheck(low, high, stated_error(worst[0]), worst[0], at, len(errors))
+    where = ", ".join(f"{v} = {x!r}" for v, x in zip(variables, worst[1], strict=False))
+    raise UnreachableError(
+        f"the form found for {expression} has an error of {worst[0]:.2g} ULP"
+        f"{f' at {where}' if where else ''}, expected at most {ENOUGH:g}"
+    )
+
+
+def _points(draw: random.Random, decade: int, count: int) -> Iterator[Point]:
+    """Yield points of a range: random ones, near equality of two variables, and on its sides."""
+
+    def value(most: float = decade) -> float:
+        return 10 ** draw.uniform(-most, most)
+
+    for most in (decade, min(decade, 3.0)):
+        for _ in range(RANDOM):
+            yield tuple(value(most) for _ in range(count))
+    for one in range(count):
+        for other in range(count):
+            for _ in range(NEAR if one != other else 0):
+                point = [value(3.0) for _ in range(count)]
+                point[one] = point[other] * (1 - 10 ** draw.uniform(-15, -0.5))
+                yield tuple(point)
+        for side in (float(f"1e-{decade}"), float(f"1e{decade}")):
+            for _ in range(SIDES):
+                point = [value(draw.choice((3.0, decade))) for _ in range(count)]
+                point[one] = side
+                yield tuple(point)
+
+
+def _errors(
+    expression: sp.Expr,
+    slopes: Sequence[sp.Expr],
+    variables: Sequence[sp.Symbol],
+    function: Function,
+    points: Sequence[Point],
+) -> dict[Point, float]:
+    """Return the errors at the points with a value [ULP, less a part of the conditioning]."""
+    with np.errstate(all="ignore"):
+        got = function(*np.array(points).T).tolist()
+    errors: dict[Point, float] = {}
+    for point, computed in zip(points, got, strict=True):
+        at = dict(zip(variables, point, strict=True))
+        exact = _value(expression, at, _DIGITS)
+        if exact is None or overflows(exact) or not abs(exact) > LEAST_VALUE:
+            continue
+        error = ulp_error(computed, exact)
+        if 0.5 < error < math.inf:
+            error = max(0.0, error - CONDITION_FACTOR * _half_conditioning(slopes, at, exact))
+        errors[point] = error
+    return errors
+
+
+def _half_conditioning(
+    slopes: Sequence[sp.Expr], at: Mapping[sp.Symbol, float], exact: flint.arb
+) -> float:
+    """Return half the sum of the condition numbers."""
+    total = 0.0
+    for slope, x in zip(slopes, at.values(), strict=True):
+        steep = _value(slope, at, 3)
+        if steep is not None:
+            with flint.ctx.workprec(64):
+                total += float(abs(steep * to_ball(x) / exact).abs_upper()) / 2
+    return total
+
+
+def _value(expression: sp.Expr, at: Mapping[sp.Symbol, float], digits: int) -> flint.arb | None:
+    """Return a value; None if the formula has none at the point."""
+    exact = {variable: to_ball(x) for variable, x in at.items()}
+    try:
+        return refine(lambda: enclose(expression, exact), digits, "a point", MOST_BITS)
+    except PrecisionError:
+        return None

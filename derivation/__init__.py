@@ -44,13 +44,13 @@ def formula(name: str) -> "Record":
     >>> pc.formula("K_j").unit
     'm'
     """
-    from derivation.engine.nearest import did_you_mean
+    from derivation.engine.nearest import did_you_mean, one_of
     from derivation.plate import derived
 
     known = derived.formulas()
     if name not in known:
         suggestion = did_you_mean(name, known, most=3)
-        raise KeyError(f"no formula {name!r}: {suggestion}expected one of {', '.join(known)}")
+        raise KeyError(f"no formula {name!r}: {suggestion}expected one of {one_of(known)}")
     return known[name]
 
 

@@ -190,7 +190,9 @@ command()(paper_commands.new)
 @command()
 def reference(
     scene: scene_commands.SceneFile,
-    digits: Annotated[int, typer.Option(min=1, max=1000, help="Number of digits.")] = 50,
+    digits: Annotated[
+        int, typer.Option(metavar="N", min=1, max=1000, help="Number of digits.")
+    ] = 50,
     json: Json = None,
 ) -> None:
     """Compute contact law and impact of a scene to many digits.
@@ -227,6 +229,11 @@ command()(example_commands.examples)
 command()(scene_commands.schema)
 
 
+def _sentence(error: TyperException) -> str:
+    """Return the message of the parser without a full stop and without pydantic's details."""
+    return error.format_message().partition(", unable to parse")[0].rstrip(".")
+
+
 def main(argv: Sequence[str] | None = None) -> int:
     """Run a command and return its exit status; an error of the user is shown as one message."""
     platecontact = get_command(app)
@@ -239,7 +246,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     except TyperException as error:
         context = getattr(error, "ctx", None)
         command = context.command_path if context else "platecontact"
-        NOTES.say(f"platecontact: {error.format_message()} (see `{command} --help`)")
+        NOTES.say(f"platecontact: {_sentence(error)} (see `{command} --help`)")
         return 2
     except UnreadError:
         silence(sys.stdout)

@@ -38,6 +38,11 @@ class Rewritten:
 def formulas() -> dict[str, Record]:
     """Return all derived formulas by name, each with its unit and proof.
 
+    Returns
+    -------
+    dict of str to derivation.engine.formula.record.Record
+        The formulas in the order of the derivation.
+
     Examples
     --------
     >>> import platecontact as pc
@@ -49,6 +54,12 @@ def formulas() -> dict[str, Record]:
 
 def misprints() -> tuple[Finding, ...]:
     """Return the comparison of each published formula with the derived one, misprint or not.
+
+    Returns
+    -------
+    tuple of derivation.engine.errata.findings.Finding
+        One comparison for each published formula, in the order of the paper; `kind` is "correct as
+        published" or names the misprint, `repair` is the correction.
 
     Examples
     --------

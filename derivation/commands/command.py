@@ -21,6 +21,17 @@ RENAMED = {
 class Command(TyperCommand):
     """A command that rejects repeated options, and names options as typed in error messages."""
 
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        """Create the command; its help shows arguments without the names of their Python types."""
+        super().__init__(*args, **kwargs)
+        for argument in self.params:
+            if argument.param_type_name == "argument":
+                setattr(argument, "display_type", lambda _: "")  # noqa: B010 (a method)
+
+    def collect_usage_pieces(self, ctx: Any) -> list[str]:
+        """Return the parts of the usage line: a required argument is not in braces."""
+        return [piece.strip("{}") for piece in super().collect_usage_pieces(ctx)]
+
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Replace former names and reject repeated options before the arguments are parsed."""
         return super().parse_args(ctx, with_present_names(self, ctx, args))

@@ -11,10 +11,14 @@ from derivation.engine.console import OUT, Json, progress_bar, stage, table, wri
 
 def rewrite(
     formula: Annotated[
-        str, typer.Argument(help="A formula of positive numbers (default: the paper's formulas).")
+        str,
+        typer.Argument(
+            metavar="FORMULA", help="A formula of positive numbers (default: the paper's formulas)."
+        ),
     ] = "",
     variable: Annotated[
-        str, typer.Option(help="Name of the variable of a formula that contains none.")
+        str,
+        typer.Option(metavar="NAME", help="Name of the variable of a formula that contains none."),
     ] = "x",
     update: Annotated[
         bool, typer.Option("--update", help="Save the paper's result as its rewrite.json.")
@@ -67,8 +71,12 @@ def rewrite(
 
 
 def diagnose(
-    name: Annotated[str, typer.Argument(help="Name of a derived formula, for example K_j.")],
-    formula: Annotated[str, typer.Option(help="Your version of the formula, in SymPy syntax.")],
+    name: Annotated[
+        str, typer.Argument(metavar="NAME", help="Name of a derived formula, for example K_j.")
+    ],
+    formula: Annotated[
+        str, typer.Option(metavar="FORMULA", help="Your version of the formula, in SymPy syntax.")
+    ],
     latex: Annotated[bool, typer.Option("--latex", help="Read the formula as LaTeX.")] = False,
     at: Annotated[
         str,
@@ -77,7 +85,7 @@ def diagnose(
         ),
     ] = "",
     digits: Annotated[
-        int, typer.Option(min=1, max=1000, help="Number of digits of both values.")
+        int, typer.Option(metavar="N", min=1, max=1000, help="Number of digits of both values.")
     ] = 50,
     paper: PaperFolder = None,
     json: Json = None,

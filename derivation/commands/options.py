@@ -13,7 +13,7 @@ PaperFolder = Annotated[
     typer.Option("--paper", metavar="FOLDER", help="Use the paper in this folder (see `new`)."),
 ]
 SEED = 1
-Seed = Annotated[int, typer.Option(help="Random seed.")]
+Seed = Annotated[int, typer.Option(metavar="N", help="Random seed.")]
 Suggest = Annotated[
     bool,
     typer.Option("--suggest-budgets", help="Also print tighter error budgets; no file is changed."),

@@ -162,7 +162,9 @@ def report(
 
 
 def new(
-    folder: Annotated[Path, typer.Argument(help="A folder that is empty or does not exist yet.")],
+    folder: Annotated[
+        Path, typer.Argument(metavar="FOLDER", help="A folder that is empty or does not exist yet.")
+    ],
 ) -> None:
     """Create a small working paper of your own to start from.
 

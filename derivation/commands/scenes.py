@@ -53,7 +53,7 @@ def simulate(
     ] = None,
     sweep: Annotated[
         str | None,
-        typer.Option(metavar="TABLE.KEY=A:B:N", help="Simulate for N values from A to B."),
+        typer.Option(metavar="TABLE.KEY=A:B:N[:log]", help="Simulate for N values from A to B."),
     ] = None,
     details: Annotated[
         bool, typer.Option("--details", help="Also print the tables of effects and contacts.")

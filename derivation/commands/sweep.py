@@ -23,7 +23,9 @@ def sweep(
     scene: SceneFile,
     vary: Annotated[
         list[str] | None,
-        typer.Option(metavar="TABLE.KEY=A:B:N[:log]", help="Vary this key on a grid; repeatable."),
+        typer.Option(
+            metavar="TABLE.KEY=A:B:N[:log]", help="Grid: N values from A to B; repeatable."
+        ),
     ] = None,
     distributions: Annotated[
         Path | None,
@@ -33,7 +35,7 @@ def sweep(
         int | None, typer.Option(metavar="N", help="Number of points of the sample.")
     ] = None,
     seed: Annotated[
-        int | None, typer.Option(help="Random seed of the sample (default: 1).")
+        int | None, typer.Option(metavar="N", help="Random seed of the sample (default: 1).")
     ] = None,
     method: Annotated[
         str | None,

@@ -10,6 +10,8 @@ SIMILARITY = 0.5
 """Similarity, from 0 to 1, from which a name is suggested."""
 LETTERS = 3
 """One letter in so many may be wrong, or one in a shorter name."""
+MANY, FIRST = 30, 6
+"""Number of names above which a message shows the first ones only, and their number."""
 
 
 def nearest(name: str, known: Iterable[str], alike: float = SIMILARITY, most: int = 1) -> list[str]:
@@ -54,6 +56,22 @@ def did_you_mean(name: str, known: Iterable[str], alike: float = SIMILARITY, mos
     """
     names = nearest(name, known, alike, most)
     return f"did you mean {' or '.join(names)}? " if names else ""
+
+
+def one_of(names: Iterable[str]) -> str:
+    """Return names for a message, separated by commas; of many, the first ones and their number.
+
+    Examples
+    --------
+    >>> one_of(["steel", "glass"])
+    'steel, glass'
+    >>> one_of(map(str, range(100)))
+    '0, 1, 2, 3, 4, 5 and 94 others'
+    """
+    known = list(names)
+    if len(known) <= MANY:
+        return ", ".join(known)
+    return f"{', '.join(known[:FIRST])} and {len(known) - FIRST} others"
 
 
 def _near(one: str, other: str) -> bool:

@@ -149,7 +149,7 @@ def put_folder(target: Path, contents: dict[str, bytes]) -> None:
         _swap(staged.path, target)
         flush_folder(target.parent)
     finally:
-        staged.discard()  # now the old folder, or the new one if it could not be put in place
+        staged.discard()  # after a swap the old folder, otherwise the new one
         staged.close()
 
 

@@ -290,7 +290,7 @@ def _head(scene: Scene, result: Result, parts: tuple[str, ...], stepped: bool) -
         f"{row.name}: {BY_NAME[row.name].equation}; "
         f"{row.parameter} = {row.parameter_value:.3g}, {row.reason}"
         for row in selected.rows
-        if row.included and BY_NAME[row.name].selectable  # others are not in the law
+        if row.included and BY_NAME[row.name].selectable  # other rows are not effects of the law
     ]
     omitted = [
         f"{row.name}: "

@@ -153,13 +153,13 @@ def _polished(tables: dict[str, Any], key: str, goal: float) -> float | None:
     off, change = math.inf, NEAR if key == "retardation_time" else -NEAR
     for _ in range(POLISHES):
         try:
-            value = _accurate(tables, key, math.exp(x))
+            trial = _accurate(tables, key, math.exp(x))
         except SceneError:
             return None
         # The results have at least about the error of the measurement, and that of the constant.
-        _check_error(tables, DYNAMIC * value.bound, value.bound)
-        before, off = off, value.restitution / goal - 1.0
-        if abs(off) <= AGREES * value.bound:
+        _check_error(tables, DYNAMIC * trial.bound, trial.bound)
+        before, off = off, trial.restitution / goal - 1.0
+        if abs(off) <= AGREES * trial.bound:
             return math.exp(x)
         change *= math.copysign(1.0, off) if math.isinf(before) else off / (before - off or off)
         if not abs(change) < FURTHEST:
@@ -251,7 +251,7 @@ def _accurate(tables: dict[str, Any], key: str, value: float) -> Trial:
     if "accuracy" not in tables:
         return trial
     rtol = tables["accuracy"]["rtol"]
-    if DYNAMIC * trial.bound <= PART * rtol or trial.bound > rtol:  # or it cannot be met
+    if DYNAMIC * trial.bound <= PART * rtol or trial.bound > rtol:  # or the tolerance cannot be met
         return trial
     finer = tables["accuracy"] | {"rtol": max(TIGHTEST, rtol / FINER)}
     return _simulated(tables | {"accuracy": finer}, key, value)

@@ -227,12 +227,12 @@ def _start(law: ContactLaw, goal: Array) -> Array:
     It is the smaller one of the radii by Hertz's law and by that of a thin plate.
     """
     model = law.model
-    angle = 0.2 * (goal + math.log(5.0))
+    log_radius = 0.2 * (goal + math.log(5.0))  # Hertz: the energy is K a^5/5
     if law.bends:
-        # 3/2 a/h/(4 pi eta^2) instead of 1, with a^6/6 instead of a^5/5.
+        # Bending: d delta/da is (3/2) a/(4 pi eta^2 h) times Hertz's, the energy goes with a^6/6.
         steep = math.log(16.0 * math.pi) + np.log(model.h) + 2.0 * np.log(model.eta)
-        angle = np.minimum(angle, (goal + steep) / 6.0)
-    return np.exp(np.clip(angle, -700.0, 700.0))
+        log_radius = np.minimum(log_radius, (goal + steep) / 6.0)
+    return np.exp(np.clip(log_radius, -700.0, 700.0))
 
 
 def impact(law: ContactLaw) -> Motion:

@@ -125,7 +125,7 @@ def state_of(law: ContactLaw, top: float = TOP) -> LargestContact:
         upper = np.where(np.isnan(a), law.limit, np.minimum(top * a, law.limit))
         radii = np.append(nodes.x, 1.0) * upper
         shape = law.at(radii)
-        # Without the end, where the slope of a sphere may be steep, for the polynomial.
+        # The polynomial omits the largest radius, where the slope of a sphere may be very steep.
         inner = Shape(*(x[..., :-1] for x in shape))
         elasticity = nodes.x * mapped(nodes.derivative, inner.additive) / inner.additive
         own = law.spherical or law.solved  # else the contact radius is Hertz's

@@ -38,7 +38,7 @@ def check_suffix(
     """
     if path.suffix.lower() not in suffixes:
         raise SceneError(
-            f"{path}: expected {kind} with the suffix {' or '.join(suffixes)}, "
+            f"{path}: expected {kind} with one of the suffixes {', '.join(suffixes)}, "
             f"got {path.suffix or 'no suffix'}; change the file name"
         )
 

@@ -349,6 +349,11 @@ def schema() -> dict[str, Any]:
     The schema covers single keys and choices between keys. `load` and `read` also check the names
     of materials and combinations of values.
 
+    Returns
+    -------
+    dict
+        The schema, of the draft 2020-12 of JSON Schema.
+
     Examples
     --------
     >>> import platecontact as pc

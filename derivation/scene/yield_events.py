@@ -114,7 +114,7 @@ def cut(
         if again is None:
             return made
         off = abs(again - position) / length
-        # Where the radius is largest, it hardly depends on the place, which rounding changes.
+        # At its maximum the radius hardly depends on the position, which rounding changes.
         close = off <= _NEAR or _radius_change(element_of(made), again) <= _SAME
         if off <= _CLOSE:
             break

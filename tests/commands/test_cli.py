@@ -18,7 +18,7 @@ def test_public_python_interface() -> None:
     assert isinstance(found, Formula)
     assert found._repr_latex_().startswith("$")
     assert diagnose("G", CORRECT, at="T=3").verdict == "equal"
-    with pytest.raises(KeyError, match="K_j"):
+    with pytest.raises(KeyError, match="nonsense"):
         formula("nonsense")
 
 
@@ -44,7 +44,7 @@ def test_diagnose_reads_latex(capsys: pytest.CaptureFixture[str]) -> None:
 @pytest.mark.parametrize(
     ("arguments", "expected"),
     [
-        (["diagnose", "Omega_9", "--formula", "phi"], "Omega_1"),
+        (["diagnose", "Omega_9", "--formula", "phi"], "Omega_4"),
         (["diagnose", "G", "--formula", "sinh(T"], "platecontact:"),
         (["diagnose", "G", "--formula", "__import__('os').getcwd()"], "platecontact:"),
         (["diagnose", "G", "--formula", "9**9**9"], "platecontact:"),

@@ -23,7 +23,7 @@ from derivation.engine.formula.proof import SYMBOLIC, reduces_to_zero
 from derivation.engine.formula.record import Record
 from derivation.engine.formula.size import terms_when_expanded
 from derivation.engine.formula.vocabulary import Vocabulary
-from derivation.engine.nearest import did_you_mean
+from derivation.engine.nearest import did_you_mean, one_of
 
 EQUAL, DIFFERENT = "equal", "different"
 BY_BALLS = "by ball arithmetic"
@@ -197,11 +197,11 @@ def known_formula(name: str, formulas: Mapping[str, Record]) -> Record:
     if name in formulas and name not in names:
         raise FormulaError(
             f"{name} is an equation, or is defined by an integral or an infinite sum, and cannot "
-            f"be compared: expected one of {', '.join(names)}"
+            f"be compared: expected one of {one_of(names)}"
         )
     if name not in names:
         hint = did_you_mean(name, names, most=3)
-        raise FormulaError(f"no formula {name!r:.60}: {hint}expected one of {', '.join(names)}")
+        raise FormulaError(f"no formula {name!r:.60}: {hint}expected one of {one_of(names)}")
     return formulas[name]
 
 

@@ -10,7 +10,7 @@ from derivation.engine.errata.relations import Point, Relations
 from derivation.engine.formula.domain import violated_conditions
 from derivation.engine.formula.parse import FormulaError, number
 from derivation.engine.formula.vocabulary import Argument, Vocabulary, symbols_of
-from derivation.engine.nearest import did_you_mean
+from derivation.engine.nearest import did_you_mean, one_of
 
 _CANDIDATES = ("0.5", "0.1", "0.01", "1", "2", "10", "-1")
 """Values tried in turn for a symbol without a sample value."""
@@ -70,7 +70,7 @@ def exact_values(at: Mapping[str, str], vocabulary: Vocabulary, relations: Relat
             raise FormulaError(
                 f"--at: unknown symbol {name!r:.40}: "
                 f"{did_you_mean(name, vocabulary.by_name)}expected one of "
-                f"{', '.join(vocabulary.by_name)}"
+                f"{one_of(vocabulary.by_name)}"
             )
         symbol_name = str(symbol.name)
         if symbol_name in result:

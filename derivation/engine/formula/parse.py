@@ -16,7 +16,7 @@ from derivation.engine.formula.ball import enclose
 from derivation.engine.formula.elementary import ELEMENTARY, INSTEAD, OTHER_NAMES
 from derivation.engine.formula.size import degree
 from derivation.engine.formula.vocabulary import Vocabulary
-from derivation.engine.nearest import did_you_mean
+from derivation.engine.nearest import did_you_mean, one_of
 
 MAX_TEXT = 20_000
 MAX_NESTING = 50
@@ -207,9 +207,10 @@ class _Reader:
             return self.names[name]
         if OTHER_NAMES.get(name, name) in FUNCTIONS:
             raise FormulaError(f"expected an argument after {name}: write {name}(x)")
-        allowed = ", ".join(sorted(self.names))
         hint = f"{_NAME_HINTS[name]}; " if name in _NAME_HINTS else did_you_mean(name, self.names)
-        raise FormulaError(f"unknown name {_short(name)}: {hint}expected one of {allowed}")
+        raise FormulaError(
+            f"unknown name {_short(name)}: {hint}expected one of {one_of(sorted(self.names))}"
+        )
 
     def _call(self, name: str, node: ast.Call, depth: int) -> sp.Expr:
         name = OTHER_NAMES.get(name, name)

@@ -79,9 +79,9 @@ def _named(text: str, vocabulary: Vocabulary) -> str:
         known = vocabulary.names.get(name)
         latex = vocabulary.latex[known] if known is not None else ""
         if not latex.startswith("\\"):
-            if not power and not re.fullmatch(r"[A-Za-z]_[A-Za-z0-9]", name):
+            if not power and not re.fullmatch(r"[A-Za-z]_([A-Za-z]|\d+)", name):
                 return match[0]
-            latex = name
+            latex = re.sub(r"_(\d+)", r"_{\1}", name)
         return f"${latex}^{{{power}}}$" if power else f"${latex}$"
 
     def words(text: str) -> str:

@@ -144,7 +144,7 @@ def scaling(data: Mapping[str, Any]) -> Figure:
     """Draw run time against number of points, b/h, digits and number of scenes."""
     titles = list(dict.fromkeys(growth["quantity"] for growth in data["scaling"]))
     with mpl.rc_context(STYLE | {"font.size": 8}):
-        figure = Figure(figsize=(6.5, 4.6), layout="constrained")
+        figure = Figure(figsize=(6.5, 5.4), layout="constrained")
         for ax, quantity in zip(figure.subplots(2, 2).flat, titles, strict=True):
             for growth in data["scaling"]:
                 if growth["quantity"] == quantity:
@@ -156,8 +156,7 @@ def scaling(data: Mapping[str, Any]) -> Figure:
                 )
                 ax.set_xticks(sizes, [f"{x:g}" for x in sizes])
                 ax.xaxis.set_minor_locator(NullLocator())
-            ax.margins(y=0.3)  # space for the legend above the lines
-            ax.legend(fontsize=7, loc="upper left")
+            ax.legend(fontsize=7, loc="lower left", bbox_to_anchor=(-0.05, 1.0), borderaxespad=0.2)
     return figure
 
 

@@ -11,8 +11,8 @@ from derivation.engine.report.latex import escape
 from derivation.engine.report.numbers import rounded
 
 LINES = {
-    "elements, tolerance": "elements",
-    "elements, nodes": "elements, fewer nodes",
+    "elements, tolerance": "time elements",
+    "elements, nodes": "time elements, fewer nodes",
     "DOP853": "Runge-Kutta 8(5,3)",
     "velocity Verlet": "velocity Verlet",
 }
@@ -43,11 +43,11 @@ def dynamic_benchmark_figure(data: Mapping[str, Any]) -> Figure:
         left, right = figure.subplots(1, 2, sharey=True)
         for (name, label), mark in zip(LINES.items(), "os^v", strict=True):
             _line(left, [row for row in rows if row["method"] == name], f"{mark}-", label)
-        _line(right, [row for row in rows if row["study"] == "modes"], "o-", "modes of A0")
+        _line(right, [row for row in rows if row["study"] == "modes"], "o-", "A0 alone")
         every = [row for row in rows if row["study"] == "branches" and row["method"] == "all"]
         _line(right, every, "s-", "all branches")
         alone = [row for row in rows if row["study"] == "branches" and row["method"] == "A0"]
-        _line(right, alone, "D", "A0 against all branches")
+        _line(right, alone, "D", "A0 relative to all branches")
         for ax, title in ((left, "integrators, first contact"), (right, "modes and branches")):
             ax.set(xscale="log", yscale="log", xlabel="time of an impact [s]", title=title)
             ax.legend(fontsize=7)
@@ -84,13 +84,15 @@ def dynamic_benchmark_context(data: Mapping[str, Any]) -> dict[str, Any]:
 
 def gain(data: Mapping[str, Any]) -> str:
     """Return the times of other integrators relative to elements, at their smallest errors."""
-    own = next(row for row in data["rows"] if row["method"] == "elements, tolerance")
+    elements = next(row for row in data["rows"] if row["method"] == "elements, tolerance")
     parts = []
     for method in ("DOP853", "velocity Verlet"):
         best = min((row for row in data["rows"] if row["method"] == method), key=worst)
-        times = best["seconds"] / own["seconds"]
-        parts.append(f"{LINES[method]} takes {times:.0f} times as long for {rounded(worst(best))}")
-    return f"{'; '.join(parts)}; elements reach {rounded(worst(own))}."
+        times = best["seconds"] / elements["seconds"]
+        error = rounded(worst(best))
+        parts.append(f"{LINES[method]} takes {times:.0f} times as long with an error of {error}")
+    reached = f"Time elements reach an error of {rounded(worst(elements))}"
+    return f"{reached}; {'; '.join(parts)}."
 
 
 def _typeset(cell: str) -> str:

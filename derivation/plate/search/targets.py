@@ -15,7 +15,7 @@ from derivation.engine.measure import target
 from derivation.engine.measure.kernels import Kernel
 from derivation.engine.measure.point import Point
 from derivation.engine.measure.target import Domain, Numbers, Target, measure_by
-from derivation.engine.nearest import did_you_mean
+from derivation.engine.nearest import did_you_mean, one_of
 from derivation.engine.oracle.reference import Reference, exact_reference
 from derivation.plate.contact.cases.reference_values import tolerance
 from derivation.plate.impact.oracle.agreement import FIRST
@@ -64,7 +64,7 @@ def targets(names: Sequence[str] = ()) -> tuple[Target, ...]:
         suggestion = did_you_mean(unknown[0], known, most=3)
         raise ValueError(
             f"--function: no generated function {unknown[0]!r}: {suggestion}expected one of "
-            f"{', '.join(known)}"
+            f"{one_of(known)}"
         )
     return tuple(one for one in chosen_targets if not names or one.name in names)
 

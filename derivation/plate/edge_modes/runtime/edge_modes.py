@@ -41,15 +41,32 @@ class Waves(NamedTuple):
 
     A force P at the centre of a plate of density rho moves the contact face there by q, where
     q'' + omega^2 q = residue weight P/(rho h b^2) and omega = root c_T/h.
+
+    Attributes
+    ----------
+    k
+        Wave number times plate radius b [1].
+    root
+        omega h/c_T [1].
+    k2
+        Wave number of the evanescent part I0, times b [1].
+    c
+        Amplitude of the evanescent part I0 [1].
+    t
+        Ratio of contact-face to mean deflection, of I0 relative to J0 [1].
+    weight
+        Modal weight W [1].
+    residue
+        rho h r of the branch A0 at x = k h/b [1].
     """
 
-    k: np.ndarray  # wave number times plate radius b [1]
-    root: np.ndarray  # omega h/c_T [1]
-    k2: np.ndarray  # wave number of the evanescent part I0, times b [1]
-    c: np.ndarray  # amplitude of the evanescent part I0 [1]
-    t: np.ndarray  # ratio of contact-face to mean deflection, of I0 relative to J0 [1]
-    weight: np.ndarray  # modal weight W [1]
-    residue: np.ndarray  # rho h r of A0 at x = k h/b [1]
+    k: np.ndarray
+    root: np.ndarray
+    k2: np.ndarray
+    c: np.ndarray
+    t: np.ndarray
+    weight: np.ndarray
+    residue: np.ndarray
 
 
 @quiet

@@ -19,7 +19,17 @@ from generated.effect_numbers import LATERAL_DEPTH, LATERAL_SLOPE
 
 
 class Sphere(NamedTuple):
-    """Ratios of a sphere on a half-space to Hertz's paraboloid at equal contact radius [1]."""
+    """Ratios of a sphere on a half-space to Hertz's paraboloid at equal contact radius.
+
+    Attributes
+    ----------
+    force
+        Ratio of the forces [1].
+    depth
+        Ratio of the indentations [1].
+    slope
+        Ratio of d delta/da [1].
+    """
 
     force: np.ndarray
     depth: np.ndarray
@@ -27,7 +37,15 @@ class Sphere(NamedTuple):
 
 
 class Contribution(NamedTuple):
-    """Contribution to F and to S [1]."""
+    """Contribution of an effect to the reduced indentation and to its slope.
+
+    Attributes
+    ----------
+    depth
+        Contribution to F = delta R/a^2 - 1 [1].
+    slope
+        Contribution to S = (R/2a) d delta/da [1].
+    """
 
     depth: np.ndarray
     slope: np.ndarray

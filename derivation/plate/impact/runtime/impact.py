@@ -48,7 +48,19 @@ _BATCH = 32 * _SCENES  # number of impacts solved together, which limits the mem
 
 
 class Impact(NamedTuple):
-    """Contact time [s], peak indentation [m], peak force [N] and largest contact radius [m]."""
+    """Results of impacts, in the shape of the arguments; NaN outside the domain.
+
+    Attributes
+    ----------
+    contact_time
+        Contact time [s].
+    max_indentation
+        Largest indentation [m], plate deflection included.
+    max_force
+        Largest contact force [N].
+    max_contact_radius
+        Largest contact radius [m].
+    """
 
     contact_time: np.ndarray
     max_indentation: np.ndarray
@@ -57,7 +69,19 @@ class Impact(NamedTuple):
 
 
 class History(NamedTuple):
-    """Indentation [m], indentation rate [m/s], contact radius [m] and force [N] at given times."""
+    """Motion of impacts at given times.
+
+    Attributes
+    ----------
+    indentation
+        Indentation [m], plate deflection included.
+    velocity
+        Rate of the indentation [m/s].
+    contact_radius
+        Contact radius [m].
+    force
+        Contact force [N].
+    """
 
     indentation: np.ndarray
     velocity: np.ndarray

@@ -50,35 +50,73 @@ _BLOCK = 8  # number of contacts in one block, so that intermediate arrays fit i
 
 
 class Plate(NamedTuple):
-    """Kernel of a plate's integral equation; lengths are in units of `unit`, h or b [m]."""
+    """Kernel N(t, s) of the integral equation of a plate.
+
+    Attributes
+    ----------
+    h, b
+        Half the plate thickness and plate radius [m].
+    unit
+        Unit of length of the other attributes, h or b [m].
+    first
+        N(0, 0).
+    square
+        Coefficient of t^2 + s^2, in addition to the cosines.
+    waves, wave_weights
+        Wave numbers w_i of the cosines, and their weights.
+    rises, rise_weights
+        Rates y_i of the hyperbolic cosines, and their weights times e^(2 y_i).
+    """
 
     h: float
     b: float
     unit: float
-    first: float  # N(0, 0)
-    square: float  # coefficient of t^2 + s^2, in addition to the cosines
-    waves: Double  # w_i of the cosines
+    first: float
+    square: float
+    waves: Double
     wave_weights: Double
-    rises: Double  # y_i of the hyperbolic cosines
-    rise_weights: Double  # multiplied by e^(2 y_i)
+    rises: Double
+    rise_weights: Double
 
 
 class Contact(NamedTuple):
     """Results at given contact radii, all of the shape of the arguments; NaN outside the domain.
 
     All are NaN where the pressure at the centre would be negative: contact is lost there.
+
+    Attributes
+    ----------
+    a
+        Contact radius [m].
+    force
+        Contact force P [N].
+    indentation
+        Indentation delta [m].
+    stiffness
+        dP/d delta [N/m].
+    slope
+        d delta/da [1].
+    energy
+        Work of the force since first contact [J].
+    centre_pressure
+        Pressure at the centre [Pa], positive.
+    mean_pressure
+        P/(pi a^2) [Pa].
+    nodes, chi
+        Points t [m] along a last axis, and chi(t) [N/m] there; chi is the Abel transform of the
+        pressure.
     """
 
-    a: Double  # contact radius [m]
-    force: Double  # P [N]
-    indentation: Double  # delta [m]
-    stiffness: Double  # dP/d delta [N/m]
-    slope: Double  # d delta/da [1]
-    energy: Double  # int P d delta since first contact [J]
-    centre_pressure: Double  # q(0) [Pa], positive
-    mean_pressure: Double  # P/(pi a^2) [Pa]
-    nodes: Double  # t [m], along a last axis
-    chi: Double  # chi(t) [N/m], along a last axis
+    a: Double
+    force: Double
+    indentation: Double
+    stiffness: Double
+    slope: Double
+    energy: Double
+    centre_pressure: Double
+    mean_pressure: Double
+    nodes: Double
+    chi: Double
 
 
 class _Waves(NamedTuple):

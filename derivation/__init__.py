@@ -49,8 +49,8 @@ def formula(name: str) -> "Record":
 
     known = derived.formulas()
     if name not in known:
-        near = did_you_mean(name, known, most=3)
-        raise KeyError(f"no formula {name!r}: {near}expected one of {', '.join(known)}")
+        suggestion = did_you_mean(name, known, most=3)
+        raise KeyError(f"no formula {name!r}: {suggestion}expected one of {', '.join(known)}")
     return known[name]
 
 

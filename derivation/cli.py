@@ -100,9 +100,9 @@ def misprints(paper: PaperFolder = None, json: Json = None) -> None:
     """
     from derivation.engine import build
 
-    own = chosen_paper(paper)
+    chosen = chosen_paper(paper)
     with stage("compare published with derived"):
-        findings = build.misprints(own)
+        findings = build.misprints(chosen)
     if write_json_output(lambda: [finding.to_json() for finding in findings], json):
         rows = [(f.printed.equation, f.printed.name, f.kind, f.repair) for f in findings]
         table("Published and derived formulas", ("equation", "formula", "finding", "fix"), rows)
@@ -211,10 +211,10 @@ def reference(
     warn(known.warnings)
     NOTES.say(many_digits.time_of_reference(known, digits))
     with progress_bar("reference") as progress:
-        found = many_digits.reference(known, digits, progress)
-    if write_json_output(found.to_json, json):
-        listing(f"{scene.name} to {digits} digits", found.lines())
-    raise typer.Exit(0 if found.agrees else 1)
+        result = many_digits.reference(known, digits, progress)
+    if write_json_output(result.to_json, json):
+        listing(f"{scene.name} to {digits} digits", result.lines())
+    raise typer.Exit(0 if result.agrees else 1)
 
 
 command()(scene_commands.simulate)
@@ -247,6 +247,14 @@ def main(argv: Sequence[str] | None = None) -> int:
     except (OSError, ValueError, FailedError) as error:
         NOTES.say(f"platecontact: {error}")
         return 1 if isinstance(error, FailedError) else 2
+    except Exception as error:
+        from derivation.engine.load import location_in_paper  # imports SymPy: slow
+
+        place = location_in_paper(error)
+        if not place:
+            raise
+        NOTES.say(f"platecontact: {place}{type(error).__name__}: {error}; correct it")
+        return 2
     if status == INTERRUPTED_STATUS:
         NOTES.say(
             "platecontact: interrupted; no file is incomplete, so the command can be run again"

@@ -193,6 +193,6 @@ def search_worse(
     path = folder_for(None, PAPER.report_folder) / "search.toml" if out is None else out
     expect_writable(path)
     book = SearchRecord(path, chosen, *recorded(PAPER.measured, MEASURED_CONTACT))
-    found = search(chosen, seed, seconds, progress=progress, keep=book.keep)
-    book.keep(found)
-    return found, book
+    result = search(chosen, seed, seconds, progress=progress, keep=book.keep)
+    book.keep(result)
+    return result, book

@@ -36,9 +36,9 @@ def scene_code(scene: Scene) -> str:
         does not reproduce the contact law.
     """
     made = recipe(scene)
-    found = errors(made, _run(_text(made, made.head)))
+    code_errors = errors(made, _run(_text(made, made.head)))
     differences = ", ".join(
-        f"{name.replace('_', ' ')} {_rounded_up(error)}" for name, error in found.items()
+        f"{name.replace('_', ' ')} {_rounded_up(error)}" for name, error in code_errors.items()
     )
     data = json.dumps(scene.to_json(), sort_keys=True)
     remark = (

@@ -90,9 +90,9 @@ def __getattr__(name: str) -> Any:
     if name not in __all__:
         from derivation.engine.nearest import did_you_mean
 
-        near = did_you_mean(name, __all__)
+        suggestion = did_you_mean(name, __all__)
         raise AttributeError(
-            f"module 'platecontact' has no attribute {name!r}; {near}".rstrip("; ")
+            f"module 'platecontact' has no attribute {name!r}; {suggestion}".rstrip("; ")
         )
     return getattr(import_module(HOMES.get(name, "derivation.scene"), __name__), name)
 

@@ -89,14 +89,14 @@ def check_bounds(count: int, update: bool = False, progress: Progress = quiet) -
     if update:
         expect_recordable(MEASURED)
     known = committed_references()
-    found: list[SceneReference] = []
+    references: list[SceneReference] = []
     for expected in reference_values(count, known, progress=progress):
-        found.append(expected)
-        if update and len(found) > len(known) and len(found) % SAVE_EVERY == 0:
-            write_file(MEASURED, to_json(found, ()))
-    rows = judge(found)
+        references.append(expected)
+        if update and len(references) > len(known) and len(references) % SAVE_EVERY == 0:
+            write_file(MEASURED, to_json(references, ()))
+    rows = judge(references)
     if update:
-        write_file(MEASURED, to_json(found + known[count:], rows))
+        write_file(MEASURED, to_json(references + known[count:], rows))
     cells = [
         (r.method, r.runs, f"{r.ratio:.3f}", f"{r.error:.2g}", f"{r.bound:.2g}", r.quantity)
         for r in rows
@@ -139,11 +139,11 @@ def reference_values(
     progress
         Called before each computation, with the number of the scene and their total number.
     """
-    found = {_written(t.point): t for t in known}
+    by_point = {_written(t.point): t for t in known}
     for number in range(count):
         point = scene(number, seed)
-        if _written(point) in found:
-            yield found[_written(point)]
+        if _written(point) in by_point:
+            yield by_point[_written(point)]
             continue
         progress("reference", number + 1, count)
         yield reference(point)
@@ -191,12 +191,12 @@ def judge(
             values, method, bound = simulated(expected.point, rtol)
             if not bound <= rtol:
                 raise ValueError(f"{method} states {bound} for {rtol} at {expected.point}")
-            found = errors(values, expected)
-            error = max(found)
+            error_values = errors(values, expected)
+            error = max(error_values)
             before = worst.get(method)
             ratio, runs = error / bound, 1 + (before.runs if before else 0)
             if before is None or ratio > before.ratio:
-                quantity = QUANTITIES[found.index(error)]
+                quantity = QUANTITIES[error_values.index(error)]
                 worst[method] = BoundRow(
                     method, runs, ratio, error, bound, quantity, expected.point
                 )

@@ -107,9 +107,9 @@ def measure(progress: Progress = quiet) -> dict[str, Any]:
     before, rows = os.getloadavg()[0], list[tuple[Trial, CostOutcome, dict[str, float]]]()
     for number, trial in enumerate(trials, start=1):
         progress(f"{trial.study}: {trial.method}", number, len(trials) + 1)
-        found = trial.call()
-        pairs = zip(trial.names, found.numbers, trial.reference(), strict=True)
-        rows.append((trial, found, {n: abs(x / true - 1.0) for n, x, true in pairs}))
+        outcome = trial.call()
+        pairs = zip(trial.names, outcome.numbers, trial.reference(), strict=True)
+        rows.append((trial, outcome, {n: abs(x / true - 1.0) for n, x, true in pairs}))
     progress("times", len(trials) + 1, len(trials) + 1)
     nothing = np.zeros(1)
     candidates = [Candidate(_timed(trial), nothing, 1) for trial in trials]
@@ -202,9 +202,9 @@ def integrators() -> list[Trial]:
 def by_time_elements(n: int, tolerance: float) -> CostOutcome:
     """Compute the first contact by time elements with n nodes."""
     problem = _problem()
-    found = contact_sequence.contact(problem, n, problem.begin(), 0.0, 0.0, tolerance)
-    peak = max(piece.element.largest(P) for piece in found.pieces)
-    return CostOutcome((found.end, peak, -found.after.velocity), COMPARED_MODES)
+    run = contact_sequence.contact(problem, n, problem.begin(), 0.0, 0.0, tolerance)
+    peak = max(piece.element.largest(P) for piece in run.pieces)
+    return CostOutcome((run.end, peak, -run.after.velocity), COMPARED_MODES)
 
 
 def by_runge_kutta(rtol: float) -> CostOutcome:
@@ -222,20 +222,20 @@ def by_runge_kutta(rtol: float) -> CostOutcome:
         return motion.pressed(state) if s > SEPARATION_START else 1.0
 
     apart.terminal, apart.direction = True, -1  # type: ignore[attr-defined]
-    found = solve_ivp(
+    solution = solve_ivp(
         rate, (0.0, 2.0), motion.begin(), "DOP853", events=apart, rtol=rtol, atol=1e-3 * rtol,
         dense_output=True,
     )  # fmt: skip
-    end = float(found.t_events[0][0])
+    end = float(solution.t_events[0][0])
 
     def force(s: float) -> float:
-        return motion.force(found.sol(s))
+        return motion.force(solution.sol(s))
 
-    near = max(np.linspace(0.0, end, PEAK_SAMPLES).tolist(), key=force)
-    around = near - end / PEAK_SAMPLES, near + end / PEAK_SAMPLES
+    nearest_sample = max(np.linspace(0.0, end, PEAK_SAMPLES).tolist(), key=force)
+    around = nearest_sample - end / PEAK_SAMPLES, nearest_sample + end / PEAK_SAMPLES
     near_enough = {"xatol": PEAK_TOLERANCE * end}
     top = minimize_scalar(lambda s: -force(s), bounds=around, method="bounded", options=near_enough)
-    return CostOutcome((end * end, -float(top.fun), -float(found.y[1, -1])), COMPARED_MODES)
+    return CostOutcome((end * end, -float(top.fun), -float(solution.y[1, -1])), COMPARED_MODES)
 
 
 def by_verlet(steps: int) -> CostOutcome:
@@ -287,9 +287,9 @@ class _Motion:
 
     def rate(self, state: Array) -> Array:
         """Return velocities and accelerations."""
-        found = np.empty_like(state)
-        found[::2], found[1::2] = state[1::2], self.accelerations(state)
-        return found
+        rates = np.empty_like(state)
+        rates[::2], rates[1::2] = state[1::2], self.accelerations(state)
+        return rates
 
     def accelerations(self, state: Array) -> Array:
         """Return the accelerations of the sphere and the modes."""
@@ -338,14 +338,14 @@ def modes() -> list[Trial]:
 def branches() -> list[Trial]:
     """Return the trials for numbers of modes of all branches, and one with A0 only."""
     reference = cache(lambda: _simulated(modes=MOST_ALL, branches="all").numbers)
-    found = [
+    trials = [
         Trial(
             "branches", "all", n, partial(_simulated, modes=n, branches="all"), reference, OUTPUTS
         )
         for n in ALL
     ]
     alone = partial(_simulated, modes=ALL[-1])
-    return [*found, Trial("branches", "A0", ALL[-1], alone, reference, OUTPUTS)]
+    return [*trials, Trial("branches", "A0", ALL[-1], alone, reference, OUTPUTS)]
 
 
 def tolerances() -> list[Trial]:
@@ -359,10 +359,10 @@ def tolerances() -> list[Trial]:
 
 def _simulated(rtol: float | None = None, **inertia: Any) -> CostOutcome:
     """Return the results of `simulate` and the number of modes."""
-    found = simulate(_scene(**inertia), rtol=rtol)
-    count = found.dynamics.inertia.modes if found.dynamics else 0
-    numbers = tuple(getattr(found, name) for name in OUTPUTS)
-    return CostOutcome(numbers, count, None if rtol is None else found.accuracy.bound)
+    result = simulate(_scene(**inertia), rtol=rtol)
+    count = result.dynamics.inertia.modes if result.dynamics else 0
+    numbers = tuple(getattr(result, name) for name in OUTPUTS)
+    return CostOutcome(numbers, count, None if rtol is None else result.accuracy.bound)
 
 
 def _scene(**inertia: Any) -> Scene:

@@ -131,15 +131,15 @@ def judge(count: int, seed: int = SEED, progress: Progress = quiet) -> tuple[Eff
 
     Scenes outside the range of the models are skipped.
     """
-    found: dict[float, list[EffectCheckRow]] = {rtol: [] for rtol in TOLERANCES}
+    rows_by_tolerance: dict[float, list[EffectCheckRow]] = {rtol: [] for rtol in TOLERANCES}
     rejected = dict.fromkeys(TOLERANCES, 0)
     for number in range(count):
         progress("scene", number + 1, count)
         data = scene(number, seed)
-        whole = all_effects_impact(data)
-        if whole is None:
+        full_impact = all_effects_impact(data)
+        if full_impact is None:
             continue
-        true, applicable = whole
+        true, applicable = full_impact
         for rtol in TOLERANCES:
             solved = selected_impact(data, rtol)
             if solved is None:
@@ -148,10 +148,10 @@ def judge(count: int, seed: int = SEED, progress: Progress = quiet) -> tuple[Eff
             values, effects, bound = solved
             error, name = largest_change(values, true)
             more = len(effects) - 1, len(applicable) - 1
-            found[rtol].append(
+            rows_by_tolerance[rtol].append(
                 EffectCheckRow(rtol, 1, error / rtol, error / bound, *more, name, number, 0)
             )
-    return tuple(_combined_row(rows, rejected[rtol]) for rtol, rows in found.items())
+    return tuple(_combined_row(rows, rejected[rtol]) for rtol, rows in rows_by_tolerance.items())
 
 
 def _combined_row(rows: Sequence[EffectCheckRow], rejected: int) -> EffectCheckRow:
@@ -194,7 +194,7 @@ def all_effects_impact(data: Scene) -> tuple[Sequence[float], Sequence[str]] | N
         e.name for e in EFFECTS if not e.not_applicable_reason(model) and e.name != "inertia"
     )
     try:
-        found = moved(ContactLaw(model, frozenset(present)))
+        motion = moved(ContactLaw(model, frozenset(present)))
     except SceneError:
         return None
-    return found.numbers, present
+    return motion.numbers, present

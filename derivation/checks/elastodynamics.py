@@ -100,28 +100,28 @@ def compare(
     return tuple(compared(row) for row in rows)
 
 
-def result(found: Sequence[ComparedCase]) -> CheckResult:
+def result(cases: Sequence[ComparedCase]) -> CheckResult:
     """Return the cases as lines of text, and those that are rejected."""
-    rejected = [f"{case.name}: {case.rejected}" for case in found if case.rejected]
+    rejected = [f"{case.name}: {case.rejected}" for case in cases if case.rejected]
     return CheckResult(
         "Impacts against finite elements",
         (),
         (),
-        lambda: plain_rows(found),
-        all_passed(found),
+        lambda: plain_rows(cases),
+        all_passed(cases),
         note=paragraph(NOTE, 0),
         listings=[
-            ("Impacts against finite elements", table(found)),
+            ("Impacts against finite elements", table(cases)),
             (f"{len(rejected)} rejected", rejected),
         ],
     )
 
 
-def table(found: Sequence[ComparedCase]) -> list[str]:
+def table(cases: Sequence[ComparedCase]) -> list[str]:
     """Return the cases in lines of at most 80 columns, below the name of their group."""
-    head, rule, *rows = aligned(COLUMNS, [cells(case) for case in found]).splitlines()
+    head, rule, *rows = aligned(COLUMNS, [cells(case) for case in cases]).splitlines()
     lines = [f"  {head}", f"  {rule}"]
-    names = (case.name.rpartition(" ")[0] for case in found)
+    names = (case.name.rpartition(" ")[0] for case in cases)
     for group, numbered in itertools.groupby(zip(names, rows, strict=True), lambda x: x[0]):
         lines += [group, *(f"  {row}" for _, row in numbered)]
     return lines
@@ -134,18 +134,18 @@ def simulated(row: Mapping[str, Any]) -> dict[str, Any]:
     """
     effects = {"spherical_profile": row["spherical_profile"], "inertia": True}
     try:
-        found = simulate(read({**row["scene"], "effects": effects}))
+        result = simulate(read({**row["scene"], "effects": effects}))
     except SceneError as error:
         return {"rejected": str(error)}
-    dynamics = found.dynamics
+    dynamics = result.dynamics
     assert dynamics is not None  # inertia is required
-    values: dict[str, float] = {name: getattr(found, name) for name in OUTPUTS}
+    values: dict[str, float] = {name: getattr(result, name) for name in OUTPUTS}
     values["total_time"] = dynamics.inertia.total_time
     return {
         "branches": dynamics.law.model.inertia.branches,
         "values": {name: float(f"{values[name]:.8g}") for name in RESULTS},
-        "bound": float(f"{found.accuracy.bound:.3g}"),
-        "model_error": float(f"{found.model_error:.3g}"),
+        "bound": float(f"{result.accuracy.bound:.3g}"),
+        "model_error": float(f"{result.model_error:.3g}"),
         "contacts": len(dynamics.inertia.contacts),
     }
 

@@ -55,11 +55,11 @@ def judge(count: int, seed: int = inertia.SEED, progress: Progress = quiet) -> I
             skipped[reason] += 1
             continue
         progress("scene", len(rows) + 1, count)
-        found = solve(number, data, position)
-        if isinstance(found, str):
-            rejected[found] += 1
+        results = solve(number, data, position)
+        if isinstance(results, str):
+            rejected[results] += 1
             continue
-        rows.append(found)
+        rows.append(results)
         if len(rows) == count:
             break
     return InertiaResults(number + 1, skipped, rejected, tuple(rows))
@@ -187,6 +187,6 @@ def _moving(model: Model, rtol: float) -> DynamicImpact:
         return waves.impact(ContactLaw(model, selectable_effects(model)), waves.goal(rtol))
 
 
-def _modes(found: DynamicImpact) -> int:
+def _modes(impact: DynamicImpact) -> int:
     """Return the number of wave numbers of a simulation; each has a mode of every branch."""
-    return len(np.unique(found.impact_history.problem.contact.modes.phi))
+    return len(np.unique(impact.impact_history.problem.contact.modes.phi))

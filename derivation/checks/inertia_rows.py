@@ -177,8 +177,8 @@ def _add_dissipation(tables: dict[str, dict[str, Any]], generator: random.Random
 
 def dissipation_of(data: Mapping[str, Mapping[str, Any]]) -> str:
     """Return the effect of a scene that dissipates energy; "none", or "several"."""
-    found = [name for name, key in KEYS.items() if key in data["plate"]]
-    return (found or [ELASTIC])[0] if len(found) < 2 else SEVERAL
+    sources = [name for name, key in KEYS.items() if key in data["plate"]]
+    return (sources or [ELASTIC])[0] if len(sources) < 2 else SEVERAL
 
 
 def sides(rows: Sequence[InertiaRow]) -> tuple[Side, ...]:

@@ -141,30 +141,30 @@ def _widest(scene: Scene) -> float:
     sphere, plate, v0 = scene["sphere"], scene["plate"], scene["impact"]["speed"]
     R = sphere["radius"]
     soft = 0.0 if "mass" in sphere else 1.0 / STIFFNESS[sphere["material"]]
-    own = plate.get("youngs_modulus") or STIFFNESS[plate["material"]]
+    youngs_modulus = plate.get("youngs_modulus") or STIFFNESS[plate["material"]]
     mass = sphere.get("mass") or 4.0 / 3.0 * math.pi * R**3 * DENSITY[sphere["material"]]
-    modulus = 1.1 / (1.0 / own + soft)
+    modulus = 1.1 / (1.0 / youngs_modulus + soft)
     return math.pow(15.0 / 16.0 * mass * v0**2 / (modulus * R**3), 0.2)
 
 
-def passed(found: Sequence[Outcome]) -> bool:
+def passed(outcomes: Sequence[Outcome]) -> bool:
     """Return whether no run failed, each rejection states a remedy, and few runs are rejected."""
-    failed = any(outcome.kind in ("NaN", "traceback", "overrun") for outcome in found)
-    remedied = all(outcome.states_remedy for outcome in found)
-    return not failed and remedied and rejected(found).get(RTOL, 0.0) <= MOST_REJECTED
+    failed = any(outcome.kind in ("NaN", "traceback", "overrun") for outcome in outcomes)
+    remedied = all(outcome.states_remedy for outcome in outcomes)
+    return not failed and remedied and rejected(outcomes).get(RTOL, 0.0) <= MOST_REJECTED
 
 
-def rejected(found: Sequence[Outcome]) -> dict[float | None, float]:
+def rejected(outcomes: Sequence[Outcome]) -> dict[float | None, float]:
     """Return the fraction of runs that were rejected or incomplete, by tolerance."""
-    runs = Counter(outcome.rtol for outcome in found)
-    stopped = Counter(o.rtol for o in found if o.kind in ("rejected", "incomplete"))
+    runs = Counter(outcome.rtol for outcome in outcomes)
+    stopped = Counter(o.rtol for o in outcomes if o.kind in ("rejected", "incomplete"))
     return {rtol: stopped[rtol] / many for rtol, many in runs.items()}
 
 
-def cells(found: Sequence[Outcome]) -> list[tuple[str, ...]]:
+def cells(outcomes: Sequence[Outcome]) -> list[tuple[str, ...]]:
     """Return the rows of the table: tolerance, outcome, number and fraction of runs, reason."""
-    runs = Counter(outcome.rtol for outcome in found)
-    groups = Counter((outcome.rtol, outcome.kind, outcome.group) for outcome in found)
+    runs = Counter(outcome.rtol for outcome in outcomes)
+    groups = Counter((outcome.rtol, outcome.kind, outcome.group) for outcome in outcomes)
     rows: list[tuple[str, ...]] = []
     for rtol, total in runs.items():
         here = [(k, g, many) for (r, k, g), many in groups.items() if r == rtol]
@@ -174,13 +174,13 @@ def cells(found: Sequence[Outcome]) -> list[tuple[str, ...]]:
     return rows
 
 
-def cost(found: Sequence[Outcome]) -> str:
+def cost(outcomes: Sequence[Outcome]) -> str:
     """Return processor time and memory of the runs as a sentence."""
-    seconds = sorted(o.seconds for o in found if not math.isnan(o.seconds))
+    seconds = sorted(o.seconds for o in outcomes if not math.isnan(o.seconds))
     if not seconds:
         return "Processor time and memory of the runs are unknown."
     median, most = (seconds[int(part * (len(seconds) - 1))] for part in (0.5, 0.95))
-    memory = max(o.memory for o in found if not math.isnan(o.seconds))
+    memory = max(o.memory for o in outcomes if not math.isnan(o.seconds))
     return (
         f"Processor time of a run: median {median:.2g} s, 95 % below {most:.2g} s, maximum "
         f"{seconds[-1]:.2g} s, total {sum(seconds):.3g} s; peak memory of a process "
@@ -188,10 +188,10 @@ def cost(found: Sequence[Outcome]) -> str:
     )
 
 
-def failures(found: Sequence[Outcome]) -> list[str]:
+def failures(outcomes: Sequence[Outcome]) -> list[str]:
     """Return the first message and scene, as TOML in one line, of each group not finished."""
     firsts: dict[tuple[str, str, bool], Outcome] = {}
-    for outcome in found:
+    for outcome in outcomes:
         if outcome.kind != "finished":
             firsts.setdefault((outcome.kind, outcome.group, outcome.states_remedy), outcome)
     lines = []
@@ -212,7 +212,7 @@ def one_line(scene: Scene) -> str:
     return "; ".join(tables)
 
 
-def as_data(found: Sequence[Outcome], seed: int) -> dict[str, Any]:
+def as_data(outcomes: Sequence[Outcome], seed: int) -> dict[str, Any]:
     """Return the outcomes as plain data."""
     rows = [
         {
@@ -224,20 +224,20 @@ def as_data(found: Sequence[Outcome], seed: int) -> dict[str, Any]:
             "seconds": None if math.isnan(outcome.seconds) else outcome.seconds,
             "memory": None if math.isnan(outcome.memory) else outcome.memory,
         }
-        for outcome in found
+        for outcome in outcomes
     ]
-    stopped = [{"rtol": rtol, "fraction": part} for rtol, part in rejected(found).items()]
-    return {"seed": seed, "passed": passed(found), "rejected": stopped, "runs": rows}
+    stopped = [{"rtol": rtol, "fraction": part} for rtol, part in rejected(outcomes).items()]
+    return {"seed": seed, "passed": passed(outcomes), "rejected": stopped, "runs": rows}
 
 
-def result(found: Sequence[Outcome], count: int, seed: int) -> CheckResult:
+def result(outcomes: Sequence[Outcome], count: int, seed: int) -> CheckResult:
     """Return the table of outcomes, with an example of each kind that did not finish."""
     return CheckResult(
         f"Simulations of {count} realistic scenes, seed {seed}",
         COLUMNS,
-        cells(found),
-        lambda: as_data(found, seed),
-        passed(found),
-        note=cost(found),
-        listings=[("Example of each group that did not finish", failures(found))],
+        cells(outcomes),
+        lambda: as_data(outcomes, seed),
+        passed(outcomes),
+        note=cost(outcomes),
+        listings=[("Example of each group that did not finish", failures(outcomes))],
     )

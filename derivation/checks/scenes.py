@@ -71,17 +71,17 @@ def check_scenes(
         finally:
             free.put(worker)
 
-    found: list[Outcome] = []
+    solved: list[Outcome] = []
     pool = ThreadPoolExecutor(many)
     try:
         for number, outcomes in enumerate(pool.map(run, jobs), 1):
-            found.extend(outcomes)
+            solved.extend(outcomes)
             progress(outcomes[0].kind, number, len(jobs))
     finally:
         pool.shutdown(wait=False, cancel_futures=True)
         for worker in workers:
             worker.stop()
-    return tuple(found)
+    return tuple(solved)
 
 
 def processors() -> int:

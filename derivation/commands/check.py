@@ -83,10 +83,10 @@ def check(
     from derivation.engine import build
     from derivation.engine.measure.record import result
 
-    own = chosen_paper(paper)
+    chosen = chosen_paper(paper)
     show_check(
         lambda progress: result(
-            build.check(own, digits, update, progress), digits, own.package().target
+            build.check(chosen, digits, update, progress), digits, chosen.package().target
         ),
         json,
         suggest_budgets,

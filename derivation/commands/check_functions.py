@@ -64,9 +64,12 @@ def hard_cases(
     from derivation.engine import build
     from derivation.engine.measure.hard import result
 
-    own = chosen_paper(paper)
+    chosen = chosen_paper(paper)
     show_check(
-        lambda progress: result(build.check_hard(own, update, progress), own.package().target), json
+        lambda progress: result(
+            build.check_hard(chosen, update, progress), chosen.package().target
+        ),
+        json,
     )
 
 
@@ -104,14 +107,14 @@ def search(
     )
 
     with search_clock("search") as progress:
-        found, book = pipeline.search_worse(time, seed, function or [], out, progress)
-    if write_json_output(lambda: as_data(found), json):
-        table(f"Search, seed {seed}", COLUMNS, [cells(k, found, book) for k in found.standings])
-        listing("Worst arguments", [arguments(k, found) for k in found.standings])
+        results, book = pipeline.search_worse(time, seed, function or [], out, progress)
+    if write_json_output(lambda: as_data(results), json):
+        table(f"Search, seed {seed}", COLUMNS, [cells(k, results, book) for k in results.standings])
+        listing("Worst arguments", [arguments(k, results) for k in results.standings])
     if book.written:
         NOTES.say(f"new worst cases written to {book.path}")
     raise typer.Exit(
-        INTERRUPTED_STATUS if found.interrupted else 0 if all_within_allowance(found) else 1
+        INTERRUPTED_STATUS if results.interrupted else 0 if all_within_allowance(results) else 1
     )
 
 

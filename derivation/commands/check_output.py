@@ -32,23 +32,25 @@ def show_check(
     if record:
         expect_recordable(record)
     with progress_bar("check") as progress:
-        found = measure(progress)
+        result = measure(progress)
     if record:
-        write_file(record, found.record())
+        write_file(record, result.record())
     budgets = []
     if suggest_budgets:
         from derivation.engine.measure.suggest import suggestions
 
-        budgets = suggestions(found.budgeted)
+        budgets = suggestions(result.budgeted)
     tighter = {"suggested_budgets": {budget.name: budget.ulp for budget in budgets}}
-    if write_json_output(lambda: found.data() | tighter if suggest_budgets else found.data(), json):
-        if found.columns:
-            table(found.title, found.columns, found.cells)
-        if found.note:
-            write_output(f"{found.note}\n")
-        for title, lines in found.listings:
+    if write_json_output(
+        lambda: result.data() | tighter if suggest_budgets else result.data(), json
+    ):
+        if result.columns:
+            table(result.title, result.columns, result.cells)
+        if result.note:
+            write_output(f"{result.note}\n")
+        for title, lines in result.listings:
             listing(title, lines)
         if suggest_budgets:
             lines = ["[ulp]", *map(str, budgets)] if budgets else ["# no budget can be tightened"]
             OUT.say("\n".join(lines))
-    raise typer.Exit(0 if found.passed else 1)
+    raise typer.Exit(0 if result.passed else 1)

@@ -67,9 +67,9 @@ def with_present_names(command: Any, ctx: Any, args: list[str]) -> list[str]:
     if ctx.resilient_parsing:
         return args
     args = list(_present_names(command, args))
-    found = given_options(command, ctx, args)
-    for option in found:
-        count = found.count(option)
+    options = given_options(command, ctx, args)
+    for option in options:
+        count = options.count(option)
         if count > 1 and not (option.multiple or option.is_flag):
             problem = f"expected once, got {count} times; remove all but one"
             raise BadParameter(problem, ctx=ctx, param=option)
@@ -86,8 +86,8 @@ def typed_options(command: Any, ctx: Any) -> Iterator[TyperOption]:
 
 def given_options(command: Any, ctx: Any, args: Sequence[str]) -> list[TyperOption]:
     """Return the options among the arguments; a repeated option has several entries."""
-    found = command.make_parser(ctx).parse_args(args=list(args))[2]
-    return [option for option in found if isinstance(option, TyperOption)]
+    order = command.make_parser(ctx).parse_args(args=list(args))[2]
+    return [option for option in order if isinstance(option, TyperOption)]
 
 
 def _present_names(command: Any, args: Sequence[str]) -> Iterator[str]:

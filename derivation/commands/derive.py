@@ -36,18 +36,20 @@ def derive(
     from derivation.engine import build
     from derivation.engine.formula_details import formula_details
 
-    own = chosen_paper(paper)
+    chosen = chosen_paper(paper)
     with stage("derive"):
-        found = build.formulas(own)
+        formulas = build.formulas(chosen)
     if name is None:
-        if write_json_output(lambda: [formula.to_json() for formula in found.values()], json):
-            OUT.say(_table(list(found.values())))
+        if write_json_output(lambda: [formula.to_json() for formula in formulas.values()], json):
+            OUT.say(_table(list(formulas.values())))
             OUT.say("\nTo show one formula: platecontact derive NAME")
         return
-    if name not in found:
-        near = did_you_mean(name, found, most=NEAR)
-        raise ValueError(f"no formula {name!r}: {near}`platecontact derive` lists all formulas")
-    of = formula_details(own, name)
+    if name not in formulas:
+        suggestion = did_you_mean(name, formulas, most=NEAR)
+        raise ValueError(
+            f"no formula {name!r}: {suggestion}`platecontact derive` lists all formulas"
+        )
+    of = formula_details(chosen, name)
     if write_json_output(of.to_json, json):
         OUT.say(_one(of))
 

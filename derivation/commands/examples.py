@@ -44,13 +44,13 @@ def examples(
                 "--out and --force apply only if examples are copied; add the NAME of an example, "
                 "or remove these options"
             )
-        found = tuple(known().values())
+        available = tuple(known().values())
     else:
-        found = copy(name, out or Path(), force)
-    if not write_json_output(lambda: [example.to_json() for example in found], json):
+        available = copy(name, out or Path(), force)
+    if not write_json_output(lambda: [example.to_json() for example in available], json):
         return
     if name:
-        NOTES.say("\n".join(str(example.file) for example in found))
+        NOTES.say("\n".join(str(example.file) for example in available))
         return
-    OUT.say(aligned(("example", "shows"), [(each.name, each.description) for each in found]))
+    OUT.say(aligned(("example", "shows"), [(each.name, each.description) for each in available]))
     OUT.say("\nTo copy examples: platecontact examples NAME... [--out DIR]")

@@ -41,19 +41,21 @@ def rewrite(
             )
         with stage("rewrite"):
             stable, source, tested = rewrite_text(formula, variable)
-        found = [("", applied) for applied in stable.applied]
+        transformations = [("", applied) for applied in stable.applied]
         applied = [asdict(a) for a in stable.applied]
         data: object = {"source": source, "tested": asdict(tested), "applied": applied}
     else:
         with progress_bar("rewrite") as progress:
             accounts = build.rewriting_effects(chosen_paper(paper), update, progress)
-        found = [(account.name, applied) for account in accounts for applied in account.applied]
+        transformations = [
+            (account.name, applied) for account in accounts for applied in account.applied
+        ]
         data, source = {"rows": [asdict(account) for account in accounts]}, ""
     if write_json_output(lambda: plain(data), json):
         rows = [
             (name, a.rule, a.cause, *(f"{without:.3g}/{with_:.3g}" for without, with_ in
              (a.operations, a.worst)))
-            for name, a in found
+            for name, a in transformations
         ]  # fmt: skip
         heads = ("formula", "rule", "prevents", "#operations", "#error [ULP]")
         first = 1 if formula else 0
@@ -89,13 +91,13 @@ def diagnose(
     """
     from derivation.engine import build
 
-    own = chosen_paper(paper)
+    chosen = chosen_paper(paper)
     with stage("compare"):
-        found = build.diagnose(own, name, formula, latex, at, digits)
-    if write_json_output(found.to_json, json):
-        given = {key: value for key, value in found.to_json().items() if value is not None}
+        diagnosis = build.diagnose(chosen, name, formula, latex, at, digits)
+    if write_json_output(diagnosis.to_json, json):
+        given = {key: value for key, value in diagnosis.to_json().items() if value is not None}
         point = given.get("point")
         if isinstance(point, dict):
             given["point"] = ", ".join(f"{symbol} = {value}" for symbol, value in point.items())
-        table(f"{name}: {found.verdict}", ("item", "value"), list(given.items()))
-    raise typer.Exit(0 if found.verdict == "equal" else 1)
+        table(f"{name}: {diagnosis.verdict}", ("item", "value"), list(given.items()))
+    raise typer.Exit(0 if diagnosis.verdict == "equal" else 1)

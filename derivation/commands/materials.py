@@ -51,12 +51,12 @@ def materials(
                 )
             )
         return
-    found = find(name)
-    if found is None:
+    body = find(name)
+    if body is None:
         raise SceneError(f"materials: {unknown(name)}")
-    if write_json_output(found.to_json, json):
+    if write_json_output(body.to_json, json):
         heads = (*(head.lstrip("#") for head in COLUMNS), "source", "other names")
-        cells = (*_cells(found), found.source, ", ".join(found.also) or "none")
+        cells = (*_cells(body), body.source, ", ".join(body.also) or "none")
         OUT.say(aligned(("quantity", "value"), list(zip(heads, cells, strict=True))))
 
 

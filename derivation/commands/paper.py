@@ -79,14 +79,14 @@ def generate(
         return
     from derivation.engine import build
 
-    own = chosen_paper(paper)
+    chosen = chosen_paper(paper)
     if check:
         with stage("compare"):
-            freshness = build.check_generated(own, out, _repeated("generate", paper, out))
+            freshness = build.check_generated(chosen, out, _repeated("generate", paper, out))
         OUT.say(str(freshness))
         raise typer.Exit(0 if freshness.fresh else 1)
     with stage("derive and generate"):
-        written = build.generate(own, out)
+        written = build.generate(chosen, out)
     NOTES.say(f"{len(written)} files written to {written[0].parent}")
 
 
@@ -144,20 +144,20 @@ def report(
         )
     from derivation.engine import report_files
 
-    own = chosen_paper(paper)
+    chosen = chosen_paper(paper)
     if check:
         with stage("compare"):
-            freshness = report_files.freshness(own, out, _repeated("report", paper, out))
+            freshness = report_files.freshness(chosen, out, _repeated("report", paper, out))
         OUT.say(str(freshness))
         raise typer.Exit(0 if freshness.fresh else 1)
     if fragment and out is None:
-        write_output(report_files.fragments(own, fragment))
+        write_output(report_files.fragments(chosen, fragment))
         return
     if fragment and out is not None:
-        written = report_files.write_fragments(own, fragment, out)
+        written = report_files.write_fragments(chosen, fragment, out)
     else:
         with stage("report"):
-            written = report_files.write(own, out, pdf, section or ())
+            written = report_files.write(chosen, out, pdf, section or ())
     NOTES.say("\n".join(str(path) for path in written))
 
 

@@ -193,10 +193,10 @@ def explain(
     from derivation.scene import load
 
     check_outputs(scene, json)
-    found = run(load(scene), rtol)
-    if write_json_output(found.to_json, json):
-        OUT.say(f"Effects in {one_line(scene.name)}\n\n{found.details()}")
-        for note in found.notes:
+    explanation = run(load(scene), rtol)
+    if write_json_output(explanation.to_json, json):
+        OUT.say(f"Effects in {one_line(scene.name)}\n\n{explanation.details()}")
+        for note in explanation.notes:
             NOTES.say(paragraph(note, 0))
 
 

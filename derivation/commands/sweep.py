@@ -131,10 +131,10 @@ def _explain(study: "Study", scheduler: str | None, json: str | None) -> None:
     """Show the size of a study and its estimated run time."""
     from derivation.sweep.forecast import forecast
 
-    found = forecast(study, 1 if scheduler else os.cpu_count() or 1)
-    if write_json_output(found.to_json, json):
-        OUT.say(found.to_text())
-    warn([f"some points are rejected: {text}" for text in found.rejected])
+    estimate = forecast(study, 1 if scheduler else os.cpu_count() or 1)
+    if write_json_output(estimate.to_json, json):
+        OUT.say(estimate.to_text())
+    warn([f"some points are rejected: {text}" for text in estimate.rejected])
 
 
 def _run(
@@ -158,28 +158,28 @@ def _run(
         try:
             with progress_bar("sweep") as progress:
                 computed = compute(store, os.cpu_count() or 1, scheduler, retry, progress)
-                found = api.write_results(store, out, sensitivity, progress)
+                indices = api.write_results(store, out, sensitivity, progress)
         except KeyboardInterrupt:
             _say_how_to_resume(store, out)
             raise
         if plot is not None:
-            write_file(plot, _drawing(store, found, results, plot.suffix))
-        answer = summary(store, computed, found)
+            write_file(plot, _drawing(store, indices, results, plot.suffix))
+        answer = summary(store, computed, indices)
     if write_json_output(answer.to_json, json):
         OUT.say(f"Study of {one_line(name)}\n\n{answer.to_text()}")
     warn(answer.warnings)
 
 
 def _drawing(
-    store: "Store", found: "Sensitivities | None", results: tuple[str, ...], suffix: str
+    store: "Store", indices: "Sensitivities | None", results: tuple[str, ...], suffix: str
 ) -> bytes:
     """Return the figure of a study as the content of a file."""
     from derivation.sweep import plots
     from derivation.sweep.dataset import data_set
 
     data: xr.Dataset = data_set(store)
-    if found is not None:
-        data = found.add_to(data)
+    if indices is not None:
+        data = indices.add_to(data)
     return plots.render(data, store.study.plan.keys, results, suffix)
 
 

@@ -148,10 +148,10 @@ def generate(paper: Paper, out: Path | None = None) -> tuple[Path, ...]:
     OSError
         If the folder cannot be written to.
     """
-    folder, own = writable_folder(out, paper.package_folder), paper.package()
-    written = package.write(paper.chain, own, folder)
+    folder, settings = writable_folder(out, paper.package_folder), paper.package()
+    written = package.write(paper.chain, settings, folder)
     if folder == paper.package_folder:
-        _unload(own.target)
+        _unload(settings.target)
     return written
 
 
@@ -287,11 +287,11 @@ def rewriting_effects(
 
     if update:
         expect_recordable(paper.rewritten)
-    own = paper.package()
-    found = accounts(formulas(paper), own.rewritten, own.scales, progress)
+    package = paper.package()
+    effects = accounts(formulas(paper), package.rewritten, package.scales, progress)
     if update:
-        write_file(paper.rewritten, sorted_json({"rows": plain_rows(found)}))
-    return found
+        write_file(paper.rewritten, sorted_json({"rows": plain_rows(effects)}))
+    return effects
 
 
 def check_generated(paper: Paper, out: Path | None, remedy: str) -> Freshness:

@@ -117,8 +117,10 @@ def cache_folder() -> Path | None:
         known = folder.stat()
     except (OSError, RuntimeError, ValueError):
         return None
-    own = not hasattr(os, "geteuid") or (known.st_uid == os.geteuid() and not known.st_mode & 0o002)
-    return folder if own else None
+    private = not hasattr(os, "geteuid") or (
+        known.st_uid == os.geteuid() and not known.st_mode & 0o002
+    )
+    return folder if private else None
 
 
 # --- a file: a checksum, which covers the key, and a line of JSON
@@ -238,10 +240,10 @@ def _head(name: str, kinds: Mapping[str, type]) -> Any:
 
 
 def _expressions(values: Iterable[Any]) -> tuple[sp.Basic, ...]:
-    found = tuple(values)
-    if not all(isinstance(value, sp.Basic) for value in found):
+    expressions = tuple(values)
+    if not all(isinstance(value, sp.Basic) for value in expressions):
         raise ValueError("expected expressions as parts of an expression")
-    return found
+    return expressions
 
 
 def _text(value: Any) -> str:

@@ -170,11 +170,11 @@ def listing(title: str, lines: Sequence[str]) -> None:
 
 def warn(warnings: Sequence[str]) -> None:
     """Show each warning once, on standard error; of many, the first `MOST_WARNINGS`."""
-    found = list(dict.fromkeys(warnings))
-    for text in found[:MOST_WARNINGS]:
+    unique = list(dict.fromkeys(warnings))
+    for text in unique[:MOST_WARNINGS]:
         NOTES.say(paragraph(f"warning: {text}"))
-    if len(found) > MOST_WARNINGS:
-        NOTES.say(f"warning: ... and {len(found) - MOST_WARNINGS:,} more")
+    if len(unique) > MOST_WARNINGS:
+        NOTES.say(f"warning: ... and {len(unique) - MOST_WARNINGS:,} more")
 
 
 @contextmanager

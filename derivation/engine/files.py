@@ -210,8 +210,8 @@ def sources(*rooms: str | Path) -> Iterator[Path]:
     """
     for room in rooms:
         for path in sorted(PACKAGE.glob(room)) if isinstance(room, str) else [room]:
-            found = path.rglob("*") if path.is_dir() else [path]
-            yield from sorted(p for p in found if p.suffix in {".py", ".j2", ".toml"})
+            paths = path.rglob("*") if path.is_dir() else [path]
+            yield from sorted(p for p in paths if p.suffix in {".py", ".j2", ".toml"})
 
 
 def content_hash(paths: Iterable[Path]) -> str:
@@ -220,7 +220,7 @@ def content_hash(paths: Iterable[Path]) -> str:
     for library in PINNED:
         digest.update(f"{library}={version(library)};".encode())
     for path in paths:
-        own = path.is_relative_to(PACKAGE)
-        digest.update(f"{path.relative_to(PACKAGE) if own else path}:".encode())
+        is_internal = path.is_relative_to(PACKAGE)
+        digest.update(f"{path.relative_to(PACKAGE) if is_internal else path}:".encode())
         digest.update(path.read_bytes())
     return digest.hexdigest()

@@ -3,10 +3,9 @@
 import importlib
 import sys
 from pathlib import Path
-from traceback import extract_tb
 from types import ModuleType
 
-from derivation.engine.failed import FailedError
+from derivation.engine.failed import FailedError, location
 from derivation.engine.files import write_files
 from derivation.engine.paper import Paper
 
@@ -42,7 +41,7 @@ def load(folder: Path) -> Paper:
         raise
     except Exception as error:  # any exception that a module of the folder raises
         raise PaperError(
-            f"--paper: {folder} cannot be imported: {_place(error, path)}"
+            f"--paper: {folder} cannot be imported: {location(error, path)}"
             f"{type(error).__name__}: {error}; correct it"
         ) from error
     if not isinstance(paper, Paper):
@@ -61,10 +60,11 @@ def _imported(name: str, path: Path) -> ModuleType:
     return importlib.import_module(f"{name}.paper")
 
 
-def _place(error: Exception, folder: Path) -> str:
-    """Return the line of the folder's files in which an error occurred, as a prefix."""
-    frames = [f for f in extract_tb(error.__traceback__) if Path(f.filename).parent == folder]
-    return f"{Path(frames[-1].filename).name}, line {frames[-1].lineno}: " if frames else ""
+def location_in_paper(error: Exception) -> str:
+    """Return file and line of a loaded paper's code in which an error occurred, or ""."""
+    papers = [module for name, module in sys.modules.items() if name.startswith(PREFIX)]
+    folders = {Path(path) for module in papers for path in getattr(module, "__path__", ())}
+    return "".join(location(error, folder) for folder in folders)
 
 
 def create_paper(folder: Path) -> tuple[Path, ...]:
@@ -79,6 +79,6 @@ def create_paper(folder: Path) -> tuple[Path, ...]:
     """
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
         raise PaperError(f"new: expected an empty folder or a new one, got {folder}; name another")
-    found = sorted(path for path in SKELETON.iterdir() if path.is_file())
-    sources = [path for path in found if path.name != "__init__.py"]
+    files = sorted(path for path in SKELETON.iterdir() if path.is_file())
+    sources = [path for path in files if path.name != "__init__.py"]
     return write_files({folder / path.name: path.read_text() for path in sources})

@@ -37,9 +37,9 @@ def nearest(name: str, known: Iterable[str], alike: float = SIMILARITY, most: in
     plain: dict[str, str] = {}
     for other in known:
         plain.setdefault(_plain(other), other)
-    own = _plain(name)
-    alike_ones = get_close_matches(own, plain, max(len(plain), 1), alike)
-    return [plain[other] for other in alike_ones if _near(own, other)][:most]
+    plain_name = _plain(name)
+    alike_ones = get_close_matches(plain_name, plain, max(len(plain), 1), alike)
+    return [plain[other] for other in alike_ones if _near(plain_name, other)][:most]
 
 
 def did_you_mean(name: str, known: Iterable[str], alike: float = SIMILARITY, most: int = 1) -> str:
@@ -52,8 +52,8 @@ def did_you_mean(name: str, known: Iterable[str], alike: float = SIMILARITY, mos
     >>> did_you_mean("stel", ["steel", "glass"])
     'did you mean steel? '
     """
-    found = nearest(name, known, alike, most)
-    return f"did you mean {' or '.join(found)}? " if found else ""
+    names = nearest(name, known, alike, most)
+    return f"did you mean {' or '.join(names)}? " if names else ""
 
 
 def _near(one: str, other: str) -> bool:

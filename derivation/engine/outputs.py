@@ -10,7 +10,7 @@ from typing import Any
 from derivation.engine.files import ROOT, expect_folder, expect_writable, in_checkout
 
 
-def folder_for(out: Path | None, own: Path) -> Path:
+def folder_for(out: Path | None, default: Path) -> Path:
     """Return the folder to write to: `out`, or the project's own.
 
     Raises
@@ -18,12 +18,12 @@ def folder_for(out: Path | None, own: Path) -> Path:
     ValueError
         If `out` is None and the project's folder belongs to an installed copy.
     """
-    if out is None and _installed(own):
+    if out is None and _installed(default):
         raise ValueError("expected a folder, as this is an installed copy: add --out DIR")
-    return own if out is None else out
+    return default if out is None else out
 
 
-def writable_folder(out: Path | None, own: Path) -> Path:
+def writable_folder(out: Path | None, default: Path) -> Path:
     """Return the folder to write to, as `folder_for` does, after a test that it is writable.
 
     Raises
@@ -33,7 +33,7 @@ def writable_folder(out: Path | None, own: Path) -> Path:
     OSError
         If it cannot be written to.
     """
-    folder = folder_for(out, own)
+    folder = folder_for(out, default)
     expect_folder(folder)
     return folder
 

@@ -8,7 +8,7 @@ from derivation.engine.emit.freshness import Freshness, compare
 from derivation.engine.files import real, write_folder
 from derivation.engine.formula.chain import Chain
 from derivation.engine.formula.record import Record
-from derivation.engine.rewrite.form import Branch, Form, Step, Switch
+from derivation.engine.rewrite.form import Block, Branch, Form, Step, Switch
 from derivation.engine.rewrite.scales import Scales
 from derivation.engine.staging import recover
 
@@ -46,15 +46,15 @@ class Package:
 
 def forms_of(chain: Chain, package: Package) -> tuple[Form, ...]:
     """Return the stable forms, proved equal to the formulas."""
-    kinds = (Form, Step, Branch, Switch)
+    kinds = (Form, Block, Step, Branch, Switch)
     rooms = ("engine/rewrite", *package.sources)
     return chain.cached_result("forms", lambda: package.forms(chain.formulas()), *kinds, also=rooms)
 
 
 def files_of(chain: Chain, package: Package) -> dict[str, str]:
     """Return the contents of the package's files by name."""
-    own = ("engine/rewrite", "engine/errata", "engine/emit", "engine/runtime")
-    rooms = (*own, *package.sources)
+    folders = ("engine/rewrite", "engine/errata", "engine/emit", "engine/runtime")
+    rooms = (*folders, *package.sources)
 
     def compute() -> dict[str, str]:
         return package.files(chain.formulas(), forms_of(chain, package))

@@ -27,10 +27,10 @@ def documents(paper: Paper, sections: Sequence[str] = ()) -> dict[str, Text]:
     ValueError
         If a name is not that of a section.
     """
-    own = paper.report()
-    shown = chosen_sections(sections, own.plan.names)
-    wanted = shown or own.plan.names
-    return own.plan.documents(own.parts(wanted) if own.parts else _parts(paper, wanted), shown)
+    plan = paper.report()
+    shown = chosen_sections(sections, plan.plan.names)
+    wanted = shown or plan.plan.names
+    return plan.plan.documents(plan.parts(wanted) if plan.parts else _parts(paper, wanted), shown)
 
 
 def _parts(paper: Paper, sections: Sequence[str]) -> Parts:
@@ -40,16 +40,16 @@ def _parts(paper: Paper, sections: Sequence[str]) -> Parts:
             f"no measurement in {paper.measured}: run `platecontact check --update` with the same "
             "paper"
         )
-    own = paper.report()
+    plan = paper.report()
     contents = any_report.ReportContents(
         paper.title,
-        own.subtitle,
-        own.abstract,
+        plan.subtitle,
+        plan.abstract,
         paper.vocabulary,
         paper.chain.derived_steps(),
         paper.errata.found(paper.chain),
         json.loads(paper.measured.read_text()),
-        own.prose,
+        plan.prose,
         version("platecontact"),
     )
     return any_report.parts(contents, sections)
@@ -93,11 +93,11 @@ def write(
     derivation.engine.report.pdf.TexError
         If LaTeX is not installed or fails; all other files are written nevertheless.
     """
-    folder, own = writable_folder(out, paper.report_folder), paper.report()
+    folder, plan = writable_folder(out, paper.report_folder), paper.report()
     texts = documents(paper, sections)
     drawn = {
         key: figure
-        for key, figure in own.figures().items()
+        for key, figure in plan.figures().items()
         if any(text.shows(key) for text in texts.values())
     }
     vectors = {key: figure_file(figure, ".svg") for key, figure in drawn.items()}
@@ -108,11 +108,11 @@ def write(
         for name, text in texts.items()
     }
     contents |= {folder / f"{name}.html": found for name, found in zip(texts, pages, strict=True)}
-    contents[folder / "report.bib"] = own.prose.references.bib()
+    contents[folder / "report.bib"] = plan.prose.references.bib()
     for key, figure in drawn.items():
         contents[folder / "figures" / f"{key}.pdf"] = figure_file(figure, ".pdf")
     if out is None and not sections:
-        contents.update(own.accompanying_files(paper.folder))
+        contents.update(plan.accompanying_files(paper.folder))
     write_files(contents)
     return (*contents, *(pdf.compile_all(contents) if compiled else ()))
 

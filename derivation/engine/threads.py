@@ -17,5 +17,5 @@ def one_thread() -> AbstractContextManager[Any]:
 
     With two threads a simulation with many small matrices took four times as long.
     """
-    found: AbstractContextManager[Any] = _controller().limit(limits=1, user_api="blas")
-    return found
+    limit: AbstractContextManager[Any] = _controller().limit(limits=1, user_api="blas")
+    return limit

@@ -18,13 +18,13 @@ def read_tables() -> dict[str, Any]:
     ValueError
         If a subject repeats a budget that is stated elsewhere.
     """
-    found = tomllib.loads(BUDGETS.read_text())
+    tables = tomllib.loads(BUDGETS.read_text())
     for file in sorted(BUDGETS.parent.glob("*/budgets.toml")):
-        own = tomllib.loads(file.read_text())
-        if twice := own["ulp"].keys() & found["ulp"].keys():
+        table = tomllib.loads(file.read_text())
+        if twice := table["ulp"].keys() & tables["ulp"].keys():
             raise ValueError(f"{file.parent.name}: a second budget for {', '.join(twice)}")
-        found["ulp"] |= own["ulp"]
-    return found
+        tables["ulp"] |= table["ulp"]
+    return tables
 
 
 def read_budgets() -> dict[str, budgets.Budget]:

@@ -32,10 +32,10 @@ def root(name: str, degree: int, factors: tuple[sp.Expr, ...], *below: sp.Expr) 
 
 def multiplied(expression: sp.Expr) -> sp.Expr:
     """Return the logarithm of the quotient of two products, which is zero if they are equal."""
-    found = expression.replace(
+    product = expression.replace(
         PRODUCT, lambda above, *below: sp.Mul(*above) / sp.Mul(*(x for row in below for x in row))
     )
-    first, second = sp.Add.make_args(found)
+    first, second = sp.Add.make_args(product)
     quotient = sp.log(-first / second)
     return sp.expand(sp.expand_log(quotient.replace(sp.Add, _one_fraction), force=True))
 

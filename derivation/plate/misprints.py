@@ -40,15 +40,15 @@ def plate_finding(record: Printed, formulas: Mapping[str, Record]) -> Finding:
 def diagnose_series(name: str, term: sp.Expr, formulas: Mapping[str, Record]) -> Diagnosis:
     """Compare a sum over all modes, given by its term, which may diverge."""
     term = resolve(term, formulas, PLATE)
-    found = tail(term)
-    if found.kind != DIVERGENT:
+    growth = tail(term)
+    if growth.kind != DIVERGENT:
         return diagnose(name, term, formulas)
     formula = known_formula(name, formulas)
     return Diagnosis(
         formula=formula,
         verdict=DIFFERENT,
         kind=DIVERGENT,
-        repair=f"the sum diverges, {found.says}: read {to_plain(formula.meaning)}, "
+        repair=f"the sum diverges, {growth.says}: read {to_plain(formula.meaning)}, "
         f"{formula.expression}",
         repaired=formula.expression,
         edits=0,
@@ -61,15 +61,15 @@ def diagnose_series(name: str, term: sp.Expr, formulas: Mapping[str, Record]) ->
 
 def diagnose_power(name: str, given: sp.Expr, formulas: Mapping[str, Record]) -> Diagnosis:
     """Compare the power of the k-th term of a series by its first value and its step."""
-    found = diagnose(name, given, formulas)
-    if found.verdict == EQUAL:
-        return found
+    diagnosis = diagnose(name, given, formulas)
+    if diagnosis.verdict == EQUAL:
+        return diagnosis
     says = (
-        f"read {found.derived}: the first power is {found.derived.subs(k, 2)}, not "
-        f"{given.subs(k, 2)}, and each is {_step(found.derived)} above the one before, "
+        f"read {diagnosis.derived}: the first power is {diagnosis.derived.subs(k, 2)}, not "
+        f"{given.subs(k, 2)}, and each is {_step(diagnosis.derived)} above the one before, "
         f"not {_step(given)}"
     )
-    return replace(found, kind=EXPONENT, repair=says, repaired=found.derived, edits=1)
+    return replace(diagnosis, kind=EXPONENT, repair=says, repaired=diagnosis.derived, edits=1)
 
 
 def _step(power: sp.Expr) -> sp.Expr:

@@ -49,13 +49,13 @@ def measurement() -> dict[str, bytes]:
         If a measurement that the report requires is missing.
     """
     folder = measurements()
-    found = {path.stem: path.read_bytes() for path in sorted(folder.glob("*.json"))}
+    contents = {path.stem: path.read_bytes() for path in sorted(folder.glob("*.json"))}
     for name in REQUIRED_MEASUREMENTS:
-        if name not in found:
+        if name not in contents:
             raise FileNotFoundError(
                 f"no measurements in {folder / name}.json; run `{UPDATE_COMMANDS[name]}`"
             )
-    return found
+    return contents
 
 
 def benchmark_record() -> dict[str, Any]:
@@ -66,8 +66,8 @@ def benchmark_record() -> dict[str, Any]:
     FileNotFoundError
         If it is missing.
     """
-    found: dict[str, Any] = json.loads(measurement()["accuracy"])
-    return found
+    record: dict[str, Any] = json.loads(measurement()["accuracy"])
+    return record
 
 
 def paper_case() -> Model:

@@ -83,8 +83,8 @@ class AchievedAccuracy:
     def parts(self) -> dict[str, Part]:
         """The parts of the bound by name."""
         names = ("effects", "law", "quadrature", "rounding")
-        found = {name: getattr(self, name) for name in names}
-        return found | ({} if self.constant is None else {"constant": self.constant})
+        by_name = {name: getattr(self, name) for name in names}
+        return by_name | ({} if self.constant is None else {"constant": self.constant})
 
     @property
     def bound(self) -> float:

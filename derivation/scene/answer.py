@@ -19,13 +19,13 @@ CONTACT_HEADS = "#start [s]", "#end [s]", "#impulse [N s]", "#peak force [N]", "
 
 def quantities(result: "Result") -> list[tuple[str, str, str]]:
     """Return name, value with significant digits, and unit with SI prefix of each result."""
-    found = result.numbers()
+    rows = result.numbers()
     contacts = len(result.dynamics.inertia.contacts) if result.dynamics is not None else 1
     if contacts == 1:  # the total time is the contact time
-        found = [row for row in found if row[0] != "total_time"]
+        rows = [row for row in rows if row[0] != "total_time"]
     return [
         (_named(name, contacts), *prefixed(value, unit, result.digits))
-        for name, value, unit in found
+        for name, value, unit in rows
     ]
 
 

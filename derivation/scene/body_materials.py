@@ -51,9 +51,9 @@ def first_given(*values: Any) -> Any:
     return next(value for value in values if value is not None)
 
 
-def body_of(table: Sphere | Plate, own: Mapping[str, KnownMaterial]) -> Body:
+def body_of(table: Sphere | Plate, materials: Mapping[str, KnownMaterial]) -> Body:
     """Return the material constants of a sphere or plate of a valid scene."""
-    material = find(table.material, own) if table.material is not None else None
+    material = find(table.material, materials) if table.material is not None else None
     return Body(
         *_lame_constants(table, material),
         first_given(table.density, material and material.density, 0.0),
@@ -77,16 +77,16 @@ def _lame_constants(table: Sphere | Plate, material: KnownMaterial | None) -> tu
 def material_problems(tables: Mapping[str, Any]) -> list[str]:
     """Return the problems of material names in the tables of a scene, which may be invalid."""
     given = tables.get(OWN_MATERIALS)
-    own = [str(name) for name in given] if isinstance(given, Mapping) else []
-    problems = list(_names_alike(own))
+    names = [str(name) for name in given] if isinstance(given, Mapping) else []
+    problems = list(_names_alike(names))
     for table in ("sphere", "plate"):
         keys = tables.get(table)
         name = keys.get("material") if isinstance(keys, Mapping) else None
-        if not isinstance(name, str) or plain(name) in map(plain, own):
+        if not isinstance(name, str) or plain(name) in map(plain, names):
             continue
         material = find(name)
         if material is None:
-            problems.append(f"{table}.material: {unknown(name, own)}")
+            problems.append(f"{table}.material: {unknown(name, names)}")
         elif table == "sphere" and material.density is None and _massless(tables[table]):
             problems.append(
                 f"sphere.material: expected a material of known density, got {shown(name)}; "
@@ -100,10 +100,10 @@ def _massless(sphere: Mapping[str, Any]) -> bool:
     return sphere.get("mass") is None and sphere.get("density") is None
 
 
-def _names_alike(own: Iterable[str]) -> Iterator[str]:
+def _names_alike(names: Iterable[str]) -> Iterator[str]:
     """Yield a message for each name of an own material that is empty or not unique."""
     first = dict[str, str]()
-    for name in own:
+    for name in names:
         if not plain(name):
             yield (
                 f"{OWN_MATERIALS}: expected a name with letters or digits, got {shown(name)}; "

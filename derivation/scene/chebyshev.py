@@ -23,11 +23,11 @@ def by_growth(table: Array) -> Array:
     """Return the coefficients of x df/dx on [0, 1] from those of f (columns); x = (1 + T_1)/2."""
     slopes = np.zeros_like(table)
     slopes[:-1] = 2.0 * chebder(table)
-    found = 0.5 * slopes
-    found[1:] += 0.25 * slopes[:-1]
-    found[:-1] += 0.25 * slopes[1:]
-    found[1] += 0.25 * slopes[0]
-    return found
+    growth = 0.5 * slopes
+    growth[1:] += 0.25 * slopes[:-1]
+    growth[:-1] += 0.25 * slopes[1:]
+    growth[1] += 0.25 * slopes[0]
+    return growth
 
 
 @lru_cache(maxsize=8)

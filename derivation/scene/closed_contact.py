@@ -20,10 +20,10 @@ def closed_up_to(
     plate = non_hertzian_pressure.plate(h, b)
 
     def closed(a: float) -> bool:
-        found = non_hertzian_pressure.contact(
+        contact = non_hertzian_pressure.contact(
             plate, np.array([a]), R, modulus, plate_modulus, sphere=spherical
         )
-        return bool(np.isfinite(found.force[0]))
+        return bool(np.isfinite(contact.force[0]))
 
     if closed(high):
         return high

@@ -274,8 +274,8 @@ def tabulated(law: ContactLaw, last: float) -> PanelTable:
 def _powers(series: Array) -> Array:
     """Return the powers of a Chebyshev series; `cheb2poly` drops zeros at the end."""
     powers: Array = np.zeros(len(series))
-    found = cheb2poly(series)
-    powers[: len(found)] = found
+    coefficients = cheb2poly(series)
+    powers[: len(coefficients)] = coefficients
     return powers
 
 
@@ -362,15 +362,15 @@ def errors(recipe: Recipe, module: Mapping[str, Any]) -> dict[str, float]:
     shape = law.at(a)
     delta = np.minimum(law.indentation(a, shape), module["MAX_INDENTATION"])  # exact at the limit
     static = module["elastic_force" if "elastic_force" in module else "force"]
-    found = {
+    differences = {
         "force": (static(delta), law.force(a, shape)),
         "stiffness": (module["stiffness"](delta), law.stiffness(a, shape)),
         "contact_radius": (module["contact_radius"](delta), a),
     }
-    worst = {name: float(np.max(np.abs(x / y - 1.0))) for name, (x, y) in found.items()}
+    worst = {name: float(np.max(np.abs(x / y - 1.0))) for name, (x, y) in differences.items()}
     if "impact" in module:
-        own, reference = np.array(module["impact"]()), np.array(recipe.motion.numbers)
-        worst["impact"] = float(np.max(np.abs(own - reference) / np.append(reference[:4], 1.0)))
+        numbers, reference = np.array(module["impact"]()), np.array(recipe.motion.numbers)
+        worst["impact"] = float(np.max(np.abs(numbers - reference) / np.append(reference[:4], 1.0)))
     for name, error in worst.items():
         if not error <= TOLERANCES[name]:
             raise SceneError(

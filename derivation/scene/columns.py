@@ -32,13 +32,13 @@ def of_bodies(columns: Columns) -> bool:
 
 def allowed(columns: Columns) -> NDArray[np.bool_]:
     """Return the rows in which each number is allowed for its key."""
-    found = np.ones(len(next(iter(columns.values()))), dtype=bool)
+    allowed_rows = np.ones(len(next(iter(columns.values()))), dtype=bool)
     for key, values in columns.items():
         field = field_of(key)
-        found &= np.isfinite(values)
+        allowed_rows &= np.isfinite(values)
         for limit in _limits(field):
-            found &= _within(values, limit)
-    return found
+            allowed_rows &= _within(values, limit)
+    return allowed_rows
 
 
 def _limits(field: FieldInfo) -> Iterable[Any]:
@@ -52,11 +52,11 @@ def _limits(field: FieldInfo) -> Iterable[Any]:
 def _within(values: Array, limit: Any) -> NDArray[np.bool_]:
     """Return which values are within a limit."""
     compared = {"gt": np.greater, "ge": np.greater_equal, "lt": np.less, "le": np.less_equal}
-    found = np.ones(values.shape, dtype=bool)
+    inside = np.ones(values.shape, dtype=bool)
     for name, holds in compared.items():
         if hasattr(limit, name):
-            found &= holds(values, getattr(limit, name))
-    return found
+            inside &= holds(values, getattr(limit, name))
+    return inside
 
 
 def models_of(scene: Scene, columns: Columns) -> tuple[Model, NDArray[np.bool_]]:
@@ -73,16 +73,16 @@ def models_of(scene: Scene, columns: Columns) -> tuple[Model, NDArray[np.bool_]]
     for place, values in columns.items():
         name, _, key = place.rpartition(".")
         given.setdefault(name, {})[key] = values[:, None]
-    own = dict(scene.materials)
+    materials = dict(scene.materials)
     tables: dict[str, Any] = {}
     for name, keys in given.items():
         first, _, material = name.partition(".")
         if material:
-            own[material] = own[material].model_copy(update=keys)
+            materials[material] = materials[material].model_copy(update=keys)
         else:
             tables[first] = getattr(scene, first).model_copy(update=keys)
     with np.errstate(all="ignore"):
-        model = numbers_of(scene.model_copy(update=tables | {OWN_MATERIALS: own}))
+        model = numbers_of(scene.model_copy(update=tables | {OWN_MATERIALS: materials}))
         sound = 3.0 * np.asarray(model.lam) > -2.0 * np.asarray(model.mu)
         for name, number in zip(NUMBERS, model.numbers, strict=True):
             sound = sound & np.isfinite(number) & ((np.asarray(number) > 0.0) | (name == "lam"))

@@ -21,6 +21,8 @@ QUANTITIES = (
 )  # fmt: skip
 MOTIONS = "quantity", "#linear term (15)", "#as published", "#corrected"
 """Column heads of the table as text."""
+OLD_NAMES = {"breaks_at": "valid_until", "share": "valid_fraction"}
+"""Old name of an attribute -> new name."""
 MODES = 100
 """Number of modes in the paper's sums, which diverge; the paper does not state the truncation."""
 
@@ -39,11 +41,11 @@ class PaperMotion:
         Largest indentation [m] while the motion is valid.
     contact_time_difference, max_indentation_difference
         Relative differences from the result of the simulation [1].
-    breaks_at
+    valid_until
         Time [s] at which the radicand of (17) and (18) vanishes, and the motion becomes invalid;
         None if it stays valid.
-    share
-        That time over t_c, the time of the turning point of the linear motion [1].
+    valid_fraction
+        `valid_until` divided by t_c, the time of the turning point of the linear motion [1].
 
     Values that are not finite are None.
     """
@@ -53,8 +55,13 @@ class PaperMotion:
     max_indentation: float | None
     contact_time_difference: float | None
     max_indentation_difference: float | None
-    breaks_at: float | None
-    share: float | None
+    valid_until: float | None
+    valid_fraction: float | None
+
+    def __getattr__(self, name: str) -> Any:
+        """Answer an old name with the new one."""
+        hint = f"; it is now called {OLD_NAMES[name]}" if name in OLD_NAMES else ""
+        raise AttributeError(f"PaperMotion has no attribute {name}{hint}")
 
     def cells(self) -> tuple[str, ...]:
         """Return the cells of the motion."""
@@ -64,8 +71,8 @@ class PaperMotion:
             _shown(self.contact_time_difference, "+.2%"),
             _shown(self.max_indentation, ".4g"),
             _shown(self.max_indentation_difference, "+.2%"),
-            _shown(self.breaks_at, ".4g"),
-            _shown(self.share, ".3g"),
+            _shown(self.valid_until, ".4g"),
+            _shown(self.valid_fraction, ".3g"),
         )
 
 
@@ -125,9 +132,9 @@ class Comparison:
 def compare(model: Model, contact_time: float, max_indentation: float) -> Comparison:
     """Compare the paper's motions with a contact time [s] and a largest indentation [m]."""
 
-    def motion_of(name: str, time: float, depth: float, at: float, share: float) -> PaperMotion:
+    def motion_of(name: str, time: float, depth: float, at: float, part: float) -> PaperMotion:
         off = time / contact_time - 1.0, depth / max_indentation - 1.0
-        return PaperMotion(name, *map(_number, (time, depth, *off, at, share)))
+        return PaperMotion(name, *map(_number, (time, depth, *off, at, part)))
 
     printed, derived = (printed_motion(*model.numbers, MODES, corrected=c) for c in (False, True))
     linear = motion_of(
@@ -135,8 +142,8 @@ def compare(model: Model, contact_time: float, max_indentation: float) -> Compar
     )
 
     def broken(name: str, motion: PrintedMotion) -> PaperMotion:
-        end = motion.breaks_at
-        return motion_of(name, math.nan, float(motion.corrected(end)), end, motion.share)
+        end = motion.valid_until
+        return motion_of(name, math.nan, float(motion.corrected(end)), end, motion.valid_fraction)
 
     rows = broken("as published, (16)-(18)", printed), broken("corrected, (16)-(18)", derived)
     return Comparison(MODES, (linear, *rows))

@@ -139,8 +139,8 @@ def lost(
     for branch in (problem, turned(problem, radius)):
         for a in (radius, 1.2 * radius):
             at = branch.at(problem.a * np.array([min(a, beyond)]))
-            own = at.depth_a[0] / problem.depth
-            if a > 0.0 and not own + at.less_a[0] @ bent > SHARP * own:
+            indentation_rate = at.depth_a[0] / problem.depth
+            if a > 0.0 and not indentation_rate + at.less_a[0] @ bent > SHARP * indentation_rate:
                 why = "is not circular, because the plate is more curved than the sphere"
                 remedy = "use a smaller sphere or a thicker plate"
     return IncompleteError(f"the contact at {time:.6g} s {why}", remedy)

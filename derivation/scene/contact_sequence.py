@@ -130,16 +130,16 @@ def impact_history(
     IncompleteError
         If the first contact cannot be computed to its end.
     """
-    t, radius, state, found = 0.0, 0.0, problem.begin(), list[ContactRun]()
+    t, radius, state, runs = 0.0, 0.0, problem.begin(), list[ContactRun]()
     weight, tried, used = weight_of(problem, n), 0, 0.0
     while True:
         most = min(ELEMENTS, tried + steps_of(problem, n, work - used))
         try:
             touching = contact(problem, n, state, t, radius, tolerance, tried, most, watch)
-            found.append(touching)
+            runs.append(touching)
             tried, used = tried + touching.tried, used + touching.tried * weight
-            if enough and not len(found) & (len(found) - 1) and enough(tuple(found)):
-                return ImpactHistory(problem, tuple(found), ENOUGH, "", used, tolerance)
+            if enough and not len(runs) & (len(runs) - 1) and enough(tuple(runs)):
+                return ImpactHistory(problem, tuple(runs), ENOUGH, "", used, tolerance)
             after, last = touching.after, touching.pieces[-1].radius
             if touching.yielding is not problem.yielding:
                 problem = replace(problem, yielding=touching.yielding)
@@ -151,12 +151,12 @@ def impact_history(
                 wait, radius, looks = meeting(problem, after, last, work - used)
                 used += looks
             if wait == math.inf or touching.end + wait > problem.heard:
-                return ImpactHistory(problem, tuple(found), LEFT, "", used, tolerance)
-            _check_count(problem, found, touching.end + wait)
+                return ImpactHistory(problem, tuple(runs), LEFT, "", used, tolerance)
+            _check_count(problem, runs, touching.end + wait)
         except IncompleteError as end:
-            if not found:
+            if not runs:
                 raise
-            return ImpactHistory(problem, tuple(found), end.why, end.remedy, work, tolerance)
+            return ImpactHistory(problem, tuple(runs), end.why, end.remedy, work, tolerance)
         t, state = touching.end + wait, problem.flown(after, wait)
         if radius:
             state = problem.freed(state, last, wait, -1.0)
@@ -187,11 +187,11 @@ def expected_work(problem: DynamicProblem, n: int, coarse: ImpactHistory) -> flo
     return (more / n + max(0.0, others)) * weight_of(problem, n)
 
 
-def _check_count(problem: DynamicProblem, found: list[ContactRun], t: float) -> None:
+def _check_count(problem: DynamicProblem, runs: list[ContactRun], t: float) -> None:
     """Raise an error if the simulation has reached the largest number of contacts."""
-    if len(found) >= CONTACTS:
+    if len(runs) >= CONTACTS:
         raise IncompleteError(
-            f"the sphere had not separated for good after {len(found)} contacts and "
+            f"the sphere had not separated for good after {len(runs)} contacts and "
             f"{problem.T * t:.6g} s, the limit",
             "use a thicker plate or a lighter sphere, or set effects.inertia = false for a "
             "quasi-static plate",
@@ -227,7 +227,7 @@ def contact(
     IncompleteError
         If the contact needs more elements, or has no solution that can be found.
     """
-    found: list[TimeElement] = []
+    elements: list[TimeElement] = []
     x, length, state, first = _begun(begin, radius), FIRST, begin, radius
     origin = start - x**ONSET
     # Yield events are located more closely than the tolerance of an element.
@@ -239,15 +239,15 @@ def contact(
         if step % PROGRESS == PROGRESS - 1:
             now, count = problem.T * (origin + x**ONSET), problem.omega.size
             announce(f"{now:.3g} s after first contact, {count} modes")
-        length = min(length, _longest(problem, n, x, _left(found[-1]) if found else math.inf))
+        length = min(length, _longest(problem, n, x, _left(elements[-1]) if elements else math.inf))
         if length < SHORTEST * max(x, 1.0):
             break
-        if found:
-            guess = found[-1].element.slope_beyond(A, x + length * radau(n).x)
+        if elements:
+            guess = elements[-1].element.slope_beyond(A, x + length * radau(n).x)
         else:
             guess = np.zeros(n) if first else _onset(problem, n, length, -begin.separation_speed)
         made = element(problem, n, x, length, state, radius, guess, enough)
-        if made is None and found:  # an oscillating slope is no guess beyond its own element
+        if made is None and elements:  # an oscillating slope is no guess beyond its own element
             made = element(problem, n, x, length, state, radius, np.zeros(n), enough)
         if made is None:
             if length < STUCK * max(x, 1.0):
@@ -280,13 +280,13 @@ def contact(
         if ending and (end := made.element.fall(P, least)) is not None:
             last = last_element(problem, n, made, end, state, radius, enough)
             ended = origin + (last.element.x + last.element.length) ** ONSET
-            pieces = (*found, last)
+            pieces = (*elements, last)
             tries = step + 1 - tried
             after = last.end
             if problem.retardation_time:
                 after = problem.freed(after, last.radius, 0.0)
             return ContactRun(start, ended, first, pieces, begin, after, tries, problem.yielding)
-        found.append(made)
+        elements.append(made)
         x = made.element.x + made.element.length
         _check_weight(problem, x)
         if watch and made.radius < radius:
@@ -301,7 +301,7 @@ def contact(
         if left < CLOSED * x**ONSET and not problem.retardation_time:
             more, after = released(problem, made, left)
             ended = start + x**ONSET + more
-            tries, pieces = step + 1 - tried, tuple(found)
+            tries, pieces = step + 1 - tried, tuple(elements)
             return ContactRun(start, ended, first, pieces, begin, after, tries, problem.yielding)
     else:
         raise endless(problem, origin + x**ONSET, most)

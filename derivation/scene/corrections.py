@@ -24,8 +24,8 @@ def pressure_correction(model: Model, a: Numbers, indentation: Numbers) -> Numbe
     A = a/h, into (8/3) c3. A combination of values at a and a/2 isolates the c3 term:
     delta(a) - 8 delta(a/2) + a^2/R = (3/4) c3 A^3 a^2/R.
     """
-    half, whole = (kernels.indentation(x, model.R, model.h, model.b) for x in (a / 2, a))
-    cubic = 4 / 3 * (whole - 8 * half + a * (a / model.R))
+    half, full = (kernels.indentation(x, model.R, model.h, model.b) for x in (a / 2, a))
+    cubic = 4 / 3 * (full - 8 * half + a * (a / model.R))
     change: Numbers = 5 / 3 * cubic / indentation
     return change
 

@@ -40,17 +40,17 @@ def _damping_loss(history: ImpactHistory) -> float:
     During contact the power is integrated; between contacts, and after the last time element of a
     contact, the modes vibrate freely.
     """
-    problem, found = history.problem, 0.0
+    problem, loss = history.problem, 0.0
     if not problem.damping_ratio:
         return 0.0
     ends = [touching.start for touching in history.contacts[1:]]
     for touching, until in zip(history.contacts, [*ends, history.contacts[-1].end], strict=True):
         last, first = touching.pieces[-1], touching.pieces[0].element
         followed = (last.element.x + last.element.length) ** ONSET - first.x**ONSET
-        found += sum(_sum(piece, DAMPED) for piece in touching.pieces)
-        found += problem.flight_loss(last.end, touching.end - touching.start - followed)
-        found += problem.flight_loss(touching.after, until - touching.end)
-    return found
+        loss += sum(_sum(piece, DAMPED) for piece in touching.pieces)
+        loss += problem.flight_loss(last.end, touching.end - touching.start - followed)
+        loss += problem.flight_loss(touching.after, until - touching.end)
+    return loss
 
 
 def _unrecovered(problem: DynamicProblem, touching: ContactRun) -> float:
@@ -68,15 +68,15 @@ def _unrecovered(problem: DynamicProblem, touching: ContactRun) -> float:
 
 def _lagging(history: ImpactHistory) -> float:
     """Return the energy over m v0^2 of the deflections that recover with a viscoelastic face."""
-    problem, found = history.problem, 0.0
+    problem, energy = history.problem, 0.0
     if not problem.retardation_time:
-        return found
+        return energy
     for one in history.contacts:
-        found += _mode_energy(problem, one.pieces[-1].end) - _mode_energy(problem, one.after)
+        energy += _mode_energy(problem, one.pieces[-1].end) - _mode_energy(problem, one.after)
     for one, two in pairwise(history.contacts):
         met = problem.flown(one.after, two.start - one.end)
-        found -= _mode_energy(problem, two.before) - _mode_energy(problem, met)
-    return found
+        energy -= _mode_energy(problem, two.before) - _mode_energy(problem, met)
+    return energy
 
 
 def _mode_energy(problem: DynamicProblem, state: ImpactState) -> float:

@@ -158,11 +158,11 @@ class DynamicProblem:
 
     def at(self, a: Array) -> ContactSamples:
         """Return the contact at radii [m], with the depth added by yielding."""
-        found = self.contact.at(a)
+        samples = self.contact.at(a)
         if self.yielding is None:
-            return found
-        depth, depth_a = self.yielding.added(found.force, found.force_a)
-        return found._replace(depth=found.depth + depth, depth_a=found.depth_a + depth_a)
+            return samples
+        depth, depth_a = self.yielding.added(samples.force, samples.force_a)
+        return samples._replace(depth=samples.depth + depth, depth_a=samples.depth_a + depth_a)
 
     def begin(self) -> ImpactState:
         """Return the state at first contact."""

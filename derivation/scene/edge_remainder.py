@@ -21,7 +21,7 @@ from derivation.scene.scene import SceneError
 LARGEST = 0.01
 """Model error relative to the indentation above which a scene is rejected."""
 _KEYS = ("h_over_b", "nu", "a_over_b")
-_PARTS = ("share_of_indentation", "lower_degree", "fewer_layers")
+_PARTS = ("relative_error", "lower_degree", "fewer_layers")
 
 
 @cache
@@ -62,14 +62,14 @@ def edge_remainder(model: Model, a: float) -> float:
                 f'{coordinates[name]:.4g}; write edge = "paper", or effects.edge = false'
             )
     around = [_neighbours(axis, coordinates[name]) for name, axis in zip(_KEYS, axes, strict=True)]
-    found = max(_table()[(kind, *point)] for point in product(*around))
-    if found > LARGEST:
+    remainder = max(_table()[(kind, *point)] for point in product(*around))
+    if remainder > LARGEST:
         raise SceneError(
             f"plate.edge: expected a model error of the {model.edge} edge of at most 1 % of the "
-            f"indentation, got {100 * found:.2g} % at h/b = {model.eta:.4g}, nu = {nu:.3g}, "
+            f"indentation, got {100 * remainder:.2g} % at h/b = {model.eta:.4g}, nu = {nu:.3g}, "
             f"a/b = {a / model.b:.4g}; use a larger plate, or set effects.edge = false"
         )
-    return found
+    return remainder
 
 
 def edge_remainders(model: Model, a: Array) -> Array:
@@ -85,8 +85,8 @@ def edge_remainders(model: Model, a: Array) -> Array:
         ends.append([np.clip(end, 0, len(axis) - 1) for end in (below, above)])
     table = np.array([_table()[(kind, *point)] for point in product(*axes)])
     table = table.reshape([len(axis) for axis in axes])
-    found = np.maximum.reduce([table[corner] for corner in product(*ends)])
-    return np.where(known & (found <= LARGEST), found, np.nan)
+    remainders = np.maximum.reduce([table[corner] for corner in product(*ends)])
+    return np.where(known & (remainders <= LARGEST), remainders, np.nan)
 
 
 def _neighbours(axis: list[float], value: float) -> list[float]:

@@ -208,18 +208,18 @@ def decide(
     SceneError
         As `select` does.
     """
-    found = select(model, wanted, rtol / growth, outputs)
+    selection = select(model, wanted, rtol / growth, outputs)
     tolerance = f"{'the default selection' if default else 'the'} tolerance {rtol:.3g}"
-    return _selected(found, rtol, tuple(outputs), tolerance, NO_GROWTH)
+    return _selected(selection, rtol, tuple(outputs), tolerance, NO_GROWTH)
 
 
 def _selected(
-    found: Selection, rtol: float, outputs: tuple[str, ...], tolerance: str, growth: Results
+    selection: Selection, rtol: float, outputs: tuple[str, ...], tolerance: str, growth: Results
 ) -> SelectedEffects:
     """Return the selected effects with their table, for factors on the bounds on each result."""
-    rows = tuple(_row(effect, found, tolerance, outputs, growth) for effect in EFFECTS)
-    law, error = found.state.law, found.error
-    return SelectedEffects(law, rtol, error, rows, outputs, growth, found, tolerance)
+    rows = tuple(_row(effect, selection, tolerance, outputs, growth) for effect in EFFECTS)
+    law, error = selection.state.law, selection.error
+    return SelectedEffects(law, rtol, error, rows, outputs, growth, selection, tolerance)
 
 
 def _grouped(texts: Iterable[tuple[str, str]]) -> list[str]:
@@ -232,19 +232,24 @@ def _grouped(texts: Iterable[tuple[str, str]]) -> list[str]:
 
 def _row(
     effect: Effect,
-    found: Selection,
+    selection: Selection,
     tolerance: str,
     outputs: Sequence[str],
     growth: Results,
 ) -> EffectRow:
     """Return the row of an effect, at the largest contact radius of the selected law."""
-    state, choice, reasons, error = found.state, found.choice, found.reasons, found.error
+    state, choice, reasons, error = (
+        selection.state,
+        selection.choice,
+        selection.reasons,
+        selection.error,
+    )
     model, name = state.law.model, effect.name
     radius = state.law.limit if math.isnan(state.a) else float(state.a)
     included = name in state.law.effects or not effect.selectable
     if reasons[name]:
         return EffectRow(name, effect.adds, effect.parameter, math.nan, 0.0, False, reasons[name])
-    value, omitted = effect.value(model, radius), [effect, *_parts(effect, found)]
+    value, omitted = effect.value(model, radius), [effect, *_parts(effect, selection)]
 
     def bound_on(outputs: Sequence[str]) -> float:
         """Return the bound on the change of the worst of some outputs."""
@@ -262,10 +267,10 @@ def _row(
     elif choice[name] != "auto":
         worst = max(outputs, key=grown_on)
         why = _forced(bool(choice[name]), bound, worst)
-    elif name in found.required:
-        why = f"required by {found.required[name]}"
-    elif name in found.blocked:
-        why = f"cannot be included, because the scene disables {found.blocked[name]}"
+    elif name in selection.required:
+        why = f"required by {selection.required[name]}"
+    elif name in selection.blocked:
+        why = f"cannot be included, because the scene disables {selection.blocked[name]}"
     elif included:
         why = f"needed to meet {tolerance}"
     else:
@@ -275,19 +280,19 @@ def _row(
     return EffectRow(name, effect.adds, effect.parameter, value, bound, included, why, disabled)
 
 
-def _parts(effect: Effect, found: Selection) -> list[Effect]:
+def _parts(effect: Effect, selection: Selection) -> list[Effect]:
     """Return the effects that are omitted with another one, because they are a part of it.
 
     A part that the scene disables has its own bound, unless the scene disables the whole effect.
     """
-    model, choice = found.state.law.model, found.choice
-    whole = choice[effect.name] is False
+    model, choice = selection.state.law.model, selection.choice
+    disabled = choice[effect.name] is False
     return [
         part
         for part in EFFECTS
         if part.within == effect.name
         and not part.not_applicable_reason(model)
-        and (whole or choice[part.name] is not False)
+        and (disabled or choice[part.name] is not False)
     ]
 
 

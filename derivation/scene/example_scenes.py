@@ -60,8 +60,8 @@ def copy(names: Sequence[str], folder: Path, replace: bool = False) -> tuple[Exa
     OSError
         If the folder cannot be written to.
     """
-    found = [_named(name) for name in dict.fromkeys(names)]
-    targets = {folder / example.file.name: example.file for example in found}
+    chosen = [_named(name) for name in dict.fromkeys(names)]
+    targets = {folder / example.file.name: example.file for example in chosen}
     existing = [str(path) for path in targets if path.exists()]
     if existing and not replace:
         raise SceneError(
@@ -75,14 +75,14 @@ def copy(names: Sequence[str], folder: Path, replace: bool = False) -> tuple[Exa
 def _named(name: str) -> Example:
     """Return the example of a name."""
     known = examples()
-    found = known.get(name.removesuffix(".toml"))
-    if found is None:
-        near = did_you_mean(name.removesuffix(".toml"), known)
+    example = known.get(name.removesuffix(".toml"))
+    if example is None:
+        suggestion = did_you_mean(name.removesuffix(".toml"), known)
         raise SceneError(
-            f"examples: expected the name of an example, got {shown(name)}; {near}"
+            f"examples: expected the name of an example, got {shown(name)}; {suggestion}"
             "`platecontact examples` lists them"
         )
-    return found
+    return example
 
 
 def _example(path: Path) -> Example:
@@ -99,8 +99,8 @@ def remedy(path: Path) -> str:
     folder = Path()
     with suppress(OSError):
         folder = path.parent if path.parent.is_dir() else folder
-    for near in nearest(path.stem, sorted(file.stem for file in folder.glob("*.toml"))):
-        return f"did you mean {folder / near}.toml?"
-    for near in nearest(path.stem, examples()):
-        return f"check its name, or run `platecontact examples {near}` to copy the example"
+    for suggestion in nearest(path.stem, sorted(file.stem for file in folder.glob("*.toml"))):
+        return f"did you mean {folder / suggestion}.toml?"
+    for suggestion in nearest(path.stem, examples()):
+        return f"check its name, or run `platecontact examples {suggestion}` to copy the example"
     return "check its name"

@@ -32,8 +32,9 @@ from derivation.scene.method_selection import (
 from derivation.scene.model import model_of
 from derivation.scene.model_error import inertia_error
 from derivation.scene.result import Result
-from derivation.scene.scene import OUTPUTS, TIGHTEST, Scene
+from derivation.scene.scene import OUTPUTS, TIGHTEST, Scene, SceneError
 from derivation.scene.selection import check_enabled
+from derivation.scene.units import doubted, unit_warnings
 from derivation.scene.yield_warnings import impact_warnings
 
 if TYPE_CHECKING:
@@ -87,6 +88,18 @@ def simulate(
     >>> print(f"{result.max_force:.3g} N, {result.restitution:.2f}")
     1.29e+03 N, 0.97
     """
+    doubts = unit_warnings(scene)
+    try:
+        result = _simulated(scene, rtol, doubts)
+    except SceneError as error:
+        if not doubts:
+            raise
+        raise doubted(error, doubts) from error
+    return result if times is None else result.at(times)
+
+
+def _simulated(scene: Scene, rtol: float | None, doubts: tuple[str, ...]) -> Result:
+    """Simulate the impact of a scene, with the warnings about its units first."""
     scene = toleranced(scene, None if rtol is None else check_rtol(rtol))
     rtol, selected = selected_effects(scene, rtol)
     selected, numbers, accuracy = _solved(scene, selected, rtol)
@@ -108,6 +121,7 @@ def simulate(
     if strength is not None or yield_stress is not None:
         stress = law.max_tensile_stress(a, force, not selected.edge_disabled)
     warnings = (
+        *doubts,
         *hollow_warnings(model),
         *warnings_at(law, a, delta, deflection),
         *motion_warnings(moving, contact_time, fraction, motion is not None),
@@ -117,11 +131,10 @@ def simulate(
     if motion is not None:
         speeds = [touch.relative_approach_speed for touch in motion.inertia.contacts]
         warnings += contact_warnings(speeds, motion.least)
-    result = Result(
+    return Result(
         *numbers, pressure, accuracy, model_error, warnings, scene,
         selected.grown(growth_of(motion)), inertia_neglected=neglected,
     )  # fmt: skip
-    return result if times is None else result.at(times)
 
 
 def _solved(
@@ -156,11 +169,11 @@ def _with_constant(scene: Scene, accuracy: AchievedAccuracy) -> AchievedAccuracy
     from derivation.scene.measured import error_of, inaccurate_constant
 
     error = error_of(scene)
-    found = replace(accuracy, constant=Part(error, ESTIMATED))
+    result = replace(accuracy, constant=Part(error, ESTIMATED))
     # An incomplete impact has no bound.
-    if found.rtol is not None and found.rtol < found.bound < math.inf:
-        raise inaccurate_constant(found.bound, error, found.rtol)
-    return found
+    if result.rtol is not None and result.rtol < result.bound < math.inf:
+        raise inaccurate_constant(result.bound, error, result.rtol)
+    return result
 
 
 def _known(stress: float) -> float | None:
@@ -173,8 +186,8 @@ def _model_error(selected: SelectedEffects, a: float, motion: "DynamicImpact | N
     model, other_edge = selected.law.model, selected.law.other_edge
     if motion is None:
         return edge_remainder(model, a) if other_edge else 0.0
-    found = inertia_error(model, a, motion.contact_time)
-    size = max(found[name] for name in selected.outputs)
+    error = inertia_error(model, a, motion.contact_time)
+    size = max(error[name] for name in selected.outputs)
     from derivation.scene.waves import echo_time
 
     # The edge has no effect before a wave has returned from it.

@@ -7,7 +7,7 @@ logarithms.
 
 import math
 from collections.abc import Iterable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from html import escape
 from typing import Any, NamedTuple
 
@@ -27,6 +27,7 @@ from derivation.scene.messages import shown
 from derivation.scene.model import model_of
 from derivation.scene.scene import Scene, SceneError
 from derivation.scene.selection import check_enabled
+from derivation.scene.units import doubted, unit_warnings
 from derivation.scene.yield_warnings import static_warnings
 from derivation.scene.yielding import yielding_of
 
@@ -141,10 +142,18 @@ def indent(
             f"got {got}; {'remove all but one' if given else 'add one of them'}"
         )
     [(name, values)] = given
-    law = static_law(scene)
-    numbers = _numbers(name, values)
-    with np.errstate(all="ignore"):  # extreme scenes give NaN, which is checked
-        return StaticContacts(_contact(law, name, value) for value in numbers)
+    numbers, doubts = _numbers(name, values), unit_warnings(scene)
+    try:
+        law = static_law(scene)
+        with np.errstate(all="ignore"):  # extreme scenes give NaN, which is checked
+            found = [_contact(law, name, value) for value in numbers]
+    except SceneError as error:
+        if not doubts:
+            raise
+        raise doubted(error, doubts) from error
+    return StaticContacts(
+        replace(contact, warnings=(*doubts, *contact.warnings)) for contact in found
+    )
 
 
 def static_law(scene: Scene) -> ContactLaw:
@@ -193,11 +202,11 @@ def _contact(law: ContactLaw, name: str, value: float) -> StaticContact:
     pressure = min(law.max_pressure(a), law.pressure_limit)
     check_numbers(model, *at, pressure)
     # The given value is returned unchanged, without the rounding errors of the inversion.
-    found = {"contact_radius": at.radius, "indentation": at.depth, "force": at.force} | {
+    values = {"contact_radius": at.radius, "indentation": at.depth, "force": at.force} | {
         name: value
     }
     return StaticContact(
-        **found,
+        **values,
         stiffness=at.stiffness,
         max_pressure=pressure,
         warnings=(*warnings_at(law, at.radius, at.depth), *static_warnings(law, at.radius)),
@@ -258,9 +267,9 @@ def _radius(law: ContactLaw, name: str, value: float) -> float:
         a = math.cbrt(0.75 * (value / law.modulus) * R)
     a = min(a, last)
     for _ in range(_STEPS):
-        found, slope = _with_slope(law, name, a)
-        check_numbers(law.model, found, slope)
-        step = math.log(value / found) / slope
+        reached, slope = _with_slope(law, name, a)
+        check_numbers(law.model, reached, slope)
+        step = math.log(value / reached) / slope
         if not abs(step) > _CLOSE:
             break
         a = min(a * math.exp(max(-1.0, min(1.0, step))), last)

@@ -28,10 +28,10 @@ def number_key(place: str) -> tuple[str, str]:
     known = table_of(table)
     field = known.model_fields.get(key) if known else None
     if not any(map(is_number, (field.examples if field else None) or [])):
-        near = did_you_mean(place, _numbers())
+        suggestion = did_you_mean(place, _numbers())
         raise SceneError(
             f"sweep: expected TABLE.KEY with a numeric key of the scene file, got {place!r:.60}; "
-            f"{near}{EXAMPLE}"
+            f"{suggestion}{EXAMPLE}"
         )
     return table, key
 

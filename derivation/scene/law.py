@@ -231,12 +231,12 @@ class ContactLaw:
 
     def centre_pressure(self, a: Array) -> Array:
         """Return the pressure at the centre [Pa] on a half-space, at one or many radii [m]."""
-        found: Array = 2.0 / np.pi * self.modulus * (a / self.model.R)
+        pressure: Array = 2.0 / np.pi * self.modulus * (a / self.model.R)
         if not self.spherical:
-            return found
+            return pressure
         x, weights = gauss(NODES[2])
         slope = self._sphere(x * a).slope
-        return np.asarray(found * np.sum(weights * slope, axis=-1, keepdims=True))
+        return np.asarray(pressure * np.sum(weights * slope, axis=-1, keepdims=True))
 
     @property
     def pressure_limit(self) -> float:
@@ -254,10 +254,10 @@ class ContactLaw:
             from generated import non_hertzian_pressure
 
             plate = plate_of(self.model.h, self.model.b)
-            found: Array = non_hertzian_pressure.pressure(
+            solved_pressure: Array = non_hertzian_pressure.pressure(
                 r, plate, a, R, self.modulus, self.model.modulus, sphere=self.spherical
             )
-            return found
+            return solved_pressure
         x, weights = gauss(NODES[2])
         width = np.sqrt((a - r) * (a + r))
         slopes = self._sphere(np.hypot(r[:, None], width[:, None] * x)).slope
@@ -329,14 +329,14 @@ class ContactLaw:
         """Return the shape with non-Hertzian pressure; the edge contributes as under Hertz's."""
         # Near a = 0 the pressure is Hertzian.
         a = np.maximum(a, 1e-12 * min(self.model.h, self.model.b, self.model.R))
-        found = self._contact(a)
+        shape = self._contact(a)
         R, scale = self.model.R, 4.0 / 3.0 * self.modulus * a * a * (a / self.model.R)
-        force = found.force / scale
+        force = shape.force / scale
         equal = a * np.cbrt(force)
-        depth = found.indentation / a * (R / a)
-        additive = 2.0 * self.modulus * equal / found.stiffness
+        depth = shape.indentation / a * (R / a)
+        additive = 2.0 * self.modulus * equal / shape.stiffness
         # Derivative of Hertz's radius of the force by the contact radius.
-        growth = found.stiffness * found.slope / (4.0 * self.modulus * equal) * (R / equal)
+        growth = shape.stiffness * shape.slope / (4.0 * self.modulus * equal) * (R / equal)
         part = 1.0 / (1.0 + self.softness)
         for effect in self._beyond_whole_plate:
             plate = effect.contribution(self.model, equal)
@@ -369,18 +369,18 @@ class ContactLaw:
         differs = any(effect.difference for effect in self.plate_effects)
         if not differs or self.effects >= WHOLE_PLATE:
             return np.zeros_like(a)
-        whole, slope = plate_contribution(self.model, a), self.at(a).additive
-        return np.asarray(CANCELLED * np.abs(whole.slope) / slope)
+        full, slope = plate_contribution(self.model, a), self.at(a).additive
+        return np.asarray(CANCELLED * np.abs(full.slope) / slope)
 
     def deflection(self, a: Array) -> Contribution:
         """Return the contributions of the plate to F and S at Hertz's radii [m] (rigid sphere)."""
         others = self.plate_effects
-        found = []
+        parts = []
         if any(effect.difference for effect in others):
-            found, others = [self._plate(a)], self._beyond_whole_plate
-        found += [effect.contribution(self.model, a) for effect in others]
-        depth, slope = found[0]
-        for other in found[1:]:
+            parts, others = [self._plate(a)], self._beyond_whole_plate
+        parts += [effect.contribution(self.model, a) for effect in others]
+        depth, slope = parts[0]
+        for other in parts[1:]:
             depth, slope = depth + other.depth, slope + other.slope
         return Contribution(depth, slope)
 

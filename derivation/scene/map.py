@@ -96,9 +96,9 @@ def grid(result: Result, rtol: float) -> Grid:
                 if not 0.0 < speed < math.inf:
                     continue
                 case = replace(plate, v0=speed)
-                found = select(case, wanted, rtol, result.effects.outputs)
+                selection = select(case, wanted, rtol, result.effects.outputs)
                 for name in names:
-                    ratios[name][row, column] = _ratio(found, name, rtol)
+                    ratios[name][row, column] = _ratio(selection, name, rtol)
     return Grid(thicknesses, radii, ratios)
 
 
@@ -114,23 +114,23 @@ def _speed(model: Model, a: float) -> float:
     return math.sqrt(2.0 * energy / model.m) if energy > 0.0 else math.nan
 
 
-def _ratio(found: Selection, name: str, rtol: float) -> float:
+def _ratio(selection: Selection, name: str, rtol: float) -> float:
     """Return the change by an effect over the tolerance, above 1 if the effect is included."""
-    if found.reasons[name]:
+    if selection.reasons[name]:
         return math.nan
-    size = found.sizes.get(name, math.inf)
+    size = selection.sizes.get(name, math.inf)
     ratio = min(size / rtol, MOST)
-    if found.choice[name] is False:
+    if selection.choice[name] is False:
         return ratio
-    return max(ratio, SIDE) if name in found.included else min(ratio, 1.0 / SIDE)
+    return max(ratio, SIDE) if name in selection.included else min(ratio, 1.0 / SIDE)
 
 
-def lines(found: Grid) -> dict[tuple[str, ...], Array]:
+def lines(map_grid: Grid) -> dict[tuple[str, ...], Array]:
     """Return the ratios of the effects, grouped if they are included at the same points."""
     groups: dict[bytes, list[str]] = {}
-    for name, ratio in found.ratios.items():
+    for name, ratio in map_grid.ratios.items():
         groups.setdefault((ratio > 1.0).tobytes(), []).append(name)
-    return {tuple(names): found.ratios[names[0]] for names in groups.values()}
+    return {tuple(names): map_grid.ratios[names[0]] for names in groups.values()}
 
 
 def figure(result: Result, rtol: float) -> "Figure":
@@ -139,28 +139,30 @@ def figure(result: Result, rtol: float) -> "Figure":
     from matplotlib.patches import Patch
 
     point = result.model.eta, result.max_contact_radius / result.model.h
-    found, wanted = grid(result, rtol), result.scene.effects.model_dump()
+    map_grid, wanted = grid(result, rtol), result.scene.effects.model_dump()
     made = Figure(figsize=(7.5, 6.5), layout="constrained")
     axes = made.subplots()
     axes.set(facecolor=OUTSIDE, xscale="log", yscale="log")
-    known = np.isfinite(np.array([*found.ratios.values()])).any(axis=0)
-    axes.contourf(found.thicknesses, found.radii, np.where(known, 0.0, np.nan), colors=["white"])
+    known = np.isfinite(np.array([*map_grid.ratios.values()])).any(axis=0)
+    axes.contourf(
+        map_grid.thicknesses, map_grid.radii, np.where(known, 0.0, np.nan), colors=["white"]
+    )
     colours = iter(COLOURS)
-    for names, ratio in lines(found).items():
+    for names, ratio in lines(map_grid).items():
         label = ", ".join(name + CHOICES[wanted[name]] for name in names)
         finite = ratio[np.isfinite(ratio)]
         if not finite.size or finite.min() > 1.0 or finite.max() < 1.0:
             where = "everywhere" if finite.size and finite.min() > 1.0 else "nowhere"
             axes.plot([], [], linestyle="none", label=f"{where}: {label}")
             continue
-        _line(axes, found, ratio, next(colours), label)
+        _line(axes, map_grid, ratio, next(colours), label)
     axes.plot(
         *point, marker="*", markersize=14, color="black", linestyle="none", label="this scene"
     )
     axes.set(xlabel="half-thickness / plate radius, $h/b$ [1]")
     axes.set(ylabel="largest contact radius / half-thickness, $a/h$ [1]")
     axes.set_xlim(min(THICKNESSES[0], point[0] / 2), max(THICKNESSES[-1], point[0] * 2))
-    axes.set_ylim(found.radii[0], max(found.radii[-1], point[1] * 2))
+    axes.set_ylim(map_grid.radii[0], max(map_grid.radii[-1], point[1] * 2))
     axes.set_title(
         "Shaded (the side with the ticks): omitting the effect\n"
         f"may change a result by more than {rtol:g} (relative)",
@@ -172,12 +174,12 @@ def figure(result: Result, rtol: float) -> "Figure":
     return made
 
 
-def _line(axes: "Axes", found: Grid, ratio: Array, colour: str, label: str) -> None:
+def _line(axes: "Axes", map_grid: Grid, ratio: Array, colour: str, label: str) -> None:
     """Draw the line beyond which an effect is included, with ticks and shading on that side."""
     from matplotlib.patheffects import withTickedStroke
 
     values = np.log(np.maximum(ratio, 1.0 / MOST))
-    coordinates = found.thicknesses, found.radii, values
+    coordinates = map_grid.thicknesses, map_grid.radii, values
     axes.contourf(*coordinates, levels=[0.0, np.inf], colors=[colour], alpha=0.12)
     line = axes.contour(*coordinates, levels=[0.0], colors=[colour])
     # Matplotlib has the larger values on the left of a line.

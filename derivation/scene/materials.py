@@ -47,7 +47,7 @@ class KnownMaterial:
 
     def to_json(self) -> dict[str, Any]:
         """Return the constants in SI units, without those that the source does not give."""
-        found = {
+        constants = {
             "name": self.name,
             "youngs_modulus": self.youngs_modulus,
             "poissons_ratio": self.poissons_ratio,
@@ -57,7 +57,7 @@ class KnownMaterial:
             "source": self.source,
             "also": list(self.also),
         }
-        return {key: value for key, value in found.items() if value is not None}
+        return {key: value for key, value in constants.items() if value is not None}
 
 
 def lame_constants(E: float, nu: float) -> tuple[float, float]:
@@ -114,7 +114,7 @@ HOLLOW = {
 """Names of hollow balls."""
 
 
-def find(name: str, own: Mapping[str, KnownMaterial] | None = None) -> KnownMaterial | None:
+def find(name: str, materials: Mapping[str, KnownMaterial] | None = None) -> KnownMaterial | None:
     """Return a material by name, from the scene or else from the catalogue; None if unknown.
 
     Parameters
@@ -124,11 +124,11 @@ def find(name: str, own: Mapping[str, KnownMaterial] | None = None) -> KnownMate
     own
         Materials that a scene defines, by name.
     """
-    of_scene = {plain(known): material for known, material in (own or {}).items()}
+    of_scene = {plain(known): material for known, material in (materials or {}).items()}
     return of_scene.get(plain(name)) or _BY_PLAIN.get(plain(name))
 
 
-def unknown(name: str, own: Iterable[str] = ()) -> str:
+def unknown(name: str, materials: Iterable[str] = ()) -> str:
     """Return the message for an unknown material, with the nearest name; hollow balls differ."""
     if plain(name) in HOLLOW or "hollow" in plain(name):
         return (
@@ -136,9 +136,9 @@ def unknown(name: str, own: Iterable[str] = ()) -> str:
             "model does not include the bending of a shell"
         )
     names = {key: material.name for key, material in _BY_PLAIN.items()}
-    names |= {plain(known): known for known in own}
-    near = nearest(plain(name), names, ALIKE)
-    meant = f"did you mean {names[near[0]]}? " if near else ""
+    names |= {plain(known): known for known in materials}
+    suggestions = nearest(plain(name), names, ALIKE)
+    meant = f"did you mean {names[suggestions[0]]}? " if suggestions else ""
     return (
         f"expected the name of a material, got {shown(name)}; {meant}`platecontact materials` "
         "lists them, and a table [materials.NAME] in the scene file defines another one"

@@ -153,13 +153,13 @@ def _polished(tables: dict[str, Any], key: str, goal: float) -> float | None:
     off, change = math.inf, NEAR if key == "retardation_time" else -NEAR
     for _ in range(POLISHES):
         try:
-            found = _accurate(tables, key, math.exp(x))
+            value = _accurate(tables, key, math.exp(x))
         except SceneError:
             return None
         # The results have at least about the error of the measurement, and that of the constant.
-        _check_error(tables, DYNAMIC * found.bound, found.bound)
-        before, off = off, found.restitution / goal - 1.0
-        if abs(off) <= AGREES * found.bound:
+        _check_error(tables, DYNAMIC * value.bound, value.bound)
+        before, off = off, value.restitution / goal - 1.0
+        if abs(off) <= AGREES * value.bound:
             return math.exp(x)
         change *= math.copysign(1.0, off) if math.isinf(before) else off / (before - off or off)
         if not abs(change) < FURTHEST:
@@ -247,12 +247,12 @@ def _measurement(tables: dict[str, Any], wanted: dict[str, Any]) -> dict[str, An
 
 def _accurate(tables: dict[str, Any], key: str, value: float) -> Trial:
     """Simulate a measurement with plate inertia, more accurately if the results require it."""
-    found = _simulated(tables, key, value)
+    trial = _simulated(tables, key, value)
     if "accuracy" not in tables:
-        return found
+        return trial
     rtol = tables["accuracy"]["rtol"]
-    if DYNAMIC * found.bound <= PART * rtol or found.bound > rtol:  # or it cannot be met
-        return found
+    if DYNAMIC * trial.bound <= PART * rtol or trial.bound > rtol:  # or it cannot be met
+        return trial
     finer = tables["accuracy"] | {"rtol": max(TIGHTEST, rtol / FINER)}
     return _simulated(tables | {"accuracy": finer}, key, value)
 
@@ -290,10 +290,10 @@ def _lossless(tables: dict[str, Any], key: str, goal: float, margin: float = 0.0
     SceneError
         If its restitution does not exceed the measured one.
     """
-    found = _simulated(tables, key, None)
-    most = found.restitution * (1.0 + margin * found.bound)
+    trial = _simulated(tables, key, None)
+    most = trial.restitution * (1.0 + margin * trial.bound)
     if goal < most:
-        return found
+        return trial
     raise SceneError(
         f"measured.restitution: expected less than {most:.{3 if margin else 6}g}, the restitution "
         f"without energy loss in the contact, got {goal:.6g}; correct measured.restitution or "
@@ -319,9 +319,9 @@ def _solved(tables: dict[str, Any], key: str, goal: float, close: float) -> floa
     def above(x: float) -> float:
         nonlocal least
         try:
-            found = _simulated(tables, key, math.exp(x))
-            least = min(least, found.restitution * (1.0 - found.bound))
-            return found.restitution - goal
+            trial = _simulated(tables, key, math.exp(x))
+            least = min(least, trial.restitution * (1.0 - trial.bound))
+            return trial.restitution - goal
         except SceneError as error:
             raise SceneError(
                 "measured.restitution: expected a value that can be computed, got "

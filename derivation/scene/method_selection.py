@@ -80,12 +80,12 @@ def solve_selected(
     law, rest = selected.law, remaining(selected, rtol)
     moving: DynamicImpact | None = None
     if law.of_paper:
-        found, accuracy = solve(law.model, rest)
+        results, accuracy = solve(law.model, rest)
     elif law.dynamic:
         moving = dynamic_impact(selected, rtol, within)
-        found, accuracy = moving.numbers, _accuracy_with_inertia(selected, moving)
+        results, accuracy = moving.numbers, _accuracy_with_inertia(selected, moving)
     else:
-        found, accuracy = _composed(law)
+        results, accuracy = _composed(law)
     accuracy = replace(
         accuracy,
         rtol=rtol,
@@ -93,18 +93,18 @@ def solve_selected(
         outputs=selected.outputs,
     )
     # An incomplete impact has no bound; it is returned and marked as incomplete.
-    if within and rtol is not None and rtol < accuracy.bound and not math.isnan(found[-1]):
+    if within and rtol is not None and rtol < accuracy.bound and not math.isnan(results[-1]):
         timed = moving is not None and "contact_time" in selected.outputs
         if _may_jump(selected, moving) or (moving and timed and moving.inertia.jump > rtol):
             raise _jump(rtol)
-        problem = _out_of_reach(rtol, accuracy, law, found[3])
+        problem = _out_of_reach(rtol, accuracy, law, results[3])
         before = replace(accuracy, effects=Part(selected.error, _basis(selected)))
         if before.bound <= rtol:
             growth = largest_growth(growth_of(moving), selected.outputs)
             raise GrownError(str(problem), growth)
         raise problem
-    check_numbers(law.model, *(found[:-1] if math.isnan(found[-1]) else found))
-    return found, accuracy
+    check_numbers(law.model, *(results[:-1] if math.isnan(results[-1]) else results))
+    return results, accuracy
 
 
 def _jump(rtol: float) -> SceneError:
@@ -197,13 +197,13 @@ def _composed(law: ContactLaw) -> tuple[Results, AchievedAccuracy]:
         closed = _half_space(law)
         if closed is not None:
             return closed
-    found = moved(law)
-    return found.numbers, AchievedAccuracy(
+    motion = moved(law)
+    return motion.numbers, AchievedAccuracy(
         "full",
         None,
         law=Part(0.0, PROVED),
-        quadrature=Part(found.quadrature, TESTED),
-        rounding=Part(rounding_of(law) + _cancellation(law, found.max_contact_radius), TESTED),
+        quadrature=Part(motion.quadrature, TESTED),
+        rounding=Part(rounding_of(law) + _cancellation(law, motion.max_contact_radius), TESTED),
     )
 
 
@@ -212,15 +212,15 @@ def _cancellation(law: ContactLaw, a: float) -> float:
     return float(law.cancellation(np.array([a]))[0])
 
 
-def _accuracy_with_inertia(selected: SelectedEffects, found: "DynamicImpact") -> AchievedAccuracy:
+def _accuracy_with_inertia(selected: SelectedEffects, impact: "DynamicImpact") -> AchievedAccuracy:
     """Return the accuracy of an impact on a plate with inertia, without the omitted effects."""
     from derivation.scene import waves
 
     return AchievedAccuracy(
         "full",
         None,
-        law=Part(found.inertia.error(selected.outputs), ESTIMATED),
-        quadrature=Part(waves.integration_error(found.impact_history), TESTED),
+        law=Part(impact.inertia.error(selected.outputs), ESTIMATED),
+        quadrature=Part(waves.integration_error(impact.impact_history), TESTED),
         rounding=Part(rounding_of(selected.law), TESTED),
     )
 
@@ -299,13 +299,13 @@ def _half_space(law: ContactLaw) -> tuple[Results, AchievedAccuracy] | None:
     """Return the outputs by Hertz's law in closed form; None for extreme values."""
     R, m, v0, h, b, lam, mu = law.model.numbers
     modulus_ratio = 1.0 / (1.0 + law.softness)
-    found = simple_laws.single(
+    estimate = simple_laws.single(
         simple_laws.hertz, R, m, v0, h, b, modulus_ratio * lam, modulus_ratio * mu
     )
-    if found is None:
+    if estimate is None:
         return None
-    rounding = Part(found.rounding, ROUNDING_ANALYSIS)
-    return (*found[:4], 1.0), AchievedAccuracy(
+    rounding = Part(estimate.rounding, ROUNDING_ANALYSIS)
+    return (*estimate[:4], 1.0), AchievedAccuracy(
         "hertz", None, Part(0.0, PROVED), Part(0.0, PROVED), rounding
     )
 
@@ -328,12 +328,12 @@ def solve(model: Model, rtol: float | None = None) -> tuple[Results, AchievedAcc
     within = False
     if rtol is not None:
         for method, run in (("hertz", simple_laws.hertz), ("leading", simple_laws.leading)):
-            found = simple_laws.single(run, *model.numbers)
-            if found is None:  # no bound is known
+            estimate = simple_laws.single(run, *model.numbers)
+            if estimate is None:  # no bound is known
                 continue
-            accuracy = estimated(method, found, rtol)
+            accuracy = estimated(method, estimate, rtol)
             if accuracy.bound <= rtol:
-                return (*found[:4], 1.0), accuracy
+                return (*estimate[:4], 1.0), accuracy
             within = True  # the bound also limits the radius
     if not within:
         check_energy(ContactLaw(model, PAPER))
@@ -359,12 +359,12 @@ def whole_law(method: str, rtol: float | None) -> AchievedAccuracy:
     )
 
 
-def estimated(method: str, found: kernels.Estimate, rtol: float | None) -> AchievedAccuracy:
+def estimated(method: str, estimate: kernels.Estimate, rtol: float | None) -> AchievedAccuracy:
     """Return the accuracy of `hertz` or `leading`."""
     return AchievedAccuracy(
         method,
         rtol,
-        law=Part(found.law, PROVED),
-        quadrature=Part(found.quadrature, PROVED),
-        rounding=Part(found.rounding, ROUNDING_ANALYSIS),
+        law=Part(estimate.law, PROVED),
+        quadrature=Part(estimate.quadrature, PROVED),
+        rounding=Part(estimate.rounding, ROUNDING_ANALYSIS),
     )

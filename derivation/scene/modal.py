@@ -126,9 +126,9 @@ class Modes:
         free = sine_less_one(np.sin(y), y)
         if self.held is None:
             return free
-        from generated.edge_modes import shares_less_one
+        from generated.edge_modes import modal_weights_less_one
 
-        return np.concatenate((shares_less_one(self.held, a / self.b), free), axis=1)
+        return np.concatenate((modal_weights_less_one(self.held, a / self.b), free), axis=1)
 
     @property
     def _held(self) -> int:
@@ -161,9 +161,9 @@ def plate_of(law: ContactLaw, count: int) -> ModalPlate:
 
 def free_modes(model: Model, count: int) -> Modes:
     """Return the modes of a plate with the paper's edge, `count` of them of the lowest branch."""
-    found = _free(model, count)
+    modes = _free(model, count)
     branches = model.inertia.branches == "all"
-    return _modes(model, _branches(model, found, float(found.root[-1])) if branches else found)
+    return _modes(model, _branches(model, modes, float(modes.root[-1])) if branches else modes)
 
 
 def bending_fraction(model: Model, modes: Modes) -> Array:
@@ -331,7 +331,7 @@ def _edge_compliance(law: ContactLaw) -> float:
 def sine_less_one(sine: Array, y: Array) -> Array:
     """Return sin(y)/y - 1 from sin(y)."""
     small = np.abs(y) < 0.1
-    found = np.asarray(sine / np.where(small, 1.0, y) - 1.0, dtype=np.float64)
+    values = np.asarray(sine / np.where(small, 1.0, y) - 1.0, dtype=np.float64)
     z = y[small] ** 2
-    found[small] = -z / 6.0 * (1.0 - z / 20.0 * (1.0 - z / 42.0 * (1.0 - z / 72.0)))
-    return found
+    values[small] = -z / 6.0 * (1.0 - z / 20.0 * (1.0 - z / 42.0 * (1.0 - z / 72.0)))
+    return values

@@ -113,8 +113,8 @@ class Model:
             inside = low < self.eta < high
             return _plate_of(self.eta) if inside else kernels.Plate(*3 * (math.inf,))
         within = (low < self.eta) & (self.eta < high)
-        found = plates_of(np.where(within, self.eta, 1.0))
-        return kernels.Plate(*(np.where(within, x, np.inf) for x in found))
+        plates = plates_of(np.where(within, self.eta, 1.0))
+        return kernels.Plate(*(np.where(within, x, np.inf) for x in plates))
 
     @cached_property
     def supports(self) -> Supports:
@@ -133,18 +133,22 @@ class Model:
             for field in fields(self)
             if isinstance(value := getattr(self, field.name), np.ndarray)
         }
-        found = replace(self, **columns)
+        columns_of_rows = replace(self, **columns)
         if isinstance(index, int):
-            return found
+            return columns_of_rows
         known, many = vars(self), isinstance(self.eta, np.ndarray)  # values computed before
         if "plates" in known:
-            vars(found)["plates"] = kernels.plates_at(self.plates, index) if many else self.plates
+            vars(columns_of_rows)["plates"] = (
+                kernels.plates_at(self.plates, index) if many else self.plates
+            )
         if "correction" in known:
             rows: Any = self.correction  # columns, if there are many plates
-            vars(found)["correction"] = kernels.Plate(*(x[index] if many else x for x in rows))
+            vars(columns_of_rows)["correction"] = kernels.Plate(
+                *(x[index] if many else x for x in rows)
+            )
         if "supports" in known:
-            vars(found)["supports"] = self.supports.take(index)
-        return found
+            vars(columns_of_rows)["supports"] = self.supports.take(index)
+        return columns_of_rows
 
     @property
     def poissons_ratio(self) -> float:
@@ -159,8 +163,8 @@ class Model:
     @property
     def shear_speed(self) -> float:
         """Speed of shear waves in the plate [m/s]."""
-        found: float = np.sqrt(self.mu / self.density)
-        return found
+        speed: float = np.sqrt(self.mu / self.density)
+        return speed
 
     @property
     def softness(self) -> float:
@@ -241,8 +245,8 @@ def _plate_of(eta: float) -> kernels.Plate:
 
 def numbers_of(scene: Scene) -> Model:
     """Return the quantities of a scene without checks; arrays for a scene of arrays."""
-    own = own_materials(scene.materials)
-    sphere, plate = body_of(scene.sphere, own), body_of(scene.plate, own)
+    materials = own_materials(scene.materials)
+    sphere, plate = body_of(scene.sphere, materials), body_of(scene.plate, materials)
     half, full = scene.plate.half_thickness, scene.plate.thickness
     model = Model(
         R=scene.sphere.radius,
@@ -270,8 +274,8 @@ def numbers_of(scene: Scene) -> Model:
 
 def _lesser(one: float, other: float) -> float:
     """Return the smaller of two numbers, or of two arrays element by element."""
-    found = np.minimum(one, other)
-    return float(found) if np.ndim(found) == 0 else found
+    lesser = np.minimum(one, other)
+    return float(lesser) if np.ndim(lesser) == 0 else lesser
 
 
 def _unbounded(model: Model) -> float:

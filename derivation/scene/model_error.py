@@ -47,11 +47,11 @@ def inertia_error(model: Model, a: float, contact_time: float) -> dict[str, floa
     # On a light plate the contact stays narrower, but the force rises as on a half-space.
     widest = max(a, _half_space_radius(model))
     rough = _rough(contact_time * fastest / (4.0 * model.h), widest / (2.0 * model.h))
-    found: dict[str, float] = dict.fromkeys(OUTPUTS, FLOOR)
+    errors: dict[str, float] = dict.fromkeys(OUTPUTS, FLOOR)
     for case in _cases():
         if rough or not case.rough:
-            found = {name: max(size, case.errors.get(name, 0.0)) for name, size in found.items()}
-    return found
+            errors = {name: max(size, case.errors.get(name, 0.0)) for name, size in errors.items()}
+    return errors
 
 
 def _half_space_radius(model: Model) -> float:
@@ -69,7 +69,7 @@ def _rough(echoes: float, width: float) -> bool:
 def _cases() -> tuple[_Simulation, ...]:
     """Return the recorded simulations that the program has repeated."""
     rows = json.loads((measurements() / "elastodynamics.json").read_text())["impacts"]
-    found = []
+    cases = []
     for row in rows:
         program, parameters = row.get("program", {}), row["parameters"]
         if "values" not in program:
@@ -84,5 +84,5 @@ def _cases() -> tuple[_Simulation, ...]:
             if name in elements and row["errors"][name] <= (ROUGHLY if rough else CONVERGED)
             if name != "max_contact_radius"  # finite elements resolve it only to a node
         }
-        found.append(_Simulation(rough, errors))
-    return tuple(found)
+        cases.append(_Simulation(rough, errors))
+    return tuple(cases)

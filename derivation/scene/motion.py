@@ -182,11 +182,11 @@ def largest_radii(
     goal = np.atleast_1d(goal + 2.0 * (np.log(model.v0) + np.log(model.R)))
     a = np.minimum(_start(law, goal) if start is None else start, law.limit)
     a = np.where(np.isfinite(goal), a, np.nan)
-    found, left, limit = a.copy(), np.arange(len(a)), law.limit
+    radii, left, limit = a.copy(), np.arange(len(a)), law.limit
     before: Array = np.full(a.shape[:-1], np.inf)
     for _ in range(_STEPS):
         a, step = _step(law, goal, a, rule(n))
-        found[left], size = a, np.abs(step[..., 0])
+        radii[left], size = a, np.abs(step[..., 0])
         moving = (size > close) & ~((size < _ROUNDED) & (size >= before))
         if not moving.any():
             break
@@ -194,7 +194,7 @@ def largest_radii(
         if a.ndim > 1 and not moving.all():
             law, goal, a, left = law.take(moving), goal[moving], a[moving], left[moving]
             before = size[moving]
-    return np.where(found < limit, found, np.nan)
+    return np.where(radii < limit, radii, np.nan)
 
 
 def _step(law: ContactLaw, goal: Array, a: Array, known: Rule) -> tuple[Array, Array]:
@@ -227,12 +227,12 @@ def _start(law: ContactLaw, goal: Array) -> Array:
     It is the smaller one of the radii by Hertz's law and by that of a thin plate.
     """
     model = law.model
-    found = 0.2 * (goal + math.log(5.0))
+    angle = 0.2 * (goal + math.log(5.0))
     if law.bends:
         # 3/2 a/h/(4 pi eta^2) instead of 1, with a^6/6 instead of a^5/5.
         steep = math.log(16.0 * math.pi) + np.log(model.h) + 2.0 * np.log(model.eta)
-        found = np.minimum(found, (goal + steep) / 6.0)
-    return np.exp(np.clip(found, -700.0, 700.0))
+        angle = np.minimum(angle, (goal + steep) / 6.0)
+    return np.exp(np.clip(angle, -700.0, 700.0))
 
 
 def impact(law: ContactLaw) -> Motion:
@@ -250,15 +250,15 @@ def impact(law: ContactLaw) -> Motion:
             a = largest_radius(law, n, a, close)
         except SceneError:
             refuse(law)
-        found = _results(law, a, n, times)
-        check_numbers(law.model, *found.numbers)
+        motion = _results(law, a, n, times)
+        check_numbers(law.model, *motion.numbers)
         if before is not None:
-            pairs = zip(found.numbers, before.numbers, strict=True)
+            pairs = zip(motion.numbers, before.numbers, strict=True)
             change = max(abs(new / old - 1.0) for new, old in pairs)
-            before = replace(found, quadrature=change)
+            before = replace(motion, quadrature=change)
             if change <= settled(times):
                 return before
-        before = before or found
+        before = before or motion
     assert before is not None
     return before
 
@@ -330,6 +330,6 @@ def _history(law: ContactLaw, motion: Motion, times: Array) -> tuple[Array, Arra
         u = np.clip(u - 2.0 * step, -1.0, 1.0)
     half = (1.0 + u) / 2.0
     radii = a * (1.0 - half) * (1.0 + half)
-    found = law.at(radii)
+    states = law.at(radii)
     velocity = np.sign(motion.contact_time / 2.0 - times) * model.v0 * half * legval(u, root)
-    return law.indentation(radii, found), velocity, radii, law.force(radii, found)
+    return law.indentation(radii, states), velocity, radii, law.force(radii, states)

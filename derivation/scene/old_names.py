@@ -37,14 +37,14 @@ class Renewed(NamedTuple):
 
 def renewed(data: Mapping[str, Any]) -> Renewed:
     """Return the tables of a scene with every old name replaced."""
-    found = Renewed(dict(data), [], [])
+    result = Renewed(dict(data), [], [])
     for table, keys in data.items():
         if isinstance(keys, dict):
-            found.tables[table] = _renewed(f"{table}", keys, found)
-    return found
+            result.tables[table] = _renewed(f"{table}", keys, result)
+    return result
 
 
-def _renewed(table: str, keys: Mapping[str, Any], found: Renewed) -> dict[str, Any]:
+def _renewed(table: str, keys: Mapping[str, Any], result: Renewed) -> dict[str, Any]:
     """Return the keys of a table under new names."""
     made = dict[str, Any]()
     for key, value in keys.items():
@@ -52,16 +52,16 @@ def _renewed(table: str, keys: Mapping[str, Any], found: Renewed) -> dict[str, A
         new = KEYS.get(old, old)
         name = new.removeprefix(f"{table}.") if new != old else key
         if new != old and name in keys:
-            found.problems.append(
+            result.problems.append(
                 f"{new}: expected one value, got another one under the old name {old}; remove {old}"
             )
             continue
         if isinstance(value, str) and (new, value) in VALUES:
             known = VALUES[new, value]
-            found.notices.append(f'{old} = "{value}" is now {new} = "{known}"; {REMOVED}')
+            result.notices.append(f'{old} = "{value}" is now {new} = "{known}"; {REMOVED}')
             value = known
         elif new != old:
-            found.notices.append(f"{old} is now called {new}; {REMOVED}")
+            result.notices.append(f"{old} is now called {new}; {REMOVED}")
         made[name] = value
     return made
 

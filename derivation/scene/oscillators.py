@@ -106,9 +106,9 @@ def response_at(
         from generated.damping_kernels import response as damped
 
         phase = np.multiply.outer(since, omega)
-        found = damped(phase, np.asarray(damping_ratio))
+        factors = damped(phase, np.asarray(damping_ratio))
         rows = (values[:, k] for values in of for k in range(2))
-        for row, values in zip(rows, found, strict=True):
+        for row, values in zip(rows, factors, strict=True):
             row[:] = values
         np.negative(of.moved[:, 1], out=of.moved[:, 1])
         free = FreeMotion(phase, damping_ratio)

@@ -62,9 +62,9 @@ def impact(law: ContactLaw) -> PlasticMotion:
     return replace(found, quadrature=change + _speed_error(found))
 
 
-def _speed_error(found: PlasticMotion) -> float:
+def _speed_error(motion: PlasticMotion) -> float:
     """Return twice the relative error of the final speed that the energy balance shows [1]."""
-    balance = found.energy_balance
+    balance = motion.energy_balance
     if balance is None or not balance.initial_kinetic * balance.rebound_kinetic > 0.0:
         return 0.0  # energies below the smallest double
     return abs(balance.residual) * (balance.initial_kinetic / balance.rebound_kinetic)

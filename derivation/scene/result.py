@@ -142,9 +142,9 @@ class Result:
         # Denser towards the contact edge, where the pressure falls to zero as a square root.
         r = max(a, hertz) * np.sin(np.linspace(0.0, np.pi / 2, points))
         inside = np.minimum(r, a)
-        own = np.where(r < a, np.minimum(law.pressure(inside, a), law.pressure_limit), 0.0)
+        values = np.where(r < a, np.minimum(law.pressure(inside, a), law.pressure_limit), 0.0)
         peak = 1.5 * force / (np.pi * hertz * hertz)
-        return Pressures(r, own, peak * np.sqrt(np.maximum(1.0 - (r / hertz) ** 2, 0.0)))
+        return Pressures(r, values, peak * np.sqrt(np.maximum(1.0 - (r / hertz) ** 2, 0.0)))
 
     @cached_property
     def comparison(self) -> "Comparison | None":
@@ -253,9 +253,9 @@ class Result:
             end = float(kernels.impact(*self.model.numbers).contact_time)
             times = self._times(n, end)
             return History(times, *kernels.history(times, *self.model.numbers))
-        whole = moved(law)
-        times = self._times(n, whole.contact_time)
-        return History(times, *whole.history(law, times))
+        motion = moved(law)
+        times = self._times(n, motion.contact_time)
+        return History(times, *motion.history(law, times))
 
     def _times(self, n: int | None, end: float) -> Array:
         """Return the chosen times [s], or times evenly spaced over the contact."""
@@ -265,9 +265,9 @@ class Result:
 
     def to_json(self) -> dict[str, Any]:
         """Return the result in SI units, with accuracy, effects, warnings and the scene."""
-        found = {name: getattr(self, name) for name in UNITS}
+        data = {name: getattr(self, name) for name in UNITS}
         # JSON has no NaN: unknown results of an incomplete impact are null.
-        numbers = {name: x if math.isfinite(x) else None for name, x in found.items()}
+        numbers = {name: x if math.isfinite(x) else None for name, x in data.items()}
         if self.effects.law.plastic:
             numbers["dent"] = self.dent
         if self.scene.measured is not None:
@@ -369,12 +369,12 @@ class Result:
 
     def numbers(self) -> list[tuple[str, float, str]]:
         """Return name, value and SI unit of each result; with plate inertia also the total time."""
-        found = [(name, float(getattr(self, name)), unit) for name, unit in UNITS.items()]
+        rows = [(name, float(getattr(self, name)), unit) for name, unit in UNITS.items()]
         if self.dynamics is not None:
-            found.insert(1, ("total_time", self.total_time, "s"))
+            rows.insert(1, ("total_time", self.total_time, "s"))
         if self.effects.law.plastic:
-            found.append(("dent", self.dent, "m"))
-        return found
+            rows.append(("dent", self.dent, "m"))
+        return rows
 
     def __str__(self) -> str:
         """Return the summary, as the command line prints it."""

@@ -26,6 +26,7 @@ from derivation.scene.rows_warnings import warnings_of_rows
 from derivation.scene.scene import OUTPUTS, Scene, SceneError, read
 from derivation.scene.selection import check_enabled
 from derivation.scene.static_rows import impacts_of
+from derivation.scene.units import unit_warnings_of_rows
 
 BLOCK = 2**15
 """Number of rows computed together, which bounds the memory."""
@@ -123,13 +124,13 @@ def solve(
     for key in given:
         number_key(key)
     [(count,)] = lengths
-    found, until = _empty(count), time.perf_counter() + seconds
+    rows, until = _empty(count), time.perf_counter() + seconds
     for start in range(0, count, BLOCK):
         part = {key: values[start : start + BLOCK] for key, values in given.items()}
-        left = _Block(scene, part, rtol, found, start).run(until)
+        left = _Block(scene, part, rtol, rows, start).run(until)
         if left is not None:
-            return found.first(left)
-    return found
+            return rows.first(left)
+    return rows
 
 
 def _empty(count: int) -> Rows:
@@ -160,6 +161,7 @@ class _Block:
         left = np.ones(count, dtype=bool)
         for rows in self._in_arrays():
             left[rows] = False
+        self._doubt(np.flatnonzero(~left))
         for row in np.flatnonzero(left).tolist():
             if self.start + row and time.perf_counter() > until:
                 return self.start + row
@@ -186,6 +188,17 @@ class _Block:
         found.bound[index], found.model_error[index] = result.accuracy.bound, result.model_error
         for name, number in numbers.items():
             found.results[name][index] = number
+
+    def _doubt(self, rows: NDArray[np.intp]) -> None:
+        """Begin the reasons of rows with the warnings about their units."""
+        scene = self._readable(rows[:1].tolist())
+        if scene is None:
+            return
+        columns = {key: values[rows] for key, values in self.columns.items()}
+        for row, texts in unit_warnings_of_rows(scene, columns).items():
+            index = self.start + rows[row]
+            rest = self.found.reason[index]
+            self.found.reason[index] = "; ".join((*texts, rest) if rest else texts)
 
     def _in_arrays(self) -> Iterable[NDArray[np.intp]]:
         """Simulate rows in arrays, and yield their indices."""
@@ -235,16 +248,16 @@ class _Block:
         """Compute the impacts of a group; return the rows that have results."""
         law, error = group.law, group.error
         rest = None if rtol is None else (rtol - error) / (1.0 + error)
-        found = impacts_of(law, len(rows), rest)
-        parts = (error, found.law, found.quadrature, found.rounding)
+        impacts = impacts_of(law, len(rows), rest)
+        parts = (error, impacts.law, impacts.quadrature, impacts.rounding)
         bound = np.expm1(sum(np.log1p(part) for part in parts))
-        a, P = found.max_contact_radius[:, None], found.max_force[:, None]
+        a, P = impacts.max_contact_radius[:, None], impacts.max_force[:, None]
         with np.errstate(all="ignore"):
             numbers = {
-                "contact_time": found.contact_time,
-                "max_indentation": found.max_indentation,
-                "max_force": found.max_force,
-                "max_contact_radius": found.max_contact_radius,
+                "contact_time": impacts.contact_time,
+                "max_indentation": impacts.max_indentation,
+                "max_force": impacts.max_force,
+                "max_contact_radius": impacts.max_contact_radius,
                 "restitution": np.ones(len(rows)),
                 "max_pressure": law.centre_pressure(a)[:, 0],
                 "max_tensile_stress": law.tensile_stresses(a, P, group.held)[:, 0],

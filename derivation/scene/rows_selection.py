@@ -77,7 +77,7 @@ def selected(
     outputs
         The results that the tolerance applies to.
     """
-    found: list[Group | Rejected] = []
+    groups: list[Group | Rejected] = []
     for rows in _alike(model, len(rtol)):
         part = model.take(rows)
         try:
@@ -94,18 +94,18 @@ def selected(
         waiting = {given.included: [np.arange(len(rows))]}
         while waiting:
             included, parts = waiting.popitem()
-            own = np.sort(np.concatenate(parts))
+            indices = np.sort(np.concatenate(parts))
             try:
                 given.check(ContactLaw(part.take(0), included))
             except SceneError as error:
-                found.append(Rejected(rows[own], str(error)))
+                groups.append(Rejected(rows[indices], str(error)))
                 continue
-            group, others = _step(given, part, included, own, rtol[rows], outputs)
+            group, others = _step(given, part, included, indices, rtol[rows], outputs)
             if group is not None:
-                found.append(Group(rows[group.rows], group.law, group.held, group.error))
+                groups.append(Group(rows[group.rows], group.law, group.held, group.error))
             for names, more in others.items():
                 waiting.setdefault(names, []).append(more)
-    return found
+    return groups
 
 
 def _alike(model: Model, count: int) -> list[Rows]:
@@ -140,10 +140,10 @@ def _step(
         return Group(rows, ContactLaw(model.take(rows), included), _held(given), none), {}
     parts = [rows[start : start + TOGETHER] for start in range(0, len(rows), TOGETHER)]
     laws = (ContactLaw(model.take(part), included) for part in parts)
-    found = [
+    groups = [
         _errors(given, law, rtol[part], outputs) for law, part in zip(laws, parts, strict=True)
     ]
-    error, fine, *sizes = (np.concatenate(column) for column in zip(*found, strict=True))
+    error, fine, *sizes = (np.concatenate(column) for column in zip(*groups, strict=True))
     limit = rtol[rows]
     near = (np.abs(error - limit) <= NEAR * limit) & (limit > 0.0)
     candidates = [effect for effect in open_ if effect.name not in given.blocked]
@@ -196,10 +196,10 @@ def _next(
         second = np.partition(sizes, -2, axis=1)[:, -2:]
         with np.errstate(invalid="ignore"):  # two infinite sizes are not distinguished
             going_on = going_on & (second[:, 1] - second[:, 0] > NEAR * second[:, 1])
-    found: dict[frozenset[str], Rows] = {}
+    rows_by_effects: dict[frozenset[str], Rows] = {}
     for number, effect in enumerate(candidates):
         mine = rows[going_on & (worst == number)]
         if len(mine):
             names = included | {effect.name} | given.along[effect.name]
-            found[names] = np.concatenate((found.get(names, mine[:0]), mine))
-    return found
+            rows_by_effects[names] = np.concatenate((rows_by_effects.get(names, mine[:0]), mine))
+    return rows_by_effects

@@ -60,12 +60,12 @@ def warnings_of_rows(
     known["strength"] = np.full(len(rows), np.inf)
     if strength is not None:
         known["strength"][:] = np.broadcast_to(strength, len(results["contact_time"]))[rows]
-    found: dict[int, tuple[str, ...]] = {}
+    by_row: dict[int, tuple[str, ...]] = {}
     for possible, texts in zip(_possible(law, known), _texts(law), strict=True):
         for row, one in _singles(known, np.flatnonzero(possible)):
-            found[row] = found.get(row, ()) + texts(one)
+            by_row[row] = by_row.get(row, ()) + texts(one)
     joined = np.full(len(rows), "", dtype=object)
-    for row, of_row in found.items():
+    for row, of_row in by_row.items():
         joined[row] = "; ".join(of_row)
     return joined
 
@@ -84,8 +84,8 @@ def _numbers(law: ContactLaw, results: Mapping[str, Array]) -> dict[str, Array]:
     known["correction"] = np.full(count, np.nan)
     if len(wide := np.flatnonzero(_non_hertzian(SimpleNamespace(**known)))):
         one: Any = SimpleNamespace(**{name: values[wide] for name, values in known.items()})
-        found = pressure_correction(one, one.max_contact_radius, one.max_indentation)
-        known["correction"][wide] = found
+        numbers = pressure_correction(one, one.max_contact_radius, one.max_indentation)
+        known["correction"][wide] = numbers
     return known
 
 
@@ -123,8 +123,8 @@ def _possible(law: ContactLaw, known: Mapping[str, Array]) -> tuple[Mask, ...]:
 
 def _non_hertzian(one: SimpleNamespace) -> Mask:
     """Return the rows whose contact may be too wide for the Hertz pressure."""
-    found: Mask = one.max_contact_radius > (1.0 - _ROUNDING) * HERTZ_LIMIT * 2.0 * one.h
-    return found
+    exceeded: Mask = one.max_contact_radius > (1.0 - _ROUNDING) * HERTZ_LIMIT * 2.0 * one.h
+    return exceeded
 
 
 def _texts(law: ContactLaw) -> tuple[Texts, ...]:

@@ -318,29 +318,29 @@ def _scene(data: Mapping[str, Any], source: str, scene: Scene | None = None) -> 
     tables, notices, twice = old_names.renewed(_plain(data))
     for notice in notices:
         old_names.notify(notice)
-    found: Problems = [partial(str, text) for text in twice]
+    texts: Problems = [partial(str, text) for text in twice]
     try:
         made = Scene.__pydantic_validator__.validate_python(tables, self_instance=scene)
     except ValidationError as error:
-        found += _problems(error, tables)
+        texts += _problems(error, tables)
     else:
-        if not found:
+        if not texts:
             return cast(Scene, made)
-    raise SceneError(f"{source}: {in_words(found)}")
+    raise SceneError(f"{source}: {in_words(texts)}")
 
 
 def _plain(data: Mapping[str, Any]) -> dict[str, Any]:
     """Return the tables as plain mappings with plain numbers."""
-    found = dict[str, Any]()
+    plain = dict[str, Any]()
     for name, table in data.items():
         keys = table.to_json() if isinstance(table, Table) else table
         if name == OWN_MATERIALS and isinstance(keys, Mapping):
-            found[name] = _plain(keys)
+            plain[name] = _plain(keys)
         elif isinstance(keys, Mapping):
-            found[name] = plain_keys(keys)
+            plain[name] = plain_keys(keys)
         elif keys is not None:
-            found[name] = keys
-    return found
+            plain[name] = keys
+    return plain
 
 
 def schema() -> dict[str, Any]:
@@ -361,11 +361,11 @@ def schema() -> dict[str, Any]:
 
 def _problems(error: ValidationError, data: Mapping[str, Any]) -> Problems:
     """Return all problems of a scene, each as a function that returns the message."""
-    own = data.get(OWN_MATERIALS)
-    names = own if isinstance(own, Mapping) else ()
+    materials = data.get(OWN_MATERIALS)
+    names = materials if isinstance(materials, Mapping) else ()
     known = TABLES | {f"{OWN_MATERIALS}.{name}": Material for name in names}
-    found = problems(map(_by_table, found_by(error)), data, known)
-    return found + [partial(str, text) for text in Scene.conflicts(data)]
+    texts = problems(map(_by_table, found_by(error)), data, known)
+    return texts + [partial(str, text) for text in Scene.conflicts(data)]
 
 
 def _by_table(problem: Problem) -> Problem:

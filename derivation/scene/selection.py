@@ -225,7 +225,7 @@ def _blocked(wanted: Mapping[str, Any]) -> Mapping[str, str]:
     SceneError
         If the scene enables one of them.
     """
-    found = dict[str, str]()
+    reasons = dict[str, str]()
     for effect in EFFECTS:
         name = effect.name
         without = sorted(part for part in effect.requires if wanted.get(part) is False)
@@ -235,5 +235,5 @@ def _blocked(wanted: Mapping[str, Any]) -> Mapping[str, str]:
                 f"false; remove effects.{without[0]} or effects.{name}"
             )
         if without:
-            found[name] = without[0]
-    return found
+            reasons[name] = without[0]
+    return reasons

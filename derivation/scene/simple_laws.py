@@ -49,11 +49,11 @@ class Estimates(NamedTuple):
 
 def plates_of(eta: Array) -> kernels.Plate:
     """Return c_1, its error bound and K_3 of many plates, 1e-50 <= h/b <= 1e50."""
-    found = np.empty((3, *eta.shape))
+    values = np.empty((3, *eta.shape))
     thin = 1.0 / eta > THIN
-    found[:, thin] = simple_impact.with_margins_of_thin(*_thin_plate(1.0 / eta[thin]))
-    found[:, ~thin] = simple_impact.with_margins_of_thick(*_thick_plate(eta[~thin], MODES))
-    return kernels.Plate(*found)
+    values[:, thin] = simple_impact.with_margins_of_thin(*_thin_plate(1.0 / eta[thin]))
+    values[:, ~thin] = simple_impact.with_margins_of_thick(*_thick_plate(eta[~thin], MODES))
+    return kernels.Plate(*values)
 
 
 def hertz(R: Array, m: Array, v0: Array, h: Array, b: Array, lam: Array, mu: Array) -> Estimates:
@@ -63,8 +63,8 @@ def hertz(R: Array, m: Array, v0: Array, h: Array, b: Array, lam: Array, mu: Arr
     low, up = _formulas.hertz_bounds(*plate, top)
     none = np.zeros_like(top)
     law = _law_error(np.maximum(0.0, low), np.maximum(0.0, up), none, none)
-    found = _formulas.hertz_peaks(radius, R, v0, modulus)
-    return _estimates(known, radius, np.minimum(b, R), found, law, 0.0)
+    peaks = _formulas.hertz_peaks(radius, R, v0, modulus)
+    return _estimates(known, radius, np.minimum(b, R), peaks, law, 0.0)
 
 
 def leading(R: Array, m: Array, v0: Array, h: Array, b: Array, lam: Array, mu: Array) -> Estimates:
@@ -91,8 +91,8 @@ def single(run: Callable[..., Estimates], *numbers: float) -> kernels.Estimate |
     None where no bound is proved.
     """
     with np.errstate(all="ignore"):
-        found = run(*(np.array([number]) for number in numbers))
-    estimate = kernels.Estimate(*(np.asarray(column).item() for column in found))
+        estimates = run(*(np.array([number]) for number in numbers))
+    estimate = kernels.Estimate(*(np.asarray(column).item() for column in estimates))
     return estimate if math.isfinite(estimate.law) else None
 
 
@@ -132,11 +132,11 @@ def _estimates(
     known: NDArray[np.bool_],
     a: Array,
     widest: Array,
-    found: tuple[Array, Array, Array],
+    peaks: tuple[Array, Array, Array],
     law: Array,
     quadrature: float,
 ) -> Estimates:
     """Return the results, without a bound where the contact may exceed the plate or the sphere."""
     shown = known & (TOP * a < widest)
     law = np.where(shown, law, np.inf)
-    return Estimates(*found, a, law, quadrature, simple_impact.ROUNDING)
+    return Estimates(*peaks, a, law, quadrature, simple_impact.ROUNDING)

@@ -61,14 +61,14 @@ def impacts_of(law: ContactLaw, count: int, rest: Array | None) -> Impacts:
         Relative tolerance minus the error of the omitted effects, for each row; None without a
         tolerance.
     """
-    found = Impacts(*(np.full(count, np.nan) for _ in fields(Impacts)))
+    impacts = Impacts(*(np.full(count, np.nan) for _ in fields(Impacts)))
     if law.of_paper:
-        _by_papers_law(law, rest, found)
+        _by_papers_law(law, rest, impacts)
     elif law.hertzian and not np.any(law.gravity):
-        _on_half_space(law, found)
+        _on_half_space(law, impacts)
     else:
-        _by_any_law(law, found)
-    return found
+        _by_any_law(law, impacts)
+    return impacts
 
 
 def flat_numbers(law: ContactLaw, count: int) -> list[Array]:
@@ -76,9 +76,9 @@ def flat_numbers(law: ContactLaw, count: int) -> list[Array]:
     return [np.broadcast_to(x, (count, 1))[:, 0] for x in law.model.numbers]
 
 
-def _by_papers_law(law: ContactLaw, rest: Array | None, found: Impacts) -> None:
+def _by_papers_law(law: ContactLaw, rest: Array | None, impacts: Impacts) -> None:
     """Use the fastest method whose bound meets the tolerance, like `method_selection.solve`."""
-    count = len(found.law)
+    count = len(impacts.law)
     numbers = flat_numbers(law, count)
     left, coarse = np.ones(count, dtype=bool), np.zeros(count, dtype=bool)
     if rest is not None:
@@ -90,9 +90,9 @@ def _by_papers_law(law: ContactLaw, rest: Array | None, found: Impacts) -> None:
                 parts = np.broadcast_arrays(*estimates)
                 bound = np.expm1(np.sum(np.log1p(parts[-3:]), axis=0))
             good = bound <= rest[selected]
-            found.put(selected[good], [part[good] for part in parts])
+            impacts.put(selected[good], [part[good] for part in parts])
             near = np.abs(bound - rest[selected]) <= NEAR * rest[selected]  # rounding could decide
-            found.put(selected[near], [np.nan] * len(parts))
+            impacts.put(selected[near], [np.nan] * len(parts))
             left[selected[good | near]] = False
     for method, rows in (("coarse", left & coarse), ("full", left & ~coarse)):
         if rows.any():
@@ -100,9 +100,9 @@ def _by_papers_law(law: ContactLaw, rest: Array | None, found: Impacts) -> None:
                 values = kernels.impact(*(x[rows] for x in numbers), coarse=method == "coarse")
             accuracy = whole_law(method, None)
             bounds = accuracy.quadrature.bound, accuracy.rounding.bound
-            found.put(rows, (*values, 0.0, *bounds))
-    beyond = left & ~(found.max_contact_radius < WELL_WITHIN * _limits(law, count))
-    found.put(beyond, [np.nan] * len(fields(found)))
+            impacts.put(rows, (*values, 0.0, *bounds))
+    beyond = left & ~(impacts.max_contact_radius < WELL_WITHIN * _limits(law, count))
+    impacts.put(beyond, [np.nan] * len(fields(impacts)))
 
 
 def _limits(law: ContactLaw, count: int) -> Array:
@@ -110,26 +110,26 @@ def _limits(law: ContactLaw, count: int) -> Array:
     return np.broadcast_to(law.limit, (count, 1))[:, 0]
 
 
-def _on_half_space(law: ContactLaw, found: Impacts) -> None:
+def _on_half_space(law: ContactLaw, impacts: Impacts) -> None:
     """Use Hertz's law in closed form, with the modulus E* of the contact."""
-    count = len(found.law)
+    count = len(impacts.law)
     modulus_ratio = np.broadcast_to(1.0 / (1.0 + law.softness), (count, 1))[:, 0]
     R, m, v0, h, b, lam, mu = flat_numbers(law, count)
     with np.errstate(all="ignore"):
         one = simple_laws.hertz(R, m, v0, h, b, modulus_ratio * lam, modulus_ratio * mu)
     known = np.isfinite(one.law)
-    found.put(known, (*(x[known] for x in one[:4]), 0.0, 0.0, one.rounding))
+    impacts.put(known, (*(x[known] for x in one[:4]), 0.0, 0.0, one.rounding))
 
 
-def _by_any_law(law: ContactLaw, found: Impacts) -> None:
+def _by_any_law(law: ContactLaw, impacts: Impacts) -> None:
     """Use the energy integral, like `motion.impact`, for a few rows at a time."""
-    count = len(found.law)
+    count = len(impacts.law)
     for start in range(0, count, TOGETHER):
         rows = np.arange(start, min(start + TOGETHER, count))
-        _together(law.take(rows), rows, found)
+        _together(law.take(rows), rows, impacts)
 
 
-def _together(law: ContactLaw, left: NDArray[np.intp], found: Impacts) -> None:
+def _together(law: ContactLaw, left: NDArray[np.intp], impacts: Impacts) -> None:
     """Double the number of nodes until each row has converged."""
     whole, rows, a = law, left, None
     before = change = None
@@ -139,12 +139,12 @@ def _together(law: ContactLaw, left: NDArray[np.intp], found: Impacts) -> None:
             after = np.hstack((*results_at(law, a, n, times), a))
             if before is not None:
                 change = np.max(np.abs(after / before - 1.0), axis=1)
-                found.put(left, (*after.T, 0.0, change, 0.0))
+                impacts.put(left, (*after.T, 0.0, change, 0.0))
                 going_on = change > settled(times)  # not where NaN
                 if not going_on.any():
                     break
                 law, left = law.take(going_on), left[going_on]
                 a, after = a[going_on], after[going_on]
             before = after
-        cancelled = whole.cancellation(found.max_contact_radius[rows, None])[:, 0]
-    found.rounding[rows] = rounding_of(whole) + cancelled
+        cancelled = whole.cancellation(impacts.max_contact_radius[rows, None])[:, 0]
+    impacts.rounding[rows] = rounding_of(whole) + cancelled

@@ -136,10 +136,10 @@ def run(
         Number of processes, used if the sweep takes long. Each process imports the main module,
         so that a script must guard its main part with `if __name__ == "__main__"`.
     """
-    found, rows = _rows(scene, sweep, rtol, workers), list[SweepRow]()
+    results, rows = _rows(scene, sweep, rtol, workers), list[SweepRow]()
     for number in range(1, len(sweep.values) + 1):
         progress(f"{sweep.table}.{sweep.key}", number, len(sweep.values))
-        rows.append(next(found))
+        rows.append(next(results))
     return tuple(rows)
 
 
@@ -153,8 +153,8 @@ def _rows(scene: Scene, sweep: Sweep, rtol: float | None, workers: int) -> Itera
     pool = ProcessPoolExecutor(workers, get_context("spawn"), initializer=_leave_interrupts)
     try:
         with unheard_interrupts():
-            found = pool.map(one, sweep.values[1:])
-        yield from found
+            rows = pool.map(one, sweep.values[1:])
+        yield from rows
     except BrokenProcessPool:
         raise SceneError(
             "sweep: a process was terminated by the operating system, possibly for lack of memory; "
@@ -186,14 +186,14 @@ def _leave_interrupts() -> None:
 def _row(scene: Scene, sweep: Sweep, rtol: float | None, value: float) -> SweepRow:
     data = varied(scene, {f"{sweep.table}.{sweep.key}": value})
     try:
-        found = simulate(read(data), rtol=rtol)
+        result = simulate(read(data), rtol=rtol)
     except SceneError as error:
         return SweepRow(value, {}, (), f"rejected: {error}")
-    results = {name: getattr(found, name) for name in UNITS}
-    included = found.effects.included
-    if not found.complete:  # without restitution: a row without results, with the reason
-        return SweepRow(value, {}, included, found.incomplete_note)
-    return SweepRow(value, results, included, "; ".join(found.warnings), found.digits)
+    results = {name: getattr(result, name) for name in UNITS}
+    included = result.effects.included
+    if not result.complete:  # without restitution: a row without results, with the reason
+        return SweepRow(value, {}, included, result.incomplete_note)
+    return SweepRow(value, results, included, "; ".join(result.warnings), result.digits)
 
 
 def to_csv(sweep: Sweep, rows: Sequence[SweepRow]) -> str:

@@ -46,9 +46,9 @@ class Table(BaseModel):
             try:
                 self.__pydantic_validator__.validate_python(given, self_instance=self)
             except ValidationError as error:
-                found = problems(found_by(error, name), {name: given}, {name: table})
-                where = f"{name}: " if len(found) > 1 else ""
-                raise SceneError(f"{where}{in_words(found)}") from None
+                texts = problems(found_by(error, name), {name: given}, {name: table})
+                where = f"{name}: " if len(texts) > 1 else ""
+                raise SceneError(f"{where}{in_words(texts)}") from None
 
         __init__.__pydantic_base_init__ = True  # tables within a scene are read without it
 
@@ -61,8 +61,8 @@ class Table(BaseModel):
         if not (cls.stand_in in keys and not any(keys & set(sum(g, ())) for g in cls.choices)):
             choices += cls.choices
         examples = {key: _example(field) for key, field in cls.model_fields.items()}
-        found = (choice_problem(table, groups, keys, examples) for groups in choices)
-        return [problem for problem in found if problem]
+        texts = (choice_problem(table, groups, keys, examples) for groups in choices)
+        return [problem for problem in texts if problem]
 
     def to_json(self) -> dict[str, Any]:
         """Return the given keys with their values."""
@@ -70,9 +70,9 @@ class Table(BaseModel):
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:
-        found = self.conflicts(self.model_dump())
-        if found:
-            raise PydanticCustomError(CONFLICT, "{problems}", {"problems": "; ".join(found)})
+        texts = self.conflicts(self.model_dump())
+        if texts:
+            raise PydanticCustomError(CONFLICT, "{problems}", {"problems": "; ".join(texts)})
         return self
 
     @classmethod
@@ -131,7 +131,7 @@ def found_by(error: ValidationError, table: str = "") -> Iterator[Problem]:
 
 
 def problems(
-    found: Iterable[Problem], data: Mapping[str, Any], tables: Mapping[str, type[Table]]
+    mistakes: Iterable[Problem], data: Mapping[str, Any], tables: Mapping[str, type[Table]]
 ) -> Problems:
     """Return all problems of single keys and of combinations of keys.
 
@@ -146,7 +146,7 @@ def problems(
     """
     fields = {name: dict(table.model_fields) for name, table in tables.items()}
     messages: dict[object, Callable[[], str]] = {}
-    for kind, place, value in found:
+    for kind, place, value in mistakes:
         # Pydantic reports an error for each allowed type of a key; the first is enough.
         messages.setdefault((place[:2], shown(value)), partial(explain, kind, place, value, fields))
     # Pydantic checks combinations only if each key is valid; here all problems are reported.
@@ -156,9 +156,9 @@ def problems(
     return list(messages.values())
 
 
-def in_words(found: Sequence[Callable[[], str]]) -> str:
+def in_words(texts: Sequence[Callable[[], str]]) -> str:
     """Return the message of one problem, or a list of several."""
-    return found[0]() if len(found) == 1 else listed(found)
+    return texts[0]() if len(texts) == 1 else listed(texts)
 
 
 def plain_keys(keys: Mapping[str, Any]) -> dict[str, Any]:

@@ -19,5 +19,5 @@ def in_words(error: tomllib.TOMLDecodeError, text: str) -> str:
     if place is None or int(place[1]) > len(lines):
         return f"{error}; {ORDINARY}"
     line = lines[int(place[1]) - 1].split("#")[0].strip()[:80]
-    found = (remedy for mistake, remedy in REMEDIES.items() if re.search(mistake, line))
-    return f"{error}, in `{line}`; {next(found, ORDINARY)}"
+    remedies = (remedy for mistake, remedy in REMEDIES.items() if re.search(mistake, line))
+    return f"{error}, in `{line}`; {next(remedies, ORDINARY)}"

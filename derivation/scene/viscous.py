@@ -129,26 +129,26 @@ class ViscousProblem:
 
     def at(self, a: Array) -> CurvePoints:
         """Return the law at radii [m], with the depth added by yielding."""
-        found = self.curve.at(a)
+        points = self.curve.at(a)
         if self.yielding is None:
-            return found
-        depth, depth_a = self.yielding.added(found.force, found.force_a)
-        return found._replace(depth=found.depth + depth, depth_a=found.depth_a + depth_a)
+            return points
+        depth, depth_a = self.yielding.added(points.force, points.force_a)
+        return points._replace(depth=points.depth + depth, depth_a=points.depth_a + depth_a)
 
     def states(self, x: Array, a: Array, y: Array) -> States:
         """Return forces and depths at radii a with da/dx = y."""
-        found = self.at(self.a * a)
+        points = self.at(self.a * a)
         delay = self.law.model.retardation_time / self.T / (ONSET * x ** (ONSET - 1))
-        force_a = found.force_a * (self.a / self.force)
-        elastic, P_y = found.force / self.force, delay * force_a
+        force_a = points.force_a * (self.a / self.force)
+        elastic, P_y = points.force / self.force, delay * force_a
         P = elastic + P_y * y
         # d^2 P_e/da^2 = (2/a) dP_e/da by Hertz's law, and approximately by other laws.
         P_a = force_a + 2.0 * P_y * y / a
         bending = self.bending.at(np.array([P, elastic]) * self.force)
         (bent, static), (bent_P, static_P) = bending
         unit = self.force / self.depth
-        local = found.depth_a * (self.a / self.depth) - unit * static_P * force_a
-        depth = (found.depth + bent - static) / self.depth
+        local = points.depth_a * (self.a / self.depth) - unit * static_P * force_a
+        depth = (points.depth + bent - static) / self.depth
         return States(
             P,
             depth,
@@ -206,7 +206,7 @@ def elements(problem: ViscousProblem, n: int) -> tuple[ViscousElement, ...]:
     SceneError
         If the impact does not end, or the iteration does not converge for the shortest element.
     """
-    found: list[ViscousElement] = []
+    viscous_elements: list[ViscousElement] = []
     x, length, start = 0.0, FIRST, Point(0.0, 1.0, 0.0)
     # At the onset quantities are small; the tolerance refers to their expected size.
     scale, last = np.full((5, 1), 0.1), None
@@ -214,7 +214,9 @@ def elements(problem: ViscousProblem, n: int) -> tuple[ViscousElement, ...]:
         if length < SHORTEST:
             break
         xs = x + length * radau(n).x
-        guess = last.slope_at(xs) if found and last else _onset(problem, radau(n), length)
+        guess = (
+            last.slope_at(xs) if viscous_elements and last else _onset(problem, radau(n), length)
+        )
         made = element(problem, n, x, length, start, guess)
         if made is None:
             length *= 0.5
@@ -236,9 +238,9 @@ def elements(problem: ViscousProblem, n: int) -> tuple[ViscousElement, ...]:
             except UncutError:
                 length *= 0.5
                 continue
-        found.append((last, branch))
+        viscous_elements.append((last, branch))
         if float(np.sum(last.rows[P])) <= 0.0:
-            return tuple(found)
+            return tuple(viscous_elements)
         if start.velocity < 0.0 < end.velocity:
             raise SceneError(
                 "plate.retardation_time: the sphere does not rebound because its weight holds it "
@@ -346,10 +348,10 @@ def _without_viscosity(law: ContactLaw) -> Motion:
     return plastic.impact(law)
 
 
-def _motion(problem: ViscousProblem, found: tuple[ViscousElement, ...]) -> ViscousMotion:
+def _motion(problem: ViscousProblem, viscous_elements: tuple[ViscousElement, ...]) -> ViscousMotion:
     """Return the results of an impact from its time elements."""
-    elements = tuple(element for element, _ in found)
-    problem = replace(problem, yielding=found[-1][1])
+    elements = tuple(element for element, _ in viscous_elements)
+    problem = replace(problem, yielding=viscous_elements[-1][1])
     last = elements[-1].end(P)
     a, v, z, _, _ = elements[-1].at(np.array([last]))[:, 0]
     depth, force, radius = (largest_of(elements, row) for row in (Z, P, A))
@@ -372,7 +374,7 @@ def _motion(problem: ViscousProblem, found: tuple[ViscousElement, ...]) -> Visco
         -float(v),
         energy_balance,
         problem=problem,
-        elements=found,
+        elements=viscous_elements,
         dent=branch.dent if branch else 0.0,
     )
 
@@ -387,6 +389,6 @@ def _lost(element: Element, last: float) -> float:
 def _left(problem: ViscousProblem, a: float) -> float:
     """Return the stored viscoelastic energy [J] at a radius [m]: int P_e d(delta_e - w)."""
     x, weights = gauss(48)
-    found = problem.at(a * x)
-    slope = found.depth_a - problem.bending.at(found.force)[1] * found.force_a
-    return a * float(weights @ (found.force * slope))
+    point = problem.at(a * x)
+    slope = point.depth_a - problem.bending.at(point.force)[1] * point.force_a
+    return a * float(weights @ (point.force * slope))

@@ -67,8 +67,8 @@ def tabulated(x: Array, *values: Array) -> Array:
 
 def _values(table: Array, x: Array) -> tuple[Array, ...]:
     """Return the values of each column of a table at x in [0, 1]; NaN where x is NaN."""
-    found = chebyshev(2.0 * x - 1.0, DEGREE) @ table
-    return tuple(found[..., column] for column in range(table.shape[1]))
+    values = chebyshev(2.0 * x - 1.0, DEGREE) @ table
+    return tuple(values[..., column] for column in range(table.shape[1]))
 
 
 def _knots() -> Array:
@@ -80,8 +80,8 @@ def _knots() -> Array:
 def curve_of(law: ContactLaw, a: float) -> Curve:
     """Return the law up to a contact radius [m], which viscosity does not increase."""
     top, x, direct = min(1.001 * a, law.limit), _knots(), Curve(law)
-    found = direct.at(top * x)
-    made = TabulatedCurve(law, top, tabulated(x, found.force / x**3, found.depth / x**2))
+    points = direct.at(top * x)
+    made = TabulatedCurve(law, top, tabulated(x, points.force / x**3, points.depth / x**2))
     between = top * (x[1:] + x[:-1]) / 2.0
     pairs = zip(made.at(between), direct.at(between), strict=True)
     error = max(float(np.max(np.abs(one / other - 1.0))) for one, other in pairs)

@@ -112,5 +112,5 @@ def zener_restitution(number: float) -> float:
     released.terminal, released.direction = True, -1.0  # type: ignore[attr-defined]
     long = 10.0 * (1.0 + number) ** 2
     times, begin = (0.0, long), (0.0, 1.0)
-    found = solve_ivp(rate, times, begin, "DOP853", events=released, rtol=1e-12, atol=1e-14)
-    return max(0.0, -float(found.y[1, -1]))
+    solution = solve_ivp(rate, times, begin, "DOP853", events=released, rtol=1e-12, atol=1e-14)
+    return max(0.0, -float(solution.y[1, -1]))

@@ -50,14 +50,14 @@ def next_branch(
     def shorter(length: float, guess: Array) -> TimeElement | None:
         return element(problem, n, x, length, start, radius, guess)
 
-    found = cut(branch, problem.a, made, lambda made: made.element, shorter)
-    if found is None:
+    result = cut(branch, problem.a, made, lambda made: made.element, shorter)
+    if result is None:
         return made, problem
-    a = problem.a * found.radius
+    a = problem.a * result.radius
     after = branch_after(branch, a, float(problem.contact.at(np.array([a])).force[0]))
     sunk = (after.dent - branch.dent) / problem.depth
-    end = found.end._replace(approach=found.end.approach - sunk)
-    return found._replace(end=end), replace(problem, yielding=after)
+    end = result.end._replace(approach=result.end.approach - sunk)
+    return result._replace(end=end), replace(problem, yielding=after)
 
 
 def turned(problem: DynamicProblem, radius: float) -> DynamicProblem:
@@ -124,9 +124,9 @@ def cut(
     return made
 
 
-def _radius_change(found: Element, x: float) -> float:
+def _radius_change(element: Element, x: float) -> float:
     """Return the relative change of the radius from the end of an element to a place nearby."""
-    radius = legval([1.0, 2.0 * (x - found.x) / found.length - 1.0], found.rows[A])
+    radius = legval([1.0, 2.0 * (x - element.x) / element.length - 1.0], element.rows[A])
     return abs(float(radius[1] / radius[0]) - 1.0)
 
 
@@ -135,10 +135,10 @@ def branch_after(branch: Yielding, a: float, force: float) -> Yielding:
     return branch.turned(a, force) if branch.loading else branch.begun()
 
 
-def _event(branch: Yielding, unit: float, found: Element, last: float) -> float | None:
+def _event(branch: Yielding, unit: float, element: Element, last: float) -> float | None:
     """Return x of the first event of an element up to `last` on [-1, 1]; None without one."""
     # At an event -da/dx, or the radius less that at the end of the branch, increases through zero.
-    rising = -found.slope if branch.loading else found.rows[A].copy()
+    rising = -element.slope if branch.loading else element.rows[A].copy()
     if not branch.loading:
         rising[0] -= branch.end * (1.0 + _HIGHER) / unit
     below = float(np.sum(np.abs(rising[1:]))) < -float(rising[0])  # zero, on [-1, 1]
@@ -150,4 +150,4 @@ def _event(branch: Yielding, unit: float, found: Element, last: float) -> float 
     real = np.sort(roots.real[np.abs(roots.imag) < _REAL])
     inside = real[(real > _BEGUN - 1.0) & (real <= last)]
     grows = inside[legval(inside, legder(rising)) > 0.0]
-    return None if not grows.size else found.x + found.length * (1.0 + float(grows[0])) / 2.0
+    return None if not grows.size else element.x + element.length * (1.0 + float(grows[0])) / 2.0

@@ -1,8 +1,8 @@
 """Warnings for contacts far beyond the onset of yield, where the model pressure is too low.
 
-As the plastic zone of a metal spreads, the mean pressure rises beyond 1.6 Y to about 3 Y (Johnson
-1985). `derivation.plate.plasticity.theory.fully_plastic` estimates the effect on a half-space from
-the contact radius over that at the onset of yield.
+As the plastic zone of a ductile solid spreads, the mean pressure rises beyond 1.6 Y to about 3 Y
+(Johnson 1985). `derivation.plate.plasticity.theory.fully_plastic` estimates the effect on a
+half-space from the contact radius over that at the onset of yield.
 """
 
 import math
@@ -59,7 +59,7 @@ def impact_warnings(law: ContactLaw, a: float) -> tuple[str, ...]:
     if found is None:
         return ()
     text = (
-        f"{_reason(found.wide)}: restitution and force may be larger by factors of about "
+        f"{_reason(found.wide)}, restitution and force may be larger by factors of about "
         f"{found.restitution:.2g} and {found.force:.2g}; indentation and contact time may be "
         f"smaller by a factor of about {found.force:.2g} (estimated on a half-space)"
     )
@@ -72,7 +72,7 @@ def static_warnings(law: ContactLaw, a: float) -> tuple[str, ...]:
     if found is None:
         return ()
     text = (
-        f"{_reason(found.wide)}: the force at this local indentation may be larger by a factor of "
+        f"{_reason(found.wide)}, the force at this local indentation may be larger by a factor of "
         f"about {found.stiffness:.2g}"
     )
     return (text,)
@@ -110,7 +110,8 @@ def assumed_yield_stress(scene: Scene, pressure: float, bending: float) -> str:
 
 def _reason(wide: float) -> str:
     return (
-        f"the contact radius is {wide:.3g} times that at the onset of yield; the mean pressure of "
-        f"a metal then rises towards {FULLY_PLASTIC:g} times the yield stress (Johnson 1985), but "
-        f"in the model the pressure is limited to {YIELD_LIMIT:g} times the yield stress"
+        f"the contact radius is {wide:.3g} times that at the onset of yield; in the model the "
+        f"pressure is limited to {YIELD_LIMIT:g} times the yield stress, but in a ductile solid, "
+        f"as most metals, the mean pressure then rises towards {FULLY_PLASTIC:g} times (Johnson "
+        "1985), and a brittle one, as ice, glass or ceramics, cracks. If it is ductile"
     )

@@ -112,8 +112,8 @@ class Yielding:
         u = self.hertz_radius(force)
         ratio = self.widened(np.ones_like(a), force)
         by_force = widening(ratio * u, *_arrays(self.onset, self.R, self.modulus))
-        found: Array = ratio + force_a * (a / u * by_force - ratio * a / (3.0 * force))
-        return found
+        rate: Array = ratio + force_a * (a / u * by_force - ratio * a / (3.0 * force))
+        return rate
 
     def begun(self) -> "Yielding":
         """Return the branch on which the contact begins or continues to yield."""

@@ -40,6 +40,63 @@ MISTAKES = {
         r"budgets\.toml: expected an error budget for F_bonded; add for example `F_bonded = 4`",
         2,
     ),
+    "an exception in a function of the paper": (
+        "kernels.py",
+        (
+            '    difference, kappa = known["sinh_minus"]',
+            '    difference, kappa = known["sinhminus"]',
+        ),
+        r"kernels\.py, line \d+: KeyError: 'sinhminus'; correct it",
+        2,
+    ),
+    "an unknown unit": (
+        "vocabulary.py",
+        ('Argument(G, "Pa"', 'Argument(G, "psi"'),
+        r"vocabulary\.py, line \d+: ValueError: argument G: expected a unit .* got 'psi'",
+        2,
+    ),
+    "two conditions in one": (
+        "vocabulary.py",
+        ('("z >= 0", "z <= H")', '("z >= 0 and z <= H",)'),
+        r"condition 'z >= 0 and z <= H' of z is not one comparison",
+        2,
+    ),
+    "a condition with an unknown symbol": (
+        "vocabulary.py",
+        ('"z <= H"', '"z <= HH"'),
+        r"'z <= HH' of z contains the unknown symbol HH: did you mean H\?",
+        2,
+    ),
+    "a sample value outside the domain": (
+        "vocabulary.py",
+        ('"s": "0.4"', '"s": "4"'),
+        r"the sample value s = 4 does not satisfy s < 3",
+        2,
+    ),
+    "a sample value that is no text": (
+        "vocabulary.py",
+        ('"s": "0.4"', '"s": 0.4'),
+        r'the sample value of s is not a text; write it as "0\.4"',
+        2,
+    ),
+    "formulas in place of a step": (
+        "paper.py",
+        ('"film": film,', '"film": film(),'),
+        r"derivation step 'film': expected a function that returns formulas, got a tuple",
+        2,
+    ),
+    "a budget that is no number": (
+        "budgets.toml",
+        ("F_bonded = 2", 'F_bonded = "two"'),
+        r"expected a positive number of ULP for F_bonded, got 'two'",
+        2,
+    ),
+    "a name with a space": (
+        "theory.py",
+        ('f"F_{name}", f"F_{letter}"', 'f"F {name}", f"F_{letter}"'),
+        r"expected a Python name for a formula, got 'F bonded'",
+        2,
+    ),
     "an unknown formula of a module": (
         "kernels.py",
         ('"F_slipping", "C_slipping"\n', '"F_slipping", "C_slippng"\n'),

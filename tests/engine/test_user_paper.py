@@ -28,7 +28,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Build a paper from the examples of the guide; all commands share a cache next to it."""
     path = tmp_path_factory.mktemp("own") / "my film"
     run("new", str(path), home=path.parent)
-    assert apply_examples(path, paper=True) >= 15
+    assert apply_examples(path, paper=True) >= 12
     shown = run("build", "--paper", str(path), home=path.parent)
     timed = re.findall(r"✓ (\w+) +[\d.]+ s", shown)
     assert timed == ["derive", "rewrite", "generate", "misprints", "check", "report"]

@@ -26,8 +26,10 @@ def either_side(
 
     def run(x: float) -> tuple[Result, str]:
         result = simulate(read(make(x)))
-        assert all(words in text for text in result.warnings)  # no other warning is printed
-        return result, "".join(result.warnings)
+        # Densities that no solid has are doubted as given in another unit.
+        texts = [text for text in result.warnings if not text.startswith("plate.density")]
+        assert all(words in text for text in texts)  # no other warning is printed
+        return result, "".join(texts)
 
     (below, nothing), (above, text) = run(silent), run(loud)
     assert not nothing

@@ -171,7 +171,7 @@ EDGES = {"supported": "simply-supported", "clamped": "clamped"}
 def test_remainder_of_the_edge_is_the_measured_one_or_rejected() -> None:
     refused = 0
     for row in REMAINDER:
-        parts = ("share_of_indentation", "lower_degree", "fewer_layers")
+        parts = ("relative_error", "lower_degree", "fewer_layers")
         nu, size = row["nu"], sum(abs(row[part]) for part in parts)
         m = model(
             b=1.0, h=row["h_over_b"], lam=2 * 3e9 * nu / (1 - 2 * nu), edge=EDGES[row["support"]]

@@ -55,8 +55,8 @@ class Sphere:
     def profile(self, r: Double) -> Double:
         """Return the height of the lower face over its lowest point [m]."""
         R = self.radius
-        found: Double = r**2 / (R + np.sqrt(R**2 - r**2)) if self.exact else r**2 / (2.0 * R)
-        return found
+        height: Double = r**2 / (R + np.sqrt(R**2 - r**2)) if self.exact else r**2 / (2.0 * R)
+        return height
 
 
 def contact_forces(compliance: Double, gap: Double, start: Nodes) -> tuple[Double, Nodes]:
@@ -102,8 +102,8 @@ def _unit_forces(system: System, solver: Any) -> Double:
     """Return the displacements for a unit force, along +z, at each contact node."""
     load = np.zeros((system.free.size, system.contact_nodes.size))
     load[system.contact_nodes, np.arange(system.contact_nodes.size)] = 1.0
-    found: Double = solver.solve(load)
-    return found
+    displacement: Double = solver.solve(load)
+    return displacement
 
 
 @dataclass(frozen=True)
@@ -329,8 +329,8 @@ def _end(history: History, start: int, stop: int) -> float:
 def _peak(history: History, contact_time: float) -> float:
     """Return the largest force [N], without the fluctuations from node to node."""
     place = int(np.argmax(history.force))
-    near = np.abs(history.time - history.time[place]) < PEAK_WINDOW * contact_time
-    near &= history.force > 0.0
-    time = history.time[near]
-    fit = np.polynomial.Polynomial.fit(time, history.force[near], 4)
+    in_window = np.abs(history.time - history.time[place]) < PEAK_WINDOW * contact_time
+    in_window &= history.force > 0.0
+    time = history.time[in_window]
+    fit = np.polynomial.Polynomial.fit(time, history.force[in_window], 4)
     return float(fit(np.linspace(time[0], time[-1], 1001)).max())

@@ -160,8 +160,8 @@ class System:
         bending = np.sort(squares[back * front > BENDING_PARITY * (shapes**2).max(axis=0)])
         if bending.size < count:
             raise ArithmeticError(f"modes: expected {count} of bending, got {bending.size}")
-        found: Double = np.sqrt(bending[:count])
-        return found
+        frequencies: Double = np.sqrt(bending[:count])
+        return frequencies
 
 
 class _Reference:
@@ -186,8 +186,8 @@ class _Reference:
         by_r, by_z = self.by_r * 2 / width, self.by_z * 2 / height
         rr, tt = np.hstack((by_r, zero)), np.hstack((self.values / r[:, None], zero))
         zz, rz = np.hstack((zero, by_z)), np.hstack((by_z, by_r))
-        whole, weigh = rr + tt + zz, area[:, None]
-        stiffness = plate.lam * whole.T @ (weigh * whole) + plate.mu * rz.T @ (weigh * rz)
+        trace, weigh = rr + tt + zz, area[:, None]
+        stiffness = plate.lam * trace.T @ (weigh * trace) + plate.mu * rz.T @ (weigh * rz)
         for strain in (rr, tt, zz):
             stiffness += 2.0 * plate.mu * strain.T @ (weigh * strain)
         one = plate.density * self.values.T @ (weigh * self.values)
@@ -223,5 +223,5 @@ def _lagrange(nodes: Double, points: Double) -> Double:
     ratio = gaps / scale
     index = np.arange(nodes.size)
     ratio[:, index, index] = 1.0
-    found: Double = ratio.prod(axis=2)
-    return found
+    weights: Double = ratio.prod(axis=2)
+    return weights

@@ -125,15 +125,15 @@ def inputs(case: ElementCase) -> dict[str, Any]:
 
 def plate_row(plate: Plate) -> dict[str, Any]:
     """Return the row of a plate: its lowest natural frequencies omega b/c_S and their errors."""
-    found = []
+    rows = []
     for layers, degree in MODAL:
         mesh = contactless_mesh(plate.radius, plate.thickness, layers, degree)
         scale = plate.radius / plate.shear_wave_speed
-        found.append(System(plate, mesh).bending_frequencies(FREQUENCIES) * scale)
-    errors = np.sum([np.abs(other / found[0] - 1.0) for other in found[1:]], axis=0)
+        rows.append(System(plate, mesh).bending_frequencies(FREQUENCIES) * scale)
+    errors = np.sum([np.abs(other / rows[0] - 1.0) for other in rows[1:]], axis=0)
     return {
         **plate_inputs(plate),
-        "frequencies": [float(f"{x:.8g}") for x in found[0]],
+        "frequencies": [float(f"{x:.8g}") for x in rows[0]],
         "errors": [float(f"{max(x, 1e-8):.2g}") for x in errors],
     }
 
@@ -210,8 +210,8 @@ def read(path: Path = MEASURED) -> dict[str, Any]:
     empty: dict[str, Any] = {"impacts": [], "plates": []}
     if not path.exists():
         return empty
-    found: dict[str, Any] = json.loads(path.read_text())
-    return empty | found
+    record: dict[str, Any] = json.loads(path.read_text())
+    return empty | record
 
 
 def to_json(record: Mapping[str, Any]) -> str:

@@ -4,6 +4,7 @@ A budget is a number of units in the last place (ULP) and a rule. The rule state
 refer to, and what is allowed in addition because of conditioning.
 """
 
+import math
 import textwrap
 import tomllib
 from collections.abc import Mapping
@@ -51,15 +52,18 @@ def read_budgets(file: Path) -> dict[str, Budget]:
     Raises
     ------
     ValueError
-        If a rule lists a function without a number, or a function has two rules.
+        If the file is not TOML, a number is missing or not positive, or a function has two rules.
     """
-    return parse_budgets(tomllib.loads(file.read_text()))
+    try:
+        return parse_budgets(tomllib.loads(file.read_text()))
+    except tomllib.TOMLDecodeError as error:
+        raise ValueError(f"{file.name}: {error}; write each line as `name = 4`") from None
 
 
 def read_stated_limits(file: Path, table: str) -> dict[str, float]:
     """Return the relative errors of a table in a TOML file; they are measured, not proved."""
-    found: dict[str, float] = tomllib.loads(file.read_text())[table]
-    return found
+    limits: dict[str, float] = tomllib.loads(file.read_text())[table]
+    return limits
 
 
 def parse_budgets(data: Mapping[str, Any]) -> dict[str, Budget]:
@@ -70,9 +74,19 @@ def parse_budgets(data: Mapping[str, Any]) -> dict[str, Budget]:
     Raises
     ------
     ValueError
-        If a rule lists a function without a number, or a function has two rules.
+        If a table or a number is missing, a number is not positive, or a function has two rules.
     """
-    numbers, rules = data["ulp"], data["rule"]
+    numbers, rules = data.get("ulp", {}), data.get("rule", {})
+    if not isinstance(rules.get(ORDINARY), dict) or "text" not in rules[ORDINARY]:
+        raise ValueError(
+            f"budgets.toml: expected a table [rule.{ORDINARY}] with the text of the ordinary rule"
+        )
+    for name, ulp in numbers.items():
+        if isinstance(ulp, bool) or not isinstance(ulp, int | float) or not 0 < ulp < math.inf:
+            raise ValueError(
+                f"budgets.toml: expected a positive number of ULP for {name}, got {ulp!r}; "
+                f"write for example `{name} = 4`"
+            )
     named = [name for rule in rules.values() for name in rule.get("kernels", ())]
     unmatched = set(named) - set(numbers)
     twice = {name for name in named if named.count(name) > 1}

@@ -164,15 +164,15 @@ def _listed_function(node: ast.FunctionDef, mark: ast.Call, file: Path) -> Liste
 
 def _sections(text: str) -> dict[str, list[str]]:
     """Return the lines of a docstring by the heading above them."""
-    found: dict[str, list[str]] = {}
+    sections: dict[str, list[str]] = {}
     lines = text.splitlines()
     current: list[str] = []
     for line, below in zip(lines, [*lines[1:], ""], strict=True):
         if below and set(below) == {"-"}:
-            current = found.setdefault(line, [])
+            current = sections.setdefault(line, [])
         elif line and set(line) != {"-"}:
             current.append(line)
-    return found
+    return sections
 
 
 def _parameters(lines: list[str] | tuple[str, ...]) -> Iterator[tuple[str, str]]:

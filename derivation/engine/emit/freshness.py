@@ -79,11 +79,11 @@ def compare(
     )
 
 
-def _diff(name: str, found: bytes, expected: str) -> str:
+def _diff(name: str, current: bytes, expected: str) -> str:
     """Return the unified diff from the existing file to the expected one."""
     return "".join(
         difflib.unified_diff(
-            found.decode(errors="replace").splitlines(keepends=True),
+            current.decode(errors="replace").splitlines(keepends=True),
             expected.splitlines(keepends=True),
             f"{name} (found)",
             f"{name} (expected)",

@@ -1,5 +1,6 @@
 """Modules of a generated package, and their source code, from the forms of a paper."""
 
+import contextlib
 import hashlib
 import math
 import re
@@ -32,7 +33,9 @@ from derivation.engine.rewrite.automatic import automatic
 from derivation.engine.rewrite.blocks import HYPERBOLIC, Definition, build_blocks
 from derivation.engine.rewrite.every_variable import accurate
 from derivation.engine.rewrite.form import SCALINGS, Block, Form, Step, Switch, form
+from derivation.engine.rewrite.products import ProductForm, of_products
 from derivation.engine.rewrite.scales import Scales
+from derivation.engine.rewrite.terms import UnreachableError
 
 RUNTIME = Path(__file__).parents[1] / "runtime"
 Shape = tuple[tuple[Step, ...], sp.Expr | Switch]
@@ -125,6 +128,16 @@ def _nothing(_: Mapping[str, Block]) -> Mapping[str, Shape]:
     return {}
 
 
+def _automatic(formula: Record, known: Mapping[str, Block], scales: Scales) -> ProductForm:
+    """Return the form that the rules find, by the paper's scales or by a product of symbols."""
+    with contextlib.suppress(UnreachableError):
+        return ProductForm(*automatic(formula.expression, known, scales))
+    try:
+        return of_products(formula)
+    except UnreachableError as error:
+        raise UnreachableError(f"{formula.name}: {error}; or state a form in `stated`") from None
+
+
 @dataclass(frozen=True, eq=False)
 class PackageSettings:
     """Settings for the generated package of a paper.
@@ -175,30 +188,33 @@ class PackageSettings:
         stated = self.stated(known)
         self._expect({name for part in self.parts for name in part.formulas}, formulas)
 
-        def shape(name: str) -> Shape:
+        def shape(name: str) -> ProductForm:
             if name in stated:
-                return stated[name]
-            found = automatic(formulas[name].expression, known, self.scales)
-            return accurate(formulas[name], *found, known)
+                return ProductForm(*stated[name])
+            made = _automatic(formulas[name], known, self.scales)
+            blocks = {**known, **{block.name: block for block in made.blocks}}
+            accurate(formulas[name], made.steps, made.value, blocks)
+            return made
 
-        return tuple(
-            form(name, part.name, formulas[name].expression, *shape(name), known)
-            for part in self.parts
-            for name in part.formulas
-        )
+        def stable(name: str, module: str) -> Form:
+            steps, value, own = shape(name)
+            return form(name, module, formulas[name].expression, steps, value, known, own)
+
+        return tuple(stable(name, part.name) for part in self.parts for name in part.formulas)
 
     def _expect(self, names: set[str], formulas: Mapping[str, Record]) -> None:
         """Reject names that are not those of formulas."""
         for name in sorted(names - formulas.keys()):
-            near = did_you_mean(name, formulas)
+            suggestion = did_you_mean(name, formulas)
             raise ValueError(
-                f"parts of the package: no formula {name!r}: {near}expected some of "
+                f"parts of the package: no formula {name!r}: {suggestion}expected some of "
                 f"{', '.join(formulas)}"
             )
 
     def files(self, formulas: Mapping[str, Record], forms: tuple[Form, ...]) -> dict[str, str]:
         """Return the contents of the package's files by name."""
-        known, budgets = build_blocks(self.blocks), read_budgets(self.budgets)
+        own = {block.name: block for stable in forms for block in stable.blocks}
+        known, budgets = {**build_blocks(self.blocks), **own}, read_budgets(self.budgets)
         if missing := [f.name for f in forms if f.name not in budgets]:
             raise ValueError(
                 f"{self.budgets.name}: expected an error budget for {', '.join(missing)}; "

@@ -47,13 +47,13 @@ def arithmetic_of_modules(sources: Mapping[str, str]) -> tuple[ModuleArithmetic,
     )
 
 
-def printed_fraction(found: Sequence[ModuleArithmetic]) -> float:
+def printed_fraction(modules: Sequence[ModuleArithmetic]) -> float:
     """Return the printed fraction of all operations [1]."""
-    printed = sum(part.operations for part in found if part.printed)
-    return printed / sum(part.operations for part in found)
+    printed = sum(part.operations for part in modules if part.printed)
+    return printed / sum(part.operations for part in modules)
 
 
-def expect_printed_fraction(found: Sequence[ModuleArithmetic], kept: float) -> None:
+def expect_printed_fraction(modules: Sequence[ModuleArithmetic], kept: float) -> None:
     """Reject a package whose printed fraction is smaller than the committed one.
 
     Parameters
@@ -68,7 +68,7 @@ def expect_printed_fraction(found: Sequence[ModuleArithmetic], kept: float) -> N
     ValueError
         If the fraction is smaller.
     """
-    if (fraction := printed_fraction(found)) < kept:
+    if (fraction := printed_fraction(modules)) < kept:
         raise ValueError(
             f"expected at least {100 * kept:.1f} % of the package's arithmetic to be printed from "
             f"proved expressions, as committed, got {100 * fraction:.1f} %; derive what was added"
@@ -84,8 +84,8 @@ def _counts(node: ast.AST) -> bool:
     if isinstance(node, ast.UnaryOp):
         return isinstance(node.op, ast.USub) and not isinstance(node.operand, ast.Constant)
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
-        own = isinstance(node.func.value, ast.Name) and node.func.value.id == "np"
-        return own and isinstance(getattr(np, node.func.attr, None), np.ufunc)
+        is_numpy = isinstance(node.func.value, ast.Name) and node.func.value.id == "np"
+        return is_numpy and isinstance(getattr(np, node.func.attr, None), np.ufunc)
     if isinstance(node, ast.BinOp):
         number = _is_number(node.left) and _is_number(node.right)
         return not number and not isinstance(node.op, ast.BitOr)  # a union of types

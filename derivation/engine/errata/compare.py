@@ -200,8 +200,8 @@ def known_formula(name: str, formulas: Mapping[str, Record]) -> Record:
             f"be compared: expected one of {', '.join(names)}"
         )
     if name not in names:
-        near = did_you_mean(name, names, most=3)
-        raise FormulaError(f"no formula {name!r:.60}: {near}expected one of {', '.join(names)}")
+        hint = did_you_mean(name, names, most=3)
+        raise FormulaError(f"no formula {name!r:.60}: {hint}expected one of {', '.join(names)}")
     return formulas[name]
 
 
@@ -358,14 +358,14 @@ def _counted_twice(
 
 def ancestors(name: str, formulas: Mapping[str, Record]) -> set[str]:
     """Return all formulas that a formula was derived from, directly or indirectly."""
-    found: set[str] = set()
+    names: set[str] = set()
     todo = list(formulas[name].sources)
     while todo:
         source = todo.pop()
-        if source not in found and source in formulas:
-            found.add(source)
+        if source not in names and source in formulas:
+            names.add(source)
             todo += formulas[source].sources
-    return found
+    return names
 
 
 def _partial_products(expression: sp.Expr) -> Iterator[sp.Expr]:

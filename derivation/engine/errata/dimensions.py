@@ -22,21 +22,21 @@ _NAMES = {dimension_of(unit): unit for unit in _COMMON}
 def dimension_note(expression: sp.Expr, unit: str, vocabulary: Vocabulary) -> str | None:
     """Return a description of a wrong dimension; None if the expression has the given unit."""
     try:
-        found = dimension(expression, vocabulary.dimensions)
+        note = dimension(expression, vocabulary.dimensions)
     except DimensionError as error:
         return str(error)
     expected = dimension_of(unit)
-    if found == expected:
+    if note == expected:
         return None
-    excess = unit_name(found / expected)
-    return f"[{unit}] expected, [{unit_name(found)}] found: a factor of [{excess}] too much"
+    excess = unit_name(note / expected)
+    return f"[{unit}] expected, [{unit_name(note)}] found: a factor of [{excess}] too much"
 
 
 def unit_name(value: Dimension) -> str:
     """Return the unit of a dimension, in metres and pascals if possible."""
     if value in _NAMES:
         return _NAMES[value]
-    if value.time != -2 * value.mass:
+    if value != Dimension(value.length, value.mass, -2 * value.mass):
         return str(value)
     powers = (("m", value.length + value.mass), ("Pa", value.mass))
     above = " ".join(_power(unit, k) for unit, k in powers if k > 0) or "1"

@@ -61,18 +61,18 @@ class Edit:
 
 def single_edits(root: Position, reference: Values, search: VariantSearch) -> list[Edit]:
     """Return all edits below a position that give the correct values, the most likely first."""
-    found: list[Edit] = []
+    edits: list[Edit] = []
     for position, need in with_required_values(root, reference, search.points):
-        found += ratio_edits(position, need, search)
-        found += exponent_edits(position, need, search)
-        found += term_edits(position, need, search)
-        found += factored_edits(position, need, search)
+        edits += ratio_edits(position, need, search)
+        edits += exponent_edits(position, need, search)
+        edits += term_edits(position, need, search)
+        edits += factored_edits(position, need, search)
         for variant in variants(position, search):
             if agree(variant.value, need[0]):
                 edit = edit_of(variant, position)
                 if search.points.same(edit.new, need):
-                    found.append(edit)
-    return sorted(found, key=Edit.order)
+                    edits.append(edit)
+    return sorted(edits, key=Edit.order)
 
 
 def _edit(kind: str, position: Position, new: sp.Expr, says: str, extra: float = 0.0) -> Edit:
@@ -147,25 +147,25 @@ def ratio_edit(
         return _edit(CONSTANT, position, new, f"multiply {where} by {_text(ratio)}", extra)
     swapped = _symbol_swap(position, ratio)
     if swapped is not None:
-        old, other = swapped
-        inside = "" if position.node == old else f" in {where}"
-        says = f"read {_text(other)} instead of {_text(old)}{inside}"
-        return _edit(SYMBOL, position, new, says, extra)
+        return _edit(SYMBOL, position, new, swapped, extra)
     if kind not in (TWICE, MISSING) or ratio.as_numer_denom()[0].is_Symbol:
         kind, extra = _stray_or_missing(position, ratio), extra + _size(ratio)
     return _edit(kind, position, new, _ratio_words(where, ratio, kind), extra)
 
 
-def _symbol_swap(position: Position, ratio: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:
-    """Return a power of a symbol and that of another one with which the ratio replaces it."""
+def _symbol_swap(position: Position, ratio: sp.Expr) -> str | None:
+    """Return in words that one symbol is replaced by another or exchanged with it, if so."""
     powers = ratio.as_powers_dict()
     if len(powers) != 2 or sum(powers.values()) != 0 or not all(s.is_Symbol for s in powers):
         return None
-    printed = position.node.as_powers_dict()
+    printed, where = position.node.as_powers_dict(), name_of(position)
     for old, other in (tuple(powers), tuple(powers)[::-1]):
-        if (printed.get(old, sp.Integer(0)) * powers[old]).is_negative:
-            size = abs(powers[old])
-            return old**size, other**size
+        power, size = printed.get(old, sp.Integer(0)), abs(powers[old])
+        if (power * powers[old]).is_negative and size <= abs(power):
+            inside = "" if position.node == old**size else f" in {where}"
+            return f"read {_text(other**size)} instead of {_text(old**size)}{inside}"
+    if old in printed and other in printed and powers[old] == printed[other] - printed[old]:
+        return f"exchange {_text(other)} and {_text(old)} in {where}"
     return None
 
 
@@ -304,17 +304,17 @@ def factor_pool(
     Powers of dependent symbols, which are no monomials in the others, are included. The order is
     fixed.
     """
-    found: set[sp.Expr] = set()
+    factors: set[sp.Expr] = set()
     for expression in expressions:
-        found |= expression.atoms(sp.Function)
+        factors |= expression.atoms(sp.Function)
         for product in (expression, *expression.atoms(sp.Mul)):
             for factor in sp.Mul.make_args(product):
                 base, exponent = factor.as_base_exp()
                 if isinstance(base, sp.Add):
-                    found.add(base)
+                    factors.add(base)
                 if base in dependent or (isinstance(base, sp.Add) and not exponent.is_Integer):
-                    found.add(base ** abs(exponent))
-    return tuple(sorted(found, key=sp.default_sort_key))
+                    factors.add(base ** abs(exponent))
+    return tuple(sorted(factors, key=sp.default_sort_key))
 
 
 def sum_pool(expression: sp.Expr) -> tuple[sp.Add, ...]:
@@ -324,5 +324,5 @@ def sum_pool(expression: sp.Expr) -> tuple[sp.Add, ...]:
 
 def term_pool(expression: sp.Expr) -> tuple[sp.Expr, ...]:
     """Return terms of all sums in an expression, in a fixed order."""
-    found = {term for total in expression.atoms(sp.Add) for term in total.args}
-    return tuple(sorted(found, key=sp.default_sort_key))
+    terms = {term for total in expression.atoms(sp.Add) for term in total.args}
+    return tuple(sorted(terms, key=sp.default_sort_key))

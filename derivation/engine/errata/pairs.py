@@ -83,10 +83,10 @@ def pair_edits(root: Position, reference: Values, search: VariantSearch) -> list
     if goal is None:
         return []
     changes = sorted(_changes(root, search), key=lambda change: change.effect)
-    found = list(_matching_changes(root, changes, goal, reference, search))
+    pairs = list(_matching_changes(root, changes, goal, reference, search))
     if product:
-        found += _with_overall_ratio(root, changes, reference, search)
-    return sorted(found, key=Pair.order)
+        pairs += _with_overall_ratio(root, changes, reference, search)
+    return sorted(pairs, key=Pair.order)
 
 
 def _changes(root: Position, search: VariantSearch) -> Iterator[_Change]:

@@ -72,15 +72,16 @@ def exact_values(at: Mapping[str, str], vocabulary: Vocabulary, relations: Relat
                 f"{did_you_mean(name, vocabulary.by_name)}expected one of "
                 f"{', '.join(vocabulary.by_name)}"
             )
-        own = str(symbol.name)
-        if own in result:
+        symbol_name = str(symbol.name)
+        if symbol_name in result:
             raise FormulaError(
-                f"--at: expected {own} once, got it twice (also as {name}); remove one value"
+                f"--at: expected {symbol_name} once, got it twice (also as {name}); "
+                "remove one value"
             )
         bare = str(literal).strip()
         value = number(bare.lstrip("+-") if bare[:1] in ("+", "-") else bare)
         sign = -1 if bare.startswith("-") else 1
-        result[own] = bare, sign * Fraction(int(value.p), int(value.q))
+        result[symbol_name] = bare, sign * Fraction(int(value.p), int(value.q))
     return relations.point(result)
 
 

@@ -150,27 +150,31 @@ def diagnose_text(
     if not 1 <= digits <= MAX_DIGITS:
         raise FormulaError(f"expected 1 to {MAX_DIGITS} digits, got {digits}")
     formula = known_formula(name, formulas)
-    own = formula.vocabulary
-    chosen = exact_values(at or {}, own, relations)
+    vocabulary = formula.vocabulary
+    chosen = exact_values(at or {}, vocabulary, relations)
     references = {n: sp.Symbol(n, real=True) for n in comparable(formulas)}
-    given = read(text, own, {**references, **own.guest_names}, latex, _letters(formula))
-    summed.check_contribution(formula, resolve(given, formulas, own))
+    given = read(
+        text, vocabulary, {**references, **vocabulary.guest_names}, latex, _letters(formula)
+    )
+    summed.check_contribution(formula, resolve(given, formulas, vocabulary))
     diagnosis = diagnose(name, given, formulas, relations)
     derived = formula.expression
     meanings = relations_between(name, diagnosis.given, derived, formulas, relations)
     sides = [side.subs(meanings) for side in (diagnosis.given, derived)]
     names = sorted({s.name for side in sides for s in side.free_symbols})
-    domain = [condition for n in names for condition in own.by_name[n].domain]
+    domain = [condition for n in names for condition in vocabulary.by_name[n].domain]
     conditions = dict.fromkeys(applicable([*domain, *formula.where], set(names)))
-    point = completed_point(chosen, names, meanings, conditions, own)
-    points = itertools.chain([point], other_points(point, chosen, conditions, own))
-    point, derived_value = _first(sides[1], points, own, digits)
+    point = completed_point(chosen, names, meanings, conditions, vocabulary)
+    points = itertools.chain([point], other_points(point, chosen, conditions, vocabulary))
+    point, derived_value = _first(sides[1], points, vocabulary, digits)
     if chosen:
-        given_value = _at(sides[0], point, own, digits)
+        given_value = _at(sides[0], point, vocabulary, digits)
     else:
-        further = itertools.islice(other_points(point, chosen, conditions, own), _MOST_POINTS)
+        further = itertools.islice(
+            other_points(point, chosen, conditions, vocabulary), _MOST_POINTS
+        )
         point, given_value, derived_value = _of_both(
-            sides, itertools.chain([point], further), own, digits, derived_value
+            sides, itertools.chain([point], further), vocabulary, digits, derived_value
         )
     shown = tuple((n, literal) for n, (literal, _) in point.items())
     return TextDiagnosis(diagnosis, shown, given_value, derived_value, summed.note(formula))
@@ -208,8 +212,8 @@ def diagnose_limited(
     # A text that cannot be parsed, whatever its names mean, is rejected before the derivation.
     words = re.findall(r"[A-Za-z]\w*" if latex else r"[A-Za-z]\w*+(?! *\()", text)
     anything = {word: sp.Symbol(word) for word in words}
-    own = chain.vocabulary
-    run_limited(lambda: read(text, own, anything, latex) and None, "reading the formula")
+    vocabulary = chain.vocabulary
+    run_limited(lambda: read(text, vocabulary, anything, latex) and None, "reading the formula")
     known = chain.formulas()
     return run_limited(
         lambda: diagnose_text(name, text, known, relations, latex=latex, at=point, digits=digits),
@@ -219,8 +223,8 @@ def diagnose_limited(
 
 def _letters(formula: Record) -> dict[str, str]:
     """Return the meaning of letters in a formula's LaTeX: its own symbols come first."""
-    own = names_by_latex(formula.arguments)
-    return {"gamma": "EulerGamma", **own} if formula.expression.has(sp.EulerGamma) else own
+    letters = names_by_latex(formula.arguments)
+    return {"gamma": "EulerGamma", **letters} if formula.expression.has(sp.EulerGamma) else letters
 
 
 def read(

@@ -4,13 +4,14 @@ import inspect
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from traceback import extract_tb
 from typing import TypeVar
 
 from derivation.engine.cache import cached
+from derivation.engine.failed import location
 from derivation.engine.formula.proof import Proof
 from derivation.engine.formula.record import Record
 from derivation.engine.formula.vocabulary import Vocabulary
+from derivation.engine.formula.vocabulary_check import check_vocabulary
 
 Value = TypeVar("Value")
 Found = tuple[tuple[str, tuple[Record, ...]], ...]
@@ -60,6 +61,15 @@ class Chain:
     steps: tuple[DerivationStep, ...]
     sources: tuple[str | Path, ...]
     kinds: tuple[type, ...]
+
+    def __post_init__(self) -> None:
+        check_vocabulary(self.vocabulary)
+        for step in self.steps:
+            if not callable(step.derive):
+                raise ValueError(
+                    f"derivation step {step.name!r}: expected a function that returns formulas, "
+                    f"got a {type(step.derive).__name__}; name the function without brackets"
+                )
 
     def derived_steps(self) -> Found:
         """Return the steps with their formulas, cached until the sources change.
@@ -113,7 +123,5 @@ def _derive_step(step: DerivationStep) -> tuple[Record, ...]:
         if type(error) not in _OF_CODE:
             raise
         folder = Path(inspect.getfile(inspect.unwrap(step.derive))).parent
-        frames = [f for f in extract_tb(error.__traceback__) if Path(f.filename).parent == folder]
-        location = f"{Path(frames[-1].filename).name}, line {frames[-1].lineno}: " if frames else ""
-        what = f"{location}{type(error).__name__}: {error}"
+        what = f"{location(error, folder)}{type(error).__name__}: {error}"
         raise DerivationStepError(f"derivation step {step.name!r}: {what}; correct it") from error

@@ -2,9 +2,10 @@
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from fractions import Fraction
 from functools import cache
+from operator import add
 
 import sympy as sp
 
@@ -15,23 +16,26 @@ class DimensionError(ValueError):
 
 @dataclass(frozen=True)
 class Dimension:
-    """Exponents of length, mass and time."""
+    """Exponents of length, mass, time, temperature, electric current and amount of substance."""
 
     length: Fraction = Fraction(0)
     mass: Fraction = Fraction(0)
     time: Fraction = Fraction(0)
+    temperature: Fraction = Fraction(0)
+    current: Fraction = Fraction(0)
+    amount: Fraction = Fraction(0)
 
     def __mul__(self, other: "Dimension") -> "Dimension":
-        return Dimension(self.length + other.length, self.mass + other.mass, self.time + other.time)
+        return Dimension(*map(add, astuple(self), astuple(other)))
 
     def __pow__(self, exponent: Fraction | int) -> "Dimension":
-        return Dimension(self.length * exponent, self.mass * exponent, self.time * exponent)
+        return Dimension(*(power * exponent for power in astuple(self)))
 
     def __truediv__(self, other: "Dimension") -> "Dimension":
         return self * other**-1
 
     def __str__(self) -> str:
-        exponents = (("m", self.length), ("kg", self.mass), ("s", self.time))
+        exponents = zip(("m", "kg", "s", "K", "A", "mol"), astuple(self), strict=True)
         return " ".join(f"{u}^{e}" if e != 1 else u for u, e in exponents if e) or "1"
 
 
@@ -39,18 +43,30 @@ ONE = Dimension()
 LENGTH = Dimension(length=Fraction(1))
 MASS = Dimension(mass=Fraction(1))
 TIME = Dimension(time=Fraction(1))
+TEMPERATURE = Dimension(temperature=Fraction(1))
+CURRENT = Dimension(current=Fraction(1))
+AMOUNT = Dimension(amount=Fraction(1))
 FORCE = MASS * LENGTH / TIME**2
 STRESS = FORCE / LENGTH**2
+POWER = FORCE * LENGTH / TIME
 
 BASE = {
     "1": ONE,
+    "rad": ONE,
     "m": LENGTH,
     "kg": MASS,
     "s": TIME,
     "N": FORCE,
     "J": FORCE * LENGTH,
-    "W": FORCE * LENGTH / TIME,
+    "W": POWER,
     "Pa": STRESS,
+    "Hz": TIME**-1,
+    "K": TEMPERATURE,
+    "A": CURRENT,
+    "V": POWER / CURRENT,
+    "C": CURRENT * TIME,
+    "F": (CURRENT * TIME) ** 2 / (FORCE * LENGTH),
+    "mol": AMOUNT,
 }
 """Dimensions of the units from which others are composed."""
 
@@ -88,13 +104,13 @@ def _below(text: str) -> Dimension | None:
 
 def _product(text: str) -> Dimension | None:
     """Return the dimension of factors separated by spaces; None if one is not a unit."""
-    found = ONE
+    product = ONE
     for part in text.split(" "):
         factor = _factor(part)
         if factor is None:
             return None
-        found = found * factor
-    return found
+        product = product * factor
+    return product
 
 
 def _factor(text: str) -> Dimension | None:
@@ -126,8 +142,10 @@ def dimension(expression: sp.Basic, known: Mapping[sp.Basic, Dimension]) -> Dime
         return known[expression]
     if expression.is_number:
         return ONE
-    if isinstance(expression, sp.Add):
+    if isinstance(expression, sp.Add | sp.Min | sp.Max):
         return _of_sum(expression, known)
+    if isinstance(expression, sp.Abs):
+        return dimension(expression.args[0], known)
     if isinstance(expression, sp.Mul):
         result = ONE
         for factor in expression.args:
@@ -152,22 +170,25 @@ def dimension(expression: sp.Basic, known: Mapping[sp.Basic, Dimension]) -> Dime
         return result
     if isinstance(expression, sp.Function | sp.Pow) and expression.args:
         for argument in expression.args:
-            found = dimension(argument, known)
-            if found != ONE:
+            term_dimension = dimension(argument, known)
+            if term_dimension != ONE:
                 raise DimensionError(
-                    f"{argument} in {expression} has dimension [{found}], expected a pure number"
+                    f"{argument} in {expression} has dimension [{term_dimension}], "
+                    "expected a pure number"
                 )
         return ONE
     raise DimensionError(f"the dimension of {expression} is not known")
 
 
-def _of_sum(expression: sp.Add, known: Mapping[sp.Basic, Dimension]) -> Dimension:
+def _of_sum(expression: sp.Expr, known: Mapping[sp.Basic, Dimension]) -> Dimension:
+    """Return the dimension that all terms of a sum, a minimum or a maximum have in common."""
     first, *rest = expression.args
     expected = dimension(first, known)
     for term in rest:
-        found = dimension(term, known)
-        if found != expected:
+        term_dimension = dimension(term, known)
+        if term_dimension != expected:
             raise DimensionError(
-                f"in {expression} the terms {first} [{expected}] and {term} [{found}] are added"
+                f"in {expression} the terms {first} [{expected}] and {term} [{term_dimension}] "
+                "are combined"
             )
     return expected

@@ -26,10 +26,10 @@ ATTEMPTS = 400
 
 def inside(vocabulary: Vocabulary, values: Mapping[str, float]) -> bool:
     """Return whether a point lies in the domain of its symbols."""
-    own = vocabulary.by_name
-    domain = [condition for key in values for condition in own[key].domain]
+    arguments = vocabulary.by_name
+    domain = [condition for key in values for condition in arguments[key].domain]
     return not violated_conditions(
-        domain, {own[key].symbol: Fraction(value) for key, value in values.items()}
+        domain, {arguments[key].symbol: Fraction(value) for key, value in values.items()}
     )
 
 
@@ -102,5 +102,11 @@ def _ends(domain: Sequence[str]) -> Iterator[float]:
 def around(points: Sequence[float]) -> Iterator[float]:
     """Yield numbers, their neighbours, and the doubles at a distance of 32 ULP."""
     for point in points:
-        near = neighbours(point, 32)
-        yield from (near[0], near[31], near[32], near[33], near[64])
+        neighbourhood = neighbours(point, 32)
+        yield from (
+            neighbourhood[0],
+            neighbourhood[31],
+            neighbourhood[32],
+            neighbourhood[33],
+            neighbourhood[64],
+        )

@@ -159,13 +159,13 @@ class _Reader:
     def read(self, node: ast.expr, depth: int) -> sp.Expr:
         if depth > MAX_DEPTH:
             raise FormulaError(f"the formula is nested deeper than {MAX_DEPTH} levels: split it")
-        found = checked_expression(self._expression(node, depth + 1), self._source(node))
-        if degree(found, self.degrees) > MAX_DEGREE:
+        expression = checked_expression(self._expression(node, depth + 1), self._source(node))
+        if degree(expression, self.degrees) > MAX_DEGREE:
             raise FormulaError(
                 f"expected nested powers of total degree up to {MAX_DEGREE}, "
                 f"got {_short(self._source(node))}: lower the exponents"
             )
-        return found
+        return expression
 
     def _expression(self, node: ast.expr, depth: int) -> sp.Expr:
         if isinstance(node, ast.Constant):
@@ -214,8 +214,8 @@ class _Reader:
     def _call(self, name: str, node: ast.Call, depth: int) -> sp.Expr:
         name = OTHER_NAMES.get(name, name)
         if name not in FUNCTIONS:
-            near = did_you_mean(name, FUNCTIONS)
-            allowed = f"{near}expected one of {', '.join(sorted(FUNCTIONS))}"
+            suggestion = did_you_mean(name, FUNCTIONS)
+            allowed = f"{suggestion}expected one of {', '.join(sorted(FUNCTIONS))}"
             hint = f"write {name}*(...)" if name in self.names else INSTEAD.get(name, allowed)
             raise FormulaError(f"unknown function {_short(name)}: {hint}")
         count = 2 if name in _OF_TWO else 1
@@ -227,8 +227,8 @@ class _Reader:
             )
         arguments = [self.read(argument, depth) for argument in node.args]
         _check_constant(arguments[-1], name)
-        found = FUNCTIONS[name](*arguments)
-        return self.vocabulary.short.get(found, found)
+        result = FUNCTIONS[name](*arguments)
+        return self.vocabulary.short.get(result, result)
 
     def _source(self, node: ast.expr) -> str:
         return self.text[node.col_offset : node.end_col_offset]

@@ -1,6 +1,7 @@
 """The class of proved formulas: symbol, expression, unit, sources and proof."""
 
 from dataclasses import dataclass
+from keyword import iskeyword
 from typing import ClassVar
 
 import sympy as sp
@@ -46,6 +47,8 @@ class Record:
         If the dimension of the expression differs from that of `unit`.
     KeyError
         If it contains a symbol that the paper does not define.
+    ValueError
+        If the name is no Python name.
     """
 
     vocabulary: ClassVar[Vocabulary]
@@ -63,10 +66,14 @@ class Record:
     stated: sp.Expr | None = None
 
     def __post_init__(self) -> None:
+        if not self.name.isidentifier() or iskeyword(self.name):
+            raise ValueError(f"expected a Python name for a formula, got {self.name!r}; rename it")
         self.vocabulary.arguments_of(self.expression)
-        found = dimension(self.expression, self.vocabulary.dimensions)
-        if found != unit(self.unit):
-            raise DimensionError(f"{self.name} has dimension [{found}], expected [{self.unit}]")
+        dimensions = dimension(self.expression, self.vocabulary.dimensions)
+        if dimensions != unit(self.unit):
+            raise DimensionError(
+                f"{self.name} has dimension [{dimensions}], expected [{self.unit}]"
+            )
 
     @property
     def arguments(self) -> tuple[Argument, ...]:
@@ -77,8 +84,8 @@ class Record:
     def domain(self) -> tuple[str, ...]:
         """Every condition on the arguments, in Python syntax."""
         names = {argument.name for argument in self.arguments}
-        own = [c for argument in self.arguments for c in argument.domain]
-        return applicable((*own, *self.where), names)
+        conditions = [c for argument in self.arguments for c in argument.domain]
+        return applicable((*conditions, *self.where), names)
 
     @property
     def sum_sign(self) -> str:

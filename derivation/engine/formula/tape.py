@@ -90,8 +90,8 @@ def record_all(
 
     def visit(node: sp.Basic) -> int:
         if node not in slots:
-            found = operation(node)
-            step = found, tuple(visit(operand) for operand in found.operands)
+            own = operation(node)
+            step = own, tuple(visit(operand) for operand in own.operands)
             slots[node] = len(inputs) + len(steps)
             steps.append(step)
         return slots[node]

@@ -38,6 +38,12 @@ class Argument:
     meaning: str
     domain: tuple[str, ...]
 
+    def __post_init__(self) -> None:
+        try:
+            unit(self.unit)
+        except ValueError as error:
+            raise ValueError(f"argument {self.symbol}: {error}") from None
+
     @property
     def name(self) -> str:
         """The symbol's name in formulas typed by hand and in generated code."""
@@ -88,8 +94,8 @@ class Vocabulary:
     @cached_property
     def names(self) -> dict[str, sp.Symbol]:
         """The symbols by name, aliases included."""
-        own = {name: argument.symbol for name, argument in self.by_name.items()}
-        return {**own, **self.aliases}
+        symbols = {name: argument.symbol for name, argument in self.by_name.items()}
+        return {**symbols, **self.aliases}
 
     @cached_property
     def guest_names(self) -> dict[str, sp.Symbol]:

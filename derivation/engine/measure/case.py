@@ -107,12 +107,12 @@ class HardCase:
     @property
     def points(self) -> list[dict[str, float]]:
         """Arguments of each point, in the order of the results."""
-        numbers, found = self.numbers, []
+        numbers, all_points = self.numbers, []
         for index in itertools.product(*(range(length) for length in self.shape)):
             axes = index if self.form == "broadcast" else index * len(self.listed)
             at = dict(zip(self.listed, axes, strict=True))
-            found.append({name: values[at.get(name, 0)] for name, values in numbers.items()})
-        return found
+            all_points.append({name: values[at.get(name, 0)] for name, values in numbers.items()})
+        return all_points
 
 
 def read_cases(path: Path) -> list[HardCase]:
@@ -185,8 +185,8 @@ def call_arguments(case: HardCase, names: tuple[str, ...]) -> list[Any]:
 
 def _argument(case: HardCase, values: Numbers, axis: int | None) -> Any:
     if case.form == "integer":
-        whole = [int(x) for x in values]
-        return whole[0] if axis is None else np.array(whole)
+        integers = [int(x) for x in values]
+        return integers[0] if axis is None else np.array(integers)
     if case.form == "float32":
         singles = np.array(values, dtype=np.float32)
         return singles[0] if axis is None else singles

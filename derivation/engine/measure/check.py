@@ -136,14 +136,18 @@ def check(
 
 
 def _row(
-    by: Judge, kernel: Kernel, points: Sequence[Point], found: Sequence[PointReference], digits: int
+    by: Judge,
+    kernel: Kernel,
+    points: Sequence[Point],
+    references: Sequence[PointReference],
+    digits: int,
 ) -> Row:
-    double = measured_errors(kernel, found, len(points) - len(found))
+    double = measured_errors(kernel, references, len(points) - len(references))
     if kernel.budget is None:
         return Row(kernel.name, kernel.module, None, double, None, 0, None)
     single = None if kernel.by_count else _single(by, kernel, points, digits)
     passed = double.within_limits() and (single is None or single.within_limits(SINGLE))
-    oracles = confirm(by, kernel, found, digits)
+    oracles = confirm(by, kernel, references, digits)
     return Row(kernel.name, kernel.module, kernel.budget, double, single, oracles, passed)
 
 
@@ -151,19 +155,21 @@ def reference_values(
     balls: Balls, name: str, points: Sequence[Point], digits: int, fmt: Format = DOUBLE
 ) -> list[PointReference]:
     """Return the reference values at those points at which they do not overflow the format."""
-    found = ((p, balls.reference(name, p.values, digits, p.modes)) for p in points)
-    return [PointReference(point, (ref,)) for point, ref in found if not overflows(ref.value, fmt)]
+    references = ((p, balls.reference(name, p.values, digits, p.modes)) for p in points)
+    return [
+        PointReference(point, (ref,)) for point, ref in references if not overflows(ref.value, fmt)
+    ]
 
 
 def _single(by: Judge, kernel: Kernel, points: Sequence[Point], digits: int) -> Errors:
     """Return the errors of a function in single precision, at every fourth point."""
     singles = (single for p in points[::EVERY] if (single := to_single(p)) is not None)
     rounded = [single for single in singles if by.inside(single)]
-    found = reference_values(by.routes.balls, kernel.name, rounded, digits, SINGLE)
-    return measured_errors(kernel, found, len(rounded) - len(found), SINGLE)
+    references = reference_values(by.routes.balls, kernel.name, rounded, digits, SINGLE)
+    return measured_errors(kernel, references, len(rounded) - len(references), SINGLE)
 
 
-def confirm(by: Judge, kernel: Kernel, found: Sequence[PointReference], digits: int) -> int:
+def confirm(by: Judge, kernel: Kernel, references: Sequence[PointReference], digits: int) -> int:
     """Compare both reference methods at points where the second is fast; return their number.
 
     Raises
@@ -171,7 +177,7 @@ def confirm(by: Judge, kernel: Kernel, found: Sequence[PointReference], digits: 
     OracleError
         If the methods contradict each other.
     """
-    easy = [t for t in found if by.easy(t.point) and bool(abs(t.references[0].value) > SMALL)]
+    easy = [t for t in references if by.easy(t.point) and bool(abs(t.references[0].value) > SMALL)]
     chosen = easy[:: max(1, len(easy) // AGREEMENTS)][:AGREEMENTS]
     for at in chosen:
         by.routes.agree(kernel.name, at.point.values, digits, at.point.modes)

@@ -40,11 +40,11 @@ def domain_judge(
     Judge
         The references and test points, without hard cases.
     """
-    own = chain.vocabulary
+    vocabulary = chain.vocabulary
 
     def grid(name: str, arguments: Sequence[str], _: bool) -> tuple[Point, ...]:
         switches = switch_points(block.value for block in build_blocks(blocks).values())
-        return tuple(map(Point, domain_grid(name, arguments, own, switches)))
+        return tuple(map(Point, domain_grid(name, arguments, vocabulary, switches)))
 
-    references = Routes(Balls(own, chain.formulas), routes)
-    return Judge(references, grid, package, easy, lambda point: inside(own, point.values))
+    references = Routes(Balls(vocabulary, chain.formulas), routes)
+    return Judge(references, grid, package, easy, lambda point: inside(vocabulary, point.values))

@@ -80,13 +80,13 @@ def committed_references(data: Data, given: Sequence[HardCase]) -> dict[str, Kno
         If a case has none; the message states the first such case and the command that computes
         its reference values.
     """
-    found = known_of(data)
-    missing = [case.key for case in given if case.key not in found]
+    references = known_of(data)
+    missing = [case.key for case in given if case.key not in references]
     if missing:
         raise ValueError(
             f"no reference for {len(missing)} hard cases, the first: {missing[0]}; run `{COMMAND}`"
         )
-    return {case.key: found[case.key] for case in given}
+    return {case.key: references[case.key] for case in given}
 
 
 def check(suite: Suite, references: Mapping[str, Known]) -> tuple[HardRow, ...]:
@@ -160,17 +160,17 @@ def _call(case: HardCase, kernel: Kernel, count: int) -> np.ndarray[Any, Any]:
     """Return the function's results, of shape (count, *shape)."""
     if kernel.by_count:
         (last,) = case.numbers["count"]
-        found = kernel.call(int(last))
-        tables = found if count > 1 else (found,)
+        values = kernel.call(int(last))
+        tables = values if count > 1 else (values,)
         return np.stack([table[-1] for table in tables])
     arguments = call_arguments(case, kernel.arguments)
     before = [np.array(x, copy=True) for x in arguments]
     modes = {} if case.modes is None else {"modes": case.modes}
-    found = kernel.call(*arguments, **modes)
+    values = kernel.call(*arguments, **modes)
     for old, now in zip(before, arguments, strict=True):
         if not np.array_equal(old, now, equal_nan=True):
             raise ValueError("an argument was written to")
-    results = found if count > 1 else (found,)
+    results = values if count > 1 else (values,)
     return np.stack([np.asarray(result) for result in results])
 
 

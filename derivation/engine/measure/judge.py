@@ -178,7 +178,7 @@ class Errors:
 
 
 def measured_errors(
-    kernel: Kernel, found: Sequence[PointReference], excluded: int = 0, fmt: Format = DOUBLE
+    kernel: Kernel, references: Sequence[PointReference], excluded: int = 0, fmt: Format = DOUBLE
 ) -> Errors:
     """Return the errors of a function at the given points.
 
@@ -198,25 +198,25 @@ def measured_errors(
     ValueError
         If there is no point, or if the number of results differs from that of the references.
     """
-    if not found:
+    if not references:
         raise ValueError(f"no point at which {fmt.name} can hold {kernel.name}")
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        results = np.atleast_2d(kernel.results([at.point for at in found], fmt))
-    expected = len(found[0].references), len(found)
+        results = np.atleast_2d(kernel.results([at.point for at in references], fmt))
+    expected = len(references[0].references), len(references)
     if results.shape != expected:
         raise ValueError(f"{kernel.name} gave shape {results.shape}, {expected} is expected")
     budget = math.inf if kernel.budget is None else kernel.budget
     all_of = [
         (at, reference, got, judge(got, reference, budget, fmt))
-        for at, row in zip(found, results.T.tolist(), strict=True)
+        for at, row in zip(references, results.T.tolist(), strict=True)
         for reference, got in zip(at.references, row, strict=True)
     ]
     worst = max(all_of, key=lambda one: one[3].ulp if kernel.budget is None else one[3].ratio)
     counted = [error.ulp for _, reference, _, error in all_of if reference.value != 0]
     finite = [ulp for ulp in counted if math.isfinite(ulp)]
     return Errors(
-        points=len(found),
+        points=len(references),
         excluded=excluded,
         zeros=len(all_of) - len(counted),
         not_finite=sum(not math.isfinite(got) for _, _, got, _ in all_of),

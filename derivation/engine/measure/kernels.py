@@ -71,10 +71,10 @@ class Kernel:
             count: self.call(*(column[counts == count] for column in columns), modes=count)
             for count in sorted({point.modes or 0 for point in points})
         }
-        found = np.empty(len(points), dtype=np.result_type(*parts.values()))
+        values = np.empty(len(points), dtype=np.result_type(*parts.values()))
         for count, part in parts.items():
-            found[counts == count] = part
-        return found
+            values[counts == count] = part
+        return values
 
 
 @dataclass(frozen=True)
@@ -115,12 +115,12 @@ def printed_kernels(package: str) -> tuple[Kernel, ...]:
     if importlib.util.find_spec(f"{package}.{AS_PRINTED}") is None:
         return ()
     module = importlib.import_module(f"{package}.{AS_PRINTED}")
-    own = (
+    kernels = (
         (name, call)
         for name, call in inspect.getmembers(module, inspect.isfunction)
         if call.__module__ == module.__name__ and not name.startswith("_")
     )
     return tuple(
         Kernel(name, AS_PRINTED, tuple(inspect.signature(call).parameters), call, None)
-        for name, call in own
+        for name, call in kernels
     )

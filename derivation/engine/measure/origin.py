@@ -38,16 +38,16 @@ def of_modules(names: tuple[str, ...]) -> str:
     names
         Names of the modules.
     """
-    own = {_HERE, *(name.partition(".")[0] for name in names)}
-    found: dict[str, str] = {}
+    packages = {_HERE, *(name.partition(".")[0] for name in names)}
+    hashes: dict[str, str] = {}
     waiting = list(names)
     while waiting:
         name = waiting.pop()
-        if name not in found:
+        if name not in hashes:
             tree = ast.parse(_file(name).read_text())
-            waiting += [part for part in _modules(tree, name) if part.partition(".")[0] in own]
-            found[name] = _code(tree, name)
-    return _hash("".join(sorted(found.values())))
+            waiting += [part for part in _modules(tree, name) if part.partition(".")[0] in packages]
+            hashes[name] = _code(tree, name)
+    return _hash("".join(sorted(hashes.values())))
 
 
 def _code(tree: ast.Module, name: str) -> str:

@@ -142,26 +142,26 @@ def search(
     """
     if seconds is None and evaluations is None:
         raise ValueError("expected seconds or evaluations, got neither: a search has no end")
-    found = Search(seed, {target.name: TargetSearch() for target in targets})
-    hunts = [search_target(target, seed, found.standings[target.name]) for target in targets]
+    result = Search(seed, {target.name: TargetSearch() for target in targets})
+    hunts = [search_target(target, seed, result.standings[target.name]) for target in targets]
     end = None if seconds is None else time.monotonic() + seconds
 
     def over() -> bool:
-        enough = evaluations is not None and found.evaluations >= evaluations
+        enough = evaluations is not None and result.evaluations >= evaluations
         return enough or (end is not None and time.monotonic() >= end)
 
     try:
         with np.errstate(all="ignore"):
-            _search_in_turns(targets, hunts, found, over, progress, keep)
+            _search_in_turns(targets, hunts, result, over, progress, keep)
     except KeyboardInterrupt:
-        found.interrupted = True
-    return found
+        result.interrupted = True
+    return result
 
 
 def _search_in_turns(
     targets: Sequence[Target],
     hunts: Sequence[Iterator[None]],
-    found: Search,
+    result: Search,
     over: Callable[[], bool],
     progress: Progress | None,
     keep: Callable[[Search], None] | None,
@@ -171,13 +171,13 @@ def _search_in_turns(
             if (number + 1) % target.every:
                 continue  # slow functions begin after the first turns of the others
             if progress is not None:
-                progress(target.name, found.evaluations, found.ratio)
+                progress(target.name, result.evaluations, result.ratio)
             for _ in range(target.turn_size):
                 if over():
                     return
                 next(steps)
         if keep is not None:
-            keep(found)
+            keep(result)
 
 
 def search_target(target: Target, seed: int, standing: TargetSearch) -> Iterator[None]:
@@ -224,13 +224,13 @@ def _evaluate_points(
     results = target.call(points) if target.bound is not None else None
     for i, point in enumerate(points):
         if results is None or _may_be_worse(target, point, results[i], here.ratio):
-            found = point_error(target, point, points[i - 1])
-            if found is None:
+            error = point_error(target, point, points[i - 1])
+            if error is None:
                 standing.unjudged += 1
-            elif found.ratio > here.ratio:
-                here.worst = found
-                if found.ratio > standing.ratio:
-                    standing.worst = found
+            elif error.ratio > here.ratio:
+                here.worst = error
+                if error.ratio > standing.ratio:
+                    standing.worst = error
         standing.evaluations += 1
         yield
 

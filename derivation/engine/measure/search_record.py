@@ -34,22 +34,22 @@ def seconds_of(duration: str) -> int:
     ValueError
         If the duration has another form or is zero.
     """
-    found = re.fullmatch(r"([1-9][0-9]{0,6})([smh])", duration)
-    if found is None:
+    match = re.fullmatch(r"([1-9][0-9]{0,6})([smh])", duration)
+    if match is None:
         raise ValueError(f"--time: expected a duration like 30s, 5m or 1h, got {duration!r}")
-    return int(found[1]) * _SECONDS[found[2]]
+    return int(match[1]) * _SECONDS[match[2]]
 
 
 # --- cases
 
 
-def case_of(kernel: str, found: LargeError, seed: int) -> HardCase:
+def case_of(kernel: str, error: LargeError, seed: int) -> HardCase:
     """Return a point of the search as a case, with an array if it has a second point."""
-    points = [found.point] if found.company is None else [found.point, found.company]
-    inputs = {name: tuple(p.values[name].hex() for p in points) for name in found.point.values}
-    form = "scalar" if found.company is None else "array"
+    points = [error.point] if error.company is None else [error.point, error.company]
+    inputs = {name: tuple(p.values[name].hex() for p in points) for name in error.point.values}
+    form = "scalar" if error.company is None else "array"
     cause = f"Found by search, seed {seed}."
-    return HardCase(GROUP, kernel, cause, inputs, form, found.point.modes)
+    return HardCase(GROUP, kernel, cause, inputs, form, error.point.modes)
 
 
 def points_of(case: HardCase) -> list[Point]:
@@ -101,11 +101,11 @@ def to_toml(cases: Sequence[tuple[HardCase, LargeError | None]]) -> str:
     return _HEADER + "".join(_table(case, found) for case, found in cases)
 
 
-def _table(case: HardCase, found: LargeError | None) -> str:
+def _table(case: HardCase, large_error: LargeError | None) -> str:
     lines = [""]
-    if found is not None:
-        error = found.error
-        lines.append(f"# {found.ratio:.4g} of the allowance: {error.ulp:.6g} ULP, "
+    if large_error is not None:
+        error = large_error.error
+        lines.append(f"# {large_error.ratio:.4g} of the allowance: {error.ulp:.6g} ULP, "
                      f"{error.allowed:.6g} allowed.")  # fmt: skip
     said = {key: value for key, value in case.table.items() if key in CAUSE_TEXTS}
     lines += [f"[[{case.group}]]", *(f"{key} = {json.dumps(x)}" for key, x in said.items())]
@@ -154,9 +154,9 @@ class SearchRecord:
             self._learn(case.kernel, found)
         self._written = ""
 
-    def _learn(self, kernel: str, found: LargeError | None) -> None:
-        if found is not None:
-            self._known[kernel] = max(found.ratio, self._known.get(kernel, 0.0))
+    def _learn(self, kernel: str, error: LargeError | None) -> None:
+        if error is not None:
+            self._known[kernel] = max(error.ratio, self._known.get(kernel, 0.0))
 
     def _best_known(self, kernel: str) -> float:
         """Return the largest known ratio; if it is not recorded, it is measured once."""
@@ -167,13 +167,13 @@ class SearchRecord:
             self._learn(kernel, measured_case(HardCase(GROUP, kernel, "", inputs), self._targets))
         return self._known.get(kernel, 0.0)
 
-    def is_new(self, kernel: str, found: LargeError | None) -> bool:
+    def is_new(self, kernel: str, error: LargeError | None) -> bool:
         """Return whether an unrecorded point exceeds the largest known ratio, or its allowance."""
-        if found is None or any(
-            case.kernel == kernel and points_of(case)[0] == found.point for case, _ in self._earlier
+        if error is None or any(
+            case.kernel == kernel and points_of(case)[0] == error.point for case, _ in self._earlier
         ):
             return False
-        return found.ratio > min(self._best_known(kernel), 1.0)
+        return error.ratio > min(self._best_known(kernel), 1.0)
 
     def keep(self, search: Search) -> None:
         """Write earlier and new cases, if there are new ones that are not written yet."""

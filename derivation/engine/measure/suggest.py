@@ -82,12 +82,12 @@ def tighter(budget: float, needed: float) -> float | None:
 
 def suggestions(rows: Iterable[MeasuredRow]) -> list[Suggestion]:
     """Return a suggestion for each function whose budget could be tighter."""
-    found = []
+    proposed = []
     for row in rows:
         if row.budget is None or not row.passed:
             continue
         needed = max(errors.needed for errors in (row.double, row.single) if errors is not None)
         ulp = tighter(row.budget, needed)
         if ulp is not None:
-            found.append(Suggestion(row.kernel, ulp, row.budget, needed))
-    return found
+            proposed.append(Suggestion(row.kernel, ulp, row.budget, needed))
+    return proposed

@@ -147,13 +147,13 @@ class Suite:
         for point in case.points:
             given = {name: point[name] for name in kernel.arguments}
             if law is not None:
-                found = self._by_law(law, given)
+                by_law = self._by_law(law, given)
             elif all(map(math.isfinite, given.values())):
-                found = [self.balls.reference(kernel.name, given, DIGITS + _SPARE, case.modes)]
+                by_law = [self.balls.reference(kernel.name, given, DIGITS + _SPARE, case.modes)]
             else:
                 rows.append([value_only("nan")])
                 continue
-            rows.append([reference_text(reference, case.format) for reference in found])
+            rows.append([reference_text(reference, case.format) for reference in by_law])
         return [row[result] for result in results for row in rows]
 
     def _by_law(self, law: HardLaw, point: Mapping[str, float]) -> list[Reference]:
@@ -215,26 +215,26 @@ def find_references(
         Called after every case with its function, its number and the number of cases.
     """
     known = _standing(recorded) | _standing(part)
-    found: dict[str, Known] = {}
+    references: dict[str, Known] = {}
     saved = time.monotonic()
     try:
         for number, case in enumerate(suite.cases, start=1):
             here, old = suite.origin(case.kernel), known.get(case.key)
             stands = old is not None and old.origin == here and case.expect == "value"
-            found[case.key] = old if old and stands else Known(here, suite.references(case))
+            references[case.key] = old if old and stands else Known(here, suite.references(case))
             if time.monotonic() - saved > SAVED_EVERY:
-                _save(part, found)
+                _save(part, references)
                 saved = time.monotonic()
             progress(case.kernel, number, len(suite.cases))
     finally:
-        _save(part, found)
-    return found
+        _save(part, references)
+    return references
 
 
 def _standing(path: Path) -> dict[str, Known]:
     return known_of(json.loads(path.read_text())) if path.is_file() else {}
 
 
-def _save(part: Path, found: Mapping[str, Known]) -> None:
-    rows = [{"key": key, **known._asdict()} for key, known in found.items()]
+def _save(part: Path, references: Mapping[str, Known]) -> None:
+    rows = [{"key": key, **known._asdict()} for key, known in references.items()]
     write_file(part, json.dumps({"cases": rows}))

@@ -122,12 +122,12 @@ def measure_by(references: Callable[[Point], Sequence[Reference] | None], budget
 
     def measure(point: Point, results: Numbers) -> Error | None:
         try:
-            found = references(point)
+            references_at = references(point)
         except NO_REFERENCE:
             return None
-        if found is None or any(overflows(reference.value) for reference in found):
+        if references_at is None or any(overflows(reference.value) for reference in references_at):
             return None
-        pairs = zip(results, found, strict=True)
+        pairs = zip(results, references_at, strict=True)
         return largest(judge(got, reference, budget) for got, reference in pairs)
 
     return measure

@@ -246,14 +246,14 @@ def _refine(compute: Callable[[int], Reference], digits: int, what: str) -> Refe
     bits = target + SPARE_BITS
     while bits <= MAX_BITS:
         with flint.ctx.workprec(bits):
-            found = compute(bits)
-            unit = abs(found.value) * flint.arb(2) ** -SLOPE_BITS
-            sensitivities = found.sensitivity.values()
-            if _is_narrow(found.value, target) and all(
+            reference = compute(bits)
+            unit = abs(reference.value) * flint.arb(2) ** -SLOPE_BITS
+            sensitivities = reference.sensitivity.values()
+            if _is_narrow(reference.value, target) and all(
                 _is_narrow(one, SLOPE_BITS) or bool(one < unit) for one in sensitivities
             ):
-                value = flint.arb(0) if abs(found.value) < FLOOR else found.value
-                return Reference(value, found.sensitivity, found.magnitude)
+                value = flint.arb(0) if abs(reference.value) < FLOOR else reference.value
+                return Reference(value, reference.sensitivity, reference.magnitude)
         bits *= 2
     raise PrecisionError(f"no {digits} digits of {what:.300} within {MAX_BITS} bits")
 

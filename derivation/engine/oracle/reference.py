@@ -67,10 +67,10 @@ def value_only(value: str) -> Stored:
     return {"value": value, "radius": "0", "rounding": "0", "magnitude": "0", "scale": "1"}
 
 
-def reference_text(found: Reference, fmt: Format) -> Stored:
+def reference_text(reference: Reference, fmt: Format) -> Stored:
     """Return a reference as text; a value that overflows the format becomes "inf" or "-inf"."""
     with flint.ctx.workprec(_BITS):
-        value = found.value
+        value = reference.value
         if overflows(value, fmt):
             return value_only("inf" if value > 0 else "-inf")
         text = "0" if value == 0 else value.mid().str(DIGITS, radius=False)
@@ -78,9 +78,9 @@ def reference_text(found: Reference, fmt: Format) -> Stored:
         return {
             "value": text,
             "radius": "0" if radius == 0 else _rounded_up(radius),
-            "rounding": _rounded_up(found.total.abs_upper()),
-            "magnitude": _rounded_up(found.magnitude.abs_upper()),
-            "scale": repr(found.scale),
+            "rounding": _rounded_up(reference.total.abs_upper()),
+            "magnitude": _rounded_up(reference.magnitude.abs_upper()),
+            "scale": repr(reference.scale),
         }
 
 

@@ -13,11 +13,11 @@ from derivation.engine.report.latex import escape, prose
 
 def arithmetic_context(sources: Mapping[str, str]) -> dict[str, Any]:
     """Return the context of the section on generated code, from the source texts by module."""
-    found = arithmetic_of_modules(sources)
+    sources_by_module = arithmetic_of_modules(sources)
     return {
-        "operations": sum(part.operations for part in found),
-        "printed": f"{100 * printed_fraction(found):.0f}",
-        "rows": [_row(part) for part in found],
+        "operations": sum(part.operations for part in sources_by_module),
+        "printed": f"{100 * printed_fraction(sources_by_module):.0f}",
+        "rows": [_row(part) for part in sources_by_module],
     }
 
 

@@ -84,12 +84,12 @@ class Plan:
         if shown:
             name = "-".join([REPORT, *shown])
             return {name: self._document(parts, parts.title, parts.front, shown, linked=False)}
-        found = {REPORT: self._document(parts, parts.title, parts.front, self.sections)}
+        texts = {REPORT: self._document(parts, parts.title, parts.front, self.sections)}
         if self.appendices:
             title = f"{parts.title}: appendices"
             front = environment().get_template("appendices.tex.j2").render(title=parts.title)
-            found[APPENDICES] = self._document(parts, title, front, self.appendices)
-        return found
+            texts[APPENDICES] = self._document(parts, title, front, self.appendices)
+        return texts
 
     def _document(
         self, parts: Parts, title: str, front: str, names: Sequence[str], linked: bool = True
@@ -139,8 +139,8 @@ def chosen_sections(names: Sequence[str], known: Sequence[str]) -> tuple[str, ..
     """
     for name in names:
         if name not in known:
-            near = did_you_mean(name, known)
+            suggestion = did_you_mean(name, known)
             raise ValueError(
-                f"--section: no section {name!r}: {near}expected one of {', '.join(known)}"
+                f"--section: no section {name!r}: {suggestion}expected one of {', '.join(known)}"
             )
     return tuple(name for name in known if name in names)

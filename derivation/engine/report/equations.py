@@ -188,9 +188,9 @@ def in_parts(
 
 def _replaced(value: sp.Expr, part: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
     """Replace a part of a value, or some factors of one of its terms, by a symbol."""
-    found = value.xreplace({part: symbol})
-    if found != value or not part.is_Mul:
-        return found
+    replaced = value.xreplace({part: symbol})
+    if replaced != value or not part.is_Mul:
+        return replaced
     factors = set(part.args)
     terms = [
         sp.Mul(symbol, *(f for f in term.args if f not in factors))

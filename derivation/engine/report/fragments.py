@@ -40,10 +40,11 @@ def _pieces(
     ]
     if not found:
         known = [title for title, _ in steps] + [f.name for _, held in steps for f in held]
-        near = did_you_mean(name, known, most=NEAR)
+        suggestion = did_you_mean(name, known, most=NEAR)
         raise ValueError(
-            f"--fragment: no formula or derivation step {name!r}: {near}`platecontact derive` "
-            "lists the formulas, `platecontact derive NAME` shows the derivation step of one"
+            f"--fragment: no formula or derivation step {name!r}: {suggestion}"
+            "`platecontact derive` lists the formulas, `platecontact derive NAME` shows the "
+            "derivation step of one"
         )
     for step, formula in found:
         yield fragment(step, formula, references)

@@ -44,9 +44,9 @@ def page(text: Text, title: str, figures: Mapping[str, bytes]) -> str:
     """
     meanings = (TEMPLATES / "page.tex").read_text(encoding="utf-8")
     parts = (meanings, text.front, *text.sections, text.references)
-    found = _converted("\n\n".join(parts), title)
+    html = _converted("\n\n".join(parts), title)
     try:
-        return _PLACE.sub(lambda at: drawing(at[1], figures[at[1]], f'role="img"{at[2]} '), found)
+        return _PLACE.sub(lambda at: drawing(at[1], figures[at[1]], f'role="img"{at[2]} '), html)
     except KeyError as error:
         raise HtmlError(f"expected a figure {error}, got none of this name") from None
 
@@ -81,10 +81,10 @@ def _pandoc() -> str:
     """Return the path of the pandoc program in the Python package `pypandoc_binary`."""
     package = find_spec("pypandoc")
     folder = Path(package.origin or "").parent / "files" if package else Path()
-    found = shutil.which("pandoc", path=folder)
-    if found is None:
+    program = shutil.which("pandoc", path=folder)
+    if program is None:
         raise HtmlError(f"expected pandoc in {folder.resolve()}: pip install pypandoc_binary")
-    return found
+    return program
 
 
 def drawing(name: str, content: bytes, attributes: str = "") -> str:

@@ -19,8 +19,8 @@ class References:
 
     @cached_property
     def _rows(self) -> dict[str, dict[str, str]]:
-        found = {} if self.table is None else tomllib.loads(self.table.read_text(encoding="utf-8"))
-        return dict(sorted(found.items()))
+        rows = {} if self.table is None else tomllib.loads(self.table.read_text(encoding="utf-8"))
+        return dict(sorted(rows.items()))
 
     @property
     def entries(self) -> dict[str, Entry]:
@@ -80,8 +80,8 @@ def _parts(entry: Entry) -> Iterator[str]:
 def names(authors: str) -> str:
     """Return `Last, First and ...` as `F. Last, ...`; a name in braces is not changed."""
     people = authors.split(" and ")
-    found = [_name(person) for person in people if person != "others"]
-    return ", ".join(found) + (" and others" if "others" in people else "")
+    surnames = [_name(person) for person in people if person != "others"]
+    return ", ".join(surnames) + (" and others" if "others" in people else "")
 
 
 def _name(person: str) -> str:

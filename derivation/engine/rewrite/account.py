@@ -1,13 +1,17 @@
 """Effect of the rewriting rules on each formula of a paper: the rewrite report."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+
+import sympy as sp
 
 from derivation.engine.activity import Progress, quiet
 from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.automatic import dimensionless
+from derivation.engine.rewrite.products import factored
 from derivation.engine.rewrite.scales import Scales
-from derivation.engine.rewrite.stabilise import Applied, stabilise
+from derivation.engine.rewrite.stabilise import Applied, Stable, stabilise
+from derivation.engine.rewrite.terms import UnreachableError
 
 ENDS = (1e-150, 1e6)
 """Range of the dimensionless variable for which the functions have error budgets."""
@@ -59,13 +63,29 @@ def accounts(
     UnreachableError
         If the rules do not find a form of a formula.
     """
-    found = []
+    rows: list[Account] = []
     for number, name in enumerate(names, start=1):
         progress(name, number, len(names))
-        reduced = dimensionless(formulas[name].expression, scales)
-        scale = reduced.scale
-        stable = stabilise(reduced.expression, scale.variable, ENDS)
-        said = f"{scale.variable} = {scale.product}"
-        said = said if scale.length != scale.variable else str(scale.variable)
-        found.append(Account(name, said, stable.applied, stable.worst))
-    return tuple(found)
+        rows += _accounts(formulas[name], scales)
+    return tuple(rows)
+
+
+def _accounts(formula: Record, scales: Scales) -> Iterator[Account]:
+    """Yield the result for a formula, or for each of its factors that depends on a product."""
+    try:
+        reduced = dimensionless(formula.expression, scales)
+    except UnreachableError:
+        for product, stable in factored(formula).factors:
+            whole = sp.Mul(*(symbol**power for symbol, power in product))
+            yield _account(formula.name, stable, whole)
+        return
+    scale = reduced.scale
+    stable = stabilise(reduced.expression, scale.variable, ENDS)
+    yield _account(formula.name, stable, scale.product)
+
+
+def _account(name: str, stable: Stable, product: sp.Expr) -> Account:
+    """Return the result of the rules for a function of a product."""
+    x = stable.variable
+    variable = str(x) if product.has(x) else f"{x} = {product}"
+    return Account(name, variable, stable.applied, stable.worst)

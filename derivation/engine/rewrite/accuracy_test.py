@@ -123,20 +123,20 @@ def points(low: float, high: float, seed: str) -> tuple[float, ...]:
     """Return random points in each decade between the ends, and more from 1e-4 to 50."""
     generator = random.Random(seed)
     first, last = math.log10(low), math.log10(high)
-    found = {low, high}
+    positions = {low, high}
     exponent = first
     while exponent < last:
-        found.add(10.0 ** min(exponent + generator.random(), last))
+        positions.add(10.0 ** min(exponent + generator.random(), last))
         exponent += max(1.0, (last - first) / 60)
     near, far = max(first, -4.0), min(last, 1.7)
-    found |= {10 ** generator.uniform(near, far) for _ in range(90)}
-    found |= {x for x in LARGE if low <= x <= high}
+    positions |= {10 ** generator.uniform(near, far) for _ in range(90)}
+    positions |= {x for x in LARGE if low <= x <= high}
     for switch in (0.25, 0.5, 1.0, 2.0, 4.0):
-        found |= {
+        positions |= {
             *neighbours(switch, 1),
             *(switch * generator.uniform(1.0, 1.25) for _ in range(12)),
         }
-    return tuple(sorted(x for x in found if low <= x <= high))
+    return tuple(sorted(x for x in positions if low <= x <= high))
 
 
 def accuracy_test(
@@ -176,18 +176,18 @@ def accuracy_test(
     fixed = tuple(zip(others, SAMPLES, strict=False))
     if len(fixed) < len(others):
         raise UnreachableError(f"expected at most {len(SAMPLES)} further variables, got {others}")
-    found = []
+    exact = []
     for point in points(*ends, seed or str(expression)):
         value, slack = _exact_value(expression, x, point, fixed, equal)
         if value is not None and value != 0 and not overflows(value) and abs(value) > 1e-300:
-            found.append(ExactPoint(point, value, slack))
-    if len(found) < LEAST:
+            exact.append(ExactPoint(point, value, slack))
+    if len(exact) < LEAST:
         raise UnreachableError(
             f"{expression!s:.80} has values other than 0, within the range of doubles, at "
-            f"{len(found)} of the tested points {x} > 0, expected {LEAST}; change the formula or "
+            f"{len(exact)} of the tested points {x} > 0, expected {LEAST}; change the formula or "
             "its variable"
         )
-    return AccuracyTest(x, fixed, tuple(found))
+    return AccuracyTest(x, fixed, tuple(exact))
 
 
 def _exact_value(

@@ -226,10 +226,10 @@ def _with_length(core: sp.Expr, powers: dict[sp.Expr, int], scale: Scale) -> sp.
 
 def _joined(powers: dict[sp.Expr, int], scale: Scale) -> list[Step]:
     """Combine powers that cancel each other, as steps; no base keeps the power 0."""
-    steps, own, rate = [], scale.variable, scale.rate
-    if rate is not None and scale.joined and powers[own] > 0 > powers[rate]:
-        count = min(powers[own], -powers[rate])
-        for base, change in ((scale.length, count), (own, -count), (rate, count)):
+    steps, variable, rate = [], scale.variable, scale.rate
+    if rate is not None and scale.joined and powers[variable] > 0 > powers[rate]:
+        count = min(powers[variable], -powers[rate])
+        for base, change in ((scale.length, count), (variable, -count), (rate, count)):
             powers[base] += change
     for least in [base for base in powers if isinstance(base, sp.Min)]:
         (at,) = (bound for bound in least.args if bound.is_Number)
@@ -242,9 +242,9 @@ def _joined(powers: dict[sp.Expr, int], scale: Scale) -> list[Step]:
             powers[least] -= count
         if powers[least]:
             steps.append(Step(near, least))
-        if powers[least] * powers[own] < 0:
-            steps.append(Step(stretch, own / near, f"1 below {at}"))
-            powers[stretch], powers[own] = powers[own], 0
+        if powers[least] * powers[variable] < 0:
+            steps.append(Step(stretch, variable / near, f"1 below {at}"))
+            powers[stretch], powers[variable] = powers[variable], 0
             powers[least] += powers[stretch]
         powers[near], powers[least] = powers[least], 0
     for base in [base for base in powers if powers[base] == 0]:
@@ -266,9 +266,9 @@ def _factor(factor: Factor, variable: sp.Symbol, known: Mapping[str, Block]) -> 
     """Return a factor as a constant, a sum that does not cancel at 0, and bases with powers."""
     terms = terms_of(factor.value, variable)
     if {variable} == factor.value.free_symbols:
-        found = _block(terms, variable, known)
-        if found is not None:
-            return found
+        block = _block(terms, variable, known)
+        if block is not None:
+            return block
         lead, least = leading_power(terms), min(power for _, power in parts_of(terms, variable))
         if lead > least:
             raise UnreachableError(f"no building block is {factor.value}")

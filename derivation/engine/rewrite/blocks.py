@@ -77,17 +77,38 @@ def build_blocks(definitions: tuple[Definition, ...]) -> dict[str, Block]:
 
 
 def _build_blocks(definitions: tuple[Definition, ...]) -> dict[str, Block]:
-    found = {row.name: _block(*row) for row in definitions}
-    for block in found.values():
-        _, side = branches(block.value)[-1]
-        over = block.value.at**block.constant_power if isinstance(block.value, Switch) else 1
-        direct = substitute_steps(side.value, (*block.steps, *side.steps), found)
-        prove(
-            f"Direct form of {block.name}",
-            "The direct form, used above the switch point, equals the definition.",
-            {"direct form": direct - block.divided / over},
+    return {row.name: _proved(_block(*row)) for row in definitions}
+
+
+def block_of(name: str, stable: Stable, summary: str) -> Block:
+    """Return a stable form that contains a series as a building block, the direct form proved.
+
+    Raises
+    ------
+    ProofError
+        If the direct form differs from the expression.
+    """
+    domain = (f"{stable.variable} > 0",)
+    truncation = _truncation(stable)
+    return _proved(
+        Block(
+            name, (stable.variable,), stable.expression, 0, 0, domain, summary,
+            stable.steps, stable.value, truncation,
         )
-    return found
+    )  # fmt: skip
+
+
+def _proved(block: Block) -> Block:
+    """Return a block if its direct form, above the switch point, is equal to its definition."""
+    _, side = branches(block.value)[-1]
+    over = block.value.at**block.constant_power if isinstance(block.value, Switch) else 1
+    direct = substitute_steps(side.value, (*block.steps, *side.steps), {})
+    prove(
+        f"Direct form of {block.name}",
+        "The direct form, used above the switch point, equals the definition.",
+        {"direct form": direct - block.divided / over},
+    )
+    return block
 
 
 def _block(

@@ -181,25 +181,25 @@ def stated_error(worst: float) -> float:
 def around(points: Iterable[float]) -> set[float]:
     """Return doubles next to the given numbers, and at distances of 2^2, 2^5, ..., 2^56 doubles."""
     last = ordinal(ENDS[1])
-    found: set[float] = set()
+    values: set[float] = set()
     for point in points:
-        found.update(neighbours(point, 2))
+        values.update(neighbours(point, 2))
         start = ordinal(point)
         for power in range(2, 57, 3):
             for position in (start - (1 << power), start + (1 << power)):
                 if 0 < position <= last:
-                    found.add(from_ordinal(position))
-    return {x for x in found if ENDS[0] <= x <= ENDS[1]}
+                    values.add(from_ordinal(position))
+    return {x for x in values if ENDS[0] <= x <= ENDS[1]}
 
 
 def _random(draw: random.Random, low: float, high: float) -> set[float]:
     """Return random doubles: uniform among the doubles of the range, and more in 1e-6 to 1e4."""
     first, last = ordinal(low), ordinal(high)
-    found = {from_ordinal(draw.randint(first, last)) for _ in range(_RANDOM)}
+    values = {from_ordinal(draw.randint(first, last)) for _ in range(_RANDOM)}
     near, far = max(low, 1e-6), min(high, 1e4)
     if near < far:
-        found |= {10 ** draw.uniform(math.log10(near), math.log10(far)) for _ in range(_USUAL)}
-    return {min(max(x, low), high) for x in found}
+        values |= {10 ** draw.uniform(math.log10(near), math.log10(far)) for _ in range(_USUAL)}
+    return {min(max(x, low), high) for x in values}
 
 
 def _next_to_zeros(
@@ -217,12 +217,12 @@ def _next_to_zeros(
             peaks.append((slack, point))
         if len(peaks) == _MOST_ZEROS:
             break
-    found = {
+    values = {
         point * (1 + draw.choice((-1, 1)) * 10 ** draw.uniform(-15, -1))
         for _, point in peaks
         for _ in range(_NEAR_ZERO)
     }
-    return {x for x in found if low <= x <= high}
+    return {x for x in values if low <= x <= high}
 
 
 def _towards(low: float, high: float) -> set[float]:
@@ -241,12 +241,12 @@ def _errors(
         return {}
     with np.errstate(all="ignore"):
         got = function(np.array(points)).tolist()
-    found = {}
+    errors_by_point = {}
     for point, value in zip(points, got, strict=True):
         known = reference.at(point)
         if known is None or overflows(known[0]):
-            found[point] = math.inf
+            errors_by_point[point] = math.inf
         else:
             error = ulp_error(value, known[0]) - CONDITION_FACTOR * known[1]
-            found[point] = max(error, reference.by_rounding(point) - known[1], 0.0)
-    return found
+            errors_by_point[point] = max(error, reference.by_rounding(point) - known[1], 0.0)
+    return errors_by_point

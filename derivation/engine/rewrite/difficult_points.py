@@ -28,10 +28,10 @@ def grid(low: float, high: float) -> list[float]:
     """Return points between which signs of parts are compared: logarithmic, and even up to 60."""
     ends = math.log10(low), math.log10(high)
     steps = 320
-    found = {10.0 ** (ends[0] + (ends[1] - ends[0]) * k / steps) for k in range(1, steps)}
-    found |= {10.0 ** (-6 + k / 25) for k in range(12 * 25)}
-    found |= {0.15 * k for k in range(1, 400)}
-    return sorted({low, high, *(x for x in found if low < x < high)})
+    positions = {10.0 ** (ends[0] + (ends[1] - ends[0]) * k / steps) for k in range(1, steps)}
+    positions |= {10.0 ** (-6 + k / 25) for k in range(12 * 25)}
+    positions |= {0.15 * k for k in range(1, 400)}
+    return sorted({low, high, *(x for x in positions if low < x < high)})
 
 
 def parts(stable: Stable) -> list[sp.Expr]:
@@ -40,17 +40,17 @@ def parts(stable: Stable) -> list[sp.Expr]:
     whole = [stable.expression, *_written_out(stable)]
     if isinstance(stable.value, Switch):
         whole.append(_in_variable(stable.value.variable - stable.value.at, stable.steps))
-    found: dict[sp.Expr, None] = {}
+    expressions: dict[sp.Expr, None] = {}
     for expression in whole:
         for node in sp.postorder_traversal(expression):
             if node.has(x) and node != x and not isinstance(node, sp.Tuple):
-                found[node.replace(POLYNOMIAL, _horner)] = None
-    for node in list(found):
+                expressions[node.replace(POLYNOMIAL, _horner)] = None
+    for node in list(expressions):
         if node == stable.expression or (node.is_Add and node.count_ops() <= _SHORT):
             slope = derivative(node, x)
             if slope.has(x) and slope.count_ops() <= _MOST_OPERATIONS:
-                found[slope] = None
-    return list(found)
+                expressions[slope] = None
+    return list(expressions)
 
 
 def derivative(expression: sp.Expr, x: sp.Symbol) -> sp.Expr:
@@ -60,9 +60,9 @@ def derivative(expression: sp.Expr, x: sp.Symbol) -> sp.Expr:
     which can take hours.
     """
     plain = sp.Dummy(real=True) if expression.has(sp.Abs) else sp.Dummy()
-    found: sp.Expr = sp.diff(expression.xreplace({x: plain}), plain)
-    found = found.replace(sp.sign, lambda u: u / sp.Abs(u))
-    return found.xreplace({plain: x})
+    slope: sp.Expr = sp.diff(expression.xreplace({x: plain}), plain)
+    slope = slope.replace(sp.sign, lambda u: u / sp.Abs(u))
+    return slope.xreplace({plain: x})
 
 
 def _written_out(stable: Stable) -> Iterator[sp.Expr]:
@@ -104,24 +104,24 @@ def difficult_points(stable: Stable, low: float, high: float) -> list[float]:
     x, points = stable.variable, grid(low, high)
     watched = [part for part in parts(stable) if enclosable(part)]
     tape, slots = record_all(watched, (x,))
-    found: set[float] = set()
+    values: set[float] = set()
     with flint.ctx.workprec(BITS):
-        values = (tape.run([flint.arb(point)]) for point in points)
-        rows = [[_state(balls[slot]) for slot in slots] for balls in values]
+        enclosures = (tape.run([flint.arb(point)]) for point in points)
+        rows = [[_state(balls[slot]) for slot in slots] for balls in enclosures]
         for index, part in enumerate(watched):
             changes = [k for k in range(1, len(points)) if rows[k - 1][index] != rows[k][index]]
             for k in _selection(changes):
-                found.add(_change(part, x, points[k - 1], points[k]))
-    return [place for place in _selection(sorted(found)) if low <= place <= high]
+                values.add(_change(part, x, points[k - 1], points[k]))
+    return [place for place in _selection(sorted(values)) if low <= place <= high]
 
 
-def _selection(found: list[Number]) -> list[Number]:
+def _selection(numbers: list[Number]) -> list[Number]:
     """Return the first `_FIRST` entries, and an even selection of the others."""
-    others = found[_FIRST:]
+    others = numbers[_FIRST:]
     if len(others) <= _SPREAD:
-        return found
+        return numbers
     step = len(others) / _SPREAD
-    return found[:_FIRST] + [others[int(k * step)] for k in range(_SPREAD)]
+    return numbers[:_FIRST] + [others[int(k * step)] for k in range(_SPREAD)]
 
 
 def _state(value: flint.arb) -> tuple[int, int]:

@@ -57,7 +57,8 @@ def accurate(
         where = ", ".join(f"{name} = {x!r}" for name, x in worst.at.items())
         raise UnreachableError(
             f"the form found for {formula.name} has an error of {worst.error:.2g} ULP at {where}, "
-            f"expected at most {ENOUGH:g}; state a form, or use a variable that is small there"
+            f"expected at most {ENOUGH:g}; narrow the domains of its arguments if such values do "
+            "not occur, or state a form"
         )
     return steps, value
 
@@ -72,22 +73,22 @@ def measured_error(
     UnreachableError
         If too few of the points have a value.
     """
-    own = [argument.name for argument in formula.arguments]
+    names = [argument.name for argument in formula.arguments]
     symbols = {argument.name: argument.symbol for argument in formula.arguments}
-    found = []
-    for point in domain_grid(formula.name, own, formula.vocabulary, switch_points([value])):
+    errors = []
+    for point in domain_grid(formula.name, names, formula.vocabulary, switch_points([value])):
         if all(x == 0 or abs(x) >= SMALLEST for x in point.values()):
             at = {symbols[name]: x for name, x in point.items()}
             reference = _reference(formula.expression, at)
             if reference is not None:
                 got = _computed(steps, value, at, blocks)
-                found.append((_beyond(formula.expression, reference, got, at), point))
-    if len(found) < ENOUGH_POINTS:
+                errors.append((_beyond(formula.expression, reference, got, at), point))
+    if len(errors) < ENOUGH_POINTS:
         raise UnreachableError(
-            f"{formula.name} has values at {len(found)} test points, expected {ENOUGH_POINTS}"
+            f"{formula.name} has values at {len(errors)} test points, expected {ENOUGH_POINTS}"
         )
-    error, at_worst = max(found, key=lambda pair: pair[0])
-    return LargestError(error, at_worst, len(found))
+    error, at_worst = max(errors, key=lambda pair: pair[0])
+    return LargestError(error, at_worst, len(errors))
 
 
 def _reference(expression: sp.Expr, at: Mapping[sp.Symbol, float]) -> flint.arb | None:

@@ -78,11 +78,11 @@ class Switch:
 
 def switch_points(values: Iterable[object]) -> dict[str, tuple[float, ...]]:
     """Return the switch points among the values of forms, by variable."""
-    found: dict[str, set[float]] = {}
+    by_symbol: dict[str, set[float]] = {}
     for value in values:
         if isinstance(value, Switch):
-            found.setdefault(str(value.variable), set()).add(float(value.at))
-    return {variable: tuple(sorted(points)) for variable, points in found.items()}
+            by_symbol.setdefault(str(value.variable), set()).add(float(value.at))
+    return {variable: tuple(sorted(points)) for variable, points in by_symbol.items()}
 
 
 @dataclass(frozen=True)
@@ -99,6 +99,8 @@ class Form:
         The result, or the switch point between two branches.
     proof
         Proof that it equals the formula, with all steps substituted.
+    blocks
+        Building blocks of this form alone.
     """
 
     name: str
@@ -106,6 +108,7 @@ class Form:
     steps: tuple[Step, ...]
     value: sp.Expr | Switch
     proof: Proof
+    blocks: tuple["Block", ...] = ()
 
 
 @dataclass(frozen=True)
@@ -154,14 +157,14 @@ class Block:
 
     def definition(self, argument: sp.Expr) -> sp.Expr:
         """Return the exact definition of the block for an argument."""
-        (own,) = self.arguments
-        return self.divided.subs(own, argument) / self.near(argument) ** self.constant_power
+        (variable,) = self.arguments
+        return self.divided.subs(variable, argument) / self.near(argument) ** self.constant_power
 
     @property
     def divided(self) -> sp.Expr:
         """The sum divided by the part of the power that is never constant."""
-        (own,) = self.arguments
-        return self.total / own ** (self.lead - self.constant_power)
+        (variable,) = self.arguments
+        return self.total / variable ** (self.lead - self.constant_power)
 
 
 def substitute_steps(
@@ -211,6 +214,7 @@ def form(
     steps: tuple[Step, ...],
     value: sp.Expr | Switch,
     blocks: Mapping[str, Block],
+    own: tuple[Block, ...] = (),
 ) -> Form:
     """Build a stable form, with a proof that each of its branches equals a formula.
 
@@ -224,21 +228,24 @@ def form(
         Intermediate values, and the result or the switch point between two branches.
     blocks
         Building blocks by name.
+    own
+        Building blocks of this form alone.
 
     Raises
     ------
     ProofError
         If a branch differs from the formula; the message states the branch and the residual.
     """
+    every = {**blocks, **{block.name: block for block in own}}
     proof = prove(
         f"Stable form of {name}",
         "Every branch, with steps and blocks substituted, equals the derived formula.",
         {
-            label: substitute_steps(branch.value, (*steps, *branch.steps), blocks) - formula
+            label: substitute_steps(branch.value, (*steps, *branch.steps), every) - formula
             for label, branch in branches(value)
         },
     )
-    return Form(name, module, steps, value, proof)
+    return Form(name, module, steps, value, proof, own)
 
 
 def branches(value: sp.Expr | Switch) -> list[tuple[str, Branch]]:

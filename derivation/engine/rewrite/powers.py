@@ -61,7 +61,7 @@ def _exponents(node: sp.Expr, x: sp.Symbol) -> Exponents:
     if node == x:
         return sp.Integer(1), frozenset()
     parts = [_exponents(part, x) for part in node.args]
-    inner = frozenset[sp.Expr]().union(*(found for _, found in parts))
+    inner = frozenset[sp.Expr]().union(*(exponents for _, exponents in parts))
     if node.is_Mul:
         return sp.Add(*(power for power, _ in parts)), inner
     if node.is_Pow and node.exp.is_Rational:
@@ -99,9 +99,9 @@ def _core(node: sp.Expr, x: sp.Symbol, root: sp.Expr) -> sp.Expr:
 
 def _constant(expression: sp.Expr, x: sp.Symbol, least: sp.Rational) -> sp.Expr:
     """Return the positive irrational factor that all functions have in front of x^(+-least)."""
-    found = set()
+    factors = set()
     for function in expression.atoms(sp.Function):
         factor, rest = function.args[-1].as_independent(x, as_Add=False)
         if rest.has(x) and rest in (x**least, x**-least):
-            found.add(abs(factor.as_content_primitive()[1]))
-    return found.pop() if len(found) == 1 else sp.Integer(1)
+            factors.add(abs(factor.as_content_primitive()[1]))
+    return factors.pop() if len(factors) == 1 else sp.Integer(1)

@@ -212,16 +212,16 @@ def parts_of(terms: Terms, x: sp.Symbol) -> list[tuple[sp.Expr, int]]:
         grouped.setdefault((base, key.power, key.wave, key.scale), {})[key] = sp.cancel(
             value / base
         )
-    found: list[tuple[sp.Expr, int]] = []
+    divisors: list[tuple[sp.Expr, int]] = []
     for (base, power, _, _), group in grouped.items():
         head = base * monomial(next(iter(group))._replace(rate=sp.Integer(0)), x)
         if len(group) > 1 and sp.Add(*group.values()) == 0:
             inner = sp.Add(*(value * expm1(key.rate * x) for key, value in group.items()))
-            found.append((head * inner, power + 1))
+            divisors.append((head * inner, power + 1))
         else:
             inner = sp.Add(*(value * sp.exp(key.rate * x) for key, value in group.items()))
-            found.append((head * inner, leading_power(group)))
-    return found
+            divisors.append((head * inner, leading_power(group)))
+    return divisors
 
 
 def balance(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:

@@ -54,21 +54,21 @@ def stabilised(
         If there is no form in any useful range; the message states the first reason.
     """
     reasons: list[UnreachableError] = []
-    found: list[_Found] = []
+    forms: list[_Found] = []
     for search, loss, rule in _searches(expression, x, ends, depth):
         try:
-            found.append(_tested(search(), ends, loss, rule))
+            forms.append(_tested(search(), ends, loss, rule))
         except UnreachableError as error:
             reasons.append(error)
             continue
-        if found[-1].worst <= SURELY:
-            return _with_account(found[-1], ends)
+        if forms[-1].worst <= SURELY:
+            return _with_account(forms[-1], ends)
     if depth:
         with contextlib.suppress(UnreachableError):
             for direct in (_direct(expression, x), _without_series(expression, x, ends)):
-                found.append(_tested(direct, ends, 1.0))
-        found += _joined(found, ends)
-    best = max(found, key=lambda one: (one.size, -one.worst), default=None)
+                forms.append(_tested(direct, ends, 1.0))
+        forms += _joined(forms, ends)
+    best = max(forms, key=lambda one: (one.size, -one.worst), default=None)
     if best is None or best.size[0] < 0:
         raise reasons[0] if reasons else UnreachableError(f"{expression} is ill-conditioned")
     return _with_account(best, ends)
@@ -98,19 +98,19 @@ def _tested(stable: Stable, ends: tuple[float, float], loss: float, rule: str = 
     return _Found(stable, errors, range_size(_well_conditioned(errors, ends, loss)), rule)
 
 
-def _with_account(found: _Found, ends: tuple[float, float]) -> Stable:
+def _with_account(form: _Found, ends: tuple[float, float]) -> Stable:
     """Return the form, with an account of the rule that led to the form of another function."""
-    stable, given = found.stable, found.stable.expression
-    if not found.rule:
+    stable, given = form.stable, form.stable.expression
+    if not form.rule:
         return stable
-    low, high = _well_conditioned(found.errors, ends)
+    low, high = _well_conditioned(form.errors, ends)
     test = accuracy_test(given, stable.variable, ends, stable.equal)
     worst, left = (
         max((error for at, error in errors if low <= at.x <= high), default=math.inf)
-        for errors in (test.errors((), given), found.errors)
+        for errors in (test.errors((), given), form.errors)
     )
     count = max(operations_of(stable.steps, stable.value))
-    row = Applied(found.rule, "cancellation", (given.count_ops(), count), (worst, left))
+    row = Applied(form.rule, "cancellation", (given.count_ops(), count), (worst, left))
     return replace(stable, applied=(row, *stable.applied))
 
 
@@ -129,9 +129,9 @@ def _without_series(expression: sp.Expr, x: sp.Symbol, ends: tuple[float, float]
     return Stable(expression, x, steps, value, (), worst, sp.Integer(0), equal)
 
 
-def _joined(found: Sequence[_Found], ends: tuple[float, float]) -> Iterator[_Found]:
+def _joined(forms: Sequence[_Found], ends: tuple[float, float]) -> Iterator[_Found]:
     """Yield forms that use one of the given forms below a switch point, and another one above."""
-    for low, high in permutations(found, 2):
+    for low, high in permutations(forms, 2):
         below, above = low.stable.value, high.stable.value
         if isinstance(above, Switch):
             continue

@@ -63,14 +63,14 @@ def truncated_taylor(terms: Terms, switch: sp.Rational) -> Section:
     if any(value.free_symbols for value in terms.values()):
         raise UnreachableError("the series of a sum with further variables is not rational")
     lead = leading_power(terms)
-    found = list(islice(taylor(terms), lead, 2 * MOST_TERMS))
-    stride = 1 if any(found[1::2]) else 2
-    found = found[::stride][:MOST_TERMS]
-    sizes = [abs(c) * switch ** (stride * k) for k, c in enumerate(found)]
-    for degree in range(2, len(found)):
+    coefficients = list(islice(taylor(terms), lead, 2 * MOST_TERMS))
+    stride = 1 if any(coefficients[1::2]) else 2
+    coefficients = coefficients[::stride][:MOST_TERMS]
+    sizes = [abs(c) * switch ** (stride * k) for k, c in enumerate(coefficients)]
+    for degree in range(2, len(coefficients)):
         rest = truncation_bound(terms, lead + stride * degree, switch) / switch**lead
-        same = all(c * found[0] >= 0 for c in found[:degree])
+        same = all(c * coefficients[0] >= 0 for c in coefficients[:degree])
         lowest = sizes[0] - (0 if same else sp.Add(*sizes[1:degree])) - rest
         if lowest > 0 and rest / lowest < UNIT_ROUNDOFF / 4:
-            return Section(lead, stride, tuple(found[:degree]), rest / lowest)
-    raise UnreachableError(f"no section of at most {len(found)} terms reaches {switch}")
+            return Section(lead, stride, tuple(coefficients[:degree]), rest / lowest)
+    raise UnreachableError(f"no section of at most {len(coefficients)} terms reaches {switch}")

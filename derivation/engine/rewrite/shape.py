@@ -128,11 +128,11 @@ def _side(
 
 def _names(factors: Iterable[Factor]) -> list[sp.Symbol]:
     """Return symbols for the factors: numerator, denominator, numerator_2, ..."""
-    found: list[sp.Symbol] = []
+    symbols: list[sp.Symbol] = []
     counts = {"numerator": 0, "denominator": 0}
     for factor in factors:
         kind = "numerator" if factor.exponent > 0 else "denominator"
         counts[kind] += 1
         tail = f"_{counts[kind]}" if counts[kind] > 1 else ""
-        found.append(sp.Symbol(kind + tail, real=True))
-    return found
+        symbols.append(sp.Symbol(kind + tail, real=True))
+    return symbols

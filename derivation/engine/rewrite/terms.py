@@ -53,10 +53,10 @@ def terms_of(expression: sp.Expr, x: sp.Symbol) -> dict[Key, sp.Expr]:
     if isinstance(expression, sp.Add):
         return _sum(*(terms_of(part, x) for part in expression.args))
     if isinstance(expression, sp.Mul):
-        found = {ONE: sp.Integer(1)}
+        terms = {ONE: sp.Integer(1)}
         for part in expression.args:
-            found = _product(found, terms_of(part, x))
-        return found
+            terms = _product(terms, terms_of(part, x))
+        return terms
     if isinstance(expression, sp.Pow) and expression.exp.is_Integer and expression.exp > 0:
         return terms_of(sp.Mul(*[expression.base] * int(expression.exp), evaluate=False), x)
     return _function(expression, x)
@@ -111,17 +111,17 @@ def _times(one: Key, other: Key) -> dict[Key, sp.Expr]:
     if (one.wave, other.wave) == ("sin", "cos"):
         one, other = other, one
     half, odd = sp.Rational(1, 2), one.wave != other.wave
-    found: list[Terms] = []
+    factors: list[Terms] = []
     for scale, size in (
         (other.scale + one.scale, -half if other.wave == one.wave == "sin" else half),
         (other.scale - one.scale, half),
     ):
         if scale != 0:
             sign = -1 if odd and scale < 0 else 1
-            found.append({Key(power, rate, "sin" if odd else "cos", abs(scale)): sign * size})
+            factors.append({Key(power, rate, "sin" if odd else "cos", abs(scale)): sign * size})
         elif not odd:
-            found.append({Key(power, rate): size})
-    return _sum(*found)
+            factors.append({Key(power, rate): size})
+    return _sum(*factors)
 
 
 def expression_of(terms: Terms, x: sp.Symbol) -> sp.Expr:

@@ -56,11 +56,13 @@ def _coefficients(total: sp.Expr, power: int) -> tuple[tuple[sp.Rational, ...], 
     For the bound, the coefficients must be positive, and the ratio of successive terms decreases.
     """
     series = sp.Poly(total.series(y, 0, _MOST).removeO(), y)
-    found = [series.coeff_monomial(y ** (power + 2 * k)) for k in range((_MOST - power) // 2)]
-    sizes = [c * END ** (2 * k) for k, c in enumerate(found)]
+    coefficients = [
+        series.coeff_monomial(y ** (power + 2 * k)) for k in range((_MOST - power) // 2)
+    ]
+    sizes = [c * END ** (2 * k) for k, c in enumerate(coefficients)]
     for count in range(2, len(sizes) - 1):
         ratio = sizes[count + 1] / sizes[count]
         rest = sizes[count] / (1 - ratio) / sum(sizes[:count]) if 0 < ratio < 1 else sp.oo
         if rest < UNIT_ROUNDOFF / 4:
-            return tuple(found[:count]), rest
+            return tuple(coefficients[:count]), rest
     raise ValueError(f"{total} needs more than {_MOST // 2} terms up to {END}")

@@ -7,19 +7,11 @@ import sympy as sp
 from sympy.codegen.cfunctions import expm1
 
 from derivation.engine.emit.package import FormulaModule, PackageSettings, Shape
-from derivation.engine.rewrite.blocks import HYPERBOLIC, Definition
 from derivation.engine.rewrite.form import FAR, Block, Step, limited
-from derivation.engine.rewrite.scales import Scale, Scales
 
-from .vocabulary import H, T, k, s
+from .vocabulary import T, s
 
 x = sp.Symbol("x", positive=True)
-COSH_MINUS = Definition(
-    "cosh_minus", T, 2 * sp.exp(-T) * (sp.cosh(T) - 1), 2, 2, "2 e^(-T) (cosh T - 1)"
-)
-"""A building block of this paper: a sum that cancels for thin films."""
-
-SCALES = Scales((Scale(T, T, T), Scale(2 * k * H, T, H, k)))
 REWRITTEN = ("F_slipping", "C_slipping")
 """Formulas whose forms are found by the rewriting rules."""
 
@@ -47,7 +39,5 @@ PACKAGE = PackageSettings(
     citation="A film on a rigid base",
     parts=tuple(MODULES),
     budgets=Path(__file__).with_name("budgets.toml"),
-    scales=SCALES,
     stated=stated,
-    blocks=(*HYPERBOLIC, COSH_MINUS),
 )

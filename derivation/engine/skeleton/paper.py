@@ -11,7 +11,7 @@ from derivation.engine.paper import Paper, Report
 from derivation.engine.report.contexts import Prose
 
 from . import prose
-from .kernels import PACKAGE, REWRITTEN, SCALES
+from .kernels import PACKAGE, REWRITTEN
 from .printed import PRINTED, RELATIONS
 from .route import ROUTES
 from .theory import film
@@ -50,7 +50,6 @@ PAPER = Paper(
         PACKAGE.forms,
         PACKAGE.files,
         rewritten=REWRITTEN,
-        scales=SCALES,
     ),
     judge=lambda: domain_judge(CHAIN, ROUTES, TARGET, PACKAGE.blocks, easy),
     report=lambda: Report(Prose(prose.ABOUT), prose.SUBTITLE, prose.ABSTRACT),

@@ -29,8 +29,8 @@ PRINTED = (
 def between(_: str, given: Symbols, derived: Symbols, __: Formulas) -> Meanings:
     """Return the dependent symbols of a comparison with their expressions: nu and T."""
     used = given | derived
-    found = {nu: (1 - s) / 2} if nu in used else {}
-    return found | ({T: 2 * k * H} if T in used and {k, H} & used else {})
+    meanings = {nu: (1 - s) / 2} if nu in used else {}
+    return meanings | ({T: 2 * k * H} if T in used and {k, H} & used else {})
 
 
 RELATIONS = Relations(between)

@@ -132,10 +132,10 @@ def first_true(holds: Callable[[int], bool], limit: int = 1 << 12) -> int:
     ArithmeticError
         If no integer below `limit` meets it.
     """
-    found = bisect_left(range(limit), True, lo=1, key=holds)
-    if found == limit:
+    count = bisect_left(range(limit), True, lo=1, key=holds)
+    if count == limit:
         raise ArithmeticError(f"the condition is not met below {limit}")
-    return found
+    return count
 
 
 @cache

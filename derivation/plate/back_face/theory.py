@@ -96,8 +96,8 @@ def back_face_factor() -> Formula:
     on_axis = (S_rr - mu * g_j * phi**2).subs(z, -h)
     proof = prove(
         "Stress of the back face",
-        "The stresses of the loaded mode at $z = -h$; $S_{zz} = 0$ there, and Hooke's law gives "
-        "$g$.",
+        "The stresses of the loaded mode are taken at $z = -h$; $S_{zz} = 0$ there, and Hooke's "
+        "law gives $g$.",
         {
             "free face": loaded(S_zz.subs(z, -h)),
             "radial stress": loaded(S_rr.subs(z, -h)) + A_j * value.subs(T, 2 * phi * h),
@@ -133,7 +133,7 @@ def back_face_stress() -> tuple[Formula, ...]:
     mode_term, force = _mode(), contact_radius().expression
     proof = prove(
         "Stress on the axis",
-        "$A_j$ of Hertz pressure, with $R$ expressed by the force $P$.",
+        "The coefficient $A_j$ of Hertz pressure is inserted, with $R$ expressed by the force $P$.",
         {"stress": (stress - SCALE.subs(P, force) * mode_term).subs(_REDUCED)},
     )
     sources = ("back_face_factor", "A_j", "P")
@@ -216,8 +216,8 @@ def thin_plate_stress() -> tuple[Formula, Formula]:
     expected = finite / 2 + 3 * (sp.EulerGamma - sp.log(4 * eta))
     proof = prove(
         "Back face of a thin plate",
-        "$F$ is odd, $6/T$ at 0; the real axis gives the finite part, quarter circles give the "
-        "logarithm, and the poles inside give their residues.",
+        "$F$ is odd and behaves like $6/T$ at 0. The real axis gives the finite part, quarter "
+        "circles give the logarithm, and the poles inside give their residues.",
         {
             "modes": _mode() - 2 * eta * f / (j_n * J1**2),
             "odd": weight.subs(T, -T) + weight,
@@ -254,16 +254,19 @@ def wide_contact_powers(count: int = WIDE_TERMS) -> tuple[sp.Rational, ...]:
     """Return b_k of B = 6/T^2 + sum b_k T^(2k): 2 (sinh T)/T over (sinh^2 T - T^2)/T^4."""
     above = [sp.Rational(2, sp.factorial(2 * i + 1)) for i in range(count + 1)]
     below = [sp.Rational(2 ** (2 * i + 3), sp.factorial(2 * i + 4)) for i in range(count + 1)]
-    found: list[sp.Rational] = []
+    powers: list[sp.Rational] = []
     for i in range(count + 1):
-        found.append((above[i] - sum(found[k] * below[i - k] for k in range(i))) / below[0])
+        powers.append((above[i] - sum(powers[k] * below[i - k] for k in range(i))) / below[0])
     series = sp.series(back_face_function(), T, 0, 4).removeO()
     prove(
         "Stress factor at T = 0",
         "The first powers from SymPy's own series.",
-        {f"T^{2 * k - 2}": series.coeff(T, 2 * k - 2) - found[k] for k in range(min(3, count + 1))},
+        {
+            f"T^{2 * k - 2}": series.coeff(T, 2 * k - 2) - powers[k]
+            for k in range(min(3, count + 1))
+        },
     )
-    return tuple(found[1:])
+    return tuple(powers[1:])
 
 
 def moment_of_wave(order: int) -> sp.Rational:
@@ -304,7 +307,8 @@ def wide_contact_stress() -> Formula:
     proof = prove(
         "Back face under a wide contact",
         "Each power of $B$ times $g$ is integrated by analytic continuation (Watson's lemma on "
-        "the imaginary axis, where $g$ decays); $6/T^2$ alone is Kirchhoff's plate, exactly.",
+        "the imaginary axis, where $g$ decays). The term $6/T^2$ alone is exactly Kirchhoff's "
+        "plate.",
         residuals,
     )
     return Formula(
@@ -336,7 +340,8 @@ def back_face_edge() -> Formula:
     hoop = [hooke(state.u, state.w).tt.subs(z, -h) for state in (stretching, bending)]
     proof = prove(
         "Edge term of the stress on the back face",
-        "Hooke's law of both states at $z = -h$, times the modes' mean motion of the edge.",
+        "Hooke's law gives the stresses of both states at $z = -h$, which are multiplied by the "
+        "mean motion of the edge in the modes.",
         {
             "stress": (stress - scale * value).subs(_REDUCED),
             **{f"hoop {i}": hoop[i] - uniform[i] for i in range(2)},
@@ -371,7 +376,8 @@ def back_face_clamp() -> Formula:
     stress = strain * below[0] - rotation * below[1]
     proof = prove(
         "Reduction of the stress on the back face by a clamped edge",
-        "Hooke's law of both states at $z = -h$, times the suppressed rotation and extension.",
+        "Hooke's law gives the stresses of both states at $z = -h$, which are multiplied by the "
+        "suppressed rotation and extension.",
         {"stress": (stress - SCALE.subs(P, force) * value).subs(_REDUCED)},
     )
     return Formula(

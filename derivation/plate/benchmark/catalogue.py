@@ -39,43 +39,43 @@ NODES = {30: 84, 50: 156, 100: 360}
 
 def law_methods() -> list[Method]:
     """Return the methods for the indentation as a function of the contact radius."""
-    found = [
+    methods = [
         hertz("law"),
         ready_methods.generated_law(),
         ready_methods.prepared_law(),
         ready_methods.generated_law(SINGLE),
     ]
-    found += [sums.printed(n) for n in (10, 100, 1000)]
-    found += [sums.direct(n, quick=n <= 10_000) for n in (100, 1000, 10_000, 100_000)]
-    found += [sums.direct(1000, SINGLE)]
-    found += [sums.split(n, m) for n, m in ((8, 1), (12, 2), (16, 2), (24, 3), (32, 4), (48, 4))]
-    found += [sums.split(n, m, double_exponential=False) for n, m in ((16, 2), (32, 4), (64, 5))]
-    found += [sums.split(48, 4, SINGLE)]
-    found += [sums.levin(n) for n in (4, 8, 12, 16, 20)]
-    found += [polynomials.small_contacts(n) for n in (1, 2, 4, 8, 12, 16)]
-    found += [polynomials.small_contacts(16, SINGLE)]
-    found += [polynomials.thin_plate(n) for n in (2, 4, 8, 16)]
-    found += [polynomials.chebyshev(n) for n in (2, 4, 6, 9, 16)]
-    found += [polynomials.chebyshev(6, SINGLE)]
-    found += [polynomials.table(n) for n in (64, 1024, 8192)]
-    return found + _wide_laws()
+    methods += [sums.printed(n) for n in (10, 100, 1000)]
+    methods += [sums.direct(n, quick=n <= 10_000) for n in (100, 1000, 10_000, 100_000)]
+    methods += [sums.direct(1000, SINGLE)]
+    methods += [sums.split(n, m) for n, m in ((8, 1), (12, 2), (16, 2), (24, 3), (32, 4), (48, 4))]
+    methods += [sums.split(n, m, double_exponential=False) for n, m in ((16, 2), (32, 4), (64, 5))]
+    methods += [sums.split(48, 4, SINGLE)]
+    methods += [sums.levin(n) for n in (4, 8, 12, 16, 20)]
+    methods += [polynomials.small_contacts(n) for n in (1, 2, 4, 8, 12, 16)]
+    methods += [polynomials.small_contacts(16, SINGLE)]
+    methods += [polynomials.thin_plate(n) for n in (2, 4, 8, 16)]
+    methods += [polynomials.chebyshev(n) for n in (2, 4, 6, 9, 16)]
+    methods += [polynomials.chebyshev(6, SINGLE)]
+    methods += [polynomials.table(n) for n in (64, 1024, 8192)]
+    return methods + _wide_laws()
 
 
 def _wide_laws() -> list[Method]:
     """Return the methods for the indentation in more than double precision."""
-    found = []
+    methods = []
     if HAS_LONG_DOUBLE:
-        found += [
+        methods += [
             polynomials.small_contacts(24, LONG_DOUBLE),
             sums.split(64, 5, LONG_DOUBLE, quick=False),
         ]
     for digits in DEEP:
         quick = digits == DEEP[0]
         for ar in (Mpmath(digits), BallArithmetic(digits)):
-            found.append(polynomials.small_contacts(TERMS[digits], ar, quick))
-            found.append(sums.split(NODES[digits], 0.2 * digits, ar, quick=False))
-        found.append(ready_methods.arb_reference("law", digits, quick))
-    return found + _deepest_laws()
+            methods.append(polynomials.small_contacts(TERMS[digits], ar, quick))
+            methods.append(sums.split(NODES[digits], 0.2 * digits, ar, quick=False))
+        methods.append(ready_methods.arb_reference("law", digits, quick))
+    return methods + _deepest_laws()
 
 
 def _deepest_laws() -> list[Method]:
@@ -89,65 +89,65 @@ def _deepest_laws() -> list[Method]:
     def refused(method: Method, reason: str) -> Method:
         return replace(method, fails=lambda case: f"omitted: {reason}")  # noqa: ARG005
 
-    found = []
+    methods = []
     for ar in (Mpmath(DEEPEST), BallArithmetic(DEEPEST)):
         small = polynomials.small_contacts(TERMS[DEEPEST], ar, quick=False)
-        found.append(replace(small, fails=elsewhere))
+        methods.append(replace(small, fails=elsewhere))
         # The number of digits is about 1.7 nodes/log(nodes).
         split = sums.split(5000, 0.2 * DEEPEST, ar, quick=False)
         reason = (
             f"nodes, weights and zeros of J0 to {DEEPEST} digits take minutes, "
             "and each point takes seconds"
         )
-        found.append(refused(split, reason))
+        methods.append(refused(split, reason))
     hours = ball_law.integrals_seconds(DEEPEST) / 3600
     oracle = ready_methods.arb_reference("law", DEEPEST, quick=False)
-    return [*found, refused(oracle, f"{DEEPEST} digits take about {hours:.0f} hours")]
+    return [*methods, refused(oracle, f"{DEEPEST} digits take about {hours:.0f} hours")]
 
 
 def inversion_methods() -> list[Method]:
     """Return the methods for the force as a function of the indentation."""
-    found = [
+    methods = [
         hertz("inversion"),
         ready_methods.generated_force(),
         ready_methods.generated_force(SINGLE),
     ]
-    found += [inversion.reversed_series(n) for n in (2, 4, 8, 12, 16, 24)]
-    found += [inversion.reversed_series(12, SINGLE)]
-    found += [inversion.table(n) for n in (64, 1024, 8192)]
-    found += [inversion.table(1024, SINGLE)]
-    found += [laws.newton(n) for n in (4, 8, 16)]
-    found += [laws.newton(8, SINGLE), laws.newton(24, Mpmath(DEEP[0]))]
+    methods += [inversion.reversed_series(n) for n in (2, 4, 8, 12, 16, 24)]
+    methods += [inversion.reversed_series(12, SINGLE)]
+    methods += [inversion.table(n) for n in (64, 1024, 8192)]
+    methods += [inversion.table(1024, SINGLE)]
+    methods += [laws.newton(n) for n in (4, 8, 16)]
+    methods += [laws.newton(8, SINGLE), laws.newton(24, Mpmath(DEEP[0]))]
     if HAS_LONG_DOUBLE:
-        found += [inversion.reversed_series(24, LONG_DOUBLE), laws.newton(24, LONG_DOUBLE)]
-    return found + [
+        methods += [inversion.reversed_series(24, LONG_DOUBLE), laws.newton(24, LONG_DOUBLE)]
+    return methods + [
         ready_methods.arb_reference("inversion", digits, digits == DEEP[0]) for digits in DEEP
     ]
 
 
 def impact_methods() -> list[Method]:
     """Return the methods for the contact time as a function of the impact speed."""
-    found = [
+    methods = [
         hertz("impact"),
         ready_methods.generated_impact(),
         ready_methods.generated_impact(SINGLE),
     ]
-    found += [motion.linear(n) for n in (25, 100, 400)]
-    found += [motion.perturbation(corrected) for corrected in (False, True)]
-    found += [motion.gauss(n) for n in (4, 6, 8, 12, 16, 20, 24)]
-    found += [laws.gauss(n, m) for n, m in ((4, 4), (12, 8), (24, 16))]
-    found += [laws.gauss(8, 8, SINGLE), laws.gauss(48, 24, Mpmath(DEEP[0]))]
+    methods += [motion.linear(n) for n in (25, 100, 400)]
+    methods += [motion.perturbation(corrected) for corrected in (False, True)]
+    methods += [motion.gauss(n) for n in (4, 6, 8, 12, 16, 20, 24)]
+    methods += [laws.gauss(n, m) for n, m in ((4, 4), (12, 8), (24, 16))]
+    methods += [laws.gauss(8, 8, SINGLE), laws.gauss(48, 24, Mpmath(DEEP[0]))]
     if HAS_LONG_DOUBLE:
-        found += [laws.gauss(32, 24, LONG_DOUBLE)]
+        methods += [laws.gauss(32, 24, LONG_DOUBLE)]
     for name in ("DOP853", "Radau", "LSODA"):
         for rtol in (1e-3, 1e-6, 1e-9, 1e-12):
             quick = name != "Radau" or rtol > 1e-8
-            found.append(motion.solver(name, rtol, quick=quick))
+            methods.append(motion.solver(name, rtol, quick=quick))
             if name != "DOP853":
-                found.append(motion.solver(name, rtol, largest_step=0.05, quick=False))
-    found += [motion.verlet(n, n == 20) for n in (20, 100, 1000)]
-    found += [motion.verlet(100, False, SINGLE)]
-    return found + [ready_methods.arb_reference("impact", digits, quick=False) for digits in DEEP]
+                methods.append(motion.solver(name, rtol, largest_step=0.05, quick=False))
+    methods += [motion.verlet(n, n == 20) for n in (20, 100, 1000)]
+    methods += [motion.verlet(100, False, SINGLE)]
+    return methods + [ready_methods.arb_reference("impact", digits, quick=False) for digits in DEEP]
 
 
 def methods(names: Sequence[str] = (), quick: bool = False) -> list[Method]:
@@ -162,9 +162,9 @@ def methods(names: Sequence[str] = (), quick: bool = False) -> list[Method]:
     families = list(dict.fromkeys(method.family for method in every))
     for name in names:
         if name not in families:
-            near = did_you_mean(name, families)
+            suggestion = did_you_mean(name, families)
             known = "; ".join(families)
-            raise ValueError(f"--method: no method {name!r}: {near}expected one of: {known}")
+            raise ValueError(f"--method: no method {name!r}: {suggestion}expected one of: {known}")
     return [
         method
         for method in every

@@ -93,11 +93,11 @@ def closed_form(h: float, b: float, count: int, digits: int) -> list[arb]:
         eta, pi = arb(h) / arb(b), arb.pi()
         log = arb.const_euler() - (4 * eta).log()
         M = [finite_part(k, bits) for k in range(2, max(count, 2) + 2)]
-        found = [
+        coefficients = [
             1 / (4 * pi * eta**2) + 2 / (3 * pi) * (M[0] + log * 6 / 5),
             -(M[1] + 6 * log) / (60 * pi),
         ]
         for k in range(4, count + 2):
             factor = (-1) ** k * 8 * (2 * k - 2) / (pi * math.factorial(2 * k - 1))
-            found.append(factor * M[k - 2] / arb(2) ** (2 * k - 2))
-        return found[:count]
+            coefficients.append(factor * M[k - 2] / arb(2) ** (2 * k - 2))
+        return coefficients[:count]

@@ -91,8 +91,8 @@ def certified_errors(method: Method, problem: Problem, values: Sequence[arb]) ->
     """
     with flint.ctx.workprec(64):
         worst = max(float((x.rad() / abs(x).abs_lower()).log()) for x in values)
-    found = -worst / math.log(10)
-    return BenchmarkErrors(found, None, found, float(problem.points[-1]).hex())
+    digits = -worst / math.log(10)
+    return BenchmarkErrors(digits, None, digits, float(problem.points[-1]).hex())
 
 
 def separated_errors(method: Method, problem: Problem, values: Sequence[Any]) -> BenchmarkErrors:
@@ -137,10 +137,10 @@ def without_rounding(method: Method, problem: Problem) -> list[arb]:
                   "impact": arb(time)}[method.task]  # fmt: skip
         # The scaled points are rounded to doubles, which contributes to the spread.
         runs.append([factor * as_ball(value) for value in call(problem.points * given)])
-    found = [spread(list(values)) for values in zip(*runs, strict=True)]
-    if not all(ball.is_finite() for ball in found):
+    spreads = [spread(list(values)) for values in zip(*runs, strict=True)]
+    if not all(ball.is_finite() for ball in spreads):
         raise NotImplementedError("in other units it gives no number")
-    return found
+    return spreads
 
 
 def spread(values: list[arb]) -> arb:

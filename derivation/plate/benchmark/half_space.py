@@ -127,8 +127,8 @@ def lammps(steps: int) -> tuple[float, float]:
         before, taken = overlap, taken + 1
         code.command("run 1 pre no post no")
     code.close()
-    found = (taken - 1 + before / (before - overlap)) * true / steps
-    return abs(found / true - 1), per_step * steps
+    results = (taken - 1 + before / (before - overlap)) * true / steps
+    return abs(results / true - 1), per_step * steps
 
 
 PROGRAMS: Mapping[str, tuple[str, str, str, Mapping[str, tuple[Callable[..., Any], Any]]]] = {

@@ -99,8 +99,8 @@ def interpolant(
         A = [arb(a) / arb(case.h) for a in radii]
         values = [_departure(a, case.h, case.b) / x for a, x in zip(radii, A, strict=True)]
         powers = [[(arb(scale) * (x * x - arb(middle))) ** k for k in range(degree + 1)] for x in A]
-        found = arb_mat(powers).solve(arb_mat([[value.mid()] for value in values]))
-        return list(found.entries())
+        coefficients = arb_mat(powers).solve(arb_mat([[value.mid()] for value in values]))
+        return list(coefficients.entries())
 
 
 @cache
@@ -137,8 +137,8 @@ def correction(case: BenchmarkCase, ar: Arithmetic, A: Array) -> tuple[Array, Ar
         plates = contact_series.plates_of(np.array([case.eta]))
         F, rise = contact_series.correction_with_slope(A, plates, None)
         return F, rise
-    found = [_corrections(as_fraction(x) * Fraction(case.h), case.h, case.b) for x in A]
-    F, rise = (ar.array(list(column)) for column in zip(*found, strict=True))
+    corrections = [_corrections(as_fraction(x) * Fraction(case.h), case.h, case.b) for x in A]
+    F, rise = (ar.array(list(column)) for column in zip(*corrections, strict=True))
     return F, rise
 
 

@@ -84,10 +84,10 @@ def prepared_law() -> Method:
             raise ValueError(f"expected ordinary lengths, got {case}")
 
         def call(a: Array) -> Array:
-            found = np.empty(a.size)
+            values = np.empty(a.size)
             for part in contact_series.blocks_of(a.size):
-                contact_series.indent(a[part], a[part].max(), law, found[part])
-            return found
+                contact_series.indent(a[part], a[part].max(), law, values[part])
+            return values
 
         return call
 
@@ -149,5 +149,9 @@ def _ball_function(task: Task, case: BenchmarkCase, ar: Arithmetic) -> Callable[
     def depth(a: float) -> arb:
         return contact_balls.indentation(a, r.R, r.h, r.b, digits)
 
-    found: dict[Task, Callable[[float], arb]] = {"law": depth, "inversion": force, "impact": time}
-    return found[task]
+    functions: dict[Task, Callable[[float], arb]] = {
+        "law": depth,
+        "inversion": force,
+        "impact": time,
+    }
+    return functions[task]

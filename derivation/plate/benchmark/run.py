@@ -79,11 +79,11 @@ def measure(
     for case in test_cases:
         for task in TASKS:
             report(f"{task}, {case.name}")
-            found = panel(task, case, chosen, quick)
-            rows += found.rows
+            results = panel(task, case, chosen, quick)
+            rows += results.rows
             sessions += [
                 {"task": task, "case": case.name, "kind": kind, **_session(session)}
-                for kind, session in (("vector", found.vector), ("single", found.single))
+                for kind, session in (("vector", results.vector), ("single", results.single))
                 if session is not None
             ]
     growths = []

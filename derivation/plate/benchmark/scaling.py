@@ -188,14 +188,14 @@ def scenes(quick: bool) -> list[Growth]:
     batches = [speed.scenes(0.01, 2.9, n) for n in sizes]
     rows = [list(zip(*(x.tolist() for x in s.values()), strict=True)) for s in batches]
     batch = "below this size the set-up of a call and the overhead of NumPy dominate"
-    found = [
+    growths = [
         growth(
             "scenes", name, sizes, [partial(_each, method, some) for some in rows],
             "one scene after another in Python",
         )
         for name, method in (("hertz", hertz), ("leading", leading))
     ]  # fmt: skip
-    return found + [
+    return growths + [
         growth(
             "scenes", name, sizes, [partial(impact, **s, coarse=coarse) for s in batches], batch
         )

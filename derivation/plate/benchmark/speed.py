@@ -273,11 +273,11 @@ def measure(
             planned += (("Hertz alone", partial(hertz_alone, scene, 1.2)),)
     planned += tuple((name, partial(stable_over_naive, name)) for name in NAIVE)
     planned += tuple(further)
-    found = []
+    rows = []
     for number, (name, timing) in enumerate(planned, start=1):
         progress(name, number, len(planned))
-        found.append(timing())
-    return found
+        rows.append(timing())
+    return rows
 
 
 def as_data(timings: Sequence[SpeedTiming]) -> dict[str, Any]:

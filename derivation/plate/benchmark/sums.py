@@ -190,12 +190,12 @@ def split(
         factor = 8 * b * b / (pi * pi * R)
 
         def call(a: Array) -> Array:
-            found = thickness(a) + a * a / R
+            values = thickness(a) + a * a / R
             for k in range(0, a.size, _ELEMENTS // 64):
                 part = slice(k, k + _ELEMENTS // 64)
                 t = (a[part] / b)[:, None] * y
-                found[part] -= factor * (ar.lateral_shape(t) * W).sum(axis=-1)
-            return found
+                values[part] -= factor * (ar.lateral_shape(t) * W).sum(axis=-1)
+            return values
 
         return call
 

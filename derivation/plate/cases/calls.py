@@ -31,7 +31,7 @@ def special_calls() -> tuple[Kernel, ...]:
     error = read_stated_limits("pressure")["error"] * _ULP
     contact = ("a", "R", "h", "b", "modulus")
     motion = ("t", "m", "v0", "xi_2", "xi_3")
-    found = [
+    kernels = [
         Kernel("contact", "non_hertzian_pressure", contact, _for_arrays(_contact), error),
         Kernel("pressure", "non_hertzian_pressure", ("r", *contact), _for_arrays(_pressure), error),
         Kernel("corrected", "perturbation", motion, _for_arrays(_corrected), _INTEGRALS * _ULP),
@@ -44,15 +44,15 @@ def special_calls() -> tuple[Kernel, ...]:
             stated=_for_arrays(_bend_error)
         ),
     ]  # fmt: skip
-    found += (*_of_waves(), *_edge_modes())
+    kernels += (*_of_waves(), *_edge_modes())
     for name in ("hertz", "leading"):
         results, errors = _estimates(getattr(simple_impact, name))
-        found.append(
+        kernels.append(
             Stating(
                 name, "simple_impact", _SCENE, _for_arrays(results), 0.0, stated=_for_arrays(errors)
             )
         )
-    return tuple(found)
+    return tuple(kernels)
 
 
 def _for_arrays(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -69,10 +69,10 @@ def _for_arrays(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def _contact(a: float, R: float, h: float, b: float, modulus: float) -> tuple[float, ...]:
-    found = non_hertzian_pressure.contact(non_hertzian_pressure.plate(h, b), a, R, modulus)
+    contact = non_hertzian_pressure.contact(non_hertzian_pressure.plate(h, b), a, R, modulus)
     numbers = (
-        found.force, found.indentation, found.stiffness, found.slope, found.centre_pressure,
-        found.mean_pressure,
+        contact.force, contact.indentation, contact.stiffness, contact.slope,
+        contact.centre_pressure, contact.mean_pressure,
     )  # fmt: skip
     return tuple(float(x) for x in numbers)
 
@@ -88,8 +88,8 @@ def _corrected(t: float, m: float, v0: float, xi_2: float, xi_3: float) -> float
 
 
 def _sensitivities(*scene: Any) -> Any:
-    found = sensitivity.impact_sensitivities(*scene)
-    return found.reshape(-1, *found.shape[2:])
+    sensitivities = sensitivity.impact_sensitivities(*scene)
+    return sensitivities.reshape(-1, *sensitivities.shape[2:])
 
 
 def _bend(eta: float) -> float:
@@ -102,33 +102,33 @@ def _bend_error(eta: float) -> float:
 
 def _of_waves() -> list[Kernel]:
     """Return functions of a single wave branch by its index, counted from 0."""
-    found = []
+    kernels = []
     for parity in ("antisymmetric", "symmetric"):
         for part, (name, allowed) in enumerate((("frequency", _FREQUENCY), ("residue", _RESIDUE))):
             call = partial(_branch, parity, part)
             arguments = ("x", "nu", "index")
-            found.append(Kernel(f"{parity}_{name}", "plate_waves", arguments, call, allowed))
-    return found
+            kernels.append(Kernel(f"{parity}_{name}", "plate_waves", arguments, call, allowed))
+    return kernels
 
 
 def _edge_modes() -> list[Kernel]:
     """Return functions of a single mode of a clamped or supported plate, and of its face."""
     stated_limits = read_stated_limits("edge_modes")
     face = stated_limits.pop("face")
-    found = [
+    kernels = [
         Kernel(name, "edge_modes", ("count", "eta", "nu"), _for_arrays(partial(_mode, name)),
                max(stated_limits.values()))
         for name in ("clamped_waves", "supported_waves")
     ]  # fmt: skip
     for name, at in (("wave_shape", "r"), ("wave_mean", "a")):
         call = _for_arrays(partial(_face, name))
-        found.append(Kernel(name, "edge_modes", ("k", "k2", "t", at), call, face))
-    return found
+        kernels.append(Kernel(name, "edge_modes", ("k", "k2", "t", at), call, face))
+    return kernels
 
 
 def _mode(name: str, count: float, eta: float, nu: float) -> tuple[float, ...]:
-    found = getattr(edge_modes, name)(int(count), eta, nu)
-    return tuple(float(x[int(count) - 1]) for x in found)
+    wave_values = getattr(edge_modes, name)(int(count), eta, nu)
+    return tuple(float(x[int(count) - 1]) for x in wave_values)
 
 
 def _face(name: str, k: float, k2: float, t: float, at: float) -> float:
@@ -139,7 +139,7 @@ def _face(name: str, k: float, k2: float, t: float, at: float) -> float:
     )
     if name == "wave_shape":
         return float(edge_modes.shape(waves, at)[0, 0])
-    return float(edge_modes.shares_less_one(waves, at)[0, 0])
+    return float(edge_modes.modal_weights_less_one(waves, at)[0, 0])
 
 
 def _branch(parity: str, part: int, x: Any, nu: Any, index: Any) -> Any:
@@ -165,15 +165,15 @@ def _estimates(law: Callable[..., simple_impact.Estimate | None]) -> _Estimates:
     """Return the results of a simple law and its stated errors; NaN where no bound is proved."""
 
     def results(*scene: float) -> tuple[float, ...]:
-        found = law(*scene)
-        return (np.nan,) * 4 if found is None else found[:4]
+        estimate = law(*scene)
+        return (np.nan,) * 4 if estimate is None else estimate[:4]
 
     def errors(*scene: float) -> tuple[float, ...]:
-        found = law(*scene)
-        if found is None:
+        estimate = law(*scene)
+        if estimate is None:
             return (np.nan,) * 4
         # The stated error is relative to the exact value, which is at least x/(1 + relative).
-        relative = sum(found[4:])
-        return tuple(x * relative / (1 + relative) for x in found[:4])
+        relative = sum(estimate[4:])
+        return tuple(x * relative / (1 + relative) for x in estimate[:4])
 
     return _Estimates(results, errors)

@@ -138,10 +138,14 @@ def _zeros_by_index() -> Iterator[HardCase]:
 def _around_zeros() -> Iterator[HardCase]:
     for kernel, zero in (("bessel_j0", j0_zero), ("bessel_j1", j1_zero)):
         for index in (1, 3, 11, 100, 1000, 10**6):
-            near = neighbours(float(zero(index, 80)), 1)
+            neighbourhood = neighbours(float(zero(index, 80)), 1)
             cause = f"The doubles next to zero number {index}: the leading digits cancel."
             yield HardCase(
-                "doubles next to zeros of J0 and J1", kernel, cause, exact_inputs(x=near), "array"
+                "doubles next to zeros of J0 and J1",
+                kernel,
+                cause,
+                exact_inputs(x=neighbourhood),
+                "array",
             )
 
 
@@ -182,14 +186,24 @@ def _contact_switches() -> Iterator[HardCase]:
         for point, what in ends:
             cause = f"0, 1 and 32 ULP to either side of a = {point:g} h, where {what}."
             same: dict[str, float] = {"R": 50.0, "h": 1.0, "b": b}
-            near = around(point)
-            yield HardCase(group, "indentation", cause, exact_inputs(a=near, **same), "array")
+            neighbourhood = around(point)
             yield HardCase(
-                group, "stiffness", cause, exact_inputs(a=near, **same, lam=LAM, mu=MU), "array"
+                group, "indentation", cause, exact_inputs(a=neighbourhood, **same), "array"
+            )
+            yield HardCase(
+                group,
+                "stiffness",
+                cause,
+                exact_inputs(a=neighbourhood, **same, lam=LAM, mu=MU),
+                "array",
             )
             if point in (contact_tables.REACH, contact_tables.FAR_REACH):
                 yield HardCase(
-                    group, "indentation_slope", cause, exact_inputs(a=near, **same), "array"
+                    group,
+                    "indentation_slope",
+                    cause,
+                    exact_inputs(a=neighbourhood, **same),
+                    "array",
                 )
             if point == contact_tables.FAR_REACH:
                 continue  # the inversion ends here

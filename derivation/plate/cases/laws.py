@@ -105,10 +105,10 @@ def _edge_bound(support: str) -> HardLaw:
         bound = edge_sums.edge_bound if support == "supported" else clamp.clamp_bound
         a, h, b, lam, mu = (Fraction(x) for x in given)
         known = dict(zip(names, (a / b, h / b, lam, mu), strict=True))
-        found = evaluate(bound().expression, known, digits)
+        value = evaluate(bound().expression, known, digits)
         with flint.ctx.workprec(_bits(digits)):
             ratio = edge_balls.support_ratio(lam, mu) if support == "supported" else Fraction(1)
-            return (to_ball(ratio) * found,)
+            return (to_ball(ratio) * value,)
 
     supported = (edge_sums.__name__, edge_balls.__name__)
     return HardLaw(values, oracle=supported if support == "supported" else (clamp.__name__,))

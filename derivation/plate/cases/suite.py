@@ -41,10 +41,10 @@ def cases() -> tuple[HardCase, ...]:
 def kernels() -> dict[str, Kernel]:
     """Return every function that a hard case can test, by name."""
     manifest = importlib.import_module("generated.manifest")
-    found = {kernel.name: kernel for kernel in generated_kernels()}
+    by_name = {kernel.name: kernel for kernel in generated_kernels()}
     for row in manifest.CONTACT:
         call = getattr(importlib.import_module(f"generated.{row['module']}"), row["name"])
-        found[row["name"]] = Kernel(
+        by_name[row["name"]] = Kernel(
             row["name"], row["module"], tuple(row["arguments"]), call, float(row["budget"])
         )
-    return found | {kernel.name: kernel for kernel in special_calls()}
+    return by_name | {kernel.name: kernel for kernel in special_calls()}

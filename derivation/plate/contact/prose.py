@@ -1,8 +1,8 @@
 """Text of the report about the contact law, by derivation step."""
 
 ABOUT = {
-    "Hertz": "Hertz pressure, its transform (Sonine's integral) and the contact radius, which "
-    "follows from the half-space's influence coefficient.",
+    "Hertz": "This step gives Hertz pressure, its transform (Sonine's integral), and the "
+    "contact radius, which follows from the influence coefficient of the half-space.",
     "contact law": "The indentation is the deflection of the contact face at the centre.",
     "divergence": r"For large $j$ the plate acts like a half-space: $\phi^3 K_j$ is constant, "
     r"and the sums in the paper's $\gamma_k$ diverge for every $k$.",
@@ -14,7 +14,8 @@ ABOUT = {
     "and a logarithm. The remainder is a sum of residues at $T_n$, the "
     r"roots of $\sinh T = T$ and $\sinh T = -T$ in the first quadrant, by imaginary part. "
     "With it the law is exact for every $h/b$.",
-    "reversion": "Lagrange's inversion of the paper's series and of the corrected one.",
+    "reversion": "The series of the paper and the corrected one are inverted by Lagrange's "
+    "formula: indentation against force becomes force against indentation.",
     "spherical profile": "A growing contact is a sequence of flat punches. If it is not small "
     "compared with the sphere, the sphere's exact profile replaces the paraboloid.",
 }

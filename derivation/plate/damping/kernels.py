@@ -40,20 +40,20 @@ def _series(
     function: sp.Expr, variable: sp.Symbol, begin: int, step: int, end: int
 ) -> list[sp.Expr]:
     """Return the coefficients of a function's power series."""
-    found = sp.series(function, variable, 0, end).removeO()
-    return [found.coeff(variable, power) for power in range(begin, end, step)]
+    series = sp.series(function, variable, 0, end).removeO()
+    return [series.coeff(variable, power) for power in range(begin, end, step)]
 
 
 def _reduced(expression: sp.Expr) -> sp.Expr:
     """Replace half angles and shifted exponentials by whole ones."""
-    found = expression.replace(expm1, lambda x: sp.exp(x) - 1)
-    found = found.replace(
+    reduced = expression.replace(expm1, lambda x: sp.exp(x) - 1)
+    reduced = reduced.replace(
         lambda e: e.is_Pow and e.exp.is_Rational and e.exp.q == 2,
         lambda e: sp.expand(e.base) ** e.exp,
     )
     angle = omega * ROOT * t
-    found = found.subs(sp.sin(angle / 2) ** 2, (1 - sp.cos(angle)) / 2)
-    return by_phase(found)
+    reduced = reduced.subs(sp.sin(angle / 2) ** 2, (1 - sp.cos(angle)) / 2)
+    return by_phase(reduced)
 
 
 def free() -> Routine:

@@ -67,16 +67,16 @@ def free_motion() -> FreeMotion:
 
 def by_phase(expression: sp.Expr) -> sp.Expr:
     """Return a polynomial in exp(-zeta omega t), sin(w t) and cos(w t), zero if it vanishes."""
-    found = sp.expand_trig(expression.subs(ROOT, _root))
-    found = sp.expand(found, power_exp=False)
+    expanded = sp.expand_trig(expression.subs(ROOT, _root))
+    expanded = sp.expand(expanded, power_exp=False)
     phase = omega * _root * t
-    found = found.replace(sp.exp, lambda x: DECAY ** sp.cancel(-x / (zeta * omega * t)))
-    found = sp.expand(found.subs({sp.cos(phase): COS, sp.sin(phase): SIN}))
-    found = sp.expand(sp.numer(sp.together(found)))
-    found = sp.expand(found.subs(zeta**2, 1 - _root**2))
+    expanded = expanded.replace(sp.exp, lambda x: DECAY ** sp.cancel(-x / (zeta * omega * t)))
+    expanded = sp.expand(expanded.subs({sp.cos(phase): COS, sp.sin(phase): SIN}))
+    expanded = sp.expand(sp.numer(sp.together(expanded)))
+    expanded = sp.expand(expanded.subs(zeta**2, 1 - _root**2))
     for square, value in ((COS, 1 - SIN**2), (zeta, 1 - _root**2)):
-        found = sp.rem(sp.Poly(found, square), sp.Poly(square**2 - value, square)).as_expr()
-    return sp.expand(found)
+        expanded = sp.rem(sp.Poly(expanded, square), sp.Poly(square**2 - value, square)).as_expr()
+    return sp.expand(expanded)
 
 
 def _equation(q: sp.Expr) -> sp.Expr:
@@ -101,15 +101,15 @@ def response_factors() -> ResponseFactors:
     """Return the factors of displacement, of velocity, and of the force."""
     phase, decay = omega * ROOT * t, sp.exp(-zeta * omega * t)
     cosine, sine, ratio = decay * sp.cos(phase), decay * sp.sin(phase), zeta / ROOT
-    found = ResponseFactors(
+    factors = ResponseFactors(
         (sine / ROOT, cosine / ROOT),
         (cosine - ratio * sine, sine + ratio * cosine),
         (sp.cos(phase) / decay, sp.sin(phase) / decay),
     )
     g, since = impulse_response(), {t: t - _since}
-    first, second = (part.subs(t, _since) for part in found.drive)
-    moved = found.moved[0] * first - found.moved[1] * second - omega * g.subs(since)
-    rate = found.rate[0] * first + found.rate[1] * second - sp.diff(g, t).subs(since)
+    first, second = (part.subs(t, _since) for part in factors.drive)
+    moved = factors.moved[0] * first - factors.moved[1] * second - omega * g.subs(since)
+    rate = factors.rate[0] * first + factors.rate[1] * second - sp.diff(g, t).subs(since)
     prove(
         "Separated response",
         "Both, written out in $t$ and $s$.",
@@ -118,7 +118,7 @@ def response_factors() -> ResponseFactors:
             "velocity": sp.expand(sp.expand_trig(rate).rewrite(sp.exp)),
         },
     )
-    return found
+    return factors
 
 
 @cache
@@ -129,8 +129,9 @@ def oscillator() -> Proof:
     # d/dt of int_0^t g(t - s) P(s) ds is g(0) P(t) + int g'(t - s) P(s) ds.
     return prove(
         "Damped oscillator",
-        "Both are inserted into the equation and evaluated at $t = 0$. Duhamel's integral solves "
-        "it, because its second derivative is $g'(0) P$ plus the integral over $g''$.",
+        "Both motions are inserted into the equation and evaluated at $t = 0$. Duhamel's "
+        "integral solves it, because its second derivative is $g'(0) P$ plus the integral "
+        "over $g''$.",
         {
             "impulse": by_phase(_equation(g)),
             "from rest": g.subs(start),

@@ -154,8 +154,8 @@ class Elements:
 
     def number(self, column: NDArray[Any], row: NDArray[Any], part: int) -> NDArray[Any]:
         """Return the index of an unknown: u (0) or w (1) at a node."""
-        found: NDArray[Any] = 2 * (column * self.rows + row) + part
-        return found
+        numbers: NDArray[Any] = 2 * (column * self.rows + row) + part
+        return numbers
 
     def stiffness(self, lam: float, *, round_plate: bool) -> Any:
         """Return the sparse matrix of the strain energy, with shear modulus 1.
@@ -246,15 +246,17 @@ class Field(Elements):
         free = np.setdiff1d(np.arange(self.size), fixed)
         rows = matrix[free]
         solver = factorised(rows[:, free])
-        found, known = [], []
+        responses, known = [], []
         for a in widths:
             known.append(self._of_states(a) if states else 0.0)
             values, load = np.zeros(self.size), np.zeros(self.size)
             pushed, values[rim[0]], values[rim[1]] = self._given(a, states)
             load[rim[0]] = pushed * self.rim_weights
-            found.append(solver.solve(load[free] - rows @ values))
+            responses.append(solver.solve(load[free] - rows @ values))
         top = np.searchsorted(free, self.number(np.array([0]), ring[-1:], 1)[0])
-        return [of_states - float(one[top]) for of_states, one in zip(known, found, strict=True)]
+        return [
+            of_states - float(one[top]) for of_states, one in zip(known, responses, strict=True)
+        ]
 
     def _of_states(self, a: float) -> float:
         """Return the contribution of the states, -w at the contact face's centre."""
@@ -296,17 +298,17 @@ def rows(
     sizes: Sequence[float] = SIZES, poisson: Sequence[float] = POISSON
 ) -> list[dict[str, object]]:
     """Return the model error of every case, and its change with degree and layers of the mesh."""
-    found: list[dict[str, object]] = []
+    cases: list[dict[str, object]] = []
     for support, h, nu in itertools.product(SUPPORTS, sizes, poisson):
         case = RemainderCase(support, h, nu)
         finest, *others = (remainders(case, mesh) for mesh in MESHES)
         for a, remainder, *rest in zip(WIDTHS, finest, *others, strict=True):
             changes = (float(f"{other - remainder:.1e}") for other in rest)
             head = {"support": support, "h_over_b": h, "nu": nu, "a_over_b": a}
-            names = ("share_of_indentation", "lower_degree", "fewer_layers")
+            names = ("relative_error", "lower_degree", "fewer_layers")
             numbers = (float(f"{remainder:.4g}"), *changes)
-            found.append({**head, **dict(zip(names, numbers, strict=True))})
-    return found
+            cases.append({**head, **dict(zip(names, numbers, strict=True))})
+    return cases
 
 
 def text() -> str:

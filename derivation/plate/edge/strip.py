@@ -71,15 +71,15 @@ def rows(
     thinnings: Sequence[float] = THINNINGS, meshes: Sequence[RemainderMesh] = MESHES
 ) -> list[dict[str, float]]:
     """Return the constants of every n, and their largest change on another mesh."""
-    found = []
+    cases = []
     for n in thinnings:
         first, *others = (np.array(Strip(n, mesh).constants()) for mesh in meshes)
         change = max(float(np.abs(other - first).max()) for other in others)
         names = dict(
             zip(("turn", "level", "shear"), (float(f"{x:.7g}") for x in first), strict=True)
         )
-        found.append({"n": n, **names, "change": float(f"{change:.1e}")})
-    return found
+        cases.append({"n": n, **names, "change": float(f"{change:.1e}")})
+    return cases
 
 
 def text() -> str:

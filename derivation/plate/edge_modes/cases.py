@@ -88,15 +88,15 @@ def _of_waves(edge: mode_balls.Edge) -> HardLaw:
         count, eta, nu = given
         return wave_balls.wave(edge, int(count), eta, nu, digits)
 
-    def sizes(_: Given, found: Sequence[arb]) -> tuple[arb, ...]:
-        mode = wave_balls.EdgeMode(*found)
+    def sizes(_: Given, values: Sequence[arb]) -> tuple[arb, ...]:
+        mode = wave_balls.EdgeMode(*values)
         counted = mode._replace(k2=mode.k**2 / mode.k2, c=mode.c * (1 + mode.k))
         return tuple(abs(x) for x in counted._replace(t=abs(mode.t).max(arb(1))))
 
-    def slopes(given: Given, found: Sequence[arb]) -> Sequence[arb]:
+    def slopes(given: Given, eigenvalues: Sequence[arb]) -> Sequence[arb]:
         if 1 + Fraction(given[2]) < _FREE:
-            return differences(values, 1)(given, found)
-        return differences(values, 1, 2)(given, found)
+            return differences(values, 1)(given, eigenvalues)
+        return differences(values, 1, 2)(given, eigenvalues)
 
     return HardLaw(values, sizes, slopes=slopes, results=7, oracle=(wave_balls.__name__,))
 
@@ -111,8 +111,8 @@ def _of_face(punch: bool) -> HardLaw:
         with flint.ctx.workprec(8 * digits + 64):
             return (wave_balls.on_face(punch, *given),)
 
-    def sizes(_: Given, found: Sequence[arb]) -> tuple[arb]:
-        return (abs(found[0]) if punch else abs(found[0]).max(arb(1)),)
+    def sizes(_: Given, values: Sequence[arb]) -> tuple[arb]:
+        return (abs(values[0]) if punch else abs(values[0]).max(arb(1)),)
 
     return HardLaw(
         values, sizes, slopes=differences(values, 0, 1, 2, 3), oracle=(wave_balls.__name__,)

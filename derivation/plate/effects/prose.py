@@ -1,6 +1,6 @@
 """Text of the report about single effects, by derivation step."""
 
 ABOUT = {
-    "effects": "Each effect contributes to the slope of the law at equal force. An upper bound of "
-    "its contribution decides whether a scene needs it.",
+    "effects": "Each effect contributes to the slope of the contact law at equal force. An "
+    "upper bound on its contribution decides whether a scene requires the effect.",
 }

@@ -1,8 +1,9 @@
 """Text of the report about impacts, by derivation step."""
 
 ABOUT = {
-    "impact": "The energy integral, the contact time as an integral of an analytic function, and "
-    "the paper's linearisation.",
+    "impact": "Energy conservation gives the largest contact radius; the contact time is the "
+    "integral of an analytic function. The linearised motion of the paper is derived for "
+    "comparison.",
     "sensitivity": "An impact depends on seven parameters. By dimensional analysis each result is "
     "a product of powers of them times a function of two dimensionless groups, the energy "
     "number and $h/b$. The energy integral gives the derivatives by these two; the other "

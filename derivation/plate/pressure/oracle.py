@@ -94,9 +94,9 @@ def solve(case: Case, digits: int = 25) -> PressureState:
         for n, fineness in ((count, step), (count + 8, step * Fraction(8, 7)))
     )
     with flint.ctx.workprec(bits):
-        found = [_wider(x, y, digits) for x, y in zip(coarse[:5], fine[:5], strict=True)]
+        state = [_wider(x, y, digits) for x, y in zip(coarse[:5], fine[:5], strict=True)]
         pressures = zip(coarse.pressures, fine.pressures, strict=True)
-        force, depth, stiffness, slope, centre = found
+        force, depth, stiffness, slope, centre = state
         beside = tuple(_wider(x, y, digits) for x, y in pressures)
         return PressureState(force, depth, stiffness, slope, centre, beside)
 

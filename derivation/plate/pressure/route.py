@@ -104,15 +104,21 @@ def _seen(z: mpf, count: int) -> list[mpf]:
     power series beyond: in both directions the required solution does not decay.
     """
     if z >= count:
-        found = [mp.sin(z) / z, 2 * (mp.sin(z) - z * mp.cos(z)) / z**3]
+        transforms = [mp.sin(z) / z, 2 * (mp.sin(z) - z * mp.cos(z)) / z**3]
         for n in range(1, count - 1):
-            found.append(2 * (n + 1) * ((2 * n + 1) * found[n] - 2 * n * found[n - 1]) / z**2)
-        return found
+            transforms.append(
+                2 * (n + 1) * ((2 * n + 1) * transforms[n] - 2 * n * transforms[n - 1]) / z**2
+            )
+        return transforms
     square = -z * z / 4
-    found = [_beta(n, mp.dps) * mp.hyp0f1(n + mpf(3) / 2, square) for n in (count - 1, count - 2)]
+    transforms = [
+        _beta(n, mp.dps) * mp.hyp0f1(n + mpf(3) / 2, square) for n in (count - 1, count - 2)
+    ]
     for n in range(count - 2, 0, -1):
-        found.append(((2 * n + 1) * found[-1] - z * z * found[-2] / (2 * (n + 1))) / (2 * n))
-    return found[::-1]
+        transforms.append(
+            ((2 * n + 1) * transforms[-1] - z * z * transforms[-2] / (2 * (n + 1))) / (2 * n)
+        )
+    return transforms[::-1]
 
 
 def _modal(eta: mpf, alpha: mpf, count: int, goal: int) -> list[list[mpf]]:
@@ -141,7 +147,7 @@ def _lateral(alpha: mpf, count: int, goal: int) -> list[list[mpf]]:
         factor * (alpha * alpha / 4) ** p * kappa
         for p, kappa in enumerate(lateral_moments(terms, mp.dps))
     ]
-    found = [[mpf(0)] * count for _ in range(count)]
+    matrix = [[mpf(0)] * count for _ in range(count)]
     for k in range(count):
         for n in range(k + 1):
             coefficient = _beta(k, mp.dps) * _beta(n, mp.dps)
@@ -151,8 +157,8 @@ def _lateral(alpha: mpf, count: int, goal: int) -> list[list[mpf]]:
                 s = k + n + 2 + p
                 over = (p + 1) * (k + p + mpf(3) / 2) * (n + p + mpf(3) / 2) * s
                 coefficient *= (s + p) * (s + p + 1) / over
-            found[k][n] = found[n][k] = mp.fdot(moments, coefficients)
-    return found
+            matrix[k][n] = matrix[n][k] = mp.fdot(moments, coefficients)
+    return matrix
 
 
 def _profile(test: int, curvature: mpf, goal: int) -> mpf:
@@ -183,7 +189,7 @@ def _solve(
         lateral = _lateral(alpha, most + 1, goal)
         half = [_beta(n, mp.dps) for n in range(2 * most + 2)]
         sides = [_profile(n, _number(curvature), goal) for n in range(most + 1)]
-        found = []
+        states = []
         for size in sizes:
             matrix = mp.zeros(size + 1)
             for n in range(size + 1):
@@ -194,5 +200,5 @@ def _solve(
             chi = [solution[k] for k in range(size)]
             force = mp.fsum(c * half[k + 1] for k, c in enumerate(chi))
             centre = mp.fsum(2 * (k + 1) * c * half[k] for k, c in enumerate(chi))
-            found.append(RouteState(2 * force, solution[size], centre / mp.pi))
-        return found
+            states.append(RouteState(2 * force, solution[size], centre / mp.pi))
+        return states

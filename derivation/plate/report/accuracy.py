@@ -76,18 +76,18 @@ def winners(data: Data, task: str) -> Iterator[dict[str, Any]]:
         yield {"name": escape(case["name"]), "rows": rows}
 
 
-def winner_cells(found: Data | None) -> tuple[str, str, str]:
+def winner_cells(winners: Data | None) -> tuple[str, str, str]:
     """Return the method with its ties, its time, and that time relative to the fastest."""
-    if found is None:
+    if winners is None:
         return "", "", ""
-    name = escape(", ".join(part for part in (found["family"], found["setting"]) if part))
-    near_ties = set(found["near_ties"])
-    name += "?" if found["family"] in near_ties else ""
-    ties = [escape(t) + ("?" if t in near_ties else "") for t in found["ties"]]
-    ties += [escape(t) + "?" for t in found["near_ties"] if t not in found["ties"]]
-    ties = [tie for tie in ties if tie.rstrip("?") != escape(found["family"])]
+    name = escape(", ".join(part for part in (winners["family"], winners["setting"]) if part))
+    near_ties = set(winners["near_ties"])
+    name += "?" if winners["family"] in near_ties else ""
+    ties = [escape(t) + ("?" if t in near_ties else "") for t in winners["ties"]]
+    ties += [escape(t) + "?" for t in winners["near_ties"] if t not in winners["ties"]]
+    ties = [tie for tie in ties if tie.rstrip("?") != escape(winners["family"])]
     tied = rf" (tie: {', '.join(ties)})" if ties else ""
-    return name + tied, duration(found["seconds"]), factor(found["relative"])
+    return name + tied, duration(winners["seconds"]), factor(winners["relative"])
 
 
 def error_rows(data: Data) -> Iterator[str]:
@@ -171,42 +171,42 @@ def tool_rows(tools: Sequence[Data]) -> Iterator[str]:
         said = tool["limitation"]
 
 
-def headline(found: Data) -> dict[str, Any]:
+def headline(winners: Data) -> dict[str, Any]:
     """Return the comparison of the generated law with direct summation as numbers."""
-    best = found["direct_sum"][-1]
+    best = winners["direct_sum"][-1]
     return {
-        "radius": f"{1e3 * found['contact_radius']:.2f}",
+        "radius": f"{1e3 * winners['contact_radius']:.2f}",
         "rows": [
             f"{r['digits']} & {power(r['modes'])} & {duration(r['seconds'])}"
             f" & {digits(r['truncation'])} & {digits(r['rounding'])}"
-            for r in found["direct_sum"]
+            for r in winners["direct_sum"]
         ],
         "best": best["digits"],
         "modes": power(best["modes"]),
         "seconds": duration(best["seconds"]),
         "reached": best["digits"] >= REQUIRED_DIGITS,
         "wanted": REQUIRED_DIGITS,
-        "setup": duration(found["setup"]),
-        "per_mode": duration(found["seconds_per_mode"]),
-        "digits": digits(found["digits"]),
-        "called": duration(found["seconds_with_setup"]),
-        "prepared": duration(found["seconds_without_setup"]),
-        "ratio": power(best["seconds"] / found["seconds_with_setup"]),
+        "setup": duration(winners["setup"]),
+        "per_mode": duration(winners["seconds_per_mode"]),
+        "digits": digits(winners["digits"]),
+        "called": duration(winners["seconds_with_setup"]),
+        "prepared": duration(winners["seconds_without_setup"]),
+        "ratio": power(best["seconds"] / winners["seconds_with_setup"]),
     }
 
 
 def run(data: Data) -> dict[str, Any]:
     """Return how the measurement was made, and how much load the machine had."""
     busy = [s for s in data["sessions"] if s["contended"]]
-    found = data["run"]
+    machine = data["run"]
     return {
-        "quick": found["quick"],
-        "rounds": found["rounds"],
+        "quick": machine["quick"],
+        "rounds": machine["rounds"],
         "slow": duration(SLOW_CALL),
         "sessions": len(data["sessions"]),
         "busy": len(busy),
-        "limit": f"{found['contended']:g}",
-        "load": f"{found['load_before']:.1f} to {found['load_after']:.1f}",
+        "limit": f"{machine['contended']:g}",
+        "load": f"{machine['load_before']:.1f} to {machine['load_after']:.1f}",
         "processor": escape(data["machine"]["processor"]),
         "cores": data["machine"]["cores"],
         "digits": data["provenance"]["digits"],

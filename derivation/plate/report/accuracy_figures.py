@@ -34,12 +34,12 @@ Row = Mapping[str, Any]
 
 def accuracy_figures(data: Mapping[str, Any]) -> dict[str, Figure]:
     """Return all figures of the benchmark by name."""
-    found = {
+    figures = {
         f"work_precision_{task}_{kind}": work_precision(data, task, kind)
         for task in TASKS
         for kind in KINDS
     }
-    return found | {"scaling": scaling(data)}
+    return figures | {"scaling": scaling(data)}
 
 
 def work_precision(data: Mapping[str, Any], task: str, kind: str) -> Figure:
@@ -112,12 +112,12 @@ def digits_at(position: Any) -> Any:
 
 def series(rows: Sequence[Row], kind: str) -> dict[tuple[str, str], list[tuple[float, float]]]:
     """Return times and digits by family and arithmetic, in the order of the record."""
-    found: dict[tuple[str, str], list[tuple[float, float]]] = {}
+    points: dict[tuple[str, str], list[tuple[float, float]]] = {}
     for row in rows:
         arithmetic = row["arithmetic"].split(",")[0]
         point = row[kind]["seconds"], row["errors"]["total"]
-        found.setdefault((row["family"], arithmetic), []).append(point)
-    return found
+        points.setdefault((row["family"], arithmetic), []).append(point)
+    return points
 
 
 def pareto_front(rows: Sequence[Row], kind: str) -> list[tuple[float, float]]:

@@ -60,13 +60,13 @@ class Consequences:
         return self.points[j]
 
     def _mode(self, j: int) -> Point:
-        found = dict(self.fixed)
-        found[phi], found[J1] = self.zeros[j - 1] / self.case.b, self.weights[j - 1]
-        found[A_j] = evaluated(self.formulas["A_j"].expression, found)
+        point = dict(self.fixed)
+        point[phi], point[J1] = self.zeros[j - 1] / self.case.b, self.weights[j - 1]
+        point[A_j] = evaluated(self.formulas["A_j"].expression, point)
         for index in range(1, 5):
-            ratio = evaluated(self.formulas[f"Omega_{index}"].expression, found)
-            found[BY_NAME[f"C{index}"].symbol] = found[A_j] * ratio
-        return found
+            ratio = evaluated(self.formulas[f"Omega_{index}"].expression, point)
+            point[BY_NAME[f"C{index}"].symbol] = point[A_j] * ratio
+        return point
 
     def value(self, expression: sp.Expr) -> float:
         """Return the value of a formula without modes."""

@@ -31,13 +31,13 @@ def elastodynamics_context(data: Row) -> dict[str, Any]:
     """Return the values of the template: rows of both tables, and largest differences."""
     rows = list(_compared(data))
     rejected = [row for row in data["impacts"] if "rejected" in row.get("program", {})]
-    own = [row["errors"][name] for row in rows for name in RESULTS]
+    errors = [row["errors"][name] for row in rows for name in RESULTS]
     return {
         "cases": len(rows),
         "rejected": len(rejected),
         "within": sum(_excess(row) <= 1.0 for row in rows),
-        "own_median": rounded(float(np.median(own)) if own else 0.0),
-        "own_largest": rounded(max(own, default=0.0)),
+        "own_median": rounded(float(np.median(errors)) if errors else 0.0),
+        "own_largest": rounded(max(errors, default=0.0)),
         "rows": [_impact_row(row) for row in rows],
         "plates": [_plate_row(row) for row in data["plates"] if row["poissons_ratio"] == SHOWN],
         "exact": number(from_exact(data["plates"])),
@@ -52,11 +52,11 @@ def elastodynamics_figure(data: Row) -> Figure:
         left, right = figure.subplots(1, 2, sharey=True)
         for edge, (mark, label) in MARKS.items():
             chosen = [row for row in rows if row["scene"]["plate"]["edge"] == edge]
-            found = [max(_differences(row).values()) for row in chosen]
+            differences = [max(_differences(row).values()) for row in chosen]
             stated = [_stated(row) + max(row["errors"][k] for k in RESULTS) for row in chosen]
             waits = [row["elements"]["contact_time"] / row["edge_echo"] for row in chosen]
-            left.plot(stated, found, mark, ms=3.5, mfc="none", label=label)
-            right.plot(waits, found, mark, ms=3.5, mfc="none")
+            left.plot(stated, differences, mark, ms=3.5, mfc="none", label=label)
+            right.plot(waits, differences, mark, ms=3.5, mfc="none")
         ends = np.array([1e-4, 1.0])
         left.plot(ends, ends, "k:", lw=0.8)
         right.axvline(1.0, color="k", ls=":", lw=0.8)
@@ -112,10 +112,10 @@ def _worst(errors: Sequence[float]) -> str:
 
 def from_exact(plates: Sequence[Row]) -> float:
     """Return the largest difference from the exact frequencies on the paper's edge [1]."""
-    found = [0.0]
+    differences = [0.0]
     for row in plates:
         if row["edge"] == "paper":
             half, own = row["thickness_over_radius"] / 2.0, np.array(row["frequencies"])
             exact = bending_frequency(bessel_j0_zeros(own.size) * half, row["poissons_ratio"])
-            found.append(float(np.abs(own * half / exact - 1.0).max()))
-    return max(found)
+            differences.append(float(np.abs(own * half / exact - 1.0).max()))
+    return max(differences)

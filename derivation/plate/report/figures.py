@@ -42,8 +42,8 @@ class Extremes:
 
 def corrected_impact(case: Model) -> Extremes:
     """Return contact time and largest force according to the corrected law."""
-    found = impact(case.R, case.m, case.v0, case.h, case.b, case.lam, case.mu)
-    return Extremes(float(found.contact_time), float(found.max_force))
+    extremes = impact(case.R, case.m, case.v0, case.h, case.b, case.lam, case.mu)
+    return Extremes(float(extremes.contact_time), float(extremes.max_force))
 
 
 def linear_impact(case: Model, modes: int) -> Extremes:
@@ -73,9 +73,9 @@ def figures(case: Model, impact_of: Result, gamma_2: float) -> dict[str, Figure]
         "setup": draw_setup,
         "divergence": lambda figure, case: draw_divergence(figure, case, gamma_2),
     }
-    found = {name: _figure(draw, case) for name, draw in drawings.items()}
+    by_name = {name: _figure(draw, case) for name, draw in drawings.items()}
     with mpl.rc_context({"font.family": "serif"}):
-        return found | {"map": scene_map(impact_of, impact_of.effects.rtol)}
+        return by_name | {"map": scene_map(impact_of, impact_of.effects.rtol)}
 
 
 def _figure(draw: Callable[[Figure, Model], None], case: Model) -> Figure:
@@ -104,7 +104,7 @@ def draw_history(figure: Figure, case: Model) -> None:
         ax.plot(1e3 * half, 1e3 * motion.corrected(half), label="correction (16), as published")
         fixed = printed_motion(*case.numbers, modes, corrected=True)
         ax.plot(1e3 * half, 1e3 * fixed.corrected(half), ":", label=r"the same, $\xi_3$ corrected")
-        breaks = np.array([motion.breaks_at, fixed.breaks_at])
+        breaks = np.array([motion.valid_until, fixed.valid_until])
         ax.plot(1e3 * breaks, 1e3 * motion.linear(breaks), "kx", label="(17), (18) no longer real")
         ax.set(title=f"sums truncated after {modes} modes", xlabel="time [ms]")
     axes[0].set_ylabel("indentation [mm]")
@@ -192,7 +192,7 @@ def draw_divergence(figure: Figure, case: Model, gamma_2: float) -> None:
 
 def motion_context(case: Model) -> dict[str, Any]:
     """Return the values of the template: example of the paper as published and as corrected."""
-    found = impact(case.R, case.m, case.v0, case.h, case.b, case.lam, case.mu)
+    extremes = impact(case.R, case.m, case.v0, case.h, case.b, case.lam, case.mu)
     corrected = corrected_impact(case)
     hertz = Extremes(hertz_contact_time(case), hertz_peaks(case)[0])
     laws = [(f"published, {n} modes", linear_impact(case, n), n) for n in TRUNCATIONS]
@@ -210,9 +210,9 @@ def motion_context(case: Model) -> dict[str, Any]:
         "rows": rows,
         "contact_time": f"{1e3 * corrected.contact_time:.3f}",
         "half": f"{5e2 * corrected.contact_time:.3f}",
-        "indentation": f"{1e3 * float(found.max_indentation):.3f}",
+        "indentation": f"{1e3 * float(extremes.max_indentation):.3f}",
         "force": f"{1e-3 * corrected.force:.2f}",
-        "contact_radius": f"{1e3 * float(found.max_contact_radius):.2f}",
+        "contact_radius": f"{1e3 * float(extremes.max_contact_radius):.2f}",
         "hertz": f"{1e3 * hertz.contact_time:.3f}",
     }
 
@@ -230,4 +230,4 @@ def _real_until(case: Model, modes: int) -> list[str]:
     if not modes:
         return ["", ""]
     both = (printed_motion(*case.numbers, modes, corrected=fixed) for fixed in (False, True))
-    return [f"{1e3 * motion.breaks_at:.3f}" for motion in both]
+    return [f"{1e3 * motion.valid_until:.3f}" for motion in both]

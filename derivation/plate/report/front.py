@@ -69,14 +69,14 @@ def _stability_in_short(findings: Sequence[Finding], rows: Sequence[Data]) -> di
     return {"unstable": sum(lost), "evaluated": len(lost), "used": f"{100 * used:.0f}"}
 
 
-def _cost_in_short(found: Data) -> dict[str, Any]:
+def _cost_in_short(winners: Data) -> dict[str, Any]:
     """Return digits and run time of the generated law, and of the best direct sum."""
-    best = found["direct_sum"][-1]
+    best = winners["direct_sum"][-1]
     return {
-        "called": duration(found["seconds_with_setup"]),
-        "digits": digits(found["digits"]),
+        "called": duration(winners["seconds_with_setup"]),
+        "digits": digits(winners["digits"]),
         "best": best["digits"],
-        "ratio": power(best["seconds"] / found["seconds_with_setup"]),
+        "ratio": power(best["seconds"] / winners["seconds_with_setup"]),
     }
 
 

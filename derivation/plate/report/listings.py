@@ -55,10 +55,12 @@ def function_source(text: str, name: str) -> str:
     ValueError
         If the module has no such function.
     """
-    found = [n for n in ast.parse(text).body if isinstance(n, ast.FunctionDef) and n.name == name]
-    if not found:
+    functions = [
+        n for n in ast.parse(text).body if isinstance(n, ast.FunctionDef) and n.name == name
+    ]
+    if not functions:
         raise ValueError(f"expected a function {name} in the generated module, got none")
-    return "\n".join(_lines(text, found[0]))
+    return "\n".join(_lines(text, functions[0]))
 
 
 def _lines(text: str, function: ast.FunctionDef) -> Iterator[str]:

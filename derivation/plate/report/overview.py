@@ -42,8 +42,10 @@ def _draw_force(ax: Any, pane: Scene) -> None:
         ("pane with inertia", {}),
     ):
         scene = read({**pane.to_json(), "effects": effects})
-        found = simulate(scene).history(POINTS)
-        time, force = (rounded(scale * x) for scale, x in ((1e6, found.time), (1e-3, found.force)))
+        history = simulate(scene).history(POINTS)
+        time, force = (
+            rounded(scale * x) for scale, x in ((1e6, history.time), (1e-3, history.force))
+        )
         ax.plot(time, force, label=label)
     ax.set(xlabel="time [µs]", ylabel="contact force [kN]")
     ax.set_title("impact of a steel sphere on a glass pane")

@@ -44,13 +44,13 @@ def lines(data: Data) -> Iterator[str]:
 
 def headline(data: Data) -> str:
     """Return a comparison of the generated law with the best direct summation."""
-    found = data["headline"]
-    best, own = found["direct_sum"][-1], found["seconds_with_setup"]
+    row = data["headline"]
+    best, with_setup = row["direct_sum"][-1], row["seconds_with_setup"]
     return (
         f"Measured on {data['machine']['processor']}: the generated contact law has "
-        f"{found['digits']:.1f} correct digits and takes {time(own)} per point. For "
+        f"{row['digits']:.1f} correct digits and takes {time(with_setup)} per point. For "
         f"{best['digits']} digits, direct summation needs {best['modes']:,} modes and "
-        f"{time(best['seconds'])}, {best['seconds'] / own:.2g} times as long."
+        f"{time(best['seconds'])}, {best['seconds'] / with_setup:.2g} times as long."
     )
 
 

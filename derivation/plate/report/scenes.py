@@ -23,18 +23,18 @@ def effects_context(scenes: Mapping[str, Scene]) -> dict[str, Any]:
 
 def scene_context(name: str, scene: Scene) -> dict[str, Any]:
     """Return the table of effects of a scene, and a sentence that states the selection."""
-    found = explain(scene)
+    explanation = explain(scene)
     rows = [
         " & ".join(
             [code(effect), code(parameter), *map(cell, (value, bound)), status, prose(reason)]
         )
-        for effect, parameter, value, bound, status, reason in found.effects.lines()
+        for effect, parameter, value, bound, status, reason in explanation.effects.lines()
     ]
     return {
         "name": name,
         "rows": rows,
-        "says": sentence(str(found)),
-        "notes": list(found.notes),
+        "says": sentence(str(explanation)),
+        "notes": list(explanation.notes),
     }
 
 

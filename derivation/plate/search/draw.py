@@ -166,15 +166,15 @@ def _between(generator: Random, low: float, high: float) -> float:
 
 def _fraction(generator: Random) -> float:
     """Return a number in (0, 1): any, a float near 0, or one near 1."""
-    near = from_ordinal(generator.randint(ordinal(2.0**-53), ordinal(0.5)))
-    return generator.choice((generator.uniform(2.0**-20, 1.0), near, 1.0 - near))
+    fraction = from_ordinal(generator.randint(ordinal(2.0**-53), ordinal(0.5)))
+    return generator.choice((generator.uniform(2.0**-20, 1.0), fraction, 1.0 - fraction))
 
 
 def _poisson(generator: Random) -> float:
     """Return Poisson's ratio in (-1, 1/2); its ends and 0 are as likely as the middle."""
-    near = from_ordinal(generator.randint(ordinal(2.0**-52), ordinal(0.25)))
-    signed = generator.choice((-1, 1)) * near
-    return generator.choice((generator.uniform(-1.0, 0.5), -1.0 + near, 0.5 - near, signed))
+    ratio = from_ordinal(generator.randint(ordinal(2.0**-52), ordinal(0.25)))
+    signed = generator.choice((-1, 1)) * ratio
+    return generator.choice((generator.uniform(-1.0, 0.5), -1.0 + ratio, 0.5 - ratio, signed))
 
 
 def _unit(generator: Random, decades: float) -> float:

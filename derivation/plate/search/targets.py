@@ -56,17 +56,17 @@ def targets(names: Sequence[str] = ()) -> tuple[Target, ...]:
     """
     manifest = importlib.import_module("generated.manifest").KERNELS
     closed = zip(manifest, generated_kernels(), strict=True)
-    found = [closed_target(domain_of_row(row), kernel) for row, kernel in closed]
-    found += [_law_target(name) for name in LAW]
-    known = [one.name for one in found]
+    chosen_targets = [closed_target(domain_of_row(row), kernel) for row, kernel in closed]
+    chosen_targets += [_law_target(name) for name in LAW]
+    known = [one.name for one in chosen_targets]
     unknown = [name for name in names if name not in known]
     if unknown:
-        near = did_you_mean(unknown[0], known, most=3)
+        suggestion = did_you_mean(unknown[0], known, most=3)
         raise ValueError(
-            f"--function: no generated function {unknown[0]!r}: {near}expected one of "
+            f"--function: no generated function {unknown[0]!r}: {suggestion}expected one of "
             f"{', '.join(known)}"
         )
-    return tuple(one for one in found if not names or one.name in names)
+    return tuple(one for one in chosen_targets if not names or one.name in names)
 
 
 def recorded(check: Path, contact: Path) -> tuple[dict[str, float], dict[str, list[str]]]:

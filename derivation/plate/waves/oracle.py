@@ -235,7 +235,7 @@ def _poles(kind: str, x: Exact, nu: Exact, index: int) -> tuple[arb, arb]:
     square, gam = to_ball(x) ** 2, _gam(nu)
     half = Fraction(1, 2) if kind == KINDS[0] else Fraction(0)
     angles = [(to_ball(n + half) * arb.pi()) ** 2 for n in range(index + 2)]
-    found = [square + angle for angle in angles if kind == KINDS[0] or angle != 0]
-    found += [(square + angle) / gam for angle in angles]
-    edges = [arb(0), *sorted(found, key=float)]
+    poles = [square + angle for angle in angles if kind == KINDS[0] or angle != 0]
+    poles += [(square + angle) / gam for angle in angles]
+    edges = [arb(0), *sorted(poles, key=float)]
     return edges[index].upper(), edges[index + 1].lower()

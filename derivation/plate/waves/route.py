@@ -90,12 +90,12 @@ def _answers(x: mpf, kap: mpf, nu: mpf) -> tuple[mpf, mpf]:
             for row in (2, 3)
         ]
     )
-    found = []
+    values = []
     for sign in (-1, 1):
         half = mpf(1) / 2
         weights = mp.lu_solve(tractions, mp.matrix([0, half, 0, sign * half]))
-        found.append(mp.fsum(weights[k] * vectors[1, k] * above[k] for k in range(4)).real)
-    return found[0], found[1]
+        values.append(mp.fsum(weights[k] * vectors[1, k] * above[k] for k in range(4)).real)
+    return values[0], values[1]
 
 
 def _zero(x: mpf, nu: mpf, digits: int) -> mpf:

@@ -48,11 +48,11 @@ class FiniteThickness(PlateEffect):
 
     def contribution(self, model: Model, a: Array) -> Contribution:
         """Return the contribution of the whole plate minus its other parts."""
-        whole = plate_contribution(model, a)
+        finite = plate_contribution(model, a)
         parts = Bending().contribution(model, a), FiniteRadius().contribution(model, a)
         return Contribution(
-            whole.depth - parts[0].depth - parts[1].depth,
-            whole.slope - parts[0].slope - parts[1].slope,
+            finite.depth - parts[0].depth - parts[1].depth,
+            finite.slope - parts[0].slope - parts[1].slope,
         )
 
 

@@ -96,8 +96,8 @@ class PlateInertia(Effect):
             return math.nan
         R, m, v0, h, _, lam, mu = model.numbers
         number = kernels.zener_number(R, m, v0, h, lam, mu, model.density)
-        found: float = number / np.power(1.0 + model.softness, 0.4)
-        return found
+        parameter: float = number / np.power(1.0 + model.softness, 0.4)
+        return parameter
 
     def bound(self, model: Model, context: BoundContext) -> Bound:
         """Return the tested bound: deviation of the modes from their quasi-static response."""
@@ -166,8 +166,8 @@ def least_restitution(model: Model) -> Numbers:
     Beyond lambda = 1.7 waves that return from the edge determine the restitution.
     """
     number = PlateInertia().value(model, 0.0)
-    found: Numbers = np.maximum(LEAST, np.exp(-LOSS_BY_ZENER * number))
-    return found
+    restitution: Numbers = np.maximum(LEAST, np.exp(-LOSS_BY_ZENER * number))
+    return restitution
 
 
 def higher_branch_error(model: Model, a: Numbers, T: Numbers, loss_factor: float = 0.0) -> Changes:
@@ -202,8 +202,8 @@ def higher_branch_error(model: Model, a: Numbers, T: Numbers, loss_factor: float
 def _alone(model: Model) -> Numbers:
     """Return the contact time [s] without bending."""
     stiffness = 4.0 / 3.0 * model.modulus / (1.0 + model.softness) * np.sqrt(model.R)
-    found: Numbers = HERTZ_TIME * np.power(model.m / stiffness, 0.4) / np.power(model.v0, 0.2)
-    return found
+    time: Numbers = HERTZ_TIME * np.power(model.m / stiffness, 0.4) / np.power(model.v0, 0.2)
+    return time
 
 
 def _rise(model: Model) -> Numbers:
@@ -213,8 +213,8 @@ def _rise(model: Model) -> Numbers:
     after lambda^(-2/3) of That, independent of the time of separation.
     """
     number = PlateInertia().value(model, 0.0)
-    found: Numbers = _alone(model) / np.cbrt(np.maximum(1.0, RISE_BY_ZENER * number)) ** 2
-    return found
+    rise: Numbers = _alone(model) / np.cbrt(np.maximum(1.0, RISE_BY_ZENER * number)) ** 2
+    return rise
 
 
 def total_deviation(

@@ -84,8 +84,8 @@ def _restitution(ratio: Array) -> Array:
     """Return the restitution for the last of Hertz's radii over that at the onset of yield [1]."""
     from generated.plasticity_kernels import worked
 
-    found: Array = worked(np.maximum(ratio[..., -1:], 1.0))[1]
-    return found
+    restitution: Array = worked(np.maximum(ratio[..., -1:], 1.0))[1]
+    return restitution
 
 
 def _over_onset(model: Model, context: BoundContext) -> Array:

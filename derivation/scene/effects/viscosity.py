@@ -108,5 +108,5 @@ def viscous_number(model: Model) -> Numbers:
     number = kernels.viscous_number(
         model.R, model.m, model.v0, model.lam, model.mu, model.retardation_time
     )
-    found: Numbers = number * np.power(1.0 + model.softness, -0.4)
-    return found
+    parameter: Numbers = number * np.power(1.0 + model.softness, -0.4)
+    return parameter

@@ -17,8 +17,8 @@ def contact_radius(delta: ArrayLike) -> np.ndarray:
     # Newton's iteration for log a, from Hertz's radius or that of a thin plate.
     a = np.minimum(np.sqrt(R * touching), LIMIT * np.cbrt(touching / MAX_INDENTATION))
     for _ in range(_STEPS):
-        _, found, _, slope = _law(a)
-        step = np.log(touching / found) * found / (a * slope)
+        _, radius, _, slope = _law(a)
+        step = np.log(touching / radius) * radius / (a * slope)
         a = np.minimum(a * np.exp(np.clip(step, -1.0, 1.0)), LIMIT)
         if not (np.abs(step) > _CLOSE).any():
             break

@@ -35,6 +35,12 @@ def agree(one: sp.Expr, other: sp.Expr, seed: int) -> bool:
             "read mu instead of phi",
         ),
         (
+            "delta_half",
+            "R**2/a",
+            "swapped symbol",
+            "exchange R and a in the whole expression",
+        ),
+        (
             "C_half",
             "(lam + 2*h)/(2*mu*phi*(lam + mu))",
             "swapped symbol",

@@ -245,9 +245,9 @@ def test_wrong_residue_is_rejected_by_the_proofs(
     monkeypatch.setattr(thin_remainder, "residue", WRONG[change])
     with pytest.raises(ProofError, match="residue"):
         thin_remainder.residue_at_roots.__wrapped__()
-    with pytest.raises(ProofError, match="share"):
+    with pytest.raises(ProofError, match="residue"):
         thin_remainder.coefficient_remainder.__wrapped__(2)
-    with pytest.raises(ProofError, match="share"):
+    with pytest.raises(ProofError, match="residue"):
         thin_remainder.law_remainder.__wrapped__()
 
 

@@ -78,7 +78,7 @@ def test_record_is_complete_and_accurate() -> None:
     assert len(rows) == len(SUPPORTS) * len(SIZES) * len(POISSON) * len(WIDTHS)
     assert [mesh["degree"] for mesh in record["meshes"]] == [mesh.degree for mesh in MESHES]
     for row in rows:
-        size = abs(row["share_of_indentation"])
+        size = abs(row["relative_error"])
         # The corners of a clamped edge are singular; those of a supported edge are not.
         floor = 1e-7 if row["support"] == "supported" else 3e-5
         assert abs(row["lower_degree"]) + abs(row["fewer_layers"]) < 0.01 * size + floor
@@ -103,8 +103,8 @@ def test_rows_state_contributions_and_their_changes(monkeypatch: pytest.MonkeyPa
     known = {tuple(row[key] for key in head): row for row in record}
     assert len(found["rows"]) == len(SUPPORTS) * len(WIDTHS)
     for row in found["rows"]:
-        best = known[tuple(row[key] for key in head)]["share_of_indentation"]
-        assert abs(row["share_of_indentation"] / best - 1) < 1e-2
+        best = known[tuple(row[key] for key in head)]["relative_error"]
+        assert abs(row["relative_error"] / best - 1) < 1e-2
     for support in SUPPORTS:
         finest, lower, fewer = (
             remainders(RemainderCase(support, 1.0, 0.3), mesh) for mesh in meshes

@@ -33,8 +33,8 @@ from generated.edge_modes import (
     Waves,
     clamped_waves,
     cutoff,
+    modal_weights_less_one,
     shape,
-    shares_less_one,
     supported_waves,
 )
 from generated.inertia import bending_frequency, bending_residue
@@ -335,7 +335,7 @@ def test_mode_shape_and_its_mean_under_a_flat_punch() -> None:
             for a in (0.05, 0.5, 0.9):
                 # With r = a sin t the punch pressure has the weight sin t dt.
                 mean = shape(waves, a * np.sin(t)) @ (np.sin(t) * weights * np.pi / 4)
-                less = shares_less_one(waves, a)
+                less = modal_weights_less_one(waves, a)
                 assert less.shape == (1, waves.k.size), edge
                 np.testing.assert_allclose(less[0], mean - 1, atol=1e-12)
 
@@ -349,9 +349,9 @@ def test_means_for_small_punches_and_high_modes() -> None:
     assert np.isnan(edge[:, 3:]).all()
     np.testing.assert_allclose(edge[-1, 1], j0(0.9 * waves.k[-1]), atol=1e-12)
     a = 1e-6
-    less = shares_less_one(waves, [a])[0]
+    less = modal_weights_less_one(waves, [a])[0]
     with mp.workdps(40):
         k, k2, c = (mpf(float(v)) for v in (waves.k[0], waves.k2[0], waves.c[0] * waves.t[0]))
         near = (mp.sin(k * a) / (k * a) - c * mp.sinh(k2 * a) / (k2 * a)) / (1 - c) - 1
     assert less[0] == pytest.approx(float(near), rel=1e-14, abs=0.0)
-    assert shares_less_one(waves, np.zeros(0)).shape == (0, 400)
+    assert modal_weights_less_one(waves, np.zeros(0)).shape == (0, 400)

@@ -72,7 +72,7 @@ def test_second_reference_is_inside_the_interval(eta: float, alpha: float, digit
     for ball, other in zip(balls, others, strict=True):
         with flint.ctx.workprec(bits_of(digits) + 64):
             assert ball.overlaps(to_ball(other) * arb(1, arb(10) ** -digits))
-        assert many_digits.shared_digits(ball, other) > digits
+        assert many_digits.agreed_digits(ball, other) > digits
 
 
 @pytest.mark.parametrize(
@@ -84,7 +84,7 @@ def test_references_of_an_impact_agree(h: float, v0: float, digits: int) -> None
     motion = (2.0, 1000.0, v0, h, 1.0, 0.36e9, 0.43e9)
     found = many_digits.reference(motion, digits, lambda *_: None)
     assert [quantity.compared for quantity in found.quantities] == [digits] * 10
-    assert min(quantity.shared for quantity in found.quantities) > digits
+    assert min(quantity.agreed for quantity in found.quantities) > digits
 
 
 def test_digits_do_not_depend_on_the_scale_of_the_powers(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -271,8 +271,8 @@ def test_disagreement_of_references_gives_status_1(
 
 
 def test_common_digits_are_limited_by_the_interval() -> None:
-    assert 9 < many_digits.shared_digits(arb(3, 1e-10), mpf(3)) < 10.5
-    assert many_digits.shared_digits(arb(3), mpf(3)) == math.inf
+    assert 9 < many_digits.agreed_digits(arb(3, 1e-10), mpf(3)) < 10.5
+    assert many_digits.agreed_digits(arb(3), mpf(3)) == math.inf
 
 
 @pytest.mark.parametrize("name", ["indentation", "stiffness", "impact"])

@@ -82,7 +82,7 @@ def correction(motion: PrintedMotion, t: mpf) -> mpf:
 @pytest.mark.parametrize("corrected", [False, True])
 def test_correction_agrees_with_equation_16(corrected: bool) -> None:
     motion = printed_motion(*PAPER, 100, corrected=corrected)
-    t = 0.9 * motion.breaks_at
+    t = 0.9 * motion.valid_until
     with mp.workdps(16):
         eta = float(correction(motion, mpf(t)))
     assert float(motion.corrected(t) - motion.linear(t)) == pytest.approx(eta, rel=1e-10)
@@ -93,7 +93,7 @@ def test_correction_agrees_with_equation_16(corrected: bool) -> None:
 def test_arb_reference_agrees(fraction: float) -> None:
     """The Arb reference agrees with the direct integrals over time and the generated code."""
     motion = printed_motion(*PAPER, 100, corrected=True)
-    t = fraction * motion.breaks_at
+    t = fraction * motion.valid_until
     numbers = (motion.m, motion.v0, motion.xi_2, motion.xi_3)
     ball = printed_motion_balls.corrected(t, *numbers, digits=45)
     with mp.workdps(16):
@@ -111,7 +111,7 @@ def test_arb_reference_ends_at_the_zero_of_the_radicand() -> None:
         last = printed_motion_balls.last_fraction(*numbers)
     assert float(last) == pytest.approx(motion.last, rel=1e-14)
     with pytest.raises(ValueError, match="has vanished"):
-        printed_motion_balls.corrected(1.001 * motion.breaks_at, *numbers)
+        printed_motion_balls.corrected(1.001 * motion.valid_until, *numbers)
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -121,8 +121,8 @@ def test_eta_solves_its_equation_up_to_its_end(name: str, corrected: bool) -> No
     motion = printed_motion(*CASES[name], 100, corrected=corrected)
     F, G, _, _ = theory(motion)
     for left in (0.5, 0.1, 1e-2):
-        t = (1 - left) * motion.breaks_at
-        step = 1e-2 * left * motion.breaks_at
+        t = (1 - left) * motion.valid_until
+        step = 1e-2 * left * motion.valid_until
         times = t + step * np.array([-2.0, -1.0, 1.0, 2.0])
         eta = motion.corrected(times) - motion.linear(times)
         slope = (eta[0] - 8 * eta[1] + 8 * eta[2] - eta[3]) / (12 * step)
@@ -153,15 +153,15 @@ def test_linear_motion_agrees_with_equation_15() -> None:
 def test_correction_ends_before_the_turning_point(name: str, modes: int, corrected: bool) -> None:
     motion = printed_motion(*CASES[name], modes, corrected=corrected)
     assert motion.xi_3 > 0
-    assert 0 < motion.breaks_at < motion.contact_time / 2
-    at = motion.linear(motion.breaks_at)
+    assert 0 < motion.valid_until < motion.contact_time / 2
+    at = motion.linear(motion.valid_until)
     used = motion.xi_2 * at**2 + 0.75 * motion.xi_3 * at ** (8 / 3)
     assert used / (motion.m * motion.v0**2) == pytest.approx(1, rel=1e-13)
-    times = np.linspace(0, motion.breaks_at, 401)
+    times = np.linspace(0, motion.valid_until, 401)
     found = motion.corrected(times)
     assert (np.diff(found) > 0).all()  # the corrected motion has no turning point
     assert (found <= motion.linear(times) + 1e-16 * motion.max_indentation).all()
-    assert np.isnan(motion.corrected(np.nextafter(motion.breaks_at, np.inf)))
+    assert np.isnan(motion.corrected(np.nextafter(motion.valid_until, np.inf)))
     assert np.isnan(motion.corrected(-1e-9))
 
 
@@ -170,10 +170,10 @@ def test_published_exponent_depends_on_the_units() -> None:
     R, mass, speed, h, b, lam, mu = PAPER
     other = 1e3 * R, 1e-3 * mass, 1e3 * speed, 1e3 * h, 1e3 * b, 1e-6 * lam, 1e-6 * mu
     ours, theirs = (printed_motion(*x, 100, corrected=True) for x in (PAPER, other))
-    assert theirs.breaks_at == pytest.approx(ours.breaks_at, rel=1e-13)
+    assert theirs.valid_until == pytest.approx(ours.valid_until, rel=1e-13)
     ours, theirs = (printed_motion(*x, 100) for x in (PAPER, other))
     assert theirs.contact_time == pytest.approx(ours.contact_time, rel=1e-13)
-    assert abs(theirs.breaks_at / ours.breaks_at - 1) > 0.1
+    assert abs(theirs.valid_until / ours.valid_until - 1) > 0.1
 
 
 @pytest.mark.filterwarnings("error")
@@ -183,7 +183,7 @@ def test_nan_outside_the_domain_and_for_extreme_numbers() -> None:
             case = [*PAPER]
             case[index] = bad
             motion = printed_motion(*case, 10)
-            found = motion.corrected(1e-4), motion.breaks_at, motion.last, motion.contact_time
+            found = motion.corrected(1e-4), motion.valid_until, motion.last, motion.contact_time
             if bad != 1e-300 and (index, bad) != (5, 0.0):
                 assert all(map(math.isnan, found)), (index, bad)
 
@@ -199,17 +199,19 @@ def test_comparison_is_the_generated_motion() -> None:
     linear, *broken = found.comparison.motions
     assert found.comparison.modes == MODES
     motion = printed_motion(*numbers, MODES)
-    assert (linear.contact_time, linear.breaks_at) == (motion.contact_time, None)
+    assert (linear.contact_time, linear.valid_until) == (motion.contact_time, None)
     assert linear.contact_time_difference == motion.contact_time / found.contact_time - 1
     for row, corrected in zip(broken, (False, True), strict=True):
         motion = printed_motion(*numbers, MODES, corrected=corrected)
-        last = float(motion.corrected(motion.breaks_at))
+        last = float(motion.corrected(motion.valid_until))
         assert (row.contact_time, row.contact_time_difference) == (None, None)
-        assert (row.breaks_at, row.share, row.max_indentation) == (
-            motion.breaks_at, motion.share, last,
+        assert (row.valid_until, row.valid_fraction, row.max_indentation) == (
+            motion.valid_until, motion.valid_fraction, last,
         )  # fmt: skip
         assert row.max_indentation_difference == last / found.max_indentation - 1
-        assert row.share == pytest.approx(2 * motion.breaks_at / motion.contact_time, rel=1e-14)
+        assert row.valid_fraction == pytest.approx(
+            2 * motion.valid_until / motion.contact_time, rel=1e-14
+        )
 
 
 @pytest.mark.parametrize(
@@ -275,7 +277,7 @@ def test_output_of_the_comparison(tmp_path: Path, capsys: pytest.CaptureFixture[
     assert "For comparison only" in shown
     rows = json.loads(out.read_text())["paper_motion"]["motions"]
     assert [row["contact_time"] is None for row in rows] == [False, True, True]
-    assert [row["breaks_at"] is None for row in rows] == [True, False, False]
+    assert [row["valid_until"] is None for row in rows] == [True, False, False]
     html = simulate(load(path))._repr_html_()
     assert "linear term (15)" in html
     assert f"{rows[0]['contact_time']:.4g}" in html

@@ -72,7 +72,7 @@ def by_motion(numbers: Point) -> ExpectedResult:
 
     def ask(module: ModuleType) -> list[float]:
         motion = module.PrintedMotion(*numbers)
-        names = "contact_time", "max_indentation", "excess", "last", "breaks_at", "share"
+        names = "contact_time", "max_indentation", "excess", "last", "valid_until", "valid_fraction"
         return [
             *(getattr(motion, name) for name in names),
             *motion.linear(np.array(times)),
@@ -87,12 +87,12 @@ def by_motion(numbers: Point) -> ExpectedResult:
 
 def at_the_end(motion: Point) -> ExpectedResult:
     """Return the case of (16) at the zero of the radicand, approached like a square root."""
-    end = PrintedMotion(*motion).breaks_at  # tested by `by_motion`
+    end = PrintedMotion(*motion).valid_until  # tested by `by_motion`
     exact = float(motion_balls.corrected(end * (1 - 1e-10), *motion, digits=12))
 
     def ask(module: ModuleType) -> float:
         found = module.PrintedMotion(*motion)
-        return float(found.corrected(found.breaks_at))
+        return float(found.corrected(found.valid_until))
 
     return ExpectedResult(ask, exact, 1e-4)
 

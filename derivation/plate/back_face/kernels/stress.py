@@ -100,10 +100,10 @@ def wide_contact() -> Routine:
     coefficients = [powers.coeff_monomial(square**k) for k in range(1, powers.degree() + 1)]
 
     def summed(expression: sp.Expr) -> sp.Expr:
-        found = expression.replace(
+        summed_terms = expression.replace(
             POLYNOMIAL, lambda x, *c: sp.Add(*(part * x**k for k, part in enumerate(c)))
         )
-        return sp.expand(sp.expand_log(found))
+        return sp.expand(sp.expand_log(summed_terms))
 
     return routine(
         "under_wide_contact",

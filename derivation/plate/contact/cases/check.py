@@ -152,11 +152,11 @@ def stated_limits() -> dict[str, float]:
 
 def _single_precision_jobs(jobs: Sequence[Job]) -> list[Job]:
     """Return some of the jobs, with arguments rounded to single precision."""
-    found: list[Job] = []
+    all_jobs: list[Job] = []
     for name, where in jobs[::EVERY]:
         point = arguments(name, where, DIGITS) if isinstance(where, ContactShape) else where
-        found.append((name, tuple(float(np.float32(x)) for x in point)))
-    return found
+        all_jobs.append((name, tuple(float(np.float32(x)) for x in point)))
+    return all_jobs
 
 
 def _jobs(name: str, points: Mapping[str, Sequence[Point]] | None) -> list[Job]:
@@ -181,28 +181,30 @@ def _row(
     name: str,
     call: Callable[..., Any],
     budget: float,
-    found: Sequence[ContactReference],
+    references: Sequence[ContactReference],
     rounded: Sequence[ContactReference],
 ) -> ContactRow:
     ways = (call, _of_arrays(call)) if name in IN_TWO_WAYS else (call,)
-    errors = [max(_error(name, way, true) for way in ways) for true in found]
-    where = max(range(len(found)), key=lambda i: errors[i])
+    errors = [max(_error(name, way, true) for way in ways) for true in references]
+    where = max(range(len(references)), key=lambda i: errors[i])
     finite = [error if math.isfinite(error) else 1e300 for error in errors]
-    double = max((judge(way, found, budget) for way in ways), key=_used)
+    double = max((judge(way, references, budget) for way in ways), key=_used)
     single = judge(call, rounded, budget, SINGLE) if rounded else None
     kept = (
         errors[where] <= LIMIT
         and double.within_limits()
         and (single is None or single.within_limits(SINGLE))
     )
-    cases = [_case(t, e) for t, e in zip(found, errors, strict=True)] if name == "impact" else []
+    cases = (
+        [_case(t, e) for t, e in zip(references, errors, strict=True)] if name == "impact" else []
+    )
     return ContactRow(
         name,
-        len(found),
-        math.floor(min(true.digits for true in found)),
+        len(references),
+        math.floor(min(true.digits for true in references)),
         errors[where],
         float(np.quantile(finite, 0.99)),
-        tuple(argument.hex() for argument in found[where].point),
+        tuple(argument.hex() for argument in references[where].point),
         budget,
         double,
         single,

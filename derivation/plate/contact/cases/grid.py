@@ -62,13 +62,13 @@ def grid(name: str) -> tuple[ContactShape, ...]:
     generator = random.Random(name)
     if name == "impact":
         return tuple(_random_contact(generator, i, *case) for i, case in enumerate(IMPACTS))
-    found = []
+    shapes = []
     for i, eta in enumerate(THICKNESSES):
         for k, ratio in enumerate(RATIOS):
             narrowed = ratio * generator.uniform(JITTER, 1.0)
             widest = generator.uniform(*WIDE) / eta
-            found.append(_random_contact(generator, i + k, eta, min(narrowed, widest)))
-    return tuple(found)
+            shapes.append(_random_contact(generator, i + k, eta, min(narrowed, widest)))
+    return tuple(shapes)
 
 
 def _random_contact(generator: random.Random, i: int, eta: float, ratio: float) -> ContactShape:

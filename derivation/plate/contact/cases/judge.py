@@ -55,7 +55,10 @@ class OneByOne(Kernel):
 
 
 def judge(
-    call: Callable[..., Any], found: Sequence[ContactReference], budget: float, fmt: Format = DOUBLE
+    call: Callable[..., Any],
+    references: Sequence[ContactReference],
+    budget: float,
+    fmt: Format = DOUBLE,
 ) -> Errors:
     """Return the errors of a function against the reference values.
 
@@ -64,14 +67,14 @@ def judge(
     ValueError
         If the number of results differs from that of the reference.
     """
-    names = tuple(str(index) for index in range(len(found[0].point)))
+    names = tuple(str(index) for index in range(len(references[0].point)))
     kernel = OneByOne("the kernel", "", names, call, budget)
     with flint.ctx.workprec(256):  # to read the balls from text and to round the errors
         reference_values = [
             PointReference(
                 Point(dict(zip(names, true.point, strict=True))), _references(call, true)
             )
-            for true in found
+            for true in references
         ]
         return measured_errors(kernel, reference_values, fmt=fmt)
 

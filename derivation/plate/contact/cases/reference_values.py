@@ -60,13 +60,13 @@ def reference_value(job: Job) -> ContactReference:
     """
     name, where = job
     point = arguments(name, where, DIGITS) if isinstance(where, ContactShape) else where
-    found = agree(name, point, DIGITS)
-    values = tuple(ball.str(_WRITTEN) for ball in found.values)
-    first, last = float(found.values[0]), float(found.values[-1])
+    reference = agree(name, point, DIGITS)
+    values = tuple(ball.str(_WRITTEN) for ball in reference.values)
+    first, last = float(reference.values[0]), float(reference.values[-1])
     radius = last if name in ("impact", "contact_radius") else point[0]
     bend = bending(point, radius) if name == "impact" else 0.0
     return ContactReference(
-        point, values, found.digits, tolerance(name, point, first), bend, radius
+        point, values, reference.digits, tolerance(name, point, first), bend, radius
     )
 
 
@@ -110,11 +110,11 @@ def reference_values(
         total.
     """
     if processes == 1:
-        found = []
+        references = []
         for done, job in enumerate(jobs, start=1):
-            found.append(reference_value(job))
+            references.append(reference_value(job))
             progress(job[0], done, len(jobs))
-        return found
+        return references
     # New processes, because a copy of a process with threads may hang.
     pool = ProcessPoolExecutor(processes, multiprocessing.get_context("spawn"))
     try:

@@ -63,8 +63,8 @@ LAW: Facts = {
 
 def reduce(expression: sp.Expr) -> sp.Expr:
     """Simplify an expression; products written with `TIMES` are multiplied out first."""
-    found = expression.replace(TIMES, lambda first, *powers: first * _powers(powers))
-    return sp.simplify(sp.powdenest(found, force=True))
+    reduced = expression.replace(TIMES, lambda first, *powers: first * _powers(powers))
+    return sp.simplify(sp.powdenest(reduced, force=True))
 
 
 def _powers(powers: tuple[sp.Expr, ...]) -> sp.Expr:

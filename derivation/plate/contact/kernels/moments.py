@@ -69,14 +69,14 @@ def _nodes() -> list[tuple[Ball, Ball]]:
     another rule and another map of the axis.
     """
     step = Ball(1) / _STEP
-    found = []
+    nodes = []
     for index in range(-5 * _STEP, 6 * _STEP + 1):
         v = step * index
         exponential = (-v).exp()
         y = (v - exponential).exp()
         if y > Ball(2) ** _TAIL and y < _END:
-            found.append((y, step * y * (1 + exponential)))
-    return found
+            nodes.append((y, step * y * (1 + exponential)))
+    return nodes
 
 
 def midpoint(value: Ball) -> Ball:
@@ -102,11 +102,11 @@ def kappas() -> tuple[Ball, ...]:
 
 def _by_power(points: Sequence[tuple[Ball, Ball]], step: int, count: int) -> tuple[Ball, ...]:
     """Return the sums of weight y^(step i) over the nodes, i = 0 ... count - 1."""
-    found = []
+    moments = []
     for _ in range(count):
-        found.append(midpoint(sum((weight for _, weight in points), Ball(0))))
+        moments.append(midpoint(sum((weight for _, weight in points), Ball(0))))
         points = [(y, weight * y**step) for y, weight in points]
-    return tuple(found)
+    return tuple(moments)
 
 
 @cache
@@ -211,7 +211,7 @@ def _limit_parts() -> tuple[sp.Rational, sp.Rational]:
 
 def moment_numbers() -> Numbers:
     """Return the tables, the first indices of the expansions, and their coefficients."""
-    found = {name: np.array(table) for name, table in tables().items()}
+    numbers = {name: np.array(table) for name, table in tables().items()}
     pole, residue = _limit_parts()
     constants = (
         Constant("FIRST_K", FIRST_K, "First index k of M_k."),
@@ -228,12 +228,12 @@ def moment_numbers() -> Numbers:
             "LIMIT_POLE", float(pole), "M_k's ratio tends to 1 + LIMIT_RESIDUE/(k - LIMIT_POLE)."
         ),
         Constant("LIMIT_RESIDUE", float(residue), "See LIMIT_POLE."),
-        Constant("KAPPA", found["kappa"], "kappa_n, from n = 0."),
-        Constant("KAPPA_RATIO", found["kappa_ratio"], "kappa_n 2^(n+1)/(pi n!), from n = 0."),
-        Constant("FINITE_PART", found["finite_part"], "M_k, from k = FIRST_K."),
+        Constant("KAPPA", numbers["kappa"], "kappa_n, from n = 0."),
+        Constant("KAPPA_RATIO", numbers["kappa_ratio"], "kappa_n 2^(n+1)/(pi n!), from n = 0."),
+        Constant("FINITE_PART", numbers["finite_part"], "M_k, from k = FIRST_K."),
         Constant(
             "FINITE_PART_RATIO",
-            found["finite_part_ratio"],
+            numbers["finite_part_ratio"],
             "M_k 2^(2k-3)/(2k-2)!, from k = FIRST_K.",
         ),
     )

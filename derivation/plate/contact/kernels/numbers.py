@@ -55,24 +55,24 @@ def _closed_form() -> tuple[Constant, ...]:
 
 
 def _tables() -> tuple[Constant, ...]:
-    found = tables.tables()
+    values = tables.tables()
 
     def cells(name: str, ranges: tuple[tuple[int, int, int], ...]) -> tuple[object, ...]:
         return tuple(
-            (float(first), float(last), np.array(found[f"{name}_{index}"]))
+            (float(first), float(last), np.array(values[f"{name}_{index}"]))
             for index, (first, last, _) in enumerate(ranges)
         )
 
     def row(name: str) -> np.ndarray:
-        return np.array(found[name][0])
+        return np.array(values[name][0])
 
     return (
         Constant("THIN", row("thin"), "Phi/A of a thin plate in powers of (A/REACH)^2."),
         Constant("THIN_FAR", row("far_thin"), "Phi/A in powers of (A^2 - FAR_MIDDLE)/FAR_HALF."),
         Constant("EDGE", row("edge"), "W/alpha of the finite radius in powers of alpha^2."),
-        Constant("MODES", np.array(found["modes"]), "(8/(3 pi)) g(alpha j_n), likewise, by n."),
+        Constant("MODES", np.array(values["modes"]), "(8/(3 pi)) g(alpha j_n), likewise, by n."),
         Constant(
-            "SHORTENED", np.array(found["short"]), "Omitted powers in the short one's S_0, ..."
+            "SHORTENED", np.array(values["short"]), "Omitted powers in the short one's S_0, ..."
         ),
         Constant(
             "CELLS", cells("cell", tables.CELLS), f"Remainder of a thin plate's F/A: {_CELL}."

@@ -34,8 +34,8 @@ change, steep, first, second = sp.symbols("change steep first second", real=True
 
 def thin(k: int) -> sp.Expr:
     """Return c_(2k-3) as a function of v."""
-    found: sp.Expr = thin_coefficient(k).expression.subs(eta, 1 / v)
-    return found
+    coefficient: sp.Expr = thin_coefficient(k).expression.subs(eta, 1 / v)
+    return coefficient
 
 
 def constant(k: int) -> sp.Expr:
@@ -54,9 +54,9 @@ def _with_logarithm(expression: sp.Expr) -> sp.Expr:
 @named_routine
 def thin_coefficients() -> Claims:
     """Return c1 and c3 of a thin plate."""
-    found = _with_logarithm(thin(2)), _with_logarithm(thin(3))
-    by_log = [part.coeff(sp.log(v)) for part in found]
-    grows = found[0].coeff(v**2)
+    claims = _with_logarithm(thin(2)), _with_logarithm(thin(3))
+    by_log = [part.coeff(sp.log(v)) for part in claims]
+    grows = claims[0].coeff(v**2)
     return Claims(
         (v,),
         (

@@ -144,11 +144,11 @@ def whole_over_radius(v: Ball, radii: Sequence[Ball]) -> list[Ball]:
     """
     count = 5 * ceil(float(v)) + 8  # e^(-4 eta j) < 1e-26 beyond
     weights = [(zero / v, w * plate_excess(2 * zero / v)) for zero, w in modes(count)]
-    found = []
+    values = []
     for A in radii:
         total = sum((weight * shape(A * phi) for phi, weight in weights), Ball(0))
-        found.append((edge_part(A / v) + 8 * total / (3 * Ball.pi())) / v)
-    return found
+        values.append((edge_part(A / v) + 8 * total / (3 * Ball.pi())) / v)
+    return values
 
 
 def thin_remainder(v: Ball, radii: Sequence[Ball], thin: Sequence[Ball]) -> list[Ball]:
@@ -240,7 +240,7 @@ def tables() -> dict[str, Rows]:
         the short polynomial, 0 <= x <= 1/SHORT.
     """
     with flint.ctx.workprec(BITS):
-        found = {
+        rows = {
             "thin": (_round(_over_squares(lambda x: thin_part(REACH * x), TERMS)),),
             "far_thin": (_round(_far_thin()),),
             "edge": (_round(_over_squares(edge_part, TERMS)),),
@@ -250,7 +250,7 @@ def tables() -> dict[str, Rows]:
             ),
         }
         cells = {f"cell_{index}": _cell(*cell) for index, cell in enumerate(CELLS)}
-        return found | cells | {f"far_{i}": _far_cell(*cell) for i, cell in enumerate(FAR_CELLS)}
+        return rows | cells | {f"far_{i}": _far_cell(*cell) for i, cell in enumerate(FAR_CELLS)}
 
 
 def _far_radii(top: Ball, start: int = REACH) -> list[Ball]:

@@ -46,9 +46,9 @@ def refine_to_digits(
     bits = _STEP * math.ceil((target + _SPARE) / _STEP)
     for _ in range(_ATTEMPTS):
         with flint.ctx.workprec(bits):
-            found = compute(bits)
-        if all(ball.is_finite() and ball.rel_accuracy_bits() >= target for ball in found):
-            return found
+            balls = compute(bits)
+        if all(ball.is_finite() and ball.rel_accuracy_bits() >= target for ball in balls):
+            return balls
         bits += _STEP
     raise PrecisionError(f"no {digits} digits of {what} within {bits} bits")
 

@@ -20,11 +20,11 @@ def lateral_moments(count: int, digits: int) -> tuple[mpf, ...]:
         step = 1 / (8 + mpf(4) / 5 * mp.dps + mp.sqrt(2 * count))
         points = list(_nodes(step, 2 * count))
         terms, squares = [w * _lateral(y) for y, w in points], [y * y for y, _ in points]
-        found = []
+        moments = []
         for _ in range(count):
-            found.append(step * mp.fsum(terms))
+            moments.append(step * mp.fsum(terms))
             terms = [s * q for s, q in zip(terms, squares, strict=True)]
-        return tuple(found)
+        return tuple(moments)
 
 
 def _lateral(y: mpf) -> mpf:

@@ -281,12 +281,12 @@ def _fejer(count: int, bits: int) -> tuple[tuple[mpf, mpf], ...]:
         twice, cosines = fixed(2 * mp.cos(angle), more), [1 << more, fixed(mp.cos(angle), more)]
         for _ in range(2, 4 * count):
             cosines.append((twice * cosines[-1] >> more) - cosines[-2])
-    found = []
+    nodes = []
     for k in range(count // 2):
         rest = sum(
             cosines[2 * i * (2 * k + 1) % (4 * count)] // (4 * i * i - 1)
             for i in range(1, count // 2 + 1)
         )
         weight = floating((1 << more) - 2 * rest, more) * 2 / count
-        found.append((floating(cosines[2 * k + 1], more), weight))
-    return tuple(found)
+        nodes.append((floating(cosines[2 * k + 1], more), weight))
+    return tuple(nodes)

@@ -174,12 +174,12 @@ def _root(n: int, bits: int) -> mpc:
     steps = [bits]
     while steps[-1] > 90:
         steps.append(steps[-1] // 2 + 8)
-    found = mpc(T)
+    root = mpc(T)
     for prec in reversed(steps):
         with mp.workprec(prec):
-            slope = 1 - 1 / mp.sqrt(1 + found * found)
-            found -= (found - mp.asinh(found) - mpc(0, n) * mp.pi) / slope
-    return found
+            slope = 1 - 1 / mp.sqrt(1 + root * root)
+            root -= (root - mp.asinh(root) - mpc(0, n) * mp.pi) / slope
+    return root
 
 
 def _bessel_quotient(w: mpc) -> mpc:
@@ -256,15 +256,15 @@ def _powers(nodes: list[_Node], half: mpf, bits: int) -> Iterator[int | None]:
 def _laurent(bits: int) -> Scaled:
     """Return g_n of G = sum g_n T^(2n-3), |T| < 4.7, up to negligible terms at T = 1."""
     below: Scaled = []
-    found: Scaled = []
-    while len(found) < 4 or abs(found[-1]) > 8:
-        i = len(found)
+    coefficients: Scaled = []
+    while len(coefficients) < 4 or abs(coefficients[-1]) > 8:
+        i = len(coefficients)
         above = (4**i << bits) // math.factorial(2 * i + 1) + (0 if i else 1 << bits)
         below.append((2 ** (2 * i + 3) << bits) // math.factorial(2 * i + 4))
         # T^3 G (sinh^2 T - T^2)/T^4 = 1 + sinh(2T)/(2T), and the divisor begins with 1/3.
-        rest = sum(g * below[i - k] for k, g in enumerate(found)) >> bits
-        found.append(3 * (above - rest))
-    return found
+        rest = sum(g * below[i - k] for k, g in enumerate(coefficients)) >> bits
+        coefficients.append(3 * (above - rest))
+    return coefficients
 
 
 def _near(bits: int, half: mpf, eta: mpf) -> Iterator[int]:

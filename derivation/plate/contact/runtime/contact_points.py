@@ -27,8 +27,8 @@ def flat(x: Double, shape: tuple[int, ...]) -> Double:
 
 def cut(x: Double, part: slice) -> Double:
     """Return a part of a flattened array; a repeated single value is returned as a scalar."""
-    found: Double = x[0] if x.size and x.strides[0] == 0 else x[part]
-    return found
+    values: Double = x[0] if x.size and x.strides[0] == 0 else x[part]
+    return values
 
 
 def pieces(arguments: list[Double], shape: tuple[int, ...], part: slice) -> list[Double]:

@@ -348,16 +348,16 @@ def correction(A: Double, plates: Plates, index: np.ndarray | None) -> Double:
     short_limit = reach * SHORT >= A
     if short_limit.all():
         return value_of(A, columns(plates.short, index))
-    found = value_of(A, columns(plates.first, index))
+    total = value_of(A, columns(plates.first, index))
     chosen = np.flatnonzero(short_limit)
     if chosen.size:
         at = None if index is None else index[chosen]
-        found[chosen] = value_of(A[chosen], columns(plates.short, at))
+        total[chosen] = value_of(A[chosen], columns(plates.short, at))
     near = reach * ROUNDED >= A
     if not near.all():
         for part, values, _ in _beyond(A, near, plates, index):
-            found[part] = values
-    return found
+            total[part] = values
+    return total
 
 
 def correction_with_slope(
@@ -366,11 +366,11 @@ def correction_with_slope(
     """Return F and A F' at a block of points A >= 0 of shape (points,), alpha < 1."""
     reach = plates.reach[slice(None) if index is None else index]
     near = reach * ROUNDED >= A
-    found, slopes = with_slope(A, columns(plates.first, index))
+    total, slopes = with_slope(A, columns(plates.first, index))
     if not near.all():
         for part, values, rises in _beyond(A, near, plates, index):
-            found[part], slopes[part] = values, rises
-    return found, slopes
+            total[part], slopes[part] = values, rises
+    return total, slopes
 
 
 def _beyond(
@@ -381,18 +381,18 @@ def _beyond(
     owner = np.zeros(outside.size, dtype=np.intp) if index is None else index[outside]
     within = ROUNDED * plates.far[owner] >= A[outside]
     which, position = np.unique(owner[within], return_inverse=True)
-    found: list[tuple[np.ndarray, Double | float, Double | float]] = []
+    parts: list[tuple[np.ndarray, Double | float, Double | float]] = []
     if which.size:
         piece = columns(far_piece(plates.eta[which]), None if which.size == 1 else position)
-        found.append((outside[within], *with_slope(A[outside[within]], piece)))
+        parts.append((outside[within], *with_slope(A[outside[within]], piece)))
     rest, owner = outside[~within], owner[~within]
     for plate in np.unique(owner):
         selected, eta = rest[owner == plate], float(plates.eta[plate])
         summable = (A[selected] * eta <= ROUNDED) & (eta >= THINNEST_SUM)
         if summable.any():
-            found.append((selected[summable], *direct(A[selected[summable]], eta)))
-        found.append((selected[~summable], np.nan, np.nan))
-    return found
+            parts.append((selected[summable], *direct(A[selected[summable]], eta)))
+        parts.append((selected[~summable], np.nan, np.nan))
+    return parts
 
 
 def blocks_of(size: int) -> list[slice]:

@@ -28,7 +28,7 @@ _THINNER = CELLS[-1][1]  # value of 1/eta above which the remainder is negligibl
 
 def first_by_thickness(first: Piece, eta: Double) -> Double:
     """Return coefficients of dF/d log(eta) at fixed A, in the powers of the first piece."""
-    found = np.full(first.coefficients.shape, np.nan)
+    coefficients = np.full(first.coefficients.shape, np.nan)
     chosen = np.flatnonzero(eta >= 1.0 / REACH)
     if chosen.size:
         zeros, slopes = _weight_slopes(eta[chosen], MODES.shape[0])
@@ -38,7 +38,7 @@ def first_by_thickness(first: Piece, eta: Double) -> Double:
         # reach is 1/eta: for fixed weights F is a function of alpha = A eta.
         orders = 2.0 * np.arange(total.shape[0], dtype=np.float64)[:, None] + 1.0
         whole = first.coefficients[:, chosen]
-        found[:, chosen] = kernels.thick_by_thickness(orders, whole, eta[chosen], total)
+        coefficients[:, chosen] = kernels.thick_by_thickness(orders, whole, eta[chosen], total)
     chosen = np.flatnonzero(eta < 1.0 / REACH)
     if chosen.size:
         v = 1.0 / eta[chosen]
@@ -46,8 +46,8 @@ def first_by_thickness(first: Piece, eta: Double) -> Double:
         _tabulated_slope(v, CELLS, total)
         total[0] += kernels.linear_by_log(v)
         total[1] += NEAR_BY_LOG
-        found[:, chosen] = -total
-    return found
+        coefficients[:, chosen] = -total
+    return coefficients
 
 
 def far_by_thickness(far: Piece, eta: Double) -> Piece:

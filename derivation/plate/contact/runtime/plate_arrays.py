@@ -94,15 +94,15 @@ def _plate_by_plate(
     count = int(np.prod(shape))
     if owner.size == 1 or owner.size != some.plates.eta.size or count < _APART * owner.size:
         return function(some, *arguments)
-    found = np.empty(shape)
+    values = np.empty(shape)
     for place in np.ndindex(owner.shape):
         where = (
             ...,
             *(i if n > 1 else slice(None) for i, n in zip(place, owner.shape, strict=True)),
         )
         h, b, *rest = (_at(x, place, owner.shape) for x in (some.h, some.b, *arguments))
-        found[where] = function(_one_of(some, int(owner[place]), h, b), *rest)
-    return found
+        values[where] = function(_one_of(some, int(owner[place]), h, b), *rest)
+    return values
 
 
 def _at(x: Double, place: tuple[int, ...], lengths: tuple[int, ...]) -> Double:
@@ -111,8 +111,8 @@ def _at(x: Double, place: tuple[int, ...], lengths: tuple[int, ...]) -> Double:
     sizes = whole.shape[whole.ndim - len(place) :]
     own = (min(i, size - 1) for i, size in zip(place, sizes, strict=True))
     where = (i if n > 1 else slice(None) for i, n in zip(own, lengths, strict=True))
-    found: Double = whole[(..., *where)]
-    return found
+    value: Double = whole[(..., *where)]
+    return value
 
 
 def _one_of(some: PlateArrays, number: int, h: Double, b: Double) -> PlateArrays:
@@ -169,10 +169,10 @@ def _contact(some: PlateArrays, delta: Double, R: Double) -> tuple[Double, Doubl
     index = index_of(some.owner, shape)
     eps = np.ravel(np.broadcast_to(kernels.depth_ratio(delta, R, some.h), shape))
     limit = _limits(eps, some, index)
-    found = np.empty(eps.size)
+    radii = np.empty(eps.size)
     for part in blocks_of(eps.size):
-        found[part] = _invert(eps[part], some, limit, cut_index(index, part))
-    radius_ratio: Double = found.reshape(shape)
+        radii[part] = _invert(eps[part], some, limit, cut_index(index, part))
+    radius_ratio: Double = radii.reshape(shape)
     a = kernels.radius_of_ratio(radius_ratio, delta, R)
     a = np.where(a <= ROUNDED * some.b, np.minimum(a, some.b), np.nan)
     return inside([a], a < R)[0], radius_ratio

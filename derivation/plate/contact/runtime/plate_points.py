@@ -120,17 +120,17 @@ def indentation(plate: PlatePoints, a: float, R: float) -> float | None:
 
 def contact_radius(plate: PlatePoints, delta: float, R: float) -> float | None:
     """Return the contact radius [m] at an indentation [m], or None."""
-    found = _contact(plate, delta, R)
-    return None if found is None else found[0]
+    radius = _contact(plate, delta, R)
+    return None if radius is None else radius[0]
 
 
 def force(plate: PlatePoints, delta: float, R: float, lam: float, mu: float) -> float | None:
     """Return the force [N] at an indentation [m], or None."""
     modulus = _modulus(lam, mu)
-    found = None if modulus is None else _contact(plate, delta, R)
-    if modulus is None or found is None:
+    contact = None if modulus is None else _contact(plate, delta, R)
+    if modulus is None or contact is None:
         return None
-    a, radius_ratio = found
+    a, radius_ratio = contact
     return kernels.force_in_range(radius_ratio, delta, a, mu, modulus)
 
 

@@ -65,9 +65,9 @@ class PreparedPlate:
         0.0001629483151
         """
         if (point := _numbers(a, R)) and self.points is not None:
-            found = plate_points.indentation(self.points, *point)
-            if found is not None:
-                return _single(found)
+            value = plate_points.indentation(self.points, *point)
+            if value is not None:
+                return _single(value)
         return _indentation(self, a, R)
 
     def contact_radius(self, delta: ArrayLike, R: ArrayLike) -> np.ndarray:
@@ -92,9 +92,9 @@ class PreparedPlate:
         0.004
         """
         if (point := _numbers(delta, R)) and self.points is not None:
-            found = plate_points.contact_radius(self.points, *point)
-            if found is not None:
-                return _single(found)
+            value = plate_points.contact_radius(self.points, *point)
+            if value is not None:
+                return _single(value)
         return _contact_radius(self, delta, R)
 
     def force(self, delta: ArrayLike, R: ArrayLike, lam: ArrayLike, mu: ArrayLike) -> np.ndarray:
@@ -123,9 +123,9 @@ class PreparedPlate:
         731.09
         """
         if (point := _numbers(delta, R, lam, mu)) and self.points is not None:
-            found = plate_points.force(self.points, *point)
-            if found is not None:
-                return _single(found)
+            value = plate_points.force(self.points, *point)
+            if value is not None:
+                return _single(value)
         return _force(self, delta, R, lam, mu)
 
     def stiffness(self, a: ArrayLike, R: ArrayLike, lam: ArrayLike, mu: ArrayLike) -> np.ndarray:
@@ -155,9 +155,9 @@ class PreparedPlate:
         5.99637e+06
         """
         if (point := _numbers(a, R, lam, mu)) and self.points is not None:
-            found = plate_points.stiffness(self.points, *point)
-            if found is not None:
-                return _single(found)
+            value = plate_points.stiffness(self.points, *point)
+            if value is not None:
+                return _single(value)
         return _stiffness(self, a, R, lam, mu)
 
     @cached_property
@@ -222,8 +222,8 @@ def _numbers(*arguments: ArrayLike) -> tuple[float, ...]:
 
 def _single(value: float) -> np.ndarray:
     """Return a number as a NumPy scalar."""
-    found: np.ndarray = np.float64(value)  # type: ignore[assignment]
-    return found
+    scalar: np.ndarray = np.float64(value)  # type: ignore[assignment]
+    return scalar
 
 
 @quiet

@@ -162,16 +162,16 @@ def impact_sensitivities(
     [-0.015  0.493 -0.015 -1.388  0.924 -0.078 -0.415]
     """
     kind, [R, m, v0, h, b, lam, mu] = as_doubles(R, m, v0, h, b, lam, mu)
-    found, radius, _, _, ok = _solve(R, m, v0, h, b, lam, mu)
+    scenes, radius, _, _, ok = _solve(R, m, v0, h, b, lam, mu)
     plates, numbers = plates_of_lengths(h, b)
     owner = np.ravel(np.broadcast_to(numbers, ok.shape))
     by_energy, by_eta = np.empty((4, owner.size)), np.empty((4, owner.size))
     slopes = first_by_thickness(plates.first, plates.eta)
     for part in _parts(owner.size):
         which = owner[part]
-        scale = np.minimum(found.A[part], plates.reach[which])
+        scale = np.minimum(scenes.A[part], plates.reach[which])
         by_energy[:, part], by_eta[:, part] = _changes(
-            found, part, plates.eta[which], _Law(*_scaled(slopes, which, scale, plates.reach))
+            scenes, part, plates.eta[which], _Law(*_scaled(slopes, which, scale, plates.reach))
         )
     undefined = np.isnan(np.ravel(radius))
     by_energy[:, undefined], by_eta[:, undefined] = np.nan, np.nan
@@ -204,21 +204,21 @@ def _orders(terms: Double) -> Double:
     return 2.0 * np.arange(terms.shape[0], dtype=np.float64)[:, None] + 3.0
 
 
-def _changes(found: Scenes, part: slice, eta: Double, deeper: _Law) -> tuple[Double, Double]:
+def _changes(scenes: Scenes, part: slice, eta: Double, deeper: _Law) -> tuple[Double, Double]:
     """Return logarithmic slopes of A_m^(-1/2) I, A^2 (1 + F), A^3 and A by Y and by eta."""
-    terms = found.terms[:, part]
+    terms = scenes.terms[:, part]
     wider = kernels.power_slope(_orders(terms), terms)
-    laws = _Law(terms, found.tails[:, part]), _Law(wider, _tails(wider)), deeper
-    lift, energy = found.lift[part], found.energy[part]
+    laws = _Law(terms, scenes.tails[:, part]), _Law(wider, _tails(wider)), deeper
+    lift, energy = scenes.lift[part], scenes.energy[part]
     rate = relative_rise(terms.sum(axis=0), wider.sum(axis=0))
     lift_slope, energy_slope = deeper.terms.sum(axis=0), deeper.tails[0].copy()
-    slot = found.slot[part]
+    slot = scenes.slot[part]
     far = np.flatnonzero(slot >= 0)
     ratio, gap, rises = np.ones(lift.size), np.zeros(lift.size), np.zeros((3, lift.size))
     outer = np.zeros((3, lift.size))
     if far.size:
-        ends = found.beyond.near[slot[far]], found.beyond.gap[slot[far]]
-        beyond = _beyond(found.A[part][far], ends[1], eta[far])
+        ends = scenes.beyond.near[slot[far]], scenes.beyond.gap[slot[far]]
+        beyond = _beyond(scenes.A[part][far], ends[1], eta[far])
         ratio[far], gap[far] = ends
         rises[:, far], outer[:, far] = beyond.rises, beyond.integrals
         rate[far], lift_slope[far] = beyond.rate, beyond.lift_slope

@@ -162,8 +162,8 @@ def finite_part_ratio(k: ArrayLike) -> np.ndarray:
 def _looked_up(table: Double, place: Double) -> Double:
     """Return entries of a table; NaN for an index that it does not contain."""
     known = (place >= 0.0) & (place < table.size) & (place == np.floor(place))
-    found = table.take(np.where(known, place, 0.0).astype(np.intp))
-    return np.where(known, found, np.nan)
+    values = table.take(np.where(known, place, 0.0).astype(np.intp))
+    return np.where(known, values, np.nan)
 
 
 def _representable(value: Double, kind: np.dtype) -> np.ndarray:

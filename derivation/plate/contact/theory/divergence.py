@@ -178,11 +178,11 @@ def truncated_gamma(k: int) -> Formula:
     C n^p, p > -1, behave like C N^(p+1)/(p+1); phi_n behaves like pi n/b.
     """
     n = sp.Symbol("n", integer=True, positive=True)
-    found = tail(printed_term(k))
-    assert found.kind == DIVERGENT, found.says
-    assert found.leading is not None
-    term = sp.powsimp(found.leading.subs(phi, sp.pi * n / b), force=True)
-    power = found.exponent
+    growth = tail(printed_term(k))
+    assert growth.kind == DIVERGENT, growth.says
+    assert growth.leading is not None
+    term = sp.powsimp(growth.leading.subs(phi, sp.pi * n / b), force=True)
+    power = growth.exponent
     constant = sp.expand(term / n**power)
     total = constant * N ** (power + 1) / (power + 1)
     step = sp.Symbol("N", integer=True, positive=True)

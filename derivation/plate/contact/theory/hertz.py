@@ -121,8 +121,8 @@ def contact_radius() -> Formula:
     moment = sp.integrate(_t * sp.sin(phi * _t), (_t, 0, a))
     proof = prove(
         "Hertz contact radius",
-        r"The half-space's surface under the pressure is, for $r \le a$, a parabola of the "
-        "sphere's curvature $1/R$ with the depth $a^2/R$ at the centre.",
+        r"Under this pressure the surface of the half-space is, for $r \le a$, a parabola with "
+        r"the curvature $1/R$ of the sphere and the depth $a^2/R$ at the centre.",
         {
             "moment of the sine": moment - SINE_MINUS / phi**2,
             "curvature": curvature.subs(P, force),
@@ -155,8 +155,8 @@ def norm_of_bessel() -> Proof:
     product = r * (phi * j1 * i0 - k * j0 * i1) / (phi**2 - k**2)
     return prove(
         "Orthogonality",
-        r"Both antiderivatives (Lommel) differentiate to $r J_0(\phi r)^2$ and "
-        r"$r J_0(\phi r) J_0(k r)$.",
+        r"Lommel's antiderivatives are differentiated and give "
+        r"$r J_0(\phi r)^2$ and $r J_0(\phi r) J_0(k r)$.",
         {
             "norm": lower_bessel(sp.diff(square, r)) - r * j0**2,
             "orthogonality": lower_bessel(sp.diff(product, r)) - r * j0 * i0,

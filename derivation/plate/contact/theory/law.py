@@ -47,7 +47,7 @@ def contact_law() -> tuple[Formula, ...]:
         Formula(
             "K_j_bottom",
             r"K_j^{-}",
-            r"the same for the deflection of the back face $z = -h$",
+            r"factor of $s(a \phi_j)$ in the deflection of the back face $z = -h$",
             faces["K_j_bottom"],
             "m",
             "6",

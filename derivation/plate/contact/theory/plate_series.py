@@ -94,10 +94,11 @@ def coefficient(k: int) -> Coefficient:
     lateral = sp.series(lateral_bracket(alpha), alpha, 0, 2 * k).removeO().coeff(alpha, 2 * k - 1)
     proof = prove(
         f"Coefficient c_{order}",
-        r"Taylor coefficients of both parts of the split; $\alpha = \eta A$.",
+        r"Both parts of the split are expanded in Taylor series, with $\alpha = \eta A$.",
         {
-            "share": mode_term - factor * spread.subs(_y, alpha * j_n) * excess,
-            "modes": factor / alpha * taylor * j_n ** (order - 1) * eta**order * excess - mode,
+            "mode term": mode_term - factor * spread.subs(_y, alpha * j_n) * excess,
+            "Taylor coefficient": factor / alpha * taylor * j_n ** (order - 1) * eta**order * excess
+            - mode,
             "finite radius": -8
             / sp.pi**2
             * lateral

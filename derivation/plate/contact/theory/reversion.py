@@ -47,11 +47,11 @@ def inverted_coefficients(
     series: Sequence[sp.Expr], d: int, g: int, p: int, terms: int
 ) -> tuple[sp.Expr, ...]:
     """Return coefficients of y^(p + g n) in x^p, where y^d = x^d (series in x^g), by Lagrange."""
-    found = []
+    coefficients = []
     for n in range(terms):
         exponent = sp.Rational(-(p + g * n), d)
-        found.append(sp.Rational(p, p + g * n) * power_series(series, exponent, n + 1)[n])
-    return tuple(found)
+        coefficients.append(sp.Rational(p, p + g * n) * power_series(series, exponent, n + 1)[n])
+    return tuple(coefficients)
 
 
 def composition(
@@ -156,7 +156,7 @@ def _hertz_force(scale: sp.Expr) -> Formula:
     value = scale * sp.sqrt(R) * delta ** sp.Rational(3, 2)
     proof = prove(
         "Hertz's force",
-        r"$\delta = a^2/R$ in the relation between force and contact radius.",
+        r"$\delta = a^2/R$ is inserted into the relation between force and contact radius.",
         {"force": sp.powdenest(value.subs(delta, a**2 / R), force=True) - scale * a**3 / R},
     )
     return Formula(
@@ -181,8 +181,8 @@ def exponent() -> Formula:
     power = sp.simplify(delta * sp.diff(term, delta) / term).subs(_N, k - 2)
     proof = prove(
         "Powers of the indentation",
-        r"$P$ is proportional to $\varepsilon^{3 + n}$, $n = k - 2$, and $\varepsilon$ to the "
-        r"root of $\delta$.",
+        r"$P$ is proportional to $\varepsilon^{3 + n}$ with $n = k - 2$, and $\varepsilon$ to "
+        r"the square root of $\delta$.",
         {
             "first": power.subs(k, 2) - sp.Rational(3, 2),
             "step": sp.expand(power.subs(k, k + 1) - power) - sp.Rational(1, 2),

@@ -73,8 +73,8 @@ def spherical_contact() -> tuple[Formula, Formula]:
     atanh_slope = sp.diff(sp.log((1 + _x) / (1 - _x)) / 2, _x)
     proof = prove(
         "Sphere on a half-space",
-        r"$\delta'$ expanded in $a$ gives the sphere's profile power by power; "
-        r"$dP = 2 E^* a d \delta$; $a/R \to 0$ is Hertz's law.",
+        r"$\delta'$ is expanded in $a$ and gives the profile of the sphere power by power. $dP = "
+        r"2 E^* a d \delta$ gives the force. For $a/R \to 0$ both tend to Hertz's law.",
         {
             "profile": sp.simplify(sp.gammasimp(ratio)) - 1,
             "geometric series": atanh_slope - 1 / (1 - _x**2),

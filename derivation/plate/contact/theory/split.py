@@ -236,7 +236,7 @@ def contact_split() -> tuple[Formula, ...]:
         "by the two integrals of the sum identity, the first of which is Hertz's $a^2/R$.",
         {
             "K_j": contact_law()[0].expression - flat * (1 + excess),
-            "share": flat * SINE_MINUS - f.subs(x, b * phi) / (b * phi * J1**2),
+            "mode term": flat * SINE_MINUS - f.subs(x, b * phi) / (b * phi * J1**2),
             "Hertz": half - a**2 / R,
             "finite radius": -both / (2 * sp.pi) - _side_density(),
         },
@@ -262,7 +262,13 @@ def contact_split() -> tuple[Formula, ...]:
     return (
         part("delta_half", r"\delta_\infty", "indentation of the half-space", a**2 / R),
         part("delta_lateral", r"\delta_b", "change of the indentation by the finite radius", side),
-        part("delta_thickness", r"\delta_h", "that by the finite thickness", thickness, True),
+        part(
+            "delta_thickness",
+            r"\delta_h",
+            "change of the indentation by the finite thickness",
+            thickness,
+            True,
+        ),
     )
 
 

@@ -96,14 +96,14 @@ def lateral_at_zero() -> Laurent:
     i0 = sp.Add(*((y / 2) ** (2 * m) / sp.factorial(m) ** 2 for m in orders))
     extra = sp.Add(*(sp.harmonic(m) * (y / 2) ** (2 * m) / sp.factorial(m) ** 2 for m in orders))
     ratio = sp.series(extra / i0, y, 0, 6).removeO()
-    found = {0: sp.log(2) - _EULER} | {power: ratio.coeff(y, power) for power in (2, 4)}
+    coefficients = {0: sp.log(2) - _EULER} | {power: ratio.coeff(y, power) for power in (2, 4)}
     residual = sp.expand(ratio * i0 - extra)
     proof = prove(
         "K0/I0 at y = 0",
         "The series without its logarithm, times I0, is that of K0 + (log(y/2) + gamma) I0.",
         {f"y^{power}": residual.coeff(y, power) for power in (0, 2, 4)},
     )
-    return Laurent(found, proof)
+    return Laurent(coefficients, proof)
 
 
 @cache
@@ -120,19 +120,19 @@ def zero_sum(s: int) -> Laurent:
     value, slope, bend = (sp.diff(-sp.cos(angle) / sp.pi, _u, n).subs(_u, 0) for n in range(3))
     if s < 1:
         regular = kappa[-s] if -s in kappa else sp.Symbol("kappa", positive=True)
-        found = {0: sp.expand(value * regular)}
+        coefficients = {0: sp.expand(value * regular)}
         residuals = {"odd": value if s % 2 else sp.Integer(0)}
     else:
         # The power y^(s-1) of K0/I0 gives a pole: -(c)/u, and -log y gives 1/u^2 at s = 1.
         simple, double = -lateral.at(s - 1), sp.Integer(1 if s == 1 else 0)
-        found = {-1: slope * double, 0: slope * simple + bend / 2 * double}
+        coefficients = {-1: slope * double, 0: slope * simple + bend / 2 * double}
         residuals = {"value": value, "bend": bend}
     proof = prove(
         f"Z near {s}",
         "The integral of y^(-s) K0/I0 continued analytically, times -cos(pi s/2)/pi.",
         residuals,
     )
-    return Laurent(found, proof)
+    return Laurent(coefficients, proof)
 
 
 @cache
@@ -173,8 +173,8 @@ def thin_coefficient(k: int) -> Formula:
     rest = sp.expand(total - leading * M[k])
     proof = prove(
         f"Thin plate's c_{order}",
-        "Residues of the Mellin integral; the pole of $G - 1$ at $s = 0$ cancels the finite "
-        "radius, and beyond $k = 3$ only the finite part $M_k$ remains.",
+        "The coefficients are residues of a Mellin integral. The pole of $G - 1$ at $s = 0$ "
+        "cancels the finite radius; beyond $k = 3$ only the finite part $M_k$ remains.",
         {
             "kappa": total.coeff(kappa[2 * k - 4]),
             "finite part": leading - size * 8 / sp.pi / 2 ** (2 * k - 2),

@@ -175,13 +175,13 @@ def coefficient_remainder(k: int) -> Formula:
     modes = coefficient(k).mode - mode * _mode_factor(2 * k - 4)
     proof = prove(
         f"Contribution of the roots to c_{order}",
-        "$z^{2k-4} (G - 1)$ in the contour integral: the axes give the closed form, the poles "
-        r"inside give $\pi$ times the imaginary part of their residues.",
+        r"The contour integral is taken over $z^{2k-4} (G - 1)$: the axes give the closed form, "
+        r"the poles inside give $\pi$ times the imaginary part of their residues.",
         {
             "modes": modes,
             "pole": found[-1],
             "axes": sp.expand(found[0] - thin_modal_sum(k)),
-            "share": one - factor * T ** (2 * k - 6) * (1 + sp.sqrt(1 + T**2)) ** 2,
+            "residue": one - factor * T ** (2 * k - 6) * (1 + sp.sqrt(1 + T**2)) ** 2,
         },
     )
     return Formula(
@@ -223,14 +223,15 @@ def law_remainder() -> Formula:
     y = a_ratio * T / 2
     proof = prove(
         "Contribution of the roots to the law",
-        r"$q(z) = s(\alpha z)/(\alpha z)^3$ in the contour integral. Only its powers 1 and $z^2$ "
-        r"meet the pole of $G$ at 0; they give $c_1$ and $c_3$. The real axis gives $\Phi$, the "
-        "imaginary one cancels the finite radius, and the poles inside give the sum.",
+        r"The contour integral is taken over $q(z) (G - 1)$ with $q(z) = s(\alpha z)/(\alpha "
+        r"z)^3$. Of $q$, only the terms 1 and $z^2$ meet the pole of $G$ at 0; they give $c_1$ "
+        r"and $c_3$. The real axis gives $\Phi$, the imaginary one cancels the finite radius, "
+        r"and the poles inside give the sum.",
         {
             "modes": modes - mode * sine_kernel(alpha * j_n) * _mode_factor(0),
             "finite radius": sp.expand((on_axis + lateral.function / LATERAL).rewrite(sp.exp)),
             "Phi": real.subs(alpha, eta * a_ratio) - 2 * a_ratio / sp.pi * sine_kernel(y),
-            "share": mode.subs(alpha, eta * a_ratio) * _residue_factor(sine_kernel(y))
+            "residue": mode.subs(alpha, eta * a_ratio) * _residue_factor(sine_kernel(y))
             - 16 / a_ratio**2 * _law_weight(T) * (1 + sp.sqrt(1 + T**2)) ** 2,
         },
     )

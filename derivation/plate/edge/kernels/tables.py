@@ -99,15 +99,15 @@ def _tables(kernel: Kernel, first: Ball, weights: list[Ball]) -> tuple[tuple[flo
         alternating_sum(kernel, at) - weights[1] * value
         for at, value in zip(points, kernel_values, strict=True)
     ]
-    found = []
+    rows = []
     for name, values in zip(TABLES, (cubes, squares), strict=True):
         # Chebyshev's coefficients decrease by 0.39 each: the last shows the truncation error.
         waves = [((TERMS - 1) * angle).cos() for angle in _angles()]
         last = 2 * sum((f * t for f, t in zip(values, waves, strict=True)), Ball(0)) / TERMS
         if not abs(last) < CUT_OFF:
             raise ArithmeticError(f"truncation error of {name} with {TERMS} coefficients: {last}")
-        found.append(tuple(nearest_double(c) for c in _that_count(in_powers(values))))
-    return tuple(found)
+        rows.append(tuple(nearest_double(c) for c in _that_count(in_powers(values))))
+    return tuple(rows)
 
 
 def _that_count(coefficients: list[Ball]) -> list[Ball]:

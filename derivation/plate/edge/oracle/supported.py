@@ -121,11 +121,11 @@ def sums(
 @cache
 def modes(count: int, bits: int) -> tuple[tuple[arb, arb], ...]:
     """Return the first zeros of J0, and J1 at them."""
-    found = []
+    terms = []
     for index in range(1, count + 1):
         j = j0_zero(index, bits + index.bit_length())
-        found.append((j, j.bessel_j(1)))
-    return tuple(found)
+        terms.append((j, j.bessel_j(1)))
+    return tuple(terms)
 
 
 def _rest(T: arb, eta: arb) -> arb:

@@ -38,11 +38,11 @@ def clamp_part(kind: str, a: float, h: float, b: float, nu: float, digits: int =
         alpha, eta, n = mpf(a) / mpf(b), mpf(h) / mpf(b), mpf(nu) / (1 - mpf(nu))
 
         def depth(width: mpf) -> mpf:
-            found = _clamped(width, eta, n)
+            response = _clamped(width, eta, n)
             # eta^3/5 in units of P b^2/(16 pi D), D = 2 h^3/3.
-            shear = 3 * found.force / (32 * mp.pi) * SHEAR_TERM.p / SHEAR_TERM.q
-            bent = found.turn * _bent(mpf(0), eta, n) + found.own / 2
-            return bent + found.strain * 2 * n * eta + shear
+            shear = 3 * response.force / (32 * mp.pi) * SHEAR_TERM.p / SHEAR_TERM.q
+            bent = response.turn * _bent(mpf(0), eta, n) + response.own / 2
+            return bent + response.strain * 2 * n * eta + shear
 
         if kind == "indentation":
             return +(depth(alpha) / alpha**2)
@@ -54,10 +54,10 @@ def back_face_clamp(a: float, h: float, b: float, nu: float, digits: int = 30) -
     """Return the reduction of S; the stress is (1 + nu) P/(2 pi H^2) times S, H = 2 h."""
     with mp.workdps(digits + 20):
         eta, n = mpf(h) / mpf(b), mpf(nu) / (1 - mpf(nu))
-        found = _clamped(mpf(a) / mpf(b), eta, n)
+        response = _clamped(mpf(a) / mpf(b), eta, n)
         # sigma_rr = (1 + nu) E* times a strain that is equal in all directions.
-        strain = found.strain + (found.turn + found.own) * eta
-        return +(strain * 8 * mp.pi * eta**2 / found.force)
+        strain = response.strain + (response.turn + response.own) * eta
+        return +(strain * 8 * mp.pi * eta**2 / response.force)
 
 
 def _clamped(a: mpf, h: mpf, n: mpf) -> ClampedResponse:
@@ -72,9 +72,9 @@ def _clamped(a: mpf, h: mpf, n: mpf) -> ClampedResponse:
     force, work = load(lambda _: mpf(1)), load(lambda r: _bent(r, h, n))
     # The edge's moment 2 E* (2 h^3/3) k and force 2 E* 2 h e work on 2 pi b.
     stiff = 2 * mp.pi * 2 * (2 * h**3 / 3)
-    own = 2 * n**2 * _fitted(TURN_FIT, n) * h * load(lambda r: (1 - r * r) / 2)
+    moment = 2 * n**2 * _fitted(TURN_FIT, n) * h * load(lambda r: (1 - r * r) / 2)
     strain = force * 2 * n * h / (2 * mp.pi * 2 * 2 * h)
-    return ClampedResponse(force, work / stiff, own / stiff, strain)
+    return ClampedResponse(force, work / stiff, moment / stiff, strain)
 
 
 def _bent(r: mpf, h: mpf, n: mpf) -> mpf:

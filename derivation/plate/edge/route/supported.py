@@ -82,10 +82,10 @@ def _coefficient(function: Callable[[mpc], mpc], power: int, radius: mpf, digits
     count, former = _SAMPLES, None
     while count <= 64 * _SAMPLES:
         points = (radius * mp.expjpi(mpf(2 * i) / count) for i in range(count))
-        found = mp.fsum(function(z) / z**power for z in points).real / count
-        if former is not None and abs(found - former) < mpf(10) ** -digits * abs(found):
-            return found
-        former, count = found, 2 * count
+        coefficient = mp.fsum(function(z) / z**power for z in points).real / count
+        if former is not None and abs(coefficient - former) < mpf(10) ** -digits * abs(coefficient):
+            return coefficient
+        former, count = coefficient, 2 * count
     raise RouteError("samples on a circle did not give a coefficient")
 
 

@@ -204,8 +204,8 @@ def clamp_law() -> tuple[Formula, Formula]:
     steep = sp.Rational(3, 2) * front * _bracket(sp.Rational(2, 3), _s, _chi)
     proof = prove(
         "Reduction of the indentation by a clamped edge",
-        r"Bending, rotation of the edge, shear and extension; $\alpha^2 X_c$ is differentiated by "
-        r"$\alpha$.",
+        r"The reduction is the sum of bending, rotation of the edge, shear and extension; "
+        r"$\alpha^2 X_c$ is differentiated by $\alpha$.",
         {"slope": sp.diff(alpha**2 * symbolic, alpha) / (2 * alpha) - steep},
     )
     sources = ("clamp_rotation", "clamp_deflection", "P")
@@ -243,9 +243,9 @@ def clamp_bound() -> Formula:
     floor = 1 - beta - 3 * (2 - beta) ** 2 / 28
     proof = prove(
         "Bound of the slope's reduction by a clamped edge",
-        r"The slope's bracket is linear in $\alpha^2$; squares are completed. $1000/G$ is above "
-        r"7000 and $1000 n^2/\chi$ above 5000 for $-1/2 < n < 1$, so that $0 < 1 - 2 G < 1$ and "
-        r"$\chi \ge 0$.",
+        r"The bracket of the slope is linear in $\alpha^2$; squares are completed. For $-1/2 < n "
+        r"< 1$, $1000/G$ is above 7000 and $1000 n^2/\chi$ above 5000, so that $0 < 1 - 2 G < "
+        r"1$ and $\chi \ge 0$.",
         {
             "above": left - third * (m + alpha**2 * (1 - _s)) - 2 * _chi * eta * alpha**2 * third,
             "square": (1 - _s) * (1 - beta - _s) + sp.Rational(4, 3) * _s**2

@@ -125,7 +125,7 @@ def closed_sums(kernel: Kernel) -> ClosedSums:
 
     wave = sp.expand(series["k"] * series["1/J0"])
     bending_part, extension_part = (sp.expand(wave * series[name]) for name in ("Q", "H"))
-    found = ClosedSums(
+    sums = ClosedSums(
         wave.coeff(_z, 2) / 2,
         (bending_part - 3 * wave).expand().coeff(_z, 2) / 2,
         extension_part.coeff(_z, 1) / 2,
@@ -136,7 +136,7 @@ def closed_sums(kernel: Kernel) -> ClosedSums:
         {name: sp.expand(left(name)) for name in quotients}
         | {"even": wave.coeff(_z, 1), "Q at 0": series["Q"].subs(_z, 0) - 3},
     )
-    return found
+    return sums
 
 
 def _assembled(bending_part: sp.Expr, extension_part: sp.Expr) -> sp.Expr:
@@ -238,7 +238,7 @@ def half_plane() -> Proof:
 def alternating_sums() -> tuple[Formula, Formula]:
     """Return sum k/(j^2 J1) for both weight functions, as functions of alpha alone."""
     half_plane()
-    found = []
+    formulas = []
     for name, kernel, factor, what in (
         ("edge_sum", indentation_kernel, "g", r"g(\alpha j)"),
         (
@@ -259,7 +259,7 @@ def alternating_sums() -> tuple[Formula, Formula]:
                 "H": stretching_function() - 1 + (1 + T - sp.exp(-T)) / (sp.sinh(T) + T),
             },
         )
-        found.append(
+        formulas.append(
             Formula(
                 name,
                 rf"\sum {factor}(\alpha j_n)/(j_n^2 J_1(j_n))",
@@ -271,7 +271,7 @@ def alternating_sums() -> tuple[Formula, Formula]:
                 proof,
             )
         )
-    return found[0], found[1]
+    return formulas[0], formulas[1]
 
 
 # --- bounds of the change by the edge

@@ -132,8 +132,8 @@ def edge_resultants() -> tuple[Formula, ...]:
     turn = J1 * (A_j / phi**2 - RATIO * moment) / (E * phi)
     proof = prove(
         "Resultants at the edge",
-        "Moment balance and Hooke's law for the mode's own $g$ and stresses, integrated "
-        "through the thickness.",
+        "The balance of moments and Hooke's law hold for $g$ and the stresses of one mode, "
+        "integrated through the thickness.",
         {
             "Hooke": g_j * phi**2 - (S_rr - RATIO * S_zz) / E,
             "radial balance": sp.diff(S_rz, z) - phi * S_rr,
@@ -176,8 +176,8 @@ def support_ratio() -> Formula:
     in_nu = value.subs(lam, 2 * mu * nu / (1 - 2 * nu))
     proof = prove(
         "Simple support",
-        "With this factor times the $e$ and $k$ that suppress the mean motion, the states' force "
-        "and moment cancel those of the modes.",
+        "The $e$ and $k$ that suppress the mean motion of the edge are multiplied by this "
+        "factor. Force and moment of the states then cancel those of the modes.",
         {
             "force": force + value * mean * stretching.force,
             "moment": moment + value * turn * bending.moment,
@@ -219,8 +219,8 @@ def edge_law() -> tuple[Formula, Formula]:
     reduced = {a: alpha * b, h: eta * b, phi: j_n / b}
     proof = prove(
         "Change of the indentation by the edge",
-        "The states' $w$ at the contact face, centre minus edge, in $a/b$ and $h/b$; "
-        r"$\alpha^2 X$ is differentiated by $\alpha$.",
+        r"The deflection $w$ of both states at the contact face, centre minus edge, is written "
+        r"in $a/b$ and $h/b$; $\alpha^2 X$ is differentiated by $\alpha$.",
         {
             "indentation": -depth.subs(reduced) * scale - reduction,
             "slope": sp.diff(alpha**2 * reduction, alpha) / (2 * alpha) - slope,

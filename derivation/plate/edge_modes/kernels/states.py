@@ -38,15 +38,15 @@ NAMES: Facts = {
 
 def parts() -> dict[sp.Symbol, sp.Expr]:
     """Return left, bending_part and turned in terms of xi, with the shear coefficient of A0."""
-    found = {left: mindlin.left(), bending_part: mindlin.u_1(), turned: mindlin.u_2()}
-    return {s: sp.collect(sp.expand(v.subs(shear, slack())), xi) for s, v in found.items()}
+    symbols = {left: mindlin.left(), bending_part: mindlin.u_1(), turned: mindlin.u_2()}
+    return {s: sp.collect(sp.expand(v.subs(shear, slack())), xi) for s, v in symbols.items()}
 
 
 def in_xi(expression: sp.Expr) -> sp.Expr:
     """Return an expression of the theory in k and xi."""
-    found = parts()
-    known = {theory.g_1: found[bending_part], theory.g_2: found[turned] / found[left]}
-    return expression.subs(known).subs(k_2, k_n * sp.sqrt(found[left]))
+    result = parts()
+    known = {theory.g_1: result[bending_part], theory.g_2: result[turned] / result[left]}
+    return expression.subs(known).subs(k_2, k_n * sp.sqrt(result[left]))
 
 
 def of_xi() -> Facts:

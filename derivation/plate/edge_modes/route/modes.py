@@ -45,12 +45,12 @@ def mode(edge: str, n: int, nu: float = 0.0, digits: int = 30) -> RouteMode:
 
 def _series(start: int, strength: mpf) -> list[mpf]:
     """Return the coefficients of r^start, r^(start + 4), ..."""
-    found = [mpf(1)]
+    coefficients = [mpf(1)]
     power = start
-    while power < 20 or abs(found[-1]) > mp.eps * mpf(10) ** -5:
+    while power < 20 or abs(coefficients[-1]) > mp.eps * mpf(10) ** -5:
         power += 4
-        found.append(found[-1] * strength / mpf(power * (power - 2)) ** 2)
-    return found
+        coefficients.append(coefficients[-1] * strength / mpf(power * (power - 2)) ** 2)
+    return coefficients
 
 
 def _at(series: list[mpf], start: int, r: mpf, slopes: int = 0) -> mpf:

@@ -84,7 +84,7 @@ def _both(k: mpf, kap: mpf, eta: mpf, nu: mpf) -> tuple[mpf, _Series, _Series]:
     slack = (6 - nu) / 5
     partner = k**2 - kap / eta**2 * (slack + (1 - nu) / 2)
     force = kap * slack / eta**2
-    found = []
+    values = []
     for start in ((1, 0), (0, 1)):
         w = [mpf(x) for x in start]
         while len(w) < 12 or max(abs(w[-1]), abs(w[-2])) > mp.eps * mpf(10) ** -5:
@@ -96,8 +96,8 @@ def _both(k: mpf, kap: mpf, eta: mpf, nu: mpf) -> tuple[mpf, _Series, _Series]:
         psi = [
             (-4 * (m + 1) ** 2 * w[m + 1] - force * w[m]) / (2 * m + 2) for m in range(len(w) - 1)
         ]
-        found.append(_Series(w, psi))
-    return partner, *found
+        values.append(_Series(w, psi))
+    return partner, *values
 
 
 def _root(edge: str, eta: mpf, nu: mpf, near: mpf, digits: int) -> mpf:

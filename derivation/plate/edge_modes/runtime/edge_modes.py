@@ -195,7 +195,7 @@ def shape(waves: Waves, r: ArrayLike) -> np.ndarray:
 
 
 @quiet
-def shares_less_one(waves: Waves, a: ArrayLike) -> np.ndarray:
+def modal_weights_less_one(waves: Waves, a: ArrayLike) -> np.ndarray:
     """Compute s - 1, s the mean contact-face deflection under a flat punch over that at r = 0.
 
     Formula::
@@ -216,8 +216,8 @@ def shares_less_one(waves: Waves, a: ArrayLike) -> np.ndarray:
 
     Examples
     --------
-    >>> from generated.edge_modes import clamped_waves, shares_less_one
-    >>> print(shares_less_one(clamped_waves(2, 0.03, 0.22), [0.1]).round(5))
+    >>> from generated.edge_modes import clamped_waves, modal_weights_less_one
+    >>> print(modal_weights_less_one(clamped_waves(2, 0.03, 0.22), [0.1]).round(5))
     [[-0.01509 -0.06498]]
     """
     return kernels.punch_mean_less_one(_within(a), waves.k, waves.k2, waves.c, waves.t)
@@ -245,9 +245,9 @@ def _within(r: ArrayLike) -> Double:
 def _cutoff(nu: Double) -> Double:
     x = kernels.cutoff_of_mindlin(nu)
     for _ in range(_STEPS):
-        near = x
-        x = kernels.to_cutoff(near, nu, bending_frequency(near, nu))
-        if np.abs(x - near) <= _CLOSE * near:
+        previous = x
+        x = kernels.to_cutoff(previous, nu, bending_frequency(previous, nu))
+        if np.abs(x - previous) <= _CLOSE * previous:
             break
     return x
 
@@ -319,17 +319,17 @@ def _solved(
         phase = start + (zero - start) * (0.5 + np.arctan(q) / np.pi)
         k = np.where((low < phase) & (phase < high), phase, k)
     for _ in range(_STEPS * (k.size > 0)):
-        near = k
-        _, excess, rise = _residual(near, eta, nu, beta)
+        previous = k
+        _, excess, rise = _residual(previous, eta, nu, beta)
         over = sign * excess > 0.0
-        low, high = np.where(over, low, near), np.where(over, near, high)
+        low, high = np.where(over, low, previous), np.where(over, previous, high)
         step = -excess / rise
-        close = np.abs(step) <= _CLOSE * near
-        k = near + step
+        close = np.abs(step) <= _CLOSE * previous
+        k = previous + step
         k = np.where(close | ((low < k) & (k < high)), k, 0.5 * (low + high))
         if close.all():
             break
-    lacking = step - (k - near) if k.size else step
+    lacking = step - (k - previous) if k.size else step
     root, xi, left, bending_part, turned, k_2, mean, less, scaled = _state(k, eta, nu)
     j0, j1 = bessel_j0(k), bessel_j1(k)
     q = kernels.edge(k, nu, beta, xi, left, bending_part, turned, mean, less, j0, j1)[0]
@@ -346,17 +346,17 @@ def _lowest(eta: Double, nu: Double, goal: Double) -> Waves:
     power = kernels.first_power(eta, goal)
     k = np.sqrt(np.sqrt(power / (1.0 + power / pole**4)))
     for _ in range(_STEPS):
-        near = k
-        _, xi, left, bending_part, turned, _, mean, _, _ = _state(near, eta, nu)
-        bessel = bessel_j0(near), bessel_j1(near)
+        previous = k
+        _, xi, left, bending_part, turned, _, mean, _, _ = _state(previous, eta, nu)
+        bessel = bessel_j0(previous), bessel_j1(previous)
         excess, rise = kernels.first_edge(
-            near, nu, goal, xi, left, bending_part, turned, mean, *bessel
+            previous, nu, goal, xi, left, bending_part, turned, mean, *bessel
         )  # fmt: skip
         step = -excess / rise
-        k = np.minimum(near + step, 0.5 * (near + pole))
-        if (np.abs(step) <= _CLOSE * near).all():
+        k = np.minimum(previous + step, 0.5 * (previous + pole))
+        if (np.abs(step) <= _CLOSE * previous).all():
             break
-    lacking = step - (k - near)
+    lacking = step - (k - previous)
     root, _, left, bending_part, turned, k_2, _, _, scaled = _state(k, eta, nu)
     j0, _ = kernels.moved(k, lacking, bessel_j0(k), bessel_j1(k))
     c = kernels.first_part(j0, scaled, k_2)

@@ -69,11 +69,11 @@ def shear_coefficient() -> Formula:
     powers = [left.coeff(s, order) for order in range(2)]
     exact = [sp.cancel(row.subs(gam, (1 - 2 * nu) / (2 * (1 - nu)))) for row in thin_powers(3)[0]]
     known = {y_0: exact[0], y_1: exact[1]}
-    (found,) = sp.solve(powers[1].subs(known), shear)
-    value = sp.together(1 / sp.expand(found))
+    (solution,) = sp.solve(powers[1].subs(known), shear)
+    value = sp.together(1 / sp.expand(solution))
     third = y_0 + y_1 * s + exact[2] * s**2
     next_order = sp.expand(dispersion(sp.sqrt(s)).subs(xi, s * third) / s).coeff(s, 2)
-    lacking = sp.factor(next_order.subs(known).subs(shear, found))
+    lacking = sp.factor(next_order.subs(known).subs(shear, solution))
     if lacking == 0:
         raise ArithmeticError("Mindlin's branch does not equal A0 to three orders as stated")
     proof = prove(

@@ -158,9 +158,9 @@ def norm() -> Formula:
     slope = 2 * k_n / (1 - nu) - I1 / I0
     proof = prove(
         "Norm of a plate mode",
-        "A primitive of $w^2 r$; the slope of $(J_1/J_0 + I_1/I_0)/k$ by $k$ is "
-        "$2 N/(k J_0^2)$, and its value is 1 at $k = 0$. The frequency equations eliminate $J_1$ "
-        "from $N$.",
+        "$w^2 r$ has a primitive. The derivative of $(J_1/J_0 + I_1/I_0)/k$ by $k$ is $2 N/(k "
+        "J_0^2)$, and its value is 1 at $k = 0$. The frequency equations eliminate $J_1$ from "
+        "$N$.",
         {
             "primitive": lower_bessel(sp.diff(primitive, _r)) - _r * SHAPE**2,
             "closed": primitive.subs({_r: 1, _c: PART}) - NORM,
@@ -194,20 +194,21 @@ def weight() -> tuple[Formula, ...]:
     """Return W, and prove the sums of W/k^4."""
     N = norm()
     clamped, supported = sp.Rational(1, 2), (3 + nu) / (2 * (1 + nu))
-    found = {
+    formulas = {
         name: static_deflection(span)
         for name, span in (("clamped", clamped), ("supported", supported), ("paper's edge", 1))
     }
-    slopes = {name: sp.diff(w, _r).subs(_r, 1) for name, w in found.items()}
-    bends = {name: sp.diff(w, _r, 2).subs(_r, 1) for name, w in found.items()}
-    axis = {name: sp.limit(w, _r, 0) for name, w in found.items()}
+    slopes = {name: sp.diff(w, _r).subs(_r, 1) for name, w in formulas.items()}
+    bends = {name: sp.diff(w, _r, 2).subs(_r, 1) for name, w in formulas.items()}
+    axis = {name: sp.limit(w, _r, 0) for name, w in formulas.items()}
     # Near the axis w is even in r.
     w_0, w_2, w_4 = sp.symbols("w_0 w_2 w_4", real=True)
     near = _bracket(w_0 + w_2 * _r**2 + w_4 * _r**4, static_deflection(_A))
     proof = prove(
         "Modal weight of a plate mode",
-        "The static deflection has no load away from the axis, carries $P$ and satisfies the edge "
-        r"conditions; the bracket of it and a mode on the axis. The paper's edge has $\nu = 1$.",
+        r"The static deflection has no load away from the axis, carries $P$ and satisfies the "
+        r"edge conditions. The modal weight follows from its bracket with a mode on the axis. "
+        r"The paper's edge has $\nu = 1$.",
         {
             "load": laplacian(laplacian(static_deflection(_A))),
             "force": 2 * sp.pi * _r * sp.diff(laplacian(static_deflection(_A)), _r) - 1,

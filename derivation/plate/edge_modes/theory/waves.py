@@ -151,9 +151,9 @@ def edges() -> tuple[Formula, ...]:
     free = turn - CLAMP * eta * (bend - turn)
     proof = prove(
         "Edges of a shear-deformable plate",
-        r"Rotation and its slope at the edge; $S/\Gamma$ by $\psi/M$, whose slope has the same "
-        "sign; and the limit of a thin plate, step 29's equations, where $k_2 = k$ and "
-        "$g_1 = g_2 = 1$.",
+        r"Rotation and its slope are taken at the edge. $S/\Gamma$ is expressed by "
+        r"$\psi/M$, whose slope has the same sign. For a thin plate, where $k_2 = k$ and $g_1 "
+        r"= g_2 = 1$, the equations become those of step 29.",
         {
             "deflection": DEFLECTION.subs({_r: 1, c: PART}),
             "rotation": psi.subs(_r, 1) - J0 * TURN,
@@ -256,7 +256,7 @@ def face_ratio() -> Formula:
         return even.subs({p: sp.sqrt(squares[p]), q: sp.sqrt(squares[q]), x_h: sp.sqrt(s)})
 
     ratio = sp.cancel(long(face / mean))
-    found = sp.series(ratio, s, 0, 2).removeO()
+    series = sp.series(ratio, s, 0, 2).removeO()
     one = BULGE.subs(nu, (1 - 2 * gam) / (2 * (1 - gam))) / 3
     mean_square, edge_square = sp.Rational(1, 3) / 2, sp.Rational(1, 2)
     proof = prove(
@@ -265,7 +265,7 @@ def face_ratio() -> Formula:
         r"the evanescent wave has $-k_2^2$ for $k^2$. The same follows from $\sigma_{zz} = 0$: "
         r"$n_{\nu} z^2/2 \nabla^2 w$, face minus mean.",
         {
-            "series": sp.cancel(found - 1 + one * s),
+            "series": sp.cancel(series - 1 + one * s),
             "plane stress": sp.cancel(one - one * 3 * (edge_square - mean_square)),
             "quotient": sp.series(
                 (1 + one * s * k_2**2) / (1 - one * s * k_n**2), s, 0, 2
@@ -310,8 +310,8 @@ def modal_weight() -> Formula:
     value = UNDER_PUNCH / (1 - c * t)
     proof = prove(
         "Mean of a plate wave under a flat punch",
-        "The transforms of step 29, of $J_0(k r)$ and of $I_0(k_2 r)$ on the contact face. "
-        + means.proof.argument,
+        "The transforms are those of step 29, applied to $J_0(k r)$ and to $I_0(k_2 r)$ on the "
+        "contact face. " + means.proof.argument,
         {
             "thin": _thin(value.subs(c, PART)) - means.expression,
             "small contact": sp.limit(value, alpha, 0) - 1,
@@ -358,7 +358,7 @@ def at_rest() -> tuple[Formula, Formula]:
         ("supported_static_change", "a simply supported", SUPPORTED_REST * lift**2),
         ("clamped_static_change", "a clamped", CLAMPED_REST * (lift**2 + 2 * CLAMP * eta)),
     )
-    found = tuple(
+    formulas = tuple(
         Formula(
             name, r"\Delta", f"static deflection of {which} plate minus that on the paper's edge, "
             r"under a force on the axis, divided by $P b^2/D$; first order of $\chi$",
@@ -366,7 +366,7 @@ def at_rest() -> tuple[Formula, Formula]:
         )
         for name, which, value in rows
     )  # fmt: skip
-    return found[0], found[1]
+    return formulas[0], formulas[1]
 
 
 @cache

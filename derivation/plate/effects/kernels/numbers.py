@@ -95,12 +95,12 @@ def _factor_double(name: str) -> float:
 
 def arc_coefficients() -> list[sp.Rational]:
     """Return 1/3, 1/5, ... as far as they matter compared with 1/3 at t = NEAR."""
-    found: list[sp.Rational] = []
+    coefficients: list[sp.Rational] = []
     while True:
-        k = len(found)
+        k = len(coefficients)
         if NEAR**k / (2 * k + 3) / (1 - NEAR) < Fraction(NEGLIGIBLE) / 3:
-            return found
-        found.append(sp.Rational(1, 2 * k + 3))
+            return coefficients
+        coefficients.append(sp.Rational(1, 2 * k + 3))
 
 
 def lateral_rows() -> tuple[list[Ball], list[Ball]]:

@@ -29,9 +29,9 @@ THREE_HALVES = sp.Float(1.5)
 
 def _by_contact_radius(expression: sp.Expr) -> sp.Expr:
     """Return the expression in a/R, with the hyperbolic arc as a logarithm."""
-    found = expression.subs(a, a_over_R * R).replace(sp.log, lambda x: sp.log(sp.cancel(x)))
-    found = found.replace(sp.atanh, lambda x: sp.log((1 + x) / (1 - x)) / 2)
-    return sp.cancel(found)
+    reduced = expression.subs(a, a_over_R * R).replace(sp.log, lambda x: sp.log(sp.cancel(x)))
+    reduced = reduced.replace(sp.atanh, lambda x: sp.log((1 + x) / (1 - x)) / 2)
+    return sp.cancel(reduced)
 
 
 ARC = (sp.atanh(a_over_R) - a_over_R) / a_over_R**3

@@ -127,8 +127,8 @@ def integrands() -> Claims:
     inner = PLACE[last] * (_q / (1 + _q)) ** 3
 
     def of_theory(expression: sp.Expr) -> sp.Expr:
-        found: sp.Expr = expression.subs({xi_k[3]: coefficient, delta_0: inner * _peak()})
-        return found
+        by_theory: sp.Expr = expression.subs({xi_k[3]: coefficient, delta_0: inner * _peak()})
+        return by_theory
 
     path = -sp.diff(last * (1 - u**2) ** 3, u).subs(PLACE) * _peak()
     path /= of_theory(sp.sqrt(v0**2 - xi_k[2] / m * delta_0**2))

@@ -74,8 +74,8 @@ ROW = (_q, 6 * geometric(5, _q), 5 * geometric(6, _q), 8 * _q * gauss)
 
 def most(c_1: sp.Expr, radius: sp.Expr) -> sp.Expr:
     """Return S_1 = 1 + 3/2 c_1 A."""
-    found: sp.Expr = one_sided().expression.subs({c_A[1]: c_1, a_ratio: radius})
-    return found
+    law: sp.Expr = one_sided().expression.subs({c_A[1]: c_1, a_ratio: radius})
+    return law
 
 
 @named_routine

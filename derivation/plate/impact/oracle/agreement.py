@@ -54,16 +54,16 @@ def agree(name: str, arguments: Sequence[float], digits: int = 40) -> Agreement:
     """
     balls = _several(FIRST[name](*arguments, digits=digits + SPARE))
     others = _several(SECOND[name](*arguments, digits=digits))
-    shared = math.inf
+    agreed = math.inf
     with flint.ctx.workprec(400):
         for ball, other in zip(balls, others, strict=True):
             apart = (abs(ball - to_ball(other)) / abs(ball)).abs_upper()
             if not apart <= arb(10) ** -digits:
                 raise OracleError(f"{name} at {tuple(arguments)}: {ball} against {other}")
             # Both results may be the same exact number.
-            shared = min(shared, -math.log10(max(float(apart), 1e-99)))
-    return Agreement(balls, shared)
+            agreed = min(agreed, -math.log10(max(float(apart), 1e-99)))
+    return Agreement(balls, agreed)
 
 
-def _several(found: Any) -> tuple[Any, ...]:
-    return tuple(found) if isinstance(found, tuple) else (found,)
+def _several(values: Any) -> tuple[Any, ...]:
+    return tuple(values) if isinstance(values, tuple) else (values,)

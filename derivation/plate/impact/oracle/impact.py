@@ -221,8 +221,10 @@ def _impact(
     whole = _duration(polynomials, arb(1), bits)
     deepest = polynomials.radius**2 / to_ball(R) * (1 + law.excess("hertz", alpha))
     force = stiff * polynomials.radius**3
-    found = ImpactBalls(2 * whole, deepest, force, polynomials.radius)
-    return found, tuple(whole - _duration(polynomials, _left(a, polynomials), bits) for a in radii)
+    impact_balls = ImpactBalls(2 * whole, deepest, force, polynomials.radius)
+    return impact_balls, tuple(
+        whole - _duration(polynomials, _left(a, polynomials), bits) for a in radii
+    )
 
 
 def _left(a: Exact, polynomials: ImpactPolynomials) -> arb:

@@ -53,7 +53,7 @@ class Quantity(NamedTuple):
         Ball of the Arb reference, which contains the value.
     compared
         Number of digits computed by mpmath.
-    shared
+    agreed
         Number of digits on which both agree, including the ball's radius: a lower bound.
     """
 
@@ -61,12 +61,12 @@ class Quantity(NamedTuple):
     unit: str
     ball: arb
     compared: int
-    shared: float
+    agreed: float
 
     @property
     def agrees(self) -> bool:
         """Whether mpmath agrees to the requested digits, except for the last one."""
-        return self.shared >= self.compared - 1
+        return self.agreed >= self.compared - 1
 
     def shown(self, digits: int) -> tuple[str, str]:
         """Return the decimal value of this many digits, and a bound of its error."""
@@ -124,7 +124,7 @@ class ImpactReference(NamedTuple):
                 "radius": radius,
                 "unit": quantity.unit,
                 "compared_digits": quantity.compared,
-                "agreed_digits": math.floor(min(quantity.shared, self.digits)),
+                "agreed_digits": math.floor(min(quantity.agreed, self.digits)),
             }
 
         law = [
@@ -141,18 +141,18 @@ class ImpactReference(NamedTuple):
 
         def block(quantity: Quantity) -> list[str]:
             value, radius = quantity.shown(self.digits)
-            agreed = math.floor(min(quantity.shared, self.digits))
+            agreed = math.floor(min(quantity.agreed, self.digits))
             return [
                 f"{quantity.name.replace('_', ' ')} [{quantity.unit}]",
                 f"  {value}",
                 f"  +- {radius}; mpmath agrees to {agreed} of {quantity.compared} digits",
             ]
 
-        found = [line for quantity in self.impact for line in block(quantity)]
+        rows = [line for quantity in self.impact for line in block(quantity)]
         for pressed in self.law:
-            found.append(f"at contact radius {pressed.contact_radius!r} m (exactly this double)")
-            found += [line for quantity in pressed.quantities for line in block(quantity)]
-        return found
+            rows.append(f"at contact radius {pressed.contact_radius!r} m (exactly this double)")
+            rows += [line for quantity in pressed.quantities for line in block(quantity)]
+        return rows
 
 
 def reference(motion: Motion, digits: int, progress: ball_law.Progress) -> ImpactReference:
@@ -182,8 +182,8 @@ def reference(motion: Motion, digits: int, progress: ball_law.Progress) -> Impac
     progress("largest contact radius", 1, 1)
     law = ball_law.law_of(ratio_of(h, b), contact_impact.reach_of(motion), digits, progress)
     wanted = digits + _SPARE
-    found = contact_impact.impact(*motion, wanted, law)
-    radii = [float(found.max_contact_radius) * fraction for fraction in FRACTIONS]
+    impact_balls = contact_impact.impact(*motion, wanted, law)
+    radii = [float(impact_balls.max_contact_radius) * fraction for fraction in FRACTIONS]
     balls = [ball_law.static_contact(a, R, b, lam, mu, law, wanted) for a in radii]
     laws: list[StaticContact] = []
     for a, both in zip(radii, balls, strict=True):
@@ -198,7 +198,9 @@ def reference(motion: Motion, digits: int, progress: ball_law.Progress) -> Impac
             )
         )
     progress("mpmath: impact", 1, 1)
-    moved = _compared_quantities(found._fields, found, residue_law.impact(*motion, digits), digits)
+    moved = _compared_quantities(
+        impact_balls._fields, impact_balls, residue_law.impact(*motion, digits), digits
+    )
     return ImpactReference(motion, digits, moved, tuple(laws))
 
 
@@ -224,12 +226,12 @@ def _compared_quantities(
 ) -> tuple[Quantity, ...]:
     """Return the balls as quantities, each with its agreement with mpmath."""
     return tuple(
-        Quantity(name, UNITS[name], ball, compared, shared_digits(ball, other))
+        Quantity(name, UNITS[name], ball, compared, agreed_digits(ball, other))
         for name, ball, other in zip(names, balls, others, strict=True)
     )
 
 
-def shared_digits(ball: arb, other: mpf) -> float:
+def agreed_digits(ball: arb, other: mpf) -> float:
     """Return a lower bound of the number of digits to which a number agrees with a ball."""
     value = exactly(other)
     with flint.ctx.workprec(64 + max(_bits(ball), _bits(value))):

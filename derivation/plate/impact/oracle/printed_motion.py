@@ -128,8 +128,8 @@ def _over(
         right[i, 0] = eta - _dot(within[i], source)
         for k in range(count):
             matrix[i, k] = within[i][k] * growth[k] + (1 if i == k else 0)
-    found = matrix.solve(right)
-    inner = [found[i, 0] for i in range(count)]
+    solution = matrix.solve(right)
+    inner = [solution[i, 0] for i in range(count)]
     rises = [g * e + q for g, e, q in zip(growth, inner, source, strict=True)]
     return eta - _dot(weights, rises)
 
@@ -156,10 +156,10 @@ def _rule(count: int, bits: int) -> tuple[list[arb], list[arb], list[list[arb]]]
 
 def _legendre(x: arb, count: int) -> list[arb]:
     """Return P_0, ..., P_count at a number."""
-    found = [arb(1), x]
+    polynomials = [arb(1), x]
     for k in range(1, count):
-        found.append(((2 * k + 1) * x * found[k] - k * found[k - 1]) / (k + 1))
-    return found
+        polynomials.append(((2 * k + 1) * x * polynomials[k] - k * polynomials[k - 1]) / (k + 1))
+    return polynomials
 
 
 def _dot(left: list[arb], right: list[arb]) -> arb:

@@ -44,13 +44,13 @@ def truncated_series(
 
 def power(series: Sequence[arb], exponent: arb) -> list[arb]:
     """Return a power of a power series 1 + ..., with as many terms (Euler's recurrence)."""
-    found = [arb(1)]
+    powers = [arb(1)]
     for n in range(1, len(series)):
         contributions = (
-            (exponent * k - (n - k)) * series[k] * found[n - k] for k in range(1, n + 1)
+            (exponent * k - (n - k)) * series[k] * powers[n - k] for k in range(1, n + 1)
         )
-        found.append(sum(contributions, arb(0)) / n)
-    return found
+        powers.append(sum(contributions, arb(0)) / n)
+    return powers
 
 
 def state(
@@ -69,16 +69,16 @@ def state(
         If the ends do not enclose the time.
     """
     motion: Motion = (R, m, v0, h, b, lam, mu)
-    whole = contact_impact.impact(*motion, digits + 8)
+    whole_impact = contact_impact.impact(*motion, digits + 8)
     with flint.ctx.workprec(8 * digits + 64):
-        if abs(to_ball(t) / whole.contact_time - 0.5) < arb(10) ** -_NEXT:
+        if abs(to_ball(t) / whole_impact.contact_time - 0.5) < arb(10) ** -_NEXT:
             return _turned(t, contact_impact.impact(*motion, digits + 2 * _NEXT), motion)
-        left = whole.contact_time - to_ball(t)
+        left = whole_impact.contact_time - to_ball(t)
         if t <= 0 or left <= 0:
             return arb(0), to_ball(v0) * (1 if t <= 0 else -1), arb(0), arb(0)
         falling = bool(left < to_ball(t))
         goal = left if falling else to_ball(t)
-    a = _start(goal, whole, motion)
+    a = _start(goal, whole_impact, motion)
     for step in range(_STEPS):
         shown = min(digits + 8, _LEAST * 2**step)
         (reached,) = contact_impact.history([a], *motion, shown)
@@ -104,7 +104,7 @@ def state(
 
 
 def _turned(
-    t: Exact, whole: contact_impact.ImpactBalls, motion: Motion
+    t: Exact, whole_impact: contact_impact.ImpactBalls, motion: Motion
 ) -> tuple[arb, arb, arb, arb]:
     """Return the state near the turning point, at the current precision.
 
@@ -116,9 +116,9 @@ def _turned(
     the radius, which is an estimate, not a proof.
     """
     R, m, _, h, b, lam, mu = motion
-    tau = to_ball(t) - whole.contact_time / 2
-    a = fraction(whole.max_contact_radius)
-    force = whole.max_force
+    tau = to_ball(t) - whole_impact.contact_time / 2
+    a = fraction(whole_impact.max_contact_radius)
+    force = whole_impact.max_force
     stiff = contact_balls.stiffness(a, R, h, b, lam, mu, 4 * _NEXT)
     x = stiff / to_ball(m) * tau**2
     error_estimate = arb(1, (10 * x).abs_upper())
@@ -126,20 +126,20 @@ def _turned(
     speed = -force / to_ball(m) * tau * (1 - x / 6 * error_estimate)
     load = force * (1 - x / 2 * error_estimate)
     radius = (3 * load * to_ball(R) / (4 * modulus(lam, mu))).root(3)
-    return whole.max_indentation - sunk, speed, radius, load
+    return whole_impact.max_indentation - sunk, speed, radius, load
 
 
-def _start(goal: arb, whole: contact_impact.ImpactBalls, motion: Motion) -> Fraction:
+def _start(goal: arb, whole_impact: contact_impact.ImpactBalls, motion: Motion) -> Fraction:
     """Return the contact radius a_m (1 - u^2) near a time, u interpolated between times of a grid.
 
     In the first panel it is proportional to the root of the time, as in free flight.
     """
-    largest, grid = fraction(whole.max_contact_radius), range(1, _GRID)
+    largest, grid = fraction(whole_impact.max_contact_radius), range(1, _GRID)
     radii = [largest * (1 - (1 - Fraction(k, _GRID)) ** 2) for k in grid]
     times = [float(time) for time in contact_impact.history(radii, *motion, _LEAST)]
     if float(goal) <= times[0]:
         return radii[0] * fraction((goal / times[0]).sqrt())
-    ends = [*times, float(whole.contact_time) / 2]
+    ends = [*times, float(whole_impact.contact_time) / 2]
     panel = next((k for k, late in enumerate(ends) if float(goal) <= late), len(times))
     early, late = ends[panel - 1 : panel + 1]
     u = 1 - (panel + Fraction((float(goal) - early) / (late - early))) / _GRID

@@ -47,17 +47,17 @@ def logarithmic(
     floor
         Smallest radius added.
     """
-    found = []
+    rows = []
     for size in (step, 2 * step):
         upper, lower = results(1 + size), results(1 - size)
         with flint.ctx.workprec(bits):
-            found.append(
+            rows.append(
                 [(u / v).log() / (2 * to_ball(size)) for u, v in zip(upper, lower, strict=True)]
             )
     with flint.ctx.workprec(bits):
         return tuple(
             near + (near - far) / 3 + arb(0, floor + 1e-8 * float(abs(near - far)))
-            for near, far in zip(*found, strict=True)
+            for near, far in zip(*rows, strict=True)
         )
 
 
@@ -84,17 +84,21 @@ def impact_sensitivities(scene: Sequence[Any], digits: int) -> tuple[arb, ...]:
     """
     bits = 8 * digits + 64
     by_speed, by_radius = (_by(scene, place, digits, bits) for place in (_SPEED, _RADIUS))
-    of_modulus, found = _modulus_exponents(scene), list[arb]()
+    of_modulus, values = _modulus_exponents(scene), list[arb]()
     with flint.ctx.workprec(bits):
         for rows, speed, radius in zip(_exponents(), by_speed, by_radius, strict=True):
             *lengths, modulus = (own + e * speed / 2 - q * radius for own, e, q in rows)
-            found += [*lengths, modulus * to_ball(of_modulus.lam), modulus * to_ball(of_modulus.mu)]
-    return tuple(found)
+            values += [
+                *lengths,
+                modulus * to_ball(of_modulus.lam),
+                modulus * to_ball(of_modulus.mu),
+            ]
+    return tuple(values)
 
 
 def rounding(scene: Sequence[Any], values: Sequence[arb]) -> list[arb]:
     """Return, for each sensitivity in `values`, the sum of |x d/dx| over the scene's numbers x."""
-    of_modulus, found = _modulus_exponents(scene), list[arb]()
+    of_modulus, roundings = _modulus_exponents(scene), list[arb]()
     lam, mu, bend = map(to_ball, of_modulus)
     with flint.ctx.workprec(4 * _STEP_DIGITS):
         for number, (rows, (YY, Y_eta, eta_eta)) in enumerate(
@@ -111,8 +115,8 @@ def rounding(scene: Sequence[Any], values: Sequence[arb]) -> list[arb]:
             whole = spread.pop()
             spread += [[x * lam + y for x, y in zip(whole, own, strict=True)]]
             spread += [[x * mu - y for x, y in zip(whole, own, strict=True)]]
-            found += [sum(map(abs, row), arb(0)) for row in spread]
-    return found
+            roundings += [sum(map(abs, row), arb(0)) for row in spread]
+    return roundings
 
 
 def _modulus_exponents(scene: Sequence[Any]) -> _ModulusExponents:
@@ -161,12 +165,12 @@ def _curvatures(scene: tuple[float, ...]) -> list[tuple[arb, arb, arb]]:
     """Return second derivatives of log f for every result: by Y twice, Y and eta, eta twice."""
     steps = (1 / (1 + _STEP), Fraction(1), 1 + _STEP)  # logarithms at equally spaced factors
     grid = [[_results(scene, v, b, _STEP_DIGITS) for b in steps] for v in steps]
-    found = []
+    rows = []
     for number in range(len(RESULTS)):
         f = [[of[number].log() for of in row] for row in grid]
         square = to_ball(_STEP) ** 2
         by_speed = (f[2][1] - 2 * f[1][1] + f[0][1]) / square
         by_radius = (f[1][2] - 2 * f[1][1] + f[1][0]) / square
         mixed = (f[2][2] - f[2][0] - f[0][2] + f[0][0]) / (4 * square)
-        found.append((by_speed / 4, -mixed / 2, by_radius))
-    return found
+        rows.append((by_speed / 4, -mixed / 2, by_radius))
+    return rows

@@ -35,7 +35,7 @@ def rounding(state: State, given: Sequence[Any], values: Sequence[arb]) -> list[
     table = exponents()
     units = [table["max_indentation"], (), table["max_contact_radius"], table["max_force"]]
     units[1] = tuple(x - y for x, y in zip(units[0], table["contact_time"], strict=True))
-    found = []
+    roundings = []
     with flint.ctx.workprec(4 * _DIGITS + 64):
         flows = _flows(given, values)
         for unit, value, flow, fast, wide in zip(
@@ -52,8 +52,8 @@ def rounding(state: State, given: Sequence[Any], values: Sequence[arb]) -> list[
                 )
                 for own, energy, eta, time in rows
             ]
-            found.append(abs(flow) + sum(changes[:-1], arb(0)) + changes[-1] * of_modulus)
-    return found
+            roundings.append(abs(flow) + sum(changes[:-1], arb(0)) + changes[-1] * of_modulus)
+    return roundings
 
 
 def _moved(given: Sequence[Any], place: int) -> list[Any]:

@@ -188,18 +188,18 @@ def history(
     [541.95  598.708]
     """
     kind, [t, R, m, v0, h, b, lam, mu] = as_doubles(t, R, m, v0, h, b, lam, mu)
-    found, radius, depth, load, ok = _solve(R, m, v0, h, b, lam, mu)
+    scenes, radius, depth, load, ok = _solve(R, m, v0, h, b, lam, mu)
     shape = np.broadcast_shapes(t.shape, ok.shape)
     owner = np.ravel(np.broadcast_to(np.arange(ok.size).reshape(ok.shape), shape))
     whole = np.empty(ok.size)
     for part in _parts(ok.size):
-        nodes = np.broadcast_to(NODES, (found.A[part].size, NODES.size))
-        whole[part] = 2.0 * (time_rate(nodes, found, part) * WEIGHTS).sum(axis=1)
+        nodes = np.broadcast_to(NODES, (scenes.A[part].size, NODES.size))
+        whole[part] = 2.0 * (time_rate(nodes, scenes, part) * WEIGHTS).sum(axis=1)
     since = np.ravel(np.broadcast_to(np.where(t > 0, product((t, v0), depth), t), shape))
     left = whole[owner] - since
     state = np.empty((4, since.size))
     for part in _parts(since.size):
-        state[:, part] = _state(since[part], left[part], found, owner[part], whole)
+        state[:, part] = _state(since[part], left[part], scenes, owner[part], whole)
 
     def spread(*scales: Double | float) -> list[Double]:
         return [np.ravel(np.broadcast_to(x, ok.shape))[owner] for x in scales]
@@ -215,11 +215,11 @@ def history(
 
 def _results(given: list[Double], coarse: bool) -> Double:
     """Return contact time, peak indentation, force and contact radius of a batch, as rows."""
-    found, radius, depth, load, _ = _solve(*given)
-    integral = np.empty_like(found.A)
+    scenes, radius, depth, load, _ = _solve(*given)
+    integral = np.empty_like(scenes.A)
     nodes, weights = (INNER_NODES, INNER_WEIGHTS) if coarse else (NODES, WEIGHTS)
-    for part in _parts(found.A.size):
-        rate = time_rate(np.broadcast_to(nodes, (found.A[part].size, nodes.size)), found, part)
+    for part in _parts(scenes.A.size):
+        rate = time_rate(np.broadcast_to(nodes, (scenes.A[part].size, nodes.size)), scenes, part)
         integral[part] = (rate * weights).sum(axis=1)
     time = product((2.0, *depth, integral.reshape(radius.shape)), (given[2],))
     several = np.broadcast_arrays(time, product(depth), product(load), radius)
@@ -293,8 +293,8 @@ def _solve(
     lift = np.where(np.isnan(radius.ravel()), np.nan, lift)
     x = np.where(np.isnan(radius), np.nan, final_ratio)
     deep, loaded = kernels.peak_ratios(x, lift.reshape(ok.shape))
-    found = Scenes(A, lift, whole, terms, tails, slot, beyond)
-    return found, radius, (*factors[:3], deep), (*factors[3:], loaded), ok
+    scenes = Scenes(A, lift, whole, terms, tails, slot, beyond)
+    return scenes, radius, (*factors[:3], deep), (*factors[3:], loaded), ok
 
 
 def _scaled(
@@ -349,11 +349,11 @@ def _far_deepest(
 
     def rise(A: Double) -> Double:
         """Return (E - E_near)/A^5."""
-        found = np.empty_like(A)
+        rises = np.empty_like(A)
         for part in _parts(A.size, 2):
             mean = mean_work((near[part] / A[part])[:, None], A[part], cut(piece, part))[:, 0]
-            found[part] = kernels.work_beyond(A[part], near[part], mean)
-        return found
+            rises[part] = kernels.work_beyond(A[part], near[part], mean)
+        return rises
 
     limit = kernels.far_work(known, end, rise(end)) * ROUNDED
     [goal] = inside([goal], end > near, goal <= limit)

@@ -94,13 +94,13 @@ class PrintedMotion:
         return float(np.sqrt(y * y * y))
 
     @property
-    def breaks_at(self) -> float:
+    def valid_until(self) -> float:
         """Time at which the radicand of (17), (18) vanishes [s]; later, (16) is not real."""
-        return self.share / 2 * self.contact_time
+        return self.valid_fraction / 2 * self.contact_time
 
     @property
-    def share(self) -> float:
-        """Ratio of `breaks_at` to t_c, the turning time of the linear motion [1]."""
+    def valid_fraction(self) -> float:
+        """Time `valid_until` divided by t_c, the turning time of the linear motion [1]."""
         s = self.last
         return float(np.arctan2(s, cosine_at_end(self.excess, s))) / (np.pi / 2)
 
@@ -138,7 +138,7 @@ class PrintedMotion:
         Parameters
         ----------
         t : array_like
-            time since first contact [s]; 0 <= t <= breaks_at
+            time since first contact [s]; 0 <= t <= valid_until
 
         Returns
         -------
@@ -147,7 +147,7 @@ class PrintedMotion:
             1e-14 of the largest indentation.
         """
         kind, [t] = as_doubles(t)
-        [t] = inside([t], t >= 0, t <= self.breaks_at)
+        [t] = inside([t], t >= 0, t <= self.valid_until)
         s = self.linear(t) / self.max_indentation
         u = np.sqrt(np.maximum(1.0 - np.cbrt(s / self.last), 0.0))
         return as_result(self.max_indentation * (s + self._eta(u)), kind)
@@ -170,10 +170,10 @@ class PrintedMotion:
         begun, parts = integral(F)
         start, pieces = integral(G * np.exp(begun[:, None] + legval(nodes, parts)))
         _, power = np.frexp(u)
-        own = np.where(u > 0.0, np.maximum(-power, 0), _PARTS - 1)
-        place = (u - middle[own]) / half[own]
-        growth = begun[own] + legval(place, parts[:, own], tensor=False)
-        total = start[own] + legval(place, pieces[:, own], tensor=False)
+        part = np.where(u > 0.0, np.maximum(-power, 0), _PARTS - 1)
+        place = (u - middle[part]) / half[part]
+        growth = begun[part] + legval(place, parts[:, part], tensor=False)
+        total = start[part] + legval(place, pieces[:, part], tensor=False)
         return -total * np.exp(-growth)
 
 

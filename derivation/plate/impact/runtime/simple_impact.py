@@ -147,8 +147,8 @@ def hertz(
     # The loss of the lower bound is convex: its maximum is at one of the ends.
     low, up = hertz_bounds(plate.bend, plate.bend_error, plate.rest, top)
     law = law_error(max(0.0, low), max(0.0, up), 0.0, 0.0)
-    found = hertz_peaks(scene.radius, R, v0, scene.modulus)
-    return _estimate(scene, scene.radius, found, law, 0.0)
+    peaks = hertz_peaks(scene.radius, R, v0, scene.modulus)
+    return _estimate(scene, scene.radius, peaks, law, 0.0)
 
 
 def leading(
@@ -263,9 +263,9 @@ def _radius_ratio(y: float) -> float:
 
 
 def _estimate(
-    scene: _Scene, a: float, found: tuple[float, float, float], law: float, quadrature: float
+    scene: _Scene, a: float, peaks: tuple[float, float, float], law: float, quadrature: float
 ) -> Estimate | None:
     """Return the results if the contact provably stays within the plate and the sphere."""
     if not (law < inf and TOP * a < min(scene.b, scene.R)):
         return None
-    return Estimate(*found, a, law, quadrature, ROUNDING)
+    return Estimate(*peaks, a, law, quadrature, ROUNDING)

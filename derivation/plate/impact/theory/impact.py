@@ -165,8 +165,8 @@ def prove_contact_time(shown: int, integrand: sp.Expr) -> Proof:
     by_u = (integrand**2).subs(u_t, sp.sqrt(1 - _q)) / (4 * (1 - _q))
     return prove(
         "Contact time",
-        r"$\int P d \delta$ by $a$; $1 - q^{n+3} = (1 - q)(1 + q + \ldots + q^{n+2})$; "
-        "$q = 1 - u^2$.",
+        r"The work $\int P d \delta$ is taken over $a$, with $q = 1 - u^2$ and $1 - q^{n+3} = (1 "
+        r"- q)(1 + q + \ldots + q^{n+2})$.",
         {
             "work": total - done.subs(_q, 1),
             "factor": sp.expand(total - done - C * _a_m**5 * (1 - _q) * left),
@@ -197,8 +197,8 @@ def hertz_time() -> Formula:
     direct = sp.sqrt(sp.Rational(2, 5)) * 4 * q / sp.sqrt(sp.Rational(2, 5) * geometric(5, q))
     proof = prove(
         "Hertz's contact time",
-        "The substitution $x = s^{2/5}$ in Euler's Beta integral; $x = q^2$, $q = 1 - u^2$ in "
-        "the integral of the contact time with $D_2$ alone.",
+        "The substitution $x = s^{2/5}$ gives Euler's Beta integral. The substitutions $x = "
+        "q^2$ and $q = 1 - u^2$ give the integral of the contact time with $D_2$ alone.",
         {
             "Beta": integrand - factor * euler,
             "prefactor": ratio - sp.sqrt(work_of_contact(0)),
@@ -318,7 +318,8 @@ def linearisation_about_hertz() -> tuple[Formula, Formula]:
     V, V_0 = (sp.sqrt(square.subs(x, sp.sqrt(delta_0))) for square in squares)
     proof = prove(
         "Linearisation about Hertz's motion",
-        "The squares of the velocities by hand; $F$ is minus the derivative of the perturbed one.",
+        "Both velocities are the roots of squares that are written out here. $F$ is minus the "
+        "derivative of the perturbed velocity by the indentation, $G$ the difference of both.",
         {"F": F + sp.diff(V, delta_0), "G": G - V_0 + V},
     )
     sources = ("P_half", "p_1", "speed")

@@ -116,8 +116,8 @@ def law_slopes() -> tuple[Formula, ...]:
     side = -4 / sp.pi**2 * sp.sinh(alpha * _y) / _y
     proof = prove(
         "Slopes of the contact law",
-        r"The series is differentiated by $a$, the split times $\alpha^2$ by $\alpha$ and, at "
-        r"fixed $\alpha$ by $\log(h/b)$.",
+        r"The series is differentiated by $a$. The split is multiplied by $\alpha^2$ and "
+        r"differentiated by $\alpha$ and, at fixed $\alpha$, by $\log(h/b)$.",
         {
             "series": sp.diff(delta, a) - slope,
             "mode": sp.diff(alpha**2 * mode.expression, alpha) / (2 * alpha) - sinc,
@@ -193,9 +193,9 @@ def logarithmic(expression: sp.Expr) -> tuple[sp.Rational, ...]:
 @cache
 def exponents() -> dict[str, tuple[sp.Rational, ...]]:
     """Return the exponents of R, m, v0, h, b and E* in every result, in `energy` and in `eta`."""
-    found = {name: logarithmic(law) for name, law in power_laws().items()}
+    exponents_by_name = {name: logarithmic(law) for name, law in power_laws().items()}
     energy = logarithmic(m * v0**2 / 2 / energy_scale())
-    return {**found, "energy": energy, "eta": logarithmic(h / b)}
+    return {**exponents_by_name, "energy": energy, "eta": logarithmic(h / b)}
 
 
 @cache
@@ -241,7 +241,8 @@ def modulus_slope() -> Formula:
     return Formula(
         "modulus_by_lam",
         r"\partial\log E^*/\partial\log\lambda",
-        r"derivative of $\log E^*$ by $\log \lambda$; that by $\log \mu$ is 1 minus this",
+        r"derivative of $\log E^*$ by $\log \lambda$; the derivative by $\log \mu$ is 1 minus "
+        r"this one",
         value,
         "1",
         "7",
@@ -289,8 +290,9 @@ def peaks() -> tuple[Formula, ...]:
     depth = (grown(lift) + 2 * lift) / lift
     proof = prove(
         "Peaks by energy and thickness",
-        "$A^5 E$ is the energy number and $A^2 (1 + F)$ the indentation. $A$ changes such that the "
-        r"former increases, or stays constant while $\eta$ increases.",
+        r"The energy number is $A^5 E$ and the indentation is $A^2 (1 + F)$. The radius $A$ is "
+        r"varied so that the energy number increases, and so that it stays constant while "
+        r"$\eta$ increases.",
         {
             "work": work - work_of_contact(),
             "by energy": energy_by_radius * by_energy - 1,
@@ -310,9 +312,12 @@ def peaks() -> tuple[Formula, ...]:
         ("indentation_by_thickness", r"\partial\log(\delta_m/h^2)/\partial\log\eta", depth_by_eta),
     )
     meanings = (
-        r"derivative of $\log a_m$ by the log of the energy; that of the force is three times this",
+        (
+            r"derivative of $\log a_m$ by the logarithm of the energy; that of the force is three "
+            r"times as large"
+        ),
         r"derivative of $\log(a_m/h)$ by $\log(h/b)$ at fixed energy number",
-        "derivative of the log of the peak indentation by that of the energy",
+        "derivative of the logarithm of the largest indentation by the logarithm of the energy",
         r"derivative of $\log(\delta R/h^2)$ by $\log(h/b)$ at fixed energy number",
     )
     return tuple(
@@ -358,8 +363,8 @@ def times() -> tuple[Formula, ...]:
             proofs[f"{label} by {name}"] = sp.expand(moved - change)
     proof = prove(
         "Contact time by contact radius and thickness",
-        "Numerator and radicand at fixed $u$ are differentiated by each $D_n$, with the quotient "
-        "rule.",
+        "At fixed $u$, numerator and radicand are differentiated by each $D_n$; the quotient "
+        "rule gives the derivative of the integrand.",
         proofs,
     )
     rows = (

@@ -55,7 +55,8 @@ def slope_law() -> Formula:
     kernel = (lateral.expression.function / LATERAL).subs(height, _y)
     proof = prove(
         "Slope of the law",
-        r"$F + \alpha F'/2$ of one mode and of the lateral surface's integrand.",
+        r"The expression $F + \alpha F'/2$ is evaluated for one mode and for the integrand of "
+        r"the lateral surface.",
         {
             "modes": sloped(mode.expression) - 4 * alpha / sp.pi * sp.sin(y) / y * weight,
             "finite radius": sp.expand((sloped(kernel) - density).rewrite(sp.exp)),
@@ -131,7 +132,7 @@ def exponents(fall: sp.Expr, rise: sp.Expr) -> Mapping[str, sp.Expr]:
 @cache
 def lemma() -> Proof:
     """Prove the exponents: extreme powers for S_1 in work, indentation and time."""
-    found = exponents(_p, _r)
+    solution = exponents(_p, _r)
 
     def power(of: sp.Expr, top: sp.Expr) -> sp.Expr:
         return sp.integrate(_x**of, (_x, 0, top), conds="none")
@@ -146,10 +147,10 @@ def lemma() -> Proof:
         "Substitution of the law",
         "a S_1/int S_1 is least or largest for extreme powers of S_1; time is travel by speed.",
         {
-            "energy": sp.simplify(work) - found["energy"],
-            "depth": sp.simplify(depth) - found["depth"],
-            "shorter": speed[1] - travel[0] - found["shorter"],
-            "longer": travel[1] - speed[0] - found["longer"],
+            "energy": sp.simplify(work) - solution["energy"],
+            "depth": sp.simplify(depth) - solution["depth"],
+            "shorter": speed[1] - travel[0] - solution["shorter"],
+            "longer": travel[1] - speed[0] - solution["longer"],
             "elasticity of 1 + x": _x * sp.diff(sp.log(1 + _x), _x) - elasticity,
             "which rises": sp.diff(elasticity, _x) - 1 / (1 + _x) ** 2,
         },

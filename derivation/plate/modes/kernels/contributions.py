@@ -23,8 +23,8 @@ shape, radial, hoop, J, chord, twist = sp.symbols("shape radial hoop J chord twi
 def _shape(name: str, amplitude: sp.Expr) -> sp.Expr:
     """Return a loaded mode's shape for an amplitude."""
     shapes: Mapping[str, sp.Expr] = {f.name: f.expression for f in loaded_mode()}
-    found: sp.Expr = shapes[name].subs(A_j, amplitude)
-    return found
+    shape: sp.Expr = shapes[name].subs(A_j, amplitude)
+    return shape
 
 
 def _mode(symbol: sp.Symbol, name: str, amplitude: sp.Expr = A_j) -> Several:

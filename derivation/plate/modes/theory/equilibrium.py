@@ -99,6 +99,6 @@ def equilibrium() -> tuple[Formula, Formula]:
 
 def without_functions(expression: sp.Expr, *functions: sp.Expr) -> sp.Expr:
     """Return the expression with independent symbols for f, g (or others) and their derivatives."""
-    found = expression.atoms(sp.Derivative) | set(functions or (f, g))
-    atoms = sorted(found, key=sp.default_sort_key, reverse=True)
+    functions_of_z = expression.atoms(sp.Derivative) | set(functions or (f, g))
+    atoms = sorted(functions_of_z, key=sp.default_sort_key, reverse=True)
     return expression.subs({atom: sp.Dummy(f"d{i}") for i, atom in enumerate(atoms)})

@@ -62,7 +62,7 @@ def scaled_omegas() -> tuple[Formula, ...]:
         scaled = sp.exp(phi * h) * omega.expression
         proof = prove(
             "Scaled constants",
-            r"The product with $e^{\phi h}$, by definition.",
+            r"Each scaled constant is the constant times $e^{\phi h}$ by definition.",
             {omega.name: scaled * sp.exp(-phi * h) - omega.expression},
         )
         results.append(

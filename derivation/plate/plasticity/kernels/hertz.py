@@ -93,9 +93,11 @@ def reached() -> Routine:
 
 def _without_roots(expression: sp.Expr) -> sp.Expr:
     """Expand products, and take roots of powers."""
-    found = expression.replace(CUBE_ROOT, sp.cbrt)
-    found = found.replace(PRODUCT, lambda above, below: sp.Mul(*above) / sp.Mul(*below))
-    return sp.simplify(sp.powdenest(sp.simplify(found), force=True))
+    expression_in_roots = expression.replace(CUBE_ROOT, sp.cbrt)
+    expression_in_roots = expression_in_roots.replace(
+        PRODUCT, lambda above, below: sp.Mul(*above) / sp.Mul(*below)
+    )
+    return sp.simplify(sp.powdenest(sp.simplify(expression_in_roots), force=True))
 
 
 ROUTINES = hertz_radius, hertz_modulus, hertz_energy, widening, reached

@@ -66,10 +66,10 @@ def loading() -> Loading:
     limit = sp.Symbol("p_y", positive=True)
     inner = sp.sqrt(a**2 - _a_y**2)
     slope = limit / _a_y  # p = slope sqrt(a^2 - r^2) in a growing contact
-    whole = 2 * sp.pi * slope * a**3 / 3
+    loading_work = 2 * sp.pi * slope * a**3 / 3
     # int sqrt(a^2 - r^2) r dr from 0 to r^2 = a^2 - a_y^2
     above = 2 * sp.pi * (slope * (a**3 - _a_y**3) / 3 - limit * inner**2 / 2)
-    force = sp.expand((whole - above) / whole.subs(a, _a_y))
+    force = sp.expand((loading_work - above) / loading_work.subs(a, _a_y))
     (area,) = sp.solve(force.subs(a, sp.sqrt(_s)) - xi_y**3, _s)
     hertz, peak = _hertz()
     prove(
@@ -79,9 +79,9 @@ def loading() -> Loading:
         {
             "antiderivative": sp.diff(-((a**2 - r**2) ** sp.Rational(3, 2)) / 3, r)
             - r * sp.sqrt(a**2 - r**2),
-            "Hertz": sp.simplify(whole.subs(limit, slope * _a_y) - hertz.subs(
+            "Hertz": sp.simplify(loading_work.subs(limit, slope * _a_y) - hertz.subs(
                 R, sp.solve(peak.subs(a, _a_y) - limit, R)[0])),
-            "growth": sp.diff(force * whole.subs(a, _a_y), a) - 2 * sp.pi * a * limit,
+            "growth": sp.diff(force * loading_work.subs(a, _a_y), a) - 2 * sp.pi * a * limit,
             "onset": force.subs(a, _a_y) - 1,
         },
     )  # fmt: skip
@@ -184,7 +184,8 @@ def yield_speed() -> Formula:
     )
     proof = prove(
         "Yield speed",
-        "The energy of the Hertz contact at the onset; it equals Thornton's (1997) formula.",
+        "The energy of the Hertz contact at the onset of yield gives the speed, which equals "
+        "Thornton's (1997) formula.",
         {"Thornton": sp.simplify((thornton / speed) ** 2 - 1)},
     )
     return Formula(
@@ -205,8 +206,9 @@ def plastic_restitution() -> Formula:
     ends = sp.limit(square / slow ** sp.Rational(1, 2), xi_y, sp.oo)
     proof = prove(
         "Restitution of an elastic-plastic contact",
-        "The energy returned over the initial energy; equal to Thornton's (1997) formula in "
-        "$v_y/v_0$, which tends to $1.185 (v_y/v_0)^{1/4}$.",
+        "The coefficient is the square root of the energy returned over the initial energy. It "
+        "equals Thornton's (1997) formula in $v_y/v_0$, which tends to $1.185 "
+        "(v_y/v_0)^{1/4}$.",
         {
             "Thornton": sp.simplify((thornton / square) ** 4 - 1),
             "fast": sp.simplify(

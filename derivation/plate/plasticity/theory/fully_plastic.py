@@ -42,30 +42,30 @@ class Beyond(NamedTuple):
 
 def mean_pressure() -> sp.Expr:
     """Return the mean pressure of step 31 over Y, by the contact radius over that at the onset."""
-    found = ONSET * (1 - 1 / (3 * wide**2))
+    pressure = ONSET * (1 - 1 / (3 * wide**2))
     onset = sp.Rational(2, 3) * ONSET  # the mean of Hertz pressure is two thirds of the largest
     at = {wide: sp.sqrt(loading().area)}
     prove(
         "Mean pressure of a limited pressure",
         "The force divided by the area of the contact.",
-        {"mean": sp.simplify((found - onset * xi_y**3 / wide**2).subs(at))},
+        {"mean": sp.simplify((pressure - onset * xi_y**3 / wide**2).subs(at))},
     )
-    return found
+    return pressure
 
 
 def risen_pressure() -> sp.Expr:
     """Return the mean pressure of the expanding cavity over Y, by the radius over the onset's."""
-    found = sp.Rational(2, 3) * (ONSET + sp.log(wide))
+    pressure = sp.Rational(2, 3) * (ONSET + sp.log(wide))
     zone = _core * sp.cbrt(wide**4)  # c^3 is proportional to a^3 a/R
     prove(
         "Pressure of an expanding cavity",
         "At the onset it is Hertz's mean pressure; beyond, it increases by $2 Y \\ln(c/a)$.",
         {
-            "onset": found.subs(wide, 1) - mean_pressure().subs(wide, 1),
-            "growth": sp.simplify(sp.diff(found - 2 * sp.log(zone / wide), wide)),
+            "onset": pressure.subs(wide, 1) - mean_pressure().subs(wide, 1),
+            "growth": sp.simplify(sp.diff(pressure - 2 * sp.log(zone / wide), wide)),
         },
     )
-    return found
+    return pressure
 
 
 def steepness() -> sp.Expr:
@@ -111,7 +111,7 @@ def _at_onset() -> dict[sp.Symbol, sp.Expr]:
 
 def _limit() -> sp.Expr:
     """Return e^2 of step 31 far beyond the onset, by the energy over that at the onset."""
-    own = plastic_restitution().expression
-    whole = plastic_work().expression / (1 - own**2)
-    found = sp.limit((own**8 * whole).subs(xi_y, 1 / _small), _small, 0)
-    return sp.root(found / _times, 4)
+    restitution = plastic_restitution().expression
+    whole = plastic_work().expression / (1 - restitution**2)
+    limit = sp.limit((restitution**8 * whole).subs(xi_y, 1 / _small), _small, 0)
+    return sp.root(limit / _times, 4)

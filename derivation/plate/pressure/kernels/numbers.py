@@ -129,11 +129,11 @@ def lateral_places() -> list[float]:
 
 def _lateral() -> list[tuple[Ball, Ball]]:
     """Return nodes y and weights of that integral, times e^(2y) and (4/pi^2) K0/I0."""
-    front, found = _front(1), []
+    front, rows = _front(1), []
     for index in range(LATERAL_FIRST, LATERAL_LAST + 1):
         u = Ball(index) / LATERAL_STEPS
         exponential = (-u).exp()
         y = (u - exponential).exp()
         bessel = y.bessel_k(Ball(0)) / y.bessel_i(Ball(0)) * (2 * y).exp()
-        found.append((y, y * (1 + exponential) / LATERAL_STEPS * bessel * front))
-    return found
+        rows.append((y, y * (1 + exponential) / LATERAL_STEPS * bessel * front))
+    return rows

@@ -24,8 +24,8 @@ def _shape(of_lateral: bool, turn: sp.Expr) -> sp.Expr:
 
 
 def _by_exponentials(expression: sp.Expr) -> sp.Expr:
-    found = expression.replace(sp.sinc, lambda v: sp.sin(v) / v)
-    return sp.expand(found.rewrite(sp.exp))
+    reduced = expression.replace(sp.sinc, lambda v: sp.sin(v) / v)
+    return sp.expand(reduced.rewrite(sp.exp))
 
 
 @named_routine
@@ -79,8 +79,8 @@ def _profile(of_sphere: bool) -> sp.Expr:
 
 
 def _by_logarithms(expression: sp.Expr) -> sp.Expr:
-    found = expression.replace(sp.log, lambda v: sp.log(sp.cancel(v)))
-    return found.replace(sp.atanh, lambda v: sp.log((1 + v) / (1 - v)) / 2)
+    reduced = expression.replace(sp.log, lambda v: sp.log(sp.cancel(v)))
+    return reduced.replace(sp.atanh, lambda v: sp.log((1 + v) / (1 - v)) / 2)
 
 
 @named_routine
@@ -133,7 +133,7 @@ def contact_results() -> Claims:
     pressed, peak, reach, relative_modulus = sp.symbols(
         "pressed peak reach relative_modulus", positive=True
     )
-    found = theory.results()
+    results = theory.results()
     return Claims(
         (*GIVEN, *SOLVED),
         (
@@ -155,7 +155,7 @@ def contact_results() -> Claims:
             peak * theory.centre,
             2 * peak * theory.force,
         ),
-        found[:7],
+        results[:7],
         MEANING,
         sp.cancel,
     )

@@ -201,14 +201,14 @@ def contact(
     >>> print(f"{found.force:.6g} N, {found.indentation:.6g} m")
     23003.2 N, 0.00643546 m
     """
-    own = modulus if plate_modulus is None else plate_modulus
-    _, given = as_doubles(a, R, modulus, own, compliance)
-    a, R, modulus, own, compliance = (np.array(x) for x in np.broadcast_arrays(*given))
+    own_modulus = modulus if plate_modulus is None else plate_modulus
+    _, given = as_doubles(a, R, modulus, own_modulus, compliance)
+    a, R, modulus, own_modulus, compliance = (np.array(x) for x in np.broadcast_arrays(*given))
     holds = (a > 0, a <= WIDEST_OVER_B * plate.b, a <= WIDEST * plate.h, a < R)
-    elastic = (modulus > 0, own >= modulus, ~np.isnan(compliance))
-    a, R, modulus, own = inside([a, R, modulus, own], *holds, *elastic)
+    elastic = (modulus > 0, own_modulus >= modulus, ~np.isnan(compliance))
+    a, R, modulus, own_modulus = inside([a, R, modulus, own_modulus], *holds, *elastic)
     shape = a.shape
-    flat = [np.ravel(x) for x in (a, R, modulus / own)]
+    flat = [np.ravel(x) for x in (a, R, modulus / own_modulus)]
     sizes: tuple[tuple[int, ...], ...] = ((NODES.size,), (), (), (), (), (), (_POINTS.size,))
     inner = [np.empty((flat[0].size, *size)) for size in sizes]
     for start in range(0, flat[0].size, _BLOCK):
@@ -217,19 +217,19 @@ def contact(
         for values, found in zip(inner, solution, strict=True):
             values[part] = found
     solved = _Solution(*(x.reshape((*shape, *x.shape[1:])) for x in inner))
-    return _contact(plate, solved, (a, R, modulus, own, compliance))
+    return _contact(plate, solved, (a, R, modulus, own_modulus, compliance))
 
 
-def _contact(plate: Plate, found: _Solution, given: tuple[Double, ...]) -> Contact:
+def _contact(plate: Plate, solution: _Solution, given: tuple[Double, ...]) -> Contact:
     """Convert from units of the half-space to those of the arguments."""
-    a, R, modulus, own, compliance = given
-    centre = found.bends[..., :-1] @ WEIGHTS
-    edge, bend = found.edge, found.bends[..., -1]
+    a, R, modulus, own_modulus, compliance = given
+    centre = solution.bends[..., :-1] @ WEIGHTS
+    edge, bend = solution.edge, solution.bends[..., -1]
     values = kernels.contact_results(
-        a, R, modulus, own, compliance, np.asarray(plate.first), np.asarray(plate.unit),
-        found.force, found.depth, found.work, found.flat, edge, bend, centre,
+        a, R, modulus, own_modulus, compliance, np.asarray(plate.first), np.asarray(plate.unit),
+        solution.force, solution.depth, solution.work, solution.flat, edge, bend, centre,
     )  # fmt: skip
-    chi = found.chi * kernels.chi_unit(a, R, modulus)[..., None]
+    chi = solution.chi * kernels.chi_unit(a, R, modulus)[..., None]
     closed = values[5] > 0
     arrays = [np.where(closed, x, np.nan) for x in (a, *values)]
     nodes = a[..., None] * NODES
@@ -331,13 +331,13 @@ def pressure(
     >>> print(pressure([0.0, 0.005], plate(0.004, 0.15), 0.01, 0.5, 75e9).round(-3))
     [79788000. 85992000.]
     """
-    whole = contact(plate, a, R, modulus, plate_modulus, sphere=sphere)
+    state = contact(plate, a, R, modulus, plate_modulus, sphere=sphere)
     _, [r] = as_doubles(r)
-    [r] = inside([r], r >= 0, r <= float(whole.a))
-    if not whole.force > 0:
+    [r] = inside([r], r >= 0, r <= float(state.a))
+    if not state.force > 0:
         return np.full(r.shape, np.nan)[()]
-    own = modulus if plate_modulus is None else plate_modulus
-    radius, modulus_ratio = np.array([float(a)]), np.array([float(modulus) / float(own)])
+    own_modulus = modulus if plate_modulus is None else plate_modulus
+    radius, modulus_ratio = np.array([float(a)]), np.array([float(modulus) / float(own_modulus)])
     points = np.broadcast_to(_POINTS, (1, _POINTS.size))
     solution = _solve(plate, radius, np.array([float(R)]), modulus_ratio, sphere)
     transform = _transform(_waves(plate, radius, points, modulus_ratio), solution.chi)

@@ -118,8 +118,8 @@ def estimates() -> Proof:
     force_rise = sp.diff(contact_radius().expression, a) * E / reduced_modulus()
     return prove(
         "Bound of the error of Hertz pressure",
-        r"Both parts of $\Theta$, the integrals of the estimates, and each inequality as a "
-        "product.",
+        r"The proof gives both parts of $\Theta$, the integrals of the estimates, and each "
+        r"inequality as a product.",
         {
             "Theta, modes": modes + sp.Rational(15, 2) * third.mode,
             "Theta, finite radius": side + sp.Rational(15, 2) * third.side,

@@ -168,9 +168,9 @@ def kernel() -> tuple[Formula, Formula]:
     scaled = {eta: h / b, j_n: b * phi}
     proof = prove(
         "Kernel of the contact's integral equation",
-        r"A mode's deflection under $\chi$, by Abel's operator; with $G = 1$ the sum identity "
-        r"gives $(2/\pi) \int \cos(x t) \cos(x s) dx$, which is $\chi$, and the lateral surface. "
-        "$S$ is differentiated.",
+        r"Abel's operator gives the deflection of a mode under $\chi$. With $G = 1$ the sum "
+        r"identity gives $(2/\pi) \int \cos(x t) \cos(x s) dx$, which is $\chi$, and the "
+        r"lateral surface. Finally, $S$ is differentiated.",
         {
             "one mode": one_mode - f.subs(_x, b * phi) / (b * phi * J1**2) * G,
             "thickness": f.subs(_x, b * phi) / (b * phi * J1**2) * (G - 1)

@@ -41,7 +41,7 @@ def results() -> Results:
     """Return all results in terms of the numbers of the solution."""
     series = a * N_0 + 2 * E * a * support
     load = 2 * E * a**3 / R * force
-    found = (
+    formulas = (
         load,
         a**2 / R * (depth + series * force),
         2 * E * a / (1 / flat + series),
@@ -50,7 +50,7 @@ def results() -> Results:
         E * a / (sp.pi * R) * centre,
         load / (sp.pi * a**2),
     )
-    return Results(*found, unit := E * a**2 / (sp.pi * R), _proof(*found, unit))
+    return Results(*formulas, unit := E * a**2 / (sp.pi * R), _proof(*formulas, unit))
 
 
 def _proof(

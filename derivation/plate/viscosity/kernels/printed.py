@@ -55,9 +55,9 @@ def weak_restitution() -> Routine:
 
 
 def _by_logarithms(expression: sp.Expr) -> sp.Expr:
-    found = expression.replace(expm1, lambda x: sp.exp(x) - 1)
-    found = found.replace(log1p, lambda x: sp.log(1 + x))
-    return sp.simplify(sp.expand_log(found.replace(sp.log, lambda x: sp.log(sp.factor(x)))))
+    reduced = expression.replace(expm1, lambda x: sp.exp(x) - 1)
+    reduced = reduced.replace(log1p, lambda x: sp.log(1 + x))
+    return sp.simplify(sp.expand_log(reduced.replace(sp.log, lambda x: sp.log(sp.factor(x)))))
 
 
 @named_routine

@@ -81,7 +81,8 @@ def viscous_number() -> Formula:
 
     proof = prove(
         "Viscous number",
-        r"$\varepsilon$ of Hertz's law is proportional to $s^{1/5}$; $s = v_0$ at the turn.",
+        r"The parameter $\varepsilon$ of Hertz's law is proportional to $s^{1/5}$, and $s = v_0$ "
+        r"at the turning point.",
         {
             "rise": sp.diff(plain(rise), _z),
             "turning point": plain(ratio.subs(_z, deepest))
@@ -94,7 +95,7 @@ def viscous_number() -> Formula:
     return Formula(
         "viscous_number",
         "x_v",
-        "viscous parameter, proportional to the loss of speed to leading order",
+        "viscous parameter, to leading order proportional to the relative loss of speed",
         sp.Rational(3, 2) * viscous_time * rate,
         "1",
         "",
@@ -123,7 +124,8 @@ def weak_restitution() -> Formula:
     loss *= sp.Rational(4, 5) ** sp.Rational(2, 5)
     proof = prove(
         "Restitution of a weakly viscoelastic contact",
-        "The loss along the elastic motion; the second term follows from the time-reversed motion.",
+        "The first term is the loss along the elastic motion; the second follows from the "
+        "time-reversed motion.",
         {
             "first": sp.gammasimp((loss - C_1).rewrite(sp.gamma)),
             "second": product.coeff(x, 2).subs(c_2, sp.Rational(3, 5) * c_1**2),
@@ -132,7 +134,7 @@ def weak_restitution() -> Formula:
     return Formula(
         "restitution_weak",
         "e",
-        "restitution of a weakly viscoelastic contact, to second order",
+        "coefficient of restitution of a weakly viscoelastic contact, to second order",
         1 - C_1 * x_v + sp.Rational(3, 5) * C_1**2 * x_v**2,
         "1",
         "",

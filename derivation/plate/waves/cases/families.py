@@ -202,6 +202,6 @@ def _shapes() -> Iterator[HardCase]:
 
 def _other_arguments() -> dict[str, Inputs]:
     """Return the other arguments of each function of a wave number."""
-    found = {kernel: exact_inputs(nu=0.25) for kernel in LOWEST}
-    found[INFLUENCE] = exact_inputs(kap=2.5, nu=0.25)
-    return found | {kernel: exact_inputs(nu=0.25, index=2.0) for kernel in BRANCHES}
+    inputs = {kernel: exact_inputs(nu=0.25) for kernel in LOWEST}
+    inputs[INFLUENCE] = exact_inputs(kap=2.5, nu=0.25)
+    return inputs | {kernel: exact_inputs(nu=0.25, index=2.0) for kernel in BRANCHES}

@@ -43,9 +43,9 @@ def _of_lowest(function: Callable[..., arb], root: bool = False) -> HardLaw:
     """Return the reference of a quantity of A0 at x and nu, or of its square root."""
 
     def values(given: Given, digits: int) -> tuple[arb]:
-        found = function(*given, digits=digits)
+        value = function(*given, digits=digits)
         with flint.ctx.workprec(4 * digits + 64):
-            return (found.sqrt() if root else found,)
+            return (value.sqrt() if root else value,)
 
     return HardLaw(values, slopes=differences(values, 0, 1), oracle=(inertia_balls.__name__,))
 
@@ -59,11 +59,11 @@ def _conditions(given: Given, values: Sequence[arb]) -> list[arb]:
     """Return condition numbers of the arguments and, above x^2, of p and q, as budgeted."""
     x, kap, nu = map(Fraction, given)
     load = kap or min(x**2, x**4) * _STATIC_KAP
-    found = []
+    residuals = []
     for kind, value in zip(inertia_balls.KINDS, values, strict=True):
         of_arguments, of_roots = inertia_balls.condition(x, load, nu, kind)
-        found.append(abs(value) * (of_arguments + (2 * of_roots if kap > x * x else 0)))
-    return found
+        residuals.append(abs(value) * (of_arguments + (2 * of_roots if kap > x * x else 0)))
+    return residuals
 
 
 def _of_branch(kind: str, function: Callable[..., arb], root: bool = False) -> HardLaw:
@@ -71,15 +71,15 @@ def _of_branch(kind: str, function: Callable[..., arb], root: bool = False) -> H
 
     def values(given: Given, digits: int) -> tuple[arb]:
         x, nu, index = given
-        found = function(x, nu, kind, int(index), digits)
+        value = function(x, nu, kind, int(index), digits)
         with flint.ctx.workprec(4 * digits + 64):
-            return (found.sqrt() if root else found,)
+            return (value.sqrt() if root else value,)
 
-    def sizes(given: Given, found: Sequence[arb]) -> tuple[arb]:
+    def sizes(given: Given, wave_values: Sequence[arb]) -> tuple[arb]:
         """Return residues relative to the largest, which is among the first two."""
         x, nu, _ = given
         first, second = (values((x, nu, index), _DIGITS)[0] for index in (0, 1))
-        return (abs(found[0]).max(first).max(second),)
+        return (abs(wave_values[0]).max(first).max(second),)
 
     return HardLaw(
         values, None if root else sizes, conditioned=False, oracle=(inertia_balls.__name__,)

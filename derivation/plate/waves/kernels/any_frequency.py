@@ -45,8 +45,8 @@ def scaled_shc(y: sp.Expr) -> sp.Expr:
 
 def reduce_exponentials(expression: sp.Expr) -> sp.Expr:
     """Return 0 if and only if the expression vanishes, exponentials included."""
-    found = in_p_and_q(expression).replace(expm1, lambda y: sp.exp(y) - 1)
-    return in_sines(found.replace(sp.exp, lambda y: sp.cosh(y) + sp.sinh(y)))
+    reduced = in_p_and_q(expression).replace(expm1, lambda y: sp.exp(y) - 1)
+    return in_sines(reduced.replace(sp.exp, lambda y: sp.cosh(y) + sp.sinh(y)))
 
 
 def _slope(

@@ -59,8 +59,8 @@ def reduce(expression: sp.Expr) -> sp.Expr:
 
 def in_cosh_and_sinh(expression: sp.Expr) -> sp.Expr:
     """Return the expression without tanh and coth."""
-    found = expression.replace(sp.tanh, lambda y: sp.sinh(y) / sp.cosh(y))
-    return found.replace(sp.coth, lambda y: sp.cosh(y) / sp.sinh(y))
+    reduced = expression.replace(sp.tanh, lambda y: sp.sinh(y) / sp.cosh(y))
+    return reduced.replace(sp.coth, lambda y: sp.cosh(y) / sp.sinh(y))
 
 
 def entire(term: sp.Expr) -> sp.Expr:
@@ -133,9 +133,9 @@ FIRST: tuple[Let | Several, ...] = (
 def at_zero(expression: sp.Expr, bends: bool) -> sp.Expr:
     """Return 0 if and only if the expression vanishes at all zeros of B, by tanh p from tanh q."""
     t_p, t_q, c_p, c_q = sp.symbols("t_p t_q c_p c_q", positive=True)
-    found = in_cosh_and_sinh(sp.expand_trig(in_p_and_q(expression)))
+    reduced = in_cosh_and_sinh(sp.expand_trig(in_p_and_q(expression)))
     named = {sp.sinh(p): t_p * c_p, sp.sinh(q): t_q * c_q, sp.cosh(p): c_p, sp.cosh(q): c_q}
-    top = sp.numer(sp.together(found.subs(named)))
+    top = sp.numer(sp.together(reduced.subs(named)))
     for c, t in ((c_p, t_p), (c_q, t_q)):
         top = _without_squares(top, c, t)
     functions = (sp.tanh, (t_p, t_q)) if bends else (sp.coth, (1 / t_p, 1 / t_q))
@@ -146,5 +146,5 @@ def at_zero(expression: sp.Expr, bends: bool) -> sp.Expr:
 
 def _without_squares(value: sp.Expr, c: sp.Symbol, t: sp.Symbol) -> sp.Expr:
     """Return a polynomial in c, where c^2 = 1/(1 - t^2)."""
-    found = sp.Poly(value, c)
-    return sp.Add(*(k * c ** (n % 2) * (1 - t**2) ** -(n // 2) for (n,), k in found.terms()))
+    polynomial = sp.Poly(value, c)
+    return sp.Add(*(k * c ** (n % 2) * (1 - t**2) ** -(n // 2) for (n,), k in polynomial.terms()))

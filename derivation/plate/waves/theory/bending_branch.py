@@ -110,7 +110,7 @@ def bending_zero() -> tuple[Formula, ...]:
     tanh_p, tanh_q = sp.symbols("t_p t_q", positive=True)
     at_zero = 4 * x_h**2 * p * q * tanh_q / (x_h**2 + q**2) ** 2
     bare = slope.subs({sp.tanh(p): tanh_p, sp.tanh(q): tanh_q}).subs(tanh_p, at_zero)
-    found = in_p_and_q(bending_residue(tanh_p, tanh_q)).subs(tanh_p, at_zero)
+    residue = in_p_and_q(bending_residue(tanh_p, tanh_q)).subs(tanh_p, at_zero)
     anywhere = p * q**2 / (2 * x_h**2 * at_zero * in_p_and_q(steepness(at_zero, tanh_q)))
     x_i, w, s = sp.symbols("xi w s", positive=True)
     plus, tanh = (1 + w) ** 2, (sp.tanh(p), sp.tanh(q))
@@ -126,19 +126,21 @@ def bending_zero() -> tuple[Formula, ...]:
         {
             "quotient": in_sines(in_p_and_q(B_a - 2 * kap * sp.tanh(p) / p * (quotient() - 1))),
             "zero": sp.cancel(in_p_and_q(stiffness(at_zero, tanh_q))),
-            "residue": sp.cancel(1 / bare + found),
+            "residue": sp.cancel(1 / bare + residue),
             "by the quotient": sp.cancel(1 / bare + anywhere),
             "steepness": in_sines(in_p_and_q(steep.subs(reduced) - steepness(*tanh))),
         },
     )
     rows = (
         (
-            "bending_quotient", r"q_0(\kappa)", "quotient of the two terms of $B_a$, 1 on A0",
+            "bending_quotient", r"q_0(\kappa)", ("quotient of the two terms of $B_a$, equal to 1 "
+            "on the branch A0"),
             quotient(), quotient(), "B_a_slow",
         ),
         (
             "steepness", "s", (
-                r"slope of that quotient on A0 by $\log \kappa$ with reversed sign, times $w$"
+                r"derivative of the quotient of both terms of $B_a$ by $\log \kappa$ on the "
+                r"branch A0, with reversed sign, times $w$"
             ),
             steepness(*tanh), steep, "bending_quotient",
         ),
@@ -175,11 +177,12 @@ def bending_fraction() -> Formula:
     value = p * q * (p + q) * B / (2 * x_h**3 * E * steep)
     proof = prove(
         "Static fraction of the lowest branch",
-        r"The residue over $\kappa$, with $\kappa$ from the quotient, times the static $B_a$.",
+        r"The residue is divided by $\kappa$, with $\kappa$ from the quotient, and multiplied by "
+        r"the static $B_a$.",
         {
             "static B_a": in_sines(both[0] - bent),
             "B_a over B_s": in_sines(both[0] / both[1] - unlike),
-            "share": in_sines(answer / load * bent - plain),
+            "static fraction": in_sines(answer / load * bent - plain),
             "E": in_sines(plain - value),
         },
     )
@@ -188,7 +191,8 @@ def bending_fraction() -> Formula:
     stated = (value / (1 + beta)).subs(steep, sp.Symbol("s", positive=True))
     return Formula(
         "bending_fraction", "s_0", (
-            r"fraction of A0 in the static deflection, $\beta$ being $B_a/B_s$ there"
+            r"fraction of the static deflection that belongs to the branch A0; $\beta$ is the "
+            r"static $B_a/B_s$"
         ),
         with_roots(value.subs(steep, steep_value) / (1 + unlike)), "1", "",
         (residue.name, "C_top"), proof, stated=stated,
@@ -220,12 +224,14 @@ def rayleigh() -> tuple[Formula, Formula]:
     return (
         Formula(
             "rayleigh_cubic", "0", (
-                r"squared speed $\xi$ of short waves, divided by $c_T^2$"
+                r"polynomial in the squared speed $\xi = (c_R/c_T)^2$ of short waves, zero at "
+                r"that of Rayleigh's wave"
             ), cubic, "1", "",
             ("B_a",), proof,
         ),
         Formula(
-            "rayleigh_residue", r"\lim_{x\to\infty}\rho h\,r_0/x", "residue of A0 for short waves",
+            "rayleigh_residue", r"\lim_{x\to\infty}\rho h\,r_0/x", "residue of the branch A0 "
+            "for short waves",
             limit, "1", "", ("bending_residue",), proof,
         ),
     )  # fmt: skip
@@ -245,11 +251,11 @@ def _cut(value: PolyElement, order: int) -> PolyElement:
 
 def _tanh_powers(count: int) -> list[sp.Rational]:
     """Return t_0, t_1, ...: sinh(y)/y = cosh(y) tanh(y)/y."""
-    found: list[sp.Rational] = []
+    powers: list[sp.Rational] = []
     for n in range(count):
-        rest = sum(found[k] / sp.factorial(2 * (n - k)) for k in range(n))
-        found.append(sp.Rational(1, sp.factorial(2 * n + 1)) - rest)
-    return found
+        rest = sum(powers[k] / sp.factorial(2 * (n - k)) for k in range(n))
+        powers.append(sp.Rational(1, sp.factorial(2 * n + 1)) - rest)
+    return powers
 
 
 def _stiffness_of(slope: PolyElement, order: int) -> PolyElement:
@@ -324,11 +330,11 @@ def thin_plates() -> tuple[Formula, ...]:
     )
     lines = (
         ("bending_kap_thin", r"\kappa_0", r"$(\omega h/c_T)^2$ of A0, thin plates", 4, rows[0]),
-        ("residue_thin", r"\rho h\,r_0", "residue of A0, thin plates", 0, rows[1]),
+        ("residue_thin", r"\rho h\,r_0", "residue of the branch A0, thin plates", 0, rows[1]),
         (
             "bending_fraction_thin",
             "s_0",
-            "fraction of A0 in the static deflection, thin plates",
+            "fraction of the static deflection that belongs to the branch A0, thin plates",
             0,
             fraction,
         ),
@@ -364,11 +370,11 @@ def _static_fraction(residue: tuple[sp.Expr, ...], slope: tuple[sp.Expr, ...]) -
     first = sp.Add(*(c * s**n for n, c in enumerate(residue))) * rest * 16
     second = sp.Add(*(sp.cancel(c / (1 - gam)) * s**n for n, c in enumerate(slope))) * compliance
     rows = [[sp.expand(part).coeff(s, n) for n in range(ORDER)] for part in (first, second)]
-    found: list[sp.Expr] = []
+    coefficients: list[sp.Expr] = []
     for n in range(ORDER):
-        known = sum(found[k] * rows[1][n - k] for k in range(n))
-        found.append(sp.factor((rows[0][n] - known) / rows[1][0]))
-    return found
+        known = sum(coefficients[k] * rows[1][n - k] for k in range(n))
+        coefficients.append(sp.factor((rows[0][n] - known) / rows[1][0]))
+    return coefficients
 
 
 def bending_branch() -> tuple[Formula, ...]:

@@ -78,7 +78,7 @@ def growing_contact() -> Proof:
             "pressure": spread + hertz,
             "modal force": felt - MODAL_FORCE,
             "transform": -2 * sp.pi * hertz.subs(r, 0) * sonine().expression - MODAL_FORCE,
-            "share": sp.diff(MODAL_FORCE / P * a**3, a) / sp.diff(a**3, a) - MODAL_WEIGHT,
+            "modal weight": sp.diff(MODAL_FORCE / P * a**3, a) / sp.diff(a**3, a) - MODAL_WEIGHT,
         },
     )
 
@@ -188,8 +188,8 @@ def variational_law() -> Proof:
     stored = a**3 * depth - compliance * felt**2 / 2 - gap_energy
     return prove(
         "Variational law",
-        "The mean of $r^2/(2R)$ under a flat punch; the mean of $s$, and of every power of $a$; "
-        "the work, for $P = a^3$.",
+        "Under a flat punch the mean of $r^2/(2R)$, of $s$, and of every power of $a$ is taken; "
+        "the work is that for $P = a^3$.",
         {
             "sphere": gap - a**2 / (3 * R),
             "half-space": gap + whole - a**2 / R,
@@ -252,7 +252,7 @@ def coupling() -> tuple[Formula, ...]:
         Formula(
             "delta_variational",
             r"\delta_V - a^2/(3R)",
-            "indentation by the variational law without the half-space's",
+            "indentation by the variational law minus that of the half-space",
             contact["K_j"] * SINE_MINUS * MODAL_WEIGHT,
             "m",
             "6",

@@ -97,8 +97,8 @@ def wave_equations() -> tuple[Formula, Formula]:
     first, second = radial + inertia * g, axial + inertia * f
     proof = prove(
         "Waves of one mode",
-        r"$-\rho d^2/dt^2$ of $\cos(\omega t)$ is $\rho \omega^2$, on the right of both balances "
-        "of forces.",
+        r"For a motion proportional to $\cos(\omega t)$, $-\rho d^2/dt^2$ is $\rho \omega^2$; it "
+        r"stands on the right of both balances of forces.",
         {
             "radial": without_functions(balance[0] + inertia * u - phi * first * BESSEL_J1),
             "axial": without_functions(balance[1] + inertia * w - second * BESSEL_J0),
@@ -107,10 +107,24 @@ def wave_equations() -> tuple[Formula, Formula]:
     sources = ("radial_ode", "axial_ode")
     return (
         Formula(
-            "radial_wave", "0", ("radial motion of mode $j$"), first, "Pa", "", sources[:1], proof
+            "radial_wave",
+            "0",
+            ("equation of radial motion of mode $j$"),
+            first,
+            "Pa",
+            "",
+            sources[:1],
+            proof,
         ),
         Formula(
-            "axial_wave", "0", "axial motion of mode $j$", second, "Pa/m", "", sources[1:], proof
+            "axial_wave",
+            "0",
+            "equation of axial motion of mode $j$",
+            second,
+            "Pa/m",
+            "",
+            sources[1:],
+            proof,
         ),
     )
 
@@ -136,7 +150,8 @@ def wave_shapes() -> tuple[Formula, Formula]:
     ]
     proof = prove(
         "Solution of the waves",
-        "$f$ and $g$ are inserted into both equations; four independent functions, as in step 2.",
+        "$f$ and $g$ are inserted into both equations; their four functions are independent, as "
+        "in step 2.",
         {"radial": residuals[0], "axial": residuals[1]},
     )
     sources = ("radial_wave", "axial_wave")
@@ -146,7 +161,8 @@ def wave_shapes() -> tuple[Formula, Formula]:
             shape_f, "m", "", sources, proof,
         ),
         Formula(
-            "wave_g", r"g(z)\vert_\omega", r"its radial displacement, divided by $\phi_j$", shape_g,
+            "wave_g", r"g(z)\vert_\omega", r"radial displacement of a wave through the "
+            r"thickness, divided by $\phi_j$", shape_g,
             "m^2", "", sources, proof,
         ),
     )  # fmt: skip
@@ -221,9 +237,9 @@ def dynamic_influence() -> tuple[Formula, ...]:
         residuals[f"{name} without cancellation"] = in_sines(in_p_and_q(form - value))
     proof = prove(
         "Dynamic influence coefficient",
-        "$A_j/2$ on both faces, in equal and in opposite directions: the sum leaves the back face "
-        r"free. The tractions are solved for the constants, $\kappa$ and $\gamma$ in terms of "
-        "$p$ and $q$.",
+        r"A pressure $A_j/2$ acts on both faces, in equal and in opposite directions; the sum of "
+        r"both cases leaves the back face free. The tractions are solved for the constants, "
+        r"with $\kappa$ and $\gamma$ expressed by $p$ and $q$.",
         residuals,
     )
     shapes, names = ("wave_f", "wave_g"), sp.symbols("B_a B_s")

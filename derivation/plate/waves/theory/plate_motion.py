@@ -43,8 +43,8 @@ def bending_waves() -> Proof:
     speed = sp.integrate(sp.sin(_s) / _s, (_s, 0, sp.oo)) * sp.simplify(density * _s)
     return prove(
         "Bending waves",
-        r"$J_0(\phi r)$ in the equation of motion; the response to a point force, "
-        "integrated over all wave numbers.",
+        r"$J_0(\phi r)$ is inserted into the equation of motion; the response to a point force "
+        r"is integrated over all wave numbers.",
         {
             "wave": sp.expand(_D * laplacian(laplacian(shape)) - rho * _H * omega**2 * shape),
             "point force": sp.simplify(speed - 1 / (8 * sp.sqrt(_D * rho * _H))),
@@ -70,8 +70,9 @@ def zener_number() -> Formula:
     squares = E * _H**3 / 12 * rho * _H
     proof = prove(
         "Zener's number",
-        r"$m (d + w)'' = -K d^{3/2}$ with $w' = K d^{3/2}/I$, $I = 8 \sqrt{D \rho H}$, in units "
-        "of $T$ and $v_0 T$: the force has the coefficient 1, its rate $m/(T I)$.",
+        r"In units of $T$ and $v_0 T$, the equations $m (d + w)'' = -K d^{3/2}$ and $w' = K "
+        r"d^{3/2}/I$ with $I = 8 \sqrt{D \rho H}$ have the coefficient 1 of the force and "
+        r"$m/(T I)$ of its rate.",
         {
             "force": scaled(force * T / (m * v0)) - 1,
             "rate": scaled(force / (impedance * v0) * T / m) - 1 / impedance,
@@ -99,7 +100,7 @@ def plate_times() -> tuple[Formula, Formula]:
         Formula(
             "bending_period",
             "T_1",
-            "period of bending with $n$ nodal circles; $j_1$ gives the first",
+            "period of the bending vibration with $n$ nodal circles; $j_1$ gives the first one",
             2 * sp.pi / omega,
             "s",
             "",

@@ -1,0 +1,203 @@
+"""Stable forms of formulas whose factors each depend on one product of powers of the symbols.
+
+Such a factor is f = v_1^p_1 v_2^p_2 ... g(x), where x = v_1^q_1 v_2^q_2 ... Its logarithmic slopes
+d log f/d log v_i = p_i + q_i d log g/d log x lie on a straight line, whose direction is q. Both
+exponents follow from the slopes at some points. The form is proved afterwards, as all forms are.
+"""
+
+import math
+from collections import defaultdict
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import NamedTuple
+
+import flint
+import sympy as sp
+
+from derivation.engine.formula.ball import enclose, to_ball
+from derivation.engine.formula.grid import DRAWN, domain_grid, inside
+from derivation.engine.formula.record import Record
+from derivation.engine.rewrite.blocks import block_of
+from derivation.engine.rewrite.form import TIMES, Block, Step, Switch
+from derivation.engine.rewrite.search import stabilised
+from derivation.engine.rewrite.series import POLYNOMIAL
+from derivation.engine.rewrite.stabilise import Stable
+from derivation.engine.rewrite.terms import UnreachableError
+
+BITS, RADIUS, ROUNDING = 400, 1e-60, Fraction(1, 10**30)
+"""Precision of the slopes, their largest error, and that of numbers that follow from them."""
+ENOUGH_POINTS = 12
+"""Smallest number of points with slopes for a decision."""
+LARGEST_DENOMINATOR = 60
+"""Largest denominator of an exponent."""
+NAMES = "x", "y", "ratio", "product", "other_product"
+"""Names of the products, of which those are taken that the formula does not use."""
+Powers = tuple[tuple[sp.Symbol, sp.Rational], ...]
+"""Symbols with their exponents, without zeros."""
+Slopes = list[Fraction]
+
+
+class ProductForm(NamedTuple):
+    """Steps and value of a form, and the building blocks for factors that need one."""
+
+    steps: tuple[Step, ...]
+    value: sp.Expr | Switch
+    blocks: tuple[Block, ...] = ()
+
+
+class Factored(NamedTuple):
+    """A constant, powers of symbols, and the stable form of each other factor by its product."""
+
+    constant: sp.Expr
+    front: Powers
+    factors: tuple[tuple[Powers, Stable], ...]
+
+
+def of_products(formula: Record) -> ProductForm:
+    """Return the stable form of a formula whose factors each depend on one product.
+
+    Raises
+    ------
+    UnreachableError
+        If a factor depends on several such products, or the rules find no accurate form.
+    """
+    value, front, factors = factored(formula)
+    steps: list[Step] = []
+    blocks: list[Block] = []
+    for product, stable in factors:
+        x, core = stable.variable, stable.value
+        steps += [Step(x, _times(sp.Integer(1), product))] if len(product) > 1 else []
+        alone = len(factors) == 1 or not stable.steps  # else names of steps could occur twice
+        if alone and isinstance(core, sp.Expr) and not core.has(POLYNOMIAL):
+            steps += stable.steps
+            value *= core
+        else:
+            number = f"_{len(blocks) + 1}" if blocks else ""
+            summary = f"A dimensionless factor of {formula.name}."
+            blocks.append(block_of(f"{formula.name}_factor{number}", stable, summary))
+            value *= blocks[-1](x)
+    return ProductForm(tuple(steps), _times(value, front), tuple(blocks))
+
+
+def factored(formula: Record) -> Factored:
+    """Return the factors of a formula, each in the stable form in its product.
+
+    Raises
+    ------
+    UnreachableError
+        If a factor depends on several products, or the rules find no form in a useful range.
+    """
+    cores: dict[Powers, sp.Expr] = defaultdict(lambda: sp.Integer(1))
+    front: dict[sp.Symbol, sp.Rational] = defaultdict(lambda: sp.Integer(0))
+    for factor in sp.Mul.make_args(sp.factor_terms(formula.expression)):
+        powers, product = _exponents(factor, formula)
+        for symbol, power in powers:
+            front[symbol] += power
+        cores[product] *= factor
+    constant = _core(cores.pop((), sp.Integer(1)), formula)
+    names = (sp.Symbol(name, positive=True) for name in NAMES if name not in _names(formula))
+    forms = []
+    for product, factor in cores.items():
+        own, power = _eliminated(product, formula)
+        x = own if len(product) == 1 else next(names)
+        forms.append((product, stabilised(_core(factor, formula, own, x ** (1 / power)), x)))
+    return Factored(constant, tuple(front.items()), tuple(forms))
+
+
+def _core(
+    factor: sp.Expr, formula: Record, own: sp.Symbol | None = None, value: sp.Expr | None = None
+) -> sp.Expr:
+    """Return a factor with a value for one symbol, and 1 for all others."""
+    ones = {argument.symbol: sp.Integer(1) for argument in formula.arguments}
+    return factor.subs(ones if own is None else {**ones, own: value})
+
+
+def _exponents(factor: sp.Expr, formula: Record) -> tuple[Powers, Powers]:
+    """Return the exponents in front of g, and those of its product; both may be empty."""
+    symbols = [a.symbol for a in formula.arguments if factor.has(a.symbol)]
+    if not symbols:
+        return (), ()
+    first, *others = _slopes(factor, formula, symbols)
+    changes = [[b - a for a, b in zip(first, other, strict=True)] for other in others]
+    changes = [change for change in changes if max(map(abs, change)) > ROUNDING]
+    if not changes:
+        return _rational(factor, symbols, first), ()
+    index = max(range(len(symbols)), key=lambda index: abs(changes[0][index]))
+    line, *more = ([part / change[index] for part in change] for change in changes if change[index])
+    if any(abs(a - b) > ROUNDING for other in more for a, b in zip(line, other, strict=True)):
+        raise UnreachableError(f"{factor} depends on several dimensionless products")
+    product = _oriented(_rational(factor, symbols, line), formula)
+    own, power = _eliminated(product, formula)
+    rate = first[symbols.index(own)] / int(power)
+    rest = dict(product)
+    powers = [p - rate * int(rest.get(s, 0)) for s, p in zip(symbols, first, strict=True)]
+    return _rational(factor, symbols, powers), product
+
+
+def _oriented(product: Powers, formula: Record) -> Powers:
+    """Return a product with integer exponents, in which symbols that may vanish are no divisors."""
+    unit = sp.Integer(math.lcm(*(power.q for _, power in product)))
+    zeros = [power for symbol, power in product if symbol in _may_vanish(formula)]
+    sign = sp.sign((*zeros, product[0][1])[0])
+    return tuple((symbol, sign * unit * power) for symbol, power in product)
+
+
+def _eliminated(product: Powers, formula: Record) -> tuple[sp.Symbol, sp.Rational]:
+    """Return the symbol that a product replaces, with its exponent.
+
+    It is one that may vanish if there is one, because all others may become divisors.
+    """
+    zeros = _may_vanish(formula)
+    return min(product, key=lambda pair: (pair[0] not in zeros, abs(pair[1]), str(pair[0])))
+
+
+def _names(formula: Record) -> list[str]:
+    """Return the names of the arguments."""
+    return [argument.name for argument in formula.arguments]
+
+
+def _may_vanish(formula: Record) -> list[sp.Symbol]:
+    """Return the arguments that may be zero."""
+    pairs = ((argument.symbol, argument.name) for argument in formula.arguments)
+    return [symbol for symbol, name in pairs if inside(formula.vocabulary, {name: 0.0})]
+
+
+def _slopes(factor: sp.Expr, formula: Record, symbols: Sequence[sp.Symbol]) -> list[Slopes]:
+    """Return the logarithmic slopes at random points of the domain."""
+    expressions = [symbol * factor.diff(symbol) / factor for symbol in symbols]
+    names, slopes = _names(formula), []
+    for point in domain_grid(formula.name, names, formula.vocabulary, {})[:DRAWN]:
+        with flint.ctx.workprec(BITS):
+            at = {a.symbol: to_ball(point[a.name]) for a in formula.arguments}
+            try:
+                balls = [enclose(expression, at) for expression in expressions]
+            except NotImplementedError as error:
+                raise UnreachableError(f"{factor} cannot be evaluated: {error}") from None
+        if all(ball.rad() < RADIUS for ball in balls):
+            slopes.append([_middle(ball) for ball in balls])
+    if len(slopes) < ENOUGH_POINTS:
+        raise UnreachableError(f"{factor} has slopes at {len(slopes)} of {DRAWN} points")
+    return slopes
+
+
+def _middle(ball: flint.arb) -> Fraction:
+    """Return the middle of a ball."""
+    mantissa, exponent = ball.mid().man_exp()
+    return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
+
+
+def _rational(factor: sp.Expr, symbols: Sequence[sp.Symbol], values: Slopes) -> Powers:
+    """Return values as rational exponents of the symbols."""
+    exponents = [value.limit_denominator(LARGEST_DENOMINATOR) for value in values]
+    if any(abs(a - b) > ROUNDING for a, b in zip(exponents, values, strict=True)):
+        raise UnreachableError(f"{factor} is no function of a product of powers")
+    pairs = zip(symbols, exponents, strict=True)
+    return tuple((symbol, sp.Rational(p.numerator, p.denominator)) for symbol, p in pairs if p)
+
+
+def _times(value: sp.Expr, powers: Powers) -> sp.Expr:
+    """Return a value times powers; those of integer exponents neither overflow nor underflow."""
+    pairs = sorted(((s, p) for s, p in powers if p), key=lambda pair: str(pair[0]))
+    value *= sp.Mul(*(symbol**power for symbol, power in pairs if not power.is_Integer))
+    whole = [part for symbol, power in pairs if power.is_Integer for part in (symbol, power)]
+    return TIMES(value, *whole) if whole else value

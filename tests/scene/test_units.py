@@ -1,0 +1,103 @@
+"""Values in other units than SI are doubted, and values of real materials are not."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from derivation.scene import SceneError, indent, read, simulate
+from derivation.scene.materials import MATERIALS
+from derivation.scene.rows import solve
+from derivation.scene.units import unit_warnings
+
+TILE = {"radius": 0.15, "thickness": 0.009, "youngs_modulus": 65e9, "poissons_ratio": 0.2}
+SCENE: dict[str, dict[str, Any]] = {
+    "sphere": {"radius": 0.008, "material": "glass"},
+    "plate": TILE | {"density": 2350.0, "yield_stress": 3e9, "tensile_strength": 40e6},
+    "impact": {"speed": 2.0},
+}
+
+
+def with_value(place: str, value: float) -> dict[str, Any]:
+    table, key = place.split(".")
+    return SCENE | {table: SCENE[table] | {key: value}}
+
+
+@pytest.mark.parametrize(
+    ("place", "unit"),
+    [
+        ("plate.youngs_modulus", 1e9),
+        ("plate.youngs_modulus", 1e6),
+        ("plate.density", 1e3),
+        ("plate.density", 1e12),
+        ("plate.yield_stress", 1e6),
+        ("plate.yield_stress", 1e9),
+        ("plate.tensile_strength", 1e6),
+        ("plate.thickness", 1e-3),
+        ("plate.radius", 1e-3),
+        ("sphere.radius", 1e-3),
+        ("impact.speed", 1e-3),
+    ],
+)
+def test_each_value_in_another_unit_is_doubted_with_its_value_in_si_units(
+    place: str, unit: float
+) -> None:
+    table, key = place.split(".")
+    value = SCENE[table][key]
+    [text] = unit_warnings(read(with_value(place, value / unit)))
+    assert text.startswith(f"{place} = ")
+    assert f"write {value:.6g}" in text
+
+
+def test_grams_are_told_from_a_heavy_body_above_the_sphere() -> None:
+    solid = 4.0 / 3.0 * np.pi * 0.008**3 * 2500.0
+    [text] = unit_warnings(read(with_value("sphere.mass", 1000.0 * solid)))
+    assert f"write {solid:.6g}" in text
+    assert not unit_warnings(read(with_value("sphere.mass", 150.0 * solid)))
+
+
+@pytest.mark.parametrize("name", [name for name, one in MATERIALS.items() if one.density])
+def test_no_value_of_a_real_material_is_doubted(name: str) -> None:
+    one = MATERIALS[name]
+    keys = ("youngs_modulus", "poissons_ratio", "density", "yield_stress")
+    own = {key: getattr(one, key) for key in keys if getattr(one, key) is not None}
+    plate = {"radius": 0.1, "thickness": 0.01} | own
+    scene = {"sphere": {"radius": 0.01} | own, "plate": plate, "impact": {"speed": 1.0}}
+    assert not unit_warnings(read(scene))
+
+
+@pytest.mark.parametrize(
+    ("modulus", "density"), [(1e7, 25.0), (1.1e5, 1060.0), (1.05e12, 3515.0), (16e9, 11340.0)]
+)
+def test_foam_gel_diamond_and_lead_are_not_doubted(modulus: float, density: float) -> None:
+    plate = {"radius": 0.1, "thickness": 0.01, "youngs_modulus": modulus, "poissons_ratio": 0.3}
+    scene = SCENE | {"plate": plate | {"density": density}}
+    assert not unit_warnings(read(scene))
+
+
+def test_a_refusal_begins_with_the_doubt() -> None:
+    wrong = read(with_value("plate.youngs_modulus", 65.0))
+    for run in (lambda: simulate(wrong), lambda: indent(wrong, force=10.0)):
+        with pytest.raises(SceneError, match=r"^plate\.youngs_modulus = 65 Pa"):
+            run()
+
+
+def test_rows_have_the_doubts_of_single_scenes() -> None:
+    scene = read(SCENE | {"effects": {"inertia": False}, "accuracy": {"rtol": 0.01}})
+    columns = {
+        "plate.youngs_modulus": np.array([65e9, 65e6, 65e3, 65.0, 65e9]),
+        "plate.density": np.array([2350.0, 2350.0, 2350.0, 2350.0, 2.35]),
+        "impact.speed": np.array([0.1, 0.1, 1e-4, 1e-4, 0.1]),
+    }
+    rows = solve(scene, columns)
+    for row in range(5):
+        values = {key: float(column[row]) for key, column in columns.items()}
+        tables = {**SCENE, "effects": {"inertia": False}, "accuracy": {"rtol": 0.01}}
+        for place, value in values.items():
+            table, key = place.split(".")
+            tables[table] = tables[table] | {key: value}
+        try:
+            expected = "; ".join(simulate(read(tables)).warnings)
+        except SceneError as error:
+            expected = str(error)
+        assert rows.reason[row] == expected

@@ -22,6 +22,17 @@ def change(found: Result, reference: Result, name: str) -> float:
     return abs(getattr(found, name) / getattr(reference, name) - 1.0)
 
 
+def compared(
+    data: dict[str, Any], effects: dict[str, bool], name: str
+) -> tuple[Result, Result, float]:
+    """Return the impacts without and with an effect, and the bound on it that the first states."""
+    without, included = (
+        simulate(read(data | {"effects": effects | {name: chosen}})) for chosen in (False, True)
+    )
+    [row] = [row for row in without.effects.rows if row.name == name]
+    return without, included, row.bound
+
+
 @pytest.mark.parametrize("thickness", [0.004, 0.008, 0.03])
 def test_restitution_alone_is_within_its_bound(thickness: float) -> None:
     """The plate takes more energy of a stiffer contact: with 8e-4 stated, the error was 0.13."""
@@ -49,12 +60,8 @@ def test_omitted_weight_is_within_its_bound(
     data = {"sphere": sphere, "plate": plate | {"edge": "simply-supported"}, "impact": impact}
     effects = {"inertia": True, "plasticity": False}
     tables = {"accuracy": {"rtol": 0.03}, "inertia": {"branches": "A0"}}
-    without, reference = (
-        simulate(read(data | tables | {"effects": effects | {"gravity": gravity}}))
-        for gravity in (False, True)
-    )
-    [row] = [row for row in without.effects.rows if row.name == "gravity"]
-    assert 3e-3 < max(change(without, reference, name) for name in OUTPUTS) < row.bound
+    without, reference, bound = compared(data | tables, effects, "gravity")
+    assert 3e-3 < max(change(without, reference, name) for name in OUTPUTS) < bound
 
 
 def test_another_edge_is_within_its_bound() -> None:
@@ -66,12 +73,8 @@ def test_another_edge_is_within_its_bound() -> None:
         "impact": {"speed": 7.17e-4, "gravity": 9.81},
         "inertia": {"branches": "A0"},
     }  # fmt: skip
-    without, reference = (
-        simulate(read(data | {"effects": {"inertia": True, "edge": edge}}))
-        for edge in (False, True)
-    )
-    [row] = [row for row in without.effects.rows if row.name == "edge"]
-    assert 0.1 < change(without, reference, "restitution") < row.bound
+    without, reference, bound = compared(data, {"inertia": True}, "edge")
+    assert 0.1 < change(without, reference, "restitution") < bound
 
 
 def test_radius_of_a_non_hertzian_contact_is_within_its_bound() -> None:
@@ -86,10 +89,7 @@ def test_radius_of_a_non_hertzian_contact_is_within_its_bound() -> None:
         "impact": {"speed": 4.28, "gravity": 9.81},
         "inertia": {"branches": "A0"},
     }  # fmt: skip
-    without, reference = (
-        simulate(read(data | {"effects": CONTACT | {"non_hertzian_pressure": solved}}))
-        for solved in (False, True)
-    )
+    without, reference, _ = compared(data, CONTACT, "non_hertzian_pressure")
     [row] = [row for row in reference.effects.rows if row.name == "non_hertzian_pressure"]
     assert 5e-3 < change(without, reference, "max_contact_radius") < row.bound
 
@@ -120,12 +120,8 @@ def test_omissions_from_a_contact_that_dissipates_are_within_their_bounds(
     The changes were 1.5 to 13 times the bounds.
     """
     data = SOFT | {"plate": SOFT["plate"] | plate, "accuracy": {"rtol": 0.1, "outputs": [output]}}
-    without, reference = (
-        simulate(read(data | {"effects": CONTACT | {"inertia": False, omitted: included}}))
-        for included in (False, True)
-    )
-    [row] = [row for row in without.effects.rows if row.name == omitted]
-    assert 0.05 * row.bound < change(without, reference, output) < row.bound
+    without, reference, bound = compared(data, CONTACT | {"inertia": False}, omitted)
+    assert 0.05 * bound < change(without, reference, output) < bound
 
 
 def test_force_of_a_vibrating_plate_is_within_its_bound() -> None:
@@ -140,12 +136,8 @@ def test_force_of_a_vibrating_plate_is_within_its_bound() -> None:
         "accuracy": {"rtol": 0.01, "outputs": ["max_force"]},
     }  # fmt: skip
     effects = CONTACT | {"inertia": True, "spherical_profile": False}
-    without, reference = (
-        simulate(read(data | {"effects": effects | {"gravity": gravity}}))
-        for gravity in (False, True)
-    )
-    [row] = [row for row in without.effects.rows if row.name == "gravity"]
-    assert 3.2e-4 < change(without, reference, "max_force") < row.bound
+    without, reference, bound = compared(data, effects, "gravity")
+    assert 3.2e-4 < change(without, reference, "max_force") < bound
 
 
 def test_weight_of_a_sphere_that_hardly_rebounds_is_within_its_bound() -> None:
@@ -159,13 +151,9 @@ def test_weight_of_a_sphere_that_hardly_rebounds_is_within_its_bound() -> None:
         "accuracy": {"rtol": 0.1, "outputs": ["restitution"]},
     }  # fmt: skip
     effects = {"inertia": True, "plasticity": False, "non_hertzian_pressure": False}
-    without, reference = (
-        simulate(read(data | {"effects": effects | {"gravity": gravity}}))
-        for gravity in (False, True)
-    )
+    without, reference, bound = compared(data, effects, "gravity")
     assert without.restitution < 0.03
-    [row] = [row for row in without.effects.rows if row.name == "gravity"]
-    assert 0.3 < change(without, reference, "restitution") < row.bound
+    assert 0.3 < change(without, reference, "restitution") < bound
 
 
 DROP: dict[str, Any] = {
@@ -192,12 +180,8 @@ def test_restitution_after_a_long_flight_is_within_its_bound(
         "inertia": {"branches": "A0", "modes": modes},
     }
     effects = {"inertia": True, "spherical_profile": False, "non_hertzian_pressure": False}
-    without, reference = (
-        simulate(read(data | {"effects": effects | {"sphere_elasticity": elastic}}))
-        for elastic in (False, True)
-    )
-    [row] = [row for row in without.effects.rows if row.name == "sphere_elasticity"]
-    assert 0.05 * row.bound < change(without, reference, "restitution") < row.bound
+    without, reference, bound = compared(data, effects, "sphere_elasticity")
+    assert 0.05 * bound < change(without, reference, "restitution") < bound
 
 
 @pytest.mark.parametrize(
@@ -225,12 +209,8 @@ def test_weight_during_a_long_flight_is_within_its_bound(
         "accuracy": {"rtol": 0.9, "outputs": [output]},
     }
     effects = CONTACT | {"inertia": True, "plasticity": False, "non_hertzian_pressure": False}
-    without, reference = (
-        simulate(read(data | {"effects": effects | {"gravity": gravity}}))
-        for gravity in (False, True)
-    )
-    [row] = [row for row in without.effects.rows if row.name == "gravity"]
-    assert 0.1 * row.bound < change(without, reference, output) < row.bound
+    without, reference, bound = compared(data, effects, "gravity")
+    assert 0.1 * bound < change(without, reference, output) < bound
 
 
 def test_bound_on_a_small_restitution_does_not_shrink_with_it() -> None:

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from shared_scenes import TWO_CONTACTS
 
 from derivation.cli import main
 from derivation.scene import contact_sequence, flight, waves
@@ -67,23 +66,6 @@ def test_contacts_before_an_endless_one_are_kept(
     assert len(part.contacts) == 1
     assert part.contacts[0].end == whole.contacts[0].end
     assert re.search(message, part.reason)
-
-
-def test_incomplete_impact_is_marked(
-    monkeypatch: pytest.MonkeyPatch, capsys: Any, tmp_path: Path
-) -> None:
-    file = tmp_path / "scene.toml"
-    file.write_text(TWO_CONTACTS)
-    waves.impact.cache_clear()
-    monkeypatch.setattr(contact_sequence, "CONTACTS", 1)
-    status = main(["simulate", str(file), "--json", "-"])
-    data = json.loads(capsys.readouterr().out)
-    waves.impact.cache_clear()
-    assert not data["dynamics"]["complete"]
-    assert status == 1
-    assert data["restitution"] is None
-    assert data["accuracy"]["bound"] is None
-    assert data["max_force"] > 0.0
 
 
 def test_contacts_before_a_later_error_are_kept(capsys: Any, tmp_path: Path) -> None:

@@ -1,5 +1,6 @@
 """The summary of a simulation: printed first, short, in prefixed SI units, fitting a screen."""
 
+import json
 import math
 import os
 import re
@@ -227,6 +228,12 @@ def test_summary_of_an_incomplete_impact_states_it_first(
         assert capsys.readouterr().out.startswith("INCOMPLETE: ")
         assert main(["simulate", str(file), "--quiet"]) == 1
         assert "INCOMPLETE: " in capsys.readouterr().err
+        assert main(["simulate", str(file), "--json", "-"]) == 1
+        data = json.loads(capsys.readouterr().out)
+        assert not data["dynamics"]["complete"]
+        assert data["restitution"] is None
+        assert data["accuracy"]["bound"] is None
+        assert data["max_force"] > 0.0
     finally:
         waves.impact.cache_clear()
 

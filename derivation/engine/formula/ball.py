@@ -7,7 +7,7 @@ from functools import cache
 import flint
 import sympy as sp
 
-from derivation.engine.formula.operations import operation
+from derivation.engine.formula.tape import recorded
 
 Exact = int | float | Fraction
 """An exact number; a double stands for the binary fraction that it represents."""
@@ -37,15 +37,7 @@ def enclose(expression: sp.Basic, values: Mapping[sp.Basic, flint.arb]) -> flint
     NotImplementedError
         For a SymPy function that is not implemented in ball arithmetic.
     """
-    memo: dict[sp.Basic, flint.arb] = dict(values)
-
-    def visit(node: sp.Basic) -> flint.arb:
-        if node not in memo:
-            enclosure = operation(node)
-            memo[node] = enclosure.value(*(visit(operand) for operand in enclosure.operands))
-        return memo[node]
-
-    return visit(expression)
+    return recorded(expression, tuple(values)).run(values.values())[-1]
 
 
 @cache

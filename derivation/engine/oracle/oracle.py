@@ -9,9 +9,9 @@ import sympy as sp
 
 from derivation.engine.formula.ball import LOG2_10, MAX_BITS, SPARE_BITS, PrecisionError, enclosable
 from derivation.engine.formula.record import Record
+from derivation.engine.formula.tape import Tape, record
 from derivation.engine.formula.vocabulary import Vocabulary
 from derivation.engine.oracle.reference import Reference, exact_reference
-from derivation.engine.oracle.tape import Tape, record
 
 FLOOR = flint.arb(2) ** -1200
 """A ball inside +-2^-1200 is returned as zero.

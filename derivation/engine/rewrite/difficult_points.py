@@ -7,7 +7,8 @@ from typing import TypeVar
 import flint
 import sympy as sp
 
-from derivation.engine.formula.ball import enclose
+from derivation.engine.formula.ball import enclosable, enclose
+from derivation.engine.formula.tape import record_all
 from derivation.engine.formula.ulp import from_ordinal, ordinal
 from derivation.engine.rewrite.form import Branch, Step, Switch
 from derivation.engine.rewrite.series import POLYNOMIAL
@@ -100,10 +101,13 @@ def difficult_points(stable: Stable, low: float, high: float) -> list[float]:
     low, high
         The range of the variable.
     """
-    x, watched, points = stable.variable, parts(stable), grid(low, high)
+    x, points = stable.variable, grid(low, high)
+    watched = [part for part in parts(stable) if enclosable(part)]
+    tape, slots = record_all(watched, (x,))
     values: set[float] = set()
     with flint.ctx.workprec(BITS):
-        rows = [_states(watched, x, point) for point in points]
+        enclosures = (tape.run([flint.arb(point)]) for point in points)
+        rows = [[_state(balls[slot]) for slot in slots] for balls in enclosures]
         for index, part in enumerate(watched):
             changes = [k for k in range(1, len(points)) if rows[k - 1][index] != rows[k][index]]
             for k in _selection(changes):
@@ -118,20 +122,6 @@ def _selection(numbers: list[Number]) -> list[Number]:
         return numbers
     step = len(others) / _SPREAD
     return numbers[:_FIRST] + [others[int(k * step)] for k in range(_SPREAD)]
-
-
-def _states(watched: Sequence[sp.Expr], x: sp.Symbol, point: float) -> list[tuple[int, int]]:
-    known: dict[sp.Basic, flint.arb] = {x: flint.arb(point)}
-    for part in watched:
-        known[part] = _enclosed(part, known)
-    return [_state(known[part]) for part in watched]
-
-
-def _enclosed(part: sp.Expr, known: dict[sp.Basic, flint.arb]) -> flint.arb:
-    try:
-        return enclose(part, known)
-    except NotImplementedError:
-        return flint.arb("nan")
 
 
 def _state(value: flint.arb) -> tuple[int, int]:
@@ -149,10 +139,10 @@ def _state(value: flint.arb) -> tuple[int, int]:
 def _change(part: sp.Expr, x: sp.Symbol, below: float, above: float) -> float:
     """Return a double at which the sign or class of a part changes, by bisection of an interval."""
     first, last = ordinal(below), ordinal(above)
-    start = _state(_enclosed(part, {x: flint.arb(below)}))
+    start = _state(enclose(part, {x: flint.arb(below)}))
     while last - first > 1:
         middle = (first + last) // 2
-        if _state(_enclosed(part, {x: flint.arb(from_ordinal(middle))})) == start:
+        if _state(enclose(part, {x: flint.arb(from_ordinal(middle))})) == start:
             first = middle
         else:
             last = middle

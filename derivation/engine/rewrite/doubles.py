@@ -7,6 +7,7 @@ arithmetic, so that the selection of a form does not depend on a processor or li
 import math
 import sys
 from collections.abc import Callable, Mapping
+from functools import lru_cache, partial
 
 import flint
 import sympy as sp
@@ -18,6 +19,7 @@ from derivation.engine.rewrite.series import POLYNOMIAL
 _BITS = 160
 _LIMIT = sys.float_info.max
 _EXP = FUNCTIONS[sp.exp][0]
+Operation = Callable[..., float]
 Values = Mapping[sp.Basic, float]
 Blocks = Mapping[str, Block]
 NO_BLOCKS: Blocks = {}
@@ -31,62 +33,98 @@ def rounded_value(expression: sp.Expr, values: Values, blocks: Blocks = NO_BLOCK
     NotImplementedError
         For a function that cannot be evaluated.
     """
-    memo: dict[sp.Basic, float] = dict(values)
-
-    def visit(node: sp.Basic) -> float:
-        if node not in memo:
-            block = blocks.get(node.func.__name__)
-            if block is None:
-                memo[node] = _node(node, visit)
-            else:
-                own = {block.arguments[0]: visit(node.args[0])}
-                memo[node] = run(block.steps, block.value, own, blocks)
-        return memo[node]
-
-    return visit(expression)
+    slots = list(values.values())
+    for function, reads in _steps(expression, tuple(values), frozenset(blocks)):
+        operands = [slots[i] for i in reads]
+        if isinstance(function, str):
+            block = blocks[function]
+            own = {block.arguments[0]: operands[0]}
+            slots.append(run(block.steps, block.value, own, blocks))
+        else:
+            slots.append(function(*operands))
+    return slots[-1]
 
 
-def _node(node: sp.Basic, visit: Callable[[sp.Basic], float]) -> float:
-    if isinstance(node, sp.Number):
-        return float(node)
-    if node is sp.pi:
-        return math.pi
+@lru_cache(maxsize=4096)
+def _steps(
+    expression: sp.Expr, inputs: tuple[sp.Basic, ...], blocks: frozenset[str]
+) -> tuple[tuple[Operation | str, tuple[int, ...]], ...]:
+    """Return the operations in order, each with the slots of its operands; a block by its name."""
+    slots: dict[sp.Basic, int] = {symbol: i for i, symbol in enumerate(inputs)}
+    steps: list[tuple[Operation | str, tuple[int, ...]]] = []
+
+    def visit(node: sp.Basic) -> int:
+        if node not in slots:
+            name = node.func.__name__
+            function, operands = (name, node.args[:1]) if name in blocks else _operation(node)
+            step = function, tuple(visit(operand) for operand in operands)
+            slots[node] = len(inputs) + len(steps)
+            steps.append(step)
+        return slots[node]
+
+    if visit(expression) < len(inputs):  # a bare input: the result must be the last slot
+        return ((lambda x: x, (slots[expression],)),)
+    return tuple(steps)
+
+
+def _operation(node: sp.Basic) -> tuple[Operation, tuple[sp.Basic, ...]]:
+    """Return the operation at a node, and its operands."""
+    if isinstance(node, sp.Number) or node is sp.pi:
+        value = float(node)
+        return lambda: value, ()
     if isinstance(node, sp.Add):
         number, rest = node.as_coeff_Add()  # a number is last, as in the printed code
-        total = visit(rest.args[0]) if rest.is_Add else visit(rest)
-        for term in rest.args[1:] if rest.is_Add else ():
-            total += visit(term)
-        return total + float(number)
+        return partial(_sum, float(number)), rest.args if rest.is_Add else (rest,)
     if isinstance(node, sp.Mul):
-        return _product(node, visit)
+        return _product(node)
     if isinstance(node, sp.Pow):
-        return _power(visit(node.base), node.exp)
+        return _power(node.exp), (node.base,)
     if node.func == POLYNOMIAL:
-        variable, *coefficients = (visit(argument) for argument in node.args)
-        value = coefficients[-1]
-        for coefficient in reversed(coefficients[:-1]):
-            value = value * variable + coefficient
-        return value
+        return _horner, node.args
     if isinstance(node, sp.Min | sp.Max):
-        return (min if isinstance(node, sp.Min) else max)(visit(part) for part in node.args)
+        return (min if isinstance(node, sp.Min) else max), node.args
     if node.func in (TIMES, CLOSELY):
-        return _scaled_product(*(visit(part) for part in node.args))
+        return _scaled_product, node.args
     if node.func in FUNCTIONS:
-        return _function(FUNCTIONS[node.func][0], visit(node.args[0]))
+        return partial(_function, FUNCTIONS[node.func][0]), node.args[:1]
     raise NotImplementedError(f"no double precision for {node.func.__name__}")
 
 
-def _product(node: sp.Mul, visit: Callable[[sp.Basic], float]) -> float:
+def _sum(number: float, first: float, *terms: float) -> float:
+    for term in terms:
+        first += term
+    return first + number
+
+
+def _horner(variable: float, *coefficients: float) -> float:
+    value = coefficients[-1]
+    for coefficient in reversed(coefficients[:-1]):
+        value = value * variable + coefficient
+    return value
+
+
+def _product(node: sp.Mul) -> tuple[Operation, tuple[sp.Basic, ...]]:
     """Return numerator over denominator, as in the generated code."""
-    above, below = 1.0, 1.0
-    for factor in node.args:
-        if isinstance(factor, sp.Pow) and factor.exp.is_Rational and factor.exp < 0:
-            below *= _power(visit(factor.base), -factor.exp)
-        else:
-            above *= visit(factor)
-    if below == 0.0:
-        return math.nan if above == 0.0 else math.copysign(math.inf, above)
-    return above / below
+    powers = [
+        _power(-factor.exp)
+        if isinstance(factor, sp.Pow) and factor.exp.is_Rational and factor.exp < 0
+        else None
+        for factor in node.args
+    ]
+
+    def quotient(*values: float) -> float:
+        above, below = 1.0, 1.0
+        for value, power in zip(values, powers, strict=True):
+            if power is None:
+                above *= value
+            else:
+                below *= power(value)
+        if below == 0.0:
+            return math.nan if above == 0.0 else math.copysign(math.inf, above)
+        return above / below
+
+    pairs = zip(node.args, powers, strict=True)
+    return quotient, tuple(f if power is None else f.base for f, power in pairs)
 
 
 def _scaled_product(value: float, *powers: float) -> float:
@@ -100,21 +138,28 @@ def _scaled_product(value: float, *powers: float) -> float:
     return math.ldexp(total, exponent)
 
 
-def _power(base: float, exponent: sp.Expr) -> float:
-    if not math.isfinite(base):
-        return float(base ** float(exponent))
+def _power(exponent: sp.Expr) -> Callable[[float], float]:
+    """Return the function that raises a double to a power."""
+    number, of_finite = float(exponent), _power_of_finite(exponent)
+    return lambda base: of_finite(base) if math.isfinite(base) else float(base**number)
+
+
+def _power_of_finite(exponent: sp.Expr) -> Callable[[float], float]:
     if exponent == sp.Rational(1, 2):
-        return math.sqrt(base) if base >= 0 else math.nan
+        return lambda base: math.sqrt(base) if base >= 0 else math.nan
     if exponent < 0:
-        above = _power(base, -exponent)
-        return 1.0 / above if above else math.inf
+        inverse = _power_of_finite(-exponent)
+        return lambda base: 1.0 / above if (above := inverse(base)) else math.inf
     if exponent.is_Integer:
-        return _function(lambda x: x ** int(exponent), base)
-    if base == 0.0:
-        return 0.0
+        n = int(exponent)
+        return partial(_function, lambda x: x**n)
     if exponent.q == 3:  # printed as a cube root
-        return _power(_function(lambda x: x ** (flint.arb(1) / 3), base), sp.Integer(exponent.p))
-    return _function(lambda x: x ** flint.arb(float(exponent)), base)
+        root = partial(_function, lambda x: x ** (flint.arb(1) / 3))
+        power = _power_of_finite(sp.Integer(exponent.p))
+        return lambda base: power(root(base)) if base else 0.0
+    number = float(exponent)
+    of_positive = partial(_function, lambda x: x ** flint.arb(number))
+    return lambda base: of_positive(base) if base else 0.0
 
 
 def _function(function: Callable[[flint.arb], flint.arb], argument: float) -> float:

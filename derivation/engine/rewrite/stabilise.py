@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import sympy as sp
 
@@ -183,14 +184,20 @@ def apply_rules(
     """Return the form that results from the rules, and its largest error."""
     form: Rewritten = expression
     for rule in rules:
-        try:
-            results = [_with_lead(result, at.lead) for result in rule.apply(x, form)]
-        except UnreachableError:
-            continue
+        results = [_with_lead(result, at.lead) for result in _results(rule, x, form)]
         if len(results) > 1:
             results.sort(key=lambda result: (max(at.worst(result), EXACT), at.failures(result)))
         form = results[0] if results else form
     return form, at.worst(form)
+
+
+@lru_cache(maxsize=4096)
+def _results(rule: Rule, x: sp.Symbol, form: Rewritten) -> tuple[Rewritten, ...]:
+    """Return the forms by one rule, none if it fails; most are requested several times."""
+    try:
+        return tuple(rule.apply(x, form))
+    except UnreachableError:
+        return ()
 
 
 def _with_lead(form: Rewritten, lead: int) -> Rewritten:

@@ -13,9 +13,9 @@ from mpmath import mp, mpf
 
 from derivation.engine.formula.ball import PrecisionError
 from derivation.engine.formula.operations import FUNCTIONS
+from derivation.engine.formula.tape import record
 from derivation.engine.oracle import agreement, oracle
 from derivation.engine.oracle.agreement import OracleError, RouteError
-from derivation.engine.oracle.tape import record
 from derivation.mathematics.bessel.oracle import first_zero_is_first, j0_zero, j1_at_zero
 from derivation.plate.modes.route import routes
 from derivation.plate.modes.route.routes import agree

@@ -7,6 +7,7 @@ from importlib import import_module
 from typing import Any
 
 import flint
+import platecontact as pc
 import pytest
 import sympy as sp
 from flint import arb
@@ -165,3 +166,18 @@ def test_tail_bound_of_simple_impacts_needs_enough_modes(monkeypatch: pytest.Mon
     monkeypatch.setattr(simple_impact_tables, "zero_of_j0", lambda *_: arb(2.4))
     with pytest.raises(ArithmeticError, match="too few modes for the tail's bound"):
         simple_impact_tables.numbers()
+
+
+@pytest.mark.parametrize(
+    "formula", ["log(x + sqrt(x**2 + 1))", "x*log(x) - x + 1", "exp(x) - sqrt(1 + 2*x)"]
+)
+def test_a_range_does_not_leave_out_where_the_formula_cancels(formula: str) -> None:
+    """These are accurate in a part of the range without any rule, which would be no help."""
+    with pytest.raises(ValueError, match="the rules give a form"):
+        pc.rewrite(formula)
+
+
+@pytest.mark.parametrize("formula", ["log(-x)", "x - x", "sin(x)**2 + cos(x)**2 - 1"])
+def test_a_formula_without_values_is_refused(formula: str) -> None:
+    with pytest.raises(ValueError, match=r"has values other than 0, .* of the tested points x > 0"):
+        pc.rewrite(formula)

@@ -56,7 +56,7 @@ def test_lateral_moments() -> None:
 
 def test_lateral_moments_around_the_switch_point() -> None:
     start = tables.kappa_start()
-    near = [*range(start - 3, start + 4)]
+    near = [*range(start - 2, start + 2)]
     assert max(errors(kappa_ratio, reference.kappa_ratio, near)) <= BUDGET
 
 

@@ -6,8 +6,9 @@ A tape is recorded once per formula and evaluated at any precision. Equal subexp
 recorded once.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import flint
 import sympy as sp
@@ -22,14 +23,14 @@ Step = tuple[Operation, tuple[int, ...]]
 class Tape:
     """Inputs fill the first slots, each step fills the next one, and the last is the result."""
 
-    inputs: tuple[sp.Symbol, ...]
+    inputs: tuple[sp.Basic, ...]
     steps: tuple[Step, ...]
 
-    def run(self, values: Sequence[flint.arb]) -> list[flint.arb]:
+    def run(self, values: Iterable[flint.arb]) -> list[flint.arb]:
         """Return every slot's ball at the current precision; the last one is the value."""
         slots = list(values)
         for done, reads in self.steps:
-            slots.append(done.value(*(slots[i] for i in reads)))
+            slots.append(done.value(*[slots[i] for i in reads]))
         return slots
 
     def gradient(self, slots: Sequence[flint.arb]) -> list[flint.arb]:
@@ -61,18 +62,39 @@ def record(expression: sp.Expr, inputs: Sequence[sp.Symbol]) -> Tape:
     missing = sorted(str(symbol) for symbol in expression.free_symbols - set(inputs))
     if missing:
         raise ValueError(f"the expression also depends on {', '.join(missing)}")
+    return recorded(expression, tuple(inputs))
+
+
+@lru_cache(maxsize=4096)
+def recorded(expression: sp.Basic, inputs: tuple[sp.Basic, ...]) -> Tape:
+    """Return the tape of an expression in symbols or parts of it.
+
+    Raises
+    ------
+    NotImplementedError
+        For a function, constant or symbol without ball arithmetic.
+    """
+    tape, (last,) = record_all((expression,), inputs)
+    if last < len(inputs):  # a bare input: the result must be the last slot
+        same = Operation((expression,), lambda x: x, lambda *_: (flint.arb(1),))
+        tape = replace(tape, steps=((same, (last,)),))
+    return tape
+
+
+def record_all(
+    expressions: Sequence[sp.Basic], inputs: tuple[sp.Basic, ...]
+) -> tuple[Tape, list[int]]:
+    """Return the tape of several expressions, and the slot of each."""
     slots: dict[sp.Basic, int] = {symbol: i for i, symbol in enumerate(inputs)}
     steps: list[Step] = []
 
     def visit(node: sp.Basic) -> int:
         if node not in slots:
-            index = operation(node)
-            step = index, tuple(visit(operand) for operand in index.operands)
+            own = operation(node)
+            step = own, tuple(visit(operand) for operand in own.operands)
             slots[node] = len(inputs) + len(steps)
             steps.append(step)
         return slots[node]
 
-    if visit(expression) < len(inputs):  # a bare input: the result must be the last slot
-        same = Operation((expression,), lambda x: x, lambda *_: (flint.arb(1),))
-        steps.append((same, (slots[expression],)))
-    return Tape(tuple(inputs), tuple(steps))
+    positions = [visit(expression) for expression in expressions]
+    return Tape(inputs, tuple(steps)), positions

@@ -44,15 +44,15 @@ def stopping_time(law: ContactLaw, modes: Modes) -> float:
     model = law.model
     stiffness = 4.0 / 3.0 * law.modulus * math.sqrt(model.R)
     depth = (1.25 * model.m * model.v0**2 / stiffness) ** 0.4
-    omega, shares = _vibrations(model.m, 1.25 * stiffness * math.sqrt(depth), modes)
+    omega, fractions = _vibrations(model.m, 1.25 * stiffness * math.sqrt(depth), modes)
     times = np.linspace(0.0, math.pi / float(omega[omega > 0.0][0]), TIMES)
-    velocity = np.cos(np.multiply.outer(times, omega)) @ shares
+    velocity = np.cos(np.multiply.outer(times, omega)) @ fractions
     back = np.flatnonzero(velocity < 0.0)
     return float(times[back[0]] if back.size else times[-1])
 
 
 def _vibrations(m: float, spring: float, modes: Modes) -> tuple[Array, Array]:
-    """Return the angular frequencies [1/s] of sphere and plate, and their parts of the velocity.
+    """Return the angular frequencies [1/s] of sphere and plate, and their fractions of its velocity.
 
     Parameters
     ----------

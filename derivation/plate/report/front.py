@@ -101,7 +101,7 @@ def stages(
         code("rewrite"),
         (
             f"{len(measured['rewrite']['rows'])} formulas made stable by {len(applied)} rules, "
-            "each kept because it reduces the error"
+            "each kept because the form without it is less accurate or longer"
         ),
     )
     yield (

@@ -52,7 +52,7 @@ def stopping_time(law: ContactLaw, modes: Modes) -> float:
 
 
 def _vibrations(m: float, spring: float, modes: Modes) -> tuple[Array, Array]:
-    """Return the angular frequencies [1/s] of sphere and plate, and their fractions of its velocity.
+    """Return angular frequencies [1/s] of sphere and plate, and their fractions of the velocity.
 
     Parameters
     ----------

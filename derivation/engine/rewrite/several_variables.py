@@ -25,6 +25,8 @@ DECADES = (100, 50, 30, 20, 12, 9, 6, 4, 3)
 RANDOM, NEAR, SIDES = 400, 40, 20
 """Numbers of random points, of points next to equality for each pair of variables, and of points
 on each side of the range."""
+USUAL = 3.0, 1.0, 0.3
+"""Exponents of ten of the smaller ranges from which as many random points are taken."""
 ROUNDS = 3
 """Number of times that a range must pass with new points."""
 ENOUGH_POINTS = 100
@@ -34,6 +36,9 @@ LEAST_VALUE, LARGEST_VALUE = 1e-200, 1e200
 TESTED, STATED = 0.5, 0.6
 """Errors per sum of the condition numbers that are allowed in the test, and by the statement. A
 product of variables that is rounded once has an error of up to 0.5."""
+MARGIN = 0.5
+"""Error [ULP] that is added before the limit is stated, because there are more points in several
+variables. Among 1,500 other points of 46 formulas, one had 1.04 times the limit without it."""
 _DIGITS, MOST_BITS = 25, 4096
 Function: TypeAlias = Callable[..., np.ndarray]
 Point = tuple[float, ...]
@@ -92,7 +97,8 @@ def check_several(
         if rounds > 1 and worst[0] <= ENOUGH and len(errors) >= ENOUGH_POINTS:
             at = {str(v): x for v, x in zip(variables, worst[1], strict=True)}
             low, high = float(f"1e-{decade}"), float(f"1e{decade}")
-            return SeveralCheck(low, high, stated_error(worst[0]), worst[0], at, len(errors))
+            limit = stated_error(worst[0] + MARGIN)
+            return SeveralCheck(low, high, limit, worst[0], at, len(errors))
     where = ", ".join(f"{v} = {x!r}" for v, x in zip(variables, worst[1], strict=False))
     raise UnreachableError(
         f"the form found for {expression} has an error of {worst[0]:.2g} ULP"
@@ -106,9 +112,12 @@ def _points(draw: random.Random, decade: int, count: int) -> Iterator[Point]:
     def value(most: float = decade) -> float:
         return 10 ** draw.uniform(-most, most)
 
-    for most in (decade, min(decade, 3.0)):
+    for most in (decade, *USUAL):
         for _ in range(RANDOM):
             yield tuple(value(most) for _ in range(count))
+    for _ in range(RANDOM):  # products of variables are largest and smallest near the corners
+        signs = (draw.choice((-1, 1)) for _ in range(count))
+        yield tuple(10 ** (sign * decade * draw.uniform(0.7, 1.0)) for sign in signs)
     for one in range(count):
         for other in range(count):
             for _ in range(NEAR if one != other else 0):

@@ -268,7 +268,7 @@ def test_unattainable_tolerance_is_rejected_with_one_message(rtol: Any) -> None:
 def test_excessive_speed_is_rejected_at_every_tolerance() -> None:
     fast = read(load(PAPER).to_json() | {"impact": {"speed": 1e9}})
     for rtol in (None, 1e-2, 1e-13):
-        with pytest.raises(SceneError, match=r"^impact\.speed: "):
+        with pytest.raises(SceneError, match=r"impact\.speed: "):
             simulate(fast, rtol=rtol)
 
 

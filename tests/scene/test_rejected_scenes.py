@@ -214,7 +214,7 @@ def test_model_error_of_the_edge_is_stated_or_rejected() -> None:
 
 def test_contacts_beyond_the_law_are_rejected_with_its_limit() -> None:
     fast = {"speed": 1e7}
-    with pytest.raises(SceneError, match=r"^impact\.speed: .*0\.059\d* m, where contact is lost"):
+    with pytest.raises(SceneError, match=r"impact\.speed: .*0\.059\d* m, where contact is lost"):
         simulate(scene(impact=fast))
     with pytest.raises(SceneError, match=rf"min\({MAX_A_OVER_B} b, {MAX_A_OVER_R} R\) = 0\.099 m"):
         simulate(scene(impact=fast, effects={"non_hertzian_pressure": False}))
@@ -236,7 +236,7 @@ def test_contact_is_lost_at_the_centre_near_three_thicknesses() -> None:
 
 @pytest.mark.parametrize("plate", [{}, {"radius": 0.05, "thickness": 0.02}])
 def test_impact_beyond_the_law_is_rejected_with_the_largest_speed(plate: dict[str, float]) -> None:
-    with pytest.raises(SceneError, match=r"^impact\.speed: ") as caught:
+    with pytest.raises(SceneError, match=r"impact\.speed: ") as caught:
         simulate(read(changed(plate=plate, impact={"speed": 1e9})))
     limit = min(0.13, plate.get("radius", 1.0))
     assert f"min(b, R) = {limit} m" in str(caught.value)
@@ -284,5 +284,5 @@ def test_impact_beyond_the_law_is_an_error_of_the_speed(
 ) -> None:
     """Each solver raises the same error."""
     m = replace(model_of(read(changed())), v0=1e6, retardation_time=1e-6, density=2700.0)
-    with pytest.raises(SceneError, match=r"^impact\.speed: "):
+    with pytest.raises(SceneError, match=r"impact\.speed: "):
         run(ContactLaw(m, effects))

@@ -274,7 +274,8 @@ def test_memory_does_not_grow_with_the_study(
 ) -> None:
     """Peak memory of Python, NumPy and pyarrow does not grow with the number of points.
 
-    The first study is not compared, because it imports the modules that write the file.
+    The first study is not compared, because it imports the modules that write the file. The larger
+    one is run twice, because other threads of the process may allocate memory during one.
     """
     import tracemalloc
 
@@ -283,24 +284,24 @@ def test_memory_does_not_grow_with_the_study(
     monkeypatch.setattr(write, "BLOCK", 2**9)
     monkeypatch.setattr(run, "LARGEST_BATCH", 2**9)
     peaks = []
-    for size in (2**10, 2**11, 2**13):
+    for number, size in enumerate((2**10, 2**11, 2**13, 2**13)):
         made = plan.sample(read_distributions({"impact.speed": NORMAL}), size, 1, "random")
-        held = store.Store(Study(scene(), made, None), tmp_path / f"{size}.parts")
+        held = store.Store(Study(scene(), made, None), tmp_path / f"{number}.parts")
         pa.default_memory_pool().release_unused()
         tracemalloc.start()
         arrow = [pa.total_allocated_bytes()]
         run.compute(held, 1, None, False, lambda *_: None)
         write.write(
             held,
-            tmp_path / f"{size}{suffix}",
+            tmp_path / f"{number}{suffix}",
             lambda *_, arrow=arrow: arrow.append(pa.total_allocated_bytes()),
         )
         peaks.append(tracemalloc.get_traced_memory()[1] + max(arrow) - arrow[0])
         tracemalloc.stop()
         assert data_set(held).sizes == {"sample": size}
-    assert peaks[2] < 1.5 * peaks[1]
-    assert journal(tmp_path / f"{2**13}", 2**13).max() == 1
-    assert formula.calls == 2**10 + 2**11 + 2**13
+    assert min(peaks[2:]) < 1.5 * peaks[1]
+    assert journal(tmp_path / "3", 2**13).max() == 1
+    assert formula.calls == 2**10 + 2**11 + 2 * 2**13
 
 
 @pytest.mark.parametrize("suffix", [".nc", ".zarr", ".parquet"])

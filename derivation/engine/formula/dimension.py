@@ -189,6 +189,6 @@ def _of_sum(expression: sp.Expr, known: Mapping[sp.Basic, Dimension]) -> Dimensi
         if term_dimension != expected:
             raise DimensionError(
                 f"in {expression} the terms {first} [{expected}] and {term} [{term_dimension}] "
-                "are combined"
+                f"are {'added' if expression.is_Add else 'compared'}"
             )
     return expected

@@ -185,7 +185,7 @@ def test_durations() -> None:
     ("arguments", "expected"),
     [
         (["search", "--time", "soon"], "30s, 5m or 1h"),
-        (["search", "--function", "nonsense"], "bessel_j1"),
+        (["search", "--function", "bessel_j11"], "did you mean bessel_j1"),
         (["search", "--function", "G", "--out", str(ROOT / "pyproject.toml")], "--out"),
     ],
 )

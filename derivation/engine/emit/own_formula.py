@@ -8,7 +8,13 @@ import sympy as sp
 from derivation.engine.bounded import run_limited
 from derivation.engine.emit.several_variables import standalone_several
 from derivation.engine.emit.standalone import standalone
-from derivation.engine.formula.parse import CONSTANTS, FUNCTIONS, FormulaError, parse
+from derivation.engine.formula.parse import (
+    CONSTANTS,
+    FUNCTIONS,
+    NAME_HINTS,
+    FormulaError,
+    parse,
+)
 from derivation.engine.formula.size import terms_when_expanded
 from derivation.engine.formula.vocabulary import NOTHING
 from derivation.engine.rewrite.code_check import CodeCheck
@@ -62,6 +68,10 @@ def rewrite_text(
 
 
 def _names(text: str) -> list[str]:
-    """Return the names in a formula that are neither functions nor constants, in their order."""
-    found = re.findall(r"(?<![\w.])[A-Za-z_]\w*(?!\s*\()\b", text)
-    return list(dict.fromkeys(name for name in found if name not in {*FUNCTIONS, *CONSTANTS}))
+    """Return the names in a formula that may be variables, in their order.
+
+    E may be one, because it usually is Young's modulus.
+    """
+    found = re.findall(r"(?<![\w.])[A-Za-z_]\w*\b(?!\s*\()", text.replace("lambda", "lam"))
+    others = {*FUNCTIONS, *CONSTANTS, *NAME_HINTS} - {"E"}
+    return list(dict.fromkeys(name for name in found if name not in others))

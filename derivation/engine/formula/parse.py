@@ -37,7 +37,7 @@ class FormulaError(ValueError):
 
 CONSTANTS: Mapping[str, sp.Basic] = {"pi": sp.pi, "EulerGamma": sp.EulerGamma}
 
-_NAME_HINTS = {
+NAME_HINTS = {
     "E": "E usually is Young's modulus, which has no meaning in this formula; "
     "for the number 2.718... write exp(1)",
     "e": "for powers of the number 2.718... write exp(...)",
@@ -207,7 +207,7 @@ class _Reader:
             return self.names[name]
         if OTHER_NAMES.get(name, name) in FUNCTIONS:
             raise FormulaError(f"expected an argument after {name}: write {name}(x)")
-        hint = f"{_NAME_HINTS[name]}; " if name in _NAME_HINTS else did_you_mean(name, self.names)
+        hint = f"{NAME_HINTS[name]}; " if name in NAME_HINTS else did_you_mean(name, self.names)
         raise FormulaError(
             f"unknown name {_short(name)}: {hint}expected one of {one_of(sorted(self.names))}"
         )

@@ -85,6 +85,7 @@ def test_arrays_are_broadcast() -> None:
     [
         ("sqrt(a**2 + b) - a + c - sin(c)", "several dimensionless products"),
         ("np - sqrt(np**2 - a**2)", "rename the variable"),
+        ("a*e**b", "write exp"),
         ("besselj(0, a)*b", "expected functions of NumPy"),
     ],
 )
@@ -93,6 +94,13 @@ def test_other_formulas_are_refused(text: str, reason: str) -> None:
         rewrite_text(text)
 
 
-def test_a_single_variable_may_have_any_name() -> None:
-    _, source, _ = rewrite_text("(u - sin(u))/u**3")
-    assert "def f(u" in source
+@pytest.mark.parametrize(
+    ("text", "signature"),
+    [
+        ("(u - sin(u))/u**3", "def f(u:"),
+        ("1 - exp(-lambda*t)", "def f(lam: "),
+        ("E*x", "def f(E: "),
+    ],
+)
+def test_variables_may_have_any_names(text: str, signature: str) -> None:
+    assert signature in rewrite_text(text)[1]

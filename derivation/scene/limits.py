@@ -176,18 +176,18 @@ def warnings_at(
     correction
         The `pressure_correction`, if it has been computed.
     """
-    model, found = law.model, []
+    model, notes = law.model, []
     thickness = 2 * model.h
     if a / thickness > HERTZ_LIMIT and not law.solved:
         if correction is None:
             correction = float(pressure_correction(model, a, indentation))
-        found.append(
+        notes.append(
             f"contact radius over thickness a/H = {a / thickness:.3g} exceeds "
             f"{HERTZ_LIMIT}: the pressure is no longer Hertzian; "
             f"{correction_in_words(correction)}"
         )
     if a / model.R > PARABOLOID_LIMIT and not law.spherical:
-        found.append(
+        notes.append(
             f"contact radius over sphere radius a/R = {a / model.R:.3g} exceeds "
             f"{PARABOLOID_LIMIT}: the law approximates the sphere by a paraboloid; "
             f"{correction_in_words(profile_correction(model, a, indentation))}"
@@ -195,20 +195,20 @@ def warnings_at(
     if deflection is None:
         deflection = indentation - float(local_indentation(law, a))
     if deflection / thickness > STRETCH_LIMIT:
-        found.append(
+        notes.append(
             f"plate deflection over thickness w/H = {deflection / thickness:.3g} exceeds "
             f"{STRETCH_LIMIT}: membrane stretching makes the plate stiffer than in the linear law, "
             "under a static load by a factor of about "
             f"{stretching(deflection / thickness):.3g} or more"
         )
-    return tuple(found)
+    return tuple(notes)
 
 
 def zener_number(model: Model) -> float:
     """Return the Zener parameter [1], with the elasticity of the sphere included."""
     R, m, v0, h, _, lam, mu = model.numbers
-    found = kernels.zener_number(R, m, v0, h, lam, mu, model.density)
-    number: float = found / np.power(1.0 + model.softness, 0.4)
+    of_rigid_sphere = kernels.zener_number(R, m, v0, h, lam, mu, model.density)
+    number: float = of_rigid_sphere / np.power(1.0 + model.softness, 0.4)
     return number
 
 
@@ -292,9 +292,9 @@ def motion_warnings(
     if not model.density:
         return ()
     zener, period, echoes = times = known or plate_times(model)
-    found = []
+    notes = []
     if neglects_inertia(model, contact_time, deflection, dynamic, times):
-        found.append(
+        notes.append(
             f"plate inertia is neglected but may matter: Zener parameter {zener:.3g} (negligible "
             f"below {ZENER_LIMIT}); contact time / first bending period "
             f"{contact_time / period:.3g} (quasi-static above {QUASI_STATIC_PERIODS:g}); "
@@ -312,8 +312,8 @@ def motion_warnings(
                 "it ends before through-thickness waves return from the back face, but in the "
                 "model the thickness responds without delay"
             )
-        found.append(f"the contact time is below 4 H/c_P = {echoes:.3g} s: {waves}")
-    return tuple(found)
+        notes.append(f"the contact time is below 4 H/c_P = {echoes:.3g} s: {waves}")
+    return tuple(notes)
 
 
 def hollow_warnings(model: Model) -> tuple[str, ...]:
@@ -361,28 +361,28 @@ def stress_warnings(
         Of the plate [Pa], if they are known. On the axis both in-plane stresses are equal, and
         the face yields when they reach the yield stress.
     """
-    found = []
+    notes = []
     if strength is not None and stress > strength:
-        found.append(
+        notes.append(
             f"the largest tensile stress on the back face is {stress / strength:.3g} times the "
             "strength (quasi-static, under the peak force): the plate is predicted to fail, and "
             "the results assume that it does not"
         )
     if yield_stress is not None and stress > yield_stress:
-        found.append(
+        notes.append(
             f"the largest tensile stress on the back face is {stress / yield_stress:.3g} times "
             "the yield stress (quasi-static, under the peak force): the plate is predicted to "
             "yield in bending, and the results assume that it does not"
         )
-    return tuple(found)
+    return tuple(notes)
 
 
 def local_indentation(law: ContactLaw, a: Values) -> Values:
     """Return the local indentation [m], that of a half-space, at contact radii [m]."""
     R = law.model.R
     depth = kernels.sphere_contact(a / R).depth if law.spherical else 1.0
-    found: Values = a * (a / R) * depth  # type: ignore[assignment]
-    return found
+    indentation: Values = a * (a / R) * depth  # type: ignore[assignment]
+    return indentation
 
 
 def last_radius(law: ContactLaw) -> float:

@@ -156,8 +156,10 @@ def explain(kind: str, location: tuple[int | str, ...], value: Any, fields: Fiel
     meaning = re.split(r"[;:(]", field.description or "")[0].strip()
     expected = f"expected {EXPECTED.get(key, usual)} ({meaning})"
     example = _line(table, (key, field))
-    for near in nearest(value, re.findall(r'"(.+?)"', expected)) if isinstance(value, str) else ():
-        example = f'`{key} = "{near}"`'
+    for suggestion in (
+        nearest(value, re.findall(r'"(.+?)"', expected)) if isinstance(value, str) else ()
+    ):
+        example = f'`{key} = "{suggestion}"`'
     if kind == "missing":
         return f"{name}: {expected}, got nothing; add {example} to [{table}]"
     elsewhere = ELSEWHERE.get(key, "")
@@ -187,17 +189,17 @@ def choice_problem(
     """
     keys = set(given)
     present = [key for group in groups for key in group if key in keys]
-    whole = [group for group in groups if keys.issuperset(group)]
-    if len(whole) == 1 and len(present) == len(whole[0]):
+    complete = [group for group in groups if keys.issuperset(group)]
+    if len(complete) == 1 and len(present) == len(complete[0]):
         return None
     wanted = " or ".join(_group(table, group) for group in groups)
     first = ", ".join(f"`{key} = {examples[key]}`" for key in groups[0])
-    stray = [key for key in present if whole and key not in whole[0]]
+    stray = [key for key in present if complete and key not in complete[0]]
     if not present:
         got, remedy = "neither", f"add for example {first} to [{table}]"
-    elif len(whole) == 2 and len(present) == len(whole[0]) + len(whole[1]):
-        got, remedy = "both", f"remove {_group(table, whole[0])} or {_group(table, whole[1])}"
-    elif whole:
+    elif len(complete) == 2 and len(present) == len(complete[0]) + len(complete[1]):
+        got, remedy = "both", f"remove {_group(table, complete[0])} or {_group(table, complete[1])}"
+    elif complete:
         got, remedy = _names(table, present), f"remove {_names(table, stray)}"
     else:
         begun = [group for group in groups if keys.intersection(group)]
@@ -226,8 +228,10 @@ def _unknown(location: tuple[int | str, ...], fields: Fields) -> str:
         return f"{problem}; move it to {' or '.join(homes)}"
     qualified = {other: f"{table}.{other}" for table, keys in fields.items() for other in keys}
     elsewhere = nearest(key, qualified, OTHER_TABLE_ALIKE)
-    near = did_you_mean(key, known) or "".join(f"did you mean {qualified[k]}?" for k in elsewhere)
-    return f"{problem}; {near.rstrip() or 'remove it'}"
+    suggestion = did_you_mean(key, known) or "".join(
+        f"did you mean {qualified[k]}?" for k in elsewhere
+    )
+    return f"{problem}; {suggestion.rstrip() or 'remove it'}"
 
 
 def listed(problems: Sequence[Callable[[], str]]) -> str:

@@ -126,18 +126,18 @@ def _driven_waves(problem: DynamicProblem, nodes: Nodes, part: Part, driven: Arr
 
 def _bent(problem: DynamicProblem, nodes: Nodes, driven: Array) -> Array:
     """Return the deflection of each shape at the nodes by forces at the nodes."""
-    found = np.empty_like(driven)
+    bent = np.empty_like(driven)
     for part in nodes.parts:
         waves = _driven_waves(problem, nodes, part, driven)
         waves *= nodes.response.moved[..., part.oscillators]
-        found[:, part.shapes] = part.by_shape(waves[:, 0] + waves[:, 1])
-    return found
+        bent[:, part.shapes] = part.by_shape(waves[:, 0] + waves[:, 1])
+    return bent
 
 
 def _bent_by(problem: DynamicProblem, nodes: Nodes, modal_weights: Array, driven: Array) -> Array:
     """Return the sum of weighted deflections at each node, per contact force at each node."""
     n = nodes.t.size
-    found = np.zeros((n, n))
+    bent = np.zeros((n, n))
     for part in nodes.parts:
         oscillators = part.oscillators
         load = part.by_oscillator(driven[:, part.shapes]) * problem.strength[oscillators]
@@ -145,8 +145,8 @@ def _bent_by(problem: DynamicProblem, nodes: Nodes, modal_weights: Array, driven
             modal_weights[:, None, part.shapes]
         )
         drive = nodes.response.drive[..., oscillators] * load[:, None]
-        found += moved.reshape(n, -1) @ drive.reshape(n, -1).T
-    return found * nodes.by_t
+        bent += moved.reshape(n, -1) @ drive.reshape(n, -1).T
+    return bent * nodes.by_t
 
 
 class _Load(NamedTuple):
@@ -266,11 +266,11 @@ def _system(
         moved = _bent_by(problem, nodes, modal_weights, by[:, 1:])
         return np.asarray(nodes.twice * by[:, 0] + moved, dtype=np.float64)
 
-    found = by_load(load.by_a)
+    by_radius = by_load(load.by_a)
     depth_a = (at.depth_a / problem.depth + np.vecdot(at.less_a, q)) * problem.a
-    found.flat[:: nodes.t.size + 1] += depth_a
-    found = found @ nodes.by_x
-    return found if load.by_y is None else found + by_load(load.by_y)
+    by_radius.flat[:: nodes.t.size + 1] += depth_a
+    by_slope = by_radius @ nodes.by_x
+    return by_slope if load.by_y is None else by_slope + by_load(load.by_y)
 
 
 class Driven(NamedTuple):

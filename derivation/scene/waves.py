@@ -119,16 +119,16 @@ def impact(
     rough: DynamicImpact | None = None
     if law.model.inertia.branches == "auto" and not law.viscous:
         law, rough = _branched(law, goal, outputs, budget)
-    found, first = _converged(law, goal, reach, budget, rough), law.model.b
-    while law.model.inertia.infinite_plate and _edge_heard(found):
+    run, first = _converged(law, goal, reach, budget, rough), law.model.b
+    while law.model.inertia.infinite_plate and _edge_heard(run):
         if law.model.b > WIDEST * first:
             raise SceneError(
                 f"inertia.extent: the contact on an infinite plate had not ended after "
-                f"{found.inertia.total_time:.6g} s; use a thicker plate or a lighter sphere"
+                f"{run.inertia.total_time:.6g} s; use a thicker plate or a lighter sphere"
             )
         law = replace(law, model=replace(law.model, b=2.0 * law.model.b))
-        found = _converged(law, goal, reach, budget)
-    return found
+        run = _converged(law, goal, reach, budget)
+    return run
 
 
 def _branched(
@@ -168,10 +168,10 @@ def _branched(
     return lowest, rough
 
 
-def _edge_heard(found: DynamicImpact) -> bool:
+def _edge_heard(run: DynamicImpact) -> bool:
     """Return whether a wave may have returned from the edge before the last contact ended."""
-    model, problem = found.law.model, found.impact_history.problem
-    return problem.T * found.impact_history.contacts[-1].end > echo_time(model)
+    model, problem = run.law.model, run.impact_history.problem
+    return problem.T * run.impact_history.contacts[-1].end > echo_time(model)
 
 
 def _converged(
@@ -208,48 +208,48 @@ def _converged(
     best: DynamicImpact | None = None
     while True:
         try:
-            found = _run(law, 2 * count, budget, close, coarse=rough.impact_history)
+            run = _run(law, 2 * count, budget, close, coarse=rough.impact_history)
         except SceneError:
             if best is None:
                 raise
             return best  # the last run that was complete
-        if not found.inertia.complete:
-            unstarted = found.impact_history.problem is rough.impact_history.problem
-            return best or (coarser if unstarted else None) or found
-        best = rough = judged(rough, found)
+        if not run.inertia.complete:
+            unstarted = run.impact_history.problem is rough.impact_history.problem
+            return best or (coarser if unstarted else None) or run
+        best = rough = judged(rough, run)
         count = 2 * count
         if law.model.inertia.modes:
             return _of_chosen_modes(best, law, count, budget)
         change, enough = best.inertia.left(reach.outputs)[0], _accepted_change(best, goal, reach)
-        used, near = _work(best.impact_history), change <= LAST * enough
-        if change <= enough or beyond_limits(law, count, used, near):
+        used, almost = _work(best.impact_history), change <= LAST * enough
+        if change <= enough or beyond_limits(law, count, used, almost):
             return best
         if unreachable(best, law, count, _next_work(law, 2 * count, best), reach):
             return best
 
 
-def _accepted_change(found: DynamicImpact, goal: float, reach: Reach) -> float:
+def _accepted_change(run: DynamicImpact, goal: float, reach: Reach) -> float:
     """Return the largest accepted error by omitted modes [1]."""
-    beyond = found.inertia.left(reach.outputs)[1]
+    beyond = run.inertia.left(reach.outputs)[1]
     # Where omitted branches matter more than additional modes, a tenth of them is small enough.
     enough = goal if beyond <= goal / TOLERANCE_FRACTION else max(goal, 0.1 * beyond)
-    whole = KEPT * reach.need
-    if not found.inertia.jump <= whole < math.inf:
+    allowed = KEPT * reach.need
+    if not run.inertia.jump <= allowed < math.inf:
         return enough
-    return max(enough, whole - beyond - integration_error(found.impact_history))
+    return max(enough, allowed - beyond - integration_error(run.impact_history))
 
 
 def _with_earlier(
-    found: DynamicImpact, law: ContactLaw, count: int, reach: Reach, budget: Budget
+    run: DynamicImpact, law: ContactLaw, count: int, reach: Reach, budget: Budget
 ) -> DynamicImpact:
     """Return the first run with its change since half as many: the next may agree by chance."""
     if "contact_time" in reach.outputs or law.model.inertia.modes or count < FOURTH:
-        return found
+        return run
     try:
         coarse = _run(law, count // 2, budget, time_tolerance(LOOSE), FEWER)
     except SceneError:  # so few modes may bend the plate more than the sphere is curved
-        return found
-    return judged(coarse, found) if coarse.inertia.complete else found
+        return run
+    return judged(coarse, run) if coarse.inertia.complete else run
 
 
 def _next_work(law: ContactLaw, count: int, rough: DynamicImpact) -> float:
@@ -305,7 +305,7 @@ def _run(
 
 
 def _of_chosen_modes(
-    found: DynamicImpact, law: ContactLaw, count: int, budget: Budget
+    run: DynamicImpact, law: ContactLaw, count: int, budget: Budget
 ) -> DynamicImpact:
     """Return a run with the number of modes of the scene, and a reliable error estimate.
 
@@ -314,20 +314,20 @@ def _of_chosen_modes(
     the contact, there is no estimate.
     """
     if fast(law, count // 2):
-        return found
+        return run
     if not fast(law, count):
-        return unjudged(found)
+        return unjudged(run)
     coarse = _run(law, max(1, count // 4), budget, time_tolerance(LOOSE), FEWER)
     if not coarse.inertia.complete:
-        return unjudged(found)
-    further = judged(coarse, found).inertia.mode_convergence
-    time, depth, force, radius, speed = map(max, found.inertia.mode_convergence, further)
+        return unjudged(run)
+    further = judged(coarse, run).inertia.mode_convergence
+    time, depth, force, radius, speed = map(max, run.inertia.mode_convergence, further)
     change = time, depth, force, radius, speed
-    return replace(found, inertia=replace(found.inertia, mode_convergence=change))
+    return replace(run, inertia=replace(run.inertia, mode_convergence=change))
 
 
 def _by_coarser(
-    found: DynamicImpact, law: ContactLaw, count: int, budget: Budget
+    run: DynamicImpact, law: ContactLaw, count: int, budget: Budget
 ) -> tuple[DynamicImpact, DynamicImpact] | None:
     """Return the first run with an error estimate by coarser ones, less work than a finer one.
 
@@ -339,7 +339,7 @@ def _by_coarser(
     """
     if law.model.inertia.modes or count < FOURTH or not fast(law, count):
         return None
-    changes, jump, halved = [], 0.0, found
+    changes, jump, halved = [], 0.0, run
     for fewer in (count // 4, count // 2):
         try:
             coarse = _run(law, fewer, budget, time_tolerance(LOOSE), FEWER)
@@ -347,12 +347,12 @@ def _by_coarser(
             return None
         if not coarse.inertia.complete:
             return None
-        halved = judged(coarse, found)
+        halved = judged(coarse, run)
         changes.append(halved.inertia.mode_convergence)
         jump = max(jump, halved.inertia.jump)
     time, depth, force, radius, speed = map(max, *changes)
     change = time, depth, force, radius, speed
     if max(change) >= 1.0:
         return None
-    inertia = replace(found.inertia, mode_convergence=change, jump=jump)
-    return replace(found, inertia=inertia), halved
+    inertia = replace(run.inertia, mode_convergence=change, jump=jump)
+    return replace(run, inertia=inertia), halved

@@ -107,9 +107,9 @@ def sweep(
         check_memory(study, "sweep")
     with open_store(study, path) as store:
         compute(store, workers, scheduler, retry, quiet)
-        found = write_results(store, path, sensitivity, quiet)
+        indices = write_results(store, path, sensitivity, quiet)
         data = data_set(store) if path is None or fits_in_memory(study) else _of_file(path)
-    return data if found is None else found.add_to(data)
+    return data if indices is None else indices.add_to(data)
 
 
 def _of_file(path: Path) -> "xr.Dataset":

@@ -149,17 +149,17 @@ def _distribution(key: str, given: Any) -> Distribution:
             f"{key}: expected finite numbers {' and '.join(wanted)}, got {shown(first)} and "
             f"{shown(second)}; {example}"
         )
-    found = Distribution(name, float(first), float(second))
-    _check_range(key, found)
-    return found
+    made = Distribution(name, float(first), float(second))
+    _check_range(key, made)
+    return made
 
 
-def _check_range(key: str, found: Distribution) -> None:
+def _check_range(key: str, given: Distribution) -> None:
     """Raise an error if the parameters are out of range."""
-    first, second = found.first, found.second
-    spread = found.distribution in ("normal", "lognormal")
+    first, second = given.first, given.second
+    spread = given.distribution in ("normal", "lognormal")
     fine = second > 0 if spread else first < second
-    if found.distribution in ("loguniform", "lognormal"):
+    if given.distribution in ("loguniform", "lognormal"):
         fine = fine and first > 0
     if fine and math.isfinite(first) and math.isfinite(second):
         return
@@ -168,7 +168,7 @@ def _check_range(key: str, found: Distribution) -> None:
         "loguniform": "0 < low < high",
         "normal": "std > 0",
         "lognormal": "mean > 0 and std > 0",
-    }[found.distribution]
-    values = {k: v for k, v in asdict(found).items() if k != "distribution"}.values()
+    }[given.distribution]
+    values = {k: v for k, v in asdict(given).items() if k != "distribution"}.values()
     got = ", ".join(shown(value) for value in values)
-    raise SceneError(f"{key}: expected {expected} of {found.distribution}, got {got}; change them")
+    raise SceneError(f"{key}: expected {expected} of {given.distribution}, got {got}; change them")

@@ -119,8 +119,8 @@ class SamplePlan:
 
     def to_json(self) -> dict[str, Any]:
         """Return the plan as JSON data, from which the hash of the study follows."""
-        found = {key: one.to_json() for key, one in self.distributions.items()}
-        return {"vary": found, "sample": self.size, "seed": self.seed, "method": self.method}
+        tables = {key: one.to_json() for key, one in self.distributions.items()}
+        return {"vary": tables, "sample": self.size, "seed": self.seed, "method": self.method}
 
     def _probabilities(self, start: int, stop: int) -> Array:
         """Return points of the unit cube, one in each row."""
@@ -204,8 +204,8 @@ class SaltelliPlan:
 
     def to_json(self) -> dict[str, Any]:
         """Return the plan as JSON data, from which the hash of the study follows."""
-        found = {key: one.to_json() for key, one in self.distributions.items()}
-        return {"vary": found, "saltelli": self.base, "seed": self.seed}
+        tables = {key: one.to_json() for key, one in self.distributions.items()}
+        return {"vary": tables, "saltelli": self.base, "seed": self.seed}
 
 
 Plan = GridPlan | SamplePlan | SaltelliPlan
@@ -281,8 +281,8 @@ def saltelli(distributions: Mapping[str, Distribution], base: int, seed: int) ->
 def _axis(key: str, values: Iterable[float] | str) -> tuple[str, tuple[float, ...]]:
     """Return a key and its values from a text or numbers."""
     if isinstance(values, str):
-        found = parse(f"{key}={values}")
-        return f"{found.table}.{found.key}", found.values
+        parsed = parse(f"{key}={values}")
+        return f"{parsed.table}.{parsed.key}", parsed.values
     place = ".".join(number_key(key))
     try:
         numbers = np.atleast_1d(np.asarray(values, dtype=np.float64))

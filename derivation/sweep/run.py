@@ -248,16 +248,16 @@ def solve_batch(
     SceneError
         If this machine has another version of the program.
     """
-    own = version("platecontact")
-    if own != wanted:
+    installed = version("platecontact")
+    if installed != wanted:
         raise SceneError(
-            f"sweep: expected version {wanted} of platecontact on every worker, got {own}; install "
-            "the same version everywhere"
+            f"sweep: expected version {wanted} of platecontact on every worker, got "
+            f"{installed}; install the same version everywhere"
         )
     start = time.perf_counter()
-    found = solve(read(scene), columns, rtol, BATCH_SECONDS)
-    content = to_parquet(found)
-    return content, len(found), time.perf_counter() - start
+    rows = solve(read(scene), columns, rtol, BATCH_SECONDS)
+    content = to_parquet(rows)
+    return content, len(rows), time.perf_counter() - start
 
 
 @contextmanager

@@ -110,10 +110,12 @@ def sensitivities(store: Store) -> Sensitivities:
     error = 2 * float(np.max(column(table, "bound")))
     varies = np.ptp(results, axis=1) > error * np.max(np.abs(results), axis=1)
     values = results[varies].reshape(-1, plan.base, plan.each)
-    found = np.full((3, len(ORDERS), len(UNITS), len(plan.keys)), np.nan)
+    values_by_order = np.full((3, len(ORDERS), len(UNITS), len(plan.keys)), np.nan)
     if values.size:
-        found[:, :, varies] = _with_intervals(values)
-    return Sensitivities(plan.keys, plan.size, *(dict(zip(ORDERS, x, strict=True)) for x in found))
+        values_by_order[:, :, varies] = _with_intervals(values)
+    return Sensitivities(
+        plan.keys, plan.size, *(dict(zip(ORDERS, x, strict=True)) for x in values_by_order)
+    )
 
 
 def _check_finished(table: Any) -> None:
@@ -150,5 +152,5 @@ def _indices(values: Array) -> Array:
     count, base, each = values.shape
     roles = np.moveaxis(values, 2, 0)
     func = {"f_A": roles[0], "f_B": roles[1], "f_AB": roles[2:]}
-    found = sobol_indices(func=func, n=base)
-    return np.array([getattr(found, order) for order in ORDERS]).reshape(2, count, each - 2)
+    indices = sobol_indices(func=func, n=base)
+    return np.array([getattr(indices, order) for order in ORDERS]).reshape(2, count, each - 2)

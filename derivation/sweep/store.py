@@ -122,14 +122,14 @@ class Store:
 
     def text_lengths(self) -> dict[str, int]:
         """Return the length of the longest text of each column of texts [bytes], at least 1."""
-        found = dict.fromkeys(TEXTS, 1)
+        widths = dict.fromkeys(TEXTS, 1)
         for part in self.parts:
             table = self._read(part)
             for name in TEXTS:
                 for chunk in table[name].chunks:
                     lengths = (len(text.encode()) for text in chunk.dictionary.to_pylist())
-                    found[name] = max(found[name], *lengths)
-        return found
+                    widths[name] = max(widths[name], *lengths)
+        return widths
 
     def _claim(self) -> None:
         """Write the description of the study into the folder, or compare it with the one there.
@@ -139,10 +139,10 @@ class Store:
         SceneError
             If the folder contains another study.
         """
-        own = self.folder / "study.json"
-        if own.is_file():
+        file = self.folder / "study.json"
+        if file.is_file():
             try:
-                same = json.loads(own.read_text()).get("hash") == self.study.name
+                same = json.loads(file.read_text()).get("hash") == self.study.name
             except (ValueError, AttributeError):
                 same = False
             if not same:
@@ -153,7 +153,7 @@ class Store:
                 )
             return
         text = json.dumps({"hash": self.study.name} | self.study.to_json(), indent=1)
-        self._write(own.name, text.encode())
+        self._write(file.name, text.encode())
 
     def _found(self) -> Iterator[PartFile]:
         """Yield the batches in the folder, without those whose points have another hash."""

@@ -37,7 +37,7 @@ class Summary:
         Largest bound on the relative error [1].
     warnings
         The first different reasons and warnings, each with one of its points.
-    found
+    sensitivities
         Sensitivity indices, if requested.
     """
 
@@ -47,13 +47,15 @@ class Summary:
     ranges: dict[str, tuple[float, float]]
     largest_bound: float
     warnings: tuple[str, ...]
-    found: Sensitivities | None
+    sensitivities: Sensitivities | None
 
     def to_json(self) -> dict[str, Any]:
         """Return the summary under fixed keys, in SI units."""
-        data = {key: value for key, value in vars(self).items() if key != "found"}
+        data = {key: value for key, value in vars(self).items() if key != "sensitivities"}
         data |= {"warnings": list(self.warnings)}
-        return data | ({"sensitivities": self.found.to_json()} if self.found else {})
+        return data | (
+            {"sensitivities": self.sensitivities.to_json()} if self.sensitivities else {}
+        )
 
     def to_text(self) -> str:
         """Return the summary as text."""
@@ -69,17 +71,17 @@ class Summary:
             f"{aligned(['result', '#smallest', '#largest', 'unit'], rows)}\n\n"
             f"Accuracy: relative error at most {self.largest_bound:.1e}"
         )
-        return f"{text}\n\n{self.found.to_text()}" if self.found else text
+        return f"{text}\n\n{self.sensitivities.to_text()}" if self.sensitivities else text
 
 
-def summary(store: Store, computed: int, found: Sensitivities | None) -> Summary:
+def summary(store: Store, computed: int, sensitivities: Sensitivities | None) -> Summary:
     """Summarise a finished study, block by block.
 
     Parameters
     ----------
     computed
         Number of points computed in this run.
-    found
+    sensitivities
         Sensitivity indices, if requested.
     """
     counts, reasons = Counter[str](), dict[str, str]()
@@ -97,7 +99,9 @@ def summary(store: Store, computed: int, found: Sensitivities | None) -> Summary
     ranges = {name: (low[name], high[name]) for name in UNITS if low[name] <= high[name]}
     warnings = tuple(f"{where}: {text}" for text, where in reasons.items())
     size = store.study.plan.size
-    return Summary(size, computed, dict(sorted(counts.items())), ranges, bound, warnings, found)
+    return Summary(
+        size, computed, dict(sorted(counts.items())), ranges, bound, warnings, sensitivities
+    )
 
 
 def _add_reasons(reasons: dict[str, str], store: Store, start: int, status: Any, new: Any) -> None:

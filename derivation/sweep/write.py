@@ -122,13 +122,13 @@ def _with_points(store: Store, progress: Progress) -> Iterator[Any]:
     import pyarrow as pa
 
     study = store.study
-    for start, stop, found in store.tables(BLOCK):
+    for start, stop, table in store.tables(BLOCK):
         columns = {
             name: pa.array(values, pa.float64())
             for name, values in study.plan.points(start, stop).items()
         }
-        columns |= {name: pa.array(column(found, name), from_pandas=True) for name in NUMBERS}
-        columns |= {name: found[name].cast(pa.string()) for name in TEXTS}
+        columns |= {name: pa.array(column(table, name), from_pandas=True) for name in NUMBERS}
+        columns |= {name: table[name].cast(pa.string()) for name in TEXTS}
         fields = [pa.field(name, v.type, metadata=labels(name)) for name, v in columns.items()]
         metadata = {name: str(value) for name, value in attributes(study).items()}
         yield pa.table(list(columns.values()), schema=pa.schema(fields, metadata=metadata))
@@ -221,9 +221,9 @@ def _arrays(store: Store, create: Callable[..., Fill], progress: Progress) -> No
         for name, fill in made.items():
             fill(slices, column(table, name).reshape(_extent(shape, slices)))
         if points:
-            found = study.plan.points(start, stop)
+            coordinates = study.plan.points(start, stop)
             for key, fill in points.items():
-                fill(slices, found[key])
+                fill(slices, coordinates[key])
         progress("write", stop + 1, plan.size)
 
 
@@ -254,8 +254,8 @@ def _extent(shape: tuple[int, ...], slices: Slices) -> tuple[int, ...]:
 
 def _chunks(shape: tuple[int, ...]) -> tuple[int, ...]:
     """Return the lengths of pieces: whole last dimensions, a part of one, 1 in the first ones."""
-    found, room = list[int](), BLOCK
+    lengths, room = list[int](), BLOCK
     for length in shape[::-1]:
-        found.append(max(1, min(length, room)))
+        lengths.append(max(1, min(length, room)))
         room = room // length
-    return tuple(found[::-1])
+    return tuple(lengths[::-1])

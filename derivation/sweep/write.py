@@ -40,7 +40,8 @@ def check_output_file(out: Path) -> None:
     if out.suffix not in SUFFIXES:
         meant = did_you_mean(out.suffix, SUFFIXES).rstrip() or "change the file name"
         raise SceneError(
-            f"out: expected a file name with the suffix {' or '.join(SUFFIXES)}, got {out}; {meant}"
+            f"out: expected a file name with one of the suffixes {', '.join(SUFFIXES)}, got {out}; "
+            f"{meant}"
         )
     (expect_folder if out.suffix == ".zarr" else expect_writable)(out)
 

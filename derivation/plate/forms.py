@@ -50,7 +50,8 @@ def stable_forms(formulas: Mapping[str, Record]) -> tuple[Form, ...]:
 
     def found(name: str) -> Shape:
         shape = automatic(formulas[name].expression, known, SCALES, name in CLOSE)
-        return accurate(formulas[name], *shape, known)
+        accurate(formulas[name], *shape, known)
+        return shape
 
     groups: dict[str, dict[str, Shape]] = {
         "omega": {name: found(name) for name in OMEGAS},

@@ -131,13 +131,12 @@ def _nothing(_: Mapping[str, Block]) -> Mapping[str, Shape]:
 def _automatic(formula: Record, known: Mapping[str, Block], scales: Scales) -> ProductForm:
     """Return the accurate form that the rules find, by the paper's scales or by products."""
 
-    def accepted(made: ProductForm) -> ProductForm:
+    def accepted(made: ProductForm) -> tuple[ProductForm, float]:
         own = {block.name: block for block in made.blocks}
-        accurate(formula, made.steps, made.value, {**known, **own})
-        return made
+        return made, accurate(formula, made.steps, made.value, {**known, **own})
 
     with contextlib.suppress(UnreachableError):
-        return accepted(ProductForm(*automatic(formula.expression, known, scales)))
+        return accepted(ProductForm(*automatic(formula.expression, known, scales)))[0]
     try:
         return of_products(formula, accepted)
     except UnreachableError as error:

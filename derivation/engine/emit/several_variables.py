@@ -14,6 +14,7 @@ from derivation.engine.emit.package import RUNTIME, Module, block_text, module_s
 from derivation.engine.emit.printer import to_numpy
 from derivation.engine.emit.source import format_files
 from derivation.engine.emit.standalone import WIDTH, compiled_function
+from derivation.engine.formula.proof import ProofError
 from derivation.engine.formula.vocabulary import Argument, Vocabulary
 from derivation.engine.rewrite.accuracy_test import KNOWN
 from derivation.engine.rewrite.form import form
@@ -21,12 +22,13 @@ from derivation.engine.rewrite.products import GivenFormula, ProductForm, of_pro
 from derivation.engine.rewrite.several_variables import (
     LARGEST_VALUE,
     LEAST_VALUE,
+    MOST_CONDITIONING,
     STATED,
     SeveralCheck,
     check_several,
 )
 from derivation.engine.rewrite.terms import UnreachableError
-from derivation.engine.rewrite.useful_range import ENDS
+from derivation.engine.rewrite.useful_range import ENDS, ENOUGH
 
 HELPERS = {
     "polynomial": ("polynomials.py",),
@@ -57,7 +59,7 @@ def standalone_several(
     def accepted(made: ProductForm) -> Tested:
         if taken := names & (RESERVED | {str(step.symbol) for step in made.steps}):
             raise UnreachableError(f"{min(taken)} is a name of the code: rename the variable")
-        form("f", "f", expression, made.steps, made.value, {}, made.blocks)  # proves equality
+        _prove_equal(expression, made)
         code = compiled_function(_source(expression, variables, made, *ENDS, ""))
         return made, check_several(expression, variables, code)
 
@@ -65,7 +67,8 @@ def standalone_several(
     where = ", ".join(f"{name} = {x!r}" for name, x in tested.at.items())
     statement = (
         f"Error at most {tested.limit:g} ULP plus {STATED} times the sum of the condition numbers, "
-        f"for values of magnitudes from {LEAST_VALUE:g} to {LARGEST_VALUE:g}. Tested, not proved: "
+        f"for values of magnitudes from {LEAST_VALUE:g} to {LARGEST_VALUE:g} and sums of condition "
+        f"numbers up to {MOST_CONDITIONING:g}. Tested, not proved: "
         f"with NumPy {np.__version__} against exact values at {tested.points} points, including "
         "the ends of the range and points at which variables are nearly equal; largest error "
         f"{tested.worst:.2f} ULP, at {where}."
@@ -78,21 +81,36 @@ def _best(
 ) -> Tested:
     """Return the formula as it is, or its factors, or its form by products of the variables.
 
-    The first of them with a wide range is taken, or else the one with the widest.
+    The first of them that is accurate in a wide range is taken, or else the one with the widest.
     """
     results: list[Tested] = []
     known = {f.func.__name__ for f in expression.atoms(sp.Function)} <= KNOWN
     for plain in dict.fromkeys((expression, sp.factor(expression))) if known else ():
         with contextlib.suppress(UnreachableError):
             results.append(accepted(ProductForm((), plain)))
-            if results[-1][1].high >= WIDE:
+            if results[-1][1].high >= WIDE and results[-1][1].worst <= ENOUGH / 2:
                 return results[-1]
+
+    def with_error(made: ProductForm) -> tuple[Tested, float]:
+        found = accepted(made)
+        return found, found[1].worst
+
     try:
-        results.append(of_products(GivenFormula("f", expression, words), accepted))
+        return of_products(GivenFormula("f", expression, words), with_error)
     except UnreachableError:
         if not results:
             raise
-    return max(results, key=lambda result: result[1].high)
+    return max(results, key=lambda result: (result[1].high, -result[1].worst))
+
+
+def _prove_equal(expression: sp.Expr, made: ProductForm) -> None:
+    """Reject a form that is not proved equal to the formula."""
+    if made.value == expression:
+        return
+    try:
+        form("f", "f", expression, made.steps, made.value, {}, made.blocks)
+    except ProofError as error:
+        raise UnreachableError(f"no form of {expression} could be proved: {error}") from None
 
 
 def _source(

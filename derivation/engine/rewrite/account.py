@@ -86,10 +86,10 @@ def _accounts(formula: Record, scales: Scales) -> Iterator[Account]:
     yield _account(formula.name, stable, scale.product)
 
 
-def _accurate(formula: Record, made: ProductForm) -> ProductForm:
-    """Return a form if it is accurate in every variable of its formula."""
-    accurate(formula, made.steps, made.value, {block.name: block for block in made.blocks})
-    return made
+def _accurate(formula: Record, made: ProductForm) -> tuple[ProductForm, float]:
+    """Return a form that is accurate in every variable of its formula, with its error [ULP]."""
+    blocks = {block.name: block for block in made.blocks}
+    return made, accurate(formula, made.steps, made.value, blocks)
 
 
 def _account(name: str, stable: Stable, product: sp.Expr) -> Account:

@@ -5,7 +5,6 @@ d log f/d log v_i = p_i + q_i d log g/d log x lie on a straight line, whose dire
 exponents follow from the slopes at some points. The form is proved afterwards, as all forms are.
 """
 
-import contextlib
 import math
 from collections import defaultdict
 from collections.abc import Callable, Sequence
@@ -26,6 +25,7 @@ from derivation.engine.rewrite.search import stabilised
 from derivation.engine.rewrite.series import POLYNOMIAL
 from derivation.engine.rewrite.stabilise import Applied, Stable
 from derivation.engine.rewrite.terms import UnreachableError
+from derivation.engine.rewrite.useful_range import ENOUGH
 
 BITS, RADIUS, ROUNDING = 400, 1e-60, Fraction(1, 10**30)
 """Precision of the slopes, their largest error, and that of numbers that follow from them."""
@@ -84,17 +84,18 @@ class ProductForm:
         return tuple(rule for _, stable in self.factors for rule in stable.applied)
 
 
-def of_products(formula: Stated, accept: Callable[[ProductForm], Result]) -> Result:
-    """Return what a function returns for the first stable form that it accepts.
+def of_products(formula: Stated, accept: Callable[[ProductForm], tuple[Result, float]]) -> Result:
+    """Return what a function returns for the stable form, by each product x or by its inverse.
 
-    The forms use each product x, or its inverse, which may be more accurate.
+    The inverse is tried if x gives no form, or one that is not very accurate.
 
     Parameters
     ----------
     formula
         A formula whose factors each depend on one product.
     accept
-        Function that tests a form, and raises UnreachableError if it is not accurate.
+        Function that tests a form and returns a result with the error [ULP], or raises
+        UnreachableError.
 
     Raises
     ------
@@ -102,12 +103,18 @@ def of_products(formula: Stated, accept: Callable[[ProductForm], Result]) -> Res
         If a factor depends on several such products, or no form is accurate; the message is that
         for the first form.
     """
-    try:
-        return accept(_form(formula, inverted=False))
-    except UnreachableError:
-        with contextlib.suppress(UnreachableError):
-            return accept(_form(formula, inverted=True))
-        raise
+    results: list[tuple[Result, float]] = []
+    reasons: list[UnreachableError] = []
+    for inverted in (False, True):
+        try:
+            results.append(accept(_form(formula, inverted)))
+        except UnreachableError as error:
+            reasons.append(error)
+        if results and results[-1][1] <= ENOUGH / 2:
+            break
+    if not results:
+        raise reasons[0]
+    return min(results, key=lambda pair: pair[1])[0]
 
 
 def _form(formula: Stated, inverted: bool) -> ProductForm:

@@ -64,13 +64,12 @@ def test_error_from_rounding_of_an_argument_is_allowed() -> None:
     assert measured_error(film, *steps_and_value, BLOCKS).error <= ENOUGH
 
 
-def test_form_that_is_accurate_in_all_variables_is_unchanged() -> None:
+def test_form_that_is_accurate_in_all_variables_is_accepted() -> None:
     slipping = formula("F_slipping", (sp.cosh(T) - 1) / (sp.sinh(T) + T))
     known = build_blocks((*HYPERBOLIC, COSH_MINUS))
     steps_and_value = automatic(slipping.expression, known, SCALES)
-    assert accurate(slipping, *steps_and_value, known) == steps_and_value
     worst = measured_error(slipping, *steps_and_value, known)
-    assert worst.error <= ENOUGH
+    assert accurate(slipping, *steps_and_value, known) == worst.error <= ENOUGH
     assert worst.points > 30
 
 

@@ -47,7 +47,7 @@ def formula(value: sp.Expr) -> SolidFormula:
 @pytest.mark.parametrize("name", FORMULAS)
 def test_form_is_equal_and_accurate_in_every_variable(name: str) -> None:
     given = formula(FORMULAS[name])
-    found = of_products(given, lambda made: made)
+    found = of_products(given, lambda made: (made, 0.0))
     steps, value, own = found.steps, found.value, found.blocks
     blocks = {block.name: block for block in own}
     form("f", "module", given.expression, steps, value, {}, own)  # proves that they are equal
@@ -68,9 +68,9 @@ def test_form_is_equal_and_accurate_in_every_variable(name: str) -> None:
 )
 def test_other_formulas_are_refused(value: sp.Expr, reason: str) -> None:
     with pytest.raises(UnreachableError, match=reason):
-        of_products(formula(value), lambda made: made)
+        of_products(formula(value), lambda made: (made, 0.0))
 
 
 def test_a_product_does_not_take_the_name_of_an_argument() -> None:
-    found = of_products(formula(1 / (a + x) - 1 / x), lambda made: made)
+    found = of_products(formula(1 / (a + x) - 1 / x), lambda made: (made, 0.0))
     assert x not in {step.symbol for step in found.steps}

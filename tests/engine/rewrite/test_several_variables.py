@@ -9,7 +9,11 @@ import pytest
 from mpmath import mp, mpf
 
 from derivation.engine.emit.own_formula import rewrite_text
-from derivation.engine.rewrite.several_variables import STATED, SeveralCheck
+from derivation.engine.rewrite.several_variables import (
+    MOST_CONDITIONING,
+    STATED,
+    SeveralCheck,
+)
 
 FORMULAS = {
     "R - sqrt(R**2 - a**2)": lambda R, a: R - mp.sqrt(R * R - a * a),
@@ -23,6 +27,9 @@ FORMULAS = {
     "exp(-E/(k*T))": lambda E, k, T: mp.exp(-E / (k * T)),
     "1/a - 1/b": lambda a, b: 1 / a - 1 / b,
     "sqrt(a**2 + b**2 + c**2)": lambda a, b, c: mp.sqrt(a**2 + b**2 + c**2),
+    "tan(a*b)": lambda a, b: mp.tan(a * b),
+    "abs(a - b)*c": lambda a, b, c: abs(a - b) * c,
+    "exp(-a**2*b)/sqrt(a)": lambda a, b: mp.exp(-a * a * b) / mp.sqrt(a),
     "cbrt(a**3 + b**3) - a": lambda a, b: mp.cbrt(a**3 + b**3) - a,
 }
 POINTS = 300
@@ -63,8 +70,9 @@ def test_stated_error_holds_at_other_points(text: str) -> None:
         errors = allowed_errors(exact, tuple(point), float(space["f"](*point)))
         if errors is not None:
             error, conditioning = errors
-            assert error <= tested.limit + STATED * conditioning, point
-            compared += 1
+            if conditioning <= MOST_CONDITIONING:
+                assert error <= tested.limit + STATED * conditioning, point
+                compared += 1
     assert compared > POINTS / 6
     outside = [1.0] * (count - 1) + [10 * tested.high]
     assert np.isnan(space["f"](*outside))

@@ -36,9 +36,10 @@ LEAST_VALUE, LARGEST_VALUE = 1e-200, 1e200
 MOST_CONDITIONING = 1e8
 """Largest sum of condition numbers that is tested. With a much larger one, such as that of the sine
 of a huge product, an error of the product changes the value by more than the sum tells."""
-TESTED, STATED = 0.5, 0.6
+TESTED, STATED = 0.5, 0.8
 """Errors per sum of the condition numbers that are allowed in the test, and by the statement. A
-product of variables that is rounded once has an error of up to 0.5."""
+product of variables that is rounded once has an error of up to 0.5, and a function of it near a
+singular point one of up to 0.25."""
 MARGIN = 0.5
 """Error [ULP] that is added before the limit is stated, because there are more points in several
 variables. Among 1,500 other points of 46 formulas, one had 1.04 times the limit without it."""

@@ -39,7 +39,7 @@ HELPERS = {
 Tested = tuple[ProductForm, SeveralCheck]
 WIDE = 1e30
 """Upper end of a range that is wide enough."""
-RESERVED = {"np", "f", "times", "polynomial"}
+RESERVED = {"np", "f", *HELPERS, *(part for parts in HELPERS.values() for part in parts)}
 """Names that the module uses itself."""
 
 

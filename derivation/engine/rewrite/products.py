@@ -10,6 +10,7 @@ from collections import defaultdict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import chain, count
 from typing import NamedTuple, TypeVar
 
 import flint
@@ -29,6 +30,8 @@ from derivation.engine.rewrite.useful_range import ENOUGH
 
 BITS, RADIUS, ROUNDING = 400, 1e-60, Fraction(1, 10**30)
 """Precision of the slopes, their largest error, and that of numbers that follow from them."""
+CHANGED = Fraction(1, 10**20)
+"""Smallest change of a slope from which a direction is computed."""
 LARGEST_SLOPE = 1e30
 """Largest slope from which exponents are computed."""
 ENOUGH_POINTS = 5
@@ -149,7 +152,8 @@ def _factored(
             front[symbol] += power
         cores[product] *= factor
     constant = _core(cores.pop((), sp.Integer(1)), formula)
-    names = (sp.Symbol(name, positive=True) for name in NAMES if name not in _names(formula))
+    every = chain(NAMES, (f"x_{number}" for number in count(2)))
+    names = (sp.Symbol(name, positive=True) for name in every if name not in _names(formula))
     forms = []
     for product, factor in cores.items():
         own, power = _eliminated(product, formula)
@@ -173,11 +177,13 @@ def _exponents(factor: sp.Expr, formula: Stated, inverted: bool) -> tuple[Powers
         return (), ()
     first, *others = _slopes(factor, formula, symbols)
     changes = [[b - a for a, b in zip(first, other, strict=True)] for other in others]
-    changes = [change for change in changes if max(map(abs, change)) > ROUNDING]
+    changes = [change for change in changes if max(map(abs, change)) > CHANGED]
     if not changes:
         return _rational(factor, symbols, first), ()
     index = max(range(len(symbols)), key=lambda index: abs(changes[0][index]))
-    line, *more = ([part / change[index] for part in change] for change in changes if change[index])
+    if any(abs(change[index]) <= CHANGED for change in changes):
+        raise UnreachableError(f"{factor} depends on several dimensionless products")
+    line, *more = ([part / change[index] for part in change] for change in changes)
     if any(abs(a - b) > ROUNDING for other in more for a, b in zip(line, other, strict=True)):
         raise UnreachableError(f"{factor} depends on several dimensionless products")
     product = _oriented(_rational(factor, symbols, line), formula, inverted)

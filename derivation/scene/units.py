@@ -80,6 +80,7 @@ class Doubt(NamedTuple):
         return f"{self.key} = {value:.6g} {self.unit} {self.why}; {advice}"
 
 
+@np.errstate(all="ignore")
 def unit_warnings(scene: Scene) -> tuple[str, ...]:
     """Return a sentence for each stated value that is probably given in another unit."""
     stated = stated_in(scene)
@@ -91,6 +92,7 @@ def doubted(error: SceneError, doubts: tuple[str, ...]) -> SceneError:
     return SceneError("; ".join((*doubts, str(error))))
 
 
+@np.errstate(all="ignore")
 def unit_warnings_of_rows(scene: Scene, columns: Mapping[str, Array]) -> dict[int, tuple[str, ...]]:
     """Return the `unit_warnings` of each row that has some.
 
@@ -122,7 +124,8 @@ def stated_in(scene: Scene) -> dict[str, Any]:
     for name, own in scene.materials.items():
         keys = own.model_fields_set
         found |= {f"{OWN_MATERIALS}.{name}.{key}": getattr(own, key) for key in keys}
-    return {k: x for k, x in found.items() if isinstance(x, (int, float, np.ndarray))}
+    # Powers of Python's floats raise an error if they overflow.
+    return {k: np.float64(x) for k, x in found.items() if isinstance(x, int | float)}
 
 
 def doubts(scene: Scene, stated: Stated) -> Iterator[Doubt]:

@@ -4,11 +4,13 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from derivation.scene import SceneError, indent, read, simulate
 from derivation.scene.materials import MATERIALS
 from derivation.scene.rows import solve
-from derivation.scene.units import unit_warnings
+from derivation.scene.units import unit_warnings, unit_warnings_of_rows
 
 TILE = {"radius": 0.15, "thickness": 0.009, "youngs_modulus": 65e9, "poissons_ratio": 0.2}
 SCENE: dict[str, dict[str, Any]] = {
@@ -101,3 +103,23 @@ def test_rows_have_the_doubts_of_single_scenes() -> None:
         except SceneError as error:
             expected = str(error)
         assert rows.reason[row] == expected
+
+
+@given(st.lists(st.sampled_from([1e-300, 1e-150, 1.0, 1e150, 1e300]), min_size=7, max_size=7))
+def test_extreme_values_are_compared_without_overflow(values: list[float]) -> None:
+    """NumPy's warnings are errors in tests, and powers of Python's floats raise one."""
+    modulus, density, radius, mass, wide, thickness, speed = values
+    extreme = read(
+        {
+            "materials": {
+                "pane": {"youngs_modulus": modulus, "poissons_ratio": 0.2, "density": density}
+            },
+            "sphere": {"radius": radius, "mass": mass, "material": "pane"},
+            "plate": {"radius": wide, "thickness": thickness, "material": "pane"},
+            "impact": {"speed": speed},
+        }
+    )
+    column = np.array([1e-300, 1.0, 1e300])
+    rows = unit_warnings_of_rows(extreme, {"plate.radius": column, "sphere.radius": column})
+    assert set(rows) <= {0, 1, 2}
+    assert isinstance(unit_warnings(extreme), tuple)

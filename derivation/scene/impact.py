@@ -34,7 +34,7 @@ from derivation.scene.model_error import inertia_error
 from derivation.scene.result import Result
 from derivation.scene.scene import OUTPUTS, TIGHTEST, Scene, SceneError
 from derivation.scene.selection import check_enabled
-from derivation.scene.units import doubted, unit_warnings
+from derivation.scene.units import unit_warnings, with_unit_warnings
 from derivation.scene.yield_warnings import impact_warnings
 
 if TYPE_CHECKING:
@@ -88,17 +88,17 @@ def simulate(
     >>> print(f"{result.max_force:.3g} N, {result.restitution:.2f}")
     1.29e+03 N, 0.97
     """
-    doubts = unit_warnings(scene)
+    on_units = unit_warnings(scene)
     try:
-        result = _simulated(scene, rtol, doubts)
+        result = _simulated(scene, rtol, on_units)
     except SceneError as error:
-        if not doubts:
+        if not on_units:
             raise
-        raise doubted(error, doubts) from error
+        raise with_unit_warnings(error, on_units) from error
     return result if times is None else result.at(times)
 
 
-def _simulated(scene: Scene, rtol: float | None, doubts: tuple[str, ...]) -> Result:
+def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> Result:
     """Simulate the impact of a scene, with the warnings about its units first."""
     scene = toleranced(scene, None if rtol is None else check_rtol(rtol))
     rtol, selected = selected_effects(scene, rtol)
@@ -121,7 +121,7 @@ def _simulated(scene: Scene, rtol: float | None, doubts: tuple[str, ...]) -> Res
     if strength is not None or yield_stress is not None:
         stress = law.max_tensile_stress(a, force, not selected.edge_disabled)
     warnings = (
-        *doubts,
+        *on_units,
         *hollow_warnings(model),
         *warnings_at(law, a, delta, deflection),
         *motion_warnings(moving, contact_time, fraction, motion is not None),

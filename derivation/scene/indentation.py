@@ -27,7 +27,7 @@ from derivation.scene.messages import shown
 from derivation.scene.model import model_of
 from derivation.scene.scene import Scene, SceneError
 from derivation.scene.selection import check_enabled
-from derivation.scene.units import doubted, unit_warnings
+from derivation.scene.units import unit_warnings, with_unit_warnings
 from derivation.scene.yield_warnings import static_warnings
 from derivation.scene.yielding import yielding_of
 
@@ -142,17 +142,17 @@ def indent(
             f"got {got}; {'remove all but one' if given else 'add one of them'}"
         )
     [(name, values)] = given
-    numbers, doubts = _numbers(name, values), unit_warnings(scene)
+    numbers, on_units = _numbers(name, values), unit_warnings(scene)
     try:
         law = static_law(scene)
         with np.errstate(all="ignore"):  # extreme scenes give NaN, which is checked
             found = [_contact(law, name, value) for value in numbers]
     except SceneError as error:
-        if not doubts:
+        if not on_units:
             raise
-        raise doubted(error, doubts) from error
+        raise with_unit_warnings(error, on_units) from error
     return StaticContacts(
-        replace(contact, warnings=(*doubts, *contact.warnings)) for contact in found
+        replace(contact, warnings=(*on_units, *contact.warnings)) for contact in found
     )
 
 

@@ -1,5 +1,6 @@
 """Keys of a scene file as `table.key`: their descriptions, and scenes with other values."""
 
+import re
 from collections.abc import Mapping
 from typing import Any
 
@@ -39,6 +40,12 @@ def number_key(place: str) -> tuple[str, str]:
 def described(key: str) -> str:
     """Return the description of a key `table.key`, with its unit in brackets."""
     return field_of(key).description or key.rpartition(".")[2]
+
+
+def unit_of(key: str) -> str:
+    """Return the SI unit of a key `table.key`, empty if it has none."""
+    bracket = re.search(r"\[(.+?)\]", described(key))
+    return bracket[1] if bracket else ""
 
 
 def field_of(place: str) -> FieldInfo:

@@ -161,7 +161,7 @@ class _Block:
         left = np.ones(count, dtype=bool)
         for rows in self._in_arrays():
             left[rows] = False
-        self._doubt(np.flatnonzero(~left))
+        self._add_unit_warnings(np.flatnonzero(~left))
         for row in np.flatnonzero(left).tolist():
             if self.start + row and time.perf_counter() > until:
                 return self.start + row
@@ -189,7 +189,7 @@ class _Block:
         for name, number in numbers.items():
             found.results[name][index] = number
 
-    def _doubt(self, rows: NDArray[np.intp]) -> None:
+    def _add_unit_warnings(self, rows: NDArray[np.intp]) -> None:
         """Begin the reasons of rows with the warnings about their units."""
         scene = self._readable(rows[:1].tolist())
         if scene is None:

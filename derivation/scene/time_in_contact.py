@@ -69,7 +69,7 @@ def _vibrations(m: float, spring: float, modes: Modes) -> tuple[Array, Array]:
 
 
 def time_in_contact(law: ContactLaw, modes: Modes) -> float:
-    """Return a time [s] that the sum of all contacts exceeds; 0 for a very light sphere."""
+    """Return an estimate [s] that the sum of all contacts exceeds; 0 for a very light sphere."""
     if law.model.m * float(modes.inverse_modal_mass[0]) < LIGHTEST:
         return 0.0
     return TOUCHING * stopping_time(law, modes)
@@ -124,9 +124,9 @@ def _check_time_in_contact(law: ContactLaw, tolerance: float) -> None:
     if steps > most:
         raise SceneError(
             f"effects.inertia: expected a sphere that leaves the plate within the limit of {most} "
-            f"time steps, got one that touches it for at least {least:.2g} s, which needs "
-            f"{steps:.2g} of them with the {count} modes that its short contacts require; use a "
-            "lighter sphere, or a thicker or smaller plate"
+            f"time steps, got one that touches it for an estimated {least:.2g} s or more, which "
+            f"needs {steps:.2g} of them with the {count} modes that its short contacts require; "
+            "use a lighter sphere, or a thicker or smaller plate"
         )
 
 

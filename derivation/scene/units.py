@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from derivation.scene.effects.effect import Array
+from derivation.scene.keys import unit_of
 from derivation.scene.materials import find, plain
 from derivation.scene.messages import OWN_MATERIALS
 from derivation.scene.scene import Scene, SceneError
@@ -38,18 +39,16 @@ Stated = Mapping[str, Any]
 """Given numbers by key `table.key`: floats, or columns of the same length."""
 
 
-class Doubt(NamedTuple):
-    """A stated value that may be given in another unit.
+class UnusualValue(NamedTuple):
+    """A given value that no solid or usual scene has, probably because of its unit.
 
     Attributes
     ----------
     key
         Key as the user writes it.
-    doubtful
-        Whether the value is doubtful, or in which rows.
-    unit
-        SI unit of the key.
-    why
+    unusual
+        Whether the value is unusual, or in which rows.
+    problem
         What solids or usual scenes have instead.
     others
         Units that may be meant, with their size in SI units.
@@ -58,17 +57,16 @@ class Doubt(NamedTuple):
     """
 
     key: str
-    doubtful: Any
-    unit: str
-    why: str
+    unusual: Any
+    problem: str
     others: Mapping[str, float]
     least: Any = 0.0
     most: Any = np.inf
 
     def in_words(self, stated: Stated, row: int | None = None) -> str:
-        """Return the doubt as a sentence, with the value in SI units for each unit in question."""
+        """Return a sentence with the value in SI units for each unit that may be meant."""
         value, least, most = (
-            float(x if row is None else np.broadcast_to(x, np.shape(self.doubtful))[row])
+            float(x if row is None else np.broadcast_to(x, np.shape(self.unusual))[row])
             for x in (stated[self.key], self.least, self.most)
         )
         meant = [
@@ -77,19 +75,19 @@ class Doubt(NamedTuple):
             if least <= value * size <= most
         ]
         advice = f"if the value is in {', and if it is in '.join(meant)}" if meant else "check it"
-        return f"{self.key} = {value:.6g} {self.unit} {self.why}; {advice}"
+        return f"{self.key} = {value:.6g} {unit_of(self.key)} {self.problem}; {advice}"
 
 
 @np.errstate(all="ignore")
 def unit_warnings(scene: Scene) -> tuple[str, ...]:
     """Return a sentence for each stated value that is probably given in another unit."""
     stated = stated_in(scene)
-    return tuple(doubt.in_words(stated) for doubt in doubts(scene, stated) if doubt.doubtful)
+    return tuple(value.in_words(stated) for value in unusual_values(scene, stated) if value.unusual)
 
 
-def doubted(error: SceneError, doubts: tuple[str, ...]) -> SceneError:
-    """Return the error of a scene with doubts about its units, which are its likely cause."""
-    return SceneError("; ".join((*doubts, str(error))))
+def with_unit_warnings(error: SceneError, warnings: tuple[str, ...]) -> SceneError:
+    """Return the error of a scene after the warnings on units, which are its likely cause."""
+    return SceneError("; ".join((*warnings, str(error))))
 
 
 @np.errstate(all="ignore")
@@ -105,11 +103,11 @@ def unit_warnings_of_rows(scene: Scene, columns: Mapping[str, Array]) -> dict[in
     """
     stated, found = stated_in(scene) | dict(columns), dict[int, tuple[str, ...]]()
     count = len(next(iter(columns.values())))
-    for doubt in doubts(scene, stated):
-        doubtful = np.broadcast_to(doubt.doubtful, (count,))
-        for row in np.flatnonzero(doubtful).tolist():
-            text = doubt._replace(doubtful=doubtful).in_words(
-                {doubt.key: np.broadcast_to(stated[doubt.key], (count,))}, row
+    for value in unusual_values(scene, stated):
+        unusual = np.broadcast_to(value.unusual, (count,))
+        for row in np.flatnonzero(unusual).tolist():
+            text = value._replace(unusual=unusual).in_words(
+                {value.key: np.broadcast_to(stated[value.key], (count,))}, row
             )
             found[row] = (*found.get(row, ()), text)
     return found
@@ -128,68 +126,65 @@ def stated_in(scene: Scene) -> dict[str, Any]:
     return {k: np.float64(x) for k, x in found.items() if isinstance(x, int | float)}
 
 
-def doubts(scene: Scene, stated: Stated) -> Iterator[Doubt]:
-    """Yield the doubts about the stated values, whether they apply or not."""
+def unusual_values(scene: Scene, stated: Stated) -> Iterator[UnusualValue]:
+    """Yield each value that is compared with usual ones, unusual or not."""
     for name in ("sphere", "plate", *(f"{OWN_MATERIALS}.{own}" for own in scene.materials)):
         yield from _of_constants(name, stated)
     yield from _of_sizes(scene, stated)
 
 
-def _of_constants(name: str, stated: Stated) -> Iterator[Doubt]:
-    """Yield the doubts about the material constants of a table."""
+def _of_constants(name: str, stated: Stated) -> Iterator[UnusualValue]:
+    """Yield the material constants of a table that are compared."""
     modulus: NDArray[np.float64] | float | None = None
-    for key in ("youngs_modulus", "lame_mu"):
-        place = f"{name}.{key}"
-        if place in stated:
-            modulus = stated[place]
+    for key in (f"{name}.youngs_modulus", f"{name}.lame_mu"):
+        if key in stated:
+            modulus = stated[key]
             outside = (modulus < SOFTEST) | (modulus > STIFFEST)
-            why = f"is outside the range of solids, {SOFTEST:.0e} to {STIFFEST:.1e} Pa"
+            problem = f"is outside the range of solids, {SOFTEST:.0e} to {STIFFEST:.1e} Pa"
             limits = 10.0 * SOFTEST, STIFFEST
-            yield Doubt(place, outside, "Pa", why, MODULI, *limits)
+            yield UnusualValue(key, outside, problem, MODULI, *limits)
             if f"{name}.density" in stated:
-                slow = modulus < SLOWEST**2 * stated[f"{name}.density"]
-                heavy = stated[f"{name}.density"] <= DENSEST
-                why = "is too small for a solid of this density"
-                yield Doubt(place, ~np.asarray(outside) & slow & heavy, "Pa", why, MODULI, *limits)
-    place = f"{name}.density"
-    if place in stated:
-        density = stated[place]
-        doubtful = (density < LIGHTEST) | (density > DENSEST)
+                density = stated[f"{name}.density"]
+                slow = (modulus < SLOWEST**2 * density) & (density <= DENSEST)
+                problem = "is too small for a solid of this density"
+                yield UnusualValue(key, ~np.asarray(outside) & slow, problem, MODULI, *limits)
+    key = f"{name}.density"
+    if key in stated:
+        density = stated[key]
+        unusual = (density < LIGHTEST) | (density > DENSEST)
         if modulus is not None:  # foams are as light, but soft
             stiff = (density < DENSEST / 1e3) & (modulus > FASTEST**2 * density)
-            doubtful = doubtful | (stiff & (modulus <= STIFFEST))
-        why = "is outside the range of solids with this elastic modulus"
+            unusual = unusual | (stiff & (modulus <= STIFFEST))
+        problem = "is outside the range of solids with this elastic modulus"
         if modulus is None:
-            why = f"is outside the range of solids, {LIGHTEST:g} to {DENSEST:g} kg/m^3"
-        yield Doubt(place, doubtful, "kg/m^3", why, DENSITIES, LIGHTEST, DENSEST)
-    for key in ("yield_stress", "tensile_strength"):
-        place = f"{name}.{key}"
-        if place in stated and modulus is not None:
-            why = "is too small for a solid with this elastic modulus"
+            problem = f"is outside the range of solids, {LIGHTEST:g} to {DENSEST:g} kg/m^3"
+        yield UnusualValue(key, unusual, problem, DENSITIES, LIGHTEST, DENSEST)
+    for key in (f"{name}.yield_stress", f"{name}.tensile_strength"):
+        if key in stated and modulus is not None:
+            problem = "is too small for a solid with this elastic modulus"
             least, most = WEAKEST * modulus, STRONGEST * modulus
-            yield Doubt(place, stated[place] < least, "Pa", why, MODULI, least, most)
+            yield UnusualValue(key, stated[key] < least, problem, MODULI, least, most)
 
 
-def _of_sizes(scene: Scene, stated: Stated) -> Iterator[Doubt]:
-    """Yield the doubts about lengths, mass and speed."""
+def _of_sizes(scene: Scene, stated: Stated) -> Iterator[UnusualValue]:
+    """Yield the lengths, the mass and the speed that are compared."""
     radius, wide = stated["sphere.radius"], stated["plate.radius"]
     for key, size, most in (("sphere.radius", radius, BALL), ("plate.radius", wide, PLATE)):
         in_mm = (size > most) & (size * LENGTHS["mm"] <= most)
-        yield Doubt(key, in_mm, "m", "is unusually large", LENGTHS)
-    for key, factor in (("thickness", 1.0), ("half_thickness", 2.0)):
-        place = f"plate.{key}"
-        if place in stated:
-            thick = factor * stated[place] > THICK * wide
-            yield Doubt(place, thick, "m", "is large for a plate of this radius", LENGTHS)
-    yield Doubt(
-        "impact.speed", stated["impact.speed"] > FAST, "m/s", "is unusually large", {"mm/s": 1e-3}
+        yield UnusualValue(key, in_mm, "is unusually large", LENGTHS)
+    for key, factor in (("plate.thickness", 1.0), ("plate.half_thickness", 2.0)):
+        if key in stated:
+            thick = factor * stated[key] > THICK * wide
+            yield UnusualValue(key, thick, "is large for a plate of this radius", LENGTHS)
+    yield UnusualValue(
+        "impact.speed", stated["impact.speed"] > FAST, "is unusually large", {"mm/s": 1e-3}
     )
     density = _solid_density(scene, stated)
     if "sphere.mass" in stated and density is not None:
         ratio = stated["sphere.mass"] / (4.0 / 3.0 * np.pi * radius**3 * density)
         grams = (ratio > GRAMS[0]) & (ratio < GRAMS[1])
-        why = "is about 1000 times the mass of a solid sphere of its material"
-        yield Doubt("sphere.mass", grams, "kg", why, {"g": 1e-3})
+        problem = "is about 1000 times the mass of a solid sphere of its material"
+        yield UnusualValue("sphere.mass", grams, problem, {"g": 1e-3})
 
 
 def _solid_density(scene: Scene, stated: Stated) -> Any:

@@ -1,13 +1,12 @@
 """The results of a study as an xarray Dataset with units, labels, scene and version."""
 
 import json
-import re
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from derivation.scene.errors import SceneError
-from derivation.scene.keys import described
+from derivation.scene.keys import described, unit_of
 from derivation.scene.result import UNITS
 from derivation.sweep.plan import GridPlan
 from derivation.sweep.store import NUMBERS, TEXTS, Store
@@ -38,11 +37,10 @@ def labels(name: str) -> dict[str, str]:
     if name in LABELS:
         long_name, unit = LABELS[name]
         return {"long_name": long_name, "units": unit}
-    text = described(name)
-    bracket = re.search(r" \[(.+?)\]", text)
-    if bracket is None:
+    text, unit = described(name), unit_of(name)
+    if not unit:
         return {"long_name": text}
-    return {"long_name": text.replace(bracket[0], ""), "units": bracket[1]}
+    return {"long_name": text.replace(f" [{unit}]", ""), "units": unit}
 
 
 def attributes(study: Study) -> dict[str, Any]:

@@ -26,7 +26,7 @@ def either_side(
 
     def run(x: float) -> tuple[Result, str]:
         result = simulate(read(make(x)))
-        # Densities that no solid has are doubted as given in another unit.
+        # Densities that no solid has are probably given in another unit.
         texts = [text for text in result.warnings if not text.startswith("plate.density")]
         assert all(words in text for text in texts)  # no other warning is printed
         return result, "".join(texts)

@@ -1,4 +1,4 @@
-"""Values in other units than SI are doubted, and values of real materials are not."""
+"""Values in other units than SI are named in warnings, and those of real materials are not."""
 
 from typing import Any
 
@@ -41,7 +41,7 @@ def with_value(place: str, value: float) -> dict[str, Any]:
         ("impact.speed", 1e-3),
     ],
 )
-def test_each_value_in_another_unit_is_doubted_with_its_value_in_si_units(
+def test_each_value_in_another_unit_is_named_with_its_value_in_si_units(
     place: str, unit: float
 ) -> None:
     table, key = place.split(".")
@@ -59,7 +59,7 @@ def test_grams_are_told_from_a_heavy_body_above_the_sphere() -> None:
 
 
 @pytest.mark.parametrize("name", [name for name, one in MATERIALS.items() if one.density])
-def test_no_value_of_a_real_material_is_doubted(name: str) -> None:
+def test_no_value_of_a_real_material_gets_a_warning(name: str) -> None:
     one = MATERIALS[name]
     keys = ("youngs_modulus", "poissons_ratio", "density", "yield_stress")
     own = {key: getattr(one, key) for key in keys if getattr(one, key) is not None}
@@ -71,20 +71,20 @@ def test_no_value_of_a_real_material_is_doubted(name: str) -> None:
 @pytest.mark.parametrize(
     ("modulus", "density"), [(1e7, 25.0), (1.1e5, 1060.0), (1.05e12, 3515.0), (16e9, 11340.0)]
 )
-def test_foam_gel_diamond_and_lead_are_not_doubted(modulus: float, density: float) -> None:
+def test_foam_gel_diamond_and_lead_get_no_warning(modulus: float, density: float) -> None:
     plate = {"radius": 0.1, "thickness": 0.01, "youngs_modulus": modulus, "poissons_ratio": 0.3}
     scene = SCENE | {"plate": plate | {"density": density}}
     assert not unit_warnings(read(scene))
 
 
-def test_a_refusal_begins_with_the_doubt() -> None:
+def test_a_refusal_begins_with_the_warning() -> None:
     wrong = read(with_value("plate.youngs_modulus", 65.0))
     for run in (lambda: simulate(wrong), lambda: indent(wrong, force=10.0)):
         with pytest.raises(SceneError, match=r"^plate\.youngs_modulus = 65 Pa"):
             run()
 
 
-def test_rows_have_the_doubts_of_single_scenes() -> None:
+def test_rows_have_the_warnings_of_single_scenes() -> None:
     scene = read(SCENE | {"effects": {"inertia": False}, "accuracy": {"rtol": 0.01}})
     columns = {
         "plate.youngs_modulus": np.array([65e9, 65e6, 65e3, 65.0, 65e9]),

@@ -2,14 +2,24 @@
 
 import math
 import tomllib
+from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
 import pytest
 from shared_scenes import EXAMPLES
 
-from derivation.scene import Result, SceneError, contact_sequence, read, simulate, waves
+from derivation.scene import (
+    Result,
+    SceneError,
+    contact_sequence,
+    mode_convergence,
+    read,
+    simulate,
+    waves,
+)
 from derivation.scene.dynamic_results import dynamic_impact_of
+from derivation.scene.reach import Reach
 from derivation.scene.settings import Output
 
 BLOCK: dict[str, dict[str, Any]] = {
@@ -96,3 +106,23 @@ def test_runs_with_other_contacts_do_not_show_a_tolerance_out_of_reach() -> None
     for name in ("contact_time", "max_force", "restitution"):
         error = abs(getattr(found, name) / getattr(finer, name) - 1.0)
         assert error <= found.accuracy.bound <= 1e-2
+
+
+def test_a_tolerance_is_out_of_reach_only_by_runs_that_show_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Neither runs with other contacts nor those of modes slower than the contact show it."""
+    result = followed(8)
+    run = result.dynamics
+    assert run is not None
+    law, errors = run.law, (0.5, 0.5, 0.5, 0.5, 0.5)
+    doubled = replace(run.inertia, mode_convergence=errors, earlier_change=errors)
+    found = replace(run, inertia=replace(doubled, recounted=False))
+    recounted = replace(run, inertia=replace(doubled, recounted=True))
+    monkeypatch.setattr(mode_convergence, "beyond_limits", lambda *_, **__: True)
+    monkeypatch.setattr(mode_convergence, "fast", lambda *_: True)
+    reach = Reach(law, ("max_force",), 1e-2)
+    assert mode_convergence.unreachable(found, law, 8, 1.0, reach)
+    assert not mode_convergence.unreachable(recounted, law, 8, 1.0, reach)
+    monkeypatch.setattr(mode_convergence, "fast", lambda *_: False)
+    assert not mode_convergence.unreachable(found, law, 8, 1.0, reach)

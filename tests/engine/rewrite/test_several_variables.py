@@ -6,9 +6,11 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+import sympy as sp
 from mpmath import mp, mpf
 
 from derivation.engine.emit.own_formula import rewrite_text
+from derivation.engine.emit.printer import to_numpy
 from derivation.engine.rewrite.several_variables import (
     MOST_CONDITIONING,
     STATED,
@@ -112,3 +114,18 @@ def test_other_formulas_are_refused(text: str, reason: str) -> None:
 )
 def test_variables_may_have_any_names(text: str, signature: str) -> None:
     assert signature in rewrite_text(text)[1]
+
+
+def test_the_inverse_of_a_product_is_used_if_it_is_more_accurate() -> None:
+    """With x = R/a, sqrt(x**2 - 1) loses digits near x = 1; with a/R nothing cancels."""
+    assert rewrite_text("R - sqrt(R**2 - a**2)")[2].worst < 2.0
+
+
+def test_cube_roots_are_accurate_for_extreme_arguments() -> None:
+    """As an exponent, the double nearest to 1/3 costs up to 57 ULP."""
+    x = sp.Symbol("x", positive=True)
+    for value in (1e-150, 7e-101, 3e99, 1e150):
+        root = eval(to_numpy(x ** sp.Rational(1, 3)), {"np": np, "x": np.float64(value)})
+        with mp.workdps(40):
+            exact = mp.cbrt(mpf(value))
+            assert abs(mpf(float(root)) - exact) <= 2 * mpf(math.ulp(float(exact)))

@@ -1,11 +1,12 @@
 """Computes the missing batches of a study in this process, in several, or on a Dask cluster."""
 
+import gc
 import logging
 import time
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import CancelledError
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from importlib.metadata import version
 from typing import Any
@@ -294,13 +295,28 @@ def _client(scheduler: str | None, workers: int) -> Iterator[Any]:
         with cluster, Client(cluster, set_as_default=False) as client:
             yield client
         return
-    try:
-        client = Client(scheduler, timeout=PATIENCE, set_as_default=False)
-        client.wait_for_workers(1, timeout=PATIENCE)
-    except (OSError, ValueError):  # an address that is none is a ValueError
+    client = _connected(scheduler)
+    if client is None:
+        # The failed client is part of a reference cycle. Python would close it at any time, perhaps
+        # in a thread that is needed to start another client, which then waits without end.
+        gc.collect()
         raise SceneError(
             f"scheduler: expected a Dask scheduler with a worker, got none at {scheduler} within "
             f"{PATIENCE:.0f} s; start them with `dask scheduler` and `dask worker ADDRESS`"
-        ) from None
+        )
     with client:
         yield client
+
+
+def _connected(scheduler: str) -> Any:
+    """Return a client of a scheduler that has a worker; None if one of them does not respond."""
+    from distributed import Client
+
+    client = None
+    with suppress(OSError, ValueError):  # an address that is none is a ValueError
+        client = Client(scheduler, timeout=PATIENCE, set_as_default=False)
+        client.wait_for_workers(1, timeout=PATIENCE)
+        return client
+    if client is not None:
+        client.close()
+    return None

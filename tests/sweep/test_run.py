@@ -1,5 +1,6 @@
 """Sweeps that are killed or interrupted, and sweeps on a cluster that loses a worker."""
 
+import gc
 import json
 import os
 import random
@@ -12,6 +13,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+import distributed
 import numpy as np
 import platecontact as pc
 import pytest
@@ -123,6 +125,20 @@ def test_missing_scheduler_is_reported(
         output = capsys.readouterr().err
         assert "expected a Dask scheduler with a worker" in output
         assert "Traceback" not in output
+
+
+def test_a_client_that_fails_is_closed_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Python would close it in any thread: in that of a new client, it would wait for itself."""
+    monkeypatch.setattr(run, "PATIENCE", 0.2)
+    gc.collect()
+    gc.disable()
+    try:
+        for address in ("tcp://127.0.0.1:9", "nowhere:x"):
+            with pytest.raises(pc.SceneError), run._client(address, 1):
+                pass
+        assert not any(isinstance(each, distributed.Client) for each in gc.get_objects())
+    finally:
+        gc.enable()
 
 
 def test_workers_of_another_version_are_rejected() -> None:

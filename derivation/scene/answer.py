@@ -41,7 +41,8 @@ def plain(result: "Result") -> str:
     lines = []
     for name, value, unit in result.numbers():
         number = f"{value:#.{result.digits}g}".removesuffix(".")
-        lines.append(f"{name} {number if math.isfinite(value) else 'unknown'} {unit}")
+        known = math.isfinite(value) and result.digits
+        lines.append(f"{name} {number if known else 'unknown'} {unit}")
     return "\n".join(lines)
 
 

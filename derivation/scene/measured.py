@@ -46,6 +46,8 @@ LOOSE, ROUGH = 0.1, 1e-3
 NEAR, FURTHEST, POLISHES = 0.02, 0.2, 6
 """First and largest change of the logarithm of a constant after the search, and largest number of
 simulations."""
+ENOUGH = 2.0
+"""Tolerance that a message recommends over the error bound: both increase together."""
 AGREES = 0.1
 """Relative difference from the measured restitution that suffices, over the error bound."""
 CHANGE, DYNAMIC = 1e-2, 3.0
@@ -214,7 +216,7 @@ def inaccurate_constant(bound: float, error: float, rtol: float) -> SceneError:
     return SceneError(
         f"accuracy.rtol: expected at least {rounded_up(bound)}, because the constant from the "
         f"measured restitution causes an error of {rounded_up(error)}, got {rtol:g}; increase the "
-        "tolerance, or give the constant instead of [measured]"
+        f"tolerance to {rounded_up(ENOUGH * bound)}, or give the constant instead of [measured]"
     )
 
 

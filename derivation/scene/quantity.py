@@ -38,7 +38,7 @@ def prefixed(value: float, unit: str, digits: int) -> tuple[str, str]:
     unit
         SI unit without prefix; "1" for a ratio.
     digits
-        Number of significant digits.
+        Number of significant digits; 0 if the value is unknown.
 
     Examples
     --------
@@ -47,7 +47,7 @@ def prefixed(value: float, unit: str, digits: int) -> tuple[str, str]:
     >>> prefixed(374.6, "N", 2)
     ('0.37', 'kN')
     """
-    if not math.isfinite(value):
+    if not math.isfinite(value) or not digits:
         return "unknown", ""
     rounded = Decimal(f"{value:.{digits - 1}e}")
     if unit == "1":

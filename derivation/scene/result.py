@@ -32,6 +32,8 @@ Array = NDArray[np.float64]
 
 FEWEST_DIGITS, MOST_DIGITS = 2, 12
 """Limits of the number of significant digits that are shown."""
+NO_DIGITS = 1.0
+"""Relative error from which results are not shown, because no digit of them holds."""
 
 
 @dataclass(frozen=True)
@@ -361,10 +363,12 @@ class Result:
 
     @property
     def digits(self) -> int:
-        """Number of significant digits that the bound and the model error support."""
+        """Number of significant digits that the bound and the model error support; 0 for none."""
         error = self.accuracy.bound + self.model_error
         if not math.isfinite(error):
             return FEWEST_DIGITS
+        if error >= NO_DIGITS:
+            return 0
         return min(MOST_DIGITS, max(FEWEST_DIGITS, math.ceil(-math.log10(max(error, 1e-300)))))
 
     def numbers(self) -> list[tuple[str, float, str]]:

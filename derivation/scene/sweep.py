@@ -210,7 +210,7 @@ def to_csv(sweep: Sweep, rows: Sequence[SweepRow]) -> str:
 def to_text(sweep: Sweep, rows: Sequence[SweepRow]) -> str:
     """Return the rows as a table, each result with one SI prefix."""
     known = [row for row in rows if row.results]
-    fewest = min((row.digits for row in known), default=MOST_DIGITS)
+    fewest = min((max(1, row.digits) for row in known), default=MOST_DIGITS)
     heads, columns = [f"#{sweep.key}"], [[f"{row.value:.6g}" for row in rows]]
     for name, unit in UNITS.items():
         values, multiple = np.array([row.results[name] for row in known]), unit
@@ -218,7 +218,7 @@ def to_text(sweep: Sweep, rows: Sequence[SweepRow]) -> str:
             values, multiple = common_prefix(values, unit, fewest)
         heads.append(f"#{SYMBOLS[name]} [{multiple}]")
         cells = (
-            f"{value:#.{min(row.digits, MOST_DIGITS)}g}".removesuffix(".")
+            f"{value:#.{min(row.digits, MOST_DIGITS)}g}".removesuffix(".") if row.digits else "n/a"
             for row, value in zip(known, values, strict=True)
         )
         columns.append([next(cells) if row.results else "n/a" for row in rows])

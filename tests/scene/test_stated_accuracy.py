@@ -9,7 +9,7 @@ import pytest
 
 from derivation.engine import activity
 from derivation.scene import SceneError, contact_sequence, flight, read, simulate, waves
-from derivation.scene.answer import plain
+from derivation.scene.answer import plain, quantities
 from derivation.scene.effects import PAPER
 from derivation.scene.effects.effect import NO_BOUND
 from derivation.scene.law import ContactLaw
@@ -52,6 +52,13 @@ def test_number_of_digits_follows_from_bound_and_model_error() -> None:
     assert replace(exact, model_error=0.0).digits > result.digits
     assert replace(exact, model_error=0.0).digits <= MOST_DIGITS
     assert replace(result, model_error=0.05).digits == 2
+
+
+def test_results_with_an_error_of_their_size_are_not_shown() -> None:
+    lost = replace(simulate(scene()), model_error=1.0)
+    assert {line.split()[1] for line in plain(lost).splitlines()} == {"unknown"}
+    for name, value, unit in quantities(lost):
+        assert (value, unit) == ("unknown", ""), name
 
 
 def test_disabled_effects_are_stated_with_their_bound() -> None:

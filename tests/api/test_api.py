@@ -32,9 +32,9 @@ def test_unknown_name_raises_an_attribute_error() -> None:
 
 @pytest.mark.parametrize("module", ["platecontact", "derivation.scene.export"])
 def test_examples_of_modules_pass(module: str) -> None:
-    found = doctest.testmod(importlib.import_module(module))
-    assert found.attempted > 0
-    assert found.failed == 0
+    outcome = doctest.testmod(importlib.import_module(module))
+    assert outcome.attempted > 0
+    assert outcome.failed == 0
 
 
 @pytest.mark.parametrize("name", platecontact.__all__)
@@ -44,10 +44,10 @@ def test_each_public_name_has_an_example_that_passes(
     """The examples of a class include those of its methods; some read `glass_pane.toml`."""
     copy(["glass_pane"], tmp_path)
     monkeypatch.chdir(tmp_path)
-    found = getattr(platecontact, name)
-    module = importlib.import_module(found.__module__)
+    actual = getattr(platecontact, name)
+    module = importlib.import_module(actual.__module__)
     runner = doctest.DocTestRunner()
-    for test in doctest.DocTestFinder().find(found, name, module=module, globs=dict(vars(module))):
+    for test in doctest.DocTestFinder().find(actual, name, module=module, globs=dict(vars(module))):
         runner.run(test)
     assert runner.tries > 0
     assert runner.failures == 0

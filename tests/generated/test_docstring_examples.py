@@ -31,6 +31,6 @@ def test_published_formulas_are_described_like_the_derived_ones() -> None:
 
 @pytest.mark.parametrize("module", WITH_EXAMPLES)
 def test_examples_pass(module: str) -> None:
-    found = doctest.testmod(importlib.import_module(f"generated.{module}"))
-    assert found.attempted
-    assert not found.failed
+    outcome = doctest.testmod(importlib.import_module(f"generated.{module}"))
+    assert outcome.attempted
+    assert not outcome.failed

@@ -72,7 +72,7 @@ class Material:
     @cached_property
     def formulas(self) -> dict[str, Record]:
         """All formulas by name."""
-        return {formula.name: formula for _, found in self.steps for formula in found}
+        return {formula.name: formula for _, records in self.steps for formula in records}
 
 
 def _derivation(material: Material) -> dict[str, Any]:

@@ -39,11 +39,11 @@ def test_changed_files_are_reported_with_the_remedy(change: str, tmp_path: Path)
         (copy / "omega.py").write_text(text.replace("np.exp(", "np.cos(", 1))
     else:
         (copy / "extra.py").write_text("")
-    found = compare(copy, expected, "regenerate")
-    assert not found.fresh
+    diagnosis = compare(copy, expected, "regenerate")
+    assert not diagnosis.fresh
     remedy = "rm " if change == "add" else "regenerate"
-    assert f"run: {remedy}" in str(found)
-    assert ("+" in found.diffs["omega.py"]) if change == "edit" else not found.diffs
+    assert f"run: {remedy}" in str(diagnosis)
+    assert ("+" in diagnosis.diffs["omega.py"]) if change == "edit" else not diagnosis.diffs
 
 
 def test_package_needs_only_numpy(tmp_path: Path) -> None:

@@ -137,7 +137,7 @@ def test_wide_formulas_are_split_into_parts(formulas, width: float) -> None:
     for formula in formulas.values():
         text = body(formula, room=width).removeprefix(r"\begin{aligned}")
         lines = text.removesuffix(r"\end{aligned}").split(r"\\")
-        parts = [found[1] for line in lines if (found := re.match(r"\s*& (Z_\d+) = ", line))]
+        parts = [match[1] for line in lines if (match := re.match(r"\s*& (Z_\d+) = ", line))]
         assert parts == [f"Z_{k}" for k in range(1, len(parts) + 1)]
         assert all(typeset_width(line) <= width for line in lines), formula.name
         assert all(fractions_within(line) <= DEEPEST for line in lines)
@@ -204,7 +204,7 @@ def test_estimated_widths_agree_with_tex(formulas, tmp_path: Path) -> None:
         rf"\begin{{document}}{boxes}x\end{{document}}"
     )
     _, log = typeset(source)
-    widths = [float(found) for found in re.findall(r"^W([\d.]+)pt", log, re.MULTILINE)]
+    widths = [float(matches) for matches in re.findall(r"^W([\d.]+)pt", log, re.MULTILINE)]
     assert len(widths) == len(shown)
     ratios = [w / typeset_width(text) for w, text in zip(widths, shown, strict=True)]
     assert sum(not 0.9 < ratio < 1.1 for ratio in ratios) <= len(ratios) // 15
@@ -257,9 +257,9 @@ def test_overfull_boxes_and_warnings_are_found(tmp_path: Path) -> None:
         r"\documentclass{article}\begin{document}\hbox to 10pt{\vrule width 13pt}"
         r"\hbox to 10pt{\vrule width 11pt}\ref{none}\end{document}"
     )
-    found = problems(typeset(path)[1])
-    assert sum(line.startswith("Overfull") for line in found) == 1
-    assert any("none" in line for line in found)
+    actual = problems(typeset(path)[1])
+    assert sum(line.startswith("Overfull") for line in actual) == 1
+    assert any("none" in line for line in actual)
 
 
 @NEEDS_TEX

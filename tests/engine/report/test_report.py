@@ -118,6 +118,7 @@ def test_plain_text_of_meanings_and_proofs_contains_no_latex(formulas) -> None:
         ("found [kg^2 m^-2]", "found [kg$^{2}$ m$^{-2}$]"),
         ("where x*y is none", "where x*y is none"),
         ("a phi_j of K_j and K_j_bottom", r"a $\phi_j$ of $K_j$ and K\_j\_bottom"),
+        ("sigma_rr times e^(-2 x)/2^-30", r"$\sigma_{rr}$ times $e^{-2 x}$/$2^{-30}$"),
         ("coefficient of P^(5/3) in delta", r"coefficient of $P^{5/3}$ in $\delta$"),
     ],
 )
@@ -213,6 +214,13 @@ def test_estimated_widths_agree_with_tex(formulas, tmp_path: Path) -> None:
 def test_long_sums_are_broken_and_short_ones_are_not(formulas) -> None:
     assert "aligned" in equation("g", formulas["g_j"].expression, PLATE)
     assert "aligned" not in equation("G", formulas["G"].expression, PLATE)
+
+
+def test_sums_count_by_the_index_of_their_symbols(formulas) -> None:
+    for formula in formulas.values():
+        if formula.summed:
+            indices = re.findall(r"(?:\\phi|j)_(\w)", formula.right_hand_side)
+            assert set(indices) <= {formula.sum_sign[len(r"\sum_{")]}, formula.name
 
 
 def test_every_derivation_step_and_formula_is_in_the_report(formulas) -> None:

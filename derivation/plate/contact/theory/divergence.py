@@ -143,7 +143,7 @@ def influence_at_infinity() -> Formula:
     assert found.leading is not None, "K_j does not oscillate"
     proof = prove(
         "Influence at infinity",
-        r"With $J_1(j_n)^2 = 2/(\pi j_n) \phi^3 K_j$ depends on $\phi h$ alone, and its limit "
+        r"With $J_1(j_n)^2 \to 2/(\pi j_n)$, $\phi^3 K_j$ depends on $\phi h$ alone, and its limit "
         r"for $\phi h \to \infty$ is the ratio of leading coefficients.",
         {"limit": limit - found.leading, "exponent": found.exponent},
     )

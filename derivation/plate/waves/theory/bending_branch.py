@@ -95,7 +95,7 @@ def rise_anywhere() -> Proof:
         {
             "S^2": in_sines(change(total**2) + in_p_and_q(kap * total * (gam / p + 1 / q))),
             "d^2": in_sines(change(apart**2) - in_p_and_q(kap * apart * (1 / q - gam / p))),
-            "steep": in_sines(steep + w * change(quotient()) / in_p_and_q(quotient())),
+            "slope": in_sines(steep + w * change(quotient()) / in_p_and_q(quotient())),
         },
     )
 
@@ -325,7 +325,7 @@ def thin_plates() -> tuple[Formula, ...]:
             "residue": _below(1 + residue * change.subs(slope, found), s),
             "Kirchhoff": sp.cancel(kirchhoff - x_h**4 * rows[0][0]),
             "mass": residue.subs(s, 0) - sp.Rational(1, 2),
-            "whole deflection": fraction[0] - 1,
+            "total deflection": fraction[0] - 1,
         },
     )
     lines = (

@@ -16,7 +16,8 @@ from derivation.engine.files import measurements
 from derivation.scene import motion, waves
 from derivation.scene.effect_selection import decide
 from derivation.scene.effects import EFFECTS
-from derivation.scene.effects.inertia import higher_branch_error, weight_work_ratio
+from derivation.scene.effects.effect import weight_work_ratio
+from derivation.scene.effects.inertia import higher_branch_error
 from derivation.scene.impact import selected_effects
 from derivation.scene.law import ContactLaw
 from derivation.scene.limits import zener_number

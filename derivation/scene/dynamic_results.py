@@ -8,8 +8,8 @@ from derivation.scene.collocation import Element, largest_of
 from derivation.scene.contact_sequence import ContactRun, ImpactHistory
 from derivation.scene.dynamic_energy import balance_of
 from derivation.scene.dynamic_problem import DynamicProblem
-from derivation.scene.effects.effect import Results
-from derivation.scene.effects.inertia import after_yield, higher_branch_error, weight_work_ratio
+from derivation.scene.effects.effect import Results, weight_work_ratio
+from derivation.scene.effects.inertia import after_yield, higher_branch_error
 from derivation.scene.law import ContactLaw
 from derivation.scene.motion import EnergyBalance
 from derivation.scene.time_element import A, P, Z

@@ -22,8 +22,9 @@ from derivation.scene.effects.effect import (
     LawSamples,
     Numbers,
     PlateEffect,
+    weight_work_ratio,
 )
-from derivation.scene.effects.inertia import WIDER, least_restitution, weight_work_ratio
+from derivation.scene.effects.inertia import WIDER, least_restitution
 from derivation.scene.effects.plasticity import plastic_depth
 from derivation.scene.effects.viscosity import (
     inverse_restitution,

@@ -16,7 +16,8 @@ from derivation.cli import main
 from derivation.engine.files import measurements
 from derivation.scene import limits, waves
 from derivation.scene.effect_selection import SelectedEffects, decide
-from derivation.scene.effects.inertia import higher_branch_error, weight_work_ratio
+from derivation.scene.effects.effect import weight_work_ratio
+from derivation.scene.effects.inertia import higher_branch_error
 from derivation.scene.law import ContactLaw
 from derivation.scene.limits import zener_number
 from derivation.scene.model import Model, model_of

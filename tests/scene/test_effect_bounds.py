@@ -2,6 +2,7 @@
 
 import math
 import random
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from derivation.scene.effect_selection import OUTPUTS, decide
 from derivation.scene.effects import BY_NAME, EFFECTS
 from derivation.scene.effects.effect import BoundContext, PlateEffect
 from derivation.scene.law import ContactLaw
+from derivation.scene.method_selection import moved
 from derivation.scene.model import Model
 from derivation.scene.motion import Motion
 
@@ -122,6 +124,32 @@ def test_bounds_hold_with_non_hertzian_pressure(name: str) -> None:
     # The bound of the spherical profile is known for Hertz's pressure only.
     flat = decide(m, AT_REST | wanted | {"spherical_profile": False}, 1.0)
     assert {row.name: row.bound for row in flat.rows}["spherical_profile"] == math.inf
+
+
+@pytest.mark.parametrize("weight", [0.0, 0.2, 0.38])
+def test_bound_of_plasticity_holds_under_the_weight(weight: float) -> None:
+    """The work of the weight also deforms the contact; the restitution follows from energies."""
+    m = model(h=50.0, b=50.0)
+    xi = 1.05  # Hertz's radius of the force over that at the onset of yield
+    depth = (2 * xi**3 + 1) / 3  # in units of the indentation at the onset
+    recovered = xi**3 / math.sqrt(depth)
+    # In units of the energy at the onset; force times indentation there is 5/2 of it.
+    reached, lost = 1 + 5 / 6 * (xi**6 - 1), 1 + 5 / 6 * (xi**6 - 1) - xi**3 * recovered
+    kinetic = reached - 2.5 * weight * depth
+    speed = 1e-3
+    onset = 0.5 * m.m * speed**2 / kinetic
+    a = (15 / 8 * onset * m.R**2 / m.modulus) ** 0.2
+    m = replace(
+        m, v0=speed, gravity=weight * 4 / 3 * m.modulus * a**3 / m.R / m.m,
+        yield_stress=2 * m.modulus * a / (math.pi * m.R) / 1.6,
+    )  # fmt: skip
+    e = math.sqrt(1 - (lost - 2.5 * weight * (depth - recovered)) / kinetic)
+    law = ContactLaw(m, frozenset({"hertz", "plasticity", "gravity"}))
+    assert moved(law).numbers[-1] == pytest.approx(e, rel=1e-9)
+    wanted = {e.name: e.name in ("hertz", "gravity") for e in EFFECTS}
+    rows = decide(m, wanted, 1.0, ("restitution",)).rows
+    [row] = [row for row in rows if row.name == "plasticity"]
+    assert 1 - e <= row.bound < math.inf
 
 
 @pytest.mark.parametrize("edge", ["simply-supported", "clamped"])

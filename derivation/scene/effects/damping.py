@@ -13,6 +13,7 @@ from derivation.scene.effects.effect import (
     Effect,
     Numbers,
     none_of,
+    weight_work_ratio,
 )
 from derivation.scene.effects.inertia import (
     SENSITIVITY,
@@ -22,7 +23,6 @@ from derivation.scene.effects.inertia import (
     dissipated,
     dynamic_deviation,
     total_deviation,
-    weight_work_ratio,
 )
 from derivation.scene.effects.plasticity import plastic_restitution
 from derivation.scene.effects.viscosity import viscous_number

@@ -317,6 +317,15 @@ class PlateEffect(Effect):
         raise NotImplementedError
 
 
+def weight_work_ratio(model: Model, depth: Numbers) -> Numbers:
+    """Return the work of the weight over the kinetic energy [1], at a largest indentation [m].
+
+    The weight accelerates the sphere during contact. The plate takes a fraction of the kinetic
+    energy and of this work, but the restitution refers to the initial kinetic energy alone.
+    """
+    return 2.0 * model.gravity * depth / model.v0 / model.v0
+
+
 def none_of(a: Array) -> Array:
     """Return zeros for all radii."""
     return np.zeros_like(a)

@@ -2,8 +2,13 @@
 
 import numpy as np
 
-from derivation.scene.effects.effect import Bound, BoundContext, Effect, none_of
-from derivation.scene.effects.inertia import weight_work_ratio
+from derivation.scene.effects.effect import (
+    Bound,
+    BoundContext,
+    Effect,
+    none_of,
+    weight_work_ratio,
+)
 from derivation.scene.effects.plasticity import plastic_depth
 from derivation.scene.model import Model
 from derivation.scene.scene import Scene

@@ -16,6 +16,7 @@ from derivation.scene.effects.effect import (
     Effect,
     Numbers,
     none_of,
+    weight_work_ratio,
 )
 from derivation.scene.effects.finite_thickness import WHOLE_PLATE
 from derivation.scene.effects.plasticity import plastic_restitution
@@ -149,15 +150,6 @@ class PlateInertia(Effect):
             f"requires {part}, got false; remove effects.{part}, or set effects.inertia = false "
             "for a quasi-static plate"
         )
-
-
-def weight_work_ratio(model: Model, depth: Numbers) -> Numbers:
-    """Return the work of the weight over the kinetic energy [1], at a largest indentation [m].
-
-    The weight accelerates the sphere during contact. The plate takes a fraction of the kinetic
-    energy and of this work, but the restitution refers to the initial kinetic energy alone.
-    """
-    return 2.0 * model.gravity * depth / model.v0 / model.v0
 
 
 def least_restitution(model: Model) -> Numbers:

@@ -5,13 +5,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from derivation.scene.effects.effect import Array, Bound, BoundContext, Effect, Numbers
+from derivation.scene.effects.effect import (
+    Array,
+    Bound,
+    BoundContext,
+    Effect,
+    Numbers,
+    weight_work_ratio,
+)
 from derivation.scene.model import Model
 
 if TYPE_CHECKING:
     from derivation.scene.law import ContactLaw
 
-_LARGEST = 1e50
+_LARGEST, _SMALLEST = 1e50, 1e-50
 
 
 class Plasticity(Effect):
@@ -38,13 +45,13 @@ class Plasticity(Effect):
     def bound(self, model: Model, context: BoundContext) -> Bound:
         """Return the bound on a half-space, where S is xi on loading and c on unloading.
 
-        An elastic plate decreases the change.
+        An elastic plate decreases the change. The work of the weight adds to the energy.
         """
         from generated.plasticity_kernels import unloaded
 
         ratio = _over_onset(model, context)
         flat = float(unloaded(np.maximum(ratio[-1], 1.0))[0])
-        slower = -math.log(float(_restitution(ratio)[0]))
+        slower = -math.log(max(float(_restitution(model, context, ratio).item()), _SMALLEST))
         return Bound(
             np.full_like(ratio, 1.0 - flat),
             np.maximum(ratio - 1.0, 0.0),
@@ -58,10 +65,10 @@ class Plasticity(Effect):
 
 
 def plastic_restitution(model: Model, context: BoundContext) -> Numbers:
-    """Return the restitution of the plastic contact on a half-space [1]; 1 of an elastic one."""
+    """Return the least restitution of the plastic contact [1]; 1 of an elastic one."""
     if not np.any(np.isfinite(model.yield_stress)):
         return 1.0
-    return _restitution(_over_onset(model, context))
+    return _restitution(model, context, _over_onset(model, context))
 
 
 def plastic_depth(model: Model, context: BoundContext) -> Numbers:
@@ -80,12 +87,19 @@ def plastic_depth(model: Model, context: BoundContext) -> Numbers:
     return context.depth * (float(deeper.item()) if deeper.ndim == 1 else deeper)
 
 
-def _restitution(ratio: Array) -> Array:
-    """Return the restitution for the last of Hertz's radii over that at the onset of yield [1]."""
+def _restitution(model: Model, context: BoundContext, ratio: Array) -> Array:
+    """Return the least restitution for the last of Hertz's radii over that at the onset [1].
+
+    On a half-space plastic work takes a fraction of the energy of the contact, which is the kinetic
+    energy and the work of the weight; the restitution refers to the kinetic energy alone.
+    """
     from generated.plasticity_kernels import worked
 
-    restitution: Array = worked(np.maximum(ratio[..., -1:], 1.0))[1]
-    return restitution
+    kept = worked(np.maximum(ratio[..., -1:], 1.0))[1]
+    energy = 1.0 + weight_work_ratio(model, plastic_depth(model, context))
+    lost = energy * (1.0 - np.square(kept))
+    # Without weight the restitution itself, to the last bit.
+    return np.where(energy > 1.0, np.sqrt(np.maximum(1.0 - lost, 0.0)), kept)
 
 
 def _over_onset(model: Model, context: BoundContext) -> Array:

@@ -88,7 +88,7 @@ def _through(expression: sp.Expr) -> sp.Expr:
 @cache
 def states() -> tuple[PlateState, PlateState]:
     """Return extension and bending for e = k = 1, proved to balance and to leave the faces free."""
-    found = []
+    pair = []
     for name, u, w in (
         ("Stretching", r, -2 * RATIO * z),
         ("Bending", r * z, (b**2 - r**2) / 2 - RATIO * z**2),
@@ -110,8 +110,8 @@ def states() -> tuple[PlateState, PlateState]:
                 "moment": moment - (0 if name == "Stretching" else 2 * h**3 / 3 * stiff),
             },
         )
-        found.append(PlateState(u, w, sp.factor(force), sp.factor(moment)))
-    stretching, bending = found
+        pair.append(PlateState(u, w, sp.factor(force), sp.factor(moment)))
+    stretching, bending = pair
     return stretching, bending
 
 

@@ -289,9 +289,9 @@ def peaks() -> Claims:
 @named_routine
 def elasticities() -> Claims:
     """Return logarithmic derivatives of work, indentation and time by the largest radius."""
-    found = exponents(fall, rise)
+    powers = exponents(fall, rise)
     return Claims(
-        (fall, rise), (), tuple(found.values()), tuple(exponents(fall, rise).values()), {}
+        (fall, rise), (), tuple(powers.values()), tuple(exponents(fall, rise).values()), {}
     )
 
 

@@ -222,7 +222,7 @@ def motion_of_the_edge() -> Proof:
     """
     whole, rest, constant, rise = sp.symbols("W I N_0 delta_a", positive=True)
     # (I + rest) psi = 1 - N_0 int psi, hence psi is (1 - N_0 W) times that of the rest.
-    (found,) = sp.solve(whole - (1 - constant * whole) * rest, whole)
+    (stiffness,) = sp.solve(whole - (1 - constant * whole) * rest, whole)
     force = 2 * sp.pi * _MODULUS / sp.pi * rise * whole
     return prove(
         "Stiffness of the contact",
@@ -230,7 +230,7 @@ def motion_of_the_edge() -> Proof:
         "kernel is separated.",
         {
             "stiffness": force / rise - 2 * _MODULUS * whole,
-            "compliances in series": 1 / (2 * _MODULUS * found)
+            "compliances in series": 1 / (2 * _MODULUS * stiffness)
             - 1 / (2 * _MODULUS * rest)
             - constant / (2 * _MODULUS),
         },

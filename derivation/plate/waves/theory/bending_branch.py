@@ -306,7 +306,7 @@ def thin_plates() -> tuple[Formula, ...]:
     bending_zero()
     s, slope = sp.symbols("s Y", positive=True)
     rows = thin_powers(ORDER)
-    found, residue = (sp.Add(*(c * s**n for n, c in enumerate(row))) for row in rows)
+    slope_series, residue = (sp.Add(*(c * s**n for n, c in enumerate(row))) for row in rows)
     # B_a with the power series of tanh: the residual is of higher order.
     t = _tanh_powers(ORDER + 3)
     u, v = s - gam * s**2 * slope, s - s**2 * slope
@@ -321,8 +321,8 @@ def thin_plates() -> tuple[Formula, ...]:
         "Bending of thin plates",
         "The power series are inserted into $B_a$ and its slope; $y_0$ is Kirchhoff's plate.",
         {
-            "frequency": _below(stiff.subs(slope, found), s),
-            "residue": _below(1 + residue * change.subs(slope, found), s),
+            "frequency": _below(stiff.subs(slope, slope_series), s),
+            "residue": _below(1 + residue * change.subs(slope, slope_series), s),
             "Kirchhoff": sp.cancel(kirchhoff - x_h**4 * rows[0][0]),
             "mass": residue.subs(s, 0) - sp.Rational(1, 2),
             "total deflection": fraction[0] - 1,

@@ -360,7 +360,7 @@ INVALID_REQUESTS = {
     "given by two names": (("f_j", "C1"), {"at": {"C1": "1", "C_1": "2"}}, "C1 once, got it twice"),
     "value too large": (("Omega_3", "exp(phi*h)"), {"at": {"phi": "1e99"}}, "too large"),
     "hidden zero divisor": (("Omega_3", "1/(sin(h)**2 + cos(h)**2 - 1)"), {}, "division by zero"),
-    "integral": (("F_lateral", "phi"), {}, "defined by an integral"),
+    "integral": (("F_lateral", "phi"), {}, "defined by an integral .* substitute"),
     "whole sum": (("delta", "a**2/R"), {}, "one mode, which depends on J1, phi"),
     "sum times a factor that depends on the mode": (
         ("delta", "phi*Sum(a, (j, 1, oo))"),

@@ -9,7 +9,7 @@ import pytest
 import sympy as sp
 
 from derivation.cli import main
-from derivation.engine.errata.compare import comparable
+from derivation.engine.errata.lookup import comparable
 from derivation.engine.errata.point import default_value, exact_values, parse_point
 from derivation.engine.formula.domain import holds, violated_conditions
 from derivation.engine.formula.parse import FormulaError
@@ -18,7 +18,7 @@ from derivation.plate.elastic import RELATIONS, diagnose_text, lame, relations
 from derivation.plate.vocabulary import ARGUMENTS, PLATE, A_j, E, Formula, P, a, b, lam, mu, nu
 
 CHAIN: Mapping[str, Formula] = derived_formulas()
-COMPARABLE = comparable(CHAIN)
+COMPARABLE = [n for n in comparable(CHAIN) if not CHAIN[n].expression.has(sp.Integral)]
 
 
 @pytest.mark.parametrize("name", COMPARABLE)
@@ -57,7 +57,7 @@ def test_formulas_with_other_symbols_are_rejected_or_compared(name: str, text: s
 def test_quantities_that_cannot_be_compared_are_rejected() -> None:
     others = set(CHAIN) - set(COMPARABLE)
     assert {"radial_ode", "F_lateral", "c_1_roots"} <= others
-    for name in others:
+    for name in others - {"k_lateral", "slope_lateral"}:  # integrals with a proved error
         with pytest.raises(FormulaError, match="cannot be compared"):
             diagnose_text(name, "2", CHAIN)
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import pytest
 import sympy as sp
 
-from derivation.engine.errata.compare import comparable
+from derivation.engine.errata.lookup import comparable
 from derivation.plate.derived import formulas
 from derivation.plate.elastic import diagnose_text
 
@@ -107,7 +107,11 @@ def test_the_argument_of_coth_is_searched() -> None:
 def swaps() -> Iterator[tuple[str, sp.Expr]]:
     """Yield formulas in which one symbol is another one at one place."""
     draw = random.Random(11)
-    names = [n for n in comparable(CHAIN) if CHAIN[n].expression.count_ops() < 40]
+    names = [
+        n
+        for n in comparable(CHAIN)
+        if CHAIN[n].expression.count_ops() < 40 and not CHAIN[n].expression.has(sp.Integral)
+    ]
     while True:
         name = draw.choice(names)
         derived = CHAIN[name].expression

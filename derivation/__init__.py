@@ -88,10 +88,10 @@ def diagnose(
     Examples
     --------
     >>> import platecontact as pc
-    >>> found = pc.diagnose("P", "16*mu*(lam + mu)*a**2/(3*R*(lam + 2*mu))")
-    >>> found.verdict
+    >>> diagnosis = pc.diagnose("P", "16*mu*(lam + mu)*a**2/(3*R*(lam + 2*mu))")
+    >>> diagnosis.verdict
     'different'
-    >>> found.repair
+    >>> diagnosis.repair
     'read a**3 instead of a**2'
     """
     from derivation.plate import derived

@@ -72,11 +72,11 @@ def check_contact(progress: Progress = quiet) -> CheckResult:
 
 def contact_data(rows: tuple[ContactRow, ...]) -> dict[str, Any]:
     """Return the rows of the contact law as plain data, with their provenance."""
-    found = [
+    data = [
         asdict(row) | {"double": _short(row.double), "single": row.single and _short(row.single)}
         for row in rows
     ]
-    return {"provenance": provenance(DIGITS, GENERATED), "limit": LIMIT, "rows": plain(found)}
+    return {"provenance": provenance(DIGITS, GENERATED), "limit": LIMIT, "rows": plain(data)}
 
 
 def _short(errors: Errors) -> dict[str, Any]:

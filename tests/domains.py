@@ -53,7 +53,7 @@ def violations(name: str) -> Iterator[tuple[str, Values]]:
     base = {key: EXAMPLE[key] for key in names}
     for condition in conditions(name):
         assert holds(condition, base)
-        found = []
+        actual = []
         for key in set(re.findall(r"[A-Za-z]\w*", condition)) & set(names):
             for value in (
                 0.0,
@@ -64,6 +64,6 @@ def violations(name: str) -> Iterator[tuple[str, Values]]:
                 divisible = changed.get("b", 1) != 0
                 broken = [c for c in conditions(name) if divisible and not holds(c, changed)]
                 if condition in broken or (condition in ("b > 0", "b != 0") and not divisible):
-                    found.append((len(broken), condition, changed))
-        fewest = min(count for count, _, _ in found)
-        yield from ((condition, changed) for count, _, changed in found if count == fewest)
+                    actual.append((len(broken), condition, changed))
+        fewest = min(count for count, _, _ in actual)
+        yield from ((condition, changed) for count, _, changed in actual if count == fewest)

@@ -43,8 +43,8 @@ def evaluator(expression: sp.Expr) -> Callable[[Numbers], mp.mpf]:
     return lambda numbers: call(*(numbers[str(symbol)] for symbol in symbols))
 
 
-def close(found: mp.mpf, expected: mp.mpf, tolerance: float = 1e-18) -> bool:
-    return bool(abs(found - expected) <= tolerance * abs(expected))
+def close(actual: mp.mpf, expected: mp.mpf, tolerance: float = 1e-18) -> bool:
+    return bool(abs(actual - expected) <= tolerance * abs(expected))
 
 
 def number(ball: object) -> mp.mpf:
@@ -108,8 +108,8 @@ def by_route(name: str) -> Check:
 @cache
 def zeros(count: int) -> tuple[Numbers, ...]:
     with mp.workdps(DIGITS):
-        found = [mp.besseljzero(0, n) for n in range(1, count + 1)]
-        return tuple({"j_n": j, "J1": mp.besselj(1, j)} for j in found)
+        actual = [mp.besseljzero(0, n) for n in range(1, count + 1)]
+        return tuple({"j_n": j, "J1": mp.besselj(1, j)} for j in actual)
 
 
 def summed(expression: sp.Expr, numbers: Numbers, count: int = 34) -> mp.mpf:
@@ -203,8 +203,8 @@ def by_lateral(_: str) -> Check:
         (height,) = integral.variables
         call = sp.lambdify((height, "alpha"), factor * integral.function, "scipy")
         with np.errstate(all="ignore"):
-            found = (weights * 1.8 * 3 * u**2 * call(u**3, 0.6)).sum()
-        return bool(abs(found / expected - 1) < 1e-6)
+            actual = (weights * 1.8 * 3 * u**2 * call(u**3, 0.6)).sum()
+        return bool(abs(actual / expected - 1) < 1e-6)
 
     return passes
 

@@ -50,15 +50,15 @@ class CaseCheck(NamedTuple):
 
     def holds(self, kernels: Mapping[str, Kernel]) -> bool:
         """Return whether values, type and shape of the results are correct, without warnings."""
-        found, problem = hard._results(
+        actual, problem = hard._results(
             self.case, kernels[self.case.kernel], len(self.expected), self.references
         )
-        if problem or found.shape != self.expected.shape or found.dtype != self.case.format.name:
+        if problem or actual.shape != self.expected.shape or actual.dtype != self.case.format.name:
             return False
         with np.errstate(all="ignore"):
-            near = np.abs(found - self.expected) <= self.allowed
+            near = np.abs(actual - self.expected) <= self.allowed
         return bool(
-            (near | (found == self.expected) | (np.isnan(found) & np.isnan(self.expected))).all()
+            (near | (actual == self.expected) | (np.isnan(actual) & np.isnan(self.expected))).all()
         )
 
 
@@ -104,10 +104,10 @@ class Layouts(NamedTuple):
             (np.resize(a, 1200), 0.9, many), (a[:, :2], 0.9, few[:2]), (a[:, :2], few[:2] + 1, 0.1),
         ]  # fmt: skip
         for radii, R, h in layouts:
-            found = call(radii, R, h, 1.0)
+            result = call(radii, R, h, 1.0)
             sampled = [x.ravel()[::37].tolist() for x in np.broadcast_arrays(radii, R, h)]
             alone = [call(*one, 1.0) for one in zip(*sampled, strict=True)]
-            if not np.allclose(found.ravel()[::37], alone, rtol=1e-14, atol=0.0):
+            if not np.allclose(result.ravel()[::37], alone, rtol=1e-14, atol=0.0):
                 return False
         return True
 
@@ -135,10 +135,10 @@ def imports(name: str) -> frozenset[str]:
 def users(name: str) -> tuple[str, ...]:
     """Return the modules that depend on a module, each after those on which it depends."""
     every = {path.stem for path in (ROOT / "generated").glob("*.py")} - {"__init__", "manifest"}
-    found = {name}
-    while more := {other for other in every - found if imports(other) & found}:
-        found |= more
-    order, left = list[str](), found - {name}
+    actual = {name}
+    while more := {other for other in every - actual if imports(other) & actual}:
+        actual |= more
+    order, left = list[str](), actual - {name}
     while left:
         order += sorted(other for other in left if not imports(other) & left)
         left -= {*order}
@@ -205,14 +205,14 @@ def survivors(name: str) -> dict[str, list[str]]:
     assert checks
     with replaced(name, source(name)) as kernels:
         assert all(check.holds(kernels) for check in checks)
-    found: dict[str, list[str]] = {}
+    actual: dict[str, list[str]] = {}
     for mutant in of_module(source(name)):
         detecting = _detecting_check(name, mutant.tree, checks)
         if detecting is None:
-            found.setdefault(mutant.home, []).append(mutant.change)
+            actual.setdefault(mutant.home, []).append(mutant.change)
         else:  # the check that has detected one is likely to detect the next
             checks.insert(0, checks.pop(detecting))
-    return found
+    return actual
 
 
 def _detecting_check(name: str, tree: ast.Module, checks: list[Check]) -> int | None:

@@ -26,12 +26,12 @@ def of_expression(expression: sp.Expr) -> list[Mutant]:
     Each node of the tree is changed in turn. Mutants that SymPy finds equal to the expression, such
     as cosh(-x), and repeated mutants are omitted.
     """
-    found = {expression: ""}
+    actual = {expression: ""}
     for path, node in _places(expression):
         for what, new in _changes(node):
             mutant = replaced(expression, path, new)
-            found.setdefault(mutant, f"{what}: {node}")
-    return [Mutant(name, mutant) for mutant, name in found.items() if name]
+            actual.setdefault(mutant, f"{what}: {node}")
+    return [Mutant(name, mutant) for mutant, name in actual.items() if name]
 
 
 def _places(

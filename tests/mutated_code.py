@@ -53,20 +53,20 @@ class ExpectedResult:
     least: float = 0.0
 
     def holds(self, module: ModuleType) -> bool:
-        found = np.asarray(self.call(module), dtype=float)
-        return close(found, np.asarray(self.expected, dtype=float), self.tolerance, self.least)
+        actual = np.asarray(self.call(module), dtype=float)
+        return close(actual, np.asarray(self.expected, dtype=float), self.tolerance, self.least)
 
 
 def close(
-    found: np.ndarray, expected: np.ndarray, tolerance: float = TOLERANCE, least: float = 0.0
+    values: np.ndarray, expected: np.ndarray, tolerance: float = TOLERANCE, least: float = 0.0
 ) -> bool:
     """Return whether errors are within the tolerance times the expected value, or times `least`."""
-    if found.shape != expected.shape:
+    if values.shape != expected.shape:
         return False
     with np.errstate(invalid="ignore"):
         allowed = tolerance * np.maximum(np.abs(expected), least)
-        near = np.isfinite(expected) & (np.abs(found - expected) <= allowed)
-    return bool((near | (found == expected) | (np.isnan(found) & np.isnan(expected))).all())
+        near = np.isfinite(expected) & (np.abs(values - expected) <= allowed)
+    return bool((near | (values == expected) | (np.isnan(values) & np.isnan(expected))).all())
 
 
 def compiled(tree: ast.Module | str, name: str, users: Sequence[str] = ()) -> ModuleType:
@@ -139,12 +139,12 @@ def undetected(name: str, tests: ModuleTests) -> dict[str, list[str]]:
     """Return the mutants of each function or constant of which more pass than allowed."""
     text, cases = source(name), tests.cases()
     assert passes(text, name, tests, cases)
-    found: dict[str, list[str]] = {}
+    actual: dict[str, list[str]] = {}
     homes = set()
     for mutant in of_module(text):
         homes.add(mutant.home)
         if passes(mutant.tree, name, tests, cases):
-            found.setdefault(mutant.home, []).append(mutant.change)
+            actual.setdefault(mutant.home, []).append(mutant.change)
     assert tests.may_pass.keys() <= homes, "the module does not contain these names"
     most = {home: count for home, (count, _) in (ANYWHERE | tests.may_pass).items()}
-    return {home: changes for home, changes in found.items() if len(changes) > most.get(home, 0)}
+    return {home: changes for home, changes in actual.items() if len(changes) > most.get(home, 0)}

@@ -23,7 +23,7 @@ SETTINGS = tomllib.loads((Path(__file__).parent.parent / "pyproject.toml").read_
 
 def blanked(text: str) -> str:
     """Return the text with dashes in place of code, formulas and addresses of links."""
-    return CODE.sub(lambda found: re.sub(r"[^\n]", "-", found[0]), text)
+    return CODE.sub(lambda match: re.sub(r"[^\n]", "-", match[0]), text)
 
 
 def findings(name: str, text: str) -> Iterator[str]:
@@ -39,10 +39,10 @@ def findings(name: str, text: str) -> Iterator[str]:
             **DEFAULT["checks"],
         },  # specific first
     )
-    file = LintFile(name, HEADING.sub(lambda found: "-" * len(found[0]), text))
-    for found in file.lint(config):
-        line, _ = file.line_col_of(found.check_result.span[0])
-        yield f"{name}:{line}: {found.check_result.message}"
+    file = LintFile(name, HEADING.sub(lambda match: "-" * len(match[0]), text))
+    for problem in file.lint(config):
+        line, _ = file.line_col_of(problem.check_result.span[0])
+        yield f"{name}:{line}: {problem.check_result.message}"
     for word, remedy in SETTINGS["words"].items():
         for match in re.finditer(rf"\b{word}\b".replace(" ", r"\s+"), text, re.IGNORECASE):
             line = text.count("\n", 0, match.start()) + 1
@@ -57,13 +57,13 @@ def pages(paths: list[Path]) -> Iterator[Path]:
 
 def main() -> int:
     """Print all findings; return 1 if there are any."""
-    found = [
+    problems = [
         line
         for page in pages([Path(argument) for argument in sys.argv[1:]])
         for line in findings(str(page), page.read_text())
     ]
-    print("\n".join(found) or "prose: nothing found")
-    return bool(found)
+    print("\n".join(problems) or "prose: nothing found")
+    return bool(problems)
 
 
 if __name__ == "__main__":

@@ -81,18 +81,18 @@ def watched(texts: Mapping[ModuleType, str]) -> Iterator[Watch]:
     Arguments of `inside`, conditions that raise an error or end a loop, and operators like ``in``
     are not recorded.
     """
-    watch, found = Watch(), {}
+    watch, actual = Watch(), {}
     with ExitStack() as stack:
         for module, text in texts.items():
             counting = _Counting(module.__name__.rpartition(".")[2], watch)
             tree = ast.fix_missing_locations(counting.visit(ast.parse(text)))
             file = str(module.__file__)
             for code in _codes(compile(tree, file, "exec")):
-                found[file, code.co_qualname, code.co_firstlineno] = code
+                actual[file, code.co_qualname, code.co_firstlineno] = code
             stack.enter_context(patch.object(module, COUNTER, counting.compared, create=True))
         for function in [x for x in gc.get_objects() if isinstance(x, FunctionType)]:
             old = function.__code__
-            new = found.get((old.co_filename, old.co_qualname, old.co_firstlineno))
+            new = actual.get((old.co_filename, old.co_qualname, old.co_firstlineno))
             if new is not None:
                 stack.callback(setattr, function, "__code__", old)
                 function.__code__ = new
@@ -115,9 +115,9 @@ class _Counting(ast.NodeTransformer):
 
     def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
         outer, self.home = self.home, f"{self.home}.{node.name}"
-        found = self.generic_visit(node)
+        actual = self.generic_visit(node)
         self.home = outer
-        return found
+        return actual
 
     def visit_If(self, node: ast.If) -> ast.AST:
         if len(node.body) == 1 and isinstance(node.body[0], ast.Raise | ast.Break):

@@ -45,13 +45,13 @@ assert not heavy, heavy
 def test_every_package_is_installed() -> None:
     with (ROOT / "pyproject.toml").open("rb") as stream:
         listed = set(tomllib.load(stream)["tool"]["setuptools"]["packages"])
-    found = {
+    actual = {
         ".".join(path.parent.relative_to(ROOT).parts)
         for folder in ("derivation", "generated")
         for path in (ROOT / folder).rglob("__init__.py")
     }
     # The public API is installed under the distribution's name.
-    assert listed == found - {"derivation.api"} | {"derivation.data", "platecontact"}
+    assert listed == actual - {"derivation.api"} | {"derivation.data", "platecontact"}
 
 
 def test_every_imported_package_is_a_dependency() -> None:
@@ -66,10 +66,10 @@ def test_every_imported_package_is_a_dependency() -> None:
         if "benchmark" in path.parts:
             continue
         for node in ast.walk(ast.parse(path.read_text())):
-            found = [a.name for a in node.names] if isinstance(node, ast.Import) else []
+            actual = [a.name for a in node.names] if isinstance(node, ast.Import) else []
             if isinstance(node, ast.ImportFrom) and not node.level:
-                found = [node.module or ""]
-            assert {name.partition(".")[0] for name in found} <= allowed, path
+                actual = [node.module or ""]
+            assert {name.partition(".")[0] for name in actual} <= allowed, path
 
 
 SHARED = {"Formula": "the class of a paper's formulas has this name in every paper"}
@@ -78,13 +78,13 @@ SHARED = {"Formula": "the class of a paper's formulas has this name in every pap
 
 def test_class_names_are_unique() -> None:
     """Public names in `scene` and names in the copied modules are excluded."""
-    found: dict[str, list[Path]] = {}
+    actual: dict[str, list[Path]] = {}
     for path in sorted((ROOT / "derivation").rglob("*.py")):
         if not {"scene", "runtime"} & set(path.parts):
             for node in ast.parse(path.read_text()).body:
                 if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
-                    found.setdefault(node.name, []).append(path)
-    assert {name for name, paths in found.items() if len(paths) > 1} == set(SHARED)
+                    actual.setdefault(node.name, []).append(path)
+    assert {name for name, paths in actual.items() if len(paths) > 1} == set(SHARED)
 
 
 def test_citation_states_the_version() -> None:

@@ -15,13 +15,13 @@ class WithinUlp(NamedTuple):
     ulp: float
 
     def holds(self, module: ModuleType) -> bool:
-        found = np.asarray(self.call(module))
-        if found.shape != self.expected.shape or found.dtype != self.expected.dtype:
+        actual = np.asarray(self.call(module))
+        if actual.shape != self.expected.shape or actual.dtype != self.expected.dtype:
             return False
         with np.errstate(all="ignore"):
-            close = np.abs(found - self.expected) <= self.ulp * np.spacing(np.abs(self.expected))
+            close = np.abs(actual - self.expected) <= self.ulp * np.spacing(np.abs(self.expected))
         return bool(
-            (close | (found == self.expected) | (np.isnan(found) & np.isnan(self.expected))).all()
+            (close | (actual == self.expected) | (np.isnan(actual) & np.isnan(self.expected))).all()
         )
 
 
@@ -32,8 +32,8 @@ def expected(
     values = np.array([[float(x) for x in np.atleast_1d(row)] for row in exact])
     values = values[:, 0] if values.shape[1] == 1 else values.T
     columns = [np.array(column, dtype=float) for column in zip(*points, strict=True)]
-    found = [WithinUlp(lambda m: getattr(m, name)(*columns), values, ulp)]
+    actual = [WithinUlp(lambda m: getattr(m, name)(*columns), values, ulp)]
     for index, point in enumerate(points):
         one = np.float64(values[..., index])
-        found.append(WithinUlp(lambda m, point=point: getattr(m, name)(*point), one, ulp))
-    return found
+        actual.append(WithinUlp(lambda m, point=point: getattr(m, name)(*point), one, ulp))
+    return actual

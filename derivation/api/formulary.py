@@ -98,8 +98,8 @@ def rewrite(formula: str, variable: str = "x") -> Rewritten:
     Examples
     --------
     >>> import platecontact as pc
-    >>> found = pc.rewrite("(x - sin(x))/x**3")
-    >>> found.tested.limit < 8
+    >>> stable = pc.rewrite("(x - sin(x))/x**3")
+    >>> stable.tested.limit < 8
     True
     >>> "R" in pc.rewrite("R - sqrt(R**2 - a**2)").source
     True

@@ -109,10 +109,9 @@ def progress_bar(name: str) -> Iterator[Progress]:
 @contextmanager
 def search_clock(name: str) -> Iterator[Callable[[str, int, float], None]]:
     """Show a clock for a search; yield the function that reports name, count and worst ratio."""
-    columns = (TextColumn(name), SpinnerColumn(), TimeElapsedColumn())
-    with Display(
-        *columns, TextColumn("{task.description}", markup=False), console=NOTES, transient=True
-    ) as bar:
+    now = TextColumn("{task.description}", markup=False)
+    columns = (TextColumn(name), SpinnerColumn(), TimeElapsedColumn(), now)
+    with Display(*columns, console=NOTES, transient=True, disable=not NOTES.is_terminal) as bar:
         task = bar.add_task("", total=None)
         yield lambda name, count, worst: bar.update(
             task, description=f"{count} points, worst ratio {worst:.3g}, now {name}"

@@ -21,7 +21,7 @@ and from the contact law to the motion:
 14 thin plate       the same for h/b -> 0, and a sum over roots that makes it exact
 15 reversion        force as a function of indentation: xi_k (10), p_n
 16 impact           energy integral (13), contact time, linearisation (15) to (18)
-17 sensitivity      slopes of the law; derivatives of an impact by every parameter
+17 sensitivity      slopes of the law; derivatives of an impact with respect to each parameter
 18 substitution     change of an impact if its law is replaced by a simpler one
 19 edge             simply supported or clamped edge instead of the paper's edge
 20 contact pressure non-Hertzian pressure: integral equation, and the error of Hertz pressure

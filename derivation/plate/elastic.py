@@ -69,16 +69,16 @@ def _between(name: str, given: Symbols, derived: Symbols, formulas: Formulas) ->
     """
     meaning = {P: formulas["P"].expression, A_j: formulas["A_j"].expression, T: 2 * phi * h}
     used = given | derived
-    found = {s: meaning[s] for s in meaning if s in used and s.name != name}
-    used = used.union(*(value.free_symbols for value in found.values()))
+    equations = {s: meaning[s] for s in meaning if s in used and s.name != name}
+    used = used.union(*(value.free_symbols for value in equations.values()))
     if E not in used:
-        return found | (relations(used) if mu in used or lam in used else {})
-    if not occurs(derived.union(*(v.free_symbols for v in found.values()))):
+        return equations | (relations(used) if mu in used or lam in used else {})
+    if not occurs(derived.union(*(v.free_symbols for v in equations.values()))):
         raise FormulaError(
             f"E is read as Young's modulus, but {name} depends on no elastic constant; "
             "write exp(1) for the number 2.718..."
         )
-    return found | relations(used)
+    return equations | relations(used)
 
 
 def _with_lame(point: Point) -> Point:

@@ -48,15 +48,15 @@ def stable_forms(formulas: Mapping[str, Record]) -> tuple[Form, ...]:
     """
     known = blocks()
 
-    def found(name: str) -> Shape:
+    def accurate_shape(name: str) -> Shape:
         shape = automatic(formulas[name].expression, known, SCALES, name in CLOSE)
         accurate(formulas[name], *shape, known)
         return shape
 
     groups: dict[str, dict[str, Shape]] = {
-        "omega": {name: found(name) for name in OMEGAS},
-        "influence": {name: found(name) for name in INFLUENCE},
-        "pressure": _pressure() | {name: found(name) for name in ("sonine", "A_j")},
+        "omega": {name: accurate_shape(name) for name in OMEGAS},
+        "influence": {name: accurate_shape(name) for name in INFLUENCE},
+        "pressure": _pressure() | {name: accurate_shape(name) for name in ("sonine", "A_j")},
         "mode_shapes": mode_forms(),
         "modal_sum": {"delta": _indentation(formulas, known)},
     }

@@ -9,12 +9,11 @@ from derivation.engine.errata.compare import (
     DIFFERENT,
     EQUAL,
     Diagnosis,
-    known_formula,
-    resolve,
 )
 from derivation.engine.errata.dimensions import dimension_note
 from derivation.engine.errata.errata import Errata
 from derivation.engine.errata.findings import Finding, Printed
+from derivation.engine.errata.lookup import known_formula, resolve
 from derivation.engine.errata.variant import EXPONENT
 from derivation.engine.formula.notation import to_plain
 from derivation.engine.formula.proof import SYMBOLIC

@@ -9,7 +9,7 @@ import sympy as sp
 from derivation.engine.emit.kernels import (
     AsPrinted,
     EmittedKernel,
-    argument_text,
+    as_printed,
     kernel_of_form,
     rows_by_module,
 )
@@ -23,7 +23,6 @@ from derivation.engine.emit.package import (
     module_files,
 )
 from derivation.engine.emit.printed_fraction import arithmetic_of_modules, expect_printed_fraction
-from derivation.engine.emit.printer import to_numpy
 from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.form import Form
 from derivation.engine.rewrite.truncated_series import truncated_series
@@ -62,7 +61,7 @@ def render(formulas: Mapping[str, Record], forms: tuple[Form, ...]) -> dict[str,
         If a smaller part of its arithmetic is printed than committed.
     """
     kernels = kernel_rows(formulas, forms)
-    planned = modules(kernels)
+    planned = modules(kernels, formulas)
     files = module_files(planned)
     sources = {name.removesuffix(".py"): text for name, text in files.items()}
     expect_printed_fraction(
@@ -86,7 +85,9 @@ def kernel_rows(
     return of_forms + of_sums
 
 
-def modules(kernels: tuple[EmittedKernel, ...]) -> tuple[Planned, ...]:
+def modules(
+    kernels: tuple[EmittedKernel, ...], formulas: Mapping[str, Record]
+) -> tuple[Planned, ...]:
     """Return the template and context of every file (stage 2)."""
     grouped = rows_by_module(kernels)
     known, budgets = blocks() | truncated_series(), read_budgets()
@@ -94,7 +95,7 @@ def modules(kernels: tuple[EmittedKernel, ...]) -> tuple[Planned, ...]:
     listed, others = hand_written_rows(budgets)
     planned: list[Planned] = [
         *common_modules(known),
-        own("as_printed", {"functions": printed_rows()}),
+        own("as_printed", {"functions": printed_rows(formulas)}),
         *(x.make() for x in computed_modules()),
         *(CopiedModule(x.name, x.file, "generated", budgets, x.notes()) for x in runtime_modules()),
         own(
@@ -130,7 +131,7 @@ def own(name: str, context: Mapping[str, Any]) -> Module:
     return Module(name, name, context, TEMPLATES)
 
 
-def printed_rows() -> tuple[AsPrinted, ...]:
+def printed_rows(formulas: Mapping[str, Record]) -> tuple[AsPrinted, ...]:
     """Return the published formulas as functions, without modal sums and composed formulas."""
     rows = []
     for printed in PRINTED:
@@ -138,14 +139,13 @@ def printed_rows() -> tuple[AsPrinted, ...]:
         named = {str(symbol) for symbol in expression.free_symbols}
         if expression.has(sp.besselj) or not named <= set(BY_NAME):
             continue
-        arguments = arguments_of(expression)
         rows.append(
-            AsPrinted(
-                printed.name,
-                f"Evaluate {printed.name} as published.",
+            as_printed(
+                formulas[printed.name],
                 printed.equation,
-                tuple(argument_text(x, named) for x in arguments),
-                to_numpy(expression),
+                expression,
+                arguments_of(expression),
+                "generated.as_printed",
             )
         )
     return tuple(rows)

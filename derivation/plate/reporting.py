@@ -106,7 +106,7 @@ def report_parts(shown: Sequence[str]) -> Parts:
 def report_figures() -> dict[str, Figure]:
     """Return every figure of the report by name."""
     data = {name: json.loads(content) for name, content in measurement().items()}
-    formulas = {formula.name: formula for _, found in chain() for formula in found}
+    formulas = {formula.name: formula for _, records in chain() for formula in records}
     case = paper_case()
     gamma_2 = Consequences(case, formulas).value(formulas["gamma_2"].expression)
     return (

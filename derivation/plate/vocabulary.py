@@ -212,7 +212,7 @@ PLATE = Vocabulary(
     UNKNOWNS,
     aliases={f"C_{k}": c for k, c in enumerate((C1, C2, C3, C4), start=1)} | {"phi_j": phi},
     guests=(Argument(E, "Pa", "E", "Young's modulus of the plate", ("E > 0",)),),
-    short={sp.besselj(1, b * phi): J1},
+    short={sp.besselj(1, b * phi): J1, sp.besselj(1, j_n): J1},
     per_term=frozenset({phi, T, J1, A_j, j_n, k_n, q_j, q_rate, C1, C2, C3, C4}),
     indices="jn",
     values=_VALUES,

@@ -1,13 +1,17 @@
 """Base class of the tables of a scene file, with choices between groups of keys."""
 
+import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
+from inspect import cleandoc
 from numbers import Integral, Real
+from textwrap import fill, indent
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self, TypeGuard
 
 from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 from pydantic.config import JsonDict
+from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError
 
 from derivation.scene.errors import SceneError
@@ -51,6 +55,18 @@ class Table(BaseModel):
                 raise SceneError(f"{where}{in_words(texts)}") from None
 
         __init__.__pydantic_base_init__ = True  # tables within a scene are read without it
+
+    @classmethod
+    def __pydantic_init_subclass__(cls, **_: Any) -> None:
+        """Describe the keys in the docstring of the class, if it describes none itself."""
+        text = cleandoc(cls.__doc__ or "")
+        described = all(field.description for field in cls.model_fields.values())
+        if described and not re.search("^Parameters$", text, re.MULTILINE):
+            keys = [f"{name}\n{_meaning(field)}" for name, field in cls.model_fields.items()]
+            section = "\n".join(["Parameters", "----------", *keys, "", ""])
+            cls.__doc__ = re.sub(
+                r"^(?=Raises$|Examples$)|\Z", section, text, count=1, flags=re.MULTILINE
+            )
 
     @classmethod
     def conflicts(cls, given: Mapping[str, Any]) -> list[str]:
@@ -97,6 +113,16 @@ class Table(BaseModel):
         if rules:
             made["allOf"] = rules
         return made
+
+
+def _meaning(field: FieldInfo) -> str:
+    """Return the description of a key as an indented sentence, with its default value."""
+    text = str(field.description)
+    if field.default is None or field.default_factory is not None:
+        text += "; optional"
+    elif not field.is_required():
+        text += f"; by default {shown(field.default)}"
+    return indent(fill(f"{text[0].upper()}{text[1:]}.", 90), "    ")
 
 
 def _one_of(groups: Groups) -> dict[str, Any]:

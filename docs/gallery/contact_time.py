@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 from generated.impact import impact
 
 h = np.geomspace(0.04, 1.0, 60)
-found = impact(0.13, 72.2, 1.0, h, 1.0, 0.36e9, 0.43e9)
+result = impact(0.13, 72.2, 1.0, h, 1.0, 0.36e9, 0.43e9)
 figure = Figure(figsize=(6.4, 3.8), layout="constrained")
 axes = figure.subplots()
-axes.semilogx(2 * h, 1e3 * found.contact_time)
+axes.semilogx(2 * h, 1e3 * result.contact_time)
 axes.set(xlabel="plate thickness [m]", ylabel="contact time [ms]", title="Contact time")

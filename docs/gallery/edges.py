@@ -17,8 +17,8 @@ for edge in ("simply-supported", "paper", "clamped"):
         plate=pc.Plate(radius=0.3, thickness=0.008, material="glass", edge=edge),
         impact=pc.Impact(speed=1.0),
     )
-    found = pc.indent(scene, force=forces)
-    axes.plot([1e3 * each.indentation for each in found], forces, label=edge)
+    contacts = pc.indent(scene, force=forces)
+    axes.plot([1e3 * each.indentation for each in contacts], forces, label=edge)
 axes.set(
     xlabel="indentation, deflection included [mm]", ylabel="force [N]",
     title="Influence of the edge",

@@ -11,10 +11,10 @@ from generated.non_hertzian_pressure import contact, plate
 
 half_thickness = 0.01
 a = np.linspace(0.05, 5.0, 60) * half_thickness
-found = contact(plate(half_thickness, 0.5), a, 0.13, 1e9)
+contacts = contact(plate(half_thickness, 0.5), a, 0.13, 1e9)
 figure = Figure(figsize=(6.4, 3.8), layout="constrained")
 axes = figure.subplots()
-axes.plot(a / half_thickness, found.centre_pressure / found.mean_pressure, label="thin plate")
+axes.plot(a / half_thickness, contacts.centre_pressure / contacts.mean_pressure, label="thin plate")
 axes.axhline(1.5, color="black", linestyle="--", label="Hertz")
 axes.set(
     xlabel="contact radius / half-thickness [1]", ylabel="centre / mean pressure [1]",

@@ -56,13 +56,13 @@ def _help(name: str, command: Any) -> str:
         f"platecontact {name}", [], resilient_parsing=True, terminal_width=WIDTH,
         max_content_width=WIDTH,
     )  # fmt: skip
-    found: str = command.get_help(context)
-    return found
+    text: str = command.get_help(context)
+    return text
 
 
 def _short(command: Any) -> str:
-    found: str = command.get_short_help_str(200)
-    return found
+    text: str = command.get_short_help_str(200)
+    return text
 
 
 def anchor(name: str) -> str:

@@ -42,13 +42,13 @@ def api() -> str:
 
 def generated() -> str:
     """Return the entries of the generated functions, module by module."""
-    parts, found = [], dict(modules())
+    parts, by_module = [], dict(modules())
     rows = (
         (f"[`{module}`](#module-{module.replace('_', '-')})", _first(module), _links(module, names))
-        for module, names in found.items()
+        for module, names in by_module.items()
     )
     parts.append(table(("module", "content", "functions"), rows))
-    for module, names in found.items():
+    for module, names in by_module.items():
         parts += [
             f"(module-{module.replace('_', '-')})=\n## `generated.{module}`",
             _first(module),

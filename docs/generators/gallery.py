@@ -7,14 +7,20 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
+from matplotlib.rcsetup import cycler
 
-from derivation.engine.report.figures import METADATA
+from derivation.engine.report.figures import COLOURS, METADATA
 from docs.generators.markdown import block
 
 FOLDER = Path(__file__).parent.parent / "gallery"
 FIGURES = FOLDER / "figures"
 """Where figures are written when the site is built; no file of it is committed."""
-STYLE: dict[Any, Any] = {"svg.hashsalt": "platecontact", "axes.grid": True, "grid.alpha": 0.3}
+STYLE: dict[Any, Any] = {
+    "svg.hashsalt": "platecontact",
+    "axes.prop_cycle": cycler(color=COLOURS),
+    "axes.grid": True,
+    "grid.alpha": 0.3,
+}
 
 
 def text() -> str:

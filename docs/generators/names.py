@@ -40,7 +40,7 @@ def anchors() -> Iterator[str]:
     yield from (_key_anchor(key) for key, _ in scene_keys.meanings())
     yield from (effects.anchor(effect) for effect in EFFECTS)
     yield from (
-        f"generated.{module}.{name}" for module, found in functions.modules() for name in found
+        f"generated.{module}.{name}" for module, names in functions.modules() for name in names
     )
     yield from (f"platecontact.{name}" for name in pc.__all__)
     yield from (commands.anchor(name) for name, _ in commands.summaries())

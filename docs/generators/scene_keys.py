@@ -58,8 +58,8 @@ def _definition(schema: Schema, entry: Schema) -> Schema:
     """Return the definition that an entry refers to."""
     options = [entry, *entry.get("anyOf", ()), *entry.get("allOf", ())]
     name = next(option["$ref"] for option in options if "$ref" in option)
-    found: Schema = schema["$defs"][name.rpartition("/")[2]]
-    return found
+    definition: Schema = schema["$defs"][name.rpartition("/")[2]]
+    return definition
 
 
 def _row(name: str, key: str, shape: Schema) -> tuple[str, ...]:

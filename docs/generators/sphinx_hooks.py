@@ -49,16 +49,16 @@ def convert_formulas(_app: Sphinx, tree: nodes.document, _name: str) -> None:
     ExtensionError
         If pandoc cannot read a formula.
     """
-    found = [*tree.findall(nodes.math), *tree.findall(nodes.math_block)]
-    if not found:
+    formulas = [*tree.findall(nodes.math), *tree.findall(nodes.math_block)]
+    if not formulas:
         return
     pieces = [
         f"${node.astext()}$" if isinstance(node, nodes.math) else f"$${node.astext()}$$"
-        for node in found
+        for node in formulas
     ]
     text = f"\n\n{_BREAK}\n\n".join(pieces)
     page = pypandoc.convert_text(text, "html5", format="latex", extra_args=["--mathml"])
-    for node, part in zip(found, page.split(_BREAK), strict=True):
+    for node, part in zip(formulas, page.split(_BREAK), strict=True):
         formula = _MATH.search(part)
         if formula is None:
             raise ExtensionError(f"no MathML for the formula {node.astext()}")
@@ -149,6 +149,6 @@ def check_site(app: Sphinx, error: Exception | None) -> None:
     """
     if error is None and app.builder.name == "html":
         site = Path(app.outdir)
-        found = [*problems(site), *far(site, names.anchors())]
-        if found:
-            raise ExtensionError("\n".join(found))
+        broken = [*problems(site), *far(site, names.anchors())]
+        if broken:
+            raise ExtensionError("\n".join(broken))

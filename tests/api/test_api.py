@@ -2,6 +2,7 @@
 
 import doctest
 import importlib
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -25,6 +26,14 @@ def test_public_names_are_listed_and_documented() -> None:
         assert getattr(platecontact, name).__doc__, name
 
 
+def test_docstrings_of_tables_describe_every_key() -> None:
+    for name in platecontact.__all__:
+        table = getattr(platecontact, name)
+        section = (table.__doc__ or "").partition("Parameters\n")[2].partition("Examples\n")[0]
+        for key in getattr(table, "model_fields", ()):
+            assert re.search(rf"^ *([\w, ]+, )?{key}(,|$)", section, re.MULTILINE), f"{name}.{key}"
+
+
 def test_unknown_name_raises_an_attribute_error() -> None:
     with pytest.raises(AttributeError, match="'platecontact' has no attribute 'simulat'"):
         platecontact.simulat  # noqa: B018
@@ -32,9 +41,9 @@ def test_unknown_name_raises_an_attribute_error() -> None:
 
 @pytest.mark.parametrize("module", ["platecontact", "derivation.scene.export"])
 def test_examples_of_modules_pass(module: str) -> None:
-    found = doctest.testmod(importlib.import_module(module))
-    assert found.attempted > 0
-    assert found.failed == 0
+    outcome = doctest.testmod(importlib.import_module(module))
+    assert outcome.attempted > 0
+    assert outcome.failed == 0
 
 
 @pytest.mark.parametrize("name", platecontact.__all__)
@@ -44,10 +53,10 @@ def test_each_public_name_has_an_example_that_passes(
     """The examples of a class include those of its methods; some read `glass_pane.toml`."""
     copy(["glass_pane"], tmp_path)
     monkeypatch.chdir(tmp_path)
-    found = getattr(platecontact, name)
-    module = importlib.import_module(found.__module__)
+    public = getattr(platecontact, name)
+    module = importlib.import_module(public.__module__)
     runner = doctest.DocTestRunner()
-    for test in doctest.DocTestFinder().find(found, name, module=module, globs=dict(vars(module))):
+    for test in doctest.DocTestFinder().find(public, name, module=module, globs=dict(vars(module))):
         runner.run(test)
     assert runner.tries > 0
     assert runner.failures == 0

@@ -54,10 +54,10 @@ def test_reference_and_rows_have_the_same_results() -> None:
 
 def test_tolerance_is_met_and_its_bound_stated() -> None:
     [trial] = [t for t in dynamic_benchmark.tolerances() if (t.method, t.setting) == ("A0", 5e-3)]
-    found = trial.call()
-    assert found.bound is not None
-    pairs = zip(found.numbers, trial.reference(), strict=True)
-    assert max(abs(x / y - 1) for x, y in pairs) < found.bound <= trial.setting
+    result = trial.call()
+    assert result.bound is not None
+    pairs = zip(result.numbers, trial.reference(), strict=True)
+    assert max(abs(x / y - 1) for x, y in pairs) < result.bound <= trial.setting
 
 
 def test_recorded_benchmark_is_reported() -> None:

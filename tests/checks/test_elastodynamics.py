@@ -71,20 +71,20 @@ def test_static_contact_converges() -> None:
 def test_frequencies_for_the_edge_of_the_paper_are_exact(ratio: float, nu: float) -> None:
     """Natural frequencies are the exact ones, because J0(phi_j r) satisfies this edge condition."""
     plate = Plate(1.0, ratio, 1.0, nu, 1.0)
-    found = System(plate, contactless_mesh(1.0, ratio, 1, 6)).bending_frequencies(4)
+    frequencies = System(plate, contactless_mesh(1.0, ratio, 1, 6)).bending_frequencies(4)
     exact = bending_frequency(bessel_j0_zeros(4) * ratio / 2, nu) * plate.shear_wave_speed
-    np.testing.assert_allclose(found * ratio / 2, exact, rtol=2e-6)
+    np.testing.assert_allclose(frequencies * ratio / 2, exact, rtol=2e-6)
 
 
 def test_frequencies_of_a_thin_clamped_plate() -> None:
     """Frequencies are just below those of a thin plate, lambda^2 sqrt(D/(rho H))/b^2."""
     ratio, nu = 0.01, 0.3
-    found = System(
+    frequencies = System(
         Plate(1.0, ratio, 1.0, nu, 1.0, "clamped"), contactless_mesh(1.0, ratio, 2, 4)
     ).bending_frequencies(2)
     thin = np.array([10.21583, 39.77115]) * ratio / math.sqrt(12.0 * (1.0 - nu**2))
-    assert (found < thin).all()
-    np.testing.assert_allclose(found, thin, rtol=5e-3)
+    assert (frequencies < thin).all()
+    np.testing.assert_allclose(frequencies, thin, rtol=5e-3)
 
 
 def test_contact_time_agrees_with_hertz() -> None:
@@ -144,7 +144,7 @@ def test_momentum_before_the_edge_is_reached() -> None:
 
 
 def test_edge_beyond_the_reach_of_waves_has_no_influence() -> None:
-    found = []
+    actual = []
     for edge in EDGES:
         case = replace(SMALL, plate=replace(PLATE, radius=0.2, edge=edge))
         plate = system(case)
@@ -153,20 +153,20 @@ def test_edge_beyond_the_reach_of_waves_has_no_influence() -> None:
         )
         impact = results(history, plate.contact_radii)
         assert impact.contact_time < case.edge_echo
-        found.append((impact.contact_time, impact.max_force, impact.restitution))
-    np.testing.assert_allclose(found[1:], found[:1] * 2, rtol=1e-7)
+        actual.append((impact.contact_time, impact.max_force, impact.restitution))
+    np.testing.assert_allclose(actual[1:], actual[:1] * 2, rtol=1e-7)
 
 
 def test_results_converge_with_mesh_and_steps() -> None:
-    found = []
+    actual = []
     for grading, steps in ((FINE, 300), (COARSE, 300), (FINE, 100)):
         plate = system(SMALL, grading)
         history = simulate_impact(
             plate, SMALL.sphere, SMALL.time / steps, 9.0 * SMALL.time, until_end=False
         )
         impact = results(history, plate.contact_radii)
-        found.append((impact.max_indentation, impact.max_force, impact.contact_time))
-    best, coarse, long = np.array(found)
+        actual.append((impact.max_indentation, impact.max_force, impact.contact_time))
+    best, coarse, long = np.array(actual)
     assert np.abs(coarse / best - 1.0).max() < 3e-3
     assert np.abs(long / best - 1.0).max() < 2e-3
 

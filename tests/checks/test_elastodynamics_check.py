@@ -105,10 +105,10 @@ def test_program_agrees_with_finite_elements() -> None:
     assert pane.plate.edge == "paper"
     setting = ElementSetting(Grading(contact=6, thickness=1.0, far=3.0, edge=0), 150)
     impact, _ = solve_impact(pane, setting, until_end=False)
-    found = simulated(record.inputs(pane))
+    result = simulated(record.inputs(pane))
     for name in ("contact_time", "max_indentation", "max_force", "restitution"):
-        assert found["values"][name] == pytest.approx(getattr(impact, name), rel=2e-3), name
-    assert (found["branches"], found["contacts"], impact.contacts) == ("all", 1, 1)
+        assert result["values"][name] == pytest.approx(getattr(impact, name), rel=2e-3), name
+    assert (result["branches"], result["contacts"], impact.contacts) == ("all", 1, 1)
 
 
 def row(name: str, contact_time: float, bound: float = 1e-3) -> dict[str, Any]:

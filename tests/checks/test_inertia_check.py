@@ -69,10 +69,10 @@ def test_weight_increases_the_effect_of_inertia() -> None:
     assert lost[1] > 2.0 * lost[0]
     assert lost[1] <= prices[1]
     # The bound on the omitted branches grows with the weight too.
-    found = waves.impact(ContactLaw(heavy, every[1]), 1e-3)
-    a, time = found.max_contact_radius, found.contact_time
+    result = waves.impact(ContactLaw(heavy, every[1]), 1e-3)
+    a, time = result.max_contact_radius, result.contact_time
     assert (
-        found.inertia.omitted_branch_error[-1]
+        result.inertia.omitted_branch_error[-1]
         > work_ratio * higher_branch_error(heavy, a, time)[-1]
     )
 
@@ -107,12 +107,12 @@ def test_violated_bound_is_detected(monkeypatch: pytest.MonkeyPatch) -> None:
         inertia_check, "solve", lambda number, *_: replace(EXACT, number=number, error=0.02)
     )
     monkeypatch.setattr(inertia_check, "reason_to_skip", lambda _: "")
-    found = inertia_check.judge(3)
-    (side,) = measure.sides(found.rows)
+    evaluation = inertia_check.judge(3)
+    (side,) = measure.sides(evaluation.rows)
     assert not side.passed
     assert side.quantity == "max_force"
     assert side.error_over_bound == pytest.approx(20.0)
-    assert found.drawn == 3
+    assert evaluation.drawn == 3
 
 
 def test_rejected_and_skipped_scenes_are_counted(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -121,11 +121,11 @@ def test_rejected_and_skipped_scenes_are_counted(monkeypatch: pytest.MonkeyPatch
         inertia_check, "solve", lambda number, *_: next(solved, replace(EXACT, number=number))
     )
     monkeypatch.setattr(inertia_check, "reason_to_skip", lambda _: next(turns))
-    found = inertia_check.judge(1)
-    assert found.rejected == {"rtol": 2}
-    assert found.skipped == {"too slow": 1}
-    assert [row.number for row in found.rows] == [3]
-    assert measure.as_data(found, 1)["drawn"] == 4
+    evaluation = inertia_check.judge(1)
+    assert evaluation.rejected == {"rtol": 2}
+    assert evaluation.skipped == {"too slow": 1}
+    assert [row.number for row in evaluation.rows] == [3]
+    assert measure.as_data(evaluation, 1)["drawn"] == 4
 
 
 def test_number_of_modes_agrees_with_the_law_of_weyl() -> None:
@@ -209,11 +209,11 @@ def test_scenes_are_skipped_for_stated_reasons() -> None:
 def test_skipped_scenes_are_reported_with_the_reason(monkeypatch: pytest.MonkeyPatch) -> None:
     """A skipped scene is reported with its reason: too many modes, or speed out of range."""
     data, position = measure.scene(9)
-    found = inertia_check.solve(9, data, position)
-    assert isinstance(found, InertiaRow)
-    monkeypatch.setattr(inertia_check, "MAX_MODES", found.modes // 2)
+    solution = inertia_check.solve(9, data, position)
+    assert isinstance(solution, InertiaRow)
+    monkeypatch.setattr(inertia_check, "MAX_MODES", solution.modes // 2)
     assert inertia_check.solve(9, data, position) == (
-        f"reference: more than {found.modes // 2} modes"
+        f"reference: more than {solution.modes // 2} modes"
     )
 
     def beyond(law: ContactLaw, *_: object) -> None:

@@ -38,20 +38,20 @@ def outcome(kind: Kind, message: str = "key: wrong; correct it") -> Outcome:
 
 
 def test_scenes_are_valid_reproducible_and_varied() -> None:
-    found = list(scenes(200, 3))
-    assert found == list(scenes(200, 3))
-    assert found[:20] != list(scenes(20, 4))
-    for scene in found:
+    actual = list(scenes(200, 3))
+    assert actual == list(scenes(200, 3))
+    assert actual[:20] != list(scenes(20, 4))
+    for scene in actual:
         read(scene)
         assert 1e-3 <= scene["sphere"]["radius"] <= 0.1
         assert 5e-4 <= scene["plate"]["thickness"] <= 0.2
         assert scene["plate"]["radius"] <= 100.0 * scene["plate"]["thickness"]
         assert 0.01 <= scene["impact"]["speed"] <= 50.0
-    inertia = sum(scene["effects"]["inertia"] for scene in found)
+    inertia = sum(scene["effects"]["inertia"] for scene in actual)
     assert 70 < inertia < 130
     for key in ("gravity", "retardation_time", "mass", "non_hertzian_pressure"):
-        assert any(key in str(scene) for scene in found), key
-    assert {scene["plate"]["edge"] for scene in found} == {
+        assert any(key in str(scene) for scene in actual), key
+    assert {scene["plate"]["edge"] for scene in actual} == {
         "paper", "simply-supported", "clamped",
     }  # fmt: skip
 
@@ -105,12 +105,12 @@ def test_outcomes_that_fail_the_check() -> None:
 
 
 def test_every_group_is_listed_with_a_scene() -> None:
-    found = [outcome("finished"), outcome("rejected", "a: b; c"), outcome("rejected", "a: b; d"),
+    actual = [outcome("finished"), outcome("rejected", "a: b; c"), outcome("rejected", "a: b; d"),
              outcome("incomplete", "e: f")]  # fmt: skip
-    assert [row[1:3] for row in cells(found)] == [
+    assert [row[1:3] for row in cells(actual)] == [
         ("finished", "1"), ("rejected", "2"), ("incomplete", "1"),
     ]  # fmt: skip
-    lines = failures(found)
+    lines = failures(actual)
     assert len(lines) == 4
     assert "(no remedy)" in lines[2]
     assert one_line(DROP) in lines[1]
@@ -118,13 +118,13 @@ def test_every_group_is_listed_with_a_scene() -> None:
 
 def test_worker_processes_run_the_scenes() -> None:
     fast = {**DROP, "impact": {"speed": 1e6}}
-    found = check_scenes(2, drawn=[DROP, fast])
-    assert [o.kind for o in found] == ["finished", "rejected", "rejected"]
-    assert [o.rtol for o in found] == [1e-3, 1e-3, None]
-    assert all(o.states_remedy for o in found)
-    assert all(0.0 < o.seconds < 60.0 for o in found)
-    assert all(1e6 < o.memory < 2e9 for o in found)
-    assert f"{max(o.seconds for o in found):.2g} s, " in cost(found)
+    report = check_scenes(2, drawn=[DROP, fast])
+    assert [o.kind for o in report] == ["finished", "rejected", "rejected"]
+    assert [o.rtol for o in report] == [1e-3, 1e-3, None]
+    assert all(o.states_remedy for o in report)
+    assert all(0.0 < o.seconds < 60.0 for o in report)
+    assert all(1e6 < o.memory < 2e9 for o in report)
+    assert f"{max(o.seconds for o in report):.2g} s, " in cost(report)
 
 
 def test_command(monkeypatch: pytest.MonkeyPatch, capsys: Captured) -> None:

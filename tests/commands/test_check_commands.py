@@ -37,8 +37,8 @@ Patch = pytest.MonkeyPatch
 
 
 def rows_of(path: Path) -> list[dict[str, Any]]:
-    found: list[dict[str, Any]] = json.loads(path.read_text())["rows"]
-    return found
+    actual: list[dict[str, Any]] = json.loads(path.read_text())["rows"]
+    return actual
 
 
 # --- generated functions
@@ -122,11 +122,11 @@ def test_contact_law_agrees_with_the_record(few_contacts: Path, capsys: Captured
     recorded = {r["kernel"]: r for r in rows_of(pipeline.measurements() / "contact.json")}
     known = [recorded["force_of_radius"], recorded["max_pressure"]]
     assert main(["check", "contact-law", "--json", "-"]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert found["rows"] == known
+    data = json.loads(capsys.readouterr().out)
+    assert data["rows"] == known
     assert not few_contacts.exists()
     assert main(["check", "contact-law", "--update"]) == 0
-    assert json.loads(few_contacts.read_text()) == found
+    assert json.loads(few_contacts.read_text()) == data
     shown = capsys.readouterr().out
     for row in known:
         assert f"{row['kernel']}: {' '.join(row['worst'])}" in shown
@@ -324,8 +324,8 @@ def test_check_of_effects_is_printed_and_recorded(
         effects_check, "selected_impact", lambda *_: ([math.nan] * 4, ["hertz"], 1.0)
     )
     assert main(["check", "effects", "-n", "1", "--json", "-"]) == 1
-    found = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
-    assert {row["error_over_rtol"] for row in found} == {"inf"}
+    actual = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
+    assert {row["error_over_rtol"] for row in actual} == {"inf"}
     assert not path.exists()
 
 

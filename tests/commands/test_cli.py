@@ -14,9 +14,9 @@ CORRECT = "(2*T + sinh(2*T))/(2*(sinh(T) - T)*(sinh(T) + T))"
 
 
 def test_public_python_interface() -> None:
-    found = formula("G")
-    assert isinstance(found, Formula)
-    assert found._repr_latex_().startswith("$")
+    record = formula("G")
+    assert isinstance(record, Formula)
+    assert record._repr_latex_().startswith("$")
     assert diagnose("G", CORRECT, at="T=3").verdict == "equal"
     with pytest.raises(KeyError, match="nonsense"):
         formula("nonsense")

@@ -67,10 +67,10 @@ def test_rewrite_report_is_written_without_changes(
     """The committed rows are read and written again; infinite errors are text in JSON."""
     kept = json.loads(PAPER.rewritten.read_text())["rows"]
     assert any("inf" in applied["worst"] for row in kept for applied in row["applied"])
-    found = tuple(account_of(row) for row in kept)
+    actual = tuple(account_of(row) for row in kept)
     path = tmp_path / "rewrite.json"
     monkeypatch.setattr(plate_paper, "PAPER", replace(PAPER, records=tmp_path))
-    monkeypatch.setattr(rules, "accounts", lambda *_: found)
+    monkeypatch.setattr(rules, "accounts", lambda *_: actual)
     assert main(["rewrite", "--json", "-"]) == 0
     assert json.loads(capsys.readouterr().out)["rows"] == kept
     assert not path.exists()

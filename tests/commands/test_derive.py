@@ -45,13 +45,13 @@ def test_printed_formula_is_accepted_by_diagnose(capsys: Captured) -> None:
 
 def test_sources_and_uses_of_a_formula_are_in_the_json(capsys: Captured) -> None:
     assert main(["derive", "K_j", "--json", "-"]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert found["name"] == "K_j"
-    assert found["step"] == "contact law"
-    assert found["unit"] == "m"
-    for name in found["sources"]:
+    data = json.loads(capsys.readouterr().out)
+    assert data["name"] == "K_j"
+    assert data["step"] == "contact law"
+    assert data["unit"] == "m"
+    for name in data["sources"]:
         assert "K_j" in formula_details(PAPER, name).used_by
-    for name in found["used_by"]:
+    for name in data["used_by"]:
         assert "K_j" in formulas(PAPER)[name].sources
 
 

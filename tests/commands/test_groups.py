@@ -11,8 +11,8 @@ from derivation.engine.files import ROOT
 
 
 def test_every_command_is_in_one_group() -> None:
-    found = get_command(app).commands  # type: ignore[attr-defined]
-    visible = [name for name, command in found.items() if not command.hidden]
+    commands = get_command(app).commands  # type: ignore[attr-defined]
+    visible = [name for name, command in commands.items() if not command.hidden]
     assert sorted(name for names in GROUPS.values() for name in names) == sorted(visible)
 
 

@@ -65,6 +65,11 @@ def test_help_is_complete_with_an_example(command: str, capsys: Captured) -> Non
             assert parameter.help, f"{parameter.name} is not explained"
 
 
+def test_an_error_in_a_search_is_one_line(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", "search", "--time", "soon"]) == 2
+    assert capsys.readouterr().err.startswith("platecontact: --time")
+
+
 def test_completion_script_is_printed_and_completes() -> None:
     module = [sys.executable, "-m", "derivation.cli"]
     known = {

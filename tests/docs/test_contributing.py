@@ -98,7 +98,7 @@ render.module_files = lambda planned: kept | files(planned)
 blocks.build_blocks = lambda _: known_blocks
 known = dict(steps)
 steps = (*steps, *((name, derive()) for name, derive in MOTION_STEPS if name not in known))
-formulas = {formula.name: formula for _, found in steps for formula in found}
+formulas = {formula.name: formula for _, records in steps for formula in records}
 shapes = [("pressure", "p_mean", forms._pressure()["p_mean"])]
 shapes += [(m.name, name, shape) for m in printed_modules() for name, shape in m.stated().items()]
 made += tuple(form(name, module, formulas[name].expression, *shape, {})
@@ -148,9 +148,9 @@ TESTS = "import sys, pytest; sys.exit(pytest.main(['-q', '-o', 'addopts=', *sys.
 
 def test_new_effect_is_in_the_table(copy: Path) -> None:
     def row(scene: Path) -> dict[str, object]:
-        found = json.loads(run(copy, COMMAND, "explain", str(scene), "--json", "-"))
-        assert found["effects"][-1]["name"] == "drag"
-        return dict(found["effects"][-1])
+        data = json.loads(run(copy, COMMAND, "explain", str(scene), "--json", "-"))
+        assert data["effects"][-1]["name"] == "drag"
+        return dict(data["effects"][-1])
 
     enabled = copy / "enabled.toml"
     enabled.write_text(SCENE.read_text().replace("[effects]", "[effects]\ndrag = true"))
@@ -161,8 +161,8 @@ def test_new_effect_is_in_the_table(copy: Path) -> None:
 
 
 def test_new_formula_is_derived_with_its_proof(copy: Path) -> None:
-    found = json.loads(run(copy, DERIVE, "derive", "--json", "-").split("✓")[0])
-    [formula] = [f for f in found if f["name"] == "p_mean"]
+    data = json.loads(run(copy, DERIVE, "derive", "--json", "-").split("✓")[0])
+    [formula] = [f for f in data if f["name"] == "p_mean"]
     assert formula["proof"]["step"] == "Mean pressure"
     assert formula["proof"]["method"] == "symbolically"
 
@@ -181,12 +181,12 @@ def test_formula_without_a_proof_is_rejected(copy: Path) -> None:
 def test_additions_are_generated_checked_and_reported(copy: Path) -> None:
     """All steps of the guide for a formula, a subject, a function and a hard case."""
     known = copy / "known.pickle"
-    found = derived.chain(), derived.misprints(), build.rewrite(PAPER), blocks(), families()
+    actual = derived.chain(), derived.misprints(), build.rewrite(PAPER), blocks(), families()
     code = [path.read_text() for path in (ROOT / "generated").glob("*.py")]
     functions = {name for text in code for name in re.findall(r"^def (\w+)", text, re.MULTILINE)}
     kept = unchanged_modules(copy)
     assert "wave_kernels.py" not in kept
-    known.write_bytes(pickle.dumps((*found, functions, kept)))
+    known.write_bytes(pickle.dumps((*actual, functions, kept)))
     run(copy, GENERATE, str(known))
     code = "from generated import *; print(p_mean(0.5, 3.0), imprint_volume(1.0, 1e-4))"
     mean, volume = map(float, run(copy, code).split())
@@ -219,10 +219,10 @@ def test_additions_are_generated_checked_and_reported(copy: Path) -> None:
 
 def test_new_rule_is_applied(copy: Path) -> None:
     output = run(copy, COMMAND, "rewrite", "1 - cos(x)", "--json", "-")
-    found = json.loads(output.split("✓")[0])
-    assert "half angle" in [applied["rule"] for applied in found["applied"]]
-    assert "sin" in found["source"]
-    assert "cos" not in found["source"].split("return")[-1]
+    data = json.loads(output.split("✓")[0])
+    assert "half angle" in [applied["rule"] for applied in data["applied"]]
+    assert "sin" in data["source"]
+    assert "cos" not in data["source"].split("return")[-1]
 
 
 def test_version_is_in_the_changelog() -> None:

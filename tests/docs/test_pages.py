@@ -77,9 +77,9 @@ def _split(piece: str) -> tuple[str, str]:
 @pytest.mark.parametrize("page", PYTHON, ids=name)
 def test_python_prints_the_output_on_the_page(page: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PYTHONPATH", str(ROOT))  # for worker processes
-    found = doctest.testfile(str(page), module_relative=False, optionflags=ELLIPSIS)
-    assert not found.failed
-    assert found.attempted == page.read_text().count("\n>>> ")
+    outcome = doctest.testfile(str(page), module_relative=False, optionflags=ELLIPSIS)
+    assert not outcome.failed
+    assert outcome.attempted == page.read_text().count("\n>>> ")
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name)

@@ -22,5 +22,5 @@ def test_code_headings_and_links_are_ignored() -> None:
 
 
 def test_finding_states_its_line() -> None:
-    [found] = findings("page.md", "One.\n\n```text\n\n```\nTwo beside.\n")
-    assert found.startswith("page.md:6: ")
+    [actual] = findings("page.md", "One.\n\n```text\n\n```\nTwo beside.\n")
+    assert actual.startswith("page.md:6: ")

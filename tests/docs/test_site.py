@@ -83,9 +83,9 @@ def test_broken_links_and_external_files_are_found(tmp_path: Path) -> None:
         '<script src="https://example.org/x.js"></script><p id="here"></p>'
         '<a href="#here"></a><a href="#there"></a><a href="b.html"></a>'
     )
-    found = "\n".join(problems(tmp_path))
-    assert len(found.splitlines()) == 3
-    assert all(text in found for text in ("x.js", "#there", "b.html"))
+    actual = "\n".join(problems(tmp_path))
+    assert len(actual.splitlines()) == 3
+    assert all(text in actual for text in ("x.js", "#there", "b.html"))
 
 
 def test_names_more_than_two_clicks_away_are_found(tmp_path: Path) -> None:

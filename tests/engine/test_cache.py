@@ -72,9 +72,9 @@ def test_results_of_a_function_are_computed_once_for_each_argument(folder: Path)
 def test_results_of_the_project_are_restored(formulas: Mapping[str, Formula]) -> None:
     kinds = (*derived.CHAIN.kinds, Proof, Form, Step, Branch, Switch, Block)
     for value in (formulas, build.rewrite(PAPER), blocks()):
-        found = restored(value, *kinds)
-        assert found == value
-        assert repr(found) == repr(value)
+        actual = restored(value, *kinds)
+        assert actual == value
+        assert repr(actual) == repr(value)
 
 
 @pytest.mark.parametrize(

@@ -171,7 +171,7 @@ def test_a_routine_of_a_paper_is_proved_and_printed(
         assert not (folder / "generated").exists()
         return
     monkeypatch.syspath_prepend(str(tmp_path))
-    found = import_module("film.generated.slopes").slipping(1.5)
+    actual = import_module("film.generated.slopes").slipping(1.5)
     ratio = lambda t: (mpmath.cosh(t) - 1) / (mpmath.sinh(t) + t)  # noqa: E731
     exact = [mpmath.diff(ratio, 1.5, order) for order in (0, 1)]
-    assert [float(x) for x in found] == pytest.approx([float(x) for x in exact], rel=1e-14)
+    assert [float(x) for x in actual] == pytest.approx([float(x) for x in exact], rel=1e-14)

@@ -47,14 +47,14 @@ def run(*arguments: str, home: Path, status: int = 0) -> str:
 
 
 def test_derive_lists_all_formulas(folder: Path) -> None:
-    found = json.loads(
+    data = json.loads(
         run("derive", "--paper", str(folder), "--json", "-", home=folder.parent).split("✓")[0]
     )
-    assert {row["name"] for row in found} == {
+    assert {row["name"] for row in data} == {
         "w_thin",
         *(f"{letter}_{base}" for letter in "CF" for base in ("bonded", "slipping")),
     }
-    assert all(row["proof"]["residuals"] for row in found)
+    assert all(row["proof"]["residuals"] for row in data)
 
 
 def test_package_is_up_to_date_and_needs_only_numpy(folder: Path, tmp_path: Path) -> None:
@@ -156,9 +156,9 @@ def test_smaller_budgets_are_suggested_but_not_written(folder: Path) -> None:
     before = (folder / "budgets.toml").read_text()
     shown = run("check", "--paper", str(folder), "--suggest-budgets", "--json", "-",
                 home=folder.parent)  # fmt: skip
-    found = json.loads(shown.split("✓")[0])
-    budgets = {row["kernel"]: row["budget"] for row in found["rows"]}
-    assert all(ulp < budgets[name] for name, ulp in found["suggested_budgets"].items())
+    data = json.loads(shown.split("✓")[0])
+    budgets = {row["kernel"]: row["budget"] for row in data["rows"]}
+    assert all(ulp < budgets[name] for name, ulp in data["suggested_budgets"].items())
     assert (folder / "budgets.toml").read_text() == before
 
 
@@ -212,8 +212,8 @@ def test_paper_of_the_project_uses_the_same_interface() -> None:
 
 def test_engine_does_not_mention_plate_or_sphere() -> None:
     """This includes its templates."""
-    found = [path for path in (ROOT / "derivation" / "engine").rglob("*") if path.is_file()]
-    assert len(found) > 100
-    for path in found:
+    actual = [path for path in (ROOT / "derivation" / "engine").rglob("*") if path.is_file()]
+    assert len(actual) > 100
+    for path in actual:
         if path.suffix in (".py", ".j2", ".css", ".toml"):
             assert not WORDS.findall(path.read_text()), path

@@ -23,6 +23,6 @@ def test_result_has_the_shape_of_a_single_array_argument(name: str) -> None:
         alone = np.asarray(kernel.call(*(point[x] for x in kernel.arguments), **modes))
         for argument in kernel.arguments:
             given = [np.full(3, point[x]) if x == argument else point[x] for x in kernel.arguments]
-            found = np.asarray(kernel.call(*given, **modes))
-            assert found.shape == (*alone.shape, 3), argument
-            np.testing.assert_allclose(found, np.stack([alone] * 3, -1), rtol=1e-12)
+            actual = np.asarray(kernel.call(*given, **modes))
+            assert actual.shape == (*alone.shape, 3), argument
+            np.testing.assert_allclose(actual, np.stack([alone] * 3, -1), rtol=1e-12)

@@ -25,23 +25,23 @@ SUMS = [row for row in manifest.KERNELS if row["modes"]]
 
 def arguments(row: dict[str, Any], largest: float, rng: np.random.Generator) -> dict[str, Any]:
     """Draw arguments of any size up to 10^largest, and of usual size for half of the numbers."""
-    found = {}
+    actual = {}
     for name in row["arguments"]:
         size = np.where(rng.random(COUNT) < 0.5, largest, 3.0)
-        found[name] = 10.0 ** (size * rng.uniform(-1.0, 1.0, COUNT))
-    if "lam" in found:
-        found["lam"] *= rng.choice((-1.0, 1.0), COUNT)
-    if "nu" in found:
-        found["nu"] = rng.uniform(-1.0, 0.5, COUNT)
-    for name in {"a_over_R", "alpha", "xi_y"} & set(found):  # up to 1, or from 1 to 1e50
-        power = np.log10(found[name]) / largest
-        found[name] = 10.0 ** (50.0 * abs(power) if name == "xi_y" else -largest * abs(power))
-    for name, limits in {"z": "h", "a": "bR", "r": "a" if "P" in found else "b"}.items():
-        below = [found[limit] for limit in limits if limit in found]
-        if name in found and below:
+        actual[name] = 10.0 ** (size * rng.uniform(-1.0, 1.0, COUNT))
+    if "lam" in actual:
+        actual["lam"] *= rng.choice((-1.0, 1.0), COUNT)
+    if "nu" in actual:
+        actual["nu"] = rng.uniform(-1.0, 0.5, COUNT)
+    for name in {"a_over_R", "alpha", "xi_y"} & set(actual):  # up to 1, or from 1 to 1e50
+        power = np.log10(actual[name]) / largest
+        actual[name] = 10.0 ** (50.0 * abs(power) if name == "xi_y" else -largest * abs(power))
+    for name, limits in {"z": "h", "a": "bR", "r": "a" if "P" in actual else "b"}.items():
+        below = [actual[limit] for limit in limits if limit in actual]
+        if name in actual and below:
             lowest = -1.0 if name == "z" else 0.0
-            found[name] = np.minimum.reduce(below) * rng.uniform(lowest, 1.0, COUNT)
-    return found
+            actual[name] = np.minimum.reduce(below) * rng.uniform(lowest, 1.0, COUNT)
+    return actual
 
 
 def in_domain(row: dict[str, Any], given: dict[str, Any]) -> Any:
@@ -61,8 +61,8 @@ def test_a_function_has_a_value_in_its_whole_domain(row: dict[str, Any]) -> None
     function = getattr(importlib.import_module(f"generated.{row['module']}"), row["name"])
     inside = in_domain(row, given)
     assert inside.sum() > COUNT / 5
-    found = function(*given.values())
-    for values in found if isinstance(found, tuple) else (found,):
+    actual = function(*given.values())
+    for values in actual if isinstance(actual, tuple) else (actual,):
         assert not np.isnan(values[inside]).any()
 
 

@@ -38,8 +38,8 @@ def function(name: str) -> Callable[..., np.ndarray]:
 
     def one(*arguments: Any) -> np.ndarray:
         with np.errstate(all="raise"):
-            found = kernel(*arguments, **extra)
-        return np.stack(found) if isinstance(found, tuple) else found
+            actual = kernel(*arguments, **extra)
+        return np.stack(actual) if isinstance(actual, tuple) else actual
 
     return one
 
@@ -57,8 +57,8 @@ def test_grid_points_raise_no_exception(kernel: Any, fmt: Any) -> None:
         # Numbers too large for the type are outside the domain.
         points = [p for p in points if max(p.values.values()) <= (15 if fmt is SINGLE else 100)]
     with np.errstate(all="raise"):
-        found = kernel.results(points, fmt)
-    assert not np.isnan(found).any()
+        actual = kernel.results(points, fmt)
+    assert not np.isnan(actual).any()
 
 
 @pytest.mark.parametrize("name", POINTWISE)
@@ -78,14 +78,14 @@ def test_every_layout_raises_no_exception(name: str) -> None:
         "list": [[value] for value in values],
     }
     for layout, arguments in layouts.items():
-        found = kernel(*arguments)
+        actual = kernel(*arguments)
         shape = np.broadcast_shapes(*(np.shape(x) for x in arguments))
         if name == "plate_coefficients":
             shaped = np.broadcast_to(expected, (*shape, expected.size))
         else:  # several results of a function are along the first axis
             several = np.expand_dims(expected, tuple(range(-len(shape), 0)))
             shaped = np.broadcast_to(several, (*expected.shape, *shape))
-        np.testing.assert_allclose(found, shaped, rtol=rtol, err_msg=layout)
+        np.testing.assert_allclose(actual, shaped, rtol=rtol, err_msg=layout)
     assert kernel(*(np.empty(0) for _ in values)).size == 0
     single = kernel(*(np.float32(value) for value in values))
     assert single.dtype == np.float32
@@ -103,17 +103,17 @@ def test_integers_are_accepted_as_arguments() -> None:
         if name == "force_by_series":  # it converges for smaller contacts only
             whole = whole | {"R": 8000, "h": 700, "b": 900}
         arguments = [whole[key] for key in ROWS[name]["arguments"]]
-        found = function(name)(*arguments)
-        assert np.isfinite(found).all(), name
-        assert found.dtype == np.float64
-        np.testing.assert_array_equal(found, function(name)(*(float(x) for x in arguments)))
+        actual = function(name)(*arguments)
+        assert np.isfinite(actual).all(), name
+        assert actual.dtype == np.float64
+        np.testing.assert_array_equal(actual, function(name)(*(float(x) for x in arguments)))
 
 
 def shapes() -> list[dict[str, float]]:
     """Return contacts of many thicknesses and widths, with values for all other arguments."""
-    found = [shape._asdict() for shape in contact_grid.grid("indentation")]
+    actual = [shape._asdict() for shape in contact_grid.grid("indentation")]
     law = function("indentation")
-    for i, values in enumerate(found):
+    for i, values in enumerate(actual):
         values["delta"] = float(law(*(values[key] for key in ("a", "R", "h", "b"))))
         values["eta"] = values["h"] / values["b"]
         values["a_over_R"] = values["a"] / values["R"]
@@ -130,7 +130,7 @@ def shapes() -> list[dict[str, float]]:
         values["x"], values["kap"] = 10.0 ** (i % 11 - 8), 10.0 ** (i % 13 - 9)
         values["nu"] = values["lam"] / (2 * (values["lam"] + values["mu"]))
         values["t"] = (i % 9) / 3 * values["delta"] / values["v0"]
-    return found
+    return actual
 
 
 @pytest.mark.parametrize(
@@ -140,13 +140,13 @@ def shapes() -> list[dict[str, float]]:
 def test_contacts_raise_no_exception(row: dict[str, Any], kind: type) -> None:
     some = shapes()[:: 16 if row["name"] == "force_by_series" else 1]
     columns = [np.array([v[key] for v in some], dtype=kind) for key in row["arguments"]]
-    found = function(row["name"])(*columns)
-    assert found.dtype == kind
+    actual = function(row["name"])(*columns)
+    assert actual.dtype == kind
     if "a <= 0.9 * b" in row["domain"]:
         a, b = (columns[row["arguments"].index(key)].astype(float) for key in ("a", "b"))
-        np.testing.assert_array_equal(np.isnan(found), a > 0.9 * b)
+        np.testing.assert_array_equal(np.isnan(actual), a > 0.9 * b)
     elif row["name"] != "force_by_series":  # NaN beyond its radius of convergence
-        known = np.isfinite(found)
+        known = np.isfinite(actual)
         assert known.mean() > 0.9 if kind == np.float32 else known.all()
 
 
@@ -195,9 +195,9 @@ def test_results_do_not_depend_on_extreme_units(name: str) -> None:
         inside = np.all([normal(column) | (base[key] == 0) for key, column in columns.items()], 0)
         if not inside.any() or (name not in CLOSED and not inside.all()):
             continue
-        found = np.atleast_2d(kernel(*(column[inside] for column in columns.values())))
+        actual = np.atleast_2d(kernel(*(column[inside] for column in columns.values())))
         units = ROWS[name]["unit"].split(", ")
-        for got, want, unit in zip(found, expected[:, inside], units, strict=False):
+        for got, want, unit in zip(actual, expected[:, inside], units, strict=False):
             exact = np.ldexp(want, power(unit, *scale))
             fit = (normal(want) & normal(exact)) | ((want == 0) & (name not in CLOSED))
             rtol = 0.0 if name in CLOSED else 2e-15

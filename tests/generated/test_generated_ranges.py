@@ -72,8 +72,8 @@ def test_products_below_the_tested_range_give_nan(row: Any) -> None:
             values |= {"phi": 1e-200, "h": 1e-200, "z": 0.0}
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            found = call(row, values)
-        assert bool(np.isnan(found)) != is_number, (row["name"], product)
+            result = call(row, values)
+        assert bool(np.isnan(result)) != is_number, (row["name"], product)
 
 
 @pytest.mark.parametrize("target", WITH_UNITS.values(), ids=WITH_UNITS)
@@ -88,10 +88,10 @@ def test_results_are_within_the_budget_in_any_units(target: Target) -> None:
         values = {name: _scaled(value, powers.get(name, 0)) for name, value in point.values.items()}
         scaled = Point(values, point.modes)
         with np.errstate(all="ignore"):
-            (found,) = target.call([scaled])[0]
-        if math.isfinite(found) and target.domain.holds(scaled):
-            error = target.measure(scaled, (found,))
-            assert error is None or error.ratio <= 1.0, (scaled, found)
+            (result,) = target.call([scaled])[0]
+        if math.isfinite(result) and target.domain.holds(scaled):
+            error = target.measure(scaled, (result,))
+            assert error is None or error.ratio <= 1.0, (scaled, result)
 
 
 def _scaled(value: float, power: int) -> float:
@@ -118,5 +118,5 @@ def test_scaling_of_lengths_by_a_power_of_two_is_exact(name: str, power: int) ->
     values = EXAMPLE | {"lam": 3.6e5, "mu": 4.3e5}
     scaled = {n: math.ldexp(x, power * LENGTHS.get(n, 0)) for n, x in values.items()}
     displacement = power if name in ("delta", "u", "w") else 0
-    found, expected = call(ROWS[name], scaled), call(ROWS[name], values)
-    np.testing.assert_array_equal(found, np.ldexp(expected, displacement))
+    result, expected = call(ROWS[name], scaled), call(ROWS[name], values)
+    np.testing.assert_array_equal(result, np.ldexp(expected, displacement))

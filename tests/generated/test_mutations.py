@@ -40,12 +40,12 @@ MAY_PASS: Allowed = {
 """Largest number of undetected mutants of each function, and the reason."""
 
 
-def detected(kernel: Kernel, found: list[PointReference], module: str, tree: ast.Module) -> bool:
+def detected(kernel: Kernel, actual: list[PointReference], module: str, tree: ast.Module) -> bool:
     """Return whether a function exceeds its budget or fails after a module was changed."""
     users = () if kernel.module == module else (kernel.module,)
     try:
         call = getattr(compiled(tree, module, users), kernel.name)
-        errors = measured_errors(replace(kernel, call=call), found)
+        errors = measured_errors(replace(kernel, call=call), actual)
     except (ArithmeticError, LookupError, TypeError, ValueError, NameError):
         return True
     return errors.ratio is None or errors.ratio > 1.0 or errors.not_finite > 0

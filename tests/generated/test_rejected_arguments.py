@@ -18,8 +18,8 @@ def test_series_needs_at_least_one_term() -> None:
 
 
 def test_series_is_nan_for_an_invalid_plate() -> None:
-    found = force_by_series(1e-5, 0.13, [0.1, np.nan, -1.0], 1.0, 1e9, 1e9, terms=3)
-    assert np.isnan(found).tolist() == [False, True, True]
+    actual = force_by_series(1e-5, 0.13, [0.1, np.nan, -1.0], 1.0, 1e9, 1e9, terms=3)
+    assert np.isnan(actual).tolist() == [False, True, True]
 
 
 def test_leading_correction_is_none_for_wide_contacts() -> None:

@@ -20,8 +20,8 @@ IDS = [f"({record.equation}) {record.name}" for record in PRINTED]
 
 @pytest.fixture(scope="module")
 def findings(formulas: Mapping[str, Formula]) -> dict[tuple[str, str], Finding]:
-    found = misprints(formulas)
-    return {(finding.printed.equation, finding.printed.name): finding for finding in found}
+    actual = misprints(formulas)
+    return {(finding.printed.equation, finding.printed.name): finding for finding in actual}
 
 
 @pytest.mark.parametrize("record", PRINTED, ids=IDS)

@@ -27,15 +27,15 @@ def bessel_cases() -> list[WithinUlp]:
     far = [LARGEST_PHASE, 1.3 * LARGEST_PHASE, 1e20, 3e300]
     every = [*inside, *near, *beyond, *far]
     points = [(x,) for x in (*every, *(-x for x in every), NAN, math.inf, -math.inf)]
-    found = []
+    actual = []
     with mp.workdps(340):
         for order in (0, 1):
             exact = [mp.besselj(order, x) if math.isfinite(x) else NAN for (x,) in points]
-            found += expected(f"bessel_j{order}", points, exact, 1.5)
-            found.append(single(f"bessel_j{order}", float(mp.besselj(order, 5))))
+            actual += expected(f"bessel_j{order}", points, exact, 1.5)
+            actual.append(single(f"bessel_j{order}", float(mp.besselj(order, 5))))
     for count in (0, 1, 5, 30):
-        found += map(counted, *zip(*zeros(count), strict=True))
-    return found
+        actual += map(counted, *zip(*zeros(count), strict=True))
+    return actual
 
 
 def single(name: str, exact: float) -> WithinUlp:

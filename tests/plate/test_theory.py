@@ -55,7 +55,7 @@ def test_formulas_are_verified_symbolically(formulas: Formulas) -> None:
 
 def test_every_derivation_step_has_a_formula() -> None:
     assert len(derived.chain()) == len(STEPS) + len(MOTION_STEPS)
-    assert all(found for _, found in derived.chain())
+    assert all(records for _, records in derived.chain())
 
 
 @pytest.mark.parametrize(
@@ -162,8 +162,8 @@ def test_thin_plate_limit_agrees_with_kirchhoff(formulas: Formulas) -> None:
     nu = lam_v / (2 * (lam_v + mu_v))
     thin = mp.mpf("1e-10")
     D = E * (2 * thin) ** 3 / (12 * (1 - nu**2))
-    found = value(formulas["C_top"].expression, h=sp.Rational("1e-10"))
-    assert close(found * D * phi_v**4, mp.mpf(1), "1e-18")
+    actual = value(formulas["C_top"].expression, h=sp.Rational("1e-10"))
+    assert close(actual * D * phi_v**4, mp.mpf(1), "1e-18")
 
 
 def test_limits_of_the_plate_factors(formulas: Formulas) -> None:

@@ -23,8 +23,10 @@ def changed(**tables: dict[str, Any]) -> dict[str, dict[str, Any]]:
 
 def assumed(scene: dict[str, dict[str, Any]]) -> float | None:
     """Return the stress [Pa] that the summary states; None if it states none."""
-    found = re.search(r"at least ([\d.]+) ([kMG])Pa", " ".join(str(simulate(read(scene))).split()))
-    return float(found[1]) * SCALES[found[2]] if found else None
+    search_result = re.search(
+        r"at least ([\d.]+) ([kMG])Pa", " ".join(str(simulate(read(scene))).split())
+    )
+    return float(search_result[1]) * SCALES[search_result[2]] if search_result else None
 
 
 @pytest.mark.parametrize("body", ["sphere", "plate"])
@@ -32,8 +34,8 @@ def test_body_yields_below_the_assumed_stress_and_not_above(body: str) -> None:
     stress = assumed(SCENE)
     assert stress
     for factor, yields in ((1.01, False), (0.99, True)):
-        found = simulate(read(changed(**{body: {"yield_stress": factor * stress}})))
-        assert (found.dent > 0.0) == yields
+        result = simulate(read(changed(**{body: {"yield_stress": factor * stress}})))
+        assert (result.dent > 0.0) == yields
 
 
 def test_nothing_is_assumed_of_rigid_bodies_and_of_known_yield_stresses() -> None:

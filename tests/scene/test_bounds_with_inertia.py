@@ -18,8 +18,8 @@ CONTACT = dict.fromkeys(
 )
 
 
-def change(found: Result, reference: Result, name: str) -> float:
-    return abs(getattr(found, name) / getattr(reference, name) - 1.0)
+def change(result: Result, reference: Result, name: str) -> float:
+    return abs(getattr(result, name) / getattr(reference, name) - 1.0)
 
 
 def compared(
@@ -37,10 +37,10 @@ def compared(
 def test_restitution_alone_is_within_its_bound(thickness: float) -> None:
     """The plate takes more energy of a stiffer contact: with 8e-4 stated, the error was 0.13."""
     data = PANE | {"plate": PANE["plate"] | {"thickness": thickness}}
-    found = simulate(read(data | {"accuracy": {"rtol": 0.02, "outputs": ["restitution"]}}))
+    result = simulate(read(data | {"accuracy": {"rtol": 0.02, "outputs": ["restitution"]}}))
     reference = simulate(read(data | {"effects": CONTACT}))
-    errors = found.accuracy.bound + reference.accuracy.bound
-    assert change(found, reference, "restitution") < errors < 0.03
+    errors = result.accuracy.bound + reference.accuracy.bound
+    assert change(result, reference, "restitution") < errors < 0.03
 
 
 @pytest.mark.parametrize(
@@ -224,10 +224,10 @@ def test_bound_on_a_small_restitution_does_not_shrink_with_it() -> None:
         "inertia": {"branches": "A0", "modes": 140},
     }
     effects = {"inertia": True, "sphere_elasticity": False, "spherical_profile": False}
-    found = simulate(read(data | {"effects": effects}))
-    assert found.restitution < 0.006
-    [row] = [row for row in found.effects.rows if row.name == "sphere_elasticity"]
-    assert row.bound * found.restitution > 0.5 * row.parameter_value
+    result = simulate(read(data | {"effects": effects}))
+    assert result.restitution < 0.006
+    [row] = [row for row in result.effects.rows if row.name == "sphere_elasticity"]
+    assert row.bound * result.restitution > 0.5 * row.parameter_value
 
 
 def test_an_impact_that_increases_its_bounds_is_repeated_with_more_effects() -> None:
@@ -266,6 +266,6 @@ def test_bound_without_inertia_covers_the_damping_omitted_with_it(chosen: dict[s
     included = simulate(read(tables | {"effects": {"inertia": True, "damping": True}}))
     changes = [abs(getattr(omitted, name) / getattr(included, name) - 1.0) for name in OUTPUTS]
     assert max(changes) > 1e-3
-    for found in (omitted, included):
-        [row] = [row for row in found.effects.rows if row.name == "inertia"]
+    for result in (omitted, included):
+        [row] = [row for row in result.effects.rows if row.name == "inertia"]
         assert max(changes) < row.bound < 0.1

@@ -21,11 +21,11 @@ def test_tables_resolve_the_steep_side_of_a_sphere(reach: float) -> None:
     law = ContactLaw(model, frozenset({"hertz", "spherical_profile"}))
     tables = contact_of(law, ModalPlate(STILL, STILL, None), reach * R, False)
     a = reach * R * np.linspace(0.05, 1.0, 50)
-    found, logarithm = tables.at(a), np.log((R + a) / (R - a))
+    actual, logarithm = tables.at(a), np.log((R + a) / (R - a))
     depth = a / 2.0 * logarithm
     force = model.modulus * ((a * a + R * R) / 2.0 * logarithm - a * R)
-    assert np.max(np.abs(found.depth / depth - 1.0)) < 1e-12
-    assert np.max(np.abs(found.force / force - 1.0)) < 1e-11  # the formula cancels at small radii
+    assert np.max(np.abs(actual.depth / depth - 1.0)) < 1e-12
+    assert np.max(np.abs(actual.force / force - 1.0)) < 1e-11  # the formula cancels at small radii
 
 
 def test_tables_resolve_a_wide_contact_on_a_thin_plate() -> None:
@@ -35,6 +35,6 @@ def test_tables_resolve_a_wide_contact_on_a_thin_plate() -> None:
     law = ContactLaw(model, frozenset({"hertz", "non_hertzian_pressure"} | WHOLE_PLATE))
     tables = contact_of(law, ModalPlate(STILL, STILL, None), 5.1 * h, False)
     a = 5.1 * h * np.linspace(0.05, 1.0, 50)
-    found, shape = tables.at(a), law.at(a)
-    assert np.max(np.abs(found.depth / law.indentation(a, shape) - 1.0)) < 1e-12
-    assert np.max(np.abs(found.force / law.force(a, shape) - 1.0)) < 1e-12
+    actual, shape = tables.at(a), law.at(a)
+    assert np.max(np.abs(actual.depth / law.indentation(a, shape) - 1.0)) < 1e-12
+    assert np.max(np.abs(actual.force / law.force(a, shape) - 1.0)) < 1e-12

@@ -40,8 +40,8 @@ def struck(loss_factor: float | None, **changes: dict[str, Any]) -> Result:
     return simulate(read(scene(loss_factor, **changes)))
 
 
-def values(found: Result) -> np.ndarray:
-    return np.array([getattr(found, name) for name in OUTPUTS])
+def values(result: Result) -> np.ndarray:
+    return np.array([getattr(result, name) for name in OUTPUTS])
 
 
 # --- limits
@@ -117,9 +117,9 @@ def test_a_yielding_contact_on_a_damped_plate_ends_before_the_first_echo() -> No
     def wide(eta: float | None, edge: str, b: float, yields: bool = True) -> np.ndarray:
         plate: dict[str, Any] = {"radius": b, "edge": edge}
         plate |= {"yield_stress": 3e8} if yields else {}
-        found = struck(eta, plate=plate, inertia={"modes": int(240 * b)})
-        assert (found.dent > 1e-6) is yields
-        return values(found)
+        result = struck(eta, plate=plate, inertia={"modes": int(240 * b)})
+        assert (result.dent > 1e-6) is yields
+        return values(result)
 
     damped, undamped = wide(0.2, "paper", 0.25), wide(None, "paper", 0.25)
     assert wide(0.2, "paper", 0.35) == pytest.approx(damped, rel=1e-4)
@@ -158,29 +158,29 @@ EVERYWHERE: dict[str, dict[str, Any]] = {
 @pytest.mark.parametrize("eta", [0.01, 1.0])
 def test_energy_balance_closes(name: str, eta: float) -> None:
     """The energy balance closes; the damping loss is a separate integral, so this is a test."""
-    found = struck(eta, **EVERYWHERE[name])
-    assert found.complete
-    assert found.dynamics is not None
-    balance = found.dynamics.energy_balance
+    result = struck(eta, **EVERYWHERE[name])
+    assert result.complete
+    assert result.dynamics is not None
+    balance = result.dynamics.energy_balance
     assert abs(balance.residual) < 1e-10
     assert balance.damping_loss > 1e-4 * eta * balance.initial_kinetic
-    assert found.dynamics.to_json()["energy_balance"]["damping_loss"] == balance.damping_loss
-    assert "damping of the plate" in found.dynamics.notes()[0]
+    assert result.dynamics.to_json()["energy_balance"]["damping_loss"] == balance.damping_loss
+    assert "damping of the plate" in result.dynamics.notes()[0]
 
 
 def test_plate_only_loses_energy_without_contact() -> None:
-    found = struck(0.05, plate=MEMBRANE, inertia={"modes": 8})
-    assert found.dynamics is not None
-    contacts = found.dynamics.inertia.contacts
+    result = struck(0.05, plate=MEMBRANE, inertia={"modes": 8})
+    assert result.dynamics is not None
+    contacts = result.dynamics.inertia.contacts
     assert len(contacts) > 1
     for one, other in pairwise(contacts):
-        energy = found.dynamics.rows(np.linspace(one.end, other.start, 50)[1:-1])[5]
+        energy = result.dynamics.rows(np.linspace(one.end, other.start, 50)[1:-1])[5]
         assert np.all(np.diff(energy) < 0)
 
 
 def test_plate_energy_decreases_with_damping() -> None:
     left = [struck(eta).dynamics for eta in (None, 0.01, 0.1, 1.0)]
-    energies = [found.energy_balance.plate for found in left if found is not None]
+    energies = [impact.energy_balance.plate for impact in left if impact is not None]
     assert all(later < earlier for earlier, later in pairwise(energies))
 
 
@@ -238,8 +238,8 @@ def test_change_by_omitted_damping_is_within_its_bound(
     effects = {"inertia": True, "damping": True}
     whole = struck(eta, **changes, effects=effects)
     rest = struck(eta, **changes, effects=effects | {"damping": False})
-    for found in (whole, rest):
-        bound = {row.name: row.bound for row in found.effects.rows}["damping"]
+    for result in (whole, rest):
+        bound = {row.name: row.bound for row in result.effects.rows}["damping"]
         assert np.max(np.abs(values(rest) / values(whole) - 1)) <= bound < math.inf
 
 
@@ -251,10 +251,10 @@ def test_damping_is_omitted_for_a_nearly_quasi_static_plate() -> None:
     """The bound of the omitted damping is then part of the stated error."""
     tables = scene(1e-4, plate={"radius": 0.02}, impact={"speed": 0.001}, sphere={"density": 1e6})
     del tables["inertia"]
-    found = explain(read(tables), rtol=0.5)
+    explanation = explain(read(tables), rtol=0.5)
     assert not row(tables | {"accuracy": {"rtol": 0.5}}).included
-    bound = {row.name: row.bound for row in found.effects.rows}["damping"]
-    assert 0 < bound <= found.effects.error
+    bound = {row.name: row.bound for row in explanation.effects.rows}["damping"]
+    assert 0 < bound <= explanation.effects.error
 
 
 def test_the_bound_covers_omitted_modes_that_would_be_damped() -> None:
@@ -265,13 +265,13 @@ def test_the_bound_covers_omitted_modes_that_would_be_damped() -> None:
                   "edge": "clamped", "loss_factor": 0.263},
         "impact": {"speed": 0.887},
     }  # fmt: skip
-    found, more = (
+    result, more = (
         simulate(read(marble | {"inertia": {"modes": modes, "branches": "all"}}))
         for modes in (10, 72)
     )
-    change = np.max(np.abs(values(found) / values(more) - 1.0))
-    assert 1.5e-4 < change <= found.accuracy.bound
-    assert found.accuracy.bound < 4.0 * change
+    change = np.max(np.abs(values(result) / values(more) - 1.0))
+    assert 1.5e-4 < change <= result.accuracy.bound
+    assert result.accuracy.bound < 4.0 * change
 
 
 def test_bound_without_higher_branches_covers_a_strongly_damped_plate() -> None:

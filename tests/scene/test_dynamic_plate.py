@@ -143,10 +143,10 @@ def test_animation_shows_the_motion_of_the_plate(tmp_path: Path, monkeypatch: An
 
 def test_profiles_are_zero_at_the_edge_and_correct_at_the_axis(result: Any) -> None:
     times = np.linspace(0.1, 0.9, 5) * result.total_time
-    found = result.dynamics.profiles(times, np.array([0.0, result.model.b]))
+    profiles = result.dynamics.profiles(times, np.array([0.0, result.model.b]))
     history = result.at(times).history()
-    np.testing.assert_allclose(found[:, 0], history.deflection, rtol=1e-9)
-    assert np.max(np.abs(found[:, 1])) <= 1e-9 * np.max(np.abs(found[:, 0]))
+    np.testing.assert_allclose(profiles[:, 0], history.deflection, rtol=1e-9)
+    assert np.max(np.abs(profiles[:, 1])) <= 1e-9 * np.max(np.abs(profiles[:, 0]))
 
 
 def test_curve_of_zener_agrees_with_its_series() -> None:
@@ -163,9 +163,9 @@ def test_modes_of_a_thin_plate_add_up_to_the_static_deflection(edge: str, factor
     thin = scene(plate={"thickness": 2e-4, "edge": edge})
     model = replace(model_of(thin), h=1e-4)
     law = ContactLaw(model, WHOLE_PLATE | {"hertz", "edge"} if edge != "paper" else WHOLE_PLATE)
-    found = float(np.sum(plate_of(law, 400).modes.compliance))
+    actual = float(np.sum(plate_of(law, 400).modes.compliance))
     bending = model.modulus * (2.0 * model.h) ** 3 / 12.0
-    assert found == pytest.approx(factor * model.b**2 / (8.0 * np.pi * bending), rel=2e-5)
+    assert actual == pytest.approx(factor * model.b**2 / (8.0 * np.pi * bending), rel=2e-5)
 
 
 @pytest.mark.parametrize("edge", ["simply-supported", "clamped"])
@@ -192,7 +192,7 @@ def test_explain_states_plate_inertia() -> None:
 def test_weight_may_increase_the_speed_of_separation_but_no_energy() -> None:
     """The sphere leaves the plate below the place where it met it: its restitution is 1.21."""
     speed, gravity = 3.938e-5, 0.015288
-    found = simulate(read({
+    outcome = simulate(read({
         "sphere": {"radius": 0.11199, "density": 830.06, "youngs_modulus": 1.095e14,
                    "poissons_ratio": 0.3},
         "plate": {"radius": 0.31961, "half_thickness": 6.5405e-3, "youngs_modulus": 5.6393e9,
@@ -201,17 +201,17 @@ def test_weight_may_increase_the_speed_of_separation_but_no_energy() -> None:
         "effects": {"inertia": True},
         "inertia": {"branches": "A0", "modes": 8},
     }))  # fmt: skip
-    balance, dynamics = found.energy_balance, found.dynamics
+    balance, dynamics = outcome.energy_balance, outcome.dynamics
     assert balance is not None
     assert dynamics is not None
     # By the momentum, not by the energy: the impulse of the contact and that of the weight.
     mass = 2.0 * balance.initial_kinetic / speed**2
     impulse = sum(touch.impulse for touch in dynamics.inertia.contacts)
     rebound = impulse / mass - speed - gravity * dynamics.inertia.total_time
-    assert found.restitution == pytest.approx(rebound / speed, rel=1e-9)
-    assert found.restitution > 1.2
+    assert outcome.restitution == pytest.approx(rebound / speed, rel=1e-9)
+    assert outcome.restitution > 1.2
     # At the height of the first contact less speed would remain than the sphere had.
     depth = balance.gravity_work / mass / gravity
-    assert 0.0 < depth < 0.1 * found.max_indentation
+    assert 0.0 < depth < 0.1 * outcome.max_indentation
     assert 0.9 < math.sqrt(rebound**2 - 2.0 * gravity * depth) / speed < 1.0
     assert abs(balance.residual) < 1e-9

@@ -34,8 +34,8 @@ def pad(
     )
 
 
-def values(found: Result) -> list[float]:
-    return [getattr(found, name) for name in OUTPUTS]
+def values(result: Result) -> list[float]:
+    return [getattr(result, name) for name in OUTPUTS]
 
 
 def test_light_plate_is_quasi_static_in_a_viscoelastic_contact() -> None:
@@ -64,31 +64,31 @@ def test_short_retardation_is_an_elastic_contact() -> None:
     elastic = pad(effects={"viscosity": False}, branches="all", modes=40)
     off = []
     for time in (1e-5, 1e-6):
-        found = pad(time=time, modes=40)
-        assert found.dynamics is not None
+        actual = pad(time=time, modes=40)
+        assert actual.dynamics is not None
         assert elastic.dynamics is not None
-        assert len(found.dynamics.inertia.contacts) == len(elastic.dynamics.inertia.contacts) == 2
-        pairs = zip(values(found), values(elastic), strict=True)
+        assert len(actual.dynamics.inertia.contacts) == len(elastic.dynamics.inertia.contacts) == 2
+        pairs = zip(values(actual), values(elastic), strict=True)
         off.append(max(abs(x / y - 1) for x, y in pairs))
-        assert off[-1] < 300.0 * time + found.accuracy.bound
+        assert off[-1] < 300.0 * time + actual.accuracy.bound
     assert off[1] < 5e-3
 
 
 def test_results_converge_with_the_bending_modes() -> None:
     """The change of the results with the number of modes decreases, and the bound covers it."""
-    found = [pad(time=1e-4, modes=n) for n in (10, 20, 40, 80)]
+    actual = [pad(time=1e-4, modes=n) for n in (10, 20, 40, 80)]
     changes = [
         max(abs(x / y - 1) for x, y in zip(values(one), values(two), strict=True))
-        for one, two in pairwise(found)
+        for one, two in pairwise(actual)
     ]
     assert changes[2] < 0.6 * changes[1] < 0.3 * changes[0] < 3e-4
-    assert all(x < one.accuracy.bound for x, one in zip(changes, found, strict=False))
+    assert all(x < one.accuracy.bound for x, one in zip(changes, actual, strict=False))
 
 
 def test_energy_balance_closes() -> None:
-    found = pad(modes=20)
-    assert found.dynamics is not None
-    balance = found.dynamics.energy_balance
+    actual = pad(modes=20)
+    assert actual.dynamics is not None
+    balance = actual.dynamics.energy_balance
     assert abs(balance.residual) < 1e-11
     least = min(balance.rebound_kinetic, balance.plate, balance.viscous_loss)
     assert least > 0.05 * balance.initial_kinetic
@@ -114,7 +114,7 @@ def test_recontact_before_recovery_is_simulated(
         "material": material,
         "retardation_time": time,
     }
-    found = simulate(
+    result = simulate(
         read(
             {
                 "sphere": {"radius": 0.02, "mass": mass},
@@ -125,7 +125,7 @@ def test_recontact_before_recovery_is_simulated(
             }
         )
     )
-    assert found.dynamics is not None
-    assert found.dynamics.impact_history.complete
-    assert len(found.dynamics.impact_history.contacts) == 3
-    assert abs(found.dynamics.energy_balance.residual) < 1e-12
+    assert result.dynamics is not None
+    assert result.dynamics.impact_history.complete
+    assert len(result.dynamics.impact_history.contacts) == 3
+    assert abs(result.dynamics.energy_balance.residual) < 1e-12

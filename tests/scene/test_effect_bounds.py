@@ -185,15 +185,15 @@ def test_error_is_within_the_bound_at_every_threshold(name: str) -> None:
     m = model(**SCENES[name])
     whole, rtol, before = impact(m, applicable(m)), 10.0, frozenset[str]()
     while True:
-        found = decide(m, AT_REST, rtol)
-        assert found.law.effects > before
-        assert found.error <= rtol
-        assert apart(impact(m, found.law.effects), whole) <= found.error + 5e-14
-        if not found.error:
+        selection = decide(m, AT_REST, rtol)
+        assert selection.law.effects > before
+        assert selection.error <= rtol
+        assert apart(impact(m, selection.law.effects), whole) <= selection.error + 5e-14
+        if not selection.error:
             break
-        assert decide(m, AT_REST, found.error).law.effects == found.law.effects
-        before, rtol = found.law.effects, found.error * (1 - 1e-9)
-    assert found.law.effects == applicable(m)
+        assert decide(m, AT_REST, selection.error).law.effects == selection.law.effects
+        before, rtol = selection.law.effects, selection.error * (1 - 1e-9)
+    assert selection.law.effects == applicable(m)
 
 
 @pytest.mark.parametrize(
@@ -211,9 +211,9 @@ def test_bounds_of_omitted_effects_add_up(one: str, other: str, edge: str) -> No
 
     def error(*out: str) -> float:
         wanted = {e.name: "auto" if e.name in out else False for e in EFFECTS}
-        found = decide(m, AT_REST | wanted, 1.0, ("max_indentation",))
-        assert found.law.effects == {"hertz"}
-        return found.error
+        selection = decide(m, AT_REST | wanted, 1.0, ("max_indentation",))
+        assert selection.law.effects == {"hertz"}
+        return selection.error
 
     both, apiece = error(one, other), error(one) + error(other)
     assert both == pytest.approx(apiece, rel=0.01)

@@ -135,13 +135,13 @@ def by_steps(law: ContactLaw) -> tuple[float, float, float, float]:
         return float(y[1])
 
     released.terminal, released.direction = True, -1  # type: ignore[attr-defined]
-    found = solve_ivp(
+    solution = solve_ivp(
         motion_of, (0, 1.0), [1e-300, m.v0], method="DOP853", rtol=1e-11, atol=1e-16,
         events=(released, turned),
     )  # fmt: skip
-    deepest = float(found.y_events[1][0][0])
+    deepest = float(solution.y_events[1][0][0])
     a = float(np.interp(deepest, depths, radii))
-    return float(found.t_events[0][0]), deepest, force(deepest), a
+    return float(solution.t_events[0][0]), deepest, force(deepest), a
 
 
 def test_impact_agrees_with_time_integration() -> None:
@@ -150,17 +150,17 @@ def test_impact_agrees_with_time_integration() -> None:
         model(v0=0.2),
         frozenset({"hertz", "sphere_elasticity", "spherical_profile", "bending", "gravity"}),
     )
-    found = motion.impact(law)
+    result = motion.impact(law)
     steps = by_steps(law)
-    np.testing.assert_allclose(found.numbers[:3], steps[:3], rtol=2e-8)
-    assert found.max_contact_radius == pytest.approx(steps[3], rel=1e-5)
+    np.testing.assert_allclose(result.numbers[:3], steps[:3], rtol=2e-8)
+    assert result.max_contact_radius == pytest.approx(steps[3], rel=1e-5)
 
 
 def test_impact_with_all_parts_agrees_with_the_generated_function() -> None:
     for changes in ({}, {"h": 0.5}, {"h": 0.002, "v0": 0.1}, {"v0": 1e-6}):
         m = model(**changes)
-        found = motion.impact(ContactLaw(m, WHOLE_PLATE))
-        np.testing.assert_allclose(found.numbers[:4], kernels.impact(*m.numbers), rtol=4e-14)
+        result = motion.impact(ContactLaw(m, WHOLE_PLATE))
+        np.testing.assert_allclose(result.numbers[:4], kernels.impact(*m.numbers), rtol=4e-14)
 
 
 @pytest.mark.parametrize(
@@ -173,8 +173,8 @@ def test_deflection_of_thin_plates_depends_on_the_edge(edge: str, ratio: Any) ->
         m = model(h=1e-5, b=1.0, lam=2 * 3e9 * nu / (1 - 2 * nu), edge=edge)
         a, base = np.array([1e-5]), frozenset({"hertz", *WHOLE_PLATE})
         one, other = (ContactLaw(m, effects) for effects in (base, base | {"edge"}))
-        found = other.indentation(a, other.at(a)) / one.indentation(a, one.at(a))
-        assert found[0] == pytest.approx(ratio(nu), rel=1e-4)
+        actual = other.indentation(a, other.at(a)) / one.indentation(a, one.at(a))
+        assert actual[0] == pytest.approx(ratio(nu), rel=1e-4)
 
 
 @pytest.mark.parametrize(("bent", "factor"), [(False, 2.5), (True, 2.0)])
@@ -182,8 +182,8 @@ def test_peak_force_of_a_slow_heavy_sphere(bent: bool, factor: float) -> None:
     """For v0 -> 0, int P d delta = m g delta gives 5/2 m g (Hertz) and 2 m g (linear spring)."""
     effects = {"hertz", "gravity"} | ({"bending"} if bent else set())
     m = model(v0=1e-9, h=1e-5 if bent else 0.02, b=5.0, mu=3e12, lam=2e12)
-    found = motion.impact(ContactLaw(m, frozenset(effects)))
-    assert found.max_force / (m.m * m.gravity) == pytest.approx(factor, rel=2e-4)
+    result = motion.impact(ContactLaw(m, frozenset(effects)))
+    assert result.max_force / (m.m * m.gravity) == pytest.approx(factor, rel=2e-4)
 
 
 def test_history_conserves_energy_with_every_effect() -> None:
@@ -207,9 +207,9 @@ def test_history_of_a_slow_heavy_sphere_conserves_energy() -> None:
     law = ContactLaw(
         model(v0=1e-3), frozenset({"hertz", "bending", "gravity", "spherical_profile"})
     )
-    m, found = law.model, motion.impact(law)
-    times = np.linspace(0.0, found.contact_time, 101)
-    depth, velocity, radius, _ = found.history(law, times)
+    m, result = law.model, motion.impact(law)
+    times = np.linspace(0.0, result.contact_time, 101)
+    depth, velocity, radius, _ = result.history(law, times)
     stored = [derivation.scene.limits.energy_of(law, float(a)) if a else 0.0 for a in radius]
     whole = 0.5 * m.m * velocity**2 - m.m * m.gravity * depth + np.array(stored)
     np.testing.assert_allclose(whole / (0.5 * m.m * m.v0**2), 1.0, rtol=1e-8)
@@ -222,21 +222,21 @@ def test_number_of_nodes_is_doubled_until_convergence(
     law = ContactLaw(
         model(v0=1e-5), frozenset({"hertz", "bending", "gravity", "spherical_profile"})
     )
-    found = motion.impact(law)
+    result = motion.impact(law)
     monkeypatch.setattr(motion, "MORE_TIMES", ())
     few = motion.impact(law)
-    assert found.quadrature < 1e-13
-    assert 1e-9 < abs(few.contact_time / found.contact_time - 1) <= few.quadrature
+    assert result.quadrature < 1e-13
+    assert 1e-9 < abs(few.contact_time / result.contact_time - 1) <= few.quadrature
 
 
 def test_velocity_is_the_derivative_of_the_indentation() -> None:
     """Central differences of the indentation agree with the velocity."""
     law = ContactLaw(model(), frozenset({"hertz", "bending", "gravity", "spherical_profile"}))
-    found = motion.impact(law)
-    T = found.contact_time
+    result = motion.impact(law)
+    T = result.contact_time
     middle, step = np.linspace(0.05, 0.95, 47) * T, 1e-5 * T
-    after, before = (found.history(law, middle + x)[0] for x in (step, -step))
-    _, velocity, _, _ = found.history(law, middle)
+    after, before = (result.history(law, middle + x)[0] for x in (step, -step))
+    _, velocity, _, _ = result.history(law, middle)
     np.testing.assert_allclose((after - before) / (2 * step), velocity, atol=1e-6)
 
 

@@ -58,16 +58,16 @@ def test_selection_changes_at_the_bound() -> None:
     """The same effects are selected at the bound, and at least one more just below it."""
     for m in random_models(4):
         for rtol in (1e-2, 1e-4):
-            found = decide(m, AT_REST, rtol)
-            if not 0 < found.error < math.inf:
+            selection = decide(m, AT_REST, rtol)
+            if not 0 < selection.error < math.inf:
                 continue
-            assert decide(m, AT_REST, found.error).law.effects == found.law.effects
-            tighter = decide(m, AT_REST, found.error * (1 - 1e-9))
-            assert len(tighter.law.effects) > len(found.law.effects)
+            assert decide(m, AT_REST, selection.error).law.effects == selection.law.effects
+            tighter = decide(m, AT_REST, selection.error * (1 - 1e-9))
+            assert len(tighter.law.effects) > len(selection.law.effects)
             whole = motion.impact(ContactLaw(m, decide(m, AT_REST, 0.0).law.effects))
-            parts = motion.impact(found.law)
+            parts = motion.impact(selection.law)
             for one, other in zip(whole.numbers, parts.numbers, strict=True):
-                assert abs(other / one - 1) <= found.error * (1 + 1e-9)
+                assert abs(other / one - 1) <= selection.error * (1 + 1e-9)
 
 
 def test_weight_changes_the_radius_within_its_bound() -> None:
@@ -123,8 +123,8 @@ def test_required_parts_of_the_pressure_are_included() -> None:
 
 def test_parameters_are_those_of_the_largest_contact() -> None:
     m = model()
-    found = motion.impact(ContactLaw(m, ALL))
-    a, rows = found.max_contact_radius, {row.name: row for row in decide(m, AT_REST, 0.0).rows}
+    result = motion.impact(ContactLaw(m, ALL))
+    a, rows = result.max_contact_radius, {row.name: row for row in decide(m, AT_REST, 0.0).rows}
     depth = a * a / m.R
     exact = {
         "hertz": a / m.R, "spherical_profile": a / m.R, "non_hertzian_pressure": a / (2 * m.h),
@@ -201,11 +201,11 @@ def test_explain_does_not_simulate_and_gives_reasons(capsys: Captured, tmp_path:
         assert row["name"] in shown
     assert "Zener" in data["notes"][0]
     assert "The scene disables finite_radius" in " ".join(shown.split())
-    found = explain(scene())
-    assert "plate.density" in found.notes[0]
+    explanation = explain(scene())
+    assert "plate.density" in explanation.notes[0]
     block = scene(plate={"half_thickness": 1e3, "radius": 1e4}, effects={"inertia": "auto"})
     assert "any density" in explain(block, 0.02).notes[0]
-    assert "<table>" in found._repr_html_()
+    assert "<table>" in explanation._repr_html_()
 
 
 def test_reference_supports_only_the_law_of_the_paper(tmp_path: Path) -> None:
@@ -219,8 +219,8 @@ def test_reference_supports_only_the_law_of_the_paper(tmp_path: Path) -> None:
     lines = str(caught.value).rpartition("[effects] ")[2].split(", ")
     path = tmp_path / "scene.toml"
     path.write_text(example.read_text() + "\n[effects]\n" + "\n".join(lines) + "\n")
-    found = paper_law.in_doubles(load(path))
-    assert found.effects.law.effects == WHOLE_PLATE | {"hertz"}
+    actual = paper_law.in_doubles(load(path))
+    assert actual.effects.law.effects == WHOLE_PLATE | {"hertz"}
     paper = (EXAMPLES / "paper.toml").read_text()
     for key in ("bending = false", "finite_radius = false"):
         path.write_text(f"{paper}{key}\n")
@@ -249,9 +249,9 @@ def test_rows_are_shown_in_every_output() -> None:
 
 def test_not_applicable_differs_from_omitted_without_a_bound() -> None:
     """An effect that does not apply is "n/a"; an omitted one without a bound is "no bound"."""
-    found = decide(model(gravity=0.0), {"inertia": False}, 1e-3)
+    selection = decide(model(gravity=0.0), {"inertia": False}, 1e-3)
     cells = {
-        line[0]: dict(zip(effect_selection.HEADS, line, strict=True)) for line in found.lines()
+        line[0]: dict(zip(effect_selection.HEADS, line, strict=True)) for line in selection.lines()
     }
     away = cells["gravity"]
     assert [away[h] for h in ("parameter value", "max. change if omitted", "status")] == ["n/a"] * 3

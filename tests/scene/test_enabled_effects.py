@@ -77,9 +77,9 @@ def test_a_key_of_0_changes_nothing(name: str, given: Tables) -> None:
     still = {table: keys for table, keys in given.items() if table != "impact"}
     rtol = 0.03
     without = simulate(with_(still, {"effects": {"inertia": name == "damping"}}), rtol=rtol)
-    found = simulate(with_(enabled(name), given), rtol=rtol)
-    assert found.contact_time == without.contact_time
-    assert found.restitution == without.restitution
+    result = simulate(with_(enabled(name), given), rtol=rtol)
+    assert result.contact_time == without.contact_time
+    assert result.restitution == without.restitution
 
 
 def test_an_infinite_plate_has_no_edge() -> None:

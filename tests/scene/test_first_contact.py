@@ -24,10 +24,10 @@ def selected() -> SelectedEffects:
 
 
 def test_change_that_joins_or_splits_the_first_contact(selected: SelectedEffects) -> None:
-    found = dynamic_impact(selected, 0.5)
-    first, second = found.inertia.contacts[:2]
+    result = dynamic_impact(selected, 0.5)
+    first, second = result.inertia.contacts[:2]
     gap = (second.start - first.end) / (first.end - first.start)
-    assert 0.0 < found.decisive_change <= min(gap, 1.0)
+    assert 0.0 < result.decisive_change <= min(gap, 1.0)
 
 
 @pytest.mark.parametrize(("factor", "bounded"), [(0.3, True), (3.0, False)])
@@ -57,11 +57,11 @@ def test_bound_includes_a_jump_by_more_modes() -> None:
         "impact": {"speed": 4.4765e-4},
         "effects": {"inertia": True, "viscosity": True, "non_hertzian_pressure": False},
     }  # fmt: skip
-    found, finer = (
+    result, finer = (
         simulate(read({**scene, "inertia": {"branches": "A0", "modes": modes}}))
         for modes in (96, 384)
     )
-    assert found.dynamics is not None
-    without_jump = math.fsum(found.dynamics.inertia.left(("contact_time",)))
-    change = abs(found.contact_time / finer.contact_time - 1.0)
-    assert without_jump < change < found.accuracy.law.bound
+    assert result.dynamics is not None
+    without_jump = math.fsum(result.dynamics.inertia.left(("contact_time",)))
+    change = abs(result.contact_time / finer.contact_time - 1.0)
+    assert without_jump < change < result.accuracy.law.bound

@@ -54,9 +54,9 @@ def test_former_name_gives_the_same_scene_and_one_warning(
 ) -> None:
     plain = read(scene(new, known))
     with pytest.warns(OldNameWarning) as caught:
-        found = read(scene(old, value))
-    assert found == plain
-    assert found.to_json() == plain.to_json()
+        actual = read(scene(old, value))
+    assert actual == plain
+    assert actual.to_json() == plain.to_json()
     [notice] = notices(list(caught))
     assert old in notice
     assert new in notice
@@ -83,8 +83,8 @@ def test_both_names_together_are_rejected(old: str, new: str) -> None:
 
 def test_former_value_of_a_former_key_gives_one_warning() -> None:
     with pytest.warns(OldNameWarning) as caught:
-        found = read(scene("inertia.plate", "modes"))
-    assert found == read(scene("inertia.extent", "finite"))
+        actual = read(scene("inertia.plate", "modes"))
+    assert actual == read(scene("inertia.extent", "finite"))
     assert len(notices(list(caught))) == 1
 
 
@@ -168,14 +168,14 @@ def test_load_gives_one_warning_for_former_names(tmp_path: Path) -> None:
         assert main(["explain", str(tmp_path / "old.toml")]) == 0
 
 
-def keys_and_values(found: object) -> Iterator[tuple[str, object]]:
+def keys_and_values(actual: object) -> Iterator[tuple[str, object]]:
     """Yield each key of a JSON value with its value, at any depth."""
-    if isinstance(found, dict):
-        for key, value in found.items():
+    if isinstance(actual, dict):
+        for key, value in actual.items():
             yield key, value
             yield from keys_and_values(value)
-    elif isinstance(found, list):
-        for value in found:
+    elif isinstance(actual, list):
+        for value in actual:
             yield from keys_and_values(value)
 
 
@@ -198,8 +198,8 @@ def test_results_contain_no_former_name() -> None:
     tables["effects"] |= {"perturbation": True, "curvature": False, "pressure": False}
     tables["plate"] |= {"strength": 1e8, "edge": "soft-hinge"}
     with pytest.warns(OldNameWarning):
-        found: Scene = read(tables)
-    made = json.loads(json.dumps(simulate(found).to_json()))
+        actual: Scene = read(tables)
+    made = json.loads(json.dumps(simulate(actual).to_json()))
     assert old_names_in(made["scene"]) == []
     names = {old.partition(".")[2] for old in KEYS} - {"plate"}  # a key of the energy balance
     assert not {key for key, _ in keys_and_values(made)} & names

@@ -173,8 +173,8 @@ def test_all_runs_of_an_impact_count_towards_one_limit(monkeypatch: pytest.Monke
     used.clear()
     waves.impact.cache_clear()
     monkeypatch.setattr(waves, "WORK", 0.9 * whole)
-    found = waves.impact(law, 1e-4)
+    result = waves.impact(law, 1e-4)
     waves.impact.cache_clear()
     assert sum(used) <= 0.9 * whole * (1.0 + 1e-12)  # sums are rounded
-    assert found.inertia.complete
-    assert found.inertia.modes < best.inertia.modes
+    assert result.inertia.complete
+    assert result.inertia.modes < best.inertia.modes

@@ -42,7 +42,7 @@ def test_indentation_beyond_the_law_is_rejected_with_the_largest_one(
     scene = read(tables)
     with pytest.raises(SceneError) as caught:
         indent(scene, indentation=1.0)
-    found = re.search(r"expected less than (\S+) m", str(caught.value))
-    assert found
-    [contact] = indent(scene, indentation=0.999 * float(found[1]))
+    search_result = re.search(r"expected less than (\S+) m", str(caught.value))
+    assert search_result
+    [contact] = indent(scene, indentation=0.999 * float(search_result[1]))
     assert 0.0 < contact.contact_radius < scene.plate.radius

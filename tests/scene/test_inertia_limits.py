@@ -53,9 +53,9 @@ def zener(number: float) -> tuple[float, float]:
 
     released.direction = -1  # type: ignore[attr-defined]
     released.terminal = True  # type: ignore[attr-defined]
-    found = solve_ivp(rate, (1e-8, 40.0), [1e-16, 1.0, 0.0], "DOP853", events=released,
+    solution = solve_ivp(rate, (1e-8, 40.0), [1e-16, 1.0, 0.0], "DOP853", events=released,
                       rtol=1e-13, atol=1e-15)  # fmt: skip
-    return -float(found.y_events[0][-1][1]), float(found.t_events[0][-1]) ** 2
+    return -float(solution.y_events[0][-1][1]), float(solution.t_events[0][-1]) ** 2
 
 
 def thin_plate(number: float, count: int, phase: float) -> tuple[float, float]:
@@ -79,8 +79,8 @@ def thin_plate(number: float, count: int, phase: float) -> tuple[float, float]:
     law = ContactLaw(model, frozenset({"hertz", "bending"}))
     contact = contact_of(law, ModalPlate(modes, modes, None), 1.5 * a, pointwise=False)
     problem = DynamicProblem(contact, a, That, model.m, speed)
-    found = contact_sequence.contact(problem, 16, problem.begin(), 0.0, 0.0)
-    return -found.after.velocity, a * j[-1]
+    actual = contact_sequence.contact(problem, 16, problem.begin(), 0.0, 0.0)
+    return -actual.after.velocity, a * j[-1]
 
 
 @pytest.mark.parametrize("number", [0.02, 0.3, 2.0])
@@ -92,9 +92,9 @@ def test_infinite_plate_satisfies_the_equation_of_zener(number: float) -> None:
 def test_wide_plate_agrees_with_zener(number: float) -> None:
     """With 200 modes and omega_M That = 200, no wave returns from the edge during contact."""
     exact, _ = zener(number)
-    found, reach = thin_plate(number, 200, 200.0)
+    actual, reach = thin_plate(number, 200, 200.0)
     assert reach < 1e-6  # much smaller than the shortest wavelength of the modes
-    assert found == pytest.approx(exact, abs=2e-7)
+    assert actual == pytest.approx(exact, abs=2e-7)
 
 
 def test_error_of_quasi_static_modes_decreases_with_cubed_frequency() -> None:
@@ -108,8 +108,8 @@ def test_narrow_plate_returns_energy() -> None:
     """Waves return from the edge during contact if the first mode's period is the contact time."""
     exact, lasts = zener(1.0)
     first, last = jn_zeros(0, 20)[[0, -1]]
-    found, _ = thin_plate(1.0, 20, 2.0 * math.pi / lasts * (last / first) ** 2)
-    assert found > exact + 0.05
+    actual, _ = thin_plate(1.0, 20, 2.0 * math.pi / lasts * (last / first) ** 2)
+    assert actual > exact + 0.05
 
 
 # --- modes
@@ -123,30 +123,30 @@ def history(
     return contact_sequence.impact_history(problem, n, tolerance)
 
 
-def restitution(found: contact_sequence.ImpactHistory) -> float:
-    return -found.contacts[-1].after.velocity
+def restitution(actual: contact_sequence.ImpactHistory) -> float:
+    return -actual.contacts[-1].after.velocity
 
 
 def test_results_converge_with_the_modes_of_all_branches() -> None:
     """The restitution converges as the number of modes grows, with all Lamb-wave branches."""
     every = replace(BALL, inertia=InertiaSettings(branches="all"))
-    found = [restitution(history(every, free_modes(every, count))) for count in (4, 8, 16, 32)]
-    steps = np.abs(np.diff(found))
+    actual = [restitution(history(every, free_modes(every, count))) for count in (4, 8, 16, 32)]
+    steps = np.abs(np.diff(actual))
     assert steps[2] < 0.6 * steps[1] < 0.6 * steps[0]
     assert steps[2] < 1e-5
     # The limit differs from that of the lowest branch alone.
     first = restitution(history(BALL, free_modes(BALL, 32)))
-    assert abs(first - found[-1]) > 2.0 * steps[2]
+    assert abs(first - actual[-1]) > 2.0 * steps[2]
 
 
 def test_results_converge_with_the_branches() -> None:
     """The restitution converges as branches up to higher frequencies are added."""
-    lowest, found = modal._free(BALL, 12), []
+    lowest, actual = modal._free(BALL, 12), []
     for highest in (1.0, 2.0, 4.0, 8.0):
         shapes = modal._branches(BALL, lowest, highest * float(lowest.root[-1]))
         modes = modal._modes(BALL, shapes)
-        found.append((modes.omega.size, restitution(history(BALL, modes))))
-    counts, values = zip(*found, strict=True)
+        actual.append((modes.omega.size, restitution(history(BALL, modes))))
+    counts, values = zip(*actual, strict=True)
     assert all(more > 1.5 * few for few, more in pairwise(counts))
     steps = np.abs(np.diff(values))
     assert all(late < 0.5 * early for early, late in pairwise(steps))
@@ -200,19 +200,19 @@ def test_energy_and_momentum_are_conserved(
     law = ContactLaw(model, REST | {"inertia"} | ({"gravity"} if gravity else set()) | {"edge"})
     assume(mode_count.count_of(law) <= 12)
     try:
-        found = waves.impact(law, math.inf)
+        result = waves.impact(law, math.inf)
     except SceneError:  # the weight keeps the sphere on the plate, or the plate bends too sharply
         assume(False)
-    contacts = found.inertia.contacts
-    assert abs(found.energy_balance.residual) <= 1e-11
+    contacts = result.inertia.contacts
+    assert abs(result.energy_balance.residual) <= 1e-11
     if not gravity and not pointwise:
-        assert 0.0 <= found.restitution <= 1.0
+        assert 0.0 <= result.restitution <= 1.0
     times = [time for touch in contacts for time in (touch.start, touch.end)]
     assert times[0] == 0.0
     assert all(early < late for early, late in pairwise(times))
-    fallen = model.gravity * found.inertia.total_time
+    fallen = model.gravity * result.inertia.total_time
     impulse = sum(touch.impulse for touch in contacts)
-    given_up = model.v0 * (1.0 + found.restitution) + fallen
+    given_up = model.v0 * (1.0 + result.restitution) + fallen
     assert impulse == pytest.approx(model.m * given_up, rel=1e-10)
 
 
@@ -223,11 +223,11 @@ def test_time_element_stores_only_its_final_state() -> None:
     modes = free_modes(BALL, 400)
     tracemalloc.start()
     try:
-        found = history(BALL, modes)
+        motion = history(BALL, modes)
         kept, _ = tracemalloc.get_traced_memory()
     finally:
         tracemalloc.stop()
-    elements = sum(len(touching.pieces) for touching in found.contacts)
+    elements = sum(len(touching.pieces) for touching in motion.contacts)
     state = 2 * 400 * 8
     assert kept < 3 * elements * state + 2e6
 

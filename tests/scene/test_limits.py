@@ -36,11 +36,11 @@ def either_side(
     assert text
     while abs(loud / silent - 1) > 1e-6:
         middle = math.sqrt(silent * loud)
-        found, warning = run(middle)
+        outcome, warning = run(middle)
         if warning:
-            loud, above, text = middle, found, warning
+            loud, above, text = middle, outcome, warning
         else:
-            silent, below = middle, found
+            silent, below = middle, outcome
     return below, above, text
 
 
@@ -166,8 +166,8 @@ def test_warning_of_inertia_on_one_side_of_each_limit(
     below, above, text = either_side(make, "inertia", silent, loud)
     numbers = re.findall(r"Zener parameter (\S+) .* period (\S+) .* deflection (\S+) %", text)
     for result in (below, above):
-        for found, limit in zip(motion_numbers(result), limits, strict=True):
-            assert limit is None or found == pytest.approx(limit, rel=3e-6)
+        for actual, limit in zip(motion_numbers(result), limits, strict=True):
+            assert limit is None or actual == pytest.approx(limit, rel=3e-6)
     zener, slow, deflection_fraction = motion_numbers(above)
     shown = [float(x) for x in numbers[0]]
     assert shown == [pytest.approx(x, rel=0.06) for x in (zener, slow, 100 * deflection_fraction)]
@@ -211,10 +211,10 @@ def test_no_warning_of_reflections_if_the_simulation_chose_all_branches() -> Non
         "impact": {"speed": 2.0},
         "effects": {"inertia": True},
     }
-    found = simulate(read(tables))
-    assert found.dynamics is not None
-    assert found.dynamics.law.model.inertia.branches == "all"
-    assert not [text for text in found.warnings if "4 H/c_P" in text]
+    result = simulate(read(tables))
+    assert result.dynamics is not None
+    assert result.dynamics.law.model.inertia.branches == "all"
+    assert not [text for text in result.warnings if "4 H/c_P" in text]
 
 
 def test_stretching_of_a_clamped_plate_agrees_with_its_energy() -> None:
@@ -258,8 +258,8 @@ def test_warning_of_yield_on_one_side_of_the_limit() -> None:
     pressure = simulate(scene()).max_pressure
     for factor, warned in ((0.999, True), (1.001, False)):
         plate = {"yield_stress": factor * pressure / 1.6}
-        found = simulate(scene(plate=plate, effects={"plasticity": False}))
-        assert any("yields" in text for text in found.warnings) is warned
+        result = simulate(scene(plate=plate, effects={"plasticity": False}))
+        assert any("yields" in text for text in result.warnings) is warned
 
 
 def test_warning_if_the_pressure_is_not_hertzian(monkeypatch: pytest.MonkeyPatch) -> None:

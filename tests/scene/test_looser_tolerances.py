@@ -47,19 +47,19 @@ def test_small_parts_are_not_subtracted_from_the_whole_plate(scene: Scene) -> No
     """A part of the plate is not subtracted from the whole plate, which would be slower."""
     included = [frozenset[str]()]
     for rtol in TOLERANCES:
-        found = selected_effects(scene, rtol)[1]
-        differs = any(isinstance(e, PlateEffect) and e.difference for e in found.law.chosen)
-        assert not differs or found.law.effects >= WHOLE_PLATE
-        assert found.law.effects >= included[-1]
-        included.append(found.law.effects)
-        assert repr(explain(scene, rtol).effects) == repr(found)  # also where a value is NaN
-        for row in found.rows:
+        actual = selected_effects(scene, rtol)[1]
+        differs = any(isinstance(e, PlateEffect) and e.difference for e in actual.law.chosen)
+        assert not differs or actual.law.effects >= WHOLE_PLATE
+        assert actual.law.effects >= included[-1]
+        included.append(actual.law.effects)
+        assert repr(explain(scene, rtol).effects) == repr(actual)  # also where a value is NaN
+        for row in actual.rows:
             if row.reason.startswith("required by"):
                 other = row.reason.removeprefix("required by ")
                 assert row.included
-                assert other in found.included
+                assert other in actual.included
                 assert row.name in BY_NAME[other].contains
-            assert row.included == (row.name in found.law.effects)
+            assert row.included == (row.name in actual.law.effects)
 
 
 def test_disabled_part_of_the_plate_stays_disabled() -> None:
@@ -69,10 +69,10 @@ def test_disabled_part_of_the_plate_stays_disabled() -> None:
         "impact": {"speed": 0.5},
         "effects": {"inertia": False, "non_hertzian_pressure": False, "finite_radius": False},
     }
-    found = selected_effects(read(tables), None)[1]
-    assert "finite_thickness" in found.included
-    assert "finite_radius" not in found.included
-    assert "finite_radius" in found.forced_out
+    actual = selected_effects(read(tables), None)[1]
+    assert "finite_thickness" in actual.included
+    assert "finite_radius" not in actual.included
+    assert "finite_radius" in actual.forced_out
 
 
 @given(scenes())

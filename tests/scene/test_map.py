@@ -28,13 +28,13 @@ def coarse(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize("example", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.stem)
 def test_marker_agrees_with_explain(example: Path) -> None:
     result = simulate(load(example))
-    found = map_.grid(result, result.effects.rtol)
-    column = np.flatnonzero(found.thicknesses == result.model.eta)
-    row = np.flatnonzero(found.radii == result.max_contact_radius / result.model.h)
+    actual = map_.grid(result, result.effects.rtol)
+    column = np.flatnonzero(actual.thicknesses == result.model.eta)
+    row = np.flatnonzero(actual.radii == result.max_contact_radius / result.model.h)
     for effect in result.effects.rows:
-        if effect.name not in found.ratios:
+        if effect.name not in actual.ratios:
             continue
-        ratio = found.ratios[effect.name][row, column].item()
+        ratio = actual.ratios[effect.name][row, column].item()
         if effect.disabled:
             assert ratio == pytest.approx(min(effect.bound / result.effects.rtol, map_.MOST))
         else:
@@ -52,11 +52,11 @@ def test_selection_at_each_point_agrees_with_the_map() -> None:
         speed = map_._speed(model, width * model.h)
         law = map_._law(map_.replace(model, v0=speed))
         assert map_.largest_radius(law) == pytest.approx(width * model.h, rel=1e-9)
-        found = select(map_.replace(model, v0=speed), wanted, 1e-3, outputs)
+        selection = select(map_.replace(model, v0=speed), wanted, 1e-3, outputs)
         for name in map_.drawn(result):
             if wanted[name] is not False:
-                included = name in found.included
-                assert (map_._ratio(found, name, 1e-3) > 1.0) == included
+                included = name in selection.included
+                assert (map_._ratio(selection, name, 1e-3) > 1.0) == included
     assert math.isnan(map_._speed(result.model, 2.0 * result.model.b))
 
 
@@ -65,16 +65,16 @@ def test_selection_at_each_point_agrees_with_the_map() -> None:
 def test_explain_agrees_on_both_sides_of_each_line(name: str) -> None:
     """For the points next to each line, the selection of `explain` agrees with the map."""
     result = simulate(load(EXAMPLES / f"{name}.toml"))
-    found = map_.grid(result, result.effects.rtol)
-    names = [row.name for row in result.effects.rows if row.name in found.ratios]
+    actual = map_.grid(result, result.effects.rtol)
+    names = [row.name for row in result.effects.rows if row.name in actual.ratios]
     auto = [x for x in names if getattr(result.scene.effects, x) == "auto"]
-    included = np.array([found.ratios[x] > 1.0 for x in auto])
-    known = np.isfinite(found.ratios[auto[0]])
+    included = np.array([actual.ratios[x] > 1.0 for x in auto])
+    known = np.isfinite(actual.ratios[auto[0]])
     compared = 0
     for row, column in np.argwhere(known[:-1] & known[1:]):
         if (included[:, row, column] != included[:, row + 1, column]).any():
             for index in ((row, column), (row + 1, column)):
-                point_scene = _scene_at(result, found, *index)
+                point_scene = _scene_at(result, actual, *index)
                 _, selection = selected_effects(point_scene, result.accuracy.rtol)
                 shown = [x for k, x in enumerate(auto) if included[(k, *index)]]
                 assert [x for x in selection.included if x in auto] == shown, index
@@ -82,10 +82,10 @@ def test_explain_agrees_on_both_sides_of_each_line(name: str) -> None:
     assert compared >= 2
 
 
-def _scene_at(result: Result, found: map_.Grid, row: int, column: int) -> Scene:
+def _scene_at(result: Result, actual: map_.Grid, row: int, column: int) -> Scene:
     """Return the scene of a point of the map, with its thickness and speed."""
     data, model = result.scene.to_json(), result.model
-    eta, width = float(found.thicknesses[column]), float(found.radii[row])
+    eta, width = float(actual.thicknesses[column]), float(actual.radii[row])
     speed, plate = model.v0, map_.replace(model, h=eta * model.b)
     if (eta, width) != (model.eta, result.max_contact_radius / model.h):
         stretch = map_.largest_radius(map_._law(model)) / result.max_contact_radius
@@ -106,11 +106,11 @@ def test_ticks_point_to_the_side_where_the_effect_matters(name: str) -> None:
     made = map_.figure(result, result.effects.rtol)
     ticked = [x for x in made.axes[0].collections if x.get_path_effects()]
     assert ticked
-    found = map_.grid(result, result.effects.rtol)
-    drawn = [r for r in map_.lines(found).values() if np.nanmin(r) < 1.0 < np.nanmax(r)]
+    actual = map_.grid(result, result.effects.rtol)
+    drawn = [r for r in map_.lines(actual).values() if np.nanmin(r) < 1.0 < np.nanmax(r)]
     to_screen = made.axes[0].transData
     for line, ratio in zip(ticked, drawn, strict=True):
-        points = np.stack(np.meshgrid(found.thicknesses, found.radii), axis=-1)[ratio > 1.0]
+        points = np.stack(np.meshgrid(actual.thicknesses, actual.radii), axis=-1)[ratio > 1.0]
         side = to_screen.transform(points)
         votes = 0.0
         for path in line.get_paths():

@@ -79,19 +79,19 @@ def test_constants_and_name_of_a_material_are_equivalent() -> None:
 
 def test_values_of_a_table_replace_those_of_its_material() -> None:
     keys = {"density": 1000.0, "yield_stress": 1e8, "retardation_time": 1e-6}
-    found = model({"material": "steel"} | keys, {"material": "steel S355"} | keys)
-    assert found.density == 1000.0
-    assert found.yield_stress == found.plate_yield_stress == 1e8
-    assert found.retardation_time == 1e-6
-    assert found.m == pytest.approx(1000 * math.pi * 0.02**3 / 6, rel=1e-14)
+    actual = model({"material": "steel"} | keys, {"material": "steel S355"} | keys)
+    assert actual.density == 1000.0
+    assert actual.yield_stress == actual.plate_yield_stress == 1e8
+    assert actual.retardation_time == 1e-6
+    assert actual.m == pytest.approx(1000 * math.pi * 0.02**3 / 6, rel=1e-14)
     assert model({"material": "steel"}, {"material": "S355"}).yield_stress == 355e6
     assert model({"material": "steel"}, {"material": "steel"}).yield_stress == math.inf
 
 
 def test_material_of_the_scene_overrides_the_catalogue() -> None:
-    found = model({"material": "ice"}, {"material": "ICE"}, materials={"Ice": OWN["my ice"]})
-    assert found.density == 900.0
-    assert found.softness == 1.0
+    actual = model({"material": "ice"}, {"material": "ICE"}, materials={"Ice": OWN["my ice"]})
+    assert actual.density == 900.0
+    assert actual.softness == 1.0
 
 
 STEEL = {"material": "steel"}
@@ -144,8 +144,8 @@ def test_unused_material_is_accepted_and_scene_is_unchanged() -> None:
 def test_warning_of_a_light_sphere_mentions_a_hollow_one() -> None:
     solid = 7850 * math.pi * 0.02**3 / 6
     for fraction, warned in ((0.32, True), (0.34, False), (2.0, False)):
-        found = simulate(read(tables({"material": "steel", "mass": fraction * solid}, STEEL)))
-        assert any("hollow" in text for text in found.warnings) == warned
+        result = simulate(read(tables({"material": "steel", "mass": fraction * solid}, STEEL)))
+        assert any("hollow" in text for text in result.warnings) == warned
 
 
 def test_body_that_yields_first_is_named() -> None:
@@ -164,10 +164,12 @@ SOFTNESS = st.floats(1e-6, 1e6)
 def test_retardation_time_of_the_contact_is_between_those_of_the_bodies(
     plate: float, sphere: float, softness: float
 ) -> None:
-    found = retardation_of_two(plate, sphere, softness)
+    retardation_time = retardation_of_two(plate, sphere, softness)
     low, high = sorted((plate, sphere))
-    assert low * (1 - 1e-15) <= found <= high * (1 + 1e-15)
-    assert found == pytest.approx(retardation_of_two(sphere, plate, 1 / softness), rel=1e-14)
+    assert low * (1 - 1e-15) <= retardation_time <= high * (1 + 1e-15)
+    assert retardation_time == pytest.approx(
+        retardation_of_two(sphere, plate, 1 / softness), rel=1e-14
+    )
     assert retardation_of_two(plate, sphere, 0.0) == plate
 
 
@@ -234,10 +236,10 @@ SCENES: dict[str, Tables] = {
 @pytest.mark.parametrize("name", SCENES)
 def test_typical_scenes_run_at_one_percent(name: str) -> None:
     tolerance = 0.02 if "echo" in name else 0.01
-    found = simulate(read(SCENES[name]), rtol=tolerance)
-    assert found.complete
-    assert 0 < found.restitution <= 1.0
-    assert found.accuracy.bound <= tolerance
+    result = simulate(read(SCENES[name]), rtol=tolerance)
+    assert result.complete
+    assert 0 < result.restitution <= 1.0
+    assert result.accuracy.bound <= tolerance
 
 
 def test_golf_drive_is_rejected_quickly_with_a_remedy() -> None:
@@ -258,8 +260,8 @@ def test_sphere_that_stays_on_a_light_plate_is_rejected_before_the_first_step() 
     ) as error:
         simulate(read(wide), rtol=0.01)
     predicted = float(re.search(r"about ([\d.e-]+) s", str(error.value))[1])
-    found = simulate(read(wide | {"effects": {"inertia": False}}), rtol=0.01)
-    assert found.contact_time == pytest.approx(predicted, rel=0.1)
+    result = simulate(read(wide | {"effects": {"inertia": False}}), rtol=0.01)
+    assert result.contact_time == pytest.approx(predicted, rel=0.1)
 
 
 @pytest.mark.parametrize(
@@ -273,10 +275,10 @@ def test_contact_of_a_heavy_sphere_lasts_most_of_its_half_period(
     plate = {"radius": 0.02, "thickness": 0.001, "material": "glass", "edge": edge}
     scene = read(tables({"radius": 0.01, "mass": mass, "material": "steel"}, plate,
                         impact={"speed": speed}, effects={"inertia": True}))  # fmt: skip
-    found = simulate(scene, rtol=0.02)
-    assert found.complete
-    assert found.dynamics is not None
-    history = found.dynamics.impact_history
+    result = simulate(scene, rtol=0.02)
+    assert result.complete
+    assert result.dynamics is not None
+    history = result.dynamics.impact_history
     problem = history.problem
     modes = problem.contact.modes
     assert problem.m * modes.inverse_modal_mass[0] > time_in_contact.HEAVY

@@ -42,15 +42,15 @@ def test_retardation_time_reproduces_the_restitution(goal: float) -> None:
     time = solved(measured(restitution=goal, solve_for="retardation_time", tested_at=0.5))
     still = dict.fromkeys(("bending", "finite_thickness", "finite_radius", "edge"), False)
     block = BLOCK["plate"] | {"radius": 100.0, "thickness": 200.0, "retardation_time": time}
-    found = simulate(
+    result = simulate(
         read(BLOCK | {
             "plate": block, "impact": {"speed": 0.5},
             "effects": still | {"inertia": False, "viscosity": True},
             "accuracy": {"rtol": 1e-8},
         })
     )  # fmt: skip
-    assert found.restitution == pytest.approx(goal, rel=1e-6)
-    assert viscous_impact(found.effects.law).restitution == found.restitution
+    assert result.restitution == pytest.approx(goal, rel=1e-6)
+    assert viscous_impact(result.effects.law).restitution == result.restitution
 
 
 def test_test_plate_may_be_the_plate_of_the_scene() -> None:
@@ -101,9 +101,9 @@ def test_the_bound_covers_the_error_of_the_constant(
     wanted = {"restitution": goal, "solve_for": solve_for, "target": "plate"}
     thick = BLOCK["plate"] | {"radius": 0.1, "thickness": 0.1}
     tables = BLOCK | {"plate": thick, "measured": wanted, "effects": {"inertia": False}}
-    found = simulate(read(tables), rtol=rtol)
-    assert found.accuracy.constant is not None
-    assert abs(found.restitution / goal - 1.0) <= found.accuracy.bound
+    result = simulate(read(tables), rtol=rtol)
+    assert result.accuracy.constant is not None
+    assert abs(result.restitution / goal - 1.0) <= result.accuracy.bound
 
 
 def test_a_plate_that_bends_limits_what_a_retardation_time_can_dissipate() -> None:
@@ -115,8 +115,8 @@ def test_a_plate_that_bends_limits_what_a_retardation_time_can_dissipate() -> No
 
 def test_a_measurement_with_plate_inertia_limits_the_tolerance() -> None:
     scene = measured(restitution=0.5, solve_for="retardation_time", target="plate")
-    found = simulate(scene)
-    assert abs(found.restitution / 0.5 - 1.0) <= found.accuracy.bound
+    result = simulate(scene)
+    assert abs(result.restitution / 0.5 - 1.0) <= result.accuracy.bound
     with pytest.raises(SceneError, match=r"accuracy\.rtol: expected at least .* constant"):
         simulate(scene, rtol=1e-3)
 
@@ -124,13 +124,13 @@ def test_a_measurement_with_plate_inertia_limits_the_tolerance() -> None:
 def test_a_measurement_is_more_accurate_than_the_results() -> None:
     """The measurement had the tolerance of the results, which its error then exceeded."""
     scene = measured(restitution=0.2, solve_for="yield_stress", target="plate")
-    found, finer = (simulate(scene, rtol=rtol) for rtol in (3e-2, 3e-3))
-    for result, rtol in ((found, 3e-2), (finer, 3e-3)):
+    outcome, finer = (simulate(scene, rtol=rtol) for rtol in (3e-2, 3e-3))
+    for result, rtol in ((outcome, 3e-2), (finer, 3e-3)):
         assert result.accuracy.constant is not None
         assert result.accuracy.constant.bound < 0.6 * rtol
         assert result.accuracy.bound <= rtol
         assert abs(result.restitution / 0.2 - 1.0) <= result.accuracy.bound
-    assert abs(solved(found.scene) / solved(finer.scene) - 1.0) <= found.accuracy.bound
+    assert abs(solved(outcome.scene) / solved(finer.scene) - 1.0) <= outcome.accuracy.bound
 
 
 @pytest.mark.parametrize(("solve_for", "goal"), [("yield_stress", 0.2), ("retardation_time", 0.5)])

@@ -138,9 +138,9 @@ def test_exponents_of_the_lemma_agree_with_the_theory() -> None:
     from derivation.plate.impact.theory.substitution import exponents
 
     loss, fall, rise = 1e-9, 0.25, 0.5
-    found = {name: float(x) for name, x in exponents(sp.Float(fall), sp.Float(rise)).items()}
-    wider = loss / found["energy"]
-    changes = 3 * wider, found["depth"] * wider, loss, loss + found["shorter"] * wider
+    actual = {name: float(x) for name, x in exponents(sp.Float(fall), sp.Float(rise)).items()}
+    wider = loss / actual["energy"]
+    changes = 3 * wider, actual["depth"] * wider, loss, loss + actual["shorter"] * wider
     assert simple_impact.law_error(loss, 0.0, fall, rise) == pytest.approx(max(changes), rel=1e-6)
 
 
@@ -202,9 +202,9 @@ def test_smaller_tolerance_selects_no_faster_method() -> None:
 
 def test_bound_is_within_the_tolerance_down_to_the_smallest() -> None:
     for rtol in TOLERANCES:
-        found = method_selection.solve(paper(), rtol)[1]
-        assert 0 < found.bound <= rtol
-        assert found.rtol == rtol
+        solution = method_selection.solve(paper(), rtol)[1]
+        assert 0 < solution.bound <= rtol
+        assert solution.rtol == rtol
     assert method_selection.solve(paper(), 1e-13)[1].method == "full"
 
 
@@ -213,8 +213,8 @@ def test_method_changes_at_its_bound(v0: float) -> None:
     model = paper(v0=v0)
     stated = {"coarse": method_selection.whole_law("coarse", None).bound}
     for method in ("hertz", "leading"):
-        found = getattr(simple_impact, method)(*model.numbers)
-        stated[method] = method_selection.estimated(method, found, None).bound
+        actual = getattr(simple_impact, method)(*model.numbers)
+        stated[method] = method_selection.estimated(method, actual, None).bound
     for method, bound in stated.items():
         above, below = (
             method_selection.solve(model, bound * side) for side in (1 + 1e-9, 1 - 1e-9)
@@ -239,9 +239,9 @@ def test_full_method_is_used_without_a_tolerance() -> None:
     result = simulate(load(PAPER))
     assert (result.accuracy.method, result.accuracy.rtol) == ("full", None)
     assert result.accuracy.bound < 1e-13
-    found = kernels.impact(*result.model.numbers)
-    assert result.contact_time == found.contact_time
-    assert result.max_force == found.max_force
+    outcome = kernels.impact(*result.model.numbers)
+    assert result.contact_time == outcome.contact_time
+    assert result.max_force == outcome.max_force
 
 
 def test_argument_overrides_the_tolerance_of_the_scene() -> None:

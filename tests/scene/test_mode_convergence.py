@@ -77,17 +77,17 @@ def test_two_runs_that_agree_by_chance_do_not_hide_the_error(output: Output) -> 
     """The peak of 1871 and 7417 modes agrees to 7e-7, but differs by 4e-5 from that of 14790."""
     reference = getattr(followed(181, "all"), output)
     for rtol in (1e-3, 1e-4, 1e-5, 1e-6):
-        found = run(rtol, output)
-        if found is not None:
-            assert abs(getattr(found, output) / reference - 1.0) <= found.accuracy.bound <= rtol
+        result = run(rtol, output)
+        if result is not None:
+            assert abs(getattr(result, output) / reference - 1.0) <= result.accuracy.bound <= rtol
 
 
 def test_a_small_last_change_does_not_hide_the_change_before_it() -> None:
     """Waves return during the contacts: the force of 344 modes differs less from that of 95."""
     tables = tomllib.loads((EXAMPLES / "soft_layer.toml").read_text())
-    found = simulate(read(tables | {"accuracy": {"rtol": 1e-2}}))
+    result = simulate(read(tables | {"accuracy": {"rtol": 1e-2}}))
     finer = simulate(read(tables | {"inertia": {"modes": 120, "branches": "all"}}))
-    assert abs(found.max_force / finer.max_force - 1.0) <= found.accuracy.bound
+    assert abs(result.max_force / finer.max_force - 1.0) <= result.accuracy.bound
 
 
 def test_runs_with_other_contacts_do_not_show_a_tolerance_out_of_reach() -> None:
@@ -97,15 +97,15 @@ def test_runs_with_other_contacts_do_not_show_a_tolerance_out_of_reach() -> None
         "plate": {"radius": 0.06, "thickness": 1e-3, "material": "cover glass", "edge": "clamped"},
         "impact": {"speed": 1.0, "gravity": 9.81},
     }
-    found = simulate(read(scene | {"accuracy": {"rtol": 1e-2}}))
-    assert found.dynamics is not None
-    law = found.dynamics.law
-    problem = waves.problem_of(law, 2 * found.dynamics.inertia.modes)
+    result = simulate(read(scene | {"accuracy": {"rtol": 1e-2}}))
+    assert result.dynamics is not None
+    law = result.dynamics.law
+    problem = waves.problem_of(law, 2 * result.dynamics.inertia.modes)
     history = contact_sequence.impact_history(problem, 24, 1e-6, math.inf)
     finer = dynamic_impact_of(law, history)
     for name in ("contact_time", "max_force", "restitution"):
-        error = abs(getattr(found, name) / getattr(finer, name) - 1.0)
-        assert error <= found.accuracy.bound <= 1e-2
+        error = abs(getattr(result, name) / getattr(finer, name) - 1.0)
+        assert error <= result.accuracy.bound <= 1e-2
 
 
 def test_a_tolerance_is_out_of_reach_only_by_runs_that_show_it(
@@ -117,12 +117,12 @@ def test_a_tolerance_is_out_of_reach_only_by_runs_that_show_it(
     assert run is not None
     law, errors = run.law, (0.5, 0.5, 0.5, 0.5, 0.5)
     doubled = replace(run.inertia, mode_convergence=errors, earlier_change=errors)
-    found = replace(run, inertia=replace(doubled, recounted=False))
+    actual = replace(run, inertia=replace(doubled, recounted=False))
     recounted = replace(run, inertia=replace(doubled, recounted=True))
     monkeypatch.setattr(mode_convergence, "beyond_limits", lambda *_, **__: True)
     monkeypatch.setattr(mode_convergence, "fast", lambda *_: True)
     reach = Reach(law, ("max_force",), 1e-2)
-    assert mode_convergence.unreachable(found, law, 8, 1.0, reach)
+    assert mode_convergence.unreachable(actual, law, 8, 1.0, reach)
     assert not mode_convergence.unreachable(recounted, law, 8, 1.0, reach)
     monkeypatch.setattr(mode_convergence, "fast", lambda *_: False)
-    assert not mode_convergence.unreachable(found, law, 8, 1.0, reach)
+    assert not mode_convergence.unreachable(actual, law, 8, 1.0, reach)

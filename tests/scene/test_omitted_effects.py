@@ -43,13 +43,13 @@ ALONE: dict[str, set[str]] = {
 @pytest.fixture
 def calls(monkeypatch: pytest.MonkeyPatch) -> set[str]:
     """Record the names of called kernels and of functions that return zeros of J0."""
-    found: set[str] = set()
+    actual: set[str] = set()
 
     def count(home: Any, name: str) -> None:
         run = getattr(home, name)
 
         def counted(*given: Any, **named: Any) -> Any:
-            found.add(name)
+            actual.add(name)
             return run(*given, **named)
 
         monkeypatch.setattr(home, name, counted)
@@ -62,7 +62,7 @@ def calls(monkeypatch: pytest.MonkeyPatch) -> set[str]:
             count(home, name)
     count(non_hertzian_pressure, "contact")
     count(non_hertzian_pressure, "plate")
-    return found
+    return actual
 
 
 @pytest.mark.parametrize("name", sorted(ALL))

@@ -32,27 +32,27 @@ BLOCK: dict[str, Any] = {
 """Waves cross the thickness much faster than the contact lasts."""
 
 
-def largest_difference(found: Result, reference: Result) -> float:
-    return max(abs(getattr(found, name) / getattr(reference, name) - 1.0) for name in OUTPUTS)
+def largest_difference(result: Result, reference: Result) -> float:
+    return max(abs(getattr(result, name) / getattr(reference, name) - 1.0) for name in OUTPUTS)
 
 
 def test_bound_on_omitted_inertia_covers_the_plastic_loss() -> None:
     """The bound includes the plastic loss; without it, it was 5.7e-4 for a change of 6.1e-4."""
     others = dict.fromkeys(("bending", "finite_thickness", "edge", "non_hertzian_pressure"), True)
-    found = simulate(read(DISC | {"effects": others | {"inertia": "auto"}}), rtol=0.01)
-    assert found.energy_balance is not None
-    assert found.energy_balance.plate == 0.0
+    result = simulate(read(DISC | {"effects": others | {"inertia": "auto"}}), rtol=0.01)
+    assert result.energy_balance is not None
+    assert result.energy_balance.plate == 0.0
     reference = simulate(read(DISC | {"effects": others | {"inertia": True}}), rtol=1e-4)
-    assert 1e-4 < largest_difference(found, reference) <= 0.5 * found.accuracy.bound
+    assert 1e-4 < largest_difference(result, reference) <= 0.5 * result.accuracy.bound
 
 
 def test_bound_on_omitted_branches_covers_the_plastic_loss() -> None:
     """The bound includes the plastic loss; without it, it was 1.3e-6 for a change of 2.0e-6."""
-    found, reference = (
+    result, reference = (
         simulate(read(BLOCK | {"effects": {"inertia": True}, "inertia": {"branches": branches}}))
         for branches in ("A0", "all")
     )
-    assert 1e-6 < largest_difference(found, reference) <= 0.5 * found.accuracy.bound
+    assert 1e-6 < largest_difference(result, reference) <= 0.5 * result.accuracy.bound
 
 
 ENDED_EARLY = (210, 213, 224, 243, 336, 395, 409, 452)
@@ -84,10 +84,10 @@ def plastic_model(number: int) -> Model:
 def test_plastic_contact_on_a_vibrating_plate_is_complete(number: int) -> None:
     model = plastic_model(number)
     effects = inertia_check.selectable_effects(model) - {"non_hertzian_pressure"}
-    found = waves.impact(ContactLaw(model, effects), 1e-4)
-    assert found.inertia.complete
-    assert 0.0 < found.restitution < 1.0
-    assert abs(found.energy_balance.residual) < 1e-6
+    result = waves.impact(ContactLaw(model, effects), 1e-4)
+    assert result.inertia.complete
+    assert 0.0 < result.restitution < 1.0
+    assert abs(result.energy_balance.residual) < 1e-6
 
 
 SHARP = Model(
@@ -100,16 +100,16 @@ SHARP = Model(
 
 def test_a_contact_ends_with_its_force_and_not_with_its_approach() -> None:
     """It ended while its force was largest; the energy-balance error was 1.2e3."""
-    found, fewer = (
+    result, fewer = (
         waves.impact(
             ContactLaw(model, inertia_check.selectable_effects(model) - {"non_hertzian_pressure"}),
             1e-2,
         )
         for model in (SHARP, replace(SHARP, inertia=InertiaSettings(modes=100, branches="A0")))
     )
-    assert found.inertia.complete
-    assert abs(found.energy_balance.residual) < 1e-9
-    assert abs(found.restitution / fewer.restitution - 1.0) < 2e-5
+    assert result.inertia.complete
+    assert abs(result.energy_balance.residual) < 1e-9
+    assert abs(result.restitution / fewer.restitution - 1.0) < 2e-5
 
 
 def test_error_of_a_result_in_which_two_runs_agree_by_chance() -> None:
@@ -126,10 +126,10 @@ def test_error_of_a_result_in_which_two_runs_agree_by_chance() -> None:
         "impact": {"speed": 9.077e-4, "gravity": 0.2535},
         "effects": {"inertia": True, "non_hertzian_pressure": False},
     }  # fmt: skip
-    found, finer = (
+    result, finer = (
         simulate(read({**scene, "inertia": {"branches": "A0", "modes": modes}}))
         for modes in (10, 40)
     )
-    assert found.dynamics is not None
-    by_modes, _ = found.dynamics.inertia.left(("contact_time",))
-    assert 4e-5 < abs(found.contact_time / finer.contact_time - 1.0) < by_modes < 4e-3
+    assert result.dynamics is not None
+    by_modes, _ = result.dynamics.inertia.left(("contact_time",))
+    assert 4e-5 < abs(result.contact_time / finer.contact_time - 1.0) < by_modes < 4e-3

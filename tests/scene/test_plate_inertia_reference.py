@@ -53,14 +53,14 @@ def test_infinite_plate_does_not_depend_on_the_radius() -> None:
     """An infinite plate gives the same results as a finite one before a wave returns."""
     ball = {"radius": 0.005, "density": 7850.0}
     for pressure in ("auto", False):
-        found = []
+        actual = []
         for b, kind in ((0.05, "infinite"), (2.0, "infinite"), (0.3, "finite")):
             scene = dict(pane(b, 0.008), sphere=ball, impact={"speed": 1.0})
             tables = {"inertia": {"extent": kind}, "effects": {"non_hertzian_pressure": pressure}}
-            found.append(simulate(read(scene | tables)))
-        assert found[0].restitution == found[1].restitution
-        assert differ(found[0], found[2]) < 1e-4
-        assert found[0].restitution == pytest.approx(0.747, abs=1e-3)
+            actual.append(simulate(read(scene | tables)))
+        assert actual[0].restitution == actual[1].restitution
+        assert differ(actual[0], actual[2]) < 1e-4
+        assert actual[0].restitution == pytest.approx(0.747, abs=1e-3)
 
 
 @pytest.mark.parametrize("row", DATA["impacts"], ids=lambda row: row["name"])
@@ -88,10 +88,10 @@ def test_program_still_agrees_with_the_record(number: int) -> None:
     """Every ninth case is simulated again and agrees with the record within its bound."""
     row = DATA["impacts"][number]
     effects = {"spherical_profile": row["spherical_profile"], "inertia": True}
-    found = simulate(read({**row["scene"], "effects": effects}))
+    result = simulate(read({**row["scene"], "effects": effects}))
     for name in JUDGED:
         value = row["program"]["values"][name]
-        assert getattr(found, name) == pytest.approx(value, rel=max(1e-6, row["program"]["bound"]))
+        assert getattr(result, name) == pytest.approx(value, rel=max(1e-6, row["program"]["bound"]))
 
 
 def _plate(row: Mapping[str, Any]) -> str:
@@ -106,10 +106,10 @@ def test_frequencies_agree_with_three_dimensional_elasticity(row: Mapping[str, A
     """The first three frequencies agree within 0.3 % for H/b <= 0.2, and 1 % for thicker plates."""
     run = clamped_waves if row["edge"] == "clamped" else supported_waves
     eta = row["thickness_over_radius"] / 2.0
-    found = run(3, eta, row["poissons_ratio"]).root / eta
+    actual = run(3, eta, row["poissons_ratio"]).root / eta
     limit = 3e-3 if row["thickness_over_radius"] <= 0.2 else 1e-2
-    np.testing.assert_allclose(found, row["frequencies"][: found.size], rtol=limit)
-    assert found.size >= 2
+    np.testing.assert_allclose(actual, row["frequencies"][: actual.size], rtol=limit)
+    assert actual.size >= 2
 
 
 @pytest.mark.parametrize("edge", EDGES[1:])
@@ -182,21 +182,21 @@ def test_contact_too_short_for_the_modes_is_rejected() -> None:
     with pytest.raises(SceneError, match=r"inertia\.modes: .* frequencies up to .*infinite"):
         simulate(read(scene))
     # Infinite plates agree if no through-thickness reflection returns during the contact.
-    found = []
+    actual = []
     for thickness in (0.05, 0.06):
         scene["plate"] = pane(6.4, thickness)["plate"]
-        found.append(simulate(read(scene | {"inertia": {"extent": "infinite"}})))
-        assert found[-1].contact_time < thickness / found[-1].model.shear_speed
-    assert differ(*found) < found[0].accuracy.bound + found[1].accuracy.bound < 0.1
+        actual.append(simulate(read(scene | {"inertia": {"extent": "infinite"}})))
+        assert actual[-1].contact_time < thickness / actual[-1].model.shear_speed
+    assert differ(*actual) < actual[0].accuracy.bound + actual[1].accuracy.bound < 0.1
 
 
 def test_all_branches_of_a_thick_block_are_computed() -> None:
     """Finite elements and radiation into a half-space both give a restitution of 0.9907."""
     scene = tomllib.loads((EXAMPLES / "impact_echo.toml").read_text())
-    found = simulate(read(scene | {"inertia": {"branches": "all"}}))
-    assert found.dynamics is not None
-    assert found.dynamics.inertia.modes > 2000
-    assert found.restitution == pytest.approx(0.9907, abs=5e-4)
+    result = simulate(read(scene | {"inertia": {"branches": "all"}}))
+    assert result.dynamics is not None
+    assert result.dynamics.inertia.modes > 2000
+    assert result.restitution == pytest.approx(0.9907, abs=5e-4)
 
 
 def test_branches_are_included_if_the_tolerance_needs_them() -> None:
@@ -207,5 +207,5 @@ def test_branches_are_included_if_the_tolerance_needs_them() -> None:
     assert rough.dynamics is not None
     assert exact.dynamics is not None
     assert rough.dynamics.inertia.modes < exact.dynamics.inertia.modes
-    for found in (rough, exact):
-        assert differ(found, fine) <= found.accuracy.bound + fine.accuracy.bound
+    for result in (rough, exact):
+        assert differ(result, fine) <= result.accuracy.bound + fine.accuracy.bound

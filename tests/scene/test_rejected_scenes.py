@@ -67,10 +67,10 @@ def refused_from(make: Callable[[float], Any], fine: float, bad: float) -> tuple
 def test_contact_radii_above_the_limit_are_rejected(tables: Tables, limit: float) -> None:
     """The limit is min(b, R) or a little less; three thicknesses for non-Hertzian pressure."""
     given = read(changed(**tables))
-    found, text = refused_from(lambda a: indent(given, contact_radius=a), 0.5 * limit, 2 * limit)
-    assert found == pytest.approx(limit, rel=3e-6)
+    actual, text = refused_from(lambda a: indent(given, contact_radius=a), 0.5 * limit, 2 * limit)
+    assert actual == pytest.approx(limit, rel=3e-6)
     assert f"{limit:.6g} m" in text
-    assert f"{found:.6g} m" in text
+    assert f"{actual:.6g} m" in text
 
 
 def test_contact_without_central_pressure_is_rejected() -> None:

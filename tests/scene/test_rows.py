@@ -33,22 +33,22 @@ def scene_with(**tables: Mapping[str, Any]) -> Scene:
 
 def check(scene: Scene, columns: Mapping[str, Array], rtol: float | None = None) -> Rows:
     """Solve rows, and assert that each is the simulation of its scene, to the last bit."""
-    found = solve(scene, columns, rtol)
-    for row in range(len(found.bound)):
+    solution = solve(scene, columns, rtol)
+    for row in range(len(solution.bound)):
         one, reason = simulated(row_of(scene, columns, row), rtol)
         if one is None:
-            assert (found.status[row], found.reason[row]) == ("rejected", reason)
-            assert found.effects[row] == ""
-            assert all(np.isnan(values[row]) for values in found.results.values())
+            assert (solution.status[row], solution.reason[row]) == ("rejected", reason)
+            assert solution.effects[row] == ""
+            assert all(np.isnan(values[row]) for values in solution.results.values())
             continue
-        assert found.effects[row] == " ".join(one.effects.included)
-        assert found.status[row] == "finished"
-        assert found.reason[row] == "; ".join(one.warnings)
-        assert found.model_error[row] == one.model_error
-        assert found.bound[row] == one.accuracy.bound
+        assert solution.effects[row] == " ".join(one.effects.included)
+        assert solution.status[row] == "finished"
+        assert solution.reason[row] == "; ".join(one.warnings)
+        assert solution.model_error[row] == one.model_error
+        assert solution.bound[row] == one.accuracy.bound
         for name in UNITS:
-            np.testing.assert_array_equal(found.results[name][row], getattr(one, name), name)
-    return found
+            np.testing.assert_array_equal(solution.results[name][row], getattr(one, name), name)
+    return solution
 
 
 def simulated(tables: Mapping[str, Any], rtol: float | None) -> tuple[Result | None, str]:
@@ -98,8 +98,8 @@ def test_rows_with_a_yield_stress_may_omit_inertia(monkeypatch: pytest.MonkeyPat
         "impact": {"speed": 1e-5},
     })  # fmt: skip
     columns = {"impact.speed": np.array([1e-5, 2e-5])}
-    found = check(scene, columns, 0.5)
-    assert not any({"inertia", "plasticity"} & set(names.split()) for names in found.effects)
+    actual = check(scene, columns, 0.5)
+    assert not any({"inertia", "plasticity"} & set(names.split()) for names in actual.effects)
     in_arrays(monkeypatch, scene, columns, 0.5)
 
 
@@ -139,8 +139,8 @@ def test_rows_with_omitted_inertia_are_computed_in_arrays(
 ) -> None:
     scene = scene_with(plate={"thickness": 0.5, "radius": 0.5}, effects={"inertia": "auto"})
     columns = {"impact.speed": np.linspace(0.05, 0.1, 3)}
-    found = check(scene, columns, 0.1)
-    assert not any("inertia" in names for names in found.effects)
+    actual = check(scene, columns, 0.1)
+    assert not any("inertia" in names for names in actual.effects)
     in_arrays(monkeypatch, scene, columns, 0.1)
 
 
@@ -159,17 +159,17 @@ def test_rows_without_a_required_density_are_rejected_in_arrays(
 def test_rejected_and_separately_solved_rows_are_simulations() -> None:
     scene = scene_with()
     speeds = np.array([0.2, -1.0, np.nan, 0.0, 1e4, 0.3])
-    found = check(scene, {"impact.speed": speeds}, 1e-1)
-    assert found.status.tolist() == ["finished", *["rejected"] * 4, "finished"]
+    actual = check(scene, {"impact.speed": speeds}, 1e-1)
+    assert actual.status.tolist() == ["finished", *["rejected"] * 4, "finished"]
     thin = {"plate.thickness": np.array([0.004, 0.05]), "impact.speed": np.array([2.0, 0.2])}
     assert "non_hertzian_pressure" in check(scene, thin, 1e-4).effects[0]
 
 
 def test_rows_with_and_without_weight_are_separated() -> None:
     columns = {"impact.gravity": np.array([0.0, 9.81, 1e4, 0.0])}
-    found = check(scene_with(), columns, 1e-2)
-    assert "gravity" in found.effects[2]
-    assert "gravity" not in found.effects[0]
+    actual = check(scene_with(), columns, 1e-2)
+    assert "gravity" in actual.effects[2]
+    assert "gravity" not in actual.effects[0]
 
 
 def test_columns_of_materials_and_alternative_keys() -> None:
@@ -237,7 +237,7 @@ def test_errors_of_many_laws_are_those_of_each() -> None:
     chance = np.random.default_rng(3)
     low, up, energy = 10 ** chance.uniform(-12, -1, (3, 200))
     fall, rise = chance.uniform(0.0, 2.1, (2, 200))
-    found = np.array(law_errors(low, up, fall, rise, energy))
+    actual = np.array(law_errors(low, up, fall, rise, energy))
     each = [simple_impact.law_errors(*numbers) for numbers in
             zip(low, up, fall, rise, energy, strict=True)]  # fmt: skip
-    np.testing.assert_allclose(found.T, each, rtol=1e-12)
+    np.testing.assert_allclose(actual.T, each, rtol=1e-12)

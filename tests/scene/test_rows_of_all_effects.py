@@ -106,5 +106,5 @@ def test_two_effects_without_a_bound_give_no_warning_of_numpy() -> None:
             "impact": {"speed": 1.0},
         }
     )  # fmt: skip
-    found = solve(scene, {"impact.speed": np.array([1.0])}, 0.03)
-    assert found.status[0] == "rejected"
+    solution = solve(scene, {"impact.speed": np.array([1.0])}, 0.03)
+    assert solution.status[0] == "rejected"

@@ -146,8 +146,8 @@ def test_code_reproduces_law_and_impact_with_only_numpy(case: str, tmp_path: Pat
 
 
 def moved_numbers(law: ContactLaw) -> list[float]:
-    found = moved(law)
-    return list(found.numbers)
+    result = moved(law)
+    return list(result.numbers)
 
 
 def test_code_with_every_effect_agrees_with_indent() -> None:
@@ -180,14 +180,14 @@ def test_code_accepts_arrays_and_does_not_change_them(case: str) -> None:
     for function in (force, names["stiffness"], names["contact_radius"]):
         delta = np.array([[-1.0, 0.0, 0.5 * end], [end, np.nan, -np.inf]])
         delta.flags.writeable = False
-        found = function(delta)
-        assert found.shape == (2, 3)
-        assert np.isfinite(found).ravel().tolist() == [True, True, True, True, False, True]
-        assert found[0, 0] == found[0, 1] == found[1, 2] == 0.0
-        assert 0.0 < found[0, 2] < found[1, 0] or function is names["stiffness"]
+        actual = function(delta)
+        assert actual.shape == (2, 3)
+        assert np.isfinite(actual).ravel().tolist() == [True, True, True, True, False, True]
+        assert actual[0, 0] == actual[0, 1] == actual[1, 2] == 0.0
+        assert 0.0 < actual[0, 2] < actual[1, 0] or function is names["stiffness"]
         single = function(0.5 * end)
         assert np.shape(single) == ()
-        assert single == found[0, 2] == function(np.array(0.5 * end))
+        assert single == actual[0, 2] == function(np.array(0.5 * end))
         assert function(np.empty(0)).shape == (0,)
         assert function([0, -1]).tolist() == [0.0, 0.0]
         beyond = [np.nextafter(end, np.inf), 2.0 * end, np.inf]
@@ -206,8 +206,8 @@ def test_code_computes_impacts_at_other_speeds(case: str, factor: float) -> None
     if reference is None or reference.max_contact_radius > names_of(case)["LIMIT"]:
         assert math.isnan(names_of(case)["impact"](model.v0).max_force)
         return
-    found = names_of(case)["impact"](model.v0)
-    assert list(found) == pytest.approx(list(reference.numbers), rel=1e-11, abs=1e-11)
+    actual = names_of(case)["impact"](model.v0)
+    assert list(actual) == pytest.approx(list(reference.numbers), rel=1e-11, abs=1e-11)
 
 
 @pytest.mark.parametrize("case", ["block", "paper", "glass_pane", "viscous", "viscous, bent"])
@@ -303,8 +303,8 @@ MARKS = {
 @pytest.mark.parametrize("case", CASES)
 def test_code_contains_no_omitted_effects(case: str) -> None:
     tree = ast.parse(code_of(case))
-    found = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
-    found |= {node.name for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)}
+    actual = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
+    actual |= {node.name for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)}
     effects = recipe(scene_of(case)).law.effects
     also = {
         "spherical_profile": {"non_hertzian_pressure"},
@@ -312,7 +312,7 @@ def test_code_contains_no_omitted_effects(case: str) -> None:
     }
     for effect, marks in MARKS.items():
         if not effects & ({effect} | also.get(effect, set()) - {"sphere_elasticity"}):
-            assert not found & marks, effect
+            assert not actual & marks, effect
     defined = {node.name for node in tree.body if isinstance(node, ast.FunctionDef | ast.ClassDef)}
     private = {name for name in defined if name.startswith("_")}
     assert private <= {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}

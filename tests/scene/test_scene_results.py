@@ -56,12 +56,12 @@ def test_deflection_of_a_plate_with_inertia_is_that_of_its_history() -> None:
     local = local_indentation(result.effects.law, history.contact_radius)
     touching = history.force > 0.0
     seen = np.max(np.abs(history.indentation - local)[touching])
-    found = result.dynamics.largest_deflection(result.effects.law)
-    assert found >= (1 - 1e-6) * seen
-    assert found >= 0.98 * np.max(np.abs(history.deflection))
+    deflection = result.dynamics.largest_deflection(result.effects.law)
+    assert deflection >= (1 - 1e-6) * seen
+    assert deflection >= 0.98 * np.max(np.abs(history.deflection))
     problem = result.dynamics.impact_history.problem
     later = np.linspace(1.0, 1.2, 200) * result.total_time
-    assert found >= 0.98 * np.max(np.abs(result.dynamics.profiles(later, np.zeros(1))))
+    assert deflection >= 0.98 * np.max(np.abs(result.dynamics.profiles(later, np.zeros(1))))
     assert problem.contact.modes.phi.size == 24  # wave numbers; some have two branches
 
 
@@ -102,12 +102,12 @@ def test_shapes_of_modes_with_many_nodes_are_finite() -> None:
     """The shapes are finite and vanish at the edge, although I_0 alone would overflow."""
     with np.errstate(all="raise", under="ignore"):
         waves = edge_modes.clamped_waves(400, 1e-4, 0.3)
-        found = edge_modes.shape(waves, np.linspace(0.0, 1.0, 11))
+        actual = edge_modes.shape(waves, np.linspace(0.0, 1.0, 11))
     assert waves.k2[-1] > 1200.0
-    assert np.isfinite(found).all()
-    assert found[:, 0] == pytest.approx(1.0, rel=1e-12)
-    assert np.abs(found).max() <= 1.0 + 1e-12
-    assert np.abs(found[:, -1]).max() < 1e-4
+    assert np.isfinite(actual).all()
+    assert actual[:, 0] == pytest.approx(1.0, rel=1e-12)
+    assert np.abs(actual).max() <= 1.0 + 1e-12
+    assert np.abs(actual[:, -1]).max() < 1e-4
 
 
 def test_many_modes_of_a_clamped_plate_are_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -167,10 +167,10 @@ def test_history_is_finite_at_zero_rate(radius: float, edge: str, speed: float) 
             "effects": {"inertia": False},
         }
     )
-    found = simulate(data).history()
-    assert all(np.isfinite(column).all() for column in found)
-    assert found.velocity[0] == pytest.approx(speed)
-    assert found.indentation[0] == pytest.approx(0.0, abs=1e-12)
+    history = simulate(data).history()
+    assert all(np.isfinite(column).all() for column in history)
+    assert history.velocity[0] == pytest.approx(speed)
+    assert history.indentation[0] == pytest.approx(0.0, abs=1e-12)
 
 
 def test_history_with_nan_is_rejected(

@@ -28,16 +28,16 @@ from generated.impact import Impact
 def test_thick_plate_gives_hertz() -> None:
     scene = thick()
     m = model_of(scene)
-    found = simulate(scene)
+    result = simulate(scene)
     stiffness = 16 * m.mu * (m.lam + m.mu) / (3 * (m.lam + 2 * m.mu)) * math.sqrt(m.R)
     depth = (1.25 * m.m * m.v0**2 / stiffness) ** 0.4
     time = 2 * math.gamma(1.4) / math.gamma(0.9) * math.sqrt(math.pi) * depth / m.v0
     reference = time, depth, stiffness * depth**1.5, math.sqrt(m.R * depth)
     ours = (
-        found.contact_time, found.max_indentation, found.max_force, found.max_contact_radius,
+        result.contact_time, result.max_indentation, result.max_force, result.max_contact_radius,
     )  # fmt: skip
     np.testing.assert_allclose(ours, reference, rtol=1e-6)
-    assert found.warnings == ()
+    assert result.warnings == ()
 
 
 def test_history_starts_and_ends_without_force_and_conserves_energy() -> None:
@@ -74,11 +74,11 @@ def test_history_at_given_times() -> None:
     scene = read(changed())
     whole = simulate(scene)
     times = [0.0, whole.contact_time / 3, whole.contact_time]
-    found = simulate(scene, times=times)
-    assert found.history().time.tolist() == times
-    assert found.history(5).time.shape == (5,)
+    result = simulate(scene, times=times)
+    assert result.history().time.tolist() == times
+    assert result.history(5).time.shape == (5,)
     assert whole.history().time.shape == (201,)
-    assert simulate(scene, times=(time for time in times)).times == found.times
+    assert simulate(scene, times=(time for time in times)).times == result.times
     table: Any = [times, times]
     for bad in ([-1e-9], [2 * whole.contact_time], [math.nan], [math.inf], table):
         with pytest.raises(SceneError, match=r"^times: "):
@@ -148,13 +148,13 @@ def test_results_do_not_depend_on_units(moves: bool, rel: float) -> None:
 @pytest.mark.filterwarnings("error")
 def test_extreme_scene_gives_numbers_or_an_error(tables: dict[str, dict[str, float]]) -> None:
     try:
-        found = simulate(read(changed(**tables)))
+        result = simulate(read(changed(**tables)))
     except SceneError as error:
-        found, words = None, str(error)
-    if found is None:
+        result, words = None, str(error)
+    if result is None:
         assert "expected" in words or "less extreme" in words
     else:
-        numbers = (found.contact_time, found.max_indentation, found.max_force)
+        numbers = (result.contact_time, result.max_indentation, result.max_force)
         assert all(0 < number < math.inf for number in numbers)
 
 
@@ -178,10 +178,10 @@ def test_indent_agrees_for_each_given_quantity() -> None:
     by_force = indent(scene, force=np.array([row.force for row in rows]))
     by_depth = indent(scene, indentation=tuple(row.indentation for row in rows))
     for row, other, third in zip(rows, by_force, by_depth, strict=True):
-        for found in (other, third):
-            assert found.contact_radius == pytest.approx(row.contact_radius, rel=1e-12)
-            assert found.stiffness == pytest.approx(row.stiffness, rel=1e-12)
-            assert found.max_pressure == pytest.approx(row.max_pressure, rel=1e-12)
+        for contact in (other, third):
+            assert contact.contact_radius == pytest.approx(row.contact_radius, rel=1e-12)
+            assert contact.stiffness == pytest.approx(row.stiffness, rel=1e-12)
+            assert contact.max_pressure == pytest.approx(row.max_pressure, rel=1e-12)
         assert other.force == row.force
         assert third.indentation == row.indentation
     step = 1e-4

@@ -151,9 +151,9 @@ def test_back_face_of_a_block_uses_the_edge_of_the_paper() -> None:
 
 def test_compressive_stress_predicts_no_failure() -> None:
     plate = {"half_thickness": 400.0, "tensile_strength": 1e6}
-    found = simulate(shared_scenes.scene(plate=plate, impact={"speed": 0.01}))
-    assert found.max_tensile_stress == 0.0
-    assert found.strength_note.endswith("no tensile stress under the axis")
+    result = simulate(shared_scenes.scene(plate=plate, impact={"speed": 0.01}))
+    assert result.max_tensile_stress == 0.0
+    assert result.strength_note.endswith("no tensile stress under the axis")
 
 
 # --- warnings
@@ -304,8 +304,8 @@ def test_unfinished_viscoelastic_contact_is_rejected(
     name: str, value: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     rest = ContactLaw(replace(BALL, retardation_time=1e-5), frozenset({"hertz", "viscosity"}))
-    found = viscous.impact(rest)
-    assert 0.0 < found.restitution < 1.0
+    result = viscous.impact(rest)
+    assert 0.0 < result.restitution < 1.0
     monkeypatch.setattr(viscous, name, value)
     with pytest.raises(SceneError, match=r"^plate\.retardation_time: .* \S+ s;"):
         viscous.impact(rest)
@@ -313,8 +313,8 @@ def test_unfinished_viscoelastic_contact_is_rejected(
 
 def test_element_that_cannot_be_shortened_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
     """A viscoelastic contact ends within its last element, whose own end may lie later."""
-    found = waves.impact(law(MOVING | {"viscosity"}, retardation_time=1e-4))
-    problem, touching = found.impact_history.problem, found.impact_history.contacts[0]
+    result = waves.impact(law(MOVING | {"viscosity"}, retardation_time=1e-4))
+    problem, touching = result.impact_history.problem, result.impact_history.contacts[0]
     last, before = touching.pieces[-1], touching.pieces[-2]
     end, n = last.element.x + last.element.length, last.element.slope.size
     again = separation.last_element(problem, n, last, end, before.end, before.radius)
@@ -324,13 +324,13 @@ def test_element_that_cannot_be_shortened_is_kept(monkeypatch: pytest.MonkeyPatc
 
 
 def test_initial_guess_with_nan_does_not_converge() -> None:
-    found = viscous.impact(ContactLaw(replace(BALL, retardation_time=1e-5), HERTZ | {"viscosity"}))
-    assert found.problem is not None
+    result = viscous.impact(ContactLaw(replace(BALL, retardation_time=1e-5), HERTZ | {"viscosity"}))
+    assert result.problem is not None
     start, n = viscous.Point(0.0, 1.0, 0.0), 8
-    guess = viscous._onset(found.problem, viscous.radau(n), 1e-3)
-    assert viscous.element(found.problem, n, 0.0, 1e-3, start, guess) is not None
+    guess = viscous._onset(result.problem, viscous.radau(n), 1e-3)
+    assert viscous.element(result.problem, n, 0.0, 1e-3, start, guess) is not None
     with np.errstate(all="ignore"):
-        assert viscous.element(found.problem, n, 0.0, 1e-3, start, guess * 1e200) is None
+        assert viscous.element(result.problem, n, 0.0, 1e-3, start, guess * 1e200) is None
 
 
 # --- physics
@@ -359,23 +359,23 @@ def test_restitution_of_a_thin_infinite_plate_agrees_with_zener(number: float) -
     unit = limits.zener_number(model_of(read(data)))
     # Zener's number is proportional to m^(3/5); a low speed makes the contact small.
     data["sphere"]["mass"] = 1e-3 * (number / unit) ** (5.0 / 3.0)  # type: ignore[index]
-    found = simulate(read(data))
-    assert limits.zener_number(found.model) == pytest.approx(number, rel=1e-6)
-    assert found.restitution == pytest.approx(zener_restitution(number), abs=2e-2)
+    result = simulate(read(data))
+    assert limits.zener_number(result.model) == pytest.approx(number, rel=1e-6)
+    assert result.restitution == pytest.approx(zener_restitution(number), abs=2e-2)
 
 
 def test_viscoelastic_surface_recovers_between_contacts() -> None:
     """Without force the elastic part, like a^3, decays as exp(-t/retardation time)."""
     lagging = law(MOVING | {"viscosity"}, retardation_time=1e-4)
-    found = waves.impact(lagging)
-    contacts, problem = found.impact_history.contacts, found.impact_history.problem
+    result = waves.impact(lagging)
+    contacts, problem = result.impact_history.contacts, result.impact_history.problem
     again = [(one, two) for one, two in pairwise(contacts) if two.radius]
     assert len(again) >= 2
     for one, two in again:
         gap = problem.T * (two.start - one.end)
         fallen = (two.radius / one.pieces[-1].radius) ** 3
         assert fallen == pytest.approx(math.exp(-gap / 1e-4), rel=1e-3)
-    assert abs(found.energy_balance.residual) < 1e-7
+    assert abs(result.energy_balance.residual) < 1e-7
 
 
 def test_too_few_modes_have_no_bound() -> None:

@@ -27,11 +27,11 @@ def scene(**tables: Mapping[str, Any]) -> Any:
 
 @pytest.mark.parametrize("rtol", [1e-1, 1e-2, 1e-3])
 def test_tolerance_is_met(rtol: float) -> None:
-    fine, found = simulate(scene()), simulate(scene(), rtol=rtol)
-    assert found.accuracy.bound <= rtol
+    fine, result = simulate(scene()), simulate(scene(), rtol=rtol)
+    assert result.accuracy.bound <= rtol
     for name in OUTPUTS:
-        off = abs(getattr(found, name) / getattr(fine, name) - 1.0)
-        assert off <= found.accuracy.bound + fine.accuracy.bound
+        off = abs(getattr(result, name) / getattr(fine, name) - 1.0)
+        assert off <= result.accuracy.bound + fine.accuracy.bound
 
 
 def test_unattainable_tolerance_is_rejected() -> None:
@@ -109,11 +109,11 @@ def test_recontact_does_not_depend_on_the_recovery_threshold(
     )  # fmt: skip
     law = ContactLaw(model_of(given), PAPER | {"viscosity", "inertia"})
     problem = waves.problem_of(law, 8)
-    found = []
+    actual = []
     for recovered in (15.0, 20.0):
         monkeypatch.setattr(flight, "RECOVERED", recovered)
-        found.append(contact_sequence.impact_history(problem, 16))
-    one, other = found
+        actual.append(contact_sequence.impact_history(problem, 16))
+    one, other = actual
     assert one.complete
     assert len(one.contacts) == len(other.contacts) > 1
     assert one.contacts[-1].after.velocity == pytest.approx(

@@ -125,8 +125,8 @@ def test_summary_has_the_results_with_their_significant_digits(example: Path) ->
             continue
         assert label is not None
         text, _, multiple = shown[label].strip().partition(" ")
-        found = value_of(text, multiple, unit) if multiple else float(text)
-        assert found == pytest.approx(value, rel=0.5001 * 10.0 ** (1 - result.digits))
+        actual = value_of(text, multiple, unit) if multiple else float(text)
+        assert actual == pytest.approx(value, rel=0.5001 * 10.0 ** (1 - result.digits))
 
 
 @every_example

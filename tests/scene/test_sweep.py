@@ -35,8 +35,8 @@ def test_rows_are_the_simulations_of_their_values(tmp_path: Path) -> None:
 
 
 def test_key_replaces_its_alternative() -> None:
-    found = sweep.run(load(PAPER), sweep.parse("plate.thickness=0.2:0.2:1"))
-    assert found[0].results["max_force"] == simulate(load(PAPER)).max_force
+    result = sweep.run(load(PAPER), sweep.parse("plate.thickness=0.2:0.2:1"))
+    assert result[0].results["max_force"] == simulate(load(PAPER)).max_force
     heavy = sweep.run(load(PAPER), sweep.parse("sphere.mass=1:2:2"))
     assert heavy[1].results["contact_time"] > heavy[0].results["contact_time"]
 

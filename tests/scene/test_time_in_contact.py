@@ -59,5 +59,5 @@ def test_impact_with_too_many_time_steps_is_refused_and_runs_on_a_thicker_plate(
     plate = GLASS | {"radius": 0.4, "thickness": 0.6e-3}
     with pytest.raises(SceneError, match=r"effects\.inertia: .* time steps"):
         simulate(read(scene(0.0158, plate, 1.0)))
-    found = simulate(read(scene(0.0158, plate | {"thickness": 6e-3}, 1.0)))
-    assert found.accuracy.bound <= 1e-2
+    result = simulate(read(scene(0.0158, plate | {"thickness": 6e-3}, 1.0)))
+    assert result.accuracy.bound <= 1e-2

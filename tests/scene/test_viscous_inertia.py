@@ -29,10 +29,10 @@ def test_results_at_a_loose_tolerance_are_within_their_bound(
     plate = SOFT_BLOCK["plate"] | {"retardation_time": retardation_time}
     scene = SOFT_BLOCK | {"plate": plate, "effects": {"inertia": "auto"}}
     with_inertia = scene | {"effects": {"inertia": True}}
-    found, reference = simulate(read(scene), rtol=rtol), simulate(read(with_inertia), rtol=0.02)
+    result, reference = simulate(read(scene), rtol=rtol), simulate(read(with_inertia), rtol=0.02)
     for name in OUTPUTS:
-        off = abs(getattr(found, name) / getattr(reference, name) - 1.0)
-        assert off <= found.accuracy.bound + reference.accuracy.bound
+        off = abs(getattr(result, name) / getattr(reference, name) - 1.0)
+        assert off <= result.accuracy.bound + reference.accuracy.bound
 
 
 @pytest.mark.parametrize(("number", "modes"), [(183, 8), (1017, 32)])
@@ -40,9 +40,9 @@ def test_error_of_the_force_at_the_onset_causes_no_separation(number: int, modes
     """There is one contact; an earlier version stated a separate first one of 1e-18 s."""
     data, _ = random_scenes.scene(number, seed=3)
     model = replace(model_of(read(data)), inertia=InertiaSettings(modes=modes, branches="A0"))
-    found = waves.impact(ContactLaw(model, inertia_check.selectable_effects(model)), 1e-4)
-    assert len(found.inertia.contacts) == 1
-    assert 0.5 < found.contact_time * model.v0 / found.max_indentation < 50.0
+    result = waves.impact(ContactLaw(model, inertia_check.selectable_effects(model)), 1e-4)
+    assert len(result.inertia.contacts) == 1
+    assert 0.5 < result.contact_time * model.v0 / result.max_indentation < 50.0
 
 
 LIGHT_PLATE: dict[str, Any] = {

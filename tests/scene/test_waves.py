@@ -80,17 +80,17 @@ def integrated(model: Model, end: float) -> tuple[float, float, float]:
     start[1], scale = model.v0, model.v0 * end
     small = np.full(start.size, 1e-14 * model.v0)
     small[2], small[0], small[3 : count + 3] = 1e-14 * model.R * scale, 1e-14 * scale, 1e-14 * scale
-    found = solve_ivp(
+    solution = solve_ivp(
         rate, (0.0, math.sqrt(1.05 * end)), start, "DOP853", events=released,
         rtol=1e-12, atol=small, dense_output=True,
     )  # fmt: skip
-    s = float(found.t_events[0][-1])
+    s = float(solution.t_events[0][-1])
     points = np.linspace(0.2 * s, 0.9 * s, 401)
-    near = points[int(np.argmax(found.sol(points)[2]))]
+    near = points[int(np.argmax(solution.sol(points)[2]))]
     fine = np.linspace(near - 0.01 * s, near + 0.01 * s, 41)
-    shape = np.polynomial.Chebyshev.fit(fine, [force(found.sol(x)[2]) for x in fine], 8)
+    shape = np.polynomial.Chebyshev.fit(fine, [force(solution.sol(x)[2]) for x in fine], 8)
     peak = max(float(shape(x.real)) for x in shape.deriv().roots() if abs(x.imag) < 1e-9 * s)
-    return s * s, peak, float(found.y_events[0][-1][1])
+    return s * s, peak, float(solution.y_events[0][-1][1])
 
 
 @pytest.mark.parametrize(
@@ -107,8 +107,8 @@ def integrated(model: Model, end: float) -> tuple[float, float, float]:
 )
 def test_an_independent_integrator_agrees(changes: dict[str, Any]) -> None:
     model = replace(BALL, **changes)
-    found = history(model)
-    problem, first = found.problem, found.contacts[0]
+    actual = history(model)
+    problem, first = actual.problem, actual.contacts[0]
     if model.gravity:
         fallen = 2.0 * model.gravity * problem.depth * first.pieces[-1].element.largest(2)
         assert fallen > 0.01 * model.v0**2
@@ -129,9 +129,9 @@ def test_results_do_not_depend_on_nodes_and_energy_balance_closes(h: float) -> N
         assert one.start == pytest.approx(other.start, rel=1e-9, abs=1e-9)
         assert one.end == pytest.approx(other.end, rel=1e-9)
         assert one.after.velocity == pytest.approx(other.after.velocity, abs=1e-9)
-    found = dynamic_impact_of(ContactLaw(model, EFFECTS), fine)
-    assert abs(found.energy_balance.residual) <= 1e-11
-    assert 0.0 < found.restitution < 1.0
+    result = dynamic_impact_of(ContactLaw(model, EFFECTS), fine)
+    assert abs(result.energy_balance.residual) <= 1e-11
+    assert 0.0 < result.restitution < 1.0
     for one, two in zip(fine.contacts[:-1], fine.contacts[1:], strict=True):
         for fraction in np.linspace(0.01, 0.99, 197):
             state = fine.problem.flown(one.after, fraction * (two.start - one.end))
@@ -141,9 +141,9 @@ def test_results_do_not_depend_on_nodes_and_energy_balance_closes(h: float) -> N
 def test_pointwise_coupling_loses_the_stated_energy() -> None:
     """The pointwise coupling loses energy, which the energy balance states."""
     model = replace(BALL, inertia=InertiaSettings(pointwise=True))
-    found = dynamic_impact_of(ContactLaw(model, EFFECTS), history(model))
-    assert abs(found.energy_balance.coupling_loss) > 1e-8 * found.energy_balance.initial_kinetic
-    assert abs(found.energy_balance.residual) <= 1e-11
+    result = dynamic_impact_of(ContactLaw(model, EFFECTS), history(model))
+    assert abs(result.energy_balance.coupling_loss) > 1e-8 * result.energy_balance.initial_kinetic
+    assert abs(result.energy_balance.residual) <= 1e-11
     kept = dynamic_impact_of(ContactLaw(BALL, EFFECTS), history(BALL))
     assert kept.energy_balance.coupling_loss == 0.0
 
@@ -154,8 +154,8 @@ def test_massless_plate_is_quasi_static() -> None:
     errors = []
     for density in (2.7, 0.27):
         light = replace(BALL, density=density, inertia=InertiaSettings(modes=4))
-        found = waves.impact(ContactLaw(light, EFFECTS))
-        pairs = zip(found.numbers, calm.numbers, strict=True)
+        result = waves.impact(ContactLaw(light, EFFECTS))
+        pairs = zip(result.numbers, calm.numbers, strict=True)
         errors.append([abs(x / y - 1.0) for x, y in pairs])
     assert all(late < 0.4 * early for early, late in zip(*errors, strict=True))
     # The force oscillates with an amplitude like sqrt(density); the displacement hardly does.

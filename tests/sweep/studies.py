@@ -38,19 +38,19 @@ def parts(out: Path) -> list[Path]:
 
 def counts(out: Path, size: int) -> np.ndarray:
     """Count the finished batches that contain each point."""
-    found = np.zeros(size, dtype=int)
+    actual = np.zeros(size, dtype=int)
     for path in parts(out):
         known = FILE.fullmatch(path.name)
         assert known
-        found[int(known[1]) : int(known[2])] += 1
-    return found
+        actual[int(known[1]) : int(known[2])] += 1
+    return actual
 
 
 def journal(out: Path, size: int) -> np.ndarray:
     """Count from the journal how often each point was computed and stored."""
-    found = np.zeros(size, dtype=int)
+    actual = np.zeros(size, dtype=int)
     for line in (out.with_name(f"{out.name}.parts") / "journal.txt").read_text().splitlines():
         start, stop, computed, *_ = line.split()
         assert int(computed) == int(stop) - int(start)
-        found[int(start) : int(stop)] += 1
-    return found
+        actual[int(start) : int(stop)] += 1
+    return actual

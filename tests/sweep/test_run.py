@@ -176,9 +176,9 @@ def test_processes_keep_freed_memory_beside_another_study() -> None:
     The other study has Dask's default port, which is no reason for a warning.
     """
     with taken_port(8787), run._client(None, 1) as client:
-        found = client.submit(os.environ.get, "MALLOC_TRIM_THRESHOLD_").result()
+        actual = client.submit(os.environ.get, "MALLOC_TRIM_THRESHOLD_").result()
         threads = client.submit(os.environ.get, "OPENBLAS_NUM_THREADS").result()
-    assert (found, threads) == (os.environ.get("MALLOC_TRIM_THRESHOLD_"), "1")
+    assert (actual, threads) == (os.environ.get("MALLOC_TRIM_THRESHOLD_"), "1")
 
 
 def test_slow_batches_are_divided(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -189,10 +189,10 @@ def test_slow_batches_are_divided(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr(run, "FIRST_BATCH", 20)
     monkeypatch.setattr(run.Queue, "learn", lambda *_: None)
     out = tmp_path / "divided.csv"
-    found = pc.sweep(scene(), vary, out=out)
+    study = pc.sweep(scene(), vary, out=out)
     assert (journal(out, 20) == 1).all()
     assert (counts(out, 20) == 1).all()
-    effects = found["effects"].values.astype(str)
+    effects = study["effects"].values.astype(str)
     singles = int(np.count_nonzero(np.char.find(effects, "viscosity") >= 0))
     assert 0 < singles < 20
     assert len(parts(out)) == 1 + singles

@@ -61,13 +61,13 @@ def test_every_point_equals_its_simulation() -> None:
             given["plate"]["thickness"] = thickness
             given["impact"]["speed"] = speed
             expected = pc.simulate(pc.read(given))
-            found = data.sel({"impact.speed": speed, "plate.thickness": thickness})
+            actual = data.sel({"impact.speed": speed, "plate.thickness": thickness})
             for name, unit in UNITS.items():
-                assert float(found[name]) == getattr(expected, name)
-                assert found[name].units == unit
-            assert found["status"].item() == "finished"
-            assert found["effects"].item().split() == list(expected.effects.included)
-            assert float(found["bound"]) == expected.accuracy.bound
+                assert float(actual[name]) == getattr(expected, name)
+                assert actual[name].units == unit
+            assert actual["status"].item() == "finished"
+            assert actual["effects"].item().split() == list(expected.effects.included)
+            assert float(actual["bound"]) == expected.accuracy.bound
     assert data["impact.speed"].units == "m/s"
     assert data["plate.thickness"].long_name == "plate thickness"
     assert json.loads(data.attrs["scene"]) == scene().to_json()
@@ -92,15 +92,15 @@ def test_files_contain_the_dataset(
     }  # fmt: skip
     out = tmp_path / f"rows{suffix}"
     made = pc.sweep(scene(), vary, sample=sample, out=out, rtol=0.5)
-    found = opened(out)
-    assert set(found.coords) == set(made.coords)
-    assert found.attrs == made.attrs
-    assert found.attrs["rtol"] == 0.5
-    assert found.attrs.get("seed") == (1 if sample else None)
+    actual = opened(out)
+    assert set(actual.coords) == set(made.coords)
+    assert actual.attrs == made.attrs
+    assert actual.attrs["rtol"] == 0.5
+    assert actual.attrs.get("seed") == (1 if sample else None)
     for name in made.variables:
-        assert found[name].dims == made[name].dims
-        assert found[name].attrs == made[name].attrs
-        np.testing.assert_array_equal(found[name].astype(made[name].dtype), made[name])
+        assert actual[name].dims == made[name].dims
+        assert actual[name].attrs == made[name].attrs
+        np.testing.assert_array_equal(actual[name].astype(made[name].dtype), made[name])
     assert {"finished", "rejected"} == set(made["status"].values.ravel())
     assert np.isnan(made["max_force"].values[made["status"].values == "rejected"]).all()
     assert formula.calls == made["max_force"].size
@@ -116,13 +116,13 @@ def test_tables_contain_every_point(
     monkeypatch.setattr(write, "BLOCK", 7)
     out = tmp_path / f"rows{suffix}"
     made = pc.sweep(scene(), {"impact.speed": "1:3:5", "sphere.radius": "1:2:9"}, out=out)
-    found = pd.read_csv(out) if suffix == ".csv" else pd.read_parquet(out)
+    actual = pd.read_csv(out) if suffix == ".csv" else pd.read_parquet(out)
     frame = made.to_dataframe().reset_index()
     for name in frame:
         if frame[name].dtype == float:
-            np.testing.assert_array_equal(found[name], frame[name])
+            np.testing.assert_array_equal(actual[name], frame[name])
         else:
-            assert found[name].fillna("").tolist() == frame[name].tolist()
+            assert actual[name].fillna("").tolist() == frame[name].tolist()
     if suffix == ".csv":
         with out.open() as stream:
             assert len(list(csv.reader(stream))) == 46
@@ -251,10 +251,10 @@ def test_explain_computes_only_a_few_points(
     vary = ["--vary", "impact.speed=1:3:1000", "--vary", "plate.thickness=0.1:0.2:1000"]
     assert main(["sweep", str(QUICK), *vary, "--explain", "--json", str(path)]) == 0
     assert "1,000,000 points" in capsys.readouterr().out
-    found = json.loads(path.read_text())
-    assert found["probes"] == 4
-    assert found["effects"]["hertz"] == 4
-    assert found["seconds"] > 0
+    data = json.loads(path.read_text())
+    assert data["probes"] == 4
+    assert data["effects"]["hertz"] == 4
+    assert data["seconds"] > 0
     assert not formula.calls
 
 

@@ -83,8 +83,8 @@ def test_command_prints_and_plots_indices(
     assert "from 320 runs" in shown
     assert "no scatter" in shown
     assert picture.read_bytes().startswith(b"\x89PNG")
-    found = json.loads(path.read_text())["sensitivities"]
-    assert len(found) == len(KEYS) * len(UNITS)
+    data = json.loads(path.read_text())["sensitivities"]
+    assert len(data) == len(KEYS) * len(UNITS)
 
 
 def test_points_without_a_result_have_no_sensitivities(

@@ -170,28 +170,35 @@ def kernel(
         steps=steps,
         value=value,
         switch=switch,
-        example=_example(formula, arguments, style, modes, result),
+        example=_example(
+            formula,
+            arguments,
+            style.package,
+            formula.expression if result is None else result,
+            modes,
+        ),
     )
 
 
 def _example(
     formula: Record,
     arguments: tuple[Argument, ...],
-    style: Style,
-    modes: int,
-    value: sp.Expr | None,
+    module: str,
+    value: sp.Expr,
+    modes: int = 0,
 ) -> tuple[str, ...]:
     """Return lines of a doctest at the vocabulary's sample values; empty if an argument has none.
 
-    The expected number is evaluated by SymPy from the formula, not by the generated code.
+    The expected number is evaluated by SymPy from `value`, not by the generated code. `module` is
+    imported from, unless it is empty.
     """
     samples = formula.vocabulary.values
     if not all(x.name in samples for x in arguments):
         return ()
     exact = {x.symbol: sp.Float(samples[x.name], 40) for x in arguments}
-    number = float(sp.N(formula.expression.xreplace(exact) if value is None else value, 20))
+    number = float(sp.N(value.xreplace(exact), 20))
     given = [*(samples[x.name] for x in arguments), *([f"modes={modes}"] if modes else [])]
-    start = [f">>> from {style.package} import {formula.name}"] if style.package else []
+    start = [f">>> from {module} import {formula.name}"] if module else []
     call = f"{formula.name}({', '.join(given)})"
     return (*start, f'>>> print(f"{{{call}:.10g}}")', f"{number:.10g}")
 
@@ -257,13 +264,40 @@ def _branch_text(branch: Branch, guards: Mapping[sp.Symbol, str], suffix: str) -
 
 @dataclass(frozen=True)
 class AsPrinted:
-    """A published formula as a function."""
+    """A published formula as a function: all data for its source code."""
 
     name: str
     summary: str
     equation: str
+    formula: tuple[str, ...]
+    unit: str
     arguments: tuple[ArgumentText, ...]
     value: str
+    example: tuple[str, ...]
+
+
+def as_printed(
+    formula: Record,
+    equation: str,
+    expression: sp.Expr,
+    arguments: tuple[Argument, ...],
+    module: str,
+) -> AsPrinted:
+    """Return the row of a published formula, with meaning and unit of the derived formula.
+
+    `expression` is the published right-hand side; `module` is the module of the function.
+    """
+    meaning = to_plain(formula.meaning)
+    return AsPrinted(
+        name=formula.name,
+        summary=f"{meaning[0].upper()}{meaning[1:]}, as published.",
+        equation=equation,
+        formula=_wrap(f"{formula.name} = {sp.sstr(expression)}"),
+        unit=formula.unit,
+        arguments=tuple(argument_text(x, {x.name for x in arguments}) for x in arguments),
+        value=to_numpy(expression),
+        example=_example(formula, arguments, module, expression),
+    )
 
 
 def rows_by_module(kernels: tuple[EmittedKernel, ...]) -> Mapping[str, list[EmittedKernel]]:

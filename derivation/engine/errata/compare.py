@@ -12,18 +12,17 @@ import sympy as sp
 
 from derivation.engine.errata.dimensions import dimension_note
 from derivation.engine.errata.edit import factor_pool, sum_pool, term_pool
+from derivation.engine.errata.lookup import comparable, known_formula, resolve
 from derivation.engine.errata.relations import Relations
 from derivation.engine.errata.repairs import Repair, repairs
-from derivation.engine.errata.sample import BITS, Values, monomial, sample
+from derivation.engine.errata.sample import BITS, INTEGRAL_BITS, Values, monomial, sample
 from derivation.engine.errata.variant import EXPONENT, FACE, MISSING, STRAY, TWICE, VariantSearch
-from derivation.engine.formula.ball import enclosable
+from derivation.engine.formula.integral import HINT
 from derivation.engine.formula.notation import to_latex, to_markdown, to_plain
 from derivation.engine.formula.parse import FormulaError
 from derivation.engine.formula.proof import SYMBOLIC, reduces_to_zero
 from derivation.engine.formula.record import Record
 from derivation.engine.formula.size import terms_when_expanded
-from derivation.engine.formula.vocabulary import Vocabulary
-from derivation.engine.nearest import did_you_mean, one_of
 
 EQUAL, DIFFERENT = "equal", "different"
 BY_BALLS = "by ball arithmetic"
@@ -165,7 +164,8 @@ def diagnose(
     """
     formula = known_formula(name, formulas)
     given = resolve(given, formulas, formula.vocabulary)
-    with flint.ctx.workprec(BITS):
+    integral = given.has(sp.Integral) or formula.expression.has(sp.Integral)
+    with flint.ctx.workprec(INTEGRAL_BITS if integral else BITS):
         case = _case(formula, given, formulas, relations)
         note = dimension_note(given, formula.unit, formula.vocabulary)
         method = case.method(given)
@@ -177,49 +177,8 @@ def diagnose(
                 short = _ratio(case) if ratio is None else ratio
                 repair = _as_power(case, repair)
                 return _diagnosis(case, DIFFERENT, repair, short, note, method)
+        _check_finite(given, case.have)
         return _diagnosis(case, DIFFERENT, None, _ratio(case), note, BY_BALLS)
-
-
-def comparable(formulas: Mapping[str, Record]) -> list[str]:
-    """Return the names of formulas that can be evaluated in ball arithmetic."""
-    return [name for name, formula in formulas.items() if enclosable(formula.expression)]
-
-
-def known_formula(name: str, formulas: Mapping[str, Record]) -> Record:
-    """Return the derived formula with a name.
-
-    Raises
-    ------
-    FormulaError
-        If there is no such formula, or it cannot be evaluated; the message suggests other names.
-    """
-    names = comparable(formulas)
-    if name in formulas and name not in names:
-        raise FormulaError(
-            f"{name} is an equation, or is defined by an integral or an infinite sum, and cannot "
-            f"be compared: expected one of {one_of(names)}"
-        )
-    if name not in names:
-        hint = did_you_mean(name, names, most=3)
-        raise FormulaError(f"no formula {name!r:.60}: {hint}expected one of {one_of(names)}")
-    return formulas[name]
-
-
-def resolve(given: sp.Expr, formulas: Mapping[str, Record], vocabulary: Vocabulary) -> sp.Expr:
-    """Return an expression with names of formulas replaced by their expressions.
-
-    Raises
-    ------
-    FormulaError
-        If a symbol is neither one of the paper's nor the name of a formula.
-    """
-    known = {*vocabulary.by_name, *vocabulary.guest_names}
-    names = {s: s.name for s in given.free_symbols if s.name not in known}
-    unknown = sorted(name for name in names.values() if name not in comparable(formulas))
-    if unknown:
-        own = ", ".join(vocabulary.by_name)
-        raise FormulaError(f"unknown symbols {', '.join(unknown)}: expected some of {own}")
-    return given.subs({symbol: formulas[name].expression for symbol, name in names.items()})
 
 
 def relations_between(
@@ -246,22 +205,32 @@ def _case(
             points.learn(expression)
     except NotImplementedError as error:
         raise FormulaError(f"{error}: write it with other functions") from None
-    have = points.values(given)
-    if not all(value.is_finite() for value in have):
-        raise FormulaError(
-            f"{given!s:.80} has no value at random points: check for a division by zero"
-        )
-    factors = factor_pool((given, derived), meanings)
+    have, reference = points.values(given), points.values(derived)
+    for expression, values in ((given, have), (derived, reference)):
+        if not expression.has(sp.Integral) or expression is derived:
+            _check_finite(expression, values)
+    factors = points.evaluable(factor_pool((given, derived), meanings))
     for factor in factors:
         points.learn(factor)
     return _Case(
         formula,
         given,
         meanings,
-        VariantSearch(points, factors, term_pool(derived), sum_pool(derived)),
+        VariantSearch(
+            points,
+            factors,
+            points.evaluable(term_pool(derived)),
+            points.evaluable(sum_pool(derived)),
+        ),
         have,
-        points.values(derived),
+        reference,
     )
+
+
+def _check_finite(expression: sp.Expr, values: Values) -> None:
+    if not all(value.is_finite() for value in values):
+        hint = HINT if expression.has(sp.Integral) else "check for a division by zero"
+        raise FormulaError(f"{expression!s:.80} has no value at random points: {hint}")
 
 
 def _diagnosis(
@@ -328,7 +297,9 @@ def _formulas_with_values(
     points = case.search.points
     for name in comparable(formulas):
         expression = formulas[name].expression
-        evaluable = expression.free_symbols <= set(points.known[0])
+        evaluable = points.evaluable((expression,))
+        if expression.has(sp.Integral) and not case.given.has(sp.Integral):
+            continue  # an integral takes longer than all closed forms together
         if evaluable and name != case.formula.name and points.same(expression, values):
             yield formulas[name]
 

@@ -97,7 +97,7 @@ def _changes(root: Position, search: VariantSearch) -> Iterator[_Change]:
         own = search.points.value(node, 0)
         for position in all_positions(part):
             for variant in all_variants(position, search):
-                value = _outer_value(position, variant.value, part, search)
+                value = outer_value(position, variant.value, part, search)
                 effect = real(value / own if product else value - own)
                 if effect is not None:
                     yield _Change(index, position, variant, effect)
@@ -118,7 +118,7 @@ def _of_the_whole(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
         yield Variant(kind, times, lambda f=factor: f * node, extra)  # type: ignore[misc]
 
 
-def _outer_value(
+def outer_value(
     position: Position, value: flint.acb, top: Position, search: VariantSearch
 ) -> flint.acb:
     """Return the value of the position `top` if a position inside it has another value."""

@@ -107,6 +107,9 @@ def required_values(part: Position, need: Values, points: Sample) -> list[flint.
         others = sp.Add(*(t for i, t in enumerate(node.args) if i not in part.taken))
         return [w - rest for w, rest in zip(need, points.values(others), strict=True)]
     if isinstance(node, sp.Mul):
+        if not all(v.is_finite() for v in whole):  # an integral that has no value
+            rest = points.values(sp.Mul(*(f for f in node.args if f is not part.node)))
+            return [w / r for w, r in zip(need, rest, strict=True)]
         return [w / (v / x) for w, v, x in zip(need, whole, have, strict=True)]
     if isinstance(node, sp.Pow) and part.role == FACTOR:
         sign = int(sp.sign(node.exp))

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from derivation.engine.errata.edit import single_edits
+from derivation.engine.errata.inside_integral import integral_edits
 from derivation.engine.errata.pairs import pair_edits
 from derivation.engine.errata.position import TERMS, Position, inner_positions, required_values
 from derivation.engine.errata.sample import Values
@@ -35,7 +36,8 @@ def repairs(given: sp.Expr, reference: Values, search: VariantSearch) -> Iterato
     if size > MAX_OPERATIONS:
         return
     root = Position(given)
-    for edit in single_edits(root, reference, search):
+    edits = single_edits(root, reference, search) or integral_edits(root, reference, search)
+    for edit in edits:
         yield Repair(edit.kind, edit.says, edit.place.put(edit.new), 1)
     if size > MAX_OPERATIONS_FOR_PAIRS:
         return

@@ -4,7 +4,7 @@ The first point is followed by copies of it in which one symbol is doubled; they
 exponents of a monomial. Further random points make an accidental agreement unlikely.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import log2
@@ -16,6 +16,8 @@ from derivation.engine.formula.ball import enclose, to_ball
 from derivation.engine.formula.proof import sample_points
 
 BITS = 448
+INTEGRAL_BITS = 160
+"""Precision of comparisons of integrals, which take longer."""
 _RANDOM = 3
 _CLOSE = 1e-11
 
@@ -56,10 +58,16 @@ class Sample:
 
     def learn(self, expression: sp.Expr) -> None:
         """Store the values of an expression and of all its parts."""
-        for node in sp.postorder_traversal(expression):
-            for point, known in enumerate(self.known):
-                if node not in known:
-                    known[node] = self.value(node, point)
+        for node in () if isinstance(expression, sp.Integral) else expression.args:
+            self.learn(node)
+        for point, known in enumerate(self.known):
+            if expression not in known:
+                known[expression] = self.value(expression, point)
+
+    def evaluable(self, expressions: Iterable[sp.Expr]) -> tuple[sp.Expr, ...]:
+        """Return the expressions that do not contain a variable of integration."""
+        known = self.known[0]
+        return tuple(e for e in expressions if e.free_symbols <= known.keys())
 
     def same(self, expression: sp.Expr, values: Values) -> bool:
         """Return whether an expression has these values at every point."""

@@ -13,14 +13,8 @@ import sympy as sp
 
 from derivation.engine.bounded import run_limited
 from derivation.engine.errata import summed
-from derivation.engine.errata.compare import (
-    Diagnosis,
-    comparable,
-    diagnose,
-    known_formula,
-    relations_between,
-    resolve,
-)
+from derivation.engine.errata.compare import Diagnosis, diagnose, relations_between
+from derivation.engine.errata.lookup import comparable, known_formula, resolve
 from derivation.engine.errata.point import completed_point, exact_values, other_points, parse_point
 from derivation.engine.errata.relations import Point, Relations
 from derivation.engine.formula.ball import PrecisionError, enclose, evaluate, to_ball

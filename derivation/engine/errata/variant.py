@@ -18,6 +18,7 @@ SIGN, CONSTANT, EXPONENT, SWAP = "sign", "constant ratio", "wrong exponent", "sw
 STRAY, MISSING, SYMBOL = "extra factor", "missing factor", "swapped symbol"
 MISSING_PARENTHESES, SUPERFLUOUS = "missing parentheses", "superfluous parentheses"
 FACE, TWICE, SUM = "other face", "factor counted twice", "wrong term"
+LIMIT = "wrong limit"
 
 COST: Mapping[str, float] = {
     SIGN: 1.0,
@@ -29,6 +30,7 @@ COST: Mapping[str, float] = {
     SYMBOL: 2.5,
     MISSING_PARENTHESES: 2.8,
     SUPERFLUOUS: 2.9,
+    LIMIT: 2.6,
     FACE: 3.0,
     TWICE: 3.2,
     SUM: 5.0,

@@ -43,11 +43,10 @@ def enclose(expression: sp.Basic, values: Mapping[sp.Basic, flint.arb]) -> flint
 @cache
 def enclosable(expression: sp.Basic) -> bool:
     """Return whether `enclose` can evaluate every function in the expression."""
-    with flint.ctx.workprec(32):
-        try:
-            enclose(expression, {symbol: flint.arb(0.5) for symbol in expression.free_symbols})
-        except NotImplementedError:
-            return False
+    try:
+        recorded(expression, tuple(sorted(expression.free_symbols, key=str)))
+    except NotImplementedError:
+        return False
     return True
 
 

@@ -162,12 +162,7 @@ def dimension(expression: sp.Basic, known: Mapping[sp.Basic, Dimension]) -> Dime
         indices = dict.fromkeys(expression.variables, ONE)
         return dimension(expression.function, {**known, **indices})
     if isinstance(expression, sp.Integral):
-        # A variable of integration that is not a symbol of the paper is dimensionless.
-        variables = {v: known.get(v, ONE) for v in expression.variables}
-        result = dimension(expression.function, {**known, **variables})
-        for variable in expression.variables:
-            result = result * variables[variable]
-        return result
+        return _of_integral(expression, known)
     if isinstance(expression, sp.Function | sp.Pow) and expression.args:
         for argument in expression.args:
             term_dimension = dimension(argument, known)
@@ -178,6 +173,32 @@ def dimension(expression: sp.Basic, known: Mapping[sp.Basic, Dimension]) -> Dime
                 )
         return ONE
     raise DimensionError(f"the dimension of {expression} is not known")
+
+
+def _of_integral(expression: sp.Integral, known: Mapping[sp.Basic, Dimension]) -> Dimension:
+    """Return the dimension of an integral; a new variable has the dimension of its limits."""
+    variables: dict[sp.Basic, Dimension] = {}
+    for variable, *limits in reversed(expression.limits):  # limits contain outer variables
+        own = known.get(variable)
+        for limit in limits:
+            if limit.is_number and (limit == 0 or limit.is_infinite):
+                continue
+            expected = dimension(limit, {**known, **variables})
+            if own not in (None, expected):
+                raise DimensionError(
+                    f"the limit {limit} [{expected}] of {expression} is not like {variable} [{own}]"
+                )
+            own = expected
+        variables[variable] = own or ONE
+    try:
+        result = dimension(expression.function, {**known, **variables})
+    except DimensionError as error:
+        names = ", ".join(str(v) for v in variables if v not in known and variables[v] == ONE)
+        hint = f"; {names} counts as a pure number: give it a unit, as a symbol of the paper"
+        raise DimensionError(f"{error}{hint if names else ''}") from None
+    for own in variables.values():
+        result = result * own
+    return result
 
 
 def _of_sum(expression: sp.Expr, known: Mapping[sp.Basic, Dimension]) -> Dimension:

@@ -61,8 +61,9 @@ INSTEAD: Mapping[str, str] = {
         "give one branch of the formula, without cases",
     ),
     **dict.fromkeys(
-        ("diff", "Derivative", "integrate", "Integral", "int", "Sum", "sum", "lim"),
-        "carry out derivatives, integrals and sums, and give the result",
+        ("diff", "Derivative", "Sum", "sum", "lim"),
+        "carry out derivatives and sums, and give the result",
     ),
+    **dict.fromkeys(("integrate", "int"), "write Integral(f, (x, a, b)), without LaTeX"),
 }
 """What to write instead of functions that are not read."""

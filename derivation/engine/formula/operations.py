@@ -5,14 +5,31 @@ Balls of an expression, its gradient and its values in doubles use these operati
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import cast
 
 import flint
 import sympy as sp
-from flint import arb
+from flint import acb, arb
 from sympy.codegen.cfunctions import expm1, log1p
 
 Unary = tuple[Callable[[arb], arb], Callable[[arb, arb], arb]]
 """A function, and its derivative as a function of argument and value."""
+
+
+def through_complex(function: Callable[..., acb]) -> Callable[..., arb]:
+    """Return a function of complex balls for real ones too; NaN where it is not real there."""
+
+    def value(*operands: arb) -> arb:
+        result = function(*map(acb, operands))
+        if any(isinstance(operand, acb) for operand in operands):
+            return result
+        return result.real if result.imag.contains(0) else arb.nan()
+
+    return value
+
+
+_elliptic_k = through_complex(lambda m: m.elliptic_k())
+_elliptic_e = through_complex(lambda m: m.elliptic_e())
 
 FUNCTIONS: dict[type[sp.Basic], Unary] = {
     sp.sin: (lambda x: x.sin(), lambda x, _: x.cos()),
@@ -34,6 +51,11 @@ FUNCTIONS: dict[type[sp.Basic], Unary] = {
     sp.atanh: (lambda x: x.atanh(), lambda x, _: 1 / (1 - x**2)),
     sp.erf: (lambda x: x.erf(), lambda x, _: 2 * (-(x**2)).exp() / arb.pi().sqrt()),
     sp.erfc: (lambda x: x.erfc(), lambda x, _: -2 * (-(x**2)).exp() / arb.pi().sqrt()),
+    sp.elliptic_k: (
+        _elliptic_k,
+        lambda m, K: (_elliptic_e(m) / (1 - m) - K) / (2 * m),
+    ),
+    sp.elliptic_e: (_elliptic_e, lambda m, E: (E - _elliptic_k(m)) / (2 * m)),
     sp.Abs: (abs, lambda x, _: x.sgn()),
     sp.gamma: (lambda x: x.gamma(), lambda x, value: value * x.digamma()),
 }
@@ -51,11 +73,15 @@ class Operation:
         Function from the operands' balls to the node's ball, at the current precision.
     slopes
         Function from the node's and the operands' balls to the derivatives by each operand.
+    holomorphic
+        Like `value`, for complex operands, but not finite where the node is not holomorphic in
+        them; None for `value` itself.
     """
 
     operands: tuple[sp.Basic, ...]
     value: Callable[..., arb]
     slopes: Callable[..., tuple[arb, ...]]
+    holomorphic: Callable[..., acb] | None = None
 
 
 def operation(node: sp.Basic) -> Operation:
@@ -78,10 +104,22 @@ def operation(node: sp.Basic) -> Operation:
     if isinstance(node, sp.Pow):
         return _power(node)
     if type(node) in _OF_TWO:
-        return Operation(node.args, *_OF_TWO[type(node)])
+        value, slopes = _OF_TWO[type(node)]
+        cut = _CUTS.get(type(node))
+        return Operation(node.args, value, slopes, cut and _guarded(value, cut))
     if node.func in FUNCTIONS:
         function, slope = FUNCTIONS[node.func]
-        return Operation(node.args, function, lambda value, x: (slope(x, value),))
+        cut, apart = _CUTS.get(node.func), node.func is sp.Abs
+        return Operation(
+            node.args,
+            function,
+            lambda value, x: (slope(x, value),),
+            _real_abs if apart else cut and _guarded(function, cut),
+        )
+    if isinstance(node, sp.Integral):
+        from derivation.engine.formula.integral import integral  # integrands are expressions too
+
+        return integral(node)
     raise NotImplementedError(f"no ball arithmetic for {node.func.__name__} in {node}")
 
 
@@ -90,6 +128,45 @@ _CONSTANTS: dict[sp.Basic, Callable[[], arb]] = {
     sp.E: arb.const_e,
     sp.EulerGamma: arb.const_euler,
 }
+
+
+_CUTS: dict[type[sp.Basic], Callable[..., arb]] = {
+    sp.log: lambda x: x,
+    log1p: lambda x: 1 + x,
+    sp.asin: lambda x: 1 - x**2,
+    sp.acos: lambda x: 1 - x**2,
+    sp.atan: lambda x: 1 + x**2,
+    sp.asinh: lambda x: 1 + x**2,
+    sp.acosh: lambda x: x - 1,
+    sp.atanh: lambda x: 1 - x**2,
+    sp.elliptic_k: lambda m: 1 - m,
+    sp.elliptic_e: lambda m: 1 - m,
+    sp.besselj: lambda n, x: _cut_of_order(n, x),
+    sp.besseli: lambda n, x: _cut_of_order(n, x),
+    sp.bessely: lambda _, x: x,
+    sp.besselk: lambda _, x: x,
+}
+"""For functions with branch cuts, a function that is negative or zero on each cut only."""
+
+
+def _cut_of_order(n: arb, x: arb) -> arb:
+    """Return x, or 1 for an integer order, for which the Bessel functions have no cut."""
+    return arb(1) if n.is_exact() and n.contains_integer() else x
+
+
+def _guarded(value: Callable[..., arb], cut: Callable[..., arb]) -> Callable[..., acb]:
+    """Return a function that is not finite where a complex ball may meet a cut."""
+
+    def guarded(*operands: acb) -> acb:
+        away = acb(cut(*operands)).log(analytic=True).is_finite()
+        return acb(value(*operands)) if away else acb(arb.nan())
+
+    return guarded
+
+
+def _real_abs(x: acb) -> acb:
+    """Return the holomorphic function that is |x| for real x."""
+    return cast("acb", acb(x).real_abs(analytic=True))
 
 
 def _constant(value: Callable[[], arb]) -> Operation:
@@ -118,11 +195,17 @@ def _power(node: sp.Pow) -> Operation:
         n = int(exponent)
         return Operation((base,), lambda x: x**n, lambda _, x: (n * x ** (n - 1),))
     if exponent == sp.Rational(1, 2):
-        return Operation((base,), lambda x: x.sqrt(), lambda value, _: (1 / (2 * value),))
+        return Operation(
+            (base,),
+            lambda x: x.sqrt(),
+            lambda value, _: (1 / (2 * value),),
+            lambda x: acb(x).sqrt(analytic=True),
+        )
     return Operation(
         (base, exponent),
         lambda x, y: x**y,
         lambda value, x, y: (y * x ** (y - 1), value * x.log()),
+        lambda x, y: acb(x).pow(y, analytic=True),
     )
 
 
@@ -141,5 +224,7 @@ def _beta_slopes(value: arb, x: arb, y: arb) -> tuple[arb, arb]:
 _OF_TWO: dict[type[sp.Basic], tuple[Callable[..., arb], Callable[..., tuple[arb, ...]]]] = {
     sp.besselj: (lambda n, x: x.bessel_j(n), _bessel_slopes(-1, lambda x, n: x.bessel_j(n))),
     sp.besseli: (lambda n, x: x.bessel_i(n), _bessel_slopes(1, lambda x, n: x.bessel_i(n))),
+    sp.bessely: (lambda n, x: x.bessel_y(n), _bessel_slopes(-1, lambda x, n: x.bessel_y(n))),
+    sp.besselk: (lambda n, x: x.bessel_k(n), _bessel_slopes(1, lambda x, n: -x.bessel_k(n))),
     sp.beta: (lambda x, y: x.gamma() * y.gamma() / (x + y).gamma(), _beta_slopes),
 }

@@ -212,7 +212,36 @@ class _Reader:
             f"unknown name {_short(name)}: {hint}expected one of {one_of(sorted(self.names))}"
         )
 
+    def _integral(self, node: ast.Call, depth: int) -> sp.Expr:
+        """Return an integral over one variable, which may be a name that is not a symbol."""
+        limits = node.args[1] if len(node.args) == 2 and not node.keywords else None
+        if not (
+            isinstance(limits, ast.Tuple)
+            and len(limits.elts) == 3
+            and isinstance(limits.elts[0], ast.Name)
+        ):
+            raise FormulaError(
+                f"expected an integral with its variable and two limits, got "
+                f"{_short(self._source(node))}: write Integral(f, (x, a, b))"
+            )
+        x, low, high = limits.elts[0].id, *(self._limit(end, depth) for end in limits.elts[1:])
+        outer = self.names.get(x)
+        variable = outer if isinstance(outer, sp.Symbol) else sp.Symbol(x, real=True)
+        self.names[x] = variable
+        function = self.read(node.args[0], depth)
+        if outer is None:
+            del self.names[x]
+        else:
+            self.names[x] = outer
+        return sp.Integral(function, (variable, low, high))
+
+    def _limit(self, node: ast.expr, depth: int) -> sp.Expr:
+        infinite = {"oo": sp.oo, "+oo": sp.oo, "-oo": -sp.oo}.get(self._source(node))
+        return self.read(node, depth) if infinite is None else infinite
+
     def _call(self, name: str, node: ast.Call, depth: int) -> sp.Expr:
+        if name == "Integral":
+            return self._integral(node, depth)
         name = OTHER_NAMES.get(name, name)
         if name not in FUNCTIONS:
             suggestion = did_you_mean(name, FUNCTIONS)
@@ -295,6 +324,8 @@ def checked_expression(expression: sp.Expr, source: str) -> sp.Expr:
     FormulaError
         If it is not; the message contains the text `source`.
     """
+    integrals = {node: sp.Dummy() for node in expression.atoms(sp.Integral)}
+    expression = expression.xreplace(integrals)  # whose limits may be infinite
     if expression.has(sp.zoo, sp.nan, sp.oo, -sp.oo):
         raise FormulaError(f"{_short(source)} divides by zero or has no value: correct it")
     if expression.has(sp.I):
@@ -307,7 +338,7 @@ def checked_expression(expression: sp.Expr, source: str) -> sp.Expr:
                 f"a number or power in {_short(source)} is out of range: "
                 f"keep exponents up to {MAX_EXPONENT} and numbers below 2^{MAX_BITS}"
             )
-    return expression
+    return expression.xreplace({mark: node for node, mark in integrals.items()})
 
 
 def _check_constant(argument: sp.Expr, name: str) -> None:

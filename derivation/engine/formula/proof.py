@@ -15,6 +15,7 @@ from derivation.engine.formula.notation import to_markdown
 SYMBOLIC = "symbolically"
 BY_BALLS = "by ball arithmetic at two precisions"
 _PRECISIONS = (256, 1024)
+_PRECISIONS_OF_INTEGRALS = (80, 160)
 _POINTS = 12
 
 
@@ -115,9 +116,10 @@ def balls_contain_zero(expression: sp.Expr) -> bool:
     Points outside the expression's domain give no finite ball and are ignored; there must be finite
     balls at two points or more.
     """
-    inside = 0
-    for values in sample_points(expression.free_symbols, _POINTS):
-        for bits in _PRECISIONS:
+    inside, integral = 0, expression.has(sp.Integral)
+    points = sample_points(expression.free_symbols, _POINTS // 2 if integral else _POINTS)
+    for values in points:
+        for bits in _PRECISIONS_OF_INTEGRALS if integral else _PRECISIONS:
             with flint.ctx.workprec(bits):
                 ball = enclose(expression, {key: to_ball(value) for key, value in values.items()})
             if ball.is_finite() and not ball.contains(0):

@@ -90,14 +90,19 @@ class Record:
     @property
     def sum_sign(self) -> str:
         """LaTeX of the summation sign; empty if the formula is not a sum."""
-        index = self.vocabulary.indices[:1]
+        index = self.vocabulary.index(self.expression)
         return rf"\sum_{{{index}=1}}^{{\infty}} " if self.summed else ""
 
     @property
     def right_hand_side(self) -> str:
         """LaTeX of the right-hand side, with the sum over the terms if the formula is a sum."""
+        return self.sum_sign + to_latex(self.shown, self.vocabulary)
+
+    @property
+    def shown(self) -> sp.Expr:
+        """Right side as shown: in terms of other formulas if stated so, functions in full."""
         shown = self.expression if self.stated is None else self.stated
-        return self.sum_sign + to_latex(shown, self.vocabulary)
+        return self.vocabulary.in_full(shown)
 
     def to_json(self) -> dict[str, object]:
         """Return the formula as plain data under fixed keys."""

@@ -26,11 +26,15 @@ class Tape:
     inputs: tuple[sp.Basic, ...]
     steps: tuple[Step, ...]
 
-    def run(self, values: Iterable[flint.arb]) -> list[flint.arb]:
-        """Return every slot's ball at the current precision; the last one is the value."""
+    def run(self, values: Iterable[flint.arb], holomorphic: bool = False) -> list[flint.arb]:
+        """Return every slot's ball at the current precision; the last one is the value.
+
+        If `holomorphic`, a slot that is not holomorphic in the values is not finite.
+        """
         slots = list(values)
         for done, reads in self.steps:
-            slots.append(done.value(*[slots[i] for i in reads]))
+            value = (done.holomorphic if holomorphic else None) or done.value
+            slots.append(value(*[slots[i] for i in reads]))
         return slots
 
     def gradient(self, slots: Sequence[flint.arb]) -> list[flint.arb]:

@@ -107,6 +107,18 @@ class Vocabulary:
         """LaTeX of each symbol."""
         return {argument.symbol: argument.latex for argument in self.arguments}
 
+    def index(self, term: sp.Expr) -> str:
+        """Return the letter that counts the terms of a sum: the index of the term's symbols."""
+        latex = {self.latex[s] for s in term.free_symbols & self.per_term if s in self.latex}
+        used = (i for i in self.indices if any(text.endswith(f"_{i}") for text in latex))
+        return next(used, self.indices[:1])
+
+    def in_full(self, expression: sp.Expr) -> sp.Expr:
+        """Return an expression with the functions for which it has a symbol, of its own symbols."""
+        present = expression.free_symbols
+        full = {s: f for f, s in self.short.items() if s in present and f.free_symbols <= present}
+        return expression.xreplace(full)
+
     @cached_property
     def name_of_latex(self) -> dict[str, str]:
         """The name of each symbol by its LaTeX without backslashes and braces."""

@@ -57,9 +57,16 @@ def chain_context(steps: Sequence[tuple[str, Sequence[Record]]]) -> dict[str, An
     decided = Counter(f.proof.method for _, found in steps for f in found)
     return {
         "formulas": sum(decided.values()),
-        "decided": ", ".join(f"{count} were decided {how}" for how, count in decided.items()),
+        "proved": proved(decided),
         "rows": rows,
     }
+
+
+def proved(methods: Mapping[str, int]) -> str:
+    """Return how many formulas were proved by which method, as the end of a sentence."""
+    if len(methods) == 1:
+        return f"all were proved {next(iter(methods))}"
+    return ", ".join(f"{count} were proved {how}" for how, count in methods.items())
 
 
 def _equation_order(text: str) -> tuple[int, str]:
@@ -93,7 +100,7 @@ def step_context(
     name: str, formulas: Sequence[Record], shown: Mapping[str, Record], said: Prose
 ) -> dict[str, Any]:
     """Return a step's context: its formulas, with references to `shown`, and each proof once."""
-    proofs = {formula.proof.step: formula.proof for formula in formulas}
+    proofs = {f.proof.step: (f.proof, f.vocabulary) for f in formulas}
     return {
         "title": name[0].upper() + name[1:],
         "about": said.about.get(name, ""),
@@ -101,12 +108,12 @@ def step_context(
         "formulas": [formula_context(formula, shown, said.factor) for formula in formulas],
         "proofs": [
             {
-                "step": proof.step,
-                "argument": proof.argument,
+                "step": typeset_sentence(proof.step, vocabulary),
+                "argument": typeset_sentence(proof.argument, vocabulary),
                 "method": proof.method,
-                "residuals": ", ".join(proof.residuals),
+                "residuals": typeset_sentence(", ".join(proof.residuals), vocabulary),
             }
-            for proof in proofs.values()
+            for proof, vocabulary in proofs.values()
         ],
     }
 
@@ -127,7 +134,7 @@ def formula_context(
         sources.append(f"with {reference(named, known)}")
     return {
         "name": formula.name,
-        "meaning": formula.meaning,
+        "meaning": typeset_sentence(formula.meaning, formula.vocabulary),
         "unit": unit(formula.unit),
         "equation": formula.equation,
         "sources": ", ".join(sources),

@@ -1,6 +1,7 @@
 """Displayed equations: long sums are broken into lines, and deep fractions get a name."""
 
 import itertools
+import re
 from collections.abc import Callable
 from functools import cache
 
@@ -64,7 +65,9 @@ class Displayed(PaperPrinter):
         return self._with_limits(super()._print_Sum, expr)
 
     def _print_Integral(self, expr: sp.Integral) -> str:
-        return self._with_limits(super()._print_Integral, expr)
+        text = self._with_limits(super()._print_Integral, expr)
+        # Space, because the upper limit is wider than the sign and would touch the integrand.
+        return re.sub(r"^(\\int\\limits_\{.*?\}\^\{.*?\}) ", r"\1\\; ", text)
 
     def _with_limits(self, printed: Callable[[sp.Expr], str], expr: sp.Expr) -> str:
         """Return a sum or integral; inside a fraction it counts as one more nested fraction."""
@@ -115,8 +118,8 @@ def equation(
     short = not (prefix and expression.is_Add)
     if short and legible(expression, vocabulary, room - typeset_width(begin)):
         return begin + displayed(expression, vocabulary)
-    beside = max(SIGN, typeset_width(prefix))
-    value, parts = in_parts(expression, room - INDENT - beside, vocabulary, whole=not short)
+    beside = max(INDENT + SIGN, typeset_width(FURTHER + prefix))
+    value, parts = in_parts(expression, room - beside, vocabulary, whole=not short)
     rows = _rows(left, value, vocabulary, room, prefix)
     for symbol, part in parts:
         rows += _rows(str(symbol), part, vocabulary, room)
@@ -125,7 +128,7 @@ def equation(
 
 def right_side(formula: Record) -> sp.Expr:
     """Return the shown right side of a formula: as stated by other formulas, or its expression."""
-    return formula.expression if formula.stated is None else formula.stated
+    return formula.shown
 
 
 def body(formula: Record, factor: Record | None = None, room: float = PAGE) -> str:

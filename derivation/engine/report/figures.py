@@ -5,8 +5,12 @@ from typing import Any
 
 import matplotlib as mpl
 from matplotlib.figure import Figure
+from matplotlib.rcsetup import cycler
 
+COLOURS = "#14295e", "#f0a030", "#1b9e77", "#b0125f", "#c9b8ec"
+"""Colours of lines in the order of use: each has a lightness of its own, so they differ in grey."""
 STYLE: dict[Any, Any] = {
+    "axes.prop_cycle": cycler(color=COLOURS),
     "font.family": "serif",
     "font.size": 9,
     "axes.spines.top": False,

@@ -4,7 +4,9 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from derivation.engine.report.latex import escape, prose
+from derivation.engine.formula.vocabulary import Vocabulary
+from derivation.engine.report.latex import escape
+from derivation.engine.report.sentences import typeset_sentence
 
 SHOWN = 7
 """Number of digits of a reference that are shown; the data contain more."""
@@ -12,7 +14,7 @@ SHOWN = 7
 _DECIMAL = re.compile(r"(-?)(\d*)\.?(\d*)(?:e([+-]?\d+))?$")
 
 
-def hard_context(data: Mapping[str, Any]) -> dict[str, Any]:
+def hard_context(data: Mapping[str, Any], vocabulary: Vocabulary) -> dict[str, Any]:
     """Return the context of the section: groups in order of appearance, with their cases."""
     groups: dict[str, list[Mapping[str, Any]]] = {}
     for case in data["cases"]:
@@ -21,20 +23,23 @@ def hard_context(data: Mapping[str, Any]) -> dict[str, Any]:
         "count": len(data["cases"]),
         "digits": data["provenance"]["digits"],
         "failed": sum(not case["passed"] for case in data["cases"]),
-        "summary": [summary_row(name, cases) for name, cases in groups.items()],
-        "nearest": [case_row(max(cases, key=used)) for cases in groups.values()],
+        "summary": [summary_row(name, cases, vocabulary) for name, cases in groups.items()],
+        "nearest": [case_row(max(cases, key=used), vocabulary) for cases in groups.values()],
         "groups": [
-            {"name": name, "rows": [case_row(case) for case in cases]}
+            {
+                "name": typeset_sentence(name, vocabulary),
+                "rows": [case_row(case, vocabulary) for case in cases],
+            }
             for name, cases in groups.items()
         ],
     }
 
 
-def summary_row(name: str, cases: Sequence[Mapping[str, Any]]) -> str:
+def summary_row(name: str, cases: Sequence[Mapping[str, Any]], vocabulary: Vocabulary) -> str:
     """Return the cells of a group: number of cases, largest errors, number of failed cases."""
     printed = [float(case["printed"]) for case in cases if case["printed"] is not None]
     failed = sum(not case["passed"] for case in cases)
-    cells = [prose(name), str(len(cases)), error(max(map(used, cases)))]
+    cells = [typeset_sentence(name, vocabulary), str(len(cases)), error(max(map(used, cases)))]
     return " & ".join([*cells, error(max(printed)) if printed else "", str(failed)])
 
 
@@ -43,11 +48,12 @@ def used(case: Mapping[str, Any]) -> float:
     return float(case["error"]) / float(case["allowed"] or 1)
 
 
-def case_row(case: Mapping[str, Any]) -> str:
+def case_row(case: Mapping[str, Any], vocabulary: Vocabulary) -> str:
     """Return the cells of a case: function, cause, reference, errors; then its exact inputs."""
     note = "" if case["passed"] else r" \textbf{Failed.}"
     kernel = rf"\texttt{{{escape(case['kernel'])}}}"
-    cells = [f"{kernel}: {prose(case['cause'])}{note}", references(case["references"])]
+    cause = typeset_sentence(case["cause"], vocabulary)
+    cells = [f"{kernel}: {cause}{note}", references(case["references"])]
     printed = "" if case["printed"] is None else error(case["printed"])
     first = " & ".join([*cells, error(case["error"]), printed, error(case["allowed"])])
     return rf"{first}\kept{chr(10)}\given{{{inputs(case)}}}"
@@ -73,7 +79,7 @@ def references(stored: Sequence[Mapping[str, str]]) -> str:
     """Return the first reference value as LaTeX, and the number of further ones."""
     if not stored:
         return "none"
-    more = rf", +\,{len(stored) - 1}" if len(stored) > 1 else ""
+    more = f", {len(stored) - 1} more" if len(stored) > 1 else ""
     return reference(stored[0]["value"]) + more
 
 

@@ -3,19 +3,29 @@
 import re
 from collections.abc import Iterator
 
+from sympy.printing.latex import greek_letters_set
+
 from derivation.engine.formula.notation import convert_parts, to_latex
 from derivation.engine.formula.parse import FormulaError, parse
 from derivation.engine.formula.vocabulary import Vocabulary
 from derivation.engine.report.latex import prose, unit
 
 _SIGNS = ("+", "-")
-SYMBOL = re.compile(r"(?<!\w)([A-Za-z]\w*)(?:\^(\d+|\([\d/]+\)))?")
-"""A word, and its power if there is one."""
+INDEX = re.compile(r"([A-Za-z]{1,2}|\d+)$")
+"""An index of a letter in a sentence: one or two letters, or a number."""
+SYMBOL = re.compile(r"(?<!\w)([A-Za-z]\w*|\d+(?=\^))(?:\^(-?\d+|\([^()]*\)|[A-Za-z]\b))?")
+"""A word, and its power if there is one; a number with a power."""
 
 
 def typeset_sentence(text: str, vocabulary: Vocabulary) -> str:
     """Return a sentence as LaTeX; code that can be parsed is typeset as a formula, like units."""
-    return " ".join(_piece(piece, vocabulary) for piece in sentence_pieces(text))
+
+    def words(text: str) -> str:
+        before, said, after = re.split(r"^(\s*)(.*?)(\s*)$", text, flags=re.DOTALL)[1:-1]
+        pieces = (_piece(piece, vocabulary) for piece in sentence_pieces(said))
+        return f"{before}{' '.join(pieces)}{after}"
+
+    return convert_parts(text, words, "${}$".format)
 
 
 def sentence_pieces(text: str) -> Iterator[str]:
@@ -79,9 +89,14 @@ def _named(text: str, vocabulary: Vocabulary) -> str:
         known = vocabulary.names.get(name)
         latex = vocabulary.latex[known] if known is not None else ""
         if not latex.startswith("\\"):
-            if not power and not re.fullmatch(r"[A-Za-z]_([A-Za-z]|\d+)", name):
+            letter, _, index = name.partition("_")
+            greek = letter in greek_letters_set
+            if not power and not (index and (greek or len(letter) == 1) and INDEX.match(index)):
                 return match[0]
-            latex = re.sub(r"_(\d+)", r"_{\1}", name)
+            base = f"\\{letter}" if greek else letter
+            latex = (
+                f"{base}_{index}" if len(index) == 1 else f"{base}_{{{index}}}" if index else base
+            )
         return f"${latex}^{{{power}}}$" if power else f"${latex}$"
 
     def words(text: str) -> str:

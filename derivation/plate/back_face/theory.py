@@ -219,9 +219,9 @@ def thin_plate_stress() -> tuple[Formula, Formula]:
         "$F$ is odd and behaves like $6/T$ at 0. The real axis gives the finite part, quarter "
         "circles give the logarithm, and the poles inside give their residues.",
         {
-            "modes": _mode() - 2 * eta * f / (j_n * J1**2),
-            "odd": weight.subs(T, -T) + weight,
-            "pole": _pole_of(weight) - pole,
+            "term of a mode": _mode() - 2 * eta * f / (j_n * J1**2),
+            "F is odd": weight.subs(T, -T) + weight,
+            "residue at 0": _pole_of(weight) - pole,
             "logarithm": sp.expand(sp.expand_log(2 * eta * total - expected)),
             "at roots": at_root.subs(sign**2, 1) - sign * (sp.cosh(u) + 1) / sp.sinh(u),
         },
@@ -292,7 +292,7 @@ def wide_contact_stress() -> Formula:
     kirchhoff = 3 * finite + 3 * (sp.EulerGamma - sp.log(2))
     residuals = {
         "transform": sp.gammasimp(sp.expand_trig(mellin * _s / regular)) - 1,
-        "pole": regular.subs(_s, 0) - 1,
+        "residue at s = 0": regular.subs(_s, 0) - 1,
         "Kirchhoff": sp.expand(kirchhoff - 3 * (constant - sp.log(alpha))),
         "mean logarithm": sp.expand_func(sp.diff(sp.log(mean), _s).subs(_s, 0)) + constant,
     }

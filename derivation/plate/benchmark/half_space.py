@@ -170,9 +170,9 @@ def program_results(name: str) -> list[dict[str, Any]]:
             warnings.simplefilter("ignore")
             call(*arguments)
             begin = time.perf_counter()
-            found = call(*arguments)
+            answer = call(*arguments)
             seconds = time.perf_counter() - begin
-        error, seconds = found if isinstance(found, tuple) else (found, seconds)
+        error, seconds = answer if isinstance(answer, tuple) else (answer, seconds)
         rows.append({
             "name": name, "version": version(package), "problem": problem, "setting": setting,
             "error": error, "seconds": seconds, "limitation": limitation,

@@ -32,7 +32,7 @@ class SeriesLaw:
     """
 
     def __init__(self, case: BenchmarkCase, ar: Arithmetic, terms: int | None = None) -> None:
-        found = (
+        factors = (
             exact_law(case) if terms is None else coefficients(case, terms, ar.constants)
         )  # fmt: skip
         self.R, self.h, self.m = (ar.number(x) for x in (case.R, case.h, case.m))
@@ -40,7 +40,7 @@ class SeriesLaw:
         self.modulus = 4 * mu * (lam + mu) / (lam + 2 * mu)
         self.top = ar.number(1.05 * largest_contact_radius(case) / case.h)
         self.close = 10.0 ** (-0.6 * ar.digits)
-        self.c = list(ar.array(found))
+        self.c = list(ar.array(factors))
         self.s = [c * (2 * k + 3) / 2 for k, c in enumerate(self.c)]
         self.e = [5 * s / (2 * k + 6) for k, s in enumerate(self.s)]
 

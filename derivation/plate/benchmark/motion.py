@@ -81,11 +81,11 @@ def gauss(nodes: int) -> Method:
 
         def call(v0: Array) -> Array:
             with np.errstate(all="ignore"):  # as in `impact`
-                found, _, depth, _, _ = _solve(R, m, v0, h, b, lam, mu)
-                integral = np.empty_like(found.A)
-                for part in _parts(found.A.size):
-                    at = np.broadcast_to(x, (found.A[part].size, nodes))
-                    integral[part] = (time_rate(at, found, part) * w).sum(axis=1)
+                extreme, _, depth, _, _ = _solve(R, m, v0, h, b, lam, mu)
+                integral = np.empty_like(extreme.A)
+                for part in _parts(extreme.A.size):
+                    at = np.broadcast_to(x, (extreme.A[part].size, nodes))
+                    integral[part] = (time_rate(at, extreme, part) * w).sum(axis=1)
                 return product((2.0, *depth, integral), (v0,))
 
         return call
@@ -162,12 +162,12 @@ def solver(name: str, rtol: float, largest_step: float | None = None, quick: boo
             return float(state[1])
 
         top.terminal = True  # type: ignore[attr-defined]
-        found = solve_ivp(
+        solution = solve_ivp(
             rate, (0, 2 * time), (0.0, v0), method=name, rtol=rtol, events=top,
             atol=(1e-3 * rtol * v0 * time, 1e-3 * rtol * v0),
             max_step=np.inf if largest_step is None else largest_step * time,
         )  # fmt: skip
-        return 2 * float(found.t_events[0][0]) if found.t_events[0].size else math.nan
+        return 2 * float(solution.t_events[0][0]) if solution.t_events[0].size else math.nan
 
     def prepare(case: BenchmarkCase, _: Arithmetic) -> Call:
         return lambda v0: np.array([one(case, float(v)) for v in v0])

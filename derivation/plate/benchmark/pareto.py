@@ -47,10 +47,10 @@ def winners(rows: Sequence[BenchmarkRow]) -> list[Winner]:
     """Return the fastest methods of every panel, for arrays and for single calls."""
     panels = dict.fromkeys((row.task, row.case) for row in rows)
     return [
-        found
+        row
         for task, case in panels
         for kind in ("vector", "single")
-        for found in _panel([r for r in rows if (r.task, r.case) == (task, case)], kind)
+        for row in _panel([r for r in rows if (r.task, r.case) == (task, case)], kind)
     ]
 
 

@@ -22,10 +22,14 @@ REFERENCE_DIGITS = 32
 
 
 def polynomial(
-    case: BenchmarkCase, ar: Arithmetic, found: list[arb], middle: float = 0.0, scale: float = 1.0
+    case: BenchmarkCase,
+    ar: Arithmetic,
+    factors: list[arb],
+    middle: float = 0.0,
+    scale: float = 1.0,
 ) -> Call:
     """Return (a^2/R) (1 + A (c_0 + c_1 t + ...)) as a function of a; t = scale (A^2 - middle)."""
-    R, h, c = ar.number(case.R), ar.number(case.h), list(ar.array(found))
+    R, h, c = ar.number(case.R), ar.number(case.h), list(ar.array(factors))
     start, factor = ar.number(middle), ar.number(scale)
 
     def call(a: Array) -> Array:

@@ -112,7 +112,7 @@ def response_factors() -> ResponseFactors:
     rate = factors.rate[0] * first + factors.rate[1] * second - sp.diff(g, t).subs(since)
     prove(
         "Separated response",
-        "Both, written out in $t$ and $s$.",
+        "Both sides are written out in $t$ and $s$.",
         {
             "displacement": sp.expand(sp.expand_trig(moved).rewrite(sp.exp)),
             "velocity": sp.expand(sp.expand_trig(rate).rewrite(sp.exp)),
@@ -162,9 +162,9 @@ def dissipation() -> Proof:
         "grows by $2 \\zeta \\omega q'^2$ and equals the decrease of the energy. After one cycle "
         "the motion is the same, reduced by the decrement.",
         {
-            "rate": sp.expand(flow - _push * rate + POWER.subs(q_rate, rate)),
-            "growth": by_phase(sp.diff(free.lost, t) - POWER.subs(q_rate, free.rate)),
-            "start": sp.simplify(free.lost.subs(t, 0)),
+            "rate of the energy": sp.expand(flow - _push * rate + POWER.subs(q_rate, rate)),
+            "rate of the loss": by_phase(sp.diff(free.lost, t) - POWER.subs(q_rate, free.rate)),
+            "no loss at t = 0": sp.simplify(free.lost.subs(t, 0)),
             "balance": by_phase(at_first - kept - free.lost),
             "decrement": sp.simplify(left - sp.exp(-2 * sp.pi * zeta / ROOT)),
         },

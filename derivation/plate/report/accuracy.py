@@ -69,7 +69,7 @@ def winners(data: Data, task: str) -> Iterator[dict[str, Any]]:
     for case in data["cases"]:
         mine = [w for w in data["pareto"] if (w["task"], w["case"]) == (task, case["name"])]
         rows = []
-        for digits in sorted({found["digits"] for found in mine}):
+        for digits in sorted({row["digits"] for row in mine}):
             by_kind = {w["kind"]: w for w in mine if w["digits"] == digits}
             cells = [cell for kind in KINDS for cell in winner_cells(by_kind.get(kind))]
             rows.append(" & ".join([str(digits), *cells]))

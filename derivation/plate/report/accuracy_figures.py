@@ -1,7 +1,7 @@
 """Figures of the benchmark from its record: correct digits against run time, and scaling."""
 
-from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any, Literal
 
 import matplotlib as mpl
 import numpy as np
@@ -28,6 +28,9 @@ MARKERS = {"float32": "s", "float64": "o", "long double": "D", "mpmath": "^", "A
 """Markers by arithmetic; only those of doubles are filled and connected by lines."""
 
 COLOURS = (*mpl.color_sequences["tab10"], *mpl.color_sequences["Dark2"])
+
+Dash = Literal["-", "--", ":"]
+DASHES: tuple[Dash, ...] = "-", "--", ":"
 
 Row = Mapping[str, Any]
 
@@ -63,7 +66,7 @@ def work_precision(data: Mapping[str, Any], task: str, kind: str) -> Figure:
             handles=[*keys(rows, colours)],
             fontsize=6.5,
             loc="center",
-            handlelength=1.2,
+            handlelength=2.4,
             labelspacing=0.15,
         )
     return figure
@@ -85,7 +88,7 @@ def draw_panel(
         x, y = np.array(points).T
         double = arithmetic == "float64"
         ax.plot(
-            x, y, "-" if double else " ", marker=MARKERS[arithmetic], ms=3,
+            x, y, dash(family, colours) if double else " ", marker=MARKERS[arithmetic], ms=3,
             color=colours[family], mfc=colours[family] if double else "none",
         )  # fmt: skip
     most = max((row["errors"]["total"] for row in rows), default=0.0)
@@ -96,6 +99,11 @@ def draw_panel(
     ax.yaxis.set_major_locator(FixedLocator(ticks))
     ax.yaxis.set_minor_locator(NullLocator())
     ax.set_yticks(ticks, [str(digits) for digits in ticks])
+
+
+def dash(family: str, families: Iterable[str]) -> Dash:
+    """Return the line style of a family of methods; neighbours in the legend differ in grey too."""
+    return DASHES[[*families].index(family) % len(DASHES)]
 
 
 def height(digits: Any) -> Any:
@@ -132,7 +140,8 @@ def pareto_front(rows: Sequence[Row], kind: str) -> list[tuple[float, float]]:
 def keys(rows: Sequence[Row], colours: Mapping[str, Any]) -> Iterator[Line2D]:
     """Yield the entries of the legend: families, kinds of arithmetic, and the Pareto front."""
     for family, colour in colours.items():
-        yield Line2D([], [], color=colour, marker="o", ms=3, label=family)
+        line = dash(family, colours)
+        yield Line2D([], [], color=colour, linestyle=line, marker="o", ms=3, label=family)
     used = {row["arithmetic"].split(",")[0] for row in rows}
     for name, marker in MARKERS.items():
         if name in used and name != "float64":

@@ -101,10 +101,10 @@ def rule_rows(rows: Sequence[Data]) -> Iterator[str]:
         for applied in row["applied"]:
             errors = [float(error) for error in applied["worst"]]
             rules.setdefault((applied["rule"], applied["cause"]), []).append(errors)
-    for (rule, cause), found in sorted(rules.items()):
-        most = (max(error) for error in zip(*found, strict=True))
+    for (rule, cause), of_rule in sorted(rules.items()):
+        most = (max(error) for error in zip(*of_rule, strict=True))
         shown = [r"$\infty$" if error == inf else number(error) for error in most]
-        yield " & ".join([escape(rule), escape(cause), str(len(found)), *shown])
+        yield " & ".join([escape(rule), escape(cause), str(len(of_rule)), *shown])
 
 
 def contact_row(row: Data) -> str:

@@ -87,7 +87,7 @@ def stages(
     sources: Mapping[str, str],
 ) -> Iterator[tuple[str, str]]:
     """Yield table rows: each command with the numbers of its result."""
-    formulas = [formula for _, found in steps for formula in found]
+    formulas = [formula for _, records in steps for formula in records]
     residuals = {(f.proof.step, name) for f in formulas for name in f.proof.residuals}
     yield (
         code("derive"),

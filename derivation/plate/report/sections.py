@@ -72,7 +72,7 @@ class Material:
     @cached_property
     def formulas(self) -> dict[str, Record]:
         """All formulas by name."""
-        return {formula.name: formula for _, found in self.steps for formula in found}
+        return {formula.name: formula for _, records in self.steps for formula in records}
 
 
 def _derivation(material: Material) -> dict[str, Any]:
@@ -119,7 +119,7 @@ def _stability(material: Material) -> dict[str, Any]:
             "smallest": rounded(min(RATIOS)),
             "largest": rounded(max(RATIOS)),
         },
-        "hard": hard_context(material.measured["hard"]),
+        "hard": hard_context(material.measured["hard"], PLATE),
     }
 
 
@@ -178,7 +178,7 @@ CONTEXTS: dict[str, Callable[[Material], dict[str, Any]]] = {
     "methods": _methods,
     "speed": _speed,
     "reproducibility": lambda m: {"reproducibility": reproducibility_context(m.data, m.measured)},
-    "cases": lambda m: {"hard": hard_context(m.measured["hard"])},
+    "cases": lambda m: {"hard": hard_context(m.measured["hard"], PLATE)},
 }
 """Functions for the values of `templates/sections/NAME.tex.j2`, in the order of the report."""
 PLAN = Plan(tuple(CONTEXTS)[:7], tuple(CONTEXTS)[7:])

@@ -130,8 +130,8 @@ def _reference_values(
     values = dict(zip(keys, given, strict=True))
     if name == "force_of_radius":
         return (certified_value("P", values, _OF_LAW),)
-    found = FIRST[name](*given, digits=_OF_LAW)
-    balls = tuple(found) if name == "impact" else (found,)
+    value = FIRST[name](*given, digits=_OF_LAW)
+    balls = tuple(value) if name == "impact" else (value,)
     if name in ("indentation", "stiffness"):
         return balls
     inside = balls[-1] < min(values["b"], values["R"], CONTACTS[1] * values["h"])

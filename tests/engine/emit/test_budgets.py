@@ -58,7 +58,7 @@ def looser(
 
     Conditions that only state the tested range (`TESTED`) do not count as a smaller domain.
     """
-    found = []
+    actual = []
     former = {row["name"]: RELATIVE for row in CONTACT} | before["ulp"]
     for name, ulp in now["ulp"].items():
         old_domain = before.get("domain", {}).get(name)
@@ -68,15 +68,15 @@ def looser(
             else set(domains[name].split(", ")) - set(old_domain.split(", "))
         )
         if ulp > former.get(name, ulp) or added - {"", *TESTED}:
-            found.append(name)
+            actual.append(name)
     measured = now["impact"]
     wider = [name for name, old in before.get("impact", {}).items() if measured[name] > old]
-    return found + wider
+    return actual + wider
 
 
 def test_budgets_are_within_the_fixed_limits() -> None:
-    found = read_budgets()
-    assert {name for name, limit in REQUIRED.items() if found[name].ulp > limit} == set()
+    actual = read_budgets()
+    assert {name for name, limit in REQUIRED.items() if actual[name].ulp > limit} == set()
 
 
 @pytest.mark.parametrize(

@@ -87,10 +87,10 @@ def test_notes_are_added_to_functions_without_a_budget(tmp_path: Path) -> None:
 def test_manifest_is_read_from_the_docstring(tmp_path: Path) -> None:
     file = tmp_path / "double.py"
     file.write_text(MODULE)
-    (found,) = listed_functions(file)
-    (x,) = found.arguments
+    (actual,) = listed_functions(file)
+    (x,) = actual.arguments
     assert (x.name, x.unit, x.meaning) == ("x", "m", "A length")
-    assert (found.symbol, found.unit, found.meaning) == (r"2\,x", "m", "twice a length")
+    assert (actual.symbol, actual.unit, actual.meaning) == (r"2\,x", "m", "twice a length")
     for removed, message in (("A length [m].", "unit in brackets for the argument x"),
                           ("Twice as much [m].", "units of its results")):  # fmt: skip
         file.write_text(MODULE.replace(removed, removed.partition(" [")[0]))

@@ -31,15 +31,17 @@ def test_operations_are_counted() -> None:
 
 
 def test_hand_written_module_is_recognised_by_its_docstring() -> None:
-    found = arithmetic_of_modules({"by_hand": BY_HAND, "printed": "y = a * b\n", "none": "y = 1\n"})
-    assert [(module.module, module.operations, module.printed) for module in found] == [
+    actual = arithmetic_of_modules(
+        {"by_hand": BY_HAND, "printed": "y = a * b\n", "none": "y = 1\n"}
+    )
+    assert [(module.module, module.operations, module.printed) for module in actual] == [
         ("by_hand", 2, False), ("printed", 1, True),
     ]  # fmt: skip
-    assert found[0].reason == "one product and one sum."
-    assert printed_fraction(found) == 1 / 3
-    expect_printed_fraction(found, 1 / 3)
+    assert actual[0].reason == "one product and one sum."
+    assert printed_fraction(actual) == 1 / 3
+    expect_printed_fraction(actual, 1 / 3)
     with pytest.raises(ValueError, match=r"at least 40\.0 % .*, got 33\.3 %"):
-        expect_printed_fraction(found, 0.4)
+        expect_printed_fraction(actual, 0.4)
 
 
 def test_module_with_arithmetic_must_give_a_reason() -> None:

@@ -272,10 +272,10 @@ MISPRINTS = {
 @pytest.mark.parametrize("kind", MISPRINTS)
 def test_kind_of_misprint_is_reported(kind: str) -> None:
     name, text = MISPRINTS[kind]
-    found = diagnose_text(name, text, chain()).diagnosis
-    assert (found.verdict, found.kind) == ("different", kind), found.repair
-    assert (found.repaired is None) == (kind in ("unexplained", "dimension"))
-    assert found.repaired is None or corrected(found)
+    diagnosis = diagnose_text(name, text, chain()).diagnosis
+    assert (diagnosis.verdict, diagnosis.kind) == ("different", kind), diagnosis.repair
+    assert (diagnosis.repaired is None) == (kind in ("unexplained", "dimension"))
+    assert diagnosis.repaired is None or corrected(diagnosis)
 
 
 def test_dimension_note_reports_the_extra_factor() -> None:
@@ -312,8 +312,8 @@ def rewritten() -> dict[str, tuple[str, sp.Expr]]:
     ],
 )
 def test_rewritten_formulas_are_equal(shape: str) -> None:
-    found = diagnose(*rewritten()[shape], chain())
-    assert (found.verdict, found.kind, found.edits) == ("equal", "equal", 0)
+    diagnosis = diagnose(*rewritten()[shape], chain())
+    assert (diagnosis.verdict, diagnosis.kind, diagnosis.edits) == ("equal", "equal", 0)
 
 
 def test_formula_of_the_force_is_not_replaced_by_its_symbol() -> None:
@@ -323,25 +323,27 @@ def test_formula_of_the_force_is_not_replaced_by_its_symbol() -> None:
 
 def test_values_are_correct_to_all_printed_digits() -> None:
     text = "-sinh(phi*h)/(2*mu*phi*(sinh(2*phi*h) + 2*phi*h))"
-    found = diagnose_text("Omega_3", text, chain(), at={"phi": "2.5", "h": "0.1"})
+    diagnosis = diagnose_text("Omega_3", text, chain(), at={"phi": "2.5", "h": "0.1"})
     with mpmath.workdps(80):
         x, scale = mpmath.mpf("0.25"), 2 * mpmath.mpf("0.43e9")
         reference = -mpmath.sinh(x) / scale / (mpmath.sinh(2 * x) + 2 * x)
-        assert found.derived_value == str(Decimal(mpmath.nstr(reference, 50, strip_zeros=False)))
-        assert abs(mpmath.mpf(found.given_value) * mpmath.mpf("2.5") / reference - 1) < 1e-49
-    assert (found.verdict, found.ratio) == ("different", 1 / phi)
-    report = json.loads(json.dumps(found.to_json()))
-    assert report["given"] == found.given_value
-    assert report["derived"] == found.derived_value
+        assert diagnosis.derived_value == str(
+            Decimal(mpmath.nstr(reference, 50, strip_zeros=False))
+        )
+        assert abs(mpmath.mpf(diagnosis.given_value) * mpmath.mpf("2.5") / reference - 1) < 1e-49
+    assert (diagnosis.verdict, diagnosis.ratio) == ("different", 1 / phi)
+    report = json.loads(json.dumps(diagnosis.to_json()))
+    assert report["given"] == diagnosis.given_value
+    assert report["derived"] == diagnosis.derived_value
     assert report["ratio"] == "1/phi"
 
 
 def test_values_are_correct_in_spite_of_cancellation() -> None:
     text = "(sinh(T)*cosh(T) + T)/(sinh(T)**2 - T**2)"
-    found = diagnose_text("G", text, chain(), at={"T": "1e-40"}, digits=60)
-    assert found.verdict == "equal"
-    assert found.given_value == found.derived_value
-    assert Decimal(found.given_value).adjusted() == 120
+    diagnosis = diagnose_text("G", text, chain(), at={"T": "1e-40"}, digits=60)
+    assert diagnosis.verdict == "equal"
+    assert diagnosis.given_value == diagnosis.derived_value
+    assert Decimal(diagnosis.given_value).adjusted() == 120
 
 
 INVALID_REQUESTS = {
@@ -358,7 +360,7 @@ INVALID_REQUESTS = {
     "given by two names": (("f_j", "C1"), {"at": {"C1": "1", "C_1": "2"}}, "C1 once, got it twice"),
     "value too large": (("Omega_3", "exp(phi*h)"), {"at": {"phi": "1e99"}}, "too large"),
     "hidden zero divisor": (("Omega_3", "1/(sin(h)**2 + cos(h)**2 - 1)"), {}, "division by zero"),
-    "integral": (("F_lateral", "phi"), {}, "defined by an integral"),
+    "integral": (("F_lateral", "phi"), {}, "defined by an integral .* substitute"),
     "whole sum": (("delta", "a**2/R"), {}, "one mode, which depends on J1, phi"),
     "sum times a factor that depends on the mode": (
         ("delta", "phi*Sum(a, (j, 1, oo))"),

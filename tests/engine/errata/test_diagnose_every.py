@@ -9,7 +9,7 @@ import pytest
 import sympy as sp
 
 from derivation.cli import main
-from derivation.engine.errata.compare import comparable
+from derivation.engine.errata.lookup import comparable
 from derivation.engine.errata.point import default_value, exact_values, parse_point
 from derivation.engine.formula.domain import holds, violated_conditions
 from derivation.engine.formula.parse import FormulaError
@@ -18,15 +18,15 @@ from derivation.plate.elastic import RELATIONS, diagnose_text, lame, relations
 from derivation.plate.vocabulary import ARGUMENTS, PLATE, A_j, E, Formula, P, a, b, lam, mu, nu
 
 CHAIN: Mapping[str, Formula] = derived_formulas()
-COMPARABLE = comparable(CHAIN)
+COMPARABLE = [n for n in comparable(CHAIN) if not CHAIN[n].expression.has(sp.Integral)]
 
 
 @pytest.mark.parametrize("name", COMPARABLE)
 def test_quantity_equals_its_own_expression(name: str) -> None:
-    found = diagnose_text(name, str(CHAIN[name].expression), CHAIN)
-    assert found.verdict == "equal"
-    assert found.given_value == found.derived_value
-    assert (found.compared is not None) == CHAIN[name].summed
+    diagnosis = diagnose_text(name, str(CHAIN[name].expression), CHAIN)
+    assert diagnosis.verdict == "equal"
+    assert diagnosis.given_value == diagnosis.derived_value
+    assert (diagnosis.compared is not None) == CHAIN[name].summed
 
 
 @pytest.mark.parametrize("name", COMPARABLE)
@@ -39,8 +39,8 @@ def test_quantity_differs_from_a_number(name: str) -> None:
         with_mode = f"2*{min(s.name for s in per_mode)}"
         assert diagnose_text(name, with_mode, CHAIN).verdict == "different"
     else:
-        found = diagnose_text(name, "2", CHAIN)
-        assert (found.verdict, found.given_value) == ("different", "2")
+        diagnosis = diagnose_text(name, "2", CHAIN)
+        assert (diagnosis.verdict, diagnosis.given_value) == ("different", "2")
 
 
 @pytest.mark.parametrize("name", COMPARABLE)
@@ -57,7 +57,7 @@ def test_formulas_with_other_symbols_are_rejected_or_compared(name: str, text: s
 def test_quantities_that_cannot_be_compared_are_rejected() -> None:
     others = set(CHAIN) - set(COMPARABLE)
     assert {"radial_ode", "F_lateral", "c_1_roots"} <= others
-    for name in others:
+    for name in others - {"k_lateral", "slope_lateral"}:  # integrals with a proved error
         with pytest.raises(FormulaError, match="cannot be compared"):
             diagnose_text(name, "2", CHAIN)
 
@@ -89,7 +89,7 @@ def test_formulas_in_young_s_modulus_are_compared(name: str, text: str) -> None:
 
 def test_evaluation_point_may_contain_young_s_modulus() -> None:
     text, at = "4*a**3*E/(3*R*(1 - nu**2))", {"E": "70e9", "nu": "0.25", "a": "0.001", "R": "0.01"}
-    found = diagnose_text("P", text, CHAIN, at=at, digits=20)
+    diagnosis = diagnose_text("P", text, CHAIN, at=at, digits=20)
     with mpmath.workdps(40):
         force = (
             4
@@ -97,7 +97,7 @@ def test_evaluation_point_may_contain_young_s_modulus() -> None:
             * mpmath.mpf("70e9")
             / (3 * mpmath.mpf("0.01") * (1 - 1 / mpmath.mpf(16)))
         )
-        assert abs(mpmath.mpf(found.given_value) / force - 1) < 1e-19
+        assert abs(mpmath.mpf(diagnosis.given_value) / force - 1) < 1e-19
 
 
 def test_elastic_constants_are_related_as_in_hooke_s_law() -> None:
@@ -133,11 +133,11 @@ def test_elastic_constants_are_related_as_in_hooke_s_law() -> None:
     ],
 )
 def test_sums_are_compared_term_by_term(text: str, latex: bool) -> None:
-    found = diagnose_text("delta", text, CHAIN, latex=latex)
-    assert found.verdict == ("different" if latex else "equal")
-    assert found.compared is not None
-    assert "one mode" in found.compared
-    assert found.to_json()["compared"] == found.compared
+    diagnosis = diagnose_text("delta", text, CHAIN, latex=latex)
+    assert diagnosis.verdict == ("different" if latex else "equal")
+    assert diagnosis.compared is not None
+    assert "one mode" in diagnosis.compared
+    assert diagnosis.to_json()["compared"] == diagnosis.compared
 
 
 def test_conditions_are_tested_exactly() -> None:
@@ -151,13 +151,13 @@ def test_conditions_are_tested_exactly() -> None:
 
 
 def test_default_point_moves_to_a_real_value_but_a_given_point_does_not() -> None:
-    found = diagnose_text(
+    diagnosis = diagnose_text(
         "evanescent_wave_number", "k_n*sqrt(1 - kap*(17 - 7*nu)/(10*eta**2*k_n**2))", CHAIN
     )
-    assert found.verdict == "equal"
-    assert found.given_value == found.derived_value
+    assert diagnosis.verdict == "equal"
+    assert diagnosis.given_value == diagnosis.derived_value
     given = {"eta": "0.1", "k_n": "0.5", "kap": "0.01"}
-    assert sum(dict(found.point)[name] != value for name, value in given.items()) == 1
+    assert sum(dict(diagnosis.point)[name] != value for name, value in given.items()) == 1
     with pytest.raises(FormulaError, match=r"no real value at .*: choose another point"):
         diagnose_text("evanescent_wave_number", "k_n", CHAIN, at=given)
     far = {"eta": "1e-9"}

@@ -46,8 +46,8 @@ def corrected(given: sp.Expr, reference: sp.Expr) -> Iterable[repairs.Repair]:
 
 def test_long_expressions_are_compared_in_interval_arithmetic(formulas: Formulas) -> None:
     one = (sp.cosh(T) ** 2 - sp.sinh(T) ** 2) ** 12
-    found = diagnose("G", formulas["G"].expression * one, formulas)
-    assert (found.verdict, found.method) == (compare.EQUAL, compare.BY_BALLS)
+    diagnosis = diagnose("G", formulas["G"].expression * one, formulas)
+    assert (diagnosis.verdict, diagnosis.method) == (compare.EQUAL, compare.BY_BALLS)
     short = diagnose("G", formulas["G"].expression, formulas)
     assert (short.verdict, short.method) == (compare.EQUAL, SYMBOLIC)
 
@@ -70,8 +70,12 @@ def test_number_of_examined_candidates_is_limited(
             yield repairs.Repair("sign", "read T", T + index, 1)
 
     monkeypatch.setattr(compare, "repairs", unlimited)
-    found = diagnose("G", T, formulas)
-    assert (found.verdict, found.kind, found.repaired) == ("different", "unexplained", None)
+    diagnosis = diagnose("G", T, formulas)
+    assert (diagnosis.verdict, diagnosis.kind, diagnosis.repaired) == (
+        "different",
+        "unexplained",
+        None,
+    )
     assert next(candidates) <= 7
 
 
@@ -80,9 +84,9 @@ def test_factor_counted_twice_is_reported_only_for_a_factor_of_the_other(
 ) -> None:
     """P A_j in place of K_j, and A_j G in place of sonine, do not count a factor twice."""
     for name, given in (("K_j", P * formulas["A_j"].expression), ("sonine", A_j * sp.Symbol("G"))):
-        found = diagnose(name, given, formulas)
-        assert found.verdict == "different"
-        assert found.kind != TWICE
+        diagnosis = diagnose(name, given, formulas)
+        assert diagnosis.verdict == "different"
+        assert diagnosis.kind != TWICE
 
 
 # --- misprints
@@ -90,9 +94,9 @@ def test_factor_counted_twice_is_reported_only_for_a_factor_of_the_other(
 
 def test_superfluous_term_is_removed(formulas: Formulas) -> None:
     correct = formulas["Omega_1"].expression
-    found = diagnose("Omega_1", correct + h * phi, formulas)
-    assert found.repair == "leave out the term h*phi"
-    assert found.repaired == correct
+    diagnosis = diagnose("Omega_1", correct + h * phi, formulas)
+    assert diagnosis.repair == "leave out the term h*phi"
+    assert diagnosis.repaired == correct
 
 
 def test_misprint_in_one_of_two_equal_factors_is_corrected() -> None:
@@ -105,10 +109,10 @@ def test_misprint_in_one_of_two_equal_factors_is_corrected() -> None:
 
 def test_misprints_in_an_equal_factor_and_in_another_are_corrected() -> None:
     reference = (a + b) * (a - b) * (lam + mu)
-    found = list(corrected((a + b) ** 2 * (lam - mu), reference))
-    assert found
-    assert any(repair.edits == 2 for repair in found)
-    assert all(sp.expand(repair.expression - reference) == 0 for repair in found)
+    actual = list(corrected((a + b) ** 2 * (lam - mu), reference))
+    assert actual
+    assert any(repair.edits == 2 for repair in actual)
+    assert all(sp.expand(repair.expression - reference) == 0 for repair in actual)
 
 
 def test_correction_must_fit_at_every_sample_point() -> None:
@@ -182,8 +186,8 @@ def test_values_of_zero_and_ties_in_rounding_are_printed(
 ) -> None:
     """No working precision separates cosh^2 - sinh^2 from 1, so either rounding is accepted."""
     given = text.format("(cosh(T)**2 - sinh(T)**2)")
-    found = diagnose_text("G", given, formulas, at={"T": "1.5"}, digits=digits)
-    assert found.given_value in values
+    diagnosis = diagnose_text("G", given, formulas, at={"T": "1.5"}, digits=digits)
+    assert diagnosis.given_value in values
 
 
 # --- the published pair u and w

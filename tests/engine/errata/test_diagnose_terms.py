@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import pytest
 import sympy as sp
 
-from derivation.engine.errata.compare import comparable
+from derivation.engine.errata.lookup import comparable
 from derivation.plate.derived import formulas
 from derivation.plate.elastic import diagnose_text
 
@@ -88,26 +88,30 @@ def agree(one: sp.Expr, other: sp.Expr, seed: int) -> bool:
 def test_the_correction_is_the_one_that_was_undone(
     name: str, text: str, kind: str, repair: str
 ) -> None:
-    found = diagnose_text(name, text, CHAIN)
-    assert (found.diagnosis.kind, found.repair) == (kind, repair)
-    assert found.diagnosis.repaired is not None
-    assert agree(found.diagnosis.repaired, CHAIN[name].expression, 1)
+    diagnosis = diagnose_text(name, text, CHAIN)
+    assert (diagnosis.diagnosis.kind, diagnosis.repair) == (kind, repair)
+    assert diagnosis.diagnosis.repaired is not None
+    assert agree(diagnosis.diagnosis.repaired, CHAIN[name].expression, 1)
 
 
 def test_the_argument_of_coth_is_searched() -> None:
     derived = CHAIN["B_s"].expression
     _, fast = sorted(derived.atoms(sp.coth), key=str)
     wrong = derived.subs(fast, sp.coth(fast.args[0] / 2))
-    found = diagnose_text("B_s", str(wrong), CHAIN)
-    assert found.diagnosis.kind == "constant ratio"
-    assert found.diagnosis.repaired is not None
-    assert agree(found.diagnosis.repaired, derived, 2)
+    diagnosis = diagnose_text("B_s", str(wrong), CHAIN)
+    assert diagnosis.diagnosis.kind == "constant ratio"
+    assert diagnosis.diagnosis.repaired is not None
+    assert agree(diagnosis.diagnosis.repaired, derived, 2)
 
 
 def swaps() -> Iterator[tuple[str, sp.Expr]]:
     """Yield formulas in which one symbol is another one at one place."""
     draw = random.Random(11)
-    names = [n for n in comparable(CHAIN) if CHAIN[n].expression.count_ops() < 40]
+    names = [
+        n
+        for n in comparable(CHAIN)
+        if CHAIN[n].expression.count_ops() < 40 and not CHAIN[n].expression.has(sp.Integral)
+    ]
     while True:
         name = draw.choice(names)
         derived = CHAIN[name].expression
@@ -130,13 +134,13 @@ def test_a_swapped_symbol_is_named_in_any_formula() -> None:
     source = swaps()
     for _ in range(12):
         name, wrong = next(source)
-        found = diagnose_text(name, str(wrong), CHAIN)
-        assert found.verdict == "different"
-        assert found.diagnosis.kind == "swapped symbol", (name, wrong, found.repair)
-        assert found.diagnosis.repaired is not None
-        assert agree(found.diagnosis.repaired, CHAIN[name].expression, 3)
+        diagnosis = diagnose_text(name, str(wrong), CHAIN)
+        assert diagnosis.verdict == "different"
+        assert diagnosis.diagnosis.kind == "swapped symbol", (name, wrong, diagnosis.repair)
+        assert diagnosis.diagnosis.repaired is not None
+        assert agree(diagnosis.diagnosis.repaired, CHAIN[name].expression, 3)
 
 
 def test_powers_with_a_symbol_in_the_exponent_are_no_crash() -> None:
-    found = diagnose_text("variational_ratio", "4**(-k - 1)*4**(k + 1)/(2*k)", CHAIN)
-    assert found.verdict == "different"
+    diagnosis = diagnose_text("variational_ratio", "4**(-k - 1)*4**(k + 1)/(2*k)", CHAIN)
+    assert diagnosis.verdict == "different"

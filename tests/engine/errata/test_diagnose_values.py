@@ -24,20 +24,20 @@ SPEED = "sqrt(-3*delta**(8/3)*xi_3/(4*m) - delta**2*xi_2/m + v0**2)"
 def test_a_formula_without_a_real_value_is_compared(
     name: str, text: str, value: str, kind: str | None
 ) -> None:
-    found = diagnose_text(name, text, CHAIN)
-    assert found.verdict == "different"
-    assert found.given_value == value
-    assert float(found.derived_value) != 0
-    assert kind in (None, found.diagnosis.kind)
+    diagnosis = diagnose_text(name, text, CHAIN)
+    assert diagnosis.verdict == "different"
+    assert diagnosis.given_value == value
+    assert float(diagnosis.derived_value) != 0
+    assert kind in (None, diagnosis.diagnosis.kind)
 
 
 def test_another_default_point_is_taken_if_the_formula_has_a_value_there() -> None:
     """sqrt(h - 5 a) is real for a thicker plate only; both values belong to that point."""
-    found = diagnose_text("P", "mu*sqrt(h - 5*a)*a**(3/2)", CHAIN, digits=30)
+    diagnosis = diagnose_text("P", "mu*sqrt(h - 5*a)*a**(3/2)", CHAIN, digits=30)
     with mpmath.workdps(40):
-        h, a, mu = (mpmath.mpf(dict(found.point)[name]) for name in ("h", "a", "mu"))
+        h, a, mu = (mpmath.mpf(dict(diagnosis.point)[name]) for name in ("h", "a", "mu"))
         exact = mu * mpmath.sqrt(h - 5 * a) * a ** mpmath.mpf(1.5)
-        assert abs(mpmath.mpf(found.given_value) / exact - 1) < 1e-28
+        assert abs(mpmath.mpf(diagnosis.given_value) / exact - 1) < 1e-28
 
 
 def test_a_point_that_was_chosen_is_refused() -> None:
@@ -52,9 +52,9 @@ def test_a_candidate_with_an_imaginary_constant_is_no_crash() -> None:
 
 
 def test_results_are_shown_on_one_line() -> None:
-    found = pc.diagnose("P", "16*mu*(lam + mu)*a**2/(3*R*(lam + 2*mu))")
-    assert str(found) == "P: different, wrong exponent: read a**3 instead of a**2"
-    assert str(found.diagnosis) == str(found)
+    diagnosis = pc.diagnose("P", "16*mu*(lam + mu)*a**2/(3*R*(lam + 2*mu))")
+    assert str(diagnosis) == "P: different, wrong exponent: read a**3 instead of a**2"
+    assert str(diagnosis.diagnosis) == str(diagnosis)
     assert str(pc.diagnose("G", str(CHAIN["G"].expression))) == "G: equal"
     (omega, *_) = (one for one in pc.misprints() if one.printed.name == "Omega_3")
     assert str(omega).startswith("(5) Omega_3: extra factor: leave out the factor phi")

@@ -194,14 +194,14 @@ def test_elementary_functions_have_the_values_of_mpmath(name: str, point: float)
     with mpmath.workdps(40):
         exact = _mpmath_value(name, mpmath.mpf(at))
         slope = mpmath.diff(lambda t: _mpmath_value(name, t), mpmath.mpf(at))
-        for found, expected in ((expression, exact), (expression.diff(x), slope)):
-            value = mpmath.mpf(evaluate(found, {x: at}, 20).str(25, radius=False))
+        for slopes, expected in ((expression, exact), (expression.diff(x), slope)):
+            value = mpmath.mpf(evaluate(slopes, {x: at}, 20).str(25, radius=False))
             assert abs(value - expected) <= abs(expected) * mpmath.mpf("1e-15")
     if expression.args == (x,):
         with flint.ctx.workprec(100):
             step = operation(expression)
-            (found,) = step.slopes(step.value(flint.arb(at)), flint.arb(at))
-            assert abs(float(found.mid()) - float(slope)) <= 1e-14 * abs(float(slope))
+            (slopes,) = step.slopes(step.value(flint.arb(at)), flint.arb(at))
+            assert abs(float(slopes.mid()) - float(slope)) <= 1e-14 * abs(float(slope))
 
 
 def expect_error(read: object, text: object, reason: str) -> None:

@@ -39,18 +39,18 @@ def test_times_are_per_point_and_relative_to_the_reference(
     fake, array = FakeClock(), np.zeros(10)
     monkeypatch.setattr(clock, "reference", lambda: Candidate(fake.work(1.0), array, 1))
     candidates = [Candidate(fake.work(2.0), array, 3), Candidate(fake.work(5.0), array, 1)]
-    found = clock.session(candidates, Effort(9, 3), fake)
-    assert [t.seconds for t in found.timings] == pytest.approx([0.2, 0.5])
-    assert (found.attempts, found.contended, found.spread) == (1, False, 1.0)
+    timing = clock.session(candidates, Effort(9, 3), fake)
+    assert [t.seconds for t in timing.timings] == pytest.approx([0.2, 0.5])
+    assert (timing.attempts, timing.contended, timing.spread) == (1, False, 1.0)
 
 
 def test_timing_on_a_busy_machine_is_repeated_and_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     fake, array, load = FakeClock(), np.zeros(1), cycle([1.0] * 6 + [9.0] * 6)
 
     monkeypatch.setattr(clock, "reference", lambda: Candidate(fake.work_in_turn(load), array, 1))
-    found = clock.session([Candidate(fake.work(1.0), array, 1)], Effort(4, 3), fake)
-    assert found.attempts == 3
-    assert (found.contended, found.spread) == (True, 9.0)
+    timing = clock.session([Candidate(fake.work(1.0), array, 1)], Effort(4, 3), fake)
+    assert timing.attempts == 3
+    assert (timing.contended, timing.spread) == (True, 9.0)
     once = clock.session([Candidate(fake.work(1.0), array, 1)], Effort(4, 1), fake)
     assert once.attempts == 1
 
@@ -59,17 +59,17 @@ def test_reported_time_is_not_below_the_shortest_measured(monkeypatch: pytest.Mo
     fake, array, load = FakeClock(), np.zeros(1), cycle([1.0] * 3 + [100.0] * 9)
 
     monkeypatch.setattr(clock, "reference", lambda: Candidate(fake.work_in_turn(load), array, 1))
-    found = clock.session([Candidate(fake.work(2.0), array, 1)], Effort(8, 1), fake)
-    assert found.timings[0].seconds == 2.0
+    timing = clock.session([Candidate(fake.work(2.0), array, 1)], Effort(8, 1), fake)
+    assert timing.timings[0].seconds == 2.0
 
 
 def test_spread_is_upper_over_lower_quartile(monkeypatch: pytest.MonkeyPatch) -> None:
     fake, array, load = FakeClock(), np.zeros(1), cycle([1.0, 1.0, 3.0, 3.0])
 
     monkeypatch.setattr(clock, "reference", lambda: Candidate(fake.work(1.0), array, 1))
-    found = clock.session([Candidate(fake.work_in_turn(load), array, 1)], Effort(8, 1), fake)
-    assert found.timings[0].seconds == 1.0
-    assert found.timings[0].spread == 3.0
+    timing = clock.session([Candidate(fake.work_in_turn(load), array, 1)], Effort(8, 1), fake)
+    assert timing.timings[0].seconds == 1.0
+    assert timing.timings[0].spread == 3.0
 
 
 def test_order_of_the_rounds_is_random_but_reproducible(monkeypatch: pytest.MonkeyPatch) -> None:

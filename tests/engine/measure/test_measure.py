@@ -137,17 +137,17 @@ def test_table_of_zeros_is_measured_entry_by_entry() -> None:
         return np.array([float(j0_zero(n, 80)) for n in range(1, count + 1)])
 
     points = [Point({"count": float(n)}) for n in (1, 2, 50, 1000)]
-    found = reference_values("bessel_j0_zeros", points, 30)
+    reference_result = reference_values("bessel_j0_zeros", points, 30)
     kernel = Kernel("bessel_j0_zeros", "bessel", ("count",), zeros, 1.0)
-    assert measured_errors(kernel, found).max_ulp <= 0.5
+    assert measured_errors(kernel, reference_result).max_ulp <= 0.5
     shifted = dataclasses.replace(kernel, call=lambda count: zeros(count + 1)[1:])
-    assert measured_errors(shifted, found).ratio > 1e6
+    assert measured_errors(shifted, reference_result).ratio > 1e6
 
 
 def test_modal_sum_is_called_once_per_number_of_modes() -> None:
     arguments = ("h", "b", "R", "a")
     points = grid("delta", arguments, modes=True)[:12]
-    found = reference_values("delta", points, 30)
+    reference_result = reference_values("delta", points, 30)
     calls = []
 
     def exact(*columns: Any, modes: int) -> Any:
@@ -157,13 +157,16 @@ def test_modal_sum_is_called_once_per_number_of_modes() -> None:
         return np.array([float(reference("delta", v, 30, modes).value) for v in values])
 
     kernel = Kernel("delta", "modal_sum", arguments, exact, 1.0, modes=True)
-    assert measured_errors(kernel, found).max_ulp <= 0.5
+    assert measured_errors(kernel, reference_result).max_ulp <= 0.5
     assert len(calls) == len(set(calls)) > 3
 
     def one_mode_short(*columns: Any, modes: int) -> Any:
         return exact(*columns, modes=max(1, modes - 1))
 
-    assert measured_errors(dataclasses.replace(kernel, call=one_mode_short), found).ratio > 1e3
+    assert (
+        measured_errors(dataclasses.replace(kernel, call=one_mode_short), reference_result).ratio
+        > 1e3
+    )
 
 
 # --- grids
@@ -242,8 +245,8 @@ def test_points_without_an_equivalent_in_single_precision_are_omitted() -> None:
 
 @pytest.fixture(scope="module")
 def row() -> Row:
-    (found,) = check(30, [kernel_G()])
-    return found
+    (actual,) = check(30, [kernel_G()])
+    return actual
 
 
 def test_kernel_of_a_row_is_the_generated_function() -> None:

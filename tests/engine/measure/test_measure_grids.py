@@ -32,9 +32,9 @@ def test_arguments_describe_the_drawn_contact(name: str) -> None:
             "impact": a,
         }
         if name == "impact":
-            found = impact(*given).max_contact_radius
+            actual = impact(*given).max_contact_radius
         else:
-            found = getattr(contact_law, name)(*given)
+            actual = getattr(contact_law, name)(*given)
         if name == "stiffness":  # dP/d(delta) from central differences
             ends = [
                 (contact_law.force_of_radius(x, R, lam, mu),
@@ -42,9 +42,9 @@ def test_arguments_describe_the_drawn_contact(name: str) -> None:
                 for x in (a * (1 - 1e-5), a * (1 + 1e-5))
             ]  # fmt: skip
             slope = (ends[1][0] - ends[0][0]) / (ends[1][1] - ends[0][1])
-            assert found == pytest.approx(slope, rel=1e-4)
+            assert actual == pytest.approx(slope, rel=1e-4)
         else:
-            assert found == pytest.approx(expected[name], rel=1e-9)
+            assert actual == pytest.approx(expected[name], rel=1e-9)
 
 
 def test_grid_of_impacts_is_reproducible_and_has_the_listed_ratios() -> None:

@@ -49,27 +49,27 @@ def target() -> Target:
 
 
 @pytest.fixture
-def found(target: Target) -> Search:
+def search_result(target: Target) -> Search:
     return search([target], seed=2, evaluations=EVALUATIONS)
 
 
-def test_defect_is_found_refined_and_reproduced(found: Search, target: Target) -> None:
-    worst = found.standings["square"].worst
+def test_defect_is_found_refined_and_reproduced(search_result: Search, target: Target) -> None:
+    worst = search_result.standings["square"].worst
     assert worst is not None
     assert 3 < worst.point.values["x"] < 3.01
     assert worst.ratio > 1.999  # the largest value is 2, at y = x
-    assert not all_within_allowance(found)
-    assert as_data(search([target], seed=2, evaluations=EVALUATIONS)) == as_data(found)
+    assert not all_within_allowance(search_result)
+    assert as_data(search([target], seed=2, evaluations=EVALUATIONS)) == as_data(search_result)
 
 
 def test_found_case_is_written_and_then_known(
-    found: Search, target: Target, tmp_path: Path
+    search_result: Search, target: Target, tmp_path: Path
 ) -> None:
     path = tmp_path / "cases.toml"
     book = SearchRecord(path, [target], {"square": 1.5}, {})
-    book.keep(found)
+    book.keep(search_result)
     [case] = read(path)
-    worst = found.standings["square"].worst
+    worst = search_result.standings["square"].worst
     assert worst is not None
     assert case.points == [worst.point.values]
     assert not SearchRecord(path, [target], {}, {}).is_new("square", worst)

@@ -39,9 +39,9 @@ def test_ratio_is_compared_with_its_limit(monkeypatch: pytest.MonkeyPatch) -> No
 
 
 def test_random_impacts_are_distinct_and_valid() -> None:
-    found = speed.impact(**speed.scenes(0.01, 5.9, 200))
-    reached = found.max_contact_radius / speed.scenes(0.01, 5.9, 200)["h"]
-    assert np.isfinite(np.stack(found)).all()
+    result = speed.impact(**speed.scenes(0.01, 5.9, 200))
+    reached = result.max_contact_radius / speed.scenes(0.01, 5.9, 200)["h"]
+    assert np.isfinite(np.stack(result)).all()
     assert np.unique(reached).size == 200
     assert reached.max() > 3.0
 
@@ -95,16 +95,16 @@ def test_every_example_is_timed_and_only_the_block_against_hertz_alone(
     for kind in ("law_over_exp", "impact_rate", "cold_start", "hertz_alone", "stable_over_naive"):
         monkeypatch.setattr(speed, kind, recorder(kind))
     block, pad, reported = Path("block.toml"), Path("pad.toml"), list[Any]()
-    found: list[Any] = speed.measure([block, pad], [pad], lambda *given: reported.append(given))
-    assert found == speed.measure([block, pad], [pad])
-    assert [number for _, number, _ in reported] == list(range(1, len(found) + 1))
-    assert {total for *_, total in reported} == {len(found)}
-    assert [row[1:] for row in found if row[0] == "cold_start"] == [
+    actual: list[Any] = speed.measure([block, pad], [pad], lambda *given: reported.append(given))
+    assert actual == speed.measure([block, pad], [pad])
+    assert [number for _, number, _ in reported] == list(range(1, len(actual) + 1))
+    assert {total for *_, total in reported} == {len(actual)}
+    assert [row[1:] for row in actual if row[0] == "cold_start"] == [
         ("simulate", block, speed.START), ("explain", block, speed.EXPLAIN_START),
         ("simulate", pad, speed.PLATE_START), ("explain", pad, speed.EXPLAIN_START),
     ]  # fmt: skip
-    assert [row[1:] for row in found if row[0] == "hertz_alone"] == [(block, 1.2)]
-    assert [row[1] for row in found if row[0] == "stable_over_naive"] == list(speed.NAIVE)
+    assert [row[1:] for row in actual if row[0] == "hertz_alone"] == [(block, 1.2)]
+    assert [row[1] for row in actual if row[0] == "stable_over_naive"] == list(speed.NAIVE)
     assert not [row for row in speed.measure([pad]) if row[0] == "hertz_alone"]  # type: ignore[index]
 
 

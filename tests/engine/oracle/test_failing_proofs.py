@@ -112,10 +112,10 @@ def test_power_series_has_no_value_where_its_tail_has_no_bound(
     ("power", "message"), [(1, "grow like j"), (2, "grow like j^2"), (-2, "decrease like j^(-2)")]
 )
 def test_tail_of_a_sum_is_described_by_its_power(power: int, message: str) -> None:
-    found = divergence.tail(phi**power)
-    assert found.exponent == power
-    assert found.kind == (divergence.CONVERGENT if power < -1 else divergence.DIVERGENT)
-    assert found.says.split(", ")[0].endswith(message)
+    actual = divergence.tail(phi**power)
+    assert actual.exponent == power
+    assert actual.kind == (divergence.CONVERGENT if power < -1 else divergence.DIVERGENT)
+    assert actual.says.split(", ")[0].endswith(message)
 
 
 @pytest.mark.parametrize("law", [(-3.1, 4.9), (2.4, -0.8, -2.5)])

@@ -134,11 +134,11 @@ def test_roots_are_enclosed_or_rejected() -> None:
     solve 1/x = 4, whose left side decreases.
     """
     with flint.ctx.workprec(64):
-        found = contact_references.ratio_where(
+        actual = contact_references.ratio_where(
             lambda x: x, lambda *_: arb(1), arb(0.25), 0.1, "1/4"
         )
-        assert found.contains(arb(0.25))
-        assert found.rad() < 1e-9
+        assert actual.contains(arb(0.25))
+        assert actual.rad() < 1e-9
         with pytest.raises(PrecisionError, match="no convergence towards 1/4"):
             contact_references.ratio_where(lambda x: x, lambda *_: arb(0.4), arb(0.25), 0.1, "1/4")
         with pytest.raises(PrecisionError, match=r"4 is not enclosed by .0\.24999.* and .0\.25000"):
@@ -147,8 +147,8 @@ def test_roots_are_enclosed_or_rejected() -> None:
 
 def test_roots_of_the_mpmath_reference_converge_or_are_rejected() -> None:
     with mp.workdps(30):
-        found = residue_law._root(lambda x, _: (x, mpf(1)), mpf("0.25"), mpf("0.1"), 24)
-        assert abs(found - mpf("0.25")) < mpf(10) ** -28
+        actual = residue_law._root(lambda x, _: (x, mpf(1)), mpf("0.25"), mpf("0.1"), 24)
+        assert abs(actual - mpf("0.25")) < mpf(10) ** -28
         with pytest.raises(RouteError, match="no root found near"):
             residue_law._root(lambda x, _: (x, mpf("0.4")), mpf("0.25"), mpf("0.1"), 24)
         with pytest.raises(RouteError, match=r"no root found near 0\.25"):
@@ -212,9 +212,9 @@ def test_truncated_series_of_the_force_has_the_order_of_its_terms(terms: int) ->
     errors = []
     for delta in (1e-6, 1e-5):
         exact = contact_forces.force(delta, R, h, b, lam, mu, 16)
-        found, ratio = contact_quantities.truncated_series(delta, R, h, b, lam, mu, 16, terms)
+        actual, ratio = contact_quantities.truncated_series(delta, R, h, b, lam, mu, 16, terms)
         with flint.ctx.workprec(200):
-            errors.append(float(abs(found / exact - 1)))
+            errors.append(float(abs(actual / exact - 1)))
         assert ratio >= 1
     assert errors[1] / errors[0] == pytest.approx(10 ** (terms / 2), rel=0.06)
 
@@ -239,9 +239,9 @@ def test_sphere_moves_freely_before_and_after_the_contact(fraction: float, speed
     def state(arguments: Any, digits: int) -> Any:
         return exact_state(*arguments, digits=digits)
 
-    found = state(given, 12)
-    assert [float(part) for part in found] == [0.0, speed, 0.0, 0.0]
-    changes = [float(part) for part in state_rounding.rounding(state, given, found)]
+    actual = state(given, 12)
+    assert [float(part) for part in actual] == [0.0, speed, 0.0, 0.0]
+    changes = [float(part) for part in state_rounding.rounding(state, given, actual)]
     assert changes == pytest.approx([0.0, 1.0, 0.0, 0.0], abs=1e-12)
 
 
@@ -265,8 +265,8 @@ def test_history_rejects_radii_above_the_maximum() -> None:
 def test_coefficients_from_a_circle_next_to_a_pole_are_rejected() -> None:
     """The coefficient of z^2 in 1/(1 - z/p) is 1/p^2; for p = 1.0001 the samples do not give it."""
     with mp.workdps(20):
-        found = edge_routes._coefficient(lambda z: 1 / (1 - z / 2), 2, mpf(1), 15)
-        assert abs(found - 0.25) < 1e-14
+        actual = edge_routes._coefficient(lambda z: 1 / (1 - z / 2), 2, mpf(1), 15)
+        assert abs(actual - 0.25) < 1e-14
         with pytest.raises(RouteError, match="did not give a coefficient"):
             edge_routes._coefficient(lambda z: 1 / (1 - z / mpf("1.0001")), 2, mpf(1), 15)
 
@@ -302,8 +302,8 @@ def test_edge_modes_without_roots_of_the_determinant_are_rejected(
 
 def test_wave_numbers_that_are_not_enclosed_are_rejected(monkeypatch: pytest.MonkeyPatch) -> None:
     with mp.workdps(20):
-        found = wave_routes._secant(lambda x: x * x - 2, mpf(1), mpf(2), 10)
-        assert abs(found - mp.sqrt(2)) < mpf(10) ** -14
+        actual = wave_routes._secant(lambda x: x * x - 2, mpf(1), mpf(2), 10)
+        assert abs(actual - mp.sqrt(2)) < mpf(10) ** -14
         with pytest.raises(RouteError, match="secant method does not converge"):
             wave_routes._secant(lambda x: x * x + 1, mpf("0.3"), mpf("0.4"), 10)
     monkeypatch.setattr(wave_routes, "_answers", lambda *_: (mpf(1), mpf(1)))

@@ -246,10 +246,10 @@ def test_condition_of_a_modal_sum_includes_the_change_of_the_wave_numbers() -> N
 
 
 def test_condition_numbers_where_the_value_is_zero() -> None:
-    found = reference("mode_rz", MODE | {"z": MODE["h"]})
-    assert found.condition["z"] == math.inf
-    assert math.isnan(found.condition["A_j"])
-    assert found.sensitivity["z"] > 0
+    reference_result = reference("mode_rz", MODE | {"z": MODE["h"]})
+    assert reference_result.condition["z"] == math.inf
+    assert math.isnan(reference_result.condition["A_j"])
+    assert reference_result.sensitivity["z"] > 0
 
 
 def test_singular_point_is_rejected() -> None:

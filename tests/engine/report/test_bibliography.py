@@ -45,9 +45,9 @@ def citations() -> Iterator[tuple[Path, str]]:
 
 
 def test_cited_sources_are_in_the_bibliography() -> None:
-    found = {key: path for path, key in citations()}
-    assert {"thornton1997", "kuwabara1987", "chung2011", "sneddon1965"} <= set(found)
-    assert {key: path for key, path in found.items() if key not in REFERENCES.entries} == {}
+    actual = {key: path for path, key in citations()}
+    assert {"thornton1997", "kuwabara1987", "chung2011", "sneddon1965"} <= set(actual)
+    assert {key: path for key, path in actual.items() if key not in REFERENCES.entries} == {}
 
 
 def test_sources_of_materials_are_in_the_bibliography() -> None:

@@ -162,10 +162,10 @@ def test_references_link_to_their_targets(text: Text, html: str) -> None:
 
 def test_equations_are_numbered_as_in_latex(text: Text, html: str) -> None:
     labels = re.findall(r"\\begin\{equation\}\\label\{eq:(\w+)\}", "\n".join(text.sections))
-    found = re.findall(
+    matches = re.findall(
         r'id="eq:(\w+)" class="equation">.*?<span class="count">\((\d+)\)</span>', html, re.DOTALL
     )
-    assert found == [(name, str(number)) for number, name in enumerate(labels, start=1)]
+    assert matches == [(name, str(number)) for number, name in enumerate(labels, start=1)]
 
 
 def test_every_figure_has_a_caption_and_a_label(html: str) -> None:
@@ -193,11 +193,11 @@ def test_unknown_commands_and_references_are_rejected(wrong: str) -> None:
 
 def test_page_is_reproducible_and_text_is_escaped() -> None:
     body = r"a\textless{}b \& \emph{c}~1--2 of $a$, \texttt{a*\allowbreak{}b}"
-    found = page_of(body)
-    assert found == page_of(body)
-    assert "a&lt;b &amp; <em>c</em>\u00a01\u20132 of" in found
-    assert "<code>a*</code><wbr><code>b</code>" in found
-    assert re.search(r"</math>,</span>", found)  # a comma stays on the line of its formula
+    actual = page_of(body)
+    assert actual == page_of(body)
+    assert "a&lt;b &amp; <em>c</em>\u00a01\u20132 of" in actual
+    assert "<code>a*</code><wbr><code>b</code>" in actual
+    assert re.search(r"</math>,</span>", actual)  # a comma stays on the line of its formula
 
 
 def test_sections_of_the_appendix_have_letters() -> None:
@@ -205,10 +205,10 @@ def test_sections_of_the_appendix_have_letters() -> None:
         r"\section{One}\subsection{Two}\subsection*{None}\appendix\section{Last}\label{sec:last}"
         "\n\nsee \\ref{sec:last}"
     )
-    found = re.sub(r"</?span[^>]*>", "", page_of(body))
+    actual = re.sub(r"</?span[^>]*>", "", page_of(body))
     for heading in ("<h2>1 One", "<h3>1.1 Two", "None</h3>", "<h2>A Last"):
-        assert heading in found
-    assert 'see <a href="#sec:last">A</a>' in found
+        assert heading in actual
+    assert 'see <a href="#sec:last">A</a>' in actual
 
 
 def test_figures_are_reproducible_and_have_unique_ids() -> None:

@@ -118,6 +118,7 @@ def test_plain_text_of_meanings_and_proofs_contains_no_latex(formulas) -> None:
         ("found [kg^2 m^-2]", "found [kg$^{2}$ m$^{-2}$]"),
         ("where x*y is none", "where x*y is none"),
         ("a phi_j of K_j and K_j_bottom", r"a $\phi_j$ of $K_j$ and K\_j\_bottom"),
+        ("sigma_rr times e^(-2 x)/2^-30", r"$\sigma_{rr}$ times $e^{-2 x}$/$2^{-30}$"),
         ("coefficient of P^(5/3) in delta", r"coefficient of $P^{5/3}$ in $\delta$"),
     ],
 )
@@ -136,7 +137,7 @@ def test_wide_formulas_are_split_into_parts(formulas, width: float) -> None:
     for formula in formulas.values():
         text = body(formula, room=width).removeprefix(r"\begin{aligned}")
         lines = text.removesuffix(r"\end{aligned}").split(r"\\")
-        parts = [found[1] for line in lines if (found := re.match(r"\s*& (Z_\d+) = ", line))]
+        parts = [match[1] for line in lines if (match := re.match(r"\s*& (Z_\d+) = ", line))]
         assert parts == [f"Z_{k}" for k in range(1, len(parts) + 1)]
         assert all(typeset_width(line) <= width for line in lines), formula.name
         assert all(fractions_within(line) <= DEEPEST for line in lines)
@@ -203,7 +204,7 @@ def test_estimated_widths_agree_with_tex(formulas, tmp_path: Path) -> None:
         rf"\begin{{document}}{boxes}x\end{{document}}"
     )
     _, log = typeset(source)
-    widths = [float(found) for found in re.findall(r"^W([\d.]+)pt", log, re.MULTILINE)]
+    widths = [float(matches) for matches in re.findall(r"^W([\d.]+)pt", log, re.MULTILINE)]
     assert len(widths) == len(shown)
     ratios = [w / typeset_width(text) for w, text in zip(widths, shown, strict=True)]
     assert sum(not 0.9 < ratio < 1.1 for ratio in ratios) <= len(ratios) // 15
@@ -213,6 +214,13 @@ def test_estimated_widths_agree_with_tex(formulas, tmp_path: Path) -> None:
 def test_long_sums_are_broken_and_short_ones_are_not(formulas) -> None:
     assert "aligned" in equation("g", formulas["g_j"].expression, PLATE)
     assert "aligned" not in equation("G", formulas["G"].expression, PLATE)
+
+
+def test_sums_count_by_the_index_of_their_symbols(formulas) -> None:
+    for formula in formulas.values():
+        if formula.summed:
+            indices = re.findall(r"(?:\\phi|j)_(\w)", formula.right_hand_side)
+            assert set(indices) <= {formula.sum_sign[len(r"\sum_{")]}, formula.name
 
 
 def test_every_derivation_step_and_formula_is_in_the_report(formulas) -> None:
@@ -249,9 +257,9 @@ def test_overfull_boxes_and_warnings_are_found(tmp_path: Path) -> None:
         r"\documentclass{article}\begin{document}\hbox to 10pt{\vrule width 13pt}"
         r"\hbox to 10pt{\vrule width 11pt}\ref{none}\end{document}"
     )
-    found = problems(typeset(path)[1])
-    assert sum(line.startswith("Overfull") for line in found) == 1
-    assert any("none" in line for line in found)
+    actual = problems(typeset(path)[1])
+    assert sum(line.startswith("Overfull") for line in actual) == 1
+    assert any("none" in line for line in actual)
 
 
 @NEEDS_TEX

@@ -20,9 +20,9 @@ def test_missing_values_give_empty_cells() -> None:
     assert winner_cells(None) == ("", "", "")
     assert duration(2.5e-3) == r"2.5\,ms"
     assert (factor(2.0), factor("1.5")) == ("2", "1.5")
-    found = {"family": "split sum", "setting": "8 nodes", "seconds": 1.0, "relative": "nan",
+    actual = {"family": "split sum", "setting": "8 nodes", "seconds": 1.0, "relative": "nan",
              "ties": ["a_b", "split sum"], "near_ties": ["a_b", "c"]}  # fmt: skip
-    name, time, relative = winner_cells(found)
+    name, time, relative = winner_cells(actual)
     assert name == r"split sum, 8 nodes (tie: a\_b?, c?)"
     assert (time, relative) == (r"1\,s", "")
 

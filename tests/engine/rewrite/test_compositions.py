@@ -39,16 +39,16 @@ def test_a_substitution_does_not_change_the_formula(
         (1 + b * x) ** sp.Rational(power) - 1 - sp.Rational(power) * b * x,
         x**factor * sp.log(1 + b * x) + x**2,
     ):
-        (found,) = substitutions(formula, x)
+        (actual,) = substitutions(formula, x)
         known: dict[sp.Symbol, sp.Expr] = {}
-        for step in found.steps:
+        for step in actual.steps:
             known[step.symbol] = step.expression.xreplace(known)
         at = {x: sp.Rational(1, 7) / abs(b)}
-        u = known[found.variable]
-        assert found.inverse.xreplace({found.variable: u.xreplace(at)}).evalf(30) == pytest.approx(
-            at[x], rel=1e-25
-        )
-        equal = (found.front * found.expression.xreplace({found.variable: u})).xreplace(at)
+        u = known[actual.variable]
+        assert actual.inverse.xreplace({actual.variable: u.xreplace(at)}).evalf(
+            30
+        ) == pytest.approx(at[x], rel=1e-25)
+        equal = (actual.front * actual.expression.xreplace({actual.variable: u})).xreplace(at)
         assert equal.evalf(30) == pytest.approx(formula.xreplace(at).evalf(30), rel=1e-20)
 
 
@@ -93,18 +93,18 @@ def test_an_ill_conditioned_square_ends_the_range() -> None:
 
 def test_the_rounding_of_a_power_is_bounded_where_no_tested_point_shows_it() -> None:
     """Points close to the end of the range have errors of u = sqrt(x) up to half a unit."""
-    found = pc.rewrite("1 - cos(sqrt(x))")
+    stable = pc.rewrite("1 - cos(sqrt(x))")
     names: dict[str, Any] = {}
-    exec(found.source, names)
+    exec(stable.source, names)
     draw = random.Random(1)
-    points = [found.tested.high * draw.uniform(0.5, 1.0) for _ in range(3000)]
+    points = [stable.tested.high * draw.uniform(0.5, 1.0) for _ in range(3000)]
     for point, got in zip(points, names["f"](np.array(points)).tolist(), strict=True):
         with mp.workdps(40):
             root = mp.sqrt(mpf(point))
             exact = 1 - mp.cos(root)
             error = float(abs(mpf(got) - exact) / mpf(math.ulp(float(exact))))
             slack = float(abs(root * mp.sin(root) / exact)) / 4
-        assert error <= found.tested.limit + slack, point
+        assert error <= stable.tested.limit + slack, point
 
 
 @pytest.mark.parametrize("formula", ["erf(x)/x", "gamma(x + 1) - 1", "erfc(x)*exp(x**2)"])

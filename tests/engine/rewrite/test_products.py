@@ -47,8 +47,8 @@ def formula(value: sp.Expr) -> SolidFormula:
 @pytest.mark.parametrize("name", FORMULAS)
 def test_form_is_equal_and_accurate_in_every_variable(name: str) -> None:
     given = formula(FORMULAS[name])
-    found = of_products(given, lambda made: (made, 0.0))
-    steps, value, own = found.steps, found.value, found.blocks
+    actual = of_products(given, lambda made: (made, 0.0))
+    steps, value, own = actual.steps, actual.value, actual.blocks
     blocks = {block.name: block for block in own}
     form("f", "module", given.expression, steps, value, {}, own)  # proves that they are equal
     assert measured_error(given, steps, value, blocks).error <= 4.0
@@ -72,5 +72,5 @@ def test_other_formulas_are_refused(value: sp.Expr, reason: str) -> None:
 
 
 def test_a_product_does_not_take_the_name_of_an_argument() -> None:
-    found = of_products(formula(1 / (a + x) - 1 / x), lambda made: (made, 0.0))
-    assert x not in {step.symbol for step in found.steps}
+    actual = of_products(formula(1 / (a + x) - 1 / x), lambda made: (made, 0.0))
+    assert x not in {step.symbol for step in actual.steps}

@@ -39,12 +39,12 @@ def test_record_of_the_rules_is_up_to_date() -> None:
     """Measure the fastest formula again, with and without reports of progress."""
     chosen = formulas(), ("Omega_3",), SCALES
     reported: list[tuple[str, int, int]] = []
-    (found,) = account.accounts(*chosen, lambda *step: reported.append(step))
+    (actual,) = account.accounts(*chosen, lambda *step: reported.append(step))
     assert reported == [("Omega_3", 1, 1)]
-    assert account.accounts(*chosen) == (found,)
+    assert account.accounts(*chosen) == (actual,)
     (row,) = (r for r in json.loads(PAPER.rewritten.read_text())["rows"] if r["name"] == "Omega_3")
-    assert (found.variable, found.worst) == (row["variable"], row["worst"])
-    assert [a.rule for a in found.applied] == [a["rule"] for a in row["applied"]]
+    assert (actual.variable, actual.worst) == (row["variable"], row["worst"])
+    assert [a.rule for a in actual.applied] == [a["rule"] for a in row["applied"]]
 
 
 @pytest.mark.parametrize("rule", [rules.conjugate, rules.logarithm, rules.fraction, rules.decay])

@@ -149,8 +149,8 @@ def test_wide_load_agrees_with_kirchhoff() -> None:
     span = (1 - 0.4 * a * a) / 2
     for edge, last in (("supported", 1 - nu), ("clamped", -1 - nu)):
         known = 3 / (2 * math.pi * (2 * h) ** 2) * ((1 + nu) * mean + last * span)
-        found = float(KERNELS[edge](1.0, a, h, 1.0, *lame(nu)))
-        assert math.isclose(found, known, rel_tol=1e-8)
+        actual = float(KERNELS[edge](1.0, a, h, 1.0, *lame(nu)))
+        assert math.isclose(actual, known, rel_tol=1e-8)
 
 
 def test_small_loads_agree_with_westergaard_and_timoshenko() -> None:
@@ -162,20 +162,20 @@ def test_small_loads_agree_with_westergaard_and_timoshenko() -> None:
     nu = 0.3
     for h in (0.05, 0.01):
         H = 2 * h
-        found = float(kernels.supported_back_face_stress(1.0, 1e-9, h, 1.0, *lame(nu))) * H * H
+        actual = float(kernels.supported_back_face_stress(1.0, 1e-9, h, 1.0, *lame(nu))) * H * H
         westergaard = 3 / (2 * math.pi) * ((1 + nu) * math.log(1 / (0.325 * H)) + 1)
         nadai = (1 + nu) * (0.485 * math.log(1 / H) + 0.52) + 0.48
-        assert found == pytest.approx(westergaard, rel=3e-3)
-        assert found == pytest.approx(nadai, rel=1e-2)
+        assert actual == pytest.approx(westergaard, rel=3e-3)
+        assert actual == pytest.approx(nadai, rel=1e-2)
 
 
 def test_stress_is_small_in_thick_plates() -> None:
     h = np.array([0.5, 1.0, 2.0, 4.0])
-    found = kernels.back_face_stress(1.0, 1e-3, h, 1.0, 0.0, 1.0) * 8 * np.pi * h * h
+    actual = kernels.back_face_stress(1.0, 1e-3, h, 1.0, 0.0, 1.0) * 8 * np.pi * h * h
     j, slope = 2.404825557695773, 0.5191474972894669
     first = 16 * h * h * (2 * h * j) * np.exp(-2 * h * j) / slope**2
-    assert (np.diff(np.log(found)) < 0).all()
-    assert found[-1] == pytest.approx(first[-1], rel=1e-6)
+    assert (np.diff(np.log(actual)) < 0).all()
+    assert actual[-1] == pytest.approx(first[-1], rel=1e-6)
 
 
 def test_interior_stress_agrees_with_a_sum_over_many_modes() -> None:
@@ -264,9 +264,11 @@ def resultant(distance: Array, pressure: Array) -> float:
 )
 def test_profiles_carry_the_force(chosen: dict[str, bool]) -> None:
     result = simulate(scene(effects=chosen))
-    found = result.pressures(4001)
-    for pressure in (found.pressure, found.hertz):
-        assert resultant(found.distance, pressure) == pytest.approx(result.max_force, rel=1e-5)
-    assert found.pressure[0] == pytest.approx(result.max_pressure, rel=1e-9)
-    same = np.allclose(found.pressure, found.hertz, rtol=1e-6, atol=1e-6 * found.hertz[0])
+    pressures = result.pressures(4001)
+    for pressure in (pressures.pressure, pressures.hertz):
+        assert resultant(pressures.distance, pressure) == pytest.approx(result.max_force, rel=1e-5)
+    assert pressures.pressure[0] == pytest.approx(result.max_pressure, rel=1e-9)
+    same = np.allclose(
+        pressures.pressure, pressures.hertz, rtol=1e-6, atol=1e-6 * pressures.hertz[0]
+    )
     assert same is not any(chosen.values())

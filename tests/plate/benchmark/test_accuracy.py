@@ -45,11 +45,11 @@ def test_data_have_rows_of_every_kind(committed: dict[str, Any]) -> None:
 def test_generated_law_is_a_thousand_times_as_fast_as_direct_summation(
     committed: dict[str, Any],
 ) -> None:
-    found = committed["headline"]
-    assert found["digits"] >= 15
-    best = found["direct_sum"][-1]
+    actual = committed["headline"]
+    assert actual["digits"] >= 15
+    best = actual["direct_sum"][-1]
     assert best["digits"] >= 9
-    assert best["seconds"] / found["seconds_with_setup"] > 1000
+    assert best["seconds"] / actual["seconds_with_setup"] > 1000
 
 
 def test_figures_are_reproducible(committed: dict[str, Any]) -> None:
@@ -61,9 +61,9 @@ def test_figures_are_reproducible(committed: dict[str, Any]) -> None:
 
 
 def test_section_lists_every_failure(committed: dict[str, Any]) -> None:
-    found = accuracy_context(committed)
+    context = accuracy_context(committed)
     failing = {(r["task"], r["family"], r["case"]) for r in committed["rows"] if r["fails"]}
-    assert len(found["failures"]) == len(failing)
+    assert len(context["failures"]) == len(failing)
     assert duration(1.5e-9) == r"1.5\,ns"
     assert duration(0.0012) == r"1.2\,ms"
 
@@ -75,10 +75,10 @@ def test_readme_agrees_with_the_record(committed: dict[str, Any]) -> None:
 
 def test_block_of_the_readme_is_found_by_its_markers(committed: dict[str, Any]) -> None:
     text = f"above\n{readme.BEGIN}\nold numbers\n{readme.END}\nbelow"
-    found = readme.updated_readme(text, committed)
-    assert found.startswith("above\n")
-    assert found.endswith("\nbelow")
-    assert "old" not in found
+    actual = readme.updated_readme(text, committed)
+    assert actual.startswith("above\n")
+    assert actual.endswith("\nbelow")
+    assert "old" not in actual
     for bad in ("no markers", text + text, text.replace(readme.END, "")):
         with pytest.raises(ValueError, match="once each"):
             readme.updated_readme(bad, committed)

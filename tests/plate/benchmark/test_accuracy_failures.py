@@ -74,8 +74,8 @@ def test_fast_methods_in_doubles_give_numbers_or_a_reason(case) -> None:
         if method.task != "law" or method.arithmetic != "float64" or method.one_by_one:
             continue
         if method.fails(case) is None and not method.family.startswith(("split sum", "Chebyshev")):
-            found = method.prepared(case)(case.h * np.array([case.low, case.high]))
-            assert np.isfinite(found).all(), method.name
+            actual = method.prepared(case)(case.h * np.array([case.low, case.high]))
+            assert np.isfinite(actual).all(), method.name
 
 
 def test_names_are_unique_and_unknown_ones_are_rejected() -> None:
@@ -106,12 +106,12 @@ def test_without_long_doubles_the_headline_uses_doubles(monkeypatch: Patch) -> N
     monkeypatch.setattr(headline, "HAS_LONG_DOUBLE", False)
     monkeypatch.setattr(headline, "QUICK_MODES", 1 << 19)
     monkeypatch.setattr(headline, "POINTS", 1000)
-    found = headline.headline(PAPER, quick=True)
-    assert found.digits > 14.0
-    reached = [(r.digits, r.modes) for r in found.direct_sum]
+    actual = headline.headline(PAPER, quick=True)
+    assert actual.digits > 14.0
+    reached = [(r.digits, r.modes) for r in actual.direct_sum]
     assert reached == sorted(reached)
-    assert {r.truncation for r in found.direct_sum} == {None}
-    assert found.modes == 1 << 19
+    assert {r.truncation for r in actual.direct_sum} == {None}
+    assert actual.modes == 1 << 19
 
 
 @pytest.mark.skipif(not HAS_LONG_DOUBLE, reason="long double is a double")
@@ -159,17 +159,17 @@ def test_failing_methods_are_named_and_not_timed() -> None:
     If all methods fail without usable numbers, nothing is timed.
     """
     partly = method(lambda a: np.where(a > np.median(a), right(a), np.nan))
-    found = panels.panel("law", PAPER, [partly, method(right, fails=lambda _: "too thin")], True)
-    assert (found.vector, found.single) == (None, None)
-    assert [row.fails for row in found.rows] == [
+    actual = panels.panel("law", PAPER, [partly, method(right, fails=lambda _: "too thin")], True)
+    assert (actual.vector, actual.single) == (None, None)
+    assert [row.fails for row in actual.rows] == [
         "gives no number in part of the case",
         "too thin",
     ]
-    assert [row.vector for row in found.rows] == [None, None]
+    assert [row.vector for row in actual.rows] == [None, None]
     [row] = panels.panel("law", PAPER, [method(lambda a: 9.0 * right(a))], True).rows
     assert row.fails == "no correct digit: relative error up to 8"
     assert row.vector is not None  # it is timed because it returns numbers
-    assert list(pareto._panel([found.rows[0]], "vector")) == []
+    assert list(pareto._panel([actual.rows[0]], "vector")) == []
 
 
 @pytest.mark.usefixtures("fewer_digits")
@@ -182,10 +182,10 @@ def test_slow_methods_are_called_once_with_a_shorter_array(monkeypatch: Patch) -
 
     monkeypatch.setattr(panels, "SLOW_CALL", -1.0)
     monkeypatch.setattr(panels, "SLOW_ARRAY", 7)
-    found = panels.panel("law", PAPER, [method(noted), method(noted, scalar=True)], True)
-    assert (found.vector, found.single) == (None, None)
+    actual = panels.panel("law", PAPER, [method(noted), method(noted, scalar=True)], True)
+    assert (actual.vector, actual.single) == (None, None)
     assert sizes.count(7) == 1
-    many, alone = found.rows
+    many, alone = actual.rows
     assert many.vector is not None
     assert (many.vector.points, many.vector.rounds) == (7, 1)
     assert alone.vector == alone.single
@@ -193,9 +193,9 @@ def test_slow_methods_are_called_once_with_a_shorter_array(monkeypatch: Patch) -
 
 @pytest.mark.usefixtures("fewer_digits")
 def test_scalar_methods_are_timed_with_single_calls() -> None:
-    found = panels.panel("law", PAPER, [method(right, scalar=True)], True)
-    assert found.vector is None
-    [row] = found.rows
+    actual = panels.panel("law", PAPER, [method(right, scalar=True)], True)
+    assert actual.vector is None
+    [row] = actual.rows
     assert row.errors is not None
     assert row.errors.total > 14.0
     assert row.vector == row.single is not None
@@ -219,14 +219,14 @@ def test_simplest_of_equally_fast_methods_wins() -> None:
         row("series in a/h", 3.5, 1.0, "1 terms"), row("series in a/h", 6.5, 3.0, "2 terms"),
         replace(row("Levin u transform", 15.0, 0.1), fails="why", vector=None, single=None),
     ]  # fmt: skip
-    found = {w.digits: w for w in pareto.winners(rows) if w.kind == "vector"}
-    assert sorted(found) == [3, 6, 9, 12, 15]
-    assert (found[3].family, found[3].setting) == ("series in a/h", "1 terms")
-    assert found[3].relative == 1
-    assert found[15].family == "generated code"
-    assert found[15].ties == ("Chebyshev polynomial",)
-    assert found[15].near_ties == ("generated code", "cubic interpolation")
-    assert found[15].relative == pytest.approx(2.3)
+    actual = {w.digits: w for w in pareto.winners(rows) if w.kind == "vector"}
+    assert sorted(actual) == [3, 6, 9, 12, 15]
+    assert (actual[3].family, actual[3].setting) == ("series in a/h", "1 terms")
+    assert actual[3].relative == 1
+    assert actual[15].family == "generated code"
+    assert actual[15].ties == ("Chebyshev polynomial",)
+    assert actual[15].near_ties == ("generated code", "cubic interpolation")
+    assert actual[15].relative == pytest.approx(2.3)
 
 
 def test_pareto_front_has_the_undominated_methods() -> None:
@@ -271,8 +271,8 @@ def test_timed_methods_of_a_study_agree(monkeypatch: Patch) -> None:
         assert one[1] == other[1]
         for first, second in zip(one[2][:4], other[2][:4], strict=True):
             np.testing.assert_allclose(first(), second(), rtol=1e-12)
-    found = dict(zip(METHODS, scaling.scenes(quick=True), strict=True))
-    results = {name: growth[2][1]() for name, growth in found.items()}
+    actual = dict(zip(METHODS, scaling.scenes(quick=True), strict=True))
+    results = {name: growth[2][1]() for name, growth in actual.items()}
     reference = results["full"].contact_time
     np.testing.assert_allclose(results["coarse"].contact_time, reference, rtol=1e-8)
     for name in ("hertz", "leading"):
@@ -287,15 +287,17 @@ def test_timed_methods_of_a_study_agree(monkeypatch: Patch) -> None:
 
 def test_results_of_programs_are_read_or_reported_missing(monkeypatch: Patch) -> None:
     monkeypatch.delenv(tools.VARIABLE, raising=False)
-    found = tools.tools()
-    for own in found[:2]:
+    actual = tools.tools()
+    for own in actual[:2]:
         assert own.name == "platecontact"
         assert own.error is not None
         assert own.error < 2e-15
-    assert {tool.name for tool in found[2:]} == set(half_space.PROGRAMS)
-    scipy = [tool for tool in found if tool.name == "SciPy quad"]
+    assert {tool.name for tool in actual[2:]} == set(half_space.PROGRAMS)
+    scipy = [tool for tool in actual if tool.name == "SciPy quad"]
     assert min(tool.error for tool in scipy if tool.error is not None) < 1e-13
-    assert all("names no Python" in (tool.missing or "") for tool in found[2:] if tool not in scipy)
+    assert all(
+        "names no Python" in (tool.missing or "") for tool in actual[2:] if tool not in scipy
+    )
 
 
 @pytest.mark.parametrize(

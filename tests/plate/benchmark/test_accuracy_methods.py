@@ -58,17 +58,17 @@ def law() -> Problem:
 def pressed() -> Problem:
     """Return the inversion problem of the thick plate at two indentations."""
     depths = np.array([1e-4, 0.1])
-    found = [contact_balls.contact_radius(d, THICK.R, THICK.h, THICK.b, 40) for d in depths]
+    actual = [contact_balls.contact_radius(d, THICK.R, THICK.h, THICK.b, 40) for d in depths]
     with flint.ctx.workprec(160):
         stiffness = 4 * contact_balls.modulus(THICK.lam, THICK.mu) / (3 * arb(THICK.R))
-        forces = [stiffness * a**3 for a in found]
+        forces = [stiffness * a**3 for a in actual]
     return Problem("inversion", THICK, depths, tuple(forces), 38, np.full(50, 0.01))
 
 
 def bounce(case) -> Problem:
     r, speeds = case, np.array([case.speed])
-    found = contact_impact.impact(r.R, r.m, r.speed, r.h, r.b, r.lam, r.mu, 32)
-    return Problem("impact", r, speeds, (found.contact_time,), 32, speeds)
+    result = contact_impact.impact(r.R, r.m, r.speed, r.h, r.b, r.lam, r.mu, 32)
+    return Problem("impact", r, speeds, (result.contact_time,), 32, speeds)
 
 
 @pytest.fixture(scope="module")
@@ -86,12 +86,12 @@ def deep() -> Problem:
 def judged(method: Method, task: Problem) -> BenchmarkErrors:
     """Return the errors, and check that both parts are known and add up to the total."""
     with np.errstate(all="ignore"):
-        found = measure_errors(method, task, lambda: 0.0).errors
-    assert found.unsplit is None
-    assert found.truncation is not None
-    assert found.rounding is not None
-    assert 10**-found.total <= 1.05 * (10**-found.truncation + 10**-found.rounding)
-    return found
+        actual = measure_errors(method, task, lambda: 0.0).errors
+    assert actual.unsplit is None
+    assert actual.truncation is not None
+    assert actual.rounding is not None
+    assert 10**-actual.total <= 1.05 * (10**-actual.truncation + 10**-actual.rounding)
+    return actual
 
 
 # --- arithmetics
@@ -133,10 +133,10 @@ def test_zeros_agree_with_certified_ones(ar, number: int) -> None:
 
 def test_constants_of_long_doubles_have_full_precision() -> None:
     for ar in [Mpmath(30), *([LONG_DOUBLE] if HAS_LONG_DOUBLE else [])]:
-        (found,) = sums.split(72, 6, ar).prepared(PAPER)(RADII[-1:])
+        (actual,) = sums.split(72, 6, ar).prepared(PAPER)(RADII[-1:])
         reference = contact_balls.indentation(0.03, PAPER.R, PAPER.h, PAPER.b, 40)
         with flint.ctx.workprec(160):
-            assert digits(found, reference, 40) > min(ar.digits - 2, 27)
+            assert digits(actual, reference, 40) > min(ar.digits - 2, 27)
 
 
 def test_single_precision_is_kept() -> None:
@@ -152,10 +152,10 @@ def test_single_precision_is_kept() -> None:
 @pytest.mark.parametrize(("h", "order"), [(0.1, 1), (0.01, 5), (0.45, 23)])
 def test_coefficients_agree_with_the_reference(h: float, order: int) -> None:
     """The coefficients agree with the reference to 1e-30 of the sum at a/h = 0.5."""
-    found = coefficients(replace(PAPER, h=h, speed=1e-3), 12, 30)[order // 2]
+    actual = coefficients(replace(PAPER, h=h, speed=1e-3), 12, 30)[order // 2]
     reference = contact_balls.coefficient(order, h, 1.0, 32)
     with flint.ctx.workprec(160):
-        assert abs(found - reference) / 2**order < 1e-30
+        assert abs(actual - reference) / 2**order < 1e-30
 
 
 @pytest.mark.parametrize("double_exponential", [True, False])
@@ -172,8 +172,8 @@ def test_both_quadrature_rules_give_the_moments(double_exponential: bool) -> Non
 def test_levin_transformation_sums_an_alternating_series() -> None:
     n = np.arange(1, 13.0)
     terms = (-1) ** (n + 1) / n
-    found = sums.u_transform(np.cumsum(terms) + 0j, n * terms + 0j, n)
-    assert found.real == pytest.approx(math.log(2), rel=1e-10)
+    actual = sums.u_transform(np.cumsum(terms) + 0j, n * terms + 0j, n)
+    assert actual.real == pytest.approx(math.log(2), rel=1e-10)
 
 
 @pytest.mark.parametrize("case", [THIN, PAPER, THICK, LARGE], ids=lambda r: r.name)
@@ -193,10 +193,10 @@ def test_series_agree_with_the_generated_inverse_and_impact(case) -> None:
     speeds = r.speed * np.array([0.5, 1.0])
     times = impact(r.R, r.m, speeds, r.h, r.b, r.lam, r.mu).contact_time
     for ar, tolerance in ((SINGLE, 2e-6), (DOUBLE, 3e-15)):
-        found = laws.newton(20, ar).prepared(case)(depths)
-        np.testing.assert_allclose(found, expected, rtol=tolerance)
-        found = laws.gauss(24, 20, ar).prepared(case)(speeds)
-        np.testing.assert_allclose(found, times, rtol=tolerance)
+        actual = laws.newton(20, ar).prepared(case)(depths)
+        np.testing.assert_allclose(actual, expected, rtol=tolerance)
+        actual = laws.gauss(24, 20, ar).prepared(case)(speeds)
+        np.testing.assert_allclose(actual, times, rtol=tolerance)
     assert laws.diverges(LARGE)
 
 
@@ -292,10 +292,10 @@ SPLITS = {
 def test_truncation_and_rounding_are_separated(task: str, law, pressed, bounced) -> None:
     where = {"law": law, "inversion": pressed, "impact": bounced}[task]
     for method, truncation, rounding in SPLITS[task]:
-        found = judged(method, where)
-        assert found.truncation == pytest.approx(truncation, abs=0.8), method.name
-        assert found.rounding == pytest.approx(rounding, abs=1.5), method.name
-        assert bool(found.remark) == (method.split == "units")
+        evaluation = judged(method, where)
+        assert evaluation.truncation == pytest.approx(truncation, abs=0.8), method.name
+        assert evaluation.rounding == pytest.approx(rounding, abs=1.5), method.name
+        assert bool(evaluation.remark) == (method.split == "units")
 
 
 @needs_long
@@ -303,9 +303,9 @@ def test_truncation_in_long_doubles_equals_that_in_more_digits(law: Problem) -> 
     task = replace(law, points=RADII[1:], reference_values=law.reference_values[1:])
     method = sums.direct(1500)
     assert method.split == "long"
-    found, again = judged(method, task), judged(replace(method, split="wide"), task)
-    assert found.truncation == pytest.approx(again.truncation, abs=1e-9)
-    assert found.rounding == pytest.approx(again.rounding, abs=0.02)
+    evaluation, again = judged(method, task), judged(replace(method, split="wide"), task)
+    assert evaluation.truncation == pytest.approx(again.truncation, abs=1e-9)
+    assert evaluation.rounding == pytest.approx(again.rounding, abs=0.02)
 
 
 def test_separation_by_units_agrees_with_separation_by_digits(law, pressed, bounced) -> None:
@@ -346,22 +346,22 @@ def test_truncation_of_a_solver_decreases_with_its_tolerance(bounced, deep, name
 
 
 def test_spread_has_mean_and_standard_deviation() -> None:
-    found = errors.spread([arb(1), arb(2), arb(3)])
-    assert float(found.mid()) == 2
-    assert float(found.rad()) == pytest.approx(1)
+    actual = errors.spread([arb(1), arb(2), arb(3)])
+    assert float(actual.mid()) == 2
+    assert float(actual.rad()) == pytest.approx(1)
 
 
 def test_unseparated_errors_have_a_reason(bounced, monkeypatch) -> None:
     monkeypatch.setattr(errors, "HAS_LONG_DOUBLE", False)
-    found = errors.separated_errors(sums.direct(2000), replace(bounced, points=RADII[:1]), [1.0])
-    assert (found.truncation, found.rounding) == (None, None)
-    assert "long double" in (found.unsplit or "")
+    actual = errors.separated_errors(sums.direct(2000), replace(bounced, points=RADII[:1]), [1.0])
+    assert (actual.truncation, actual.rounding) == (None, None)
+    assert "long double" in (actual.unsplit or "")
 
 
 def test_methods_without_truncation_have_only_rounding(pressed) -> None:
-    found = measure_errors(ready_methods.generated_force(), pressed, lambda: 0.0).errors
-    assert (found.truncation, found.rounding) == (None, found.total)
-    assert found.total > 14.5
+    actual = measure_errors(ready_methods.generated_force(), pressed, lambda: 0.0).errors
+    assert (actual.truncation, actual.rounding) == (None, actual.total)
+    assert actual.total > 14.5
 
 
 def test_digits_of_nan_and_of_exact_values() -> None:
@@ -395,6 +395,6 @@ def test_radius_of_an_interval_is_rounding(bounced, monkeypatch) -> None:
         assert float(bare.rad() / ball.rad()) == pytest.approx(1, rel=1e-6)
     assert called_with
     monkeypatch.undo()
-    found = measure_errors(ready_methods.arb_reference("impact", 30), bounced, lambda: 0.0).errors
-    assert found.truncation is found.unsplit is None
-    assert found.rounding == found.total > 30
+    actual = measure_errors(ready_methods.arb_reference("impact", 30), bounced, lambda: 0.0).errors
+    assert actual.truncation is actual.unsplit is None
+    assert actual.rounding == actual.total > 30

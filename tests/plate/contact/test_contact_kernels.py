@@ -83,8 +83,8 @@ def test_reversed_series_is_nan_beyond_its_radius() -> None:
         assert np.abs(series / exact - 1).max() < 1e-13
         if b > 10:
             outside = np.array([0.99, 1.01]) * limit
-            found = reversed_force(outside**2 / 1e6, 1e6, 1.0, b, LAM, MU)
-            assert np.isnan(found).tolist() == [False, True]
+            actual = reversed_force(outside**2 / 1e6, 1e6, 1.0, b, LAM, MU)
+            assert np.isnan(actual).tolist() == [False, True]
 
 
 def test_law_covers_extreme_plates_and_wide_contacts() -> None:
@@ -96,15 +96,15 @@ def test_law_covers_extreme_plates_and_wide_contacts() -> None:
     assert np.isnan(first).tolist() == [False, True, False, True]
     assert abs(first[0] * 4 * np.pi * 1.5e-90**2 - 1) < 1e-12
     wide = float(contact_balls.indentation(6.0, 50.0, 1.0, 20.0, 20))
-    found = law.contact_radius([wide * (1 + 7e-16), wide * (1 + 1e-13)], 50.0, 1.0, 20.0)
-    assert np.isnan(found).tolist() == [False, True]
-    assert abs(found[0] - 6.0) < 1e-14
+    radius = law.contact_radius([wide * (1 + 7e-16), wide * (1 + 1e-13)], 50.0, 1.0, 20.0)
+    assert np.isnan(radius).tolist() == [False, True]
+    assert abs(radius[0] - 6.0) < 1e-14
 
 
 def test_reversed_series_of_one_term_is_the_hertz_force() -> None:
-    found = reversed_series.force_by_series(1e-6, 0.02, 0.02, 0.02, LAM, MU, terms=1)
+    actual = reversed_series.force_by_series(1e-6, 0.02, 0.02, 0.02, LAM, MU, terms=1)
     modulus = 4 * MU * (LAM + MU) / (LAM + 2 * MU)
-    assert abs(found / (4 / 3 * modulus * np.sqrt(0.02) * 1e-9) - 1) < 1e-14
+    assert abs(actual / (4 / 3 * modulus * np.sqrt(0.02) * 1e-9) - 1) < 1e-14
 
 
 def test_arrays_of_plates_equal_single_plates() -> None:
@@ -123,19 +123,19 @@ def test_impact_up_to_the_limit_of_the_law(b: float, end: float) -> None:
     """An impact can reach the limit of the contact law, which is a = b or a = 6 h."""
     R, m, h = 20.0, 3e7, 0.6
     energy = contact_impact.stored_energy(np.nextafter(end, 0.0), R, h, b, LAM, MU, digits=18)
-    found = impact.impact(R, m, np.sqrt(2 * float(energy) / m), h, b, LAM, MU)
-    assert abs(found.max_contact_radius / end - 1) < 1e-12
+    result = impact.impact(R, m, np.sqrt(2 * float(energy) / m), h, b, LAM, MU)
+    assert abs(result.max_contact_radius / end - 1) < 1e-12
 
 
 def test_hertz_limit() -> None:
-    found = impact.impact(0.01, 0.03, 1e-30, 5.0, 9.0, LAM, MU)
-    ratio = found.contact_time * 1e-30 / found.max_indentation
+    result = impact.impact(0.01, 0.03, 1e-30, 5.0, 9.0, LAM, MU)
+    ratio = result.contact_time * 1e-30 / result.max_indentation
     assert abs(ratio / HERTZ_TIME - 1) < 1e-14
 
 
 def test_linear_spring_limit() -> None:
-    found = impact.impact(1e3, 1e-9, 1e-3, 1e-8, 10.0, LAM, MU)  # c1 A is 2e17
-    ratio = found.contact_time * 1e-3 / found.max_indentation
+    result = impact.impact(1e3, 1e-9, 1e-3, 1e-8, 10.0, LAM, MU)  # c1 A is 2e17
+    ratio = result.contact_time * 1e-3 / result.max_indentation
     assert abs(ratio / np.pi - 1) < 1e-14
 
 
@@ -151,8 +151,8 @@ SCENES = (
 @pytest.mark.parametrize("scene", SCENES)
 def test_history_conserves_energy(scene) -> None:
     R, m, v0, h, b, lam, mu = scene
-    found = impact.impact(*scene)
-    t = np.linspace(1e-6, 1 - 1e-6, 57) * found.contact_time
+    result = impact.impact(*scene)
+    t = np.linspace(1e-6, 1 - 1e-6, 57) * result.contact_time
     state = impact.history(t, *scene)
     x, weight = (0.5 * y for y in np.polynomial.legendre.leggauss(60))
     a = state.contact_radius[:, None] * (0.5 + x)
@@ -168,19 +168,19 @@ def test_history_conserves_energy(scene) -> None:
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_velocity_is_the_derivative_of_the_indentation(scene) -> None:
-    found = impact.impact(*scene)
-    t = np.linspace(0.1, 0.9, 25) * found.contact_time
-    step = 1e-3 * found.contact_time
+    result = impact.impact(*scene)
+    t = np.linspace(0.1, 0.9, 25) * result.contact_time
+    step = 1e-3 * result.contact_time
     ahead, behind, far_ahead, far_behind = (
         impact.history(t + n * step, *scene).indentation for n in (1, -1, 2, -2)
     )
     rate = (8 * (ahead - behind) - (far_ahead - far_behind)) / (12 * step)
     velocity = impact.history(t, *scene).velocity
     assert np.abs(rate - velocity).max() < 1e-9 * scene[2]
-    mirrored = impact.history(found.contact_time - t, *scene)
+    mirrored = impact.history(result.contact_time - t, *scene)
     assert np.allclose(mirrored.velocity, -velocity, rtol=0, atol=1e-12 * scene[2])
-    middle = impact.history(0.5 * found.contact_time, *scene)
-    assert np.allclose(middle.indentation, found.max_indentation, rtol=1e-14, atol=0)
+    middle = impact.history(0.5 * result.contact_time, *scene)
+    assert np.allclose(middle.indentation, result.max_indentation, rtol=1e-14, atol=0)
     free = impact.history([-1.0, 0.0, 1e9], *scene)
     assert (free.indentation == 0).all()
     assert free.velocity.tolist() == [scene[2], scene[2], -scene[2]]

@@ -117,8 +117,8 @@ def test_thin_plate_agrees_with_kirchhoff(eta: float) -> None:
 def test_impact_on_a_half_space_agrees_with_hertz() -> None:
     """For a small contact the contact time is Hertz's, 2 * 1.4716375921623523 delta/v0."""
     R, m, v0, lam, mu = 1.0, 1.0, 1e-40, 0.0, 0.5
-    found = contact_impact.impact(R, m, v0, 1.0, 1.0, lam, mu, 20)
-    constant = float(found.contact_time * flint.arb(v0) / found.max_indentation)
+    result = contact_impact.impact(R, m, v0, 1.0, 1.0, lam, mu, 20)
+    constant = float(result.contact_time * flint.arb(v0) / result.max_indentation)
     assert constant == pytest.approx(2 * 1.4716375921623523, rel=1e-14)
 
 
@@ -143,17 +143,17 @@ def test_contact_radius_inverts_the_indentation() -> None:
 def test_slope_is_the_derivative() -> None:
     step = 2.0**-30
     up, down = (contact_balls.indentation(0.25 + s, 2.0, 0.125, 1.0, 40) for s in (step, -step))
-    found = float(contact_balls.slope(0.25, 2.0, 0.125, 1.0, 40))
-    assert float((up - down) / (2 * step)) == pytest.approx(found, rel=1e-14)
+    actual = float(contact_balls.slope(0.25, 2.0, 0.125, 1.0, 40))
+    assert float((up - down) / (2 * step)) == pytest.approx(actual, rel=1e-14)
 
 
 def test_history_ends_at_half_the_contact_time() -> None:
     case = (0.01, 0.03, 1.0, 0.1, 1.0, 1.2e11, 8e10)
-    found = contact_impact.impact(*case, digits=20)
-    edge = math.nextafter(float(found.max_contact_radius.lower()), 0.0) * (1 - 1e-15)
+    result = contact_impact.impact(*case, digits=20)
+    edge = math.nextafter(float(result.max_contact_radius.lower()), 0.0) * (1 - 1e-15)
     early, late = contact_impact.history((1e-5, edge), *case, digits=20)
     assert float(early) == pytest.approx(1e-10 / 0.01, rel=1e-3)
-    assert float(late) == pytest.approx(float(found.contact_time) / 2, rel=1e-6)
+    assert float(late) == pytest.approx(float(result.contact_time) / 2, rel=1e-6)
 
 
 def test_states_near_the_turning_point_conserve_energy() -> None:
@@ -240,9 +240,9 @@ def test_references_agree_on_impacts(
     where: tuple[float, ...] | contact_grid.ContactShape, bending: float
 ) -> None:
     """Both references agree to 24 digits; c_1 A measures the deviation from Hertz's impact."""
-    found = contact_reference.reference_value(("impact", where))
-    assert found.digits >= 24
-    assert found.bend == pytest.approx(bending, rel=1e-3)
+    reference = contact_reference.reference_value(("impact", where))
+    assert reference.digits >= 24
+    assert reference.bend == pytest.approx(bending, rel=1e-3)
 
 
 def test_disagreement_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -271,8 +271,8 @@ def test_error_in_either_reference_of_impacts_is_detected(
 
 def test_work_equals_the_kinetic_energy() -> None:
     R, m, v0, h, b, lam, mu = contact_grid.PAPER_IMPACT
-    found = contact_impact.impact(R, m, v0, h, b, lam, mu, 20)
-    radius = float(found.max_contact_radius)
+    result = contact_impact.impact(R, m, v0, h, b, lam, mu, 20)
+    radius = float(result.max_contact_radius)
     energy = contact_impact.stored_energy(radius, R, h, b, lam, mu, 20)
     assert float(energy) == pytest.approx(m * v0**2 / 2, rel=1e-14)
 

@@ -41,15 +41,15 @@ def motion() -> Mapping[str, Formula]:
 @cache
 def zeros(count: int) -> tuple[tuple[mp.mpf, mp.mpf], ...]:
     """Return (j_n, J1(j_n)) to 40 digits by Newton's iteration from McMahon's first terms."""
-    found = []
+    actual = []
     with flint.ctx.workprec(160), mp.workdps(40):
         for n in range(1, count + 1):
             start = (n - flint.arb(1) / 4) * flint.arb.pi()
             j = start + 1 / (8 * start)
             for _ in range(6):
                 j = (j + j.bessel_j(0) / j.bessel_j(1)).mid()
-            found.append(tuple(mp.mpf(x.str(40, radius=False)) for x in (j, j.bessel_j(1))))
-    return tuple(found)
+            actual.append(tuple(mp.mpf(x.str(40, radius=False)) for x in (j, j.bessel_j(1))))
+    return tuple(actual)
 
 
 def G(T: mp.mpf) -> mp.mpf:

@@ -126,8 +126,8 @@ def test_quotient_follows_from_the_phase() -> None:
     shift = phase_shift(0, 5).coefficients
     exponent = 2 * sum((-1) ** i * d * t ** (1 + 2 * i) for i, d in enumerate(shift))
     series = sp.series(sp.exp(exponent), t, 0, terms).removeO()
-    found = [series.coeff(t, i) for i in range(terms)]
-    assert tuple(found) == theory.lateral_quotient(terms)
+    actual = [series.coeff(t, i) for i in range(terms)]
+    assert tuple(actual) == theory.lateral_quotient(terms)
 
 
 def test_hankel_coefficients() -> None:

@@ -36,9 +36,9 @@ def largest() -> Any:
 def wide() -> Any:
     """Return impacts with a > 2 h, some beyond the range of the first polynomial."""
     speeds = np.geomspace(6.0, 140.0, 20)
-    found = impact.impact(20.0, 72.0, speeds, 0.05, *PLATE)
-    assert np.all(found.max_contact_radius > 2 * 0.05)
-    return np.array(found)
+    result = impact.impact(20.0, 72.0, speeds, 0.05, *PLATE)
+    assert np.all(result.max_contact_radius > 2 * 0.05)
+    return np.array(result)
 
 
 def history_of_impact() -> Any:
@@ -54,8 +54,8 @@ def breaks() -> Any:
 
 def indented() -> Any:
     """Return radii by the full law of an elastic sphere, which has no generated inverse."""
-    found = indent(scene(), force=[1.0, 1e3, 1e5])
-    return np.array([contact.contact_radius for contact in found])
+    contacts = indent(scene(), force=[1.0, 1e3, 1e5])
+    return np.array([contact.contact_radius for contact in contacts])
 
 
 @pytest.mark.parametrize(
@@ -80,8 +80,8 @@ def test_stated_number_of_steps_is_sufficient(
     monkeypatch.setattr(indentation, "_FOUND", math.inf)  # accepts the result of too few steps
     for steps in (1, 2, 3, needed):
         monkeypatch.setattr(module, "_STEPS", steps)
-        found = results()
+        actual = results()
         size = np.max(np.abs(exact), axis=0)
-        errors.append(float(np.max(np.abs(found - exact) / size)))
+        errors.append(float(np.max(np.abs(actual - exact) / size)))
     assert errors[-1] == 0.0
     assert errors[2] / errors[1] < errors[1] / errors[0] < 0.5

@@ -31,8 +31,8 @@ def number(value: Any) -> float:
 def test_plain_numbers_agree_with_the_reference(a: float, h: float, b: float) -> None:
     plate, R = prepare(h, b), 0.9
     assert plate.points is not None
-    for found in (plate_points.indentation(plate.points, a, R), plate.indentation(a, R)):
-        assert found == pytest.approx(float(contact_balls.indentation(a, R, h, b, 20)), rel=CLOSE)
+    for actual in (plate_points.indentation(plate.points, a, R), plate.indentation(a, R)):
+        assert actual == pytest.approx(float(contact_balls.indentation(a, R, h, b, 20)), rel=CLOSE)
     delta = number(plate.indentation(a, R))
     radius = float(contact_balls.contact_radius(delta, R, h, b, digits=20))
     force = float(contact_forces.force(delta, R, h, b, LAM, MU, digits=20))
@@ -54,8 +54,8 @@ def calls(plate: PreparedPlate) -> dict[str, Callable[..., np.ndarray]]:
 
 def as_called(name: str, x: Any, R: Any, h: Any, b: Any) -> np.ndarray:
     solid = (LAM, MU) if name in ("force", "stiffness") else ()
-    found: np.ndarray = getattr(contact_law, name)(x, R, h, b, *solid)
-    return found
+    values: np.ndarray = getattr(contact_law, name)(x, R, h, b, *solid)
+    return values
 
 
 @pytest.mark.parametrize("name", ["indentation", "contact_radius", "force", "stiffness"])
@@ -75,14 +75,14 @@ def test_arrays_of_any_layout_equal_single_points(name: str) -> None:
         if name in ("contact_radius", "force"):
             x = contact_law.indentation(x, R, h, b)
         plate = prepare(h, b)
-        found = calls(plate)[name](x, R)
-        np.testing.assert_array_equal(found, as_called(name, x, R, h, b))
-        assert found.shape == np.broadcast_shapes(*(np.shape(y) for y in (x, h, b)))
+        actual = calls(plate)[name](x, R)
+        np.testing.assert_array_equal(actual, as_called(name, x, R, h, b))
+        assert actual.shape == np.broadcast_shapes(*(np.shape(y) for y in (x, h, b)))
         every = np.broadcast_arrays(x, h, b)
-        for index in generator.integers(0, found.size, 25):
+        for index in generator.integers(0, actual.size, 25):
             one, half, radius = (float(y.flat[index]) for y in every)
             alone = calls(prepare(half, radius))[name](one, R)
-            assert found.flat[index] == pytest.approx(number(alone), rel=CLOSE)
+            assert actual.flat[index] == pytest.approx(number(alone), rel=CLOSE)
 
 
 def test_points_outside_the_domain_are_nan_without_warning() -> None:

@@ -114,8 +114,8 @@ def test_clamp_changes_small_contacts_by_a_known_factor(h: float, ratio: float) 
     known = -((1 - s) ** 2 + 2 * chi * h + h**3 / 5 + 16 / 3 * n**2 * h**4) / (16 * math.pi)
     a = 1e-7
     # P = (4/3) E* a^3/R and D = (2/3) E* h^3.
-    found = float(kernels.clamped_edge(a, h, 1.0, *lame(ratio))) * a**2
-    assert found / (2 * a**3 / h**3) == pytest.approx(known, rel=1e-11)
+    actual = float(kernels.clamped_edge(a, h, 1.0, *lame(ratio))) * a**2
+    assert actual / (2 * a**3 / h**3) == pytest.approx(known, rel=1e-11)
 
 
 def test_generated_edge_rotation_equals_the_reference() -> None:

@@ -96,20 +96,20 @@ def test_rows_state_contributions_and_their_changes(monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(edge_remainder, "SIZES", (1.0,))
     monkeypatch.setattr(edge_remainder, "POISSON", (0.3,))
     monkeypatch.setattr(edge_remainder, "rows", partial(edge_remainder.rows, (1.0,), (0.3,)))
-    found = json.loads(edge_remainder.text())
-    assert [mesh["layers"] for mesh in found["meshes"]] == [4, 4, 3]
+    data = json.loads(edge_remainder.text())
+    assert [mesh["layers"] for mesh in data["meshes"]] == [4, 4, 3]
     record = json.loads((measurements() / "edge_remainder.json").read_text())["rows"]
     head = ("support", "h_over_b", "nu", "a_over_b")
     known = {tuple(row[key] for key in head): row for row in record}
-    assert len(found["rows"]) == len(SUPPORTS) * len(WIDTHS)
-    for row in found["rows"]:
+    assert len(data["rows"]) == len(SUPPORTS) * len(WIDTHS)
+    for row in data["rows"]:
         best = known[tuple(row[key] for key in head)]["relative_error"]
         assert abs(row["relative_error"] / best - 1) < 1e-2
     for support in SUPPORTS:
         finest, lower, fewer = (
             remainders(RemainderCase(support, 1.0, 0.3), mesh) for mesh in meshes
         )
-        mine = [row for row in found["rows"] if row["support"] == support]
+        mine = [row for row in data["rows"] if row["support"] == support]
         for row, remainder, one, other in zip(mine, finest, lower, fewer, strict=True):
             assert row["lower_degree"] == pytest.approx(one - remainder, rel=0.06)
             assert row["fewer_layers"] == pytest.approx(other - remainder, rel=0.06)

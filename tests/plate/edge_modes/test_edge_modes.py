@@ -240,7 +240,7 @@ def fields(k: Any, eta: float, nu: float, r: Any, kap: Any = None) -> tuple[Any,
 def test_modes_are_orthogonal_and_have_their_norm(edge: str, nu: float) -> None:
     """Mindlin's modes are orthogonal; modes with the frequencies of A0 are so approximately."""
     eta = 0.12
-    found = WAVES_OF[edge](4, eta, nu)
+    actual = WAVES_OF[edge](4, eta, nu)
     chi = float(theory.CLAMP.subs(poisson, nu)) * eta
     beta = 1 / (1 - nu) if edge == "supported" else chi / (1 + chi)
     ends = np.concatenate(([1e-3], bessel_j0_zeros(6)))[edge == "clamped" :]
@@ -252,16 +252,16 @@ def test_modes_are_orthogonal_and_have_their_norm(edge: str, nu: float) -> None:
     kap = np.array([mindlin_kap(k * eta, nu) for k in own])
     x, weights = leggauss(60)
     r, weights = (1 + x) / 2, weights / 2
-    for k, load, most in ((own, kap, 1e-12), (found.k, None, 2e-3)):
+    for k, load, most in ((own, kap, 1e-12), (actual.k, None, 2e-3)):
         w, psi = fields(k, eta, nu, r, load)
         products = np.einsum("ir,jr,r->ij", w, w, weights * r)
         products += eta**2 / 3 * np.einsum("ir,jr,r->ij", psi, psi, weights * r)
         norms = np.diag(products)
         off = products / np.sqrt(np.outer(norms, norms)) - np.eye(4)
         assert np.abs(off).max() < most
-    g1 = turn_over_bend(found.k, eta, nu)[2]
-    face = (1 - found.c * found.t) ** 2 * (1 + (eta * found.k * g1) ** 2 / 3)
-    np.testing.assert_allclose(found.weight, face / (2 * np.pi * norms), rtol=1e-12)
+    g1 = turn_over_bend(actual.k, eta, nu)[2]
+    face = (1 - actual.c * actual.t) ** 2 * (1 + (eta * actual.k * g1) ** 2 / 3)
+    np.testing.assert_allclose(actual.weight, face / (2 * np.pi * norms), rtol=1e-12)
 
 
 # --- limits
@@ -278,22 +278,22 @@ def test_modes_of_thin_plates_agree_with_plate_theory(eta: float) -> None:
         ("supported", 0.3, [4.9351, 29.7200, 74.1561]),
         ("supported", -0.6, None),
     ):
-        found = WAVES_OF[edge](3, eta, nu)
+        actual = WAVES_OF[edge](3, eta, nu)
         for n in (1, 2, 3):
             exact = mode_balls.mode(edge, n, nu, 25)  # type: ignore[arg-type]
             for name in exact._fields:
                 value = float(getattr(exact, name))
-                assert getattr(found, name)[n - 1] == pytest.approx(
+                assert getattr(actual, name)[n - 1] == pytest.approx(
                     value,
                     rel=1e-14 + 0.1 * eta,  # the compliance of the clamp
                 )
-        np.testing.assert_allclose(found.k2, found.k, rtol=1e-15)
-        np.testing.assert_allclose(found.residue, 0.5, rtol=1e-15)
-        np.testing.assert_allclose(found.t, 1.0, rtol=1e-15)
-        thin = (found.k * eta) ** 2 * math.sqrt(2 / (3 * (1 - nu)))
-        np.testing.assert_allclose(found.root, thin, rtol=1e-15)
+        np.testing.assert_allclose(actual.k2, actual.k, rtol=1e-15)
+        np.testing.assert_allclose(actual.residue, 0.5, rtol=1e-15)
+        np.testing.assert_allclose(actual.t, 1.0, rtol=1e-15)
+        thin = (actual.k * eta) ** 2 * math.sqrt(2 / (3 * (1 - nu)))
+        np.testing.assert_allclose(actual.root, thin, rtol=1e-15)
         if k_squared:
-            np.testing.assert_allclose(found.k**2, k_squared, rtol=6e-5)
+            np.testing.assert_allclose(actual.k**2, k_squared, rtol=6e-5)
 
 
 @pytest.mark.parametrize("edge", WAVES_OF)
@@ -326,12 +326,12 @@ def test_mode_shape_and_its_mean_under_a_flat_punch() -> None:
         for eta, nu in ((0.1, 0.3), (1e-3, 0.45), (0.3, -0.9)):
             waves = of(30, eta, nu)
             r = np.linspace(0, 1, 11)
-            found = shape(waves, r)
-            assert found.shape == (waves.k.size, 11)
-            np.testing.assert_allclose(found[:, 0], 1.0, rtol=1e-15)
+            actual = shape(waves, r)
+            assert actual.shape == (waves.k.size, 11)
+            np.testing.assert_allclose(actual[:, 0], 1.0, rtol=1e-15)
             k, k2, c = (v[:, None] for v in (waves.k, waves.k2, waves.c * waves.t))
             plain = (j0(k * r) - c * iv(0, k2 * r)) / (1 - c)
-            np.testing.assert_allclose(found, plain, atol=2e-13)
+            np.testing.assert_allclose(actual, plain, atol=2e-13)
             for a in (0.05, 0.5, 0.9):
                 # With r = a sin t the punch pressure has the weight sin t dt.
                 mean = shape(waves, a * np.sin(t)) @ (np.sin(t) * weights * np.pi / 4)

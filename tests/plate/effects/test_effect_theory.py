@@ -36,12 +36,12 @@ def test_wrong_slope_is_rejected() -> None:
 
 def test_growth_of_the_lateral_surface_agrees_with_another_quadrature() -> None:
     with mp.workdps(20):
-        found = 4 / mp.pi**2 * mp.quad(
+        actual = 4 / mp.pi**2 * mp.quad(
             lambda y: (y * mp.cosh(y) - mp.sinh(y)) / (2 * y) * mp.besselk(0, y) / mp.besseli(0, y),
             [0, 0.1, 1, 5, 20, 60],
         )  # fmt: skip
-    assert abs(float(effects_theory.lateral_growth_ball()) - float(found)) < 1e-12
-    assert found < kernels.LATERAL_GROWTH < 1.01 * found
+    assert abs(float(effects_theory.lateral_growth_ball()) - float(actual)) < 1e-12
+    assert actual < kernels.LATERAL_GROWTH < 1.01 * actual
 
 
 def test_sphere_on_a_half_space_agrees_with_sneddon() -> None:
@@ -61,10 +61,10 @@ def test_sphere_on_a_half_space_agrees_with_sneddon() -> None:
                 lambda t, rho=rho: (rho * mp.sin(t)) ** 2 * slope(t, rho), [0, mp.pi / 2]
             )
             rho_double = float(rho)
-            found = sphere_contact(rho_double)
+            actual = sphere_contact(rho_double)
             exact = mpf(rho_double)
-            assert abs(found.depth * exact**2 / depth - 1) < 1e-13
-            assert abs(found.force * mpf(4) / 3 * exact**3 / force - 1) < 1e-13
+            assert abs(actual.depth * exact**2 / depth - 1) < 1e-13
+            assert abs(actual.force * mpf(4) / 3 * exact**3 / force - 1) < 1e-13
 
 
 def test_sphere_function_is_within_its_budget() -> None:

@@ -69,8 +69,8 @@ GROUPS = {
 
 @pytest.fixture(scope="module")
 def data() -> dict[str, Any]:
-    found: dict[str, Any] = json.loads(PAPER.hard.read_text())
-    return found
+    actual: dict[str, Any] = json.loads(PAPER.hard.read_text())
+    return actual
 
 
 # --- contents
@@ -78,10 +78,10 @@ def data() -> dict[str, Any]:
 
 def test_every_group_has_cases(cases: tuple[HardCase, ...]) -> None:
     assert len(cases) >= 150
-    found = Counter(case.group for case in cases)
-    short = {name: found[name] for name, least in GROUPS.items() if found[name] < least}
+    counts = Counter(case.group for case in cases)
+    short = {name: counts[name] for name, least in GROUPS.items() if counts[name] < least}
     assert not short
-    assert set(found) == set(GROUPS)
+    assert set(counts) == set(GROUPS)
 
 
 def test_every_form_of_arguments_is_used(cases: tuple[HardCase, ...]) -> None:
@@ -248,26 +248,26 @@ def test_interrupted_record_is_continued(
         computed.append(case.key)
         return references(self, case)
 
-    def found() -> dict[str, Known]:
+    def find() -> dict[str, Known]:
         return find_references(few, recorded, part)
 
     monkeypatch.setattr(Suite, "references", seek)
     with pytest.raises(KeyboardInterrupt):
-        found()
+        find()
     assert computed == [case.key for case in given[:2]]
     computed.clear()
-    assert list(found()) == [case.key for case in given]
+    assert list(find()) == [case.key for case in given]
     assert computed == [case.key for case in given[2:]]
     part.rename(recorded)
     computed.clear()
-    whole = found()
+    whole = find()
     assert not computed
     assert [list(whole[case.key].references) for case in given] == [
         references(suite, case) for case in given
     ]
     monkeypatch.setattr(Suite, "origin", lambda *_: "something else")
     with pytest.raises(KeyboardInterrupt):
-        found()
+        find()
     assert computed == [case.key for case in given[:2]]
 
 

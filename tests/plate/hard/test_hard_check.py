@@ -163,7 +163,7 @@ def test_status_is_1_when_a_case_fails(
     rows = build.check_hard(PAPER)
     broken = dataclasses.replace(rows[0], error=99.0, problem="error of 99 ULP")
     sound = dataclasses.replace(rows[1], problem="")
-    for found, status in (((sound,), 0), ((sound, broken), 1)):
-        monkeypatch.setattr(build, "check_hard", lambda *_, found=found: found)
+    for actual, status in (((sound,), 0), ((sound, broken), 1)):
+        monkeypatch.setattr(build, "check_hard", lambda *_, actual=actual: actual)
         assert main(["check", "hard-cases"]) == status
     assert "99 ULP" in capsys.readouterr().out.replace("\n", " ")

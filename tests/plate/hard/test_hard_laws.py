@@ -85,8 +85,8 @@ def test_conditioning_of_a_state_is_the_change_by_the_arguments() -> None:
         total += np.abs(upper - lower) / (2 * step)
     law = LAWS["history"]
     assert law.slopes is not None
-    found = law.slopes(given, law.values(given, 20))
-    np.testing.assert_allclose([float(x) for x in found], total, rtol=1e-4)
+    slopes = law.slopes(given, law.values(given, 20))
+    np.testing.assert_allclose([float(x) for x in slopes], total, rtol=1e-4)
 
 
 def test_stress_of_a_clamped_plate_agrees_with_the_record(
@@ -96,9 +96,9 @@ def test_stress_of_a_clamped_plate_agrees_with_the_record(
     for kernel in ("clamped_back_face_stress", "back_face_stress"):
         case = next(case for case in cases if case.kernel == "clamped_back_face_stress")
         [given] = [tuple(case.points[0].values())]
-        [found] = LAWS[kernel].values(given, 10)
+        [actual] = LAWS[kernel].values(given, 10)
         known = reference_from_text(references[case.key].references[0]).value
-        assert (abs(float(found / known) - 1) < 1e-9) is (kernel == case.kernel)
+        assert (abs(float(actual / known) - 1) < 1e-9) is (kernel == case.kernel)
 
 
 def test_error_limit_of_a_force_scales_like_that_of_its_radius() -> None:
@@ -135,8 +135,8 @@ def test_simple_law_is_not_finite_beyond_its_range(name: str, suite: Suite) -> N
     paper = (0.13, 72.2, 1.0, 0.1, 1.0, 0.36e9, 0.43e9)
     for speed, shown in ((1.0, True), (1e9, False)):
         scene = (*paper[:2], speed, *paper[3:])
-        for found in (known.call(*scene), known.stated(*scene)):
-            assert (np.isfinite(np.ravel(found)) == shown).all()
+        for actual in (known.call(*scene), known.stated(*scene)):
+            assert (np.isfinite(np.ravel(actual)) == shown).all()
 
 
 def test_interval_without_a_change_of_the_condition_is_rejected() -> None:

@@ -84,5 +84,7 @@ MAY_PASS: Mapping[str, Mapping[str, tuple[int, str]]] = {
 @pytest.mark.parametrize("name", MAY_PASS)
 def test_mutants_are_detected_up_to_the_listed_number(name: str) -> None:
     most = {home: count for home, (count, _) in (ANYWHERE | MAY_PASS[name]).items()}
-    found = survivors(name)
-    assert {home: those for home, those in found.items() if len(those) > most.get(home, 0)} == {}
+    surviving = survivors(name)
+    assert {
+        home: those for home, those in surviving.items() if len(those) > most.get(home, 0)
+    } == {}

@@ -75,7 +75,7 @@ MAY_STAY: Mapping[str, tuple[int, str]] = {
 
 def modules() -> list[ModuleType]:
     """Return the modules of the generated package except its manifest."""
-    names = (found.name for found in pkgutil.iter_modules(generated.__path__))
+    names = (module.name for module in pkgutil.iter_modules(generated.__path__))
     return [importlib.import_module(f"generated.{x}") for x in names if x != "manifest"]
 
 

@@ -82,9 +82,9 @@ def test_second_reference_is_inside_the_interval(eta: float, alpha: float, digit
 def test_references_of_an_impact_agree(h: float, v0: float, digits: int) -> None:
     """Both references of an impact agree from a = h/7 to a = 5 h, where their series cancel."""
     motion = (2.0, 1000.0, v0, h, 1.0, 0.36e9, 0.43e9)
-    found = many_digits.reference(motion, digits, lambda *_: None)
-    assert [quantity.compared for quantity in found.quantities] == [digits] * 10
-    assert min(quantity.agreed for quantity in found.quantities) > digits
+    reference = many_digits.reference(motion, digits, lambda *_: None)
+    assert [quantity.compared for quantity in reference.quantities] == [digits] * 10
+    assert min(quantity.agreed for quantity in reference.quantities) > digits
 
 
 def test_digits_do_not_depend_on_the_scale_of_the_powers(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -92,9 +92,9 @@ def test_digits_do_not_depend_on_the_scale_of_the_powers(monkeypatch: pytest.Mon
     motion, digits = (2.0, 72.0, 1.0, 0.1, 1.0, 0.36e9, 0.43e9), 40
     near = residue_law.impact(*motion, digits)
     monkeypatch.setattr(residue_law, "SHALLOW", 0.9)
-    found = near, residue_law.impact(*motion, 60)
+    actual = near, residue_law.impact(*motion, 60)
     with mp.workdps(80):
-        for one, other in zip(*found, strict=True):
+        for one, other in zip(*actual, strict=True):
             assert 0 < abs(one / other - 1) < mpf(10) ** -digits
 
 
@@ -209,10 +209,10 @@ def test_impacts_from_series_and_from_integrals_agree(h: float) -> None:
     plate = ratio_of(h, 1.0)
     known = contact_impact.impact(*motion, 30)
     reach = float(known.max_contact_radius) * (1 + 1e-9)
-    found = contact_impact.impact(
+    result = contact_impact.impact(
         *motion, 50, lambda bits: contact_points.series(plate, reach, bits)
     )
-    for narrow, wide in zip(found, known, strict=True):
+    for narrow, wide in zip(result, known, strict=True):
         assert narrow.overlaps(wide)
         assert narrow.rel_accuracy_bits() > 166
 
@@ -231,13 +231,13 @@ def test_reference_shows_digits_radius_and_agreement(capsys: Captured) -> None:
 
 def test_reference_as_json(capsys: Captured) -> None:
     assert main(["reference", str(PAPER), "--digits", "20", "--json", "-"]) == 0
-    found: dict[str, Any] = json.loads(capsys.readouterr().out)
-    assert found["inputs"]["R"] == 0.13
-    time = found["impact"]["contact_time"]
+    actual: dict[str, Any] = json.loads(capsys.readouterr().out)
+    assert actual["inputs"]["R"] == 0.13
+    time = actual["impact"]["contact_time"]
     assert time["value"] == "0.0088081612263222237778"
     assert 0 < float(time["radius"]) < 1e-22
     assert (time["compared_digits"], time["agreed_digits"]) == (20, 20)
-    assert [sorted(row) for row in found["law"]] == [
+    assert [sorted(row) for row in actual["law"]] == [
         ["contact_radius", "indentation", "stiffness"]
     ] * 3
 
@@ -283,10 +283,10 @@ def test_every_result_is_compared_with_the_second_reference(
     right = getattr(residue_law, name)
 
     def off(*arguments: Any) -> Any:
-        found = right(*arguments)
+        actual = right(*arguments)
         with mp.workdps(30):
             factor = 1 + mpf(10) ** -12
-            return tuple(x * factor for x in found) if name == "impact" else found * factor
+            return tuple(x * factor for x in actual) if name == "impact" else actual * factor
 
     monkeypatch.setattr(residue_law, name, off)
     assert main(["reference", str(PAPER), "--digits", "15"]) == 1

@@ -27,10 +27,10 @@ def motion() -> Mapping[str, Formula]:
 @pytest.fixture(scope="module")
 def findings(formulas: Mapping[str, Formula]) -> dict[str, Finding]:
     names = {record.name for record in PRINTED_MOTION}
-    found = misprints(formulas)
+    actual = misprints(formulas)
     return {
         finding.printed.name: finding
-        for finding in found
+        for finding in actual
         if finding.printed.name in names and int(finding.printed.equation) > 8
     }
 

@@ -158,9 +158,9 @@ def test_correction_ends_before_the_turning_point(name: str, modes: int, correct
     used = motion.xi_2 * at**2 + 0.75 * motion.xi_3 * at ** (8 / 3)
     assert used / (motion.m * motion.v0**2) == pytest.approx(1, rel=1e-13)
     times = np.linspace(0, motion.valid_until, 401)
-    found = motion.corrected(times)
-    assert (np.diff(found) > 0).all()  # the corrected motion has no turning point
-    assert (found <= motion.linear(times) + 1e-16 * motion.max_indentation).all()
+    actual = motion.corrected(times)
+    assert (np.diff(actual) > 0).all()  # the corrected motion has no turning point
+    assert (actual <= motion.linear(times) + 1e-16 * motion.max_indentation).all()
     assert np.isnan(motion.corrected(np.nextafter(motion.valid_until, np.inf)))
     assert np.isnan(motion.corrected(-1e-9))
 
@@ -183,9 +183,9 @@ def test_nan_outside_the_domain_and_for_extreme_numbers() -> None:
             case = [*PAPER]
             case[index] = bad
             motion = printed_motion(*case, 10)
-            found = motion.corrected(1e-4), motion.valid_until, motion.last, motion.contact_time
+            actual = motion.corrected(1e-4), motion.valid_until, motion.last, motion.contact_time
             if bad != 1e-300 and (index, bad) != (5, 0.0):
-                assert all(map(math.isnan, found)), (index, bad)
+                assert all(map(math.isnan, actual)), (index, bad)
 
 
 def compared(**effects: object) -> dict[str, dict[str, object]]:
@@ -193,14 +193,14 @@ def compared(**effects: object) -> dict[str, dict[str, object]]:
 
 
 def test_comparison_is_the_generated_motion() -> None:
-    found = simulate(read(compared(compare_paper_motion=True)))
-    assert found.comparison is not None
-    numbers = found.model.numbers
-    linear, *broken = found.comparison.motions
-    assert found.comparison.modes == MODES
+    result = simulate(read(compared(compare_paper_motion=True)))
+    assert result.comparison is not None
+    numbers = result.model.numbers
+    linear, *broken = result.comparison.motions
+    assert result.comparison.modes == MODES
     motion = printed_motion(*numbers, MODES)
     assert (linear.contact_time, linear.valid_until) == (motion.contact_time, None)
-    assert linear.contact_time_difference == motion.contact_time / found.contact_time - 1
+    assert linear.contact_time_difference == motion.contact_time / result.contact_time - 1
     for row, corrected in zip(broken, (False, True), strict=True):
         motion = printed_motion(*numbers, MODES, corrected=corrected)
         last = float(motion.corrected(motion.valid_until))
@@ -208,7 +208,7 @@ def test_comparison_is_the_generated_motion() -> None:
         assert (row.valid_until, row.valid_fraction, row.max_indentation) == (
             motion.valid_until, motion.valid_fraction, last,
         )  # fmt: skip
-        assert row.max_indentation_difference == last / found.max_indentation - 1
+        assert row.max_indentation_difference == last / result.max_indentation - 1
         assert row.valid_fraction == pytest.approx(
             2 * motion.valid_until / motion.contact_time, rel=1e-14
         )
@@ -224,16 +224,16 @@ def test_comparison_changes_no_result(name: str, rtol: float | None) -> None:
         data["effects"] = {**data.get("effects", {}), "inertia": False}
     without = simulate(read(data), rtol=rtol)
     data["effects"] = {**data.get("effects", {}), "compare_paper_motion": True}
-    found = simulate(read(data), rtol=rtol)
-    assert found.effects.law == without.effects.law
-    assert found.effects.error == without.effects.error
-    assert found.accuracy == without.accuracy
-    assert found.warnings == without.warnings
-    made, plain = found.to_json(), without.to_json()
+    result = simulate(read(data), rtol=rtol)
+    assert result.effects.law == without.effects.law
+    assert result.effects.error == without.effects.error
+    assert result.accuracy == without.accuracy
+    assert result.warnings == without.warnings
+    made, plain = result.to_json(), without.to_json()
     assert made.pop("paper_motion")["modes"] == MODES
     assert made.pop("scene") != plain.pop("scene")
     assert made == plain
-    for one, other in zip(found.history(5), without.history(5), strict=True):
+    for one, other in zip(result.history(5), without.history(5), strict=True):
         np.testing.assert_array_equal(one, other)
 
 
@@ -254,8 +254,8 @@ def test_fast_methods_are_used_with_the_comparison(monkeypatch: pytest.MonkeyPat
     simulate(read(compared(compare_paper_motion=True)))
     assert len(calls) == 1
     thick = {"radius": 1e3, "thickness": 2e3}
-    found = simulate(read(changed(plate=thick, effects={"compare_paper_motion": True})), rtol=1e-2)
-    assert found.accuracy.method == "hertz"
+    result = simulate(read(changed(plate=thick, effects={"compare_paper_motion": True})), rtol=1e-2)
+    assert result.accuracy.method == "hertz"
     assert len(calls) == 1
 
 
@@ -295,8 +295,8 @@ from derivation.scene import explain, load, read, simulate
 data = load({str(EXAMPLES / "paper.toml")!r}).to_json()
 scene = read(data | {{"effects": {{"compare_paper_motion": {wanted.title()}, "inertia": False}}}})
 explain(scene)
-found = simulate(scene)
-found.to_json(), found._repr_html_(), found.history()
+result = simulate(scene)
+result.to_json(), result._repr_html_(), result.history()
 for name in ("derivation.scene.comparison", "generated.perturbation"):
     assert (name in sys.modules) is {wanted.title()}, name
 """

@@ -106,8 +106,8 @@ def test_conditioning_is_the_change_by_the_parameters() -> None:
         upper, lower = (impact_sensitivities(*moved) for moved in ends)
         total += np.abs(upper - lower) / (2 * step)
     values = sensitivity.impact_sensitivities(scene, 20)
-    found = [float(x) for x in sensitivity.rounding(scene, values)]
-    np.testing.assert_allclose(np.reshape(found, total.shape), total, rtol=1e-4, atol=1e-8)
+    actual = [float(x) for x in sensitivity.rounding(scene, values)]
+    np.testing.assert_allclose(np.reshape(actual, total.shape), total, rtol=1e-4, atol=1e-8)
 
 
 def test_second_reference_agrees_with_finite_differences() -> None:

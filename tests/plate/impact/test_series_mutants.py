@@ -34,16 +34,16 @@ MOTIONS: Sequence[Point] = [(72.2, 1.0, 3e7, 4e8), (0.5, 3.0, 2e5, 8e3), (2.0, 0
 @cache
 def motion_cases() -> list[Expected]:
     known = [(scene, kind) for scene in (PAPER, *OTHERS) for kind in (False, True)]
-    found = [ExpectedResult(partial(coefficients, motion=x), by_sums(*x)) for x in known]
+    actual = [ExpectedResult(partial(coefficients, motion=x), by_sums(*x)) for x in known]
     nothing = [math.nan] * 4
-    found += [ExpectedResult(partial(coefficients, motion=(x, True)), nothing) for x in NO_MOTION]
-    return [*found, *map(by_motion, MOTIONS), *map(at_the_end, MOTIONS)]
+    actual += [ExpectedResult(partial(coefficients, motion=(x, True)), nothing) for x in NO_MOTION]
+    return [*actual, *map(by_motion, MOTIONS), *map(at_the_end, MOTIONS)]
 
 
 def coefficients(module: ModuleType, motion: tuple[Point, bool]) -> Point:
     scene, corrected = motion
-    found = module.printed_motion(*scene, 12, corrected=corrected)
-    return found.m, found.v0, found.xi_2, found.xi_3
+    actual = module.printed_motion(*scene, 12, corrected=corrected)
+    return actual.m, actual.v0, actual.xi_2, actual.xi_3
 
 
 def by_sums(scene: Point, corrected: bool) -> list[float]:
@@ -91,8 +91,8 @@ def at_the_end(motion: Point) -> ExpectedResult:
     exact = float(motion_balls.corrected(end * (1 - 1e-10), *motion, digits=12))
 
     def ask(module: ModuleType) -> float:
-        found = module.PrintedMotion(*motion)
-        return float(found.corrected(found.valid_until))
+        actual = module.PrintedMotion(*motion)
+        return float(actual.corrected(actual.valid_until))
 
     return ExpectedResult(ask, exact, 1e-4)
 

@@ -34,12 +34,12 @@ class Bounded:
     above: float
 
     def holds(self, module: ModuleType) -> bool:
-        found, exact = (
+        actual, exact = (
             np.asarray(self.call(module), dtype=float),
             np.asarray(self.expected, dtype=float),
         )
-        same = (found == exact) | ((found >= exact) & (found <= exact * (1 + self.above)))
-        return found.shape == exact.shape and bool(same.all())
+        same = (actual == exact) | ((actual >= exact) & (actual <= exact * (1 + self.above)))
+        return actual.shape == exact.shape and bool(same.all())
 
 
 ETAS = (0.17, 0.3, 1.0, 5.0, 1 / 6.5, 1 / 13, 1 / 40)
@@ -61,10 +61,10 @@ NO_ESTIMATE: Sequence[Point] = [
 
 @cache
 def simple_cases() -> list[Expected]:
-    found: list[Expected] = []
+    actual: list[Expected] = []
     for eta in ETAS:
         c_1, K_3 = plate(eta)
-        found += [
+        actual += [
             ExpectedResult(lambda x, eta=eta: x.plate_of(eta).bend, c_1,
                            1e-8 if eta > 1 / 7 else 1e-12),
             Bounded(lambda x, eta=eta: x.plate_of(eta).rest, K_3, 1.9e-9 if eta > 0.2 else 1.5e-7),
@@ -73,27 +73,27 @@ def simple_cases() -> list[Expected]:
         ]  # fmt: skip
     for sizes in product((0.0, 0.01, 0.03), (0.0, 0.02), (0.0, 0.3), (0.0, 0.7, 2.0), (0.0, 0.004)):
         exact = [float(x) for x in lemma(*sizes)]
-        found.append(Bounded(lambda x, sizes=sizes: x.law_errors(*sizes), exact, 1.5e-9))
+        actual.append(Bounded(lambda x, sizes=sizes: x.law_errors(*sizes), exact, 1.5e-9))
     unbounded = [
         (1.0, 0.0, 0.0, 0.0),
         (0.01, 0.0, 2.0, 0.0),
         (0.1, 0.0, 0.0, 0.0),
         (0.01, 1e999, 0.0, 0.0),
     ]
-    found += [ExpectedResult(lambda x, s=s: x.law_errors(*s), [math.inf] * 4) for s in unbounded]
+    actual += [ExpectedResult(lambda x, s=s: x.law_errors(*s), [math.inf] * 4) for s in unbounded]
     wide = [math.inf, math.inf, *map(float, lemma(0.01, 1e306, 0.0, 0.0)[2:])]
-    found.append(Bounded(lambda x: x.law_errors(0.01, 1e306, 0.0, 0.0), wide, 1.5e-9))
+    actual.append(Bounded(lambda x: x.law_errors(0.01, 1e306, 0.0, 0.0), wide, 1.5e-9))
     for scene in SIMPLE:
         for name in ("hertz", "leading"):
             results, law = simple(scene, name == "leading")
-            found += [
+            actual += [
                 ExpectedResult(
                     lambda x, n=name, s=scene: [*getattr(x, n)(*s)[:4], getattr(x, n)(*s)[5]],
                     results,
                 ),
                 Bounded(lambda x, n=name, s=scene: getattr(x, n)(*s).law, law, 1e-6),
             ]
-    return [*found, ExpectedResult(nowhere, [True] * 2 * len(NO_ESTIMATE))]
+    return [*actual, ExpectedResult(nowhere, [True] * 2 * len(NO_ESTIMATE))]
 
 
 def nowhere(module: ModuleType) -> list[bool]:
@@ -124,14 +124,14 @@ def lemma(low: Any, up: Any, fall: Any, rise: Any, energy: Any = 0) -> list[mpf]
             mpf(rise),
             mp.exp(energy),
         )
-        found = exponents(fall, rise)
-        wide, narrow = (more / least) ** (1 / found["energy"]), most ** (1 / found["energy"])
+        actual = exponents(fall, rise)
+        wide, narrow = (more / least) ** (1 / actual["energy"]), most ** (1 / actual["energy"])
         if wide >= mpf("1.02"):
             return [mp.inf] * 4
-        longer, shorter = max(found["longer"], 0), found["shorter"]
+        longer, shorter = max(actual["longer"], 0), actual["shorter"]
         later = most * mp.sqrt(more / least) * max(wide**longer, narrow**shorter)
         sooner = mp.sqrt(most) / least * max(wide**shorter, narrow**longer)
-        deep = max(most * wide ** found["depth"], narrow ** found["depth"] / least)
+        deep = max(most * wide ** actual["depth"], narrow ** actual["depth"] / least)
         return [max(later, sooner) - 1, deep - 1, max(wide, narrow) ** 3 - 1, max(wide, narrow) - 1]
 
 

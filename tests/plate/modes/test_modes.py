@@ -155,8 +155,8 @@ def ratio(target: Target, point: Point) -> float | None:
     """Return the error over its limit, or None if it cannot be evaluated; raise on warnings."""
     with np.errstate(all="raise"):
         (got,) = target.call([point])
-    found = target.measure(point, got)
-    return None if found is None or math.isinf(found.allowed) else found.ratio
+    actual = target.measure(point, got)
+    return None if actual is None or math.isinf(actual.allowed) else actual.ratio
 
 
 @pytest.mark.parametrize(
@@ -165,9 +165,9 @@ def ratio(target: Target, point: Point) -> float | None:
 def test_former_errors_are_corrected(name: str, inputs: str, modes: int | None) -> None:
     target = TARGETS[name]
     values = map(float.fromhex, inputs.split())
-    found = ratio(target, Point(dict(zip(target.domain.arguments, values, strict=True)), modes))
-    assert found is not None
-    assert found <= 1.0
+    actual = ratio(target, Point(dict(zip(target.domain.arguments, values, strict=True)), modes))
+    assert actual is not None
+    assert actual <= 1.0
 
 
 LENGTHS, STRESSES = ("r", "z", "h", "b", "R", "a"), ("lam", "mu", "A_j")
@@ -187,9 +187,9 @@ def test_results_do_not_depend_on_units(name: str) -> None:
             }
             if any(0 < abs(value) < 1e-300 for value in values.values()):
                 continue
-            found = ratio(target, Point(values, drawn.modes))
-            judged += found is not None
-            assert found is None or found <= 1.0, (length, stress, drawn)
+            actual = ratio(target, Point(values, drawn.modes))
+            judged += actual is not None
+            assert actual is None or actual <= 1.0, (length, stress, drawn)
     assert judged > 12
 
 
@@ -200,8 +200,8 @@ def test_truncated_series_are_accurate_up_to_the_end_of_their_range(name: str) -
     (square,) = section.arguments
     inner = np.random.default_rng(3).uniform(0.0, float(END) ** 2, 300)
     points = np.concatenate([inner, [1e-300, 1e-16, float(END) ** 2]])
-    found = getattr(generated_blocks, name)(points)
+    actual = getattr(generated_blocks, name)(points)
     with flint.ctx.workprec(3000):
-        for point, got in zip(points.tolist(), found.tolist(), strict=True):
+        for point, got in zip(points.tolist(), actual.tolist(), strict=True):
             exact = float(enclose(section.total, {square: flint.arb(point)}))
             assert abs(got - exact) <= 2.0 * math.ulp(exact)

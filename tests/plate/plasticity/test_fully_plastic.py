@@ -103,6 +103,6 @@ def test_elastic_law_gives_no_warning() -> None:
     model = Model(R=0.005, m=4e-3, v0=1.0, h=0.5, b=1.0, lam=121e9, mu=81e9, yield_stress=1e8)
     wide = 200.0 * 0.005 * 1e8 / 2e11
     assert risen_pressure(ContactLaw(model, frozenset({"hertz"})), wide) is None
-    found = risen_pressure(ContactLaw(model, frozenset({"hertz", "plasticity"})), wide)
-    assert found is not None
-    assert found.stiffness == pytest.approx(3.0 / 1.6 * 2.0, rel=1e-3)
+    actual = risen_pressure(ContactLaw(model, frozenset({"hertz", "plasticity"})), wide)
+    assert actual is not None
+    assert actual.stiffness == pytest.approx(3.0 / 1.6 * 2.0, rel=1e-3)

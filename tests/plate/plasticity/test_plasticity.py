@@ -77,27 +77,27 @@ def test_half_space_agrees_with_thornton(power: float) -> None:
 
 @pytest.mark.parametrize("ratio", [1.001, 1.7, 6.0, 100.0])
 def test_time_elements_agree_with_thornton(ratio: float) -> None:
-    found = moved(ContactLaw(at_speeds(ratio), HALF_SPACE))
-    assert found.restitution == pytest.approx(thornton(1.0 / ratio), rel=1e-12)
-    assert found.energy_balance is not None
-    assert abs(found.energy_balance.residual) < 1e-13
+    result = moved(ContactLaw(at_speeds(ratio), HALF_SPACE))
+    assert result.restitution == pytest.approx(thornton(1.0 / ratio), rel=1e-12)
+    assert result.energy_balance is not None
+    assert abs(result.energy_balance.residual) < 1e-13
 
 
 def test_slow_impact_agrees_with_hertz() -> None:
     model = at_speeds(0.9)
-    found = moved(ContactLaw(model, HALF_SPACE))
+    result = moved(ContactLaw(model, HALF_SPACE))
     elastic = moved(ContactLaw(replace(model, yield_stress=1e20), HALF_SPACE))
-    assert found.numbers == elastic.numbers
-    assert found.restitution == pytest.approx(1.0, abs=1e-14)
-    assert found.dent == 0.0
+    assert result.numbers == elastic.numbers
+    assert result.restitution == pytest.approx(1.0, abs=1e-14)
+    assert result.dent == 0.0
 
 
 def test_fast_impacts_of_steel_on_steel_follow_the_fourth_root() -> None:
     # Johnson (1985), section 11.5: e is proportional to v^(-1/4) in a fully plastic contact.
     speeds = np.geomspace(1.0, 100.0, 5)
-    found = [moved(ContactLaw(replace(BALL, v0=v), HALF_SPACE)).restitution
+    actual = [moved(ContactLaw(replace(BALL, v0=v), HALF_SPACE)).restitution
              for v in speeds.tolist()]  # fmt: skip
-    slopes = np.diff(np.log(found)) / np.diff(np.log(speeds))
+    slopes = np.diff(np.log(actual)) / np.diff(np.log(speeds))
     assert np.all(np.abs(slopes + 0.25) < 0.002)
     assert abs(slopes[-1] + 0.25) < abs(slopes[0] + 0.25)
 
@@ -110,7 +110,7 @@ def test_bending_plate_agrees_with_energy_and_quadrature(gravity: float) -> None
         gravity=gravity,
     )  # fmt: skip
     law = ContactLaw(model, frozenset(effects))
-    found = moved(law)
+    result = moved(law)
     onset = float(yield_radius(model.R, model.lam, model.mu, model.yield_stress))
 
     def elastic(u: float) -> tuple[float, float]:
@@ -145,11 +145,11 @@ def test_bending_plate_agrees_with_energy_and_quadrature(gravity: float) -> None
         return elastic(u)[1] - (1.0 - flat) * u * u / model.R
 
     back = work(unloaded, top) - model.m * gravity * unloaded(top)
-    assert found.max_force == pytest.approx(elastic(top)[0], rel=1e-9)
-    assert found.max_indentation == pytest.approx(loaded(top), rel=1e-9)
-    assert found.max_contact_radius == pytest.approx(wide, rel=1e-9)
-    assert found.restitution == pytest.approx(math.sqrt(2.0 * back / model.m) / model.v0, rel=1e-9)
-    assert found.dent == pytest.approx(dent, rel=1e-9)
+    assert result.max_force == pytest.approx(elastic(top)[0], rel=1e-9)
+    assert result.max_indentation == pytest.approx(loaded(top), rel=1e-9)
+    assert result.max_contact_radius == pytest.approx(wide, rel=1e-9)
+    assert result.restitution == pytest.approx(math.sqrt(2.0 * back / model.m) / model.v0, rel=1e-9)
+    assert result.dent == pytest.approx(dent, rel=1e-9)
 
 
 class Marched:
@@ -212,13 +212,13 @@ def test_plate_with_inertia_agrees_with_another_integrator() -> None:
     expected = np.array([marched.step(t, later - t) for t, later in steps])
     x = times[1:] ** (1.0 / ONSET)
     index = np.searchsorted([piece.element.x for piece in pieces], x, side="right") - 1
-    found = [
+    actual = [
         problem.force * float(pieces[k].element.at(np.array([one]))[P, 0])
         for k, one in zip(index, x, strict=True)
     ]
     # The largest radius is updated once per step, so its square has an error of first order.
     assert marched.top > 1.5 * branch.onset
-    assert np.max(np.abs(found - expected)) < 2e-4 * max(found)
+    assert np.max(np.abs(actual - expected)) < 2e-4 * max(actual)
 
 
 def test_energy_balance_closes_over_several_contacts() -> None:
@@ -243,7 +243,7 @@ def test_plate_with_high_yield_stress_gives_the_elastic_results() -> None:
 def test_stated_error_covers_the_speed_of_a_contact_that_does_not_yield() -> None:
     """The plate dominates; the runs with 14 and 16 nodes agree to 7e-11, but the error is 9e-11."""
     plate = {"radius": 0.0755, "half_thickness": 1.75e-4, "youngs_modulus": 1.3e11}
-    found = simulate(
+    result = simulate(
         read(
             {
                 "sphere": {"radius": 0.0417, "density": 2120.0},
@@ -253,13 +253,13 @@ def test_stated_error_covers_the_speed_of_a_contact_that_does_not_yield() -> Non
             }
         )
     )
-    assert found.dent == 0.0
-    assert abs(found.restitution - 1.0) <= found.accuracy.parts["quadrature"].bound
+    assert result.dent == 0.0
+    assert abs(result.restitution - 1.0) <= result.accuracy.parts["quadrature"].bound
 
 
 def test_plates_agree_before_the_echo() -> None:
     # The contact ends before a wave returns from the edge, so the edge condition has no effect.
-    found = [
+    actual = [
         simulate(read({
             "sphere": {"radius": 0.005, "material": "steel"},
             "plate": {"radius": 1.0, "thickness": 0.02, "material": "steel",
@@ -268,9 +268,9 @@ def test_plates_agree_before_the_echo() -> None:
         }))
         for edge in ("paper", "clamped", "simply-supported")
     ]  # fmt: skip
-    for other in found[1:]:
-        assert other.restitution == pytest.approx(found[0].restitution, rel=2e-4)
-        assert other.dent == pytest.approx(found[0].dent, rel=2e-4)
+    for other in actual[1:]:
+        assert other.restitution == pytest.approx(actual[0].restitution, rel=2e-4)
+        assert other.dent == pytest.approx(actual[0].dent, rel=2e-4)
 
 
 def test_energy_balance_of_a_viscoplastic_contact_with_inertia() -> None:
@@ -323,11 +323,11 @@ def test_bounds_hold_with_plate_inertia(ratio: float) -> None:
     [row] = [row for row in elastic.effects.rows if row.name == "plasticity"]
     stress = 240e6 * row.parameter_value / ratio
     scene |= {"plate": scene["plate"] | {"yield_stress": stress}}
-    found = [
+    actual = [
         simulate(read(scene | {"effects": scene["effects"] | wanted}), rtol=rtol)
         for wanted, rtol in (({"plasticity": False}, 0.02), ({}, 0.5), ({"plasticity": True}, 0.02))
     ]
-    without, loose, tight = found
+    without, loose, tight = actual
     [row] = [row for row in without.effects.rows if row.name == "plasticity"]
     bounds = loose.accuracy.bound, row.bound + without.accuracy.bound
     for other, bound in zip((loose, without), bounds, strict=True):
@@ -377,8 +377,8 @@ def test_static_contacts_of_thin_plates_are_the_same_from_radius_force_and_depth
 def test_parameter_is_the_pressure_relative_to_its_limit() -> None:
     law = ContactLaw(BALL, frozenset({"hertz"}))
     a = 1e-4
-    found = BY_NAME["plasticity"].value(BALL, a)
-    assert found == pytest.approx(law.max_pressure(a) / (1.6 * BALL.yield_stress), rel=1e-14)
+    actual = BY_NAME["plasticity"].value(BALL, a)
+    assert actual == pytest.approx(law.max_pressure(a) / (1.6 * BALL.yield_stress), rel=1e-14)
 
 
 def test_code_of_a_plastic_contact_is_rejected_with_a_remedy() -> None:

@@ -81,10 +81,10 @@ def integrated(model: Model) -> list[float]:
 @pytest.mark.parametrize("speed", [0.01, 0.3, 10.0])
 def test_half_space_agrees_with_another_integrator(speed: float) -> None:
     model = replace(BALL, v0=speed)
-    found, expected = moved(ContactLaw(model, HALF_SPACE)), integrated(model)
-    got = [found.max_force, found.restitution, found.dent, found.contact_time]
+    result, expected = moved(ContactLaw(model, HALF_SPACE)), integrated(model)
+    got = [result.max_force, result.restitution, result.dent, result.contact_time]
     assert got == pytest.approx(expected, rel=2e-7)
-    assert found.dent > 0.0
+    assert result.dent > 0.0
 
 
 @pytest.mark.parametrize("gravity", [0.0, 9.81])
@@ -107,16 +107,16 @@ def test_plastic_results_are_the_limit_without_viscosity() -> None:
     calm = numbers(simulate(read(drop({"viscosity": False}))))
     off = []
     for time in (1e-7, 1e-8):
-        found = numbers(simulate(read(drop(retardation_time=time))))
-        off.append(max(abs(x / y - 1.0) for x, y in zip(found, calm, strict=True)))
+        actual = numbers(simulate(read(drop(retardation_time=time))))
+        off.append(max(abs(x / y - 1.0) for x, y in zip(actual, calm, strict=True)))
     assert off[0] < 1e-3
     assert off[1] == pytest.approx(off[0] / 10.0, rel=0.02)
 
 
 def test_results_converge_with_the_nodes() -> None:
     for model in (BALL, replace(BALL, retardation_time=1e-4, v0=5.0)):
-        found: Motion = moved(ContactLaw(model, HALF_SPACE))
-        assert found.quadrature < 1e-9
+        motion: Motion = moved(ContactLaw(model, HALF_SPACE))
+        assert motion.quadrature < 1e-9
 
 
 def test_history_shows_the_widened_contact() -> None:

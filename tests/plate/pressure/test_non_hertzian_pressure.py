@@ -212,14 +212,14 @@ def test_leading_terms_at_a_given_force(eta: float) -> None:
     (delta R/a_H^2 - 1 - c_1 A)/A^3 -> (8/3) c_3 and (a_H/a - 1)/A^3 -> (5/3) c_3.
     """
     first, third = (contact_balls.coefficient(n, eta, 1, 30) for n in (1, 3))
-    found = []
+    actual = []
     for a in (Fraction(1, 50), Fraction(1, 100)):
         state = pressure_balls.solve(pressure_balls.case(a, 1, 1 / Fraction(eta)), 25)
         ratio = (state.force * 3 / 4).root(3)
         hertz = ratio * a.numerator / a.denominator
         law = state.depth / ratio**2 - 1 - first * hertz
-        found.append((float(law / hertz**3), float((ratio - 1) / (hertz / ratio) ** 3)))
-    for (far, near), factor in zip(zip(*found, strict=True), (8 / 3, 5 / 3), strict=True):
+        actual.append((float(law / hertz**3), float((ratio - 1) / (hertz / ratio) ** 3)))
+    for (far, near), factor in zip(zip(*actual, strict=True), (8 / 3, 5 / 3), strict=True):
         limit = (4 * near - far) / 3
         assert abs(limit / (factor * float(third)) - 1) < 1e-5
 

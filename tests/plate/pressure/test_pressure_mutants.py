@@ -28,13 +28,13 @@ PLACES = 0.25, 0.9375
 
 
 def pressure_cases() -> list[WithinUlp]:
-    found = []
+    actual = []
     for numbers in SOLVED:
         for compliance in (0.0, 2e-10):
-            found.append(solved(*numbers, compliance))
-        found.append(distribution(*numbers))
-    found += [work(*numbers) for numbers in SOLVED[1:3]]
-    return [*found, *refused(), in_other_units(0.5)]
+            actual.append(solved(*numbers, compliance))
+        actual.append(distribution(*numbers))
+    actual += [work(*numbers) for numbers in SOLVED[1:3]]
+    return [*actual, *refused(), in_other_units(0.5)]
 
 
 @cache
@@ -141,13 +141,13 @@ def refused() -> list[WithinUlp]:
     def force(m: ModuleType, a: float, b: float, R: float, modulus: float, own: float) -> float:
         return float(m.contact(m.plate(1.0, b), a, R, modulus, own).force)
 
-    found = [WithinUlp(lambda m, p=point: force(m, *p), np.asarray(NAN), 0.0) for point in outside]
+    actual = [WithinUlp(lambda m, p=point: force(m, *p), np.asarray(NAN), 0.0) for point in outside]
     none = np.array([NAN, NAN, 0.0, 0.0])
     sizes = (0.0, 1.0), (1.0, 0.0), (-1.0, -2.0), (1e-91, 1.0), (1e91, 1.0), (1e-60, 1e60)
     for size in (*sizes, (1e60, 1e-60)):
-        found.append(WithinUlp(lambda m, size=size: numbers_of(m.plate(*size)), none, 0.0))
+        actual.append(WithinUlp(lambda m, size=size: numbers_of(m.plate(*size)), none, 0.0))
     thin = WithinUlp(lambda m: float(m.plate(1.0, 100.0).rises.size), np.asarray(0.0), 0.0)
-    return [*found, thin]
+    return [*actual, thin]
 
 
 def numbers_of(plate: Any) -> list[float]:

@@ -75,8 +75,8 @@ def test_search_of_a_single_function_takes_the_same_steps(fast: tuple[Target, ..
 
 
 def test_every_function_is_searched(fast: tuple[Target, ...]) -> None:
-    found = search(fast, seed=1, evaluations=sum(t.turn_size for t in fast))
-    assert [s.evaluations for s in found.standings.values()] == [t.turn_size for t in fast]
+    search_result = search(fast, seed=1, evaluations=sum(t.turn_size for t in fast))
+    assert [s.evaluations for s in search_result.standings.values()] == [t.turn_size for t in fast]
 
 
 def test_search_ends_at_its_time_limit(fast: tuple[Target, ...]) -> None:
@@ -158,11 +158,11 @@ def test_case_with_an_array_of_two_points(fast: tuple[Target, ...], tmp_path: Pa
 
 def test_result_that_is_not_finite_is_the_largest_error(planted: Target, tmp_path: Path) -> None:
     broken = dataclasses.replace(planted, call=lambda points: [(math.nan,)] * len(points))
-    found = search([broken], 1, evaluations=10)
-    assert found.standings["bessel_j0"].ratio == math.inf
-    assert as_data(found)["rows"][0]["ratio"] == "inf"
-    json.dumps(as_data(found), allow_nan=False)
-    SearchRecord(tmp_path / "x.toml", [broken], {}, {}).keep(found)
+    search_result = search([broken], 1, evaluations=10)
+    assert search_result.standings["bessel_j0"].ratio == math.inf
+    assert as_data(search_result)["rows"][0]["ratio"] == "inf"
+    json.dumps(as_data(search_result), allow_nan=False)
+    SearchRecord(tmp_path / "x.toml", [broken], {}, {}).keep(search_result)
     assert read(tmp_path / "x.toml")
 
 
@@ -222,12 +222,12 @@ def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
         str(data),
     ]
     status = main(["check", "search", "--time", "1s", "--seed", "5", *chosen])
-    found = json.loads(data.read_text())
+    actual = json.loads(data.read_text())
     shown = capsys.readouterr().out
-    assert [row["kernel"] for row in found["rows"]] == ["bessel_j1", "kappa_ratio"]
-    assert status == int(any(float(row["ratio"] or 0) > 1 for row in found["rows"]))
-    assert found["seed"] == 5
-    assert f"bessel_j1: x={found['rows'][0]['inputs']['x']}\n" in shown
+    assert [row["kernel"] for row in actual["rows"]] == ["bessel_j1", "kappa_ratio"]
+    assert status == int(any(float(row["ratio"] or 0) > 1 for row in actual["rows"]))
+    assert actual["seed"] == 5
+    assert f"bessel_j1: x={actual['rows'][0]['inputs']['x']}\n" in shown
 
 
 def test_interrupted_search_keeps_its_cases(tmp_path: Path) -> None:

@@ -78,8 +78,8 @@ def test_random_arguments_give_contacts_within_the_law(law: dict[str, Target]) -
         assert 0.0 < a < min(b, R)
         assert indentation(a, R, h, b) == pytest.approx(values["delta"], rel=1e-11)
         motion = draw(law["impact"].domain, generator).values
-        found = impact(**motion)
-        assert 0.0 < found.max_contact_radius < min(motion["b"], motion["R"])
+        result = impact(**motion)
+        assert 0.0 < result.max_contact_radius < min(motion["b"], motion["R"])
 
 
 def test_contacts_outside_the_law_are_not_evaluated(law: dict[str, Target]) -> None:
@@ -99,9 +99,9 @@ def test_contact_wider_than_stated_has_no_reference(
     """References exist up to a = 6 h (here 0.6) and up to the radius of the sphere."""
     delta = float(contact_balls.indentation(a, R, 0.1, 1.0, 20))
     point = Point({"delta": delta, "R": R, "h": 0.1, "b": 1.0})
-    found = law["contact_radius"].measure(point, (a,))
-    assert (found is not None) is judged
-    assert found is None or found.ratio < 1.0
+    actual = law["contact_radius"].measure(point, (a,))
+    assert (actual is not None) is judged
+    assert actual is None or actual.ratio < 1.0
 
 
 def test_function_with_too_many_results_is_rejected() -> None:
@@ -163,11 +163,11 @@ def test_cases_of_other_functions_stay_in_the_file(tmp_path: Path) -> None:
     other = HardCase("search", "other", "Found by search, seed 3.", {"x": ((1.0).hex(),)})
     path.write_text(to_toml([(other, None)]))
     book = SearchRecord(path, [target], {}, {})
-    found = search.search([target], 1, evaluations=50)
-    book.keep(found)
+    search_result = search.search([target], 1, evaluations=50)
+    book.keep(search_result)
     first, second = read_cases(path)
     assert first == other
-    worst = found.standings["size"].worst
+    worst = search_result.standings["size"].worst
     assert worst is not None
     assert second == case_of("size", worst, 1)
 
@@ -199,12 +199,12 @@ def test_json_output_of_the_search_is_pure(
     The exit status is 1 if an error exceeds its limit.
     """
     target = dataclasses.replace(plain("size", ("x",), ()), measure=lambda *_: Error(off, 1.0))
-    found = search.search([target], 1, evaluations=20)
+    search_result = search.search([target], 1, evaluations=20)
     book = SearchRecord(tmp_path / "cases.toml", [target], {}, {})
-    book.keep(found)
-    monkeypatch.setattr(pipeline, "search_worse", lambda *_: (found, book))
+    book.keep(search_result)
+    monkeypatch.setattr(pipeline, "search_worse", lambda *_: (search_result, book))
     assert main(["check", "search", "--time", "1s", "--json", "-"]) == status
     shown = capsys.readouterr()
-    assert json.loads(shown.out) == as_data(found)
+    assert json.loads(shown.out) == as_data(search_result)
     assert "worst cases" in shown.err
     assert len(read_cases(book.path)) == 1

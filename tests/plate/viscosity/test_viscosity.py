@@ -59,10 +59,10 @@ def spiral(x: float) -> tuple[float, float]:
         return math.sin(phi) + top * max(state[0] * math.sin(phi), 0.0) ** 0.2 * math.cos(phi)
 
     pull.terminal, pull.direction = True, -1.0  # type: ignore[attr-defined]
-    found = solve_ivp(
+    solution = solve_ivp(
         rates, (0.1**6, math.pi**0.2), [1.0, 0.0], "DOP853", events=pull, rtol=1e-13, atol=1e-15
     )
-    [end], [state] = found.t_events[0], found.y_events[0]
+    [end], [state] = solution.t_events[0], solution.y_events[0]
     calm = float(beta(mpf("0.4"), mpf("0.5")))  # int_0^pi sin^(-1/5)
     return -state[0] * math.cos(end**5), state[1] / calm
 
@@ -70,10 +70,10 @@ def spiral(x: float) -> tuple[float, float]:
 @pytest.mark.parametrize("x", [1e-3, 0.03, 0.3, 1.0, 3.0])
 def test_hertz_contact_follows_the_spiral(x: float) -> None:
     model = with_number(x)
-    found, calm = moves(ContactLaw(model, HERTZ)), moves(ContactLaw(model, frozenset({"hertz"})))
+    result, calm = moves(ContactLaw(model, HERTZ)), moves(ContactLaw(model, frozenset({"hertz"})))
     restitution, time = spiral(x)
-    assert found.restitution == pytest.approx(restitution, rel=1e-10)
-    assert found.contact_time / calm.contact_time == pytest.approx(time, rel=1e-9)
+    assert result.restitution == pytest.approx(restitution, rel=1e-10)
+    assert result.contact_time / calm.contact_time == pytest.approx(time, rel=1e-9)
 
 
 def test_restitution_of_weak_viscosity_agrees_with_the_published_series() -> None:
@@ -98,8 +98,8 @@ def test_restitution_of_weak_viscosity_agrees_with_the_published_series() -> Non
 def test_viscous_parameter_is_that_of_the_scene() -> None:
     K = 4 / 3 * BALL.modulus * math.sqrt(BALL.R)
     expected = 1.5 * BALL.retardation_time * (K / BALL.m) ** 0.4 * BALL.v0**0.2
-    found = viscous_number(BALL.R, BALL.m, BALL.v0, BALL.lam, BALL.mu, BALL.retardation_time)
-    assert float(found) == pytest.approx(expected, rel=1e-14)
+    actual = viscous_number(BALL.R, BALL.m, BALL.v0, BALL.lam, BALL.mu, BALL.retardation_time)
+    assert float(actual) == pytest.approx(expected, rel=1e-14)
     soft = replace(BALL, sphere_modulus=BALL.modulus)
     assert BY_NAME["viscosity"].value(soft, 0.0) == pytest.approx(expected / 2**0.4, rel=1e-14)
     assert math.isnan(float(viscous_number(1.0, 1.0, 1.0, 1.0, 1.0, 0.0)))
@@ -138,30 +138,30 @@ def by_scipy(law: ContactLaw) -> tuple[float, float, float, float]:
     first = 1e-7 * calm.contact_time
     start = viscous.impact(law)
     depth, speed, radius, _ = (x[0] for x in start.history(law, np.array([first])))
-    found = solve_ivp(
+    solution = solve_ivp(
         rates, (first, 3 * calm.contact_time), [depth, speed, radius], "Radau", events=gone,
         rtol=1e-10, atol=[1e-14 * calm.max_indentation, 1e-12 * model.v0, 1e-9 * radius],
     )  # fmt: skip
-    forces = [state(y)[0] for y in found.y.T]
+    forces = [state(y)[0] for y in solution.y.T]
     return (
-        float(found.t_events[0][0]),
-        float(found.y[0].max()),
+        float(solution.t_events[0][0]),
+        float(solution.y[0].max()),
         max(forces),
-        -float(found.y_events[0][0][1]) / model.v0,
+        -float(solution.y_events[0][0][1]) / model.v0,
     )
 
 
 def test_bending_plate_agrees_with_another_integrator() -> None:
     model = replace(BALL, h=0.002, b=0.06, retardation_time=4e-5)
     law = ContactLaw(model, PLATE)
-    found = moves(law)
+    result = moves(law)
     time, depth, force, restitution = by_scipy(law)
-    assert found.contact_time == pytest.approx(time, rel=1e-7)
-    assert found.restitution == pytest.approx(restitution, rel=1e-8)
+    assert result.contact_time == pytest.approx(time, rel=1e-7)
+    assert result.restitution == pytest.approx(restitution, rel=1e-8)
     # SciPy gives the largest values at its steps only, so they are slightly too small.
-    assert depth <= found.max_indentation == pytest.approx(depth, rel=1e-3)
-    assert force <= found.max_force * (1 + 1e-9)
-    assert found.max_force == pytest.approx(force, rel=1e-3)
+    assert depth <= result.max_indentation == pytest.approx(depth, rel=1e-3)
+    assert force <= result.max_force * (1 + 1e-9)
+    assert result.max_force == pytest.approx(force, rel=1e-3)
 
 
 @settings(max_examples=40)
@@ -183,15 +183,15 @@ def test_energy_balance_closes(
         motion.impact(ContactLaw(model, effects - {"viscosity"}))
     except SceneError:  # beyond the law's range
         return
-    found = moved(ContactLaw(model, effects))
-    assert found.energy_balance is not None
-    assert abs(found.energy_balance.residual) < 1e-12
-    assert found.energy_balance.viscous_loss > 0.0 < found.energy_balance.unrecovered_elastic
-    assert 0.0 < found.restitution < 1.0
-    assert found.restitution**2 == pytest.approx(
-        found.energy_balance.rebound_kinetic / found.energy_balance.initial_kinetic
+    result = moved(ContactLaw(model, effects))
+    assert result.energy_balance is not None
+    assert abs(result.energy_balance.residual) < 1e-12
+    assert result.energy_balance.viscous_loss > 0.0 < result.energy_balance.unrecovered_elastic
+    assert 0.0 < result.restitution < 1.0
+    assert result.restitution**2 == pytest.approx(
+        result.energy_balance.rebound_kinetic / result.energy_balance.initial_kinetic
     )
-    assert found.quadrature < 1e-9
+    assert result.quadrature < 1e-9
 
 
 def test_energy_balance_closes_with_weight_and_non_hertzian_pressure() -> None:
@@ -200,13 +200,13 @@ def test_energy_balance_closes_with_weight_and_non_hertzian_pressure() -> None:
         model,
         PLATE | {"gravity", "non_hertzian_pressure", "spherical_profile", "sphere_elasticity"},
     )
-    found = moves(law)
-    assert found.energy_balance is not None
-    assert found.energy_balance.gravity_work > 0.0
-    assert abs(found.energy_balance.residual) < 1e-12
+    result = moves(law)
+    assert result.energy_balance is not None
+    assert result.energy_balance.gravity_work > 0.0
+    assert abs(result.energy_balance.residual) < 1e-12
     hertz = moves(replace(law, effects=law.effects - {"non_hertzian_pressure"}))
-    assert found.numbers == pytest.approx(hertz.numbers, rel=0.02)
-    assert found.numbers != pytest.approx(hertz.numbers, rel=1e-5)
+    assert result.numbers == pytest.approx(hertz.numbers, rel=0.02)
+    assert result.numbers != pytest.approx(hertz.numbers, rel=1e-5)
 
 
 def test_small_viscosity_tends_to_the_elastic_limit() -> None:
@@ -238,17 +238,17 @@ def test_sphere_that_stays_is_rejected() -> None:
 
 def test_history_agrees_with_the_results() -> None:
     law = ContactLaw(replace(BALL, retardation_time=1e-5), PLATE)
-    found = moves(law)
-    times = np.linspace(0.0, found.contact_time, 4001)
-    depth, speed, radius, force = found.history(law, times)
+    result = moves(law)
+    times = np.linspace(0.0, result.contact_time, 4001)
+    depth, speed, radius, force = result.history(law, times)
     assert (depth[0], speed[0], radius[0], force[0]) == pytest.approx((0, BALL.v0, 0, 0), abs=1e-12)
-    assert speed[-1] == pytest.approx(-found.restitution * BALL.v0, rel=1e-11)
-    assert force[-1] == pytest.approx(0.0, abs=1e-9 * found.max_force)
+    assert speed[-1] == pytest.approx(-result.restitution * BALL.v0, rel=1e-11)
+    assert force[-1] == pytest.approx(0.0, abs=1e-9 * result.max_force)
     assert depth[-1] > 0.0
-    peaks = found.max_indentation, found.max_force, found.max_contact_radius
+    peaks = result.max_indentation, result.max_force, result.max_contact_radius
     assert (depth.max(), force.max(), radius.max()) == pytest.approx(peaks, rel=1e-6)
     # Simpson's rule integrates the speed independently of the time elements.
-    step = found.contact_time / 4000
+    step = result.contact_time / 4000
     travelled = step / 3 * (speed[0] + speed[-1] + 4 * speed[1::2].sum() + 2 * speed[2:-1:2].sum())
     assert travelled == pytest.approx(depth[-1], rel=1e-7)
 
@@ -264,9 +264,9 @@ def test_bounds_of_viscosity_hold_for_hertz() -> None:
     assert viscous_logarithms(EXTREMES._replace(epsilon=1.0)) == (math.inf,) * 5
     calm = moves(ContactLaw(BALL, frozenset({"hertz"}))).numbers
     for x in (1e-4, 0.01, 0.3, 0.9):
-        found = moves(ContactLaw(with_number(x), HERTZ)).numbers
+        actual = moves(ContactLaw(with_number(x), HERTZ)).numbers
         most = viscous_logarithms(EXTREMES._replace(epsilon=0.8**0.4 * x, rise=0.2))
-        changes = [abs(math.log(new / old)) for new, old in zip(found, calm, strict=True)]
+        changes = [abs(math.log(new / old)) for new, old in zip(actual, calm, strict=True)]
         assert all(change <= bound for change, bound in zip(changes, most, strict=True))
         # Each bound is below 10 times the change, except for the force (change of order epsilon^2).
         wide = [bound / change for change, bound in zip(changes, most, strict=True)]
@@ -329,7 +329,7 @@ def test_error_is_within_the_bound_on_both_sides_of_the_threshold(
                 model, frozenset(n for n in ALL if not BY_NAME[n].not_applicable_reason(model))
             )
         )
-        found = moves(selected.law)
-        errors = [abs(x / y - 1) for x, y in zip(found.numbers, whole.numbers, strict=True)]
+        result = moves(selected.law)
+        errors = [abs(x / y - 1) for x, y in zip(result.numbers, whole.numbers, strict=True)]
         assert max(errors) <= selected.error + 1e-11 <= rtol + 1e-11
     assert OUTPUTS[-1] == "restitution"

@@ -133,18 +133,18 @@ def test_computed_motion_conserves_energy(axis: bool, lag: float) -> None:
         return float(y[0] - 0.04)
 
     opened.terminal = True  # type: ignore[attr-defined]
-    found = solve_ivp(
+    solution = solve_ivp(
         balance.rates, (0, 20), start, "DOP853", events=opened, rtol=1e-12, atol=1e-14
     )
-    assert found.t_events[0].size == 1
-    assert found.y[0].max() > 0.7
+    assert solution.t_events[0].size == 1
+    assert solution.y[0].max() > 0.7
     before = balance.energy(start)
-    changes = [balance.energy(y) - before + y[9] for y in found.y.T]
+    changes = [balance.energy(y) - before + y[9] for y in solution.y.T]
     assert np.abs(changes).max() < 1e-10
     if not axis and not lag:
-        assert np.abs(found.y[9]).max() == 0.0
+        assert np.abs(solution.y[9]).max() == 0.0
     else:
-        assert np.abs(found.y[9]).max() > 1e-3
+        assert np.abs(solution.y[9]).max() > 1e-3
 
 
 # --- the variational law

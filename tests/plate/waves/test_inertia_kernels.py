@@ -61,8 +61,8 @@ def test_branches_without_response_to_pressure() -> None:
     np.testing.assert_allclose(frequency[:, 0], math.sqrt(2) * x, rtol=1e-15)
     assert (residue < 1e-25).all()
     for kind, x in ((KINDS[0], math.pi), (KINDS[1], math.pi / 2)):
-        found, _ = branches(x, 0.3, 6, kind)
-        assert np.abs(found / (math.sqrt(2) * x) - 1).min() < 1e-15
+        actual, _ = branches(x, 0.3, 6, kind)
+        assert np.abs(actual / (math.sqrt(2) * x) - 1).min() < 1e-15
 
 
 def test_array_shapes_and_rejected_arguments() -> None:
@@ -117,8 +117,8 @@ def test_cut_off_frequencies_are_thickness_resonances() -> None:
     odd, even = (np.arange(1, 30) - 0.5) * math.pi, np.arange(1, 30) * math.pi
     for kind, shear, other in ((KINDS[0], odd, even), (KINDS[1], even, odd)):
         known = np.sort(np.concatenate((shear, other * pressure)))[:20]
-        found, _ = branches(x, nu, 21, kind)
-        np.testing.assert_allclose(found[1:], known, rtol=1e-15)
+        actual, _ = branches(x, nu, 21, kind)
+        np.testing.assert_allclose(actual[1:], known, rtol=1e-15)
     assert branches(x, nu, 2)[0][1] == pytest.approx(math.pi / 2, rel=1e-15)
 
 

@@ -217,7 +217,8 @@ def _sum(alpha: Double, eta: Double, A: Double) -> Double:
     sums = np.empty_like(thick)
     for some, count in blocks_of_modes(thick, numbers.FADED):
         j, J1 = bessel_j0_zeros(count), bessel_j1_at_j0_zeros(count)
-        kernel = indentation_kernel(width[some, None], j)
-        sums[some] = kernels.back_face_modes(thick[some, None], j, J1, kernel).sum(axis=1)
+        plates, owner = np.unique(thick[some], return_inverse=True)  # equal plates only once
+        modes = kernels.back_face_modes(plates[:, None], j, J1, np.ones(1))
+        sums[some] = (modes[owner] * indentation_kernel(width[some, None], j)).sum(axis=1)
     value[near] = kernels.of_thin_plate(sums, thick, eta[near])
     return value.reshape(shape)

@@ -17,8 +17,8 @@ from derivation.plate.contact.theory.hertz import contact_radius, pressure
 from derivation.plate.contact.theory.split import contact_split
 from derivation.plate.vocabulary import P, R, a, delta, eps, h, lam, mu, r
 
-F, S, slope, rise, radius_ratio, whole = sp.symbols(
-    "F S slope rise radius_ratio whole", positive=True
+F, S, slope, rise, radius_ratio, indentation_ratio = sp.symbols(
+    "F S slope rise radius_ratio indentation_ratio", positive=True
 )
 modulus, first, second, scale, A, inverse_R = sp.symbols(
     "modulus first second scale A inverse_R", positive=True
@@ -133,8 +133,8 @@ def indentation() -> Routine:
     return routine(
         "indentation_of",
         (a, R, F),
-        (Let(whole, 1 + F),),
-        (TIMES(whole, a, 2, R, -1),),
+        (Let(indentation_ratio, 1 + F),),
+        (TIMES(indentation_ratio, a, 2, R, -1),),
         (DEPTH,),
         "Return delta, the indentation, for any lengths.",
         LAW,
@@ -147,8 +147,8 @@ def indentation_in_range() -> Claims:
     """Return delta for lengths whose products neither overflow nor underflow."""
     return Claims(
         (a, inverse_R, F),
-        (Let(whole, 1 + F), Let(flat, inverse_R * a)),
-        (whole * a * flat,),
+        (Let(indentation_ratio, 1 + F), Let(flat, inverse_R * a)),
+        (indentation_ratio * a * flat,),
         (DEPTH,),
         LAW,
         reduce,
@@ -174,8 +174,8 @@ def relative_rise() -> Claims:
     """Return (R/a) d delta/da."""
     return Claims(
         (F, slope),
-        (Let(whole, 1 + F),),
-        (2 * whole + slope,),
+        (Let(indentation_ratio, 1 + F),),
+        (2 * indentation_ratio + slope,),
         (R / a * sp.diff(DEPTH, a),),
         LAW,
         reduce,
@@ -187,7 +187,11 @@ def indentation_slope() -> Routine:
     return routine(
         "slope_of_indentation",
         (a, R, F, slope),
-        (Let(ratio, a / R), Let(whole, 1 + F), Let(rise, 2 * whole + slope)),
+        (
+            Let(ratio, a / R),
+            Let(indentation_ratio, 1 + F),
+            Let(rise, 2 * indentation_ratio + slope),
+        ),
         (ratio * rise,),
         (sp.diff(DEPTH, a),),
         "Return d delta/da.",
@@ -227,7 +231,12 @@ def depth_ratio() -> Claims:
 def depth_ratio_at() -> Claims:
     """Return sqrt(R delta)/h in terms of A and F."""
     return Claims(
-        (A, F), (Let(whole, 1 + F),), (A * sp.sqrt(whole),), (sp.sqrt(R * DEPTH) / h,), LAW, reduce
+        (A, F),
+        (Let(indentation_ratio, 1 + F),),
+        (A * sp.sqrt(indentation_ratio),),
+        (sp.sqrt(R * DEPTH) / h,),
+        LAW,
+        reduce,
     )
 
 
@@ -309,10 +318,10 @@ def newton_step() -> Claims:
     return Claims(
         (radius_ratio, F, slope),
         (
-            Let(whole, 1 + F),
+            Let(indentation_ratio, 1 + F),
             Let(square, radius_ratio**2),
-            Let(residual, (1 / square - whole) / whole),
-            Let(exponent, whole / (2 * whole + slope)),
+            Let(residual, (1 / square - indentation_ratio) / indentation_ratio),
+            Let(exponent, indentation_ratio / (2 * indentation_ratio + slope)),
         ),
         (residual, exponent * residual * (1 + bend)),
         (goal, step.subs({residual: goal, exponent: power})),

@@ -112,8 +112,8 @@ def rates() -> Claims:
     }
     return Claims(
         (F, slope, curve, lift, deeper),
-        (Let(law.whole, 1 + F),),
-        (2 * law.whole + slope, 2 * slope + curve, 2 * lift + deeper),
+        (Let(law.indentation_ratio, 1 + F),),
+        (2 * law.indentation_ratio + slope, 2 * slope + curve, 2 * lift + deeper),
         (rise, a * sp.diff(rise, a), sp.diff(rise, log_eta)),
         meaning,
         sp.simplify,

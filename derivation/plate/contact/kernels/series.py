@@ -108,11 +108,11 @@ def thin_far() -> Routine:
 @named_routine
 def linear_by_log() -> Claims:
     """Return the derivative of c1 by log v."""
-    found = sp.expand(v * sp.diff(thin(2), v))
+    derivative = sp.expand(v * sp.diff(thin(2), v))
     return Claims(
         (v,),
         (),
-        (found,),
+        (derivative,),
         (-eta * sp.diff(thin_coefficient(2).expression, eta),),
         {v: 1 / eta},
         sp.simplify,

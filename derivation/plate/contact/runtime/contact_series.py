@@ -144,11 +144,11 @@ def plates_of(eta: Double) -> Plates:
 
 def _first(eta: Double) -> Double:
     """Return the coefficients of F/A in powers of (A/reach)^2, of shape (terms, plates)."""
-    found = np.full((THIN.size, eta.size), np.nan)
+    table = np.full((THIN.size, eta.size), np.nan)
     for some, coefficients in ((eta >= 1.0 / REACH, _thick), (eta < 1.0 / REACH, _thin)):
         if some.any():
-            found[:, some] = coefficients(eta[some])
-    return found
+            table[:, some] = coefficients(eta[some])
+    return table
 
 
 def _thick(eta: Double) -> Double:

@@ -157,8 +157,8 @@ def impact_sensitivities(
     Examples
     --------
     >>> from generated import impact_sensitivities
-    >>> found = impact_sensitivities(0.01, 0.0327, 2.0, 0.004, 0.15, 22.5e9, 28.7e9)
-    >>> print(found[0].round(3))  # of the contact time: by R, m, v0, h, b, lam, mu
+    >>> sensitivities = impact_sensitivities(0.01, 0.0327, 2.0, 0.004, 0.15, 22.5e9, 28.7e9)
+    >>> print(sensitivities[0].round(3))  # of the contact time: by R, m, v0, h, b, lam, mu
     [-0.015  0.493 -0.015 -1.388  0.924 -0.078 -0.415]
     """
     kind, [R, m, v0, h, b, lam, mu] = as_doubles(R, m, v0, h, b, lam, mu)
@@ -235,12 +235,12 @@ def _inner(laws: tuple[_Law, _Law, _Law], ratio: Double, gap: Double, rises: Dou
     Here q = w (2 - w), w <= 1 - sqrt(gap) and gap = 1 - ratio; `rises` is the work beyond q.
     """
     q, s, left, factor, last = kernels.near_nodes(NODES, ratio[:, None], np.sqrt(gap)[:, None])
-    found = []
+    sums_of_parts = []
     made = kernels.near_terms, kernels.near_slope_terms, kernels.near_slope_terms
     for law, rise, terms in zip(laws, rises, made, strict=True):
         sums = terms(q, s, left, factor, *_near_sums(s, law), rise[:, None])
-        found.append(_Sums(*sums))
-    return _integrals(found, WEIGHTS * last)
+        sums_of_parts.append(_Sums(*sums))
+    return _integrals(sums_of_parts, WEIGHTS * last)
 
 
 def _near_sums(s: Double, law: _Law) -> tuple[Double, Double, Double]:

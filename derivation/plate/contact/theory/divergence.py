@@ -139,13 +139,13 @@ def influence_at_infinity() -> Formula:
     """Return phi_j^3 K_j for j -> oo."""
     cubed = phi**3 * contact_law()[0].expression.subs(J1, sp.sqrt(slope_at_infinity()))
     limit = sp.limit(cubed.rewrite(sp.exp), h, sp.oo)
-    found = tail(phi**3 * contact_law()[0].expression)
-    assert found.leading is not None, "K_j does not oscillate"
+    behaviour = tail(phi**3 * contact_law()[0].expression)
+    assert behaviour.leading is not None, "K_j does not oscillate"
     proof = prove(
         "Influence at infinity",
-        r"With $J_1(j_n)^2 = 2/(\pi j_n) \phi^3 K_j$ depends on $\phi h$ alone, and its limit "
+        r"With $J_1(j_n)^2 \to 2/(\pi j_n)$, $\phi^3 K_j$ depends on $\phi h$ alone, and its limit "
         r"for $\phi h \to \infty$ is the ratio of leading coefficients.",
-        {"limit": limit - found.leading, "exponent": found.exponent},
+        {"limit": limit - behaviour.leading, "exponent": behaviour.exponent},
     )
     return Formula(
         "K_j_limit",

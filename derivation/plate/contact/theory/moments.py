@@ -39,8 +39,8 @@ def gamma_moment() -> Proof:
         "Moments of an exponential",
         "Terms that vanish at infinity, and for m > 0 at 0, are differentiated.",
         {
-            "step": sp.expand(sp.powsimp(sp.diff(step, _y) - integrand)),
-            "start": sp.diff(first, _y) - sp.exp(-_c * _y),
+            "recurrence in m": sp.expand(sp.powsimp(sp.diff(step, _y) - integrand)),
+            "m = 0": sp.diff(first, _y) - sp.exp(-_c * _y),
             "value at 0": first.subs(_y, 0) + 1 / _c,
         },
     )
@@ -232,13 +232,13 @@ def excess_beyond_first() -> Proof:
                 raise ProofError("Rest of the plate factor: d(1) or E(1) is below its bound")
     return prove(
         "Rest of the plate factor",
-        "Over a common denominator; d is differentiated, each factor of d' positive for T >= 1; "
-        "sinh^2 T has no negative power in its series.",
+        "Both sides have a common denominator. Each factor of d' is positive for T >= 1; the "
+        "series of sinh^2 T has no negative coefficient.",
         {
-            "rest": plate_factors()[2].expression - 4 * E * first - rest,
+            "decomposition": plate_factors()[2].expression - 4 * E * first - rest,
             "d": d - 4 * E * (sp.sinh(T) ** 2 - T**2),
-            "slope": sp.diff(d, T) - 4 * E * ((1 - E) + 2 * T * (T - 1)),
-            "start": series - T**4 / 3,
+            "derivative of d": sp.diff(d, T) - 4 * E * ((1 - E) + 2 * T * (T - 1)),
+            "leading term": series - T**4 / 3,
         },
     )
 

@@ -46,13 +46,13 @@ def flat_punch() -> Proof:
     beside = sp.diff(sp.asin(_c / r), _c) - 1 / sp.sqrt(r**2 - _c**2)
     return prove(
         "Flat punch",
-        "The transform's power series; the half-space's limit of the influence coefficient; "
-        "Laplace' transform of J0 on the imaginary axis, integrated from c = 0.",
+        "The power series of the transform; the limit of the influence coefficient for a "
+        "half-space; the Laplace transform of J0 on the imaginary axis, integrated from c = 0.",
         {
             "transform": sp.combsimp(sp.gammasimp(bessel * moment / sine)) - 1,
             "half-space": half_space * phi * PLANE_STRAIN_MODULUS - 2,
             "Laplace": transform - 1 / sp.sqrt(_s**2 + r**2),
-            "beside the punch": beside.subs(r, sp.sqrt(_c**2 + _x**2)),
+            "outside the punch": beside.subs(r, sp.sqrt(_c**2 + _x**2)),
             "at its edge": sp.asin(1) - sp.pi / 2,
         },
     )
@@ -137,7 +137,7 @@ def growth() -> Proof:
     term = 1 / (2 * order + 1) + 1 / (2 * order - 1)
     return prove(
         "Slope of the sphere's law",
-        "d delta/d a_H = (4 E* a_H^2/R)/(2 E* a); P expanded in a/R has the coefficients "
+        "d delta/d a_H = (4 E* a_H^2/R)/(2 E* a). P expanded in a/R has the coefficients "
         "4n/(4n^2 - 1) > 0, so a_H/a grows with a, and with a_H.",
         {
             "slope": (R / (2 * radius) * sp.diff(depth, a) / sp.diff(radius, a)) - radius / a,

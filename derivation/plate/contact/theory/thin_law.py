@@ -40,7 +40,7 @@ def universal_part() -> Formula:
     kernel = (sine_kernel(_y) - low).subs(_y, y)
     series = sp.series(sine_kernel(_y), _y, 0, 2 * LAST - 3).removeO()
     residuals = {
-        "start": series.coeff(_y, 0) + series.coeff(_y, 2) * _y**2 - low,
+        "first two terms": series.coeff(_y, 0) + series.coeff(_y, 2) * _y**2 - low,
     }
     for k in range(4, LAST + 1):
         term = 2 * a_ratio / sp.pi * series.coeff(_y, 2 * k - 4) * (y / T) ** (2 * k - 4) * M[k]
@@ -49,9 +49,9 @@ def universal_part() -> Formula:
     residuals["mean of cosines"] = sp.expand(mean - sine_kernel(_y))
     proof = prove(
         "Thin plate's universal part",
-        r"The terms of $M_k$, $k \ge 4$, are those of $s(y)/y^3$ beyond its first two; "
-        "$s(y)/y^3$ is a mean of cosines, so that the error of each truncation of its series is "
-        "below the next term.",
+        r"The terms of $M_k$, $k \ge 4$, are those of the series of $s(y)/y^3$ after its first "
+        r"two. $s(y)/y^3$ is a mean of cosines, so each truncation error of its series is smaller "
+        r"than the next term.",
         residuals,
     )
     factor = 2 * a_ratio / sp.pi * kernel

@@ -174,11 +174,11 @@ def thin_coefficient(k: int) -> Formula:
     proof = prove(
         f"Thin plate's c_{order}",
         "The coefficients are residues of a Mellin integral. The pole of $G - 1$ at $s = 0$ "
-        "cancels the finite radius; beyond $k = 3$ only the finite part $M_k$ remains.",
+        "cancels the finite-radius term; for $k > 3$ only the finite part $M_k$ remains.",
         {
-            "kappa": total.coeff(kappa[2 * k - 4]),
+            "kappa cancels": total.coeff(kappa[2 * k - 4]),
             "finite part": leading - size * 8 / sp.pi / 2 ** (2 * k - 2),
-            "rest": rest if k > 3 else _low_rest(k, size) - rest,
+            "remaining terms": rest if k > 3 else _low_rest(k, size) - rest,
         },
     )
     return Formula(

@@ -72,8 +72,8 @@ def residue_at_roots() -> Proof:
     slope = at_root(sp.diff(below, T))
     return prove(
         "Residue of G at a root",
-        "G's numerator over its denominator's slope, both at T = sinh u; the slope vanishes for "
-        "cosh u = 1 alone, so the pole is simple.",
+        "G's numerator divided by its denominator's derivative, both at T = sinh u; the derivative "
+        "vanishes for cosh u = 1 only, so the pole is simple.",
         {
             "quotient": plate_factors()[0].expression * below - above,
             "two families": split - 2 * plate_factors()[0].expression,
@@ -122,7 +122,7 @@ def imaginary_part() -> Proof:
     return prove(
         "Plate factor on the imaginary axis",
         "G is odd, so its two values cancel for w = 0.",
-        {"odd": G.subs(T, -T) + G, "sum": sp.expand(both + 2 * cosine + 2 * g * sine)},
+        {"G is odd": G.subs(T, -T) + G, "sum": sp.expand(both + 2 * cosine + 2 * g * sine)},
     )
 
 
@@ -168,7 +168,7 @@ def _residue_factor(weight: sp.Expr) -> sp.Expr:
 def coefficient_remainder(k: int) -> Formula:
     """Return c_(2k-3) minus its closed form: a sum over the roots, exact for every h/b."""
     residue_at_roots()
-    order, size, found = 2 * k - 3, sine_coefficient(k), axes(k)
+    order, size, remainder = 2 * k - 3, sine_coefficient(k), axes(k)
     factor = size * sp.Integer(2) ** (5 - 2 * k)
     mode = eta**order * size * 8 / sp.pi
     one = mode * _residue_factor((T / (2 * eta)) ** (2 * k - 4))
@@ -178,10 +178,10 @@ def coefficient_remainder(k: int) -> Formula:
         r"The contour integral is taken over $z^{2k-4} (G - 1)$: the axes give the closed form, "
         r"the poles inside give $\pi$ times the imaginary part of their residues.",
         {
-            "modes": modes,
-            "pole": found[-1],
-            "axes": sp.expand(found[0] - thin_modal_sum(k)),
-            "residue": one - factor * T ** (2 * k - 6) * (1 + sp.sqrt(1 + T**2)) ** 2,
+            "term of a mode": modes,
+            "1/w cancels": remainder[-1],
+            "closed form on the axes": sp.expand(remainder[0] - thin_modal_sum(k)),
+            "residue at a root": one - factor * T ** (2 * k - 6) * (1 + sp.sqrt(1 + T**2)) ** 2,
         },
     )
     return Formula(
@@ -228,10 +228,13 @@ def law_remainder() -> Formula:
         r"and $c_3$. The real axis gives $\Phi$, the imaginary one cancels the finite radius, "
         r"and the poles inside give the sum.",
         {
-            "modes": modes - mode * sine_kernel(alpha * j_n) * _mode_factor(0),
-            "finite radius": sp.expand((on_axis + lateral.function / LATERAL).rewrite(sp.exp)),
-            "Phi": real.subs(alpha, eta * a_ratio) - 2 * a_ratio / sp.pi * sine_kernel(y),
-            "residue": mode.subs(alpha, eta * a_ratio) * _residue_factor(sine_kernel(y))
+            "term of a mode": modes - mode * sine_kernel(alpha * j_n) * _mode_factor(0),
+            "imaginary axis cancels the finite radius": sp.expand(
+                (on_axis + lateral.function / LATERAL).rewrite(sp.exp)
+            ),
+            "real axis gives Phi": real.subs(alpha, eta * a_ratio)
+            - 2 * a_ratio / sp.pi * sine_kernel(y),
+            "residue at a root": mode.subs(alpha, eta * a_ratio) * _residue_factor(sine_kernel(y))
             - 16 / a_ratio**2 * _law_weight(T) * (1 + sp.sqrt(1 + T**2)) ** 2,
         },
     )

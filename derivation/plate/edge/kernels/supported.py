@@ -52,12 +52,12 @@ KERNELS = {"indentation": indentation_kernel, "slope": slope_kernel}
 
 def in_ratio(expression: sp.Expr) -> sp.Expr:
     """Return the expression in n, without building blocks, guards and common scales."""
-    found = substitute_steps(expression, (), blocks()).replace(
+    written = substitute_steps(expression, (), blocks()).replace(
         lambda e: isinstance(e, sp.Max) and SMALLEST in e.args,
         lambda e: sp.Mul(*(part for part in e.args if part != SMALLEST)),
     )
     scaled = {lam + 2 * mu: _size, 3 * lam + 2 * mu: _size * (1 + 2 * n)}
-    reduced: sp.Expr = found.xreplace(scaled).subs(lam, n * _size)
+    reduced: sp.Expr = written.xreplace(scaled).subs(lam, n * _size)
     return reduced
 
 

@@ -153,8 +153,8 @@ def amplitudes() -> Proof:
         "times it in first order; the state's deflection at the centre.",
         {
             "Hertz": mean - HERTZ_MEAN,
-            "depth": (deep - (b**2 - r**2) / 2 + lost * b**2 / 2).subs(plate),
-            "turn": clamped + start * (1 + _chi * eta) / (1 - _chi * eta),
+            "central deflection": (deep - (b**2 - r**2) / 2 + lost * b**2 / 2).subs(plate),
+            "rotation": clamped + start * (1 + _chi * eta) / (1 - _chi * eta),
             "first power": sp.diff(clamped, _chi).subs(_chi, 0) + 2 * eta * start,
             "mean of w": lost.subs(_G, sp.Rational(1, 6)) - 4 * RATIO * eta**2 / 3,
             "bending": (scale * rotation * deep.subs(r, 0)).subs(plate)
@@ -205,7 +205,7 @@ def clamp_law() -> tuple[Formula, Formula]:
     proof = prove(
         "Reduction of the indentation by a clamped edge",
         r"The reduction is the sum of bending, rotation of the edge, shear and extension; "
-        r"$\alpha^2 X_c$ is differentiated by $\alpha$.",
+        r"$\alpha^2 X_c$ is differentiated with respect to $\alpha$.",
         {"slope": sp.diff(alpha**2 * symbolic, alpha) / (2 * alpha) - steep},
     )
     sources = ("clamp_rotation", "clamp_deflection", "P")
@@ -243,7 +243,7 @@ def clamp_bound() -> Formula:
     floor = 1 - beta - 3 * (2 - beta) ** 2 / 28
     proof = prove(
         "Bound of the slope's reduction by a clamped edge",
-        r"The bracket of the slope is linear in $\alpha^2$; squares are completed. For $-1/2 < n "
+        r"The bracket in the slope is linear in $\alpha^2$; squares are completed. For $-1/2 < n "
         r"< 1$, $1000/G$ is above 7000 and $1000 n^2/\chi$ above 5000, so that $0 < 1 - 2 G < "
         r"1$ and $\chi \ge 0$.",
         {

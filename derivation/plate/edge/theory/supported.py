@@ -88,7 +88,7 @@ def _through(expression: sp.Expr) -> sp.Expr:
 @cache
 def states() -> tuple[PlateState, PlateState]:
     """Return extension and bending for e = k = 1, proved to balance and to leave the faces free."""
-    found = []
+    pair = []
     for name, u, w in (
         ("Stretching", r, -2 * RATIO * z),
         ("Bending", r * z, (b**2 - r**2) / 2 - RATIO * z**2),
@@ -105,13 +105,13 @@ def states() -> tuple[PlateState, PlateState]:
                 "axial balance": axial,
                 "pressure": stress.zz,
                 "shear": stress.rz,
-                "rim": w.subs({r: b, z: 0}),
+                "edge": w.subs({r: b, z: 0}),
                 "force": force - (2 * h * stiff if name == "Stretching" else 0),
                 "moment": moment - (0 if name == "Stretching" else 2 * h**3 / 3 * stiff),
             },
         )
-        found.append(PlateState(u, w, sp.factor(force), sp.factor(moment)))
-    stretching, bending = found
+        pair.append(PlateState(u, w, sp.factor(force), sp.factor(moment)))
+    stretching, bending = pair
     return stretching, bending
 
 
@@ -220,7 +220,7 @@ def edge_law() -> tuple[Formula, Formula]:
     proof = prove(
         "Change of the indentation by the edge",
         r"The deflection $w$ of both states at the contact face, centre minus edge, is written "
-        r"in $a/b$ and $h/b$; $\alpha^2 X$ is differentiated by $\alpha$.",
+        r"in $a/b$ and $h/b$; $\alpha^2 X$ is differentiated with respect to $\alpha$.",
         {
             "indentation": -depth.subs(reduced) * scale - reduction,
             "slope": sp.diff(alpha**2 * reduction, alpha) / (2 * alpha) - slope,

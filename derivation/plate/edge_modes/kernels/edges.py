@@ -161,14 +161,14 @@ def _lowest_power() -> sp.Expr:
             for m in range(order)
         )))  # fmt: skip
 
-    found = in_xi((theory.TURN - theory.SUPPORTED * theory.BEND) / k_n**2)
+    equation = in_xi((theory.TURN - theory.SUPPORTED * theory.BEND) / k_n**2)
     for of in (sp.besselj, sp.besseli):
-        found = found.replace(of, lambda n, z, of=of: bessel(of, int(n))(z))
+        equation = equation.replace(of, lambda n, z, of=of: bessel(of, int(n))(z))
     small = {nu: (goal - 1) / (goal + 1), xi: k_n**2 * eta**2 / (3 * ROTARY)}
     for s in (xi, nu):
-        found = found.subs(s, small[s])
-    found = sp.cancel(sp.together(found).subs(goal, goal * size**4).subs(k_n, size))
-    (value,) = sp.solve(sp.series(found, size, 0, order).removeO().coeff(size, 4), goal)
+        equation = equation.subs(s, small[s])
+    equation = sp.cancel(sp.together(equation).subs(goal, goal * size**4).subs(k_n, size))
+    (value,) = sp.solve(sp.series(equation, size, 0, order).removeO().coeff(size, 4), goal)
     return sp.solve(value * u - goal, u)[0]
 
 

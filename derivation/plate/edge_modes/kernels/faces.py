@@ -16,8 +16,8 @@ from derivation.plate.vocabulary import alpha, k_n
 START, SMALL = sp.symbols("START SMALL", positive=True)
 y, z, r = sp.symbols("y z r", positive=True)
 mean, less, scaled, near, far = sp.symbols("mean less scaled near far", real=True)
-whole, series, series_2, plain, scaled_there = sp.symbols(
-    "whole series series_2 plain scaled_there", real=True
+scaled_amplitude, series, series_2, plain, scaled_there = sp.symbols(
+    "scaled_amplitude series series_2 plain scaled_there", real=True
 )
 inverse, logarithm, above, scale = sp.symbols("inverse logarithm above scale", real=True)
 FADED = sp.besseli(0, y) * sp.exp(-y)
@@ -106,14 +106,17 @@ def on_face(punch: bool) -> Routine:
         Let(z, r * k_2),
         Several((j0,), "bessel_j0", (k,), (theory.J0,)),
         Several((scaled,), "faded", (k_2,), (theory.I0 * sp.exp(-k_2),)),
-        Let(whole, j0 / scaled, "c e^k2"),
+        Let(scaled_amplitude, j0 / scaled, "c e^k2"),
         *_less_one(series, y, parts.first, parts.series, -1),
         *_less_one(series_2, z, parts.second, parts.series, 1),
         *parts.calls,
         Choice(near, y < SMALL, -(y**2) * series, parts.plain - 1, safe_no=parts.safe),
         Several((scaled_there,), parts.scaled, (z,), (parts.second * sp.exp(-k_2 * alpha),)),
         Choice(
-            far, z < SMALL, c * (z**2 * series_2), whole * scaled_there * sp.exp(z - k_2) - c
+            far,
+            z < SMALL,
+            c * (z**2 * series_2),
+            scaled_amplitude * scaled_there * sp.exp(z - k_2) - c,
         ),
     )  # fmt: skip
     return routine(

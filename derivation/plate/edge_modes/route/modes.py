@@ -73,11 +73,11 @@ def _determinant(edge: str, k: mpf, nu: mpf) -> mpf:
 
 
 def _interval(edge: str, n: int, nu: mpf) -> tuple[mpf, mpf]:
-    k, before, found = mpf(0), _determinant(edge, mpf(0), nu), 0
+    k, before, roots = mpf(0), _determinant(edge, mpf(0), nu), 0
     while k < 4 * (n + 1):
         value = _determinant(edge, k + STEP, nu)
-        found += (value > 0) != (before > 0)
-        if found == n:
+        roots += (value > 0) != (before > 0)
+        if roots == n:
             return k, k + STEP
         k, before = k + STEP, value
     raise RouteError(f"fewer than {n} modes up to k = {mp.nstr(k, 5)}")

@@ -312,8 +312,10 @@ def _below_cutoff(count: int, eta: Double, nu: Double, beta: Double) -> Waves:
     # The last interval may end at the cut-off and then contain no root.
     last = np.minimum(high, top)
     there = (low < top) & ((high <= top) | (sign * _residual(last, eta, nu, beta)[1] > 0.0))
-    found = np.count_nonzero(np.logical_and.accumulate(there))
-    return _solved(low[:found], last[:found], high[:found], sign[:found], eta, nu, beta)
+    count_there = np.count_nonzero(np.logical_and.accumulate(there))
+    return _solved(
+        low[:count_there], last[:count_there], high[:count_there], sign[:count_there], eta, nu, beta
+    )
 
 
 def _residual(k: Double, eta: Double, nu: Double, beta: Double) -> tuple[Double, ...]:

@@ -159,8 +159,8 @@ def waves() -> tuple[Formula, ...]:
             "force": lower_bessel(force.doit()).subs(by_partner),
             "moment": lower_bessel((moment - left_over).doit()).subs(by_partner),
             "partner": sp.cancel((other * k_2**2 + number * k_n**2).subs(by_partner)),
-            "k2": sp.cancel((partner - k_2**2).subs(by_partner)),
-            "g2": sp.cancel((g_2.subs(of_kap) - stated).subs(by_partner)),
+            "k_2": sp.cancel((partner - k_2**2).subs(by_partner)),
+            "g_2": sp.cancel((g_2.subs(of_kap) - stated).subs(by_partner)),
             "sum": sp.expand(left() - u_1() - u_2() + 1),
         },
     )

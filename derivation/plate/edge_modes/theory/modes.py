@@ -158,14 +158,14 @@ def norm() -> Formula:
     slope = 2 * k_n / (1 - nu) - I1 / I0
     proof = prove(
         "Norm of a plate mode",
-        "$w^2 r$ has a primitive. The derivative of $(J_1/J_0 + I_1/I_0)/k$ by $k$ is $2 N/(k "
-        "J_0^2)$, and its value is 1 at $k = 0$. The frequency equations eliminate $J_1$ from "
-        "$N$.",
+        "$w^2 r$ has a primitive. The derivative of $(J_1/J_0 + I_1/I_0)/k$ with respect to $k$ is "
+        "$2 N/(k J_0^2)$, and its value is 1 at $k = 0$. The frequency equations eliminate $J_1$ "
+        "from $N$.",
         {
             "primitive": lower_bessel(sp.diff(primitive, _r)) - _r * SHAPE**2,
-            "closed": primitive.subs({_r: 1, _c: PART}) - NORM,
-            "growth": lower_bessel(growth) - NORM,
-            "start": start - 1,
+            "closed form": primitive.subs({_r: 1, _c: PART}) - NORM,
+            "derivative": lower_bessel(growth) - NORM,
+            "value at k = 0": start - 1,
             "clamped": NORM.subs(J1, -J0 * I1 / I0) - J0**2,
             "supported": NORM.subs(J1, J0 * slope)
             - J0**2 / 2 * (slope**2 - (I1 / I0) ** 2 + 2 - 4 / (1 - nu)),

@@ -158,10 +158,11 @@ def edges() -> tuple[Formula, ...]:
             "deflection": DEFLECTION.subs({_r: 1, c: PART}),
             "rotation": psi.subs(_r, 1) - J0 * TURN,
             "slope": slope - J0 * (BEND - TURN),
-            "bend": sp.expand((BEND - k_n**2 - k_2**2).subs(known)),
+            "curvature": sp.expand((BEND - k_n**2 - k_2**2).subs(known)),
             "supported": moment / (1 - nu) + turn - SUPPORTED * bend,
             "clamped": free - (1 + CLAMP * eta) * (turn - CLAMPED * bend),
-            "growth": sp.diff(ratio / (1 + (1 - nu) * ratio), turn) - sp.diff(turn / bend, turn),
+            "derivative": sp.diff(ratio / (1 + (1 - nu) * ratio), turn)
+            - sp.diff(turn / bend, turn),
             "thin support": _thin(TURN - SUPPORTED * BEND)
             - k_n * thin.frequency_equations()[2].expression,
             "thin clamp": _thin(TURN - CLAMPED * BEND)
@@ -217,7 +218,7 @@ def norm() -> Formula:
             "deflection": lower_bessel(sp.diff(deflected, _r)) - _r * DEFLECTION**2,
             "rotation": lower_bessel(sp.diff(turned, _r)) - _r * psi**2,
             "axis": sp.expand(deflected + turned).subs(_r, 0),
-            "closed": (deflected + eta**2 / 3 * turned).subs(_r, 1) - NORM,
+            "closed form": (deflected + eta**2 / 3 * turned).subs(_r, 1) - NORM,
             "thin": _thin(NORM.subs(c, PART)) - thin.NORM,
         },
     )
@@ -351,7 +352,7 @@ def at_rest() -> tuple[Formula, Formula]:
             "supported": sp.cancel(supported - SUPPORTED_REST),
             "clamped": sp.cancel(clamped - CLAMPED_REST * (1 + chi * eta) / (1 - chi * eta)),
             "first order of chi": sp.expand(first - CLAMPED_REST * (1 + 2 * chi * eta)),
-            "lift": lift - 1 + 4 * BULGE * eta**2 / 3,
+            "face minus mean": lift - 1 + 4 * BULGE * eta**2 / 3,
         },
     )
     rows = (

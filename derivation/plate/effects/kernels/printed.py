@@ -39,7 +39,7 @@ ARC = (sp.atanh(a_over_R) - a_over_R) / a_over_R**3
 
 def sphere() -> Routine:
     """Return force, indentation and slope of a sphere over those of Hertz's paraboloid."""
-    arc, series, depth, whole = sp.symbols("arc series depth whole", positive=True)
+    arc, series, depth, scaled_force = sp.symbols("arc series depth scaled_force", positive=True)
     far, steep = sp.symbols("far steep", positive=True)
     delta, force = (formula.expression for formula in spherical_contact())
     hertz = sp.Rational(4, 3) * PLANE_STRAIN_MODULUS * a**3 / R
@@ -55,10 +55,10 @@ def sphere() -> Routine:
             Choice(arc, sp.Lt(square, near), series, (sp.atanh(far) - far) / cube),
             Let(depth, 1 + square * arc),
             Let(steep, depth + 1 / ((1 - a_over_R) * (1 + a_over_R)), within=True),
-            Let(whole, 1 + (1 + square) * arc, within=True),
+            Let(scaled_force, 1 + (1 + square) * arc, within=True),
         ),
         (
-            sp.Float(0.75) * whole,
+            sp.Float(0.75) * scaled_force,
             depth,
             steep / 2,
         ),

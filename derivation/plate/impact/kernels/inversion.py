@@ -19,7 +19,7 @@ from derivation.plate.contact.theory.split import contact_split
 from derivation.plate.vocabulary import R, a, a_ratio, delta, h, mu
 
 n, radius, modulus, bracket, circle = sp.symbols("n radius modulus bracket circle", positive=True)
-F, whole = sp.symbols("F whole", complex=True)
+F, indentation_ratio = sp.symbols("F indentation_ratio", complex=True)
 MODULUS = contact_radius().expression * R / a**3 / mu
 """(4/3) E* over mu."""
 
@@ -62,8 +62,8 @@ def size_of_eps() -> Claims:
     depth = contact_split()[0].expression.subs(a, a_ratio * h) * (1 + F)
     return Claims(
         (circle, F),
-        (Let(whole, 1 + F),),
-        (circle * sp.sqrt(sp.Abs(whole)),),
+        (Let(indentation_ratio, 1 + F),),
+        (circle * sp.sqrt(sp.Abs(indentation_ratio)),),
         (sp.sqrt(sp.Abs(R * depth)) / h,),
         {circle: a_ratio},
     )

@@ -25,10 +25,12 @@ from derivation.plate.vocabulary import a, u_t
 q, s, A, A_h, near, radius_ratio, ratio = sp.symbols(
     "q s A A_h near radius_ratio ratio", positive=True
 )
-lift, slope, quotient, whole, energy, rate = sp.symbols(
-    "lift slope quotient whole energy rate", positive=True
+lift, slope, quotient, peak_ratio, energy, rate = sp.symbols(
+    "lift slope quotient peak_ratio energy rate", positive=True
 )
-F, extra, by_first, square, inner = sp.symbols("F extra by_first square inner", positive=True)
+F, extra, by_first, square, inner, relative_work = sp.symbols(
+    "F extra by_first square inner relative_work", positive=True
+)
 added, goal, known, mean, left, short, rise = sp.symbols(
     "added goal known mean left short rise", positive=True
 )
@@ -63,7 +65,7 @@ SHAPE: Facts = {
     lift: lifted(q),
     slope: sloped(q),
     quotient: _left(q),
-    whole: lifted(sp.Integer(1)),
+    peak_ratio: lifted(sp.Integer(1)),
     energy: WHOLE,
 }
 """Quantities in the code at one point of an impact."""
@@ -73,9 +75,9 @@ SHAPE: Facts = {
 def shapes() -> Claims:
     """Return (1 + F)/(1 + F_m), d(delta/delta_m)/dq and (1 - E/E_m)/(1 - q)."""
     return Claims(
-        (q, lift, slope, quotient, whole, energy),
+        (q, lift, slope, quotient, peak_ratio, energy),
         (),
-        (lift / whole, q * (2 * lift + slope) / whole, quotient / energy),
+        (lift / peak_ratio, q * (2 * lift + slope) / peak_ratio, quotient / energy),
         (
             lifted(q) / lifted(sp.Integer(1)),
             sp.diff(q**2 * lifted(q), q) / lifted(sp.Integer(1)),
@@ -169,10 +171,10 @@ def deeper_step() -> Claims:
     return Claims(
         (radius_ratio, extra, slope),
         (
-            Let(whole, extra + sp.Rational(2, 5)),
+            Let(relative_work, extra + sp.Rational(2, 5)),
             Let(square, radius_ratio**2),
-            Let(residual, 2 / (5 * (square * (square * radius_ratio))) / whole - 1),
-            Let(exponent, whole / (5 * whole + slope)),
+            Let(residual, 2 / (5 * (square * (square * radius_ratio))) / relative_work - 1),
+            Let(exponent, relative_work / (5 * relative_work + slope)),
             Let(inner, residual * (exponent - 1) / 2),
         ),
         (residual, exponent * residual * (1 + inner)),

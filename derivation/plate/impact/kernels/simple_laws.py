@@ -193,13 +193,17 @@ def steepness() -> Claims:
 @named_routine
 def leading_bounds() -> Claims:
     """Return changes over S_1 at A, by an error of c_1 and by K_3 A^3; and d log S_1/d log A."""
-    whole = sp.Symbol("whole", positive=True)
+    slope_ratio = sp.Symbol("slope_ratio", positive=True)
     law = most(bend, A)
     meaning: Facts = {steep: law - 1}
     return Claims(
         (bend_error, rest, steep, A),
-        (Let(whole, 1 + steep),),
-        (3 * bend_error * A / (2 * whole), rest * A**2 * (A / whole), steep / whole),
+        (Let(slope_ratio, 1 + steep),),
+        (
+            3 * bend_error * A / (2 * slope_ratio),
+            rest * A**2 * (A / slope_ratio),
+            steep / slope_ratio,
+        ),
         (most(bend + bend_error, A) / law - 1, rest * A**3 / law, A * sp.diff(law, A) / law),
         meaning,
     )
@@ -285,9 +289,9 @@ def peaks() -> Claims:
 @named_routine
 def elasticities() -> Claims:
     """Return logarithmic derivatives of work, indentation and time by the largest radius."""
-    found = exponents(fall, rise)
+    powers = exponents(fall, rise)
     return Claims(
-        (fall, rise), (), tuple(found.values()), tuple(exponents(fall, rise).values()), {}
+        (fall, rise), (), tuple(powers.values()), tuple(exponents(fall, rise).values()), {}
     )
 
 

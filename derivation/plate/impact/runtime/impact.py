@@ -145,8 +145,8 @@ def impact(
     Examples
     --------
     >>> from generated.impact import impact
-    >>> found = impact(0.01, 0.0327, 2.0, 0.004, 0.15, 22.5e9, 28.7e9)
-    >>> print(f"{found.contact_time:.6g} s, {found.max_force:.6g} N")
+    >>> result = impact(0.01, 0.0327, 2.0, 0.004, 0.15, 22.5e9, 28.7e9)
+    >>> print(f"{result.contact_time:.6g} s, {result.max_force:.6g} N")
     0.000318047 s, 653.198 N
     """
     kind, given = as_doubles(R, m, v0, h, b, lam, mu)
@@ -207,8 +207,8 @@ def history(
     Examples
     --------
     >>> from generated.impact import history
-    >>> found = history([1e-4, 2e-4], 0.01, 0.0327, 2.0, 0.004, 0.15, 22.5e9, 28.7e9)
-    >>> print(found.force.round(3))
+    >>> motion = history([1e-4, 2e-4], 0.01, 0.0327, 2.0, 0.004, 0.15, 22.5e9, 28.7e9)
+    >>> print(motion.force.round(3))
     [541.95  598.708]
     """
     kind, [t, R, m, v0, h, b, lam, mu] = as_doubles(t, R, m, v0, h, b, lam, mu)

@@ -63,8 +63,8 @@ def shapes(w: Double, scenes: Scenes, pick: slice | np.ndarray) -> tuple[Double,
     far = np.flatnonzero(slot >= 0)
     if far.size:
         near = scenes.terms[:, pick][:, far], scenes.tails[:, pick][:, far]
-        found = _far_shapes(w[far], near, scenes.A[pick][far], scenes.beyond, slot[far])
-        lift[far], slope[far], quotient[far] = found
+        far_shapes = _far_shapes(w[far], near, scenes.A[pick][far], scenes.beyond, slot[far])
+        lift[far], slope[far], quotient[far] = far_shapes
     whole, energy = scenes.lift[pick, None], scenes.energy[pick, None]
     return kernels.shapes(q, lift, slope, quotient, whole, energy)
 

@@ -136,8 +136,8 @@ def hertz(
     Examples
     --------
     >>> from generated.simple_impact import hertz
-    >>> found = hertz(0.01, 0.0327, 0.01, 0.4, 4.0, 22.5e9, 28.7e9)
-    >>> print(f"{found.max_force:.6g} N, relative error at most {found.law:.1e}")
+    >>> result = hertz(0.01, 0.0327, 0.01, 0.4, 4.0, 22.5e9, 28.7e9)
+    >>> print(f"{result.max_force:.6g} N, relative error at most {result.law:.1e}")
     5.80118 N, relative error at most 2.9e-03
     """
     scene = _scene(R, m, v0, h, b, lam, mu)
@@ -161,8 +161,8 @@ def leading(
     Examples
     --------
     >>> from generated.simple_impact import leading
-    >>> found = leading(0.01, 0.0327, 0.01, 0.4, 4.0, 22.5e9, 28.7e9)
-    >>> print(f"{found.max_force:.6g} N, relative error at most {found.law:.1e}")
+    >>> result = leading(0.01, 0.0327, 0.01, 0.4, 4.0, 22.5e9, 28.7e9)
+    >>> print(f"{result.max_force:.6g} N, relative error at most {result.law:.1e}")
     5.7938 N, relative error at most 2.4e-12
     """
     scene = _scene(R, m, v0, h, b, lam, mu)

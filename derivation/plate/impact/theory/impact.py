@@ -44,7 +44,7 @@ def motion() -> tuple[Formula, Formula]:
         r"$\delta'^2$ is differentiated along the motion and equals $v_0^2$ at $\delta = 0$.",
         {
             "along the motion": sp.diff(squared, delta) - 2 * acceleration,
-            "start": squared.subs(delta, 0) - v0**2,
+            "at contact": squared.subs(delta, 0) - v0**2,
         }
         | {
             f"term {i}": squared.coeff(xi_k[i])
@@ -225,9 +225,9 @@ def linear_motion() -> Formula:
         "Linear motion",
         r"It solves $m \delta'' + \xi_2 \delta = 0$ with $\delta(0) = 0$ and $\delta'(0) = v_0$.",
         {
-            "equation": m * sp.diff(value, t, 2) + xi_k[2] * value,
-            "place": value.subs(t, 0),
-            "velocity": sp.diff(value, t).subs(t, 0) - v0,
+            "equation of motion": m * sp.diff(value, t, 2) + xi_k[2] * value,
+            "initial position": value.subs(t, 0),
+            "initial velocity": sp.diff(value, t).subs(t, 0) - v0,
         },
     )
     return Formula(
@@ -319,7 +319,8 @@ def linearisation_about_hertz() -> tuple[Formula, Formula]:
     proof = prove(
         "Linearisation about Hertz's motion",
         "Both velocities are the roots of squares that are written out here. $F$ is minus the "
-        "derivative of the perturbed velocity by the indentation, $G$ the difference of both.",
+        "derivative of the perturbed velocity with respect to the indentation, $G$ is their "
+        "difference.",
         {"F": F + sp.diff(V, delta_0), "G": G - V_0 + V},
     )
     sources = ("P_half", "p_1", "speed")

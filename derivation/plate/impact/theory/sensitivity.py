@@ -116,8 +116,8 @@ def law_slopes() -> tuple[Formula, ...]:
     side = -4 / sp.pi**2 * sp.sinh(alpha * _y) / _y
     proof = prove(
         "Slopes of the contact law",
-        r"The series is differentiated by $a$. The split is multiplied by $\alpha^2$ and "
-        r"differentiated by $\alpha$ and, at fixed $\alpha$, by $\log(h/b)$.",
+        r"The series is differentiated with respect to $a$. The split is multiplied by $\alpha^2$ "
+        r"and differentiated with respect to $\alpha$, and at fixed $\alpha$ to $\log(h/b)$.",
         {
             "series": sp.diff(delta, a) - slope,
             "mode": sp.diff(alpha**2 * mode.expression, alpha) / (2 * alpha) - sinc,
@@ -133,7 +133,8 @@ def law_slopes() -> tuple[Formula, ...]:
         Formula(
             "delta_slope",
             r"\mathrm{d}\delta/\mathrm{d}a",
-            "derivative of the indentation by the contact radius, for $a < 4 h$ and $a < b$",
+            "derivative of the indentation with respect to the contact radius, for $a < 4 h$ and "
+            "$a < b$",
             slope,
             "1",
             "6",
@@ -154,7 +155,7 @@ def law_slopes() -> tuple[Formula, ...]:
         Formula(
             "F_thickness",
             r"h\,\partial F/\partial h",
-            r"derivative of $\delta R/a^2$ by $\log h$ at fixed $a$ and $b$",
+            r"derivative of $\delta R/a^2$ with respect to $\log h$ at fixed $a$ and $b$",
             deeper,
             "1",
             "6",
@@ -232,16 +233,17 @@ def modulus_slope() -> Formula:
     value = lam * mu / ((lam + mu) * (lam + 2 * mu))
     proof = prove(
         "Slopes of the modulus",
-        "The logarithm of $E^*$ is differentiated; $E^*$ is homogeneous of degree 1.",
+        "The logarithm of $E^*$ is differentiated; $E^*$ is homogeneous of degree 1 in both "
+        "moduli.",
         {
-            "lam": lam * sp.diff(logarithm, lam) - value,
-            "mu": mu * sp.diff(logarithm, mu) - (1 - value),
+            "derivative, lam": lam * sp.diff(logarithm, lam) - value,
+            "derivative, mu": mu * sp.diff(logarithm, mu) - (1 - value),
         },
     )
     return Formula(
         "modulus_by_lam",
         r"\partial\log E^*/\partial\log\lambda",
-        r"derivative of $\log E^*$ by $\log \lambda$; the derivative by $\log \mu$ is 1 minus "
+        r"derivative of $\log E^*$ with respect to $\log \lambda$; that to $\log \mu$ is 1 minus "
         r"this one",
         value,
         "1",
@@ -289,14 +291,14 @@ def peaks() -> tuple[Formula, ...]:
     energy_by_eta = deeper(work) / work
     depth = (grown(lift) + 2 * lift) / lift
     proof = prove(
-        "Peaks by energy and thickness",
+        "Derivatives of the peaks",
         r"The energy number is $A^5 E$ and the indentation is $A^2 (1 + F)$. The radius $A$ is "
         r"varied so that the energy number increases, and so that it stays constant while "
         r"$\eta$ increases.",
         {
             "work": work - work_of_contact(),
-            "by energy": energy_by_radius * by_energy - 1,
-            "by eta": energy_by_radius * by_eta + energy_by_eta,
+            "radius, by energy": energy_by_radius * by_energy - 1,
+            "radius, by eta": energy_by_radius * by_eta + energy_by_eta,
             "indentation by energy": depth * by_energy - indentation_by_energy,
             "indentation by eta": depth * by_eta + deeper(lift) / lift - depth_by_eta,
         },
@@ -313,12 +315,12 @@ def peaks() -> tuple[Formula, ...]:
     )
     meanings = (
         (
-            r"derivative of $\log a_m$ by the logarithm of the energy; that of the force is three "
-            r"times as large"
+            r"derivative of $\log a_m$ with respect to the logarithm of the energy; that of the "
+            r"force is three times as large"
         ),
-        r"derivative of $\log(a_m/h)$ by $\log(h/b)$ at fixed energy number",
-        "derivative of the logarithm of the largest indentation by the logarithm of the energy",
-        r"derivative of $\log(\delta R/h^2)$ by $\log(h/b)$ at fixed energy number",
+        r"derivative of $\log(a_m/h)$ with respect to $\log(h/b)$ at fixed energy number",
+        "derivative of the logarithm of the largest indentation with respect to that of the energy",
+        r"derivative of $\log(\delta R/h^2)$ with respect to $\log(h/b)$ at fixed energy number",
     )
     return tuple(
         Formula(name, latex, meaning, value, "1", "13", ("contact_work",), proof)
@@ -362,9 +364,9 @@ def times() -> tuple[Formula, ...]:
             moved = sp.Add(*(slope[n] * sp.diff(part, D[n]) for n in orders()[1:]))
             proofs[f"{label} by {name}"] = sp.expand(moved - change)
     proof = prove(
-        "Contact time by contact radius and thickness",
-        "At fixed $u$, numerator and radicand are differentiated by each $D_n$; the quotient "
-        "rule gives the derivative of the integrand.",
+        "Derivatives of the contact time",
+        "At fixed $u$, numerator and radicand are differentiated with respect to each $D_n$; the "
+        "quotient rule gives the derivative of the integrand.",
         proofs,
     )
     rows = (
@@ -375,7 +377,7 @@ def times() -> tuple[Formula, ...]:
         Formula(
             name,
             rf"{latex}\,\mathrm{{d}}I/\mathrm{{d}}u",
-            f"derivative of the contact time's integrand by {by}",
+            f"derivative of the contact time's integrand with respect to {by}",
             value,
             "1",
             "13",

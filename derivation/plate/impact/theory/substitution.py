@@ -85,10 +85,10 @@ def one_sided() -> Formula:
     rising = sp.diff(_y - sp.sin(_y), _y), sp.diff(sp.sin(_y) - _y + _y**3 / 6, _y)
     proof = prove(
         "Bounds of the law's slope",
-        r"$y - \sin y$ vanishes at 0 and increases; so does $y^2/2 + \cos y - 1$, which has that "
-        r"slope, and $\sin y - y + y^3/6$, which has this one. Each power of $\alpha$ in "
-        r"$\sinh(\alpha y)$ beyond the first is at most $\alpha^3$; all $w_n > 0$, because "
-        "$G > 1$. The first powers add up to $3/2 c_1 A$.",
+        r"$y - \sin y$ vanishes at 0 and increases. It is the derivative of $y^2/2 + \cos y - 1$, "
+        r"and this is the derivative of $\sin y - y + y^3/6$; so both also vanish at 0 and "
+        r"increase. Each power of $\alpha$ in $\sinh(\alpha y)$ after the first is at most "
+        r"$\alpha^3$; all $w_n > 0$, because $G > 1$. The first powers add up to $(3/2) c_1 A$.",
         {
             "sinc below 1": rising[0] - chord,
             "1 - cos y below y^2/2": sp.diff(_y**2 / 2 - chord, _y) - (_y - sp.sin(_y)),
@@ -145,14 +145,15 @@ def lemma() -> Proof:
     elasticity = _x / (1 + _x)
     return prove(
         "Substitution of the law",
-        "a S_1/int S_1 is least or largest for extreme powers of S_1; time is travel by speed.",
+        "a S_1/int S_1 is least or largest for extreme powers of S_1; time is the integral of "
+        "1/speed.",
         {
             "energy": sp.simplify(work) - solution["energy"],
             "depth": sp.simplify(depth) - solution["depth"],
             "shorter": speed[1] - travel[0] - solution["shorter"],
             "longer": travel[1] - speed[0] - solution["longer"],
             "elasticity of 1 + x": _x * sp.diff(sp.log(1 + _x), _x) - elasticity,
-            "which rises": sp.diff(elasticity, _x) - 1 / (1 + _x) ** 2,
+            "elasticity increases": sp.diff(elasticity, _x) - 1 / (1 + _x) ** 2,
         },
     )
 

@@ -36,7 +36,7 @@ t, zeta, narrow, gap = sp.symbols("t zeta narrow gap", real=True)
 square_T, square_x, square_t = sp.symbols("square_T square_x square_t", real=True)
 depth, distance, height, rest_u = sp.symbols("depth distance height rest_u", real=True)
 rise, sag, excess, others = sp.symbols("rise sag excess others", real=True)
-by_v, whole, tip, rest = sp.symbols("by_v whole tip rest", real=True)
+by_v, dominant, tip, rest = sp.symbols("by_v dominant tip rest", real=True)
 over, core, level = sp.symbols("over core level", real=True)
 versine, cubic, minus, plus = sp.symbols("versine cubic minus plus", real=True)
 c, c_less_1, modulus = sp.symbols("c c_less_1 modulus", real=True)
@@ -110,10 +110,10 @@ def _from_faces(main: tuple[sp.Expr, ...], far: sp.Expr, less: sp.Expr) -> Steps
         LACK,
         Step(tip, far_u * far, "contribution of the back face"),
         Step(over, less - 2 * rest_u * tip),
-        Step(whole, sum(main) - (tip + over)),
+        Step(dominant, sum(main) - (tip + over)),
         Step(
             rest,
-            whole * (deficit / (1 - deficit) - rounding) - over,
+            dominant * (deficit / (1 - deficit) - rounding) - over,
             "with the correction of e^(-v)",
         ),
         Step(core, SUM(*main, -tip, rest)),

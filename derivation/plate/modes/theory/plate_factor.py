@@ -53,7 +53,7 @@ def plate_factor_slope() -> Formula:
     return Formula(
         "G_slope",
         r"T\,G'(T)",
-        r"derivative of the plate factor of the contact face by $\log T$",
+        r"derivative of the plate factor of the contact face with respect to $\log T$",
         value,
         "1",
         "6",

@@ -107,9 +107,9 @@ def work() -> Routine:
 
 def _by_roots(expression: sp.Expr) -> sp.Expr:
     """Return the expression with one symbol for the root of 2 xi^3 + 1; it is then rational."""
-    whole = sp.Symbol("whole", positive=True)
+    root = sp.Symbol("root", positive=True)
     expression_in_roots = sp.powdenest(
-        expression.subs(xi_y, sp.cbrt((whole**4 - 1) / 2)), force=True
+        expression.subs(xi_y, sp.cbrt((root**4 - 1) / 2)), force=True
     )
     return sp.simplify(expression_in_roots)
 

@@ -81,7 +81,8 @@ def loading() -> Loading:
             - r * sp.sqrt(a**2 - r**2),
             "Hertz": sp.simplify(loading_work.subs(limit, slope * _a_y) - hertz.subs(
                 R, sp.solve(peak.subs(a, _a_y) - limit, R)[0])),
-            "growth": sp.diff(force * loading_work.subs(a, _a_y), a) - 2 * sp.pi * a * limit,
+            "rate of the "
+            "force": sp.diff(force * loading_work.subs(a, _a_y), a) - 2 * sp.pi * a * limit,
             "onset": force.subs(a, _a_y) - 1,
         },
     )  # fmt: skip
@@ -94,15 +95,16 @@ def plastic_indentation() -> Formula:
     extra = loading().area - xi_y**2
     proof = prove(
         "Indentation of an elastic-plastic contact",
-        "The indentation is $a^2/R$, with the larger radius of the limited pressure; at the onset "
-        "value and slope are Hertz's.",
+        "The indentation is $a^2/R$, with the larger contact radius of the limited pressure. At "
+        "the onset, value and slope are those of Hertz's law.",
         {
             "onset": extra.subs(xi_y, 1),
             "slope at the onset": sp.diff(extra, xi_y).subs(xi_y, 1),
         },
     )
     return Formula(
-        "plastic_indentation", r"\Delta", "plastic part of the indentation on loading over a_y^2/R",
+        "plastic_indentation", r"\Delta",
+        "plastic part of the indentation on loading, divided by $a_y^2/R$",
         extra, "1", "", ("yield_radius",), proof,
     )  # fmt: skip
 
@@ -122,11 +124,11 @@ def flattening() -> Formula:
         {
             "radius": sp.simplify((equivalent / hertz.subs(a, xi_y * _a_y)) - ratio**-3),
             "force": sp.simplify(unloaded.subs(a, top) / hertz.subs(a, xi_y * _a_y) - 1),
-            "same on the whole way": sp.simplify(unloaded / hertz.subs({a: ratio * a}) - 1),
+            "at every force of unloading": sp.simplify(unloaded / hertz.subs({a: ratio * a}) - 1),
         },
     )
     return Formula(
-        "flattening", "c", "Hertz radius of the force over the contact radius, on unloading",
+        "flattening", "c", "Hertz radius of the force divided by the contact radius, at unloading",
         ratio, "1", "", ("plastic_indentation",), proof,
     )  # fmt: skip
 
@@ -142,7 +144,7 @@ def dent() -> Formula:
         {"continuous": sp.simplify(depth + ratio * xi_y**2 - area)},
     )
     return Formula(
-        "dent", r"\delta_p", "residual indentation over a_y^2/R", depth, "1", "",
+        "dent", r"\delta_p", "residual indentation divided by $a_y^2/R$", depth, "1", "",
         ("flattening",), proof,
     )  # fmt: skip
 
@@ -160,14 +162,14 @@ def plastic_work() -> Formula:
     ) / sp.Rational(2, 5)
     proof = prove(
         "Plastic work",
-        "The energy of loading minus the energy returned on unloading.",
+        "The plastic work is the work of loading minus the energy returned on unloading.",
         {
             "rebound energy": sp.simplify(returned - ratio * xi_y**5),
             "onset": sp.simplify(work.subs(xi_y, 1)),
         },
     )
     return Formula(
-        "plastic_work", "W_p", "plastic work over Hertz's energy at the onset of yield",
+        "plastic_work", "W_p", "plastic work divided by Hertz's energy at the onset of yield",
         work, "1", "", ("dent",), proof,
     )  # fmt: skip
 
@@ -206,12 +208,11 @@ def plastic_restitution() -> Formula:
     ends = sp.limit(square / slow ** sp.Rational(1, 2), xi_y, sp.oo)
     proof = prove(
         "Restitution of an elastic-plastic contact",
-        "The coefficient is the square root of the energy returned over the initial energy. It "
-        "equals Thornton's (1997) formula in $v_y/v_0$, which tends to $1.185 "
-        "(v_y/v_0)^{1/4}$.",
+        "The coefficient is the square root of the returned energy divided by the initial energy. "
+        "It equals Thornton's (1997) formula in $v_y/v_0$, which tends to $1.185 (v_y/v_0)^{1/4}$.",
         {
             "Thornton": sp.simplify((thornton / square) ** 4 - 1),
-            "fast": sp.simplify(
+            "fast impact": sp.simplify(
                 ends - sp.Rational(6, 5) * sp.sqrt(3) / sp.sqrt(2 * sp.sqrt(sp.Rational(6, 5)))
             ),
         },

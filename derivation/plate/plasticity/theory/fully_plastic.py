@@ -92,7 +92,7 @@ def beyond() -> Beyond:
         {
             "force": sp.simplify(force / force.subs(calm) / changed.force) - 1,
             "restitution": sp.simplify(square / square.subs(calm) / changed.restitution**2) - 1,
-            "step 31": sp.simplify((square.subs(_at_onset()) / _limit()) ** 4) - 1,
+            "limit of step 31": sp.simplify((square.subs(_at_onset()) / _limit()) ** 4) - 1,
         },
     )
     return changed

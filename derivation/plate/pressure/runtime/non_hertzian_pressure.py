@@ -235,8 +235,8 @@ def contact(
     Examples
     --------
     >>> from generated.non_hertzian_pressure import contact, plate
-    >>> found = contact(plate(0.004, 0.15), 0.01, 0.5, 75e9)
-    >>> print(f"{found.force:.6g} N, {found.indentation:.6g} m")
+    >>> result = contact(plate(0.004, 0.15), 0.01, 0.5, 75e9)
+    >>> print(f"{result.force:.6g} N, {result.indentation:.6g} m")
     23003.2 N, 0.00643546 m
     """
     own_modulus = modulus if plate_modulus is None else plate_modulus
@@ -252,8 +252,8 @@ def contact(
     for start in range(0, flat[0].size, _BLOCK):
         part = slice(start, start + _BLOCK)
         solution = _solve(plate, flat[0][part], flat[1][part], flat[2][part], sphere)
-        for values, found in zip(inner, solution, strict=True):
-            values[part] = found
+        for values, part_values in zip(inner, solution, strict=True):
+            values[part] = part_values
     solved = _Solution(*(x.reshape((*shape, *x.shape[1:])) for x in inner))
     return _contact(plate, solved, (a, R, modulus, own_modulus, compliance))
 

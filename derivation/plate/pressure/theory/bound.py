@@ -144,7 +144,7 @@ def estimates() -> Proof:
             + sp.Rational(1, 3)
             - ABOVE,
             "S_T": R / (2 * a) * force_rise / (2 * E) - a,
-            "depth": 2 / R * sp.integrate(BELOW * _s * (_s / a) ** 3, (_s, 0, a))
+            "indentation": 2 / R * sp.integrate(BELOW * _s * (_s / a) ** 3, (_s, 0, a))
             - DEPTH * a**2 / R,
         },
     )

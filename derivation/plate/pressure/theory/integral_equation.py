@@ -216,20 +216,21 @@ def _spread(expression: sp.Expr, function: type[sp.Function]) -> sp.Expr:
 def motion_of_the_edge() -> Proof:
     """Prove dP/d delta = 2 E* int psi, (I + N) psi = 1, the stiffness of the flat punch.
 
-    The equation is differentiated by a: chi(a) = 0 leaves no term of the moving end, and
-    (I + N) d chi/da = (E*/pi) d delta/da. A constant part N_0 of the kernel is a compliance
-    N_0/(2 E*) in series with what remains.
+    The equation is differentiated with respect to a: chi(a) = 0 leaves no term of the moving
+    end, and (I + N) d chi/da = (E*/pi) d delta/da. A constant part N_0 of the kernel is a
+    compliance N_0/(2 E*) in series with the rest.
     """
     whole, rest, constant, rise = sp.symbols("W I N_0 delta_a", positive=True)
     # (I + rest) psi = 1 - N_0 int psi, hence psi is (1 - N_0 W) times that of the rest.
-    (found,) = sp.solve(whole - (1 - constant * whole) * rest, whole)
+    (stiffness,) = sp.solve(whole - (1 - constant * whole) * rest, whole)
     force = 2 * sp.pi * _MODULUS / sp.pi * rise * whole
     return prove(
         "Stiffness of the contact",
-        "The integral equation is differentiated by its end; a constant kernel is separated.",
+        "The integral equation is differentiated with respect to its upper limit; a constant "
+        "kernel is separated.",
         {
             "stiffness": force / rise - 2 * _MODULUS * whole,
-            "compliances in series": 1 / (2 * _MODULUS * found)
+            "compliances in series": 1 / (2 * _MODULUS * stiffness)
             - 1 / (2 * _MODULUS * rest)
             - constant / (2 * _MODULUS),
         },

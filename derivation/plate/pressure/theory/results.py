@@ -97,9 +97,9 @@ def substitution() -> tuple[sp.Expr, sp.Expr, Proof]:
         "times $du/t$.",
         {
             "measure": (sp.diff(t, _u) * t / (front * _u)) - front,
-            "root": t**2 - r**2 - (front * _u) ** 2,
-            "start": t.subs(_u, 0) - r,
-            "end": t.subs(_u, 1) - a,
+            "square root": t**2 - r**2 - (front * _u) ** 2,
+            "lower limit": t.subs(_u, 0) - r,
+            "upper limit": t.subs(_u, 1) - a,
         },
     )
     return t, front, proof

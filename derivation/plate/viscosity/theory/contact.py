@@ -84,7 +84,7 @@ def viscous_number() -> Formula:
         r"The parameter $\varepsilon$ of Hertz's law is proportional to $s^{1/5}$, and $s = v_0$ "
         r"at the turning point.",
         {
-            "rise": sp.diff(plain(rise), _z),
+            "power of the speed": sp.diff(plain(rise), _z),
             "turning point": plain(ratio.subs(_z, deepest))
             / plain(sp.Rational(4, 5) ** sp.Rational(2, 5) * number)
             - 1,

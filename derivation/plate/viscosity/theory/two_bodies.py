@@ -48,7 +48,7 @@ def contact_time() -> ContactTime:
         {
             "first order": sp.together(slope - mean * _D / both),
             "second order": sp.simplify(stiffness - (1 + mean * _D) / both + rest),
-            "alike": sp.simplify((stiffness - (1 + mean * _D) / both).subs(alike)),
+            "equal bodies": sp.simplify((stiffness - (1 + mean * _D) / both).subs(alike)),
             "by the ratio": sp.simplify(mean.subs(_C_s, softness * _C_p) - by_ratio),
             "rigid sphere": by_ratio.subs(softness, 0) - plate_time,
         },

@@ -95,7 +95,7 @@ def rise_anywhere() -> Proof:
         {
             "S^2": in_sines(change(total**2) + in_p_and_q(kap * total * (gam / p + 1 / q))),
             "d^2": in_sines(change(apart**2) - in_p_and_q(kap * apart * (1 / q - gam / p))),
-            "steep": in_sines(steep + w * change(quotient()) / in_p_and_q(quotient())),
+            "slope": in_sines(steep + w * change(quotient()) / in_p_and_q(quotient())),
         },
     )
 
@@ -306,7 +306,7 @@ def thin_plates() -> tuple[Formula, ...]:
     bending_zero()
     s, slope = sp.symbols("s Y", positive=True)
     rows = thin_powers(ORDER)
-    found, residue = (sp.Add(*(c * s**n for n, c in enumerate(row))) for row in rows)
+    slope_series, residue = (sp.Add(*(c * s**n for n, c in enumerate(row))) for row in rows)
     # B_a with the power series of tanh: the residual is of higher order.
     t = _tanh_powers(ORDER + 3)
     u, v = s - gam * s**2 * slope, s - s**2 * slope
@@ -321,11 +321,11 @@ def thin_plates() -> tuple[Formula, ...]:
         "Bending of thin plates",
         "The power series are inserted into $B_a$ and its slope; $y_0$ is Kirchhoff's plate.",
         {
-            "frequency": _below(stiff.subs(slope, found), s),
-            "residue": _below(1 + residue * change.subs(slope, found), s),
+            "frequency": _below(stiff.subs(slope, slope_series), s),
+            "residue": _below(1 + residue * change.subs(slope, slope_series), s),
             "Kirchhoff": sp.cancel(kirchhoff - x_h**4 * rows[0][0]),
             "mass": residue.subs(s, 0) - sp.Rational(1, 2),
-            "whole deflection": fraction[0] - 1,
+            "total deflection": fraction[0] - 1,
         },
     )
     lines = (

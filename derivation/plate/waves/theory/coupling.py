@@ -163,7 +163,7 @@ def _at_rest() -> dict[str, sp.Expr]:
     )
     work = _along(stored, {a: sp.Integer(1)}) - _along(depth, {a: sp.Integer(1)}) * _P
     return {
-        "static depth": sp.expand(depth.subs(_D, own) - law),
+        "static indentation": sp.expand(depth.subs(_D, own) - law),
         "static energy": _plain(work),
     }
 

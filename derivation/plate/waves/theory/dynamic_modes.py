@@ -143,10 +143,11 @@ def wave_shapes() -> tuple[Formula, Formula]:
     """Return f and g with four constants."""
     first = C1 * sp.cosh(p * z / h) + C2 * sp.sinh(p * z / h)
     second = (C3 * sp.cosh(q * z / h) + C4 * sp.sinh(q * z / h)) / phi
-    found = wave(first, second)
-    shape_f, shape_g = (part.subs({p: h * P_NUMBER, q: h * S_NUMBER}) for part in found[:2])
+    solution = wave(first, second)
+    shape_f, shape_g = (part.subs({p: h * P_NUMBER, q: h * S_NUMBER}) for part in solution[:2])
     residuals = [
-        in_p_and_q(ode.expression.subs({f: found.f, g: found.g}).doit()) for ode in wave_equations()
+        in_p_and_q(ode.expression.subs({f: solution.f, g: solution.g}).doit())
+        for ode in wave_equations()
     ]
     proof = prove(
         "Solution of the waves",
@@ -301,8 +302,8 @@ def kinetic_identity() -> Proof:
     pairs = ((names[0], names[1], omega), (names[2], names[3], other))
     stress, motion = [], {}
     for one, two, rate in pairs:
-        found = hooke(two * phi * BESSEL_J1, one * BESSEL_J0)
-        stress.append((factor_of(found.zz, BESSEL_J0), factor_of(found.rz, BESSEL_J1)))
+        stresses = hooke(two * phi * BESSEL_J1, one * BESSEL_J0)
+        stress.append((factor_of(stresses.zz, BESSEL_J0), factor_of(stresses.rz, BESSEL_J1)))
         radial, axial = (
             formula.expression.subs({f: one, g: two, omega: rate}).doit()
             for formula in wave_equations()

@@ -8,7 +8,6 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, reduce
-from operator import add
 from typing import Any
 
 import numpy as np
@@ -289,7 +288,7 @@ def errors_of(state: LargestContact, effects: Sequence[Effect], outputs: Sequenc
 
 def _sum(numbers: Iterable[Numbers]) -> Any:
     """Return the sum of numbers and arrays."""
-    return reduce(add, numbers)
+    return sum(numbers, 0.0)
 
 
 def _sums(rows: Iterable[Changes]) -> Changes:

@@ -11,6 +11,24 @@ PREFIXES = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 """SI prefixes by their powers of ten."""
 IN_FRONT = 3
 """Largest number of digits before the decimal point."""
+FEWEST_DIGITS, MOST_DIGITS = 2, 12
+"""Limits of the number of significant digits that are shown."""
+NO_DIGITS = 1.0
+"""Relative error from which results are not shown, because no digit of them holds."""
+
+
+def digits_of(error: float) -> int:
+    """Return the number of significant digits to show with a relative error; 0 for none.
+
+    Examples
+    --------
+    >>> digits_of(3e-4), digits_of(0.2), digits_of(30.0)
+    (4, 2, 0)
+    """
+    if not math.isfinite(error):
+        return FEWEST_DIGITS
+    digits = math.ceil(-math.log10(max(error, 1e-300)))
+    return min(MOST_DIGITS, max(FEWEST_DIGITS, digits)) if error < NO_DIGITS else 0
 
 
 def counted(number: int, noun: str) -> str:

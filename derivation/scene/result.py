@@ -16,7 +16,7 @@ from derivation.scene.effects.effect import NO_BOUND
 from derivation.scene.history import POINTS, DynamicHistory, History, Pressures, times_of
 from derivation.scene.method_selection import dynamic_impact, moved
 from derivation.scene.model import Model
-from derivation.scene.quantity import counted
+from derivation.scene.quantity import counted, digits_of
 from derivation.scene.scene import Scene, SceneError
 
 if TYPE_CHECKING:
@@ -29,11 +29,6 @@ if TYPE_CHECKING:
     from derivation.scene.wave_motion import DynamicImpact
 
 Array = NDArray[np.float64]
-
-FEWEST_DIGITS, MOST_DIGITS = 2, 12
-"""Limits of the number of significant digits that are shown."""
-NO_DIGITS = 1.0
-"""Relative error from which results are not shown, because no digit of them holds."""
 
 
 @dataclass(frozen=True)
@@ -364,12 +359,7 @@ class Result:
     @property
     def digits(self) -> int:
         """Number of significant digits that the bound and the model error support; 0 for none."""
-        error = self.accuracy.bound + self.model_error
-        if not math.isfinite(error):
-            return FEWEST_DIGITS
-        if error >= NO_DIGITS:
-            return 0
-        return min(MOST_DIGITS, max(FEWEST_DIGITS, math.ceil(-math.log10(max(error, 1e-300)))))
+        return digits_of(self.accuracy.bound + self.model_error)
 
     def numbers(self) -> list[tuple[str, float, str]]:
         """Return name, value and SI unit of each result; with plate inertia also the total time."""

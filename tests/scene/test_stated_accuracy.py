@@ -14,7 +14,8 @@ from derivation.scene.effects import PAPER
 from derivation.scene.effects.effect import NO_BOUND
 from derivation.scene.law import ContactLaw
 from derivation.scene.model import model_of
-from derivation.scene.result import MOST_DIGITS, Result
+from derivation.scene.quantity import MOST_DIGITS
+from derivation.scene.result import Result
 from derivation.scene.scene import OUTPUTS
 
 BALL = {"radius": 0.01, "material": "steel"}

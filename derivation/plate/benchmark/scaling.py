@@ -34,7 +34,7 @@ SPLIT_POINTS = 64
 
 
 @dataclass(frozen=True)
-class Growth:
+class Scaling:
     """Run time as a function of a size, and the power law fitted to it.
 
     Attributes
@@ -69,15 +69,15 @@ def growth(
     x: Sequence[float],
     calls: Sequence[Callable[[], object]],
     reason: str,
-) -> Growth:
+) -> Scaling:
     """Measure the time of each call, and the memory of the last."""
     seconds = tuple(_lower_quartile(call) for call in calls)
     slope, deviates_at = line(x, seconds)
-    return Growth(quantity, method, tuple(x), seconds, slope, deviates_at, reason, peak(calls[-1]))
+    return Scaling(quantity, method, tuple(x), seconds, slope, deviates_at, reason, peak(calls[-1]))
 
 
 def line(x: Sequence[float], seconds: Sequence[float]) -> tuple[float, float | None]:
-    """Fit a power law to the last three points; return its exponent and `Growth.deviates_at`."""
+    """Fit a power law to the last three points; return its exponent and `Scaling.deviates_at`."""
     logs, times = np.log(x), np.log(seconds)
     slope, start = np.polyfit(logs[-3:], times[-3:], 1)
     off = np.flatnonzero(np.abs(times - (start + slope * logs)) > math.log(FIT_DEVIATION))
@@ -106,7 +106,7 @@ def _lower_quartile(call: Callable[[], object]) -> float:
     return float(np.quantile(times, 0.25))
 
 
-def points() -> list[Growth]:
+def points() -> list[Scaling]:
     """Measure the contact law by number of points, including and excluding per-plate set-up."""
     sizes = [10**k for k in range(8)]
     radii = np.random.default_rng(1).uniform(1e-3, 0.03, sizes[-1])
@@ -125,7 +125,7 @@ def points() -> list[Growth]:
     ]  # fmt: skip
 
 
-def thickness_ratios() -> list[Growth]:
+def thickness_ratios() -> list[Scaling]:
     """Measure the contact law by b/h: the public function, and the split sum with its set-up."""
     ratios = [10.0**k for k in range(5)]
     fractions = np.random.default_rng(1).uniform(0.01, 0.9, ARRAY)
@@ -152,7 +152,7 @@ def thickness_ratios() -> list[Growth]:
     ]  # fmt: skip
 
 
-def digits(quick: bool) -> list[Growth]:
+def digits(quick: bool) -> list[Scaling]:
     """Measure the series in a/h by digits: set-up, and one point in Arb and in mpmath."""
     counts = [30, 50, 100] if quick else [30, 50, 100, 200, 300, 500, 1000]
     setups, balls, numbers = [], [], []
@@ -165,7 +165,7 @@ def digits(quick: bool) -> list[Growth]:
         numbers.append(polynomials.small_contacts(terms, Mpmath(count)).prepared(PAPER))
     a, setup_slope = np.array([0.3 * PAPER.h]), line(counts, setups)
     return [
-        Growth(
+        Scaling(
             "digits", "series in a/h, Arb, set-up", tuple(counts), tuple(setups), *setup_slope,
             "more zeros of J0 are needed, each to more digits", None,
         ),
@@ -182,7 +182,7 @@ def digits(quick: bool) -> list[Growth]:
     ]  # fmt: skip
 
 
-def scenes(quick: bool) -> list[Growth]:
+def scenes(quick: bool) -> list[Scaling]:
     """Measure impacts by number of scenes, with each method of `simulate`."""
     sizes = [10**k for k in range(5 if quick else 6)]
     batches = [speed.scenes(0.01, 2.9, n) for n in sizes]
@@ -208,7 +208,7 @@ def _each(method: Callable[..., object], scenes: Sequence[Sequence[float]]) -> l
     return [method(*scene) for scene in scenes]
 
 
-def studies(quick: bool) -> tuple[tuple[str, Callable[[], list[Growth]]], ...]:
+def studies(quick: bool) -> tuple[tuple[str, Callable[[], list[Scaling]]], ...]:
     """Return each study with its name; quick studies have fewer sizes."""
     return (
         ("points", points),

@@ -1,6 +1,11 @@
-"""Conversion of exponentials of one argument to hyperbolic functions, factor by factor."""
+"""Conversion between exponentials and hyperbolic functions."""
 
 import sympy as sp
+
+
+def in_exponentials(expression: sp.Expr) -> sp.Expr:
+    """Return the expression with exponentials instead of hyperbolic functions."""
+    return expression.rewrite((sp.sinh, sp.cosh, sp.tanh, sp.coth), sp.exp)
 
 
 def to_hyperbolic(expression: sp.Expr, x: sp.Expr) -> sp.Expr:

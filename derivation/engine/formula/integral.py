@@ -16,6 +16,7 @@ import sympy as sp
 from flint import acb, arb
 
 from derivation.engine.formula.growth import Region
+from derivation.engine.formula.hyperbolic import in_exponentials
 from derivation.engine.formula.operations import Operation, through_complex
 from derivation.engine.formula.power_bound import Growth, Power, UnboundedError, tail
 from derivation.engine.formula.tape import Tape, recorded
@@ -217,21 +218,31 @@ class _Infinite:
     low: sp.Expr
 
     @cached_property
-    def _forms(self) -> tuple["_Decaying", _Finite]:
-        """The integral over y = x - low, and over 1/y."""
-        v = sp.Dummy("v", positive=True)
-        form = _tidy(self.f.subs(self.x, self.low + v), v)
-        inverse = _tidy(self.f.subs(self.x, self.low + 1 / v) / v**2, v)
-        return _Decaying(form, v), _Finite(inverse, v, sp.Integer(0), sp.Integer(1))
+    def _decaying(self) -> "_Decaying":
+        """The integral over y = x - low."""
+        return _Decaying(_tidy(self.f.subs(self.x, self.low + self._v), self._v), self._v)
+
+    @cached_property
+    def _cancelled(self) -> "_Decaying":
+        """The same of the integrand as a fraction."""
+        return _Decaying(_fraction(self.f.subs(self.x, self.low + self._v)), self._v)
+
+    @cached_property
+    def _inverse(self) -> _Finite:
+        """The integral over 1/y."""
+        form = self.f.subs(self.x, self.low + 1 / self._v) / self._v**2
+        return _Finite(_tidy(form, self._v), self._v, sp.Integer(0), sp.Integer(1))
+
+    @cached_property
+    def _v(self) -> sp.Symbol:
+        return sp.Dummy("v", positive=True)
 
     def value(self, known: Balls, holomorphic: bool) -> acb:
         """Return the integral at the current precision."""
-        result = acb(arb.nan())
-        for form in self._forms:
-            result = form.value(known, holomorphic)
-            if result.is_finite():
-                break
-        return result
+        result = self._decaying.value(known, holomorphic)
+        if not result.is_finite():
+            result = self._cancelled.value(known, holomorphic)
+        return result if result.is_finite() else self._inverse.value(known, holomorphic)
 
 
 @dataclass(frozen=True, eq=False)
@@ -347,6 +358,12 @@ def _tidy(expression: sp.Expr, v: sp.Symbol) -> sp.Expr:
         lambda node: _factored(node.base) ** node.exp,
     )
     return expression.replace(sp.log, lambda base: sp.expand_log(sp.log(_factored(base))))
+
+
+def _fraction(expression: sp.Expr) -> sp.Expr:
+    """Return a sum as one fraction in exponentials, so that terms that do not decay cancel."""
+    above, below = sp.fraction(sp.together(in_exponentials(expression)))
+    return sp.expand(above) / sp.expand(below)
 
 
 def _factored(base: sp.Expr) -> sp.Expr:

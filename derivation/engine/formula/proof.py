@@ -10,6 +10,7 @@ import sympy as sp
 
 from derivation.engine.failed import FailedError
 from derivation.engine.formula.ball import enclose, to_ball
+from derivation.engine.formula.hyperbolic import in_exponentials
 from derivation.engine.formula.notation import to_markdown
 
 SYMBOLIC = "symbolically"
@@ -85,7 +86,7 @@ def decide_zero(expression: sp.Expr) -> str | None:
 
 def reduces_to_zero(expression: sp.Expr) -> bool:
     """Return whether expansion over a common denominator, with exponentials, gives zero."""
-    rewritten = lower_bessel(expression).rewrite((sp.sinh, sp.cosh, sp.tanh, sp.coth), sp.exp)
+    rewritten = in_exponentials(lower_bessel(expression))
     numerator = sp.numer(sp.together(rewritten))
     return bool(sp.expand(sp.powsimp(sp.expand(numerator))) == 0)
 

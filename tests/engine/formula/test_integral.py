@@ -54,6 +54,8 @@ KNOWN = {
     "algebraic": (I((x**2 + a**2) ** sp.Rational(-3, 2), (x, 0, OO)), 1 / a**2),
     "Planck": (I(x**3 / (sp.exp(x) - 1), (x, 0, OO)), sp.pi**4 / 15),
     "hyperbolic": (I(x / sp.sinh(k * x), (x, 0, OO)), sp.pi**2 / (4 * k**2)),
+    "tanh": (I(1 - sp.tanh(k * x), (x, 0, OO)), sp.log(2) / k),
+    "coth": (I(x * (sp.coth(k * x) - 1), (x, 0, OO)), sp.pi**2 / (12 * k**2)),
     "backwards": (I(sp.exp(-x), (x, OO, a)), -sp.exp(-a)),
     "absolute value": (I(sp.Abs(x - k), (x, 0, 1)), k**2 - k + HALF),
     "half sphere": (
@@ -126,6 +128,22 @@ def test_random_integrals_contain_the_value_of_mpmath() -> None:
             value = mpmath.quad(sp.lambdify(x, f, "mpmath"), [0, 0.5, 1])
         ball = evaluate(I(f, (x, 0, 1)), {}, 15)
         assert abs(float(ball) - float(value)) < 1e-6 * abs(float(value))  # as exact as quad
+
+
+def test_terms_that_do_not_decay_cancel_far_out() -> None:
+    """The first coefficients of contact with an elastic layer on a rigid base, against mpmath."""
+    double_sine, double_cosine = sp.sinh(2 * x), sp.cosh(2 * x)
+    bonded = (2 * a * double_sine - 4 * x) / (2 * a * double_cosine + 1 + a**2 + 4 * x**2)
+    frictionless = (double_cosine - 1) / (double_sine + 2 * x)
+    for influence in (frictionless, bonded, bonded.subs(a, 1)):
+        for power in (0, 2):
+            f = x**power * (influence - 1)
+            values = {s: v for s, v in VALUES.items() if s in f.free_symbols}
+            with mpmath.workdps(30):
+                code = sp.lambdify(x, f.subs(values), "mpmath")
+                value = mpmath.quad(code, [0, 1, 3, 8, 20, 40])
+            ball = evaluate(I(f, (x, 0, OO)), values, 20)
+            assert abs(float(ball) - float(value)) < 1e-13 * abs(float(value))
 
 
 def test_wrong_integral_is_not_proved() -> None:

@@ -130,6 +130,11 @@ def _nothing(_: Mapping[str, Block]) -> Mapping[str, Shape]:
 
 def _automatic(formula: Record, known: Mapping[str, Block], scales: Scales) -> ProductForm:
     """Return the accurate form that the rules find, by the paper's scales or by products."""
+    if formula.expression.has(sp.Integral):
+        raise UnreachableError(
+            f"{formula.name}: expected a formula in closed form, got an integral, of which no code "
+            "is generated; prove a closed form and generate that, or remove it from the module"
+        )
 
     def accepted(made: ProductForm) -> tuple[ProductForm, float]:
         own = {block.name: block for block in made.blocks}

@@ -199,7 +199,10 @@ def _case(
 ) -> _Case:
     derived = formula.expression
     meanings = relations_between(formula.name, given, derived, formulas, relations)
-    points = sample([given, derived], meanings, formula.vocabulary.within)
+    vocabulary, domain = formula.vocabulary, list[str]()
+    if given.has(sp.Integral) or derived.has(sp.Integral):  # which have no continuation beyond it
+        domain = [*formula.where, *(c for a in vocabulary.arguments for c in a.domain)]
+    points = sample([given, derived], meanings, vocabulary.within, domain)
     try:
         for expression in (derived, given):
             points.learn(expression)

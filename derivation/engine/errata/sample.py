@@ -4,6 +4,7 @@ The first point is followed by copies of it in which one symbol is doubled; they
 exponents of a monomial. Further random points make an accidental agreement unlikely.
 """
 
+import random
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -13,6 +14,7 @@ import flint
 import sympy as sp
 
 from derivation.engine.formula.ball import enclose, to_ball
+from derivation.engine.formula.domain import violated_conditions
 from derivation.engine.formula.proof import sample_points
 
 BITS = 448
@@ -20,6 +22,7 @@ INTEGRAL_BITS = 160
 """Precision of comparisons of integrals, which take longer."""
 _RANDOM = 3
 _CLOSE = 1e-11
+_ATTEMPTS = 40
 
 Values = Sequence[flint.acb]
 """One complex ball per sample point."""
@@ -85,11 +88,13 @@ def sample(
     expressions: Sequence[sp.Expr],
     relations: Mapping[sp.Symbol, sp.Expr],
     within: Mapping[sp.Symbol, Fraction],
+    conditions: Sequence[str] = (),
 ) -> Sample:
     """Return sample points for all symbols of some expressions.
 
     Values of the symbols in `relations` follow from those of the others. Random values of the
-    symbols in `within` are multiplied by the factors there.
+    symbols in `within` are multiplied by the factors there, and by powers of 1/2 with which the
+    points violate the fewest conditions.
     """
     symbols: set[sp.Symbol] = set().union(*(e.free_symbols for e in expressions))
     dependent = [s for s in relations if s in symbols]
@@ -98,9 +103,19 @@ def sample(
     free = tuple(sorted(symbols - set(relations), key=str))
     first, *others = sample_points(free, _RANDOM)
     doubled = [first | {symbol: 2 * first[symbol]} for symbol in free]
-    points = [
-        {s: v * within.get(s, 1) for s, v in point.items()} for point in (first, *doubled, *others)
-    ]
+    generator, drawn = random.Random(2), []
+    for attempt in range(_ATTEMPTS if conditions else 1):
+        halvings = {s: generator.randrange(6) if attempt else 0 for s in free}
+        scaled = [
+            {s: v * within.get(s, 1) / 2 ** halvings[s] for s, v in point.items()}
+            for point in (first, *doubled, *others)
+        ]
+        drawn.append(
+            (sum(len(violated_conditions(conditions, p)) for p in scaled), attempt, scaled)
+        )
+        if drawn[-1][0] == 0:
+            break
+    points = min(drawn, key=lambda one: one[:2])[-1]
     known: list[dict[sp.Basic, flint.acb]] = []
     for point in points:
         values: dict[sp.Basic, flint.acb] = {s: flint.acb(to_ball(v)) for s, v in point.items()}

@@ -35,8 +35,8 @@ CHAIN = Chain(
 def easy(point: Point) -> bool:
     """Return whether the second reference method is fast: for films neither thin nor thick."""
     v = point.values
-    thickness = v["T"] if "T" in v else 2 * v.get("k", 1 / v["H"]) * v["H"]
-    return 1e-3 < thickness < 20
+    thickness = v.get("T", 2 * v.get("k", 0.5) * v.get("H", 1.0))
+    return ("k" not in v and "T" not in v) or 1e-3 < thickness < 20
 
 
 PAPER = Paper(

@@ -35,7 +35,7 @@ MAX_WEIGHT_WORK = 100.0
 """Largest work of the sphere's weight over its initial kinetic energy, of the scenes."""
 MODES = {"A0": 100, "all": 10}
 """Largest number of modes with which `simulate` begins, by branches; other scenes are skipped."""
-MAX_MODES = 1200
+MAX_MODES = 1300
 """Largest number of modes of the reference simulation."""
 BOUND_RTOL, INERTIA_THRESHOLD = 1.0, 0.3
 """Tolerance with which the bound on the change by inertia is computed, and the value of that bound

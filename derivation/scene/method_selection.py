@@ -246,6 +246,12 @@ def dynamic_impact(
 
     rest = remaining(selected, rtol)
     need = math.inf if rest is None or not within else rest
+    if math.isfinite(need) and selected.law.model.inertia.pointwise:
+        raise SceneError(
+            'inertia.coupling: expected "variational" with a tolerance, got "pointwise", whose '
+            "results do not converge with the number of modes; set inertia.coupling = "
+            '"variational", or remove the tolerance'
+        )
     try:
         with one_thread(), np.errstate(all="ignore"):  # extreme scenes give NaN, which is checked
             return waves.impact(selected.law, waves.goal(rest), selected.outputs, need)

@@ -64,7 +64,8 @@ class Inertia(Table):
         requires them.
     coupling
         "variational", the default: the indentation is a weighted mean of the gap, and energy is
-        conserved; or "pointwise": the indentation is the gap at the axis.
+        conserved; or "pointwise": the indentation is the gap at the axis. Its results do not
+        converge with the number of modes, so that no error bound is stated.
     extent
         "finite", the default: a plate with an edge; or "infinite": no wave returns from the edge,
         and radius and edge of the plate have no effect.
@@ -96,7 +97,7 @@ class Inertia(Table):
     coupling: Literal["variational", "pointwise"] = Field(
         default="variational",
         description='definition of the indentation: "variational" (weighted mean of the gap, '
-        'conserves energy) or "pointwise" (at the axis)',
+        'conserves energy) or "pointwise" (at the axis; does not converge with the modes)',
         examples=["pointwise"],
     )
     extent: Literal["finite", "infinite"] = Field(

@@ -195,7 +195,8 @@ def _converged(
         return rough
     check_whole_width(rough.impact_history.problem, rough.max_contact_radius)
     coarser = None
-    if _next_work(law, 2 * count, rough) > min(LONG, contact_sequence.WORK, budget.left):
+    dear = _next_work(law, 2 * count, rough) > min(LONG, contact_sequence.WORK, budget.left)
+    if dear and not law.model.inertia.pointwise:
         compared = _by_coarser(rough, law, count, Budget(budget.left))
         if compared:
             coarser, halved = compared
@@ -217,6 +218,8 @@ def _converged(
             unstarted = run.impact_history.problem is rough.impact_history.problem
             return best or (coarser if unstarted else None) or run
         best = rough = judged(rough, run)
+        if law.model.inertia.pointwise:  # short waves gain energy: the results do not converge
+            return unjudged(best)
         count = 2 * count
         if law.model.inertia.modes:
             return _of_chosen_modes(best, law, count, budget)

@@ -14,8 +14,8 @@ from derivation.scene.scene import SceneError
 PHASE = 12.5
 """omega That/max(1, lambda^(2/3)) of the fastest mode in the first run."""
 FEWEST, MOST = 8, 3000
-"""Limits of the number of modes in the first run; the second run has twice as many. On a small thick
-plate the contact time changed by a fifth of its error between runs with two and four modes."""
+"""Limits of the number of modes in the first run; the second run has twice as many. Between runs
+with two and four modes the contact time changed by a fifth of its error on a thick plate."""
 MODES, MANY = 6000, 30_000
 """Largest numbers of bending modes, and of modes of all branches, in the final run."""
 WORK = 6.5e5

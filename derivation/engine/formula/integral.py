@@ -24,9 +24,9 @@ from derivation.engine.formula.tape import Tape, recorded
 MAX_BITS = 1024
 """Largest precision of an integral."""
 HINT = (
-    "expected an integrand that is finite and smooth inside its range, with singularities only at "
-    "its ends, and that falls there or at infinity like a power, logarithm or exponential; "
-    "divide the range at inner singularities, or substitute, such as x = a*sin(t)"
+    "expected an integrand that is finite and smooth inside its range, and like a power, logarithm "
+    "or exponential at its ends or at infinity; divide the range at inner singularities, or "
+    "substitute, such as x = a*sin(t)"
 )
 """What is expected of an integral whose value is not finite, and what to do."""
 

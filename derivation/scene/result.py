@@ -157,7 +157,7 @@ class Result:
         """Contacts, energies and history with plate inertia; None for a quasi-static plate."""
         if not self.effects.law.dynamic:
             return None
-        return dynamic_impact(self.effects, self.accuracy.rtol)
+        return dynamic_impact(self.effects, self.accuracy.remaining)
 
     @cached_property
     def dent(self) -> float:

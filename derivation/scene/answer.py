@@ -6,7 +6,7 @@ from html import escape
 from typing import TYPE_CHECKING
 
 from derivation.engine.text import aligned, paragraph
-from derivation.scene.quantity import prefixed
+from derivation.scene.quantity import prefixed, significant
 from derivation.scene.yield_warnings import assumed_yield_stress
 
 if TYPE_CHECKING:
@@ -40,9 +40,9 @@ def plain(result: "Result") -> str:
     """Return name, value and SI unit of each result, one result per line."""
     lines = []
     for name, value, unit in result.numbers():
-        number = f"{value:#.{result.digits}g}".removesuffix(".")
         known = math.isfinite(value) and result.digits
-        lines.append(f"{name} {number if known else 'unknown'} {unit}")
+        number = significant(value, result.digits) if known else "unknown"
+        lines.append(f"{name} {number} {unit}")
     return "\n".join(lines)
 
 
@@ -65,7 +65,8 @@ def _remarks(result: "Result") -> Iterator[str]:
     yield f"Accuracy: {result.accuracy.summary}{model}"
     yield f"Effects: {result.effects.summary}"
     if result.energy_balance is not None and result.complete:
-        yield f"Energy: {result.energy_balance.in_words()}"
+        error = result.accuracy.bound + result.model_error
+        yield f"Energy: {result.energy_balance.in_words(error)}"
     if result.measured_note:
         yield f"Measured: {result.measured_note}"
     if result.disabled_note:

@@ -20,6 +20,7 @@ from derivation.scene.effects.effect import Array, Numbers
 from derivation.scene.law import ContactLaw, Shape
 from derivation.scene.limits import check_numbers, refuse
 from derivation.scene.quadrature import MORE_TIMES, NODES, Rule, mapped, rule
+from derivation.scene.quantity import digits_of
 from derivation.scene.scene import SceneError
 
 HISTORY_NODES = (32, *MORE_TIMES)
@@ -37,6 +38,8 @@ _CLOSEST = 4e-16
 exact), with weight, and on a half-space (the contact time is a unit of time)."""
 _ROUNDED = 1e-12
 """Step below which the iteration ends if the step is not smaller than the one before."""
+MOST_PERCENT_DIGITS = 3
+"""Largest number of significant digits of an energy that are shown."""
 NOTABLE_WORK = 5e-3
 """Least work of the weight over the initial kinetic energy that is stated with the energies."""
 
@@ -73,8 +76,15 @@ class EnergyBalance:
     plastic_loss: float = 0.0
     damping_loss: float = 0.0
 
-    def in_words(self) -> str:
-        """Return the final energies in percent of the initial kinetic energy."""
+    def in_words(self, error: float = 0.0) -> str:
+        """Return the final energies in percent of the initial kinetic energy.
+
+        Parameters
+        ----------
+        error
+            Relative error of the restitution [1]; that of the energies is twice as large. All are
+            rounded to the last digit of the largest one that holds.
+        """
         parts = {
             "sphere": self.rebound_kinetic,
             "plate vibration": self.plate,
@@ -83,15 +93,24 @@ class EnergyBalance:
             "plastic deformation": self.plastic_loss,
             "lost by the pointwise coupling": self.coupling_loss,
         }
+        digits = min(digits_of(2.0 * error), MOST_PERCENT_DIGITS)
+        largest = 100.0 * max(map(abs, parts.values())) / self.initial_kinetic
+        if not (digits and 0.0 < largest < math.inf):
+            return "unknown"
+        last = math.floor(math.log10(largest)) + 1 - digits
         words = ", ".join(
-            f"{self._percent(energy)} {name}" for name, energy in parts.items() if energy
+            f"{self._percent(energy, last)} {name}" for name, energy in parts.items() if energy
         )
         if abs(self.gravity_work) < NOTABLE_WORK * self.initial_kinetic:
             return words
-        return f"{words}; the weight contributes {self._percent(self.gravity_work)}"
+        return f"{words}; the weight contributes {self._percent(self.gravity_work, last)}"
 
-    def _percent(self, energy: float) -> str:
-        return f"{100 * energy / self.initial_kinetic:#.3g}".rstrip(".") + " %"
+    def _percent(self, energy: float, last: int) -> str:
+        """Return an energy in percent, rounded to a power of ten."""
+        percent, unit = 100.0 * energy / self.initial_kinetic, 10.0**last
+        if abs(percent) < 0.5 * unit:
+            return f"below {unit:g} %"
+        return f"{round(percent, -last):.{max(0, -last)}f} %"
 
     @property
     def residual(self) -> float:

@@ -13,8 +13,8 @@ IN_FRONT = 3
 """Largest number of digits before the decimal point."""
 FEWEST_DIGITS, MOST_DIGITS = 2, 12
 """Limits of the number of significant digits that are shown."""
-NO_DIGITS = 1.0
-"""Relative error from which results are not shown, because no digit of them holds."""
+ONE_DIGIT, NO_DIGITS = 0.3, 1.0
+"""Relative errors from which one digit is shown, and none because no digit holds."""
 
 
 def digits_of(error: float) -> int:
@@ -22,13 +22,26 @@ def digits_of(error: float) -> int:
 
     Examples
     --------
-    >>> digits_of(3e-4), digits_of(0.2), digits_of(30.0)
-    (4, 2, 0)
+    >>> digits_of(3e-4), digits_of(0.2), digits_of(0.5), digits_of(30.0)
+    (4, 2, 1, 0)
     """
     if not math.isfinite(error):
         return FEWEST_DIGITS
+    if error >= ONE_DIGIT:
+        return 1 if error < NO_DIGITS else 0
     digits = math.ceil(-math.log10(max(error, 1e-300)))
-    return min(MOST_DIGITS, max(FEWEST_DIGITS, digits)) if error < NO_DIGITS else 0
+    return min(MOST_DIGITS, max(FEWEST_DIGITS, digits))
+
+
+def significant(value: float, digits: int) -> str:
+    """Return a number with the given significant digits, trailing zeros included.
+
+    Examples
+    --------
+    >>> significant(0.5, 3), significant(374.6, 1)
+    ('0.500', '4e+02')
+    """
+    return f"{value:#.{digits}g}".removesuffix(".").replace(".e", "e")
 
 
 def counted(number: int, noun: str) -> str:
@@ -69,7 +82,7 @@ def prefixed(value: float, unit: str, digits: int) -> tuple[str, str]:
         return "unknown", ""
     rounded = Decimal(f"{value:.{digits - 1}e}")
     if unit == "1":
-        return f"{value:#.{digits}g}".removesuffix("."), ""
+        return significant(value, digits), ""
     if not value:
         return "0", unit
     order = _order(rounded.adjusted(), digits)

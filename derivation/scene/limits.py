@@ -322,17 +322,17 @@ def hollow_warnings(model: Model) -> tuple[str, ...]:
     solid = volume * model.solid_density
     if model.m < SOLID_LIMIT * solid:
         light = (
-            f"is {model.m / solid:.2g} times that of a solid sphere of its material ({solid:.4g} "
-            "kg)"
+            f"mass is {model.m / solid:.2g} times that of a solid sphere of its material "
+            f"({solid:.4g} kg)"
         )
     elif model.m < volume * model.lightest_density:
         light = (
-            f"gives a density of {model.m / volume:.3g} kg/m^3, less than that of any solid with "
-            "these elastic constants"
+            f"density, {model.m / volume:.3g} kg/m^3, is below that of all solids with these "
+            "elastic constants"
         )
     else:
         return ()
-    return (f"the sphere mass {light}: the model does not include the bending of a hollow sphere",)
+    return (f"the sphere {light}: the model does not include the bending of a hollow sphere",)
 
 
 def pressure_warnings(

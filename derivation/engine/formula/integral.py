@@ -15,6 +15,7 @@ import flint
 import sympy as sp
 from flint import acb, arb
 
+from derivation.engine.formula.differences import DIFFERENCES, in_products
 from derivation.engine.formula.growth import Region
 from derivation.engine.formula.hyperbolic import in_exponentials
 from derivation.engine.formula.operations import Operation, through_complex
@@ -350,7 +351,9 @@ def _tidy(expression: sp.Expr, v: sp.Symbol) -> sp.Expr:
     Then no root of it has a branch point at v = 0, and v cancels between factors. 1 - cos u and
     similar differences become products.
     """
-    expression = expression.replace(lambda node: node.is_Add and len(node.args) == 2, _product)
+    expression = expression.replace(
+        lambda node: node.is_Add, lambda node: in_products(node, DIFFERENCES)
+    )
     expression = expression.replace(
         lambda node: (
             node.is_Pow and node.base.has(v) and not (node.exp.is_Integer and node.exp > 0)
@@ -368,18 +371,3 @@ def _fraction(expression: sp.Expr) -> sp.Expr:
 
 def _factored(base: sp.Expr) -> sp.Expr:
     return base if base.is_Symbol else sp.factor(sp.expand(base))
-
-
-def _product(node: sp.Add) -> sp.Expr:
-    """Return c (f(w) - 1) as a product, for f = cos, cosh and exp; other sums as they are."""
-    number, rest = node.as_coeff_Add()
-    c, function = rest.as_coeff_Mul()
-    if number != -c or not function.args:
-        return node
-    half = function.args[0] / 2
-    factors = {
-        sp.cos: -2 * c * sp.sin(half) ** 2,
-        sp.cosh: 2 * c * sp.sinh(half) ** 2,
-        sp.exp: 2 * c * sp.exp(half) * sp.sinh(half),
-    }
-    return factors.get(function.func, node)

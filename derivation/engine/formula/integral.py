@@ -15,6 +15,7 @@ import flint
 import sympy as sp
 from flint import acb, arb
 
+from derivation.engine.formula.ball import MAX_BITS_OF_INTEGRALS
 from derivation.engine.formula.differences import DIFFERENCES, in_products
 from derivation.engine.formula.growth import Region
 from derivation.engine.formula.hyperbolic import in_exponentials
@@ -22,8 +23,6 @@ from derivation.engine.formula.operations import Operation, through_complex
 from derivation.engine.formula.power_bound import Growth, Power, UnboundedError, tail
 from derivation.engine.formula.tape import Tape, recorded
 
-MAX_BITS = 1024
-"""Largest precision of an integral."""
 HINT = (
     "expected an integrand that is finite and smooth inside its range, and like a power, logarithm "
     "or exponential at its ends or at infinity; divide the range at inner singularities, or "
@@ -62,7 +61,7 @@ def integral(node: sp.Integral) -> Operation:
     def value(holomorphic: bool) -> Callable[..., acb]:
         def added(*operands: acb) -> acb:
             known = dict(zip(symbols, operands, strict=True))
-            with flint.ctx.workprec(min(flint.ctx.prec, MAX_BITS)):
+            with flint.ctx.workprec(min(flint.ctx.prec, MAX_BITS_OF_INTEGRALS)):
                 return sum((part(known, holomorphic) for part in parts), acb(0))
 
         return added
@@ -309,7 +308,7 @@ class _Decaying:
 def _bits(known: Balls) -> int:
     """Return the relative accuracy that is possible with the symbols' balls."""
     accuracies = (int(acb(ball).rel_accuracy_bits()) + 8 for ball in known.values())
-    return max(8, min(int(flint.ctx.prec), *accuracies, MAX_BITS))
+    return max(8, min(int(flint.ctx.prec), *accuracies, MAX_BITS_OF_INTEGRALS))
 
 
 def _integrated(f: Callable[[acb, bool], acb], low: arb, high: arb, known: Balls) -> acb:

@@ -1,6 +1,6 @@
 """The rewriting rules in the order of application, each with name, cause and condition.
 
-The first four transform an expression, and the others the decomposition that `decay` yields. A
+The first five transform an expression, and the others the decomposition that `decay` yields. A
 rule yields nothing if its condition is not met. Every rule is exact, except for `series`, whose
 truncation error is bounded.
 """
@@ -13,6 +13,7 @@ from typing import TypeAlias
 import sympy as sp
 from sympy.codegen.cfunctions import expm1, log1p
 
+from derivation.engine.formula.differences import HYPERBOLIC, TRIGONOMETRIC, in_products
 from derivation.engine.rewrite.series import leading_power, truncated_taylor
 from derivation.engine.rewrite.shape import Factor, Shape, assembled_form, square
 from derivation.engine.rewrite.terms import (
@@ -124,6 +125,18 @@ def _split(expression: sp.Expr, x: sp.Symbol) -> sp.Expr:
     return sp.Mul(
         *(sp.factor(sp.expand(p)) if p.free_symbols == {x} and p.is_Add else p for p in parts)
     )
+
+
+def half_angle(_: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
+    """Write 1 - cos u as 2 sin(u/2)^2, and similar sums of two functions as products."""
+    if isinstance(given, Shape):
+        return
+    found = given.replace(lambda node: node.is_Add, lambda node: in_products(node, _ANGLES))
+    if found != given:
+        yield found
+
+
+_ANGLES = *TRIGONOMETRIC, *HYPERBOLIC
 
 
 def decay(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
@@ -284,6 +297,7 @@ RULES: Sequence[Rule] = (
     Rule("conjugate", "cancellation", conjugate),
     Rule("logarithm", "absorption", logarithm),
     Rule("fraction", "cancellation", fraction),
+    Rule("half angle", "cancellation", half_angle),
     Rule("decay", "overflow", decay),
     Rule("difference", "cancellation", difference),
     Rule("balance", "overflow", balance),

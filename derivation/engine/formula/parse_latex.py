@@ -110,8 +110,8 @@ def _tokens(text: str) -> list[str]:
     check_nesting(text, "([", ")]")
     for bar, bracket in _BARS.items():
         text = text.replace(bar, bracket)
-    text = _INDEX.sub(lambda found: f"_{{{found[1] or found[2]}}}", text)
-    plain = _WORDS.sub(lambda found: rf"\{found[1]} " if len(found[1]) > 1 else found[1], text)
+    text = _INDEX.sub(lambda match: f"_{{{match[1] or match[2]}}}", text)
+    plain = _WORDS.sub(lambda match: rf"\{match[1]} " if len(match[1]) > 1 else match[1], text)
     rest = _SPACING.sub(" ", plain.strip("$")).rstrip(" .,;")
     tokens: list[str] = []
     position = 0
@@ -348,9 +348,9 @@ class _Translator:
     def _refuse_unknown_function(self, name: str) -> None:
         """Reject a symbol before symbols in brackets, which would be read as a product."""
         if self.here in ("(", "[") and (
-            found := _ARGUMENTS.match(" ".join(self.tokens[self.position :]))
+            arguments := _ARGUMENTS.match(" ".join(self.tokens[self.position :]))
         ):
-            inside = found[1].replace(" ", "")
+            inside = arguments[1].replace(" ", "")
             raise FormulaError(
                 f"expected a symbol or a known function, got {name}({inside}), which would be "
                 f"read as a product: leave out ({inside}), or write the product without brackets"

@@ -94,7 +94,7 @@ def test_arrays_are_broadcast() -> None:
     ("text", "reason"),
     [
         ("sqrt(a**2 + b) - a + c - sin(c)", "several dimensionless products"),
-        ("np - sqrt(np**2 - a**2)", "rename the variable"),
+        ("np - sqrt(np**2 - a**2)", "uses; rename it"),
         ("a*e**b", "write exp"),
         ("besselj(0, a)*b", "expected functions of NumPy"),
     ],

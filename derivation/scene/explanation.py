@@ -146,7 +146,7 @@ def _evaluation_time(law: ContactLaw, effect: Effect) -> float:
             if effect.dynamic:
                 from derivation.scene import mode_count, waves
 
-                waves.problem_of(law, 2 * mode_count.count_of(law))
+                waves.problem_of(law, mode_count.finer(law, mode_count.count_of(law)))
             else:
                 alone.at(a)
             best = min(best, time.perf_counter() - start)
@@ -159,9 +159,9 @@ def _inertia(selected: SelectedEffects) -> str:
     """Return a remark about plate inertia, before the impact is computed."""
     law, model = selected.law, selected.law.model
     if law.dynamic:
-        from derivation.scene.mode_count import count_of
+        from derivation.scene.mode_count import count_of, finer
 
-        modes = f"the simulation starts with {2 * count_of(law)} bending modes"
+        modes = f"the simulation starts with {finer(law, count_of(law))} bending modes"
         if model.inertia.infinite_plate:
             modes += ", on a plate so large that no wave returns from its edge"
         return f"Plate inertia is included: Zener parameter {zener_number(model):.3g}; {modes}."

@@ -31,12 +31,28 @@ def branching(law: ContactLaw, branches: str) -> ContactLaw:
     return replace(law, model=replace(law.model, inertia=inertia))
 
 
+def finer(law: ContactLaw, count: int) -> int:
+    """Return the number of bending modes in the run after one with a number of them.
+
+    It is twice as many, or one more so that exactly one of both is even: the share of the last mode
+    in the waves that return from the edge to the axis has alternating signs, and the numbers n and
+    2n, both even, would agree although both are wrong.
+    """
+    return law.model.inertia.modes or 2 * count + 1 - count % 2
+
+
+def coarser(count: int) -> int:
+    """Return half a number of modes, or one fewer so that exactly one of both is even."""
+    half = count // 2
+    return max(1, half if half % 2 != count % 2 else half - 1)
+
+
 @lru_cache(maxsize=64)
 def count_of(law: ContactLaw) -> int:
     """Return the number of bending modes in the first run."""
     model = law.model
     if model.inertia.modes:
-        return model.inertia.modes // 2
+        return coarser(model.inertia.modes)
     highest = _highest(law)
     # Only bending modes are counted; with all branches there are far more modes.
     model = replace(model, inertia=replace(model.inertia, branches="A0"))

@@ -36,6 +36,9 @@ EARLIER = 1.0
 """Estimated error of the omitted modes over the change between the two runs before [1]. Waves that
 reach the contact during it make results converge irregularly, so that two runs may agree by
 chance."""
+RIPPLE = 1.25
+"""Estimated error of the largest force or radius over the change near it since half as many modes:
+two runs may agree in the maximum by chance, but not at all times near it."""
 BY_CHANCE = 0.5
 """Least estimated change of a result by more modes, over the largest change of any result: two runs
 may agree in one result by chance. Without it, errors of single results in random scenes were up to
@@ -97,6 +100,9 @@ class InertiaDetails:
     earlier_change
         Relative change of each result between the two runs before, with half and with a quarter as
         many modes [1]; 0 if there was none.
+    ripple
+        Largest changes of force and contact radius near their maxima since the run with half as
+        many modes, over these maxima [1].
     recounted
         Whether the run with half as many modes has another number of contacts, so that its results
         are no measure of the convergence.
@@ -123,6 +129,7 @@ class InertiaDetails:
     jump: float = 0.0
     earlier_change: Results = (0.0, 0.0, 0.0, 0.0, 0.0)
     recounted: bool = False
+    ripple: tuple[float, float] = (0.0, 0.0)
 
     @property
     def complete(self) -> bool:
@@ -137,11 +144,20 @@ class InertiaDetails:
 
     def _omitted_modes(self, output: str) -> float:
         """Return the estimated error of an output by omitted modes [1]."""
+        return max(self.error_by_change(output), self.error_by_ripple(output))
+
+    def error_by_change(self, output: str) -> float:
+        """Return that error as estimated from changes of the results [1]."""
         index, regular = OUTPUTS.index(output), output == "contact_time"
         factor = (LATE if regular else IRREGULAR) + self.omitted_octaves
         change = max(self.mode_convergence[index], BY_CHANCE * max(self.mode_convergence))
         earlier = 0.0 if regular else EARLIER * self.earlier_change[index]
         return max(factor * change, earlier)
+
+    def error_by_ripple(self, output: str) -> float:
+        """Return that error as estimated from changes of force and radius over time [1]."""
+        ripple = dict(zip(("max_force", "max_contact_radius"), self.ripple, strict=True))
+        return RIPPLE * ripple.get(output, 0.0)
 
     def error(self, outputs: Sequence[str]) -> float:
         """Return the largest estimated error of outputs by all that is omitted [1]."""

@@ -24,8 +24,10 @@ from derivation.scene.mode_count import (
     beyond_limits,
     branching,
     check_followed,
+    coarser,
     count_of,
     fast,
+    finer,
     followed,
 )
 from derivation.scene.reach import OutOfReachError, Reach
@@ -143,7 +145,7 @@ def _branched(
     too many modes, the lowest branch is used.
     """
     every, lowest, close = branching(law, "all"), branching(law, "A0"), time_tolerance(goal)
-    if not followed(every, 2 * affordable(every)):
+    if not followed(every, finer(every, affordable(every))):
         return lowest, None
     problem = problem_of(lowest, count_of(law), close)
     room = goal / TOLERANCE_FRACTION - goal - _integration_error(problem, close)
@@ -189,45 +191,47 @@ def _converged(
         The run with the fewest modes, if it has been computed.
     """
     count, close = affordable(law), time_tolerance(goal)
-    check_followed(law, 2 * count)
+    more = finer(law, count)
+    check_followed(law, more)
     rough = known or _run(law, count, budget, close, FEWER, reach=reach)
     if not rough.inertia.complete:  # a finer run would not be complete either
         return rough
     check_whole_width(rough.impact_history.problem, rough.max_contact_radius)
-    coarser = None
-    dear = _next_work(law, 2 * count, rough) > min(LONG, contact_sequence.WORK, budget.left)
+    estimated = None
+    work = _next_work(law, more, rough)
+    dear = work > min(LONG, contact_sequence.WORK, budget.left)
     if dear and not law.model.inertia.pointwise:
         compared = _by_coarser(rough, law, count, Budget(budget.left))
         if compared:
-            coarser, halved = compared
-            change, work = coarser.inertia.left(reach.outputs)[0], _next_work(law, 2 * count, rough)
-            if change <= _accepted_change(coarser, goal, reach):
-                return coarser
+            estimated, halved = compared
+            change = estimated.inertia.left(reach.outputs)[0]
+            if change <= _accepted_change(estimated, goal, reach):
+                return estimated
             if unreachable(halved, law, count, work, reach):
                 return halved
     rough = _with_earlier(rough, law, count, reach, budget)
     best: DynamicImpact | None = None
     while True:
         try:
-            run = _run(law, 2 * count, budget, close, coarse=rough.impact_history)
+            run = _run(law, more, budget, close, coarse=rough.impact_history)
         except SceneError:
             if best is None:
                 raise
             return best  # the last run that was complete
         if not run.inertia.complete:
             unstarted = run.impact_history.problem is rough.impact_history.problem
-            return best or (coarser if unstarted else None) or run
+            return best or (estimated if unstarted else None) or run
         best = rough = judged(rough, run)
         if law.model.inertia.pointwise:  # short waves gain energy: the results do not converge
             return unjudged(best)
-        count = 2 * count
+        count, more = more, finer(law, more)
         if law.model.inertia.modes:
             return _of_chosen_modes(best, law, count, budget)
         change, enough = best.inertia.left(reach.outputs)[0], _accepted_change(best, goal, reach)
         used, almost = _work(best.impact_history), change <= LAST * enough
         if change <= enough or beyond_limits(law, count, used, almost):
             return best
-        if unreachable(best, law, count, _next_work(law, 2 * count, best), reach):
+        if unreachable(best, law, count, _next_work(law, more, best), reach):
             return best
 
 
@@ -249,7 +253,7 @@ def _with_earlier(
     if "contact_time" in reach.outputs or law.model.inertia.modes or count < FOURTH:
         return run
     try:
-        coarse = _run(law, count // 2, budget, time_tolerance(LOOSE), FEWER)
+        coarse = _run(law, coarser(count), budget, time_tolerance(LOOSE), FEWER)
     except SceneError:  # so few modes may bend the plate more than the sphere is curved
         return run
     return judged(coarse, run) if coarse.inertia.complete else run
@@ -316,11 +320,11 @@ def _of_chosen_modes(
     change since half and since a quarter as many modes then counts. If all modes are slower than
     the contact, there is no estimate.
     """
-    if fast(law, count // 2):
+    if fast(law, coarser(count)):
         return run
     if not fast(law, count):
         return unjudged(run)
-    coarse = _run(law, max(1, count // 4), budget, time_tolerance(LOOSE), FEWER)
+    coarse = _run(law, coarser(coarser(count)), budget, time_tolerance(LOOSE), FEWER)
     if not coarse.inertia.complete:
         return unjudged(run)
     further = judged(coarse, run).inertia.mode_convergence
@@ -342,8 +346,8 @@ def _by_coarser(
     """
     if law.model.inertia.modes or count < FOURTH or not fast(law, count):
         return None
-    changes, jump, halved = [], 0.0, run
-    for fewer in (count // 4, count // 2):
+    changes, ripples, jump, halved = [], [], 0.0, run
+    for fewer in (coarser(coarser(count)), coarser(count)):
         try:
             coarse = _run(law, fewer, budget, time_tolerance(LOOSE), FEWER)
         except SceneError:  # so few modes may bend the plate more than the sphere is curved
@@ -352,10 +356,13 @@ def _by_coarser(
             return None
         halved = judged(coarse, run)
         changes.append(halved.inertia.mode_convergence)
+        ripples.append(halved.inertia.ripple)
         jump = max(jump, halved.inertia.jump)
     time, depth, force, radius, speed = map(max, *changes)
     change = time, depth, force, radius, speed
     if max(change) >= 1.0:
         return None
-    inertia = replace(run.inertia, mode_convergence=change, jump=jump)
+    force_ripple, radius_ripple = map(max, *ripples)
+    ripple = force_ripple, radius_ripple
+    inertia = replace(run.inertia, mode_convergence=change, jump=jump, ripple=ripple)
     return replace(run, inertia=inertia), halved

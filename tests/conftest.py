@@ -1,5 +1,6 @@
 """Fixtures that several test files share."""
 
+import gc
 import json
 import os
 import sys
@@ -22,6 +23,10 @@ if TYPE_CHECKING:  # these modules import the generated package, which may be mi
 # processes, and each would compile again what it imports.
 sys.dont_write_bytecode = False
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+
+# Expressions of SymPy are many small objects that stay. To search them for garbage at the usual
+# threshold of 700 takes a sixth of the time of tests with formulas.
+gc.set_threshold(50_000, 20, 20)
 
 # The same draws in every run, however slow; `pytest --hypothesis-profile default` draws others.
 settings.register_profile("same", derandomize=True, deadline=None, database=None)

@@ -1,8 +1,10 @@
 """A tested NumPy module for a formula of several positive variables."""
 
 import contextlib
+import math
 import textwrap
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from importlib.metadata import version
 
 import numpy as np
@@ -18,6 +20,7 @@ from derivation.engine.formula.proof import ProofError
 from derivation.engine.formula.vocabulary import Argument, Vocabulary
 from derivation.engine.rewrite.accuracy_test import KNOWN
 from derivation.engine.rewrite.form import form
+from derivation.engine.rewrite.identities import by_identities, prove_identity
 from derivation.engine.rewrite.products import GivenFormula, ProductForm, of_products
 from derivation.engine.rewrite.several_variables import (
     LARGEST_VALUE,
@@ -56,47 +59,78 @@ def standalone_several(
     names = {str(variable) for variable in variables}
     words = Vocabulary(tuple(Argument(v, "1", str(v), "", (f"{v} > 0",)) for v in variables))
 
-    def accepted(made: ProductForm) -> Tested:
+    def accepted(share: float, made: ProductForm) -> Tested:
         if taken := names & (RESERVED | {str(step.symbol) for step in made.steps}):
-            raise UnreachableError(f"{min(taken)} is a name of the code: rename the variable")
+            raise UnreachableError(
+                f"expected a variable with another name than {min(taken)}, which the generated "
+                "code uses; rename it"
+            )
         _prove_equal(expression, made)
         code = compiled_function(_source(expression, variables, made, *ENDS, ""))
-        return made, check_several(expression, variables, code)
+        return made, check_several(expression, variables, code, share)
 
-    found, tested = _best(expression, words, accepted)
+    best, tested = _best(expression, words, accepted)
     where = ", ".join(f"{name} = {x!r}" for name, x in tested.at.items())
     statement = (
-        f"Error at most {tested.limit:g} ULP plus {STATED} times the sum of the condition numbers, "
-        f"for values of magnitudes from {LEAST_VALUE:g} to {LARGEST_VALUE:g} and sums of condition "
-        f"numbers up to {MOST_CONDITIONING:g}. Tested, not proved: "
-        f"with NumPy {np.__version__} against exact values at {tested.points} points, including "
-        "the ends of the range and points at which variables are nearly equal; largest error "
+        f"Error at most {tested.limit:g} ULP plus {tested.share} times the sum of the condition "
+        f"numbers, for values of magnitudes from {LEAST_VALUE:g} to {LARGEST_VALUE:g} and sums of "
+        f"condition numbers up to {MOST_CONDITIONING:g}. Tested, not proved: with NumPy "
+        f"{np.__version__} against exact values at {tested.points} points, including the ends of "
+        "the range and points at which variables are nearly equal; largest error "
         f"{tested.worst:.2f} ULP, at {where}."
     )
-    return found, _source(expression, variables, found, tested.low, tested.high, statement), tested
+    return best, _source(expression, variables, best, tested.low, tested.high, statement), tested
 
 
 def _best(
-    expression: sp.Expr, words: Vocabulary, accepted: Callable[[ProductForm], Tested]
+    expression: sp.Expr, words: Vocabulary, accepted: Callable[[float, ProductForm], Tested]
 ) -> Tested:
-    """Return the formula as it is, or its factors, or its form by products of the variables.
+    """Return the formula as it is, or by identities, or its form by products of the variables.
 
     The first of them that is accurate in a wide range is taken, or else the one with the widest.
+
+    Raises
+    ------
+    UnreachableError
+        If none is accurate; the message is that for the most accurate one.
     """
+    reasons: list[UnreachableError] = []
+    for share in STATED:
+        with _collected(reasons):
+            return _best_for(expression, words, partial(accepted, share), reasons)
+    raise min(reasons, key=lambda reason: getattr(reason, "worst", math.inf))
+
+
+@contextlib.contextmanager
+def _collected(reasons: list[UnreachableError]) -> Iterator[None]:
+    try:
+        yield
+    except UnreachableError as error:
+        reasons.append(error)
+
+
+def _best_for(
+    expression: sp.Expr,
+    words: Vocabulary,
+    accepted: Callable[[ProductForm], Tested],
+    reasons: list[UnreachableError],
+) -> Tested:
+    """Return the best form as `_best`, for one stated share; reasons of others are collected."""
     results: list[Tested] = []
     known = {f.func.__name__ for f in expression.atoms(sp.Function)} <= KNOWN
-    for plain in dict.fromkeys((expression, sp.factor(expression))) if known else ():
-        with contextlib.suppress(UnreachableError):
+    forms = (expression, sp.factor(expression), *by_identities(expression)) if known else ()
+    for plain in dict.fromkeys(forms):
+        with _collected(reasons):
             results.append(accepted(ProductForm((), plain)))
             if results[-1][1].high >= WIDE and results[-1][1].worst <= ENOUGH / 2:
                 return results[-1]
 
     def with_error(made: ProductForm) -> tuple[Tested, float]:
-        found = accepted(made)
-        return found, found[1].worst
+        candidate = accepted(made)
+        return candidate, candidate[1].worst
 
     try:
-        return of_products(GivenFormula("f", expression, words), with_error)
+        results.append(of_products(GivenFormula("f", expression, words), with_error))
     except UnreachableError:
         if not results:
             raise
@@ -107,6 +141,9 @@ def _prove_equal(expression: sp.Expr, made: ProductForm) -> None:
     """Reject a form that is not proved equal to the formula."""
     if made.value == expression:
         return
+    if isinstance(made.value, sp.Expr) and not made.steps and made.value.has(sp.Min, sp.Max):
+        prove_identity(made.value, expression)
+        return
     try:
         form("f", "f", expression, made.steps, made.value, {}, made.blocks)
     except ProofError as error:
@@ -116,13 +153,13 @@ def _prove_equal(expression: sp.Expr, made: ProductForm) -> None:
 def _source(
     expression: sp.Expr,
     variables: Sequence[sp.Symbol],
-    found: ProductForm,
+    form: ProductForm,
     low: float,
     high: float,
     statement: str,
 ) -> str:
-    blocks = [block_text(block) for block in found.blocks]
-    rows, value = lines(found.steps), to_numpy(found.value)
+    blocks = [block_text(block) for block in form.blocks]
+    rows, value = lines(form.steps), to_numpy(form.value)
     used = repr((blocks, rows, value))
     helpers = [
         function_text(RUNTIME / file, part).replace("Double", "np.ndarray")

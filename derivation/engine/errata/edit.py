@@ -190,9 +190,16 @@ def _lone_terms(position: Position, ratio: Values, search: VariantSearch) -> Ite
 def _stray_or_missing(position: Position, ratio: sp.Expr) -> str:
     """Return the kind of error: the ratio removes a factor of the expression, or adds one."""
     above, below = sp.fraction(ratio)
-    numerator, denominator = sp.fraction(position.node)
-    taken = denominator.has(*above.free_symbols) or numerator.has(*below.free_symbols)
-    return STRAY if taken else MISSING
+    node = position.node.function if isinstance(position.node, sp.Integral) else position.node
+    numerator, denominator = sp.fraction(node)
+    return STRAY if _divides(above, denominator) or _divides(below, numerator) else MISSING
+
+
+def _divides(factor: sp.Expr, product: sp.Expr) -> bool:
+    """Return whether an expression with symbols is a factor of a product."""
+    if not factor.free_symbols:
+        return False
+    return not sp.fraction(sp.cancel(product / factor))[1].has(*factor.free_symbols)
 
 
 def _ratio_words(where: str, ratio: sp.Expr, kind: str) -> str:

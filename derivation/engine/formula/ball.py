@@ -14,6 +14,7 @@ Exact = int | float | Fraction
 
 LOG2_10 = 3.3219280948873626
 MAX_BITS = 1 << 16
+MAX_BITS_OF_INTEGRALS = 1 << 10
 SPARE_BITS = 24
 
 
@@ -69,11 +70,13 @@ def evaluate(
     ------
     PrecisionError
         If 65536 bits are not sufficient; the value is then probably zero, or the point singular.
+        With integrals, which take long, the largest precision is `MAX_BITS_OF_INTEGRALS`.
     """
     return refine(
         lambda: enclose(expression, {key: to_ball(value) for key, value in values.items()}),
         digits,
         expression,
+        MAX_BITS_OF_INTEGRALS if expression.has(sp.Integral) else MAX_BITS,
     )
 
 

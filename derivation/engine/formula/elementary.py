@@ -64,6 +64,6 @@ INSTEAD: Mapping[str, str] = {
         ("diff", "Derivative", "Sum", "sum", "lim"),
         "carry out derivatives and sums, and give the result",
     ),
-    **dict.fromkeys(("integrate", "int"), "write Integral(f, (x, a, b)), without LaTeX"),
+    **dict.fromkeys(("integrate", "int"), "write Integral(f, (x, a, b))"),
 }
 """What to write instead of functions that are not read."""

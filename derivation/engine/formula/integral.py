@@ -15,14 +15,14 @@ import flint
 import sympy as sp
 from flint import acb, arb
 
+from derivation.engine.formula.ball import MAX_BITS_OF_INTEGRALS
+from derivation.engine.formula.differences import DIFFERENCES, in_products
 from derivation.engine.formula.growth import Region
 from derivation.engine.formula.hyperbolic import in_exponentials
 from derivation.engine.formula.operations import Operation, through_complex
 from derivation.engine.formula.power_bound import Growth, Power, UnboundedError, tail
 from derivation.engine.formula.tape import Tape, recorded
 
-MAX_BITS = 1024
-"""Largest precision of an integral."""
 HINT = (
     "expected an integrand that is finite and smooth inside its range, and like a power, logarithm "
     "or exponential at its ends or at infinity; divide the range at inner singularities, or "
@@ -61,7 +61,7 @@ def integral(node: sp.Integral) -> Operation:
     def value(holomorphic: bool) -> Callable[..., acb]:
         def added(*operands: acb) -> acb:
             known = dict(zip(symbols, operands, strict=True))
-            with flint.ctx.workprec(min(flint.ctx.prec, MAX_BITS)):
+            with flint.ctx.workprec(min(flint.ctx.prec, MAX_BITS_OF_INTEGRALS)):
                 return sum((part(known, holomorphic) for part in parts), acb(0))
 
         return added
@@ -117,7 +117,7 @@ def _negative(part: Part) -> Part:
 
 
 def _derivative(f: sp.Expr, x: sp.Symbol, low: sp.Expr, high: sp.Expr, by: sp.Symbol) -> sp.Expr:
-    """Return the derivative by a symbol, as integrals with constant limits."""
+    """Return the derivative with respect to a symbol, as integrals with constant limits."""
     if low is sp.S.NegativeInfinity or low is sp.oo or high is sp.S.NegativeInfinity:
         whole = (x, low, high)
         return sp.Integral(sp.diff(f, by), whole)
@@ -260,10 +260,10 @@ class _Decaying:
 
     def value(self, known: Balls, holomorphic: bool) -> acb:
         """Return the integral at the current precision."""
-        found = self._truncation(known, holomorphic)
-        if found is None:
+        truncation = self._truncation(known, holomorphic)
+        if truncation is None:
             return acb(arb.nan())
-        end, rest = found
+        end, rest = truncation
         tape, symbols = self._tape
         own = [acb(known[symbol]) for symbol in symbols]
 
@@ -308,7 +308,7 @@ class _Decaying:
 def _bits(known: Balls) -> int:
     """Return the relative accuracy that is possible with the symbols' balls."""
     accuracies = (int(acb(ball).rel_accuracy_bits()) + 8 for ball in known.values())
-    return max(8, min(int(flint.ctx.prec), *accuracies, MAX_BITS))
+    return max(8, min(int(flint.ctx.prec), *accuracies, MAX_BITS_OF_INTEGRALS))
 
 
 def _integrated(f: Callable[[acb, bool], acb], low: arb, high: arb, known: Balls) -> acb:
@@ -350,7 +350,9 @@ def _tidy(expression: sp.Expr, v: sp.Symbol) -> sp.Expr:
     Then no root of it has a branch point at v = 0, and v cancels between factors. 1 - cos u and
     similar differences become products.
     """
-    expression = expression.replace(lambda node: node.is_Add and len(node.args) == 2, _product)
+    expression = expression.replace(
+        lambda node: node.is_Add, lambda node: in_products(node, DIFFERENCES)
+    )
     expression = expression.replace(
         lambda node: (
             node.is_Pow and node.base.has(v) and not (node.exp.is_Integer and node.exp > 0)
@@ -368,18 +370,3 @@ def _fraction(expression: sp.Expr) -> sp.Expr:
 
 def _factored(base: sp.Expr) -> sp.Expr:
     return base if base.is_Symbol else sp.factor(sp.expand(base))
-
-
-def _product(node: sp.Add) -> sp.Expr:
-    """Return c (f(w) - 1) as a product, for f = cos, cosh and exp; other sums as they are."""
-    number, rest = node.as_coeff_Add()
-    c, function = rest.as_coeff_Mul()
-    if number != -c or not function.args:
-        return node
-    half = function.args[0] / 2
-    factors = {
-        sp.cos: -2 * c * sp.sin(half) ** 2,
-        sp.cosh: 2 * c * sp.sinh(half) ** 2,
-        sp.exp: 2 * c * sp.exp(half) * sp.sinh(half),
-    }
-    return factors.get(function.func, node)

@@ -8,52 +8,18 @@ from collections.abc import Mapping
 
 import sympy as sp
 
-from derivation.engine.formula.elementary import ELEMENTARY, INSTEAD, OTHER_NAMES
+from derivation.engine.formula.elementary import ELEMENTARY, OTHER_NAMES
+from derivation.engine.formula.latex_tokens import tokens_of, unknown
 from derivation.engine.formula.parse import (
     MAX_NESTING,
     MAX_TEXT,
     FormulaError,
-    check_nesting,
     parse,
 )
 from derivation.engine.formula.vocabulary import Vocabulary
 
-_TOKEN = re.compile(r"\\[A-Za-z]+|\\.|\d+(?:\.\d+)?|[A-Za-z]|[{}()\[\]^_+\-*/,.;&|]")
-_SPACING = re.compile(
-    r"\\(?:left|right|[bB]igg?[lr]?|displaystyle|textstyle|q?quad|limits)(?![A-Za-z])"
-    r"|\\[,;:!>\\ ]|[&~\s]"
-)
-_BARS = {r"\left|": r"\lvert ", r"\right|": r"\rvert ", r"\left\vert": r"\lvert",
-         r"\right\vert": r"\rvert"}  # fmt: skip
-_STYLE = r"\\(?:text|textrm|textit|mathrm|mathit|rm|operatorname\*?) *"
-_WORDS = re.compile(rf"{_STYLE}\{{ *([A-Za-z]+) *\}}")
-_INDEX = re.compile(rf"_ *(?:\{{ *{_STYLE}\{{ *(\w+) *\}} *\}}|{_STYLE}\{{ *(\w+) *\}})")
 _FUNCTIONS = {*ELEMENTARY, *OTHER_NAMES}
 _INVERTIBLE = re.compile(r"sinh?|cosh?|tanh?|coth?")
-_INSTEAD = {
-    **{rf"\{name}": text for name, text in INSTEAD.items()},
-    **dict.fromkeys((r"\sum", r"\prod", r"\partial", r"\nabla"), INSTEAD["sum"]),
-    **dict.fromkeys(
-        (r"\bar", r"\hat", r"\tilde", r"\dot", r"\ddot", r"\vec", r"\overline", r"\prime", "'"),
-        "use the symbol without accent",
-    ),
-    **dict.fromkeys(
-        (r"\mathbf", r"\boldsymbol", r"\mathcal", r"\mathbb", r"\text", r"\textbf"),
-        "write the symbol without a style",
-    ),
-    **dict.fromkeys(
-        ("=", "<", ">", r"\leq", r"\geq", r"\le", r"\ge", r"\approx", r"\equiv"),
-        "give only the right-hand side",
-    ),
-    r"\pm": "give the formula with one of the two signs",
-    r"\mp": "give the formula with one of the two signs",
-    r"\infty": "formulas are finite: leave it out",
-    r"\over": r"write \frac{...}{...}",
-    r"\begin": "give one formula without environments",
-    r"\|": r"write \left| ... \right|",
-    "!": INSTEAD["factorial"],
-}
-"""What to write instead of tokens that are not read."""
 _GREEK = {r"\lambda": "lam", r"\mu": "mu", r"\phi": "phi", r"\varphi": "phi", r"\pi": "pi"} | {
     rf"\{name}": name
     for name in (
@@ -66,6 +32,7 @@ _BRACKETS = {"(": ")", "[": "]", r"\{": r"\}", "{": "}", r"\lvert": r"\rvert"}
 _NAME = r"(?:\\[A-Za-z]+|[A-Za-z])(?: _ (?:\w+|\{ \w+ \}))?"
 _ARGUMENTS = re.compile(rf"[(\[] ({_NAME}(?: , {_NAME})*) [)\]]")
 """Only symbols in brackets, as tokens separated by spaces."""
+_PLAIN = r"write \int_{a}^{b} f \, dx; without LaTeX, write Integral(f, (x, a, b))"
 _PRODUCT = {r"\cdot", r"\times", "*"}
 
 
@@ -96,42 +63,13 @@ def parse_latex(
     if len(text) > MAX_TEXT:
         raise FormulaError(f"expected at most {MAX_TEXT} characters, got {len(text)}: split it")
     allowed = {**(also or {}), **vocabulary.names}
-    translator = _Translator(_tokens(text), vocabulary, allowed, preferred or {})
+    translator = _Translator(tokens_of(text), vocabulary, allowed, preferred or {})
     plain = translator.sum()
     if translator.here is not None:
         raise FormulaError(
             f"expected an operator or the end, got {translator.here!r}: leave it out"
         )
     return parse(plain, vocabulary, also)
-
-
-def _tokens(text: str) -> list[str]:
-    check_nesting(text, "{", "}")
-    check_nesting(text, "([", ")]")
-    for bar, bracket in _BARS.items():
-        text = text.replace(bar, bracket)
-    text = _INDEX.sub(lambda found: f"_{{{found[1] or found[2]}}}", text)
-    plain = _WORDS.sub(lambda found: rf"\{found[1]} " if len(found[1]) > 1 else found[1], text)
-    rest = _SPACING.sub(" ", plain.strip("$")).rstrip(" .,;")
-    tokens: list[str] = []
-    position = 0
-    while position < len(rest):
-        if rest[position] == " ":
-            position += 1
-            continue
-        match = _TOKEN.match(rest, position)
-        if match is None:
-            raise _unknown(rest[position])
-        tokens.append(match.group())
-        position = match.end()
-    if not tokens:
-        raise FormulaError(r"expected a formula in LaTeX, got nothing: write for instance \phi_j h")
-    return tokens
-
-
-def _unknown(token: str) -> FormulaError:
-    instead = _INSTEAD.get(token, "write it another way")
-    return FormulaError(f"LaTeX token {token!r} is not known here: {instead}")
 
 
 class _Translator:
@@ -151,6 +89,7 @@ class _Translator:
         self.position = 0
         self.depth = 0
         self.bars = 0
+        self.integrals = [0]  # open ones, by level of brackets
 
     @property
     def here(self) -> str | None:
@@ -191,8 +130,10 @@ class _Translator:
 
     def _at_end(self) -> bool:
         """Return whether a product ends here."""
-        return self.here in (None, "+", "-", ",", *_BRACKETS.values()) or (
-            self.here == "|" and self.bars > 0
+        return (
+            self.here in (None, "+", "-", ",", *_BRACKETS.values())
+            or (self.here == "|" and self.bars > 0)
+            or (self.here == "d" and self.integrals[-1] > 0)
         )
 
     def factor(self) -> str:
@@ -227,7 +168,9 @@ class _Translator:
             raise FormulaError(
                 f"expected brackets or braces in the LaTeX, got {opening!r}: add them"
             )
+        self.integrals.append(0)
         inside = self.sum()
+        self.integrals.pop()
         self.take(_BRACKETS[opening])
         return inside
 
@@ -255,6 +198,8 @@ class _Translator:
             return f"(({above})/({below}))"
         if token == r"\sqrt":
             return self._root()
+        if token == r"\int":
+            return self._integral()
         if token.startswith("\\") and token[1:] in _FUNCTIONS:
             return self._function(token[1:])
         if token == r"\Gamma":
@@ -263,7 +208,7 @@ class _Translator:
             return f"exp({self.exponent()})" if self.here == "^" else "exp(1)"
         if token in _GREEK or token.isalpha():
             return self._symbol(_GREEK.get(token, token))
-        raise _unknown(token)
+        raise unknown(token)
 
     def _between_bars(self) -> str:
         self.bars += 1
@@ -271,6 +216,31 @@ class _Translator:
         self.take("|")
         self.bars -= 1
         return f"abs({inside})"
+
+    def _integral(self) -> str:
+        """Return an integral, which begins with its limits and ends with the differential."""
+        if "d" in self.allowed:
+            raise FormulaError(
+                rf"the symbol d and the differential of \int cannot be told apart: {_PLAIN}"
+            )
+        limits = {self.take(): self._limit() for _ in range(2) if self.here in ("_", "^")}
+        if limits.keys() != {"_", "^"}:
+            raise FormulaError(rf"expected both limits after \int: {_PLAIN}")
+        self.integrals[-1] += 1
+        inside = "1" if self.here == "d" else self.sum()
+        if self.here != "d":
+            raise FormulaError(rf"expected the differential at the end of \int: {_PLAIN}")
+        self.take("d")
+        self.integrals[-1] -= 1
+        return f"Integral({inside}, ({self.primary()}, {limits['_']}, {limits['^']}))"
+
+    def _limit(self) -> str:
+        for signs in ([], ["-"], ["+"]):
+            for limit in ([*signs, r"\infty"], ["{", *signs, r"\infty", "}"]):
+                if self._next(len(limit)) == limit:
+                    self.position += len(limit)
+                    return "".join((*signs, "oo"))
+        return self.bracket() if self.here == "{" else self.single()
 
     def _root(self) -> str:
         if self.here == "[":
@@ -348,9 +318,9 @@ class _Translator:
     def _refuse_unknown_function(self, name: str) -> None:
         """Reject a symbol before symbols in brackets, which would be read as a product."""
         if self.here in ("(", "[") and (
-            found := _ARGUMENTS.match(" ".join(self.tokens[self.position :]))
+            arguments := _ARGUMENTS.match(" ".join(self.tokens[self.position :]))
         ):
-            inside = found[1].replace(" ", "")
+            inside = arguments[1].replace(" ", "")
             raise FormulaError(
                 f"expected a symbol or a known function, got {name}({inside}), which would be "
                 f"read as a product: leave out ({inside}), or write the product without brackets"

@@ -17,7 +17,9 @@ SYMBOLIC = "symbolically"
 BY_BALLS = "by ball arithmetic at two precisions"
 _PRECISIONS = (256, 1024)
 _PRECISIONS_OF_INTEGRALS = (80, 160)
-_POINTS = 12
+_POINTS, _MOST_POINTS = 12, 120
+"""Number of points at which a residual is evaluated, and the number while most are outside its
+domain."""
 
 
 class ProofError(FailedError):
@@ -118,8 +120,10 @@ def balls_contain_zero(expression: sp.Expr) -> bool:
     balls at two points or more.
     """
     inside, integral = 0, expression.has(sp.Integral)
-    points = sample_points(expression.free_symbols, _POINTS // 2 if integral else _POINTS)
-    for values in points:
+    most = _POINTS // 2 if integral else _MOST_POINTS
+    for number, values in enumerate(sample_points(expression.free_symbols, most)):
+        if number >= _POINTS and inside >= 2 * len(_PRECISIONS):
+            break
         for bits in _PRECISIONS_OF_INTEGRALS if integral else _PRECISIONS:
             with flint.ctx.workprec(bits):
                 ball = enclose(expression, {key: to_ball(value) for key, value in values.items()})

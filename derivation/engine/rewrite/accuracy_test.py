@@ -20,6 +20,11 @@ DIGITS = 25
 LARGE = (36.5, 88.9, 95.0, 177.7, 190.0, 300.0, 355.2, 372.0, 500.0, 690.0, 709.5, 744.0, 800.0)
 """Arguments at which e^x, e^(2x), e^(4x) or their inverses leave the range of a format."""
 
+ANGLES = tuple(
+    k * math.pi / 4 * (1 + change) for k in range(1, 9) for change in (-1e-3, -1e-6, 1e-6, 1e-3)
+)
+"""Arguments next to zeros of trigonometric functions and of their sums."""
+
 LEAST = 40
 """Smallest number of points for a decision."""
 
@@ -177,7 +182,10 @@ def accuracy_test(
     if len(fixed) < len(others):
         raise UnreachableError(f"expected at most {len(SAMPLES)} further variables, got {others}")
     exact = []
-    for point in points(*ends, seed or str(expression)):
+    tested = points(*ends, seed or str(expression))
+    if expression.has(sp.sin, sp.cos, sp.tan):
+        tested = tuple(sorted({*tested, *(at for at in ANGLES if ends[0] <= at <= ends[1])}))
+    for point in tested:
         value, slack = _exact_value(expression, x, point, fixed, equal)
         if value is not None and value != 0 and not overflows(value) and abs(value) > 1e-300:
             exact.append(ExactPoint(point, value, slack))

@@ -1,6 +1,6 @@
 """The rewriting rules in the order of application, each with name, cause and condition.
 
-The first four transform an expression, and the others the decomposition that `decay` yields. A
+The first five transform an expression, and the others the decomposition that `decay` yields. A
 rule yields nothing if its condition is not met. Every rule is exact, except for `series`, whose
 truncation error is bounded.
 """
@@ -13,6 +13,7 @@ from typing import TypeAlias
 import sympy as sp
 from sympy.codegen.cfunctions import expm1, log1p
 
+from derivation.engine.formula.differences import HYPERBOLIC, TRIGONOMETRIC, in_products
 from derivation.engine.rewrite.series import leading_power, truncated_taylor
 from derivation.engine.rewrite.shape import Factor, Shape, assembled_form, square
 from derivation.engine.rewrite.terms import (
@@ -79,9 +80,9 @@ def conjugate(_: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
         p, q = sorted(node.args, key=lambda part: part.could_extract_minus_sign())
         return sp.expand(p**2 - q**2) / (p - q)
 
-    found = given.replace(is_difference, corrected)
-    if found != given:
-        yield found
+    replaced = given.replace(is_difference, corrected)
+    if replaced != given:
+        yield replaced
 
 
 def _is_root(term: sp.Expr) -> bool:
@@ -98,12 +99,12 @@ def logarithm(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
             return False
         return 1 in sp.Add.make_args(node.args[0]) or sp.expand(node.args[0] - 1).subs(x, 0) == 0
 
-    found = given.replace(
+    replaced = given.replace(
         is_near_one,
         lambda node: log1p(sp.expand(node.args[0] - 1)),
     )
-    if found != given:
-        yield found
+    if replaced != given:
+        yield replaced
 
 
 def fraction(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
@@ -124,6 +125,18 @@ def _split(expression: sp.Expr, x: sp.Symbol) -> sp.Expr:
     return sp.Mul(
         *(sp.factor(sp.expand(p)) if p.free_symbols == {x} and p.is_Add else p for p in parts)
     )
+
+
+def half_angle(_: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
+    """Write 1 - cos u as 2 sin(u/2)^2, and similar sums of two functions as products."""
+    if isinstance(given, Shape):
+        return
+    found = given.replace(lambda node: node.is_Add, lambda node: in_products(node, _ANGLES))
+    if found != given:
+        yield found
+
+
+_ANGLES = *TRIGONOMETRIC, *HYPERBOLIC
 
 
 def decay(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
@@ -264,9 +277,11 @@ def _with_series(factor: Factor, x: sp.Symbol, switch: sp.Rational) -> Factor:
     # About the middle of its rates a sum of hyperbolic functions is even or odd.
     rates = [key.rate for key in terms]
     shift = (max(rates) + min(rates)) / 2
-    found = truncated_taylor({k._replace(rate=k.rate - shift): v for k, v in terms.items()}, switch)
-    near = found.polynomial(square if found.stride == 2 else x)
-    return replace(factor, near=near, lead=lead, rate=shift, truncation=found.bound)
+    series = truncated_taylor(
+        {k._replace(rate=k.rate - shift): v for k, v in terms.items()}, switch
+    )
+    near = series.polynomial(square if series.stride == 2 else x)
+    return replace(factor, near=near, lead=lead, rate=shift, truncation=series.bound)
 
 
 def reuse(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
@@ -284,6 +299,7 @@ RULES: Sequence[Rule] = (
     Rule("conjugate", "cancellation", conjugate),
     Rule("logarithm", "absorption", logarithm),
     Rule("fraction", "cancellation", fraction),
+    Rule("half angle", "cancellation", half_angle),
     Rule("decay", "overflow", decay),
     Rule("difference", "cancellation", difference),
     Rule("balance", "overflow", balance),

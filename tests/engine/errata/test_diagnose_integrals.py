@@ -41,6 +41,8 @@ PROOF = prove("Abel", "The transform of 1.", {"closed form": INTEGRAL - CLOSED})
         ("Integral(E*s/sqrt(s**2 - r**2), (s, 0, a))", "the lower limit r"),
         ("2*Integral(E*s/sqrt(s**2 - r**2), (s, 0, a))/2", "the lower limit r"),
         ("Integral(E*s**2/sqrt(s**2 - r**2), (s, r, a))", "leave out the factor s"),
+        ("Integral(E/sqrt(s**2 - r**2), (s, r, a))", "missing factor s"),
+        ("Integral(E*s/(a*sqrt(s**2 - r**2)), (s, r, a))", "factor a in the denominator"),
         ("Integral(E*s/sqrt(s**2 + r**2), (s, r, a))", "reverse the sign"),
     ],
 )

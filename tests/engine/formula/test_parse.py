@@ -275,13 +275,24 @@ LATEX = {
     r"\phi_{\text{j}} C_\mathrm{1}": C1 * phi,
     r"\operatorname*{erf}(a) + \mathrm{sech}\,b": sp.erf(a) + 1 / sp.cosh(b),
     r"\log_{10} a + \log_2(b)": sp.log(a) / sp.log(10) + sp.log(b) / sp.log(2),
+    r"\int_0^a \frac{r}{\sqrt{a^2 - r^2}} \, dr": sp.Integral(r / sp.sqrt(a**2 - r**2), (r, 0, a)),
+    r"2\int\limits_{0}^{\infty} r + 1 \, \mathrm{d}r \cdot h": 2
+    * h
+    * sp.Integral(r + 1, (r, 0, sp.oo)),
+    r"\left(\int_0^h \int_0^{r} r z \,dz\,dr\right)^2": sp.Integral(r * z, (z, 0, r), (r, 0, h))
+    ** 2,
+    r"\int_{-\infty}^{a} dr": sp.Integral(1, (r, -sp.oo, a)),
     r"v_0 A \Gamma(3) I_0(\phi_j r)": 2 * v0 * a_ratio * sp.besseli(0, phi * r),
 }
 
 LATEX_REJECTED = {
     r"\delta(t)": "which would be read as a product",
     r"\frac{a^2}{R} \left(1 + h\left(\phi_j, b\right)\right)": "which would be read as a product",
-    r"\int_0^a r": r"\\\\int",
+    r"\int_0^a r": r"differential at the end of \\int",
+    r"\int_0^a \frac{dr}{r}": r"differential at the end of \\int",
+    r"\int r \, dr": r"both limits after \\int",
+    r"\int_0 r \, dr": r"both limits after \\int",
+    r"\infty r": "leave it out",
     r"\sum_{j} a": r"\\\\sum",
     r"\input{/etc/passwd}": r"\\\\input",
     r"\frac{a}": "ends",
@@ -336,3 +347,20 @@ def test_functions_that_are_not_read_are_refused_with_what_to_write_instead(name
     expect_error(parse, f"{name}(a, b)", re.escape(INSTEAD[name]))
     if name.isalpha():
         expect_error(parse_latex, rf"\{name}(a, b)", re.escape(INSTEAD[name]))
+
+
+@pytest.mark.parametrize(
+    "expression",
+    [
+        sp.Integral(r**2 / sp.sqrt(a**2 - r**2), (r, 0, a)) / 2,
+        sp.Integral(sp.exp(-r) * sp.sin(h * r) / r, (r, 0, sp.oo)) + 1,
+        sp.Integral(r * z + z, (z, 0, r), (r, 0, a)),
+    ],
+)
+def test_printed_integrals_are_read_again(expression: sp.Expr) -> None:
+    assert parse_latex(sp.latex(expression)) == expression
+
+
+def test_the_differential_differs_from_a_symbol_d() -> None:
+    with pytest.raises(FormulaError, match="cannot be told apart"):
+        parse_latex(r"\int_0^a d r \, dr", also={"d": sp.Symbol("d")})

@@ -52,6 +52,7 @@ def indentation(a: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike) -> np.nd
 
     Notes
     -----
+    The result belongs to equation (6) of the paper.
     Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
     of the condition numbers of the arguments.
     Domain: a >= 0, a < b, a < R, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, a <= 6
@@ -97,6 +98,7 @@ def contact_radius(delta: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike) -
 
     Notes
     -----
+    The result belongs to equation (6) of the paper.
     Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
     of the condition numbers of the arguments.
     Domain: delta >= 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, a < R, a <= b, a
@@ -145,6 +147,7 @@ def force(
 
     Notes
     -----
+    The result belongs to equation (10) of the paper.
     Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
     of the condition numbers of the arguments.
     Domain: delta >= 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2 *
@@ -188,6 +191,7 @@ def force_of_radius(a: ArrayLike, R: ArrayLike, lam: ArrayLike, mu: ArrayLike) -
 
     Notes
     -----
+    The result belongs to equation (7) of the paper.
     Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
     of the condition numbers of the arguments.
     Domain: a >= 0, a < R, R > 0, 3 * lam > -2 * mu, mu > 0. The budget applies where
@@ -236,6 +240,7 @@ def radius_of_force(P: ArrayLike, R: ArrayLike, lam: ArrayLike, mu: ArrayLike) -
 
     Notes
     -----
+    The result belongs to equation (7) of the paper.
     Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
     of the condition numbers of the arguments.
     Domain: P >= 0, R > 0, 3 * lam > -2 * mu, mu > 0, a < R for the a that results. The
@@ -291,6 +296,7 @@ def stiffness(
 
     Notes
     -----
+    The result belongs to equation (10) of the paper.
     Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
     of the condition numbers of the arguments.
     Domain: a >= 0, a < b, a < R, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 *
@@ -333,6 +339,7 @@ def max_pressure(a: ArrayLike, R: ArrayLike, lam: ArrayLike, mu: ArrayLike) -> n
 
     Notes
     -----
+    The result belongs to equation (7) of the paper.
     Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
     of the condition numbers of the arguments.
     Domain: a >= 0, a < R, R > 0, 3 * lam > -2 * mu, mu > 0. The budget applies where

@@ -78,6 +78,7 @@ def supported_edge(
 
     Notes
     -----
+    The result belongs to equation (6) of the paper.
     Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
     of the condition numbers of the arguments.
     Domain: a >= 0, a <= 0.9 * b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2
@@ -130,6 +131,7 @@ def clamped_edge(
 
     Notes
     -----
+    The result belongs to equation (6) of the paper.
     Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
     of the condition numbers of the arguments.
     Domain: a >= 0, a <= 0.9 * b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2
@@ -183,6 +185,7 @@ def supported_edge_slope(
 
     Notes
     -----
+    The result belongs to equation (6) of the paper.
     Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
     of the condition numbers of the arguments.
     Domain: a >= 0, a <= 0.9 * b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2
@@ -235,6 +238,7 @@ def clamped_edge_slope(
 
     Notes
     -----
+    The result belongs to equation (6) of the paper.
     Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
     of the condition numbers of the arguments.
     Domain: a >= 0, a <= 0.9 * b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2
@@ -288,6 +292,7 @@ def supported_edge_bound(
 
     Notes
     -----
+    The result belongs to equation (6) of the paper.
     Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
     of the condition numbers of the arguments.
     Domain: a >= 0, a <= b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2 * mu,
@@ -341,6 +346,7 @@ def clamped_edge_bound(
 
     Notes
     -----
+    The result belongs to equation (6) of the paper.
     Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
     of the condition numbers of the arguments.
     Domain: a >= 0, a <= b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2 * mu,

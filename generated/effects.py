@@ -76,6 +76,7 @@ def sphere_contact(a_over_R: ArrayLike) -> Sphere:
 
     Notes
     -----
+    The result belongs to equation (7) of the paper.
     Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
     of the condition numbers of the arguments.
     Domain: a_over_R >= 0, a_over_R < 1. The budget applies where the value is a normal
@@ -115,6 +116,7 @@ def finite_radius(alpha: ArrayLike) -> Contribution:
 
     Notes
     -----
+    The result belongs to equation (6) of the paper.
     Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
     of the condition numbers of the arguments.
     Domain: alpha >= 0, alpha < 1. The budget applies where the value is a normal
@@ -156,6 +158,7 @@ def bending(a_ratio: ArrayLike, eta: ArrayLike) -> Contribution:
 
     Notes
     -----
+    The result belongs to equation (6) of the paper.
     Tested error budget: 4 units in the last place (ULP) of the value, plus half the sum
     of the condition numbers of the arguments.
     Domain: a_ratio >= 0, eta > 0. The budget applies where the value is a normal

@@ -146,6 +146,7 @@ def impact(
 
     Notes
     -----
+    The result belongs to equation (13) of the paper.
     Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
     of the condition numbers of the arguments.
     Domain: m > 0, v0 > 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2
@@ -217,6 +218,7 @@ def history(
 
     Notes
     -----
+    The result belongs to equation (13) of the paper.
     Tested error budget: 8 units in the last place (ULP) of the result's largest value
     in the impact, plus half the sum of the condition numbers of the arguments.
     Domain: m > 0, v0 > 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2

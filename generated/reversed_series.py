@@ -72,6 +72,7 @@ def force_by_series(
 
     Notes
     -----
+    The result belongs to equation (10) of the paper.
     Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
     of the condition numbers of the arguments.
     Domain: delta >= 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2 *

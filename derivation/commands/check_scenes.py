@@ -52,8 +52,8 @@ def inertia(
 ) -> None:
     """Test impacts with plate inertia on random scenes.
 
-    Each is compared with a simulation with twice as many modes and all wave branches. The exit
-    status is 1 if a difference exceeds the tolerance or its bound.
+    Each impact is compared with a simulation with twice as many modes and all wave branches. The
+    exit status is 1 if a difference exceeds the tolerance or its bound.
 
     Example: platecontact check inertia -n 50 --seed 3
     """

@@ -13,12 +13,13 @@ def rewrite(
     formula: Annotated[
         str,
         typer.Argument(
-            metavar="FORMULA", help="A formula of positive numbers (default: the paper's formulas)."
+            metavar="FORMULA",
+            help="A formula; its variables are positive (default: the paper's).",
         ),
     ] = "",
     variable: Annotated[
         str,
-        typer.Option(metavar="NAME", help="Name of the variable of a formula that contains none."),
+        typer.Option(metavar="NAME", help="Variable of the code if the formula contains none."),
     ] = "x",
     update: Annotated[
         bool, typer.Option("--update", help="Save the paper's result as its rewrite.json.")
@@ -66,7 +67,10 @@ def rewrite(
         heads = ("formula", "rule", "prevents", "#operations", "#error [ULP]")
         first = 1 if formula else 0
         title = "Each rule: operations and largest error without/with it"
-        table(title, heads[first:], [row[first:] for row in rows])
+        if rows:
+            table(title, heads[first:], [row[first:] for row in rows])
+        else:
+            OUT.say("No rule reduces the error of this formula.\n")
         OUT.say(source)
 
 

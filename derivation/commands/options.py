@@ -13,6 +13,10 @@ PaperFolder = Annotated[
     typer.Option("--paper", metavar="FOLDER", help="Use the paper in this folder (see `new`)."),
 ]
 SEED = 1
+TOLERANCE = "1e-13 to 1 (default: that of the scene)"
+"""Range and default of a tolerance, in the help."""
+SPACING = "N evenly spaced values from A to B, or with :log evenly spaced logarithms"
+"""Meaning of A:B:N[:log], in the help."""
 Seed = Annotated[int, typer.Option(metavar="N", help="Random seed.")]
 Suggest = Annotated[
     bool,

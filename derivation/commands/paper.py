@@ -134,7 +134,8 @@ def report(
 
     Example: platecontact report --section misprints --section accuracy
 
-    With --fragment: print to the screen, or write into the folder of --out, with the bibliography.
+    With --fragment: print formulas as LaTeX to paste, or write them, with the bibliography, into
+    the folder of --out.
 
     Example: platecontact report --fragment K_j --fragment G --out pieces
     """

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from derivation.commands.options import SPACING, TOLERANCE
 from derivation.engine.console import (
     NOTES,
     OUT,
@@ -32,6 +33,14 @@ OUTPUT_SUFFIXES = frozenset(
 """Suffixes of output formats."""
 
 SceneFile = Annotated[Path, typer.Argument(metavar="SCENE.toml", help="Scene file.")]
+SelectionTolerance = Annotated[
+    float | None,
+    typer.Option(
+        metavar="X",
+        help="Relative tolerance of the selection, 1e-13 to 1 (default: that of the scene, or "
+        "1e-3).",
+    ),
+]
 
 
 def simulate(
@@ -45,15 +54,16 @@ def simulate(
         typer.Option(metavar="FILE", help="Write the time history as CSV, in SI units."),
     ] = None,
     animate: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Animate the plate: .gif or .html.")
+        Path | None,
+        typer.Option(metavar="FILE", help="Animate a plate with inertia: .gif or .html."),
     ] = None,
     rtol: Annotated[
         float | None,
-        typer.Option(metavar="X", help="Relative tolerance of the results, 1e-13 to 1."),
+        typer.Option(metavar="X", help=f"Relative tolerance of the results, {TOLERANCE}."),
     ] = None,
     sweep: Annotated[
         str | None,
-        typer.Option(metavar="TABLE.KEY=A:B:N[:log]", help="Simulate for N values from A to B."),
+        typer.Option(metavar="TABLE.KEY=A:B:N[:log]", help=f"Simulate for {SPACING}."),
     ] = None,
     details: Annotated[
         bool, typer.Option("--details", help="Also print the tables of effects and contacts.")
@@ -181,9 +191,7 @@ def _sweep(
 def explain(
     scene: SceneFile,
     json: Json = None,
-    rtol: Annotated[
-        float | None, typer.Option(metavar="X", help="Relative tolerance, 1e-13 to 1.")
-    ] = None,
+    rtol: SelectionTolerance = None,
 ) -> None:
     """Show which effects a scene requires, and why.
 
@@ -205,9 +213,7 @@ def map_(
     plot: Annotated[
         Path, typer.Option("--plot", metavar="FILE", help="File to write: .png, .svg or .pdf.")
     ] = Path("map.pdf"),
-    rtol: Annotated[
-        float | None, typer.Option(metavar="X", help="Relative tolerance, 1e-13 to 1.")
-    ] = None,
+    rtol: SelectionTolerance = None,
 ) -> None:
     """Draw for which a/h and h/b each effect matters.
 

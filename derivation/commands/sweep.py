@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from derivation.commands.options import SPACING, TOLERANCE
 from derivation.commands.scenes import SceneFile, check_outputs
 from derivation.engine.console import NOTES, OUT, Json, progress_bar, warn, write_json_output
 from derivation.engine.files import write_file
@@ -23,9 +24,7 @@ def sweep(
     scene: SceneFile,
     vary: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="TABLE.KEY=A:B:N[:log]", help="Grid: N values from A to B; repeatable."
-        ),
+        typer.Option(metavar="TABLE.KEY=A:B:N[:log]", help=f"Grid: {SPACING}; repeatable."),
     ] = None,
     distributions: Annotated[
         Path | None,
@@ -39,14 +38,17 @@ def sweep(
     ] = None,
     method: Annotated[
         str | None,
-        typer.Option(metavar="NAME", help="random (default), latin-hypercube or sobol."),
+        typer.Option(metavar="NAME", help="Sampling: random (default), latin-hypercube or sobol."),
     ] = None,
     sensitivity: Annotated[
         bool,
-        typer.Option("--sensitivity", help="Sensitivity indices, from N (keys + 2) simulations."),
+        typer.Option(
+            "--sensitivity", help="Compute sensitivity indices from N (keys + 2) simulations."
+        ),
     ] = False,
     rtol: Annotated[
-        float | None, typer.Option(metavar="X", help="Relative tolerance, 1e-13 to 1.")
+        float | None,
+        typer.Option(metavar="X", help=f"Relative tolerance of the results, {TOLERANCE}."),
     ] = None,
     out: Annotated[
         Path | None,

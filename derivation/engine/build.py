@@ -157,7 +157,7 @@ def generate(paper: Paper, out: Path | None = None) -> tuple[Path, ...]:
 
 def misprints(paper: Paper) -> tuple[Finding, ...]:
     """Return the comparison of each published formula with the derived one (stage 4)."""
-    return paper.errata.found(paper.chain)
+    return paper.errata.findings(paper.chain)
 
 
 def check(

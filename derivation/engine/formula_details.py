@@ -54,9 +54,9 @@ def formula_details(paper: Paper, name: str) -> FormulaDetails:
     KeyError
         If the paper has no formula of that name.
     """
-    found = paper.chain.derived_steps()
-    steps = {formula.name: step for step, formulas in found for formula in formulas}
-    used_by = [f.name for _, formulas in found for f in formulas if name in f.sources]
+    derived = paper.chain.derived_steps()
+    steps = {formula.name: step for step, formulas in derived for formula in formulas}
+    used_by = [f.name for _, formulas in derived for f in formulas if name in f.sources]
     references = paper.report().prose.references
     sources = [references.entries[key] for key in references.cited(steps[name])]
     return FormulaDetails(

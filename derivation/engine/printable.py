@@ -10,7 +10,7 @@ _CONTROL_CHARACTERS = re.compile(
 
 def printable(text: str) -> str:
     r"""Return text with control characters escaped as in Python, like ``\x1b``."""
-    return _CONTROL_CHARACTERS.sub(lambda found: _escaped(found[0]), text)
+    return _CONTROL_CHARACTERS.sub(lambda match: _escaped(match[0]), text)
 
 
 def one_line(text: str, most: int = 60) -> str:
@@ -21,7 +21,7 @@ def one_line(text: str, most: int = 60) -> str:
 
 def in_json(text: str) -> str:
     r"""Return JSON text with control characters escaped as in JSON, like ``\u001b``."""
-    return _CONTROL_CHARACTERS.sub(lambda found: f"\\u{ord(found[0]):04x}", text)
+    return _CONTROL_CHARACTERS.sub(lambda match: f"\\u{ord(match[0]):04x}", text)
 
 
 def _escaped(character: str) -> str:

@@ -47,7 +47,7 @@ def _parts(paper: Paper, sections: Sequence[str]) -> Parts:
         plan.abstract,
         paper.vocabulary,
         paper.chain.derived_steps(),
-        paper.errata.found(paper.chain),
+        paper.errata.findings(paper.chain),
         json.loads(paper.measured.read_text()),
         plan.prose,
         version("platecontact"),
@@ -107,7 +107,7 @@ def write(
         folder / f"{name}.tex": text.document(version("platecontact"))
         for name, text in texts.items()
     }
-    contents |= {folder / f"{name}.html": found for name, found in zip(texts, pages, strict=True)}
+    contents |= {folder / f"{name}.html": page for name, page in zip(texts, pages, strict=True)}
     contents[folder / "report.bib"] = plan.prose.references.bib()
     for key, figure in drawn.items():
         contents[folder / "figures" / f"{key}.pdf"] = figure_file(figure, ".pdf")

@@ -29,7 +29,7 @@ chain, formulas = CHAIN.derived_steps, CHAIN.formulas
 
 def misprints() -> tuple[Finding, ...]:
     """Return the comparison of each published formula with the derived one."""
-    return ERRATA.found(CHAIN)
+    return ERRATA.findings(CHAIN)
 
 
 def diagnose(

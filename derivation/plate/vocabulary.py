@@ -33,7 +33,7 @@ c_A = {n: sp.Symbol(f"c_{n}", real=True) for n in range(1, 10, 2)}
 D = {n: sp.Symbol(f"D_{n}", real=True) for n in range(3, 12, 2)}
 """D_n = c_(n-2) (a_m/h)^(n-2), a_m the largest contact radius, by n."""
 D_eta = {n: sp.Symbol(f"D_{n}_eta", real=True) for n in range(3, 12, 2)}
-"""Derivative of D_n by log(h/b) at fixed a_m/h, by n."""
+"""Derivative of D_n with respect to log(h/b) at fixed a_m/h, by n."""
 gamma_k = {k: sp.Symbol(f"gamma_{k}", positive=k == 2, real=True) for k in range(2, 7)}
 """gamma_k, coefficient of P^((2k-1)/3) in the indentation, by k."""
 xi_k = {k: sp.Symbol(f"xi_{k}", positive=k == 2, real=True) for k in range(2, 7)}
@@ -132,7 +132,13 @@ ARGUMENTS = (
         for n, s in D.items()
     ),
     *(
-        Argument(s, "1", rf"\dot D_{{{n}}}", f"derivative of D_{n} by log(h/b) at fixed a_m/h", ())
+        Argument(
+            s,
+            "1",
+            rf"\dot D_{{{n}}}",
+            f"derivative of D_{n} with respect to log(h/b) at fixed a_m/h",
+            (),
+        )
         for n, s in D_eta.items()
     ),
     *(

@@ -92,6 +92,11 @@ class AchievedAccuracy:
         # With NumPy's functions, so that the bound is that of a row, to the last bit.
         return float(np.expm1(sum(np.log1p(part.bound) for part in self.parts.values())))
 
+    @property
+    def remaining(self) -> float | None:
+        """The part of the tolerance for the simulation, less the error of a constant [1]."""
+        return self.rtol if self.constant is None else remaining(self.rtol, self.constant.bound)
+
     def to_json(self) -> dict[str, Any]:
         """Return method, tolerance and bound, with the parts of the bound and their bases."""
         parts = {
@@ -138,6 +143,11 @@ class AchievedAccuracy:
             f"Method: {self.method} ({METHODS[self.method]}). Relative error bound"
             f"{self._outputs_in_words} {rounded_up(self.bound)}: {parts}."
         )
+
+
+def remaining(rtol: float | None, error: float) -> float | None:
+    """Return the part of a tolerance that an error leaves [1]; None without a tolerance."""
+    return None if rtol is None else (rtol - error) / (1.0 + error)
 
 
 def rounded_up(bound: float) -> str:

@@ -116,8 +116,8 @@ class Plate(Table):
     )
     edge: Edge = Field(
         default="paper",
-        description='support of the edge; "paper": the edge condition of the paper, elastically '
-        "restrained",
+        description='support of the edge: "paper", elastically restrained as in the paper; '
+        '"simply-supported"; or "clamped"',
         examples=["clamped"],
     )
     density: Positive | None = Field(

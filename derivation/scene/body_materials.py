@@ -4,6 +4,8 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from derivation.scene.bodies import Material, Plate, Sphere
 from derivation.scene.materials import (
     KnownMaterial,
@@ -14,6 +16,16 @@ from derivation.scene.materials import (
     unknown,
 )
 from derivation.scene.messages import OWN_MATERIALS, shown
+
+LIGHT_AND_STIFF = 3e5
+"""Largest Young's modulus over the square of the density of a solid [Pa m^6/kg^2]: that of balsa
+along the grain, the highest in the chart of modulus and density by Ashby, Materials Selection in
+Mechanical Design, 4th ed. (2011), fig. 4.3."""
+INCOMPRESSIBLE, LIGHTEST_DENSE = 0.4, 400.0
+"""Poisson's ratio from which a solid is assumed to have no pores, and a density [kg/m^3] below
+those of all solids without pores. Foams have ratios of about 1/3 (Gibson and Ashby, Cellular
+Solids, 2nd ed. (1997), ch. 5); lithium, the lightest metal, has 534 kg/m^3, the lightest polymer
+830."""
 
 
 class Body(NamedTuple):
@@ -31,6 +43,8 @@ class Body(NamedTuple):
         Yield stress [Pa]; infinite if unknown.
     solid_density
         Density of the material [kg/m^3], whatever the table gives; 0 if unknown.
+    lightest
+        Density below which no solid has these elastic constants [kg/m^3]; 0 for a rigid body.
     """
 
     lam: float
@@ -39,6 +53,7 @@ class Body(NamedTuple):
     retardation_time: float
     yield_stress: float
     solid_density: float
+    lightest: float
 
 
 def own_materials(tables: Mapping[str, Material]) -> dict[str, KnownMaterial]:
@@ -54,13 +69,26 @@ def first_given(*values: Any) -> Any:
 def body_of(table: Sphere | Plate, materials: Mapping[str, KnownMaterial]) -> Body:
     """Return the material constants of a sphere or plate of a valid scene."""
     material = find(table.material, materials) if table.material is not None else None
+    lam, mu = _lame_constants(table, material)
     return Body(
-        *_lame_constants(table, material),
+        lam,
+        mu,
         first_given(table.density, material and material.density, 0.0),
         first_given(table.retardation_time, material and material.retardation_time, 0.0),
         first_given(table.yield_stress, material and material.yield_stress, math.inf),
         first_given(material and material.density, 0.0),
+        lightest_density(lam, mu),
     )
+
+
+def lightest_density(lam: Any, mu: Any) -> Any:
+    """Return the density below which no solid has these Lame constants [kg/m^3]; 0 if rigid."""
+    with np.errstate(all="ignore"):
+        modulus, ratio = mu * (3.0 * lam + 2.0 * mu) / (lam + mu), 0.5 * lam / (lam + mu)
+        stiff = np.sqrt(modulus / LIGHT_AND_STIFF)
+        least = np.maximum(stiff, np.where(ratio >= INCOMPRESSIBLE, LIGHTEST_DENSE, 0.0))
+    least = np.where(np.isfinite(least), least, 0.0)
+    return float(least) if np.ndim(least) == 0 else least
 
 
 def _lame_constants(table: Sphere | Plate, material: KnownMaterial | None) -> tuple[float, float]:

@@ -258,15 +258,15 @@ def tabulated(law: ContactLaw, last: float) -> PanelTable:
         a = low + (high - low) * (1.0 + nodes) / 2.0
         shape = law.at(a)
         values = np.array([(shape.depth - 1.0) / a, shape.force])
-        found = np.sum(basis[:, :, None] * values.T, axis=1)
-        tail = np.max(np.abs(found[-2:]), axis=0)
+        coefficients = np.sum(basis[:, :, None] * values.T, axis=1)
+        tail = np.max(np.abs(coefficients[-2:]), axis=0)
         off = max(tail[0] * a[-1] / shape.depth[-1], tail[1] / np.max(shape.force))
         if off > CONVERGED and high - low > NARROWEST * last:
             middle = 0.5 * (low + high)
             todo += [(middle, high), (low, middle)]
             continue
         ends.append(high)
-        rows.append(np.array([_powers(column) for column in found.T]))
+        rows.append(np.array([_powers(column) for column in coefficients.T]))
     growth, force = np.stack(rows, axis=1)
     return PanelTable(np.array(ends), growth, force if law.spherical or law.solved else None)
 

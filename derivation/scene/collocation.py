@@ -209,10 +209,10 @@ def largest_of(elements: Iterable[Element], row: int) -> float:
     The sum of the absolute coefficients is an upper bound, because no Legendre polynomial exceeds
     1. Elements with a bound below the largest value found are skipped.
     """
-    found = -math.inf
+    largest = -math.inf
     bounds = [(float(np.sum(np.abs(element.rows[row]))), element) for element in elements]
     for bound, element in sorted(bounds, key=lambda pair: -pair[0]):
-        if bound <= found:
+        if bound <= largest:
             break
-        found = max(found, element.largest(row))
-    return found
+        largest = max(largest, element.largest(row))
+    return largest

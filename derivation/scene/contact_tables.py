@@ -21,7 +21,7 @@ and the factor by which the degree grows until it is met, up to a degree of `HIG
 
 
 class ContactSamples(NamedTuple):
-    """The contact at radii, with derivatives `_a` by the radius.
+    """The contact at radii, with derivatives `_a` with respect to the radius.
 
     `forces` has the contact force and then the forces that drive the shapes [N], in columns;
     `depth` is the quasi-static depth [m]; `less` is s_j - 1 of each shape [1].
@@ -41,7 +41,7 @@ class ContactSamples(NamedTuple):
 
     @property
     def force_a(self) -> Array:
-        """Derivative of the contact force by the radius [N/m]."""
+        """Derivative of the contact force with respect to the radius [N/m]."""
         return self.forces_a[:, 0]
 
     @property

@@ -45,18 +45,23 @@ class IncompleteError(SceneError):
         return f"effects.inertia: {self.why}; {self.remedy}"
 
 
-class GrownError(SceneError):
-    """The error of a tolerance that a simulated impact exceeds by the growth of bounds.
+class ToleranceError(SceneError):
+    """The error of a tolerance that the results do not meet.
 
-    Parameters
+    Attributes
     ----------
+    message
+        The message.
+    error
+        Error bound that the results reach, or are expected to reach [1].
     growth
-        Factor by which the impact increased the bound on the omitted effects [1].
+        Factor by which the impact increased the bound on the omitted effects, if the tolerance is
+        met without it [1]; else 1.
     """
 
-    def __init__(self, message: str, growth: float) -> None:
-        super().__init__(message, growth)  # the arguments from which pickle restores it
-        self.message, self.growth = message, growth
+    def __init__(self, message: str, error: float, growth: float = 1.0) -> None:
+        super().__init__(message, error, growth)  # the arguments from which pickle restores it
+        self.message, self.error, self.growth = message, error, growth
 
     def __str__(self) -> str:
         return self.message

@@ -52,9 +52,8 @@ class Explanation:
         effects = ", ".join(self.effects.included)
         results = "each result"
         if self.effects.outputs != OUTPUTS:
-            results = "each of " + ", ".join(
-                name.replace("_", " ") for name in self.effects.outputs
-            )
+            names = [name.replace("_", " ") for name in self.effects.outputs]
+            results = " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
         omitted = (
             f"The omitted effects change {results} by at most {self.effects.stated_error:.1e} "
             f"(tolerance {self.effects.rtol:.3g})."

@@ -9,7 +9,7 @@ from derivation.scene.achieved_accuracy import ESTIMATED, AchievedAccuracy, Part
 from derivation.scene.edge_remainder import edge_remainder
 from derivation.scene.effect_selection import SelectedEffects, decide
 from derivation.scene.effects.effect import Results
-from derivation.scene.errors import GrownError
+from derivation.scene.errors import ToleranceError
 from derivation.scene.law import ContactLaw
 from derivation.scene.limits import (
     check_radius,
@@ -22,7 +22,7 @@ from derivation.scene.limits import (
     stress_warnings,
     warnings_at,
 )
-from derivation.scene.measured import toleranced
+from derivation.scene.measured import error_of, inaccurate_constant, remaining_of, toleranced
 from derivation.scene.method_selection import (
     check_rtol,
     dynamic_impact,
@@ -103,11 +103,10 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
     scene = toleranced(scene, None if rtol is None else check_rtol(rtol))
     rtol, selected = selected_effects(scene, rtol)
     selected, numbers, accuracy = _solved(scene, selected, rtol)
-    accuracy = _with_constant(scene, accuracy)
     contact_time, delta, force, a, _ = numbers
     law, model = selected.law, selected.law.model
     check_radius(law, a, "impact.speed", "reduce the speed")
-    motion = dynamic_impact(selected, rtol) if law.dynamic else None
+    motion = dynamic_impact(selected, accuracy.remaining) if law.dynamic else None
     pressure = min(law.max_pressure(a), law.pressure_limit)
     model_error = _model_error(selected, a, motion)
     fraction = 1.0 - float(local_indentation(law, a)) / delta
@@ -140,17 +139,26 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
 def _solved(
     scene: Scene, selected: SelectedEffects, rtol: float | None
 ) -> tuple[SelectedEffects, Results, AchievedAccuracy]:
-    """Return the effects, the outputs and their accuracy.
+    """Return the effects, the outputs and their accuracy, with the error of a fitted constant.
 
     If the simulation increases the bounds beyond the tolerance, it is repeated with more effects.
     """
+    rest = remaining_of(scene, rtol)
     try:
-        return selected, *solve_selected(selected, rtol)
-    except GrownError as error:
-        more = selected_effects(scene, rtol, error.growth / REPEATED)[1]
-        if more.law.effects == selected.law.effects:
-            raise
-        return more, *solve_selected(more, rtol)
+        try:
+            numbers, accuracy = solve_selected(selected, rest)
+        except ToleranceError as error:
+            if error.growth == 1.0:
+                raise
+            more = selected_effects(scene, rtol, error.growth / REPEATED)[1]
+            if more.law.effects == selected.law.effects:
+                raise
+            selected = more
+            numbers, accuracy = solve_selected(selected, rest)
+    except ToleranceError as error:
+        raise inaccurate_constant(scene, rtol, error) from None
+    constant = None if scene.measured is None else Part(error_of(scene), ESTIMATED)
+    return selected, numbers, replace(accuracy, rtol=rtol, constant=constant)
 
 
 def _yield_warnings(law: ContactLaw, a: float, pressure: float) -> tuple[str, ...]:
@@ -160,20 +168,6 @@ def _yield_warnings(law: ContactLaw, a: float, pressure: float) -> tuple[str, ..
     model = law.model
     weaker = "sphere" if model.yield_stress < model.plate_yield_stress else "plate"
     return pressure_warnings(pressure, _known(model.yield_stress), law.viscous, weaker)
-
-
-def _with_constant(scene: Scene, accuracy: AchievedAccuracy) -> AchievedAccuracy:
-    """Return the accuracy with the error of a constant that follows from a measurement."""
-    if scene.measured is None:
-        return accuracy
-    from derivation.scene.measured import error_of, inaccurate_constant
-
-    error = error_of(scene)
-    result = replace(accuracy, constant=Part(error, ESTIMATED))
-    # An incomplete impact has no bound.
-    if result.rtol is not None and result.rtol < result.bound < math.inf:
-        raise inaccurate_constant(result.bound, error, result.rtol)
-    return result
 
 
 def _known(stress: float) -> float | None:
@@ -217,8 +211,11 @@ def selected_effects(
         outputs = scene.accuracy.outputs
         rtol = scene.accuracy.rtol if rtol is None else rtol
     wanted, tolerance = scene.effects.model_dump(), selection_tolerance(rtol)
-    model = model_of(toleranced(scene, rtol))
+    scene = toleranced(scene, rtol)
+    model = model_of(scene)
     check_enabled(scene, model)
+    if scene.measured is not None:
+        tolerance = selection_tolerance(remaining_of(scene, rtol))
     return rtol, decide(model, wanted, tolerance, outputs, rtol is None, growth)
 
 

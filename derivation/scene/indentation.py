@@ -146,13 +146,13 @@ def indent(
     try:
         law = static_law(scene)
         with np.errstate(all="ignore"):  # extreme scenes give NaN, which is checked
-            found = [_contact(law, name, value) for value in numbers]
+            contacts = [_contact(law, name, value) for value in numbers]
     except SceneError as error:
         if not on_units:
             raise
         raise with_unit_warnings(error, on_units) from error
     return StaticContacts(
-        replace(contact, warnings=(*on_units, *contact.warnings)) for contact in found
+        replace(contact, warnings=(*on_units, *contact.warnings)) for contact in contacts
     )
 
 
@@ -275,7 +275,8 @@ def _radius(law: ContactLaw, name: str, value: float) -> float:
         a = min(a * math.exp(max(-1.0, min(1.0, step))), last)
     if not abs(step) < _FOUND:
         raise SceneError(
-            f"{name}: found no contact with {value:.6g} {UNITS[name]}; use less extreme values"
+            f"{name}: expected a value whose contact can be computed, got {value:.6g} "
+            f"{UNITS[name]}; use less extreme values"
         )
     return a
 

@@ -335,7 +335,7 @@ class ContactLaw:
         equal = a * np.cbrt(force)
         depth = shape.indentation / a * (R / a)
         additive = 2.0 * self.modulus * equal / shape.stiffness
-        # Derivative of Hertz's radius of the force by the contact radius.
+        # Derivative of Hertz's radius of the force with respect to the contact radius.
         growth = shape.stiffness * shape.slope / (4.0 * self.modulus * equal) * (R / equal)
         part = 1.0 / (1.0 + self.softness)
         for effect in self._beyond_whole_plate:

@@ -318,14 +318,21 @@ def motion_warnings(
 
 def hollow_warnings(model: Model) -> tuple[str, ...]:
     """Return a warning if the sphere is far too light to be solid."""
-    solid = 4 / 3 * math.pi * model.R * model.R * model.R * model.solid_density
-    if model.m >= SOLID_LIMIT * solid:
+    volume = 4 / 3 * math.pi * model.R * model.R * model.R
+    solid = volume * model.solid_density
+    if model.m < SOLID_LIMIT * solid:
+        light = (
+            f"is {model.m / solid:.2g} times that of a solid sphere of its material ({solid:.4g} "
+            "kg)"
+        )
+    elif model.m < volume * model.lightest_density:
+        light = (
+            f"gives a density of {model.m / volume:.3g} kg/m^3, less than that of any solid with "
+            "these elastic constants"
+        )
+    else:
         return ()
-    text = (
-        f"the sphere mass is {model.m / solid:.2g} times that of a solid sphere of its material "
-        f"({solid:.4g} kg): the model does not include the bending of a hollow sphere"
-    )
-    return (text,)
+    return (f"the sphere mass {light}: the model does not include the bending of a hollow sphere",)
 
 
 def pressure_warnings(

@@ -21,12 +21,13 @@ from derivation.scene.achieved_accuracy import (
     TESTED,
     AchievedAccuracy,
     Part,
+    remaining,
     rounded_up,
 )
 from derivation.scene.effect_selection import NO_GROWTH, SelectedEffects, largest_growth
 from derivation.scene.effects import BY_NAME, PAPER
 from derivation.scene.effects.effect import Results
-from derivation.scene.errors import GrownError
+from derivation.scene.errors import ToleranceError
 from derivation.scene.law import ContactLaw
 from derivation.scene.limits import check_energy, check_numbers
 from derivation.scene.messages import shown
@@ -72,12 +73,12 @@ def solve_selected(
 
     Raises
     ------
-    GrownError
-        If the tolerance is not met, but would be if the impact had not increased the bounds.
+    ToleranceError
+        If the tolerance is not met.
     SceneError
-        If the impact exceeds the law's range, or the tolerance cannot be met.
+        If the impact exceeds the law's range.
     """
-    law, rest = selected.law, remaining(selected, rtol)
+    law, rest = selected.law, remaining(rtol, selected.error)
     moving: DynamicImpact | None = None
     if law.of_paper:
         results, accuracy = solve(law.model, rest)
@@ -97,12 +98,11 @@ def solve_selected(
         timed = moving is not None and "contact_time" in selected.outputs
         if _may_jump(selected, moving) or (moving and timed and moving.inertia.jump > rtol):
             raise _jump(rtol)
-        problem = _out_of_reach(rtol, accuracy, law, results[3])
         before = replace(accuracy, effects=Part(selected.error, _basis(selected)))
-        if before.bound <= rtol:
-            growth = largest_growth(growth_of(moving), selected.outputs)
-            raise GrownError(str(problem), growth)
-        raise problem
+        growth = (
+            largest_growth(growth_of(moving), selected.outputs) if before.bound <= rtol else 1.0
+        )
+        raise _out_of_reach(rtol, accuracy, law, results[3], growth)
     check_numbers(law.model, *(results[:-1] if math.isnan(results[-1]) else results))
     return results, accuracy
 
@@ -116,7 +116,9 @@ def _jump(rtol: float) -> SceneError:
     )
 
 
-def _out_of_reach(rtol: float, accuracy: AchievedAccuracy, law: ContactLaw, a: float) -> SceneError:
+def _out_of_reach(
+    rtol: float, accuracy: AchievedAccuracy, law: ContactLaw, a: float, growth: float
+) -> SceneError:
     """Return the error for a tolerance that is not met, or cannot be compared with a bound."""
     if math.isinf(accuracy.effects.bound):
         return SceneError(
@@ -133,14 +135,11 @@ def _out_of_reach(rtol: float, accuracy: AchievedAccuracy, law: ContactLaw, a: f
             f"inertia.modes: expected enough modes for an error bound, got "
             f"{law.model.inertia.modes}; increase inertia.modes, or remove the tolerance"
         )
-    return SceneError(
-        f"rtol: expected at least {rounded_up(accuracy.bound)} {where}, got {rtol:.3g}; {remedy}"
+    return ToleranceError(
+        f"rtol: expected at least {rounded_up(accuracy.bound)} {where}, got {rtol:.3g}; {remedy}",
+        accuracy.bound,
+        growth,
     )
-
-
-def remaining(selected: SelectedEffects, rtol: float | None) -> float | None:
-    """Return the part of a tolerance that the omitted effects leave [1]."""
-    return None if rtol is None else (rtol - selected.error) / (1.0 + selected.error)
 
 
 def _omitted(selected: SelectedEffects, motion: "DynamicImpact | None") -> float:
@@ -237,14 +236,15 @@ def dynamic_impact(
 
     Raises
     ------
+    ToleranceError
+        If an early estimate of the error exceeds the tolerance.
     SceneError
-        If the impact exceeds the law's range, the time integration fails, or an early estimate of
-        the error exceeds the tolerance.
+        If the impact exceeds the law's range, or the time integration fails.
     """
     from derivation.scene import waves
     from derivation.scene.reach import OutOfReachError
 
-    rest = remaining(selected, rtol)
+    rest = remaining(rtol, selected.error)
     need = math.inf if rest is None or not within else rest
     if math.isfinite(need) and selected.law.model.inertia.pointwise:
         raise SceneError(
@@ -256,10 +256,14 @@ def dynamic_impact(
         with one_thread(), np.errstate(all="ignore"):  # extreme scenes give NaN, which is checked
             return waves.impact(selected.law, waves.goal(rest), selected.outputs, need)
     except OutOfReachError as error:
-        least = math.expm1(math.log1p(selected.error) + math.log1p(error.least))
-        raise SceneError(
+        least, change = (
+            math.expm1(math.log1p(selected.error) + math.log1p(part))
+            for part in (error.least, error.change)
+        )
+        raise ToleranceError(
             f"rtol: expected at least about {rounded_up(least)}, because {error.why}, got "
-            f"{rtol:.3g}; increase the tolerance, or {error.remedy}"
+            f"{rtol:.3g}; increase the tolerance, or {error.remedy}",
+            change,
         ) from None
 
 

@@ -293,10 +293,10 @@ def _waves(model: Model) -> "Waves":
 
     if model.eta > THICKEST:
         raise _too_thick(model)
-    found = _edge_waves(model.edge, model.eta, model.poissons_ratio)
-    if not found.k.size:
+    modes = _edge_waves(model.edge, model.eta, model.poissons_ratio)
+    if not modes.k.size:
         raise _too_thick(model)
-    return found
+    return modes
 
 
 @lru_cache(maxsize=8)

@@ -74,6 +74,8 @@ class Model:
         Yield stress of the plate [Pa]; infinite if unknown.
     solid_density
         Density of the sphere's material [kg/m^3], even if another mass is given; 0 if unknown.
+    lightest_density
+        Density below which no solid has the elastic constants of the sphere [kg/m^3].
     loss_factor
         Loss factor of the plate [1].
     edge
@@ -96,6 +98,7 @@ class Model:
     yield_stress: float = math.inf
     plate_yield_stress: float = math.inf
     solid_density: float = 0.0
+    lightest_density: float = 0.0
     loss_factor: float = 0.0
     edge: str = "paper"
     inertia: InertiaSettings = InertiaSettings()
@@ -262,6 +265,7 @@ def numbers_of(scene: Scene) -> Model:
         yield_stress=_lesser(sphere.yield_stress, plate.yield_stress),
         plate_yield_stress=plate.yield_stress,
         solid_density=sphere.solid_density,
+        lightest_density=sphere.lightest,
         loss_factor=first_given(scene.plate.loss_factor, 0.0),
         edge=scene.plate.edge,
         inertia=_inertia(scene),

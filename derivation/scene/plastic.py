@@ -54,12 +54,12 @@ def impact(law: ContactLaw) -> PlasticMotion:
         If the impact exceeds the range of the law, or the sphere does not rebound.
     """
     problem = _problem(law)
-    rough, found = (_motion(problem, n) for n in STAGES)
-    pairs = zip(found.numbers, rough.numbers, strict=True)
+    rough, fine = (_motion(problem, n) for n in STAGES)
+    pairs = zip(fine.numbers, rough.numbers, strict=True)
     change = max(abs(new / old - 1.0) for new, old in pairs)
     # Both runs have the same tolerance, and may differ by less than their errors. The energy
     # balance shows the error of the speed.
-    return replace(found, quadrature=change + _speed_error(found))
+    return replace(fine, quadrature=change + _speed_error(fine))
 
 
 def _speed_error(motion: PlasticMotion) -> float:

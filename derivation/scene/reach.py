@@ -27,17 +27,22 @@ class OutOfReachError(SceneError):
 
     Attributes
     ----------
-    least
-        Error bound that can be expected instead [1].
+    change
+        Estimated change by what is omitted [1].
     why
         What causes the error.
     remedy
         What reduces it, as alternatives to a larger tolerance.
     """
 
-    def __init__(self, least: float, why: str, remedy: str) -> None:
-        super().__init__(least, why, remedy)  # the arguments from which pickle restores it
-        self.least, self.why, self.remedy = least, why, remedy
+    def __init__(self, change: float, why: str, remedy: str) -> None:
+        super().__init__(change, why, remedy)  # the arguments from which pickle restores it
+        self.change, self.why, self.remedy = change, why, remedy
+
+    @property
+    def least(self) -> float:
+        """Tolerance that the error can be expected to meet [1]."""
+        return ROOM * self.change
 
     def __str__(self) -> str:
         return f"rtol: expected at least about {self.least:.2g}, because {self.why}; {self.remedy}"
@@ -106,7 +111,7 @@ class Reach:
             return
         cause, remedy = self._branches_in_words()
         raise OutOfReachError(
-            ROOM * known[worst],
+            known[worst],
             f"{cause}, and the others may change {worst} by about {known[worst]:.1e} (estimated)",
             remedy,
         )

@@ -48,14 +48,15 @@ class Result:
         Largest contact radius [m].
     restitution
         Rebound speed, at the last separation, over impact speed [1]: 1 in an elastic contact on a
-        quasi-static plate; above 1 if a plate deflected by the weight lifts it; NaN if incomplete.
+        quasi-static plate; above 1 if a plate deflected by the weight lifts the sphere; NaN if
+        incomplete.
     max_pressure
         Largest contact pressure, at the centre of the widest contact [Pa]; at most 1.6 times the
         yield stress in a plastic contact, only the elastic part in a viscoelastic contact.
     comparison
         The paper's motion, for comparison; None unless `effects.compare_paper_motion` is true.
     max_tensile_stress
-        Largest tensile stress on the back face, under the axis [Pa]; below 0 if compressive.
+        Largest tensile stress on the back face, on the axis [Pa]; below 0 if compressive.
     accuracy
         Method, and bound of the relative error.
     model_error
@@ -91,7 +92,7 @@ class Result:
 
     @cached_property
     def max_tensile_stress(self) -> float:
-        """Largest tensile stress on the back face, under the axis [Pa]; below 0 if compressive.
+        """Largest tensile stress on the back face, on the axis [Pa]; below 0 if compressive.
 
         It is the quasi-static stress of a plate without inertia under the peak force, distributed
         over the largest contact radius as in Hertz's law. It includes all plate effects, and the
@@ -104,7 +105,7 @@ class Result:
 
     @property
     def strength_note(self) -> str:
-        """Safety against failure on the back face; empty without a strength, or if it fails.
+        """Safety against failure on the back face; empty without a strength or if it is exceeded.
 
         Cone cracks, which start on the contact face around the contact, are not considered.
         """
@@ -112,7 +113,7 @@ class Result:
         if strength is None or self.max_tensile_stress > strength:
             return ""
         if self.max_tensile_stress <= 0:
-            return "no failure predicted on the back face: no tensile stress under the axis"
+            return "no failure predicted on the back face: no tensile stress on the axis"
         times = strength / self.max_tensile_stress
         caveat = "; plate inertia is neglected but may matter" if self.inertia_neglected else ""
         return (
@@ -157,7 +158,7 @@ class Result:
         """Contacts, energies and history with plate inertia; None for a quasi-static plate."""
         if not self.effects.law.dynamic:
             return None
-        return dynamic_impact(self.effects, self.accuracy.rtol)
+        return dynamic_impact(self.effects, self.accuracy.remaining)
 
     @cached_property
     def dent(self) -> float:
@@ -204,8 +205,8 @@ class Result:
         for time in chosen:
             if not 0 <= time <= self.total_time:
                 raise SceneError(
-                    f"times: expected times from 0 to the contact time {self.total_time:.6g} s, "
-                    f"got {time:.6g} s; remove it"
+                    "times: expected times from 0 to the end of the impact at "
+                    f"{self.total_time:.6g} s, got {time:.6g} s; remove it"
                 )
         return replace(self, times=chosen)
 
@@ -230,13 +231,13 @@ class Result:
         """
         if n is not None and n < 2:
             raise SceneError(f"n: expected at least 2 times, got {n}; use 2 or more")
-        found = self._history(n)
-        if not all(np.isfinite(column).all() for column in found):
+        history = self._history(n)
+        if not all(np.isfinite(column).all() for column in history):
             raise SceneError(
                 "history: expected finite numbers at all times, got NaN or infinity; use other "
                 "times, or less extreme values in the scene"
             )
-        return found
+        return history
 
     def _history(self, n: int | None) -> History | DynamicHistory:
         """Compute the time history."""

@@ -149,7 +149,7 @@ class _Block:
     scene: Scene
     columns: Columns
     rtol: float | None
-    found: Rows
+    table: Rows
     start: int
 
     def run(self, until: float) -> int | None:
@@ -170,24 +170,24 @@ class _Block:
 
     def _one(self, row: int) -> None:
         """Simulate a single row."""
-        found, index = self.found, self.start + row
+        table, index = self.table, self.start + row
         try:
             result = simulate(read(row_of(self.scene, self.columns, row)), rtol=self.rtol)
             included = " ".join(result.effects.included)
             numbers = {name: float(getattr(result, name)) for name in UNITS}
         except SceneError as error:
-            found.reason[index] = str(error)
+            table.reason[index] = str(error)
             return
-        found.effects[index] = included
+        table.effects[index] = included
         if not result.complete:
-            found.status[index] = "incomplete"
-            found.reason[index] = result.incomplete_note
+            table.status[index] = "incomplete"
+            table.reason[index] = result.incomplete_note
             return
-        found.status[index] = "finished"
-        found.reason[index] = "; ".join(result.warnings)
-        found.bound[index], found.model_error[index] = result.accuracy.bound, result.model_error
+        table.status[index] = "finished"
+        table.reason[index] = "; ".join(result.warnings)
+        table.bound[index], table.model_error[index] = result.accuracy.bound, result.model_error
         for name, number in numbers.items():
-            found.results[name][index] = number
+            table.results[name][index] = number
 
     def _add_unit_warnings(self, rows: NDArray[np.intp]) -> None:
         """Begin the reasons of rows with the warnings about their units."""
@@ -197,8 +197,8 @@ class _Block:
         columns = {key: values[rows] for key, values in self.columns.items()}
         for row, texts in unit_warnings_of_rows(scene, columns).items():
             index = self.start + rows[row]
-            rest = self.found.reason[index]
-            self.found.reason[index] = "; ".join((*texts, rest) if rest else texts)
+            rest = self.table.reason[index]
+            self.table.reason[index] = "; ".join((*texts, rest) if rest else texts)
 
     def _in_arrays(self) -> Iterable[NDArray[np.intp]]:
         """Simulate rows in arrays, and yield their indices."""
@@ -228,7 +228,7 @@ class _Block:
         wanted = scene.effects.model_dump()
         for group in selected(model, wanted, np.full(len(rows), tolerance), outputs):
             if isinstance(group, Rejected):
-                self.found.reason[self.start + rows[group.rows]] = group.reason
+                self.table.reason[self.start + rows[group.rows]] = group.reason
                 yield rows[group.rows]
             else:
                 yield rows[self._static(group, rows[group.rows], scene, rtol)]
@@ -277,12 +277,12 @@ class _Block:
         reasons = warnings_of_rows(law, numbers, strength, which)
         indices = self.start + rows[which]
         for name, values in numbers.items():
-            self.found.results[name][indices] = values[which]
-        self.found.bound[indices], self.found.model_error[indices] = (
+            self.table.results[name][indices] = values[which]
+        self.table.bound[indices], self.table.model_error[indices] = (
             bound[which],
             model_error[which],
         )
-        self.found.status[indices], self.found.reason[indices] = "finished", reasons
+        self.table.status[indices], self.table.reason[indices] = "finished", reasons
         included = " ".join(effect.name for effect in EFFECTS if effect.name in law.effects)
-        self.found.effects[indices] = included
+        self.table.effects[indices] = included
         return group.rows[which]

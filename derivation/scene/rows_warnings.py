@@ -31,7 +31,10 @@ from derivation.scene.limits import (
 
 _ROUNDING = 1e-9
 """Relative distance from a limit at which a row is examined, for rounding."""
-_MODEL = ("m", "R", "h", "b", "density", "solid_density", "yield_stress", "plate_yield_stress")
+_MODEL = (
+    "m", "R", "h", "b", "density", "solid_density", "lightest_density", "yield_stress",
+    "plate_yield_stress",
+)  # fmt: skip
 """Numbers of the model that warnings use."""
 Mask = NDArray[np.bool_]
 Texts = Callable[[SimpleNamespace], tuple[str, ...]]
@@ -102,7 +105,7 @@ def _singles(
 def _possible(law: ContactLaw, known: Mapping[str, Array]) -> tuple[Mask, ...]:
     """Return the rows that may have warnings, for each kind of warning."""
     one, less = SimpleNamespace(**known), 1.0 - _ROUNDING
-    solid = 4 / 3 * np.pi * one.R * one.R * one.R * one.solid_density
+    lightest = np.maximum(SOLID_LIMIT * one.solid_density, one.lightest_density)
     wide = _non_hertzian(one) | (one.deflection > less * STRETCH_LIMIT * 2.0 * one.h)
     if not law.spherical:
         wide = wide | (one.max_contact_radius > less * PARABOLOID_LIMIT * one.R)
@@ -113,7 +116,7 @@ def _possible(law: ContactLaw, known: Mapping[str, Array]) -> tuple[Mask, ...]:
     moving = (fast & affected) | (one.echoes > less * one.contact_time)
     limit = np.minimum(one.plate_yield_stress, one.strength)
     return (
-        less * one.m < SOLID_LIMIT * solid,
+        less * one.m < 4 / 3 * np.pi * one.R * one.R * one.R * lightest,
         wide,
         moving & (one.density > 0.0),
         one.max_pressure > less * kernels.YIELD_LIMIT * one.yield_stress,

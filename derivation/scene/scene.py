@@ -31,10 +31,10 @@ from derivation.scene.table import (
     Problem,
     Problems,
     Table,
-    found_by,
     in_words,
     plain_keys,
     problems,
+    problems_of,
 )
 
 Wanted = Literal["auto"] | bool
@@ -369,7 +369,7 @@ def _problems(error: ValidationError, data: Mapping[str, Any]) -> Problems:
     materials = data.get(OWN_MATERIALS)
     names = materials if isinstance(materials, Mapping) else ()
     known = TABLES | {f"{OWN_MATERIALS}.{name}": Material for name in names}
-    texts = problems(map(_by_table, found_by(error)), data, known)
+    texts = problems(map(_by_table, problems_of(error)), data, known)
     return texts + [partial(str, text) for text in Scene.conflicts(data)]
 
 

@@ -52,7 +52,7 @@ def _contact(
     from generated import non_hertzian_pressure
 
     a = np.frombuffer(radii).reshape(shape)
-    found = non_hertzian_pressure.contact(plate_of(h, b), a, R, modulus, own, sphere=sphere)
-    for values in found:
+    solution = non_hertzian_pressure.contact(plate_of(h, b), a, R, modulus, own, sphere=sphere)
+    for values in solution:
         values.setflags(write=False)
-    return found
+    return solution

@@ -50,7 +50,7 @@ class Table(BaseModel):
             try:
                 self.__pydantic_validator__.validate_python(given, self_instance=self)
             except ValidationError as error:
-                texts = problems(found_by(error, name), {name: given}, {name: table})
+                texts = problems(problems_of(error, name), {name: given}, {name: table})
                 where = f"{name}: " if len(texts) > 1 else ""
                 raise SceneError(f"{where}{in_words(texts)}") from None
 
@@ -121,7 +121,7 @@ def _meaning(field: FieldInfo) -> str:
     if field.default is None or field.default_factory is not None:
         text += "; optional"
     elif not field.is_required():
-        text += f"; by default {shown(field.default)}"
+        text += f"; by default {shown(field.default).removeprefix('the string ')}"
     return indent(fill(f"{text[0].upper()}{text[1:]}.", 90), "    ")
 
 
@@ -148,7 +148,7 @@ class Problem(NamedTuple):
     value: Any
 
 
-def found_by(error: ValidationError, table: str = "") -> Iterator[Problem]:
+def problems_of(error: ValidationError, table: str = "") -> Iterator[Problem]:
     """Yield the errors that pydantic found in single keys, of a table or of a scene."""
     for item in error.errors(include_url=False):
         if item["type"] != CONFLICT:

@@ -70,7 +70,7 @@ class Point(NamedTuple):
 
 
 class States(NamedTuple):
-    """Force, depth, energy loss per x, and derivatives of force and depth by a and by y = da/dx."""
+    """Force P, depth d, energy loss per x, and derivatives of P and d: for a and for y = da/dx."""
 
     P: Array
     depth: Array
@@ -190,8 +190,8 @@ def element(
     else:
         return None
     rows = np.array([a, v, z + problem.dent, at.P, at.lost]) @ rule.analysis.T
-    found = Element(x, length, rows, rule.analysis @ y)
-    return found, Point(float(a[-1]), float(v[-1]), float(z[-1]))
+    element = Element(x, length, rows, rule.analysis @ y)
+    return element, Point(float(a[-1]), float(v[-1]), float(z[-1]))
 
 
 ViscousElement = tuple[Element, Yielding | None]
@@ -264,10 +264,10 @@ def _next_branch(
     def shorter(length: float, guess: Array) -> tuple[Element, Point] | None:
         return element(problem, n, x, length, start, guess)
 
-    found = cut(branch, problem.a, made, lambda made: made[0], shorter)
-    if found is None:
+    first = cut(branch, problem.a, made, lambda made: made[0], shorter)
+    if first is None:
         return *made, problem
-    last, end = found
+    last, end = first
     a = problem.a * end.radius
     after = branch_after(branch, a, float(problem.curve.at(np.array([a])).force[0]))
     sunk = (after.dent - branch.dent) / problem.depth
@@ -312,8 +312,8 @@ class ViscousMotion(Motion):
         place = np.searchsorted(starts, x, side="right") - 1
         rows = np.empty((LOST + 1, x.size))
         for index in np.unique(place):
-            found, branch = self.elements[index]
-            part = found.at(x[place == index])
+            element, branch = self.elements[index]
+            part = element.at(x[place == index])
             if branch is not None:
                 a = problem.a * np.maximum(part[A], 0.0)
                 part[A] = branch.widened(a, problem.curve.at(a).force) / problem.a
@@ -334,9 +334,9 @@ def impact(law: ContactLaw) -> ViscousMotion:
     elastic = _without_viscosity(law.only(lambda e: not e.viscous))
     a, T = elastic.max_contact_radius, elastic.contact_time
     problem = ViscousProblem(curve_of(law, a), bending_of(law, a), a, T, yielding_of(law))
-    rough, found = (_motion(problem, elements(problem, n)) for n in STAGES)
-    pairs = zip(found.numbers, rough.numbers, strict=True)
-    return replace(found, quadrature=max(abs(new / old - 1.0) for new, old in pairs))
+    rough, fine = (_motion(problem, elements(problem, n)) for n in STAGES)
+    pairs = zip(fine.numbers, rough.numbers, strict=True)
+    return replace(fine, quadrature=max(abs(new / old - 1.0) for new, old in pairs))
 
 
 def _without_viscosity(law: ContactLaw) -> Motion:

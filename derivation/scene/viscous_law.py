@@ -18,7 +18,7 @@ BEYOND = 2.0
 
 
 class CurvePoints(NamedTuple):
-    """Force [N] and indentation [m] at contact radii [m], and their derivatives by the radius."""
+    """Force P [N], indentation d [m], dP/da and dd/da at contact radii a [m]."""
 
     force: Array
     depth: Array

@@ -49,31 +49,31 @@ def risen_pressure(law: ContactLaw, a: float) -> RisenPressure | None:
         return None
     pressure, steep = risen(np.array(wide))
     force, restitution = beyond(pressure, steep)
-    found = RisenPressure(wide, float(force), float(restitution), float(pressure * steep))
-    return found if found.restitution > WARNED else None
+    rise = RisenPressure(wide, float(force), float(restitution), float(pressure * steep))
+    return rise if rise.restitution > WARNED else None
 
 
 def impact_warnings(law: ContactLaw, a: float) -> tuple[str, ...]:
     """Return a warning if the contact radius [m] of an impact is far beyond the onset of yield."""
-    found = risen_pressure(law, a)
-    if found is None:
+    rise = risen_pressure(law, a)
+    if rise is None:
         return ()
     text = (
-        f"{_reason(found.wide)}, restitution and force may be larger by factors of about "
-        f"{found.restitution:.2g} and {found.force:.2g}; indentation and contact time may be "
-        f"smaller by a factor of about {found.force:.2g} (estimated on a half-space)"
+        f"{_reason(rise.wide)}, restitution and force may be larger by factors of about "
+        f"{rise.restitution:.2g} and {rise.force:.2g}; indentation and contact time may be "
+        f"smaller by a factor of about {rise.force:.2g} (estimated on a half-space)"
     )
     return (text,)
 
 
 def static_warnings(law: ContactLaw, a: float) -> tuple[str, ...]:
     """Return a warning if the radius [m] of a static contact is far beyond the onset of yield."""
-    found = risen_pressure(law, a)
-    if found is None:
+    rise = risen_pressure(law, a)
+    if rise is None:
         return ()
     text = (
-        f"{_reason(found.wide)}, the force at this local indentation may be larger by a factor of "
-        f"about {found.stiffness:.2g}"
+        f"{_reason(rise.wide)}, the force at this local indentation may be larger by a factor of "
+        f"about {rise.stiffness:.2g}"
     )
     return (text,)
 

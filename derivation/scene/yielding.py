@@ -30,7 +30,7 @@ _HALVINGS = 80
 
 
 class Added(NamedTuple):
-    """Indentation [m] added by yielding, and its derivative by the elastic radius [1]."""
+    """Indentation [m] added by yielding, and its derivative for the elastic radius [1]."""
 
     depth: Array
     depth_a: Array
@@ -86,7 +86,7 @@ class Yielding:
         return hertz_radius(force, *_arrays(self.R, self.modulus))
 
     def added(self, force: Array, force_a: Array) -> Added:
-        """Return the added indentation at forces [N] with slopes `force_a` by the radius [N/m]."""
+        """Return the added indentation at forces P [N]; `force_a` is dP/da [N/m]."""
         u = self.hertz_radius(force)
         u_a = u * np.divide(force_a, 3.0 * force, np.zeros_like(force), where=force > 0.0)
         if not self.loading:
@@ -104,7 +104,7 @@ class Yielding:
         return a / np.asarray(unloaded(ratio)[0], dtype=np.float64)
 
     def widening(self, a: Array, force: Array, force_a: Array) -> Array:
-        """Return the derivative of `widened` by the radius of the elastic law on loading [1].
+        """Return the derivative of `widened` with respect to the elastic radius on loading [1].
 
         `widened` is `a` times the ratio of the radii of a paraboloid on a half-space at this force,
         after yielding and without it.

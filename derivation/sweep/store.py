@@ -57,7 +57,7 @@ class Store:
         self._claim()
         for left in folder.glob("*.temporary"):
             left.unlink()
-        self.parts = sorted(self._found(), key=lambda part: part.start)
+        self.parts = sorted(self._batches(), key=lambda part: part.start)
         self._last: tuple[PartFile, Any] | None = None
 
     @property
@@ -155,7 +155,7 @@ class Store:
         text = json.dumps({"hash": self.study.name} | self.study.to_json(), indent=1)
         self._write(file.name, text.encode())
 
-    def _found(self) -> Iterator[PartFile]:
+    def _batches(self) -> Iterator[PartFile]:
         """Yield the batches in the folder, without those whose points have another hash."""
         reached = 0
         for path in sorted(self.folder.glob("*.parquet")):

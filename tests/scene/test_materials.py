@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 from derivation.cli import main
 from derivation.scene import SceneError, read, schema, simulate, sweep, time_in_contact
+from derivation.scene.body_materials import lightest_density
 from derivation.scene.materials import MATERIALS, find, plain
 from derivation.scene.model import Model, model_of
 from generated.viscous_bodies import retardation_of_two
@@ -146,6 +147,34 @@ def test_warning_of_a_light_sphere_mentions_a_hollow_one() -> None:
     for fraction, warned in ((0.32, True), (0.34, False), (2.0, False)):
         result = simulate(read(tables({"material": "steel", "mass": fraction * solid}, STEEL)))
         assert any("hollow" in text for text in result.warnings) == warned
+
+
+@pytest.mark.parametrize(
+    ("radius", "mass", "modulus", "ratio", "warned"),
+    [
+        (0.020, 2.7e-3, 2.2e9, 0.4, True),  # table tennis ball
+        (0.020, 2.7e-3, 2.2e9, 0.3, True),
+        (0.033, 57.7e-3, 3e6, 0.49, True),  # tennis ball
+        (0.120, 0.62, 3e6, 0.49, True),  # basketball
+        (0.02135, 45.9e-3, 80e6, 0.45, False),  # golf ball
+        (0.03, 160 * 1.131e-4, 3.4e9, 0.3, False),  # balsa
+        (0.03, 120 * 1.131e-4, 4e6, 0.1, False),  # cork
+        (0.03, 25 * 1.131e-4, 8e6, 0.12, False),  # expanded polystyrene
+        (0.03, 100 * 1.131e-4, 1e6, 0.2, False),  # aerogel
+        (0.03, 1850 * 1.131e-4, 303e9, 0.07, False),  # beryllium
+    ],
+)
+def test_a_sphere_lighter_than_any_solid_is_called_hollow(
+    radius: float, mass: float, modulus: float, ratio: float, warned: bool
+) -> None:
+    sphere = {"radius": radius, "mass": mass, "youngs_modulus": modulus, "poissons_ratio": ratio}
+    result = simulate(read(tables(sphere, STEEL)), rtol=0.1)
+    assert any("hollow" in text for text in result.warnings) == warned
+
+
+def test_no_named_material_is_called_hollow() -> None:
+    known = [m for m in MATERIALS.values() if m.density is not None]
+    assert all((m.density or 0.0) > lightest_density(m.lam, m.mu) for m in known)
 
 
 def test_body_that_yields_first_is_named() -> None:

@@ -153,7 +153,7 @@ def test_compressive_stress_predicts_no_failure() -> None:
     plate = {"half_thickness": 400.0, "tensile_strength": 1e6}
     result = simulate(shared_scenes.scene(plate=plate, impact={"speed": 0.01}))
     assert result.max_tensile_stress == 0.0
-    assert result.strength_note.endswith("no tensile stress under the axis")
+    assert result.strength_note.endswith("no tensile stress on the axis")
 
 
 # --- warnings

@@ -101,8 +101,11 @@ def copy_text(
     lines = file.read_text().splitlines()
     added: list[tuple[int, list[str]]] = [(_end_of_docstring(tree, file), header.splitlines())]
     for node, mark in _listed_definitions(tree):
-        budget = budgets[node.name].notes(_decorator_arguments(mark).get("domain", ""))
-        added.append(_stated_limit(node, budget, lines))
+        words = _decorator_arguments(mark)
+        known = budgets[node.name].notes(words.get("domain", ""))
+        if words.get("equation"):
+            known = (f"The result belongs to equation ({words['equation']}) of the paper.", *known)
+        added.append(_stated_limit(node, known, lines))
     functions = {node.name: node for node in tree.body if isinstance(node, ast.FunctionDef)}
     added += (_stated_limit(functions[name], text, lines) for name, text in notes.items())
     for place, text in sorted(added, key=lambda pair: -pair[0]):

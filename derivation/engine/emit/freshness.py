@@ -64,17 +64,17 @@ def compare(
     pattern
         Pattern of the files in the folder that are compared.
     """
-    found = {
+    actual = {
         str(path.relative_to(folder)): path.read_bytes()
         for path in sorted(folder.glob(pattern))
         if path.is_file() and "__pycache__" not in path.parts
     }
-    edited = [name for name in expected if found.get(name, b"") != expected[name].encode()]
+    edited = [name for name in expected if actual.get(name, b"") != expected[name].encode()]
     return Freshness(
         folder,
-        tuple(sorted(expected.keys() - found.keys())),
-        tuple(sorted(found.keys() - expected.keys())),
-        {name: _diff(name, found[name], expected[name]) for name in edited if name in found},
+        tuple(sorted(expected.keys() - actual.keys())),
+        tuple(sorted(actual.keys() - expected.keys())),
+        {name: _diff(name, actual[name], expected[name]) for name in edited if name in actual},
         remedy,
     )
 
@@ -85,7 +85,7 @@ def _diff(name: str, current: bytes, expected: str) -> str:
         difflib.unified_diff(
             current.decode(errors="replace").splitlines(keepends=True),
             expected.splitlines(keepends=True),
-            f"{name} (found)",
+            f"{name} (current)",
             f"{name} (expected)",
         )
     )

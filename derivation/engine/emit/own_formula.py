@@ -72,6 +72,6 @@ def _names(text: str) -> list[str]:
 
     E may be one, because it usually is Young's modulus.
     """
-    found = re.findall(r"(?<![\w.])[A-Za-z_]\w*\b(?!\s*\()", text.replace("lambda", "lam"))
+    names = re.findall(r"(?<![\w.])[A-Za-z_]\w*\b(?!\s*\()", text.replace("lambda", "lam"))
     others = {*FUNCTIONS, *CONSTANTS, *NAME_HINTS} - {"E"}
-    return list(dict.fromkeys(name for name in found if name not in others))
+    return list(dict.fromkeys(name for name in names if name not in others))

@@ -62,12 +62,15 @@ def standalone_several(
 
     def accepted(share: float, made: ProductForm) -> Tested:
         if taken := names & (RESERVED | {str(step.symbol) for step in made.steps}):
-            raise UnreachableError(f"{min(taken)} is a name of the code: rename the variable")
+            raise UnreachableError(
+                f"expected a variable with another name than {min(taken)}, which the generated "
+                "code uses; rename it"
+            )
         _prove_equal(expression, made)
         code = compiled_function(_source(expression, variables, made, *ENDS, ""))
         return made, check_several(expression, variables, code, share)
 
-    found, tested = _best(expression, words, accepted)
+    best, tested = _best(expression, words, accepted)
     where = ", ".join(f"{name} = {x!r}" for name, x in tested.at.items())
     statement = (
         f"Error at most {tested.limit:g} ULP plus {tested.share} times the sum of the condition "
@@ -77,7 +80,7 @@ def standalone_several(
         "the range and points at which variables are nearly equal; largest error "
         f"{tested.worst:.2f} ULP, at {where}."
     )
-    return found, _source(expression, variables, found, tested.low, tested.high, statement), tested
+    return best, _source(expression, variables, best, tested.low, tested.high, statement), tested
 
 
 def _best(
@@ -127,8 +130,8 @@ def _best_for(
                 return results[-1]
 
     def with_error(made: ProductForm) -> tuple[Tested, float]:
-        found = accepted(made)
-        return found, found[1].worst
+        candidate = accepted(made)
+        return candidate, candidate[1].worst
 
     try:
         results.append(of_products(GivenFormula("f", expression, words), with_error))
@@ -174,13 +177,13 @@ def _prove_equal(expression: sp.Expr, made: ProductForm) -> None:
 def _source(
     expression: sp.Expr,
     variables: Sequence[sp.Symbol],
-    found: ProductForm,
+    form: ProductForm,
     low: float,
     high: float,
     statement: str,
 ) -> str:
-    blocks = [block_text(block) for block in found.blocks]
-    rows, value = lines(found.steps), to_numpy(found.value)
+    blocks = [block_text(block) for block in form.blocks]
+    rows, value = lines(form.steps), to_numpy(form.value)
     used = repr((blocks, rows, value))
     helpers = [
         function_text(RUNTIME / file, part).replace("Double", "np.ndarray")

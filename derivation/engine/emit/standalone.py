@@ -29,14 +29,14 @@ def standalone(stable: Stable) -> tuple[str, CodeCheck]:
         If the code is not accurate in any useful range.
     """
     x = stable.variable
-    found = check_code(stable, compiled_function(_source(stable, *ENDS, "")))
+    check = check_code(stable, compiled_function(_source(stable, *ENDS, "")))
     statement = (
-        f"Error at most {found.limit:g} ULP plus half the condition number |{x} f'/f|. "
-        f"Tested, not proved: with NumPy {np.__version__} against exact values at {found.points} "
+        f"Error at most {check.limit:g} ULP plus half the condition number |{x} f'/f|. "
+        f"Tested, not proved: with NumPy {np.__version__} against exact values at {check.points} "
         "points, including the ends of the range, and points next to zeros and overflow limits "
-        f"of the formula and its parts; largest error {found.worst:.2f} ULP, at {x} = {found.at!r}."
+        f"of the formula and its parts; largest error {check.worst:.2f} ULP, at {x} = {check.at!r}."
     )
-    return _source(stable, found.low, found.high, statement), found
+    return _source(stable, check.low, check.high, statement), check
 
 
 def compiled_function(source: str) -> Function:

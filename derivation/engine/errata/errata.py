@@ -40,7 +40,7 @@ class Errata:
 
         return tuple(one(record) for record in self.printed)
 
-    def found(self, chain: Chain) -> tuple[Finding, ...]:
+    def findings(self, chain: Chain) -> tuple[Finding, ...]:
         """Return the results of `compared`, cached until the sources change."""
         kinds = (Finding, Diagnosis, Printed, *self.kinds)
         return chain.cached_result(

@@ -117,7 +117,7 @@ def _negative(part: Part) -> Part:
 
 
 def _derivative(f: sp.Expr, x: sp.Symbol, low: sp.Expr, high: sp.Expr, by: sp.Symbol) -> sp.Expr:
-    """Return the derivative by a symbol, as integrals with constant limits."""
+    """Return the derivative with respect to a symbol, as integrals with constant limits."""
     if low is sp.S.NegativeInfinity or low is sp.oo or high is sp.S.NegativeInfinity:
         whole = (x, low, high)
         return sp.Integral(sp.diff(f, by), whole)
@@ -260,10 +260,10 @@ class _Decaying:
 
     def value(self, known: Balls, holomorphic: bool) -> acb:
         """Return the integral at the current precision."""
-        found = self._truncation(known, holomorphic)
-        if found is None:
+        truncation = self._truncation(known, holomorphic)
+        if truncation is None:
             return acb(arb.nan())
-        end, rest = found
+        end, rest = truncation
         tape, symbols = self._tape
         own = [acb(known[symbol]) for symbol in symbols]
 

@@ -47,8 +47,8 @@ def tokens_of(text: str) -> list[str]:
     check_nesting(text, "([", ")]")
     for bar, bracket in _BARS.items():
         text = text.replace(bar, bracket)
-    text = _INDEX.sub(lambda found: f"_{{{found[1] or found[2]}}}", text)
-    plain = _WORDS.sub(lambda found: rf"\{found[1]} " if len(found[1]) > 1 else found[1], text)
+    text = _INDEX.sub(lambda match: f"_{{{match[1] or match[2]}}}", text)
+    plain = _WORDS.sub(lambda match: rf"\{match[1]} " if len(match[1]) > 1 else match[1], text)
     rest = _SPACING.sub(" ", plain.strip("$")).rstrip(" .,;")
     tokens: list[str] = []
     position = 0

@@ -318,9 +318,9 @@ class _Translator:
     def _refuse_unknown_function(self, name: str) -> None:
         """Reject a symbol before symbols in brackets, which would be read as a product."""
         if self.here in ("(", "[") and (
-            found := _ARGUMENTS.match(" ".join(self.tokens[self.position :]))
+            arguments := _ARGUMENTS.match(" ".join(self.tokens[self.position :]))
         ):
-            inside = found[1].replace(" ", "")
+            inside = arguments[1].replace(" ", "")
             raise FormulaError(
                 f"expected a symbol or a known function, got {name}({inside}), which would be "
                 f"read as a product: leave out ({inside}), or write the product without brackets"

@@ -159,7 +159,7 @@ class Vocabulary:
 def names_by_latex(arguments: Iterable[Argument]) -> dict[str, str]:
     """Return the name of each symbol by its LaTeX without backslashes and braces."""
     matches = ((a.name, _LATEX_SYMBOL.fullmatch(a.latex)) for a in arguments)
-    return {"_".join(filter(None, found.groups())): name for name, found in matches if found}
+    return {"_".join(filter(None, match.groups())): name for name, match in matches if match}
 
 
 NOTHING = Vocabulary()

@@ -191,11 +191,11 @@ def cells(rows: Sequence[HardRow]) -> list[tuple[str, ...]]:
     return [
         (
             group,
-            str(len(found)),
-            f"{max(_ratio(row) for row in found):.2f}",
-            "yes" if all(row.passed for row in found) else "NO",
+            str(len(rows)),
+            f"{max(_ratio(row) for row in rows):.2f}",
+            "yes" if all(row.passed for row in rows) else "NO",
         )
-        for group, found in groups.items()
+        for group, rows in groups.items()
     ]
 
 

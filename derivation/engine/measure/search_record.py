@@ -98,7 +98,7 @@ def read(path: Path) -> list[HardCase]:
 
 def to_toml(cases: Sequence[tuple[HardCase, LargeError | None]]) -> str:
     """Return the text of the file: a table per case, with the measured error as a comment."""
-    return _HEADER + "".join(_table(case, found) for case, found in cases)
+    return _HEADER + "".join(_table(case, entry) for case, entry in cases)
 
 
 def _table(case: HardCase, large_error: LargeError | None) -> str:
@@ -150,8 +150,8 @@ class SearchRecord:
         self._targets = {target.name: target for target in targets}
         self._earlier = [(case, measured_case(case, self._targets)) for case in read(path)]
         self._known, self._unmeasured = dict(ratios), dict(worst)
-        for case, found in self._earlier:
-            self._learn(case.kernel, found)
+        for case, entry in self._earlier:
+            self._learn(case.kernel, entry)
         self._written = ""
 
     def _learn(self, kernel: str, error: LargeError | None) -> None:
@@ -233,9 +233,9 @@ def _row(kernel: str, search: Search) -> dict[str, Any]:
     counts = {"evaluations": standing.evaluations, "unjudged": standing.unjudged}
     if standing.worst is None:
         return {"kernel": kernel, **counts, "ratio": None, "ulp": None, "allowed": None}
-    error, found = standing.worst.error, case_of(kernel, standing.worst, search.seed).table
+    error, entry = standing.worst.error, case_of(kernel, standing.worst, search.seed).table
     numbers: dict[str, float] = {"ratio": error.ratio, "ulp": error.ulp, "allowed": error.allowed}
-    where = {key: found[key] for key in ("inputs", "form", "modes") if key in found}
+    where = {key: entry[key] for key in ("inputs", "form", "modes") if key in entry}
     return {"kernel": kernel, **counts, **plain(numbers), **where}
 
 

@@ -46,15 +46,15 @@ class Prose:
 
 def chain_context(steps: Sequence[tuple[str, Sequence[Record]]]) -> dict[str, Any]:
     """Return the summary of the derivation: each step, the steps it uses, number of formulas."""
-    home = {f.name: place for place, (_, found) in enumerate(steps, 1) for f in found}
+    home = {f.name: place for place, (_, records) in enumerate(steps, 1) for f in records}
     rows = []
-    for place, (name, found) in enumerate(steps, start=1):
-        built = {home[name] for f in found for name in f.sources if name in home} - {place}
+    for place, (name, records) in enumerate(steps, start=1):
+        built = {home[name] for f in records for name in f.sources if name in home} - {place}
         on = ", ".join(str(n) for n in sorted(built)) or "--"
-        equations = sorted({f.equation for f in found if f.equation}, key=_equation_order)
+        equations = sorted({f.equation for f in records if f.equation}, key=_equation_order)
         printed = ", ".join(f"({e})" for e in equations)
-        rows.append(f"{place} & {escape(name)} & {on} & {len(found)} & {printed}")
-    decided = Counter(f.proof.method for _, found in steps for f in found)
+        rows.append(f"{place} & {escape(name)} & {on} & {len(records)} & {printed}")
+    decided = Counter(f.proof.method for _, records in steps for f in records)
     return {
         "formulas": sum(decided.values()),
         "proved": proved(decided),
@@ -78,10 +78,10 @@ def derivation_context(
     steps: Sequence[tuple[str, Sequence[Record]]], prose: Prose
 ) -> dict[str, Any]:
     """Return the summary of the derivation, and the context of each step."""
-    formulas = {f.name: f for _, found in steps for f in found}
+    formulas = {f.name: f for _, records in steps for f in records}
     return {
         "chain": chain_context(steps),
-        "steps": [step_context(name, found, formulas, prose) for name, found in steps],
+        "steps": [step_context(name, records, formulas, prose) for name, records in steps],
     }
 
 

@@ -77,6 +77,9 @@ class Displayed(PaperPrinter):
         self.inside -= bool(self.inside)
         return text
 
+    def _print_re(self, expr: sp.re) -> str:
+        return rf"\operatorname{{Re}}\left({self._print(expr.args[0])}\right)"
+
     def _print_im(self, expr: sp.im) -> str:
         return rf"\operatorname{{Im}}\left({self._print(expr.args[0])}\right)"
 

@@ -32,13 +32,13 @@ def formula_fragments(
 def _pieces(
     name: str, steps: Sequence[tuple[str, Sequence[Record]]], references: References
 ) -> Iterator[str]:
-    found = [
+    chosen = [
         (step, formula)
         for step, formulas in steps
         for formula in formulas
         if name in (step, formula.name)
     ]
-    if not found:
+    if not chosen:
         known = [title for title, _ in steps] + [f.name for _, held in steps for f in held]
         suggestion = did_you_mean(name, known, most=NEAR)
         raise ValueError(
@@ -46,7 +46,7 @@ def _pieces(
             "`platecontact derive` lists the formulas, `platecontact derive NAME` shows the "
             "derivation step of one"
         )
-    for step, formula in found:
+    for step, formula in chosen:
         yield fragment(step, formula, references)
 
 

@@ -14,7 +14,8 @@ def number(value: float | str) -> str:
 def rounded(value: float) -> str:
     """Return a number with three significant digits; small and large ones as powers of ten."""
     if 1e-2 <= abs(value) < 1e4:
-        return f"${value:.3g}$"
+        text = f"{value:.3g}"
+        return f"${float(text):.0f}$" if "e" in text else f"${text}$"
     mantissa, _, exponent = f"{value:.1e}".partition("e")
     lead = "" if mantissa == "1.0" else rf"{mantissa}\cdot"
     return rf"${lead}10^{{{int(exponent)}}}$"

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterator
+from functools import partial
 
 from sympy.printing.latex import greek_letters_set
 
@@ -11,8 +12,11 @@ from derivation.engine.formula.vocabulary import Vocabulary
 from derivation.engine.report.latex import prose, unit
 
 _SIGNS = ("+", "-")
+GREEK = greek_letters_set | {"Gamma", "Lambda", "Omega", "Phi", "Psi", "Theta"}
 INDEX = re.compile(r"([A-Za-z]{1,2}|\d+)$")
 """An index of a letter in a sentence: one or two letters, or a number."""
+MINUS = re.compile(r"(?<= )-(?= )|(?<=[ (])-(?=[A-Za-z\d(]|$)")
+"""A hyphen in a sentence that stands for a minus sign."""
 SYMBOL = re.compile(r"(?<!\w)([A-Za-z]\w*|\d+(?=\^))(?:\^(-?\d+|\([^()]*\)|[A-Za-z]\b))?")
 """A word, and its power if there is one; a number with a power."""
 
@@ -25,7 +29,8 @@ def typeset_sentence(text: str, vocabulary: Vocabulary) -> str:
         pieces = (_piece(piece, vocabulary) for piece in sentence_pieces(said))
         return f"{before}{' '.join(pieces)}{after}"
 
-    return convert_parts(text, words, "${}$".format)
+    typeset = convert_parts(text, words, "${}$".format)
+    return convert_parts(typeset, partial(MINUS.sub, "$-$"), "${}$".format)
 
 
 def sentence_pieces(text: str) -> Iterator[str]:
@@ -90,8 +95,9 @@ def _named(text: str, vocabulary: Vocabulary) -> str:
         latex = vocabulary.latex[known] if known is not None else ""
         if not latex.startswith("\\"):
             letter, _, index = name.partition("_")
-            greek = letter in greek_letters_set
-            if not power and not (index and (greek or len(letter) == 1) and INDEX.match(index)):
+            greek = letter in GREEK
+            indexed = index and (greek or len(letter) == 1) and INDEX.match(index)
+            if not (power or indexed or name in GREEK):
                 return match[0]
             base = f"\\{letter}" if greek else letter
             latex = (

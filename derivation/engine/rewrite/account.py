@@ -76,8 +76,8 @@ def _accounts(formula: Record, scales: Scales) -> Iterator[Account]:
     try:
         reduced = dimensionless(formula.expression, scales)
     except UnreachableError:
-        found = of_products(formula, lambda made: _accurate(formula, made))
-        for product, stable in found.factors:
+        form = of_products(formula, lambda made: _accurate(formula, made))
+        for product, stable in form.factors:
             whole = sp.Mul(*(symbol**power for symbol, power in product))
             yield _account(formula.name, stable, whole)
         return

@@ -55,7 +55,10 @@ def dimensionless(expression: sp.Expr, scales: Scales) -> Reduced:
     arguments = [function.args[0].as_coeff_Mul() for function in functions]
     products = {product for _, product in arguments}
     if len(products) != 1:
-        raise UnreachableError(f"functions of {len(products)} products: {expression}")
+        raise UnreachableError(
+            f"expected functions of multiples of one product of symbols in {expression}, got "
+            f"{len(products)} products"
+        )
     (product,) = products
     least = sp.gcd_list([factor for factor, _ in arguments])
     scale = scales.of(least * product)
@@ -102,7 +105,10 @@ def automatic(
     times, product = scale.product.as_coeff_Mul()  # 2 h phi must not begin with 2 h
     steps.append(Step(scale.variable, times * limited(product, most), "constant for larger values"))
     if shape.rate > 0:
-        raise UnreachableError(f"grows as e^({shape.rate} {shape.x}): {expression}")
+        raise UnreachableError(
+            f"expected an expression that stays finite, but {expression} grows as "
+            f"e^({shape.rate} {shape.x})"
+        )
     size, core, powers = (
         _beyond_one(shape, known)
         or _divided_sum(shape, reduced.ratio)
@@ -271,7 +277,9 @@ def _factor(factor: Factor, variable: sp.Symbol, known: Mapping[str, Block]) -> 
             return block
         lead, least = leading_power(terms), min(power for _, power in parts_of(terms, variable))
         if lead > least:
-            raise UnreachableError(f"no building block is {factor.value}")
+            raise UnreachableError(
+                f"{factor.value} cancels at 0, and no building block replaces it"
+            )
     content = sp.gcd_list([value.as_content_primitive()[0] for value in terms.values()])
     primitive = {key: value / content for key, value in terms.items()}
     return content, sp.Add(*(v for v, _ in parts_of(primitive, variable))), {}

@@ -142,8 +142,8 @@ def _block(
 
 def _decay_once(branch: Branch) -> Branch:
     """Return the branch with its exponentials as powers of the slowest one, computed once."""
-    found = sp.Tuple(branch.value, *(step.expression for step in branch.steps)).atoms(sp.exp)
-    decays = sorted(found, key=lambda slow: abs(slow.args[0].as_coeff_Mul()[0]))
+    exponentials = sp.Tuple(branch.value, *(step.expression for step in branch.steps)).atoms(sp.exp)
+    decays = sorted(exponentials, key=lambda slow: abs(slow.args[0].as_coeff_Mul()[0]))
     powers = {slow: slow.args[0] / decays[0].args[0] for slow in decays}
     if len(decays) < 2 or not all(power.is_Integer for power in powers.values()):
         return branch

@@ -74,10 +74,10 @@ class _Reference:
     def at(self, point: float) -> tuple[flint.arb, float] | None:
         """Return the value, and half the condition number; None if there is no certified value."""
         if point not in self.known:
-            self.known[point] = self._found(point)
+            self.known[point] = self._value(point)
         return self.known[point]
 
-    def _found(self, point: float) -> tuple[flint.arb, float] | None:
+    def _value(self, point: float) -> tuple[flint.arb, float] | None:
         for most in (_LOW_PRECISION, _HIGH_PRECISION):
             for form, slope in self.candidates:
                 if most == _HIGH_PRECISION and not self._finite(form, point):

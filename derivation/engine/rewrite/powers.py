@@ -51,8 +51,8 @@ def powers(expression: sp.Expr, x: sp.Symbol) -> Iterator[OfPower]:
             symbol = sp.Symbol(f"power_of_{x}", positive=True)
             unit = symbol / constant  # x^rate
             whole = sp.Integer(int(front / rate))  # rounded towards 0
-            found = unit**whole * _core(expression, x, unit ** (1 / rate))
-            yield OfPower(found, symbol, constant * x**rate, front - whole * rate)
+            value = unit**whole * _core(expression, x, unit ** (1 / rate))
+            yield OfPower(value, symbol, constant * x**rate, front - whole * rate)
 
 
 def _exponents(node: sp.Expr, x: sp.Symbol) -> Exponents:

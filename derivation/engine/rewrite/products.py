@@ -36,6 +36,10 @@ LARGEST_SLOPE = 1e30
 """Largest slope from which exponents are computed."""
 ENOUGH_POINTS = 5
 """Smallest number of points with slopes for a decision."""
+SEVERAL_PRODUCTS = (
+    "{} depends on several dimensionless products; rewrite parts that depend on one each"
+)
+"""Message about a factor, with the remedy."""
 LARGEST_DENOMINATOR = 60
 """Largest denominator of an exponent."""
 NAMES = "x", "y", "ratio", "product", "other_product"
@@ -182,10 +186,10 @@ def _exponents(factor: sp.Expr, formula: Stated, inverted: bool) -> tuple[Powers
         return _rational(factor, symbols, first), ()
     index = max(range(len(symbols)), key=lambda index: abs(changes[0][index]))
     if any(abs(change[index]) <= CHANGED for change in changes):
-        raise UnreachableError(f"{factor} depends on several dimensionless products")
+        raise UnreachableError(SEVERAL_PRODUCTS.format(factor))
     line, *more = ([part / change[index] for part in change] for change in changes)
     if any(abs(a - b) > ROUNDING for other in more for a, b in zip(line, other, strict=True)):
-        raise UnreachableError(f"{factor} depends on several dimensionless products")
+        raise UnreachableError(SEVERAL_PRODUCTS.format(factor))
     product = _oriented(_rational(factor, symbols, line), formula, inverted)
     own, power = _eliminated(product, formula)
     rate = first[symbols.index(own)] / int(power)
@@ -241,7 +245,10 @@ def _slopes(factor: sp.Expr, formula: Stated, symbols: Sequence[sp.Symbol]) -> l
         if all(ball.rad() < RADIUS and abs(ball) < LARGEST_SLOPE for ball in balls):
             slopes.append([_middle(ball) for ball in balls])
     if len(slopes) < ENOUGH_POINTS:
-        raise UnreachableError(f"{factor} has slopes at {len(slopes)} points only")
+        raise UnreachableError(
+            f"expected derivatives of {factor} at {ENOUGH_POINTS} test points or more, got "
+            f"{len(slopes)}; narrow the domains of its arguments"
+        )
     return slopes
 
 
@@ -257,7 +264,7 @@ def _rational(factor: sp.Expr, symbols: Sequence[sp.Symbol], values: Slopes) -> 
     """Return values as rational exponents of the symbols."""
     exponents = [value.limit_denominator(LARGEST_DENOMINATOR) for value in values]
     if any(abs(a - b) > ROUNDING for a, b in zip(exponents, values, strict=True)):
-        raise UnreachableError(f"{factor} is no function of a product of powers")
+        raise UnreachableError(f"{factor} is not a function of a product of rational powers")
     pairs = zip(symbols, exponents, strict=True)
     return tuple((symbol, sp.Rational(p.numerator, p.denominator)) for symbol, p in pairs if p)
 

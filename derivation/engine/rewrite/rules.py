@@ -80,9 +80,9 @@ def conjugate(_: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
         p, q = sorted(node.args, key=lambda part: part.could_extract_minus_sign())
         return sp.expand(p**2 - q**2) / (p - q)
 
-    found = given.replace(is_difference, corrected)
-    if found != given:
-        yield found
+    replaced = given.replace(is_difference, corrected)
+    if replaced != given:
+        yield replaced
 
 
 def _is_root(term: sp.Expr) -> bool:
@@ -99,12 +99,12 @@ def logarithm(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
             return False
         return 1 in sp.Add.make_args(node.args[0]) or sp.expand(node.args[0] - 1).subs(x, 0) == 0
 
-    found = given.replace(
+    replaced = given.replace(
         is_near_one,
         lambda node: log1p(sp.expand(node.args[0] - 1)),
     )
-    if found != given:
-        yield found
+    if replaced != given:
+        yield replaced
 
 
 def fraction(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
@@ -277,9 +277,11 @@ def _with_series(factor: Factor, x: sp.Symbol, switch: sp.Rational) -> Factor:
     # About the middle of its rates a sum of hyperbolic functions is even or odd.
     rates = [key.rate for key in terms]
     shift = (max(rates) + min(rates)) / 2
-    found = truncated_taylor({k._replace(rate=k.rate - shift): v for k, v in terms.items()}, switch)
-    near = found.polynomial(square if found.stride == 2 else x)
-    return replace(factor, near=near, lead=lead, rate=shift, truncation=found.bound)
+    series = truncated_taylor(
+        {k._replace(rate=k.rate - shift): v for k, v in terms.items()}, switch
+    )
+    near = series.polynomial(square if series.stride == 2 else x)
+    return replace(factor, near=near, lead=lead, rate=shift, truncation=series.bound)
 
 
 def reuse(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:

@@ -45,8 +45,8 @@ def shapes() -> tuple[sp.Expr, sp.Expr]:
             sp.numer(sp.together(sp.expand(left.doit()).subs({sinh: S, cosh: C}))), S, C, z
         ).coeffs()
     ]
-    (found,) = sp.solve(equations, unknown, dict=True)
-    return U.subs(found), W
+    (constants,) = sp.solve(equations, unknown, dict=True)
+    return U.subs(constants), W
 
 
 def closed_forms() -> dict[str, sp.Expr]:

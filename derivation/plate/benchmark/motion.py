@@ -55,7 +55,7 @@ def perturbation(corrected: bool) -> Method:
     def fails(case: BenchmarkCase) -> str:
         # In every test case, because both forms of xi_3 are sums of positive terms.
         fraction = paper_motion(case, case.speed, corrected=corrected).valid_fraction
-        return f"(17), (18) not real after {fraction:.3g} of the time to the turning point"
+        return f"(17), (18) not real after {100 * fraction:.4g} % of the time to the turning point"
 
     def prepare(case: BenchmarkCase, _: Arithmetic) -> Call:
         def one(v0: float) -> float:

@@ -61,7 +61,7 @@ def small_contacts(count: int, ar: Arithmetic = DOUBLE, quick: bool = True) -> M
     def prepare(case: BenchmarkCase, ar: Arithmetic) -> Call:
         return polynomial(case, ar, coefficients(case, count, ar.constants))
 
-    return Method("law", "series in a/h", f"{count} terms", prepare, ar, fails=fails, quick=quick)
+    return Method("law", "series in a/h", _terms(count), prepare, ar, fails=fails, quick=quick)
 
 
 def thin_plate(count: int) -> Method:
@@ -77,7 +77,12 @@ def thin_plate(count: int) -> Method:
     def prepare(case: BenchmarkCase, ar: Arithmetic) -> Call:
         return polynomial(case, ar, closed_form(case.h, case.b, count, ar.constants))
 
-    return Method("law", "thin-plate closed form", f"{count} terms", prepare, fails=fails)
+    return Method("law", "thin-plate closed form", _terms(count), prepare, fails=fails)
+
+
+def _terms(count: int) -> str:
+    """Return a number of terms in words."""
+    return f"{count} term{'s' if count > 1 else ''}"
 
 
 def chebyshev(degree: int, ar: Arithmetic = DOUBLE) -> Method:

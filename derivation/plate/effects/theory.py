@@ -71,9 +71,9 @@ def thickness_bound() -> Formula:
     most = sp.Rational(3, 2) * (c_A[1] * a_ratio - bending().expression) - lateral
     proof = prove(
         "Contributions to the slope of the law",
-        "$S - 1$ minus bending, which is linear, and minus the finite radius, between "
-        r"$-(4/\pi^2) (\kappa_0 \alpha + k_3 \alpha^3)$ and 0 by "
-        r"$\sinh y \le y + (\sinh 1 - 1) y^3$ ...",
+        "The contribution of finite thickness is that of the modes minus that of bending. That of "
+        "the modes is at most $(3/2) c_1 A$ minus the part of the finite radius in it, "
+        r"$-(4/\pi^2) \kappa_0 \alpha$.",
         {
             "finite radius": sp.Rational(3, 2) * first.side * a_ratio
             - lateral.subs(alpha, a_ratio * eta)

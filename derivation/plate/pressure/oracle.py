@@ -263,7 +263,7 @@ def _times(left: _Column, right: _Column) -> _Column:
 
 
 def _profile(x: arb, curvature: arb) -> tuple[arb, arb]:
-    """Return f R/a^2 and its slope by x divided by x."""
+    """Return f R/a^2 and its slope with respect to x divided by x."""
     if curvature == 0:
         return x * x, arb(2)
     y = curvature * x

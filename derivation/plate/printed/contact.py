@@ -61,8 +61,7 @@ _PRESSURE = printed(
 )  # fmt: skip
 _A_BY_INTEGRAL = printed(
     "4", "A_j", "A_j", r"\frac{2 M_j}{b^2 J_1(b\phi_j)^2}",
-    says="$M_j$ stands for the integral; with the pressure of (7) it is $p(0)$ times Sonine's "
-    "integral",
+    says="the integral of the pressure of (7) is $p(0)$ times Sonine's integral",
     full=r"\frac{2 \int_0^a r p(r) J_0(\phi_j r) dr}{b^2 J_1(b\phi_j)^2}",
     where=((M_j, -3 * P / (2 * sp.pi * a**2) * sonine),),
 )  # fmt: skip

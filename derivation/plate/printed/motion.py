@@ -9,7 +9,7 @@ from math import factorial
 from derivation.engine.errata.findings import Printed
 from derivation.plate.printed.contact import printed
 
-_TRUNCATION = "the sum truncated after its second term"
+_TRUNCATION = "the sum is truncated after its second term"
 
 
 @dataclass(frozen=True)

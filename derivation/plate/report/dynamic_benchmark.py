@@ -24,10 +24,10 @@ NAMES = {
     "rtol": "tolerance",
 }
 SETTINGS = {
-    "elements, nodes": "nodes", "elements, tolerance": "tolerance", "DOP853": "tolerance",
-    "velocity Verlet": "steps",
+    "elements, nodes": "{} nodes", "elements, tolerance": "tolerance {}",
+    "DOP853": "tolerance {}", "velocity Verlet": "{} steps",
 }  # fmt: skip
-"""What the setting of an integrator is."""
+"""The setting of an integrator in words."""
 
 
 def worst(row: Mapping[str, Any]) -> float:
@@ -64,10 +64,10 @@ def _line(ax: Any, rows: Sequence[Mapping[str, Any]], style: str, label: str) ->
 def dynamic_benchmark_context(data: Mapping[str, Any]) -> dict[str, Any]:
     """Return the values of the section: scene, rows, and relative times."""
     shared = next(row for row in data["rows"] if row["study"] == "integrator")
-    plate, ball = data["scene"]["plate"], data["scene"]["sphere"]
+    plate, sphere = data["scene"]["plate"], data["scene"]["sphere"]
     return {
         "scene": (
-            f"A {ball['material']} sphere of {2e3 * ball['radius']:g}\\,mm strikes a plate of "
+            f"A {sphere['material']} sphere of {2e3 * sphere['radius']:g}\\,mm strikes a plate of "
             f"{plate['material']}, {1e3 * plate['thickness']:g}\\,mm thick and "
             f"{2 * plate['radius']:g}\\,m wide, at {data['scene']['impact']['speed']:g}\\,m/s"
         ),
@@ -105,7 +105,8 @@ def benchmark_rows(data: Mapping[str, Any]) -> Iterator[dict[str, str]]:
     for row in data["rows"]:
         method, setting = row["method"], f"{row['setting']:g}"
         if row["study"] == "integrator":
-            what = f"{LINES[method].split(',')[0]}, {SETTINGS[method]} {setting}"
+            name = LINES[method].removesuffix(", fewer nodes")
+            what = f"{name}, {SETTINGS[method].format(setting)}"
         elif row["study"] == "rtol":
             what = f"{_branches(method)}, rtol {setting}"
         else:

@@ -34,15 +34,21 @@ def scene_context(name: str, scene: Scene) -> dict[str, Any]:
         "name": name,
         "rows": rows,
         "says": sentence(str(explanation)),
-        "notes": list(explanation.notes),
+        "notes": [_with_code(note) for note in explanation.notes],
     }
 
 
+def _with_code(text: str) -> str:
+    """Return a sentence as LaTeX, with text between backticks in typewriter type."""
+    parts = text.split("`")
+    return "".join(code(part) if odd % 2 else prose(part) for odd, part in enumerate(parts))
+
+
 def cell(text: str) -> str:
-    """Return a number of the table; small ones as powers of ten."""
+    """Return a cell of the table; very small and large numbers as powers of ten."""
     mantissa, e, power = text.partition("e")
     if not (e and power.lstrip("+-").isdigit()):
-        return text
+        return f"${text}$" if text.startswith("-") else text
     return rf"${mantissa}\cdot10^{{{int(power)}}}$" if int(power) else mantissa
 
 

@@ -142,8 +142,8 @@ class Reach(NamedTuple):
 
     def shortest(self, model: Model) -> Numbers:
         """Return the largest contact radius [m] in all three lengths."""
-        found: Numbers = np.minimum(self.plate * model.b, self.sphere * model.R)
-        return np.minimum(found, self.thickness * model.h)
+        reach: Numbers = np.minimum(self.plate * model.b, self.sphere * model.R)
+        return np.minimum(reach, self.thickness * model.h)
 
     def in_words(self, limit: float) -> str:
         """Return the shortest of the lengths that count as symbols, value [m] and meaning."""

@@ -17,7 +17,7 @@ def contact_radius(delta: ArrayLike) -> np.ndarray:
 
 
 def _law(a: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Return force [N], indentation [m] and their derivatives by the radius, at radii [m]."""
+    """Return force P [N], indentation d [m], dP/da and dd/da at contact radii a [m]."""
     stiffness = 4.0 / 3.0 * MODULUS / R
     depth, slope = 1.0 + BEND * a, 2.0 + 3.0 * BEND * a
     return stiffness * a**3, a * a / R * depth, 3.0 * stiffness * a * a, a / R * slope

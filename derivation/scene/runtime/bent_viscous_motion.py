@@ -23,7 +23,7 @@ def _forces(state: np.ndarray, unit: float) -> tuple[np.ndarray, ...]:
 
 
 def _rates(state: np.ndarray, unit: float) -> np.ndarray:
-    """Return the derivatives of the state by t^(1/3), in which the onset is smooth."""
+    """Return the derivatives of the state with respect to t^(1/3), in which the onset is smooth."""
     P, rate, _, _ = _forces(state, unit)
     _, v, _, root = state
     by_root = 3.0 * root * root

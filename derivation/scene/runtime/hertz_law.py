@@ -13,5 +13,5 @@ def contact_radius(delta: ArrayLike) -> np.ndarray:
 
 
 def _law(a: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Return force [N], indentation [m] and their derivatives by the radius, at radii [m]."""
+    """Return force P [N], indentation d [m], dP/da and dd/da at contact radii a [m]."""
     return 4.0 / 3.0 * MODULUS / R * a**3, a * a / R, 4.0 * MODULUS / R * a * a, 2.0 * a / R

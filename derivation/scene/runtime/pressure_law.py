@@ -7,7 +7,7 @@ from derivation.scene.runtime.panels import _place, _polynomial
 
 
 def _law(a: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Return force [N], indentation [m] and their derivatives by the radius, at radii [m]."""
+    """Return force P [N], indentation d [m], dP/da and dd/da at contact radii a [m]."""
     panel, s, half = _place(a)
     growth, growth_s = _polynomial(GROWTH[panel], s)
     delta = a * a / R * (1.0 + a * growth)

@@ -22,7 +22,7 @@ def _forces(state: np.ndarray, unit: float) -> tuple[np.ndarray, ...]:
 
 
 def _rates(state: np.ndarray, unit: float) -> np.ndarray:
-    """Return the derivatives of the state by int dt/a, in which the onset is smooth."""
+    """Return derivatives of the state with respect to int dt/a, in which the onset is smooth."""
     P, rate, _, a = _forces(state, unit)
     return np.array([rate, a * _acceleration(P), a])
 

@@ -104,7 +104,7 @@ def test_arrays_are_broadcast() -> None:
     [
         ("sqrt(a**2 + b) - a + c - sin(c)", "in variables that need not be subtracted"),
         ("cos(a) - cos(b)", "in variables that need not be subtracted"),
-        ("np - sqrt(np**2 - a**2)", "rename the variable"),
+        ("np - sqrt(np**2 - a**2)", "uses; rename it"),
         ("a*e**b", "write exp"),
         ("besselj(0, a)*b", "expected functions of NumPy"),
     ],

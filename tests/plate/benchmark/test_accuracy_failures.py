@@ -216,12 +216,12 @@ def test_simplest_of_equally_fast_methods_wins() -> None:
     rows = [
         row("Chebyshev polynomial", 15.1, 2.0), row("generated code", 15.5, 2.3),
         row("cubic interpolation", 15.9, 2.42), row("split sum", 15.9, 9.0), row("Hertz", 0.1, 0.1),
-        row("series in a/h", 3.5, 1.0, "1 terms"), row("series in a/h", 6.5, 3.0, "2 terms"),
+        row("series in a/h", 3.5, 1.0, "1 term"), row("series in a/h", 6.5, 3.0, "2 terms"),
         replace(row("Levin u transform", 15.0, 0.1), fails="why", vector=None, single=None),
     ]  # fmt: skip
     actual = {w.digits: w for w in pareto.winners(rows) if w.kind == "vector"}
     assert sorted(actual) == [3, 6, 9, 12, 15]
-    assert (actual[3].family, actual[3].setting) == ("series in a/h", "1 terms")
+    assert (actual[3].family, actual[3].setting) == ("series in a/h", "1 term")
     assert actual[3].relative == 1
     assert actual[15].family == "generated code"
     assert actual[15].ties == ("Chebyshev polynomial",)

@@ -31,9 +31,9 @@ square, ratio, radius, residual, exponent, flat = sp.symbols(
 CorrectionCurve = unspecified_function("CorrectionCurve")
 """F'' as a function of A."""
 CorrectionSlopeByThickness = unspecified_function("CorrectionSlopeByThickness")
-"""Derivative of F' by log(h/b)."""
+"""Derivative of F' with respect to log(h/b)."""
 CorrectionByThickness = unspecified_function("CorrectionByThickness", CorrectionSlopeByThickness)
-"""Derivative of F by log(h/b) at fixed A."""
+"""Derivative of F with respect to log(h/b) at fixed A."""
 CorrectionSlope = unspecified_function(
     "CorrectionSlope", CorrectionCurve, CorrectionSlopeByThickness
 )
@@ -201,7 +201,7 @@ def indentation_slope() -> Routine:
 
 
 def stiffness() -> Routine:
-    """Return dP/d delta, from the derivatives of both by the contact radius."""
+    """Return dP/d delta, from the derivatives of both with respect to the contact radius."""
     return routine(
         "contact_stiffness",
         (a, rise, mu, modulus),

@@ -45,11 +45,16 @@ def _closed_form() -> tuple[Constant, ...]:
     return (
         Constant("LINEAR", linear, "Part of a thin plate's c1 that does not depend on b/h."),
         Constant("CUBIC", cubic, "Part of a thin plate's c3 that does not depend on b/h."),
-        Constant("NEAR_BY_LOG", REACH**2 * log, "Derivative of a thin plate's S_1 by log(b/h)."),
+        Constant(
+            "NEAR_BY_LOG",
+            REACH**2 * log,
+            "Derivative of a thin plate's S_1 with respect to log(b/h).",
+        ),
         Constant(
             "FAR_BY_LOG",
             (float(FAR_MIDDLE) * log, float(FAR_HALF) * log),
-            "Derivatives by log(b/h) of the parts of c3 in S_0 and S_1 of the second polynomial.",
+            "Derivatives of the parts of c3 in S_0 and S_1 of the second polynomial, with respect "
+            "to log(b/h).",
         ),
     )
 

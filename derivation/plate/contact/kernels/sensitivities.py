@@ -43,7 +43,7 @@ def power_work() -> Claims:
 
 @named_routine
 def power_slope() -> Claims:
-    """Return the derivative by log A of a term of F proportional to A^(n-2), as A^n is in delta."""
+    """Return the derivative, with respect to log A, of the term A^(n-2) of F (A^n in delta)."""
     return Claims(
         (n, term), (), (term * (n - 2),), (sp.diff(term * x ** (n - 2), x).subs(x, 1),), {}
     )
@@ -98,7 +98,7 @@ def work_weight() -> Claims:
 
 @named_routine
 def rates() -> Claims:
-    """Return V = 2 (1 + F) + A F', and its derivatives by log A and by log(h/b)."""
+    """Return V = 2 (1 + F) + A F', and its derivatives with respect to log A and log(h/b)."""
     F, slope, curve, deeper = sp.symbols("F slope curve deeper", real=True)
     rise = R / a * sp.diff(DEPTH, a)
     grown = a * sp.diff(CORRECTION, a)
@@ -147,7 +147,7 @@ SUMS: Facts = {
 
 @named_routine
 def peak_growth() -> Claims:
-    """Return logarithmic derivatives of A_m, delta_m and P_m by energy number and h/b."""
+    """Return logarithmic derivatives of A_m, delta_m, P_m with respect to energy number and h/b."""
     by_radius = a * sp.diff(sp.log(FORCE), a)
     growth = tuple(formula.expression for formula in peaks())
     return Claims(
@@ -256,7 +256,7 @@ def far_nodes() -> Claims:
 
 @named_routine
 def time_terms() -> Claims:
-    """Return terms of int N/sqrt(S) and of its derivatives by log A_m and log(h/b)."""
+    """Return terms of int N/sqrt(S) and of its derivatives with respect to log A_m and log(h/b)."""
     names = sp.symbols("N S N_1 S_1 N_2 S_2", positive=True)
     N, S, N_1, S_1, N_2, S_2 = names
     scaled, half = sp.symbols("scaled half", positive=True)
@@ -282,7 +282,7 @@ TimeIntegral = unspecified_function(
 
 @named_routine
 def time_growth() -> Claims:
-    """Return the contact time's derivatives by energy number and h/b, from those of A_m."""
+    """Return derivatives of the contact time, with respect to energy number and h/b, from A_m's."""
     log_A = sp.Symbol("log_A", real=True)
     A = sp.exp(log_A)
     time = sp.log(TimeIntegral(log_A, log_eta)) + sp.expand_log(sp.log(A**2 / sp.sqrt(A**5)))

@@ -107,7 +107,7 @@ def thin_far() -> Routine:
 
 @named_routine
 def linear_by_log() -> Claims:
-    """Return the derivative of c1 by log v."""
+    """Return the derivative of c1 with respect to log v."""
     derivative = sp.expand(v * sp.diff(thin(2), v))
     return Claims(
         (v,),
@@ -120,7 +120,7 @@ def linear_by_log() -> Claims:
 
 
 def cubic_by_log() -> sp.Expr:
-    """Return the derivative of c3 by log v, a number."""
+    """Return the derivative of c3 with respect to log v, a number."""
     return sp.simplify(v * sp.diff(thin(3), v))
 
 
@@ -148,7 +148,7 @@ def mode_weight() -> Claims:
 
 @named_routine
 def weight_by_thickness() -> Claims:
-    """Return the derivative of w_n by log(h/b)."""
+    """Return the derivative of w_n with respect to log(h/b)."""
     exact = plate_factor_slope().expression.subs(T, 2 * eta * j_n)
     return Claims(
         (eta, j_n, J1),
@@ -220,7 +220,7 @@ POLYNOMIAL: Facts = {
 
 
 def by_log_radius(expression: sp.Expr) -> sp.Expr:
-    """Return the derivative by log A."""
+    """Return the derivative with respect to log A."""
     return A * sp.diff(expression, A)
 
 
@@ -258,14 +258,14 @@ def polynomial_slopes() -> Routine:
 
 
 TableSlope = unspecified_function("TableSlope")
-"""Derivative of `Table` by log(eta)."""
+"""Derivative of `Table` with respect to log(eta)."""
 Table = unspecified_function("Table", TableSlope)
 """S_k/eta of a thick plate, t = (a/b)^2, as a function of log(eta)."""
 
 
 @named_routine
 def thick_by_thickness() -> Claims:
-    """Return the derivative of S_k by log(h/b) at fixed A, in powers of A eta; order is 2k + 1."""
+    """Return dS_k/dlog(h/b) at fixed A, in powers of A eta; order is 2k + 1."""
     coefficient = eta**order * Table(sp.log(eta))
     return Claims(
         (order, S, eta, change),
@@ -279,7 +279,7 @@ def thick_by_thickness() -> Claims:
 
 @named_routine
 def range_by_thickness() -> Claims:
-    """Return the derivative of t by log v at fixed A, over -(1 + t), for ranges up to A = v."""
+    """Return dt/dlog v at fixed A, divided by -(1 + t), for ranges up to A = v."""
     start = sp.Symbol("start", positive=True)
     place = PLACE.subs({middle: (v**2 + start**2) / 2, half: (v**2 - start**2) / 2})
     return Claims(

@@ -26,7 +26,7 @@ def in_cells(v: Double, cells: Cells) -> Iterator[tuple[np.ndarray, Double, floa
 
 
 def horner(coefficients: list[Double] | list[float] | Double, t: Double) -> tuple[Double, Double]:
-    """Return a polynomial and its derivative by t, computed in place (blocks fit in the cache)."""
+    """Return a polynomial and its derivative with respect to t, in place (blocks fit the cache)."""
     value: Double = coefficients[-1] * t + coefficients[-2]
     slope = np.full_like(value, coefficients[-1])
     for coefficient in coefficients[-3::-1]:

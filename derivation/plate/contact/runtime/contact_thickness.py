@@ -67,12 +67,12 @@ def far_by_thickness(far: Piece, eta: Double) -> Piece:
 
 
 def _tabulated_slope(v: Double, cells: Cells, total: Double) -> None:
-    """Add v times the derivatives by v of the cells' polynomials."""
+    """Add v times the derivatives with respect to v of the cells' polynomials."""
     for chosen, tau, half, rows in in_cells(v, cells):
         total[:, chosen] += horner(rows, tau)[1] * (v[chosen] / half)
 
 
 def _weight_slopes(eta: Double, count: int) -> tuple[Double, Double]:
-    """Return j_n and the derivatives of w_n by log(eta), with the modes along a last axis."""
+    """Return j_n and the derivatives of w_n with respect to log(eta); modes along the last axis."""
     zeros, slopes = bessel_j0_zeros(count), bessel_j1_at_j0_zeros(count)
     return zeros, kernels.weight_by_thickness(eta[..., None], zeros, slopes)

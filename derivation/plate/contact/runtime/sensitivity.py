@@ -205,7 +205,7 @@ def _orders(terms: Double) -> Double:
 
 
 def _changes(scenes: Scenes, part: slice, eta: Double, deeper: _Law) -> tuple[Double, Double]:
-    """Return logarithmic slopes of A_m^(-1/2) I, A^2 (1 + F), A^3 and A by Y and by eta."""
+    """Return logarithmic derivatives of A_m^(-1/2) I, A^2 (1 + F), A^3 and A: for Y and for eta."""
     terms = scenes.terms[:, part]
     wider = kernels.power_slope(_orders(terms), terms)
     laws = _Law(terms, scenes.tails[:, part]), _Law(wider, _tails(wider)), deeper
@@ -230,8 +230,9 @@ def _changes(scenes: Scenes, part: slice, eta: Double, deeper: _Law) -> tuple[Do
 
 
 def _inner(laws: tuple[_Law, _Law, _Law], ratio: Double, gap: Double, rises: Double) -> Double:
-    """Return int N/sqrt(S) dw and its slopes by log A_m and log eta up to q = ratio: (3, scenes).
+    """Return int N/sqrt(S) dw up to q = ratio, and its slopes with respect to log A_m and log eta.
 
+    Shape: (3, scenes).
     Here q = w (2 - w), w <= 1 - sqrt(gap) and gap = 1 - ratio; `rises` is the work beyond q.
     """
     q, s, left, factor, last = kernels.near_nodes(NODES, ratio[:, None], np.sqrt(gap)[:, None])
@@ -265,10 +266,10 @@ def _integrals(sums: list[_Sums], weights: Double) -> Double:
 
 
 class _Beyond(NamedTuple):
-    """Contributions beyond the first polynomial, with slopes by log A_m and log eta.
+    """Contributions beyond the first polynomial, with slopes with respect to log A_m and log eta.
 
     `rises` is the work divided by A_m^5, `integrals` the part of the integral in the contact time;
-    `rate` and `lift_slope` are V and the slope of F by log eta at A_m.
+    `rate` and `lift_slope` are V and the slope of F with respect to log eta at A_m.
     """
 
     rises: Double
@@ -301,7 +302,7 @@ def _beyond(A: Double, gap: Double, eta: Double) -> _Beyond:
 
 
 def _rates(A: Double, law: Columns, deeper: Columns) -> tuple[Double, Double, Double]:
-    """Return V and its slopes by log A and by log eta."""
+    """Return V and its slopes with respect to log A and log eta."""
     value, slope, curve = with_slopes(A, law)
     return kernels.rates(value, slope, curve, *with_slope(A, deeper))
 

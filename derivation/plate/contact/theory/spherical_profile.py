@@ -34,8 +34,9 @@ def flat_punch() -> Proof:
 
     The pressure is p = dP/(2 pi c sqrt(c^2 - s^2)). Its Fourier-Bessel transform is
     dP sin(c phi)/(2 pi c phi), by power series. With the half-space's influence coefficient,
-    w = dP/(pi c E*) int_0^oo sin(c phi)/phi J0(phi r) dphi. The derivative of this integral by c
-    is that of cos(c phi) J0(phi r), the real part of the Laplace transform of J0 at i c:
+    w = dP/(pi c E*) int_0^oo sin(c phi)/phi J0(phi r) dphi. Differentiated with respect to
+    c, this is the integral of cos(c phi) J0(phi r), the real part of the Laplace transform of J0
+    at i c:
     1/sqrt(r^2 - c^2) for c < r and 0 for c > r.
     """
     bessel = (-1) ** _m / (4**_m * sp.factorial(_m) ** 2)

@@ -253,7 +253,8 @@ def alternating_sums() -> tuple[Formula, Formula]:
         value = (at_zero - turned / sp.besseli(0, _y)) / _y**2 / sp.pi
         proof = prove(
             "Alternating sum",
-            r"The finite part of $\int dy/y^2$ from 0 is 0; $Q - T$, $H - 1$ decay like $e^{-T}$.",
+            r"The finite part of $\int_0^{\infty} dy/y^2$ is 0, and $Q - T$ and $H - 1$, the "
+            "functions of bending and extension minus their limits, decay like $e^{-T}$.",
             {
                 "Q": bending_function() - T - T * (T - 1 + sp.exp(-T)) / (sp.sinh(T) - T),
                 "H": stretching_function() - 1 + (1 + T - sp.exp(-T)) / (sp.sinh(T) + T),
@@ -297,9 +298,10 @@ def edge_bound() -> Formula:
     value = 3 * alpha / (2 * sp.pi) * (bracket + sp.Rational(8, 3) * RATIO**2 * s_2)
     proof = prove(
         "Bound of the slope's change by the edge",
-        r"$(3 + T) (\sinh T - T) - T (\cosh T - 1)$ vanishes at 0 with two derivatives, and its "
-        r"third is $3 \cosh T - (3 - T) e^{-T} \ge 0$; $Q - 3$ has no negative power in its "
-        r"numerator; $e^{-T} \le 1 + T$.",
+        r"The proof shows that $3 \le Q \le 3 + T$ and $H \le 1$. The first two derivatives of "
+        r"$(3 + T) (\sinh T - T) - T (\cosh T - 1)$ vanish at 0, and the third is "
+        r"$3 \cosh T - (3 - T) e^{-T} \ge 0$. The numerator of $Q - 3$ is a power series without "
+        r"negative coefficients. $H \le 1$ follows from $e^{-T} \le 1 + T$.",
         {
             "Q - 3 - T": (3 + T - bending_function()) * (sp.sinh(T) - T) - third,
             "third derivative": sp.diff(third, T, 3) - 3 * sp.cosh(T) + (3 - T) * sp.exp(-T),

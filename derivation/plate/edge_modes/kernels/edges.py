@@ -1,4 +1,4 @@
-"""Frequency equations of clamped and supported plates, and their derivatives by k.
+"""Frequency equations of clamped and supported plates, and their derivatives with respect to k.
 
 The condition of the edge is J1 = q J0,
 
@@ -65,7 +65,7 @@ def _between(expression: sp.Expr) -> sp.Expr:
 
 @named_routine
 def edge() -> Claims:
-    """Return q, J1 - q J0, which vanishes at a mode, and its slope by k."""
+    """Return q, J1 - q J0, which vanishes at a mode, and its slope with respect to k."""
     value = k * (beta * (1 + left) - turned * mean / 2) / bending_part
     steep_q = slope_of(value, {mean: (less - mean**2 / 4) * square})
     stated = condition(beta)
@@ -92,7 +92,7 @@ def curl_of(of: type[sp.Function]) -> sp.Expr:
 
 
 def _curls(partner: sp.Symbol) -> tuple[Several, Several]:
-    """Return R and its slope by y, for both waves."""
+    """Return R and its slope with respect to y, for both waves."""
     first, second = (curl_of(of) for of in (sp.besselj, sp.besseli))
     slopes = -sp.diff(first, k_n) / (2 * k_n), sp.diff(second, k_n) / (2 * k_n)
     wave_number = k_n * sp.sqrt(parts()[left])
@@ -105,7 +105,7 @@ def _curls(partner: sp.Symbol) -> tuple[Several, Several]:
 
 @named_routine
 def first_edge() -> Claims:
-    """Return the function that vanishes at the first supported mode, and its slope by k."""
+    """Return the function that vanishes at the first supported mode, and its derivative d/dk."""
     partner = sp.Symbol("partner", real=True)
     bracket = turned * curl_2 / i0 + (ROTARY * xi * k**2 / 8 - goal) * (1 + left)
     value = bending_part * curl + j0 * bracket

@@ -1,4 +1,4 @@
-"""A wave of a clamped or supported plate: variables of the code, and their slopes by k.
+"""A wave of a clamped or supported plate: variables of the code, and their derivatives d/dk.
 
 With xi = kap/x^2, k2^2 = k^2 left, g1 = bending_part and g2 k2^2 = k^2 turned, no terms cancel for
 thin plates. With M = 2 I1/(k2 I0) and L = (1 - M)/k2^2 = I2/(k2^2 I0), none do where k2 vanishes.
@@ -78,7 +78,7 @@ def slope_of(value: sp.Expr, others: Facts) -> sp.Expr:
 
 
 def changes() -> tuple[Let, Let]:
-    """Return the derivatives of xi and k2^2 by k; results of the first apply to any branch."""
+    """Return d xi/dk and d k2^2/dk; the former applies to any branch."""
     return (
         Let(
             change, xi * RATE / k, "of xi by k", opaque=True, means=xi * branch_rate() / k_n

@@ -74,7 +74,7 @@ def punch_beyond(y: Double) -> Double:
 
 
 def curled(y: Double) -> tuple[Double, Double]:
-    """Return R = y/8 I0(sqrt(y)) - I2(sqrt(y)), and its derivative by y."""
+    """Return R = y/8 I0(sqrt(y)) - I2(sqrt(y)), and its derivative with respect to y."""
     return y * polynomial(y, *CURL), polynomial(y, *CURL_SLOPE)
 
 

@@ -319,7 +319,7 @@ def _below_cutoff(count: int, eta: Double, nu: Double, beta: Double) -> Waves:
 
 
 def _residual(k: Double, eta: Double, nu: Double, beta: Double) -> tuple[Double, ...]:
-    """Return q, J1 - q J0 and its slope by k."""
+    """Return q, J1 - q J0 and its slope with respect to k."""
     _, xi, left, bending_part, turned, _, mean, less, _ = _state(k, eta, nu)
     bessel = bessel_j0(k), bessel_j1(k)
     return kernels.edge(k, nu, beta, xi, left, bending_part, turned, mean, less, *bessel)

@@ -152,8 +152,8 @@ def waves() -> tuple[Formula, ...]:
     proof = prove(
         "Waves of Mindlin's plate",
         r"$w$ and $\psi$ are inserted into both balances for any $\kappa$ and $k_s$, with $\kappa$ "
-        "in terms of $k$ and $k_2$; $-k_2^2$ into the dispersion relation, which is quadratic in "
-        "$k^2$.",
+        "in terms of $k$ and $k_2$. The dispersion relation is quadratic in $k^2$; its other root "
+        "is $-k_2^2$.",
         {
             "by partner": (k_n**2 - k_2**2 - kap / eta**2 * (shear + ROTARY)).subs(by_partner),
             "force": lower_bessel(force.doit()).subs(by_partner),

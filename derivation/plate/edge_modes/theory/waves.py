@@ -212,8 +212,8 @@ def norm() -> Formula:
     psi = rotation(g_1, g_2)
     proof = prove(
         "Norm of a plate wave",
-        r"Primitives of $w^2 r$ and $\psi^2 r$, for any $k$, $k_2$, $g_1$, $g_2$ and $c$; step "
-        r"29's for $\eta \to 0$.",
+        r"Primitives of $w^2 r$ and $\psi^2 r$ are differentiated for any $k$, $k_2$, $g_1$, $g_2$ "
+        r"and $c$. For $\eta \to 0$ the norm is that of step 29.",
         {
             "deflection": lower_bessel(sp.diff(deflected, _r)) - _r * DEFLECTION**2,
             "rotation": lower_bessel(sp.diff(turned, _r)) - _r * psi**2,
@@ -262,9 +262,10 @@ def face_ratio() -> Formula:
     mean_square, edge_square = sp.Rational(1, 3) / 2, sp.Rational(1, 2)
     proof = prove(
         "Contact-face over mean deflection",
-        r"A wave without shear on its faces, $\kappa = Y x^4$, to the first power of $x^2$; "
-        r"the evanescent wave has $-k_2^2$ for $k^2$. The same follows from $\sigma_{zz} = 0$: "
-        r"$n_{\nu} z^2/2 \nabla^2 w$, face minus mean.",
+        r"The deflection of a wave without shear on its faces is expanded to the first power of "
+        r"$x^2$, with $\kappa$ proportional to $x^4$. The evanescent wave has $-k_2^2$ in place of "
+        r"$k^2$. The same follows from $\sigma_{zz} = 0$: the deflection contains "
+        r"$\nu/(1 - \nu) z^2/2 \nabla^2 w$, of which the face minus the mean is taken.",
         {
             "series": sp.cancel(series - 1 + one * s),
             "plane stress": sp.cancel(one - one * 3 * (edge_square - mean_square)),
@@ -289,8 +290,8 @@ def weight() -> Formula:
     soft = WEIGHT.subs(N, NORM).subs(c, 0).subs(J0, 0)
     proof = prove(
         "Modal weight of a plate wave",
-        "At $J_0 = 0$ it is that of the paper's edge, whose residue is A0's; step 29's for "
-        r"$\eta \to 0$. " + energy.proof.argument,
+        "At $J_0 = 0$ the modal weight is that of the paper's edge, whose residue is that of A0. "
+        r"For $\eta \to 0$ it is that of step 29. " + energy.proof.argument,
         {
             "paper's edge": sp.cancel(soft - 1 / (sp.pi * J1**2)),
             "thin": _thin(WEIGHT.subs(N, NORM).subs(c, PART)) - thin.WEIGHT,
@@ -342,10 +343,11 @@ def at_rest() -> tuple[Formula, Formula]:
     lift = 1 + BULGE / 3 * eta**2 * nabla
     proof = prove(
         "Clamped and supported plates under a static load",
-        r"$\psi$ under a force on the paper's edge, and $2 A r$, uniform bending without shear "
-        "with the deflection $A (1 - r^2)$. On the face $w$ is "
-        r"$1 + (n_{\nu}/3) \eta^2 \nabla^2$ times the mean; by reciprocity, the same factor "
-        "applies to a force there.",
+        r"The rotation $\psi$ is the sum of that under a force with the paper's edge and of "
+        "$2 A r$, which is uniform bending without shear, with the deflection $A (1 - r^2)$. "
+        r"The deflection of a face is the mean deflection, to which the operator $1 + \eta^2 "
+        r"\nu/(3 (1 - \nu)) \nabla^2$ is applied. By reciprocity, the same applies to a force "
+        "on the face.",
         {
             "load": sp.expand(sp.diff(bent, _r) + 1 / (2 * sp.pi * _r)),
             "paper's edge": bent.subs(_r, 1),

@@ -95,7 +95,7 @@ def excess_at_turn() -> Claims:
 
 @named_routine
 def end_of_radicand() -> Claims:
-    """Return the radicand over -v0^2 at s^2 = y^3, and its derivative by y."""
+    """Return the radicand over -v0^2 at s^2 = y^3, and its derivative with respect to y."""
     cube = sp.Symbol("cube", positive=True)
     claim = -(formal_speed_squared() / v0**2).subs(delta, _peak() * y ** sp.Rational(3, 2))
     return Claims(

@@ -222,7 +222,7 @@ def beside_hertz() -> Claims:
 
 @named_routine
 def work_step() -> Claims:
-    """Return s^5 (1 + y s) - 1, the work up to s times Hertz's radius, and its slope by s."""
+    """Return s^5 (1 + y s) - 1, the work up to s times Hertz's radius, and its derivative d/ds."""
     fourth, inner = sp.symbols("fourth inner", real=True)
     work = s**5 * _work(s * sp.Symbol("z", real=True))
     z = 4 * y / 5
@@ -288,7 +288,7 @@ def peaks() -> Claims:
 
 @named_routine
 def elasticities() -> Claims:
-    """Return logarithmic derivatives of work, indentation and time by the largest radius."""
+    """Return d/dlog of the largest radius of the logarithms of work, indentation and time."""
     powers = exponents(fall, rise)
     return Claims(
         (fall, rise), (), tuple(powers.values()), tuple(exponents(fall, rise).values()), {}

@@ -62,7 +62,7 @@ def logarithmic(
 
 
 class _ModulusExponents(NamedTuple):
-    """d log E*/d log lam, d log E*/d log mu, and lam times the derivative by lam of the former."""
+    """d log E*/d log lam, d log E*/d log mu, and d/dlog lam of the former."""
 
     lam: Fraction
     mu: Fraction
@@ -70,7 +70,7 @@ class _ModulusExponents(NamedTuple):
 
 
 def impact_sensitivities(scene: Sequence[Any], digits: int) -> tuple[arb, ...]:
-    """Return logarithmic derivatives of four results by seven parameters, row by row.
+    """Return logarithmic derivatives of four results with respect to seven parameters, row by row.
 
     The step of the differences depends on the digits, because the extrapolation error is its fourth
     power.
@@ -144,7 +144,7 @@ def _results(scene: Sequence[Any], speed: Fraction, radius: Fraction, digits: in
 
 
 def _by(scene: Sequence[Any], place: int, digits: int, bits: int) -> tuple[arb, ...]:
-    """Return the logarithmic derivatives of every result by v0 or b."""
+    """Return the logarithmic derivatives of every result with respect to v0 or b."""
     halvings = digits + 3 * _SPARE
     wanted, one = digits + halvings // 3 + _SPARE, Fraction(1)
 

@@ -236,8 +236,8 @@ def modulus_slope() -> Formula:
         "The logarithm of $E^*$ is differentiated; $E^*$ is homogeneous of degree 1 in both "
         "moduli.",
         {
-            "derivative, lam": lam * sp.diff(logarithm, lam) - value,
-            "derivative, mu": mu * sp.diff(logarithm, mu) - (1 - value),
+            "derivative with respect to lam": lam * sp.diff(logarithm, lam) - value,
+            "derivative with respect to mu": mu * sp.diff(logarithm, mu) - (1 - value),
         },
     )
     return Formula(
@@ -271,7 +271,7 @@ def _eta_weights() -> dict[int, sp.Expr]:
 
 @cache
 def peaks() -> tuple[Formula, ...]:
-    """Return logarithmic derivatives of largest radius and indentation by energy number and eta."""
+    """Return logarithmic derivatives of the peaks with respect to energy number and eta."""
     D_n, slopes = _weights(), _eta_weights()
     work = weighted(D_n, lambda n: sp.Rational(n, n + 3))
     rise, lift = weighted(D_n, sp.Integer), weighted(D_n, lambda _: sp.Integer(1))
@@ -281,7 +281,7 @@ def peaks() -> tuple[Formula, ...]:
     indentation_by_energy, depth_by_eta = work / lift, (lift_slope - work_slope) / lift
 
     def grown(value: sp.Expr) -> sp.Expr:
-        """Return the derivative by log A_m, where D_n is proportional to A^(n - 2)."""
+        """Return the derivative with respect to log A_m, where D_n is proportional to A^(n - 2)."""
         return sp.Add(*((n - 2) * D[n] * sp.diff(value, D[n]) for n in orders()[1:]))
 
     def deeper(value: sp.Expr) -> sp.Expr:
@@ -297,8 +297,8 @@ def peaks() -> tuple[Formula, ...]:
         r"$\eta$ increases.",
         {
             "work": work - work_of_contact(),
-            "radius, by energy": energy_by_radius * by_energy - 1,
-            "radius, by eta": energy_by_radius * by_eta + energy_by_eta,
+            "radius by energy": energy_by_radius * by_energy - 1,
+            "radius by eta": energy_by_radius * by_eta + energy_by_eta,
             "indentation by energy": depth * by_energy - indentation_by_energy,
             "indentation by eta": depth * by_eta + deeper(lift) / lift - depth_by_eta,
         },

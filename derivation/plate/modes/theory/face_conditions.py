@@ -57,27 +57,25 @@ def omegas() -> tuple[Formula, ...]:
 @cache
 def scaled_omegas() -> tuple[Formula, ...]:
     """Return e^(phi h) Omega_k, of order 1 where Omega_k itself underflows (phi h > 708)."""
-    results = []
-    for omega in omegas():
-        scaled = sp.exp(phi * h) * omega.expression
-        proof = prove(
-            "Scaled constants",
-            r"Each scaled constant is the constant times $e^{\phi h}$ by definition.",
-            {omega.name: scaled * sp.exp(-phi * h) - omega.expression},
+    scaled = {omega: sp.exp(phi * h) * omega.expression for omega in omegas()}
+    proof = prove(
+        "Scaled constants",
+        r"Each scaled constant is the constant times $e^{\phi h}$ by definition.",
+        {o.name: value * sp.exp(-phi * h) - o.expression for o, value in scaled.items()},
+    )
+    return tuple(
+        Formula(
+            f"{omega.name}_scaled",
+            rf"e^{{\phi_j h}}{omega.latex}",
+            rf"$\{omega.name}$ times $e^{{\phi h}}$",
+            value,
+            omega.unit,
+            "5",
+            (omega.name,),
+            proof,
         )
-        results.append(
-            Formula(
-                f"{omega.name}_scaled",
-                rf"e^{{\phi_j h}}{omega.latex}",
-                rf"$\{omega.name}$ times $e^{{\phi h}}$",
-                scaled,
-                omega.unit,
-                "5",
-                (omega.name,),
-                proof,
-            )
-        )
-    return tuple(results)
+        for omega, value in scaled.items()
+    )
 
 
 def loaded(expression: sp.Expr) -> sp.Expr:

@@ -1,7 +1,7 @@
 """Cosines of the kernel and profile of the sphere, each proved equal to that of step 20.
 
 The kernel is a sum of cosines, with imaginary arguments for the lateral surface. The code uses
-1 - cos and its slope by x = t/a, divided by x.
+1 - cos and its slope with respect to x = t/a, divided by x.
 """
 
 import sympy as sp
@@ -30,7 +30,7 @@ def _by_exponentials(expression: sp.Expr) -> sp.Expr:
 
 @named_routine
 def wave() -> Claims:
-    """Return 1 - cos(phase x), and its slope by x divided by x."""
+    """Return 1 - cos(phase x), and its slope with respect to x divided by x."""
     turns = sp.Symbol("turns", positive=True)
     risen = 1 - _shape(False, phase * x)
     return Claims(
@@ -45,7 +45,7 @@ def wave() -> Claims:
 
 @named_routine
 def lateral_wave() -> Claims:
-    """Return 1 - cosh(rise x), and its slope by x divided by x, both divided by e^y."""
+    """Return f = 1 - cosh(rise x), and f'(x)/x, both divided by e^y."""
     grown, faded, half, chord = sp.symbols("grown faded half chord", positive=True)
     risen = sp.exp(-y) * (1 - _shape(True, rise * x))
     above = sp.exp(grown - y) - sp.exp(-grown - y)
@@ -85,7 +85,7 @@ def _by_logarithms(expression: sp.Expr) -> sp.Expr:
 
 @named_routine
 def paraboloid() -> Claims:
-    """Return f R/a^2 of a paraboloid, and its slope by x over x; `unit` is 1 in their shape."""
+    """Return g = f R/a^2 of a paraboloid, and g'(x)/x; `unit` is 1 in their shape."""
     exact = _profile(False)
     return Claims(
         (x, unit),
@@ -99,7 +99,7 @@ def paraboloid() -> Claims:
 
 @named_routine
 def sphere() -> Claims:
-    """Return f R/a^2 of a sphere, and its slope by x over x; c = a/R."""
+    """Return f R/a^2 of a sphere, and its slope with respect to x over x; c = a/R."""
     angle, arctanh_ratio = sp.symbols("angle arctanh_ratio", positive=True)
     exact = _profile(True)
     return Claims(

@@ -122,7 +122,7 @@ class Contact(NamedTuple):
 class _Waves(NamedTuple):
     """C = 1 - cos(w t) at points t/a of shape (contacts, points, waves), scaled by e^-y.
 
-    `bends` is the slope of C by x = t/a divided by x. `weights` contain signs and the factor a;
+    `bends` is dC/dx divided by x, with x = t/a. `weights` contain signs and the factor a;
     `faded` is the value of cos(0) in that scaling. Shapes: (contacts, waves) and (waves,).
     """
 
@@ -314,7 +314,7 @@ def _solve(plate: Plate, a: Double, R: Double, modulus_ratio: Double, sphere: bo
 
 
 def _profile(x: Double, c: Double, sphere: bool) -> tuple[Double, Double]:
-    """Return f R/a^2, and its slope by x divided by x, for c = a/R."""
+    """Return f R/a^2, and its slope with respect to x divided by x, for c = a/R."""
     if sphere:
         return kernels.sphere(x, c)
     return kernels.paraboloid(x, np.ones_like(x * c))

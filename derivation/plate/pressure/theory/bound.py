@@ -118,11 +118,12 @@ def estimates() -> Proof:
     force_rise = sp.diff(contact_radius().expression, a) * E / reduced_modulus()
     return prove(
         "Bound of the error of Hertz pressure",
-        r"The proof gives both parts of $\Theta$, the integrals of the estimates, and each "
-        r"inequality as a product.",
+        r"$\Theta a^3$ bounds the change of the kernel over the contact. The proof derives both "
+        r"parts of $\Theta$, evaluates the integrals of the estimates, and writes each inequality "
+        "as a product of factors of known sign.",
         {
-            "Theta, modes": modes + sp.Rational(15, 2) * third.mode,
-            "Theta, finite radius": side + sp.Rational(15, 2) * third.side,
+            "Theta of the modes": modes + sp.Rational(15, 2) * third.mode,
+            "Theta of the finite radius": side + sp.Rational(15, 2) * third.side,
             "1 - cos x cos y": (1 - sp.cos(_x) * sp.cos(_y)).expand()
             - sp.expand_trig(
                 (1 - sp.cos(_x + _y)) / 2 + (1 - sp.cos(_x - _y)) / 2,

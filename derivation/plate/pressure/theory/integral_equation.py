@@ -177,8 +177,8 @@ def kernel() -> tuple[Formula, Formula]:
             - _spread(paired(mode).subs(scaled), sp.cos),
             "half-space": f / 2 * b - 2 / sp.pi * sp.cos(_x * _t / b) * sp.cos(_x * _s / b),
             "finite radius": -both / (2 * sp.pi) - _spread(paired(lateral), sp.cosh),
-            "slope, modes": sp.diff(slope[0], alpha) - mode,
-            "slope, finite radius": sp.diff(slope[1] / bessel, alpha).subs(height, _y) - lateral,
+            "slope of the modes": sp.diff(slope[0], alpha) - mode,
+            "slope of the radius": sp.diff(slope[1] / bessel, alpha).subs(height, _y) - lateral,
         },
     )
     sources = ("slope_modes", "slope_lateral", "C_half", "G")
@@ -270,17 +270,17 @@ def at_given_force() -> tuple[Formula, Formula]:
     """Return the law at given force in the Hertz radius a_H; c_1 is unchanged, c_3 increases."""
     chi, depth = small_contact_solution()
     parts = kernel_by_powers()
-    residuals = {"N = 0": chi[0] - (depth[0] - _x**2)}
+    residuals = {"half-space": chi[0] - (depth[0] - _x**2)}
     for order in range(1, ORDER + 1):
         shift = sp.Add(*(_applied(parts[n], chi[order - n]) for n in parts if n <= order))
-        residuals[f"equation, A^{order}"] = sp.expand(chi[order] + shift - depth[order])
-        residuals[f"chi(a), A^{order}"] = chi[order].subs(_x, 1)
+        residuals[f"equation at A^{order}"] = sp.expand(chi[order] + shift - depth[order])
+        residuals[f"chi(a) at A^{order}"] = chi[order].subs(_x, 1)
     for n in parts:
         by_law = coefficient((n + 3) // 2).mode
         density = 4 / sp.pi * (plate_factors()[2].expression.subs(T, 2 * eta * j_n) / (j_n * J1**2))
         taylor = density * sp.series(sp.cos(_u), _u, 0, n + 1).removeO().coeff(_u, n - 1)
         value = taylor * j_n ** (n - 1) * eta**n
-        residuals[f"k by powers, {n}"] = sp.Rational(n * (n + 2), 2) * by_law - value
+        residuals[f"k at A^{n - 1}"] = sp.Rational(n * (n + 2), 2) * by_law - value
     cube = sp.Rational(3, 2) * sp.Add(
         *(sp.integrate(value, (_x, 0, 1)) * a_ratio**n for n, value in chi.items())
     )

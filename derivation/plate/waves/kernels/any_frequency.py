@@ -61,7 +61,7 @@ def _slope(
 
 
 def zero_of(bends: bool) -> Routine:
-    """Return -kap B/2 times an entire-making factor, its slope by kap, the factor's sign."""
+    """Return -kap B/2 times a factor that makes it entire, its derivative d/dkap, and the sign."""
     value = sp.Add(*terms(bends))
     claim = -kap / 2 * stiffness(bends) * whole(bends)
     slopes = (
@@ -78,8 +78,8 @@ def zero_of(bends: bool) -> Routine:
             sp.sign(entire(whole(bends)).xreplace(NAMES)),
         ),
         (E_p * E_q * claim, E_p * E_q * sp.diff(with_roots(claim), kap), None),
-        f"Return -kap B{'a' if bends else 's'}/2 times an entire-making factor, slope by kap, "
-        "and the factor's sign.",
+        f"Return -kap B{'a' if bends else 's'}/2 times a factor that makes it entire, its "
+        "derivative with respect to kap, and the sign of the factor.",
         MEANING,
         reduce,
     )

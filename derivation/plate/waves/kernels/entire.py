@@ -82,12 +82,12 @@ def entire(term: sp.Expr) -> sp.Expr:
 
 
 def by_kap(value: sp.Expr) -> sp.Expr:
-    """Return the derivative of the code's expression by kap."""
+    """Return the derivative of the code's expression with respect to kap."""
     return sp.Add(*(rate * sp.diff(value, part) for part, rate in _BY_KAP.items()))
 
 
 def by_log_kap(value: sp.Expr) -> sp.Expr:
-    """Return the derivative of an expression of the theory by log kap."""
+    """Return the derivative of an expression of the theory with respect to log kap."""
     return kap * sp.diff(with_roots(value), kap)
 
 
@@ -109,7 +109,7 @@ def terms(bends: bool) -> list[sp.Expr]:
 
 
 def steepness_anywhere() -> sp.Expr:
-    """Return minus the slope of B_a's quotient by log kap, times 1 - xi."""
+    """Return minus the slope of B_a's quotient with respect to log kap, times 1 - xi."""
     return -(q**2) / x_h**2 * by_log_kap(quotient()) / quotient()
 
 

@@ -67,7 +67,7 @@ class _Balance(NamedTuple):
     excess
         First term divided by the second, minus 1.
     steep
-        The slope of the logarithm of that ratio by log kap is -steep/(1 - xi).
+        The slope of the logarithm of that ratio with respect to log kap is -steep/(1 - xi).
     """
 
     excess: Double

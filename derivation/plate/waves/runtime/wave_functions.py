@@ -42,7 +42,7 @@ def over_of(above: Double, y: Double) -> Double:
 def differences(
     first: Double, second: Double, fall: Double, growth: Double
 ) -> tuple[Double, Double]:
-    """Return F as a power series in S^2 and d^2, and its derivatives by S^2 and d^2.
+    """Return F as a power series in S^2 and d^2, and its derivatives with respect to S^2 and d^2.
 
     sum_i S^(2i) sum_k d^(2k)/(2 (i + k) + 3)!, both sums by one pass of Horner's rule.
     """
@@ -76,7 +76,7 @@ def double(level: Double) -> Double:
 
 
 def slope(level: Double, cosh: Double, sinh: Double) -> Double:
-    """Return the slope of sinh(p)/p by p^2, scaled like cosh p, accurate enough for Newton."""
+    """Return d/d(p^2) of sinh(p)/p, scaled like cosh p, accurate enough for Newton's method."""
     close = np.abs(level) < CLOSE
     far = 0.5 * (cosh - sinh) / np.where(close, 1.0, level)
     return np.where(close, cosh / 6.0, far)

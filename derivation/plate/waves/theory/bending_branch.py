@@ -91,7 +91,7 @@ def rise_anywhere() -> Proof:
     steep = in_p_and_q(1 - w * other)
     return prove(
         "Slope of the quotient",
-        "Derivatives by log kap: of the quotient, and of the squares of S and d.",
+        "Derivatives with respect to log kap: of the quotient, and of the squares of S and d.",
         {
             "S^2": in_sines(change(total**2) + in_p_and_q(kap * total * (gam / p + 1 / q))),
             "d^2": in_sines(change(apart**2) - in_p_and_q(kap * apart * (1 / q - gam / p))),
@@ -121,13 +121,13 @@ def bending_zero() -> tuple[Formula, ...]:
     reduced = {w: q**2 / x_h**2, x_i: kap / x_h**2}
     proof = prove(
         "The lowest bending branch",
-        r"$B_a$ in terms of the quotient; $B_a$ differentiated, at its zero $\tanh p$ in terms of "
-        r"$\tanh q$.",
+        r"$B_a$ is written in terms of the quotient and differentiated. At its zero, $\tanh p$ is "
+        r"expressed by $\tanh q$.",
         {
             "quotient": in_sines(in_p_and_q(B_a - 2 * kap * sp.tanh(p) / p * (quotient() - 1))),
             "zero": sp.cancel(in_p_and_q(stiffness(at_zero, tanh_q))),
             "residue": sp.cancel(1 / bare + residue),
-            "by the quotient": sp.cancel(1 / bare + anywhere),
+            "residue from the quotient": sp.cancel(1 / bare + anywhere),
             "steepness": in_sines(in_p_and_q(steep.subs(reduced) - steepness(*tanh))),
         },
     )
@@ -139,8 +139,8 @@ def bending_zero() -> tuple[Formula, ...]:
         ),
         (
             "steepness", "s", (
-                r"derivative of the quotient of both terms of $B_a$ by $\log \kappa$ on the "
-                r"branch A0, with reversed sign, times $w$"
+                r"derivative with respect to $\log \kappa$ of the quotient of both terms of $B_a$ "
+                r"on the branch A0, with reversed sign, times $w$"
             ),
             steepness(*tanh), steep, "bending_quotient",
         ),
@@ -183,7 +183,7 @@ def bending_fraction() -> Formula:
             "static B_a": in_sines(both[0] - bent),
             "B_a over B_s": in_sines(both[0] / both[1] - unlike),
             "static fraction": in_sines(answer / load * bent - plain),
-            "E": in_sines(plain - value),
+            "without cancellation": in_sines(plain - value),
         },
     )
     steep_value = steepness(sp.tanh(p), sp.tanh(q))
@@ -214,8 +214,9 @@ def rayleigh() -> tuple[Formula, Formula]:
     limit = plus * sp.sqrt(w) / (8 * (sp.Rational(1, 2) + w * (1 - 2 / plus)))
     proof = prove(
         "Rayleigh's wave",
-        r"$(2 - \xi)^2 = 4 P Q$ is squared and divided by its root $\xi = 0$; the residue without "
-        "decaying terms. " + proof_of_residue.argument,
+        r"$(2 - \xi)^2 = 4 P Q$ with $P = p/x$ and $Q = q/x$ is squared and divided by $\xi$, "
+        "because 0 is a root. The residue is that of A0 without the decaying terms. "
+        + proof_of_residue.argument,
         {
             "cubic": sp.expand((2 - xi_R) ** 4 - 16 * w * P**2 - xi_R * cubic),
             "residue": sp.cancel(ratio - limit),
@@ -319,7 +320,8 @@ def thin_plates() -> tuple[Formula, ...]:
     fraction = _static_fraction(rows[1], rows[0])
     proof = prove(
         "Bending of thin plates",
-        "The power series are inserted into $B_a$ and its slope; $y_0$ is Kirchhoff's plate.",
+        "The power series are inserted into $B_a$ and its slope. Their first terms are those of "
+        "Kirchhoff's plate.",
         {
             "frequency": _below(stiff.subs(slope, slope_series), s),
             "residue": _below(1 + residue * change.subs(slope, slope_series), s),

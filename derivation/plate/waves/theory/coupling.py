@@ -72,8 +72,9 @@ def growing_contact() -> Proof:
     hertz = pressure().expression
     return prove(
         "Growing contact",
-        "Flat punches of every radius up to $a$, $P$ proportional to $a^3$: their pressures add up "
-        "to Hertz's, and their transforms to Sonine's integral.",
+        "The contact is a sequence of flat punches of every radius up to $a$, where $P$ is "
+        "proportional to $a^3$. Their pressures add up to Hertz's, and their transforms "
+        "to Sonine's integral.",
         {
             "pressure": spread + hertz,
             "modal force": felt - MODAL_FORCE,

@@ -285,7 +285,7 @@ def static_limit() -> Proof:
     symmetric = (sp.cosh(T) - 1) / (sp.sinh(T) + T) * E / x_h
     return prove(
         "Static load",
-        "$p$ and $q$ tend to $x$, and shc$(p - q)$ to 1.",
+        r"$p$ and $q$ tend to $x$, and $\sinh(p - q)/(p - q)$ tends to 1.",
         {
             "bending": in_sines(1 / bent - mu * antisymmetric),
             "extension": in_sines(1 / stretched - mu * symmetric),
@@ -317,7 +317,8 @@ def kinetic_identity() -> Proof:
     kinetic = rho * (other**2 - omega**2) * (f_1 * f_2 + phi**2 * g_1 * g_2)
     return prove(
         "Lagrange's identity",
-        "The flow of force times displacement is differentiated by z with both motions' equations.",
+        "The flow of force times displacement is differentiated with respect to z, with the "
+        "equations of both motions.",
         {"flow": sp.expand(without_functions(grown - kinetic, *names))},
     )
 
@@ -342,7 +343,7 @@ def kinetic_slope() -> Proof:
         residuals[name] = in_sines(change - energy)
     return prove(
         "Slope of the compliance",
-        "1/B is differentiated by kap, and the squares of f and g are integrated.",
+        "1/B is differentiated with respect to kap, and the squares of f and g are integrated.",
         residuals,
     )
 

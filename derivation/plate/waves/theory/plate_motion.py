@@ -99,8 +99,8 @@ def plate_times() -> tuple[Formula, Formula]:
     return (
         Formula(
             "bending_period",
-            "T_1",
-            "period of the bending vibration with $n$ nodal circles; $j_1$ gives the first one",
+            "T_n",
+            "period of the $n$-th bending vibration with the paper's edge",
             2 * sp.pi / omega,
             "s",
             "",
@@ -110,7 +110,7 @@ def plate_times() -> tuple[Formula, Formula]:
         Formula(
             "echo_time",
             "T_e",
-            "time of two reflections of a pressure wave through the thickness",
+            "time in which a pressure wave crosses the thickness four times",
             4 * 2 * h / sp.sqrt((lam + 2 * mu) / rho),
             "s",
             "",

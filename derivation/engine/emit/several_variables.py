@@ -19,9 +19,10 @@ from derivation.engine.emit.standalone import WIDTH, compiled_function
 from derivation.engine.formula.proof import ProofError
 from derivation.engine.formula.vocabulary import Argument, Vocabulary
 from derivation.engine.rewrite.accuracy_test import KNOWN
-from derivation.engine.rewrite.form import form
+from derivation.engine.rewrite.form import Step, form
 from derivation.engine.rewrite.identities import by_identities, prove_identity
 from derivation.engine.rewrite.products import GivenFormula, ProductForm, of_products
+from derivation.engine.rewrite.search import without_series
 from derivation.engine.rewrite.several_variables import (
     LARGEST_VALUE,
     LEAST_VALUE,
@@ -118,10 +119,13 @@ def _best_for(
     """Return the best form as `_best`, for one stated share; reasons of others are collected."""
     results: list[Tested] = []
     known = {f.func.__name__ for f in expression.atoms(sp.Function)} <= KNOWN
-    forms = (expression, sp.factor(expression), *by_identities(expression)) if known else ()
-    for plain in dict.fromkeys(forms):
+    plain = (expression, sp.factor(expression), *by_identities(expression)) if known else ()
+    forms = [ProductForm((), value) for value in dict.fromkeys(plain)]
+    with _collected(reasons):
+        forms += _with_parameters(expression)
+    for made in forms:
         with _collected(reasons):
-            results.append(accepted(ProductForm((), plain)))
+            results.append(accepted(made))
             if results[-1][1].high >= WIDE and results[-1][1].worst <= ENOUGH / 2:
                 return results[-1]
 
@@ -135,6 +139,26 @@ def _best_for(
         if not results:
             raise
     return max(results, key=lambda result: (result[1].high, -result[1].worst))
+
+
+def _with_parameters(expression: sp.Expr) -> list[ProductForm]:
+    """Return the form of a formula whose functions depend on one product; others are parameters."""
+    functions = expression.atoms(sp.exp, sp.sin, sp.cos, sp.sinh, sp.cosh, sp.tanh, sp.coth, sp.log)
+    products = {function.args[0].as_coeff_Mul()[1] for function in functions}
+    if len(products) != 1:
+        return []
+    (product,) = products
+    linear = [symbol for symbol, power in product.as_powers_dict().items() if power == 1]
+    if not product.is_Symbol and not (linear and all(s.is_Symbol for s in linear)):
+        return []
+    x = product if product.is_Symbol else sp.Symbol(_PRODUCT, positive=True)
+    reduced = expression if x == product else expression.subs(linear[0], x * linear[0] / product)
+    stable = without_series(reduced, x, ENDS)  # whose error depends on the parameters
+    first = () if x == product else (Step(x, product),)
+    return [ProductForm((*first, *stable.steps), stable.value)]
+
+
+_PRODUCT = "product_of_variables"
 
 
 def _prove_equal(expression: sp.Expr, made: ProductForm) -> None:

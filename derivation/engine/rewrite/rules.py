@@ -186,8 +186,8 @@ def _scaled(terms: Terms) -> tuple[sp.Rational, sp.Expr, dict[Key, sp.Expr]]:
 
 
 def _rises(terms: Terms) -> bool:
-    """Return whether the sum is positive next to 0."""
-    return bool(next(islice(taylor(terms), leading_power(terms), None)) > 0)
+    """Return whether the sum is known to be positive next to 0."""
+    return bool(next(islice(taylor(terms), leading_power(terms), None)).is_positive)
 
 
 def _base(coefficient: sp.Expr) -> sp.Expr:

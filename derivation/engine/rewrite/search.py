@@ -65,7 +65,7 @@ def stabilised(
             return _with_account(forms[-1], ends)
     if depth:
         with contextlib.suppress(UnreachableError):
-            for direct in (_direct(expression, x), _without_series(expression, x, ends)):
+            for direct in (_direct(expression, x), without_series(expression, x, ends)):
                 forms.append(_tested(direct, ends, 1.0))
         forms += _joined(forms, ends)
     best = max(forms, key=lambda one: (one.size, -one.worst), default=None)
@@ -120,7 +120,7 @@ def _direct(expression: sp.Expr, x: sp.Symbol) -> Stable:
     return Stable(expression, x, (), expression, (), math.inf, zero, decayed(expression, x))
 
 
-def _without_series(expression: sp.Expr, x: sp.Symbol, ends: tuple[float, float]) -> Stable:
+def without_series(expression: sp.Expr, x: sp.Symbol, ends: tuple[float, float]) -> Stable:
     """Return the form by all rules but the last, accurate or not."""
     equal = decayed(expression, x)
     at = FormErrors(accuracy_test(expression, x, ends, equal))

@@ -36,6 +36,10 @@ FORMULAS = {
     "cosh(k*(h - z))/sinh(k*h)": lambda k, h, z: mp.cosh(k * (h - z)) / mp.sinh(k * h),
     "sinh(k*(h - z))*exp(-k*h)": lambda k, h, z: mp.sinh(k * (h - z)) * mp.exp(-k * h),
     "log(1 + exp(a - b))": lambda a, b: mp.log1p(mp.exp(a - b)),
+    "(4*k*h - 2*c*sinh(2*k*h))/(k*(2*c*cosh(2*k*h) + 1 + c**2 + (2*k*h)**2))": lambda k, h, c: (
+        (4 * k * h - 2 * c * mp.sinh(2 * k * h))
+        / (k * (2 * c * mp.cosh(2 * k * h) + 1 + c * c + (2 * k * h) ** 2))
+    ),
     "atan(a) - atan(b)": lambda a, b: mp.atan(a) - mp.atan(b),
     "(b - sqrt(b**2 - 4*a*c))/(2*a)": lambda b, a, c: 2 * c / (b + mp.sqrt(b * b - 4 * a * c)),
 }

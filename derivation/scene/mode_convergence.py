@@ -1,5 +1,6 @@
 """Convergence of the results of an impact with the number of plate modes."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -12,7 +13,7 @@ from derivation.scene.law import ContactLaw
 from derivation.scene.mode_count import beyond_limits, coarser, fast
 from derivation.scene.reach import Reach
 from derivation.scene.time_element import A, P
-from derivation.scene.wave_motion import LOOKS, DynamicImpact
+from derivation.scene.wave_motion import DynamicImpact
 
 REGULAR, QUICK = 2.2, 16.0
 """Largest expected factors by which twice as many modes reduce an error: of the contact time, which
@@ -25,8 +26,13 @@ SHORT = 4.0
 CALMED = {"A0": 22.0, "all": 6.5}
 """Largest expected factors by which twice as many modes reduce the ripple of the force: at most
 22.1 and 6.2 between runs of 13 random impacts, often below 2 with all branches."""
-NEARBY = 0.1
-"""Part of a contact in which the ripple of its force changes alike; its phase is arbitrary."""
+RIPPLE, DECAY = 1.25, 2.0
+"""Estimated error of the largest force or radius over its ripple since half as many modes, and a
+factor of it if the ripple decreases fast: `DECAY` times the decrease q since the runs before. If it
+goes on, all further ripples together are q/(1 - q) of the last."""
+NEARBY, LOOKS = 0.1, 1000
+"""Time in which the ripple of the force changes alike, because its phase is arbitrary, over the
+unit of time of the impact; number of times in this unit at which the force is compared."""
 DEARER = {"A0": 2.0, "all": 4.0}
 """Least factor of the work of a run with twice as many bending modes."""
 
@@ -38,10 +44,13 @@ def judged(rough: DynamicImpact, found: DynamicImpact) -> DynamicImpact:
     change, jump = (time, depth, force, radius, speed), found.jump_since(rough)
     before = rough.inertia.mode_convergence
     recounted = len(found.inertia.contacts) != len(rough.inertia.contacts)
+    ripple = _ripple(rough, found)
+    known = (0.0, 0.0) if rough.inertia.recounted else rough.inertia.ripple
+    force_error, radius_error = map(_error_of_ripple, ripple, known)
     inertia = replace(
         found.inertia,
         mode_convergence=change, jump=jump, earlier_change=before, recounted=recounted,
-        ripple=_ripple(rough, found),
+        ripple=ripple, ripple_error=(force_error, radius_error),
     )  # fmt: skip
     return replace(found, inertia=inertia)
 
@@ -53,18 +62,30 @@ def _ripple(rough: DynamicImpact, found: DynamicImpact) -> tuple[float, float]:
     modes at all times, while the maximum may agree by chance. The largest value of a course known
     up to e(t) lies between the maxima of the course less e(t) and of the course plus e(t).
     """
-    olds, news = rough.inertia.contacts, found.inertia.contacts
-    spans = [(old.start, new.start, new.end) for old, new in zip(olds, news, strict=False)]
-    times = [np.linspace(0.0, end - start, LOOKS) for _, start, end in spans]
-    before = rough.rows(np.concatenate([t + s[0] for t, s in zip(times, spans, strict=True)]))
-    after = found.rows(np.concatenate([t + s[1] for t, s in zip(times, spans, strict=True)]))
+    olds, news, unit = (
+        rough.inertia.contacts,
+        found.inertia.contacts,
+        found.impact_history.problem.T,
+    )
+    before, after = [], []
+    for old, new in zip(olds, news, strict=False):
+        looks = 2 + math.ceil((new.end - new.start) / unit * LOOKS)
+        since = np.linspace(0.0, new.end - new.start, looks)
+        before.append(rough.rows(old.start + since)[[P, A]])
+        after.append(found.rows(new.start + since)[[P, A]])
     ripples = []
-    for row in (P, A):
-        change, largest = np.abs(after[row] - before[row]), float(np.max(after[row]))
+    for coarse, fine in zip(np.hstack(before), np.hstack(after), strict=True):
+        change, largest = np.abs(fine - coarse), float(np.max(fine))
         change = maximum_filter1d(change, round(NEARBY * LOOKS))
-        above, below = np.max(after[row] + change), np.max(after[row] - change)
+        above, below = np.max(fine + change), np.max(fine - change)
         ripples.append(float(max(above / largest - 1.0, 1.0 - below / largest)))
     return ripples[0], ripples[1]
+
+
+def _error_of_ripple(ripple: float, before: float) -> float:
+    """Return the estimated error of a largest value for its ripple and that of the runs before."""
+    decay = ripple / before if before else 1.0
+    return RIPPLE * ripple * min(1.0, DECAY * decay)
 
 
 def unjudged(found: DynamicImpact) -> DynamicImpact:

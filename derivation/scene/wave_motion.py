@@ -36,9 +36,6 @@ EARLIER = 1.0
 """Estimated error of the omitted modes over the change between the two runs before [1]. Waves that
 reach the contact during it make results converge irregularly, so that two runs may agree by
 chance."""
-RIPPLE = 1.25
-"""Estimated error of the largest force or radius over the change near it since half as many modes:
-two runs may agree in the maximum by chance, but not at all times near it."""
 BY_CHANCE = 0.5
 """Least estimated change of a result by more modes, over the largest change of any result: two runs
 may agree in one result by chance. Without it, errors of single results in random scenes were up to
@@ -100,9 +97,9 @@ class InertiaDetails:
     earlier_change
         Relative change of each result between the two runs before, with half and with a quarter as
         many modes [1]; 0 if there was none.
-    ripple
+    ripple, ripple_error
         Largest changes of force and contact radius near their maxima since the run with half as
-        many modes, over these maxima [1].
+        many modes, over these maxima [1]; the errors of the maxima estimated from them [1].
     recounted
         Whether the run with half as many modes has another number of contacts, so that its results
         are no measure of the convergence.
@@ -130,6 +127,7 @@ class InertiaDetails:
     earlier_change: Results = (0.0, 0.0, 0.0, 0.0, 0.0)
     recounted: bool = False
     ripple: tuple[float, float] = (0.0, 0.0)
+    ripple_error: tuple[float, float] = (0.0, 0.0)
 
     @property
     def complete(self) -> bool:
@@ -156,8 +154,8 @@ class InertiaDetails:
 
     def error_by_ripple(self, output: str) -> float:
         """Return that error as estimated from changes of force and radius over time [1]."""
-        ripple = dict(zip(("max_force", "max_contact_radius"), self.ripple, strict=True))
-        return RIPPLE * ripple.get(output, 0.0)
+        outputs = "max_force", "max_contact_radius"
+        return dict(zip(outputs, self.ripple_error, strict=True)).get(output, 0.0)
 
     def error(self, outputs: Sequence[str]) -> float:
         """Return the largest estimated error of outputs by all that is omitted [1]."""

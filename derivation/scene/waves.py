@@ -203,13 +203,14 @@ def _converged(
     if dear and not law.model.inertia.pointwise:
         compared = _by_coarser(rough, law, count, Budget(budget.left))
         if compared:
-            estimated, halved = compared
+            estimated, rough = compared
             change = estimated.inertia.left(reach.outputs)[0]
             if change <= _accepted_change(estimated, goal, reach):
                 return estimated
-            if unreachable(halved, law, count, work, reach):
-                return halved
-    rough = _with_earlier(rough, law, count, reach, budget)
+            if unreachable(rough, law, count, work, reach):
+                return rough
+    if estimated is None:
+        rough = _with_earlier(rough, law, count, reach, budget)
     best: DynamicImpact | None = None
     while True:
         try:
@@ -356,7 +357,7 @@ def _by_coarser(
             return None
         halved = judged(coarse, run)
         changes.append(halved.inertia.mode_convergence)
-        ripples.append(halved.inertia.ripple)
+        ripples.append(halved.inertia.ripple_error)
         jump = max(jump, halved.inertia.jump)
     time, depth, force, radius, speed = map(max, *changes)
     change = time, depth, force, radius, speed
@@ -364,5 +365,5 @@ def _by_coarser(
         return None
     force_ripple, radius_ripple = map(max, *ripples)
     ripple = force_ripple, radius_ripple
-    inertia = replace(run.inertia, mode_convergence=change, jump=jump, ripple=ripple)
+    inertia = replace(run.inertia, mode_convergence=change, jump=jump, ripple_error=ripple)
     return replace(run, inertia=inertia), halved

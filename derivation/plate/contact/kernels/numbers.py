@@ -53,8 +53,7 @@ def _closed_form() -> tuple[Constant, ...]:
         Constant(
             "FAR_BY_LOG",
             (float(FAR_MIDDLE) * log, float(FAR_HALF) * log),
-            "Derivatives of the parts of c3 in S_0 and S_1 of the second polynomial, with respect "
-            "to log(b/h).",
+            "Derivatives with respect to log(b/h) of c3 in S_0 and S_1 of the second polynomial.",
         ),
     )
 

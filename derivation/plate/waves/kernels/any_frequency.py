@@ -78,8 +78,8 @@ def zero_of(bends: bool) -> Routine:
             sp.sign(entire(whole(bends)).xreplace(NAMES)),
         ),
         (E_p * E_q * claim, E_p * E_q * sp.diff(with_roots(claim), kap), None),
-        f"Return -kap B{'a' if bends else 's'}/2 times a factor that makes it entire, its "
-        "derivative with respect to kap, and the sign of the factor.",
+        f"Return -kap B{'a' if bends else 's'}/2 made entire, its derivative with respect to kap, "
+        "and the factor's sign.",
         MEANING,
         reduce,
     )

@@ -90,7 +90,7 @@ def details(result: "Result") -> str:
 
 
 def _contacts(dynamics: "DynamicImpact") -> str:
-    """Return the table of contacts, the final energies and how the impact ended."""
+    """Return the table of contacts, and how the impact ended."""
     title = "Contacts (speed ratio: approach speed / impact speed)"
     notes = "\n".join(map(paragraph, dynamics.notes()))
     return f"{title}\n\n{aligned(CONTACT_HEADS, dynamics.lines())}\n\n{notes}"

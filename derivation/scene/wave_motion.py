@@ -275,12 +275,9 @@ class DynamicImpact(Motion):
         return [tuple(f"{value:.6g}" for value in touch) for touch in self.inertia.contacts]
 
     def notes(self) -> tuple[str, ...]:
-        """Return the energy balance and the end of the simulation as sentences."""
-        balance, inertia = self.energy_balance, self.inertia
-        energies = (
-            f"Final energy: {balance.in_words()} (of the initial kinetic energy); "
-            f"energy-balance error {abs(balance.residual):.1e}."
-        )
+        """Return the error of the energy balance and the end of the simulation as sentences."""
+        inertia, residual = self.inertia, abs(self.energy_balance.residual)
+        energies = f"The energy balance closes to {residual:.1e} of the initial kinetic energy."
         if not inertia.complete:
             return (energies,)
         contacts = counted(len(inertia.contacts), "contact")
@@ -297,7 +294,7 @@ class DynamicImpact(Motion):
         return energies, ended + f"{counted(inertia.modes, 'mode')} ({branches}); {change}."
 
     def to_html(self) -> str:
-        """Return the contacts and the energy balance for a notebook."""
+        """Return the contacts and notes for a notebook."""
         notes = "".join(f"<p>{escape(note)}</p>" for note in self.notes())
         return html_table(HEADS, self.lines()) + notes
 

@@ -131,7 +131,9 @@ def solve(number: int, data: Scene, position: float) -> InertiaRow | str:
         model = bending(selected.law.model)
         modes = _modes(used or _moving(model, rtol))
         branches = "A0" if model.retardation_time else "all"
-        many = replace(model, inertia=InertiaSettings(modes=2 * modes, branches=branches))
+        # Even and odd numbers: what the last mode contributes has alternating signs.
+        twice = 2 * modes + number % 2
+        many = replace(model, inertia=InertiaSettings(modes=twice, branches=branches))
         if mode_count(many) > MAX_MODES:
             return f"reference: more than {MAX_MODES} modes"
         reference = _moving(many, rtol)

@@ -43,7 +43,7 @@ HELPERS = {
 Tested = tuple[ProductForm, SeveralCheck]
 WIDE = 1e30
 """Upper end of a range that is wide enough."""
-RESERVED = {"np", "f", *HELPERS, *(part for parts in HELPERS.values() for part in parts)}
+RESERVED = {"np", *HELPERS, *(part for parts in HELPERS.values() for part in parts)}
 """Names that the module uses itself."""
 
 

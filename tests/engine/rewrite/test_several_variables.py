@@ -25,7 +25,7 @@ FORMULAS = {
     "(sin(a*b) - a*b)/a**3": lambda a, b: (mp.sin(a * b) - a * b) / a**3,
     "(exp(a*t) - 1 - a*t)/t**2": lambda a, t: (mp.exp(a * t) - 1 - a * t) / t**2,
     "exp(-E/(k*T))": lambda E, k, T: mp.exp(-E / (k * T)),
-    "1/a - 1/b": lambda a, b: 1 / a - 1 / b,
+    "1/f - 1/v": lambda f, v: 1 / f - 1 / v,
     "sqrt(a**2 + b**2 + c**2)": lambda a, b, c: mp.sqrt(a**2 + b**2 + c**2),
     "tan(a*b)": lambda a, b: mp.tan(a * b),
     "abs(a - b)*c": lambda a, b, c: abs(a - b) * c,

@@ -30,13 +30,13 @@ def by_identities(expression: sp.Expr) -> Iterator[sp.Expr]:
     bounded = expression.replace(lambda node: node.is_Mul, _bounded)
     factored = sp.powsimp(sp.factor(expression), combine="exp")
     for given in dict.fromkeys((bounded, expression, factored)):
-        found = given.replace(sp.log, _logarithm)
-        for written in conjugate(_ANY, found):
+        stable = given.replace(sp.log, _logarithm)
+        for written in conjugate(_ANY, stable):
             assert isinstance(written, sp.Expr)  # as `conjugate` returns for an expression
-            found = written
-        found = found.replace(lambda node: node.is_Add, _sum)
-        if found != expression:
-            yield found
+            stable = written
+        stable = stable.replace(lambda node: node.is_Add, _sum)
+        if stable != expression:
+            yield stable
 
 
 def prove_identity(written: sp.Expr, expression: sp.Expr) -> None:
@@ -86,10 +86,10 @@ def _sum(node: sp.Expr) -> sp.Expr:
         return node
     node = in_products(node, (*TRIGONOMETRIC, *HYPERBOLIC))
     for one, other in combinations(sp.Add.make_args(node), 2):
-        found = _exponentials(one, other) or _inverse_tangents(one, other)
-        if found is not None:
+        product_form = _exponentials(one, other) or _inverse_tangents(one, other)
+        if product_form is not None:
             rest = sp.Add(*(part for part in node.args if part not in (one, other)))
-            return _sum(rest) + found
+            return _sum(rest) + product_form
     return node
 
 
@@ -128,8 +128,8 @@ def _inverse_tangents(one: sp.Expr, other: sp.Expr) -> sp.Expr | None:
 
 def _argument(term: sp.Expr, kind: type[sp.Function]) -> tuple[sp.Expr, sp.Expr | None]:
     """Return a term c f(u) as c and u; u is None without a function of this kind."""
-    found = [f for f in sp.Mul.make_args(term) if isinstance(f, kind)]
-    return (term / found[0], found[0].args[0]) if len(found) == 1 else (term, None)
+    functions = [f for f in sp.Mul.make_args(term) if isinstance(f, kind)]
+    return (term / functions[0], functions[0].args[0]) if len(functions) == 1 else (term, None)
 
 
 def _logarithm(argument: sp.Expr) -> sp.Expr:

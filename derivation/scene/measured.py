@@ -213,7 +213,8 @@ def _sensitivities(measured: Measurement, value: float) -> tuple[float, float]:
     plate = tables["plate"] | {measured.key: value}
     law = selected_effects(read(tables | {"plate": plate}))[1].law
     few = {"branches": "A0", "modes": min(2 * count_of(law), MODES)}
-    same = replace(measured, tables=tables | {"inertia": few | tables.get("inertia", {})})
+    settings = few | tables.pop("inertia", {})
+    same = replace(measured, tables=tables | {"inertia": settings})
     one, other = (same.simulated(x) for x in (value, (1.0 + CHANGE) * value))
     *changes, change = (
         math.log(after / before) / math.log1p(CHANGE)

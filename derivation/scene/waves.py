@@ -203,12 +203,15 @@ def _converged(
     if dear and not law.model.inertia.pointwise:
         compared = _by_coarser(rough, law, count, Budget(budget.left))
         if compared:
-            estimated, rough = compared
+            estimated, halved = compared
             change = estimated.inertia.left(reach.outputs)[0]
             if change <= _accepted_change(estimated, goal, reach):
                 return estimated
-            if unreachable(rough, law, count, work, reach):
-                return rough
+            if unreachable(halved, law, count, work, reach):
+                return halved
+            if not halved.inertia.recounted:
+                inertia = replace(rough.inertia, ripple=halved.inertia.ripple)
+                rough = replace(rough, inertia=inertia)
     if estimated is None:
         rough = _with_earlier(rough, law, count, reach, budget)
     best: DynamicImpact | None = None

@@ -77,7 +77,7 @@ def test_weight_increases_the_effect_of_inertia() -> None:
     )
 
 
-NUMBERS, OUT = (5, 9, 16, 17, 44, 76), (5, 17, 76)
+NUMBERS, OUT = (5, 9, 17, 34, 44, 90, 111, 142), (5, 17, 34)
 
 
 @pytest.mark.parametrize("number", NUMBERS)

@@ -175,8 +175,8 @@ def test_statements_about_each_equation(findings: dict[str, Finding]) -> None:
     assert "m^1/3" in str(findings["xi_3"].diagnosis.dimension)
     assert "the first power is 3/2, not 1" in findings["force_power"].repair
     assert "each is 1/2 above the one before, not 2/3" in findings["force_power"].repair
-    assert "diverges, the terms do not tend to zero" in findings["gamma_2"].repair
-    assert "diverges, the terms grow like j^2" in findings["gamma_3"].repair
+    assert "diverges because the terms do not tend to zero" in findings["gamma_2"].repair
+    assert "diverges because the terms grow like j^2" in findings["gamma_3"].repair
 
 
 def test_convergent_series_is_compared_like_any_formula(formulas: Mapping[str, Formula]) -> None:

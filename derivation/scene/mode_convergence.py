@@ -62,13 +62,9 @@ def _ripple(rough: DynamicImpact, found: DynamicImpact) -> tuple[float, float]:
     modes at all times, while the maximum may agree by chance. The largest value of a course known
     up to e(t) lies between the maxima of the course less e(t) and of the course plus e(t).
     """
-    olds, news, unit = (
-        rough.inertia.contacts,
-        found.inertia.contacts,
-        found.impact_history.problem.T,
-    )
+    unit = found.impact_history.problem.T
     before, after = [], []
-    for old, new in zip(olds, news, strict=False):
+    for old, new in zip(rough.inertia.contacts, found.inertia.contacts, strict=False):
         looks = 2 + math.ceil((new.end - new.start) / unit * LOOKS)
         since = np.linspace(0.0, new.end - new.start, looks)
         before.append(rough.rows(old.start + since)[[P, A]])

@@ -390,4 +390,6 @@ def rows_of(problem: DynamicProblem, touching: contact_sequence.ContactRun, t: A
         flights = problem.flights(touching.after, t[indices] - touching.end)
         found[V, indices], found[Z, indices], found[W, indices], found[E, indices] = flights
     found[[A, P]] = np.maximum(found[[A, P]], 0.0)
+    if not touching.radius:  # exact, without the rounding error of the polynomial
+        found[A, t == touching.start] = 0.0
     return found

@@ -60,7 +60,7 @@ def test_history_starts_and_ends_without_force_and_conserves_energy() -> None:
 def test_history_of_a_plate_with_inertia_conserves_momentum(name: str) -> None:
     result = simulate(load(EXAMPLES / f"{name}.toml"))
     model, history = result.model, result.history(4001)
-    assert 0.0 <= history.contact_radius[0] < 1e-11 * result.max_contact_radius
+    assert 0.0 <= history.contact_radius[0] < 1e-12 * result.max_contact_radius
     assert history.contact_radius.min() >= 0.0
     assert history.force.min() >= 0.0
     weight = model.m * model.gravity * result.total_time

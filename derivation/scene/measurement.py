@@ -120,12 +120,6 @@ class Measurement:
         wanted = self.tables.get("effects", {})
         return any(one.dynamic and wanted.get(one.name) is False for one in BY_NAME.values())
 
-    @property
-    def rtol(self) -> float | None:
-        """The relative tolerance of its restitution [1]; None without one."""
-        rtol: float | None = self.tables.get("accuracy", {}).get("rtol")
-        return rtol
-
     def to(self, rtol: float) -> "Measurement":
         """Return the measurement with another tolerance of the restitution [1]."""
         accuracy = {"rtol": max(TIGHTEST, rtol), "outputs": ["restitution"]}

@@ -174,7 +174,7 @@ def test_a_rough_search_refuses_a_restitution_that_no_constant_gives(
     simulated = Measurement.simulated
 
     def noted(self: Measurement, value: float | None, within: bool = False) -> Trial:
-        tolerances.add(self.rtol)
+        tolerances.add(self.tables["accuracy"]["rtol"])
         return simulated(self, value, within)
 
     monkeypatch.setattr(Measurement, "simulated", noted)

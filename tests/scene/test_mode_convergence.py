@@ -56,10 +56,12 @@ def test_contact_time_converges_as_the_square_root_of_the_number_of_modes() -> N
     assert ratio == pytest.approx(math.sqrt(2.0), rel=0.05)
 
 
-@pytest.mark.parametrize("modes", [17, 32, 64, 128, 256, 512])
+@pytest.mark.parametrize("modes", [16, 17, 32, 64, 128, 256, 512])
 def test_error_of_the_contact_time_is_at_most_the_stated_one(modes: int) -> None:
     error = abs(limit_of_contact_time() / followed(modes).contact_time - 1.0)
-    assert error <= stated(modes, "contact_time") < 3.0 * error
+    # Half of 16 modes are slower than the contact: it is also compared with a quarter.
+    pessimism = 12.0 if modes == 16 else 3.0
+    assert error <= stated(modes, "contact_time") < pessimism * error
 
 
 def test_error_covers_what_one_more_mode_changes() -> None:

@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from derivation.scene.achieved_accuracy import ESTIMATED, AchievedAccuracy, Part
+from derivation.scene.contact_warnings import fall_warnings, grazing_warnings
 from derivation.scene.edge_remainder import edge_remainder
 from derivation.scene.effect_selection import SelectedEffects, decide
 from derivation.scene.effects.effect import Results
@@ -13,7 +14,6 @@ from derivation.scene.errors import ToleranceError
 from derivation.scene.law import ContactLaw
 from derivation.scene.limits import (
     check_radius,
-    contact_warnings,
     hollow_warnings,
     local_indentation,
     motion_warnings,
@@ -129,7 +129,8 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
     )
     if motion is not None:
         speeds = [touch.relative_approach_speed for touch in motion.inertia.contacts]
-        warnings += contact_warnings(speeds, motion.least)
+        warnings += grazing_warnings(speeds, motion.least)
+        warnings += fall_warnings(model.gravity, motion.restitution * model.v0, deflection or 0.0)
     return Result(
         *numbers, pressure, accuracy, model_error, warnings, scene,
         selected.grown(growth_of(motion)), inertia_neglected=neglected,

@@ -1,7 +1,6 @@
 """Limits of the contact law: errors beyond its range, warnings where it becomes inaccurate."""
 
 import math
-from collections.abc import Sequence
 from typing import NamedTuple, NoReturn, TypeVar
 
 import numpy as np
@@ -35,8 +34,6 @@ DEFLECTION_LIMIT = 0.01
 plate is negligible."""
 SOLID_LIMIT = 1 / 3
 """Sphere mass over that of a solid sphere of its material below which it may be hollow."""
-GRAZING = 1e-3
-"""Approach speed over impact speed, or force over peak force, of a grazing contact."""
 Values = TypeVar("Values", float, Array)
 MARGIN = 1e-3
 """Relative quadrature error of the largest possible speed, where a law is steep."""
@@ -226,29 +223,6 @@ def plate_times(model: Model) -> PlateTimes:
     period: float = kernels.bending_period(h, b, lam, mu, model.density)  # type: ignore[assignment]
     echoes: float = kernels.echo_time(h, lam, mu, model.density)  # type: ignore[assignment]
     return PlateTimes(zener_number(model), period, echoes)
-
-
-def contact_warnings(speeds: Sequence[float], least: float) -> tuple[str, ...]:
-    """Warn of grazing contacts, where the number of contacts is sensitive to rounding.
-
-    Parameters
-    ----------
-    speeds
-        Relative approach speeds of the contacts over the impact speed [1].
-    least
-        Smallest force between two maxima of the force, over the peak force [1]; 1 if none.
-    """
-    slow = min(speeds)
-    if slow >= GRAZING and least >= GRAZING:
-        return ()
-    event = f"grazing contact: the force falls to {least:.2g} of its peak"
-    if slow < GRAZING:
-        event = f"grazing re-contact at {slow:.2g} of the impact speed"
-    text = (
-        f"{event}: the number of contacts and the restitution are sensitive to rounding of the "
-        "input"
-    )
-    return (text,)
 
 
 def neglects_inertia(

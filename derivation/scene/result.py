@@ -49,7 +49,7 @@ class Result:
     restitution
         Rebound speed, at the last separation, over impact speed [1]: 1 in an elastic contact on a
         quasi-static plate; above 1 if a plate deflected by the weight lifts the sphere; NaN if
-        incomplete.
+        incomplete. A contact to which only the weight returns the sphere is another impact.
     max_pressure
         Largest contact pressure, at the centre of the widest contact [Pa]; at most 1.6 times the
         yield stress in a plastic contact, only the elastic part in a viscoelastic contact.

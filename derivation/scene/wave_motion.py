@@ -281,7 +281,8 @@ class DynamicImpact(Motion):
         if not inertia.complete:
             return (energies,)
         contacts = counted(len(inertia.contacts), "contact")
-        ended = f"No further contact is possible after {contacts}. "
+        fall = ", unless the weight returns the sphere" if self.law.model.gravity else ""
+        ended = f"No further contact is possible after {contacts}{fall}. "
         branches = "all wave branches" if self.law.model.inertia.branches == "all" else "branch A0"
         change = "an error estimate requires more modes"
         if math.isfinite(max(inertia.mode_convergence)):

@@ -33,9 +33,9 @@ from derivation.scene import (
     waves,
 )
 from derivation.scene.achieved_accuracy import AchievedAccuracy, Part
+from derivation.scene.contact_warnings import GRAZING, grazing_warnings
 from derivation.scene.effects import WHOLE_PLATE
 from derivation.scene.law import THICK, ContactLaw
-from derivation.scene.limits import GRAZING
 from derivation.scene.model import InertiaSettings, Model, model_of
 from derivation.scene.scene import IncompleteError
 from derivation.scene.time_element import P
@@ -176,8 +176,8 @@ def test_compressive_stress_predicts_no_failure() -> None:
     ],
 )
 def test_grazing_recontact_gives_a_warning(speeds: list[float], least: float, message: str) -> None:
-    assert message in "".join(limits.contact_warnings(speeds, least))
-    assert bool(limits.contact_warnings(speeds, least)) == bool(message)
+    assert message in "".join(grazing_warnings(speeds, least))
+    assert bool(grazing_warnings(speeds, least)) == bool(message)
 
 
 def test_pressure_warning_of_a_viscoelastic_contact() -> None:

@@ -1,0 +1,55 @@
+"""Warnings about contacts after the first: grazing ones, and a fall back onto a moving plate."""
+
+from collections.abc import Sequence
+
+GRAZING = 1e-3
+"""Approach speed over impact speed, or force over peak force, of a grazing contact."""
+
+
+def grazing_warnings(speeds: Sequence[float], least: float) -> tuple[str, ...]:
+    """Warn of grazing contacts, where the number of contacts is sensitive to rounding.
+
+    Parameters
+    ----------
+    speeds
+        Relative approach speeds of the contacts over the impact speed [1].
+    least
+        Smallest force between two maxima of the force, over the peak force [1]; 1 if none.
+    """
+    slow = min(speeds)
+    if slow >= GRAZING and least >= GRAZING:
+        return ()
+    event = f"grazing contact: the force falls to {least:.2g} of its peak"
+    if slow < GRAZING:
+        event = f"grazing re-contact at {slow:.2g} of the impact speed"
+    text = (
+        f"{event}: the number of contacts and the restitution are sensitive to rounding of the "
+        "input"
+    )
+    return (text,)
+
+
+def fall_warnings(gravity: float, rebound_speed: float, deflection: float) -> tuple[str, ...]:
+    """Warn of a sphere that its weight returns to the plate before it has risen clear of it.
+
+    A contact to which only the weight returns the sphere is another impact. Usually the plate has
+    come to rest before it.
+
+    Parameters
+    ----------
+    gravity
+        Gravitational acceleration [m/s^2].
+    rebound_speed
+        Speed of the sphere after the last contact [m/s].
+    deflection
+        Largest deflection of the plate [m].
+    """
+    rise = 0.5 * rebound_speed**2 / gravity if gravity and rebound_speed > 0.0 else float("inf")
+    if rise > deflection:
+        return ()
+    text = (
+        f"after the impact the sphere rises by {rise:.2g} m, less than the plate deflects "
+        f"({deflection:.2g} m): its weight returns it to a plate that still vibrates, and the "
+        "restitution does not include the contacts that follow"
+    )
+    return (text,)

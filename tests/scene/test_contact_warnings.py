@@ -1,0 +1,45 @@
+"""Warnings about a sphere that its weight returns to a plate that still vibrates."""
+
+from dataclasses import replace
+
+import numpy as np
+import platecontact as pc
+import pytest
+
+G = 1.3174
+"""Gravitational acceleration at which the sphere rises less than the plate deflects [m/s^2]."""
+
+
+def _pane(gravity: float) -> pc.Scene:
+    """Return a heavy, soft sphere on a wide, thin plate."""
+    return pc.Scene(
+        sphere=pc.Sphere(
+            radius=0.0393, density=11400.0, youngs_modulus=0.2e9, poissons_ratio=0.24
+        ),
+        plate=pc.Plate(
+            radius=0.795, thickness=0.021, youngs_modulus=1.21e9, poissons_ratio=0.255,
+            density=1694.0, edge="simply-supported",
+        ),
+        impact=pc.Impact(speed=0.2243, gravity=gravity),
+        accuracy=pc.Accuracy(rtol=0.1),
+        inertia=pc.Inertia(branches="A0"),
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("gravity", [0.0, 1e-3 * G, G])
+def test_a_warning_tells_whether_the_sphere_meets_the_plate_while_it_rises_and_falls(
+    gravity: float,
+) -> None:
+    result = pc.simulate(_pane(gravity))
+    assert result.dynamics is not None
+    history = result.dynamics.impact_history
+    flying = replace(
+        history.problem, weight=gravity * history.problem.T / result.scene.impact.speed
+    )
+    # Without the plate's vibration, the sphere would be back at its height after 2 v/g.
+    aloft = 2.0 * result.restitution / flying.weight if gravity else 1e3
+    times = np.linspace(0.0, min(aloft, 1e3), 5000)[1:]
+    after = history.contacts[-1].after
+    meets = any(flying.flown(after, float(t)).approach > 0.0 for t in times)
+    assert meets == (gravity == G)
+    assert any("its weight returns it" in text for text in result.warnings) == meets

@@ -14,6 +14,7 @@ from derivation.scene.materials import plane_strain_modulus
 from derivation.scene.scene import Scene, SceneError
 from derivation.scene.simple_laws import plates_of
 from derivation.scene.support_series import Supports, supports_of
+from derivation.scene.units import unusual_density
 from generated.simple_impact import PLATES
 
 NUMBERS = ("R", "m", "v0", "h", "b", "lam", "mu")
@@ -265,7 +266,7 @@ def numbers_of(scene: Scene) -> Model:
         yield_stress=_lesser(sphere.yield_stress, plate.yield_stress),
         plate_yield_stress=plate.yield_stress,
         solid_density=sphere.solid_density,
-        lightest_density=sphere.lightest,
+        lightest_density=_lightest(sphere, scene.sphere.mass is None),
         loss_factor=first_given(scene.plate.loss_factor, 0.0),
         edge=scene.plate.edge,
         inertia=_inertia(scene),
@@ -306,6 +307,19 @@ def _mass(sphere: Sphere, density: float) -> float:
         return sphere.mass
     R = sphere.radius
     return 4 / 3 * math.pi * (R * R * R) * density
+
+
+def _lightest(sphere: Body, by_density: bool) -> Any:
+    """Return the density below which a sphere is called hollow [kg/m^3].
+
+    It is 0 if the mass follows from a density that is probably given in another unit: the warning
+    of its unit is enough.
+    """
+    if not by_density:
+        return sphere.lightest
+    modulus = sphere.mu * (3.0 * sphere.lam + 2.0 * sphere.mu) / (sphere.lam + sphere.mu)
+    least = np.where(unusual_density(sphere.density, modulus), 0.0, sphere.lightest)
+    return float(least) if np.ndim(least) == 0 else least
 
 
 def _modulus(body: Body) -> float:

@@ -10,7 +10,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from derivation.scene.effects.effect import Array
 from derivation.scene.keys import unit_of
 from derivation.scene.materials import find, plain
 from derivation.scene.messages import OWN_MATERIALS
@@ -35,6 +34,7 @@ GRAMS = 500.0, 2000.0
 MODULI = {"GPa": 1e9, "MPa": 1e6}
 DENSITIES = {"g/cm^3": 1e3, "t/mm^3": 1e12}
 LENGTHS = {"mm": 1e-3}
+Array = NDArray[np.float64]
 Stated = Mapping[str, Any]
 """Given numbers by key `table.key`: floats, or columns of the same length."""
 
@@ -135,7 +135,7 @@ def unusual_values(scene: Scene, stated: Stated) -> Iterator[UnusualValue]:
 
 def _of_constants(name: str, stated: Stated) -> Iterator[UnusualValue]:
     """Yield the material constants of a table that are compared."""
-    modulus: NDArray[np.float64] | float | None = None
+    modulus: Array | float | None = None
     for key in (f"{name}.youngs_modulus", f"{name}.lame_mu"):
         if key in stated:
             modulus = stated[key]
@@ -151,10 +151,7 @@ def _of_constants(name: str, stated: Stated) -> Iterator[UnusualValue]:
     key = f"{name}.density"
     if key in stated:
         density = stated[key]
-        unusual = (density < LIGHTEST) | (density > DENSEST)
-        if modulus is not None:  # foams are as light, but soft
-            stiff = (density < DENSEST / 1e3) & (modulus > FASTEST**2 * density)
-            unusual = unusual | (stiff & (modulus <= STIFFEST))
+        unusual = unusual_density(density, modulus)
         problem = "is outside the range of solids with this elastic modulus"
         if modulus is None:
             problem = f"is outside the range of solids, {LIGHTEST:g} to {DENSEST:g} kg/m^3"
@@ -164,6 +161,16 @@ def _of_constants(name: str, stated: Stated) -> Iterator[UnusualValue]:
             problem = "is too small for a solid with this elastic modulus"
             least, most = WEAKEST * modulus, STRONGEST * modulus
             yield UnusualValue(key, stated[key] < least, problem, MODULI, least, most)
+
+
+def unusual_density(density: Any, modulus: Any = None) -> Any:
+    """Return whether no solid has a density [kg/m^3], or has it with a Young's modulus [Pa]."""
+    unusual = (density < LIGHTEST) | (density > DENSEST)
+    if modulus is None:
+        return unusual
+    # Foams are as light, but soft.
+    stiff = (density < DENSEST / 1e3) & (modulus > FASTEST**2 * density)
+    return unusual | (stiff & (modulus <= STIFFEST))
 
 
 def _of_sizes(scene: Scene, stated: Stated) -> Iterator[UnusualValue]:

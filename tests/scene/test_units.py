@@ -123,3 +123,14 @@ def test_extreme_values_are_compared_without_overflow(values: list[float]) -> No
     rows = unit_warnings_of_rows(extreme, {"plate.radius": column, "sphere.radius": column})
     assert set(rows) <= {0, 1, 2}
     assert isinstance(unit_warnings(extreme), tuple)
+
+
+def test_a_density_in_grams_per_cubic_centimetre_is_named_once() -> None:
+    sphere = {"radius": 0.01, "youngs_modulus": 210e9, "poissons_ratio": 0.3}
+    plate = SCENE["plate"] | {"thickness": 0.018}
+    scene = SCENE | {"sphere": sphere | {"density": 7.85}, "plate": plate}
+    scene |= {"effects": {"inertia": False}}
+    [text] = [text for text in simulate(read(scene)).warnings if "density" in text]
+    assert "write 7850" in text
+    table = solve(read(scene), {"impact.speed": np.array([1.0, 2.0])})
+    assert [reason.count("density") for reason in table.reason] == [1, 1]

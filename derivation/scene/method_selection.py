@@ -33,9 +33,14 @@ from derivation.scene.limits import check_energy, check_numbers
 from derivation.scene.messages import shown
 from derivation.scene.model import Model
 from derivation.scene.scene import TIGHTEST, SceneError
+from derivation.scene.unmet_tolerances import duration_may_jump, out_of_reach
 
 if TYPE_CHECKING:
     from derivation.scene.wave_motion import DynamicImpact
+
+CERTAIN = 0.75
+"""Bound on an output over the tolerance up to which a message states that it meets it alone: with
+fewer outputs the simulation may end with fewer modes."""
 
 
 def check_rtol(rtol: float) -> float:
@@ -97,49 +102,15 @@ def solve_selected(
     if within and rtol is not None and rtol < accuracy.bound and not math.isnan(results[-1]):
         timed = moving is not None and "contact_time" in selected.outputs
         if _may_jump(selected, moving) or (moving and timed and moving.inertia.jump > rtol):
-            raise _jump(rtol)
+            raise duration_may_jump(rtol)
         before = replace(accuracy, effects=Part(selected.error, _basis(selected)))
         growth = (
             largest_growth(growth_of(moving), selected.outputs) if before.bound <= rtol else 1.0
         )
-        raise _out_of_reach(rtol, accuracy, law, results[3], growth)
+        met = () if moving is None else _met(selected, moving, accuracy, rtol)
+        raise out_of_reach(rtol, accuracy, law, results[3], growth, met)
     check_numbers(law.model, *(results[:-1] if math.isnan(results[-1]) else results))
     return results, accuracy
-
-
-def _jump(rtol: float) -> SceneError:
-    """Return the error for a first contact whose duration may jump."""
-    return SceneError(
-        f"rtol: expected a first contact whose duration is determined to {rtol:.3g}, got one that "
-        "the omitted effects or modes may split or join with the second; reduce the tolerance, so "
-        "that more of them are included, or leave contact_time out of accuracy.outputs"
-    )
-
-
-def _out_of_reach(
-    rtol: float, accuracy: AchievedAccuracy, law: ContactLaw, a: float, growth: float
-) -> SceneError:
-    """Return the error for a tolerance that is not met, or cannot be compared with a bound."""
-    if math.isinf(accuracy.effects.bound):
-        return SceneError(
-            f"rtol: the tolerance {rtol:.3g} cannot be checked because there is no bound on the "
-            "omitted effects; remove the effects that [effects] disables, or the tolerance"
-        )
-    where = f"for a contact radius a/R = {a / law.model.R:.4g}"
-    remedy = "increase the tolerance"
-    if law.dynamic:
-        where = "with the dynamic modes and wave branches of this scene"
-        remedy += " or inertia.modes"
-    if math.isinf(accuracy.bound):
-        return SceneError(
-            f"inertia.modes: expected enough modes for an error bound, got "
-            f"{law.model.inertia.modes}; increase inertia.modes, or remove the tolerance"
-        )
-    return ToleranceError(
-        f"rtol: expected at least {rounded_up(accuracy.bound)} {where}, got {rtol:.3g}; {remedy}",
-        accuracy.bound,
-        growth,
-    )
 
 
 def _omitted(selected: SelectedEffects, motion: "DynamicImpact | None") -> float:
@@ -151,6 +122,19 @@ def _omitted(selected: SelectedEffects, motion: "DynamicImpact | None") -> float
     if _may_jump(selected, motion):
         return math.inf
     return largest_growth(growth_of(motion), selected.outputs) * selected.error
+
+
+def _met(
+    selected: SelectedEffects, moving: "DynamicImpact", accuracy: AchievedAccuracy, rtol: float
+) -> tuple[str, ...]:
+    """Return the outputs that meet a tolerance, which the outputs together do not meet."""
+
+    def bound(name: str) -> float:
+        omitted = _omitted(replace(selected, outputs=(name,)), moving)
+        modes = Part(moving.inertia.error((name,)), ESTIMATED)
+        return replace(accuracy, law=modes, effects=Part(omitted, TESTED)).bound
+
+    return tuple(name for name in selected.outputs if bound(name) <= CERTAIN * rtol)
 
 
 def growth_of(motion: "DynamicImpact | None") -> Results:

@@ -1,6 +1,7 @@
 """Convergence of the results of an impact with the number of plate modes."""
 
 import math
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -9,6 +10,7 @@ from scipy.ndimage import maximum_filter1d
 from derivation.scene.contact_sequence import ImpactHistory
 from derivation.scene.dynamic_problem import DynamicProblem
 from derivation.scene.dynamic_results import NONE, UNKNOWN
+from derivation.scene.effects.effect import Array
 from derivation.scene.law import ContactLaw
 from derivation.scene.mode_count import beyond_limits, coarser, fast
 from derivation.scene.reach import Reach
@@ -51,8 +53,21 @@ def judged(rough: DynamicImpact, found: DynamicImpact) -> DynamicImpact:
         found.inertia,
         mode_convergence=change, jump=jump, earlier_change=before, recounted=recounted,
         ripple=ripple, ripple_error=(force_error, radius_error),
+        first_change=_first_change(rough, found),
     )  # fmt: skip
     return replace(found, inertia=inertia)
+
+
+def _first_change(rough: DynamicImpact, found: DynamicImpact) -> float:
+    """Return the largest relative change of the first contact [1]; of a single contact, NaN.
+
+    Its duration does not depend on later contacts, which may be far more sensitive.
+    """
+    old, new = rough.inertia.contacts[0], found.inertia.contacts[0]
+    if len(rough.inertia.contacts) == 1 == len(found.inertia.contacts):
+        return math.nan
+    pairs = (new.end, old.end), (new.impulse, old.impulse), (new.peak_force, old.peak_force)
+    return max(abs(after - before) / abs(after) for after, before in pairs)
 
 
 def _ripple(rough: DynamicImpact, found: DynamicImpact) -> tuple[float, float]:
@@ -60,28 +75,98 @@ def _ripple(rough: DynamicImpact, found: DynamicImpact) -> tuple[float, float]:
 
     Waves that return during a contact make its force ripple. The ripple changes with the number of
     modes at all times, while the maximum may agree by chance. The largest value of a course known
-    up to e(t) lies between the maxima of the course less e(t) and of the course plus e(t).
+    up to e(t) lies between the maxima of the course less e(t) and of the course plus e(t). The
+    cube of the radius is compared: it is as smooth as the force where a contact begins and ends.
+    """
+    fine, change = [], []
+    for old, new in _same_times(rough, found):
+        fine.append(_compared(found.rows(new)))
+        change.append(np.abs(fine[-1] - _compared(rough.rows(old))))
+    courses, changes = np.hstack(fine), np.hstack(change)
+    for part, width in _alike(found, fine):
+        changes[:, part] = maximum_filter1d(changes[:, part], width, axis=1)
+    largest = np.max(courses, axis=1)
+    above, below = np.max(courses + changes, axis=1), np.max(courses - changes, axis=1)
+    force, cube = np.maximum(above / largest - 1.0, 1.0 - below / largest).tolist()
+    # The cube root of 1 - x decreases more than that of 1 + x increases.
+    return force, 1.0 - math.cbrt(1.0 - cube) if cube < 1.0 else cube
+
+
+def _alike(found: DynamicImpact, courses: list[Array]) -> list[tuple[slice, int]]:
+    """Return parts of the course, and over how many times its ripple changes alike in each.
+
+    A plastic contact unloads far below its largest force before a ripple, which is larger there
+    because the contact is stiffer, could return it to this force.
+
+    Parameters
+    ----------
+    courses
+        Force and cube of the radius of each contact.
+    """
+    whole, starts = round(NEARBY * LOOKS), np.cumsum([0, *(one.shape[1] for one in courses)])
+    if found.impact_history.problem.yielding is None:
+        return [(slice(None), whole)]
+    largest = int(np.argmax([np.max(one[0]) for one in courses]))
+    peak = int(starts[largest] + np.argmax(courses[largest][0])) + 1
+    end = int(starts[largest + 1])
+    return [(slice(None, peak), whole), (slice(peak, end), 1), (slice(end, None), whole)]
+
+
+def _compared(rows: Array) -> Array:
+    """Return the force and the cube of the contact radius at some times."""
+    return np.stack((rows[P], np.maximum(rows[A], 0.0) ** 3))
+
+
+def _same_times(rough: DynamicImpact, found: DynamicImpact) -> Iterator[tuple[Array, Array]]:
+    """Yield times [s] in both runs, contact by contact, at which to compare them.
+
+    Two contacts that overlap each other the most are the same one, and are compared from their
+    starts on. Any other contact of either run, for example a short one that the other run misses,
+    is compared with what the other run does at that time.
     """
     unit = found.impact_history.problem.T
-    before, after = [], []
-    for old, new in zip(rough.inertia.contacts, found.inertia.contacts, strict=False):
-        looks = 2 + math.ceil((new.end - new.start) / unit * LOOKS)
-        since = np.linspace(0.0, new.end - new.start, looks)
-        before.append(rough.rows(old.start + since)[[P, A]])
-        after.append(found.rows(new.start + since)[[P, A]])
-    ripples = []
-    for coarse, fine in zip(np.hstack(before), np.hstack(after), strict=True):
-        change, largest = np.abs(fine - coarse), float(np.max(fine))
-        change = maximum_filter1d(change, round(NEARBY * LOOKS))
-        above, below = np.max(fine + change), np.max(fine - change)
-        ripples.append(float(max(above / largest - 1.0, 1.0 - below / largest)))
-    return ripples[0], ripples[1]
+    overlaps = _overlaps(rough, found)
+    partners = {
+        j: i
+        for j, i in enumerate(np.argmax(overlaps, axis=0).tolist())
+        if overlaps[i, j] > 0.0 and int(np.argmax(overlaps[i])) == j
+    }
+    for j, new in enumerate(found.inertia.contacts):
+        since = _looks(0.0, new.end - new.start, unit)
+        known = rough.inertia.contacts[partners[j]].start if j in partners else new.start
+        yield known + since, new.start + since
+    for i, old in enumerate(rough.inertia.contacts):
+        if i not in partners.values():
+            times = _looks(old.start, old.end, unit)
+            yield times, times
+
+
+def _overlaps(rough: DynamicImpact, found: DynamicImpact) -> Array:
+    """Return how long [s] the contacts of the coarser run (rows) and of the finer one overlap."""
+    spans = ([(one.start, one.end) for one in run.inertia.contacts] for run in (rough, found))
+    old, new = map(np.array, spans)
+    start = np.maximum.outer(old[:, 0], new[:, 0])
+    return np.asarray(np.minimum.outer(old[:, 1], new[:, 1]) - start)
+
+
+def _looks(start: float, end: float, unit: float) -> Array:
+    """Return times between two others, `LOOKS` in each unit of time."""
+    return np.linspace(start, end, 2 + math.ceil((end - start) / unit * LOOKS))
 
 
 def _error_of_ripple(ripple: float, before: float) -> float:
     """Return the estimated error of a largest value for its ripple and that of the runs before."""
     decay = ripple / before if before else 1.0
     return RIPPLE * ripple * min(1.0, DECAY * decay)
+
+
+def largest_change(one: DynamicImpact, other: DynamicImpact) -> DynamicImpact:
+    """Return a run with the larger changes of two comparisons with coarser runs."""
+    pairs = one.inertia.mode_convergence, other.inertia.mode_convergence
+    time, depth, force, radius, speed = map(max, *pairs)
+    change = time, depth, force, radius, speed
+    first = float(np.maximum(one.inertia.first_change, other.inertia.first_change))
+    return replace(one, inertia=replace(one.inertia, mode_convergence=change, first_change=first))
 
 
 def unjudged(found: DynamicImpact) -> DynamicImpact:

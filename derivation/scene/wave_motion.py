@@ -34,8 +34,7 @@ half-space, and with it the error of the contact time, decreases as the square r
 it tends to 1/(sqrt(2) - 1) = 2.42 times the change."""
 EARLIER = 1.0
 """Estimated error of the omitted modes over the change between the two runs before [1]. Waves that
-reach the contact during it make results converge irregularly, so that two runs may agree by
-chance."""
+return during the contact make results converge irregularly: two runs may agree by chance."""
 BY_CHANCE = 0.5
 """Least estimated change of a result by more modes, over the largest change of any result: two runs
 may agree in one result by chance. Without it, errors of single results in random scenes were up to
@@ -109,6 +108,8 @@ class InertiaDetails:
     omitted_octaves
         Doublings of the largest wave number that would each change the results as much as the last
         one, because the omitted modes would be damped in the contact [1]; 0 without damping.
+    first_change
+        Largest such change of duration, impulse and peak force of the first of several contacts.
     jump
         Relative change of a viscoelastic first contact's duration if more modes split it, or join
         it with the second contact [1]; 0 if that is not expected.
@@ -128,6 +129,7 @@ class InertiaDetails:
     recounted: bool = False
     ripple: tuple[float, float] = (0.0, 0.0)
     ripple_error: tuple[float, float] = (0.0, 0.0)
+    first_change: float = math.nan
 
     @property
     def complete(self) -> bool:
@@ -148,7 +150,9 @@ class InertiaDetails:
         """Return that error as estimated from changes of the results [1]."""
         index, regular = OUTPUTS.index(output), output == "contact_time"
         factor = (LATE if regular else IRREGULAR) + self.omitted_octaves
-        change = max(self.mode_convergence[index], BY_CHANCE * max(self.mode_convergence))
+        own = regular and not math.isnan(self.first_change)  # not affected by later contacts
+        largest = self.first_change if own else max(self.mode_convergence)
+        change = max(self.mode_convergence[index], BY_CHANCE * largest)
         earlier = 0.0 if regular else EARLIER * self.earlier_change[index]
         return max(factor * change, earlier)
 

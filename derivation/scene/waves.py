@@ -17,7 +17,13 @@ from derivation.scene.contact_sequence import ENOUGH, ContactRun, ImpactHistory,
 from derivation.scene.dynamic_problem import DynamicProblem
 from derivation.scene.dynamic_results import dynamic_impact_of
 from derivation.scene.law import ContactLaw
-from derivation.scene.mode_convergence import judged, unchecked, unjudged, unreachable
+from derivation.scene.mode_convergence import (
+    judged,
+    largest_change,
+    unchecked,
+    unjudged,
+    unreachable,
+)
 from derivation.scene.mode_count import (
     LAST,
     affordable,
@@ -45,6 +51,8 @@ that omitted modes and branches together may take."""
 INTEGRATION, GROWTH, ROUNDING = 10.0, 1e-12, 2e-12
 """Tested bounds [1]: error of the results over the tolerance of the time elements and the number of
 contacts; rounding error amplified by contacts, over the cube of their number; other rounding."""
+ONCE = 2.0
+"""Factor by which twice as many modes reduce an error, if a tolerance is to be met by them."""
 LONG = 1.5e6
 """Expected work of the second run above which coarser runs first check the first one."""
 FOURTH = 8
@@ -233,10 +241,22 @@ def _converged(
             return _of_chosen_modes(best, law, count, budget)
         change, enough = best.inertia.left(reach.outputs)[0], _accepted_change(best, goal, reach)
         used, almost = _work(best.impact_history), change <= LAST * enough
-        if change <= enough or beyond_limits(law, count, used, almost):
+        if change <= enough:
             return best
-        if unreachable(best, law, count, _next_work(law, more, best), reach):
+        work = _next_work(law, more, best)
+        if beyond_limits(law, count, used, almost) and not _once_more(best, work, reach, budget):
             return best
+        if unreachable(best, law, count, work, reach):
+            return best
+
+
+def _once_more(run: DynamicImpact, work: float, reach: Reach, budget: Budget) -> bool:
+    """Return whether results that do not meet the tolerance probably do after one more doubling."""
+    modes, branches = run.inertia.left(reach.outputs)
+    near = modes <= ONCE * (reach.need - branches)
+    return (
+        modes + branches > reach.need and near and work <= min(contact_sequence.WORK, budget.left)
+    )
 
 
 def _accepted_change(run: DynamicImpact, goal: float, reach: Reach) -> float:
@@ -331,10 +351,7 @@ def _of_chosen_modes(
     coarse = _run(law, coarser(coarser(count)), budget, time_tolerance(LOOSE), FEWER)
     if not coarse.inertia.complete:
         return unjudged(run)
-    further = judged(coarse, run).inertia.mode_convergence
-    time, depth, force, radius, speed = map(max, run.inertia.mode_convergence, further)
-    change = time, depth, force, radius, speed
-    return replace(run, inertia=replace(run.inertia, mode_convergence=change))
+    return largest_change(run, judged(coarse, run))
 
 
 def _by_coarser(
@@ -350,7 +367,7 @@ def _by_coarser(
     """
     if law.model.inertia.modes or count < FOURTH or not fast(law, count):
         return None
-    changes, ripples, jump, halved = [], [], 0.0, run
+    compared: list[DynamicImpact] = []
     for fewer in (coarser(coarser(count)), coarser(count)):
         try:
             coarse = _run(law, fewer, budget, time_tolerance(LOOSE), FEWER)
@@ -358,15 +375,12 @@ def _by_coarser(
             return None
         if not coarse.inertia.complete:
             return None
-        halved = judged(coarse, run)
-        changes.append(halved.inertia.mode_convergence)
-        ripples.append(halved.inertia.ripple_error)
-        jump = max(jump, halved.inertia.jump)
-    time, depth, force, radius, speed = map(max, *changes)
-    change = time, depth, force, radius, speed
-    if max(change) >= 1.0:
+        compared.append(judged(coarse, run))
+    quartered, halved = compared
+    found = largest_change(quartered, halved)
+    if max(found.inertia.mode_convergence) >= 1.0:
         return None
-    force_ripple, radius_ripple = map(max, *ripples)
-    ripple = force_ripple, radius_ripple
-    inertia = replace(run.inertia, mode_convergence=change, jump=jump, ripple_error=ripple)
+    force, radius = map(max, quartered.inertia.ripple_error, halved.inertia.ripple_error)
+    jump = max(quartered.inertia.jump, halved.inertia.jump)
+    inertia = replace(found.inertia, jump=jump, ripple_error=(force, radius))
     return replace(run, inertia=inertia), halved

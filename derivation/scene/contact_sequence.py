@@ -176,6 +176,12 @@ def weight_of(problem: DynamicProblem, n: int) -> float:
     return 2000.0 + n * each
 
 
+def work_of(history: ImpactHistory) -> float:
+    """Return the work of the accepted time elements, in the units of `WORK`."""
+    pieces = [piece.element for touching in history.contacts for piece in touching.pieces]
+    return len(pieces) * weight_of(history.problem, pieces[0].slope.size)
+
+
 def expected_work(problem: DynamicProblem, n: int, coarse: ImpactHistory) -> float:
     """Return the work of an impact, estimated from a run with fewer modes.
 

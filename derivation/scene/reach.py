@@ -78,7 +78,7 @@ class Reach:
 
         def watch(radius: float) -> None:
             loss = 2.0 * used.damping_ratio
-            self._check(higher_branch_error(used.model, unit * radius, math.inf, loss))
+            self.check(higher_branch_error(used.model, unit * radius, math.inf, loss))
 
         return watch
 
@@ -95,7 +95,7 @@ class Reach:
         def enough(contacts: tuple[ContactRun, ...]) -> bool:
             yielded = replace(problem, yielding=contacts[-1].yielding)
             begun = dynamic_impact_of(used, ImpactHistory(yielded, contacts, ENOUGH))
-            self._check(begun.inertia.omitted_branch_error)
+            self.check(begun.inertia.omitted_branch_error)
             return False
 
         return enough
@@ -103,7 +103,7 @@ class Reach:
     def _checks(self, used: ContactLaw) -> bool:
         return used.model.inertia.branches != "all" and math.isfinite(self.need)
 
-    def _check(self, changes: Changes) -> None:
+    def check(self, changes: Changes) -> None:
         """Raise an error if the omitted branches change an output by more than is allowed."""
         known = {name: float(changes[OUTPUTS.index(name)]) for name in self.outputs}
         worst = max(known, key=lambda name: known[name])

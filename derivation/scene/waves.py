@@ -57,6 +57,8 @@ LONG = 1.5e6
 """Expected work of the second run above which coarser runs first check the first one."""
 FOURTH = 8
 """Number of modes from which a run with a quarter of them is meaningful."""
+WHOLE = 1.5e6
+"""Largest work of a run that only determines which tolerance a message names."""
 WORK = 4.5e7
 """Largest work of all runs of an impact, in the units of `contact_sequence.WORK`."""
 
@@ -240,7 +242,7 @@ def _converged(
         if law.model.inertia.modes:
             return _of_chosen_modes(best, law, count, budget)
         change, enough = best.inertia.left(reach.outputs)[0], _accepted_change(best, goal, reach)
-        used, almost = _work(best.impact_history), change <= LAST * enough
+        used, almost = contact_sequence.work_of(best.impact_history), change <= LAST * enough
         if change <= enough:
             return best
         work = _next_work(law, more, best)
@@ -289,12 +291,6 @@ def _next_work(law: ContactLaw, count: int, rough: DynamicImpact) -> float:
     return expected_work(problem, nodes_for(problem), rough.impact_history)
 
 
-def _work(history: ImpactHistory) -> float:
-    """Return the work of the accepted time elements, in the units of `WORK`."""
-    pieces = [piece.element for touching in history.contacts for piece in touching.pieces]
-    return len(pieces) * contact_sequence.weight_of(history.problem, pieces[0].slope.size)
-
-
 def _run(
     law: ContactLaw,
     count: int,
@@ -330,9 +326,26 @@ def _run(
         return dynamic_impact_of(law, unchecked(coarse, problem, fewer))
     enough = reach.enough(law, problem) if reach else None
     watch = reach.watch(law, problem.a) if reach else None
-    history = contact_sequence.impact_history(problem, n, tolerance, work, enough, watch)
+    try:
+        history = contact_sequence.impact_history(problem, n, tolerance, work, enough, watch)
+    except OutOfReachError:
+        # The change by omitted branches grows until the end, and the message names a tolerance.
+        if reach and (whole := _within(law, problem, n, tolerance, WHOLE)):
+            reach.check(whole.inertia.omitted_branch_error)
+        raise
     budget.left -= history.work
     return dynamic_impact_of(law, history)
+
+
+def _within(
+    law: ContactLaw, problem: DynamicProblem, n: int, tolerance: float, work: float
+) -> DynamicImpact | None:
+    """Return a complete impact if it needs no more than some work, else None."""
+    try:
+        history = contact_sequence.impact_history(problem, n, tolerance, work)
+    except SceneError:
+        return None
+    return dynamic_impact_of(law, history) if history.complete else None
 
 
 def _of_chosen_modes(

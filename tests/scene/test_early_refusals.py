@@ -136,3 +136,24 @@ def test_tolerance_that_omitted_branches_exceed_is_refused_at_the_first_contact(
     assert 0.3 * whole < float(stated[1])
     met = simulate(read(scene | {"accuracy": {"rtol": float(stated[1])}}))
     assert met.accuracy.bound <= float(stated[1])
+
+
+def test_stated_tolerance_allows_for_what_follows_the_early_refusal() -> None:
+    """The contact widens after it is refused, and the omitted branches then matter more."""
+    scene: dict[str, Any] = {
+        "sphere": {"radius": 0.0182607, "density": 3537.7},
+        "plate": {
+            "radius": 0.0306936, "thickness": 2.4454e-3, "youngs_modulus": 6.46742e9,
+            "poissons_ratio": 0.37968, "density": 2841.35, "edge": "clamped",
+            "retardation_time": 2.65285e-7,
+        },
+        "impact": {"speed": 2.72923},
+        "effects": {"non_hertzian_pressure": False, "spherical_profile": False},
+        "inertia": {"branches": "A0"},
+    }  # fmt: skip
+    text = refusal(scene | {"accuracy": {"rtol": 6.5628e-3}})
+    stated = re.match(r"rtol: expected at least about (\S+), because", text)
+    assert stated
+    tolerance = float(stated[1])
+    met = simulate(read(scene | {"accuracy": {"rtol": tolerance}}))
+    assert met.accuracy.bound <= tolerance

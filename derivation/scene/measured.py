@@ -125,7 +125,7 @@ def remaining_of(scene: "Scene", rtol: float | None) -> float | None:
     rest = remaining(rtol, fit.error)
     if rest is None or rest < TIGHTEST:
         least = fit.parts * fit.bound or fit.error
-        raise _inaccurate(fit.error, fit.error, rtol, ENOUGH * least)
+        raise _inaccurate(fit.error, rtol, ENOUGH * least)
     return rest
 
 
@@ -189,7 +189,7 @@ def _with_inertia(measured: Measurement, rtol: float | None) -> Fit:
     except ToleranceError as unmet:
         assert rtol is not None
         least, named = ratio * unmet.error, ENOUGH * parts * unmet.error
-        raise _inaccurate(least + unmet.error, least, rtol, named) from None
+        raise _inaccurate(least, rtol, named) from None
     if found is None:
         value = accurate.value(CLOSE["dynamic"])
         found, ratio = (value, accurate.simulated(value)), _sensitivities(measured, value)[1]
@@ -280,23 +280,21 @@ def inaccurate_constant(scene: "Scene", rtol: float | None, error: ToleranceErro
     bound = math.expm1(math.log1p(fit.error) + math.log1p(error.error))
     # A measurement leaves at least two parts of the tolerance.
     named = ENOUGH * (0.5 * fit.parts * error.error if fit.parts else bound)
-    return _inaccurate(bound, fit.error, rtol, named)
+    return _inaccurate(fit.error, rtol, named)
 
 
-def _inaccurate(bound: float, error: float, rtol: float, named: float) -> SceneError:
+def _inaccurate(error: float, rtol: float, named: float) -> SceneError:
     """Return the error of a constant that is not accurate enough for a tolerance.
 
     Parameters
     ----------
-    bound
-        Error bound of the results [1].
     error
-        Their error due to the constant [1].
+        Error of the results due to the constant [1].
     rtol, named
         Their tolerance, and one that they meet [1].
     """
     return SceneError(
-        f"accuracy.rtol: expected at least {rounded_up(bound)}, because the constant from the "
+        f"accuracy.rtol: expected about {rounded_up(named)} or more, because the constant from the "
         f"measured restitution causes an error of {rounded_up(error)}, got {rtol:g}; increase the "
         f"tolerance to {rounded_up(named)}, or give the constant instead of [measured]"
     )

@@ -4,11 +4,12 @@ import math
 from dataclasses import replace
 
 import numpy as np
-from scipy.ndimage import maximum_filter1d
+from numpy.lib.stride_tricks import sliding_window_view
 
 from derivation.scene.contact_sequence import ImpactHistory
 from derivation.scene.dynamic_problem import DynamicProblem
 from derivation.scene.dynamic_results import NONE, UNKNOWN
+from derivation.scene.effects.effect import Array
 from derivation.scene.law import ContactLaw
 from derivation.scene.mode_count import beyond_limits, coarser, fast
 from derivation.scene.reach import Reach
@@ -72,10 +73,17 @@ def _ripple(rough: DynamicImpact, found: DynamicImpact) -> tuple[float, float]:
     ripples = []
     for coarse, fine in zip(np.hstack(before), np.hstack(after), strict=True):
         change, largest = np.abs(fine - coarse), float(np.max(fine))
-        change = maximum_filter1d(change, round(NEARBY * LOOKS))
+        change = _largest_nearby(change, round(NEARBY * LOOKS))
         above, below = np.max(fine + change), np.max(fine - change)
         ripples.append(float(max(above / largest - 1.0, 1.0 - below / largest)))
     return ripples[0], ripples[1]
+
+
+def _largest_nearby(values: Array, count: int) -> Array:
+    """Return the largest of about `count` values around each one; importing SciPy takes longer."""
+    before = count // 2
+    padded = np.pad(values, (before, count - before - 1))
+    return np.asarray(sliding_window_view(padded, count).max(axis=1))
 
 
 def _error_of_ripple(ripple: float, before: float) -> float:

@@ -20,7 +20,7 @@ from derivation.scene.effects.effect import Array, Effect
 from derivation.scene.law import ContactLaw
 from derivation.scene.model import Model
 from derivation.scene.omission_bounds import errors_of, sizes_of, state_of
-from derivation.scene.rows_grouping import CLEAR, groups_of
+from derivation.scene.rows_grouping import groups_of
 from derivation.scene.scene import SceneError
 from derivation.scene.selection import Candidates, candidates_of
 
@@ -125,9 +125,13 @@ def _begun(
     groups = groups_of(model, len(rtol)) if rtol.min() == rtol.max() else None
     if groups is None:
         return {given.included: [rows]}
-    first, group = groups
+    first, group, clear = groups
     one_of_each = model.take(first)
     _cache(given, one_of_each)
+
+    def step(included: frozenset[str], here: Rows) -> dict[frozenset[str], Rows]:
+        return _certain(given, one_of_each, included, here, rtol, outputs, clear)
+
     reached = np.empty(len(first), dtype=np.intp)
     sets: list[frozenset[str]] = []
     waiting = {given.included: [np.arange(len(first))]}
@@ -136,7 +140,7 @@ def _begun(
         here = np.concatenate(parts)
         reached[here] = len(sets)
         sets.append(included)
-        for names, more in _certain(given, one_of_each, included, here, rtol, outputs).items():
+        for names, more in step(included, here).items():
             waiting.setdefault(names, []).append(more)
     of_row = reached[group]
     begun: dict[frozenset[str], list[Rows]] = {}
@@ -152,6 +156,7 @@ def _certain(
     rows: Rows,
     rtol: Array,
     outputs: Sequence[str],
+    clear: float,
 ) -> dict[frozenset[str], Rows]:
     """Return the rows that clearly continue, by the effects that they then include."""
     law = ContactLaw(model.take(0), included)
@@ -164,8 +169,8 @@ def _certain(
     except SceneError:
         return {}
     error, _, sizes = _evaluated(given, model, included, rows, rtol, outputs)
-    clear = np.isfinite(error) & (error > CLEAR * rtol[rows])
-    return _next(given, candidates, included, clear, rows, sizes, 1.0 - 1.0 / CLEAR)
+    going_on = np.isfinite(error) & (error > clear * rtol[rows])
+    return _next(given, candidates, included, going_on, rows, sizes, 1.0 - 1.0 / clear)
 
 
 def _evaluated(

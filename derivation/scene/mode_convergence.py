@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
-from scipy.ndimage import maximum_filter1d
+from numpy.lib.stride_tricks import sliding_window_view
 
 from derivation.scene.contact_sequence import ImpactHistory
 from derivation.scene.dynamic_problem import DynamicProblem
@@ -84,7 +84,7 @@ def _ripple(rough: DynamicImpact, found: DynamicImpact) -> tuple[float, float]:
         change.append(np.abs(fine[-1] - _compared(rough.rows(old))))
     courses, changes = np.hstack(fine), np.hstack(change)
     for part, width in _alike(found, fine):
-        changes[:, part] = maximum_filter1d(changes[:, part], width, axis=1)
+        changes[:, part] = _largest_nearby(changes[:, part], width)
     largest = np.max(courses, axis=1)
     above, below = np.max(courses + changes, axis=1), np.max(courses - changes, axis=1)
     force, cube = np.maximum(above / largest - 1.0, 1.0 - below / largest).tolist()
@@ -152,6 +152,18 @@ def _overlaps(rough: DynamicImpact, found: DynamicImpact) -> Array:
 def _looks(start: float, end: float, unit: float) -> Array:
     """Return times between two others, `LOOKS` in each unit of time."""
     return np.linspace(start, end, 2 + math.ceil((end - start) / unit * LOOKS))
+
+
+def _largest_nearby(values: Array, count: int) -> Array:
+    """Return the largest of `count` values around each one of a row of positive values.
+
+    Importing SciPy, which has this function, takes longer than the function.
+    """
+    if not values.size:
+        return values
+    before = count // 2
+    padded = np.pad(values, ((0, 0), (before, count - before - 1)))
+    return np.asarray(sliding_window_view(padded, count, axis=1).max(axis=2))
 
 
 def _error_of_ripple(ripple: float, before: float) -> float:

@@ -2,7 +2,9 @@
 
 All rows start with the same effects. In each step, the bounds of all rows with the same effects are
 computed together. Each row then includes the effect with its largest bound, and the rows are
-grouped again by their effects.
+grouped again by their effects. For rows with almost equal numbers, one of them decides the first
+steps, as long as its bounds are far from the tolerance and from each other. The step that gives the
+error bound of the omitted effects is computed for each row.
 """
 
 from collections.abc import Mapping, Sequence
@@ -18,6 +20,7 @@ from derivation.scene.effects.effect import Array, Effect
 from derivation.scene.law import ContactLaw
 from derivation.scene.model import Model
 from derivation.scene.omission_bounds import errors_of, sizes_of, state_of
+from derivation.scene.rows_grouping import groups_of
 from derivation.scene.scene import SceneError
 from derivation.scene.selection import Candidates, candidates_of
 
@@ -84,14 +87,9 @@ def selected(
             given = candidates_of(part.take(0), wanted)
         except SceneError:
             continue
-        present = {effect.name for effect in given.present}
-        if present & WHOLE_PLATE:
-            _ = part.correction  # cached, also for all parts of the model
-        if present & WHOLE_PLATE and not present <= PAPER:  # the paper's law has its own function
-            _ = part.plates
-        if any(effect.other_edge for effect in given.present) and part.edge == SUPPORTED:
-            _ = part.supports
-        waiting = {given.included: [np.arange(len(rows))]}
+        waiting = _begun(given, part, rtol[rows], outputs)
+        if any(given.left(included) for included in waiting):
+            _cache(given, part)
         while waiting:
             included, parts = waiting.popitem()
             indices = np.sort(np.concatenate(parts))
@@ -106,6 +104,91 @@ def selected(
             for names, more in others.items():
                 waiting.setdefault(names, []).append(more)
     return groups
+
+
+def _cache(given: Candidates, model: Model) -> None:
+    """Compute what the bounds need, once for all parts of the model."""
+    present = {effect.name for effect in given.present}
+    if present & WHOLE_PLATE:
+        _ = model.correction
+    if present & WHOLE_PLATE and not present <= PAPER:  # the paper's law has its own function
+        _ = model.plates
+    if any(effect.other_edge for effect in given.present) and model.edge == SUPPORTED:
+        _ = model.supports
+
+
+def _begun(
+    given: Candidates, model: Model, rtol: Array, outputs: Sequence[str]
+) -> dict[frozenset[str], list[Rows]]:
+    """Return the rows by effects that they include for certain."""
+    rows = np.arange(len(rtol))
+    groups = groups_of(model, len(rtol)) if rtol.min() == rtol.max() else None
+    if groups is None:
+        return {given.included: [rows]}
+    first, group, clear = groups
+    one_of_each = model.take(first)
+    _cache(given, one_of_each)
+
+    def step(included: frozenset[str], here: Rows) -> dict[frozenset[str], Rows]:
+        return _certain(given, one_of_each, included, here, rtol, outputs, clear)
+
+    reached = np.empty(len(first), dtype=np.intp)
+    sets: list[frozenset[str]] = []
+    waiting = {given.included: [np.arange(len(first))]}
+    while waiting:
+        included, parts = waiting.popitem()
+        here = np.concatenate(parts)
+        reached[here] = len(sets)
+        sets.append(included)
+        for names, more in step(included, here).items():
+            waiting.setdefault(names, []).append(more)
+    of_row = reached[group]
+    begun: dict[frozenset[str], list[Rows]] = {}
+    for number in np.unique(of_row).tolist():
+        begun.setdefault(sets[number], []).append(rows[of_row == number])
+    return begun
+
+
+def _certain(
+    given: Candidates,
+    model: Model,
+    included: frozenset[str],
+    rows: Rows,
+    rtol: Array,
+    outputs: Sequence[str],
+    clear: float,
+) -> dict[frozenset[str], Rows]:
+    """Return the rows that clearly continue, by the effects that they then include."""
+    law = ContactLaw(model.take(0), included)
+    open_ = given.left(included)
+    candidates = [effect for effect in open_ if effect.name not in given.blocked]
+    if not candidates or _own_solution(law):
+        return {}
+    try:
+        given.check(law)
+    except SceneError:
+        return {}
+    error, _, sizes = _evaluated(given, model, included, rows, rtol, outputs)
+    going_on = np.isfinite(error) & (error > clear * rtol[rows])
+    return _next(given, candidates, included, going_on, rows, sizes, 1.0 - 1.0 / clear)
+
+
+def _evaluated(
+    given: Candidates,
+    model: Model,
+    included: frozenset[str],
+    rows: Rows,
+    rtol: Array,
+    outputs: Sequence[str],
+) -> tuple[Array, Array, Array]:
+    """Return the results of `_errors` for all rows, with the sizes as columns."""
+    parts = [rows[start : start + TOGETHER] for start in range(0, len(rows), TOGETHER)]
+    laws = (ContactLaw(model.take(part), included) for part in parts)
+    groups = [
+        _errors(given, law, rtol[part], outputs) for law, part in zip(laws, parts, strict=True)
+    ]
+    error, fine, *sizes = (np.concatenate(column) for column in zip(*groups, strict=True))
+    return error, fine, np.column_stack(sizes) if sizes else np.empty((len(rows), 0))
 
 
 def _alike(model: Model, count: int) -> list[Rows]:
@@ -138,19 +221,14 @@ def _step(
     if not open_:
         none = np.zeros(len(rows))
         return Group(rows, ContactLaw(model.take(rows), included), _held(given), none), {}
-    parts = [rows[start : start + TOGETHER] for start in range(0, len(rows), TOGETHER)]
-    laws = (ContactLaw(model.take(part), included) for part in parts)
-    groups = [
-        _errors(given, law, rtol[part], outputs) for law, part in zip(laws, parts, strict=True)
-    ]
-    error, fine, *sizes = (np.concatenate(column) for column in zip(*groups, strict=True))
+    error, fine, sizes = _evaluated(given, model, included, rows, rtol, outputs)
     limit = rtol[rows]
     near = (np.abs(error - limit) <= NEAR * limit) & (limit > 0.0)
     candidates = [effect for effect in open_ if effect.name not in given.blocked]
     done = (error <= limit) if candidates else np.ones(len(rows), dtype=bool)
     others = {}
     if not done.all():
-        others = _next(given, candidates, included, ~done & ~near, rows, np.column_stack(sizes))
+        others = _next(given, candidates, included, ~done & ~near, rows, sizes, NEAR)
     kept = done & ~near & (fine > 0.0)
     if not kept.any():
         return None, others
@@ -189,13 +267,17 @@ def _next(
     going_on: NDArray[np.bool_],
     rows: Rows,
     sizes: Array,
+    apart: float,
 ) -> dict[frozenset[str], Rows]:
-    """Return the rows that continue, by the effect that they add."""
+    """Return the rows that continue, by the effects that they then include.
+
+    The largest size of a row must exceed the second by the fraction `apart` of itself.
+    """
     worst = np.argmax(sizes, axis=1)
     if len(candidates) > 1:  # rounding might decide which is larger
         second = np.partition(sizes, -2, axis=1)[:, -2:]
         with np.errstate(invalid="ignore"):  # two infinite sizes are not distinguished
-            going_on = going_on & (second[:, 1] - second[:, 0] > NEAR * second[:, 1])
+            going_on = going_on & (second[:, 1] - second[:, 0] > apart * second[:, 1])
     rows_by_effects: dict[frozenset[str], Rows] = {}
     for number, effect in enumerate(candidates):
         mine = rows[going_on & (worst == number)]

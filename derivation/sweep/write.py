@@ -109,10 +109,14 @@ def _csv_options() -> Any:
 def _parquet(store: Store, path: Path, progress: Progress) -> None:
     import pyarrow.parquet as pq
 
-    writer = None
+    writer, plan = None, store.study.plan
     for table in _with_points(store, progress):
         if writer is None:
-            writer = pq.ParquetWriter(path, table.schema, compression="zstd")
+            # Results hardly repeat: looking for repeated ones would take most of the time.
+            known = (*TEXTS, *(plan.keys if isinstance(plan, GridPlan) else ()))
+            writer = pq.ParquetWriter(
+                path, table.schema, compression="zstd", use_dictionary=list(known)
+            )
         writer.write_table(table)
     if writer is not None:
         writer.close()

@@ -6,7 +6,9 @@ from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
+import numpy as np
 import pytest
+from scipy.ndimage import maximum_filter1d
 from shared_scenes import EXAMPLES
 
 from derivation.scene import (
@@ -228,3 +230,10 @@ def test_a_tolerance_is_out_of_reach_only_by_runs_that_show_it(
     assert not mode_convergence.unreachable(recounted, law, 8, 1.0, reach)
     monkeypatch.setattr(mode_convergence, "fast", lambda *_: False)
     assert not mode_convergence.unreachable(actual, law, 8, 1.0, reach)
+
+
+@pytest.mark.parametrize("size", [0, 1, 49, 50, 99, 100, 101, 1000])
+def test_the_largest_change_nearby_is_that_of_scipy(size: int) -> None:
+    changes = np.random.default_rng(size).random((2, size))
+    expected = maximum_filter1d(changes, 100, axis=1)
+    np.testing.assert_array_equal(mode_convergence._largest_nearby(changes, 100), expected)

@@ -155,6 +155,11 @@ def _back_face() -> Iterator[HardCase]:
         given = exact_inputs(P=_FORCE, a=around(wide * h), h=h, b=1.0, **_STEEL)
         why = f"a = {wide:g} h, from which a series in (h/a)^2 is used; h = {h:g} b"
         yield from _around_switch(BACK_FACE, every if h == 2.0**-5 else every[:1], why, given)
+    narrow = float(back_face_tables.NARROW)
+    for h in (3.0, 2.0**-2, 2.0**-6):
+        given = exact_inputs(P=_FORCE, a=around(narrow * h), h=h, b=1.0, **_STEEL)
+        why = f"a = {narrow:g} h, up to which a polynomial in a^2 is used; h = {h:g} b"
+        yield from _around_switch(BACK_FACE, every if h == 2.0**-2 else every[:1], why, given)
     pair = float(blocks()["sinh_pair"].value.at)
     for mode in _MODES:
         switch = pair / (2 * _zero(mode))

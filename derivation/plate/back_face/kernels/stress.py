@@ -6,6 +6,7 @@ from sympy.codegen.cfunctions import expm1
 from derivation.engine.emit.routine import Choice, Let, Routine, Several, routine
 from derivation.engine.rewrite.form import TIMES, substitute_steps
 from derivation.engine.rewrite.series import POLYNOMIAL
+from derivation.plate.back_face.kernels.tables import TERMS
 from derivation.plate.back_face.theory import (
     SCALE,
     back_face_clamp,
@@ -90,6 +91,40 @@ def thin_plate() -> Routine:
     )
 
 
+def narrow_contact() -> Routine:
+    """Return S where the contact is narrow, from sums over the modes that depend on h/b alone."""
+    y, square = sp.symbols("y square", positive=True)
+    moments = sp.symbols(f"moment:{TERMS}", positive=True)
+    series = sp.Poly(sp.series(indentation_kernel(y), y, 0, 2 * TERMS).removeO(), y)
+    stated = sp.Add(
+        *(series.coeff_monomial(y ** (2 * k)) * alpha ** (2 * k) * m for k, m in enumerate(moments))
+    )
+    # The coefficients of (sin y - y cos y)/y^3 are (-1)^k (1/(2k + 2)! - 1/(2k + 3)!).
+    factors = [
+        3 * (-1) ** k * (1 / sp.factorial(2 * k + 2) - 1 / sp.factorial(2 * k + 3))
+        for k in range(TERMS)
+    ]
+    terms = [factor * moment for factor, moment in zip(factors, moments, strict=True)]
+    return routine(
+        "under_narrow_contact",
+        (alpha, *moments),
+        (Let(square, alpha**2),),
+        (POLYNOMIAL(square, *terms),),
+        (stated,),
+        "Return S of a narrow contact; `moment0`, ... are sums of modes times j^(2k), k = 0, ...",
+        {},
+        without_polynomials,
+    )
+
+
+def without_polynomials(expression: sp.Expr) -> sp.Expr:
+    """Return the expression with polynomials written as sums of powers."""
+    summed_terms = expression.replace(
+        POLYNOMIAL, lambda x, *c: sp.Add(*(part * x**k for k, part in enumerate(c)))
+    )
+    return sp.expand(sp.expand_log(summed_terms))
+
+
 def wide_contact() -> Routine:
     """Return S where the contact is wide compared with the thickness."""
     square = sp.Symbol("square", positive=True)
@@ -99,12 +134,6 @@ def wide_contact() -> Routine:
     )
     coefficients = [powers.coeff_monomial(square**k) for k in range(1, powers.degree() + 1)]
 
-    def summed(expression: sp.Expr) -> sp.Expr:
-        summed_terms = expression.replace(
-            POLYNOMIAL, lambda x, *c: sp.Add(*(part * x**k for k, part in enumerate(c)))
-        )
-        return sp.expand(sp.expand_log(summed_terms))
-
     return routine(
         "under_wide_contact",
         (alpha, A),
@@ -113,7 +142,7 @@ def wide_contact() -> Routine:
         (stated,),
         "Return S where the contact is wide compared with the thickness.",
         {A: a_ratio},
-        summed,
+        without_polynomials,
     )
 
 
@@ -165,4 +194,6 @@ def scaled() -> Routine:
     )
 
 
-ROUTINES = (modes, other_plate, thin_plate, wide_contact, supported, clamped, scaled)
+ROUTINES = (
+    modes, other_plate, thin_plate, narrow_contact, wide_contact, supported, clamped, scaled,
+)  # fmt: skip

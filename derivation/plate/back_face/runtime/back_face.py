@@ -8,6 +8,10 @@ eta = h/b and j the zeros of J0::
     B(T) = 2 T sinh T/(sinh^2 T - T^2)
 
 In a thin plate S + 3 log(h/b) depends on a/h alone, so the sum for a thicker plate gives it.
+Up to a = h/4 the Taylor polynomial of g gives S from sums that depend on h/b alone::
+
+    S = sum_k t_k alpha^(2k) M_k,   M_k = sum 4 eta^2 j^(2k) B(2 eta j)/J1(j)^2
+
 If a is much larger than h, with rational c_k::
 
     S = 3 (4/3 - log 2 - log alpha) + sum c_k (2 h/a)^(2k+2)
@@ -18,7 +22,8 @@ simple support. With the symbols of `edge`::
     X = sum g [12 (1 + 3 n - n Q)/(j^3 J1) + 8 n eta H/(j^2 J1)]
     X_c = (3/2) [(1 + 2 chi eta) (1 - 2 alpha^2/5) - s] + 2 n eta^2
 
-Arithmetic: quotients of the arguments, limits of their domain, and the number of modes summed.
+Arithmetic: quotients of the arguments, limits of their domain, the number of modes summed, and
+powers of j.
 """
 
 from collections.abc import Callable
@@ -208,17 +213,41 @@ def _with_clamp(total: Double, alpha: Double, eta: Double, n: Double, _: Double)
 
 
 def _sum(alpha: Double, eta: Double, A: Double) -> Double:
-    """Return S: by a series where the contact is wide compared with h, else by a modal sum."""
+    """Return S: by series where the contact is narrow or wide compared with h, else by its sum."""
     shape = np.broadcast_shapes(alpha.shape, eta.shape, A.shape)
     alpha, eta, A = (np.ravel(np.broadcast_to(x, shape)) for x in (alpha, eta, A))
     value = kernels.under_wide_contact(alpha, np.maximum(A, numbers.WIDE))
     near = np.flatnonzero(A < numbers.WIDE)
     width, thick = kernels.summed_plate(alpha[near], eta[near], A[near])
-    sums = np.empty_like(thick)
-    for some, count in blocks_of_modes(thick, numbers.FADED):
-        j, J1 = bessel_j0_zeros(count), bessel_j1_at_j0_zeros(count)
-        plates, owner = np.unique(thick[some], return_inverse=True)  # equal plates only once
-        modes = kernels.back_face_modes(plates[:, None], j, J1, np.ones(1))
-        sums[some] = (modes[owner] * indentation_kernel(width[some, None], j)).sum(axis=1)
+    sums, narrow = np.empty_like(thick), A[near] <= numbers.NARROW
+    if narrow.any():
+        plates, owner = np.unique(thick[narrow], return_inverse=True)  # equal plates only once
+        moments = _moments(plates)
+        sums[narrow] = kernels.under_narrow_contact(width[narrow], *moments[:, owner])
+    if not narrow.all():
+        sums[~narrow] = _modal_sum(width[~narrow], thick[~narrow])
     value[near] = kernels.of_thin_plate(sums, thick, eta[near])
     return value.reshape(shape)
+
+
+def _moments(eta: Double) -> Double:
+    """Return the sums of the modes times j^(2k), shape (terms, plates)."""
+    moments = np.empty((numbers.TERMS, eta.size))
+    for some, count in blocks_of_modes(eta, numbers.FADED):
+        j, J1 = bessel_j0_zeros(count), bessel_j1_at_j0_zeros(count)
+        modes = kernels.back_face_modes(eta[some, None], j, J1, np.ones(1))
+        for moment in moments:
+            moment[some] = modes.sum(axis=1)
+            modes *= j * j
+    return moments
+
+
+def _modal_sum(alpha: Double, eta: Double) -> Double:
+    """Return S, mode by mode."""
+    sums = np.empty_like(eta)
+    for some, count in blocks_of_modes(eta, numbers.FADED):
+        j, J1 = bessel_j0_zeros(count), bessel_j1_at_j0_zeros(count)
+        plates, owner = np.unique(eta[some], return_inverse=True)  # equal plates only once
+        modes = kernels.back_face_modes(plates[:, None], j, J1, np.ones(1))
+        sums[some] = (modes[owner] * indentation_kernel(alpha[some, None], j)).sum(axis=1)
+    return sums

@@ -1,0 +1,73 @@
+"""Groups of almost equal rows: they change neither the effects nor the results of any row."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from shared_scenes import PAPER
+
+from derivation.scene import load, read
+from derivation.scene import rows_grouping as grouping
+from derivation.scene import rows_selection as selection
+from derivation.scene.columns import models_of
+from derivation.scene.rows import Rows, solve
+from derivation.scene.scene import Scene
+
+COUNT = 4000
+
+
+def on_glass(edge: str) -> Scene:
+    """Return a steel sphere on a glass plate with an edge."""
+    return read({
+        "sphere": {"radius": 0.01, "material": "steel"},
+        "plate": {"radius": 0.1, "thickness": 0.05, "material": "glass", "edge": edge},
+        "impact": {"speed": 0.1},
+        "effects": {"inertia": False, "non_hertzian_pressure": False},
+    })  # fmt: skip
+
+
+@pytest.mark.parametrize("rtol", [None, 0.2, 1e-2, 1e-6])
+@pytest.mark.parametrize("scene", [load(PAPER), on_glass("simply-supported"), on_glass("clamped")])
+def test_groups_change_no_row(
+    scene: Scene, rtol: float | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The rows cross the tolerance, where the effects change."""
+    chance = np.random.default_rng(3)
+    columns = {
+        "impact.speed": 10 ** chance.uniform(-1.3, -1.0, COUNT),
+        "plate.half_thickness": 10 ** chance.uniform(-1.4, -1.2, COUNT),
+    }
+    with_groups = solve(scene, columns, rtol)
+    monkeypatch.setattr(grouping, "SHARE", 0.0)
+    equal(with_groups, solve(scene, columns, rtol))
+
+
+def equal(left: Rows, right: Rows) -> None:
+    """Assert that rows are equal to the last bit."""
+    for name in ("bound", "model_error", "status", "reason", "effects"):
+        np.testing.assert_array_equal(getattr(left, name), getattr(right, name), name)
+    for name, values in left.results.items():
+        np.testing.assert_array_equal(values, right.results[name], name)
+
+
+def test_groups_save_bounds(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without groups, the bounds of each row are computed at each step."""
+    counts: list[int] = []
+    original = selection._errors
+
+    def counted(given: Any, law: Any, rtol: Any, outputs: Any) -> Any:
+        counts.append(len(rtol))
+        return original(given, law, rtol, outputs)
+
+    monkeypatch.setattr(selection, "_errors", counted)
+    solve(load(PAPER), {"impact.speed": np.linspace(0.5, 2.0, COUNT)})
+    assert sum(counts) < COUNT
+
+
+@pytest.mark.parametrize("numbers", [[-1.0, 1.0], [0.0, 1.0]])
+def test_numbers_that_are_not_positive_are_not_grouped(numbers: list[float]) -> None:
+    """The elastic constant lambda may be negative."""
+    scene = load(PAPER)
+    lam = np.repeat(numbers, COUNT) * 1e8
+    model, _ = models_of(scene, {"plate.lame_lambda": lam})
+    assert grouping.groups_of(model, len(lam)) is None

@@ -21,6 +21,8 @@ simple support. With the symbols of `edge`::
 Arithmetic: quotients of the arguments, limits of their domain, and the number of modes summed.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 
 import numpy as np
@@ -47,7 +49,7 @@ def back_face_stress(
 ) -> np.ndarray:
     """Compute the largest tensile stress on the back face of a plate with the paper's edge.
 
-    Formula::
+    Formula (step 25 of the derivation)::
 
         (1 + nu) P/(2 pi H^2) S
 
@@ -92,7 +94,7 @@ def supported_back_face_stress(
 ) -> np.ndarray:
     """Compute the largest tensile stress on the back face of a simply supported plate.
 
-    Formula::
+    Formula (step 25 of the derivation)::
 
         (1 + nu) P/(2 pi H^2) (S + (1 - nu)/(1 + nu) X)
 
@@ -138,7 +140,7 @@ def clamped_back_face_stress(
 ) -> np.ndarray:
     """Compute the largest tensile stress on the back face of a clamped plate.
 
-    Formula::
+    Formula (step 25 of the derivation)::
 
         (1 + nu) P/(2 pi H^2) (S - X_c)
 

@@ -3,6 +3,8 @@
 Arithmetic: the types of results, and the test for integers.
 """
 
+from __future__ import annotations
+
 import sys
 from collections.abc import Callable
 from typing import TypeVar

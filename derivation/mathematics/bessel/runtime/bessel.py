@@ -13,6 +13,8 @@ Arithmetic: polynomials of expansions whose coefficients are computed in advance
 of pi/4 and its sign, beta as such a multiple, and one Newton step in two doubles.
 """
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -56,7 +58,7 @@ _HIGH, _LOW = np.array(CENTRE_HIGH), np.array(CENTRE_LOW)
 def bessel_j0(x: ArrayLike) -> np.ndarray:
     """Compute the Bessel function of the first kind of order 0.
 
-    Formula::
+    Formula (Watson, 1944, section 2.2)::
 
         J_0(x) = (1/pi) int_0^pi cos(x sin t) dt
 
@@ -94,7 +96,7 @@ def bessel_j0(x: ArrayLike) -> np.ndarray:
 def bessel_j1(x: ArrayLike) -> np.ndarray:
     """Compute the Bessel function of the first kind of order 1.
 
-    Formula::
+    Formula (Watson, 1944, section 2.2)::
 
         J_1(x) = (1/pi) int_0^pi cos(t - x sin t) dt = -J_0'(x)
 
@@ -198,7 +200,7 @@ def bessel_j1_zeros(count: int) -> Double:
 def bessel_j1_at_j0_zeros(count: int) -> Double:
     """Compute J_1 at the first positive zeros of J_0.
 
-    Formula for all but the first ten::
+    Formula for all but the first ten (from McMahon, 1894)::
 
         J_1(j_n)^2 = 2/(pi beta) (1 - 7/(48 beta^4) + ...),   beta = (n - 1/4) pi
 

@@ -26,6 +26,8 @@ Arithmetic: quotients of the arguments, limits of their domain, the number of mo
 powers of j.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 
 import numpy as np
@@ -52,7 +54,7 @@ def back_face_stress(
 ) -> np.ndarray:
     """Compute the largest tensile stress on the back face of a plate with the paper's edge.
 
-    Formula::
+    Formula (step 25 of the derivation)::
 
         (1 + nu) P/(2 pi H^2) S
 
@@ -97,7 +99,7 @@ def supported_back_face_stress(
 ) -> np.ndarray:
     """Compute the largest tensile stress on the back face of a simply supported plate.
 
-    Formula::
+    Formula (step 25 of the derivation)::
 
         (1 + nu) P/(2 pi H^2) (S + (1 - nu)/(1 + nu) X)
 
@@ -143,7 +145,7 @@ def clamped_back_face_stress(
 ) -> np.ndarray:
     """Compute the largest tensile stress on the back face of a clamped plate.
 
-    Formula::
+    Formula (step 25 of the derivation)::
 
         (1 + nu) P/(2 pi H^2) (S - X_c)
 

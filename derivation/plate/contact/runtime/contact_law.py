@@ -10,6 +10,8 @@ calls with the same plate use `prepared_plate`, which has the same functions.
 Arithmetic: none.
 """
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import ArrayLike
 

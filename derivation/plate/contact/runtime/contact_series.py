@@ -14,6 +14,8 @@ Arithmetic: Horner's rule in place, as blocks of points fit in the cache; for on
 a polynomial of a; the scaling of the variables; and the number of modes in the direct sum.
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

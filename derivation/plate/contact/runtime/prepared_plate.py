@@ -11,6 +11,8 @@ plate again in each call.
 Arithmetic: none.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from functools import cached_property
 

@@ -14,6 +14,8 @@ Arithmetic: sums over powers by Horner's rule, over quadrature nodes, and of the
 end of the first polynomial and beyond it; A = a/h; the positions of the nodes.
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

@@ -10,6 +10,8 @@ and correctly rounded; for large indices they come from the first terms of an ex
 Arithmetic: look-up, and the expansions, whose coefficients are computed in advance.
 """
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -33,7 +35,7 @@ from generated.series_numbers import (
 def kappa(n: ArrayLike) -> np.ndarray:
     """Compute the moment kappa_n of the lateral surface.
 
-    Formula::
+    Formula (step 13 of the derivation)::
 
         kappa_n = int_0^oo y^n K0(y)/I0(y) dy
 
@@ -63,7 +65,7 @@ def kappa(n: ArrayLike) -> np.ndarray:
 def kappa_ratio(n: ArrayLike) -> np.ndarray:
     """Compute the ratio of the moment kappa_n to its leading term for large n.
 
-    Formula::
+    Formula (step 13 of the derivation)::
 
         r_n = kappa_n 2^(n+1)/(pi n!) = 1 - 1/(2n) + 1/(8n(n-1)) - ...
 
@@ -99,7 +101,7 @@ def kappa_ratio(n: ArrayLike) -> np.ndarray:
 def finite_part(k: ArrayLike) -> np.ndarray:
     """Compute the constant M_k of the thin plate, a finite part in the sense of Hadamard.
 
-    Formula::
+    Formula (step 14 of the derivation)::
 
         M_k = FP int_0^oo T^(2k-4) (G(T) - 1) dT
 
@@ -131,7 +133,7 @@ def finite_part(k: ArrayLike) -> np.ndarray:
 def finite_part_ratio(k: ArrayLike) -> np.ndarray:
     """Compute the ratio of the thin plate's constant M_k to its leading term for large k.
 
-    Formula::
+    Formula (step 14 of the derivation)::
 
         rho_k = M_k 2^(2k-3)/(2k-2)! = (2k-1)/(2k-3) + O(k^2 4^-k)
 

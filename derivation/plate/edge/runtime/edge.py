@@ -29,6 +29,8 @@ In the slope, 2/3 replaces 2/5, and everything is multiplied by 3/2.
 Arithmetic: quotients of the arguments, and limits of their domain.
 """
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -51,7 +53,7 @@ def supported_edge(
 ) -> np.ndarray:
     """Compute the change of delta R/a^2 due to a simple support instead of the paper's edge.
 
-    Formula::
+    Formula (step 19 of the derivation)::
 
         (1 - nu)/(1 + nu) X
 
@@ -95,7 +97,7 @@ def clamped_edge(
 ) -> np.ndarray:
     """Compute the change of delta R/a^2 due to a clamped edge, which is stiffer than the paper's.
 
-    Formula::
+    Formula (step 19 of the derivation)::
 
         -X_c
 
@@ -140,7 +142,7 @@ def supported_edge_slope(
 ) -> np.ndarray:
     """Compute the change of (R/2a) d delta/da due to a simple support instead of the paper's edge.
 
-    Formula::
+    Formula (step 19 of the derivation)::
 
         (1 - nu)/(1 + nu) (X + a X'/2)
 
@@ -184,7 +186,7 @@ def clamped_edge_slope(
 ) -> np.ndarray:
     """Compute the change of (R/2a) d delta/da due to a clamped edge instead of the paper's edge.
 
-    Formula::
+    Formula (step 19 of the derivation)::
 
         -(X_c + a X_c'/2)
 
@@ -228,7 +230,7 @@ def supported_edge_bound(
 ) -> np.ndarray:
     """Compute a bound of the change by `supported_edge_slope` for all contact radii up to a.
 
-    Formula::
+    Formula (step 19 of the derivation)::
 
         (1 - nu)/(1 + nu) (3 alpha/(2 pi)) [|1 - 2 n eta^2|/eta^3 (1/8 + 2 eta |n| s) + (8/3) n^2 s]
         s exceeds sum 1/(j^2 |J1|) by less than 0.001
@@ -273,7 +275,7 @@ def clamped_edge_bound(
 ) -> np.ndarray:
     """Compute a bound of the change by `clamped_edge_slope` for all contact radii up to a.
 
-    Formula::
+    Formula (step 19 of the derivation)::
 
         (3 alpha/(16 pi eta^3)) [(1 - s)^2 + 2 chi eta + eta^3/5 + (16/3) n^2 eta^4
                                  + (|1 - s| - (1 - s))/3]

@@ -18,6 +18,8 @@ I0, I1 and I2 come from Bessel's integral as a sum, or from their series at infi
 Arithmetic: x = k eta; starting value, steps and intervals of Newton's method; a quadrature.
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

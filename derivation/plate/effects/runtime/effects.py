@@ -7,6 +7,8 @@
 Arithmetic: the power series of the finite radius, whose coefficients are computed in advance.
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np
@@ -204,7 +206,7 @@ def bending_period(
 ) -> np.ndarray:
     """Compute the first bending period of the plate with the paper's edge.
 
-    Formula, H = 2h and D = E* H^3/12::
+    Formula (step 23 of the derivation), H = 2h and D = E* H^3/12::
 
         bending_period = (2 pi b^2/j_1^2) sqrt(rho H/D)
 
@@ -240,7 +242,7 @@ def bending_period(
 def echo_time(h: ArrayLike, lam: ArrayLike, mu: ArrayLike, rho: ArrayLike) -> np.ndarray:
     """Compute the time of two round trips of a pressure wave through the thickness.
 
-    Formula, H = 2h::
+    Formula (step 23 of the derivation), H = 2h::
 
         echo_time = 4 H/sqrt((lam + 2 mu)/rho)
 

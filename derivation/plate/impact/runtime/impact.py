@@ -10,6 +10,8 @@ quadrature, doubled for both halves of a contact; powers that scale the polynomi
 scaling of times and results; the change of variable q = w (2 - w).
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

@@ -12,6 +12,8 @@ Arithmetic: sums over modes; Newton's iteration; the change of variable, and the
 successively smaller parts of its range.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

@@ -4,6 +4,8 @@ Arithmetic: Horner's rule; powers of a power series by Euler's recurrence; the s
 best circle; scaling of coefficients by powers of a radius.
 """
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import ArrayLike
 

@@ -3,6 +3,8 @@
 Arithmetic: limits of the domain.
 """
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import ArrayLike
 

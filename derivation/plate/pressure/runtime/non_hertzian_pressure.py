@@ -20,6 +20,8 @@ Arithmetic: the equation's matrix as products of the kernel's cosines, sums by G
 and the conversion of lengths to units of h or b.
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np
@@ -197,7 +199,7 @@ def contact(
 ) -> Contact:
     """Compute force, indentation, stiffness and pressure at given contact radii.
 
-    Formula::
+    Formula (step 20 of the derivation)::
 
         (I + N) psi = 1,  (I + N) omega = f,  chi = (E*/pi) (delta psi - omega)
         dP/d delta = 2 E* int_0^a psi dt,  U = pi int_0^a chi (delta - f) dt
@@ -346,7 +348,7 @@ def pressure(
 ) -> np.ndarray:
     """Compute the contact pressure q(r) = -sigma_zz >= 0 of one contact.
 
-    Formula::
+    Formula (step 20 of the derivation)::
 
         q(r) = sqrt(a^2 - r^2) int_0^1 -chi'(t)/t du,  t = sqrt(r^2 + (a^2 - r^2) u^2)
 

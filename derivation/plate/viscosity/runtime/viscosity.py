@@ -3,6 +3,8 @@
 Arithmetic: the bound for the restitution extends that for the contact time.
 """
 
+from __future__ import annotations
+
 from math import inf
 from typing import NamedTuple
 

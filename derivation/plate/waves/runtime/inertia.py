@@ -20,6 +20,8 @@ Arithmetic: starting value and steps of Newton's method; the quotient for short 
 twice the precision by error-free transformations.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -79,7 +81,7 @@ class _Balance(NamedTuple):
 def bending_frequency(x: ArrayLike, nu: ArrayLike) -> np.ndarray:
     """Compute the frequency omega h/c_T of the lowest bending branch A0 of a free plate.
 
-    Formula::
+    Formula (Rayleigh, 1888; Lamb, 1917)::
 
         Omega = sqrt(kap),   Ba(kap) = 0,   0 < kap < x^2
         Omega -> x^2 sqrt(2/(3 (1 - nu))) = phi^2 sqrt(D/(rho H)) h/c_T for x -> 0
@@ -110,7 +112,7 @@ def bending_frequency(x: ArrayLike, nu: ArrayLike) -> np.ndarray:
 def bending_residue(x: ArrayLike, nu: ArrayLike) -> np.ndarray:
     """Compute the modal residue rho h r of A0, q'' + omega^2 q = r A for its part q of w(+h).
 
-    Formula::
+    Formula (step 27 of the derivation)::
 
         rho h r = -1/Ba'(kap) at Ba(kap) = 0
         rho h r -> 1/2, r -> 1/(rho H), for x -> 0
@@ -141,7 +143,7 @@ def bending_residue(x: ArrayLike, nu: ArrayLike) -> np.ndarray:
 def bending_fraction(x: ArrayLike, nu: ArrayLike) -> np.ndarray:
     """Compute the fraction of the static contact-face deflection that belongs to A0.
 
-    Formula::
+    Formula (step 27 of the derivation)::
 
         (rho h r/kap)/(mu C/h),   C = 2 G(2 x)/(E* phi) = (h/mu) (1/Ba + 1/Bs) at kap = 0
         1 for x -> 0; the remaining fraction belongs to all other branches
@@ -291,7 +293,7 @@ def _rayleigh(nu: Double, xi: Double, left: Double) -> tuple[Double, Double, Dou
 def dynamic_influence(x: ArrayLike, kap: ArrayLike, nu: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
     """Compute the contact-face deflection due to a load of one wave number and frequency.
 
-    Formula::
+    Formula (step 26 of the derivation)::
 
         w(+h)/A = (h/mu) (1/Ba + 1/Bs)
 

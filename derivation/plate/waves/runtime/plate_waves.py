@@ -12,6 +12,8 @@ known: with p^2 = x^2 - gam kap and q^2 = x^2 - kap, those of Ba are at -p^2, -q
 Arithmetic: the poles, between which Newton's method and bisection find the zeros.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 
 import numpy as np

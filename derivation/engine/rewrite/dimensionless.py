@@ -154,7 +154,16 @@ def _basis(vectors: Sequence[Weights], symbols: Sequence[sp.Symbol]) -> list[Wei
         inside = _rank([*given, vector], symbols) == rank
         if inside and _rank([*chosen, vector], symbols) > len(chosen):
             chosen.append(vector)
-    return _simplified(chosen, alone, symbols)
+    return _without_signs(_simplified(chosen, alone, symbols))
+
+
+def _without_signs(chosen: Sequence[Weights]) -> list[Weights]:
+    """Remove symbols of unknown sign from products if they are products themselves."""
+    free = {s for vector in chosen if len(vector) == 1 for s in vector if not s.is_nonnegative}
+    return [
+        {s: power for s, power in vector.items() if len(vector) == 1 or s not in free}
+        for vector in chosen
+    ]
 
 
 def _simplified(

@@ -66,8 +66,8 @@ def several_products(formula: Stated) -> Iterator[ProductForm]:
     unknown = {f.func.__name__ for f in formula.expression.atoms(sp.Function)} - KNOWN
     if unknown:
         raise UnreachableError(
-            f"no code is known for the function {', '.join(sorted(unknown))}; compute it in a "
-            "routine, or generate the other parts of the formula by themselves"
+            f"no code is generated for the function {', '.join(sorted(unknown))}; remove the "
+            "formula from the module, and generate its other parts as formulas of their own"
         )
     yield from _distinct(_candidates(formula))
 

@@ -16,6 +16,8 @@ from derivation.engine.rewrite.form import switch_points
 
 FEW = 3
 """Number of digits of values whose sign is needed."""
+STATED_FORM = 6
+"""Exponent of ten of the largest arguments with which stated forms are tested together."""
 JOINT = 200
 """Number of points at which several arguments are extreme, next to ends, or nearly equal."""
 
@@ -63,14 +65,15 @@ def domain_judge(
         switches = switch_points(block.value for block in build_blocks(blocks).values())
         points = domain_grid(name, arguments, vocabulary, switches)
         rows = importlib.import_module(f"{package}.manifest").KERNELS
-        decades = {row["name"]: row["decades"] for row in rows if "decades" in row}
-        if name in decades:
-            most = 10.0 ** decades[name]
-            points = tuple(p for p in points if all(abs(x) <= most for x in p.values()))
-            points += joint_points(name, arguments, vocabulary, decades[name], JOINT)
-            points += tuple(
-                towards_zeros([(p, sign(name, p)) for p in points], partial(sign, name))
-            )
+        tested = {row["name"]: row.get("decades") for row in rows}
+        if name in tested:
+            decades = tested[name] or STATED_FORM
+            if tested[name]:
+                most = 10.0**decades
+                points = tuple(p for p in points if all(abs(x) <= most for x in p.values()))
+            points += joint_points(name, arguments, vocabulary, decades, JOINT)
+            signs = [(p, sign(name, p)) for p in points]
+            points += tuple(towards_zeros(signs, partial(sign, name)))
         return tuple(map(Point, points))
 
     return Judge(references, grid, package, easy, lambda point: inside(vocabulary, point.values))

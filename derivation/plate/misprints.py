@@ -47,7 +47,7 @@ def diagnose_series(name: str, term: sp.Expr, formulas: Mapping[str, Record]) ->
         formula=formula,
         verdict=DIFFERENT,
         kind=DIVERGENT,
-        repair=f"the sum diverges because {growth.says}: read {to_plain(formula.meaning)}, "
+        repair=f"the sum diverges because {growth.says}: read the {to_plain(formula.meaning)}, "
         f"{formula.expression}",
         repaired=formula.expression,
         edits=0,

@@ -14,7 +14,7 @@ from derivation.engine.report.equations import body, function_by_name, right_sid
 from derivation.engine.report.latex import escape, unit
 from derivation.engine.report.numbers import number
 from derivation.engine.report.references import References
-from derivation.engine.report.sentences import typeset_sentence
+from derivation.engine.report.sentences import typeset_sentence, with_large_fractions
 
 NO_REFERENCES = References()
 COLUMNS = (
@@ -168,8 +168,10 @@ def finding_context(finding: Finding) -> dict[str, Any]:
         "derived": body(formula),
         "equal": not finding.is_misprint,
         "kind": finding.kind[0].upper() + finding.kind[1:],
-        "repair": typeset_sentence(
-            finding.repair[0].upper() + finding.repair[1:].rstrip("."), formula.vocabulary
+        "repair": with_large_fractions(
+            typeset_sentence(
+                finding.repair[0].upper() + finding.repair[1:].rstrip("."), formula.vocabulary
+            )
         ),
         "dimension": typeset_sentence(diagnosis.dimension or "", formula.vocabulary),
         "method": diagnosis.method,

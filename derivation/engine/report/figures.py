@@ -7,7 +7,7 @@ import matplotlib as mpl
 from matplotlib.figure import Figure
 from matplotlib.rcsetup import cycler
 
-COLOURS = "#14295e", "#f0a030", "#1b9e77", "#b0125f", "#c9b8ec"
+COLOURS = "#14295e", "#f0a030", "#1b9e77", "#b0125f", "#7b62c2"
 """Colours of lines in the order of use: each has a lightness of its own, so they differ in grey."""
 STYLE: dict[Any, Any] = {
     "axes.prop_cycle": cycler(color=COLOURS),

@@ -33,6 +33,19 @@ def typeset_sentence(text: str, vocabulary: Vocabulary) -> str:
     return convert_parts(typeset, partial(MINUS.sub, "$-$"), "${}$".format)
 
 
+def with_large_fractions(typeset: str) -> str:
+    """Return LaTeX whose fractions within a sentence are as large as in a displayed formula.
+
+    Fractions in braces, that is in exponents and in other fractions, keep their size.
+    """
+    parts, depth = re.split(r"([{}]|\\frac(?![a-z]))", typeset), 0
+    for index, part in enumerate(parts):
+        depth += (part == "{") - (part == "}")
+        if part == r"\frac" and not depth:
+            parts[index] = r"\dfrac"
+    return "".join(parts)
+
+
 def sentence_pieces(text: str) -> Iterator[str]:
     """Yield pieces of a sentence: words, or code.
 

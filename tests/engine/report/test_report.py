@@ -25,7 +25,7 @@ from derivation.engine.report.equations import (
 from derivation.engine.report.latex import escape, prose
 from derivation.engine.report.numbers import number
 from derivation.engine.report.pdf import TexError, compile_pdf, typeset
-from derivation.engine.report.sentences import typeset_sentence
+from derivation.engine.report.sentences import typeset_sentence, with_large_fractions
 from derivation.engine.report.width import typeset_width
 from derivation.plate import derived, reporting
 from derivation.plate import vocabulary as symbols
@@ -129,6 +129,12 @@ def test_formulas_typed_as_code_are_typeset(plain: str, latex: str) -> None:
     assert typeset_sentence(plain, PLATE) == (
         latex if expected is None else latex.replace("{}", to_latex(expected, PLATE))
     )
+
+
+def test_only_outer_fractions_of_a_sentence_are_large() -> None:
+    typeset = r"read $\frac{\frac{a}{b}}{c}$ and $x^{\frac{1}{3}}$, not $\fracture$"
+    large = with_large_fractions(typeset)
+    assert large == typeset.replace(r"\frac{\frac", r"\dfrac{\frac")
 
 
 @pytest.mark.parametrize("width", [PAGE, COLUMN])

@@ -12,6 +12,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+HALF = 0.5
+"""Allowed error per sum of the condition numbers, if every argument is rounded."""
+SHARES = 0.5, 1.0, 1.5
+"""Shares that a rule may state. Differences of rounded products, and functions of such products,
+have errors of up to 1.5 times the sum of the condition numbers next to their zeros."""
 ORDINARY = "value"
 """Name of the rule for functions that no other rule lists."""
 
@@ -26,24 +31,34 @@ class Budget:
         Allowed error in units in the last place.
     rule
         What the units refer to, and what is allowed in addition.
+    share
+        Allowed error per sum of the condition numbers.
     """
 
     ulp: float
     rule: str
+    share: float = HALF
 
-    def notes(self, domain: str) -> tuple[str, ...]:
-        """Return lines for a docstring: the budget, and the domain to which it applies."""
+    def notes(self, domain: str, decades: int = 0) -> tuple[str, ...]:
+        """Return lines for a docstring: the budget, and the domain to which it applies.
+
+        All arguments were tested together for magnitudes up to ten to the power `decades`, if it is
+        given.
+        """
         units = f"{self.ulp:g} unit{'' if self.ulp == 1 else 's'} in the last place (ULP)"
         limit = f"Tested error budget: {units} of {self.rule}."
         where = (
             f"Domain: {domain or 'all real numbers'}. The budget applies where the value is a "
             "normal floating-point number; smaller values become subnormal or zero."
         )
+        if decades:
+            where += f" Arguments other than 0 were tested from 1e-{decades} to 1e{decades}."
         return (*textwrap.wrap(limit, 84), *textwrap.wrap(where, 84, break_on_hyphens=False))
 
     def row(self) -> dict[str, object]:
         """Return the budget under the keys of the manifest."""
-        return {"budget": self.ulp, "rule": self.rule}
+        row: dict[str, object] = {"budget": self.ulp, "rule": self.rule}
+        return row if self.share == HALF else {**row, "share": self.share}
 
 
 def read_budgets(file: Path) -> dict[str, Budget]:
@@ -69,7 +84,8 @@ def read_stated_limits(file: Path, table: str) -> dict[str, float]:
 def parse_budgets(data: Mapping[str, Any]) -> dict[str, Budget]:
     """Return budgets by function from the tables `ulp` and `rule`.
 
-    `ulp` contains a number for each function, and `rule` tables with ``text`` and ``kernels``.
+    `ulp` contains a number for each function, and `rule` tables with ``text`` and ``kernels``. A
+    table with ``share``, the allowed error per sum of the condition numbers, needs no text.
 
     Raises
     ------
@@ -81,6 +97,14 @@ def parse_budgets(data: Mapping[str, Any]) -> dict[str, Budget]:
         raise ValueError(
             f"budgets.toml: expected a table [rule.{ORDINARY}] with the text of the ordinary rule"
         )
+    for name, rule in rules.items():
+        share = rule.get("share", HALF)
+        if isinstance(share, bool) or not isinstance(share, int | float) or share not in SHARES:
+            expected = ", ".join(map(str, SHARES))
+            raise ValueError(
+                f"budgets.toml: expected one of {expected} as the share of rule.{name}, "
+                f"got {share!r}"
+            )
     for name, ulp in numbers.items():
         if isinstance(ulp, bool) or not isinstance(ulp, int | float) or not 0 < ulp < math.inf:
             raise ValueError(
@@ -95,6 +119,14 @@ def parse_budgets(data: Mapping[str, Any]) -> dict[str, Budget]:
             "expected one number and at most one rule per function in budgets.toml; "
             f"correct {', '.join(sorted(unmatched | twice))}"
         )
-    rule_of = {name: rule["text"] for rule in rules.values() for name in rule.get("kernels", ())}
-    ordinary = rules[ORDINARY]["text"]
-    return {name: Budget(float(ulp), rule_of.get(name, ordinary)) for name, ulp in numbers.items()}
+    rule_of = {name: rule for rule in rules.values() for name in rule.get("kernels", ())}
+    return {
+        name: _budget(float(ulp), rule_of.get(name, rules[ORDINARY]))
+        for name, ulp in numbers.items()
+    }
+
+
+def _budget(ulp: float, rule: Mapping[str, Any]) -> Budget:
+    share = float(rule.get("share", HALF))
+    stated = f"the value, and on top {share:g} times the sum of the arguments' condition numbers"
+    return Budget(ulp, rule["text"] if "share" not in rule else stated, share)

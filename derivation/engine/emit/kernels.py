@@ -95,6 +95,7 @@ class EmittedKernel:
     value: str = ""
     switch: SwitchText | None = None
     example: tuple[str, ...] = ()
+    decades: int = 0
 
     @property
     def carried(self) -> tuple[str, ...]:
@@ -106,7 +107,7 @@ class EmittedKernel:
     @property
     def notes(self) -> tuple[str, ...]:
         """Lines of the docstring about error budget and domain."""
-        return self.budget.notes(self.domain)
+        return self.budget.notes(self.domain, self.decades)
 
     @property
     def domain(self) -> str:
@@ -126,6 +127,7 @@ def kernel_of_form(stable: Form, formula: Record, budget: Budget, style: Style) 
         steps=lines(stable.steps),
         value="" if switch else to_numpy(stable.value),
         switch=switch,
+        decades=stable.decades,
     )
 
 
@@ -141,11 +143,13 @@ def kernel(
     switch: SwitchText | None = None,
     modes: int = 0,
     result: sp.Expr | None = None,
+    decades: int = 0,
 ) -> EmittedKernel:
     """Return the row of a function of the given arguments.
 
     `result` is the exact value of the example in the docstring, by default that of the formula;
-    `modes` is the number of modes that the example sums, and 0 if the function is no modal sum.
+    `modes` is the number of modes that the example sums, and 0 if the function is no modal sum;
+    `decades` is that of the form.
     """
     names = {x.name for x in arguments}
     where = conditions(arguments, formula.where, style)
@@ -177,6 +181,7 @@ def kernel(
             formula.expression if result is None else result,
             modes,
         ),
+        decades=decades,
     )
 
 

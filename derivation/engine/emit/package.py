@@ -1,11 +1,10 @@
 """Modules of a generated package, and their source code, from the forms of a paper."""
 
-import contextlib
 import hashlib
 import math
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -13,7 +12,8 @@ from typing import Any
 import sympy as sp
 
 from derivation.engine.emit import copies, tables
-from derivation.engine.emit.budgets import Budget, read_budgets
+from derivation.engine.emit.budgets import HALF, Budget, read_budgets
+from derivation.engine.emit.found_form import found_form
 from derivation.engine.emit.kernels import (
     EmittedKernel,
     Style,
@@ -29,11 +29,9 @@ from derivation.engine.emit.routine import text as routine_text
 from derivation.engine.emit.source import TEMPLATES, format_files, rendered_template
 from derivation.engine.formula.record import Record
 from derivation.engine.nearest import did_you_mean
-from derivation.engine.rewrite.automatic import automatic
 from derivation.engine.rewrite.blocks import HYPERBOLIC, Definition, build_blocks
-from derivation.engine.rewrite.every_variable import accurate
 from derivation.engine.rewrite.form import SCALINGS, Block, Form, Step, Switch, form
-from derivation.engine.rewrite.products import ProductForm, of_products
+from derivation.engine.rewrite.products import ProductForm
 from derivation.engine.rewrite.scales import Scales
 from derivation.engine.rewrite.terms import UnreachableError
 
@@ -128,26 +126,6 @@ def _nothing(_: Mapping[str, Block]) -> Mapping[str, Shape]:
     return {}
 
 
-def _automatic(formula: Record, known: Mapping[str, Block], scales: Scales) -> ProductForm:
-    """Return the accurate form that the rules find, by the paper's scales or by products."""
-    if formula.expression.has(sp.Integral):
-        raise UnreachableError(
-            f"{formula.name}: expected a formula in closed form, got an integral, of which no code "
-            "is generated; prove a closed form and generate that, or remove it from the module"
-        )
-
-    def accepted(made: ProductForm) -> tuple[ProductForm, float]:
-        own = {block.name: block for block in made.blocks}
-        return made, accurate(formula, made.steps, made.value, {**known, **own})
-
-    with contextlib.suppress(UnreachableError):
-        return accepted(ProductForm(*automatic(formula.expression, known, scales)))[0]
-    try:
-        return of_products(formula, accepted)
-    except UnreachableError as error:
-        raise UnreachableError(f"{formula.name}: {error}; or state a form in `stated`") from None
-
-
 @dataclass(frozen=True, eq=False)
 class PackageSettings:
     """Settings for the generated package of a paper.
@@ -190,24 +168,36 @@ class PackageSettings:
         ProofError
             If a form differs from its formula; the message states which.
         UnreachableError
-            If the rules find no accurate form of a formula; the message states which.
+            If the rules find no accurate form of some formulas; the message has a line for each.
         ValueError
             If a part names an unknown formula.
         """
         known = build_blocks(self.blocks)
-        stated = self.stated(known)
+        stated, budgets = self.stated(known), read_budgets(self.budgets)
         self._expect({name for part in self.parts for name in part.formulas}, formulas)
 
-        def shape(name: str) -> ProductForm:
+        def shape(name: str) -> tuple[ProductForm, int]:
             if name in stated:
-                return ProductForm(*stated[name])
-            return _automatic(formulas[name], known, self.scales)
+                return ProductForm(*stated[name]), 0
+            share = budgets[name].share if name in budgets else HALF
+            return found_form(formulas[name], known, self.scales, share)
 
         def stable(name: str, module: str) -> Form:
-            given, made = formulas[name].expression, shape(name)
-            return form(name, module, given, made.steps, made.value, known, made.blocks)
+            given, (made, decades) = formulas[name].expression, shape(name)
+            proved = form(name, module, given, made.steps, made.value, known, made.blocks)
+            return replace(proved, decades=decades)
 
-        return tuple(stable(name, part.name) for part in self.parts for name in part.formulas)
+        refused: list[str] = []
+        made: list[Form] = []
+        for part in self.parts:
+            for name in part.formulas:
+                try:
+                    made.append(stable(name, part.name))
+                except UnreachableError as error:
+                    refused.append(str(error))
+        if refused:
+            raise UnreachableError("\n".join(refused))
+        return tuple(made)
 
     def _expect(self, names: set[str], formulas: Mapping[str, Record]) -> None:
         """Reject names that are not those of formulas."""
@@ -360,6 +350,7 @@ def kernel_row(k: EmittedKernel) -> dict[str, Any]:
         "equation": k.equation,
         "domain": k.domain,
         "modes": k.modes,
+        "decades": k.decades,
     } | k.budget.row()
 
 

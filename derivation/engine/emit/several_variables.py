@@ -1,9 +1,7 @@
 """A tested NumPy module for a formula of several positive variables."""
 
-import contextlib
-import math
 import textwrap
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from importlib.metadata import version
 
@@ -31,7 +29,7 @@ from derivation.engine.rewrite.several_variables import (
     SeveralCheck,
     check_several,
 )
-from derivation.engine.rewrite.terms import UnreachableError
+from derivation.engine.rewrite.terms import UnreachableError, collected
 from derivation.engine.rewrite.useful_range import ENDS, ENOUGH
 
 HELPERS = {
@@ -97,17 +95,9 @@ def _best(
     """
     reasons: list[UnreachableError] = []
     for share in STATED:
-        with _collected(reasons):
+        with collected(reasons):
             return _best_for(expression, words, partial(accepted, share), reasons)
-    raise min(reasons, key=lambda reason: getattr(reason, "worst", math.inf))
-
-
-@contextlib.contextmanager
-def _collected(reasons: list[UnreachableError]) -> Iterator[None]:
-    try:
-        yield
-    except UnreachableError as error:
-        reasons.append(error)
+    raise min(reasons, key=lambda reason: reason.worst)
 
 
 def _best_for(
@@ -121,10 +111,10 @@ def _best_for(
     known = {f.func.__name__ for f in expression.atoms(sp.Function)} <= KNOWN
     plain = (expression, sp.factor(expression), *by_identities(expression)) if known else ()
     forms = [ProductForm((), value) for value in dict.fromkeys(plain)]
-    with _collected(reasons):
+    with collected(reasons):
         forms += _with_parameters(expression)
     for made in forms:
-        with _collected(reasons):
+        with collected(reasons):
             results.append(accepted(made))
             if results[-1][1].high >= WIDE and results[-1][1].worst <= ENOUGH / 2:
                 return results[-1]

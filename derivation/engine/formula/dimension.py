@@ -167,9 +167,10 @@ def dimension(expression: sp.Basic, known: Mapping[sp.Basic, Dimension]) -> Dime
         for argument in expression.args:
             term_dimension = dimension(argument, known)
             if term_dimension != ONE:
+                remedy = "; write log(a) - log(b) as log(a/b)" if expression.func == sp.log else ""
                 raise DimensionError(
                     f"{argument} in {expression} has dimension [{term_dimension}], "
-                    "expected a pure number"
+                    f"expected a pure number{remedy}"
                 )
         return ONE
     raise DimensionError(f"the dimension of {expression} is not known")

@@ -37,17 +37,23 @@ def holds(condition: str, values: Mapping[sp.Symbol, Fraction]) -> bool:
     ValueError
         If the condition is not a comparison, or a symbol has no value.
     """
-    difference, compare = _parsed(condition)
+    _, compare = comparison(condition)
+    return bool(compare(excess(condition, values), 0))
+
+
+def excess(condition: str, values: Mapping[sp.Symbol, Fraction]) -> Fraction:
+    """Return the left side of a condition less the right side, at an exact point; see `holds`."""
+    difference, _ = comparison(condition)
     known = {symbol.name: value for symbol, value in values.items()}
     if missing := {symbol.name for symbol in difference.free_symbols} - set(known):
         names = ", ".join(sorted(missing))
         raise ValueError(f"{condition}: expected a value for each symbol, got none of {names}")
-    return bool(compare(_exactly(difference, known), 0))
+    return _exactly(difference, known)
 
 
 @cache
-def _parsed(condition: str) -> tuple[sp.Expr, Callable[[Fraction, int], bool]]:
-    """Return the expression that is compared with 0, and the comparison."""
+def comparison(condition: str) -> tuple[sp.Expr, Callable[[Fraction, int], bool]]:
+    """Return the expression that a condition compares with 0, and the comparison."""
     match = _COMPARISON.fullmatch(condition)
     if match is None:
         raise ValueError(f"expected a comparison like 'a < b', got {condition!r}")

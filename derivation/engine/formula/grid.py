@@ -7,12 +7,12 @@ random values inside their domains.
 
 import math
 import random
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 
-from derivation.engine.formula.domain import violated_conditions
+from derivation.engine.formula.domain import excess, violated_conditions
 from derivation.engine.formula.ulp import neighbours
-from derivation.engine.formula.vocabulary import Vocabulary
+from derivation.engine.formula.vocabulary import Vocabulary, symbols_of
 
 EXPONENTS = (-150, -100, -50, -20, -12, -8, -5, -3, -2, -1, 0, 1, 2, 3, 6, 9)
 """Exponents of the powers of ten that every argument takes, inside its domain."""
@@ -20,6 +20,8 @@ FRACTIONS = (0.5, 1e-3, 1e-8, 1e-15)
 """Distances from the end of a domain, relative to the end."""
 DRAWN = 24
 """Number of points at which all arguments are random."""
+ZEROS, STEPS_TO_ZERO = 24, 14
+"""Numbers of pairs of points with opposite signs, and of points that are tested between each."""
 ATTEMPTS = 400
 """Number of random points that are tried to find one in the domain."""
 
@@ -59,18 +61,142 @@ def domain_grid(
     """
     generator = random.Random(f"{name} on {','.join(arguments)}")
 
+    narrow = False
+
     def drawn() -> dict[str, float]:
-        for _ in range(ATTEMPTS):
+        nonlocal narrow
+        for _ in range(0 if narrow else ATTEMPTS):
             values = {key: _random(generator) for key in arguments}
             if inside(vocabulary, values):
                 return values
-        raise ValueError(f"found no point in the domain of {name}; widen the domain")
+        narrow = True
+        for _ in range(ATTEMPTS):
+            values = _jointly(generator, arguments, vocabulary, 3.0)
+            if inside(vocabulary, values):
+                return values
+        raise ValueError(
+            f"found no point in the domain of {name}: its conditions exclude each other, or allow "
+            "a narrow range only; correct the domains of its arguments"
+        )
 
     points = [drawn() for _ in range(DRAWN)]
     for key in arguments:
         own = (*_candidates(vocabulary.by_name[key].domain), *around(switches.get(key, ())))
         points += [drawn() | {key: value} for value in own]
     return tuple(values for values in points if inside(vocabulary, values))
+
+
+def joint_points(
+    name: str, arguments: Sequence[str], vocabulary: Vocabulary, decades: int, count: int
+) -> tuple[dict[str, float], ...]:
+    """Return points at which several arguments are extreme, next to ends, or nearly equal.
+
+    Parameters
+    ----------
+    name
+        Name of the function; it seeds the values.
+    arguments
+        Names of its arguments.
+    vocabulary
+        The symbols with their domains.
+    decades
+        Exponent of ten of the largest magnitude, and its negative is that of the smallest.
+    count
+        Number of points that are drawn; those outside the domain are left out.
+    """
+    generator = random.Random(f"{name} jointly on {','.join(arguments)} to 1e{decades}")
+    points = (_jointly(generator, arguments, vocabulary, float(decades)) for _ in range(count))
+    return tuple(point for point in points if inside(vocabulary, point))
+
+
+def towards_zeros(
+    signs: Iterable[tuple[dict[str, float], int]], sign: Callable[[dict[str, float]], int]
+) -> Iterator[dict[str, float]]:
+    """Yield points between those of opposite signs, ever nearer to a zero.
+
+    Parameters
+    ----------
+    signs
+        Points, each with the sign of the function.
+    sign
+        Function that returns the sign at a further point, 0 if it is unknown.
+    """
+    sides: dict[int, list[dict[str, float]]] = {1: [], -1: []}
+    for point, side in signs:
+        if side:
+            sides[side].append(point)
+    usual = {side: sorted(points, key=_size) for side, points in sides.items()}
+    for above, below in zip(usual[1][:ZEROS], usual[-1][:ZEROS], strict=False):
+        ends = {1: above, -1: below}
+        for _ in range(STEPS_TO_ZERO):
+            middle = {key: above[key] / 2 + below[key] / 2 for key in above}
+            ends[sign(middle) or 1] = middle
+            above, below = ends[1], ends[-1]
+            yield middle
+
+
+def _size(point: Mapping[str, float]) -> float:
+    """Return how far a point's magnitudes are from 1, in decades."""
+    return sum(abs(math.log10(abs(value))) for value in point.values() if value)
+
+
+def _jointly(
+    generator: random.Random, arguments: Sequence[str], vocabulary: Vocabulary, decades: float
+) -> dict[str, float]:
+    """Return random arguments, each in the interval that the conditions on the former ones leave.
+
+    Conditions that are not linear in an argument do not narrow its interval.
+    """
+    size = min(decades, generator.choice((1.0, 3.0, decades)))
+    values: dict[str, float] = {}
+    for key in sorted(arguments, key=lambda _: generator.random()):
+        low, high = _interval(key, values, arguments, vocabulary)
+        kind = generator.random()
+        ends = [end for end in (low, high) if math.isfinite(end) and end]
+        if kind < 0.25 and ends:
+            value = _near(generator, generator.choice(ends))
+        elif kind < 0.4 and values:
+            value = _near(generator, generator.choice(list(values.values())))
+        else:
+            value = math.copysign(10 ** generator.uniform(-size, size), generator.random() - 0.3)
+            value = abs(value) if low >= 0 else value
+        if not low <= value <= high and math.isfinite(low) and math.isfinite(high):
+            value = low + (high - low) * generator.random()
+        elif not low <= value <= high:
+            sign, end = (1, low) if math.isfinite(low) else (-1, high)
+            value = end + sign * 10 ** generator.uniform(-1, 1) * (abs(end) or 1.0)
+        limit = 10.0**decades
+        near_zero = value and abs(value) < 1 / limit
+        values[key] = math.copysign(1 / limit, value) if near_zero else value
+    return {key: min(max(values[key], -(10.0**decades)), 10.0**decades) for key in arguments}
+
+
+def _near(generator: random.Random, value: float) -> float:
+    change = 10 ** generator.uniform(-16, -0.3)
+    return value * (1 + generator.choice((-1, 1)) * change)
+
+
+def _interval(
+    key: str, known: Mapping[str, float], arguments: Sequence[str], vocabulary: Vocabulary
+) -> tuple[float, float]:
+    """Return the interval of an argument by the linear conditions on it and known arguments."""
+    own = vocabulary.by_name[key].symbol
+    given = {vocabulary.by_name[name].symbol: Fraction(value) for name, value in known.items()}
+    low, high = -math.inf, math.inf
+    for condition in {c for name in arguments for c in vocabulary.by_name[name].domain}:
+        names = symbols_of(condition)
+        if key not in names or not names <= {key, *known}:
+            continue
+        at = [excess(condition, {**given, own: Fraction(x)}) for x in (1, 2, 3)]
+        slope = at[1] - at[0]
+        if not slope or at[2] - at[1] != slope or "!=" in condition:
+            continue
+        end = float(1 - at[0] / slope)
+        if ("<" in condition) == (slope > 0):
+            high = min(high, end)
+        else:
+            low = max(low, end)
+    return low, high
 
 
 def _random(generator: random.Random) -> float:

@@ -69,7 +69,10 @@ class Record:
         if not self.name.isidentifier() or iskeyword(self.name):
             raise ValueError(f"expected a Python name for a formula, got {self.name!r}; rename it")
         self.vocabulary.arguments_of(self.expression)
-        dimensions = dimension(self.expression, self.vocabulary.dimensions)
+        try:
+            dimensions = dimension(self.expression, self.vocabulary.dimensions)
+        except DimensionError as error:
+            raise DimensionError(f"{self.name}: {error}") from None
         if dimensions != unit(self.unit):
             raise DimensionError(
                 f"{self.name} has dimension [{dimensions}], expected [{self.unit}]"

@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from derivation.engine.activity import Progress, quiet
+from derivation.engine.formula.ball import PrecisionError
 from derivation.engine.formula.ulp import DOUBLE, SINGLE, Format, overflows
 from derivation.engine.measure.judge import Errors, PointReference, measured_errors
 from derivation.engine.measure.kernels import Kernel, generated_kernels, printed_kernels
@@ -11,6 +12,7 @@ from derivation.engine.measure.point import Point, to_single
 from derivation.engine.measure.suite import Suite
 from derivation.engine.oracle.agreement import Routes
 from derivation.engine.oracle.oracle import Balls
+from derivation.engine.oracle.reference import Reference
 
 AGREEMENTS = 2
 """Number of points per function at which the second reference method is evaluated too."""
@@ -155,7 +157,17 @@ def reference_values(
     balls: Balls, name: str, points: Sequence[Point], digits: int, fmt: Format = DOUBLE
 ) -> list[PointReference]:
     """Return the reference values at those points at which they do not overflow the format."""
-    references = ((p, balls.reference(name, p.values, digits, p.modes)) for p in points)
+
+    def reference(point: Point) -> Reference:
+        try:
+            return balls.reference(name, point.values, digits, point.modes)
+        except PrecisionError as error:
+            raise ValueError(
+                f"{error}: expected a value in the whole domain; cancel divisors that vanish there "
+                "in the formula, or exclude the point by the domains of its arguments"
+            ) from None
+
+    references = ((point, reference(point)) for point in points)
     return [
         PointReference(point, (ref,)) for point, ref in references if not overflows(ref.value, fmt)
     ]

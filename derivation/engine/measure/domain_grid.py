@@ -1,15 +1,25 @@
 """References and test points of a paper whose functions have closed formulas."""
 
+import importlib
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 
 from derivation.engine.formula.chain import Chain
-from derivation.engine.formula.grid import domain_grid, inside
+from derivation.engine.formula.grid import domain_grid, inside, joint_points, towards_zeros
 from derivation.engine.measure.check import Judge
 from derivation.engine.measure.point import Point
+from derivation.engine.measure.target import NO_REFERENCE
 from derivation.engine.oracle.agreement import Route, Routes
 from derivation.engine.oracle.oracle import Balls
 from derivation.engine.rewrite.blocks import Definition, build_blocks
 from derivation.engine.rewrite.form import switch_points
+
+FEW = 3
+"""Number of digits of values whose sign is needed."""
+STATED_FORM = 6
+"""Exponent of ten of the largest arguments with which stated forms are tested together."""
+JOINT = 200
+"""Number of points at which several arguments are extreme, next to ends, or nearly equal."""
 
 
 def domain_judge(
@@ -42,9 +52,28 @@ def domain_judge(
     """
     vocabulary = chain.vocabulary
 
+    references = Routes(Balls(vocabulary, chain.formulas), routes)
+
+    def sign(name: str, point: dict[str, float]) -> int:
+        try:
+            value = references.balls.value(name, point, FEW)
+        except NO_REFERENCE:
+            return 0
+        return int(value > 0) - int(value < 0)
+
     def grid(name: str, arguments: Sequence[str], _: bool) -> tuple[Point, ...]:
         switches = switch_points(block.value for block in build_blocks(blocks).values())
-        return tuple(map(Point, domain_grid(name, arguments, vocabulary, switches)))
+        points = domain_grid(name, arguments, vocabulary, switches)
+        rows = importlib.import_module(f"{package}.manifest").KERNELS
+        tested = {row["name"]: row.get("decades") for row in rows}
+        if name in tested:
+            decades = tested[name] or STATED_FORM
+            if tested[name]:
+                most = 10.0**decades
+                points = tuple(p for p in points if all(abs(x) <= most for x in p.values()))
+            points += joint_points(name, arguments, vocabulary, decades, JOINT)
+            signs = [(p, sign(name, p)) for p in points]
+            points += tuple(towards_zeros(signs, partial(sign, name)))
+        return tuple(map(Point, points))
 
-    references = Routes(Balls(vocabulary, chain.formulas), routes)
     return Judge(references, grid, package, easy, lambda point: inside(vocabulary, point.values))

@@ -1,7 +1,8 @@
 """Errors of computed numbers against reference values, in ULP of the reference value.
 
 The allowed error is the function's budget plus half the sum of the condition numbers, which is the
-effect on the value if every argument is rounded by half a unit in the last place. If only one of
+effect on the value if every argument is rounded by half a unit in the last place. A budget may
+allow more than half of it. If only one of
 result and reference value is finite, the error is infinite. Below the smallest normal number,
 errors are counted in units of the smallest subnormal number.
 
@@ -50,7 +51,9 @@ class Error:
         return self.ulp / self.allowed
 
 
-def judge(got: float, reference: Reference, budget: float, fmt: Format = DOUBLE) -> Error:
+def judge(
+    got: float, reference: Reference, budget: float, fmt: Format = DOUBLE, share: float = 0.5
+) -> Error:
     """Return the error of one computed number and its allowance.
 
     Parameters
@@ -65,6 +68,8 @@ def judge(got: float, reference: Reference, budget: float, fmt: Format = DOUBLE)
         magnitudes of all terms.
     fmt
         The floating-point format that defines the unit in the last place.
+    share
+        Allowed error per sum of the condition numbers.
 
     Returns
     -------
@@ -80,7 +85,8 @@ def judge(got: float, reference: Reference, budget: float, fmt: Format = DOUBLE)
     # 2^-p times the sensitivities is also valid if the value is subnormal or zero, where the
     # condition number is not meaningful.
     with flint.ctx.workprec(128):
-        rounding = upper_float(reference.total * flint.arb(2) ** (-fmt.precision - spacing))
+        effect = reference.total * flint.arb(2) ** (1 - fmt.precision - spacing)
+        rounding = upper_float(share * effect)
     ulp = ulp_error(got, value, fmt)
     counted = reference.scale * unit
     needed = max(0.0, (ulp - rounding) / counted) if math.isfinite(ulp) else math.inf
@@ -208,7 +214,7 @@ def measured_errors(
         raise ValueError(f"{kernel.name} gave shape {results.shape}, {expected} is expected")
     budget = math.inf if kernel.budget is None else kernel.budget
     all_of = [
-        (at, reference, got, judge(got, reference, budget, fmt))
+        (at, reference, got, judge(got, reference, budget, fmt, kernel.share))
         for at, row in zip(references, results.T.tolist(), strict=True)
         for reference, got in zip(at.references, row, strict=True)
     ]

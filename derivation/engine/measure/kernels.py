@@ -36,6 +36,8 @@ class Kernel:
         Allowed error in ULP, without conditioning; None without a budget.
     modes
         Whether it is a modal sum.
+    share
+        Allowed error per sum of the condition numbers.
     """
 
     name: str
@@ -44,6 +46,7 @@ class Kernel:
     call: Callable[..., Any]
     budget: float | None
     modes: bool = False
+    share: float = 0.5
 
     @property
     def by_count(self) -> bool:
@@ -101,6 +104,7 @@ def kernel_of_row(package: str, row: Mapping[str, Any]) -> Kernel:
         getattr(module, row["name"]),
         float(row["budget"]),
         bool(row["modes"]),
+        float(row.get("share", 0.5)),
     )
 
 

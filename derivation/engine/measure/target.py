@@ -117,7 +117,9 @@ class Target:
         return self.domain.name
 
 
-def measure_by(references: Callable[[Point], Sequence[Reference] | None], budget: float) -> Measure:
+def measure_by(
+    references: Callable[[Point], Sequence[Reference] | None], budget: float, share: float = 0.5
+) -> Measure:
     """Return a function that compares all results at a point with their reference values."""
 
     def measure(point: Point, results: Numbers) -> Error | None:
@@ -128,7 +130,7 @@ def measure_by(references: Callable[[Point], Sequence[Reference] | None], budget
         if references_at is None or any(overflows(reference.value) for reference in references_at):
             return None
         pairs = zip(results, references_at, strict=True)
-        return largest(judge(got, reference, budget) for got, reference in pairs)
+        return largest(judge(got, reference, budget, share=share) for got, reference in pairs)
 
     return measure
 
@@ -154,4 +156,6 @@ def closed_target(
     def references(point: Point) -> tuple[Reference]:
         return (balls.reference(kernel.name, point.values, _DIGITS, point.modes),)
 
-    return Target(domain, draw, call, measure_by(references, budget), bound, turn_size, every)
+    return Target(
+        domain, draw, call, measure_by(references, budget, kernel.share), bound, turn_size, every
+    )

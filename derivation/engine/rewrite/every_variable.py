@@ -1,14 +1,15 @@
 """Accuracy test of a form in several variables, in each of them over its domain."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from functools import lru_cache
 from typing import NamedTuple
 
 import flint
 import sympy as sp
 
 from derivation.engine.formula.ball import PrecisionError, evaluate, to_ball
-from derivation.engine.formula.grid import domain_grid
+from derivation.engine.formula.grid import domain_grid, joint_points, towards_zeros
 from derivation.engine.formula.record import Record
 from derivation.engine.formula.ulp import overflows, ulp_error
 from derivation.engine.rewrite.doubles import run
@@ -23,6 +24,16 @@ SMALLEST = 1e-150
 """Smallest value of an argument; products of smaller ones underflow."""
 LEAST_VALUE = 1e-300
 """Smallest value that is tested; smaller ones may be subnormal and have fewer digits."""
+
+
+DECADES = 100, 30, 12, 6
+"""Exponents of ten of the ranges of all arguments in which forms are tested, the largest first."""
+HALF = 0.5
+"""Allowed error per sum of the condition numbers, if every argument is rounded."""
+FEW = 150
+"""Number of points at which a form is tested before it is tested at all."""
+JOINT = 1500
+"""Number of points at which several arguments are extreme, next to ends, or nearly equal."""
 
 
 class LargestError(NamedTuple):
@@ -54,13 +65,17 @@ def accurate(
     """
     worst = measured_error(formula, steps, value, blocks)
     if worst.error > ENOUGH:
-        where = ", ".join(f"{name} = {x!r}" for name, x in worst.at.items())
-        raise UnreachableError(
-            f"the form found for {formula.name} has an error of {worst.error:.2g} ULP at {where}, "
-            f"expected at most {ENOUGH:g}; narrow the domains of its arguments if such values do "
-            "not occur, or state a form"
-        )
+        raise UnreachableError(_inaccurate(formula, worst), worst.error)
     return worst.error
+
+
+def _inaccurate(formula: Record, worst: LargestError) -> str:
+    where = ", ".join(f"{name} = {x!r}" for name, x in worst.at.items())
+    return (
+        f"the form found for {formula.name} has an error of {worst.error:.2g} ULP at {where}, "
+        f"expected at most {ENOUGH:g}; narrow the domains of its arguments if such values do "
+        "not occur, or state a form"
+    )
 
 
 def measured_error(
@@ -74,15 +89,122 @@ def measured_error(
         If too few of the points have a value.
     """
     names = [argument.name for argument in formula.arguments]
+    grid = domain_grid(formula.name, names, formula.vocabulary, switch_points([value]))
+    return _largest(formula, _with_values(formula, grid), steps, value, blocks)
+
+
+Known = list[tuple[dict[str, float], flint.arb]]
+"""Points with the exact values there."""
+
+
+class JointTest:
+    """Test of forms of a formula at points where several arguments are extreme or nearly equal.
+
+    Parameters
+    ----------
+    formula
+        The formula, whose arguments have domains.
+    """
+
+    def __init__(self, formula: Record) -> None:
+        self.formula = formula
+        self.known: dict[int, Known] = {}
+        self.zeros: Known | None = None
+
+    def range_of(
+        self,
+        steps: tuple[Step, ...],
+        value: sp.Expr | Switch,
+        blocks: Mapping[str, Block],
+        share: float = HALF,
+    ) -> tuple[int, float]:
+        """Return the largest of `DECADES` up to which a form is accurate, and its error [ULP].
+
+        The share is the error that is allowed per sum of the condition numbers.
+
+        Raises
+        ------
+        UnreachableError
+            If there is none; the message states the point with the largest error.
+        """
+        worst = None
+        for decades in DECADES:
+            points = self._points(decades)
+            if len(points) >= ENOUGH_POINTS:
+                few = points[:: max(1, len(points) // FEW)]
+                worst = _largest(self.formula, few, steps, value, blocks, share)
+                if worst.error > ENOUGH:
+                    continue
+                worst = _largest(self.formula, points, steps, value, blocks, share)
+                if worst.error <= ENOUGH:
+                    return decades, worst.error
+        if worst is None:
+            raise UnreachableError(
+                f"{self.formula.name} has values at {len(points)} test points, expected "
+                f"{ENOUGH_POINTS}; correct the domains of its arguments"
+            )
+        raise UnreachableError(_inaccurate(self.formula, worst), worst.error)
+
+    def _points(self, decades: int) -> Known:
+        if decades not in self.known:
+            names = [argument.name for argument in self.formula.arguments]
+            words, most = self.formula.vocabulary, 10.0**decades
+            grid = domain_grid(self.formula.name, names, words, {})
+            if decades < DECADES[0]:
+                grid = tuple(
+                    p for p in grid if all(x == 0 or 1 / most <= abs(x) <= most for x in p.values())
+                )
+            joint = joint_points(self.formula.name, names, words, decades, JOINT)
+            known = _with_values(self.formula, (*grid, *joint))
+            if self.zeros is None:  # they are of moderate size, and tested in every range
+                signs = [(point, _sign(value)) for point, value in known]
+                nearer = towards_zeros(signs, self._sign_at)
+                self.zeros = _with_values(self.formula, nearer)
+            self.known[decades] = known + [
+                (point, value)
+                for point, value in self.zeros
+                if all(abs(x) <= most for x in point.values())
+            ]
+        return self.known[decades]
+
+    def _sign_at(self, point: dict[str, float]) -> int:
+        at = {argument.symbol: point[argument.name] for argument in self.formula.arguments}
+        try:
+            return _sign(evaluate(self.formula.expression, at, 3))
+        except (PrecisionError, NotImplementedError):
+            return 0
+
+
+def _sign(value: flint.arb) -> int:
+    return int(value > 0) - int(value < 0)
+
+
+def _with_values(formula: Record, points: Iterable[dict[str, float]]) -> Known:
     symbols = {argument.name: argument.symbol for argument in formula.arguments}
-    errors = []
-    for point in domain_grid(formula.name, names, formula.vocabulary, switch_points([value])):
+    known = []
+    for point in points:
         if all(x == 0 or abs(x) >= SMALLEST for x in point.values()):
             at = {symbols[name]: x for name, x in point.items()}
             reference = _reference(formula.expression, at)
             if reference is not None:
-                got = _computed(steps, value, at, blocks)
-                errors.append((_beyond(formula.expression, reference, got, at), point))
+                known.append((point, reference))
+    return known
+
+
+def _largest(
+    formula: Record,
+    known: Known,
+    steps: tuple[Step, ...],
+    value: sp.Expr | Switch,
+    blocks: Mapping[str, Block],
+    share: float = HALF,
+) -> LargestError:
+    symbols = {argument.name: argument.symbol for argument in formula.arguments}
+    errors = []
+    for point, reference in known:
+        at = {symbols[name]: x for name, x in point.items()}
+        got = _computed(steps, value, at, blocks)
+        errors.append((_beyond(formula.expression, reference, got, at, share), point))
     if len(errors) < ENOUGH_POINTS:
         raise UnreachableError(
             f"{formula.name} has values at {len(errors)} test points, expected {ENOUGH_POINTS}"
@@ -113,17 +235,34 @@ def _computed(
 
 
 def _beyond(
-    expression: sp.Expr, reference: flint.arb, got: float, at: Mapping[sp.Symbol, float]
+    expression: sp.Expr,
+    reference: flint.arb,
+    got: float,
+    at: Mapping[sp.Symbol, float],
+    share: float = HALF,
 ) -> float:
-    """Return the error [ULP], less half the condition numbers if it is large."""
+    """Return the error [ULP], less a share of the condition numbers if it is large."""
     error = ulp_error(got, reference)
     if not ENOUGH / 2 < error < math.inf:
         return error
-    for symbol, x in at.items():
+    return max(error - share * _conditioning(expression, tuple(at.items())), 0.0)
+
+
+@lru_cache(maxsize=1 << 15)
+def _conditioning(expression: sp.Expr, at: tuple[tuple[sp.Symbol, float], ...]) -> float:
+    """Return the sum of the condition numbers, without those that cannot be evaluated."""
+    total, values = 0.0, dict(at)
+    for symbol, x in at:
         try:
-            slope = evaluate(expression.diff(symbol), at, 3)
+            slope = evaluate(_slope(expression, symbol), values, 3)
         except (PrecisionError, NotImplementedError):
-            continue  # then no conditioning is taken into account
+            continue
         with flint.ctx.workprec(64):
-            error -= float(abs(slope * to_ball(x) / reference).abs_upper()) / 2
-    return max(error, 0.0)
+            reference = evaluate(expression, values, 3)
+            total += float(abs(slope * to_ball(x) / reference).abs_upper())
+    return total
+
+
+@lru_cache(maxsize=256)
+def _slope(expression: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
+    return expression.diff(symbol)

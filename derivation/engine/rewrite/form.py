@@ -101,6 +101,8 @@ class Form:
         Proof that it equals the formula, with all steps substituted.
     blocks
         Building blocks of this form alone.
+    decades
+        Exponent of ten of the range of all arguments in which the form was tested; 0 if it was not.
     """
 
     name: str
@@ -109,6 +111,7 @@ class Form:
     value: sp.Expr | Switch
     proof: Proof
     blocks: tuple["Block", ...] = ()
+    decades: int = 0
 
 
 @dataclass(frozen=True)

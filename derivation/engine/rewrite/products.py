@@ -131,7 +131,7 @@ def _form(formula: Stated, inverted: bool) -> ProductForm:
     blocks: list[Block] = []
     for product, stable in factors:
         x, core = stable.variable, stable.value
-        steps += [Step(x, _product(product))] if len(product) > 1 else []
+        steps += [Step(x, dimensionless_product(product))] if len(product) > 1 else []
         alone = len(factors) == 1 or not stable.steps  # else names of steps could occur twice
         if alone and isinstance(core, sp.Expr) and not core.has(POLYNOMIAL):
             steps += stable.steps
@@ -141,7 +141,7 @@ def _form(formula: Stated, inverted: bool) -> ProductForm:
             summary = f"A dimensionless factor of {formula.name}."
             blocks.append(block_of(f"{formula.name}_factor{number}", stable, summary))
             value *= blocks[-1](x)
-    return ProductForm(tuple(steps), _times(value, front), tuple(blocks), factors)
+    return ProductForm(tuple(steps), with_powers(value, front), tuple(blocks), factors)
 
 
 def _factored(
@@ -204,7 +204,7 @@ def _oriented(product: Powers, formula: Stated, inverted: bool) -> Powers:
     Symbols that may vanish are no divisors, and a single symbol is not inverted.
     """
     unit = sp.Integer(math.lcm(*(power.q for _, power in product)))
-    zeros = [power for symbol, power in product if symbol in _may_vanish(formula)]
+    zeros = [power for symbol, power in product if symbol in may_vanish(formula)]
     sign = sp.sign((*zeros, product[0][1])[0])
     if inverted and len(product) > 1 and not zeros:
         sign = -sign
@@ -216,7 +216,7 @@ def _eliminated(product: Powers, formula: Stated) -> tuple[sp.Symbol, sp.Rationa
 
     It is one that may vanish if there is one, because all others may become divisors.
     """
-    zeros = _may_vanish(formula)
+    zeros = may_vanish(formula)
     return min(product, key=lambda pair: (pair[0] not in zeros, abs(pair[1]), str(pair[0])))
 
 
@@ -225,7 +225,7 @@ def _names(formula: Stated) -> list[str]:
     return [argument.name for argument in formula.arguments]
 
 
-def _may_vanish(formula: Stated) -> list[sp.Symbol]:
+def may_vanish(formula: Stated) -> list[sp.Symbol]:
     """Return the arguments that may be zero."""
     pairs = ((argument.symbol, argument.name) for argument in formula.arguments)
     return [symbol for symbol, name in pairs if inside(formula.vocabulary, {name: 0.0})]
@@ -269,14 +269,14 @@ def _rational(factor: sp.Expr, symbols: Sequence[sp.Symbol], values: Slopes) -> 
     return tuple((symbol, sp.Rational(p.numerator, p.denominator)) for symbol, p in pairs if p)
 
 
-def _product(powers: Powers) -> sp.Expr:
+def dimensionless_product(powers: Powers) -> sp.Expr:
     """Return the product of powers, rounded once."""
     if sum(abs(power) for _, power in powers) == 2:
         return sp.Mul(*(symbol**power for symbol, power in powers))
     return CLOSELY(1, *(part for pair in powers for part in pair))
 
 
-def _times(value: sp.Expr, powers: Powers) -> sp.Expr:
+def with_powers(value: sp.Expr, powers: Powers) -> sp.Expr:
     """Return a value times powers; those of integer exponents neither overflow nor underflow."""
     pairs = sorted(((s, p) for s, p in powers if p), key=lambda pair: str(pair[0]))
     value *= sp.Mul(*(symbol**power for symbol, power in pairs if not power.is_Integer))

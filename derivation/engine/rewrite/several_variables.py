@@ -50,22 +50,6 @@ Function: TypeAlias = Callable[..., np.ndarray]
 Point = tuple[float, ...]
 
 
-class InaccurateError(UnreachableError):
-    """The error of a form is too large.
-
-    Parameters
-    ----------
-    message
-        The message.
-    worst
-        The error [ULP].
-    """
-
-    def __init__(self, message: str, worst: float = math.inf) -> None:
-        super().__init__(message)
-        self.worst = worst
-
-
 @dataclass(frozen=True)
 class SeveralCheck:
     """Result of the test of code in several variables.
@@ -107,7 +91,7 @@ def check_several(
 
     Raises
     ------
-    InaccurateError
+    UnreachableError
         If its error stays within `ENOUGH` in no range.
     """
     draw = random.Random(str(expression))
@@ -129,7 +113,7 @@ def check_several(
             limit = stated_error(worst[0] + MARGIN)
             return SeveralCheck(low, high, limit, worst[0], at, len(errors), share)
     where = ", ".join(f"{v} = {x!r}" for v, x in zip(variables, worst[1], strict=False))
-    raise InaccurateError(
+    raise UnreachableError(
         f"the form found for {expression} has an error of {worst[0]:.2g} ULP"
         f"{f' at {where}' if where else ''}, expected at most {ENOUGH:g}; write the formula in "
         "variables that need not be subtracted, such as a difference of two, or rewrite its parts "

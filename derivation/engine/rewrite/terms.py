@@ -4,6 +4,8 @@ w is 1, or a function of a multiple of x, such as sin or log(1 + .). The rules a
 such sums.
 """
 
+import contextlib
+import math
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
@@ -20,7 +22,28 @@ RISING = ("log1p", "asinh")
 
 
 class UnreachableError(ValueError):
-    """The rules find no stable form of an expression; the message states the reason."""
+    """The rules find no stable form of an expression; the message states the reason.
+
+    Parameters
+    ----------
+    message
+        The message.
+    worst
+        The error [ULP] of the form that is not accurate; infinite if there is none.
+    """
+
+    def __init__(self, message: str, worst: float = math.inf) -> None:
+        super().__init__(message)
+        self.worst = worst
+
+
+@contextlib.contextmanager
+def collected(reasons: list[UnreachableError]) -> Iterator[None]:
+    """Add an UnreachableError to a list, and continue after the block."""
+    try:
+        yield
+    except UnreachableError as error:
+        reasons.append(error)
 
 
 class Key(NamedTuple):

@@ -1,0 +1,108 @@
+"""The stable form of a paper's formula, found by the rules and tested in all arguments together."""
+
+from collections.abc import Callable, Iterator, Mapping
+
+import sympy as sp
+
+from derivation.engine.emit.budgets import SHARES
+from derivation.engine.formula.record import Record
+from derivation.engine.rewrite.automatic import automatic
+from derivation.engine.rewrite.every_variable import DECADES, JointTest
+from derivation.engine.rewrite.form import Block
+from derivation.engine.rewrite.products import ProductForm, of_products
+from derivation.engine.rewrite.scales import Scales
+from derivation.engine.rewrite.several_products import several_products
+from derivation.engine.rewrite.terms import UnreachableError, collected
+from derivation.engine.rewrite.useful_range import ENOUGH
+
+TESTED = {0.5: 0.5, 1.0: 0.7, 1.5: 1.0}
+"""Errors per sum of the condition numbers that are allowed in the test, by those of the budget. A
+margin is left because other points next to zeros may have larger errors."""
+
+
+def found_form(
+    formula: Record, known: Mapping[str, Block], scales: Scales, share: float
+) -> tuple[ProductForm, int]:
+    """Return the accurate form that the rules find, and the decades in which it was tested.
+
+    It is found by the paper's scales, by products in separate factors, or by several products.
+
+    Parameters
+    ----------
+    formula
+        The formula.
+    known
+        Building blocks by name.
+    scales
+        The paper's dimensionless variables.
+    share
+        Error that its budget allows per sum of the condition numbers.
+
+    Raises
+    ------
+    UnreachableError
+        If no form is accurate; the message states the reason and a remedy.
+    """
+    if formula.expression.has(sp.Integral):
+        raise UnreachableError(
+            f"{formula.name}: expected a formula in closed form, got an integral, of which no code "
+            "is generated; prove a closed form and generate that, or remove it from the module"
+        )
+
+    test = JointTest(formula)
+    tested: list[ProductForm] = []
+    accepted: list[tuple[ProductForm, int, float]] = []
+    reasons: list[UnreachableError] = []
+
+    def range_of(made: ProductForm, share: float) -> tuple[int, float]:
+        own = {block.name: block for block in made.blocks}
+        return test.range_of(made.steps, made.value, {**known, **own}, TESTED[share])
+
+    def passes(made: ProductForm, share: float) -> bool:
+        failed: list[UnreachableError] = []
+        with collected(failed):
+            range_of(made, share)
+        return not failed
+
+    def add(made: ProductForm) -> tuple[ProductForm, float]:
+        tested.append(made)
+        decades, error = range_of(made, share)
+        accepted.append((made, decades, error))
+        return made, error
+
+    searches: tuple[Callable[[], object], ...] = (
+        lambda: add(ProductForm(*automatic(formula.expression, known, scales))),
+        lambda: of_products(formula, add),
+        lambda: _first_accurate(several_products(formula), add, reasons),
+    )
+    for search in searches:
+        with collected(reasons):
+            search()
+        if any(decades == DECADES[0] for _, decades, _ in accepted):
+            break
+    if accepted:
+        made, decades, _ = max(accepted, key=lambda row: (row[1], -row[2]))
+        return made, decades
+    for larger in (other for other in SHARES if other > share):
+        if any(passes(made, larger) for made in tested):
+            raise UnreachableError(
+                f"{formula.name} is accurate if an error of {larger:g} times the sum of the "
+                "condition numbers is allowed, which matters next to its zeros: write a table "
+                f"`[rule.zeros]` in budgets.toml with `share = {larger}` and "
+                f'`kernels = ["{formula.name}"]`, or state a form in `stated`'
+            )
+    reason = min(reversed(reasons), key=lambda reason: reason.worst)
+    remedy = "" if "state a form" in str(reason) else "; or state a form"
+    raise UnreachableError(f"{formula.name}: {reason}{remedy} in `stated`") from None
+
+
+def _first_accurate(
+    forms: Iterator[ProductForm],
+    add: Callable[[ProductForm], tuple[ProductForm, float]],
+    reasons: list[UnreachableError],
+) -> None:
+    """Test forms until one is clearly accurate; reasons why others are not are collected."""
+    for made in forms:
+        with collected(reasons):
+            if add(made)[1] <= ENOUGH / 2:
+                return

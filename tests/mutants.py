@@ -105,7 +105,7 @@ def of_module(text: str, skipped: Sequence[str] = ()) -> Iterator[CodeMutant]:
         if isinstance(node, ast.FunctionDef | ast.ClassDef | ast.Module) and ast.get_docstring(
             node
         ):
-            node.body[0] = ast.Pass()
+            node.body[0] = ast.Expr(ast.Constant(""))
     for place in _formulas(tree, (*SKIPPED, *skipped)):
         original = ast.unparse(place.node)
         inside = f" in {ast.unparse(place.parent)}" if isinstance(place.node, ast.Constant) else ""

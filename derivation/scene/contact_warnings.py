@@ -42,14 +42,14 @@ def fall_warnings(gravity: float, rebound_speed: float, deflection: float) -> tu
     rebound_speed
         Speed of the sphere after the last contact [m/s].
     deflection
-        Largest deflection of the plate [m].
+        Largest deflection of the plate after the last contact [m].
     """
     rise = 0.5 * rebound_speed**2 / gravity if gravity and rebound_speed > 0.0 else float("inf")
     if rise > deflection:
         return ()
     text = (
-        f"after the impact the sphere rises by {rise:.2g} m, less than the plate deflects "
-        f"({deflection:.2g} m): its weight returns it to a plate that still vibrates, and the "
+        f"after the impact the sphere rises by {rise:.2g} m, and the plate still vibrates by "
+        f"{deflection:.2g} m: the weight returns the sphere to a moving plate, and the "
         "restitution does not include the contacts that follow"
     )
     return (text,)

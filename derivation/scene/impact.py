@@ -130,7 +130,8 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
     if motion is not None:
         speeds = [touch.relative_approach_speed for touch in motion.inertia.contacts]
         warnings += grazing_warnings(speeds, motion.least)
-        warnings += fall_warnings(model.gravity, motion.restitution * model.v0, deflection or 0.0)
+        rebound = motion.restitution * model.v0
+        warnings += fall_warnings(model.gravity, rebound, motion.later_deflection)
     return Result(
         *numbers, pressure, accuracy, model_error, warnings, scene,
         selected.grown(growth_of(motion)), inertia_neglected=neglected,

@@ -8,13 +8,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from derivation.scene import contact_sequence, wave_motion
+from derivation.scene import contact_sequence
 from derivation.scene.collocation import largest_of
 from derivation.scene.contact_sequence import ContactRun
 from derivation.scene.contact_tables import contact_of
 from derivation.scene.dynamic_problem import DynamicProblem
 from derivation.scene.effects.effect import Array
 from derivation.scene.effects.inertia import WIDER
+from derivation.scene.history_at import rows_of
 from derivation.scene.law import ContactLaw
 from derivation.scene.modal import ModalPlate, Modes
 from derivation.scene.motion import EnergyBalance, Motion
@@ -40,7 +41,7 @@ class PlasticMotion(Motion):
         assert problem is not None
         assert touching is not None
         inside = np.minimum(times / problem.T, touching.end)
-        rows = wave_motion.rows_of(problem, touching, inside)
+        rows = rows_of(problem, touching, inside)
         depth, velocity = problem.depth * rows[Z], problem.v0 * rows[V]
         return depth, velocity, problem.a * rows[A], problem.force * rows[P]
 

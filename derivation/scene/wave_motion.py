@@ -9,22 +9,18 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.polynomial.legendre import legvander
 from numpy.typing import NDArray
 
-from derivation.scene import contact_sequence
-from derivation.scene.collocation import ONSET, Element
 from derivation.scene.contact_sequence import ImpactHistory
-from derivation.scene.dynamic_problem import DynamicProblem, ImpactState
 from derivation.scene.effects.effect import Array, Results
-from derivation.scene.flight import AT_ONCE
+from derivation.scene.history_at import deflections, rows_of
 from derivation.scene.html import html_table
 from derivation.scene.law import ContactLaw
 from derivation.scene.limits import local_indentation
 from derivation.scene.motion import EnergyBalance, Motion
 from derivation.scene.quantity import counted
 from derivation.scene.scene import OUTPUTS
-from derivation.scene.time_element import DAMPED, A, E, P, V, W, Z, deflections_at, nodes_of
+from derivation.scene.time_element import DAMPED, A, E, P, V, W, Z
 
 IRREGULAR, LATE = 2.0, 2.5
 """Estimated error of the omitted modes over the change since half as many modes [1]: of a result,
@@ -239,22 +235,25 @@ class DynamicImpact(Motion):
         the local indentation. It includes flight, and one period of the slowest mode after the
         last contact.
         """
-        problem, found = self.impact_history.problem, 0.0
-        slowest = float(np.min(problem.omega, initial=np.inf))
-        contacts = self.impact_history.contacts
-        ends = [touching.start for touching in contacts[1:]]
-        ends.append(contacts[-1].end + 2.0 * np.pi / slowest)
-        for touching, rows, end in zip(contacts, self._touching, ends, strict=True):
+        found, contacts = self.later_deflection, self.impact_history.contacts
+        for rows in self._touching:
             a = np.minimum(np.maximum(rows[A], 0.0), law.limit)
-            local = local_indentation(law, a)
-            flight = np.linspace(touching.end, end, FLIGHT) * problem.T
-            found = max(
-                found,
-                float(np.max(np.abs(rows[Z] - local))),
-                float(np.max(np.abs(rows[W]))),
-                float(np.max(np.abs(self.rows(flight)[W]))),
-            )
-        return found
+            free = rows[Z] - local_indentation(law, a)
+            found = max(found, float(np.max(np.abs(free))), float(np.max(np.abs(rows[W]))))
+        flights = (self._in_flight(one.end, other.start) for one, other in pairwise(contacts))
+        return max(found, *flights, 0.0)
+
+    @cached_property
+    def later_deflection(self) -> float:
+        """Largest deflection at the axis in one period of the slowest mode after the impact [m]."""
+        problem, end = self.impact_history.problem, self.impact_history.contacts[-1].end
+        slowest = float(np.min(problem.omega, initial=np.inf))
+        return self._in_flight(end, end + 2.0 * np.pi / slowest)
+
+    def _in_flight(self, start: float, end: float) -> float:
+        """Return the largest deflection at the axis [m] between two times in problem units."""
+        times = np.linspace(start, end, FLIGHT) * self.impact_history.problem.T
+        return float(np.max(np.abs(self.rows(times)[W])))
 
     def to_json(self) -> dict[str, Any]:
         """Return contacts, energies and error estimates under fixed keys, in SI units."""
@@ -336,65 +335,6 @@ class DynamicImpact(Motion):
         return problem.depth * np.array(found)
 
 
-def deflections(history: ImpactHistory, t: float) -> Array:
-    """Return the deflection of each shape at the axis at a time, in units of the problem."""
-    problem = history.problem
-    starts = [touching.start for touching in history.contacts]
-    touching = history.contacts[max(int(np.searchsorted(starts, t, side="right")) - 1, 0)]
-    if t > touching.end:
-        q = problem.flown(touching.after, t - touching.end).q
-        return problem.contact.modes.by_shape(q)
-    pieces = touching.pieces
-    x = (max(t - touching.start, 0.0) + pieces[0].element.x ** ONSET) ** (1.0 / ONSET)
-    index = max(int(np.searchsorted([piece.element.x for piece in pieces], x, side="right")) - 1, 0)
-    before, radius = touching.before, touching.radius
-    if index:
-        before, radius = pieces[index - 1].end, pieces[index - 1].radius
-    return oscillating(problem, pieces[index].element, before, radius, x)
-
-
-def oscillating(
-    problem: DynamicProblem, found: Element, start: ImpactState, radius: float, x: float
-) -> Array:
-    """Return the deflection of each shape at x, computed as the end of a shorter element."""
-    if x <= found.x:
-        return problem.contact.modes.by_shape(start.q)
-    length = min(x - found.x, found.length)
-    nodes = nodes_of(problem, found.slope.size, found.x, length, start)
-    q = deflections_at(problem, nodes, radius, found.slope_at(nodes.x))
-    return np.asarray(q[-1], dtype=np.float64)
-
-
 def _minima(force: Array) -> NDArray[np.intp]:
     """Return the places of the minima between two maxima."""
     return 1 + np.flatnonzero((force[1:-1] <= force[:-2]) & (force[1:-1] < force[2:]))
-
-
-def rows_of(problem: DynamicProblem, touching: contact_sequence.ContactRun, t: Array) -> Array:
-    """Return the rows in a contact and in the flight after it, at times in problem units."""
-    found = np.zeros((DAMPED + 1, t.size))
-    pieces, inside = touching.pieces, t <= touching.end
-    starts, lengths = np.array([(one.element.x, one.element.length) for one in pieces]).T
-    since = np.maximum(t - touching.start, 0.0) + starts[0] ** ONSET
-    x = since ** (1.0 / ONSET)
-    place = np.searchsorted(starts, x, side="right") - 1
-    x = np.minimum(x, starts[-1] + lengths[-1])
-    s = 2.0 * (x[inside] - starts[place[inside]]) / lengths[place[inside]] - 1.0
-    basis = np.zeros((t.size, pieces[0].element.slope.size))
-    basis[inside] = legvander(s, basis.shape[1] - 1)
-    for index in np.unique(place[inside]):
-        here = inside & (place == index)
-        found[:, here] = pieces[index].element.rows @ basis[here].T
-        branch = pieces[index].yielding
-        if branch is not None:
-            a = problem.a * np.maximum(found[A, here], 0.0)
-            found[A, here] = branch.widened(a, problem.contact.at(a).force) / problem.a
-    flight = np.flatnonzero(~inside)
-    block = max(1, AT_ONCE // max(problem.omega.size, 1))
-    for indices in (flight[k : k + block] for k in range(0, flight.size, block)):
-        flights = problem.flights(touching.after, t[indices] - touching.end)
-        found[V, indices], found[Z, indices], found[W, indices], found[E, indices] = flights
-    found[[A, P]] = np.maximum(found[[A, P]], 0.0)
-    if not touching.radius:  # exact, without the rounding error of the polynomial
-        found[A, t == touching.start] = 0.0
-    return found

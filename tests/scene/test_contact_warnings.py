@@ -42,4 +42,4 @@ def test_a_warning_tells_whether_the_sphere_meets_the_plate_while_it_rises_and_f
     after = history.contacts[-1].after
     meets = any(flying.flown(after, float(t)).approach > 0.0 for t in times)
     assert meets == (gravity == G)
-    assert any("its weight returns it" in text for text in result.warnings) == meets
+    assert any("the weight returns the sphere" in text for text in result.warnings) == meets

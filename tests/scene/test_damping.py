@@ -9,9 +9,9 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 from derivation.scene import SceneError, explain, indent, read, simulate
+from derivation.scene.history_at import deflections
 from derivation.scene.result import Result
 from derivation.scene.scene import OUTPUTS
-from derivation.scene.wave_motion import deflections
 
 GLASS = {
     "sphere": {"radius": 0.01, "density": 7850.0},

@@ -5,13 +5,11 @@ With A = a/h, eta = h/b, alpha = a/b = A eta < 1 and g = 3 (sin y - y cos y)/y^3
     F   = W(alpha) + (8 alpha/(3 pi)) sum_n w_n g(alpha j_n)
     w_n = (G(2 eta j_n) - 1)/(j_n J1(j_n)^2)
 
-F/A is analytic in A^2; its nearest singularities are at A = 4i and alpha = 2. Up to
-reach = min(REACH, 1/eta) F/A is one polynomial in (A/reach)^2, up to A = FAR_REACH a second one,
-and beyond that the modal sum is used. The coefficients come from tables. For eta >= 1/REACH they
-are an exact linear map of the first weights w_n; below, the thin-plate form plus a remainder.
+F/A is analytic in A^2, with its nearest singularities at A = 4i and alpha = 2: one polynomial up to
+reach = min(REACH, 1/eta), a second one up to FAR_REACH, the modal sum beyond. The coefficients are
+tabulated: for eta >= 1/REACH an exact linear map of the first w_n, else a thin plate and remainder.
 
-Arithmetic: Horner's rule in place, as blocks of points fit in the cache; for one sphere on a plate
-a polynomial of a; the scaling of the variables; and the number of modes in the direct sum.
+Arithmetic: Horner's rule in place; scaling of the variables; number of modes in the direct sum.
 """
 
 from __future__ import annotations

@@ -5,9 +5,8 @@ indentation, energy conservation gives every time as an integral of a smooth fun
 
     t = (delta_m/v0) int 2 (d(delta/delta_m)/dq)/sqrt((1 - E(q)/E_m)/(1 - q)) dw,   q = w (2 - w)
 
-Arithmetic: Newton's and Halley's iterations with their starting values; the sums of the
-quadrature, doubled for both halves of a contact; powers that scale the polynomials' terms;
-scaling of times and results; the change of variable q = w (2 - w).
+Arithmetic: Newton's and Halley's iterations with their starting values; the sums of the quadrature;
+powers that scale the polynomials' terms; scaling of times and results; q = w (2 - w).
 """
 
 from __future__ import annotations

@@ -11,9 +11,11 @@ from derivation.scene import rows_grouping as grouping
 from derivation.scene import rows_selection as selection
 from derivation.scene.columns import models_of
 from derivation.scene.rows import Rows, solve
-from derivation.scene.scene import Scene
+from derivation.scene.scene import OUTPUTS, Scene
 
 COUNT = 4000
+STEEL = {"radius": 0.3, "thickness": 0.2, "material": "steel", "yield_stress": 5e8}
+"""A thick plate that yields from 0.0117 m/s on."""
 
 
 def on_glass(edge: str) -> Scene:
@@ -48,6 +50,30 @@ def equal(left: Rows, right: Rows) -> None:
         np.testing.assert_array_equal(getattr(left, name), getattr(right, name), name)
     for name, values in left.results.items():
         np.testing.assert_array_equal(values, right.results[name], name)
+
+
+@pytest.mark.parametrize("order", [1, -1])
+def test_groups_are_divided_at_the_onset_of_yield(
+    order: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The row that decides for a group may yield while others do not, and the reverse."""
+    tables = on_glass("paper").to_json() | {"plate": STEEL}
+    scene = read(tables)
+    model, _ = models_of(scene, {"impact.speed": np.linspace(0.011, 0.0125, COUNT)[::order]})
+    rtol = np.full(COUNT, 1e-6)
+
+    def effects() -> list[str]:
+        found = ["simulated singly"] * COUNT
+        for group in selection.selected(model, scene.effects.model_dump(), rtol, OUTPUTS):
+            assert isinstance(group, selection.Group)
+            for row in group.rows:
+                found[row] = " ".join(sorted(group.law.effects))
+        return found
+
+    with_groups = effects()
+    assert len(set(with_groups)) > 1
+    monkeypatch.setattr(grouping, "SHARE", 0.0)
+    assert effects() == with_groups
 
 
 def test_groups_save_bounds(monkeypatch: pytest.MonkeyPatch) -> None:

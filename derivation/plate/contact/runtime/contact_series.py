@@ -5,9 +5,9 @@ With A = a/h, eta = h/b, alpha = a/b = A eta < 1 and g = 3 (sin y - y cos y)/y^3
     F   = W(alpha) + (8 alpha/(3 pi)) sum_n w_n g(alpha j_n)
     w_n = (G(2 eta j_n) - 1)/(j_n J1(j_n)^2)
 
-F/A is analytic in A^2, with its nearest singularities at A = 4i and alpha = 2: one polynomial up to
-reach = min(REACH, 1/eta), a second one up to FAR_REACH, the modal sum beyond. The coefficients are
-tabulated: for eta >= 1/REACH an exact linear map of the first w_n, else a thin plate and remainder.
+F/A is analytic in A^2; its nearest singularities are A = 4i and alpha = 2. It is one polynomial up
+to reach = min(REACH, 1/eta), a second one up to FAR_REACH, and the modal sum beyond. Coefficients
+are linear maps of the first w_n for eta >= 1/REACH, else those of a thin plate and a remainder.
 
 Arithmetic: Horner's rule in place; scaling of the variables; number of modes in the direct sum.
 """

@@ -89,7 +89,9 @@ def assumed_yield_stress(scene: Scene, pressure: float, bending: float) -> str:
         Largest tensile stress on the back face of the plate [Pa].
     """
     own, contact = own_materials(scene.materials), pressure / YIELD_LIMIT
-    bodies = {"sphere": body_of(scene.sphere, own), "plate": body_of(scene.plate, own)}
+    bodies = {"sphere": body_of(scene.sphere, own)}
+    if scene.measured is None or scene.measured.solve_for != "yield_stress":
+        bodies["plate"] = body_of(scene.plate, own)
     assumed = {
         name: max(contact, bending) if name == "plate" else contact
         for name, body in bodies.items()

@@ -1,6 +1,7 @@
 """The effects, from what each effect's class says of itself, and what a scene's selection says."""
 
 import inspect
+from textwrap import fill
 
 import platecontact as pc
 
@@ -54,7 +55,7 @@ def choice() -> str:
 def example() -> str:
     """Return what `explain` says of an example scene."""
     scene = pc.load(EXAMPLE)
-    return "\n\n".join([block(EXAMPLE.read_text(), "toml"), block(str(pc.explain(scene)))])
+    return "\n\n".join([block(EXAMPLE.read_text(), "toml"), block(fill(str(pc.explain(scene)), 80))])
 
 
 def _facts(effect: Effect) -> str:

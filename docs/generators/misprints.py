@@ -1,7 +1,10 @@
 """The misprints of the paper, as the comparison of published and derived formulas finds them."""
 
+import pypandoc
+
 from derivation.engine.errata.findings import Finding
 from derivation.engine.formula.notation import to_markdown
+from derivation.engine.report.contexts import finding_context
 from docs.generators.markdown import table
 
 
@@ -33,11 +36,19 @@ def _section(finding: Finding) -> str:
     if said["says"]:
         parts.append(f"The paper says: {to_markdown(finding.printed.says)}.")
     parts += ["As derived:", _formula(said["derived_latex"] or "")]
-    parts.append(f"Correction: {to_markdown(finding.repair)}.")
-    if said["dimension"]:
-        parts.append(f"Dimension: {to_markdown(said['dimension'])}.")
+    parts += _typeset(finding)
     parts.append(f"The difference was found {said['method']}.")
     return "\n\n".join(parts)
+
+
+def _typeset(finding: Finding) -> list[str]:
+    """Return the correction and the dimensions as Markdown, with typeset formulas."""
+    typeset = finding_context(finding)
+    said = f"Correction: {typeset['repair']}."
+    if typeset["dimension"]:
+        said += f"\n\nDimension: {typeset['dimension']}."
+    wide = ["--wrap=none"]
+    return [pypandoc.convert_text(said, "commonmark_x", format="latex", extra_args=wide)]
 
 
 def _anchor(finding: Finding) -> str:

@@ -48,3 +48,11 @@ def test_nothing_is_assumed_of_rigid_bodies_and_of_known_yield_stresses() -> Non
 def test_plate_in_bending_needs_the_stress_of_its_back_face() -> None:
     text = assumed_yield_stress(read(SCENE), pressure=1.6e9, bending=2e9)
     assert "1.00 GPa (sphere) and 2.00 GPa (plate, in bending)" in text
+
+
+def test_yield_stress_that_a_measured_restitution_determines_is_known() -> None:
+    measured = {"restitution": 0.6, "solve_for": "yield_stress", "tested_at": 1.0}
+    text = " ".join(str(simulate(read(SCENE | {"measured": measured}))).split())
+    assert "no yield stress is given for the sphere; the results assume at least" in text
+    known = changed(sphere={"yield_stress": 1e12}) | {"measured": measured}
+    assert assumed(known) is None

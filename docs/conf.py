@@ -25,6 +25,7 @@ extensions = [
 exclude_patterns = ["gallery/*.py", "generators"]
 templates_path: list[str] = []
 
+smartquotes = False  # `--paper` would become a dash
 myst_enable_extensions = ["attrs_inline", "dollarmath"]
 myst_heading_anchors = 3
 

@@ -55,7 +55,8 @@ def choice() -> str:
 def example() -> str:
     """Return what `explain` says of an example scene."""
     scene = pc.load(EXAMPLE)
-    return "\n\n".join([block(EXAMPLE.read_text(), "toml"), block(fill(str(pc.explain(scene)), 80))])
+    said = fill(str(pc.explain(scene)), 80)
+    return "\n\n".join([block(EXAMPLE.read_text(), "toml"), block(said)])
 
 
 def _facts(effect: Effect) -> str:

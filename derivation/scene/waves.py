@@ -8,6 +8,7 @@ from its edge during the contacts.
 """
 
 import math
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -51,8 +52,9 @@ that omitted modes and branches together may take."""
 INTEGRATION, GROWTH, ROUNDING = 10.0, 1e-12, 2e-12
 """Tested bounds [1]: error of the results over the tolerance of the time elements and the number of
 contacts; rounding error amplified by contacts, over the cube of their number; other rounding."""
-ONCE = 2.0
-"""Factor by which twice as many modes reduce an error, if a tolerance is to be met by them."""
+ONCE, FINAL = 5.0, 7e7
+"""If the error by omitted modes is at most `ONCE` times too large, one more run is made beyond the
+limits, with at most the work `FINAL`: twice as many modes often reduce the error more."""
 LONG = 1.5e6
 """Expected work of the second run above which coarser runs first check the first one."""
 FOURTH = 8
@@ -172,10 +174,9 @@ def _branched(
     except OutOfReachError:
         return every, None
     budget.left -= history.work
-    if history.reason == ENOUGH:
-        return every, None
     rough = dynamic_impact_of(lowest, history)
-    if rough.inertia.complete and rough.inertia.left(outputs)[1] > room:
+    beyond_room = rough.inertia.complete and rough.inertia.left(outputs)[1] > room
+    if history.reason == ENOUGH or beyond_room:
         return every, None
     return lowest, rough
 
@@ -225,9 +226,10 @@ def _converged(
     if estimated is None:
         rough = _with_earlier(rough, law, count, reach, budget)
     best: DynamicImpact | None = None
+    most: float | None = None
     while True:
         try:
-            run = _run(law, more, budget, close, coarse=rough.impact_history)
+            run = _run(law, more, budget, close, coarse=rough.impact_history, most=most)
         except SceneError:
             if best is None:
                 raise
@@ -246,19 +248,18 @@ def _converged(
         if change <= enough:
             return best
         work = _next_work(law, more, best)
-        if beyond_limits(law, count, used, almost) and not _once_more(best, work, reach, budget):
-            return best
+        if beyond_limits(law, count, used, almost):
+            if most or work > FINAL or not _near(best, reach):
+                return best
+            most = FINAL
         if unreachable(best, law, count, work, reach):
             return best
 
 
-def _once_more(run: DynamicImpact, work: float, reach: Reach, budget: Budget) -> bool:
+def _near(run: DynamicImpact, reach: Reach) -> bool:
     """Return whether results that do not meet the tolerance probably do after one more doubling."""
     modes, branches = run.inertia.left(reach.outputs)
-    near = modes <= ONCE * (reach.need - branches)
-    return (
-        modes + branches > reach.need and near and work <= min(contact_sequence.WORK, budget.left)
-    )
+    return modes + branches > reach.need and modes <= ONCE * (reach.need - branches)
 
 
 def _accepted_change(run: DynamicImpact, goal: float, reach: Reach) -> float:
@@ -299,11 +300,11 @@ def _run(
     fewer_nodes: int = 0,
     coarse: ImpactHistory | None = None,
     reach: Reach | None = None,
+    most: float | None = None,
 ) -> DynamicImpact:
     """Return the impact with a number of bending modes.
 
-    If the work estimated from a coarser run is too large, the coarser run is returned, marked as
-    incomplete.
+    If the work estimated from a coarser run is too large, that run is returned as incomplete.
 
     Parameters
     ----------
@@ -315,10 +316,12 @@ def _run(
         A run with fewer modes, if there is one.
     reach
         The tolerance, if the run ends when omitted wave branches exceed it.
+    most
+        Largest work, if it differs from that of every run.
     """
     problem = problem_of(law, count, tolerance)
     n = nodes_for(problem) - fewer_nodes
-    work = min(contact_sequence.WORK, budget.left)
+    work = most or min(contact_sequence.WORK, budget.left)
     if coarse and expected_work(problem, n, coarse) > work:
         fewer = count // 2
         while fewer > 1 and expected_work(problem_of(law, fewer, tolerance), n, coarse) > work:
@@ -341,11 +344,10 @@ def _within(
     law: ContactLaw, problem: DynamicProblem, n: int, tolerance: float, work: float
 ) -> DynamicImpact | None:
     """Return a complete impact if it needs no more than some work, else None."""
-    try:
+    with suppress(SceneError):
         history = contact_sequence.impact_history(problem, n, tolerance, work)
-    except SceneError:
-        return None
-    return dynamic_impact_of(law, history) if history.complete else None
+        return dynamic_impact_of(law, history) if history.complete else None
+    return None
 
 
 def _of_chosen_modes(
@@ -372,9 +374,8 @@ def _by_coarser(
 ) -> tuple[DynamicImpact, DynamicImpact] | None:
     """Return the first run with an error estimate by coarser ones, less work than a finer one.
 
-    The second one has the change since half as many modes alone.
-
     As in `_of_chosen_modes`, the larger change since half and since a quarter as many modes counts.
+    The second result has the change since half as many modes alone.
     None if the scene gives a number of modes, the modes of the first run are slower than the
     contact, or a coarser run fails, is incomplete or has entirely different results.
     """

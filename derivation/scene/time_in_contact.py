@@ -100,9 +100,7 @@ def check_long(law: ContactLaw, tolerance: float) -> None:
         _check_time_in_contact(law, tolerance)
         return
     swing = half_period(model.m, modes)
-    problem = problem_of(law, 2 * affordable(law), tolerance)
-    n = nodes_for(problem)
-    steps, most = _steps(problem, n, IN_CONTACT * swing), contact_sequence.steps_of(problem, n)
+    steps, most = _steps(law, 2 * affordable(law), tolerance, IN_CONTACT * swing)
     if steps > most:
         raise SceneError(
             f"effects.inertia: the sphere is {ratio:.3g} times as heavy as the first mode of the "
@@ -118,9 +116,7 @@ def _check_time_in_contact(law: ContactLaw, tolerance: float) -> None:
         law = branching(law, "A0")
     count = affordable(law)
     least = time_in_contact(law, plate_of(law, min(count, STOPPED)).modes)
-    problem = problem_of(law, count, tolerance)
-    n = nodes_for(problem) - FEWER
-    steps, most = _steps(problem, n, least), contact_sequence.steps_of(problem, n)
+    steps, most = _steps(law, count, tolerance, least, FEWER)
     if steps > most:
         raise SceneError(
             f"effects.inertia: expected a sphere that leaves the plate within the limit of {most} "
@@ -130,6 +126,18 @@ def _check_time_in_contact(law: ContactLaw, tolerance: float) -> None:
         )
 
 
-def _steps(problem: DynamicProblem, n: int, time: float) -> float:
-    """Return the least number of time elements of n nodes during a time [s] in contact."""
-    return time / problem.T * problem.fastest / (contact_sequence.PHASE * n)
+def _steps(
+    law: ContactLaw, count: int, tolerance: float, time: float, fewer: int = 0
+) -> tuple[float, int]:
+    """Return the least number of time elements during a time [s] in contact, and their limit.
+
+    The tables of the contact, on which the limit depends, are computed only if they are needed:
+    with thousands of modes they would take minutes.
+    """
+    each = time * float(np.max(plate_of(law, count).modes.omega)) / contact_sequence.PHASE
+    steps, most = each / NODES[0], contact_sequence.ELEMENTS
+    if steps <= most:
+        problem = problem_of(law, count, tolerance)
+        n = nodes_for(problem) - fewer
+        steps, most = each / n, contact_sequence.steps_of(problem, n)
+    return steps, most

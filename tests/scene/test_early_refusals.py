@@ -157,3 +157,17 @@ def test_stated_tolerance_allows_for_what_follows_the_early_refusal() -> None:
     tolerance = float(stated[1])
     met = simulate(read(scene | {"accuracy": {"rtol": tolerance}}))
     assert met.accuracy.bound <= tolerance
+
+
+def test_a_sphere_far_too_heavy_is_refused_before_its_contact_is_tabulated(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The tables of thousands of modes would take minutes."""
+    monkeypatch.setattr("derivation.scene.time_in_contact.problem_of", pytest.fail)
+    heavy = {
+        "sphere": {"radius": 1e15, "material": "steel"},
+        "plate": {"radius": 4.5, "thickness": 4.7, "material": "steel"},
+        "impact": {"speed": 10.0},
+        "effects": {"edge": False},
+    }
+    assert "more than the limit of 20000" in refusal(heavy)

@@ -38,6 +38,8 @@ Indices = NDArray[np.intp]
 Parts = tuple[tuple[slice, slice, Indices, Indices], ...]
 SMALL = 1e-6
 """Contact radius over plate radius and thickness at which a contact counts as a point."""
+MOST_BELOW_CUTOFF = 100_000
+"""Largest number of bending modes of a clamped or simply supported plate, computed in a second."""
 
 
 @dataclass(frozen=True)
@@ -287,12 +289,19 @@ def _waves(model: Model) -> "Waves":
     Raises
     ------
     SceneError
-        If the plate is too thick for a bending mode of this edge.
+        If the plate is too thick for a bending mode of this edge, or so thin that it has more than
+        `MOST_BELOW_CUTOFF`.
     """
-    from generated.edge_modes import THICKEST
+    from generated.edge_modes import THICKEST, cutoff
 
     if model.eta > THICKEST:
         raise _too_thick(model)
+    if cutoff(model.poissons_ratio) > math.pi * MOST_BELOW_CUTOFF * model.eta:
+        raise SceneError(
+            f"plate.edge: expected a {model.edge} plate with at most {MOST_BELOW_CUTOFF} bending "
+            f"modes below the cut-off frequency, got a radius of {model.b:.3g} m and a thickness of "
+            f'{2.0 * model.h:.3g} m; reduce the radius, or set extent = "infinite" in [inertia]'
+        )
     modes = _edge_waves(model.edge, model.eta, model.poissons_ratio)
     if not modes.k.size:
         raise _too_thick(model)

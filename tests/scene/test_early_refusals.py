@@ -171,3 +171,14 @@ def test_a_sphere_far_too_heavy_is_refused_before_its_contact_is_tabulated(
         "effects": {"edge": False},
     }
     assert "more than the limit of 20000" in refusal(heavy)
+
+
+@pytest.mark.parametrize("edge", ["clamped", "simply-supported"])
+def test_plate_with_far_too_many_modes_is_refused_before_they_are_computed(edge: str) -> None:
+    """A plate of 20 km would need hundreds of gigabytes."""
+    plate = {"radius": 2e4, "thickness": 0.01, "material": "glass", "edge": edge}
+    sphere = {"radius": 0.01, "material": "steel"}
+    text = refusal({"sphere": sphere, "plate": plate, "impact": {"speed": 1.0}})
+    assert "at most 100000 bending modes" in text
+    free = {"inertia": {"extent": "infinite"}}
+    assert simulate(read({"sphere": sphere, "plate": plate, "impact": {"speed": 1.0}} | free))

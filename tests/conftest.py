@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from hypothesis import settings
 
+from derivation.engine.threads import one_thread
 from derivation.plate import derived
 from derivation.plate.vocabulary import Formula
 
@@ -24,6 +25,10 @@ if TYPE_CHECKING:  # these modules import the generated package, which may be mi
 sys.dont_write_bytecode = False
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
+# Libraries that are loaded later, and processes, multiply matrices in one thread. The threads of
+# two test processes on two cores would wait for one another, which takes several times as long.
+os.environ.update(dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"), "1"))
+
 # Expressions of SymPy are many small objects that stay. To search them for garbage at the usual
 # threshold of 700 takes a sixth of the time of tests with formulas.
 gc.set_threshold(50_000, 20, 20)
@@ -31,6 +36,13 @@ gc.set_threshold(50_000, 20, 20)
 # The same draws in every run, however slow; `pytest --hypothesis-profile default` draws others.
 settings.register_profile("same", derandomize=True, deadline=None, database=None)
 settings.load_profile("same")
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _one_thread() -> Iterator[None]:
+    """Multiply matrices in one thread also in the libraries that are loaded already."""
+    with one_thread():
+        yield
 
 
 @pytest.fixture(scope="session")

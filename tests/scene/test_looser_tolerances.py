@@ -41,9 +41,9 @@ def scenes(draw: st.DrawFn, disabled: tuple[str, ...] = ()) -> Scene:
     })  # fmt: skip
 
 
-@given(scenes())
+@given(scenes(), st.sampled_from(TOLERANCES))
 @settings(max_examples=40)
-def test_small_parts_are_not_subtracted_from_the_whole_plate(scene: Scene) -> None:
+def test_small_parts_are_not_subtracted_from_the_whole_plate(scene: Scene, shown: float) -> None:
     """A part of the plate is not subtracted from the whole plate, which would be slower."""
     included = [frozenset[str]()]
     for rtol in TOLERANCES:
@@ -52,7 +52,8 @@ def test_small_parts_are_not_subtracted_from_the_whole_plate(scene: Scene) -> No
         assert not differs or actual.law.effects >= WHOLE_PLATE
         assert actual.law.effects >= included[-1]
         included.append(actual.law.effects)
-        assert repr(explain(scene, rtol).effects) == repr(actual)  # also where a value is NaN
+        if rtol == shown:  # `repr` also compares values that are NaN
+            assert repr(explain(scene, rtol).effects) == repr(actual)
         for row in actual.rows:
             if row.reason.startswith("required by"):
                 other = row.reason.removeprefix("required by ")

@@ -170,11 +170,12 @@ def taken_port(number: int) -> Iterator[None]:
         yield
 
 
-def test_processes_keep_freed_memory_beside_another_study() -> None:
+def test_processes_keep_freed_memory_beside_another_study(monkeypatch: pytest.MonkeyPatch) -> None:
     """Dask's default returns memory at once, which costs large simulations a third of their time.
 
     The other study has Dask's default port, which is no reason for a warning.
     """
+    monkeypatch.delenv("OPENBLAS_NUM_THREADS")
     with taken_port(8787), run._client(None, 1) as client:
         actual = client.submit(os.environ.get, "MALLOC_TRIM_THRESHOLD_").result()
         threads = client.submit(os.environ.get, "OPENBLAS_NUM_THREADS").result()

@@ -63,13 +63,17 @@ LAW: Facts = {
 
 def reduce(expression: sp.Expr) -> sp.Expr:
     """Simplify an expression; products written with `TIMES` are multiplied out first."""
-    reduced = expression.replace(TIMES, lambda first, *powers: first * _powers(powers))
-    return sp.simplify(sp.powdenest(reduced, force=True))
+    return sp.simplify(sp.powdenest(without_scaling(expression), force=True))
 
 
-def _powers(powers: tuple[sp.Expr, ...]) -> sp.Expr:
-    pairs = zip(powers[::2], powers[1::2], strict=True)
-    return sp.Mul(*(base**power for base, power in pairs))
+def without_scaling(expression: sp.Expr) -> sp.Expr:
+    """Return the expression with range-safe products replaced by plain ones."""
+
+    def product(first: sp.Expr, *powers: sp.Expr) -> sp.Expr:
+        pairs = zip(powers[::2], powers[1::2], strict=True)
+        return first * sp.Mul(*(base**power for base, power in pairs))
+
+    return expression.replace(TIMES, product)
 
 
 def root(

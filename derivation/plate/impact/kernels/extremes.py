@@ -4,8 +4,8 @@ import sympy as sp
 
 from derivation.engine.emit.named import Claims, named_routine
 from derivation.engine.emit.routine import Several
+from derivation.plate.contact.kernels.law import MODULUS, root
 from derivation.plate.contact.theory.hertz import contact_radius
-from derivation.plate.impact.kernels.inversion import MODULUS, root
 from derivation.plate.impact.theory.impact import work_of_contact
 from derivation.plate.impact.theory.sensitivity import energy_number
 from derivation.plate.vocabulary import R, a, h, m, mu, v0

@@ -4,10 +4,10 @@ import sympy as sp
 
 from derivation.engine.emit.named import Claims, named_routine
 from derivation.engine.emit.package import Routines
-from derivation.engine.emit.routine import Let, Several
+from derivation.engine.emit.routine import Let
 from derivation.engine.formula.proof import prove
 from derivation.engine.rewrite.form import TIMES
-from derivation.plate.contact.theory.hertz import contact_radius
+from derivation.plate.contact.kernels.law import MODULUS, root, without_scaling
 from derivation.plate.contact.theory.reversion import (
     LAST_P,
     force_coefficients,
@@ -20,27 +20,6 @@ from derivation.plate.vocabulary import R, a, a_ratio, delta, h, mu
 
 n, radius, modulus, bracket, circle = sp.symbols("n radius modulus bracket circle", positive=True)
 F, indentation_ratio = sp.symbols("F indentation_ratio", complex=True)
-MODULUS = contact_radius().expression * R / a**3 / mu
-"""(4/3) E* over mu."""
-
-
-def without_scaling(expression: sp.Expr) -> sp.Expr:
-    """Return the expression with range-safe products replaced by plain ones."""
-
-    def product(first: sp.Expr, *powers: sp.Expr) -> sp.Expr:
-        pairs = zip(powers[::2], powers[1::2], strict=True)
-        return first * sp.Mul(*(base**power for base, power in pairs))
-
-    return expression.replace(TIMES, product)
-
-
-def root(
-    symbol: sp.Symbol, degree: int, factors: tuple[sp.Expr, ...], *divisors: sp.Expr
-) -> Several:
-    """Return ``symbol = root(degree, factors, divisors)``, which stays in the range of doubles."""
-    exact = (sp.Mul(*factors) / sp.Mul(*divisors)) ** sp.Rational(1, degree)
-    below = (sp.Tuple(*divisors),) if divisors else ()
-    return Several((symbol,), "root", (sp.Integer(degree), sp.Tuple(*factors), *below), (exact,))
 
 
 @named_routine

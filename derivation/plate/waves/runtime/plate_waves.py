@@ -128,19 +128,31 @@ def _between(
     terms: Callable[..., tuple[Double, Double, Double]],
     *plate: Double,
 ) -> Double:
-    """Return kap - x^2 of the zero in each interval, by Newton's method with bisection."""
-    low, high = edges[:, :-1].copy(), edges[:, 1:].copy()
-    over = 0.5 * (low + high)
-    sign, open_ = terms(over, *plate)[2], high > low
+    """Return kap - x^2 of the zero in each interval, by Newton's method with bisection.
+
+    Most zeros are found in a few steps, some only by many bisections: each step is made for the
+    zeros that are not found yet.
+    """
+    sizes = floor.shape
+    low, high, floor, *own = (
+        np.ravel(np.broadcast_to(y, sizes)) for y in (edges[:, :-1], edges[:, 1:], floor, *plate)
+    )
+    zeros = 0.5 * (low + high)
+    sign, open_ = terms(zeros, *own)[2], high > low
+    place, over = np.arange(zeros.size), zeros
     for _ in range(_MOST):
-        value, change, _ = terms(over, *plate)
+        if not open_.any():
+            break
+        place, low, high, floor, sign, over, *own = (
+            y[open_] for y in (place, low, high, floor, sign, over, *own)
+        )
+        value, change, _ = terms(over, *own)
         beyond = value * sign > 0
         low, high = np.where(beyond, low, over), np.where(beyond, over, high)
         new = over - value / np.where(change == 0, 1.0, change)
         new = np.where((new > low) & (new < high), new, 0.5 * (low + high))
-        moved = open_ & (value != 0)
+        moved = value != 0
         last, over = over, np.where(moved, new, over)
+        zeros[place] = over
         open_ = moved & (np.abs(over - last) > 4e-16 * (floor + np.abs(over)))
-        if not open_.any():
-            break
-    return over
+    return zeros.reshape(sizes)

@@ -6,10 +6,10 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from derivation.scene.materials import MATERIALS
-from derivation.scene.messages import shown
+from derivation.scene.messages import LARGEST_NUMBER, SMALLEST_NUMBER, shown
 from derivation.scene.table import Table, is_number
 
-Positive = Annotated[float, Field(gt=0)]
+Positive = Annotated[float, Field(gt=0, ge=SMALLEST_NUMBER, le=LARGEST_NUMBER)]
 Ratio = Annotated[float, Field(gt=-1, lt=0.5)]
 Edge = Literal["paper", "simply-supported", "clamped"]
 
@@ -97,7 +97,7 @@ class Plate(Table):
     thickness: Positive | None = Field(
         default=None, description="plate thickness [m]", examples=[0.2]
     )
-    lame_lambda: float | None = Field(
+    lame_lambda: Annotated[float, Field(ge=-LARGEST_NUMBER, le=LARGEST_NUMBER)] | None = Field(
         default=None, description="first Lame constant of the plate [Pa]", examples=[0.36e9]
     )
     lame_mu: Positive | None = Field(

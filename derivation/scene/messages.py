@@ -13,6 +13,10 @@ from derivation.engine.printable import one_line
 Fields = Mapping[str, Mapping[str, FieldInfo]]
 """The fields of each table by key."""
 
+SMALLEST_NUMBER, LARGEST_NUMBER = 1e-30, 1e30
+"""Limits of positive numbers in SI units, between which the formulas do not overflow."""
+BEYOND = "greater_than_equal", "less_than_equal"
+"""Errors of numbers that are too small or too large."""
 MOST, LONG = 20, 40
 """Largest number of problems that are listed, and of characters of a key that are shown."""
 OTHER_TABLE_ALIKE = 0.8
@@ -26,7 +30,7 @@ EXPECTED = {
     "edge": '"paper", "simply-supported" or "clamped"',
     "outputs": "a list of contact_time, max_indentation, max_force, max_contact_radius and "
     "restitution",
-    "lame_lambda": "a finite number",
+    "lame_lambda": f"a number from {-LARGEST_NUMBER:g} to {LARGEST_NUMBER:g}",
     "loss_factor": "a number from 0 to below 2 (2 is critical damping)",
     "poissons_ratio": "a number above -1 and below 0.5",
     "rtol": "a number from 1e-13 to 1",
@@ -152,6 +156,8 @@ def explain(kind: str, location: tuple[int | str, ...], value: Any, fields: Fiel
     table, key = str(location[0]), str(location[1])
     field = fields[table][key]
     usual = WANTED if table == "effects" else "a positive number"
+    if kind in BEYOND and value > 0:
+        usual = f"a number from {SMALLEST_NUMBER:g} to {LARGEST_NUMBER:g}"
     name = f"{table}.{key}"  # without the alternative that failed
     meaning = re.split(r"[;:(]", field.description or "")[0].strip()
     expected = f"expected {EXPECTED.get(key, usual)} ({meaning})"

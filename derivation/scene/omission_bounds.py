@@ -272,10 +272,9 @@ def errors_of(state: LargestContact, effects: Sequence[Effect], outputs: Sequenc
     elastic = [e for e in effects if np.any(e.softness(state.law.model))]
     stretch = np.exp(bound_of(state, elastic[0]).radius) if elastic else None
     bounds = [bound_of(state, e, None if e in elastic else stretch) for e in effects]
-    up = 1.0 + bounds[0].up
-    for bound in bounds[1:]:
-        # Half-space effects multiply; for the others the product is an upper bound of the sum.
-        up = up * (1.0 + bound.up)
+    # Half-space effects multiply; for the others the product is an upper bound of the sum.
+    with np.errstate(over="ignore"):
+        up = math.prod(1.0 + bound.up for bound in bounds)
     together = Bound(
         low=_sum(bound.low for bound in bounds),
         up=up - 1.0,

@@ -20,7 +20,7 @@ from derivation.scene.errors import IncompleteError as IncompleteError
 from derivation.scene.errors import SceneError as SceneError
 from derivation.scene.example_scenes import remedy
 from derivation.scene.html import html_table
-from derivation.scene.messages import OWN_MATERIALS, shown
+from derivation.scene.messages import LARGEST_NUMBER, OWN_MATERIALS, shown
 from derivation.scene.settings import OUTPUTS as OUTPUTS
 from derivation.scene.settings import TIGHTEST as TIGHTEST
 from derivation.scene.settings import Accuracy as Accuracy
@@ -60,7 +60,7 @@ class Impact(Table):
     """
 
     speed: Positive = Field(description="impact speed [m/s]", examples=[1.0])
-    gravity: Annotated[float, Field(ge=0)] | None = Field(
+    gravity: Annotated[float, Field(ge=0, le=LARGEST_NUMBER)] | None = Field(
         default=None,
         description="gravitational acceleration during contact [m/s^2]",
         examples=[9.81],

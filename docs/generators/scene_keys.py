@@ -5,6 +5,7 @@ from typing import Any
 
 import platecontact as pc
 
+from derivation.scene.messages import LARGEST_NUMBER, SMALLEST_NUMBER
 from derivation.scene.scene import TABLES, Material
 from docs.generators.markdown import anchored, code, table
 
@@ -100,7 +101,9 @@ def allowed(entry: Schema) -> str:
 
 def _limits(entry: Schema) -> list[str]:
     signs = {"exclusiveMinimum": ">", "minimum": ">=", "exclusiveMaximum": "<", "maximum": "<="}
-    return [f"{sign} {entry[key]:g}" for key, sign in signs.items() if key in entry]
+    of_all_numbers = {SMALLEST_NUMBER, LARGEST_NUMBER, -LARGEST_NUMBER}  # the page states them
+    stated = [key for key in signs if key in entry and entry[key] not in of_all_numbers]
+    return [f"{signs[key]} {entry[key]:g}" for key in stated]
 
 
 def _toml(value: Any) -> str:

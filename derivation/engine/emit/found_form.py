@@ -1,15 +1,17 @@
 """The stable form of a paper's formula, found by the rules and tested in all arguments together."""
 
+import hashlib
 from collections.abc import Callable, Iterator, Mapping
 
 import sympy as sp
 
+from derivation.engine.cache import cached
 from derivation.engine.emit.budgets import SHARES
 from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.automatic import automatic
 from derivation.engine.rewrite.every_variable import DECADES, JointTest
-from derivation.engine.rewrite.form import Block
-from derivation.engine.rewrite.products import ProductForm, of_products
+from derivation.engine.rewrite.form import Block, Branch, Step, Switch
+from derivation.engine.rewrite.products import GivenFormula, ProductForm, Stated, of_products
 from derivation.engine.rewrite.scales import Scales
 from derivation.engine.rewrite.several_products import several_products
 from derivation.engine.rewrite.terms import UnreachableError, collected
@@ -19,9 +21,40 @@ TESTED = {0.5: 0.42, 1.0: 0.7, 1.5: 1.0}
 """Errors per sum of the condition numbers that are allowed in the test, by those of the budget. A
 margin is left because other points next to zeros may have larger errors."""
 
+Found = tuple[tuple[Step, ...], sp.Expr | Switch, tuple[Block, ...], int]
+"""Steps, value and blocks of a form, and the decades in which it was tested."""
+
+
+def cached_form(
+    formula: Record, known: Mapping[str, Block], scales: Scales, share: float
+) -> tuple[ProductForm, int]:
+    """Return the result of `found_form`, cached until the formula or one of its inputs changes.
+
+    Refusals are cached as well, because a search takes longest if it fails.
+    """
+    words = formula.vocabulary.with_conditions(formula.where)
+    given = GivenFormula(formula.name, formula.expression, words)
+
+    def compute() -> Found | str:
+        try:
+            made, decades = found_form(given, known, scales, share)
+        except UnreachableError as error:
+            return str(error)
+        return made.steps, made.value, made.blocks, decades
+
+    arguments = [(sp.srepr(a.symbol), a.name, a.domain) for a in given.arguments]
+    blocks = [(name, sp.srepr(block.total)) for name, block in known.items()]
+    inputs = given.name, sp.srepr(given.expression), arguments, blocks, scales, share
+    key = hashlib.sha256(repr(inputs).encode()).hexdigest()[:16]
+    sources = ("engine/cache.py", "engine/formula", "engine/rewrite", "engine/emit/found_form.py")
+    found = cached(f"form-{key}", sources, compute, Block, Step, Branch, Switch)
+    if isinstance(found, str):
+        raise UnreachableError(found)
+    return ProductForm(*found[:3]), found[3]
+
 
 def found_form(
-    formula: Record, known: Mapping[str, Block], scales: Scales, share: float
+    formula: Stated, known: Mapping[str, Block], scales: Scales, share: float
 ) -> tuple[ProductForm, int]:
     """Return the accurate form that the rules find, and the decades in which it was tested.
 

@@ -10,10 +10,10 @@ import sympy as sp
 
 from derivation.engine.formula.ball import PrecisionError, evaluate, to_ball
 from derivation.engine.formula.grid import domain_grid, joint_points, towards_zeros
-from derivation.engine.formula.record import Record
 from derivation.engine.formula.ulp import overflows, ulp_error
 from derivation.engine.rewrite.doubles import run
 from derivation.engine.rewrite.form import Block, Step, Switch, switch_points
+from derivation.engine.rewrite.products import Stated
 from derivation.engine.rewrite.terms import UnreachableError
 from derivation.engine.rewrite.useful_range import ENOUGH
 
@@ -45,7 +45,7 @@ class LargestError(NamedTuple):
 
 
 def accurate(
-    formula: Record, steps: tuple[Step, ...], value: sp.Expr | Switch, blocks: Mapping[str, Block]
+    formula: Stated, steps: tuple[Step, ...], value: sp.Expr | Switch, blocks: Mapping[str, Block]
 ) -> float:
     """Return the largest error [ULP] of a form that is accurate in every variable of its formula.
 
@@ -69,7 +69,7 @@ def accurate(
     return worst.error
 
 
-def _inaccurate(formula: Record, worst: LargestError) -> str:
+def _inaccurate(formula: Stated, worst: LargestError) -> str:
     where = ", ".join(f"{name} = {x!r}" for name, x in worst.at.items())
     return (
         f"the form found for {formula.name} has an error of {worst.error:.2g} ULP at {where}, "
@@ -79,7 +79,7 @@ def _inaccurate(formula: Record, worst: LargestError) -> str:
 
 
 def measured_error(
-    formula: Record, steps: tuple[Step, ...], value: sp.Expr | Switch, blocks: Mapping[str, Block]
+    formula: Stated, steps: tuple[Step, ...], value: sp.Expr | Switch, blocks: Mapping[str, Block]
 ) -> LargestError:
     """Return the largest error of a form at difficult points of every variable.
 
@@ -106,7 +106,7 @@ class JointTest:
         The formula, whose arguments have domains.
     """
 
-    def __init__(self, formula: Record) -> None:
+    def __init__(self, formula: Stated) -> None:
         self.formula = formula
         self.known: dict[int, Known] = {}
         self.zeros: Known | None = None
@@ -179,7 +179,7 @@ def _sign(value: flint.arb) -> int:
     return int(value > 0) - int(value < 0)
 
 
-def _with_values(formula: Record, points: Iterable[dict[str, float]]) -> Known:
+def _with_values(formula: Stated, points: Iterable[dict[str, float]]) -> Known:
     symbols = {argument.name: argument.symbol for argument in formula.arguments}
     known = []
     for point in points:
@@ -192,7 +192,7 @@ def _with_values(formula: Record, points: Iterable[dict[str, float]]) -> Known:
 
 
 def _largest(
-    formula: Record,
+    formula: Stated,
     known: Known,
     steps: tuple[Step, ...],
     value: sp.Expr | Switch,

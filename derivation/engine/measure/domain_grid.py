@@ -19,7 +19,7 @@ FEW = 3
 """Number of digits of values whose sign is needed."""
 STATED_FORM = 6
 """Exponent of ten of the largest arguments with which stated forms are tested together."""
-JOINT = 200
+JOINT = 1000
 """Number of points at which several arguments are extreme, next to ends, or nearly equal."""
 
 

@@ -50,6 +50,10 @@ ACCURATE = 3.0
 """Largest error [ULP] of a part of one variable that is left as it is."""
 MOST_SHIFTS = 6
 """Largest number of choices of ends of domains whose distances become variables."""
+LOWER, UPPER = 0, 1
+"""Indices of the ends of an interval."""
+ELSEWHERE = sp.Rational(7, 19)
+"""Factor of an end that gives a number at which no terms cancel."""
 NEAR_ZERO, FAR = 1e-6, 1e6
 """Ends of domains of magnitudes outside of this range are not used."""
 Interval = tuple[sp.Rational | None, sp.Rational | None]
@@ -92,7 +96,7 @@ def _candidates(formula: Stated) -> Iterator[ProductForm]:
     zeros = may_vanish(formula)
     lower = reduced(expression, zeros, names)
     domains = {p.variable: _interval(p, formula) for p in lower.products}
-    for ends in islice(_shifts(lower.products, domains), MOST_SHIFTS):
+    for ends in islice(_shifts(lower.expression, lower.products, domains), MOST_SHIFTS):
         yield from _written(formula, lower.expression, lower.front, lower.products, domains, ends)
 
 
@@ -101,19 +105,39 @@ def _every_name() -> Iterator[str]:
 
 
 def _shifts(
-    products: Sequence[Product], domains: Mapping[sp.Symbol, Interval]
+    expression: sp.Expr, products: Sequence[Product], domains: Mapping[sp.Symbol, Interval]
 ) -> Iterator[dict[sp.Symbol, sp.Rational]]:
-    """Yield choices of variables with an end of their domains: none, all upper ends, each one."""
+    """Yield choices of variables with an end of their domains: none, several, each one.
+
+    Ends at which terms cancel come first.
+    """
     yield {}
-    upper = {p.variable: end for p in products if (end := domains[p.variable][1]) is not None}
-    lower = {p.variable: end for p in products if (end := domains[p.variable][0]) is not None}
-    alone = [{x: end} for ends in (upper, lower) for x, end in ends.items()]
-    yield from alone
-    if len(upper) > 1:
-        yield upper
-    if len({**lower, **upper}) > 1:
-        yield {**lower, **upper}
-        yield {**upper, **lower}
+    sides = [
+        {p.variable: end for p in products if (end := domains[p.variable][side]) is not None}
+        for side in (UPPER, LOWER)
+    ]
+    parts = sp.fraction(sp.together(expression))
+    for useful in (True, False):
+        upper, lower = (
+            {x: end for x, end in ends.items() if _cancels(parts, x, end) == useful}
+            for ends in sides
+        )
+        several = ({**lower, **upper}, {**upper, **lower}, upper, lower)
+        yield from (ends for ends in several if len(ends) > 1)
+        yield from ({x: end} for ends in (upper, lower) for x, end in ends.items())
+
+
+def _cancels(parts: Sequence[sp.Expr], x: sp.Symbol, end: sp.Rational) -> bool:
+    """Return whether terms cancel, or have no value, where a variable is at an end."""
+    there, elsewhere = ([part.subs(x, at) for part in parts] for at in (end, end * ELSEWHERE))
+    if any(part.has(sp.zoo, sp.nan, sp.oo) for part in there):
+        return True
+    counts = [sum(len(_terms(part)) for part in values) for values in (there, elsewhere)]
+    return counts[0] < counts[1]
+
+
+def _terms(expression: sp.Expr) -> tuple[sp.Expr, ...]:
+    return sp.Add.make_args(sp.expand(expression)) if expression != 0 else ()
 
 
 def _interval(product: Product, formula: Stated) -> Interval:

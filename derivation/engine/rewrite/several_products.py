@@ -20,6 +20,7 @@ from sympy.codegen.cfunctions import log1p
 from derivation.engine.formula.domain import comparison
 from derivation.engine.rewrite.accuracy_test import KNOWN, accuracy_test
 from derivation.engine.rewrite.blocks import block_of
+from derivation.engine.rewrite.differences_from_one import by_differences_from_one
 from derivation.engine.rewrite.dimensionless import Product, reduced
 from derivation.engine.rewrite.form import Block, Step, Switch
 from derivation.engine.rewrite.identities import by_identities
@@ -198,10 +199,11 @@ def _written(
     whole = expression.subs(changed, simultaneous=True)
     symbols = [gap for gap in variables if whole.has(gap)]
     symbols.sort(key=lambda v: (not _in_function(whole, v), str(v)))
-    for v in (None, *symbols):
+    ways = [(whole, None), *((part, None) for part in by_differences_from_one(whole))]
+    for part, v in (*ways, *((whole, v) for v in symbols)):
         writer = _Writer(formula.name, variables)
         try:
-            value = writer.write(whole) if v is None else writer.separated(whole, v)
+            value = writer.write(part) if v is None else writer.separated(part, v)
         except UnreachableError:
             continue
         kept = tuple(step for step in steps if _is_used(step.symbol, steps, value))

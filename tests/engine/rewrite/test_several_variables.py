@@ -40,6 +40,12 @@ FORMULAS = {
         (4 * k * h - 2 * c * mp.sinh(2 * k * h))
         / (k * (2 * c * mp.cosh(2 * k * h) + 1 + c * c + (2 * k * h) ** 2))
     ),
+    "exp(a) + exp(b) - 2": lambda a, b: mp.expm1(a) + mp.expm1(b),
+    "sinh(a) - a*cos(b)": lambda a, b: mp.sinh(a) - a * mp.cos(b),
+    "2*(1 + 2*s)*sinh(t) - 2*t": lambda s, t: 2 * (1 + 2 * s) * mp.sinh(t) - 2 * t,
+    "(1 + s - exp(-t)*(1 + s*cosh(t)))/(1 + s)": lambda s, t: (
+        (1 + s - mp.exp(-t) * (1 + s * mp.cosh(t))) / (1 + s)
+    ),
     "atan(a) - atan(b)": lambda a, b: mp.atan(a) - mp.atan(b),
     "(b - sqrt(b**2 - 4*a*c))/(2*a)": lambda b, a, c: 2 * c / (b + mp.sqrt(b * b - 4 * a * c)),
 }

@@ -22,6 +22,7 @@ from derivation.engine.rewrite.accuracy_test import KNOWN, accuracy_test
 from derivation.engine.rewrite.blocks import block_of
 from derivation.engine.rewrite.differences_from_one import by_differences_from_one
 from derivation.engine.rewrite.dimensionless import Product, reduced
+from derivation.engine.rewrite.exact_sums import by_exact_sums
 from derivation.engine.rewrite.form import Block, Step, Switch
 from derivation.engine.rewrite.identities import by_identities
 from derivation.engine.rewrite.products import (
@@ -92,6 +93,7 @@ def _candidates(formula: Stated) -> Iterator[ProductForm]:
     for plain in (expression, sp.factor(expression), *by_identities(expression)):
         if not plain.has(sp.Min, sp.Max):
             yield ProductForm((), plain)
+    yield from by_exact_sums(expression)
     taken = {argument.name for argument in formula.arguments}
     names = (name for name in _every_name() if name not in taken)
     zeros = may_vanish(formula)

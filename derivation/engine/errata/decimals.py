@@ -10,8 +10,11 @@ from collections.abc import Iterator
 import sympy as sp
 
 from derivation.engine.errata.repairs import Repair
+from derivation.engine.formula.ball import PrecisionError, evaluate
 
 ROUNDED, NUMBER = "rounded number", "wrong number"
+PRECISION = 25
+"""Digits to which exact numbers are evaluated."""
 DIGITS = 6
 """Significant digits of a correct number in a message, at least."""
 MOST_OPERATIONS = 400
@@ -35,8 +38,12 @@ def decimal_corrections(given: sp.Expr, derived: sp.Expr) -> Iterator[Repair]:
         return
     exact = dict(zip(numbers, next(iter(solutions)), strict=True))
     changed = {number: value for number, value in exact.items() if value != number}
-    says = [_comparison(number, value) for number, value in changed.items()]
-    kind = ROUNDED if all(_is_rounded(*pair) for pair in changed.items()) else NUMBER
+    try:
+        values = [(number, _value(value)) for number, value in changed.items()]
+    except (PrecisionError, NotImplementedError):
+        return
+    says = [_comparison(number, value) for number, value in values]
+    kind = ROUNDED if all(_is_rounded(number, value) for number, value in values) else NUMBER
     corrected = given.xreplace(changed)
     yield Repair(kind, "; ".join(says), corrected, len(changed))
 
@@ -61,14 +68,21 @@ def _unit(number: sp.Rational) -> sp.Rational:
     return sp.Rational(1, 10**places)
 
 
-def _is_rounded(number: sp.Rational, exact: sp.Expr) -> bool:
-    return bool(abs(sp.N(exact - number, 30)) <= _unit(number) / 2)
+def _value(exact: sp.Expr) -> sp.Rational:
+    """Return a number to `PRECISION` digits."""
+    if exact == 0:
+        return exact
+    return sp.Rational(evaluate(exact, {}, PRECISION).mid().str(PRECISION, radius=False))
 
 
-def _comparison(number: sp.Rational, exact: sp.Expr) -> str:
+def _is_rounded(number: sp.Rational, exact: sp.Rational) -> bool:
+    return bool(abs(exact - number) <= _unit(number) / 2)
+
+
+def _comparison(number: sp.Rational, exact: sp.Rational) -> str:
     """Return a decimal number, the exact one, and whether it is rounded or how far it is off."""
     text, value = repr(float(number)), sp.N(exact, max(len(str(number.p)) + 2, DIGITS))
     if _is_rounded(number, exact):
         return f"{text} is the correctly rounded {value}"
-    off = sp.N(number / exact - 1, 30) if exact != 0 else sp.oo
+    off = number / exact - 1 if exact != 0 else sp.oo
     return f"read {value} instead of {text}, which is off by {float(100 * off):+.2g} %"

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import sympy as sp
-from sympy.codegen.cfunctions import expm1
+from sympy.codegen.cfunctions import expm1, log1p
 from sympy.core.function import Application, AppliedUndef
 
 from derivation.engine.files import content_hash, read_file, sources, write_file
@@ -31,7 +31,7 @@ CONSTANTS: dict[str, sp.Basic] = {
 }  # fmt: skip
 HEADS: dict[str, type] = {
     head.__name__: head
-    for head in (sp.Add, sp.Mul, sp.Pow, sp.Derivative, sp.Integral, sp.Sum, sp.Tuple, expm1)
+    for head in (sp.Add, sp.Mul, sp.Pow, sp.Derivative, sp.Integral, sp.Sum, sp.Tuple, expm1, log1p)
 }
 """Classes of expressions other than SymPy's functions, by name."""
 

@@ -14,9 +14,10 @@ from typing import Any
 
 HALF = 0.5
 """Allowed error per sum of the condition numbers, if every argument is rounded."""
-SHARES = 0.5, 1.0, 1.5
+SHARES = 0.5, 1.0, 1.5, 3.0
 """Shares that a rule may state. Differences of rounded products, and functions of such products,
-have errors of up to 1.5 times the sum of the condition numbers next to their zeros."""
+have errors of up to 1.5 times the sum of the condition numbers next to their zeros, and sums of
+many products more."""
 ORDINARY = "value"
 """Name of the rule for functions that no other rule lists."""
 

@@ -1,27 +1,69 @@
 """The stable form of a paper's formula, found by the rules and tested in all arguments together."""
 
+import hashlib
 from collections.abc import Callable, Iterator, Mapping
 
 import sympy as sp
 
+from derivation.engine.cache import cached
 from derivation.engine.emit.budgets import SHARES
 from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.automatic import automatic
-from derivation.engine.rewrite.every_variable import DECADES, JointTest
-from derivation.engine.rewrite.form import Block
-from derivation.engine.rewrite.products import ProductForm, of_products
+from derivation.engine.rewrite.every_variable import DECADES, Accuracy, JointTest
+from derivation.engine.rewrite.form import Block, Branch, Step, Switch
+from derivation.engine.rewrite.products import (
+    GivenFormula,
+    ProductForm,
+    Stated,
+    decaying_last,
+    of_products,
+)
 from derivation.engine.rewrite.scales import Scales
 from derivation.engine.rewrite.several_products import several_products
 from derivation.engine.rewrite.terms import UnreachableError, collected
 from derivation.engine.rewrite.useful_range import ENOUGH
 
-TESTED = {0.5: 0.42, 1.0: 0.7, 1.5: 1.0}
+TESTED = {0.5: 0.42, 1.0: 0.7, 1.5: 1.0, 3.0: 2.0}
 """Errors per sum of the condition numbers that are allowed in the test, by those of the budget. A
 margin is left because other points next to zeros may have larger errors."""
 
+CLEARLY = 0.75 * ENOUGH
+"""Largest error [ULP], with the part that conditioning explains, up to which no other form is
+tested."""
+Found = tuple[tuple[Step, ...], sp.Expr | Switch, tuple[Block, ...], int]
+"""Steps, value and blocks of a form, and the decades in which it was tested."""
+
+
+def cached_form(
+    formula: Record, known: Mapping[str, Block], scales: Scales, share: float
+) -> tuple[ProductForm, int]:
+    """Return the result of `found_form`, cached until the formula or one of its inputs changes.
+
+    Refusals are cached as well, because a search takes longest if it fails.
+    """
+    words = formula.vocabulary.with_conditions(formula.where)
+    given = GivenFormula(formula.name, formula.expression, words)
+
+    def compute() -> Found | str:
+        try:
+            made, decades = found_form(given, known, scales, share)
+        except UnreachableError as error:
+            return str(error)
+        return made.steps, made.value, made.blocks, decades
+
+    arguments = [(sp.srepr(a.symbol), a.name, a.domain) for a in given.arguments]
+    blocks = [(name, sp.srepr(block.total)) for name, block in known.items()]
+    inputs = given.name, sp.srepr(given.expression), arguments, blocks, scales, share
+    key = hashlib.sha256(repr(inputs).encode()).hexdigest()[:16]
+    sources = ("engine/cache.py", "engine/formula", "engine/rewrite", "engine/emit/found_form.py")
+    found = cached(f"form-{key}", sources, compute, Block, Step, Branch, Switch)
+    if isinstance(found, str):
+        raise UnreachableError(found)
+    return ProductForm(*found[:3]), found[3]
+
 
 def found_form(
-    formula: Record, known: Mapping[str, Block], scales: Scales, share: float
+    formula: Stated, known: Mapping[str, Block], scales: Scales, share: float
 ) -> tuple[ProductForm, int]:
     """Return the accurate form that the rules find, and the decades in which it was tested.
 
@@ -51,10 +93,10 @@ def found_form(
 
     test = JointTest(formula)
     tested: list[ProductForm] = []
-    accepted: list[tuple[ProductForm, int, float]] = []
+    accepted: list[tuple[ProductForm, Accuracy]] = []
     reasons: list[UnreachableError] = []
 
-    def range_of(made: ProductForm, share: float) -> tuple[int, float]:
+    def range_of(made: ProductForm, share: float) -> Accuracy:
         own = {block.name: block for block in made.blocks}
         return test.range_of(made.steps, made.value, {**known, **own}, TESTED[share])
 
@@ -64,11 +106,15 @@ def found_form(
             range_of(made, share)
         return not failed
 
-    def add(made: ProductForm) -> tuple[ProductForm, float]:
-        tested.append(made)
-        decades, error = range_of(made, share)
-        accepted.append((made, decades, error))
-        return made, error
+    def add(made: ProductForm) -> tuple[Accuracy, float]:
+        failed: list[UnreachableError] = []
+        for form in dict.fromkeys((made, decaying_last(made))):
+            tested.append(form)
+            with collected(failed):
+                accurate = range_of(form, share)
+                accepted.append((form, accurate))
+                return accurate, accurate.error
+        raise failed[0]
 
     searches: tuple[Callable[[], object], ...] = (
         lambda: add(ProductForm(*automatic(formula.expression, known, scales))),
@@ -78,11 +124,11 @@ def found_form(
     for search in searches:
         with collected(reasons):
             search()
-        if any(decades == DECADES[0] for _, decades, _ in accepted):
+        if any(one.decades == DECADES[0] and one.whole <= ENOUGH for _, one in accepted):
             break
     if accepted:
-        made, decades, _ = max(accepted, key=lambda row: (row[1], -row[2]))
-        return made, decades
+        made, best = max(accepted, key=lambda row: (row[1].decades, -row[1].lost))
+        return made, best.decades
     for larger in (other for other in SHARES if other > share):
         if any(passes(made, larger) for made in tested):
             raise UnreachableError(
@@ -98,11 +144,15 @@ def found_form(
 
 def _first_accurate(
     forms: Iterator[ProductForm],
-    add: Callable[[ProductForm], tuple[ProductForm, float]],
+    add: Callable[[ProductForm], tuple[Accuracy, float]],
     reasons: list[UnreachableError],
 ) -> None:
-    """Test forms until one is clearly accurate; reasons why others are not are collected."""
+    """Test forms until one is clearly accurate; reasons why others are not are collected.
+
+    A form with larger errors that conditioning explains is accepted, but the search continues:
+    another one may not have them.
+    """
     for made in forms:
         with collected(reasons):
-            if add(made)[1] <= ENOUGH / 2:
+            if add(made)[0].whole <= CLEARLY:
                 return

@@ -13,7 +13,7 @@ import sympy as sp
 
 from derivation.engine.emit import copies, tables
 from derivation.engine.emit.budgets import HALF, Budget, read_budgets
-from derivation.engine.emit.found_form import found_form
+from derivation.engine.emit.found_form import cached_form
 from derivation.engine.emit.kernels import (
     EmittedKernel,
     Style,
@@ -180,7 +180,7 @@ class PackageSettings:
             if name in stated:
                 return ProductForm(*stated[name]), 0
             share = budgets[name].share if name in budgets else HALF
-            return found_form(formulas[name], known, self.scales, share)
+            return cached_form(formulas[name], known, self.scales, share)
 
         def stable(name: str, module: str) -> Form:
             given, (made, decades) = formulas[name].expression, shape(name)

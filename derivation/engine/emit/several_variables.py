@@ -21,6 +21,7 @@ from derivation.engine.rewrite.form import Step, form
 from derivation.engine.rewrite.identities import by_identities, prove_identity
 from derivation.engine.rewrite.products import GivenFormula, ProductForm, of_products
 from derivation.engine.rewrite.search import without_series
+from derivation.engine.rewrite.several_products import several_products
 from derivation.engine.rewrite.several_variables import (
     LARGEST_VALUE,
     LEAST_VALUE,
@@ -116,19 +117,30 @@ def _best_for(
     for made in forms:
         with collected(reasons):
             results.append(accepted(made))
-            if results[-1][1].high >= WIDE and results[-1][1].worst <= ENOUGH / 2:
+            if _is_wide(results[-1][1]):
                 return results[-1]
 
-    def with_error(made: ProductForm) -> tuple[Tested, float]:
-        candidate = accepted(made)
-        return candidate, candidate[1].worst
+    def add(made: ProductForm) -> tuple[Tested, float]:
+        results.append(accepted(made))
+        return results[-1], results[-1][1].worst
 
-    try:
-        results.append(of_products(GivenFormula("f", expression, words), with_error))
-    except UnreachableError:
-        if not results:
-            raise
+    given = GivenFormula("f", expression, words)
+    with collected(reasons):
+        of_products(given, add)
+    if not any(_is_wide(check) for _, check in results):
+        with collected(reasons):
+            for made in several_products(given):
+                with collected(reasons):
+                    if _is_wide(add(made)[0][1]):
+                        break
+    if not results:
+        raise min(reasons, key=lambda reason: reason.worst)
     return max(results, key=lambda result: (result[1].high, -result[1].worst))
+
+
+def _is_wide(check: SeveralCheck) -> bool:
+    """Return whether code is so accurate in such a wide range that no other form is tried."""
+    return check.high >= WIDE and check.worst <= ENOUGH / 2
 
 
 def _with_parameters(expression: sp.Expr) -> list[ProductForm]:

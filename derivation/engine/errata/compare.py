@@ -10,6 +10,7 @@ from itertools import combinations
 import flint
 import sympy as sp
 
+from derivation.engine.errata.decimals import decimal_corrections
 from derivation.engine.errata.dimensions import dimension_note
 from derivation.engine.errata.edit import factor_pool, sum_pool, term_pool
 from derivation.engine.errata.lookup import comparable, known_formula, resolve
@@ -202,6 +203,9 @@ def _case(
     vocabulary, domain = formula.vocabulary, list[str]()
     if given.has(sp.Integral) or derived.has(sp.Integral):  # which have no continuation beyond it
         domain = [*formula.where, *(c for a in vocabulary.arguments for c in a.domain)]
+    for number in given.atoms(sp.Float):
+        text = repr(float(number))
+        raise FormulaError(f'expected exact numbers, got {text}; write sp.Rational("{text}")')
     points = sample([given, derived], meanings, vocabulary.within, domain)
     try:
         for expression in (derived, given):
@@ -268,9 +272,12 @@ def _diagnosis(
 def _repairs(
     case: _Case, formulas: Mapping[str, Record]
 ) -> Iterator[tuple[Repair, sp.Expr | None]]:
-    """Yield candidates: another derived formula, a factor counted twice, then one or two edits."""
+    """Yield candidates: another derived formula, a double factor, decimals, one or two edits."""
     yield from _confused_formulas(case, formulas)
     yield from _counted_twice(case, formulas)
+    yield from (
+        (repair, None) for repair in decimal_corrections(case.given, case.formula.expression)
+    )
     for count, repair in enumerate(repairs(case.given, case.reference, case.search)):
         if count == _MAX_CANDIDATES:
             return

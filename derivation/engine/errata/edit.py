@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
 from math import log
+from typing import Any
 
 import sympy as sp
 
@@ -321,15 +322,21 @@ def factor_pool(
                     factors.add(base)
                 if base in dependent or (isinstance(base, sp.Add) and not exponent.is_Integer):
                     factors.add(base ** abs(exponent))
-    return tuple(sorted(factors, key=sp.default_sort_key))
+    return tuple(sorted(factors, key=_order))
+
+
+def _order(expression: sp.Expr) -> Any:
+    """Return SymPy's key for sorting, without evaluating integrals, which takes long."""
+    integrals = expression.atoms(sp.Integral)
+    return sp.default_sort_key(expression.xreplace({i: sp.Symbol(str(i)) for i in integrals}))
 
 
 def sum_pool(expression: sp.Expr) -> tuple[sp.Add, ...]:
     """Return all sums in an expression, in a fixed order."""
-    return tuple(sorted(expression.atoms(sp.Add), key=sp.default_sort_key))
+    return tuple(sorted(expression.atoms(sp.Add), key=_order))
 
 
 def term_pool(expression: sp.Expr) -> tuple[sp.Expr, ...]:
     """Return terms of all sums in an expression, in a fixed order."""
     terms = {term for total in expression.atoms(sp.Add) for term in total.args}
-    return tuple(sorted(terms, key=sp.default_sort_key))
+    return tuple(sorted(terms, key=_order))

@@ -9,10 +9,13 @@ import math
 import random
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
+from functools import lru_cache
+
+import sympy as sp
 
 from derivation.engine.formula.domain import excess, violated_conditions
 from derivation.engine.formula.ulp import neighbours
-from derivation.engine.formula.vocabulary import Vocabulary, symbols_of
+from derivation.engine.formula.vocabulary import Argument, Vocabulary, symbols_of
 
 EXPONENTS = (-150, -100, -50, -20, -12, -8, -5, -3, -2, -1, 0, 1, 2, 3, 6, 9)
 """Exponents of the powers of ten that every argument takes, inside its domain."""
@@ -22,6 +25,10 @@ DRAWN = 24
 """Number of points at which all arguments are random."""
 ZEROS, STEPS_TO_ZERO = 24, 14
 """Numbers of pairs of points with opposite signs, and of points that are tested between each."""
+NEXT_TO_ENDS = (0.25, 0.25, 0.75)
+"""Shares of arguments that are next to an end of their domains, one for each kind of point."""
+MAGNITUDES = 10.0
+"""Ratio of the ends of a domain from which all magnitudes between them are equally likely."""
 ATTEMPTS = 400
 """Number of random points that are tried to find one in the domain."""
 
@@ -33,6 +40,14 @@ def inside(vocabulary: Vocabulary, values: Mapping[str, float]) -> bool:
     return not violated_conditions(
         domain, {arguments[key].symbol: Fraction(value) for key, value in values.items()}
     )
+
+
+@lru_cache(maxsize=16)
+def plain_grid(
+    name: str, arguments: tuple[str, ...], vocabulary: Vocabulary
+) -> tuple[dict[str, float], ...]:
+    """Return the points of `domain_grid` without switch points, computed once."""
+    return domain_grid(name, arguments, vocabulary, {})
 
 
 def domain_grid(
@@ -66,7 +81,7 @@ def domain_grid(
     def drawn() -> dict[str, float]:
         nonlocal narrow
         for _ in range(0 if narrow else ATTEMPTS):
-            values = {key: _random(generator) for key in arguments}
+            values = {key: _usual(generator, vocabulary.by_name[key]) for key in arguments}
             if inside(vocabulary, values):
                 return values
         narrow = True
@@ -129,10 +144,18 @@ def towards_zeros(
     for above, below in zip(usual[1][:ZEROS], usual[-1][:ZEROS], strict=False):
         ends = {1: above, -1: below}
         for _ in range(STEPS_TO_ZERO):
-            middle = {key: above[key] / 2 + below[key] / 2 for key in above}
+            middle = {key: _middle(above[key], below[key]) for key in above}
             ends[sign(middle) or 1] = middle
             above, below = ends[1], ends[-1]
             yield middle
+
+
+def _middle(one: float, other: float) -> float:
+    """Return the mean of two numbers, the geometric one if they differ in magnitude."""
+    low, high = sorted((abs(one), abs(other)))
+    if one * other > 0 and high > MAGNITUDES * low:
+        return math.copysign(math.sqrt(low) * math.sqrt(high), one)
+    return one / 2 + other / 2
 
 
 def _size(point: Mapping[str, float]) -> float:
@@ -148,20 +171,21 @@ def _jointly(
     Conditions that are not linear in an argument do not narrow its interval.
     """
     size = min(decades, generator.choice((1.0, 3.0, decades)))
+    share = generator.choice(NEXT_TO_ENDS)
     values: dict[str, float] = {}
     for key in sorted(arguments, key=lambda _: generator.random()):
         low, high = _interval(key, values, arguments, vocabulary)
         kind = generator.random()
         ends = [end for end in (low, high) if math.isfinite(end) and end]
-        if kind < 0.25 and ends:
+        if kind < share and ends:
             value = _near(generator, generator.choice(ends))
-        elif kind < 0.4 and values:
+        elif kind < share + 0.15 and values:
             value = _near(generator, generator.choice(list(values.values())))
         else:
             value = math.copysign(10 ** generator.uniform(-size, size), generator.random() - 0.3)
             value = abs(value) if low >= 0 else value
         if not low <= value <= high and math.isfinite(low) and math.isfinite(high):
-            value = low + (high - low) * generator.random()
+            value = _between(generator, low, high)
         elif not low <= value <= high:
             sign, end = (1, low) if math.isfinite(low) else (-1, high)
             value = end + sign * 10 ** generator.uniform(-1, 1) * (abs(end) or 1.0)
@@ -169,6 +193,14 @@ def _jointly(
         near_zero = value and abs(value) < 1 / limit
         values[key] = math.copysign(1 / limit, value) if near_zero else value
     return {key: min(max(values[key], -(10.0**decades)), 10.0**decades) for key in arguments}
+
+
+def _between(generator: random.Random, low: float, high: float) -> float:
+    """Return a random number between two ends, of any magnitude if these differ in theirs."""
+    part = generator.random()
+    if low > 0 and high > MAGNITUDES * low:
+        return float(min(max(low ** (1 - part) * high**part, low), high))
+    return low + (high - low) * part
 
 
 def _near(generator: random.Random, value: float) -> float:
@@ -180,23 +212,46 @@ def _interval(
     key: str, known: Mapping[str, float], arguments: Sequence[str], vocabulary: Vocabulary
 ) -> tuple[float, float]:
     """Return the interval of an argument by the linear conditions on it and known arguments."""
-    own = vocabulary.by_name[key].symbol
+    own = vocabulary.by_name[key]
     given = {vocabulary.by_name[name].symbol: Fraction(value) for name, value in known.items()}
-    low, high = -math.inf, math.inf
+    low, high = _own_interval(own)
     for condition in {c for name in arguments for c in vocabulary.by_name[name].domain}:
         names = symbols_of(condition)
-        if key not in names or not names <= {key, *known}:
-            continue
-        at = [excess(condition, {**given, own: Fraction(x)}) for x in (1, 2, 3)]
-        slope = at[1] - at[0]
-        if not slope or at[2] - at[1] != slope or "!=" in condition:
-            continue
-        end = float(1 - at[0] / slope)
-        if ("<" in condition) == (slope > 0):
-            high = min(high, end)
-        else:
-            low = max(low, end)
+        if key in names and len(names) > 1 and names <= {key, *known}:
+            least, most = _ends_of(condition, own.symbol, given)
+            low, high = max(low, least), min(high, most)
     return low, high
+
+
+@lru_cache(maxsize=1024)
+def _own_interval(argument: Argument) -> tuple[float, float]:
+    """Return the interval of an argument by the linear conditions on it alone."""
+    alone = [c for c in argument.domain if symbols_of(c) == {argument.name}]
+    ends = [_ends_of(condition, argument.symbol, {}) for condition in alone]
+    lows, highs = zip((-math.inf, math.inf), *ends, strict=True)
+    return max(lows), min(highs)
+
+
+def _ends_of(
+    condition: str, own: sp.Symbol, given: Mapping[sp.Symbol, Fraction]
+) -> tuple[float, float]:
+    """Return the interval in which a condition holds if it is linear in a symbol, or any number."""
+    at = [excess(condition, {**given, own: Fraction(x)}) for x in (1, 2, 3)]
+    slope = at[1] - at[0]
+    if not slope or at[2] - at[1] != slope or "!=" in condition:
+        return -math.inf, math.inf
+    end = float(1 - at[0] / slope)
+    return (-math.inf, end) if ("<" in condition) == (slope > 0) else (end, math.inf)
+
+
+def _usual(generator: random.Random, argument: Argument) -> float:
+    """Return a number of moderate size, inside the argument's own interval if one is found."""
+    low, high = _own_interval(argument)
+    for _ in range(ATTEMPTS):
+        value = _random(generator)
+        if low <= value <= high:
+            return value
+    return value
 
 
 def _random(generator: random.Random) -> float:

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 
@@ -140,6 +140,17 @@ class Vocabulary:
     def numbers(self) -> frozenset[sp.Symbol]:
         """The dimensionless symbols."""
         return frozenset(argument.symbol for argument in self.arguments if argument.unit == "1")
+
+    def with_conditions(self, conditions: Iterable[str]) -> "Vocabulary":
+        """Return the vocabulary with further conditions, each in the domain of one argument."""
+        further: dict[str, tuple[str, ...]] = {}
+        for condition in conditions:
+            own = next((a.name for a in self.arguments if a.name in symbols_of(condition)), "")
+            further[own] = (*further.get(own, ()), condition)
+        if not further:
+            return self
+        arguments = (replace(a, domain=a.domain + further.get(a.name, ())) for a in self.arguments)
+        return replace(self, arguments=tuple(arguments))
 
     def arguments_of(self, expression: sp.Expr) -> tuple[Argument, ...]:
         """Return the arguments on which an expression depends, in the order of the vocabulary.

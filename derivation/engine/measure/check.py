@@ -28,6 +28,10 @@ def _anywhere(_: Point) -> bool:
     return True
 
 
+def _in_any_domain(_: str, __: Point) -> bool:
+    return True
+
+
 @dataclass(frozen=True, eq=False)
 class Judge:
     """The references and the points with which a paper's generated functions are tested.
@@ -43,8 +47,8 @@ class Judge:
     easy
         Function that returns whether the second reference method is fast at a point.
     inside
-        Function that returns whether a point lies in the domain; a point that is rounded to single
-        precision may not.
+        Function that returns whether a point lies in the domain of the function with a given name;
+        a point that is rounded to single precision may not.
     hard
         Function that returns the hard cases, if there are any; their modules are loaded when it is
         called.
@@ -54,7 +58,7 @@ class Judge:
     grid: Callable[[str, Sequence[str], bool], Sequence[Point]]
     package: str
     easy: Callable[[Point], bool] = _anywhere
-    inside: Callable[[Point], bool] = _anywhere
+    inside: Callable[[str, Point], bool] = _in_any_domain
     hard: Callable[[], Suite] | None = None
 
 
@@ -176,7 +180,7 @@ def reference_values(
 def _single(by: Judge, kernel: Kernel, points: Sequence[Point], digits: int) -> Errors:
     """Return the errors of a function in single precision, at every fourth point."""
     singles = (single for p in points[::EVERY] if (single := to_single(p)) is not None)
-    rounded = [single for single in singles if by.inside(single)]
+    rounded = [single for single in singles if by.inside(kernel.name, single)]
     references = reference_values(by.routes.balls, kernel.name, rounded, digits, SINGLE)
     return measured_errors(kernel, references, len(rounded) - len(references), SINGLE)
 

@@ -2,10 +2,11 @@
 
 import importlib
 from collections.abc import Callable, Mapping, Sequence
-from functools import partial
+from functools import cache, partial
 
 from derivation.engine.formula.chain import Chain
 from derivation.engine.formula.grid import domain_grid, inside, joint_points, towards_zeros
+from derivation.engine.formula.vocabulary import Vocabulary
 from derivation.engine.measure.check import Judge
 from derivation.engine.measure.point import Point
 from derivation.engine.measure.target import NO_REFERENCE
@@ -18,7 +19,7 @@ FEW = 3
 """Number of digits of values whose sign is needed."""
 STATED_FORM = 6
 """Exponent of ten of the largest arguments with which stated forms are tested together."""
-JOINT = 200
+JOINT = 1000
 """Number of points at which several arguments are extreme, next to ends, or nearly equal."""
 
 
@@ -50,9 +51,12 @@ def domain_judge(
     Judge
         The references and test points, without hard cases.
     """
-    vocabulary = chain.vocabulary
+    references = Routes(Balls(chain.vocabulary, chain.formulas), routes)
 
-    references = Routes(Balls(vocabulary, chain.formulas), routes)
+    @cache
+    def words(name: str) -> Vocabulary:
+        formula = chain.formulas().get(name)
+        return chain.vocabulary.with_conditions(formula.where if formula else ())
 
     def sign(name: str, point: dict[str, float]) -> int:
         try:
@@ -63,6 +67,7 @@ def domain_judge(
 
     def grid(name: str, arguments: Sequence[str], _: bool) -> tuple[Point, ...]:
         switches = switch_points(block.value for block in build_blocks(blocks).values())
+        vocabulary = words(name)
         points = domain_grid(name, arguments, vocabulary, switches)
         rows = importlib.import_module(f"{package}.manifest").KERNELS
         tested = {row["name"]: row.get("decades") for row in rows}
@@ -76,4 +81,7 @@ def domain_judge(
             points += tuple(towards_zeros(signs, partial(sign, name)))
         return tuple(map(Point, points))
 
-    return Judge(references, grid, package, easy, lambda point: inside(vocabulary, point.values))
+    def in_domain(name: str, point: Point) -> bool:
+        return inside(words(name), point.values)
+
+    return Judge(references, grid, package, easy, in_domain)

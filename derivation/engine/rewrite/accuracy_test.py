@@ -181,12 +181,15 @@ def accuracy_test(
     fixed = tuple(zip(others, SAMPLES, strict=False))
     if len(fixed) < len(others):
         raise UnreachableError(f"expected at most {len(SAMPLES)} further variables, got {others}")
-    exact = []
+    exact, slopes = (
+        [],
+        tuple((given, given.diff(x)) for given in dict.fromkeys((expression, equal))),
+    )
     tested = points(*ends, seed or str(expression))
     if expression.has(sp.sin, sp.cos, sp.tan):
         tested = tuple(sorted({*tested, *(at for at in ANGLES if ends[0] <= at <= ends[1])}))
     for point in tested:
-        value, slack = _exact_value(expression, x, point, fixed, equal)
+        value, slack = _exact_value(slopes, x, point, fixed)
         if value is not None and value != 0 and not overflows(value) and abs(value) > 1e-300:
             exact.append(ExactPoint(point, value, slack))
     if len(exact) < LEAST:
@@ -199,21 +202,20 @@ def accuracy_test(
 
 
 def _exact_value(
-    expression: sp.Expr,
+    slopes: Sequence[tuple[sp.Expr, sp.Expr]],
     x: sp.Symbol,
     point: float,
     fixed: Sequence[tuple[sp.Symbol, float]],
-    equal: sp.Expr,
 ) -> tuple[flint.arb | None, float]:
-    """Return the value and its slack; None if neither expression has a ball."""
+    """Return the value and its slack, by equal expressions with slopes; None without a ball."""
     at: dict[sp.Symbol, Exact] = {x: point, **dict(fixed)}
-    for candidate in (expression, equal):
+    for candidate, derivative in slopes:
         try:
             value = evaluate(candidate, at, DIGITS)
         except (PrecisionError, NotImplementedError):
             continue
         try:
-            slope = evaluate(candidate.diff(x), at, 3)
+            slope = evaluate(derivative, at, 3)
         except (PrecisionError, NotImplementedError):
             return value, 0.0  # then no conditioning is taken into account
         with flint.ctx.workprec(64):

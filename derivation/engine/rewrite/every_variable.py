@@ -1,19 +1,21 @@
 """Accuracy test of a form in several variables, in each of them over its domain."""
 
 import math
-from collections.abc import Iterable, Mapping
+import sys
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import lru_cache
+from itertools import chain, islice
 from typing import NamedTuple
 
 import flint
 import sympy as sp
 
 from derivation.engine.formula.ball import PrecisionError, evaluate, to_ball
-from derivation.engine.formula.grid import domain_grid, joint_points, towards_zeros
-from derivation.engine.formula.record import Record
+from derivation.engine.formula.grid import domain_grid, joint_points, plain_grid, towards_zeros
 from derivation.engine.formula.ulp import overflows, ulp_error
 from derivation.engine.rewrite.doubles import run
 from derivation.engine.rewrite.form import Block, Step, Switch, switch_points
+from derivation.engine.rewrite.products import Stated
 from derivation.engine.rewrite.terms import UnreachableError
 from derivation.engine.rewrite.useful_range import ENOUGH
 
@@ -22,9 +24,10 @@ ENOUGH_POINTS = 20
 """Smallest number of points with a value for a decision."""
 SMALLEST = 1e-150
 """Smallest value of an argument; products of smaller ones underflow."""
-LEAST_VALUE = 1e-300
-"""Smallest value that is tested; smaller ones may be subnormal and have fewer digits."""
-
+LEAST_VALUE = sys.float_info.min
+"""Smallest value that is tested; smaller ones are subnormal and have fewer digits."""
+DECAYING = sp.exp, sp.sinh, sp.cosh, sp.tanh, sp.coth
+"""Functions of which a part of a form may leave the range of doubles before the value does."""
 
 DECADES = 100, 30, 12, 6
 """Exponents of ten of the ranges of all arguments in which forms are tested, the largest first."""
@@ -37,15 +40,30 @@ JOINT = 1500
 
 
 class LargestError(NamedTuple):
-    """Largest error [ULP in addition to half the condition numbers], its point, point count."""
+    """Largest error [ULP in addition to half the condition numbers], its point, point count.
+
+    `whole` is the largest error with the part that conditioning explains [ULP], and `lost` the mean
+    number of bits by which errors exceed one ULP.
+    """
 
     error: float
     at: Mapping[str, float]
     points: int
+    whole: float
+    lost: float
+
+
+class Accuracy(NamedTuple):
+    """The largest of `DECADES` up to which a form is accurate, and its errors as above."""
+
+    decades: int
+    error: float
+    whole: float
+    lost: float
 
 
 def accurate(
-    formula: Record, steps: tuple[Step, ...], value: sp.Expr | Switch, blocks: Mapping[str, Block]
+    formula: Stated, steps: tuple[Step, ...], value: sp.Expr | Switch, blocks: Mapping[str, Block]
 ) -> float:
     """Return the largest error [ULP] of a form that is accurate in every variable of its formula.
 
@@ -69,7 +87,7 @@ def accurate(
     return worst.error
 
 
-def _inaccurate(formula: Record, worst: LargestError) -> str:
+def _inaccurate(formula: Stated, worst: LargestError) -> str:
     where = ", ".join(f"{name} = {x!r}" for name, x in worst.at.items())
     return (
         f"the form found for {formula.name} has an error of {worst.error:.2g} ULP at {where}, "
@@ -79,7 +97,7 @@ def _inaccurate(formula: Record, worst: LargestError) -> str:
 
 
 def measured_error(
-    formula: Record, steps: tuple[Step, ...], value: sp.Expr | Switch, blocks: Mapping[str, Block]
+    formula: Stated, steps: tuple[Step, ...], value: sp.Expr | Switch, blocks: Mapping[str, Block]
 ) -> LargestError:
     """Return the largest error of a form at difficult points of every variable.
 
@@ -106,10 +124,10 @@ class JointTest:
         The formula, whose arguments have domains.
     """
 
-    def __init__(self, formula: Record) -> None:
+    def __init__(self, formula: Stated) -> None:
         self.formula = formula
         self.known: dict[int, Known] = {}
-        self.zeros: Known | None = None
+        self.nearer: Known | None = None
 
     def range_of(
         self,
@@ -117,8 +135,8 @@ class JointTest:
         value: sp.Expr | Switch,
         blocks: Mapping[str, Block],
         share: float = HALF,
-    ) -> tuple[int, float]:
-        """Return the largest of `DECADES` up to which a form is accurate, and its error [ULP].
+    ) -> Accuracy:
+        """Return the largest of `DECADES` up to which a form is accurate, and its errors [ULP].
 
         The share is the error that is allowed per sum of the condition numbers.
 
@@ -137,7 +155,7 @@ class JointTest:
                     continue
                 worst = _largest(self.formula, points, steps, value, blocks, share)
                 if worst.error <= ENOUGH:
-                    return decades, worst.error
+                    return Accuracy(decades, worst.error, worst.whole, worst.lost)
         if worst is None:
             raise UnreachableError(
                 f"{self.formula.name} has values at {len(points)} test points, expected "
@@ -149,28 +167,40 @@ class JointTest:
         if decades not in self.known:
             names = [argument.name for argument in self.formula.arguments]
             words, most = self.formula.vocabulary, 10.0**decades
-            grid = domain_grid(self.formula.name, names, words, {})
+            grid = plain_grid(self.formula.name, tuple(names), words)
             if decades < DECADES[0]:
                 grid = tuple(
                     p for p in grid if all(x == 0 or 1 / most <= abs(x) <= most for x in p.values())
                 )
             joint = joint_points(self.formula.name, names, words, decades, JOINT)
             known = _with_values(self.formula, (*grid, *joint))
-            if self.zeros is None:  # they are of moderate size, and tested in every range
+            if self.nearer is None:  # they are of moderate size, and tested in every range
                 signs = [(point, _sign(value)) for point, value in known]
-                nearer = towards_zeros(signs, self._sign_at)
-                self.zeros = _with_values(self.formula, nearer)
+                nearer = towards_zeros(signs, lambda point: self._side(point, _sign))
+                self.nearer = _with_values(self.formula, chain(nearer, self._underflow(joint)))
             self.known[decades] = known + [
                 (point, value)
-                for point, value in self.zeros
+                for point, value in self.nearer
                 if all(abs(x) <= most for x in point.values())
             ]
         return self.known[decades]
 
-    def _sign_at(self, point: dict[str, float]) -> int:
+    def _underflow(self, points: Iterable[dict[str, float]]) -> Iterator[dict[str, float]]:
+        """Yield points between those with a normal and with a smaller value, ever nearer to it."""
+        if not self.formula.expression.has(*DECAYING):
+            return
+
+        def side(point: dict[str, float]) -> int:
+            return self._side(point, lambda value: 1 if abs(value) > LEAST_VALUE else -1)
+
+        sides = [(point, side(point)) for point in islice(points, FEW)]
+        yield from towards_zeros(sides, side)
+
+    def _side(self, point: dict[str, float], of: Callable[[flint.arb], int]) -> int:
+        """Return what a function returns for the value at a point; 0 without a value."""
         at = {argument.symbol: point[argument.name] for argument in self.formula.arguments}
         try:
-            return _sign(evaluate(self.formula.expression, at, 3))
+            return of(evaluate(self.formula.expression, at, 3))
         except (PrecisionError, NotImplementedError):
             return 0
 
@@ -179,7 +209,7 @@ def _sign(value: flint.arb) -> int:
     return int(value > 0) - int(value < 0)
 
 
-def _with_values(formula: Record, points: Iterable[dict[str, float]]) -> Known:
+def _with_values(formula: Stated, points: Iterable[dict[str, float]]) -> Known:
     symbols = {argument.name: argument.symbol for argument in formula.arguments}
     known = []
     for point in points:
@@ -192,7 +222,7 @@ def _with_values(formula: Record, points: Iterable[dict[str, float]]) -> Known:
 
 
 def _largest(
-    formula: Record,
+    formula: Stated,
     known: Known,
     steps: tuple[Step, ...],
     value: sp.Expr | Switch,
@@ -200,17 +230,19 @@ def _largest(
     share: float = HALF,
 ) -> LargestError:
     symbols = {argument.name: argument.symbol for argument in formula.arguments}
-    errors = []
+    errors, whole = [], []
     for point, reference in known:
         at = {symbols[name]: x for name, x in point.items()}
         got = _computed(steps, value, at, blocks)
-        errors.append((_beyond(formula.expression, reference, got, at, share), point))
+        whole.append(ulp_error(got, reference))
+        errors.append((_beyond(formula.expression, whole[-1], at, share), point))
     if len(errors) < ENOUGH_POINTS:
         raise UnreachableError(
             f"{formula.name} has values at {len(errors)} test points, expected {ENOUGH_POINTS}"
         )
     error, at_worst = max(errors, key=lambda pair: pair[0])
-    return LargestError(error, at_worst, len(errors))
+    lost = sum(math.log2(max(one, 1.0)) for one in whole) / len(whole)
+    return LargestError(error, at_worst, len(errors), max(whole), lost)
 
 
 def _reference(expression: sp.Expr, at: Mapping[sp.Symbol, float]) -> flint.arb | None:
@@ -236,13 +268,11 @@ def _computed(
 
 def _beyond(
     expression: sp.Expr,
-    reference: flint.arb,
-    got: float,
+    error: float,
     at: Mapping[sp.Symbol, float],
     share: float = HALF,
 ) -> float:
     """Return the error [ULP], less a share of the condition numbers if it is large."""
-    error = ulp_error(got, reference)
     if not ENOUGH / 2 < error < math.inf:
         return error
     return max(error - share * _conditioning(expression, tuple(at.items())), 0.0)

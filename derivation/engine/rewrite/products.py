@@ -8,7 +8,7 @@ exponents follow from the slopes at some points. The form is proved afterwards, 
 import math
 from collections import defaultdict
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import chain, count
 from typing import NamedTuple, TypeVar
@@ -17,7 +17,7 @@ import flint
 import sympy as sp
 
 from derivation.engine.formula.ball import enclose, to_ball
-from derivation.engine.formula.grid import domain_grid, inside
+from derivation.engine.formula.grid import inside, plain_grid
 from derivation.engine.formula.record import Record
 from derivation.engine.formula.vocabulary import Argument, Vocabulary
 from derivation.engine.rewrite.blocks import block_of
@@ -89,6 +89,21 @@ class ProductForm:
     def applied(self) -> tuple[Applied, ...]:
         """The rules that were kept, for each factor in turn."""
         return tuple(rule for _, stable in self.factors for rule in stable.applied)
+
+
+def decaying_last(made: ProductForm) -> ProductForm:
+    """Return the form with e^(-x) in front as two factors e^(-x/2), which do not underflow.
+
+    They are multiplied last, so that the result underflows only if the value does.
+    """
+    value = made.value
+    if isinstance(value, Switch):
+        return made
+    inner, *powers = value.args if value.func == TIMES else (value,)
+    decays = [factor for factor in sp.Mul.make_args(inner) if isinstance(factor, sp.exp)]
+    rest = sp.Mul(*(factor for factor in sp.Mul.make_args(inner) if factor not in decays))
+    halves = [part for decay in decays for part in (sp.exp(decay.args[0] / 2), sp.Integer(2))]
+    return replace(made, value=TIMES(rest, *powers, *halves)) if decays else made
 
 
 def of_products(formula: Stated, accept: Callable[[ProductForm], tuple[Result, float]]) -> Result:
@@ -235,7 +250,7 @@ def _slopes(factor: sp.Expr, formula: Stated, symbols: Sequence[sp.Symbol]) -> l
     """Return the logarithmic slopes at difficult points of the domain."""
     expressions = [symbol * factor.diff(symbol) / factor for symbol in symbols]
     names, slopes = _names(formula), []
-    for point in domain_grid(formula.name, names, formula.vocabulary, {}):
+    for point in plain_grid(formula.name, tuple(names), formula.vocabulary):
         with flint.ctx.workprec(BITS):
             at = {a.symbol: to_ball(point[a.name]) for a in formula.arguments}
             try:

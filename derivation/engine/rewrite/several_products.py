@@ -20,7 +20,9 @@ from sympy.codegen.cfunctions import log1p
 from derivation.engine.formula.domain import comparison
 from derivation.engine.rewrite.accuracy_test import KNOWN, accuracy_test
 from derivation.engine.rewrite.blocks import block_of
+from derivation.engine.rewrite.differences_from_one import by_differences_from_one
 from derivation.engine.rewrite.dimensionless import Product, reduced
+from derivation.engine.rewrite.exact_sums import by_exact_sums
 from derivation.engine.rewrite.form import Block, Step, Switch
 from derivation.engine.rewrite.identities import by_identities
 from derivation.engine.rewrite.products import (
@@ -50,6 +52,10 @@ ACCURATE = 3.0
 """Largest error [ULP] of a part of one variable that is left as it is."""
 MOST_SHIFTS = 6
 """Largest number of choices of ends of domains whose distances become variables."""
+LOWER, UPPER = 0, 1
+"""Indices of the ends of an interval."""
+ELSEWHERE = sp.Rational(7, 19)
+"""Factor of an end that gives a number at which no terms cancel."""
 NEAR_ZERO, FAR = 1e-6, 1e6
 """Ends of domains of magnitudes outside of this range are not used."""
 Interval = tuple[sp.Rational | None, sp.Rational | None]
@@ -87,12 +93,13 @@ def _candidates(formula: Stated) -> Iterator[ProductForm]:
     for plain in (expression, sp.factor(expression), *by_identities(expression)):
         if not plain.has(sp.Min, sp.Max):
             yield ProductForm((), plain)
+    yield from by_exact_sums(expression)
     taken = {argument.name for argument in formula.arguments}
     names = (name for name in _every_name() if name not in taken)
     zeros = may_vanish(formula)
     lower = reduced(expression, zeros, names)
     domains = {p.variable: _interval(p, formula) for p in lower.products}
-    for ends in islice(_shifts(lower.products, domains), MOST_SHIFTS):
+    for ends in islice(_shifts(lower.expression, lower.products, domains), MOST_SHIFTS):
         yield from _written(formula, lower.expression, lower.front, lower.products, domains, ends)
 
 
@@ -101,19 +108,39 @@ def _every_name() -> Iterator[str]:
 
 
 def _shifts(
-    products: Sequence[Product], domains: Mapping[sp.Symbol, Interval]
+    expression: sp.Expr, products: Sequence[Product], domains: Mapping[sp.Symbol, Interval]
 ) -> Iterator[dict[sp.Symbol, sp.Rational]]:
-    """Yield choices of variables with an end of their domains: none, all upper ends, each one."""
+    """Yield choices of variables with an end of their domains: none, several, each one.
+
+    Ends at which terms cancel come first.
+    """
     yield {}
-    upper = {p.variable: end for p in products if (end := domains[p.variable][1]) is not None}
-    lower = {p.variable: end for p in products if (end := domains[p.variable][0]) is not None}
-    alone = [{x: end} for ends in (upper, lower) for x, end in ends.items()]
-    yield from alone
-    if len(upper) > 1:
-        yield upper
-    if len({**lower, **upper}) > 1:
-        yield {**lower, **upper}
-        yield {**upper, **lower}
+    sides = [
+        {p.variable: end for p in products if (end := domains[p.variable][side]) is not None}
+        for side in (UPPER, LOWER)
+    ]
+    parts = sp.fraction(sp.together(expression))
+    for useful in (True, False):
+        upper, lower = (
+            {x: end for x, end in ends.items() if _cancels(parts, x, end) == useful}
+            for ends in sides
+        )
+        several = ({**lower, **upper}, {**upper, **lower}, upper, lower)
+        yield from (ends for ends in several if len(ends) > 1)
+        yield from ({x: end} for ends in (upper, lower) for x, end in ends.items())
+
+
+def _cancels(parts: Sequence[sp.Expr], x: sp.Symbol, end: sp.Rational) -> bool:
+    """Return whether terms cancel, or have no value, where a variable is at an end."""
+    there, elsewhere = ([part.subs(x, at) for part in parts] for at in (end, end * ELSEWHERE))
+    if any(part.has(sp.zoo, sp.nan, sp.oo) for part in there):
+        return True
+    counts = [sum(len(_terms(part)) for part in values) for values in (there, elsewhere)]
+    return counts[0] < counts[1]
+
+
+def _terms(expression: sp.Expr) -> tuple[sp.Expr, ...]:
+    return sp.Add.make_args(sp.expand(expression)) if expression != 0 else ()
 
 
 def _interval(product: Product, formula: Stated) -> Interval:
@@ -174,10 +201,11 @@ def _written(
     whole = expression.subs(changed, simultaneous=True)
     symbols = [gap for gap in variables if whole.has(gap)]
     symbols.sort(key=lambda v: (not _in_function(whole, v), str(v)))
-    for v in (None, *symbols):
+    ways = [(whole, None), *((part, None) for part in by_differences_from_one(whole))]
+    for part, v in (*ways, *((whole, v) for v in symbols)):
         writer = _Writer(formula.name, variables)
         try:
-            value = writer.write(whole) if v is None else writer.separated(whole, v)
+            value = writer.write(part) if v is None else writer.separated(part, v)
         except UnreachableError:
             continue
         kept = tuple(step for step in steps if _is_used(step.symbol, steps, value))

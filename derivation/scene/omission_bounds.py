@@ -274,7 +274,7 @@ def errors_of(state: LargestContact, effects: Sequence[Effect], outputs: Sequenc
     bounds = [bound_of(state, e, None if e in elastic else stretch) for e in effects]
     # Half-space effects multiply; for the others the product is an upper bound of the sum.
     with np.errstate(over="ignore"):
-        up = math.prod(1.0 + bound.up for bound in bounds)
+        up = np.asarray(math.prod(1.0 + bound.up for bound in bounds))
     together = Bound(
         low=_sum(bound.low for bound in bounds),
         up=up - 1.0,

@@ -151,7 +151,7 @@ class Line:
 
 @pytest.mark.parametrize(
     ("budget", "needed", "suggested"),
-    [(8.0, 3.0, 3.75), (8.0, 3.01, 4.0), (3.75, 3.0, None), (2.0, 9.0, None), (0.51, 0.1, 0.5),
+    [(8.0, 3.0, 4.5), (8.0, 3.01, 4.75), (4.5, 3.0, None), (2.0, 9.0, None), (0.51, 0.1, 0.5),
      (4.0, 0.0, 0.5), (4.0, float("inf"), None)],
 )  # fmt: skip
 def test_suggested_budget_is_the_largest_error_with_a_margin(
@@ -169,7 +169,7 @@ def test_suggestions_are_valid_toml_without_failed_functions() -> None:
         Line("C_top", 3.0, Measured(0.1), None, False),
         Line("K_j", None, Measured(0.1), None, None),
     ]
-    assert tomllib.loads("\n".join(map(str, suggestions(rows)))) == {"G": 2.5}
+    assert tomllib.loads("\n".join(map(str, suggestions(rows)))) == {"G": 3.0}
     assert suggestions(rows[1:]) == []
 
 

@@ -13,6 +13,7 @@ from derivation.checks.inertia_rows import InertiaResults, InertiaRow
 from derivation.checks.random_scenes import Scene, largest_change
 from derivation.engine.activity import Progress, quiet
 from derivation.engine.files import measurements
+from derivation.engine.threads import one_thread
 from derivation.scene import motion, waves
 from derivation.scene.effect_selection import decide
 from derivation.scene.effects import EFFECTS
@@ -186,7 +187,7 @@ def mode_count(model: Model) -> int:
 
 def _moving(model: Model, rtol: float) -> DynamicImpact:
     """Return the impact with every applicable effect."""
-    with np.errstate(all="ignore"):
+    with one_thread(), np.errstate(all="ignore"):
         return waves.impact(ContactLaw(model, selectable_effects(model)), waves.goal(rtol))
 
 

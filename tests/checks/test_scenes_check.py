@@ -122,7 +122,8 @@ def test_worker_processes_run_the_scenes() -> None:
     assert [o.kind for o in report] == ["finished", "rejected", "rejected"]
     assert [o.rtol for o in report] == [1e-3, 1e-3, None]
     assert all(o.states_remedy for o in report)
-    assert all(0.0 < o.seconds < 60.0 for o in report)
+    assert report[0].seconds > 0.0  # a rejection may take less than a tick of the clock
+    assert all(0.0 <= o.seconds < 60.0 for o in report)
     assert all(1e6 < o.memory < 2e9 for o in report)
     assert f"{max(o.seconds for o in report):.2g} s, " in cost(report)
 

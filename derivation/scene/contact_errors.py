@@ -101,6 +101,8 @@ def sufficient_speed(problem: DynamicProblem) -> float:
     if wide[-1] < problem.limit:
         return 0.0
     last = int(np.searchsorted(wide, problem.limit))
+    if last < 2:  # the contact yields, and is too wide, as soon as it begins
+        return 0.0
     # Each sum has less force than the integral, and the last interval is omitted.
     work = float(np.sum(at.force[: last - 1] * np.diff(a[:last]) * depth_a[: last - 1]))
     depth = float(np.sum(np.diff(a[:last]) * depth_a[: last - 1]))

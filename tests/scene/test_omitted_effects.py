@@ -8,6 +8,7 @@ from pathlib import Path
 from types import FunctionType
 from typing import Any
 
+import numpy as np
 import pytest
 from shared_scenes import ALL, EXAMPLES, model, scene
 
@@ -103,7 +104,9 @@ def test_omitted_effect_gives_the_result_of_a_scene_without_it(name: str, withou
     one, other = (
         motion.impact(ContactLaw(of, left - {"non_hertzian_pressure"})) for of in (m, rest)
     )
-    assert other == one
+    # The polynomials of a simple support reach as far as the contact, which depends on the sphere.
+    rounding = 1e-14 if name == "sphere_elasticity" else 0.0
+    np.testing.assert_allclose(other.numbers, one.numbers, rtol=rounding)
 
 
 def test_half_space_calls_only_bounds_and_the_closed_form(calls: set[str]) -> None:

@@ -43,7 +43,7 @@ class Viscosity(Effect):
 
     def not_applicable_reason(self, model: Model) -> str:
         """Return a reason if no retardation time is given."""
-        return "" if model.retardation_time else "no retardation_time of plate or sphere"
+        return "" if model.retardation_time else "neither plate nor sphere has a retardation_time"
 
     def value(self, model: Model, a: float) -> float:  # noqa: ARG002
         """Return the viscous parameter of Hertz's contact."""

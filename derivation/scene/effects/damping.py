@@ -59,11 +59,7 @@ class Damping(Effect):
         """Return a reason if the loss factor or the density is missing."""
         if not model.loss_factor:
             return "plate.loss_factor is not given"
-        return (
-            ""
-            if model.density
-            else "the density of the plate is unknown, so that its inertia is not computed"
-        )
+        return "" if model.density else "the density of the plate is unknown"
 
     def without_change(self, scene: Scene) -> bool:
         """Return whether the given loss factor is 0."""

@@ -13,7 +13,7 @@ from derivation.scene.model import Model
 
 
 class FiniteRadius(PlateEffect):
-    """Integral over K0/I0, which depends only on a/b."""
+    """Integral over the ratio K0/I0 of Bessel functions; it depends only on a/b."""
 
     name = "finite_radius"
     adds = "finite radius of the plate"

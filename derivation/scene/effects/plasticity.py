@@ -22,7 +22,7 @@ _LARGEST, _SMALLEST = 1e50, 1e-50
 
 
 class Plasticity(Effect):
-    """Elastic up to a pressure of 1.6 Y, which is then constant; unloading is elastic."""
+    """Contact with a pressure of at most 1.6 Y; it is elastic below this limit and in unloading."""
 
     name = "plasticity"
     adds = "plastic deformation in the contact"

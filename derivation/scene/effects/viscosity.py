@@ -28,7 +28,7 @@ inertia (at most 1). In 323 random scenes the changes were at most 0.66 of the b
 
 
 class Viscosity(Effect):
-    """Viscoelastic local indentation without tension; A_v is a retardation time."""
+    """Viscoelastic local indentation without tensile forces; A_v is a retardation time."""
 
     name = "viscosity"
     adds = "viscoelastic contact"

@@ -121,7 +121,7 @@ def _no_energy(law: ContactLaw) -> SceneError:
     return SceneError(
         f"scene: expected a contact law that absorbs energy up to {law.limit_in_words}, got the "
         f"law of {', '.join(sorted(law.effects))}, which absorbs none; use a thicker plate, or "
-        "remove the effects that [effects] disables"
+        "remove the keys of [effects] that are false"
     )
 
 

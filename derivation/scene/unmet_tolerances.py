@@ -43,7 +43,7 @@ def out_of_reach(
             f"rtol: the tolerance {rtol:.3g} cannot be checked because there is no bound on the "
             "omitted effects; remove the keys of [effects] that are false, or remove the tolerance"
         )
-    where = f"for a contact radius a/R = {a / law.model.R:.4g}"
+    where = f"for a contact radius of {a / law.model.R:.4g} sphere radii"
     remedy = "increase the tolerance"
     if law.dynamic:
         where = "with the dynamic modes and wave branches of this scene"

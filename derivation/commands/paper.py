@@ -71,7 +71,7 @@ def generate(
     With --scene: write one module that imports only NumPy. It contains the contact law and the
     impact of the scene, with the effects that its tolerance requires.
 
-    Example: platecontact generate --scene glass_pane.toml --out glass_pane.py
+    Example: platecontact generate --scene paper.toml --out paper_law.py
     """
     expect_no_other_options(paper, "--check and --out", scene)
     if scene is not None:

@@ -27,7 +27,7 @@ SHARP = 0.05
 def endless(problem: DynamicProblem, t: float, most: int) -> IncompleteError:
     """Return the error of a simulation with too many time steps."""
     return IncompleteError(
-        f"the sphere was still in contact {problem.T * t:.6g} s after the first contact, when the "
+        f"the sphere was still in contact {problem.T * t:.6g} s after first contact, when the "
         f"limit of {most} time steps was reached",
         "reduce inertia.modes, increase accuracy.rtol, or set effects.inertia = false",
     )
@@ -123,15 +123,15 @@ def lost(
     """Return the error of a contact without a solution: too wide, not circular, or extreme."""
     deflection = problem.depth * float(np.sum(state.q))
     why = (
-        f"has no solution: expected a smooth contact, got a contact radius of "
-        f"{problem.a * radius:.3g} m and a plate deflection of {deflection:.3g} m"
+        f"has no solution at a contact radius of {problem.a * radius:.3g} m and a plate deflection "
+        f"of {deflection:.3g} m"
     )
     remedy = "reduce impact.speed, or use a smaller sphere or a thicker plate"
     beyond = np.nextafter(problem.contact.top, 0.0) / problem.a
     if radius > 0.99 * beyond:
         why = (
-            f"grows wider than {problem.contact.top:.4g} m, {WIDER:g} times what the impact on a "
-            "plate that does not deflect reaches"
+            f"grows wider than {problem.contact.top:.4g} m, {WIDER:g} times the largest contact "
+            "radius on a plate that does not deflect"
         )
         if problem.contact.top >= problem.limit:
             why = f"grows wider than the contact law allows, {problem.range_end}"

@@ -48,8 +48,8 @@ def fall_warnings(gravity: float, rebound_speed: float, deflection: float) -> tu
     if rise > deflection:
         return ()
     text = (
-        f"after the impact the sphere rises by {rise:.2g} m, and the plate still vibrates by "
-        f"{deflection:.2g} m: the weight returns the sphere to a moving plate, and the "
+        f"after the impact the sphere rises by {rise:.2g} m, and the vibrating plate deflects "
+        f"by up to {deflection:.2g} m: the weight returns the sphere to a moving plate, and the "
         "restitution does not include the contacts that follow"
     )
     return (text,)

@@ -59,7 +59,8 @@ def edge_remainder(model: Model, a: float) -> float:
             raise SceneError(
                 f"plate.edge: expected {name.replace('_over_', '/')} up to {axis[-1]} for a "
                 f"{model.edge} edge, the range in which its model error is known, got "
-                f'{coordinates[name]:.4g}; write edge = "paper", or effects.edge = false'
+                f"{coordinates[name]:.4g} (h half-thickness, a contact radius, b plate radius); "
+                'write edge = "paper", or effects.edge = false'
             )
     around = [_neighbours(axis, coordinates[name]) for name, axis in zip(_KEYS, axes, strict=True)]
     remainder = max(_table()[(kind, *point)] for point in product(*around))
@@ -67,7 +68,8 @@ def edge_remainder(model: Model, a: float) -> float:
         raise SceneError(
             f"plate.edge: expected a model error of the {model.edge} edge of at most 1 % of the "
             f"indentation, got {100 * remainder:.2g} % at h/b = {model.eta:.4g}, nu = {nu:.3g}, "
-            f"a/b = {a / model.b:.4g}; use a larger plate, or set effects.edge = false"
+            f"a/b = {a / model.b:.4g} (h half-thickness, a contact radius, b plate radius); use a "
+            "larger plate, or set effects.edge = false"
         )
     return remainder
 

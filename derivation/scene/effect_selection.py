@@ -21,7 +21,12 @@ HEADS = (
 """Column heads of the effects table."""
 
 
-SYMBOLS = "a contact radius, R sphere radius, b plate radius, H = 2 h thickness, E* = E/(1 - nu^2)"
+SYMBOLS = (
+    "a contact radius; R radius, m mass and v0 impact speed of the sphere; b radius, H = 2 h "
+    "thickness, rho density and D bending stiffness of the plate; E Young's modulus, nu Poisson's "
+    "ratio, E* contact modulus, A_v retardation time; K = (4/3) E* sqrt(R), "
+    "That = (m^2/(K^2 v0))^(1/5); 1 + c_1 a/h indentation over a^2/R in a small contact; g gravity"
+)
 """Symbols of the parameters."""
 
 
@@ -163,8 +168,10 @@ class SelectedEffects:
             cells = [[*row, run_times.get(row[0], "n/a")] for row in cells]
         adds = [paragraph(f"  {row.name}: {row.adds}; {row.parameter}", 4) for row in self.rows]
         reasons = _grouped((row.name, row.reason) for row in self.rows)
-        title = paragraph(f"Effects and their dimensionless parameters ({SYMBOLS}):", 0)
-        return "\n".join([aligned(heads, cells), "", title, *adds, "", "Reasons:", *reasons])
+        legend = ["Effects and their dimensionless parameters:", *adds]
+        symbols = paragraph(f"Symbols: {SYMBOLS}", 2)
+        parts = [aligned(heads, cells), "", *legend, "", symbols, "", "Reasons:", *reasons]
+        return "\n".join(parts)
 
     def to_html(self) -> str:
         """Return the effects table for a notebook."""

@@ -121,7 +121,7 @@ def _no_energy(law: ContactLaw) -> SceneError:
     return SceneError(
         f"scene: expected a contact law that absorbs energy up to {law.limit_in_words}, got the "
         f"law of {', '.join(sorted(law.effects))}, which absorbs none; use a thicker plate, or "
-        "remove the effects that [effects] disables"
+        "remove the keys of [effects] that are false"
     )
 
 
@@ -283,10 +283,13 @@ def motion_warnings(
         )
         if contact_time < echoes / 2.0:
             waves = (
-                "it ends before through-thickness waves return from the back face, but in the "
-                "model the thickness responds without delay"
+                "the contact ends before through-thickness waves return from the back face, but "
+                "in the model the thickness responds without delay"
             )
-        notes.append(f"the contact time is below 4 H/c_P = {echoes:.3g} s: {waves}")
+        notes.append(
+            f"the contact time is below 4 H/c_P = {echoes:.3g} s (H thickness, c_P speed of "
+            f"compressional waves): {waves}"
+        )
     return tuple(notes)
 
 
@@ -315,8 +318,8 @@ def pressure_warnings(
     """Return a warning if the body with the lower yield stress yields, or may yield unchecked."""
     if yield_stress is not None and viscous:
         text = (
-            f"yielding of the {body} is not checked: max_pressure is the elastic part, to which a "
-            "viscoelastic contact adds while it grows"
+            f"whether the {body} yields is not checked: max_pressure is the elastic part of the "
+            "pressure, which a viscoelastic contact exceeds while it grows"
         )
         return (text,)
     if yield_stress is None or pressure <= kernels.YIELD_LIMIT * yield_stress:

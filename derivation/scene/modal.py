@@ -299,8 +299,8 @@ def _waves(model: Model) -> "Waves":
     if cutoff(model.poissons_ratio) > math.pi * MOST_BELOW_CUTOFF * model.eta:
         raise SceneError(
             f"plate.edge: expected a {model.edge} plate with at most {MOST_BELOW_CUTOFF} bending "
-            f"modes below the cut-off, got a radius of {model.b:.3g} m and a thickness of "
-            f'{2.0 * model.h:.3g} m; reduce the radius, or set extent = "infinite" in [inertia]'
+            f"modes below the cut-off frequency, got a radius of {model.b:.3g} m and a thickness "
+            f'of {2.0 * model.h:.3g} m; reduce the radius, or set extent = "infinite" in [inertia]'
         )
     modes = _edge_waves(model.edge, model.eta, model.poissons_ratio)
     if not modes.k.size:

@@ -228,7 +228,7 @@ def unchecked(coarse: ImpactHistory, problem: DynamicProblem, fewer: int) -> Imp
     return replace(
         coarse,
         reason=f"the error of {coarse.problem.omega.size} modes is unknown, because the "
-        f"{problem.omega.size} modes for its estimate exceed the limit of work",
+        f"{problem.omega.size} modes for its estimate exceed the limit of time steps and modes",
         remedy=f"set inertia.modes = {fewer} and remove the tolerance, or set "
         "effects.inertia = false",
     )

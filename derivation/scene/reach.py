@@ -112,7 +112,8 @@ class Reach:
         cause, remedy = self._branches_in_words()
         raise OutOfReachError(
             known[worst],
-            f"{cause}, and the others may change {worst} by about {known[worst]:.1e} (estimated)",
+            f"{cause}, and the omitted branches may change {worst} by about "
+            f"{known[worst]:.1e} (estimated)",
             remedy,
         )
 

@@ -104,9 +104,9 @@ def check_long(law: ContactLaw, tolerance: float) -> None:
     if steps > most:
         raise SceneError(
             f"effects.inertia: the sphere is {ratio:.3g} times as heavy as the first mode of the "
-            f"plate and stays on it for about {swing:.2g} s, which needs at least {steps:.2g} time "
-            f"steps, more than the limit of {most}; set effects.inertia = false (for such a sphere "
-            "the plate is nearly quasi-static), or choose inertia.modes"
+            f"plate and stays in contact for about {swing:.2g} s, which needs at least {steps:.2g} "
+            f"time steps, more than the limit of {most}; set effects.inertia = false (for such a "
+            "sphere the plate is nearly quasi-static), or choose inertia.modes"
         )
 
 
@@ -119,10 +119,10 @@ def _check_time_in_contact(law: ContactLaw, tolerance: float) -> None:
     steps, most = _steps(law, count, tolerance, least, FEWER)
     if steps > most:
         raise SceneError(
-            f"effects.inertia: expected a sphere that leaves the plate within the limit of {most} "
-            f"time steps, got one that touches it for an estimated {least:.2g} s or more, which "
-            f"needs {steps:.2g} of them with the {count} modes that its short contacts require; "
-            "use a lighter sphere, or a thicker or smaller plate"
+            f"effects.inertia: expected an impact of at most {most} time steps, got one with an "
+            f"estimated time in contact of at least {least:.2g} s, which needs {steps:.2g} time "
+            f"steps with the {count} modes that its short contacts require; use a lighter "
+            "sphere, or a thicker or smaller plate"
         )
 
 

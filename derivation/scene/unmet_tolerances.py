@@ -12,9 +12,10 @@ from derivation.scene.law import ContactLaw
 def duration_may_jump(rtol: float) -> SceneError:
     """Return the error for a first contact whose duration may jump."""
     return SceneError(
-        f"rtol: expected a first contact whose duration is determined to {rtol:.3g}, got one that "
-        "the omitted effects or modes may split or join with the second; reduce the tolerance, so "
-        "that more of them are included, or leave contact_time out of accuracy.outputs"
+        f"rtol: contact_time, the duration of the first contact, cannot be computed to {rtol:.3g}, "
+        "because the omitted effects or modes may split this contact, or join it with the second; "
+        "reduce the tolerance, so that more of them are included, or remove contact_time from "
+        "accuracy.outputs"
     )
 
 
@@ -40,9 +41,9 @@ def out_of_reach(
     if math.isinf(accuracy.effects.bound):
         return SceneError(
             f"rtol: the tolerance {rtol:.3g} cannot be checked because there is no bound on the "
-            "omitted effects; remove the effects that [effects] disables, or the tolerance"
+            "omitted effects; remove the keys of [effects] that are false, or remove the tolerance"
         )
-    where = f"for a contact radius a/R = {a / law.model.R:.4g}"
+    where = f"for a contact radius of {a / law.model.R:.4g} sphere radii"
     remedy = "increase the tolerance"
     if law.dynamic:
         where = "with the dynamic modes and wave branches of this scene"

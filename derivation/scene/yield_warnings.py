@@ -114,6 +114,7 @@ def _reason(wide: float) -> str:
     return (
         f"the contact radius is {wide:.3g} times that at the onset of yield; in the model the "
         f"pressure is limited to {YIELD_LIMIT:g} times the yield stress, but in a ductile solid, "
-        f"as most metals, the mean pressure then rises towards {FULLY_PLASTIC:g} times (Johnson "
-        "1985), and a brittle one, as ice, glass or ceramics, cracks. If it is ductile"
+        f"such as most metals, the mean pressure then rises towards {FULLY_PLASTIC:g} times this "
+        "stress (Johnson 1985), and a brittle solid, such as ice, glass or a ceramic, cracks. If "
+        "the solid is ductile"
     )

@@ -47,13 +47,13 @@ def entries() -> str:
 
 
 def choice() -> str:
-    """Return for each effect by what the program decides, and what follows from including it."""
+    """Return for each effect how the program selects it, and the consequence of including it."""
     rows = [(link(e), e.adds, code(e.parameter), _rule(e), _consequence(e)) for e in EFFECTS]
     return table(("effect", "adds", "parameter", "selection", "consequence"), rows)
 
 
 def example() -> str:
-    """Return what `explain` says of an example scene."""
+    """Return an example scene with the output of `explain`."""
     scene = pc.load(EXAMPLE)
     said = fill(str(pc.explain(scene)), 80)
     return "\n\n".join([block(EXAMPLE.read_text(), "toml"), block(said)])
@@ -78,18 +78,20 @@ def _rule(effect: Effect) -> str:
     if effect.always_included:
         return "always included"
     if effect.within:
-        return f"by its bound, as a part of `{effect.within}`"
-    return "by its bound" if effect.selectable else "only if the scene asks for it"
+        return f"by its error bound, as a part of `{effect.within}`"
+    return "by its error bound" if effect.selectable else "only if the scene enables it"
 
 
 def _consequence(effect: Effect) -> str:
+    if effect.always_included:
+        return "the basis of the contact law"
     facts = {
         "the plate has inertia; static contacts are unaffected": effect.dynamic,
         "acts during an impact only": not effect.static and not effect.dynamic,
-        "the pressure is solved for": effect.solved,
+        "the pressure follows from an integral equation": effect.solved,
         "the contact loses energy": effect.viscous or effect.plastic,
         "the plate loses energy": effect.damps,
-        "one more term of the contact law": not (
+        "changes the contact law": not (
             effect.dynamic or effect.solved or effect.viscous or effect.plastic
         )
         and effect.static,

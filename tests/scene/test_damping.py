@@ -198,7 +198,7 @@ def test_loss_factor_must_be_below_critical_damping(value: float) -> None:
 
 
 def test_table_states_why_damping_does_not_apply() -> None:
-    assert row(scene(None)).reason == "no plate.loss_factor"
+    assert row(scene(None)).reason == "plate.loss_factor is not given"
     still = {"inertia": False}
     assert row(scene(0.1, effects=still)).reason == "effects.inertia = false"
     light = scene(0.1, effects=still)

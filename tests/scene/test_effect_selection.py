@@ -195,7 +195,7 @@ def test_explain_does_not_simulate_and_gives_reasons(capsys: Captured, tmp_path:
     assert re.search(
         r"disabled in the scene: changes [a-z_]+ by at most \S+ %\"", json.dumps(data["effects"])
     )
-    assert "no impact.gravity" in json.dumps(data["effects"])
+    assert "impact.gravity is not given" in json.dumps(data["effects"])
     assert data["bound"] <= data["rtol"]
     for row in data["effects"]:
         assert row["name"] in shown

@@ -146,7 +146,7 @@ def test_run_above_the_work_limit_is_not_started(monkeypatch: pytest.MonkeyPatch
     assert not part.inertia.complete
     assert math.isnan(part.restitution)
     assert part.contact_time == pytest.approx(whole.contact_time, rel=0.05)
-    assert "limit of work" in part.inertia.end_reason
+    assert "limit of time steps and modes" in part.inertia.end_reason
     # The impact is complete with the setting that the remedy proposes.
     given = re.search(r"inertia.modes = (\d+)", part.inertia.remedy)
     assert given

@@ -12,7 +12,8 @@ ABOUT = {
     "contact radius; the coefficients depend on $h/b$ alone.",
     "thin plate": "For thin plates the sums become integrals over $T$, with finite parts $M_k$ "
     "and a logarithm. The remainder is a sum of residues at $T_n$, the "
-    r"roots of $\sinh T = T$ and $\sinh T = -T$ in the first quadrant, by imaginary part. "
+    r"roots of $\sinh T = T$ and $\sinh T = -T$ in the first quadrant, in the order of their "
+    "imaginary parts. "
     "With it the law is exact for every $h/b$.",
     "reversion": "The series of the paper and the corrected one are inverted by Lagrange's "
     "formula: indentation against force becomes force against indentation.",

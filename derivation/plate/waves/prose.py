@@ -1,7 +1,7 @@
 """Text of the report about waves of the plate, by derivation step."""
 
 ABOUT = {
-    "plate motion": "The law is static. These parameters show when plate inertia matters.",
+    "plate motion": "The contact law is static. These parameters show when plate inertia matters.",
     "dynamic modes": r"The first six steps are repeated with plate inertia. The responses to an "
     r"oscillating load in bending and in extension are independent. Their stiffnesses are "
     r"$B_a$ and $B_s$, with $\kappa = (\omega h/c_T)^2$, $\gamma = \mu/(\lambda + 2 \mu)$, "

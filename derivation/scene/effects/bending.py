@@ -18,11 +18,11 @@ if TYPE_CHECKING:
 
 
 class Bending(PlateEffect):
-    """Deflection P b^2/(8 pi D), D = E* H^3/12, with the paper's edge: 1/(4 pi eta^2) in c_1."""
+    """Deflection P b^2/(8 pi D) with the paper's edge; its part of c_1 is 1/(4 pi eta^2)."""
 
     name = "bending"
     adds = "bending deflection of the plate"
-    equation = "delta = P b^2/(8 pi D), D = E* H^3/12"
+    equation = "delta = P b^2/(8 pi D), D = E H^3/(12 (1 - nu^2))"
     parameter = "(2/pi) a b^2/H^3"
     source = "Kirchhoff plate; step 22"
     bends = True

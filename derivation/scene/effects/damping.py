@@ -58,8 +58,8 @@ class Damping(Effect):
     def not_applicable_reason(self, model: Model) -> str:
         """Return a reason if the loss factor or the density is missing."""
         if not model.loss_factor:
-            return "no plate.loss_factor"
-        return "" if model.density else "no plate.density, so that the plate has no inertia"
+            return "plate.loss_factor is not given"
+        return "" if model.density else "the density of the plate is unknown"
 
     def without_change(self, scene: Scene) -> bool:
         """Return whether the given loss factor is 0."""

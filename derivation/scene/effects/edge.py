@@ -22,11 +22,11 @@ MAX_A_OVER_B = 0.9
 
 
 class Edge(PlateEffect):
-    """Correction that removes moment and force of the paper's edge, or its displacement.
+    """Correction for a simply supported or clamped edge.
 
-    It uses the exact polynomial states of bending and in-plane extension. A clamped edge has w = 0
-    on the whole lateral surface and prevents thinning there. `edge.remainder` measures the error of
-    this model.
+    It removes the moment and force of the paper's edge, or its displacement, and uses the exact
+    polynomial states of bending and in-plane extension. A clamped edge has w = 0 on the whole
+    lateral surface and prevents thinning there. `edge.remainder` measures the error of this model.
     """
 
     name = "edge"

@@ -240,7 +240,7 @@ class Effect:
         return False
 
     def softness(self, model: Model) -> float:  # noqa: ARG002
-        """Return what it adds to E* of the plate over that of the sphere [1]."""
+        """Return what it adds to E/(1 - nu^2) of the plate over that of the sphere [1]."""
         return 0.0
 
     def gravity(self, model: Model) -> float:  # noqa: ARG002

@@ -13,10 +13,10 @@ from derivation.scene.model import Model
 
 
 class FiniteRadius(PlateEffect):
-    """Integral over K0/I0, which depends only on a/b."""
+    """Integral over the ratio K0/I0 of Bessel functions; it depends only on a/b."""
 
     name = "finite_radius"
-    adds = "lateral surface of the plate"
+    adds = "finite radius of the plate"
     equation = "F = -(8/(pi^2 alpha^2)) int (x cosh x - sinh x) y^-3 K0/I0 dy, x = alpha y"
     parameter = "0.37 a/b"
     source = "contour integral over Y0/J0; steps 12 and 22"

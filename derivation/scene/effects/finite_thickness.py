@@ -19,7 +19,7 @@ WHOLE_PLATE = frozenset({"bending", "finite_thickness", "finite_radius"})
 
 
 class FiniteThickness(PlateEffect):
-    """Sum over G - 1 minus the bending term."""
+    """Sum over the modes of the plate factor G minus 1, without the bending term."""
 
     name = "finite_thickness"
     adds = "shear and compression of the plate"

@@ -20,7 +20,7 @@ class Gravity(Effect):
     name = "gravity"
     adds = "weight of the sphere during contact"
     equation = "m z'' = m g - P"
-    parameter = "m g a^2/(R E), E kinetic energy"
+    parameter = "2 g a^2/(R v0^2)"
     source = "energy balance; step 22"
     static = False
     hertzian = True
@@ -28,7 +28,7 @@ class Gravity(Effect):
 
     def not_applicable_reason(self, model: Model) -> str:
         """Return a reason if the scene gives no gravity."""
-        return "" if model.gravity else "no impact.gravity"
+        return "" if model.gravity else "impact.gravity is not given"
 
     def without_change(self, scene: Scene) -> bool:
         """Return whether the given acceleration is 0."""

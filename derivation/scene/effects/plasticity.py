@@ -22,7 +22,7 @@ _LARGEST, _SMALLEST = 1e50, 1e-50
 
 
 class Plasticity(Effect):
-    """Elastic up to a pressure of 1.6 Y, which is then constant; unloading is elastic."""
+    """Contact with a pressure of at most 1.6 Y; it is elastic below this limit and in unloading."""
 
     name = "plasticity"
     adds = "plastic deformation in the contact"
@@ -36,7 +36,9 @@ class Plasticity(Effect):
 
     def not_applicable_reason(self, model: Model) -> str:
         """Return a reason if no yield stress is given."""
-        return "" if np.isfinite(model.yield_stress) else "no yield_stress of sphere or plate"
+        return (
+            "" if np.isfinite(model.yield_stress) else "neither sphere nor plate has a yield_stress"
+        )
 
     def value(self, model: Model, a: float) -> float:
         """Return Hertz's pressure over 1.6 Y at a contact radius [m]."""
@@ -65,7 +67,7 @@ class Plasticity(Effect):
 
 
 def plastic_restitution(model: Model, context: BoundContext) -> Numbers:
-    """Return the least restitution of the plastic contact [1]; 1 of an elastic one."""
+    """Return the least restitution of the plastic contact [1]; 1 for an elastic contact."""
     if not np.any(np.isfinite(model.yield_stress)):
         return 1.0
     return _restitution(model, context, _over_onset(model, context))

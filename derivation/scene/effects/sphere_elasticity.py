@@ -13,7 +13,7 @@ class SphereElasticity(Effect):
     name = "sphere_elasticity"
     adds = "elastic sphere"
     equation = "1/E* = (1 - nu^2)/E + (1 - nu_1^2)/E_1"
-    parameter = "E*/E_1*"
+    parameter = "E/(1 - nu^2) of the plate over that of the sphere"
     source = "Hertz 1881; step 22"
     hertzian = True
     remedy = "give sphere.material, or sphere.youngs_modulus and sphere.poissons_ratio"
@@ -23,15 +23,15 @@ class SphereElasticity(Effect):
         return "" if model.softness else "the sphere is rigid (no sphere.material)"
 
     def softness(self, model: Model) -> float:
-        """Return E* of the plate over that of the sphere."""
+        """Return E/(1 - nu^2) of the plate over that of the sphere."""
         return model.softness
 
     def value(self, model: Model, a: float) -> float:  # noqa: ARG002
-        """Return E* of the plate over that of the sphere."""
+        """Return E/(1 - nu^2) of the plate over that of the sphere."""
         return model.softness
 
     def bound(self, model: Model, context: BoundContext) -> Bound:
-        """Return s^2 - 1 with s^3 = 1 + E*/E_1*, plus or minus its product with K A^3."""
+        """Return s^2 - 1 with s^3 = 1 + its parameter, plus or minus its product with K A^3."""
         a = context.radii
         log = np.log1p(model.softness) / 3.0
         growth = np.expm1(2.0 * log)

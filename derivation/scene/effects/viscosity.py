@@ -28,7 +28,7 @@ inertia (at most 1). In 323 random scenes the changes were at most 0.66 of the b
 
 
 class Viscosity(Effect):
-    """Viscoelastic local indentation without tension; A_v is a retardation time."""
+    """Viscoelastic local indentation without tensile forces; A_v is a retardation time."""
 
     name = "viscosity"
     adds = "viscoelastic contact"
@@ -43,7 +43,7 @@ class Viscosity(Effect):
 
     def not_applicable_reason(self, model: Model) -> str:
         """Return a reason if no retardation time is given."""
-        return "" if model.retardation_time else "no retardation_time of plate or sphere"
+        return "" if model.retardation_time else "neither plate nor sphere has a retardation_time"
 
     def value(self, model: Model, a: float) -> float:  # noqa: ARG002
         """Return the viscous parameter of Hertz's contact."""

@@ -164,7 +164,7 @@ def zener_number(
 ) -> np.ndarray:
     """Compute Zener's inelasticity parameter, a measure of the energy radiated as bending waves.
 
-    Formula (Zener, 1941), H = 2h and D = E* H^3/12::
+    Formula (Zener, 1941), H = 2h, D = E* H^3/12 and E* = E/(1 - nu^2) of the plate::
 
         zener_number = m/(8 T sqrt(D rho H)),   T^5 = m^2/(K^2 v0),   K = (4/3) E* sqrt(R)
 
@@ -206,7 +206,7 @@ def bending_period(
 ) -> np.ndarray:
     """Compute the first bending period of the plate with the paper's edge.
 
-    Formula (step 23 of the derivation), H = 2h and D = E* H^3/12::
+    Formula (step 23 of the derivation), H = 2h, D = E* H^3/12, E* = E/(1 - nu^2)::
 
         bending_period = (2 pi b^2/j_1^2) sqrt(rho H/D)
 

@@ -41,7 +41,7 @@ def test_no_bound_where_the_first_contact_may_jump(
     others = replace(inaccurate, outputs=("max_force",))
     assert math.isfinite(solve_selected(others, 0.5, within=False)[1].bound)
     if not bounded:
-        with pytest.raises(SceneError, match="contact_time out of accuracy"):
+        with pytest.raises(SceneError, match=r"remove contact_time from accuracy\.outputs"):
             solve_selected(inaccurate, 0.5)
 
 

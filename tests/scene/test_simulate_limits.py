@@ -204,7 +204,7 @@ def test_material_without_density_gives_no_mass() -> None:
             1e-9,
             ".*1e-09.*inertia.modes",
         ),
-        (shared_scenes.scene(), 1e-13, r".*a/R = 0\.\d+.*1e-13"),
+        (shared_scenes.scene(), 1e-13, r".*radius of 0\.\d+ sphere radii.*1e-13"),
     ],
 )
 def test_unattainable_tolerance_is_rejected_with_the_smallest_one(

@@ -54,6 +54,7 @@ def test_numbers_beyond_the_limits_are_rejected_in_scenes_and_rows(key: str, val
     st.sampled_from(["simulate", "explain", "indent"]),
 )
 @example({"plate.yield_stress": -12.0}, "paper", "simulate")
+@example({"plate.thickness": -29.9}, "simply-supported", "simulate")
 @settings(max_examples=60)
 def test_extreme_scenes_give_numbers_or_an_error(
     exponents: dict[str, float], edge: str, command: str

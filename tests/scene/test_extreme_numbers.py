@@ -49,7 +49,7 @@ def test_numbers_beyond_the_limits_are_rejected_in_scenes_and_rows(key: str, val
 
 
 @given(
-    st.dictionaries(st.sampled_from(KEYS), st.floats(-30, 30), min_size=1, max_size=2),
+    st.dictionaries(st.sampled_from(KEYS), st.floats(-30, 30), min_size=1, max_size=8),
     st.sampled_from(["paper", "clamped", "simply-supported"]),
     st.sampled_from(["simulate", "explain", "indent"]),
 )

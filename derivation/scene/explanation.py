@@ -126,10 +126,16 @@ def explain(scene: Scene, rtol: float | None = None) -> Explanation:
     """
     _, selected = selected_effects(scene, rtol)
     law = selected.law
-    times = {
-        effect.name: _evaluation_time(law, effect) for effect in EFFECTS if effect in law.chosen
-    }
+    timed = [e for e in EFFECTS if e in law.chosen and not (e.dynamic and _has_most_modes(law))]
+    times = {effect.name: _evaluation_time(law, effect) for effect in timed}
     return Explanation(selected, times, (_inertia(selected),))
+
+
+def _has_most_modes(law: ContactLaw) -> bool:
+    """Return whether a simulation begins with so many modes that their tables take long."""
+    from derivation.scene.mode_count import MOST, count_of
+
+    return count_of(law) >= MOST
 
 
 def _evaluation_time(law: ContactLaw, effect: Effect) -> float:

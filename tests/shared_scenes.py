@@ -93,7 +93,7 @@ def changed(**tables: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
     }
     for name, keys in tables.items():
         tables_used[name] = {
-            k: v for k, v in (tables_used[name] | dict(keys)).items() if v is not None
+            k: v for k, v in (tables_used.get(name, {}) | dict(keys)).items() if v is not None
         }
     return tables_used
 

@@ -79,7 +79,8 @@ def standalone_several(
         "the range and points at which variables are nearly equal; largest error "
         f"{tested.worst:.2f} ULP, at {where}."
     )
-    return best, _source(expression, variables, best, tested.low, tested.high, statement), tested
+    source = _source(expression, variables, best, tested.low, tested.high, statement)
+    return best, format_files({"f.py": source})["f.py"], tested
 
 
 def _best(
@@ -206,4 +207,4 @@ def _source(
         "steps": rows,
         "value": value,
     }
-    return format_files({"f.py": module_source(Module("f", "several", context))})["f.py"]
+    return module_source(Module("f", "several", context))

@@ -1,13 +1,14 @@
 """Rendering of templates, and formatting by ruff; this module does not import SymPy."""
 
 import subprocess
-import sys
 import tempfile
 from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 import jinja2
+from ruff.__main__ import find_ruff_bin
 
 TEMPLATES = Path(__file__).parent / "templates"
 
@@ -24,6 +25,12 @@ def rendered_template(template: str, context: Mapping[str, Any], folder: Path = 
     folder
         Folder that is searched before that of the engine.
     """
+    return _environment(folder).get_template(f"{template}.py.j2").render(**context)
+
+
+@cache
+def _environment(folder: Path) -> jinja2.Environment:
+    """Return the environment of a folder, which compiles each template once."""
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader([folder, TEMPLATES]),
         undefined=jinja2.StrictUndefined,
@@ -32,7 +39,7 @@ def rendered_template(template: str, context: Mapping[str, Any], folder: Path = 
         keep_trailing_newline=True,
     )
     environment.filters["repr"] = repr
-    return environment.get_template(f"{template}.py.j2").render(**context)
+    return environment
 
 
 def format_files(source: Mapping[str, str]) -> dict[str, str]:
@@ -47,17 +54,8 @@ def format_files(source: Mapping[str, str]) -> dict[str, str]:
         for name, text in source.items():
             (Path(folder) / name).write_text(text)
         for task in (["check", "--fix", "--select", "I,F401"], ["format", "--line-length", "100"]):
-            command = [
-                sys.executable,
-                "-m",
-                "ruff",
-                task[0],
-                "--isolated",
-                "--no-cache",
-                "--quiet",
-                *task[1:],
-                folder,
-            ]
+            options = ["--isolated", "--no-cache", "--quiet", *task[1:]]
+            command = [find_ruff_bin(), task[0], *options, folder]
             done = subprocess.run(command, capture_output=True, text=True, check=False)
             if done.returncode:
                 raise RuntimeError(

@@ -36,7 +36,8 @@ def standalone(stable: Stable) -> tuple[str, CodeCheck]:
         "points, including the ends of the range, and points next to zeros and overflow limits "
         f"of the formula and its parts; largest error {check.worst:.2f} ULP, at {x} = {check.at!r}."
     )
-    return _source(stable, check.low, check.high, statement), check
+    source = _source(stable, check.low, check.high, statement)
+    return format_files({"f.py": source})["f.py"], check
 
 
 def compiled_function(source: str) -> Function:
@@ -73,4 +74,4 @@ def _source(stable: Stable, low: float, high: float, statement: str) -> str:
             "value": value,
         },
     }
-    return format_files({"f.py": module_source(Module("f", "standalone", context))})["f.py"]
+    return module_source(Module("f", "standalone", context))

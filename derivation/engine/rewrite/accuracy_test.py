@@ -4,6 +4,7 @@ import math
 import random
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import flint
 import sympy as sp
@@ -181,24 +182,36 @@ def accuracy_test(
     fixed = tuple(zip(others, SAMPLES, strict=False))
     if len(fixed) < len(others):
         raise UnreachableError(f"expected at most {len(SAMPLES)} further variables, got {others}")
-    exact, slopes = (
-        [],
-        tuple((given, given.diff(x)) for given in dict.fromkeys((expression, equal))),
-    )
-    tested = points(*ends, seed or str(expression))
-    if expression.has(sp.sin, sp.cos, sp.tan):
-        tested = tuple(sorted({*tested, *(at for at in ANGLES if ends[0] <= at <= ends[1])}))
-    for point in tested:
-        value, slack = _exact_value(slopes, x, point, fixed)
-        if value is not None and value != 0 and not overflows(value) and abs(value) > 1e-300:
-            exact.append(ExactPoint(point, value, slack))
+    exact = _exact_points(expression, x, ends, equal, fixed, seed or str(expression))
     if len(exact) < LEAST:
         raise UnreachableError(
             f"{expression!s:.80} has values other than 0, within the range of doubles, at "
             f"{len(exact)} of the tested points {x} > 0, expected {LEAST}; change the formula or "
             "its variable"
         )
-    return AccuracyTest(x, fixed, tuple(exact))
+    return AccuracyTest(x, fixed, exact)
+
+
+@lru_cache(maxsize=64)
+def _exact_points(
+    expression: sp.Expr,
+    x: sp.Symbol,
+    ends: tuple[float, float],
+    equal: sp.Expr,
+    fixed: tuple[tuple[sp.Symbol, float], ...],
+    seed: str,
+) -> tuple[ExactPoint, ...]:
+    """Return the points with an exact value; several searches for a form test the same ones."""
+    slopes = tuple((given, given.diff(x)) for given in dict.fromkeys((expression, equal)))
+    tested = points(*ends, seed)
+    if expression.has(sp.sin, sp.cos, sp.tan):
+        tested = tuple(sorted({*tested, *(at for at in ANGLES if ends[0] <= at <= ends[1])}))
+    exact = []
+    for point in tested:
+        value, slack = _exact_value(slopes, x, point, fixed)
+        if value is not None and value != 0 and not overflows(value) and abs(value) > 1e-300:
+            exact.append(ExactPoint(point, value, slack))
+    return tuple(exact)
 
 
 def _exact_value(

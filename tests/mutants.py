@@ -106,10 +106,12 @@ def of_module(text: str, skipped: Sequence[str] = ()) -> Iterator[CodeMutant]:
             node
         ):
             node.body[0] = ast.Expr(ast.Constant(""))
+    ast.fix_missing_locations(tree)
     for place in _formulas(tree, (*SKIPPED, *skipped)):
         original = ast.unparse(place.node)
         inside = f" in {ast.unparse(place.parent)}" if isinstance(place.node, ast.Constant) else ""
         for new in _rewritten(place.node, place.exponent):
+            ast.fix_missing_locations(ast.copy_location(new, place.node))
             changed = _put(tree, place.node, new)
             yield CodeMutant(place.home, f"{original} -> {ast.unparse(new)}{inside}", changed)
 
@@ -197,4 +199,4 @@ def _put(tree: ast.Module, old: ast.AST, new: ast.AST) -> ast.Module:
 
     changed = Replace().visit(tree)
     assert isinstance(changed, ast.Module)
-    return ast.fix_missing_locations(changed)
+    return changed

@@ -12,13 +12,13 @@ from typing import Any
 import pytest
 
 from derivation.cli import main
-from derivation.scene import contact_sequence, flight, waves
-from derivation.scene.contact_sequence import ImpactHistory
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.dynamic import contact_sequence, flight, waves
+from derivation.scene.dynamic.contact_sequence import ImpactHistory
+from derivation.scene.dynamic.wave_motion import IRREGULAR
 from derivation.scene.effects import WHOLE_PLATE
-from derivation.scene.law import ContactLaw
 from derivation.scene.model import InertiaSettings, Model
 from derivation.scene.scene import IncompleteError
-from derivation.scene.wave_motion import IRREGULAR
 
 BALL = Model(
     R=0.02, m=0.25, v0=1.0, h=0.005, b=0.15, lam=40e9, mu=27e9, density=2700.0,

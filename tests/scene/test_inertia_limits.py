@@ -13,23 +13,17 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from scipy.special import j1, jn_zeros
 
-from derivation.scene import (
-    SceneError,
-    chebyshev,
-    contact_sequence,
-    modal,
-    mode_count,
-    wave_problem,
-    waves,
-)
-from derivation.scene.contact_tables import contact_of
-from derivation.scene.dynamic_problem import DynamicProblem
+from derivation.scene import SceneError
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.contact_law.limits import zener_number
+from derivation.scene.dynamic import contact_sequence, modal, mode_count, wave_problem, waves
+from derivation.scene.dynamic.contact_tables import contact_of
+from derivation.scene.dynamic.modal import ModalPlate, Modes, free_modes
+from derivation.scene.dynamic.problem import DynamicProblem
 from derivation.scene.effects import WHOLE_PLATE
-from derivation.scene.law import ContactLaw
-from derivation.scene.limits import zener_number
-from derivation.scene.modal import ModalPlate, Modes, free_modes
 from derivation.scene.model import InertiaSettings, Model
-from derivation.scene.wave_plot import zener_restitution
+from derivation.scene.numerics import chebyshev
+from derivation.scene.output.wave_plot import zener_restitution
 
 REST = WHOLE_PLATE | {"hertz"}
 

@@ -11,20 +11,13 @@ import pytest
 from scipy.ndimage import maximum_filter1d
 from shared_scenes import EXAMPLES
 
-from derivation.scene import (
-    Result,
-    SceneError,
-    contact_sequence,
-    mode_convergence,
-    read,
-    simulate,
-    waves,
-)
-from derivation.scene.dynamic_results import dynamic_impact_of
+from derivation.scene import Result, SceneError, read, simulate
+from derivation.scene.dynamic import contact_sequence, mode_convergence, waves
+from derivation.scene.dynamic.mode_count import branching
+from derivation.scene.dynamic.reach import Reach
+from derivation.scene.dynamic.results import dynamic_impact_of
 from derivation.scene.impact import selected_effects
-from derivation.scene.mode_count import branching
-from derivation.scene.reach import Reach
-from derivation.scene.settings import Output
+from derivation.scene.input.settings import Output
 
 BLOCK: dict[str, dict[str, Any]] = {
     "sphere": {"radius": 0.004, "material": "steel"},
@@ -245,7 +238,7 @@ def test_one_run_beyond_the_limits_is_made_if_the_tolerance_is_near(
 ) -> None:
     """A tolerance missed by less than a factor of 5 is met, or refused after one more run."""
     scene = read(tomllib.loads((EXAMPLES / "glass_pane.toml").read_text()))
-    monkeypatch.setattr("derivation.scene.mode_count.WORK", 0.0)
+    monkeypatch.setattr("derivation.scene.dynamic.mode_count.WORK", 0.0)
     waves.impact.cache_clear()
     counts: list[int] = []
     once = waves._run

@@ -14,32 +14,27 @@ import pytest
 import shared_scenes
 
 from derivation.cli import main
-from derivation.scene import (
-    SceneError,
-    animation,
-    code,
+from derivation.scene import SceneError, explain, read, simulate, sweep
+from derivation.scene.code import code
+from derivation.scene.contact_law import limits
+from derivation.scene.contact_law.law import THICK, ContactLaw
+from derivation.scene.dynamic import (
     contact_errors,
     contact_sequence,
     edge_remainder,
-    explain,
-    limits,
     mode_count,
-    motion,
-    read,
     separation,
-    simulate,
-    sweep,
-    viscous,
     waves,
 )
-from derivation.scene.achieved_accuracy import AchievedAccuracy, Part
-from derivation.scene.contact_warnings import GRAZING, grazing_warnings
+from derivation.scene.dynamic.contact_warnings import GRAZING, grazing_warnings
+from derivation.scene.dynamic.time_element import P
 from derivation.scene.effects import WHOLE_PLATE
-from derivation.scene.law import THICK, ContactLaw
 from derivation.scene.model import InertiaSettings, Model, model_of
+from derivation.scene.output import animation
+from derivation.scene.output.wave_plot import zener_restitution
+from derivation.scene.quasi_static import motion, viscous
 from derivation.scene.scene import IncompleteError
-from derivation.scene.time_element import P
-from derivation.scene.wave_plot import zener_restitution
+from derivation.scene.selection.achieved_accuracy import AchievedAccuracy, Part
 from generated.back_face import back_face_stress
 
 BALL = Model(

@@ -6,15 +6,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from derivation.scene import contact_sequence, read, time_in_contact, waves
-from derivation.scene.collocation import Element
-from derivation.scene.contact_sequence import ImpactHistory
-from derivation.scene.dynamic_problem import DynamicProblem, ImpactState
-from derivation.scene.dynamic_results import dynamic_impact_of
+from derivation.scene import read
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.dynamic import contact_sequence, time_in_contact, waves
+from derivation.scene.dynamic.contact_sequence import ImpactHistory
+from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
+from derivation.scene.dynamic.results import dynamic_impact_of
+from derivation.scene.dynamic.time_element import P, TimeElement
 from derivation.scene.effects import PAPER
-from derivation.scene.law import ContactLaw
 from derivation.scene.model import model_of
-from derivation.scene.time_element import P, TimeElement
+from derivation.scene.numerics.collocation import Element
 
 RADIUS = 0.01
 PANE = {"radius": 0.1, "thickness": 0.01, "material": "glass"}

@@ -8,8 +8,9 @@ import pytest
 
 from derivation.scene import read
 from derivation.scene.contact_law.law import ContactLaw
-from derivation.scene.dynamic import contact_sequence, time_in_contact, waves
+from derivation.scene.dynamic import contact_sequence, next_element, time_in_contact, waves
 from derivation.scene.dynamic.contact_sequence import ImpactHistory
+from derivation.scene.dynamic.integration_error import integration_error
 from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
 from derivation.scene.dynamic.results import dynamic_impact_of
 from derivation.scene.dynamic.time_element import P, TimeElement
@@ -68,12 +69,12 @@ def test_results_agree_within_the_tolerance_of_the_elements(
         for n in (time_in_contact.NODES[0], time_in_contact.NODES[-1])
     ]
     # The reference has much shorter elements with another number of nodes.
-    monkeypatch.setattr(contact_sequence, "PHASE", 0.3)
-    monkeypatch.setattr(contact_sequence, "LONGEST", 0.1)
+    monkeypatch.setattr(next_element, "PHASE", 0.3)
+    monkeypatch.setattr(next_element, "LONGEST", 0.1)
     fine = numbers(law, contact_sequence.impact_history(problem, 20))
     for history in runs:
         off = np.abs(numbers(law, history) / fine - 1.0)
-        assert np.max(off) <= waves.integration_error(history)
+        assert np.max(off) <= integration_error(history)
 
 
 @pytest.mark.parametrize("name", [name for name in CASES if "viscoelastic" in name])
@@ -95,7 +96,7 @@ def test_contact_that_widens_behind_the_plate_has_no_remaining_time() -> None:
     element = Element(1.0, 0.1, rows, np.array([0.5, 0.0, 0.0, 0.0]))
     state = ImpactState(0.0, -1.0, none, none, approach=-10.0)
     last = TimeElement(element, state, 1.0, none, None)
-    assert contact_sequence._left(last) == math.inf
+    assert next_element.left_after(last) == math.inf
 
 
 def test_elements_end_at_yield_events_for_any_number_of_nodes() -> None:
@@ -112,7 +113,7 @@ def test_elements_end_at_yield_events_for_any_number_of_nodes() -> None:
     for n in (14, 16, 22, 32):
         history = contact_sequence.impact_history(problem, n, loose)
         off = np.abs(numbers(law, history) / fine - 1.0)
-        assert np.max(off) <= waves.integration_error(history)
+        assert np.max(off) <= integration_error(history)
 
 
 @pytest.mark.parametrize("name", ["several contacts", "damped"])

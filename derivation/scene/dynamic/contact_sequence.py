@@ -11,34 +11,31 @@ from derivation.engine.activity import announce
 from derivation.scene.contact_law.yielding import Yielding
 from derivation.scene.dynamic.contact_errors import STUCK, check_width, endless, lost
 from derivation.scene.dynamic.flight import meeting
+from derivation.scene.dynamic.next_element import (
+    PHASE,
+    ROUGH,
+    begun,
+    judged,
+    left_after,
+    longest,
+    next_length,
+    solved,
+)
 from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
 from derivation.scene.dynamic.separation import last_element, released
-from derivation.scene.dynamic.time_element import LOST, A, P, TimeElement, element
+from derivation.scene.dynamic.time_element import LOST, P, TimeElement
 from derivation.scene.dynamic.yield_events import UncutError, next_branch
 from derivation.scene.errors import IncompleteError
-from derivation.scene.numerics.collocation import NEWTON, NEXT, ONSET, change_of_length, radau
-from generated.arrays import Double as Array
+from derivation.scene.numerics.collocation import NEXT, ONSET
 
-FIRST, LONGEST, SHORTEST = 0.3, 0.3, 1e-13
-"""First, largest and smallest length of an element in x."""
-EARLY = 0.5
-"""Coefficient of the additional growth of elements near the onset."""
+FIRST, SHORTEST = 0.3, 1e-13
+"""First and smallest length of an element in x."""
 TOLERANCE = 1e-11
 """Last coefficients of an element over the largest ones so far [1]."""
-PHASE = 0.75
-"""Largest phase of a mode over an element, divided by the number of nodes [rad]."""
 CLOSED = 1e-5
 """Remaining over elapsed time of a contact below which its end is computed in one step."""
-TOWARDS = 0.75
-"""Largest length of an element over the remaining time of the contact."""
-WITHIN = 0.5
-"""Remaining time by the approach over that by the radius below which the latter is used."""
-OWN = 1e3
-"""Factor of the tolerance for the radius, relative to the largest value in its own element."""
 SOLVED = 1e-3
 """Tolerance of Newton's iteration over that of the element, if its derivative is exact."""
-ROUGH = 1e2
-"""Factor of the tolerance for the force of a viscoelastic contact."""
 CONTACTS, ELEMENTS, WORK = 100, 20_000, 3.5e7
 """Largest numbers of contacts and of computed elements of an impact, and largest work: elements and
 evaluations in flight, weighted by the run time of each."""
@@ -236,7 +233,7 @@ def contact(
         If the contact needs more elements, or has no solution that can be found.
     """
     elements: list[TimeElement] = []
-    x, length, state, first = _begun(begin, radius), FIRST, begin, radius
+    x, length, state, first = begun(begin, radius), FIRST, begin, radius
     origin = start - x**ONSET
     # Yield events are located more closely than the tolerance of an element.
     exact = not (problem.retardation_time or problem.yielding)
@@ -247,30 +244,17 @@ def contact(
         if step % PROGRESS == PROGRESS - 1:
             now, count = problem.T * (origin + x**ONSET), problem.omega.size
             announce(f"{now:.3g} s after first contact, {count} modes")
-        length = min(length, _longest(problem, n, x, _left(elements[-1]) if elements else math.inf))
+        remaining = left_after(elements[-1]) if elements else math.inf
+        length = min(length, longest(problem, n, x, remaining))
         if length < SHORTEST * max(x, 1.0):
             break
-        if elements:
-            guess = elements[-1].element.slope_beyond(A, x + length * radau(n).x)
-        else:
-            guess = np.zeros(n) if first else _onset(problem, n, length, -begin.separation_speed)
-        made = element(problem, n, x, length, state, radius, guess, enough)
-        if made is None and elements:  # an oscillating slope is no guess beyond its own element
-            made = element(problem, n, x, length, state, radius, np.zeros(n), enough)
+        made = solved(problem, n, x, length, state, radius, elements[-1:], enough)
         if made is None:
             if length < STUCK * max(x, 1.0):
                 break
             length *= 0.5
             continue
-        sizes = np.abs(made.element.rows[:LOST])
-        largest = np.maximum(scale, sizes.max(axis=1, keepdims=True))
-        unit = largest.copy()
-        # At the end the radius determines the time of separation: it needs a relative accuracy.
-        unit[A] = OWN * sizes[A].max()
-        # A viscoelastic force is as rough as the rate of the radius; it is only integrated.
-        if problem.retardation_time:
-            unit[P] *= ROUGH
-        error, change = change_of_length((sizes / unit).max(axis=0), tolerance)
+        error, change, largest = judged(problem, made, scale, tolerance)
         if error > tolerance:
             length *= change
             continue
@@ -301,11 +285,8 @@ def contact(
             watch(radius)
         state, radius, scale = made.end, made.radius, largest
         check_width(problem, radius)
-        # Except near the onset, the allowed length is uniform in time, not in x.
-        more = x**ONSET - made.element.x**ONSET
-        more *= change * (1.0 + EARLY * more / x**ONSET)
-        length = min(LONGEST, (x**ONSET + more) ** (1.0 / ONSET) - x)
-        left = _left(made)
+        length = next_length(made, x, change)
+        left = left_after(made)
         if left < CLOSED * x**ONSET and not problem.retardation_time:
             more, after = released(problem, made, left)
             ended = start + x**ONSET + more
@@ -314,56 +295,6 @@ def contact(
     else:
         raise endless(problem, origin + x**ONSET, most)
     raise lost(problem, state, radius, problem.T * (origin + x**ONSET))
-
-
-def _begun(begin: ImpactState, radius: float) -> float:
-    """Return the start of a contact in x: above 0 if the face has not recovered.
-
-    Such a contact has no onset. Its time is counted from the moment at which the sphere, at its
-    present speed, would have first touched a face that had recovered. A later origin would make
-    the elements too coarse for the forces at a small radius.
-    """
-    if not radius or begin.separation_speed >= 0.0:
-        return 1.0 if radius else 0.0
-    return min(1.0, float((begin.approach / -begin.separation_speed) ** (1.0 / ONSET)))
-
-
-def _onset(problem: DynamicProblem, n: int, length: float, meeting: float) -> Array:
-    """Return da/dx at the nodes after first contact: the depth grows at the approach speed."""
-    rule = radau(n)
-    goal = meeting * (length * rule.x) ** ONSET
-    a = np.sqrt(goal * problem.depth * problem.contact.R) / problem.a
-    for _ in range(NEWTON):  # from above, because depth grows faster than a^2
-        at = problem.at(problem.a * a)
-        move = (at.depth / problem.depth - goal) / (at.depth_a * (problem.a / problem.depth))
-        a = np.maximum(a - move, 0.5 * a)
-        if np.max(np.abs(move) / a) < 1e-3:
-            break
-    return np.asarray(np.linalg.solve(length * rule.integral, a), dtype=np.float64)
-
-
-def _left(last: TimeElement) -> float:
-    """Return the remaining time of a contact at the present separation speed.
-
-    At its end the square of the radius vanishes linearly in time. If fast modes bend the plate more
-    than the sphere is curved, the approach vanishes long before: the radius then tells the time.
-    """
-    state, x = last.end, last.element.x + last.element.length
-    if state.separation_speed <= 0.0:
-        return math.inf
-    narrowing = -2.0 * float(np.sum(last.element.slope)) / (ONSET * x ** (ONSET - 1))
-    if narrowing <= 0.0:
-        return math.inf
-    left = state.approach / state.separation_speed
-    return left if left * narrowing > WITHIN * last.radius else last.radius / narrowing
-
-
-def _longest(problem: DynamicProblem, n: int, x: float, left: float) -> float:
-    """Return the largest length of an element by the fastest mode and the remaining time."""
-    most = problem.fastest
-    ahead = PHASE * n / most if most else math.inf
-    ahead = min(ahead, TOWARDS * left)
-    return float((x**ONSET + ahead) ** (1.0 / ONSET) - x)
 
 
 def _check_weight(problem: DynamicProblem, x: float) -> None:

@@ -13,6 +13,7 @@ from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic import contact_sequence
 from derivation.scene.dynamic.modal import Modes, plate_of
 from derivation.scene.dynamic.mode_count import affordable, branching, count_of
+from derivation.scene.dynamic.next_element import PHASE
 from derivation.scene.dynamic.problem import DynamicProblem
 from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.errors import SceneError
@@ -134,7 +135,7 @@ def _steps(
     The tables of the contact, on which the limit depends, are computed only if they are needed:
     with thousands of modes they would take minutes.
     """
-    each = time * float(np.max(plate_of(law, count).modes.omega)) / contact_sequence.PHASE
+    each = time * float(np.max(plate_of(law, count).modes.omega)) / PHASE
     steps, most = each / NODES[0], contact_sequence.ELEMENTS
     if steps <= most:
         problem = problem_of(law, count, tolerance)

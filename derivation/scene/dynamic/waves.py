@@ -16,6 +16,7 @@ from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic import contact_sequence
 from derivation.scene.dynamic.contact_errors import check_whole_width
 from derivation.scene.dynamic.contact_sequence import ContactRun, ImpactHistory, expected_work
+from derivation.scene.dynamic.integration_error import error_after, integration_error
 from derivation.scene.dynamic.mode_convergence import (
     judged,
     largest_change,
@@ -49,9 +50,6 @@ WIDEST = 30.0
 LOOSE, TOLERANCE_FRACTION, KEPT = 4e-4, 1.0 / 3.0, 0.75
 """Largest accepted error by omitted modes: without a tolerance [1], and as a part of one; the part
 that omitted modes and branches together may take."""
-INTEGRATION, GROWTH, ROUNDING = 10.0, 1e-12, 2e-12
-"""Tested bounds [1]: error of the results over the tolerance of the time elements and the number of
-contacts; rounding error amplified by contacts, over the cube of their number; other rounding."""
 ONCE, FINAL = 5.0, 7e7
 """If the error by omitted modes is at most `ONCE` times too large, one more run is made beyond the
 limits, with at most the work `FINAL`: twice as many modes often reduce the error more."""
@@ -73,21 +71,6 @@ def goal(rtol: float | None) -> float:
 def time_tolerance(goal: float) -> float:
     """Return the tolerance of the time elements, small against the goal for more modes [1]."""
     return min(1e-8, max(contact_sequence.TOLERANCE, 1e-3 * goal))
-
-
-def integration_error(history: ImpactHistory) -> float:
-    """Return the tested bound on the error of the results due to the time elements [1]."""
-    return _integration_error(history.problem, history.tolerance, len(history.contacts))
-
-
-def _integration_error(problem: DynamicProblem, tolerance: float, contacts: int = 1) -> float:
-    """Return that bound; it is larger for the less accurate force of a viscoelastic contact.
-
-    Every contact adds errors, and each contact amplifies the errors of those before it.
-    """
-    viscous = problem.retardation_time > 0.0
-    each = (contact_sequence.ROUGH if viscous else INTEGRATION) * tolerance
-    return each * contacts + GROWTH * (contacts - 1) ** 3
 
 
 @dataclass
@@ -160,7 +143,7 @@ def _branched(
     if not followed(every, finer(every, affordable(every))):
         return lowest, None
     problem = problem_of(lowest, count_of(law), close)
-    room = goal / TOLERANCE_FRACTION - goal - _integration_error(problem, close)
+    room = goal / TOLERANCE_FRACTION - goal - error_after(problem, close)
 
     def beyond(contacts: tuple[ContactRun, ...]) -> bool:
         """Return whether the higher branches matter because of some contacts alone."""

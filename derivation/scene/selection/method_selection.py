@@ -198,13 +198,13 @@ def _cancellation(law: ContactLaw, a: float) -> float:
 
 def _accuracy_with_inertia(selected: SelectedEffects, impact: "DynamicImpact") -> AchievedAccuracy:
     """Return the accuracy of an impact on a plate with inertia, without the omitted effects."""
-    from derivation.scene.dynamic import waves
+    from derivation.scene.dynamic.integration_error import integration_error
 
     return AchievedAccuracy(
         "full",
         None,
         law=Part(impact.inertia.error(selected.outputs), ESTIMATED),
-        quadrature=Part(waves.integration_error(impact.impact_history), TESTED),
+        quadrature=Part(integration_error(impact.impact_history), TESTED),
         rounding=Part(rounding_of(selected.law), TESTED),
     )
 

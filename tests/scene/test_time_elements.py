@@ -14,6 +14,7 @@ from derivation.scene.dynamic.integration_error import integration_error
 from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
 from derivation.scene.dynamic.results import dynamic_impact_of
 from derivation.scene.dynamic.time_element import P, TimeElement
+from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.effects import PAPER
 from derivation.scene.model import model_of
 from derivation.scene.numerics.collocation import Element
@@ -49,7 +50,7 @@ CASES: dict[str, tuple[dict[str, Any], int, frozenset[str]]] = {
 def case(name: str) -> tuple[ContactLaw, DynamicProblem]:
     given, modes, effects = CASES[name]
     law = ContactLaw(model_of(read(given)), PAPER | {"inertia"} | effects)
-    return law, waves.problem_of(law, modes)
+    return law, problem_of(law, modes)
 
 
 def numbers(law: ContactLaw, history: ImpactHistory) -> np.ndarray:
@@ -108,7 +109,7 @@ def test_elements_end_at_yield_events_for_any_number_of_nodes() -> None:
     }  # fmt: skip
     given = scene(sheet, 0.005023466844465266, 0.6451670213701933)
     law = ContactLaw(model_of(read(given)), PAPER | {"inertia", "plasticity"})
-    problem, loose = waves.problem_of(law, 6), waves.time_tolerance(waves.LOOSE)
+    problem, loose = problem_of(law, 6), waves.time_tolerance(waves.LOOSE)
     fine = numbers(law, contact_sequence.impact_history(problem, 24))
     for n in (14, 16, 22, 32):
         history = contact_sequence.impact_history(problem, n, loose)

@@ -32,7 +32,7 @@ from derivation.scene.method_selection import (
 from derivation.scene.model import model_of
 from derivation.scene.model_error import inertia_error
 from derivation.scene.result import Result
-from derivation.scene.scene import OUTPUTS, TIGHTEST, Scene, SceneError
+from derivation.scene.scene import OUTPUTS, TIGHTEST, Scene, SceneError, check_scene
 from derivation.scene.selection import check_enabled
 from derivation.scene.units import unit_warnings, with_unit_warnings
 from derivation.scene.yield_warnings import impact_warnings
@@ -88,6 +88,7 @@ def simulate(
     >>> print(f"{result.max_force:.3g} N, {result.restitution:.2f}")
     1.29e+03 N, 0.97
     """
+    check_scene(scene)
     on_units = unit_warnings(scene)
     try:
         result = _simulated(scene, rtol, on_units)

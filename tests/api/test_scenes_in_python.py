@@ -143,3 +143,9 @@ def test_result_from_another_process_is_the_same(result: pc.Result) -> None:
     assert restored.to_json() == result.to_json()
     assert restored.details() == result.details()
     assert restored.to_pandas().equals(result.to_pandas())
+
+
+@pytest.mark.parametrize("wrong", ["scene.toml", VALID])
+def test_a_file_or_tables_must_be_read_first(wrong: Any) -> None:
+    assert "read a file with load(path)" in message(pc.simulate, wrong)
+    assert "tables with read(tables)" in message(pc.sweep, wrong, {"impact.speed": [1.0]})

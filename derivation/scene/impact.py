@@ -31,7 +31,7 @@ from derivation.scene.measured.measured import (
 )
 from derivation.scene.model import model_of
 from derivation.scene.result import Result
-from derivation.scene.scene import OUTPUTS, TIGHTEST, Scene
+from derivation.scene.scene import OUTPUTS, TIGHTEST, Scene, check_scene
 from derivation.scene.selection.achieved_accuracy import ESTIMATED, AchievedAccuracy, Part
 from derivation.scene.selection.effect_selection import SelectedEffects, decide
 from derivation.scene.selection.method_selection import (
@@ -93,6 +93,7 @@ def simulate(
     >>> print(f"{result.max_force:.3g} N, {result.restitution:.2f}")
     1.29e+03 N, 0.97
     """
+    check_scene(scene)
     on_units = unit_warnings(scene)
     try:
         result = _simulated(scene, rtol, on_units)

@@ -220,6 +220,15 @@ TABLES: dict[str, type[Table]] = {
 }
 
 
+def check_scene(scene: object) -> None:
+    """Raise an error unless an object is a scene."""
+    if not isinstance(scene, Scene):
+        raise SceneError(
+            f"expected a Scene, got {shown(scene)}; read a file with load(path), and tables with "
+            "read(tables)"
+        )
+
+
 def load(path: str | Path) -> Scene:
     """Read a scene file.
 

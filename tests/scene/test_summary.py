@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tomllib
 from collections.abc import Callable
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -25,6 +26,7 @@ from derivation.scene.dynamic import contact_sequence, waves
 from derivation.scene.output.answer import quantities
 from derivation.scene.quantity import IN_FRONT, PREFIXES, common_prefix, prefixed
 from derivation.scene.result import Result
+from derivation.scene.selection.achieved_accuracy import Part
 
 Captured = pytest.CaptureFixture[str]
 POWERS = {prefix: 10.0**power for power, prefix in PREFIXES.items()}
@@ -281,3 +283,11 @@ def test_table_does_not_wrap_short_cells() -> None:
         "a b                                1",
         "a long cell of many words      -12.5",
     ]
+
+
+def test_summary_says_why_every_result_is_unknown() -> None:
+    result = simulate(load(PAPER))
+    assert "Unknown:" not in str(result)
+    loose = replace(result, accuracy=replace(result.accuracy, law=Part(2.0, "estimated")))
+    assert re.search(r"^max force +unknown$", str(loose), re.M)
+    assert "Unknown: the error by omitted terms or modes may be as large as" in str(loose)

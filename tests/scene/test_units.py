@@ -51,6 +51,18 @@ def test_each_value_in_another_unit_is_named_with_its_value_in_si_units(
     assert f"write {value:.6g}" in text
 
 
+@pytest.mark.parametrize(("key", "unit"), [("yield_stress", "MPa"), ("tensile_strength", "MPa")])
+def test_strength_is_compared_with_the_modulus_of_a_named_material(key: str, unit: str) -> None:
+    plate = {"radius": 0.15, "thickness": 0.009, "material": "glass"}
+    assert not unit_warnings(read(SCENE | {"plate": plate | {key: 45e6}}))
+    [text] = unit_warnings(read(SCENE | {"plate": plate | {key: 45.0}}))
+    assert f"plate.{key} = 45 Pa" in text
+    assert f"in {unit}, write 4.5e+07" in text
+    gel = {"youngs_modulus": 1e6, "poissons_ratio": 0.2, "density": 1000.0}
+    soft = {"plate": plate | {"material": "gel", key: 45.0}, "materials": {"gel": gel}}
+    assert not unit_warnings(read(SCENE | soft))
+
+
 def test_grams_are_told_from_a_heavy_body_above_the_sphere() -> None:
     solid = 4.0 / 3.0 * np.pi * 0.008**3 * 2500.0
     [text] = unit_warnings(read(with_value("sphere.mass", 1000.0 * solid)))

@@ -65,6 +65,9 @@ _MEASURED = (
 )
 _FOUNDATION = "the plate is supported at its edge only, without a foundation; remove the key"
 _DAMPING = "damping is given by the loss factor, twice the damping ratio of each mode; write "
+_SYMBOL = "{} is {}; rename the key"
+_MODULUS = "E", "young", "youngs", "modulus", "elastic_modulus", "young_modulus", "stiffness"
+_RATIO = "nu", "poisson", "poissons", "poisson_ratio"
 _EXPECTED_KEYS = {
     ("sphere", _SOLID): (
         "thickness", "wall_thickness", "shell_thickness", "wall", "hollow", "inner_radius",
@@ -86,6 +89,12 @@ _EXPECTED_KEYS = {
         "height", "drop_height", "fall_height", "h", "energy", "drop",
     ),
     ("impact", "the impact speed [m/s] is impact.speed; rename the key"): ("velocity", "v", "v0"),
+    ("sphere", _SYMBOL.format("Young's modulus [Pa]", "sphere.youngs_modulus")): _MODULUS,
+    ("plate", _SYMBOL.format("Young's modulus [Pa]", "plate.youngs_modulus")): _MODULUS,
+    ("sphere", _SYMBOL.format("Poisson's ratio", "sphere.poissons_ratio")): _RATIO,
+    ("plate", _SYMBOL.format("Poisson's ratio", "plate.poissons_ratio")): _RATIO,
+    ("sphere", _SYMBOL.format("the density [kg/m^3]", "sphere.density")): ("rho",),
+    ("plate", _SYMBOL.format("the density [kg/m^3]", "plate.density")): ("rho",),
     ("accuracy", "the relative tolerance is accuracy.rtol; rename the key"): (
         "tolerance", "tol", "accuracy", "error", "relative_tolerance", "eps",
     ),

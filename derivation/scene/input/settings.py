@@ -40,7 +40,7 @@ class Accuracy(Table):
     """
 
     rtol: Annotated[float, Field(ge=TIGHTEST, le=1)] = Field(
-        description="relative tolerance of the results [1]", examples=[1e-6]
+        description="relative tolerance of the results [1]", examples=[0.01]
     )
     outputs: tuple[Output, ...] = Field(
         default=OUTPUTS,
@@ -102,7 +102,8 @@ class Inertia(Table):
     )
     extent: Literal["finite", "infinite"] = Field(
         default="finite",
-        description='"finite" (with an edge) or "infinite" (no wave returns from the edge)',
+        description='extent of the plate: "finite" (with an edge) or "infinite" (no wave returns '
+        "from the edge)",
         examples=["infinite"],
     )
 

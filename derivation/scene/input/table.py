@@ -171,8 +171,10 @@ def problems(
         The known tables by name.
     """
     fields = {name: dict(table.model_fields) for name, table in tables.items()}
-    messages: dict[object, Callable[[], str]] = {}
+    messages: dict[tuple[object, ...] | str, Callable[[], str]] = {}
     for kind, place, value in mistakes:
+        if kind == "too_short" and any(key[:1] == (place[:2],) for key in messages):
+            continue  # a list without its invalid items
         # Pydantic reports an error for each allowed type of a key; the first is enough.
         messages.setdefault((place[:2], shown(value)), partial(explain, kind, place, value, fields))
     # Pydantic checks combinations only if each key is valid; here all problems are reported.

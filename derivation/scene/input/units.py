@@ -129,14 +129,20 @@ def stated_in(scene: Scene) -> dict[str, Any]:
 
 def unusual_values(scene: Scene, stated: Stated) -> Iterator[UnusualValue]:
     """Yield each value that is compared with usual ones, unusual or not."""
-    for name in ("sphere", "plate", *(f"{OWN_MATERIALS}.{own}" for own in scene.materials)):
-        yield from _of_constants(name, stated)
+    for name in ("sphere", "plate"):
+        material = getattr(scene, name).material
+        yield from _of_constants(
+            name, stated, _of_material(material, "youngs_modulus", scene, stated)
+        )
+    for own in scene.materials:
+        yield from _of_constants(f"{OWN_MATERIALS}.{own}", stated)
     yield from _of_sizes(scene, stated)
 
 
-def _of_constants(name: str, stated: Stated) -> Iterator[UnusualValue]:
-    """Yield the material constants of a table that are compared."""
-    modulus: Array | float | None = None
+def _of_constants(
+    name: str, stated: Stated, modulus: Array | float | None = None
+) -> Iterator[UnusualValue]:
+    """Yield the compared constants of a table; the modulus is that of a named material."""
     for key in (f"{name}.youngs_modulus", f"{name}.lame_mu"):
         if key in stated:
             modulus = stated[key]
@@ -187,7 +193,7 @@ def _of_sizes(scene: Scene, stated: Stated) -> Iterator[UnusualValue]:
     yield UnusualValue(
         "impact.speed", stated["impact.speed"] > FAST, "is unusually large", {"mm/s": 1e-3}
     )
-    density = _solid_density(scene, stated)
+    density = _of_material(scene.sphere.material, "density", scene, stated)
     if "sphere.mass" in stated and density is not None:
         ratio = stated["sphere.mass"] / (4.0 / 3.0 * np.pi * radius**3 * density)
         grams = (ratio > GRAMS[0]) & (ratio < GRAMS[1])
@@ -195,13 +201,11 @@ def _of_sizes(scene: Scene, stated: Stated) -> Iterator[UnusualValue]:
         yield UnusualValue("sphere.mass", grams, problem, {"g": 1e-3})
 
 
-def _solid_density(scene: Scene, stated: Stated) -> Any:
-    """Return the density of the sphere's material [kg/m^3]; None if it is unknown."""
-    name = scene.sphere.material
+def _of_material(name: str | None, key: str, scene: Scene, stated: Stated) -> Any:
+    """Return a constant of a material [SI units]; None if it is unknown."""
     if name is None:
         return None
     for own in scene.materials:
         if plain(own) == plain(name):
-            return stated[f"{OWN_MATERIALS}.{own}.density"]
-    known = find(name)
-    return known.density if known is not None else None
+            return stated.get(f"{OWN_MATERIALS}.{own}.{key}")
+    return getattr(find(name), key, None)

@@ -63,6 +63,8 @@ def _remarks(result: "Result") -> Iterator[str]:
     """Yield the lines below the table of results."""
     model = f", model error up to {100 * result.model_error:.2g} %" if result.model_error else ""
     yield f"Accuracy: {result.accuracy.summary}{model}"
+    if result.complete and not result.digits and math.isfinite(result.accuracy.bound):
+        yield f"Unknown: the error by {result.accuracy.largest_part} may be as large as the results"
     yield f"Effects: {result.effects.summary}"
     if result.energy_balance is not None and result.complete:
         error = result.accuracy.bound + result.model_error

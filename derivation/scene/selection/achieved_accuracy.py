@@ -123,6 +123,11 @@ class AchievedAccuracy:
         return max((part.basis for part in self.parts.values() if part.bound), key=BASES.index)
 
     @property
+    def largest_part(self) -> str:
+        """The largest part of the bound, in words."""
+        return NAMES[max(self.parts, key=lambda name: self.parts[name].bound)]
+
+    @property
     def summary(self) -> str:
         """The bound with its basis, in words."""
         if not math.isfinite(self.bound):

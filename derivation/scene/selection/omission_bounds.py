@@ -7,7 +7,7 @@ all radii up to 1.02 times the largest; derivation step 18 gives the change of t
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property, reduce
+from functools import cached_property, partial, reduce
 from typing import Any
 
 import numpy as np
@@ -140,7 +140,7 @@ def state_of(law: ContactLaw, top: float = TOP) -> LargestContact:
             swelling = inner.slope / (inner.additive * np.cbrt(inner.force) ** 2)
             growth = growth * (1.0 + MARGIN * np.maximum(0.0, _most(1.0 / swelling) - 1.0))
     depth = a * (a / law.model.R) * shape.depth[..., -1:]
-    context = BoundContext(equal, _number(depth), lambda: _samples(law, upper))
+    context = BoundContext(equal, _number(depth), partial(_samples, law, upper))
     slope = _begun(1.0, shape.additive)
     return LargestContact(law, _number(a), context, slope, MARGIN * fall, MARGIN * rise, growth)
 

@@ -1,5 +1,6 @@
 """Derived formulas, misprints of the paper, and stable code for your own formula."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from derivation.engine.emit import own_formula
@@ -70,8 +71,8 @@ def misprints() -> tuple[Finding, ...]:
     return derived.misprints()
 
 
-def rewrite(formula: str, variable: str = "x") -> Rewritten:
-    """Find a numerically stable form of a formula of positive numbers, and test its code.
+def rewrite(formula: str, variable: str = "x", where: Sequence[str] = ()) -> Rewritten:
+    """Find a numerically stable form of a formula, and test its code.
 
     The function returns NaN outside the range in which it was tested. Points at which the formula
     is ill-conditioned, or its code would overflow, may be excluded from the range.
@@ -83,6 +84,9 @@ def rewrite(formula: str, variable: str = "x") -> Rewritten:
         variables must depend on one product of powers of them, such as ``a/b``.
     variable
         Name of the variable of a formula that contains none.
+    where
+        Conditions on the variables, such as ``"-1 < nu < 0.5"``. All variables are positive unless
+        a condition allows other numbers.
 
     Returns
     -------
@@ -104,4 +108,4 @@ def rewrite(formula: str, variable: str = "x") -> Rewritten:
     >>> "R" in pc.rewrite("R - sqrt(R**2 - a**2)").source
     True
     """
-    return Rewritten(*own_formula.rewrite_text(formula, variable))
+    return Rewritten(*own_formula.rewrite_text(formula, variable, where))

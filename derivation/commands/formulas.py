@@ -14,13 +14,20 @@ def rewrite(
         str,
         typer.Argument(
             metavar="FORMULA",
-            help="A formula; its variables are positive (default: the paper's).",
+            help="A formula of positive variables (default: the paper's).",
         ),
     ] = "",
     variable: Annotated[
         str,
         typer.Option(metavar="NAME", help="Variable of the code if the formula contains none."),
     ] = "x",
+    where: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="CONDITION",
+            help="Condition on the variables, such as '-1 < nu < 0.5'; repeatable.",
+        ),
+    ] = None,
     update: Annotated[
         bool, typer.Option("--update", help="Save the paper's result as its rewrite.json.")
     ] = False,
@@ -47,11 +54,13 @@ def rewrite(
                 "remove one of them"
             )
         with stage("rewrite"):
-            stable, source, tested = rewrite_text(formula, variable)
+            stable, source, tested = rewrite_text(formula, variable, where or ())
         transformations = [("", rule) for rule in stable.applied]
         applied = [asdict(rule) for rule in stable.applied]
         data: object = {"source": source, "tested": asdict(tested), "applied": applied}
     else:
+        if where:
+            raise ValueError("--where applies to a formula; add FORMULA, or remove --where")
         with progress_bar("rewrite") as progress:
             accounts = build.rewriting_effects(chosen_paper(paper), update, progress)
         transformations = [

@@ -172,6 +172,11 @@ def _run(
     if write_json_output(answer.to_json, json):
         OUT.say(f"Study of {one_line(name)}\n\n{answer.to_text()}")
     warn(answer.warnings)
+    if answer.warned > len(answer.warnings):
+        NOTES.say(
+            f"{answer.warned:,} of {answer.points:,} points have warnings or no result; the column "
+            "`reason` of --out FILE lists them."
+        )
 
 
 def _drawing(

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from derivation.engine.nearest import did_you_mean
 from derivation.scene.errors import SceneError
-from derivation.scene.keys import number_key, rivals
+from derivation.scene.input.keys import number_key, rivals
 from derivation.scene.sweep import parse
 from derivation.sweep.distributions import Distribution
 
@@ -287,7 +287,8 @@ def _axis(key: str, values: Iterable[float] | str) -> tuple[str, tuple[float, ..
     try:
         numbers = np.atleast_1d(np.asarray(values, dtype=np.float64))
     except (TypeError, ValueError):
-        raise SceneError(f"{place}: expected numbers, got {values!r:.60}; give a list") from None
+        remedy = "give sample=N" if isinstance(values, Mapping) else "give a list"
+        raise SceneError(f"{place}: expected numbers, got {values!r:.60}; {remedy}") from None
     if numbers.ndim != 1 or not numbers.size or not np.isfinite(numbers).all():
         raise SceneError(f"{place}: expected finite numbers, got {values!r:.60}; give a list")
     return place, tuple(numbers.tolist())
@@ -321,7 +322,7 @@ def _check_power(size: int, what: str) -> None:
     if size & (size - 1) or size < 2:
         below = max(2, 2 ** (size.bit_length() - 1))
         raise SceneError(
-            f"sample: expected a power of two of {what} got {size}; take {below} or {2 * below}"
+            f"sample: expected a power of two of {what}, got {size}; take {below} or {2 * below}"
         )
 
 

@@ -49,21 +49,16 @@ class Sensitivities:
 
     def to_text(self) -> str:
         """Return the indices as a table."""
-        heads = ["result", "key", "#first order", "#total order"]
-        rows = [
-            [
-                name.replace("_", " "),
-                key,
-                *(self._shown(order, i, j) for order in ORDERS),
-            ]
-            for i, name in enumerate(UNITS)
-            for j, key in enumerate(self.keys)
-        ]
+        rows = []
+        for i, name in enumerate(UNITS):
+            rows.append([name.replace("_", " "), "", ""])
+            for j, key in enumerate(self.keys):
+                rows.append([f"  {key}", *(self._shown(order, i, j) for order in ORDERS)])
         title = (
             f"Sensitivity indices with {100 * CONFIDENCE:.0f} % confidence intervals, "
             f"from {self.runs:,} runs"
         )
-        return f"{title}\n\n{aligned(heads, rows)}"
+        return f"{title}\n\n{aligned(['key', '#first order', '#total order'], rows)}"
 
     def to_json(self) -> list[dict[str, Any]]:
         """Return a row for each result and key; null if the scatter is within the error bound."""

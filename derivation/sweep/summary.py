@@ -37,6 +37,8 @@ class Summary:
         Largest bound on the relative error [1].
     warnings
         The first different reasons and warnings, each with one of its points.
+    warned
+        Number of points with a warning, or with a reason why there is no result.
     sensitivities
         Sensitivity indices, if requested.
     """
@@ -47,6 +49,7 @@ class Summary:
     ranges: dict[str, tuple[float, float]]
     largest_bound: float
     warnings: tuple[str, ...]
+    warned: int
     sensitivities: Sensitivities | None
 
     def to_json(self) -> dict[str, Any]:
@@ -66,10 +69,13 @@ class Summary:
             if unit != "1":
                 values, unit = common_prefix(values, unit)
             rows.append([name.replace("_", " "), *(f"{x:#.{DIGITS}g}" for x in values), unit])
+        accuracy = f"relative error at most {self.largest_bound:.1e}"
+        if self.largest_bound == np.inf:
+            accuracy = "no error bound is known at some points"
         text = (
             f"{self.points:,} points: {counts} ({self.computed:,} computed in this run)\n\n"
             f"{aligned(['result', '#smallest', '#largest', 'unit'], rows)}\n\n"
-            f"Accuracy: relative error at most {self.largest_bound:.1e}"
+            f"Accuracy: {accuracy}"
         )
         return f"{text}\n\n{self.sensitivities.to_text()}" if self.sensitivities else text
 
@@ -84,7 +90,7 @@ def summary(store: Store, computed: int, sensitivities: Sensitivities | None) ->
     sensitivities
         Sensitivity indices, if requested.
     """
-    counts, reasons = Counter[str](), dict[str, str]()
+    counts, reasons, warned = Counter[str](), dict[str, str](), 0
     low, high = dict.fromkeys(UNITS, np.inf), dict.fromkeys(UNITS, -np.inf)
     bound = 0.0
     for start, _, table in store.tables(BLOCK):
@@ -95,12 +101,14 @@ def summary(store: Store, computed: int, sensitivities: Sensitivities | None) ->
             values = column(table, name)
             low[name] = float(np.fmin(low[name], np.fmin.reduce(values)))
             high[name] = float(np.fmax(high[name], np.fmax.reduce(values)))
-        _add_reasons(reasons, store, start, status, column(table, "reason"))
+        reason = column(table, "reason").astype(str)
+        warned += int(np.count_nonzero(reason != ""))
+        _add_reasons(reasons, store, start, status, reason)
     ranges = {name: (low[name], high[name]) for name in UNITS if low[name] <= high[name]}
     warnings = tuple(f"{where}: {text}" for text, where in reasons.items())
     size = store.study.plan.size
     return Summary(
-        size, computed, dict(sorted(counts.items())), ranges, bound, warnings, sensitivities
+        size, computed, dict(sorted(counts.items())), ranges, bound, warnings, warned, sensitivities
     )
 
 
@@ -108,7 +116,7 @@ def _add_reasons(reasons: dict[str, str], store: Store, start: int, status: Any,
     """Add new reasons and warnings to `reasons`, each with its first point."""
     if len(reasons) >= MOST_WARNINGS:
         return
-    for text, index in zip(*np.unique(new.astype(str), return_index=True), strict=True):
+    for text, index in zip(*np.unique(new, return_index=True), strict=True):
         if text and text not in reasons and len(reasons) < MOST_WARNINGS:
             number = start + int(index)
             points = store.study.plan.points(number, number + 1)

@@ -1,6 +1,7 @@
 """Scenes built in Python: same messages as for files, and results as pandas and xarray objects."""
 
 import json
+import pickle
 from collections.abc import Mapping
 from typing import Any
 
@@ -134,3 +135,17 @@ def test_plot_returns_a_figure(result: pc.Result) -> None:
     figure = result.plot()
     assert isinstance(figure, Figure)
     assert len(figure.axes) >= 3
+
+
+def test_result_from_another_process_is_the_same(result: pc.Result) -> None:
+    """Processes exchange results by pickle."""
+    restored = pickle.loads(pickle.dumps(result))
+    assert restored.to_json() == result.to_json()
+    assert restored.details() == result.details()
+    assert restored.to_pandas().equals(result.to_pandas())
+
+
+@pytest.mark.parametrize("wrong", ["scene.toml", VALID])
+def test_a_file_or_tables_must_be_read_first(wrong: Any) -> None:
+    assert "read a file with load(path)" in message(pc.simulate, wrong)
+    assert "tables with read(tables)" in message(pc.sweep, wrong, {"impact.speed": [1.0]})

@@ -110,6 +110,8 @@ def test_completion_script_is_printed_and_completes() -> None:
         (["report", "--section", "law", "--fragment", "K_j"], "--section"),
         (["rewrite", "x", "--update"], "FORMULA"),
         (["rewrite", "x", "--variable", "1"], "--variable: "),
+        (["rewrite", "x", "--where", "y < 1"], "--where: "),
+        (["rewrite", "--where", "x < 1"], "FORMULA"),
         (["benchmark", "--quick", "--update"], "--quick"),
         (["generate", "--out", PAPER], "paper.toml"),
         (["report", "--out", PAPER], "paper.toml"),

@@ -9,12 +9,7 @@ from typing import Any
 import pytest
 from shared_scenes import changed
 
-from derivation.scene import (
-    SceneError,
-    load,
-    read,
-    schema,
-)
+from derivation.scene import SceneError, load, read, schema
 from derivation.scene.effects import EFFECTS
 from derivation.scene.model import model_of
 
@@ -73,8 +68,10 @@ BAD = [
     (LAME, "youngs_modulus = 1e9\npoissons_ratio = 0.5", "poissons_ratio|0.5"),
     (LAME, "youngs_modulus = 1e9\npoissons_ratio = -1", "poissons_ratio|-1"),
     (LAME, "youngs_modulus = 0\npoissons_ratio = 0.3", "plate.youngs_modulus|got 0"),
-    ("[impact]", "[accuracy]\n[impact]", "accuracy.rtol|`rtol = 1e-06`"),
+    ("[impact]", "[accuracy]\n[impact]", "accuracy.rtol|`rtol = 0.01`"),
     ("[impact]", "[accuracy]\ntol = 1\n[impact]", "accuracy.tol: |accuracy.rtol; rename"),
+    (LAME, "E = 1e9\nnu = 0.3", "E: |is plate.youngs_modulus; rename|is plate.poissons_ratio"),
+    ("[impact]", "[accuracy]\nrtol = 0.1\noutputs = ['force']\n[impact]", "the string \"force\""),
     ("radius = 1.0", "diameter = 2.0", "plate.diameter: |plate.radius|half"),
     ("radius = 1.0", "radius = 1.0\nwidth = 1.0", "plate.width: |circular|infinite"),
     ("radius = 1.0", "radius = 1.0\nsupport = 'clamped'", "plate.support: |plate.edge"),
@@ -87,7 +84,7 @@ BAD = [
     ("[impact]", "[inertia]\nmodes = 'all'\n[impact]", '"auto"|quotes|`modes = 40`'),
     ("[impact]", "[inertia]\nbranches = 'A1'\n[impact]", '"A0"|"all"|`branches = "A0"`'),
     ("[impact]", "[inertia]\ncoupling = 1\n[impact]", '"variational"|"pointwise"|1'),
-    ("[impact]", "[inertia]\nextent = 'x'\n[impact]", 'inertia.extent|"finite"|"infinite"'),
+    ("[impact]", "[inertia]\nextent = 'x'\n[impact]", '"finite"|(extent of the plate)'),
     ("[impact]", "[inertia]\nmode = 3\n[impact]", "inertia.mode: |modes?"),
     ("[impact]", "[effects]\ninertia = 1\n[impact]", 'effects.inertia: |"auto"|1'),
     ("lame_mu = 0.43e9", "lame_mu = 0.0", "plate.lame_mu: |0"),
@@ -113,6 +110,14 @@ def test_invalid_scene_gives_one_message(old: str, new: str, expected: str, tmp_
         assert words in message
     assert len(message) < 1200
     assert "pydantic" not in message
+
+
+def test_invalid_items_of_a_list_are_one_problem(tmp_path: Path) -> None:
+    path = tmp_path / "scene.toml"
+    path.write_text(f"{GOOD}\n[accuracy]\nrtol = 0.1\noutputs = ['force']\n")
+    with pytest.raises(SceneError, match="outputs: expected a list") as caught:
+        load(path)
+    assert "problems" not in str(caught.value)
 
 
 def test_several_problems_are_listed_together(tmp_path: Path) -> None:

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tomllib
 from collections.abc import Callable
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -20,10 +21,12 @@ from shared_scenes import EXAMPLES, PAPER, TWO_CONTACTS
 from derivation.cli import main
 from derivation.engine.files import ROOT
 from derivation.engine.text import WIDTH, aligned, paragraph
-from derivation.scene import contact_sequence, explain, indent, load, read, simulate, sweep, waves
-from derivation.scene.answer import quantities
+from derivation.scene import explain, indent, load, read, simulate, sweep
+from derivation.scene.dynamic import contact_sequence, waves
+from derivation.scene.output.answer import quantities
 from derivation.scene.quantity import IN_FRONT, PREFIXES, common_prefix, prefixed
 from derivation.scene.result import Result
+from derivation.scene.selection.achieved_accuracy import Part
 
 Captured = pytest.CaptureFixture[str]
 POWERS = {prefix: 10.0**power for power, prefix in PREFIXES.items()}
@@ -280,3 +283,11 @@ def test_table_does_not_wrap_short_cells() -> None:
         "a b                                1",
         "a long cell of many words      -12.5",
     ]
+
+
+def test_summary_says_why_every_result_is_unknown() -> None:
+    result = simulate(load(PAPER))
+    assert "Unknown:" not in str(result)
+    loose = replace(result, accuracy=replace(result.accuracy, law=Part(2.0, "estimated")))
+    assert re.search(r"^max force +unknown$", str(loose), re.M)
+    assert "Unknown: the error by omitted terms or modes may be as large as" in str(loose)

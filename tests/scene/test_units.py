@@ -8,9 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from derivation.scene import SceneError, indent, read, simulate
-from derivation.scene.materials import MATERIALS
-from derivation.scene.rows import solve
-from derivation.scene.units import unit_warnings, unit_warnings_of_rows
+from derivation.scene.input.materials import MATERIALS
+from derivation.scene.input.units import unit_warnings, unit_warnings_of_rows
+from derivation.scene.rows.rows import solve
 
 TILE = {"radius": 0.15, "thickness": 0.009, "youngs_modulus": 65e9, "poissons_ratio": 0.2}
 SCENE: dict[str, dict[str, Any]] = {
@@ -49,6 +49,18 @@ def test_each_value_in_another_unit_is_named_with_its_value_in_si_units(
     [text] = unit_warnings(read(with_value(place, value / unit)))
     assert text.startswith(f"{place} = ")
     assert f"write {value:.6g}" in text
+
+
+@pytest.mark.parametrize(("key", "unit"), [("yield_stress", "MPa"), ("tensile_strength", "MPa")])
+def test_strength_is_compared_with_the_modulus_of_a_named_material(key: str, unit: str) -> None:
+    plate = {"radius": 0.15, "thickness": 0.009, "material": "glass"}
+    assert not unit_warnings(read(SCENE | {"plate": plate | {key: 45e6}}))
+    [text] = unit_warnings(read(SCENE | {"plate": plate | {key: 45.0}}))
+    assert f"plate.{key} = 45 Pa" in text
+    assert f"in {unit}, write 4.5e+07" in text
+    gel = {"youngs_modulus": 1e6, "poissons_ratio": 0.2, "density": 1000.0}
+    soft = {"plate": plate | {"material": "gel", key: 45.0}, "materials": {"gel": gel}}
+    assert not unit_warnings(read(SCENE | soft))
 
 
 def test_grams_are_told_from_a_heavy_body_above_the_sphere() -> None:

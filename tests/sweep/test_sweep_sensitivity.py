@@ -11,7 +11,7 @@ from studies import QUICK, scene
 
 from derivation.cli import main
 from derivation.scene.result import UNITS
-from derivation.scene.rows import Rows
+from derivation.scene.rows.rows import Rows
 from derivation.sweep import run, sensitivity
 
 SPREAD = {"distribution": "uniform", "low": 1.0, "high": 2.0}
@@ -82,6 +82,7 @@ def test_command_prints_and_plots_indices(
     shown = capsys.readouterr().out
     assert "from 320 runs" in shown
     assert "no scatter" in shown
+    assert max(map(len, shown.splitlines())) <= 80
     assert picture.read_bytes().startswith(b"\x89PNG")
     data = json.loads(path.read_text())["sensitivities"]
     assert len(data) == len(KEYS) * len(UNITS)

@@ -1,4 +1,4 @@
-"""A tested NumPy module for a formula of several positive variables."""
+"""A tested NumPy module for a formula of several variables, or with conditions on its variables."""
 
 import textwrap
 from collections.abc import Callable, Sequence
@@ -14,6 +14,7 @@ from derivation.engine.emit.package import RUNTIME, Module, block_text, module_s
 from derivation.engine.emit.printer import to_numpy
 from derivation.engine.emit.source import format_files
 from derivation.engine.emit.standalone import WIDTH, compiled_function
+from derivation.engine.formula.domain import sides
 from derivation.engine.formula.proof import ProofError
 from derivation.engine.formula.vocabulary import Argument, Vocabulary
 from derivation.engine.rewrite.accuracy_test import KNOWN
@@ -47,9 +48,18 @@ RESERVED = {"np", *HELPERS, *(part for parts in HELPERS.values() for part in par
 
 
 def standalone_several(
-    expression: sp.Expr, variables: Sequence[sp.Symbol]
+    expression: sp.Expr, variables: Sequence[sp.Symbol], domain: Vocabulary | None = None
 ) -> tuple[ProductForm, str, SeveralCheck]:
     """Return the stable form, the source of a module with it as a function `f`, and its test.
+
+    Parameters
+    ----------
+    expression
+        The formula.
+    variables
+        Its variables, in the order of the function's arguments.
+    domain
+        The variables with the conditions on them; by default all are positive.
 
     Raises
     ------
@@ -57,7 +67,8 @@ def standalone_several(
         If a factor depends on several products of the variables, or no accurate form is found.
     """
     names = {str(variable) for variable in variables}
-    words = Vocabulary(tuple(Argument(v, "1", str(v), "", (f"{v} > 0",)) for v in variables))
+    positive = Vocabulary(tuple(Argument(v, "1", str(v), "", (f"{v} > 0",)) for v in variables))
+    conditions = _conditions(domain)
 
     def accepted(share: float, made: ProductForm) -> Tested:
         if taken := names & (RESERVED | {str(step.symbol) for step in made.steps}):
@@ -66,10 +77,10 @@ def standalone_several(
                 "code uses; rename it"
             )
         _prove_equal(expression, made)
-        code = compiled_function(_source(expression, variables, made, *ENDS, ""))
-        return made, check_several(expression, variables, code, share)
+        code = compiled_function(_source(expression, variables, made, *ENDS, "", conditions))
+        return made, check_several(expression, variables, code, share, domain)
 
-    best, tested = _best(expression, words, accepted)
+    best, tested = _best(expression, domain or positive, accepted)
     where = ", ".join(f"{name} = {x!r}" for name, x in tested.at.items())
     statement = (
         f"Error at most {tested.limit:g} ULP plus {tested.share} times the sum of the condition "
@@ -79,8 +90,19 @@ def standalone_several(
         "the range and points at which variables are nearly equal; largest error "
         f"{tested.worst:.2f} ULP, at {where}."
     )
-    source = _source(expression, variables, best, tested.low, tested.high, statement)
+    ends = tested.low, tested.high
+    source = _source(expression, variables, best, *ends, statement, conditions)
     return best, format_files({"f.py": source})["f.py"], tested
+
+
+def _conditions(domain: Vocabulary | None) -> tuple[tuple[str, str], ...]:
+    """Return each condition as text and as NumPy code."""
+    stated = [c for argument in domain.arguments for c in argument.domain] if domain else []
+    both = [sides(condition) for condition in dict.fromkeys(stated)]
+    return tuple(
+        (f"{left} {sign} {right}", f"({to_numpy(left)} {sign} {to_numpy(right)})")
+        for left, sign, right in both
+    )
 
 
 def _best(
@@ -184,6 +206,7 @@ def _source(
     low: float,
     high: float,
     statement: str,
+    conditions: Sequence[tuple[str, str]],
 ) -> str:
     blocks = [block_text(block) for block in form.blocks]
     rows, value = lines(form.steps), to_numpy(form.value)
@@ -203,6 +226,8 @@ def _source(
         "formula": sp.sstr(expression),
         "low": repr(low),
         "high": repr(high),
+        "conditions": [text for text, _ in conditions],
+        "inside": " & ".join(code for _, code in conditions),
         "statement": textwrap.wrap(statement, WIDTH),
         "steps": rows,
         "value": value,

@@ -90,10 +90,13 @@ def edit_of(variant: Variant, position: Position) -> Edit:
     elif variant.kind == SUPERFLUOUS:
         shown = variant.shown() if variant.shown else sp.sstr(new)
         says = f"take the parentheses away, {shown}, in {name_of(position)}"
-    elif variant.kind == SYMBOL:
-        says = variant.shown() if variant.shown else f"read {_text(new)}"
+    elif variant.shown:
+        says = variant.shown()
     elif variant.kind in (SIGN, STRAY, MISSING, CONSTANT, TWICE) and own_ratio(position):
-        return ratio_edit(position, new / position.node, variant.extra, variant.kind)
+        ratio = new / position.node
+        if variant.kind in (SIGN, CONSTANT):
+            ratio = sp.cancel(ratio)  # SymPy may have inserted the number into a sum
+        return ratio_edit(position, ratio, variant.extra, variant.kind)
     else:
         says = f"read {_text(new)} instead of {_text(position.node)}"
     return _edit(variant.kind, position, new, says, variant.extra)
@@ -117,6 +120,7 @@ def ratio_edits(position: Position, need: Values, search: VariantSearch) -> Iter
         yield ratio_edit(position, simple)
         return
     yield from _lone_terms(position, ratio, search)
+    yield from _complements(position, ratio, search)
     for factor in search.factors:
         values = search.points.values(factor)
         for power in (-1, 1, -2, 2):
@@ -149,6 +153,8 @@ def ratio_edit(
     swapped = _symbol_swap(position, ratio)
     if swapped is not None:
         return _edit(SYMBOL, position, new, swapped, extra)
+    if kind == TWICE and not _is_factor_of(ratio, position.node):
+        kind = MISSING
     if kind not in (TWICE, MISSING) or ratio.as_numer_denom()[0].is_Symbol:
         kind, extra = _stray_or_missing(position, ratio), extra + _size(ratio)
     return _edit(kind, position, new, _ratio_words(where, ratio, kind), extra)
@@ -170,16 +176,37 @@ def _symbol_swap(position: Position, ratio: sp.Expr) -> str | None:
     return None
 
 
+def _complements(position: Position, ratio: Values, search: VariantSearch) -> Iterator[Edit]:
+    """Yield edits that read 1 - x for a factor x, or x for 1 - x."""
+    printed = position.node.as_powers_dict()
+    for symbol in search.points.symbols:
+        for old, new in ((symbol, 1 - symbol), (1 - symbol, symbol)):
+            bases = {b: e for b, e in printed.items() if b.is_number is False and b.has(symbol)}
+            for base, power in bases.items():
+                number = sp.cancel(base / old)
+                if not number.is_number:
+                    continue
+                if search.points.same((new / old) ** power, ratio):
+                    says = f"read {_text(new)} instead of {_text(old)} in {name_of(position)}"
+                    edited = position.node * (new / old) ** power
+                    yield _edit(SYMBOL, position, edited, says)
+
+
 def _lone_terms(position: Position, ratio: Values, search: VariantSearch) -> Iterator[Edit]:
     """Yield edits that add a term to a sum that has become a factor, as its only other term.
 
     A sum x + y is then printed as x: the ratio of required to given value is a power of (x + y)/x.
+    If x + y is printed with another exponent, the exponent is wrong.
     """
+    printed = position.node.as_powers_dict()
     for total in search.sums:
+        others = [e for b, e in printed.items() if b.is_Add and (b / total).cancel().is_number]
         for term in total.args:
             rest = total - term
             values = search.points.values(total / rest)
             for power in _POWERS:
+                if any(e * power < 0 for e in others):
+                    continue
                 if agree(values[0] ** power, ratio[0]):
                     new = position.node * (total / rest) ** sp.Rational(power)
                     if search.points.same(new / position.node, ratio):
@@ -194,6 +221,11 @@ def _stray_or_missing(position: Position, ratio: sp.Expr) -> str:
     node = position.node.function if isinstance(position.node, sp.Integral) else position.node
     numerator, denominator = sp.fraction(node)
     return STRAY if _divides(above, denominator) or _divides(below, numerator) else MISSING
+
+
+def _is_factor_of(ratio: sp.Expr, node: sp.Expr) -> bool:
+    """Return whether the denominator of a ratio is a factor that can be left out."""
+    return _divides(sp.fraction(ratio)[1], sp.fraction(node)[0])
 
 
 def _divides(factor: sp.Expr, product: sp.Expr) -> bool:
@@ -284,6 +316,8 @@ def factored_edits(position: Position, need: Values, search: VariantSearch) -> I
             if left is not None and not (product == 1 and left.is_number):
                 factor = left * product
                 inside = term / factor + position.node
+                if not isinstance(inside, sp.Add):
+                    continue
                 new = total - term - position.node + factor * inside
                 says = f"set the parentheses {_text(factor)}*({_text(inside)})"
                 steep = 0.6 if (term / factor).count_ops() > term.count_ops() else 0.0

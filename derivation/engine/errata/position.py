@@ -23,6 +23,12 @@ _INVERSE: dict[type[sp.Basic], Callable[[flint.acb], flint.acb]] = {
     sp.cosh: lambda w: w.acosh(),
     sp.tanh: lambda w: w.atanh(),
     sp.coth: lambda w: (1 / w).atanh(),
+    sp.asin: lambda w: w.sin(),
+    sp.acos: lambda w: w.cos(),
+    sp.atan: lambda w: w.tan(),
+    sp.asinh: lambda w: w.sinh(),
+    sp.acosh: lambda w: w.cosh(),
+    sp.atanh: lambda w: w.tanh(),
 }
 
 

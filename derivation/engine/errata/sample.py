@@ -4,6 +4,7 @@ The first point is followed by copies of it in which one symbol is doubled; they
 exponents of a monomial. Further random points make an accidental agreement unlikely.
 """
 
+import math
 import random
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -23,6 +24,8 @@ INTEGRAL_BITS = 160
 _RANDOM = 3
 _CLOSE = 1e-11
 _ATTEMPTS = 40
+_ROOTS, _POWERS_OF_PI = (1, 2, 3), (0, 1, -1, 2, -2)
+"""Roots and powers of pi in a constant ratio."""
 
 Values = Sequence[flint.acb]
 """One complex ball per sample point."""
@@ -144,17 +147,19 @@ def rational(number: float, denominator: int) -> Fraction | None:
 
 
 def constant(values: Values) -> sp.Expr | None:
-    """Return the simple fraction times a power of pi that equals all values; None if none does."""
+    """Return the simple fraction times a power of pi, or a root of it, that equals all values."""
     number = real(values[0])
     if number is None or not agree(values[0], values[-1]):
         return None
-    for power in (0, 1, -1, 2, -2):
-        fraction = rational(number / 3.141592653589793**power, 64)
-        if fraction:
-            with_pi = sp.Rational(fraction.numerator, fraction.denominator) * sp.pi**power
-            ball = flint.acb(enclose(with_pi, {}))
-            if all(agree(ball, value) for value in values):
-                return with_pi
+    for root in _ROOTS:
+        for power in _POWERS_OF_PI:
+            fraction = rational(abs(number) ** root / math.pi**power, 64)
+            if fraction:
+                inside = sp.Rational(fraction.numerator, fraction.denominator) * sp.pi**power
+                found = (1 if number > 0 else -1) * inside ** sp.Rational(1, root)
+                ball = flint.acb(enclose(found, {}))
+                if all(agree(ball, value) for value in values):
+                    return found
     return None
 
 

@@ -46,7 +46,11 @@ _SHAPES: tuple[type[sp.Basic], ...] = (
     sp.tan,
     sp.tanh,
     sp.coth,
+    sp.erf,
+    sp.erfc,
 )
+_TRIED = sp.sin, sp.cos, sp.tan, sp.erf, sp.erfc, sp.gamma, sp.besselj, sp.besseli
+"""Functions whose argument cannot be computed from their value."""
 _FACES = ("z", "h")
 _MAX_FACTORS = 9
 _EXPONENTS = tuple(sp.Rational(k) for k in (-1, 2, -2, 3, 4)) + tuple(
@@ -107,6 +111,8 @@ def variants(position: Position, search: VariantSearch) -> Iterator[Variant]:
     """Yield alternatives in functions, parentheses and faces, which can only be found by trial."""
     if position.role != TERMS:
         yield from other_functions(position.node, search)
+        yield from exchanged_symbols(position.node, search)
+        yield from other_signs(position.node, search)
         yield from lost_parentheses(position.node, search)
         if position.role != FACTOR:
             yield from superfluous_parentheses(position.node, search)
@@ -170,15 +176,16 @@ def other_functions(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
     if isinstance(node, sp.besselj | sp.besseli):
         order, argument = node.args
         others = [node.func(1 - order, argument)] if order in (0, 1) else []
+        others.append((sp.besseli if node.func is sp.besselj else sp.besselj)(order, argument))
         apply = lambda x: node.func(order, x)  # noqa: E731
-    elif node.func in _SHAPES:
+    elif node.func in _SHAPES or node.func is sp.gamma:
         argument, apply = node.args[0], node.func
         others = [shape(argument) for shape in _SHAPES if shape is not node.func]
     else:
         return
     for new in others:
         yield search.variant(SWAP, new)
-    if isinstance(node, sp.sin | sp.cos | sp.tan | sp.besselj | sp.besseli):
+    if isinstance(node, _TRIED):
         for kind, factor in small_factors(search.points.symbols):
             yield search.variant(kind, apply(factor * argument), 0.2)
         for old, new in permutations(search.points.symbols, 2):
@@ -186,6 +193,28 @@ def other_functions(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
                 says = f"read {new} instead of {old} in {sp.sstr(node)}"
                 other = search.variant(SYMBOL, apply(argument.subs(old, new)))
                 yield replace(other, shown=lambda text=says: text)  # type: ignore[misc]
+
+
+def exchanged_symbols(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
+    """Yield a sum, or a power of one, in which two symbols are exchanged."""
+    if not isinstance(node.as_base_exp()[0], sp.Add):
+        return
+    for one, other in combinations(search.points.symbols, 2):
+        if node.has(one) and node.has(other):
+            new = node.subs({one: other, other: one}, simultaneous=True)
+            if new != node:
+                says = f"exchange {one} and {other} in {short(node)}"
+                yield replace(search.variant(SYMBOL, new, 0.1), shown=lambda text=says: text)  # type: ignore[misc]
+
+
+def other_signs(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
+    """Yield an even power of a sum in which a term has the other sign."""
+    base, exponent = node.as_base_exp()
+    if isinstance(base, sp.Add) and exponent.is_Integer and exponent % 2 == 0:
+        for term in base.args:
+            says = f"reverse the sign of the term {short(term)}"
+            new = search.variant(SIGN, (base - 2 * term) ** exponent)
+            yield replace(new, shown=lambda text=says: text)  # type: ignore[misc]
 
 
 def other_faces(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
@@ -310,6 +339,11 @@ def groups(members: Sequence[int]) -> Iterator[tuple[int, ...]]:
 
 def name_of(position: Position) -> str:
     """Return a short description of a position."""
-    text = sp.sstr(position.node)
-    short = text if len(text) <= 90 else text[:87] + "..."
-    return "the whole expression" if position.role == WHOLE else f"the {position.role} {short}"
+    shown = short(position.node)
+    return "the whole expression" if position.role == WHOLE else f"the {position.role} {shown}"
+
+
+def short(expression: sp.Expr) -> str:
+    """Return the text of an expression, cut off if it is long."""
+    text = str(sp.sstr(expression))
+    return text if len(text) <= 90 else text[:87] + "..."

@@ -54,13 +54,18 @@ def excess(condition: str, values: Mapping[sp.Symbol, Fraction]) -> Fraction:
 @cache
 def comparison(condition: str) -> tuple[sp.Expr, Callable[[Fraction, int], bool]]:
     """Return the expression that a condition compares with 0, and the comparison."""
+    left, sign, right = sides(condition)
+    return left - right, _OPERATORS[sign]
+
+
+def sides(condition: str) -> tuple[sp.Expr, str, sp.Expr]:
+    """Return the left side of a condition, its sign, and the right side."""
     match = _COMPARISON.fullmatch(condition)
     if match is None:
         raise ValueError(f"expected a comparison like 'a < b', got {condition!r}")
     left, sign, right = match.groups()
     symbols = {name: sp.Symbol(name) for name in symbols_of(condition)}
-    difference = parse(left, NOTHING, symbols) - parse(right, NOTHING, symbols)
-    return difference, _OPERATORS[sign]
+    return parse(left, NOTHING, symbols), sign, parse(right, NOTHING, symbols)
 
 
 def _exactly(node: sp.Basic, values: Mapping[str, Fraction]) -> Fraction:

@@ -214,7 +214,7 @@ def _interval(
     """Return the interval of an argument by the linear conditions on it and known arguments."""
     own = vocabulary.by_name[key]
     given = {vocabulary.by_name[name].symbol: Fraction(value) for name, value in known.items()}
-    low, high = _own_interval(own)
+    low, high = own_interval(own)
     for condition in {c for name in arguments for c in vocabulary.by_name[name].domain}:
         names = symbols_of(condition)
         if key in names and len(names) > 1 and names <= {key, *known}:
@@ -224,7 +224,7 @@ def _interval(
 
 
 @lru_cache(maxsize=1024)
-def _own_interval(argument: Argument) -> tuple[float, float]:
+def own_interval(argument: Argument) -> tuple[float, float]:
     """Return the interval of an argument by the linear conditions on it alone."""
     alone = [c for c in argument.domain if symbols_of(c) == {argument.name}]
     ends = [_ends_of(condition, argument.symbol, {}) for condition in alone]
@@ -246,7 +246,7 @@ def _ends_of(
 
 def _usual(generator: random.Random, argument: Argument) -> float:
     """Return a number of moderate size, inside the argument's own interval if one is found."""
-    low, high = _own_interval(argument)
+    low, high = own_interval(argument)
     for _ in range(ATTEMPTS):
         value = _random(generator)
         if low <= value <= high:

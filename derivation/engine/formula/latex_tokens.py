@@ -1,9 +1,11 @@
 """Tokens of LaTeX formulas, and what to write instead of those that are not read."""
 
 import re
+from collections.abc import Iterable
 
 from derivation.engine.formula.elementary import INSTEAD
 from derivation.engine.formula.parse import FormulaError, check_nesting
+from derivation.engine.formula.vocabulary import LATEX_SYMBOL, Argument
 
 _TOKEN = re.compile(r"\\[A-Za-z]+|\\.|\d+(?:\.\d+)?|[A-Za-z]|[{}()\[\]^_+\-*/,.;&|]")
 _SPACING = re.compile(
@@ -39,6 +41,46 @@ _INSTEAD = {
     "!": INSTEAD["factorial"],
 }
 """What to write instead of tokens that are not read."""
+
+
+_NOTATION = re.compile(r"\\[A-Za-z]+|[^\s{}]")
+_PRIMES = {"*": r"(?:\*|\\ast|\\star)", "'": r"(?:'|\^\s*\\prime|\^\s*\{\s*\\prime\s*\})"}
+
+
+def with_plain_names(text: str, arguments: Iterable[Argument]) -> tuple[str, dict[str, str]]:
+    """Return a formula in which symbols such as ``E^*`` have other names, and the symbols by name.
+
+    Parameters
+    ----------
+    text
+        The formula.
+    arguments
+        The symbols. Functions, and letters with or without subscript, keep their names.
+    """
+    others = [a for a in arguments if not LATEX_SYMBOL.fullmatch(a.latex) and "(" not in a.latex]
+    names = {}
+    for number, argument in enumerate(sorted(others, key=lambda a: -len(a.latex))):
+        tokens = _NOTATION.findall(argument.latex)
+        pattern = r"\s*\}?\s*\{?\s*".join(map(_pattern, tokens))
+        names[f"Z_own{number}"] = argument.name
+        text = re.sub(
+            rf"(?<![A-Za-z\\]){pattern}(?:\s*\}})?",
+            lambda match, n=number: _named(match.group(), n),  # type: ignore[misc]
+            text,
+        )
+    return text, names
+
+
+def _pattern(token: str) -> str:
+    """Return a regular expression for a token; a letter may not follow a command."""
+    end = r"(?![A-Za-z])" if token.startswith("\\") else ""
+    return _PRIMES.get(token, re.escape(token)) + end
+
+
+def _named(found: str, number: int) -> str:
+    """Return the name of a symbol, and a closing brace that is not its own."""
+    surplus = found.count("}") - found.count("{")
+    return found if surplus < 0 else f"Z_{{own{number}}}" + "}" * surplus
 
 
 def tokens_of(text: str) -> list[str]:

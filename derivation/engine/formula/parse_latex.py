@@ -9,7 +9,7 @@ from collections.abc import Mapping
 import sympy as sp
 
 from derivation.engine.formula.elementary import ELEMENTARY, OTHER_NAMES
-from derivation.engine.formula.latex_tokens import tokens_of, unknown
+from derivation.engine.formula.latex_tokens import tokens_of, unknown, with_plain_names
 from derivation.engine.formula.parse import (
     MAX_NESTING,
     MAX_TEXT,
@@ -63,7 +63,8 @@ def parse_latex(
     if len(text) > MAX_TEXT:
         raise FormulaError(f"expected at most {MAX_TEXT} characters, got {len(text)}: split it")
     allowed = {**(also or {}), **vocabulary.names}
-    translator = _Translator(tokens_of(text), vocabulary, allowed, preferred or {})
+    text, own = with_plain_names(text, vocabulary.arguments)
+    translator = _Translator(tokens_of(text), vocabulary, allowed, {**own, **(preferred or {})})
     plain = translator.sum()
     if translator.here is not None:
         raise FormulaError(

@@ -10,7 +10,7 @@ import sympy as sp
 
 from derivation.engine.formula.dimension import Dimension, unit
 
-_LATEX_SYMBOL = re.compile(r"\\?([A-Za-z]+)(?:_(?:\{(\w+)\}|(\w)))?(?:\^\{\(\w+\)\})?")
+LATEX_SYMBOL = re.compile(r"\\?([A-Za-z]+)(?:_(?:\{(\w+)\}|(\w)))?(?:\^\{\(\w+\)\})?")
 
 
 @dataclass(frozen=True)
@@ -169,7 +169,7 @@ class Vocabulary:
 
 def names_by_latex(arguments: Iterable[Argument]) -> dict[str, str]:
     """Return the name of each symbol by its LaTeX without backslashes and braces."""
-    matches = ((a.name, _LATEX_SYMBOL.fullmatch(a.latex)) for a in arguments)
+    matches = ((a.name, LATEX_SYMBOL.fullmatch(a.latex)) for a in arguments)
     return {"_".join(filter(None, match.groups())): name for name, match in matches if match}
 
 

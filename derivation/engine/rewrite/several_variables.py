@@ -1,12 +1,13 @@
-"""Test of the code of a formula in several positive variables: its range, and the error it states.
+"""Test of the code of a formula in several variables: its range, and the error it states.
 
-Each variable takes the same range. Points are random, next to points at which two variables are
-equal, and on the sides of the range.
+Each variable takes the same range of magnitudes. Points are random, next to points at which two
+variables are equal, and on the sides of the range; with conditions on the variables, also next to
+the ends of their domains.
 """
 
 import math
 import random
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -15,7 +16,9 @@ import numpy as np
 import sympy as sp
 
 from derivation.engine.formula.ball import PrecisionError, enclose, refine, to_ball
+from derivation.engine.formula.grid import domain_grid, inside, joint_points, towards_zeros
 from derivation.engine.formula.ulp import ulp_error
+from derivation.engine.formula.vocabulary import Vocabulary
 from derivation.engine.rewrite.code_check import stated_error
 from derivation.engine.rewrite.terms import UnreachableError
 from derivation.engine.rewrite.useful_range import ENOUGH
@@ -27,6 +30,10 @@ RANDOM, NEAR, SIDES = 400, 40, 20
 on each side of the range."""
 USUAL = 3.0, 1.0, 0.3
 """Exponents of ten of the smaller ranges from which as many random points are taken."""
+FEW = 150
+"""Number of points between which zeros of the formula are sought in each round."""
+JOINT = 1500
+"""Number of points inside the domains of the variables that are drawn in each round."""
 ROUNDS = 3
 """Number of times that a range must pass with new points."""
 ENOUGH_POINTS = 100
@@ -57,7 +64,7 @@ class SeveralCheck:
     Attributes
     ----------
     low, high
-        Range of each variable, both included.
+        Range of the magnitude of each variable, both included.
     limit
         The stated error [ULP in addition to `share` times the sum of the condition numbers]: the
         largest one found, with a margin.
@@ -83,11 +90,13 @@ def check_several(
     variables: Sequence[sp.Symbol],
     function: Function,
     share: float = STATED[0],
+    words: Vocabulary | None = None,
 ) -> SeveralCheck:
     """Return the largest range in which code passes, and the error that it may state.
 
     Only real values with a magnitude between `LEAST_VALUE` and `LARGEST_VALUE` are compared. The
-    share is one of `STATED`.
+    share is one of `STATED`. The words state the domains of the variables if these are not all
+    positive numbers.
 
     Raises
     ------
@@ -99,8 +108,11 @@ def check_several(
     worst: tuple[float, Point] = math.inf, ()
     for decade, rounds in ((DECADES[-1], 1), *((decade, ROUNDS) for decade in DECADES)):
         errors: dict[Point, float] = {}
-        for _ in range(rounds):
-            points = list(_points(draw, decade, len(variables)))
+        for number in range(rounds):
+            if words is None:
+                points = list(_points(draw, decade, len(variables)))
+            else:
+                points = _points_inside(expression, variables, words, decade, number)
             errors |= _errors(expression, slopes, variables, function, points, TESTED[share])
             worst = max(((error, point) for point, error in errors.items()), default=worst)
             if worst[0] > ENOUGH:
@@ -145,6 +157,32 @@ def _points(draw: random.Random, decade: int, count: int) -> Iterator[Point]:
                 point = [value(draw.choice((3.0, decade))) for _ in range(count)]
                 point[one] = side
                 yield tuple(point)
+
+
+def _points_inside(
+    expression: sp.Expr,
+    variables: Sequence[sp.Symbol],
+    words: Vocabulary,
+    decade: int,
+    number: int,
+) -> list[Point]:
+    """Return points inside the domains: random, next to their ends, and next to zeros."""
+    names, seed = [str(v) for v in variables], f"{expression}, round {number}"
+
+    def sign(point: Mapping[str, float]) -> int:
+        value = _value(expression, {v: point[str(v)] for v in variables}, 3)
+        return 0 if value is None or value == 0 else 1 if value > 0 else -1
+
+    drawn = joint_points(seed, names, words, decade, JOINT)
+    signs = [(point, sign(point)) for point in drawn[:FEW]]
+    found: Iterable[Mapping[str, float]] = (
+        *domain_grid(seed, names, words, {}),
+        *drawn,
+        *(point for point in towards_zeros(signs, sign) if inside(words, point)),
+    )
+    least, most = float(f"1e-{decade}"), float(f"1e{decade}")
+    points = (tuple(point[name] for name in names) for point in found)
+    return [p for p in points if all(x == 0 or least <= abs(x) <= most for x in p)]
 
 
 def _errors(

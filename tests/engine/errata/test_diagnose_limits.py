@@ -161,11 +161,13 @@ def test_one_of_several_equal_factors_can_be_replaced() -> None:
 # --- numbers
 
 
-def test_constants_are_rational_multiples_of_powers_of_pi() -> None:
+def test_constants_are_fractions_times_powers_of_pi_and_their_roots() -> None:
     with flint.ctx.workprec(200):
         pi, two = flint.acb.pi(), flint.acb(2)
         assert sample.constant([3 * pi**2 / 7] * 2) == sp.Rational(3, 7) * sp.pi**2
-        assert sample.constant([two.sqrt()] * 2) is None
+        assert sample.constant([-two.sqrt()] * 2) == -sp.sqrt(2)
+        assert sample.constant([(3 / (4 * pi)).root(3)] * 2) == sp.cbrt(3 / (4 * sp.pi))
+        assert sample.constant([two.exp()] * 2) is None
         assert sample.constant([flint.acb(0.5) + flint.acb(2) ** -45] * 2) is None
     assert sample.rational(0.75, 4) == Fraction(3, 4)
     assert sample.rational(2e6, 4) is None

@@ -1,0 +1,121 @@
+"""`rewrite` with conditions on the variables: the stated error against mpmath inside the domain."""
+
+import math
+import random
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from mpmath import mp, mpf
+
+from derivation.engine.emit.own_formula import domain_of, rewrite_text
+from derivation.engine.rewrite.several_variables import MOST_CONDITIONING, SeveralCheck
+
+POISSON = "-1 < nu < 0.5"
+FORMULAS = {
+    ("(1 - 2*nu)/(2 - 2*nu)", POISSON): lambda nu: (1 - 2 * nu) / (2 - 2 * nu),
+    ("(3 - 4*nu)*sinh(T) - T", POISSON): lambda nu, T: (3 - 4 * nu) * mp.sinh(T) - T,
+    ("tanh(x) - x", "-1 < x < 1"): lambda x: mp.tanh(x) - x,
+    ("1 - cos(x)", "-10 <= x <= 10"): lambda x: 2 * mp.sin(x / 2) ** 2,
+    ("sqrt(1 + x) - 1", "-1 < x < 1"): lambda x: mp.sqrt(1 + x) - 1,
+    ("acos(r/a)", "r < a"): lambda r, a: mp.acos(r / a),
+}
+SPECIAL = -1.0, 0.5, 1.0, -10.0, 10.0
+"""Ends of the domains."""
+POINTS = 300
+
+
+def some_number(draw: random.Random) -> float:
+    """Return a number of any magnitude and sign, or one next to an end of a domain."""
+    if draw.random() < 0.3:
+        return draw.choice(SPECIAL) * (1 + draw.choice((-1, 1)) * 10 ** draw.uniform(-16, -1))
+    size = draw.choice((1.0, 3.0, 90.0))
+    return draw.choice((-1, 1)) * 10 ** draw.uniform(-size, size)
+
+
+def allowed_errors(
+    exact: Callable[..., mpf], point: list[float], computed: float
+) -> tuple[float, float] | None:
+    """Return the error and the sum of the condition numbers [ULP]; None without a value."""
+    with mp.workdps(600):
+        at = [mpf(x) for x in point]
+        value = exact(*at)
+        if mp.im(value) != 0 or not 1e-200 < abs(value) < 1e200:
+            return None
+        conditioning = mpf(0)
+        for index, x in enumerate(at):
+            step = x * mpf(10) ** -120
+            moved = exact(*(y + step * (i == index) for i, y in enumerate(at)))
+            conditioning += abs((moved - value) / value / mpf(10) ** -120)
+        return float(abs(mpf(computed) - value) / mpf(math.ulp(float(value)))), float(conditioning)
+
+
+@pytest.mark.parametrize(("text", "where"), FORMULAS)
+def test_stated_error_holds_inside_the_domain(text: str, where: str) -> None:
+    _, source, tested = rewrite_text(text, where=[where])
+    assert isinstance(tested, SeveralCheck)
+    space: dict[str, Callable[..., np.ndarray]] = {}
+    exec(source, space)
+    draw, exact = random.Random(f"inside {where}"), FORMULAS[text, where]
+    names = list(tested.at)
+    compared = outside = 0
+    for _ in range(POINTS):
+        point = [some_number(draw) for _ in names]
+        values = dict(zip(names, point, strict=True))
+        inside = eval(where, {}, values) and all(
+            x > 0 or name in ("nu", "x") for name, x in values.items()
+        )
+        computed = float(space["f"](*point))
+        if not inside:
+            assert math.isnan(computed), point
+            outside += 1
+        elif max(map(abs, point)) < tested.high and min(map(abs, point)) > tested.low:
+            errors = allowed_errors(exact, point, computed)
+            if errors is not None and errors[1] <= MOST_CONDITIONING:
+                assert errors[0] <= tested.limit + tested.share * errors[1], point
+                compared += 1
+    assert compared > POINTS / 20
+    assert outside > POINTS / 20
+
+
+def test_conditions_are_stated_in_the_docstring() -> None:
+    source = rewrite_text("sqrt(1 + x) - 1", where=["x > -1", "x <= 1"])[1]
+    assert "Conditions: x > -1, x <= 1;" in source
+    assert "inside = (x > -1) & (x <= 1)" in source
+
+
+@pytest.mark.parametrize(
+    ("where", "signs"),
+    [
+        (["-1 < nu < 0.5"], (None, True)),
+        (["nu < 0.5"], (True, True)),
+        (["nu >= 0", "T < nu"], (None, True)),
+        (["nu > 0", "T > -3"], (True, None)),
+        (["nu < -1"], (None, True)),
+    ],
+)
+def test_a_variable_is_positive_unless_a_condition_allows_other_numbers(
+    where: list[str], signs: tuple[bool | None, ...]
+) -> None:
+    assert tuple(a.symbol.is_positive for a in domain_of(["nu", "T"], where).arguments) == signs
+
+
+@pytest.mark.parametrize(
+    ("where", "reason"),
+    [
+        ("nu", "expected a condition like"),
+        ("nu < ", "expected a condition like"),
+        ("1 < 2", "expected a condition like"),
+        ("mu < 0.5", "with mu; correct the name"),
+        ("__import__('os') < 1", "expected a condition like"),
+        ("nu > 1 and nu < 2", "expected a condition like"),
+    ],
+)
+def test_other_conditions_are_refused(where: str, reason: str) -> None:
+    with pytest.raises(ValueError, match=reason):
+        rewrite_text("1 - 2*nu", where=[where])
+
+
+def test_conditions_that_exclude_each_other_are_refused() -> None:
+    with pytest.raises(ValueError, match="exclude each other"):
+        rewrite_text("1 - 2*nu", where=["nu > 1", "nu < 0.5"])

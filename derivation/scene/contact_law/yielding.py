@@ -125,6 +125,7 @@ class Yielding:
         return replace(self, end=a, ratio=max(self.ratio, reached), loading=False)
 
 
+@lru_cache(maxsize=4)
 def yielding_of(law: ContactLaw) -> Yielding | None:
     """Return the branch of a law before yielding; None for an elastic law."""
     if not law.plastic:

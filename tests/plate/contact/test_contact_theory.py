@@ -10,7 +10,6 @@ import pytest
 import sympy as sp
 
 from derivation.engine.formula.proof import ProofError, prove
-from derivation.plate import derived
 from derivation.plate.contact.theory import divergence, plate_series, reversion, thin_plate
 from derivation.plate.contact.theory import split as contact_split
 from derivation.plate.vocabulary import (
@@ -31,11 +30,6 @@ from derivation.plate.vocabulary import (
 )
 
 ETAS = ("0.1", "0.35", "1.2")
-
-
-@pytest.fixture(scope="module")
-def motion() -> Mapping[str, Formula]:
-    return derived.formulas()
 
 
 @cache
@@ -89,11 +83,11 @@ def c_by_sum(k: int, ratio: mp.mpf) -> mp.mpf:
     return ratio ** (2 * k - 3) * size * inner
 
 
-def recorded(motion: Mapping[str, Formula], k: int, ratio: str) -> mp.mpf:
+def recorded(formulas: Mapping[str, Formula], k: int, ratio: str) -> mp.mpf:
     """Return c_(2k-3) from the two derived parts, with the sum evaluated by mpmath."""
     order = 2 * k - 3
-    mode = sp.lambdify((eta, j_n, J1), motion[f"c_{order}_modes"].expression, "mpmath")
-    side = sp.lambdify((eta, kappa[2 * k - 4]), motion[f"c_{order}_lateral"].expression, "mpmath")
+    mode = sp.lambdify((eta, j_n, J1), formulas[f"c_{order}_modes"].expression, "mpmath")
+    side = sp.lambdify((eta, kappa[2 * k - 4]), formulas[f"c_{order}_lateral"].expression, "mpmath")
     number = mp.mpf(ratio)
     with mp.workdps(60):
         total = mp.fsum(mode(number, j, J) for j, J in zeros(count_for(number)))
@@ -106,22 +100,22 @@ def ball(value: flint.arb, digits: int = 25) -> mp.mpf:
 
 @pytest.mark.parametrize("eta_text", ETAS)
 def test_limit_of_the_influence_for_high_modes(
-    motion: Mapping[str, Formula], eta_text: str
+    formulas: Mapping[str, Formula], eta_text: str
 ) -> None:
     """phi^3 K_j from its closed form at the 300th mode agrees with the limit."""
     b_v, R_v = mp.mpf("1.7"), mp.mpf("0.4")
     j = mp.besseljzero(0, 300)
     K = 8 * G(2 * mp.mpf(eta_text) * j) / (mp.pi * R_v * b_v**2 * (j / b_v) ** 4)
     K /= mp.besselj(1, j) ** 2
-    expected = motion["K_j_limit"].expression.subs({R: sp.Rational("0.4"), b: sp.Rational("1.7")})
+    expected = formulas["K_j_limit"].expression.subs({R: sp.Rational("0.4"), b: sp.Rational("1.7")})
     assert abs((j / b_v) ** 3 * K / mp.mpf(expected.evalf(20)) - 1) < mp.mpf("1e-6")
 
 
 @pytest.mark.parametrize("k", [2, 3])
-def test_truncated_gamma_has_the_derived_growth(motion: Mapping[str, Formula], k: int) -> None:
+def test_truncated_gamma_has_the_derived_growth(formulas: Mapping[str, Formula], k: int) -> None:
     """The partial sum of 400 modes has the derived leading growth, for h = 0.3 and the rest 1."""
     point = {"a": 1, "P": 1, "R": 1, "b": 1}
-    formula = motion[f"gamma_{k}_truncated"].expression
+    formula = formulas[f"gamma_{k}_truncated"].expression
     modes = {str(s): s for s in formula.free_symbols}
     size = formula.subs({modes[name]: value for name, value in point.items() if name in modes})
     term = 8 * (-1) ** k * mp.mpf(2 * k - 2) / mp.factorial(2 * k - 1) / mp.pi
@@ -180,19 +174,19 @@ def test_certified_zeros_agree_with_mpmath() -> None:
         assert abs(ball(contact_split.zero_of_j0(n, 120), 30) - mp.besseljzero(0, n)) < 1e-14
 
 
-def split_of(motion: Mapping[str, Formula], r: mp.mpf, e: mp.mpf) -> mp.mpf:
+def split_of(formulas: Mapping[str, Formula], r: mp.mpf, e: mp.mpf) -> mp.mpf:
     """Return F(alpha, eta) from the two derived parts."""
-    integrand, (y, *_) = motion["F_lateral"].expression.args
+    integrand, (y, *_) = formulas["F_lateral"].expression.args
     weight = sp.besselk(0, y) / sp.besseli(0, y)
     density = sp.lambdify((alpha, y), integrand / weight, "mpmath")
-    mode = sp.lambdify((alpha, eta, j_n, J1), motion["F_modes"].expression, "mpmath")
+    mode = sp.lambdify((alpha, eta, j_n, J1), formulas["F_modes"].expression, "mpmath")
     modes = mp.fsum(mode(r, e, j, J) for j, J in zeros(count_for(e)))
     return modes + lateral_integral(lambda value: density(r, value))
 
 
 @pytest.mark.parametrize(("ratio", "eta_text"), [("0.3", "0.2"), ("0.7", "0.4")])
 def test_split_agrees_with_the_modal_sum(
-    motion: Mapping[str, Formula], ratio: str, eta_text: str
+    formulas: Mapping[str, Formula], ratio: str, eta_text: str
 ) -> None:
     """The averaged sum of the paper over 800 modes agrees with 1 + F."""
     with mp.workdps(30):
@@ -205,26 +199,26 @@ def test_split_agrees_with_the_modal_sum(
             / (j**4 * J**2)
             for j, J in zeros(800)
         ]
-        assert abs(calmed(terms) - 1 - split_of(motion, r, e)) < mp.mpf("1e-7")
+        assert abs(calmed(terms) - 1 - split_of(formulas, r, e)) < mp.mpf("1e-7")
 
 
 @pytest.mark.parametrize("eta_text", ETAS)
 @pytest.mark.parametrize("k", [2, 3, 4, 5])
-def test_coefficients(motion: Mapping[str, Formula], k: int, eta_text: str) -> None:
+def test_coefficients(formulas: Mapping[str, Formula], k: int, eta_text: str) -> None:
     with mp.workdps(30):
         expected = c_by_sum(k, mp.mpf(eta_text))
-        got = recorded(motion, k, eta_text)
+        got = recorded(formulas, k, eta_text)
     assert abs(got / expected - 1) < mp.mpf("1e-13")
 
 
-def test_series_agrees_with_the_split(motion: Mapping[str, Formula]) -> None:
+def test_series_agrees_with_the_split(formulas: Mapping[str, Formula]) -> None:
     """c_1 A + ... + c_7 A^7 at a/h = 0.2 agrees with F from quadrature and sum."""
     with mp.workdps(30):
         r, e = mp.mpf("0.08"), mp.mpf("0.4")
-        values = {c_A[2 * k - 3]: recorded(motion, k, "0.4") for k in range(2, 6)}
-        law = sp.lambdify((a_ratio, *values), motion["delta_reduced"].expression - 1, "mpmath")
+        values = {c_A[2 * k - 3]: recorded(formulas, k, "0.4") for k in range(2, 6)}
+        law = sp.lambdify((a_ratio, *values), formulas["delta_reduced"].expression - 1, "mpmath")
         series = law(r / e, *values.values())
-        assert abs(series - split_of(motion, r, e)) < 2e-9
+        assert abs(series - split_of(formulas, r, e)) < 2e-9
         assert abs(series) > 0.01
 
 
@@ -279,12 +273,12 @@ def test_finite_parts(k: int) -> None:
 @pytest.mark.parametrize("k", [2, 3, 4])
 @pytest.mark.parametrize(("eta_text", "error"), [("0.1", "1e-16"), ("0.2", "1e-8")])
 def test_thin_plate_coefficients_agree_with_the_sum(
-    motion: Mapping[str, Formula], k: int, eta_text: str, error: str
+    formulas: Mapping[str, Formula], k: int, eta_text: str, error: str
 ) -> None:
     """The error of the thin-plate form is of order e^(-42) at eta = 0.1 and e^(-21) at 0.2."""
     with mp.workdps(30):
         exact = c_by_sum(k, mp.mpf(eta_text))
-        formula = motion[f"c_{2 * k - 3}_thin"].expression
+        formula = formulas[f"c_{2 * k - 3}_thin"].expression
         finite = sp.Float(thin_plate.finite_part_ball(k, 28).str(28, radius=False), 30)
         thin = mp.mpf(str(formula.subs({M[k]: finite, eta: sp.Rational(eta_text)}).evalf(28)))
         assert abs(thin - exact) < mp.mpf(error) * max(1, abs(exact))
@@ -292,17 +286,17 @@ def test_thin_plate_coefficients_agree_with_the_sum(
         assert abs(thin - exact) > mp.mpf("1e-16")
 
 
-def test_bending_agrees_with_kirchhoff(motion: Mapping[str, Formula]) -> None:
+def test_bending_agrees_with_kirchhoff(formulas: Mapping[str, Formula]) -> None:
     """The first term of c_1 is Kirchhoff's deflection P b^2/(8 pi D) divided by a^3/(R h).
 
     Here D = E* (2h)^3/12 and P = 4 E* a^3/(3 R).
     """
-    leading = sp.limit(motion["c_1_thin"].expression * eta**2, eta, 0)
+    leading = sp.limit(formulas["c_1_thin"].expression * eta**2, eta, 0)
     stiffness = sp.Rational(8, 12)
     assert leading == sp.Rational(4, 3) / (8 * sp.pi * stiffness)
 
 
-def test_formal_inversion_agrees_numerically(motion: Mapping[str, Formula]) -> None:
+def test_formal_inversion_agrees_numerically(formulas: Mapping[str, Formula]) -> None:
     """For small P the series with the xi_k inverts delta(P) up to the omitted order."""
     texts = {2: "0.7", 3: "-0.3", 4: "0.2", 5: "-1", 6: "2"}
     numbers = {f"gamma_{k}": sp.Rational(text) for k, text in texts.items()}
@@ -312,7 +306,7 @@ def test_formal_inversion_agrees_numerically(motion: Mapping[str, Formula]) -> N
         delta = mp.fsum(mp.mpf(x) * P ** ((2 * k - 1) * third) for k, x in texts.items())
         total = mp.mpf(0)
         for k in texts:
-            xi = motion[f"xi_{k}"].expression
+            xi = formulas[f"xi_{k}"].expression
             exact = xi.subs({s: numbers[str(s)] for s in xi.free_symbols})
             total += mp.mpf(str(exact.evalf(70))) * delta ** ((2 * k - 1) * third)
         return total - P
@@ -322,9 +316,9 @@ def test_formal_inversion_agrees_numerically(motion: Mapping[str, Formula]) -> N
         assert abs(mp.log(ratio, 10) - mp.mpf(13)) < 0.05
 
 
-def test_xi_3_has_the_power_eight_thirds(motion: Mapping[str, Formula]) -> None:
+def test_xi_3_has_the_power_eight_thirds(formulas: Mapping[str, Formula]) -> None:
     two, three = sp.symbols("gamma_2 gamma_3", positive=True)
-    xi = motion["xi_3"].expression
+    xi = formulas["xi_3"].expression
     named = {s: {"gamma_2": two, "gamma_3": three}[str(s)] for s in xi.free_symbols}
     assert sp.simplify(xi.subs(named) + three / two ** sp.Rational(8, 3)) == 0
 

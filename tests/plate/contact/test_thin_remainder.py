@@ -10,7 +10,6 @@ import pytest
 import sympy as sp
 
 from derivation.engine.formula.proof import ProofError
-from derivation.plate import derived
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.contact.theory import thin_law, thin_remainder, thin_roots
 from derivation.plate.vocabulary import Formula, PlateRoot, a_ratio, eta
@@ -24,11 +23,6 @@ The second point is outside the convergence radius of Phi's series; the last pla
 """
 DROPS = {"sinh T = T": lambda n: 2 * n - 1, "sinh T = -T": lambda n: 2 * n}
 """Family of roots to omit, with the indices of the remaining roots."""
-
-
-@pytest.fixture(scope="module")
-def motion() -> Mapping[str, Formula]:
-    return derived.formulas()
 
 
 @cache
@@ -203,26 +197,26 @@ def stated_sum(formula: Formula, values: Mapping[sp.Symbol, mp.mpf], count: int)
 
 
 @pytest.mark.parametrize("k", [2, 3, 4, 5])
-def test_recorded_sum_of_a_coefficient(motion: Mapping[str, Formula], k: int) -> None:
+def test_recorded_sum_of_a_coefficient(formulas: Mapping[str, Formula], k: int) -> None:
     with mp.workdps(30):
-        got = stated_sum(motion[f"c_{2 * k - 3}_roots"], {eta: mp.mpf(1) / 3}, 8)
+        got = stated_sum(formulas[f"c_{2 * k - 3}_roots"], {eta: mp.mpf(1) / 3}, 8)
         ball = thin_remainder.coefficient_remainder_ball(k, Fraction(1, 3), 25)
         assert abs(got / number(ball, 25) - 1) < mp.mpf("1e-22")
 
 
 @pytest.mark.parametrize(("radius", "ratio"), POINTS)
-def test_law_is_exact(motion: Mapping[str, Formula], radius: str, ratio: str) -> None:
+def test_law_is_exact(formulas: Mapping[str, Formula], radius: str, ratio: str) -> None:
     """c_1 A + c_3 A^3 + Phi(A) misses F by the recorded sum over the roots."""
     A, e = Fraction(radius), Fraction(ratio)
     expected = number(contact_balls.relative_correction(A * e, e, 1, DIGITS))
-    integrand, (T, *_) = motion["Phi"].expression.args
+    integrand, (T, *_) = formulas["Phi"].expression.args
     with mp.workdps(80):
         density = sp.lambdify((T, a_ratio), integrand, "mpmath")
         a, eps = (mp.mpf(x.numerator) / x.denominator for x in (A, e))
         universal = mp.quad(lambda x: density(x, a), [mp.mpf("1e-11"), 1, 3, 8, 20, 40, 80])
         low = mp.fsum(number(closed(k, ratio)) * a ** (2 * k - 3) for k in (2, 3))
         miss = expected - low - universal
-        got = stated_sum(motion["F_roots"], {eta: eps, a_ratio: a}, 70)
+        got = stated_sum(formulas["F_roots"], {eta: eps, a_ratio: a}, 70)
         assert abs(got - miss) < mp.mpf("1e-20") * abs(expected)
         assert abs(miss) > mp.mpf("1e-39") * abs(expected)
 

@@ -10,18 +10,12 @@ import sympy as sp
 from derivation.engine.errata.findings import Finding
 from derivation.engine.formula.parse_latex import parse_latex
 from derivation.engine.formula.proof import decide_zero
-from derivation.plate import derived
 from derivation.plate.misprints import diagnose_power, diagnose_series, misprints
 from derivation.plate.printed.contact import K_j
 from derivation.plate.printed.motion import PRINTED_MOTION, Printed
 from derivation.plate.vocabulary import PLATE, D, Formula, delta, gamma_k, k, m, u_t, v0, xi_k
 
 HERTZ = "1.4716375921623523"
-
-
-@pytest.fixture(scope="module")
-def motion() -> Mapping[str, Formula]:
-    return derived.formulas()
 
 
 @pytest.fixture(scope="module")
@@ -35,11 +29,11 @@ def findings(formulas: Mapping[str, Formula]) -> dict[str, Finding]:
     }
 
 
-def test_computed_motion_conserves_energy(motion: Mapping[str, Formula]) -> None:
+def test_computed_motion_conserves_energy(formulas: Mapping[str, Formula]) -> None:
     """The velocity from integrating (11) with mpmath's Taylor solver agrees with (13)."""
     numbers = {m: 2, v0: 3, xi_k[2]: 5, xi_k[3]: sp.Rational(7, 10)}
-    acceleration = sp.lambdify(delta, motion["acceleration"].expression.subs(numbers), "mpmath")
-    speed = sp.lambdify(delta, motion["speed"].expression.subs(numbers), "mpmath")
+    acceleration = sp.lambdify(delta, formulas["acceleration"].expression.subs(numbers), "mpmath")
+    speed = sp.lambdify(delta, formulas["speed"].expression.subs(numbers), "mpmath")
     # The integration starts at delta > 0 because delta^(5/3) has no Taylor series at 0.
     start = mp.mpf("0.3")
     solve = mp.odefun(lambda _, y: [y[1], acceleration(y[0])], 0, [start, speed(start)])
@@ -48,17 +42,17 @@ def test_computed_motion_conserves_energy(motion: Mapping[str, Formula]) -> None
     assert abs(velocity - speed(place)) < mp.mpf("1e-12")
 
 
-def contact_integral(motion: Mapping[str, Formula], law: tuple[float, ...]) -> mp.mpf:
+def contact_integral(formulas: Mapping[str, Formula], law: tuple[float, ...]) -> mp.mpf:
     """Return the integral of the recorded integrand for a law with given D_3, D_5, D_7."""
     values = dict.fromkeys((D[3], D[5], D[7]), sp.Integer(0))
     values |= {D[2 * i + 3]: sp.Rational(value) for i, value in enumerate(law)}
-    integrand = sp.lambdify(u_t, motion["contact_integrand"].expression.subs(values), "mpmath")
+    integrand = sp.lambdify(u_t, formulas["contact_integrand"].expression.subs(values), "mpmath")
     return mp.quad(integrand, [0, 0.5, 1])
 
 
 @pytest.mark.parametrize("law", [(), (0.7,), (-0.2, 0.01), (40.0, -3.0, 0.5), (1e10,)])
 def test_contact_time_integral_agrees_with_the_motion(
-    motion: Mapping[str, Formula], law: tuple[float, ...]
+    formulas: Mapping[str, Formula], law: tuple[float, ...]
 ) -> None:
     """The contact-time integral equals int d delta/velocity by mpmath, for given D_3, D_5, D_7."""
     pairs = [(2, mp.mpf(1)), *((2 * i + 3, mp.mpf(value)) for i, value in enumerate(law))]
@@ -70,25 +64,25 @@ def test_contact_time_integral_agrees_with_the_motion(
     with mp.workdps(40):
         # The square root at q = 1 halves the digits: the omitted part is about 2 rate sqrt(1e-30).
         expected = mp.quad(rate, [0, 0.5, 0.9, 0.999, 1 - mp.mpf("1e-30")])
-        assert abs(contact_integral(motion, law) / expected - 1) < mp.mpf("1e-12")
+        assert abs(contact_integral(formulas, law) / expected - 1) < mp.mpf("1e-12")
 
 
-def test_hertz_contact_time(motion: Mapping[str, Formula]) -> None:
-    value = mp.mpf(str(motion["hertz_time"].expression.evalf(25)))
+def test_hertz_contact_time(formulas: Mapping[str, Formula]) -> None:
+    value = mp.mpf(str(formulas["hertz_time"].expression.evalf(25)))
     assert abs(value / 2 - mp.mpf(HERTZ)) < mp.mpf("2e-16") * 4
     assert abs(value - mp.mpf("2.94327518")) < 1e-8
     direct = mp.quad(lambda u: 2 * u / mp.sqrt(-mp.expm1(2.5 * mp.log1p(-(u**2)))), [0, 0.5, 1])
     assert abs(value / 2 - direct) < 1e-12
     # The general integral I agrees too: half the contact time is sqrt(2/5) I delta_max/v0.
-    general = contact_integral(motion, ())
+    general = contact_integral(formulas, ())
     assert abs(general * mp.sqrt(mp.mpf(2) / 5) - value / 2) < 1e-14
 
 
 def test_radicand_is_negative_before_the_turning_point(
-    motion: Mapping[str, Formula],
+    formulas: Mapping[str, Formula],
 ) -> None:
     numbers = {m: 2, v0: 3, xi_k[2]: 5, xi_k[3]: sp.Rational(7, 10)}
-    at_turn = float(motion["radicand_at_turn"].expression.subs(numbers))
+    at_turn = float(formulas["radicand_at_turn"].expression.subs(numbers))
     turning = 3 * (2 / 5) ** 0.5
     radicand = 9 - 5 / 2 * turning**2 - 3 * 0.7 / (4 * 2) * turning ** (8 / 3)
     assert at_turn == pytest.approx(radicand, rel=1e-12)
@@ -97,10 +91,10 @@ def test_radicand_is_negative_before_the_turning_point(
 
 @pytest.mark.parametrize("name", ["", "hertz"])
 def test_linearised_equation_is_accurate_to_second_order(
-    motion: Mapping[str, Formula], name: str
+    formulas: Mapping[str, Formula], name: str
 ) -> None:
     """eta' + F eta + G = 0 is accurate to second order in eta for two exact velocities."""
-    F, G = (motion[f"{x}_{name or 1}"].expression for x in ("F", "G"))
+    F, G = (formulas[f"{x}_{name or 1}"].expression for x in ("F", "G"))
     values = {"m": 2, "v0": 3, "xi_2": 5, "xi_3": 0.7, "lam": 1.1, "mu": 0.4, "R": 0.8, "h": 2}
     values |= {"c_1": 0.3}
     at = 0.4
@@ -185,7 +179,7 @@ def test_convergent_series_is_compared_like_any_formula(formulas: Mapping[str, F
     assert diagnose_series("delta", -expression, formulas).kind == "sign"
 
 
-def test_correct_power_is_equal(motion: Mapping[str, Formula]) -> None:
-    everything = dict(motion)
+def test_correct_power_is_equal(formulas: Mapping[str, Formula]) -> None:
+    everything = dict(formulas)
     assert diagnose_power("force_power", (k + 1) / 2, everything).kind == "equal"
     assert "not 1/3" in diagnose_power("force_power", k / 3 + 1, everything).repair

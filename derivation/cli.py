@@ -46,7 +46,7 @@ from derivation.engine.console import (
 from derivation.engine.failed import FailedError
 from derivation.engine.files import ROOT, in_checkout
 from derivation.engine.staging import recover
-from derivation.scene.old_names import OldNameWarning
+from derivation.scene.input.old_names import OldNameWarning
 
 app = typer.Typer(
     cls=GroupedHelp,

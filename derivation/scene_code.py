@@ -10,9 +10,10 @@ from typing import Any
 
 from derivation.engine.emit.source import format_files
 from derivation.engine.files import write_file
-from derivation.scene.code import Recipe, errors, recipe
-from derivation.scene.compose import WIDTH, composed
-from derivation.scene.scene import Scene, SceneError
+from derivation.scene.code.code import Recipe, errors, recipe
+from derivation.scene.code.compose import WIDTH, composed
+from derivation.scene.errors import SceneError
+from derivation.scene.scene import Scene
 
 
 def scene_code(scene: Scene) -> str:

@@ -20,8 +20,8 @@ from derivation.engine.files import measurements, write_file
 from derivation.engine.measure.result import CheckResult, all_passed
 from derivation.engine.outputs import expect_recordable, json_by_line, plain_rows
 from derivation.plate.impact.oracle import impact as contact_impact
-from derivation.scene.method_selection import solve
 from derivation.scene.model import Model
+from derivation.scene.selection.method_selection import solve
 from generated.contact_law import force_of_radius, indentation
 
 MEASURED = measurements() / "bounds.json"

@@ -25,13 +25,14 @@ from derivation.engine.outputs import recorded_in, sorted_json
 from derivation.engine.threads import one_thread
 from derivation.plate.benchmark.speed import machine
 from derivation.plate.judge import PACKAGE
-from derivation.scene import contact_sequence, waves
-from derivation.scene.contact_tables import ContactSamples
-from derivation.scene.dynamic_problem import DynamicProblem
-from derivation.scene.effects.effect import Array
+from derivation.scene.dynamic import contact_sequence, waves
+from derivation.scene.dynamic.contact_tables import ContactSamples
+from derivation.scene.dynamic.problem import DynamicProblem
+from derivation.scene.dynamic.time_element import P
+from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.impact import selected_effects, simulate
 from derivation.scene.scene import OUTPUTS, Scene, read
-from derivation.scene.time_element import P
+from generated.arrays import Double as Array
 
 MEASURED: Path = measurements() / "moving.json"
 SCENE: dict[str, dict[str, Any]] = {
@@ -374,4 +375,4 @@ def _scene(**inertia: Any) -> Scene:
 
 def _problem() -> DynamicProblem:
     """Return the scene as a dynamic problem with the modes of the integrators."""
-    return waves.problem_of(selected_effects(_scene(modes=COMPARED_MODES))[1].law, COMPARED_MODES)
+    return problem_of(selected_effects(_scene(modes=COMPARED_MODES))[1].law, COMPARED_MODES)

@@ -16,12 +16,13 @@ from derivation.engine.files import measurements
 from derivation.engine.measure.result import CheckResult, all_passed
 from derivation.engine.outputs import json_by_line, plain_rows
 from derivation.engine.text import paragraph
+from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.effects import EFFECTS
+from derivation.scene.errors import SceneError
 from derivation.scene.impact import selected_effects
-from derivation.scene.law import ContactLaw
-from derivation.scene.method_selection import moved, solve_selected
 from derivation.scene.model import model_of
-from derivation.scene.scene import SceneError, read
+from derivation.scene.scene import read
+from derivation.scene.selection.method_selection import moved, solve_selected
 
 MEASURED: Path = measurements() / "effects.json"
 SEED = 1

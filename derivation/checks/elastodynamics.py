@@ -13,8 +13,9 @@ from derivation.engine.files import expect_writable, write_file
 from derivation.engine.measure.result import CheckResult, all_passed
 from derivation.engine.outputs import plain_rows
 from derivation.engine.text import aligned, paragraph
+from derivation.scene.errors import SceneError
 from derivation.scene.impact import simulate
-from derivation.scene.scene import OUTPUTS, SceneError, read
+from derivation.scene.scene import OUTPUTS, read
 
 COLUMNS = ("edge", "worst result", "#difference", "#allowed", "#contacts", "passed")
 NOTE = (

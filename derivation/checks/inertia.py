@@ -14,19 +14,21 @@ from derivation.checks.random_scenes import Scene, largest_change
 from derivation.engine.activity import Progress, quiet
 from derivation.engine.files import measurements
 from derivation.engine.threads import one_thread
-from derivation.scene import motion, waves
-from derivation.scene.effect_selection import decide
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.contact_law.limits import zener_number
+from derivation.scene.dynamic import waves
+from derivation.scene.dynamic.mode_count import count_of
+from derivation.scene.dynamic.wave_motion import DynamicImpact
 from derivation.scene.effects import EFFECTS
 from derivation.scene.effects.effect import weight_work_ratio
 from derivation.scene.effects.inertia import higher_branch_error
+from derivation.scene.errors import SceneError
 from derivation.scene.impact import selected_effects
-from derivation.scene.law import ContactLaw
-from derivation.scene.limits import zener_number
-from derivation.scene.method_selection import dynamic_impact, moved, solve_selected
-from derivation.scene.mode_count import count_of
 from derivation.scene.model import InertiaSettings, Model, model_of
-from derivation.scene.scene import SceneError, read
-from derivation.scene.wave_motion import DynamicImpact
+from derivation.scene.quasi_static import motion
+from derivation.scene.scene import read
+from derivation.scene.selection.effect_selection import decide
+from derivation.scene.selection.method_selection import dynamic_impact, moved, solve_selected
 from generated.inertia import bending_frequency
 
 MEASURED: Path = measurements() / "inertia.json"

@@ -1,10 +1,11 @@
 """Impacts by the paper's contact law, the only one with references to many digits."""
 
 from derivation.scene.effects import BY_NAME, EFFECTS, WHOLE_PLATE
+from derivation.scene.errors import SceneError
 from derivation.scene.impact import selected_effects, simulate
 from derivation.scene.model import model_of
 from derivation.scene.result import Result
-from derivation.scene.scene import Scene, SceneError, read
+from derivation.scene.scene import Scene, read
 
 
 def in_doubles(scene: Scene) -> Result:

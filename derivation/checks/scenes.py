@@ -20,8 +20,9 @@ import numpy as np
 from derivation.checks.random_scenes import Scene
 from derivation.checks.realistic_scenes import RTOL, SEED, Kind, Outcome, scenes
 from derivation.engine.activity import Progress, quiet
+from derivation.scene.errors import IncompleteError, SceneError
 from derivation.scene.impact import simulate
-from derivation.scene.scene import IncompleteError, SceneError, read
+from derivation.scene.scene import read
 
 LIMIT = 60.0
 """Largest processor time of a run [s]."""

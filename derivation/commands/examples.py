@@ -11,7 +11,7 @@ from derivation.engine.text import aligned
 
 def _names() -> list[str]:
     """Return the names that the Tab key completes."""
-    from derivation.scene.example_scenes import examples as known
+    from derivation.scene.input.example_scenes import examples as known
 
     return list(known())
 
@@ -35,8 +35,8 @@ def examples(
     Example: platecontact examples glass_pane paper --out scenes
     """
     from derivation.scene import SceneError
-    from derivation.scene.example_scenes import copy
-    from derivation.scene.example_scenes import examples as known
+    from derivation.scene.input.example_scenes import copy
+    from derivation.scene.input.example_scenes import examples as known
 
     if not name:
         if out is not None or force:

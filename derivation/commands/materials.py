@@ -8,14 +8,14 @@ from derivation.engine.console import OUT, Json, write_json_output
 from derivation.engine.text import aligned, paragraph
 
 if TYPE_CHECKING:
-    from derivation.scene.materials import KnownMaterial
+    from derivation.scene.input.materials import KnownMaterial
 
 COLUMNS = ("name", "#E [GPa]", "#nu", "#density [kg/m^3]", "#yield stress [MPa]")
 
 
 def _names() -> list[str]:
     """Return the names that the Tab key completes."""
-    from derivation.scene.materials import MATERIALS
+    from derivation.scene.input.materials import MATERIALS
 
     return list(MATERIALS)
 
@@ -34,7 +34,7 @@ def materials(
     Example: platecontact materials "bearing steel"
     """
     from derivation.scene import SceneError
-    from derivation.scene.materials import MATERIALS, find, unknown
+    from derivation.scene.input.materials import MATERIALS, find, unknown
 
     if name is None:
         if write_json_output(lambda: [material.to_json() for material in MATERIALS.values()], json):

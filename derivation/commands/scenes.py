@@ -87,7 +87,7 @@ def simulate(
         return
     from derivation.scene import SceneError, load
     from derivation.scene import simulate as run
-    from derivation.scene.answer import plain
+    from derivation.scene.output.answer import plain
 
     check_outputs(scene, json, plot, csv, animate)
     with progress_status("simulate"):
@@ -129,8 +129,8 @@ def _drawings(
     for option, path in (("--plot", plot), ("--animate", animate)):
         if path is None:
             continue
-        from derivation.scene import animation
-        from derivation.scene import plot as plots
+        from derivation.scene.output import animation
+        from derivation.scene.output import plot as plots
 
         try:
             if path is animate:
@@ -223,7 +223,7 @@ def map_(
     """
     from derivation.scene import load
     from derivation.scene import simulate as run
-    from derivation.scene.map import render
+    from derivation.scene.output.map import render
 
     check_outputs(scene, None, plot)
     result = run(load(scene), rtol=rtol)
@@ -342,12 +342,12 @@ def check_outputs(
     from derivation.scene import SceneError
 
     if plot is not None:
-        from derivation.scene.plot import check_suffix
+        from derivation.scene.output.plot import check_suffix
 
         check_suffix(plot)
     if animate is not None:
-        from derivation.scene.animation import SUFFIXES
-        from derivation.scene.plot import check_suffix
+        from derivation.scene.output.animation import SUFFIXES
+        from derivation.scene.output.plot import check_suffix
 
         check_suffix(animate, SUFFIXES, "an animation")
     paths = [Path(json)] if json and json != "-" else []

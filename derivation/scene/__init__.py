@@ -1,27 +1,27 @@
 """Simulates impacts from scene files, with NumPy and SciPy; SymPy is never loaded.
 
-The modules in reading order:
+The modules and folders in reading order:
 
-1. `scene` reads and validates the scene file; its tables are in `bodies` (sphere, plate and own
-   materials) and `settings`; `materials` has the built-in materials.
+1. `scene` reads and validates the scene file; `input` has its tables (`bodies`, `settings`), the
+   built-in `materials` and the messages.
 2. `model` converts the scene into the quantities of the contact law.
-3. `effects` has one module for each effect. `law` combines the included effects; no other module
-   uses the name of an effect.
+3. `effects` has one module for each effect. `contact_law` combines the included effects (`law`); no
+   other module uses the name of an effect.
 4. `selection` selects the effects by bounds on the change of the results if they are omitted
-   (`omission_bounds`, `law_errors`). `effect_selection` makes the effects table, and `explanation`
-   prints it.
-5. `limits` rejects scenes outside the range of the contact law, and warns where it is inaccurate.
-6. `method_selection` selects the fastest method whose error bound meets the tolerance, and states
-   the `achieved_accuracy`. `motion` is for a quasi-static plate, `viscous` with `collocation` and
-   `viscous_law` for a viscoelastic contact, `plastic` for a plastic one, and `waves` for plate
-   inertia: modes (`modal`), tables of the contact (`contact_tables`), the scaled problem
-   (`dynamic_problem`), one time element (`time_element`), the sequence of contacts
-   (`contact_sequence`), the time history (`wave_motion`) and the results (`dynamic_results`).
-7. `impact` and `indentation` simulate an impact and compute static contacts.
-8. `sweep` simulates a scene for each value of a key. `rows` computes many scenes at once in arrays
-   (`columns`, `rows_selection`, `static_rows`), with the same effects, bounds and laws.
-9. `result` holds the results, `answer` formats them, `export` converts them for pandas and xarray,
-   `plot` draws them, and `comparison` compares them with the paper's motion.
+   (`omission_bounds`), and then the fastest method whose error bound meets the tolerance
+   (`method_selection`, `achieved_accuracy`). `limits` rejects scenes outside the range of the
+   contact law, and warns where it is inaccurate. `explanation` prints all of it.
+5. `quasi_static` simulates impacts on a plate without inertia: `motion` for an elastic contact,
+   `viscous` and `plastic` for the others.
+6. `dynamic` simulates impacts on a plate with inertia: modes (`modal`), tables of the contact
+   (`contact_tables`), the scaled problem (`problem`), one time element (`time_element`), the
+   sequence of contacts (`contact_sequence`), the time history (`wave_motion`) and the results.
+   `numerics` has the quadrature and the collocation that both kinds of impacts use.
+7. `impact` and `indentation` simulate an impact and compute static contacts. `measured` determines
+   a material constant from a measured restitution.
+8. `rows` computes many scenes at once in arrays, with the same effects, bounds and laws; `sweep`
+   simulates a scene for each value of a key.
+9. `result` holds the results; `output` prints, exports and draws them.
 10. `code` generates a module with the law and the impact of one scene.
 
 A scene that cannot be computed raises a `SceneError`. NaN occurs only as a value: the restitution

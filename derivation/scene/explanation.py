@@ -9,15 +9,15 @@ from typing import Any
 import numpy as np
 
 from derivation.engine.text import paragraph
-from derivation.scene.effect_selection import SelectedEffects
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.contact_law.limits import ZENER_LIMIT, zener_number
 from derivation.scene.effects import BY_NAME, EFFECTS
 from derivation.scene.effects.effect import NO_BOUND, Effect
 from derivation.scene.impact import selected_effects
-from derivation.scene.law import ContactLaw
-from derivation.scene.limits import ZENER_LIMIT, zener_number
-from derivation.scene.quadrature import NODES, rule
+from derivation.scene.numerics.quadrature import NODES, rule
 from derivation.scene.quantity import prefixed
 from derivation.scene.scene import OUTPUTS, Scene
+from derivation.scene.selection.effect_selection import SelectedEffects
 
 
 @dataclass(frozen=True)
@@ -133,7 +133,7 @@ def explain(scene: Scene, rtol: float | None = None) -> Explanation:
 
 def _has_most_modes(law: ContactLaw) -> bool:
     """Return whether a simulation begins with so many modes that their tables take long."""
-    from derivation.scene.mode_count import MOST, count_of
+    from derivation.scene.dynamic.mode_count import MOST, count_of
 
     return count_of(law) >= MOST
 
@@ -150,9 +150,10 @@ def _evaluation_time(law: ContactLaw, effect: Effect) -> float:
         for _ in range(REPEATS):
             start = time.perf_counter()
             if effect.dynamic:
-                from derivation.scene import mode_count, waves
+                from derivation.scene.dynamic import mode_count
+                from derivation.scene.dynamic.wave_problem import problem_of
 
-                waves.problem_of(law, mode_count.finer(law, mode_count.count_of(law)))
+                problem_of(law, mode_count.finer(law, mode_count.count_of(law)))
             else:
                 alone.at(a)
             best = min(best, time.perf_counter() - start)
@@ -165,7 +166,7 @@ def _inertia(selected: SelectedEffects) -> str:
     """Return a remark about plate inertia, before the impact is computed."""
     law, model = selected.law, selected.law.model
     if law.dynamic:
-        from derivation.scene.mode_count import count_of, finer
+        from derivation.scene.dynamic.mode_count import count_of, finer
 
         modes = f"the simulation starts with {finer(law, count_of(law))} bending modes"
         if model.inertia.infinite_plate:

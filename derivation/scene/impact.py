@@ -5,14 +5,8 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from derivation.scene.achieved_accuracy import ESTIMATED, AchievedAccuracy, Part
-from derivation.scene.contact_warnings import fall_warnings, grazing_warnings
-from derivation.scene.edge_remainder import edge_remainder
-from derivation.scene.effect_selection import SelectedEffects, decide
-from derivation.scene.effects.effect import Results
-from derivation.scene.errors import ToleranceError
-from derivation.scene.law import ContactLaw
-from derivation.scene.limits import (
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.contact_law.limits import (
     check_radius,
     hollow_warnings,
     local_indentation,
@@ -22,23 +16,34 @@ from derivation.scene.limits import (
     stress_warnings,
     warnings_at,
 )
-from derivation.scene.measured import error_of, inaccurate_constant, remaining_of, toleranced
-from derivation.scene.method_selection import (
+from derivation.scene.contact_law.yield_warnings import impact_warnings
+from derivation.scene.dynamic.contact_warnings import fall_warnings, grazing_warnings
+from derivation.scene.dynamic.edge_remainder import edge_remainder
+from derivation.scene.dynamic.model_error import inertia_error
+from derivation.scene.effects.effect import Results
+from derivation.scene.errors import SceneError, ToleranceError
+from derivation.scene.input.units import unit_warnings, with_unit_warnings
+from derivation.scene.measured.measured import (
+    error_of,
+    inaccurate_constant,
+    remaining_of,
+    toleranced,
+)
+from derivation.scene.model import model_of
+from derivation.scene.result import Result
+from derivation.scene.scene import OUTPUTS, TIGHTEST, Scene, check_scene
+from derivation.scene.selection.achieved_accuracy import ESTIMATED, AchievedAccuracy, Part
+from derivation.scene.selection.effect_selection import SelectedEffects, decide
+from derivation.scene.selection.method_selection import (
     check_rtol,
     dynamic_impact,
     growth_of,
     solve_selected,
 )
-from derivation.scene.model import model_of
-from derivation.scene.model_error import inertia_error
-from derivation.scene.result import Result
-from derivation.scene.scene import OUTPUTS, TIGHTEST, Scene, SceneError, check_scene
-from derivation.scene.selection import check_enabled
-from derivation.scene.units import unit_warnings, with_unit_warnings
-from derivation.scene.yield_warnings import impact_warnings
+from derivation.scene.selection.selection import check_enabled
 
 if TYPE_CHECKING:
-    from derivation.scene.wave_motion import DynamicImpact
+    from derivation.scene.dynamic.wave_motion import DynamicImpact
 
 DEFAULT = 1e-3
 """Tolerance of the effect selection if the scene has no tolerance [1]."""
@@ -185,7 +190,7 @@ def _model_error(selected: SelectedEffects, a: float, motion: "DynamicImpact | N
         return edge_remainder(model, a) if other_edge else 0.0
     error = inertia_error(model, a, motion.contact_time)
     size = max(error[name] for name in selected.outputs)
-    from derivation.scene.waves import echo_time
+    from derivation.scene.dynamic.wave_problem import echo_time
 
     # The edge has no effect before a wave has returned from it.
     if other_edge and motion.inertia.total_time > echo_time(motion.law.model):

@@ -14,22 +14,23 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from derivation.engine.text import aligned
-from derivation.scene.effects import EFFECTS
-from derivation.scene.html import html_table
-from derivation.scene.law import ContactLaw, Shape
-from derivation.scene.limits import (
+from derivation.scene.contact_law.law import ContactLaw, Shape
+from derivation.scene.contact_law.limits import (
     check_numbers,
     check_radius,
     last_radius,
     warnings_at,
 )
-from derivation.scene.messages import shown
+from derivation.scene.contact_law.yield_warnings import static_warnings
+from derivation.scene.contact_law.yielding import yielding_of
+from derivation.scene.effects import EFFECTS
+from derivation.scene.errors import SceneError
+from derivation.scene.input.messages import shown
+from derivation.scene.input.units import unit_warnings, with_unit_warnings
 from derivation.scene.model import model_of
-from derivation.scene.scene import Scene, SceneError
-from derivation.scene.selection import check_enabled
-from derivation.scene.units import unit_warnings, with_unit_warnings
-from derivation.scene.yield_warnings import static_warnings
-from derivation.scene.yielding import yielding_of
+from derivation.scene.output.html import html_table
+from derivation.scene.scene import Scene
+from derivation.scene.selection.selection import check_enabled
 
 UNITS = {"contact_radius": "m", "force": "N", "indentation": "m"}
 HEADS = (

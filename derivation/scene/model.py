@@ -8,13 +8,14 @@ from typing import Any
 import numpy as np
 
 from derivation.scene import kernels
-from derivation.scene.bodies import Sphere
-from derivation.scene.body_materials import Body, body_of, first_given, own_materials
-from derivation.scene.materials import plane_strain_modulus
-from derivation.scene.scene import Scene, SceneError
-from derivation.scene.simple_laws import plates_of
-from derivation.scene.support_series import Supports, supports_of
-from derivation.scene.units import unusual_density
+from derivation.scene.contact_law.support_series import Supports, supports_of
+from derivation.scene.errors import SceneError
+from derivation.scene.input.bodies import Sphere
+from derivation.scene.input.body_materials import Body, body_of, first_given, own_materials
+from derivation.scene.input.materials import plane_strain_modulus
+from derivation.scene.input.units import unusual_density
+from derivation.scene.quasi_static.simple_laws import plates_of
+from derivation.scene.scene import Scene
 from generated.simple_impact import PLATES
 
 NUMBERS = ("R", "m", "v0", "h", "b", "lam", "mu")
@@ -220,7 +221,7 @@ def model_of(scene: Scene) -> Model:
         constant gives the measured restitution.
     """
     if scene.measured is not None:
-        from derivation.scene.measured import fitted
+        from derivation.scene.measured.measured import fitted
 
         scene = fitted(scene)
     model = numbers_of(scene)

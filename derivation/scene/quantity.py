@@ -5,7 +5,7 @@ from decimal import Decimal
 
 import numpy as np
 
-from derivation.scene.effects.effect import Array
+from generated.arrays import Double as Array
 
 PREFIXES = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 """SI prefixes by their powers of ten."""

@@ -9,24 +9,27 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from derivation.scene import answer, kernels, measured
-from derivation.scene.achieved_accuracy import AchievedAccuracy
-from derivation.scene.effect_selection import SelectedEffects
+from derivation.scene import kernels
 from derivation.scene.effects.effect import NO_BOUND
-from derivation.scene.history import POINTS, DynamicHistory, History, Pressures, times_of
-from derivation.scene.method_selection import dynamic_impact, moved
+from derivation.scene.errors import SceneError
+from derivation.scene.measured import measured
 from derivation.scene.model import Model
+from derivation.scene.output import answer
+from derivation.scene.output.history import POINTS, DynamicHistory, History, Pressures, times_of
 from derivation.scene.quantity import counted, digits_of
-from derivation.scene.scene import Scene, SceneError
+from derivation.scene.scene import Scene
+from derivation.scene.selection.achieved_accuracy import AchievedAccuracy
+from derivation.scene.selection.effect_selection import SelectedEffects
+from derivation.scene.selection.method_selection import dynamic_impact, moved
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
     from matplotlib.figure import Figure
 
-    from derivation.scene.comparison import Comparison
-    from derivation.scene.motion import EnergyBalance
-    from derivation.scene.wave_motion import DynamicImpact
+    from derivation.scene.dynamic.wave_motion import DynamicImpact
+    from derivation.scene.output.comparison import Comparison
+    from derivation.scene.quasi_static.motion import EnergyBalance
 
 Array = NDArray[np.float64]
 
@@ -149,7 +152,7 @@ class Result:
         """The paper's motion, for comparison; None unless the scene requests it."""
         if not self.scene.effects.compare_paper_motion:
             return None
-        from derivation.scene.comparison import compare
+        from derivation.scene.output.comparison import compare
 
         return compare(self.model, self.contact_time, self.max_indentation)
 
@@ -243,7 +246,7 @@ class Result:
         """Compute the time history."""
         law = self.effects.law
         if self.dynamics is not None:
-            from derivation.scene.time_element import A, E, P, V, W, Z
+            from derivation.scene.dynamic.time_element import A, E, P, V, W, Z
 
             times = self._times(n, self.total_time)
             return DynamicHistory(times, *self.dynamics.rows(times)[[Z, V, A, P, W, E]])
@@ -287,7 +290,7 @@ class Result:
 
     def plot(self) -> "Figure":
         """Return the impact as a Matplotlib figure: history, contact law and pressure."""
-        from derivation.scene.plot import figure
+        from derivation.scene.output.plot import figure
 
         return figure(self)
 
@@ -303,13 +306,13 @@ class Result:
         >>> print(f"{frame['force'].idxmax():.2g} s, force in {frame.attrs['units']['force']}")
         4.6e-05 s, force in N
         """
-        from derivation.scene.export import data_frame
+        from derivation.scene.output.export import data_frame
 
         return data_frame(self, n)
 
     def to_xarray(self, n: int | None = None) -> "xr.Dataset":
         """Return results and history, with `n` times if given, as a Dataset with units."""
-        from derivation.scene.export import data_set
+        from derivation.scene.output.export import data_set
 
         return data_set(self, n)
 

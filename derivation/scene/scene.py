@@ -10,24 +10,23 @@ from pydantic import Field, ValidationError
 
 from derivation.engine.files import read_file
 from derivation.engine.printable import one_line
-from derivation.scene import old_names, toml_errors
-from derivation.scene.bodies import Material as Material
-from derivation.scene.bodies import Plate as Plate
-from derivation.scene.bodies import Positive
-from derivation.scene.bodies import Sphere as Sphere
-from derivation.scene.body_materials import material_problems
 from derivation.scene.errors import IncompleteError as IncompleteError
 from derivation.scene.errors import SceneError as SceneError
-from derivation.scene.example_scenes import remedy
-from derivation.scene.html import html_table
-from derivation.scene.messages import LARGEST_NUMBER, OWN_MATERIALS, shown
-from derivation.scene.settings import OUTPUTS as OUTPUTS
-from derivation.scene.settings import TIGHTEST as TIGHTEST
-from derivation.scene.settings import Accuracy as Accuracy
-from derivation.scene.settings import Inertia as Inertia
-from derivation.scene.settings import Measured as Measured
-from derivation.scene.settings import Output as Output
-from derivation.scene.table import (
+from derivation.scene.input import old_names, toml_errors
+from derivation.scene.input.bodies import Material as Material
+from derivation.scene.input.bodies import Plate as Plate
+from derivation.scene.input.bodies import Positive
+from derivation.scene.input.bodies import Sphere as Sphere
+from derivation.scene.input.body_materials import material_problems
+from derivation.scene.input.example_scenes import remedy
+from derivation.scene.input.messages import LARGEST_NUMBER, OWN_MATERIALS, shown
+from derivation.scene.input.settings import OUTPUTS as OUTPUTS
+from derivation.scene.input.settings import TIGHTEST as TIGHTEST
+from derivation.scene.input.settings import Accuracy as Accuracy
+from derivation.scene.input.settings import Inertia as Inertia
+from derivation.scene.input.settings import Measured as Measured
+from derivation.scene.input.settings import Output as Output
+from derivation.scene.input.table import (
     Problem,
     Problems,
     Table,
@@ -36,6 +35,7 @@ from derivation.scene.table import (
     problems,
     problems_of,
 )
+from derivation.scene.output.html import html_table
 
 Wanted = Literal["auto"] | bool
 LARGEST = 2**20

@@ -16,11 +16,12 @@ import numpy as np
 
 from derivation.engine.activity import Progress, quiet
 from derivation.engine.text import aligned, paragraph
+from derivation.scene.errors import SceneError
 from derivation.scene.impact import simulate
-from derivation.scene.keys import EXAMPLE, number_key, varied
+from derivation.scene.input.keys import EXAMPLE, number_key, varied
 from derivation.scene.quantity import common_prefix
 from derivation.scene.result import UNITS
-from derivation.scene.scene import Scene, SceneError, read
+from derivation.scene.scene import Scene, read
 
 MOST = 100_000
 """Largest number of values of a sweep."""

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from derivation.engine.activity import Progress, quiet
 from derivation.scene.errors import SceneError
-from derivation.scene.method_selection import check_rtol
 from derivation.scene.scene import Scene, check_scene
+from derivation.scene.selection.method_selection import check_rtol
 from derivation.sweep.dataset import check_memory, column, data_set, fits_in_memory
 from derivation.sweep.distributions import read_distributions
 from derivation.sweep.plan import Plan, grid, saltelli, sample

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from derivation.scene.errors import SceneError
-from derivation.scene.keys import described, unit_of
+from derivation.scene.input.keys import described, unit_of
 from derivation.scene.result import UNITS
 from derivation.sweep.plan import GridPlan
 from derivation.sweep.store import NUMBERS, TEXTS, Store

@@ -14,9 +14,9 @@ from derivation.engine.files import read_file
 from derivation.engine.nearest import nearest
 from derivation.engine.printable import one_line
 from derivation.scene.errors import SceneError
-from derivation.scene.keys import number_key
-from derivation.scene.messages import shown
-from derivation.scene.table import is_number
+from derivation.scene.input.keys import number_key
+from derivation.scene.input.messages import shown
+from derivation.scene.input.table import is_number
 
 Array = NDArray[np.float64]
 

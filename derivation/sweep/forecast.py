@@ -10,8 +10,8 @@ import numpy as np
 from derivation.engine.text import aligned
 from derivation.scene.errors import SceneError
 from derivation.scene.impact import selected_effects
-from derivation.scene.keys import varied
-from derivation.scene.rows import solve
+from derivation.scene.input.keys import varied
+from derivation.scene.rows.rows import solve
 from derivation.scene.scene import read
 from derivation.sweep.study import Study
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from derivation.engine.nearest import did_you_mean
 from derivation.scene.errors import SceneError
-from derivation.scene.keys import number_key, rivals
+from derivation.scene.input.keys import number_key, rivals
 from derivation.scene.sweep import parse
 from derivation.sweep.distributions import Distribution
 

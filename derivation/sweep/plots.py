@@ -7,7 +7,7 @@ import numpy as np
 
 from derivation.engine.nearest import did_you_mean
 from derivation.scene.errors import SceneError
-from derivation.scene.plot import BLUE, BROWN, saved, scaled
+from derivation.scene.output.plot import BLUE, BROWN, saved, scaled
 from derivation.scene.result import UNITS
 from derivation.scene.sweep import SYMBOLS
 from derivation.sweep.dataset import labels

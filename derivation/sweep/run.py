@@ -15,7 +15,7 @@ import numpy as np
 
 from derivation.engine.activity import Progress
 from derivation.scene.errors import SceneError
-from derivation.scene.rows import solve
+from derivation.scene.rows.rows import solve
 from derivation.scene.scene import read
 from derivation.scene.sweep import unheard_interrupts
 from derivation.sweep.plan import Array

@@ -15,7 +15,7 @@ import numpy as np
 from derivation.engine.files import expect_folder
 from derivation.scene.errors import SceneError
 from derivation.scene.result import UNITS
-from derivation.scene.rows import Rows
+from derivation.scene.rows.rows import Rows
 from derivation.sweep.plan import gaps
 from derivation.sweep.study import Study
 

@@ -1,7 +1,7 @@
 """The catalogue of materials, as `platecontact materials` lists it."""
 
 from derivation.commands.materials import COLUMNS, _cells
-from derivation.scene.materials import MATERIALS
+from derivation.scene.input.materials import MATERIALS
 from docs.generators.markdown import table
 
 

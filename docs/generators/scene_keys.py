@@ -5,7 +5,7 @@ from typing import Any
 
 import platecontact as pc
 
-from derivation.scene.messages import LARGEST_NUMBER, SMALLEST_NUMBER
+from derivation.scene.input.messages import LARGEST_NUMBER, SMALLEST_NUMBER
 from derivation.scene.scene import TABLES, Material
 from docs.generators.markdown import anchored, code, table
 

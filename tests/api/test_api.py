@@ -10,7 +10,7 @@ from pathlib import Path
 import platecontact
 import pytest
 
-from derivation.scene.example_scenes import copy
+from derivation.scene.input.example_scenes import copy
 
 
 def test_package_does_not_import_itself_as_derivation_api() -> None:
@@ -39,7 +39,7 @@ def test_unknown_name_raises_an_attribute_error() -> None:
         platecontact.simulat  # noqa: B018
 
 
-@pytest.mark.parametrize("module", ["platecontact", "derivation.scene.export"])
+@pytest.mark.parametrize("module", ["platecontact", "derivation.scene.output.export"])
 def test_examples_of_modules_pass(module: str) -> None:
     outcome = doctest.testmod(importlib.import_module(module))
     assert outcome.attempted > 0

@@ -14,15 +14,16 @@ from derivation.checks.inertia_rows import InertiaRow
 from derivation.checks.random_scenes import Scene, largest_change
 from derivation.cli import main
 from derivation.engine.files import measurements
-from derivation.scene import limits, waves
-from derivation.scene.effect_selection import SelectedEffects, decide
+from derivation.scene.contact_law import limits
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.contact_law.limits import zener_number
+from derivation.scene.dynamic import waves
 from derivation.scene.effects.effect import weight_work_ratio
 from derivation.scene.effects.inertia import higher_branch_error
-from derivation.scene.law import ContactLaw
-from derivation.scene.limits import zener_number
 from derivation.scene.model import Model, model_of
-from derivation.scene.motion import impact
+from derivation.scene.quasi_static.motion import impact
 from derivation.scene.scene import OUTPUTS, read
+from derivation.scene.selection.effect_selection import SelectedEffects, decide
 
 SLOW = Model(
     R=0.05, m=0.4, v0=2e-3, h=0.05, b=0.15, lam=40e9, mu=27e9, density=2700.0, edge="clamped"
@@ -129,7 +130,7 @@ def test_rejected_and_skipped_scenes_are_counted(monkeypatch: pytest.MonkeyPatch
 
 
 def test_number_of_modes_agrees_with_the_law_of_weyl() -> None:
-    from derivation.scene.modal import free_modes
+    from derivation.scene.dynamic.modal import free_modes
     from derivation.scene.model import InertiaSettings
 
     for eta, modes in ((0.3, 24), (0.06, 80)):

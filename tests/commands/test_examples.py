@@ -9,7 +9,7 @@ import pytest
 from derivation.cli import main
 from derivation.engine.files import ROOT
 from derivation.scene import load
-from derivation.scene.example_scenes import FOLDER, examples
+from derivation.scene.input.example_scenes import FOLDER, examples
 
 Captured = pytest.CaptureFixture[str]
 NAMES = sorted(path.stem for path in FOLDER.glob("*.toml"))

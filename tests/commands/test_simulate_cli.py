@@ -13,8 +13,8 @@ from shared_scenes import PAPER
 
 from derivation.cli import main
 from derivation.scene import load, schema, simulate
-from derivation.scene.answer import quantities
-from derivation.scene.plot import figure, render, scaled
+from derivation.scene.output.answer import quantities
+from derivation.scene.output.plot import figure, render, scaled
 
 SIGNATURES = {b"\x89PNG": ".png", b"%PDF": ".pdf", b"<?xml": ".svg"}
 MODULES = """

@@ -14,7 +14,7 @@ import pytest
 import generated as package
 from derivation.engine.files import ROOT
 from derivation.scene.effects import EFFECTS
-from derivation.scene.materials import MATERIALS
+from derivation.scene.input.materials import MATERIALS
 from docs.generators import PARTS, gallery, names, part, used
 from docs.generators.sphinx_hooks import escape_bars, far, problems
 from generated.manifest import KERNELS

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from derivation.scene import read, simulate
-from derivation.scene.yield_warnings import assumed_yield_stress
+from derivation.scene.contact_law.yield_warnings import assumed_yield_stress
 
 SCALES = {"k": 1e3, "M": 1e6, "G": 1e9}
 SCENE: dict[str, dict[str, Any]] = {

@@ -6,7 +6,8 @@ from typing import Any
 
 import pytest
 
-from derivation.scene import mode_convergence, read, simulate
+from derivation.scene import read, simulate
+from derivation.scene.dynamic import mode_convergence
 
 
 def run_of(*spans: tuple[float, float]) -> Any:

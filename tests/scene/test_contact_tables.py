@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from derivation.scene.contact_tables import contact_of
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.dynamic.contact_tables import contact_of
+from derivation.scene.dynamic.modal import ModalPlate, Modes
 from derivation.scene.effects import WHOLE_PLATE
-from derivation.scene.law import ContactLaw
-from derivation.scene.modal import ModalPlate, Modes
 from derivation.scene.model import Model
 
 NONE = np.zeros(0)

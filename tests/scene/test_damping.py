@@ -9,7 +9,7 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 from derivation.scene import SceneError, explain, indent, read, simulate
-from derivation.scene.history_at import deflections
+from derivation.scene.dynamic.history_at import deflections
 from derivation.scene.result import Result
 from derivation.scene.scene import OUTPUTS
 

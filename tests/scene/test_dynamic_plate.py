@@ -14,12 +14,12 @@ from shared_scenes import written
 
 from derivation.cli import main
 from derivation.scene import SceneError, explain, read, simulate
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.dynamic.modal import plate_of
 from derivation.scene.effects import WHOLE_PLATE
-from derivation.scene.history import DynamicHistory
-from derivation.scene.law import ContactLaw
-from derivation.scene.modal import plate_of
 from derivation.scene.model import model_of
-from derivation.scene.wave_plot import figure, zener_restitution
+from derivation.scene.output.history import DynamicHistory
+from derivation.scene.output.wave_plot import figure, zener_restitution
 
 SCENE: dict[str, dict[str, Any]] = {
     "sphere": {"radius": 0.02, "material": "steel"},
@@ -127,7 +127,7 @@ def test_figure_shades_every_contact(result: Any) -> None:
 def test_animation_shows_the_motion_of_the_plate(tmp_path: Path, monkeypatch: Any) -> None:
     from PIL import Image
 
-    from derivation.scene import animation
+    from derivation.scene.output import animation
 
     monkeypatch.setattr(animation, "FRAMES", 6)
     toml = written(tmp_path, SCENE)
@@ -177,7 +177,7 @@ def test_supported_plate_uses_the_modes_of_its_edge(edge: str) -> None:
 
 
 def test_no_code_is_generated_for_a_plate_with_inertia() -> None:
-    from derivation.scene.code import recipe
+    from derivation.scene.code.code import recipe
 
     with pytest.raises(SceneError, match=r"effects\.inertia = false"):
         recipe(scene())

@@ -5,10 +5,12 @@ from typing import Any
 
 import pytest
 
-from derivation.scene import SceneError, contact_errors, contact_sequence, read, simulate, waves
+from derivation.scene import SceneError, read, simulate
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.dynamic import contact_errors, contact_sequence, waves
+from derivation.scene.dynamic.time_element import A
+from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.impact import selected_effects
-from derivation.scene.law import ContactLaw
-from derivation.scene.time_element import A
 
 HAIL: dict[str, Any] = {
     "sphere": {"radius": 0.0125, "material": "ice", "yield_stress": 10e6},
@@ -47,7 +49,7 @@ def test_wide_plastic_contact_is_refused_before_it_ends(monkeypatch: pytest.Monk
     assert float(stated[1]) > contact_errors.TOO_WIDE * law.limit
     monkeypatch.setattr(contact_errors, "TOO_WIDE", float("inf"))
     waves.impact.cache_clear()
-    problem = waves.problem_of(law, 30)
+    problem = problem_of(law, 30)
     whole = contact_sequence.contact(problem, 14, problem.begin(), 0.0, 0.0)
     assert whole.yielding is not None
     radius = max(piece.element.largest(A) for piece in whole.pieces)
@@ -71,7 +73,7 @@ def test_check_of_the_width_stops_no_contact_within_the_limit(
 ) -> None:
     """A contact is stopped only if it is wider than the limit when it is simulated to its end."""
     law = law_of(HAIL | {"impact": {"speed": speed}})
-    problem = waves.problem_of(law, 30)
+    problem = problem_of(law, 30)
 
     def widest() -> float:
         whole = contact_sequence.contact(problem, 14, problem.begin(), 0.0, 0.0)
@@ -163,7 +165,7 @@ def test_a_sphere_far_too_heavy_is_refused_before_its_contact_is_tabulated(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """The tables of thousands of modes would take minutes."""
-    monkeypatch.setattr("derivation.scene.time_in_contact.problem_of", pytest.fail)
+    monkeypatch.setattr("derivation.scene.dynamic.time_in_contact.problem_of", pytest.fail)
     heavy = {
         "sphere": {"radius": 1e15, "material": "steel"},
         "plate": {"radius": 4.5, "thickness": 4.7, "material": "steel"},

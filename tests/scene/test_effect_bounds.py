@@ -11,14 +11,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shared_scenes import ALL, AT_REST, model
 
-from derivation.scene import motion
-from derivation.scene.effect_selection import OUTPUTS, decide
+from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.effects import BY_NAME, EFFECTS
 from derivation.scene.effects.effect import BoundContext, PlateEffect
-from derivation.scene.law import ContactLaw
-from derivation.scene.method_selection import moved
 from derivation.scene.model import Model
-from derivation.scene.motion import Motion
+from derivation.scene.quasi_static import motion
+from derivation.scene.quasi_static.motion import Motion
+from derivation.scene.selection.effect_selection import OUTPUTS, decide
+from derivation.scene.selection.method_selection import moved
 
 TINY = 1e-12
 """Rounding error of bounds and contributions."""

@@ -10,15 +10,14 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from shared_scenes import ALL, model, scene
 
-import derivation.checks.effects
-import derivation.scene
-from derivation.scene import indent, kernels, motion, read, simulate
+from derivation.scene import indent, kernels, read, simulate
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.contact_law.limits import energy_of, last_radius
 from derivation.scene.effects import WHOLE_PLATE
 from derivation.scene.errors import SceneError
 from derivation.scene.indentation import static_law
-from derivation.scene.law import ContactLaw
-from derivation.scene.limits import last_radius
 from derivation.scene.model import model_of
+from derivation.scene.quasi_static import motion
 from generated import contact_law
 
 
@@ -192,7 +191,7 @@ def test_history_conserves_energy_with_every_effect() -> None:
     history, law = result.history(301), result.effects.law
     m = result.model
     stored = np.array([
-        0.0 if a == 0 else derivation.scene.limits.energy_of(law, float(a))
+        0.0 if a == 0 else energy_of(law, float(a))
         for a in history.contact_radius
     ])  # fmt: skip
     moving = 0.5 * m.m * history.velocity**2 - m.m * m.gravity * history.indentation
@@ -210,7 +209,7 @@ def test_history_of_a_slow_heavy_sphere_conserves_energy() -> None:
     m, result = law.model, motion.impact(law)
     times = np.linspace(0.0, result.contact_time, 101)
     depth, velocity, radius, _ = result.history(law, times)
-    stored = [derivation.scene.limits.energy_of(law, float(a)) if a else 0.0 for a in radius]
+    stored = [energy_of(law, float(a)) if a else 0.0 for a in radius]
     whole = 0.5 * m.m * velocity**2 - m.m * m.gravity * depth + np.array(stored)
     np.testing.assert_allclose(whole / (0.5 * m.m * m.v0**2), 1.0, rtol=1e-8)
 

@@ -12,19 +12,13 @@ from shared_scenes import ALL, AT_REST, EXAMPLES, model, random_models, scene
 from derivation.checks import effects as measure
 from derivation.checks import paper_law
 from derivation.cli import main
-from derivation.scene import (
-    SceneError,
-    effect_selection,
-    explain,
-    load,
-    motion,
-    read,
-    simulate,
-)
-from derivation.scene.effect_selection import OUTPUTS, decide
+from derivation.scene import SceneError, explain, load, read, simulate
+from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.effects import EFFECTS, WHOLE_PLATE
-from derivation.scene.law import ContactLaw
 from derivation.scene.model import model_of
+from derivation.scene.quasi_static import motion
+from derivation.scene.selection import effect_selection
+from derivation.scene.selection.effect_selection import OUTPUTS, decide
 
 Captured = pytest.CaptureFixture[str]
 

@@ -5,7 +5,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from derivation.scene import SceneError, explain, indent, read, rows, simulate
+from derivation.scene import SceneError, explain, indent, read, simulate
+from derivation.scene.rows import rows
 
 Tables = dict[str, dict[str, Any]]
 STILL: Tables = {

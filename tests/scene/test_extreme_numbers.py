@@ -9,7 +9,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from derivation.scene import SceneError, explain, indent, read, simulate
-from derivation.scene.rows import solve
+from derivation.scene.rows.rows import solve
 
 KEYS = (
     "sphere.radius", "sphere.mass", "sphere.youngs_modulus", "sphere.yield_stress",

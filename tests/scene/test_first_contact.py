@@ -6,9 +6,9 @@ from dataclasses import replace
 import pytest
 
 from derivation.scene import SceneError, read, simulate
-from derivation.scene.effect_selection import SelectedEffects
 from derivation.scene.impact import selected_effects
-from derivation.scene.method_selection import dynamic_impact, solve_selected
+from derivation.scene.selection.effect_selection import SelectedEffects
+from derivation.scene.selection.method_selection import dynamic_impact, solve_selected
 
 
 @pytest.fixture(scope="module")

@@ -11,7 +11,7 @@ from shared_scenes import EXAMPLES, changed
 
 from derivation.cli import main
 from derivation.scene import Scene, SceneError, load, read, simulate, sweep
-from derivation.scene.old_names import KEYS, REMOVED, VALUES, OldNameWarning
+from derivation.scene.input.old_names import KEYS, REMOVED, VALUES, OldNameWarning
 from derivation.scene.scene import TABLES
 
 Tables = dict[str, dict[str, Any]]

@@ -12,13 +12,14 @@ from typing import Any
 import pytest
 
 from derivation.cli import main
-from derivation.scene import contact_sequence, flight, waves
-from derivation.scene.contact_sequence import ImpactHistory
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.dynamic import contact_sequence, flight, waves
+from derivation.scene.dynamic.contact_sequence import ImpactHistory
+from derivation.scene.dynamic.wave_motion import IRREGULAR
+from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.effects import WHOLE_PLATE
-from derivation.scene.law import ContactLaw
 from derivation.scene.model import InertiaSettings, Model
 from derivation.scene.scene import IncompleteError
-from derivation.scene.wave_motion import IRREGULAR
 
 BALL = Model(
     R=0.02, m=0.25, v0=1.0, h=0.005, b=0.15, lam=40e9, mu=27e9, density=2700.0,
@@ -54,7 +55,7 @@ modes = 24
 def test_contacts_before_an_endless_one_are_kept(
     name: str, value: int, message: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    problem = waves.problem_of(ContactLaw(BALL, EFFECTS), 8)
+    problem = problem_of(ContactLaw(BALL, EFFECTS), 8)
     whole = contact_sequence.impact_history(problem, 10)
     assert whole.complete
     assert len(whole.contacts) == 2
@@ -98,7 +99,7 @@ def test_error_with_partial_results_can_be_pickled() -> None:
 
 
 def test_search_in_a_long_flight_respects_the_work_limit() -> None:
-    problem = waves.problem_of(ContactLaw(BALL, EFFECTS), 8)
+    problem = problem_of(ContactLaw(BALL, EFFECTS), 8)
     above = problem.begin()._replace(velocity=0.0, approach=-1.0)
     leaving = above._replace(velocity=-1.0, displacement=-1.0)
     _, _, one = flight.meeting(problem, leaving, 0.0)

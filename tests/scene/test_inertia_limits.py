@@ -13,23 +13,24 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from scipy.special import j1, jn_zeros
 
-from derivation.scene import (
-    SceneError,
-    chebyshev,
+from derivation.scene import SceneError
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.contact_law.limits import zener_number
+from derivation.scene.dynamic import (
     contact_sequence,
     modal,
     mode_count,
+    next_element,
     wave_problem,
     waves,
 )
-from derivation.scene.contact_tables import contact_of
-from derivation.scene.dynamic_problem import DynamicProblem
+from derivation.scene.dynamic.contact_tables import contact_of
+from derivation.scene.dynamic.modal import ModalPlate, Modes, free_modes
+from derivation.scene.dynamic.problem import DynamicProblem
 from derivation.scene.effects import WHOLE_PLATE
-from derivation.scene.law import ContactLaw
-from derivation.scene.limits import zener_number
-from derivation.scene.modal import ModalPlate, Modes, free_modes
 from derivation.scene.model import InertiaSettings, Model
-from derivation.scene.wave_plot import zener_restitution
+from derivation.scene.numerics import chebyshev
+from derivation.scene.output.wave_plot import zener_restitution
 
 REST = WHOLE_PLATE | {"hertz"}
 
@@ -164,7 +165,7 @@ def test_many_contacts_do_not_depend_on_the_resolution(
     assert 8.0 < zener_number(model) < 10.0
     modes = free_modes(model, 8)
     runs = [history(model, modes), history(model, modes, 13)]
-    monkeypatch.setattr(contact_sequence, "PHASE", 0.3)
+    monkeypatch.setattr(next_element, "PHASE", 0.3)
     fine = history(model, modes, 18, 1e-12)
     assert len(fine.contacts) == contacts
     for other in runs:

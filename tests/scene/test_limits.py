@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 from shared_scenes import changed, scene, thick
 
-from derivation.scene import corrections, indent, kernels, limits, read, simulate
+from derivation.scene import indent, kernels, read, simulate
+from derivation.scene.contact_law import corrections, limits
+from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.effects import PAPER
-from derivation.scene.law import ContactLaw
 from derivation.scene.model import InertiaSettings, model_of
 from derivation.scene.result import Result
 

@@ -8,11 +8,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from derivation.scene import explain, kernels, motion, omission_bounds, read, simulate
+from derivation.scene import explain, kernels, read, simulate
 from derivation.scene.effects import BY_NAME, WHOLE_PLATE
 from derivation.scene.effects.effect import PlateEffect
 from derivation.scene.impact import selected_effects
+from derivation.scene.quasi_static import motion
 from derivation.scene.scene import Scene
+from derivation.scene.selection import omission_bounds
 
 TOLERANCES = [10.0**-n for n in range(1, 14)]
 NEWTON_STEPS = 12

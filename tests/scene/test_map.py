@@ -11,10 +11,10 @@ from shared_scenes import EXAMPLES
 
 from derivation.cli import main
 from derivation.scene import Scene, load, read, simulate
-from derivation.scene import map as map_
 from derivation.scene.impact import selected_effects
+from derivation.scene.output import map as map_
 from derivation.scene.result import Result
-from derivation.scene.selection import select
+from derivation.scene.selection.selection import select
 
 
 @pytest.fixture

@@ -13,9 +13,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from derivation.cli import main
-from derivation.scene import SceneError, read, schema, simulate, sweep, time_in_contact
-from derivation.scene.body_materials import lightest_density
-from derivation.scene.materials import MATERIALS, find, plain
+from derivation.scene import SceneError, read, schema, simulate, sweep
+from derivation.scene.dynamic import time_in_contact
+from derivation.scene.input.body_materials import lightest_density
+from derivation.scene.input.materials import MATERIALS, find, plain
 from derivation.scene.model import Model, model_of
 from generated.viscous_bodies import retardation_of_two
 

@@ -6,11 +6,11 @@ from typing import Any
 import pytest
 
 from derivation.scene import SceneError, read, simulate
-from derivation.scene import measured as measured_module
-from derivation.scene.measured import error_of, fitted, in_words, solved
-from derivation.scene.measurement import Measurement, Trial
+from derivation.scene.measured import measured as measured_module
+from derivation.scene.measured.measured import error_of, fitted, in_words, solved
+from derivation.scene.measured.measurement import Measurement, Trial
+from derivation.scene.quasi_static.viscous import impact as viscous_impact
 from derivation.scene.scene import OUTPUTS
-from derivation.scene.viscous import impact as viscous_impact
 from generated.plasticity import plastic_restitution, yield_radius
 
 BLOCK: dict[str, Any] = {

@@ -14,17 +14,10 @@ from derivation.checks import bounds
 from derivation.cli import main
 from derivation.plate import budgets
 from derivation.plate.benchmark.speed import scenes
-from derivation.scene import (
-    SceneError,
-    achieved_accuracy,
-    kernels,
-    load,
-    method_selection,
-    read,
-    simulate,
-)
-from derivation.scene.achieved_accuracy import METHODS
+from derivation.scene import SceneError, kernels, load, read, simulate
 from derivation.scene.model import Model, model_of
+from derivation.scene.selection import achieved_accuracy, method_selection
+from derivation.scene.selection.achieved_accuracy import METHODS
 from generated import simple_impact
 from generated import simple_impact_numbers as numbers
 from generated.impact import impact

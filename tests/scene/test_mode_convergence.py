@@ -11,20 +11,14 @@ import pytest
 from scipy.ndimage import maximum_filter1d
 from shared_scenes import EXAMPLES
 
-from derivation.scene import (
-    Result,
-    SceneError,
-    contact_sequence,
-    mode_convergence,
-    read,
-    simulate,
-    waves,
-)
-from derivation.scene.dynamic_results import dynamic_impact_of
+from derivation.scene import Result, SceneError, read, simulate
+from derivation.scene.dynamic import contact_sequence, mode_convergence, waves
+from derivation.scene.dynamic.mode_count import branching
+from derivation.scene.dynamic.reach import Reach
+from derivation.scene.dynamic.results import dynamic_impact_of
+from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.impact import selected_effects
-from derivation.scene.mode_count import branching
-from derivation.scene.reach import Reach
-from derivation.scene.settings import Output
+from derivation.scene.input.settings import Output
 
 BLOCK: dict[str, dict[str, Any]] = {
     "sphere": {"radius": 0.004, "material": "steel"},
@@ -148,7 +142,7 @@ def test_runs_with_other_contacts_do_not_show_a_tolerance_out_of_reach() -> None
     result = simulate(read(scene | {"accuracy": {"rtol": 1e-2}}))
     assert result.dynamics is not None
     law = result.dynamics.law
-    problem = waves.problem_of(law, 2 * result.dynamics.inertia.modes)
+    problem = problem_of(law, 2 * result.dynamics.inertia.modes)
     history = contact_sequence.impact_history(problem, 24, 1e-6, math.inf)
     finer = dynamic_impact_of(law, history)
     for name in ("contact_time", "max_force", "restitution"):
@@ -171,7 +165,7 @@ def test_runs_with_other_contacts_are_compared_contact_by_contact() -> None:
     law = selected_effects(read(PHONE))[1].law
     coarse, run, finer = (
         dynamic_impact_of(law, contact_sequence.impact_history(problem, 24, 1e-6, math.inf))
-        for problem in (waves.problem_of(branching(law, "A0"), n) for n in (10, 23, 70))
+        for problem in (problem_of(branching(law, "A0"), n) for n in (10, 23, 70))
     )
     assert len(coarse.inertia.contacts) != len(run.inertia.contacts)
     details = mode_convergence.judged(coarse, run).inertia
@@ -186,7 +180,7 @@ def test_the_first_contact_is_known_better_than_the_ones_after_it() -> None:
     law = selected_effects(read(PHONE))[1].law
     coarse, run, finer = (
         dynamic_impact_of(law, contact_sequence.impact_history(problem, 24, 1e-6, math.inf))
-        for problem in (waves.problem_of(branching(law, "A0"), n) for n in (23, 46, 92))
+        for problem in (problem_of(branching(law, "A0"), n) for n in (23, 46, 92))
     )
     details = mode_convergence.judged(coarse, run).inertia
     stated = details.error(("contact_time",))
@@ -206,7 +200,7 @@ def test_a_ripple_of_unloading_leaves_the_largest_force_of_cast_shot_known() -> 
     law = branching(selected_effects(read(scene))[1].law, "all")
     coarse, run, finer = (
         dynamic_impact_of(law, contact_sequence.impact_history(problem, 24, 1e-8, math.inf))
-        for problem in (waves.problem_of(law, n) for n in (25, 50, 99))
+        for problem in (problem_of(law, n) for n in (25, 50, 99))
     )
     stated = mode_convergence.judged(coarse, run).inertia.error(("max_force",))
     assert abs(run.max_force / finer.max_force - 1.0) <= stated <= 1e-2
@@ -245,7 +239,7 @@ def test_one_run_beyond_the_limits_is_made_if_the_tolerance_is_near(
 ) -> None:
     """A tolerance missed by less than a factor of 5 is met, or refused after one more run."""
     scene = read(tomllib.loads((EXAMPLES / "glass_pane.toml").read_text()))
-    monkeypatch.setattr("derivation.scene.mode_count.WORK", 0.0)
+    monkeypatch.setattr("derivation.scene.dynamic.mode_count.WORK", 0.0)
     waves.impact.cache_clear()
     counts: list[int] = []
     once = waves._run

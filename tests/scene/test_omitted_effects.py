@@ -13,10 +13,11 @@ import pytest
 from shared_scenes import ALL, EXAMPLES, model, scene
 
 import derivation
-from derivation.scene import kernels, motion, simulate
+from derivation.scene import kernels, simulate
+from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.effects import WHOLE_PLATE
-from derivation.scene.law import ContactLaw
-from derivation.scene.method_selection import moved
+from derivation.scene.quasi_static import motion
+from derivation.scene.selection.method_selection import moved
 from generated import contact_series, edge_sums, non_hertzian_pressure
 
 BOUNDS = {
@@ -146,8 +147,8 @@ from derivation.scene import load, simulate
 result = simulate(load(sys.argv[1]))
 for effect, module in (
     ("non_hertzian_pressure", "generated.non_hertzian_pressure"),
-    ("viscosity", "derivation.scene.viscous"),
-    ("inertia", "derivation.scene.waves"), ("inertia", "generated.inertia"),
+    ("viscosity", "derivation.scene.quasi_static.viscous"),
+    ("inertia", "derivation.scene.dynamic.waves"), ("inertia", "generated.inertia"),
 ):
     print(effect in result.effects.law.effects, module in sys.modules)
 """

@@ -8,8 +8,9 @@ from typing import Any
 import pytest
 
 from derivation.checks import inertia as inertia_check
-from derivation.scene import read, simulate, waves
-from derivation.scene.law import ContactLaw
+from derivation.scene import read, simulate
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.dynamic import waves
 from derivation.scene.model import InertiaSettings, Model
 from derivation.scene.result import Result
 from derivation.scene.scene import OUTPUTS

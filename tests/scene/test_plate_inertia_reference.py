@@ -12,9 +12,9 @@ import pytest
 import derivation.scene
 from derivation.engine.files import measurements
 from derivation.scene import SceneError, read, simulate
-from derivation.scene.edge_remainder import edge_remainder
+from derivation.scene.dynamic.edge_remainder import edge_remainder
+from derivation.scene.dynamic.model_error import inertia_error
 from derivation.scene.model import model_of
-from derivation.scene.model_error import inertia_error
 from derivation.scene.result import Result
 from derivation.scene.scene import OUTPUTS
 from generated.edge_modes import clamped_waves, supported_waves

@@ -12,13 +12,16 @@ from scipy.integrate import quad
 from shared_scenes import ALL, changed, model, scene, thick
 
 from derivation.engine.files import measurements
-from derivation.scene import SceneError, indent, limits, motion, read, simulate, viscous, waves
-from derivation.scene.edge_remainder import edge_remainder
+from derivation.scene import SceneError, indent, read, simulate
+from derivation.scene.contact_law import limits
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.dynamic import waves
+from derivation.scene.dynamic.edge_remainder import edge_remainder
 from derivation.scene.effects import PAPER, WHOLE_PLATE
 from derivation.scene.effects.edge import MAX_A_OVER_B
 from derivation.scene.effects.spherical_profile import MAX_A_OVER_R
-from derivation.scene.law import ContactLaw
 from derivation.scene.model import model_of
+from derivation.scene.quasi_static import motion, viscous
 from derivation.scene.result import Result
 
 Tables = dict[str, dict[str, Any]]

@@ -8,14 +8,14 @@ import pytest
 from shared_scenes import PAPER
 
 from derivation.scene import SceneError, load, read, simulate
-from derivation.scene import rows as many
-from derivation.scene.columns import row_of
-from derivation.scene.effects.effect import Array
-from derivation.scene.law_errors import law_errors
+from derivation.scene.contact_law.law_errors import law_errors
 from derivation.scene.result import UNITS, Result
-from derivation.scene.rows import Rows, solve
+from derivation.scene.rows import rows as many
+from derivation.scene.rows.columns import row_of
+from derivation.scene.rows.rows import Rows, solve
 from derivation.scene.scene import Scene
 from generated import simple_impact
+from generated.arrays import Double as Array
 
 STEEL_ON_GLASS: dict[str, dict[str, Any]] = {
     "sphere": {"radius": 0.01, "material": "steel"},

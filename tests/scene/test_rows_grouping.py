@@ -7,10 +7,9 @@ import pytest
 from shared_scenes import PAPER
 
 from derivation.scene import load, read
-from derivation.scene import rows_grouping as grouping
-from derivation.scene import rows_selection as selection
-from derivation.scene.columns import models_of
-from derivation.scene.rows import Rows, solve
+from derivation.scene.rows import grouping, selection
+from derivation.scene.rows.columns import models_of
+from derivation.scene.rows.rows import Rows, solve
 from derivation.scene.scene import OUTPUTS, Scene
 
 COUNT = 4000

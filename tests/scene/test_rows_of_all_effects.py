@@ -8,9 +8,9 @@ from hypothesis import strategies as st
 from test_rows import check
 
 from derivation.scene import SceneError, read
-from derivation.scene.effects.effect import Array
-from derivation.scene.rows import solve
+from derivation.scene.rows.rows import solve
 from derivation.scene.scene import OUTPUTS, Scene
+from generated.arrays import Double as Array
 
 ROWS = 3
 FORCED = (

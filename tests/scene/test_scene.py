@@ -9,12 +9,7 @@ from typing import Any
 import pytest
 from shared_scenes import changed
 
-from derivation.scene import (
-    SceneError,
-    load,
-    read,
-    schema,
-)
+from derivation.scene import SceneError, load, read, schema
 from derivation.scene.effects import EFFECTS
 from derivation.scene.model import model_of
 

@@ -21,9 +21,9 @@ from derivation.checks.effects import scene as random_scene
 from derivation.cli import main
 from derivation.engine.files import ROOT
 from derivation.scene import SceneError, indent, load, read, simulate
-from derivation.scene.code import recipe
-from derivation.scene.law import ContactLaw
-from derivation.scene.method_selection import moved
+from derivation.scene.code.code import recipe
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.selection.method_selection import moved
 from derivation.scene_code import scene_code
 
 RANDOM = {f"random {n}": (n, rtol) for n, rtol in ((0, 1e-2), (3, 1e-4), (15, 1e-6), (11, 1e-9))}

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from derivation.scene.code import _powers
+from derivation.scene.code.code import _powers
 
 
 def test_polynomial_keeps_vanishing_highest_terms() -> None:

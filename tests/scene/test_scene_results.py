@@ -12,19 +12,20 @@ import shared_scenes
 
 from derivation.cli import main
 from derivation.engine.console import json_text
-from derivation.scene import SceneError, animation, read, simulate
-from derivation.scene import plot as plots
-from derivation.scene.effects import WHOLE_PLATE
-from derivation.scene.kernels import YIELD_LIMIT
-from derivation.scene.law import ContactLaw
-from derivation.scene.limits import (
+from derivation.scene import SceneError, read, simulate
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.contact_law.limits import (
     STRETCH_LIMIT,
     check_energy,
     local_indentation,
     stress_warnings,
 )
-from derivation.scene.modal import Modes, plate_of
+from derivation.scene.dynamic.modal import Modes, plate_of
+from derivation.scene.effects import WHOLE_PLATE
+from derivation.scene.kernels import YIELD_LIMIT
 from derivation.scene.model import model_of
+from derivation.scene.output import animation
+from derivation.scene.output import plot as plots
 from derivation.scene.result import History, Result
 from generated import edge_modes
 
@@ -213,8 +214,8 @@ def test_too_heavy_sphere_is_rejected() -> None:
 
 
 def test_law_without_energy_is_rejected(monkeypatch: pytest.MonkeyPatch) -> None:
-    from derivation.scene import limits
-    from derivation.scene.law import ContactLaw
+    from derivation.scene.contact_law import limits
+    from derivation.scene.contact_law.law import ContactLaw
 
     monkeypatch.setattr(limits, "energy_of", lambda *_: 0.0)
     with pytest.raises(SceneError, match=r"^scene: .*\[effects\]"):

@@ -11,17 +11,10 @@ from shared_scenes import EXAMPLES, changed, thick
 
 import derivation.checks.effects
 import derivation.scene
-from derivation.scene import (
-    SceneError,
-    indent,
-    kernels,
-    load,
-    read,
-    simulate,
-)
-from derivation.scene.answer import quantities
+from derivation.scene import SceneError, indent, kernels, load, read, simulate
 from derivation.scene.model import model_of
-from derivation.scene.quadrature import MORE_TIMES, NODES, gauss
+from derivation.scene.numerics.quadrature import MORE_TIMES, NODES, gauss
+from derivation.scene.output.answer import quantities
 from generated.impact import Impact
 
 

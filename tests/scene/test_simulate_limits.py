@@ -14,32 +14,28 @@ import pytest
 import shared_scenes
 
 from derivation.cli import main
-from derivation.scene import (
-    SceneError,
-    animation,
-    code,
+from derivation.scene import SceneError, explain, read, simulate, sweep
+from derivation.scene.code import code
+from derivation.scene.contact_law import limits
+from derivation.scene.contact_law.law import THICK, ContactLaw
+from derivation.scene.dynamic import (
     contact_errors,
     contact_sequence,
     edge_remainder,
-    explain,
-    limits,
     mode_count,
-    motion,
-    read,
     separation,
-    simulate,
-    sweep,
-    viscous,
     waves,
 )
-from derivation.scene.achieved_accuracy import AchievedAccuracy, Part
-from derivation.scene.contact_warnings import GRAZING, grazing_warnings
+from derivation.scene.dynamic.contact_warnings import GRAZING, grazing_warnings
+from derivation.scene.dynamic.time_element import P
+from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.effects import WHOLE_PLATE
-from derivation.scene.law import THICK, ContactLaw
 from derivation.scene.model import InertiaSettings, Model, model_of
+from derivation.scene.output import animation
+from derivation.scene.output.wave_plot import zener_restitution
+from derivation.scene.quasi_static import motion, viscous
 from derivation.scene.scene import IncompleteError
-from derivation.scene.time_element import P
-from derivation.scene.wave_plot import zener_restitution
+from derivation.scene.selection.achieved_accuracy import AchievedAccuracy, Part
 from generated.back_face import back_face_stress
 
 BALL = Model(
@@ -219,7 +215,7 @@ def test_unattainable_tolerance_is_rejected_with_the_smallest_one(
 def test_impact_with_inertia_beyond_the_law_is_rejected() -> None:
     fast = ContactLaw(replace(BALL, v0=1e6), MOVING)
     scene = moving(impact={"speed": 1e6})
-    for run in (lambda: waves.impact(fast), lambda: waves.problem_of(fast, 8)):
+    for run in (lambda: waves.impact(fast), lambda: problem_of(fast, 8)):
         with pytest.raises(SceneError, match=r"impact\.speed"):
             run()
     with pytest.raises(SceneError, match=r"impact\.speed"):
@@ -275,14 +271,14 @@ def law(effects: frozenset[str] = MOVING, **changes: Any) -> ContactLaw:
 def test_first_contact_without_end_is_rejected(
     name: str, value: float, message: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    problem = waves.problem_of(law(), 8)
+    problem = problem_of(law(), 8)
     monkeypatch.setattr(contact_sequence, name, value)
     with pytest.raises(SceneError, match=rf"effects\.inertia: .*{message}"):
         contact_sequence.impact_history(problem, 10)
 
 
 def test_reasons_for_a_failed_contact() -> None:
-    problem = waves.problem_of(law(), 8)
+    problem = problem_of(law(), 8)
     widest = problem.contact.top / problem.a
     failure = contact_errors.lost(problem, problem.begin(), widest, 0.0)
     assert f"grows wider than {problem.contact.top:.4g} m" in failure.why
@@ -291,8 +287,8 @@ def test_reasons_for_a_failed_contact() -> None:
 
 def test_sphere_too_heavy_to_rebound_is_rejected() -> None:
     """A very long contact is rejected if the sphere has weight, and allowed if it has none."""
-    heavy = waves.problem_of(law(MOVING | {"gravity"}, gravity=9.81), 8)
-    light = waves.problem_of(law(), 8)
+    heavy = problem_of(law(MOVING | {"gravity"}, gravity=9.81), 8)
+    light = problem_of(law(), 8)
     contact_sequence._check_weight(heavy, 1.0)
     contact_sequence._check_weight(light, 1e6)
     with pytest.raises(IncompleteError, match="weight"):

@@ -8,12 +8,14 @@ from typing import Any
 import pytest
 
 from derivation.engine import activity
-from derivation.scene import SceneError, contact_sequence, flight, read, simulate, waves
-from derivation.scene.answer import plain, quantities
+from derivation.scene import SceneError, read, simulate
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.dynamic import contact_sequence, flight
+from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.effects import PAPER
 from derivation.scene.effects.effect import NO_BOUND
-from derivation.scene.law import ContactLaw
 from derivation.scene.model import model_of
+from derivation.scene.output.answer import plain, quantities
 from derivation.scene.quantity import MOST_DIGITS
 from derivation.scene.result import Result
 from derivation.scene.scene import OUTPUTS
@@ -109,7 +111,7 @@ def test_recontact_does_not_depend_on_the_recovery_threshold(
         }
     )  # fmt: skip
     law = ContactLaw(model_of(given), PAPER | {"viscosity", "inertia"})
-    problem = waves.problem_of(law, 8)
+    problem = problem_of(law, 8)
     actual = []
     for recovered in (15.0, 20.0):
         monkeypatch.setattr(flight, "RECOVERED", recovered)
@@ -125,7 +127,7 @@ def test_recontact_does_not_depend_on_the_recovery_threshold(
 def test_long_run_reports_progress(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(contact_sequence, "PROGRESS", 1)
     law = ContactLaw(model_of(scene()), PAPER | {"inertia"})
-    problem, reported = waves.problem_of(law, 4), list[str]()
+    problem, reported = problem_of(law, 4), list[str]()
     with activity.listening(reported.append):
         contact_sequence.impact_history(problem, 10)
     assert reported
@@ -139,7 +141,7 @@ def test_slow_modes_exclude_contact_for_a_time() -> None:
     """No contact occurs within the time for which the slow modes exclude it."""
     law = ContactLaw(replace(model_of(scene()), h=0.001, m=0.05), frozenset(
         {"hertz", "bending", "finite_thickness", "finite_radius", "inertia"}))  # fmt: skip
-    problem = waves.problem_of(law, 40)
+    problem = problem_of(law, 40)
     history = contact_sequence.impact_history(problem, 14)
     for one, two in zip(history.contacts, history.contacts[1:], strict=False):
         wait = two.start - one.end

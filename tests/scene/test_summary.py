@@ -21,11 +21,12 @@ from shared_scenes import EXAMPLES, PAPER, TWO_CONTACTS
 from derivation.cli import main
 from derivation.engine.files import ROOT
 from derivation.engine.text import WIDTH, aligned, paragraph
-from derivation.scene import contact_sequence, explain, indent, load, read, simulate, sweep, waves
-from derivation.scene.achieved_accuracy import Part
-from derivation.scene.answer import quantities
+from derivation.scene import explain, indent, load, read, simulate, sweep
+from derivation.scene.dynamic import contact_sequence, waves
+from derivation.scene.output.answer import quantities
 from derivation.scene.quantity import IN_FRONT, PREFIXES, common_prefix, prefixed
 from derivation.scene.result import Result
+from derivation.scene.selection.achieved_accuracy import Part
 
 Captured = pytest.CaptureFixture[str]
 POWERS = {prefix: 10.0**power for power, prefix in PREFIXES.items()}

@@ -6,15 +6,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from derivation.scene import contact_sequence, read, time_in_contact, waves
-from derivation.scene.collocation import Element
-from derivation.scene.contact_sequence import ImpactHistory
-from derivation.scene.dynamic_problem import DynamicProblem, ImpactState
-from derivation.scene.dynamic_results import dynamic_impact_of
+from derivation.scene import read
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.dynamic import contact_sequence, next_element, time_in_contact, waves
+from derivation.scene.dynamic.contact_sequence import ImpactHistory
+from derivation.scene.dynamic.integration_error import integration_error
+from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
+from derivation.scene.dynamic.results import dynamic_impact_of
+from derivation.scene.dynamic.time_element import P, TimeElement
+from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.effects import PAPER
-from derivation.scene.law import ContactLaw
 from derivation.scene.model import model_of
-from derivation.scene.time_element import P, TimeElement
+from derivation.scene.numerics.collocation import Element
 
 RADIUS = 0.01
 PANE = {"radius": 0.1, "thickness": 0.01, "material": "glass"}
@@ -47,7 +50,7 @@ CASES: dict[str, tuple[dict[str, Any], int, frozenset[str]]] = {
 def case(name: str) -> tuple[ContactLaw, DynamicProblem]:
     given, modes, effects = CASES[name]
     law = ContactLaw(model_of(read(given)), PAPER | {"inertia"} | effects)
-    return law, waves.problem_of(law, modes)
+    return law, problem_of(law, modes)
 
 
 def numbers(law: ContactLaw, history: ImpactHistory) -> np.ndarray:
@@ -67,12 +70,12 @@ def test_results_agree_within_the_tolerance_of_the_elements(
         for n in (time_in_contact.NODES[0], time_in_contact.NODES[-1])
     ]
     # The reference has much shorter elements with another number of nodes.
-    monkeypatch.setattr(contact_sequence, "PHASE", 0.3)
-    monkeypatch.setattr(contact_sequence, "LONGEST", 0.1)
+    monkeypatch.setattr(next_element, "PHASE", 0.3)
+    monkeypatch.setattr(next_element, "LONGEST", 0.1)
     fine = numbers(law, contact_sequence.impact_history(problem, 20))
     for history in runs:
         off = np.abs(numbers(law, history) / fine - 1.0)
-        assert np.max(off) <= waves.integration_error(history)
+        assert np.max(off) <= integration_error(history)
 
 
 @pytest.mark.parametrize("name", [name for name in CASES if "viscoelastic" in name])
@@ -94,7 +97,7 @@ def test_contact_that_widens_behind_the_plate_has_no_remaining_time() -> None:
     element = Element(1.0, 0.1, rows, np.array([0.5, 0.0, 0.0, 0.0]))
     state = ImpactState(0.0, -1.0, none, none, approach=-10.0)
     last = TimeElement(element, state, 1.0, none, None)
-    assert contact_sequence._left(last) == math.inf
+    assert next_element.left_after(last) == math.inf
 
 
 def test_elements_end_at_yield_events_for_any_number_of_nodes() -> None:
@@ -106,12 +109,12 @@ def test_elements_end_at_yield_events_for_any_number_of_nodes() -> None:
     }  # fmt: skip
     given = scene(sheet, 0.005023466844465266, 0.6451670213701933)
     law = ContactLaw(model_of(read(given)), PAPER | {"inertia", "plasticity"})
-    problem, loose = waves.problem_of(law, 6), waves.time_tolerance(waves.LOOSE)
+    problem, loose = problem_of(law, 6), waves.time_tolerance(waves.LOOSE)
     fine = numbers(law, contact_sequence.impact_history(problem, 24))
     for n in (14, 16, 22, 32):
         history = contact_sequence.impact_history(problem, n, loose)
         off = np.abs(numbers(law, history) / fine - 1.0)
-        assert np.max(off) <= waves.integration_error(history)
+        assert np.max(off) <= integration_error(history)
 
 
 @pytest.mark.parametrize("name", ["several contacts", "damped"])

@@ -4,9 +4,11 @@ from typing import Any
 
 import pytest
 
-from derivation.scene import SceneError, contact_sequence, read, simulate, time_in_contact, waves
+from derivation.scene import SceneError, read, simulate
+from derivation.scene.dynamic import contact_sequence, time_in_contact
+from derivation.scene.dynamic.modal import plate_of
+from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.impact import selected_effects
-from derivation.scene.modal import plate_of
 
 GLASS: dict[str, Any] = {"material": "cover glass", "edge": "clamped"}
 
@@ -34,7 +36,7 @@ def scene(R: float, plate: dict[str, Any], speed: float) -> dict[str, Any]:
 def test_contacts_last_longer_than_the_least_time(tables: dict[str, Any]) -> None:
     law = selected_effects(read(tables))[1].law
     least = time_in_contact.time_in_contact(law, plate_of(law, 32).modes)
-    problem = waves.problem_of(law, 16)
+    problem = problem_of(law, 16)
     history = contact_sequence.impact_history(problem, 24, 1e-6)
     assert history.complete
     touched = problem.T * sum(one.end - one.start for one in history.contacts)

@@ -8,9 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from derivation.scene import SceneError, indent, read, simulate
-from derivation.scene.materials import MATERIALS
-from derivation.scene.rows import solve
-from derivation.scene.units import unit_warnings, unit_warnings_of_rows
+from derivation.scene.input.materials import MATERIALS
+from derivation.scene.input.units import unit_warnings, unit_warnings_of_rows
+from derivation.scene.rows.rows import solve
 
 TILE = {"radius": 0.15, "thickness": 0.009, "youngs_modulus": 65e9, "poissons_ratio": 0.2}
 SCENE: dict[str, dict[str, Any]] = {

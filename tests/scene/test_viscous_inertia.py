@@ -7,8 +7,9 @@ import pytest
 
 from derivation.checks import inertia as inertia_check
 from derivation.checks import inertia_rows as random_scenes
-from derivation.scene import read, simulate, waves
-from derivation.scene.law import ContactLaw
+from derivation.scene import read, simulate
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.dynamic import waves
 from derivation.scene.model import InertiaSettings, model_of
 from derivation.scene.scene import OUTPUTS
 

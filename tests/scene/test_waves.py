@@ -8,12 +8,13 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from derivation.scene import contact_sequence, motion, wave_problem, waves
-from derivation.scene.dynamic_results import dynamic_impact_of
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.dynamic import contact_sequence, wave_problem, waves
+from derivation.scene.dynamic.modal import free_modes, plate_of
+from derivation.scene.dynamic.results import dynamic_impact_of
 from derivation.scene.effects import WHOLE_PLATE
-from derivation.scene.law import ContactLaw
-from derivation.scene.modal import free_modes, plate_of
 from derivation.scene.model import InertiaSettings, Model
+from derivation.scene.quasi_static import motion
 from generated.contact_law import force_of_radius
 from generated.sensitivity import indentation_slope
 

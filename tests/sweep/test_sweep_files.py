@@ -14,7 +14,7 @@ from studies import NORMAL, QUICK, UNIFORM, counts, journal, parts, scene
 
 from derivation.cli import main
 from derivation.scene.result import UNITS
-from derivation.scene.rows import Rows
+from derivation.scene.rows.rows import Rows
 from derivation.scene.scene import Scene
 from derivation.sweep import dataset, plan, run, store, write
 from derivation.sweep.dataset import data_set

@@ -11,7 +11,7 @@ from studies import QUICK, scene
 
 from derivation.cli import main
 from derivation.scene.result import UNITS
-from derivation.scene.rows import Rows
+from derivation.scene.rows.rows import Rows
 from derivation.sweep import run, sensitivity
 
 SPREAD = {"distribution": "uniform", "low": 1.0, "high": 2.0}

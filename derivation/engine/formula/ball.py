@@ -76,8 +76,13 @@ def evaluate(
         lambda: enclose(expression, {key: to_ball(value) for key, value in values.items()}),
         digits,
         expression,
-        MAX_BITS_OF_INTEGRALS if expression.has(sp.Integral) else MAX_BITS,
+        _largest_precision(expression),
     )
+
+
+@cache
+def _largest_precision(expression: sp.Basic) -> int:
+    return MAX_BITS_OF_INTEGRALS if expression.has(sp.Integral) else MAX_BITS
 
 
 def refine(

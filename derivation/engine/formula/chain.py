@@ -3,6 +3,7 @@
 import inspect
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import TypeVar
 
@@ -74,6 +75,8 @@ class Chain:
     def derived_steps(self) -> Found:
         """Return the steps with their formulas, cached until the sources change.
 
+        A process reads the cache once, because reading it takes half a second.
+
         Raises
         ------
         ProofError
@@ -81,6 +84,10 @@ class Chain:
         DerivationStepError
             If the derivation raises another exception; the message states step and line.
         """
+        return self._found
+
+    @cached_property
+    def _found(self) -> Found:
         return self.cached_result(
             "chain", lambda: tuple((x.name, _derive_step(x)) for x in self.steps)
         )

@@ -143,8 +143,9 @@ def _joined(forms: Sequence[_Found], ends: tuple[float, float]) -> Iterator[_Fou
             inner = replace(inner, steps=(*low.stable.steps, *inner.steps))
         known = {point.x: error for point, error in low.errors}
         for at in points:
+            end = float(at)  # comparisons with numbers of SymPy take long
             errors = tuple(
-                (point, known.get(point.x, math.inf) if point.x < at else error)
+                (point, known.get(point.x, math.inf) if point.x < end else error)
                 for point, error in high.errors
             )
             outer = Branch(high.stable.steps, above)

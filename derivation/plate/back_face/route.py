@@ -46,7 +46,7 @@ def _roots(eta: mpf, A: mpf) -> mpf:
     """Return pi Im sum (-1)^n g(A T/2) (1 + sqrt(1 + T^2)) H/J0 at T/(2 eta)."""
     total = mpf(0)
     for n in range(1, edge_routes.MOST):
-        T = edge_routes.root(n)
+        T = edge_routes.root(n, mp.prec)
         y, z = A * T / 2, T / (2 * eta)
         g = 3 * (mp.sin(y) - y * mp.cos(y)) / y**3
         # H/J0 at z = i u is (2/(pi i)) K0/I0 at u, without overflow and cancellation.

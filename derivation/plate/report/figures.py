@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from derivation.engine.report.figures import STYLE
 from derivation.plate.report.setup import draw_setup
-from derivation.scene.map import figure as scene_map
 from derivation.scene.model import Model
+from derivation.scene.output.map import figure as scene_map
 from derivation.scene.result import Result
 from generated.contact_law import indentation
 from generated.impact import Impact, history, impact

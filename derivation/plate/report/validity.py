@@ -8,7 +8,9 @@ from derivation.engine.report.equations import body
 from derivation.engine.report.latex import unit
 from derivation.engine.report.numbers import rounded
 from derivation.plate.report.prose import FACTOR
-from derivation.scene import edge_remainder, kernels, limits
+from derivation.scene import kernels
+from derivation.scene.contact_law import limits
+from derivation.scene.dynamic import edge_remainder
 from derivation.scene.effects import edge, non_hertzian_pressure, spherical_profile
 from generated.simple_impact import PLATES
 

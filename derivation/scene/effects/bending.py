@@ -3,18 +3,12 @@
 from typing import TYPE_CHECKING
 
 from derivation.scene import kernels
-from derivation.scene.effects.effect import (
-    Array,
-    Bound,
-    BoundContext,
-    Contribution,
-    PlateEffect,
-    none_of,
-)
+from derivation.scene.effects.effect import Bound, BoundContext, Contribution, PlateEffect, none_of
 from derivation.scene.model import Model
+from generated.arrays import Double as Array
 
 if TYPE_CHECKING:
-    from derivation.scene.law import ContactLaw
+    from derivation.scene.contact_law.law import ContactLaw
 
 
 class Bending(PlateEffect):

@@ -7,7 +7,6 @@ import numpy as np
 
 from derivation.scene.effects.effect import (
     NO_BOUND,
-    Array,
     Bound,
     BoundContext,
     Effect,
@@ -28,9 +27,10 @@ from derivation.scene.effects.plasticity import plastic_restitution
 from derivation.scene.effects.viscosity import viscous_number
 from derivation.scene.model import Model
 from derivation.scene.scene import Scene
+from generated.arrays import Double as Array
 
 if TYPE_CHECKING:
-    from derivation.scene.law import ContactLaw
+    from derivation.scene.contact_law.law import ContactLaw
 
 VARIATION = 2.0
 """Total variation of a force that rises and falls once, over its peak."""

@@ -3,8 +3,8 @@
 import numpy as np
 
 from derivation.scene import kernels
+from derivation.scene.contact_law.support_series import support_contribution
 from derivation.scene.effects.effect import (
-    Array,
     Bound,
     BoundContext,
     Contribution,
@@ -14,7 +14,7 @@ from derivation.scene.effects.effect import (
 )
 from derivation.scene.model import Model
 from derivation.scene.scene import Scene
-from derivation.scene.support_series import support_contribution
+from generated.arrays import Double as Array
 
 SUPPORTED, CLAMPED = "simply-supported", "clamped"
 MAX_A_OVER_B = 0.9

@@ -23,7 +23,7 @@ from derivation.scene.model import Model
 from derivation.scene.scene import Scene
 
 if TYPE_CHECKING:
-    from derivation.scene.law import ContactLaw
+    from derivation.scene.contact_law.law import ContactLaw
 
 NO_BOUND = 10.0
 """Bound on a relative change from which it is not useful and is shown as 'no bound'."""

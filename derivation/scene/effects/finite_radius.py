@@ -1,15 +1,9 @@
 """Finite plate radius: correction for the lateral surface, which stiffens the plate."""
 
 from derivation.scene import kernels
-from derivation.scene.effects.effect import (
-    Array,
-    Bound,
-    BoundContext,
-    Contribution,
-    PlateEffect,
-    none_of,
-)
+from derivation.scene.effects.effect import Bound, BoundContext, Contribution, PlateEffect, none_of
 from derivation.scene.model import Model
+from generated.arrays import Double as Array
 
 
 class FiniteRadius(PlateEffect):

@@ -4,15 +4,10 @@ import numpy as np
 
 from derivation.scene import kernels
 from derivation.scene.effects.bending import Bending
-from derivation.scene.effects.effect import (
-    Array,
-    Bound,
-    BoundContext,
-    Contribution,
-    PlateEffect,
-)
+from derivation.scene.effects.effect import Bound, BoundContext, Contribution, PlateEffect
 from derivation.scene.effects.finite_radius import FiniteRadius
 from derivation.scene.model import Model
+from generated.arrays import Double as Array
 
 WHOLE_PLATE = frozenset({"bending", "finite_thickness", "finite_radius"})
 """Effects contained in `plate_contribution`."""

@@ -9,7 +9,6 @@ import numpy as np
 from derivation.scene import kernels
 from derivation.scene.effects.effect import (
     NO_BOUND,
-    Array,
     Bound,
     BoundContext,
     Changes,
@@ -21,11 +20,12 @@ from derivation.scene.effects.effect import (
 from derivation.scene.effects.finite_thickness import WHOLE_PLATE
 from derivation.scene.effects.plasticity import plastic_restitution
 from derivation.scene.effects.viscosity import inverse_restitution, viscous_number
+from derivation.scene.errors import SceneError
 from derivation.scene.model import Model
-from derivation.scene.scene import SceneError
+from generated.arrays import Double as Array
 
 if TYPE_CHECKING:
-    from derivation.scene.law import ContactLaw
+    from derivation.scene.contact_law.law import ContactLaw
 
 # The coefficients below are fitted, with no value from the literature unless one is named. Tested:
 # `check inertia` compares the bounds that follow from them with simulations of random scenes;

@@ -11,7 +11,7 @@ from derivation.scene.effects.finite_thickness import WHOLE_PLATE
 from derivation.scene.model import Model
 
 if TYPE_CHECKING:
-    from derivation.scene.law import ContactLaw
+    from derivation.scene.contact_law.law import ContactLaw
 
 MAX_A_OVER_H = 6.0
 """Contact radius over half-thickness at which contact may be lost at the centre."""

@@ -5,18 +5,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from derivation.scene.effects.effect import (
-    Array,
-    Bound,
-    BoundContext,
-    Effect,
-    Numbers,
-    weight_work_ratio,
-)
+from derivation.scene.effects.effect import Bound, BoundContext, Effect, Numbers, weight_work_ratio
 from derivation.scene.model import Model
+from generated.arrays import Double as Array
 
 if TYPE_CHECKING:
-    from derivation.scene.law import ContactLaw
+    from derivation.scene.contact_law.law import ContactLaw
 
 _LARGEST, _SMALLEST = 1e50, 1e-50
 

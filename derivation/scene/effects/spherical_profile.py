@@ -8,7 +8,7 @@ from derivation.scene.effects.effect import Bound, BoundContext, Effect, Reach
 from derivation.scene.model import Model
 
 if TYPE_CHECKING:
-    from derivation.scene.law import ContactLaw
+    from derivation.scene.contact_law.law import ContactLaw
 
 MAX_A_OVER_R = 0.99
 """Largest contact radius over sphere radius for which the slope of the profile is resolved."""

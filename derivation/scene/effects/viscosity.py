@@ -16,7 +16,7 @@ from derivation.scene.effects.effect import (
 from derivation.scene.model import Model
 
 if TYPE_CHECKING:
-    from derivation.scene.law import ContactLaw
+    from derivation.scene.contact_law.law import ContactLaw
 
 MARGIN = 1.05
 """Factor on the largest values along the law, which are sampled."""

@@ -273,7 +273,7 @@ def test_coefficients_from_a_circle_next_to_a_pole_are_rejected() -> None:
 
 def test_residue_sums_that_do_not_converge_are_rejected(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(RouteError, match=r"no root of sinh T = \+-T for n = 0\.5"):
-        edge_routes.root(0.5)  # type: ignore[arg-type]
+        edge_routes.root(0.5, 53)  # type: ignore[arg-type]
     monkeypatch.setattr(edge_routes, "MOST", 4)
     with pytest.raises(RouteError, match=r"4 roots .* at h/b = 0\.1"):
         edge_routes._roots(1, lambda _: mpc(1), mpf("0.1"))

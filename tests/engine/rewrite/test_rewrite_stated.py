@@ -7,7 +7,8 @@ zeros of the formula, and at both ends. `rewrite` itself does not use mpmath.
 import math
 import random
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from itertools import islice, pairwise
 from typing import Any
 
 import mpmath
@@ -83,7 +84,7 @@ def compiled(source: str) -> Callable[[Any], Any]:
 
 
 def zeros(value: Callable[[Any], Any], low: float, high: float) -> Iterator[float]:
-    """Yield zeros up to 100: points where the value or its slope changes sign."""
+    """Yield zeros up to 100, then points where the slope changes sign."""
 
     def slope(t: Any) -> Any:
         step = t * mpmath.mpf(10) ** -20
@@ -92,22 +93,26 @@ def zeros(value: Callable[[Any], Any], low: float, high: float) -> Iterator[floa
     top = min(high, 100.0)
     grid = [low + (top - low) * k / 1000 for k in range(1, 1000)]
     with mpmath.workdps(60):
-        for function in (value, slope):
-            signs = [mpmath.sign(function(mpmath.mpf(p))) for p in grid]
-            for p, q, one, other in zip(grid, grid[1:], signs, signs[1:], strict=False):
-                if one * other < 0:
-                    yield bisected(function, one, p, q)
+        values = [value(mpmath.mpf(p)) for p in grid]
+        yield from changes_of_sign(value, values, grid, grid[1:])
+        rises = [right - left for left, right in pairwise(values)]
+        yield from changes_of_sign(slope, rises, grid, grid[2:])
 
 
-def bisected(function: Callable[[Any], Any], sign: Any, low: float, high: float) -> float:
-    """Return the point where a function that has this sign at `low` changes it, by bisection."""
-    for _ in range(80):
-        middle = (low + high) / 2
-        if mpmath.sign(function(mpmath.mpf(middle))) == sign:
-            low = middle
-        else:
-            high = middle
-    return low
+def changes_of_sign(
+    function: Callable[[Any], Any],
+    values: Sequence[Any],
+    starts: Sequence[float],
+    ends: Sequence[float],
+) -> Iterator[float]:
+    """Yield the points, by bisection, where a function changes its sign as the values do."""
+    signs = [mpmath.sign(value) for value in values]
+    for (one, other), low, high in zip(pairwise(signs), starts, ends, strict=False):
+        if one * other < 0:
+            while low < (middle := (low + high) / 2) < high:
+                same = mpmath.sign(function(mpmath.mpf(middle))) == one
+                low, high = (middle, high) if same else (low, middle)
+            yield low
 
 
 def points(value: Callable[[Any], Any], low: float, high: float, seed: str) -> set[float]:
@@ -118,7 +123,7 @@ def points(value: Callable[[Any], Any], low: float, high: float, seed: str) -> s
     near, far = max(first, -3.0), min(last, 3.0)
     if near < far:
         actual |= {10 ** draw.uniform(near, far) for _ in range(RANDOM)}
-    for center in (low, high, *list(zeros(value, low, high))[:8]):
+    for center in (low, high, *islice(zeros(value, low, high), 8)):
         sides = (1 - 10.0**-k for k in range(1, NEAR)), (1 + 10.0**-k for k in range(1, NEAR))
         actual |= {center, *(center * side for both in sides for side in both)}
     return {p for p in actual if low <= p <= high} | {low, high}
@@ -142,8 +147,8 @@ def exact_function(text: str) -> Callable[[Any], Any]:
     """Return the formula as a function of mpmath, without the parser of the program."""
     if text == "cosh(x)**2 - sinh(x)**2":
         return lambda _: mpmath.mpf(1)
-    code = compile(re.sub(r"(\d+)/(\d+)", r"mpf(\1)/\2", text), text, "eval")
-    return lambda x: eval(code, {**vars(mpmath), "x": x})
+    exact = re.sub(r"(\d+)/(\d+)", r"mpf(\1)/\2", text)
+    return eval(f"lambda x: {exact}", dict(vars(mpmath)))  # type: ignore[no-any-return]
 
 
 @pytest.mark.parametrize("text", [*RANGES, *FORMULAS])

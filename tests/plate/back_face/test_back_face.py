@@ -23,10 +23,10 @@ from derivation.plate.back_face import theory as back_face
 from derivation.plate.modes.route.exponentials import ModeMaterial, unit_mode
 from derivation.plate.vocabulary import T
 from derivation.scene import load, read, simulate
-from derivation.scene.answer import plain
-from derivation.scene.effects.effect import Array
+from derivation.scene.output.answer import plain
 from generated import back_face as kernels
 from generated import contact_law, modal_sum
+from generated.arrays import Double as Array
 
 BITS = 160
 KERNELS: dict[str, Callable[..., np.ndarray]] = {

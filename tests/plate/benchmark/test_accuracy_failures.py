@@ -39,7 +39,7 @@ from derivation.plate.benchmark.errors import BenchmarkErrors, digits
 from derivation.plate.benchmark.interface import CASES, PAPER, Method, largest_contact_radius
 from derivation.plate.benchmark.rows import BenchmarkRow
 from derivation.plate.report.accuracy_figures import pareto_front
-from derivation.scene.achieved_accuracy import METHODS
+from derivation.scene.selection.achieved_accuracy import METHODS
 from generated.contact_law import indentation
 
 Patch = pytest.MonkeyPatch

@@ -13,9 +13,7 @@ from shared_scenes import model
 from derivation.engine.formula.proof import ProofError
 from derivation.plate.contact.theory import spherical_profile as curvature_theory
 from derivation.plate.effects import theory as effects_theory
-from derivation.scene import (
-    kernels,
-)
+from derivation.scene import kernels
 from derivation.scene.effects import BY_NAME
 from generated.effect_numbers import LATERAL_CUBIC, LATERAL_LINEAR
 from generated.effects import (

@@ -23,8 +23,8 @@ from derivation.plate.impact.theory.impact import linear_motion, linearisation
 from derivation.plate.vocabulary import BY_NAME as SYMBOLS
 from derivation.plate.vocabulary import delta_0, m, v0, xi_k
 from derivation.scene import SceneError, explain, indent, kernels, load, read, simulate
-from derivation.scene.comparison import MODES, compare
 from derivation.scene.model import Model
+from derivation.scene.output.comparison import MODES, compare
 from generated.impact import impact
 from generated.perturbation import PrintedMotion, printed_motion
 
@@ -297,7 +297,7 @@ scene = read(data | {{"effects": {{"compare_paper_motion": {wanted.title()}, "in
 explain(scene)
 result = simulate(scene)
 result.to_json(), result._repr_html_(), result.history()
-for name in ("derivation.scene.comparison", "generated.perturbation"):
+for name in ("derivation.scene.output.comparison", "generated.perturbation"):
     assert (name in sys.modules) is {wanted.title()}, name
 """
     done = subprocess.run(

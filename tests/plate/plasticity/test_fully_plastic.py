@@ -10,9 +10,9 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from derivation.scene import indent, read, simulate
-from derivation.scene.law import ContactLaw
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.contact_law.yield_warnings import risen_pressure
 from derivation.scene.model import Model
-from derivation.scene.yield_warnings import risen_pressure
 from generated.plasticity import plastic_restitution
 from generated.plasticity_kernels import beyond, risen
 

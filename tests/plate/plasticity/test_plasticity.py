@@ -12,17 +12,17 @@ from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq, minimize_scalar
 
 from derivation.scene import indent, read, simulate
-from derivation.scene.collocation import ONSET
-from derivation.scene.contact_sequence import contact
-from derivation.scene.dynamic_problem import DynamicProblem
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.contact_law.yielding import yielding_of
+from derivation.scene.dynamic.contact_sequence import contact
+from derivation.scene.dynamic.problem import DynamicProblem
+from derivation.scene.dynamic.time_element import P
+from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.effects import BY_NAME, WHOLE_PLATE
-from derivation.scene.law import ContactLaw
-from derivation.scene.method_selection import moved
 from derivation.scene.model import Model
+from derivation.scene.numerics.collocation import ONSET
 from derivation.scene.scene import OUTPUTS, SceneError
-from derivation.scene.time_element import P
-from derivation.scene.waves import problem_of
-from derivation.scene.yielding import yielding_of
+from derivation.scene.selection.method_selection import moved
 from derivation.scene_code import scene_code
 from generated.plasticity import plastic_restitution, yield_radius, yield_speed
 

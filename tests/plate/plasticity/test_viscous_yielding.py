@@ -9,11 +9,11 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from derivation.scene import read, simulate
-from derivation.scene.law import ContactLaw
-from derivation.scene.method_selection import moved
+from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.model import Model
-from derivation.scene.motion import Motion
+from derivation.scene.quasi_static.motion import Motion
 from derivation.scene.scene import OUTPUTS
+from derivation.scene.selection.method_selection import moved
 from generated.plasticity import yield_radius
 
 BALL = Model(

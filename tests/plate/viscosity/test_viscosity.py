@@ -11,14 +11,14 @@ from mpmath import beta, mp, mpf
 from scipy.integrate import solve_ivp
 from shared_scenes import ALL, AT_REST
 
-from derivation.scene import motion, viscous
-from derivation.scene.effect_selection import decide
+from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.effects import BY_NAME, WHOLE_PLATE
-from derivation.scene.law import ContactLaw
-from derivation.scene.method_selection import moved
 from derivation.scene.model import Model
-from derivation.scene.motion import Motion
+from derivation.scene.quasi_static import motion, viscous
+from derivation.scene.quasi_static.motion import Motion
 from derivation.scene.scene import OUTPUTS, SceneError
+from derivation.scene.selection.effect_selection import decide
+from derivation.scene.selection.method_selection import moved
 from generated.viscosity import ImpactExtremes, restitution_weak, viscous_logarithms, viscous_number
 
 HERTZ = frozenset({"hertz", "viscosity"})

@@ -5,8 +5,6 @@ from functools import cache
 
 from mpmath import mp, mpf
 
-_COARSE = 15
-"""Digits of a zero at the start of Newton's iteration, each step of which doubles them."""
 _FAR = 30
 """Number of zeros for which an asymptotic expansion has too few digits."""
 
@@ -14,16 +12,28 @@ _FAR = 30
 @cache
 def mode(n: int, dps: int) -> tuple[mpf, mpf]:
     """Return j_n and 1/(j_n J1(j_n)^2)."""
-    with mp.workdps(_COARSE):
+    known = _known_digits(n)
+    with mp.workdps(known + 5):
         zero = _far_zero(n) if n > _FAR else mp.besseljzero(0, n)
     steps = [dps + 5]
-    while steps[-1] > _COARSE:
+    while steps[-1] > 2 * known - 8:
         steps.append(steps[-1] // 2 + 4)
-    for working in reversed(steps):
+    for working in reversed(steps):  # each of Newton's steps doubles the digits
         with mp.workdps(working):
-            zero += mp.besselj(0, zero) / mp.besselj(1, zero)
+            value, slope = mp.besselj(0, zero), mp.besselj(1, zero)
+            change = value / slope
+            slope += change * (value - slope / zero)  # J1' = J0 - J1/z
+            zero += change
     with mp.workdps(dps):
-        return zero, 1 / (zero * mp.besselj(1, zero) ** 2)
+        return zero, 1 / (zero * slope**2)
+
+
+def _known_digits(n: int) -> int:
+    """Return digits of j_n before Newton's iteration; the expansion's next term is 1e9/(8 n pi)^9.
+
+    For n up to `_FAR` they are those with which mpmath computes the zero.
+    """
+    return max(15, int(9 * math.log10(8 * math.pi * n)) - 10)
 
 
 def _far_zero(n: int) -> mpf:

@@ -5,7 +5,8 @@ are computed here from samples of the integrand on a circle. At z = T_n/(2 eta),
 sinh T_n = (-1)^n T_n, the residues form a sum that converges like e^(-(1 - a/b) n pi b/(2 h)).
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from functools import cache
 
 from mpmath import mp, mpc, mpf
 
@@ -78,33 +79,52 @@ def _odd(T: mpc) -> mpc:
 
 
 def _coefficient(function: Callable[[mpc], mpc], power: int, radius: mpf, digits: int) -> mpf:
-    """Return a coefficient of a power series: the mean of samples on a circle converges fast."""
-    count, former = _SAMPLES, None
-    while count <= 64 * _SAMPLES:
-        points = (radius * mp.expjpi(mpf(2 * i) / count) for i in range(count))
-        coefficient = mp.fsum(function(z) / z**power for z in points).real / count
-        if former is not None and abs(coefficient - former) < mpf(10) ** -digits * abs(coefficient):
+    """Return a coefficient of a power series: the mean of samples on a circle converges fast.
+
+    The coefficients are real, so samples on the lower half are conjugates of those on the upper.
+    """
+
+    def sample(turn: mpf) -> mpf:
+        z = radius * mp.expjpi(turn)
+        return (function(z) / z**power).real
+
+    def samples(numerators: Iterable[int], count: int) -> mpf:
+        return 2 * mp.fsum(sample(mpf(i) / count) for i in numerators)
+
+    half = _SAMPLES // 2
+    total = sample(mpf(0)) + sample(mpf(1)) + samples(range(1, half), half)
+    former = total / (2 * half)
+    while half < 32 * _SAMPLES:
+        total += samples(range(1, 2 * half, 2), 2 * half)
+        half *= 2
+        coefficient = total / (2 * half)
+        if abs(coefficient - former) < mpf(10) ** -digits * abs(coefficient):
             return coefficient
-        former, count = coefficient, 2 * count
+        former = coefficient
     raise RouteError("samples on a circle did not give a coefficient")
 
 
-def root(n: int) -> mpc:
+@cache
+def root(n: int, bits: int) -> mpc:
     """Return T_n of sinh T = (-1)^n T, first quadrant: Newton's method on T - asinh T = i pi n."""
-    x = mpc(mp.log(2 * mp.pi * n), mp.pi * n + 1)
-    for _ in range(mp.prec.bit_length() + 6):
-        slope = 1 - 1 / mp.sqrt(1 + x * x)
-        x -= (x - mp.asinh(x) - mpc(0, mp.pi * n)) / slope
-    if not abs(mp.sinh(x) - (-1) ** n * x) < mpf(10) ** (-mp.dps + 6) * abs(x) ** 2:
-        raise RouteError(f"no root of sinh T = +-T for n = {n}")
-    return x
+    with mp.workprec(bits):
+        x = mpc(mp.log(2 * mp.pi * n), mp.pi * n + 1)
+        for _ in range(bits.bit_length() + 6):
+            slope = 1 - 1 / mp.sqrt(1 + x * x)
+            step = (x - mp.asinh(x) - mpc(0, mp.pi * n)) / slope
+            x -= step
+            if abs(step) < mp.ldexp(1, -2 * bits // 3):
+                break  # the next step is of the order of its square
+        if not abs(mp.sinh(x) - (-1) ** n * x) < mpf(10) ** (-mp.dps + 6) * abs(x) ** 2:
+            raise RouteError(f"no root of sinh T = +-T for n = {n}")
+        return x
 
 
 def _roots(parity: int, residue: Callable[[mpc], mpc], eta: mpf) -> mpf:
     """Return 2 Re of the residues at every second root, until they are negligible against eta^3."""
     total, floor = mpf(0), mp.eps * min(mpf(1), eta**4)
     for n in range(2 - parity, MOST, 2):
-        T = root(n)
+        T = root(n, mp.prec)
         term = residue(T)
         total += 2 * term.real
         if abs(term) < floor:

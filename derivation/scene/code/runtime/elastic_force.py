@@ -1,0 +1,22 @@
+"""Elastic force of a viscoelastic contact."""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from derivation.scene.code.runtime.hertz_law import _law, contact_radius
+
+
+def elastic_force(delta: ArrayLike) -> np.ndarray:
+    """Return the contact force without viscosity [N] at indentations [m].
+
+    Parameters
+    ----------
+    delta : array_like
+        Indentation, or the internal state if there is one [m]; up to MAX_INDENTATION
+
+    Returns
+    -------
+    float or ndarray
+        P_e [N]; 0 without contact (delta <= 0), NaN above MAX_INDENTATION.
+    """
+    return _law(contact_radius(delta))[0]

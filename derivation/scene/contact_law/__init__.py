@@ -1,0 +1,1 @@
+"""The contact law of a scene: its parts, their errors, and yield."""

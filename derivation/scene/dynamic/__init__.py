@@ -1,0 +1,1 @@
+"""Impacts on a plate with inertia: modes, time elements, contacts and flights, results."""

@@ -1,0 +1,148 @@
+"""Errors of contacts that do not end, or that have no solution."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
+from derivation.scene.dynamic.yield_events import turned
+from derivation.scene.effects.inertia import WIDER
+from derivation.scene.errors import IncompleteError, wide_contact
+
+STUCK = 1e-7
+"""Length of an element in x, over max(x, 1), at which one without a solution ends the simulation.
+In 75 impacts, shorter elements had a solution only after failures of elements longer than 6e-5."""
+TOO_WIDE = 1.05
+"""Contact radius over the limit of the law at which a simulation ends: so much wider that with more
+modes it would not be within the limit."""
+GRID, SAFE = 400, 0.97
+"""Number of radii of the energy of a contact, and margin of a speed that follows from it."""
+WIDE = 1.01
+"""Contact radius over the limit above which a whole simulation is not repeated with more modes."""
+SHARP = 0.05
+"""Slope of the gap over that without vibration below which the contact is no longer circular."""
+
+
+def endless(problem: DynamicProblem, t: float, most: int) -> IncompleteError:
+    """Return the error of a simulation with too many time steps."""
+    return IncompleteError(
+        f"the sphere was still in contact {problem.T * t:.6g} s after first contact, when the "
+        f"limit of {most} time steps was reached",
+        "reduce inertia.modes, increase accuracy.rtol, or set effects.inertia = false",
+    )
+
+
+def check_width(problem: DynamicProblem, radius: float) -> None:
+    """Raise an error if a plastic contact is far wider than the law allows.
+
+    Yielding widens a contact beyond the radius of the elastic law, at which its tables end. A
+    contact that is not so wide is checked with the results.
+
+    Parameters
+    ----------
+    radius
+        Radius of the elastic law, in units of the problem.
+
+    Raises
+    ------
+    SceneError
+        If the contact radius exceeds `TOO_WIDE` times the limit.
+    """
+    branch, a = problem.yielding, problem.a * np.array([radius])
+    if branch is None or not branch.loading:
+        return
+    widest = float(branch.widened(a, problem.contact.at(a).force)[0])
+    if widest > TOO_WIDE * problem.limit:
+        got = f"at least {widest:.6g}"
+        raise wide_contact("impact.speed", problem.range_end, got, narrower(problem))
+
+
+def check_whole_width(problem: DynamicProblem, widest: float) -> None:
+    """Raise an error if a whole contact is wider than the law allows also with more modes.
+
+    Parameters
+    ----------
+    widest
+        Its largest contact radius [m].
+
+    Raises
+    ------
+    SceneError
+        If it exceeds `WIDE` times the limit of the law.
+    """
+    if widest > WIDE * problem.limit:
+        raise wide_contact("impact.speed", problem.range_end, f"{widest:.6g}", narrower(problem))
+
+
+def narrower(problem: DynamicProblem) -> str:
+    """Return what makes a contact narrower, with a speed that is low enough if there is one."""
+    weight = " or impact.gravity" if problem.weight else ""
+    speed = sufficient_speed(problem)
+    enough = f" to {speed:.2g} m/s" if 0.0 < speed < problem.v0 else ""
+    return f"reduce impact.speed{enough}{weight}, or use a lighter sphere or a thicker plate"
+
+
+def sufficient_speed(problem: DynamicProblem) -> float:
+    """Return a speed [m/s] from which a first contact stays within the limit of the law.
+
+    The sphere then has less energy than the contact absorbs up to the limit without any motion of
+    the modes; these only take energy from it. 0 if the tables of the contact end before the limit,
+    or the weight alone exceeds it.
+    """
+    a = min(problem.limit, problem.contact.top) * np.linspace(0.0, 1.0, GRID)[1:]
+    at = problem.contact.at(a)
+    depth_a, wide = at.depth_a, a
+    if problem.yielding is not None:
+        begun = replace(problem.yielding, ratio=1.0, loading=True)
+        yields = begun.hertz_radius(at.force) > begun.onset
+        depth_a = depth_a + np.where(yields, begun.added(at.force, at.force_a).depth_a, 0.0)
+        wide = np.where(yields, begun.widened(a, at.force), a)
+    if wide[-1] < problem.limit:
+        return 0.0
+    last = int(np.searchsorted(wide, problem.limit))
+    if last < 2:  # the contact yields, and is too wide, as soon as it begins
+        return 0.0
+    # Each sum has less force than the integral, and the last interval is omitted.
+    work = float(np.sum(at.force[: last - 1] * np.diff(a[:last]) * depth_a[: last - 1]))
+    depth = float(np.sum(np.diff(a[:last]) * depth_a[: last - 1]))
+    weight = problem.weight * problem.v0 / problem.T
+    speed = math.sqrt(max(0.0, 2.0 * (work / problem.m - weight * depth)))
+    return rounded_down(SAFE * speed)
+
+
+def rounded_down(x: float) -> float:
+    """Return a number to two digits, rounded down; 0 for 0."""
+    unit = 10.0 ** (math.floor(math.log10(x)) - 1) if x > 0.0 else 1.0
+    return math.floor(x / unit) * unit
+
+
+def lost(
+    problem: DynamicProblem, state: ImpactState, radius: float, time: float
+) -> IncompleteError:
+    """Return the error of a contact without a solution: too wide, not circular, or extreme."""
+    deflection = problem.depth * float(np.sum(state.q))
+    why = (
+        f"has no solution at a contact radius of {problem.a * radius:.3g} m and a plate deflection "
+        f"of {deflection:.3g} m"
+    )
+    remedy = "reduce impact.speed, or use a smaller sphere or a thicker plate"
+    beyond = np.nextafter(problem.contact.top, 0.0) / problem.a
+    if radius > 0.99 * beyond:
+        why = (
+            f"grows wider than {problem.contact.top:.4g} m, {WIDER:g} times the largest contact "
+            "radius on a plate that does not deflect"
+        )
+        if problem.contact.top >= problem.limit:
+            why = f"grows wider than the contact law allows, {problem.range_end}"
+        remedy = narrower(problem)
+    bent = problem.contact.modes.by_shape(state.q)
+    # The present radius and a larger one, of a plastic contact also where unloading begins.
+    for branch in (problem, turned(problem, radius)):
+        for a in (radius, 1.2 * radius):
+            at = branch.at(problem.a * np.array([min(a, beyond)]))
+            elastic_slope = at.depth_a[0] / problem.depth
+            if a > 0.0 and not elastic_slope + at.less_a[0] @ bent > SHARP * elastic_slope:
+                why = "is not circular, because the plate is more curved than the sphere"
+                remedy = "use a smaller sphere or a thicker plate"
+    return IncompleteError(f"the contact at {time:.6g} s {why}", remedy)

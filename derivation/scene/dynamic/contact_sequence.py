@@ -1,0 +1,309 @@
+"""Simulates an impact with plate inertia: successive contacts, and free flight between them."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from derivation.engine.activity import announce
+from derivation.scene.contact_law.yielding import Yielding
+from derivation.scene.dynamic.contact_errors import STUCK, check_width, endless, lost
+from derivation.scene.dynamic.flight import meeting
+from derivation.scene.dynamic.next_element import (
+    PHASE,
+    ROUGH,
+    begun,
+    judged,
+    left_after,
+    longest,
+    next_length,
+    solved,
+)
+from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
+from derivation.scene.dynamic.separation import last_element, released
+from derivation.scene.dynamic.time_element import LOST, P, TimeElement
+from derivation.scene.dynamic.yield_events import UncutError, next_branch
+from derivation.scene.errors import IncompleteError
+from derivation.scene.numerics.collocation import NEXT, ONSET
+
+FIRST, SHORTEST = 0.3, 1e-13
+"""First and smallest length of an element in x."""
+TOLERANCE = 1e-11
+"""Last coefficients of an element over the largest ones so far [1]."""
+CLOSED = 1e-5
+"""Remaining over elapsed time of a contact below which its end is computed in one step."""
+SOLVED = 1e-3
+"""Tolerance of Newton's iteration over that of the element, if its derivative is exact."""
+CONTACTS, ELEMENTS, WORK = 100, 20_000, 3.5e7
+"""Largest numbers of contacts and of computed elements of an impact, and largest work: elements and
+evaluations in flight, weighted by the run time of each."""
+PROGRESS = 50
+"""Elements after which the simulation reports its progress."""
+STAYS = 20.0
+"""Contact time over half a period on the plate above which the weight holds the sphere on it."""
+LEFT, ENOUGH = "no further contact is possible", "no further contact is needed"
+"""End reasons of a complete simulation, and of one that its caller ends."""
+
+
+class ContactRun(NamedTuple):
+    """A contact: start and end in units of the problem, time elements, states before and after.
+
+    `radius` is the contact radius at the start; it is above 0 if the face has not recovered from
+    the last contact. The modes of the state after it move freely; the deflection that lags a
+    viscoelastic contact belongs to its face. `tried` is the number of computed elements, including
+    rejected ones. `yielding` is the branch of a plastic contact at its end.
+    """
+
+    start: float
+    end: float
+    radius: float
+    pieces: tuple[TimeElement, ...]
+    before: ImpactState
+    after: ImpactState
+    tried: int
+    yielding: Yielding | None = None
+
+
+@dataclass(frozen=True)
+class ImpactHistory:
+    """The contacts of an impact.
+
+    Attributes
+    ----------
+    reason
+        Why the simulation ends.
+    remedy
+        What to change so that the simulation becomes complete; empty if it is complete.
+    work
+        Work in the units of `WORK`; an upper bound if the simulation is incomplete.
+    tolerance
+        Tolerance of the time elements [1].
+    """
+
+    problem: DynamicProblem
+    contacts: tuple[ContactRun, ...]
+    reason: str
+    remedy: str = ""
+    work: float = 0.0
+    tolerance: float = TOLERANCE
+
+    @property
+    def complete(self) -> bool:
+        """Whether the sphere has left the plate for good."""
+        return not self.remedy
+
+
+def impact_history(
+    problem: DynamicProblem,
+    n: int,
+    tolerance: float = TOLERANCE,
+    work: float = WORK,
+    enough: Callable[[tuple[ContactRun, ...]], bool] | None = None,
+    watch: Callable[[float], None] | None = None,
+) -> ImpactHistory:
+    """Simulate an impact from the first contact on, by elements of n nodes.
+
+    Parameters
+    ----------
+    tolerance
+        Largest ratio of the last coefficients of an element to the largest ones so far [1].
+    work
+        Largest work, in the units of `WORK`.
+    enough
+        Function of the contacts so far that returns whether no more are needed. It is called after
+        1, 2, 4, ... contacts.
+    watch
+        Function that `contact` calls with radii, to raise an error if the simulation is useless.
+
+    Returns
+    -------
+    ImpactHistory
+        All contacts; of an incomplete simulation, those before the one that has no end.
+
+    Raises
+    ------
+    IncompleteError
+        If the first contact cannot be computed to its end.
+    """
+    t, radius, state, runs = 0.0, 0.0, problem.begin(), list[ContactRun]()
+    weight, tried, used = weight_of(problem, n), 0, 0.0
+    while True:
+        most = min(ELEMENTS, tried + steps_of(problem, n, work - used))
+        try:
+            touching = contact(problem, n, state, t, radius, tolerance, tried, most, watch)
+            runs.append(touching)
+            tried, used = tried + touching.tried, used + touching.tried * weight
+            if enough and not len(runs) & (len(runs) - 1) and enough(tuple(runs)):
+                return ImpactHistory(problem, tuple(runs), ENOUGH, "", used, tolerance)
+            after, last = touching.after, touching.pieces[-1].radius
+            if touching.yielding is not problem.yielding:
+                problem = replace(problem, yielding=touching.yielding)
+            # A sphere that would fall back only by its weight has left: that is another impact.
+            weightless = replace(problem, weight=0.0) if problem.weight else problem
+            wait, radius, looks = meeting(weightless, after, last, work - used)
+            used += looks
+            if problem.weight and wait < math.inf:
+                wait, radius, looks = meeting(problem, after, last, work - used)
+                used += looks
+            if wait == math.inf or touching.end + wait > problem.heard:
+                return ImpactHistory(problem, tuple(runs), LEFT, "", used, tolerance)
+            _check_count(problem, runs, touching.end + wait)
+        except IncompleteError as end:
+            if not runs:
+                raise
+            return ImpactHistory(problem, tuple(runs), end.why, end.remedy, work, tolerance)
+        t, state = touching.end + wait, problem.flown(after, wait)
+        if radius:
+            state = problem.freed(state, last, wait, -1.0)
+        if not radius:
+            state = state._replace(approach=0.0)
+
+
+def steps_of(problem: DynamicProblem, n: int, work: float = WORK) -> int:
+    """Return how many elements of n nodes may be computed; more modes allow fewer elements."""
+    return int(min(ELEMENTS, max(work, 0.0) / weight_of(problem, n)))
+
+
+def weight_of(problem: DynamicProblem, n: int) -> float:
+    """Return the work of an element: its run time in units of about 0.4 microseconds."""
+    modes, degree = problem.contact.modes, problem.contact.degree
+    each = 0.3 * modes.omega.size + (0.1 + 0.003 * degree) * modes.phi.size
+    return 2000.0 + n * each
+
+
+def work_of(history: ImpactHistory) -> float:
+    """Return the work of the accepted time elements, in the units of `WORK`."""
+    pieces = [piece.element for touching in history.contacts for piece in touching.pieces]
+    return len(pieces) * weight_of(history.problem, pieces[0].slope.size)
+
+
+def expected_work(problem: DynamicProblem, n: int, coarse: ImpactHistory) -> float:
+    """Return the work of an impact, estimated from a run with fewer modes.
+
+    Its contacts are assumed to last as long. Elements are shorter only where `PHASE` limits them.
+    """
+    lasted = sum(touching.end - touching.start for touching in coarse.contacts)
+    more, fewer = (lasted * one.fastest / PHASE for one in (problem, coarse.problem))
+    others = sum(touching.tried for touching in coarse.contacts) - fewer / n
+    return (more / n + max(0.0, others)) * weight_of(problem, n)
+
+
+def _check_count(problem: DynamicProblem, runs: list[ContactRun], t: float) -> None:
+    """Raise an error if the simulation has reached the largest number of contacts."""
+    if len(runs) >= CONTACTS:
+        undamped = "give the damping of the plate as plate.loss_factor if it has any, "
+        damped = "" if problem.damping_ratio else undamped
+        raise IncompleteError(
+            f"the sphere had not separated for good after {len(runs)} contacts and "
+            f"{problem.T * t:.6g} s, the limit",
+            f"{damped}use a thicker plate or a lighter sphere, or set effects.inertia = false for "
+            "a quasi-static plate",
+        )
+
+
+def contact(
+    problem: DynamicProblem,
+    n: int,
+    begin: ImpactState,
+    start: float,
+    radius: float,
+    tolerance: float = TOLERANCE,
+    tried: int = 0,
+    most: int = ELEMENTS,
+    watch: Callable[[float], None] | None = None,
+) -> ContactRun:
+    """Simulate a contact, element by element, until the force vanishes.
+
+    Parameters
+    ----------
+    radius
+        Contact radius at the start: above 0 if the face has not recovered from the last contact.
+    tolerance
+        As for `impact_history`.
+    tried, most
+        Number of elements computed for earlier contacts, and the largest number in all.
+    watch
+        Function that is called with the radius, in units of the problem, when it has decreased.
+
+    Raises
+    ------
+    IncompleteError
+        If the contact needs more elements, or has no solution that can be found.
+    """
+    elements: list[TimeElement] = []
+    x, length, state, first = begun(begin, radius), FIRST, begin, radius
+    origin = start - x**ONSET
+    # Yield events are located more closely than the tolerance of an element.
+    exact = not (problem.retardation_time or problem.yielding)
+    enough = max(NEXT, SOLVED * tolerance) if exact else NEXT
+    # At the start the tolerance refers to the expected size of each quantity.
+    scale = np.full((LOST, 1), 0.1)
+    for step in range(tried, most):
+        if step % PROGRESS == PROGRESS - 1:
+            now, count = problem.T * (origin + x**ONSET), problem.omega.size
+            announce(f"{now:.3g} s after first contact, {count} modes")
+        remaining = left_after(elements[-1]) if elements else math.inf
+        length = min(length, longest(problem, n, x, remaining))
+        if length < SHORTEST * max(x, 1.0):
+            break
+        made = solved(problem, n, x, length, state, radius, elements[-1:], enough)
+        if made is None:
+            if length < STUCK * max(x, 1.0):
+                break
+            length *= 0.5
+            continue
+        error, change, largest = judged(problem, made, scale, tolerance)
+        if error > tolerance:
+            length *= change
+            continue
+        if problem.yielding is not None:
+            try:
+                made, problem = next_branch(problem, n, made, state, radius)
+            except UncutError:
+                length *= 0.5
+                continue
+        # A viscoelastic contact separates before it is flat, and may meet again within an element.
+        ending = problem.retardation_time or float(made.element.rows[P].sum()) <= 0.0
+        # At first the force is smaller than its error, and must not seem to vanish.
+        onset = problem.retardation_time and not x
+        least = ROUGH * tolerance * float(largest[P, 0]) if onset else 0.0
+        if ending and (end := made.element.fall(P, least)) is not None:
+            last = last_element(problem, n, made, end, state, radius, enough)
+            ended = origin + (last.element.x + last.element.length) ** ONSET
+            pieces = (*elements, last)
+            tries = step + 1 - tried
+            after = last.end
+            if problem.retardation_time:
+                after = problem.freed(after, last.radius, 0.0)
+            return ContactRun(start, ended, first, pieces, begin, after, tries, problem.yielding)
+        elements.append(made)
+        x = made.element.x + made.element.length
+        _check_weight(problem, x)
+        if watch and made.radius < radius:
+            watch(radius)
+        state, radius, scale = made.end, made.radius, largest
+        check_width(problem, radius)
+        length = next_length(made, x, change)
+        left = left_after(made)
+        if left < CLOSED * x**ONSET and not problem.retardation_time:
+            more, after = released(problem, made, left)
+            ended = start + x**ONSET + more
+            tries, pieces = step + 1 - tried, tuple(elements)
+            return ContactRun(start, ended, first, pieces, begin, after, tries, problem.yielding)
+    else:
+        raise endless(problem, origin + x**ONSET, most)
+    raise lost(problem, state, radius, problem.T * (origin + x**ONSET))
+
+
+def _check_weight(problem: DynamicProblem, x: float) -> None:
+    """Raise an error if the contact lasts so long that the weight holds the sphere on the plate."""
+    if not problem.weight:
+        return
+    swing = math.pi * math.sqrt(float(np.sum(problem.inverse_modal_mass / problem.omega**2)))
+    if x**ONSET > STAYS * max(1.0, swing):
+        raise IncompleteError(
+            "the sphere does not rebound because its weight holds it on the plate",
+            "increase impact.speed, or remove impact.gravity",
+        )

@@ -1,0 +1,176 @@
+"""Tables of a contact law with the modes of a plate: forces, depth, modal weights by radius."""
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.dynamic.modal import ModalPlate, Modes
+from derivation.scene.numerics.chebyshev import by_growth, chebyshev, knots
+from generated.arrays import Double as Array
+
+DEGREE, RESOLVED = 32, 0.75
+"""Smallest degree of the tables, and its increase per largest wave number times a."""
+DIGITS = 33.0
+"""Natural logarithm of the accuracy that the degree of the tables gives for a sphere."""
+TAIL, LAST, FINER, HIGHEST = 1e-13, 4, 1.5, 150
+"""Least bound of the last coefficients of force and depth over the largest one, number of these,
+and the factor by which the degree grows until it is met, up to a degree of `HIGHEST`."""
+
+
+class ContactSamples(NamedTuple):
+    """The contact at radii, with derivatives `_a` with respect to the radius.
+
+    `forces` has the contact force and then the forces that drive the shapes [N], in columns;
+    `depth` is the quasi-static depth [m]; `less` is s_j - 1 of each shape [1].
+    """
+
+    forces: Array
+    forces_a: Array
+    depth: Array
+    depth_a: Array
+    less: Array
+    less_a: Array
+
+    @property
+    def force(self) -> Array:
+        """Contact force [N]."""
+        return self.forces[:, 0]
+
+    @property
+    def force_a(self) -> Array:
+        """Derivative of the contact force with respect to the radius [N/m]."""
+        return self.forces_a[:, 0]
+
+    @property
+    def felt(self) -> Array:
+        """The forces that drive the shapes [N]."""
+        return self.forces[:, 1:]
+
+
+@dataclass(frozen=True)
+class ContactTables:
+    """Tables of a contact with dynamic modes, up to a contact radius `top` [m].
+
+    With x the radius over `top`, `table` contains Chebyshev coefficients of the forces over x^3, of
+    depth and s_j - 1 over x^2, and of the derivatives of both over x^2 and x: four tables with a
+    row for each polynomial.
+    """
+
+    modes: Modes
+    R: float
+    top: float
+    table: Array
+    pointwise: bool = False
+
+    @property
+    def degree(self) -> int:
+        """Degree of the polynomials."""
+        return int(self.table.shape[1]) - 1
+
+    def at(self, a: Array) -> ContactSamples:
+        """Return the contact at radii [m]; NaN below 0 and above `top`."""
+        x = self._places(a)
+        powers = np.array([x**3, x**2, x * x / self.top, x / self.top])
+        # There are fewer polynomials to scale than values.
+        scaled = powers[..., None] * chebyshev(2.0 * x - 1.0, self.degree)
+        forces, squares, forces_a, squares_a = scaled @ self.table
+        return ContactSamples(
+            forces, forces_a, squares[:, 0], squares_a[:, 0], squares[:, 1:], squares_a[:, 1:]
+        )
+
+    def forces(self, a: Array) -> Array:
+        """Return only the forces of `at`."""
+        x = self._places(a)
+        return np.asarray((x**3)[:, None] * chebyshev(2.0 * x - 1.0, self.degree) @ self.table[0])
+
+    def _places(self, a: Array) -> Array:
+        """Return radii [m] over `top`; NaN below 0 and above it."""
+        return np.where((a >= 0.0) & (a <= self.top), a / self.top, np.nan)
+
+
+def contact_of(
+    law: ContactLaw, plate: ModalPlate, top: float, pointwise: bool, tail: float = TAIL
+) -> ContactTables:
+    """Return the tables of a law with the paper's edge and the modes of a plate.
+
+    Parameters
+    ----------
+    top
+        Largest contact radius [m].
+    pointwise
+        Whether the indentation is defined at the axis: s_j = 1.
+    tail
+        Largest value of the last coefficients over the largest one [1].
+    """
+    # sin(a phi) requires a polynomial of a degree above a phi/2.
+    fastest = float(np.max(plate.less.phi, initial=0.0))
+    degree = max(DEGREE, int(16 + RESOLVED * top * fastest), _of_sphere(law, top))
+    sampled = _sampled(law, top, degree)
+    while degree < HIGHEST and not sampled.resolved(knots(degree)[1], tail):
+        degree = math.ceil(FINER * degree)
+        sampled = _sampled(law, top, degree)
+    x, analysis, mean = knots(degree)
+    a, growth = top * x, sampled.growth[:, None]
+
+    def driven(modes: Modes) -> tuple[Array, Array]:
+        """Return P_j over x^3, and s_j - 1."""
+        less = modes.modal_weights_less_one(a)
+        return mean @ (analysis @ (growth * (1.0 + less))), 0.0 * less if pointwise else less
+
+    def moved(modes: Modes) -> Array:
+        """Return the static deflection of modes over x^2."""
+        felt, less = driven(modes)
+        return np.asarray((felt * (1.0 + less)) @ modes.compliance * x, dtype=np.float64)
+
+    felt, less = driven(plate.modes)
+    rest = sampled.depth - moved(plate.less)
+    if plate.more is not None:
+        rest += moved(plate.more)
+    values = np.column_stack((sampled.force, felt, rest, less / x[:, None] ** 2))
+    table = analysis @ values
+    growths = by_growth(table)
+    count = table.shape[1] // 2
+    growths[:, :count] += 3.0 * table[:, :count]  # d(x^3 f)/dx = x^2 (3 f + x f')
+    growths[:, count:] += 2.0 * table[:, count:]
+    tables = (table[:, :count], table[:, count:], growths[:, :count], growths[:, count:])
+    return ContactTables(plate.modes, law.model.R, top, np.array(tables), pointwise)
+
+
+class _Samples(NamedTuple):
+    """P over x^3, depth over x^2 and dP/dx over x^2 at the nodes, which are smooth in x.
+
+    The mean of the last one, weighted by x^2, is P over x^3.
+    """
+
+    force: Array
+    depth: Array
+    growth: Array
+
+    def resolved(self, analysis: Array, tail: float) -> bool:
+        """Return whether the last coefficients of the polynomials are small enough."""
+        sizes = np.abs(analysis @ np.column_stack(self))
+        return bool(np.all(sizes[-LAST:] <= tail * np.max(sizes, axis=0)))
+
+
+def _sampled(law: ContactLaw, top: float, degree: int) -> _Samples:
+    """Return the law at the nodes of a degree, for radii [m] up to `top`."""
+    x = knots(degree)[0]
+    a = top * x
+    shape = law.at(a)
+    slope = 2.0 * (a / law.model.R) * shape.slope
+    force, depth = law.force(a, shape), law.indentation(a, shape)
+    return _Samples(force / x**3, depth / x**2, law.stiffness(a, shape) * slope * top / x**2)
+
+
+def _of_sphere(law: ContactLaw, top: float) -> int:
+    """Return the degree that a sphere requires, whose slope is infinite at the radius R.
+
+    Chebyshev coefficients on [0, top] decrease as z^-n, with z + 1/z = 2 (2 R/top - 1).
+    """
+    if not law.spherical:
+        return 0
+    middle = 2.0 * law.model.R / top - 1.0
+    return math.ceil(DIGITS / math.acosh(middle))

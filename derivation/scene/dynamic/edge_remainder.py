@@ -1,0 +1,98 @@
+"""Model error of a simply supported or clamped edge, measured against three-dimensional elasticity.
+
+The table contains the error relative to the indentation by h/b, Poisson's ratio and a/b, and the
+changes with coarser finite elements, which are added. Between the points of the table the largest
+neighbour counts. It is a model error and is not part of the error bound of the computation.
+"""
+
+import json
+from functools import cache
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from derivation.engine.files import measurements
+from derivation.scene.effects.edge import SUPPORTED
+from derivation.scene.errors import SceneError
+from derivation.scene.model import Model
+from generated.arrays import Double as Array
+
+LARGEST = 0.01
+"""Model error relative to the indentation above which a scene is rejected."""
+_KEYS = ("h_over_b", "nu", "a_over_b")
+_PARTS = ("relative_error", "lower_degree", "fewer_layers")
+
+
+@cache
+def _table() -> dict[tuple[Any, ...], float]:
+    rows = json.loads((measurements() / "edge_remainder.json").read_text())["rows"]
+    return {
+        (row["support"], *(row[key] for key in _KEYS)): sum(abs(row[part]) for part in _PARTS)
+        for row in rows
+    }
+
+
+@cache
+def _axes() -> tuple[list[float], ...]:
+    """Return the points of each axis of the table."""
+    return tuple(sorted({key[1 + i] for key in _table()}) for i in range(len(_KEYS)))
+
+
+def edge_remainder(model: Model, a: float) -> float:
+    """Return the largest model error of the edge at a contact radius [m], over the indentation [1].
+
+    For h/b, a/b and Poisson's ratio below the range of the table, its first values are used; for
+    Poisson's ratio above it, the last one.
+
+    Raises
+    ------
+    SceneError
+        If the error exceeds 1 %, or h/b or a/b is above the range of the table.
+    """
+    kind = "supported" if model.edge == SUPPORTED else "clamped"
+    nu = model.lam / (2.0 * (model.lam + model.mu))
+    coordinates = {"h_over_b": model.eta, "nu": nu, "a_over_b": a / model.b}
+    axes = _axes()
+    for name, axis in zip(_KEYS, axes, strict=True):
+        if name != "nu" and coordinates[name] > axis[-1]:
+            raise SceneError(
+                f"plate.edge: expected {name.replace('_over_', '/')} up to {axis[-1]} for a "
+                f"{model.edge} edge, the range in which its model error is known, got "
+                f"{coordinates[name]:.4g} (h half-thickness, a contact radius, b plate radius); "
+                'write edge = "paper", or effects.edge = false'
+            )
+    around = [_neighbours(axis, coordinates[name]) for name, axis in zip(_KEYS, axes, strict=True)]
+    remainder = max(_table()[(kind, *point)] for point in product(*around))
+    if remainder > LARGEST:
+        raise SceneError(
+            f"plate.edge: expected a model error of the {model.edge} edge of at most 1 % of the "
+            f"indentation, got {100 * remainder:.2g} % at h/b = {model.eta:.4g}, nu = {nu:.3g}, "
+            f"a/b = {a / model.b:.4g} (h half-thickness, a contact radius, b plate radius); use a "
+            "larger plate, or set effects.edge = false"
+        )
+    return remainder
+
+
+def edge_remainders(model: Model, a: Array) -> Array:
+    """Return the model errors of many scenes as a column; NaN if `edge_remainder` rejects one."""
+    kind = "supported" if model.edge == SUPPORTED else "clamped"
+    nu = model.lam / (2.0 * (model.lam + model.mu))
+    axes, coordinates = _axes(), np.broadcast_arrays(model.eta, nu, a / model.b)
+    known = (coordinates[0] <= axes[0][-1]) & (coordinates[2] <= axes[2][-1])
+    ends = []
+    for axis, coordinate in zip(axes, coordinates, strict=True):
+        below = np.searchsorted(axis, coordinate, side="right") - 1
+        above = np.searchsorted(axis, coordinate, side="left")
+        ends.append([np.clip(end, 0, len(axis) - 1) for end in (below, above)])
+    table = np.array([_table()[(kind, *point)] for point in product(*axes)])
+    table = table.reshape([len(axis) for axis in axes])
+    remainders = np.maximum.reduce([table[corner] for corner in product(*ends)])
+    return np.where(known & (remainders <= LARGEST), remainders, np.nan)
+
+
+def _neighbours(axis: list[float], value: float) -> list[float]:
+    """Return the points of an axis on both sides of a value."""
+    below = [x for x in axis if x <= value] or axis[:1]
+    above = [x for x in axis if x >= value] or axis[-1:]
+    return sorted({below[-1], above[0]})

@@ -1,0 +1,145 @@
+"""Free flight between contacts: the time of the next contact, if there is one."""
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from derivation.scene.dynamic.oscillators import FreeMotion
+from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
+from derivation.scene.errors import IncompleteError
+from generated.arrays import Double as Array
+
+STEP, BLOCK, BLOCKS = 0.3, 256, 4000
+"""Phase of the fastest mode between evaluations, evaluations per block, and number of blocks."""
+AT_ONCE = 4_000_000
+"""Number of values of modes that are computed at once, to limit the memory."""
+FAST = 0.1
+"""Sum of the amplitudes of modes over the gap below which they cannot close it."""
+RECOVERED = 20.0
+"""Time over A_v after which a face counts as recovered: its depth has decayed to 2e-6."""
+LOOK, LOOKS = 0.06, 200.0
+"""Work of an evaluation of a mode, and additional work of a block of evaluations."""
+_HALVINGS = 80
+
+
+def meeting(
+    problem: DynamicProblem, after: ImpactState, radius: float, most: float = math.inf
+) -> tuple[float, float, float]:
+    """Return the time from separation to the next contact, its radius at the start, and the work.
+
+    The time is infinite if no further contact is possible. A viscoelastic contact ends at a radius
+    above 0, and the face then recovers.
+
+    Parameters
+    ----------
+    after, radius
+        State and radius at separation.
+    most
+        Largest work; the first block may exceed it.
+
+    Raises
+    ------
+    IncompleteError
+        If neither is found within `BLOCKS` blocks or the largest work.
+    """
+    omega, state, begin = problem.omega, after, 0.0
+    reach = float(np.sum(np.hypot(state.q, state.q_dot / omega)))
+    block = max(2, min(BLOCK, AT_ONCE // omega.size))
+    t = STEP / float(np.max(omega)) * np.arange(block + 1)
+    free = FreeMotion(np.outer(t, omega), problem.damping_ratio)
+    work, each = 0.0, LOOKS + LOOK * free.phase.size
+    for _ in range(BLOCKS * (BLOCK // block)):
+        if work and work + each > most:
+            break
+        work += each
+        clear = _clear(problem, state)
+        begin, state = begin + clear, problem.flown(state, clear)
+        bent = free.sin * (state.q_dot / omega) - free.by_q * state.q
+        into = state.approach + state.velocity * t + 0.5 * problem.weight * t * t
+        into -= np.sum(bent, axis=1)
+        opening = free.cos @ state.q_dot - free.sin @ (state.q * omega) - state.velocity
+        opening -= problem.weight * t
+        if problem.retardation_time:
+            into -= _pressed(problem, np.add(begin, t), radius, np.add(state.q, bent))
+        turned = (opening[:-1] < 0.0) & (opening[1:] > 0.0)  # the gap is smallest in between
+        for k in np.flatnonzero((into[1:] >= 0.0) | turned):
+            low, high = begin + float(t[k]), begin + float(t[k + 1])
+            if into[k + 1] < 0.0:
+                high = _where(lambda t: problem.flown(after, t).separation_speed < 0.0, low, high)
+            if _into(problem, after, high, radius) >= 0.0:
+                met = _where(lambda t: _into(problem, after, t, radius) < 0.0, low, high)
+                return met, float(_recovered(problem, np.array([met]), radius)[0]), work
+        begin, state = begin + float(t[-1]), problem.flown(state, float(t[-1]))
+        if -state.displacement > reach and state.velocity <= 0.0:
+            return math.inf, 0.0, work
+    raise IncompleteError(
+        f"sphere and plate moved side by side without contact for {problem.T * begin:.6g} s, the "
+        "limit",
+        "use a thicker plate or a lighter sphere, or set effects.inertia = false for a "
+        "quasi-static plate",
+    )
+
+
+def _clear(problem: DynamicProblem, state: ImpactState) -> float:
+    """Return a time in which sphere and plate cannot meet, from the slow modes.
+
+    The amplitudes of the fast modes add up to a fraction of the gap. The remaining depth of a
+    viscoelastic face only increases the gap, and damping only reduces amplitudes.
+    """
+    order, gap = problem.by_speed, -state.approach
+    omega, q, rate = (x[order] for x in (problem.omega, state.q, state.q_dot))
+    beyond = np.cumsum(np.hypot(q, rate / omega)[::-1])[::-1]
+    slow = max(1, int(np.searchsorted(-beyond, -FAST * gap)))
+    if gap <= 0.0 or 2 * slow > order.size:
+        return 0.0
+    omega, q, rate = omega[:slow], q[:slow], rate[:slow]
+    t = STEP / float(omega[-1]) * np.arange(max(2, min(BLOCK, AT_ONCE // slow)) + 1)
+    free = FreeMotion(np.outer(t, omega), problem.damping_ratio)
+    bent = free.sin @ (rate / omega) - free.by_q @ q
+    into = state.approach + state.velocity * t + 0.5 * problem.weight * t * t - bent
+    # The fast modes may change by twice their amplitudes.
+    near = np.flatnonzero(into + 2.0 * float(beyond[slow]) >= 0.0)
+    return float(t[max(int(near[0]) - 1, 0)]) if near.size else float(t[-1])
+
+
+def _into(problem: DynamicProblem, after: ImpactState, t: float, radius: float) -> float:
+    """Return the overlap of sphere and face at a time after separation; negative for a gap."""
+    state = problem.flown(after, t)
+    if not problem.retardation_time:
+        return state.approach
+    return state.approach - float(_pressed(problem, np.array([t]), radius, state.q[None])[0])
+
+
+def _pressed(problem: DynamicProblem, t: Array, radius: float, q: Array) -> Array:
+    """Return the remaining depth of the face after a viscoelastic contact."""
+    at = problem.at(problem.a * _recovered(problem, t, radius))
+    by_shape = problem.contact.modes.by_shape
+    lagging = by_shape(problem.lagging(radius, t)[0])
+    moved = np.sum(lagging + at.less * (by_shape(q) + lagging), axis=1)
+    return at.depth / problem.depth + np.asarray(moved, dtype=np.float64)
+
+
+def _recovered(problem: DynamicProblem, t: Array, radius: float) -> Array:
+    """Return the radius of the face after a time without force: P_e decays as exp(-t/A_v)."""
+    none = np.zeros_like(t)
+    if not problem.retardation_time or not np.any(t < RECOVERED * problem.retardation_time):
+        return none
+    grid = radius * np.linspace(0.0, 1.0, 64)
+    root = np.cbrt(problem.contact.at(problem.a * grid).force)
+    goal = root[-1] ** 3 * np.exp(-np.minimum(t / problem.retardation_time, RECOVERED))
+    a = np.interp(np.cbrt(goal), root, grid)
+    for _ in range(3):
+        at = problem.contact.at(problem.a * a)
+        a = a * np.cbrt(goal / at.force)
+    return np.where(t < RECOVERED * problem.retardation_time, a, none)
+
+
+def _where(before: Callable[[float], bool], low: float, high: float) -> float:
+    """Return the number between `low` and `high` up to which a condition is true."""
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        if not low < middle < high:  # no number lies between them
+            break
+        low, high = (middle, high) if before(middle) else (low, middle)
+    return high

@@ -1,0 +1,70 @@
+"""The state of an impact at given times, from the time elements of its contacts."""
+
+import numpy as np
+from numpy.polynomial.legendre import legvander
+
+from derivation.scene.dynamic.contact_sequence import ContactRun, ImpactHistory
+from derivation.scene.dynamic.flight import AT_ONCE
+from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
+from derivation.scene.dynamic.time_element import DAMPED, A, E, P, V, W, Z, deflections_at, nodes_of
+from derivation.scene.numerics.collocation import ONSET, Element
+from generated.arrays import Double as Array
+
+
+def deflections(history: ImpactHistory, t: float) -> Array:
+    """Return the deflection of each shape at the axis at a time, in units of the problem."""
+    problem = history.problem
+    starts = [touching.start for touching in history.contacts]
+    touching = history.contacts[max(int(np.searchsorted(starts, t, side="right")) - 1, 0)]
+    if t > touching.end:
+        q = problem.flown(touching.after, t - touching.end).q
+        return problem.contact.modes.by_shape(q)
+    pieces = touching.pieces
+    x = (max(t - touching.start, 0.0) + pieces[0].element.x ** ONSET) ** (1.0 / ONSET)
+    index = max(int(np.searchsorted([piece.element.x for piece in pieces], x, side="right")) - 1, 0)
+    before, radius = touching.before, touching.radius
+    if index:
+        before, radius = pieces[index - 1].end, pieces[index - 1].radius
+    return oscillating(problem, pieces[index].element, before, radius, x)
+
+
+def oscillating(
+    problem: DynamicProblem, found: Element, start: ImpactState, radius: float, x: float
+) -> Array:
+    """Return the deflection of each shape at x, computed as the end of a shorter element."""
+    if x <= found.x:
+        return problem.contact.modes.by_shape(start.q)
+    length = min(x - found.x, found.length)
+    nodes = nodes_of(problem, found.slope.size, found.x, length, start)
+    q = deflections_at(problem, nodes, radius, found.slope_at(nodes.x))
+    return np.asarray(q[-1], dtype=np.float64)
+
+
+def rows_of(problem: DynamicProblem, touching: ContactRun, t: Array) -> Array:
+    """Return the rows in a contact and in the flight after it, at times in problem units."""
+    found = np.zeros((DAMPED + 1, t.size))
+    pieces, inside = touching.pieces, t <= touching.end
+    starts, lengths = np.array([(one.element.x, one.element.length) for one in pieces]).T
+    since = np.maximum(t - touching.start, 0.0) + starts[0] ** ONSET
+    x = since ** (1.0 / ONSET)
+    place = np.searchsorted(starts, x, side="right") - 1
+    x = np.minimum(x, starts[-1] + lengths[-1])
+    s = 2.0 * (x[inside] - starts[place[inside]]) / lengths[place[inside]] - 1.0
+    basis = np.zeros((t.size, pieces[0].element.slope.size))
+    basis[inside] = legvander(s, basis.shape[1] - 1)
+    for index in np.unique(place[inside]):
+        here = inside & (place == index)
+        found[:, here] = pieces[index].element.rows @ basis[here].T
+        branch = pieces[index].yielding
+        if branch is not None:
+            a = problem.a * np.maximum(found[A, here], 0.0)
+            found[A, here] = branch.widened(a, problem.contact.at(a).force) / problem.a
+    flight = np.flatnonzero(~inside)
+    block = max(1, AT_ONCE // max(problem.omega.size, 1))
+    for indices in (flight[k : k + block] for k in range(0, flight.size, block)):
+        flights = problem.flights(touching.after, t[indices] - touching.end)
+        found[V, indices], found[Z, indices], found[W, indices], found[E, indices] = flights
+    found[[A, P]] = np.maximum(found[[A, P]], 0.0)
+    if not touching.radius:  # exact, without the rounding error of the polynomial
+        found[A, t == touching.start] = 0.0
+    return found

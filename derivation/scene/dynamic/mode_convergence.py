@@ -1,0 +1,234 @@
+"""Convergence of the results of an impact with the number of plate modes."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.dynamic.contact_sequence import ImpactHistory
+from derivation.scene.dynamic.mode_count import beyond_limits, coarser, fast
+from derivation.scene.dynamic.problem import DynamicProblem
+from derivation.scene.dynamic.reach import Reach
+from derivation.scene.dynamic.results import NONE, UNKNOWN
+from derivation.scene.dynamic.time_element import A, P
+from derivation.scene.dynamic.wave_motion import DynamicImpact
+from generated.arrays import Double as Array
+
+REGULAR, QUICK = 2.2, 16.0
+"""Largest expected factors by which twice as many modes reduce an error: of the contact time, which
+decreases regularly (see `wave_motion.LATE`) with modes shorter than the thickness; of others."""
+FIRST = 4000.0
+"""Largest expected factor if half as many modes were slower than the contact: in 84 random impacts
+the error then decreased by factors of up to 2300, in single contacts up to 170."""
+SHORT = 4.0
+"""Largest wave number times half the thickness from which the contact time converges regularly."""
+CALMED = {"A0": 22.0, "all": 6.5}
+"""Largest expected factors by which twice as many modes reduce the ripple of the force: at most
+22.1 and 6.2 between runs of 13 random impacts, often below 2 with all branches."""
+RIPPLE, DECAY = 1.25, 2.0
+"""Estimated error of the largest force or radius over its ripple since half as many modes, and a
+factor of it if the ripple decreases fast: `DECAY` times the decrease q since the runs before. If it
+goes on, all further ripples together are q/(1 - q) of the last."""
+NEARBY, LOOKS = 0.1, 1000
+"""Time in which the ripple of the force changes alike, because its phase is arbitrary, over the
+unit of time of the impact; number of times in this unit at which the force is compared."""
+DEARER = {"A0": 2.0, "all": 4.0}
+"""Least factor of the work of a run with twice as many bending modes."""
+
+
+def judged(rough: DynamicImpact, found: DynamicImpact) -> DynamicImpact:
+    """Return the finer run with the relative change of each result since the coarser run."""
+    pairs = zip(found.numbers, rough.numbers, strict=True)
+    time, depth, force, radius, speed = (abs(new - old) / abs(new) for new, old in pairs)
+    change, jump = (time, depth, force, radius, speed), found.jump_since(rough)
+    before = rough.inertia.mode_convergence
+    recounted = len(found.inertia.contacts) != len(rough.inertia.contacts)
+    ripple = _ripple(rough, found)
+    known = (0.0, 0.0) if rough.inertia.recounted else rough.inertia.ripple
+    force_error, radius_error = map(_error_of_ripple, ripple, known)
+    inertia = replace(
+        found.inertia,
+        mode_convergence=change, jump=jump, earlier_change=before, recounted=recounted,
+        ripple=ripple, ripple_error=(force_error, radius_error),
+        first_change=_first_change(rough, found),
+    )  # fmt: skip
+    return replace(found, inertia=inertia)
+
+
+def _first_change(rough: DynamicImpact, found: DynamicImpact) -> float:
+    """Return the largest relative change of the first contact [1]; of a single contact, NaN.
+
+    Its duration does not depend on later contacts, which may be far more sensitive.
+    """
+    old, new = rough.inertia.contacts[0], found.inertia.contacts[0]
+    if len(rough.inertia.contacts) == 1 == len(found.inertia.contacts):
+        return math.nan
+    pairs = (new.end, old.end), (new.impulse, old.impulse), (new.peak_force, old.peak_force)
+    return max(abs(after - before) / abs(after) for after, before in pairs)
+
+
+def _ripple(rough: DynamicImpact, found: DynamicImpact) -> tuple[float, float]:
+    """Return how far the largest force and radius may be off if their courses are, over them [1].
+
+    Waves that return during a contact make its force ripple. The ripple changes with the number of
+    modes at all times, while the maximum may agree by chance. The largest value of a course known
+    up to e(t) lies between the maxima of the course less e(t) and of the course plus e(t). The
+    cube of the radius is compared: it is as smooth as the force where a contact begins and ends.
+    """
+    fine, change = [], []
+    for old, new in _same_times(rough, found):
+        fine.append(_compared(found.rows(new)))
+        change.append(np.abs(fine[-1] - _compared(rough.rows(old))))
+    courses, changes = np.hstack(fine), np.hstack(change)
+    for part, width in _alike(found, fine):
+        changes[:, part] = _largest_nearby(changes[:, part], width)
+    largest = np.max(courses, axis=1)
+    above, below = np.max(courses + changes, axis=1), np.max(courses - changes, axis=1)
+    force, cube = np.maximum(above / largest - 1.0, 1.0 - below / largest).tolist()
+    # The cube root of 1 - x decreases more than that of 1 + x increases.
+    return force, 1.0 - math.cbrt(1.0 - cube) if cube < 1.0 else cube
+
+
+def _alike(found: DynamicImpact, courses: list[Array]) -> list[tuple[slice, int]]:
+    """Return parts of the course, and over how many times its ripple changes alike in each.
+
+    A plastic contact unloads far below its largest force before a ripple, which is larger there
+    because the contact is stiffer, could return it to this force.
+
+    Parameters
+    ----------
+    courses
+        Force and cube of the radius of each contact.
+    """
+    whole, starts = round(NEARBY * LOOKS), np.cumsum([0, *(one.shape[1] for one in courses)])
+    if found.impact_history.problem.yielding is None:
+        return [(slice(None), whole)]
+    largest = int(np.argmax([np.max(one[0]) for one in courses]))
+    peak = int(starts[largest] + np.argmax(courses[largest][0])) + 1
+    end = int(starts[largest + 1])
+    return [(slice(None, peak), whole), (slice(peak, end), 1), (slice(end, None), whole)]
+
+
+def _compared(rows: Array) -> Array:
+    """Return the force and the cube of the contact radius at some times."""
+    return np.stack((rows[P], np.maximum(rows[A], 0.0) ** 3))
+
+
+def _same_times(rough: DynamicImpact, found: DynamicImpact) -> Iterator[tuple[Array, Array]]:
+    """Yield times [s] in both runs, contact by contact, at which to compare them.
+
+    Two contacts that overlap each other the most are the same one, and are compared from their
+    starts on. Any other contact of either run, for example a short one that the other run misses,
+    is compared with what the other run does at that time.
+    """
+    unit = found.impact_history.problem.T
+    overlaps = _overlaps(rough, found)
+    partners = {
+        j: i
+        for j, i in enumerate(np.argmax(overlaps, axis=0).tolist())
+        if overlaps[i, j] > 0.0 and int(np.argmax(overlaps[i])) == j
+    }
+    for j, new in enumerate(found.inertia.contacts):
+        since = _looks(0.0, new.end - new.start, unit)
+        known = rough.inertia.contacts[partners[j]].start if j in partners else new.start
+        yield known + since, new.start + since
+    for i, old in enumerate(rough.inertia.contacts):
+        if i not in partners.values():
+            times = _looks(old.start, old.end, unit)
+            yield times, times
+
+
+def _overlaps(rough: DynamicImpact, found: DynamicImpact) -> Array:
+    """Return how long [s] the contacts of the coarser run (rows) and of the finer one overlap."""
+    spans = ([(one.start, one.end) for one in run.inertia.contacts] for run in (rough, found))
+    old, new = map(np.array, spans)
+    start = np.maximum.outer(old[:, 0], new[:, 0])
+    return np.asarray(np.minimum.outer(old[:, 1], new[:, 1]) - start)
+
+
+def _looks(start: float, end: float, unit: float) -> Array:
+    """Return times between two others, `LOOKS` in each unit of time."""
+    return np.linspace(start, end, 2 + math.ceil((end - start) / unit * LOOKS))
+
+
+def _largest_nearby(values: Array, count: int) -> Array:
+    """Return the largest of `count` values around each one of a row of positive values.
+
+    Importing SciPy, which has this function, takes longer than the function.
+    """
+    if not values.size:
+        return values
+    before = count // 2
+    padded = np.pad(values, ((0, 0), (before, count - before - 1)))
+    return np.asarray(sliding_window_view(padded, count, axis=1).max(axis=2))
+
+
+def _error_of_ripple(ripple: float, before: float) -> float:
+    """Return the estimated error of a largest value for its ripple and that of the runs before."""
+    decay = ripple / before if before else 1.0
+    return RIPPLE * ripple * min(1.0, DECAY * decay)
+
+
+def largest_change(one: DynamicImpact, other: DynamicImpact) -> DynamicImpact:
+    """Return a run with the larger changes of two comparisons with coarser runs."""
+    pairs = one.inertia.mode_convergence, other.inertia.mode_convergence
+    time, depth, force, radius, speed = map(max, *pairs)
+    change = time, depth, force, radius, speed
+    first = float(np.maximum(one.inertia.first_change, other.inertia.first_change))
+    return replace(one, inertia=replace(one.inertia, mode_convergence=change, first_change=first))
+
+
+def unjudged(found: DynamicImpact) -> DynamicImpact:
+    """Return a run without an error estimate for its omitted modes."""
+    unknown = replace(found.inertia, mode_convergence=UNKNOWN, earlier_change=NONE)
+    return replace(found, inertia=unknown)
+
+
+def unreachable(
+    found: DynamicImpact, law: ContactLaw, count: int, work: float, reach: Reach
+) -> bool:
+    """Return whether no number of modes within the limits can be expected to meet the tolerance.
+
+    If the runs differ in the number of contacts, nothing can be expected.
+
+    Parameters
+    ----------
+    found
+        A run with an error estimate.
+    count
+        Its number of bending modes.
+    work
+        Expected work of the run with twice as many.
+    """
+    if found.inertia.recounted:  # the next run may have the same contacts, and agree
+        return False
+    branches = "all" if law.model.inertia.branches == "all" else "A0"
+    dearer, calmed = DEARER[branches], CALMED[branches]
+    shortest = float(np.max(found.impact_history.problem.contact.modes.phi)) * law.model.h
+    timed = REGULAR if shortest > SHORT else QUICK
+    resolved = fast(law, coarser(count))
+    doublings, count = 1, 2 * count
+    while not beyond_limits(law, count, work, near=True):
+        count, work, doublings = 2 * count, dearer * work, doublings + 1
+    factors = {name: timed if name == "contact_time" else QUICK for name in reach.outputs}
+    for name, factor in factors.items():
+        first = factor if resolved or factor == REGULAR else FIRST
+        error = found.inertia.error_by_change(name) / (first * factor ** (doublings - 1))
+        ripple = found.inertia.error_by_ripple(name) / ((first / factor) * calmed**doublings)
+        if max(error, ripple) > reach.need:
+            return True
+    return False
+
+
+def unchecked(coarse: ImpactHistory, problem: DynamicProblem, fewer: int) -> ImpactHistory:
+    """Return a run as incomplete, because a finer one for its error estimate is too much work."""
+    return replace(
+        coarse,
+        reason=f"the error of {coarse.problem.omega.size} modes is unknown, because the "
+        f"{problem.omega.size} modes for its estimate exceed the limit of time steps and modes",
+        remedy=f"set inertia.modes = {fewer} and remove the tolerance, or set "
+        "effects.inertia = false",
+    )

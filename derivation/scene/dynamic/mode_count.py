@@ -1,0 +1,146 @@
+"""Number of plate modes that an impact requires, and its limits."""
+
+import math
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.contact_law.limits import zener_number
+from derivation.scene.dynamic.modal import free_modes
+from derivation.scene.errors import SceneError
+
+PHASE = 12.5
+"""omega That/max(1, lambda^(2/3)) of the fastest mode in the first run."""
+FEWEST, MOST = 8, 3000
+"""Limits of the number of modes in the first run; the second run has twice as many. Between runs
+with two and four modes the contact time changed by a fifth of its error on a thick plate."""
+MODES, MANY = 6000, 30_000
+"""Largest numbers of bending modes, and of modes of all branches, in the final run."""
+WORK = 6.5e5
+"""Work of a run above which the modes are not doubled again: the next run may take minutes."""
+LAST, FURTHER = 8.0, 4.5
+"""If the change with the number of modes is at most `LAST` times the accepted one, another doubling
+may be sufficient: the three limits are then multiplied by `FURTHER`."""
+
+
+def branching(law: ContactLaw, branches: str) -> ContactLaw:
+    """Return the law with other wave branches."""
+    inertia = replace(law.model.inertia, branches=branches)
+    return replace(law, model=replace(law.model, inertia=inertia))
+
+
+def finer(law: ContactLaw, count: int) -> int:
+    """Return the number of bending modes in the run after one with a number of them.
+
+    It is twice as many, or one more so that exactly one of both is even: the share of the last mode
+    in the waves that return from the edge to the axis has alternating signs, and the numbers n and
+    2n, both even, would agree although both are wrong.
+    """
+    return law.model.inertia.modes or 2 * count + 1 - count % 2
+
+
+def coarser(count: int) -> int:
+    """Return half a number of modes, or one fewer so that exactly one of both is even."""
+    half = count // 2
+    return max(1, half if half % 2 != count % 2 else half - 1)
+
+
+@lru_cache(maxsize=64)
+def count_of(law: ContactLaw) -> int:
+    """Return the number of bending modes in the first run."""
+    model = law.model
+    if model.inertia.modes:
+        return coarser(model.inertia.modes)
+    highest = _highest(law)
+    # Only bending modes are counted; with all branches there are far more modes.
+    model = replace(model, inertia=replace(model.inertia, branches="A0"))
+    count = FEWEST
+    while count < MOST and free_modes(model, count).omega[-1] < highest:
+        count = min(2 * count, MOST)
+    slower = int(np.searchsorted(free_modes(model, count).omega, highest))
+    return max(FEWEST, min(count, slower + 1))
+
+
+def _highest(law: ContactLaw) -> float:
+    """Return the angular frequency [1/s] that the fastest mode of the first run must reach."""
+    model = law.model
+    stiffness = 4.0 / 3.0 * law.modulus * math.sqrt(model.R)
+    duration = math.pow(model.m / stiffness, 0.4) / math.pow(model.v0, 0.2)
+    return PHASE * max(1.0, math.pow(zener_number(model), 2.0 / 3.0)) / duration
+
+
+def affordable(law: ContactLaw) -> int:
+    """Return the number of bending modes in the first run; up to half fewer with all branches."""
+    count = count_of(law)
+    if law.model.inertia.modes:
+        return count
+    least = count // 2 + 1
+    while count > least and oscillators(law, 2 * count) > MANY:
+        count = max(least, 9 * count // 10)
+    return count
+
+
+def fast(law: ContactLaw, count: int) -> bool:
+    """Return whether the fastest of a number of bending modes is as fast as the contact.
+
+    Runs with slower modes may agree although both are wrong.
+    """
+    lowest = branching(law, "A0").model
+    return bool(free_modes(lowest, count).omega[-1] >= _highest(law))
+
+
+def followed(law: ContactLaw, count: int) -> bool:
+    """Return whether the modes are fast enough and not too many, or given by the scene."""
+    afforded = oscillators(law, count) <= FURTHER * MANY
+    return bool(law.model.inertia.modes) or (afforded and fast(law, count))
+
+
+def check_followed(law: ContactLaw, count: int) -> None:
+    """Raise an error if a contact is too short for the allowed number of modes.
+
+    Raises
+    ------
+    SceneError
+        If the modes are too slow or too many, and the scene does not give their number.
+    """
+    inertia = law.model.inertia
+    if followed(law, count):
+        return
+    remedy = 'branches = "A0", or ' if inertia.branches == "all" else ""
+    remedy += "effects.inertia = false" if inertia.infinite_plate else 'extent = "infinite"'
+    raise SceneError(
+        f"inertia.modes: expected a contact that {count} modes can resolve, got one that needs "
+        f"frequencies up to {_highest(law) / (2.0 * math.pi):.3g} Hz; use a smaller or thinner "
+        f"plate, or set {remedy}"
+    )
+
+
+def oscillators(law: ContactLaw, count: int) -> float:
+    """Return the estimated number of modes of all included branches up to the same frequency.
+
+    With all branches these are the modes whose wave numbers along and across the plate, of shear
+    and of pressure waves, lie within a quarter of a circle.
+    """
+    model = law.model
+    if model.inertia.branches != "all":
+        return count
+    omega = free_modes(branching(law, "A0").model, count).omega
+    highest = float(omega[-1]) * model.h / model.shear_speed
+    return count * (1.0 + 0.5 * highest * (1.0 + model.mu / (model.lam + 2.0 * model.mu)))
+
+
+def beyond_limits(law: ContactLaw, count: int, work: float, near: bool) -> bool:
+    """Return whether doubling the number of bending modes exceeds a limit.
+
+    Parameters
+    ----------
+    work
+        Work of the run with `count` modes.
+    near
+        Whether another doubling may be sufficient, so that the limits are higher.
+    """
+    more = FURTHER if near else 1.0
+    many = oscillators(law, 2 * count) > more * MANY or 2 * count > more * MODES
+    return many or work > more * WORK

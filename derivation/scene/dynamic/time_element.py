@@ -1,0 +1,361 @@
+"""Time integration of one contact with plate inertia: a single collocation element.
+
+With z the displacement of the sphere, q_j the sum of the modes of shape j (see `modal`) and A_v the
+retardation time of the contact,
+
+    m z'' = m g - P,   P = P_e + A_v dP_e/dt >= 0,   z = quasi-static(a) + sum s_j q_j
+
+In a viscoelastic contact only bending is elastic: P drives the fraction of the compliance of each
+shape that is bending, and P_e the rest. The modes keep their mass, so that A_v = 0 is the limit.
+
+On an element in x = (t/T)^(1/6), with t the time since first contact, da/dx is a polynomial through
+Radau's nodes. The response of a shape to its force is an integral over the sines of its modes. At
+the nodes it is a matrix, computed once per element: no mode is integrated in time steps, and the
+only unknowns are the contact radii.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from derivation.scene.contact_law.yielding import Yielding
+from derivation.scene.dynamic.contact_tables import ContactSamples
+from derivation.scene.dynamic.oscillators import Response, response_at
+from derivation.scene.dynamic.problem import DynamicProblem, ImpactState, Part
+from derivation.scene.numerics.collocation import (
+    NEWTON,
+    NEXT,
+    ONSET,
+    Element,
+    converged,
+    newton_step,
+    radau,
+)
+from generated.arrays import Double as Array
+
+A, V, Z, P, W, E, LOST, LEAK, DAMPED = range(9)
+"""Rows of an element: radius, velocity, displacement, force, deflection and energy of the plate;
+per x the energies lost in the contact, by the pointwise coupling and by damping of the plate."""
+
+
+class Nodes(NamedTuple):
+    """The nodes of an element, with all quantities that do not depend on its radii.
+
+    x; times since the start of the contact and of the element; dt/dx; matrices of the integrals
+    from the start of the element over x, over t and twice over t; the modes in parts, their
+    response and their free motion less uniform motion; and for each shape the sum of that over its
+    modes, and the uniform motion from position and velocity at the start.
+    """
+
+    x: Array
+    t: Array
+    since: Array
+    rate: Array
+    by_x: Array
+    by_t: Array
+    twice: Array
+    parts: tuple[Part, ...]
+    response: Response
+    free: Array
+    moved: Array
+    even: Array
+
+
+class Values(NamedTuple):
+    """Quantities at the nodes for radii a with slopes y; q and `felt` are those of each shape."""
+
+    a: Array
+    y: Array
+    v: Array
+    z: Array
+    q: Array
+    approach: Array
+    force: Array
+    felt: Array
+    load_y: Array | None
+
+
+class TimeElement(NamedTuple):
+    """A time element, and at its end the state, the radius and the force that drives each shape.
+
+    `yielding` is the branch of a plastic contact in the element.
+    """
+
+    element: Element
+    end: ImpactState
+    radius: float
+    felt: Array
+    yielding: Yielding | None
+
+
+def nodes_of(problem: DynamicProblem, n: int, x: float, length: float, start: ImpactState) -> Nodes:
+    """Return the nodes of an element, with the response of the modes."""
+    rule, modes = radau(n), problem.contact.modes
+    xs = x + length * rule.x
+    t, rate = xs**ONSET, ONSET * xs ** (ONSET - 1)
+    since = t - x**ONSET
+    response = Response.empty((n, problem.omega.size), problem.damping_ratio)
+    free, parts = np.empty((n, problem.omega.size)), problem.parts(n)
+    for part in (part.oscillators for part in parts):
+        by_q, by_rate = response_at(
+            since, problem.omega[part], problem.damping_ratio, response, part
+        )
+        by_rate *= since[:, None] * start.q_dot[part]
+        by_q *= start.q[part]
+        np.subtract(by_rate, by_q, out=free[:, part])
+    by_x = length * rule.integral
+    by_t = by_x * rate
+    even = modes.by_shape(start.q) + since[:, None] * modes.by_shape(start.q_dot)
+    moved, twice = modes.by_shape(free), by_t @ by_t
+    return Nodes(
+        xs, t, since, rate, by_x, by_t, twice, parts, response, free, moved, even
+    )  # fmt: skip
+
+
+def _driven_waves(problem: DynamicProblem, nodes: Nodes, part: Part, driven: Array) -> Array:
+    """Return cosine and sine of modes under forces of their shapes, shape (nodes, 2, modes).
+
+    The deflection is the sum of both, each multiplied by `moved`.
+    """
+    n, oscillators = nodes.t.size, part.oscillators
+    force = part.by_oscillator(driven[:, part.shapes]) * problem.strength[oscillators]
+    forces = nodes.response.drive[..., oscillators] * force[:, None]
+    return np.asarray((nodes.by_t @ forces.reshape(n, -1)).reshape(forces.shape))
+
+
+def _bent(problem: DynamicProblem, nodes: Nodes, driven: Array) -> Array:
+    """Return the deflection of each shape at the nodes by forces at the nodes."""
+    bent = np.empty_like(driven)
+    for part in nodes.parts:
+        waves = _driven_waves(problem, nodes, part, driven)
+        waves *= nodes.response.moved[..., part.oscillators]
+        bent[:, part.shapes] = part.by_shape(waves[:, 0] + waves[:, 1])
+    return bent
+
+
+def _bent_by(problem: DynamicProblem, nodes: Nodes, modal_weights: Array, driven: Array) -> Array:
+    """Return the sum of weighted deflections at each node, per contact force at each node."""
+    n = nodes.t.size
+    bent = np.zeros((n, n))
+    for part in nodes.parts:
+        oscillators = part.oscillators
+        load = part.by_oscillator(driven[:, part.shapes]) * problem.strength[oscillators]
+        moved = nodes.response.moved[..., oscillators] * part.by_oscillator(
+            modal_weights[:, None, part.shapes]
+        )
+        drive = nodes.response.drive[..., oscillators] * load[:, None]
+        bent += moved.reshape(n, -1) @ drive.reshape(n, -1).T
+    return bent * nodes.by_t
+
+
+class _Load(NamedTuple):
+    """Contact force and forces of each shape, in columns, at radii a with slopes y = da/dx.
+
+    `by_a` has the derivatives with respect to a; `by_y` those with respect to y, of a viscoelastic
+    contact.
+    """
+
+    a: Array
+    y: Array
+    forces: Array
+    by_a: Array
+    by_y: Array | None
+
+
+def _load_at(
+    problem: DynamicProblem, nodes: Nodes, a: Array, y: Array, at: ContactSamples
+) -> _Load:
+    """Return the forces at the nodes for contact radii and their slopes."""
+    load = at.forces / problem.force
+    load_a = at.forces_a * (problem.a / problem.force)
+    if not problem.retardation_time:
+        return _Load(a, y, load, load_a, None)
+    # The pressure keeps its shape: the retarded part drives each shape in the same proportion,
+    # but only the bending, because all other deflection lags it.
+    viscous_ratio = problem.retardation_time / nodes.rate * load_a[:, 0] / load[:, 0]
+    load_y = viscous_ratio[:, None] * load
+    load_y[:, 1:] *= problem.bending_fraction
+    load = load + load_y * y[:, None]
+    load_a = load_a + 2.0 * load_y * (y / a)[:, None]  # d2P/da2 is nearly (2/a) dP/da
+    return _Load(a, y, load, load_a, load_y)
+
+
+def _forces_at(problem: DynamicProblem, nodes: Nodes, radius: float, y: Array) -> _Load:
+    """Return the forces at the nodes without their derivatives, for a slope da/dx."""
+    a = radius + nodes.by_x @ y
+    if problem.retardation_time:
+        return _load_at(problem, nodes, a, y, problem.contact.at(problem.a * a))
+    forces = problem.contact.forces(problem.a * a) / problem.force
+    return _Load(a, y, forces, np.empty((0, 0)), None)
+
+
+def deflections_at(problem: DynamicProblem, nodes: Nodes, radius: float, y: Array) -> Array:
+    """Return the deflection of each shape at the nodes for a slope da/dx there."""
+    load = _forces_at(problem, nodes, radius, y)
+    return nodes.even + nodes.moved + _bent(problem, nodes, load.forces[:, 1:])
+
+
+def _values(
+    problem: DynamicProblem, nodes: Nodes, start: ImpactState, load: _Load, bent: Array
+) -> Values:
+    """Return the values at the nodes for the forces there and the deflections that they cause."""
+    force = load.forces[:, 0]
+    slowed = nodes.by_t @ force
+    fallen = 0.5 * problem.weight * nodes.since**2 - nodes.twice @ force
+    # Uniform motion is separated: the separation speed may be far below both speeds.
+    bent = nodes.moved + bent
+    return Values(
+        load.a,
+        load.y,
+        start.velocity + problem.weight * nodes.since - slowed,
+        start.displacement + start.velocity * nodes.since + fallen,
+        nodes.even + bent,
+        start.approach - start.separation_speed * nodes.since + (fallen - bent.sum(axis=1)),
+        force,
+        load.forces[:, 1:],
+        load.by_y,
+    )
+
+
+def element(
+    problem: DynamicProblem,
+    n: int,
+    x: float,
+    length: float,
+    start: ImpactState,
+    radius: float,
+    y: Array,
+    enough: float = NEXT,
+) -> TimeElement | None:
+    """Return an element by Newton's iteration from a guess of da/dx; None without convergence.
+
+    The iteration ends when a step would change the radii by at most `enough`, relative to the
+    largest of them.
+    """
+    nodes, size, last = nodes_of(problem, n, x, length, start), math.inf, False
+    order = 1 if problem.retardation_time else 2
+    for _ in range(NEWTON):
+        if last:
+            return _piece(problem, nodes, start, radius, y, x, length)
+        a = radius + nodes.by_x @ y
+        if not a.min() > 0.0:
+            return None
+        at = problem.at(problem.a * a)
+        load = _load_at(problem, nodes, a, y, at)
+        values = _values(problem, nodes, start, load, _bent(problem, nodes, load.forces[:, 1:]))
+        depth = at.depth / problem.depth + np.vecdot(at.less, values.q)
+        system = _system(problem, nodes, at, load, values.q) / nodes.t[:, None]
+        step = newton_step(system, (values.approach - depth) / nodes.t, nodes.by_x, a)
+        if step is None:
+            return None
+        y, before, size = y + step[0], size, step[1]
+        if size > max(1.0, before):
+            return None
+        last = converged(size, before, order, enough)
+    return None
+
+
+def _system(
+    problem: DynamicProblem, nodes: Nodes, at: ContactSamples, load: _Load, q: Array
+) -> Array:
+    """Return the derivative of depth less approach with respect to da/dx, at the nodes."""
+    modal_weights = 1.0 + at.less
+
+    def by_load(by: Array) -> Array:
+        moved = _bent_by(problem, nodes, modal_weights, by[:, 1:])
+        return np.asarray(nodes.twice * by[:, 0] + moved, dtype=np.float64)
+
+    by_radius = by_load(load.by_a)
+    depth_a = (at.depth_a / problem.depth + np.vecdot(at.less_a, q)) * problem.a
+    by_radius.flat[:: nodes.t.size + 1] += depth_a
+    by_slope = by_radius @ nodes.by_x
+    return by_slope if load.by_y is None else by_slope + by_load(load.by_y)
+
+
+class Driven(NamedTuple):
+    """The modes under a force: deflections and velocities at the end of an element.
+
+    At the nodes: deflection of each shape by the forces, energy of the modes, power dissipated by
+    damping and, if requested, the velocity of each shape.
+    """
+
+    q: Array
+    q_dot: Array
+    bent: Array
+    energy: Array
+    damped: Array
+    rates: Array
+
+
+def _driven(
+    problem: DynamicProblem, nodes: Nodes, start: ImpactState, felt: Array, by_shape: bool
+) -> Driven:
+    """Return the motion of the modes under the forces of each shape."""
+    modes, (end, end_rate) = problem.contact.modes, np.empty((2, problem.omega.size))
+    energy, damped = np.zeros((2, nodes.t.size))
+    bent = np.empty_like(felt)
+    rates = np.empty(nodes.free.shape if by_shape else (1, 0))
+    for part in nodes.parts:
+        oscillators = part.oscillators
+        inverse_mass, omega = problem.inverse_modal_mass[oscillators], problem.omega[oscillators]
+        of, waves = nodes.response, _driven_waves(problem, nodes, part, felt)
+        q_0, q_dot = start.q[oscillators], start.q_dot[oscillators]
+        swing = waves * of.rate[..., oscillators]
+        rate = (swing[:, 0] + swing[:, 1]) * omega
+        rate += q_dot * of.rate[:, 0, oscillators] - q_0 * omega * of.moved[:, 0, oscillators]
+        waves *= of.moved[..., oscillators]
+        q = waves[:, 0] + waves[:, 1]
+        bent[:, part.shapes] = part.by_shape(q)
+        q += q_0 + nodes.since[:, None] * q_dot
+        q += nodes.free[:, oscillators]
+        end[oscillators], end_rate[oscillators] = q[-1], rate[-1]
+        if by_shape:
+            rates[:, oscillators] = rate
+        if problem.damping_ratio:
+            from generated.damping_kernels import power_lost
+
+            taken = power_lost(omega, np.asarray(problem.damping_ratio), rate)
+            damped += np.sum(taken / inverse_mass, axis=1)
+        rate *= rate
+        q *= omega
+        q *= q
+        energy += (rate + q) @ (0.5 / inverse_mass)
+    rates = modes.by_shape(rates) if by_shape else rates
+    return Driven(end, end_rate, bent, energy, damped, rates)
+
+
+def _piece(
+    problem: DynamicProblem,
+    nodes: Nodes,
+    start: ImpactState,
+    radius: float,
+    y: Array,
+    x: float,
+    length: float,
+) -> TimeElement | None:
+    """Return the element as polynomials, with its end; None if a radius is not positive."""
+    load, pointwise = _forces_at(problem, nodes, radius, y), problem.contact.pointwise
+    if not load.a.min() > 0.0:
+        return None
+    by_shape = load.by_y is not None or pointwise
+    driven = _driven(problem, nodes, start, load.forces[:, 1:], by_shape)
+    at = _values(problem, nodes, start, load, driven.bent)
+    force = at.force
+    lost, leak = np.zeros_like(force), np.zeros_like(force)
+    if at.load_y is not None:
+        felt = at.load_y[:, 1:] / at.load_y[:, :1]
+        closing = at.v - np.sum(felt * driven.rates, axis=1)
+        lost = at.load_y[:, 0] * at.y * closing * nodes.rate
+    if pointwise:
+        elastic = load.forces if load.by_y is None else load.forces - load.by_y * at.y[:, None]
+        leak = np.sum((elastic[:, :1] - elastic[:, 1:]) * driven.rates, axis=1) * nodes.rate
+    rule = radau(nodes.x.size)
+    rows = at.a, at.v, at.z, force, np.sum(at.q, axis=1), driven.energy, lost, leak
+    values = np.array([*rows, driven.damped * nodes.rate])
+    made = Element(x, length, values @ rule.analysis.T, rule.analysis @ at.y)
+    end = ImpactState(
+        float(at.z[-1]), float(at.v[-1]), driven.q, driven.q_dot, float(at.approach[-1])
+    )
+    # A copy, because a view of the last row would keep all rows in memory.
+    return TimeElement(made, end, float(at.a[-1]), at.felt[-1].copy(), problem.yielding)

@@ -1,0 +1,62 @@
+"""Errors of tolerances that a simulation has not met."""
+
+import json
+import math
+from collections.abc import Sequence
+
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.errors import SceneError, ToleranceError
+from derivation.scene.selection.achieved_accuracy import AchievedAccuracy, rounded_up
+
+
+def duration_may_jump(rtol: float) -> SceneError:
+    """Return the error for a first contact whose duration may jump."""
+    return SceneError(
+        f"rtol: contact_time, the duration of the first contact, cannot be computed to {rtol:.3g}, "
+        "because the omitted effects or modes may split this contact, or join it with the second; "
+        "reduce the tolerance, so that more of them are included, or remove contact_time from "
+        "accuracy.outputs"
+    )
+
+
+def out_of_reach(
+    rtol: float,
+    accuracy: AchievedAccuracy,
+    law: ContactLaw,
+    a: float,
+    growth: float,
+    met: Sequence[str],
+) -> SceneError:
+    """Return the error for a tolerance that is not met, or cannot be compared with a bound.
+
+    Parameters
+    ----------
+    a
+        Largest contact radius [m].
+    growth
+        As in `ToleranceError`.
+    met
+        The outputs that meet the tolerance.
+    """
+    if math.isinf(accuracy.effects.bound):
+        return SceneError(
+            f"rtol: the tolerance {rtol:.3g} cannot be checked because there is no bound on the "
+            "omitted effects; remove the keys of [effects] that are false, or remove the tolerance"
+        )
+    where = f"for a contact radius of {a / law.model.R:.4g} sphere radii"
+    remedy = "increase the tolerance"
+    if law.dynamic:
+        where = "with the dynamic modes and wave branches of this scene"
+        remedy += " or inertia.modes"
+    if math.isinf(accuracy.bound):
+        return SceneError(
+            f"inertia.modes: expected enough modes for an error bound, got "
+            f"{law.model.inertia.modes}; increase inertia.modes, or remove the tolerance"
+        )
+    if met:
+        remedy += f", or request only what meets it: accuracy.outputs = {json.dumps(list(met))}"
+    return ToleranceError(
+        f"rtol: expected at least {rounded_up(accuracy.bound)} {where}, got {rtol:.3g}; {remedy}",
+        accuracy.bound,
+        growth,
+    )

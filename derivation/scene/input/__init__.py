@@ -1,0 +1,1 @@
+"""The tables and keys of a scene file: checks, materials, messages, old names."""

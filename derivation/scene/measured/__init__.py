@@ -1,0 +1,1 @@
+"""Material constants from a measured restitution."""

@@ -1,0 +1,300 @@
+"""Determines the yield stress or retardation time of the plate from a measured restitution.
+
+The restitution was measured on a thick block, which does not vibrate, or on the plate itself. The
+impact is simulated repeatedly until the restitution agrees.
+"""
+
+import json
+import math
+from dataclasses import replace
+from functools import lru_cache
+from typing import TYPE_CHECKING, NamedTuple
+
+from derivation.scene.errors import SceneError, ToleranceError
+from derivation.scene.input.settings import TIGHTEST
+from derivation.scene.measured.measurement import (
+    UNITS,
+    Measurement,
+    Trial,
+    UnreachedError,
+    measurement_of,
+)
+from derivation.scene.quantity import prefixed
+from derivation.scene.selection.achieved_accuracy import remaining, rounded_up
+
+if TYPE_CHECKING:
+    from derivation.scene.scene import Scene
+
+DIGITS = 4
+"""Number of significant digits of the constant that are shown."""
+CLOSE = {"static": 1e-12, "dynamic": 1e-4}
+"""Relative accuracy of the constant [1]; with plate inertia the restitution is less smooth."""
+LOOSE, DEFAULT = 0.1, 1e-3
+"""Tolerance of the simulations that search for the constant, and of the accurate ones if the
+results have none [1]."""
+FURTHEST, POLISHES = 0.2, 6
+"""Largest change of the logarithm of a constant after the search, and largest number of
+simulations."""
+ENOUGH = 1.6
+"""Tolerance that a message recommends over the error bound: both increase together."""
+AGREES = 0.1
+"""Relative difference from the measured restitution that suffices, over the error bound."""
+NEGLIGIBLE = 0.01
+"""Error due to a constant over the tolerance below which a message does not state it."""
+CHANGE = 1e-2
+"""Relative change of the constant that gives the sensitivities of the results."""
+LEAST_RATIO, MARGIN = 3.0, 1.5
+"""Error of the results over that of the restitution in a measurement with plate inertia, estimated:
+its least value, and its value over that of a simulation with few modes."""
+
+
+class Fit(NamedTuple):
+    """The constant that a measured restitution determines.
+
+    Attributes
+    ----------
+    value
+        The constant [Pa or s].
+    error
+        Estimated relative error of the results due to it [1].
+    bound
+        Error bound of the restitution in the measurement [1].
+    parts
+        Tolerance of the results over that of a measurement with plate inertia [1]; 0 without
+        plate inertia, where the tolerance of the measurement is `STATIC_RTOL`.
+    """
+
+    value: float
+    error: float
+    bound: float
+    parts: float
+
+
+def fitted(scene: "Scene") -> "Scene":
+    """Return the scene with the constant that its measured restitution determines.
+
+    It has no table `measured`.
+
+    Raises
+    ------
+    SceneError
+        If no value gives the restitution, or a simulation with a trial value fails.
+    """
+    from derivation.scene.scene import read
+
+    assert scene.measured is not None
+    tables = scene.to_json()
+    del tables["measured"]
+    return read(tables | {"plate": tables["plate"] | {scene.measured.solve_for: solved(scene)}})
+
+
+def toleranced(scene: "Scene", rtol: float | None) -> "Scene":
+    """Return a scene with a measurement whose tolerance is that of the results, if one is given."""
+    if scene.measured is None or rtol is None:
+        return scene
+    from derivation.scene.scene import read
+
+    tables = scene.to_json()
+    return read(tables | {"accuracy": tables.get("accuracy", {}) | {"rtol": rtol}})
+
+
+def solved(scene: "Scene") -> float:
+    """Return the constant that the measured restitution of a scene determines [Pa or s]."""
+    return _fit_of(scene).value
+
+
+def error_of(scene: "Scene") -> float:
+    """Return the estimated relative error of the results due to the fitted constant [1].
+
+    Without plate inertia it is the error of the constant: the results change at most about as much.
+    """
+    return _fit_of(scene).error
+
+
+def remaining_of(scene: "Scene", rtol: float | None) -> float | None:
+    """Return the part of a tolerance that the error of a fitted constant leaves [1].
+
+    Raises
+    ------
+    SceneError
+        If nothing is left.
+    """
+    if scene.measured is None or rtol is None:
+        return rtol
+    fit = _fit_of(scene)
+    rest = remaining(rtol, fit.error)
+    if rest is None or rest < TIGHTEST:
+        least = fit.parts * fit.bound or fit.error
+        raise _inaccurate(fit.error, rtol, ENOUGH * least)
+    return rest
+
+
+def in_words(scene: "Scene") -> str:
+    """Return a phrase with the constant, the measured restitution, specimen and speed."""
+    wanted = scene.measured
+    assert wanted is not None
+    value, unit = prefixed(solved(scene), UNITS[wanted.solve_for], DIGITS)
+    specimen = "a thick block" if wanted.target == "block" else "the plate"
+    return (
+        f"plate.{wanted.solve_for} = {value} {unit}, from the restitution "
+        f"{wanted.restitution:g} measured on {specimen} at "
+        f"{wanted.tested_at or scene.impact.speed:g} m/s"
+    )
+
+
+def _fit_of(scene: "Scene") -> Fit:
+    return _fit(json.dumps(scene.to_json()))
+
+
+@lru_cache(maxsize=64)
+def _fit(text: str) -> Fit:
+    """Return the constant of a scene, which is given as JSON text; results are cached."""
+    tables = json.loads(text)
+    measured = measurement_of(tables, tables.pop("measured"))
+    if not measured.static:
+        return _with_inertia(measured, tables.get("accuracy", {}).get("rtol"))
+    value = measured.value(CLOSE["static"])
+    found, changed = (measured.simulated(x) for x in (value, (1.0 + CHANGE) * value))
+    error = found.bound + abs(found.restitution / measured.goal - 1.0)
+    error *= CHANGE / abs(math.log(changed.restitution / found.restitution))
+    return Fit(value, error, found.bound, 0.0)
+
+
+def _with_inertia(measured: Measurement, rtol: float | None) -> Fit:
+    """Return the constant from a measurement with plate inertia.
+
+    A simulation to the tolerance of the measurement may take seconds; few of them are needed near
+    the solution, which simulations with a large tolerance find.
+
+    Parameters
+    ----------
+    rtol
+        Tolerance of the results [1].
+    """
+    first: float | None = None
+    loose = measured.to(LOOSE)
+    lossless = loose.lossless(margin=1.0)
+    try:
+        first = loose.rough_value(lossless)
+    except UnreachedError as unreached:
+        if measured.goal < unreached.least:
+            raise
+    except SceneError:
+        pass  # few modes may fail where more do not
+    slope, ratio = (0.0, LEAST_RATIO) if first is None else _sensitivities(measured, first)
+    parts = 2.0 + (1.0 + AGREES) * ratio
+    accurate = measured.to(DEFAULT if rtol is None else rtol / parts)
+    try:
+        found = None if first is None else _polished(accurate, first, slope, rtol is not None)
+    except ToleranceError as unmet:
+        assert rtol is not None
+        least, named = ratio * unmet.error, ENOUGH * parts * unmet.error
+        raise _inaccurate(least, rtol, named) from None
+    if found is None:
+        value = accurate.value(CLOSE["dynamic"])
+        found, ratio = (value, accurate.simulated(value)), _sensitivities(measured, value)[1]
+    value, trial = found
+    error = ratio * (trial.bound + abs(trial.restitution / measured.goal - 1.0))
+    return Fit(value, error, trial.bound, parts)
+
+
+def _sensitivities(measured: Measurement, value: float) -> tuple[float, float]:
+    """Return the sensitivity of the restitution, and the error of the results over its error [1].
+
+    The errors of the results include their change with the constant, relative to the change of the
+    restitution. It is large where the restitution hardly depends on the constant.
+    """
+    from derivation.scene.dynamic.mode_count import MODES, count_of
+    from derivation.scene.impact import selected_effects
+    from derivation.scene.scene import read
+
+    # The same few modes, so that the number of modes does not change the results.
+    tables = {k: v for k, v in measured.tables.items() if k != "accuracy"}
+    plate = tables["plate"] | {measured.key: value}
+    law = selected_effects(read(tables | {"plate": plate}))[1].law
+    few = {"branches": "A0", "modes": min(2 * count_of(law), MODES)}
+    settings = few | tables.pop("inertia", {})
+    same = replace(measured, tables=tables | {"inertia": settings})
+    one, other = (same.simulated(x) for x in (value, (1.0 + CHANGE) * value))
+    *changes, change = (
+        math.log(after / before) / math.log1p(CHANGE)
+        for after, before in zip(other.outputs, one.outputs, strict=True)
+    )
+    largest = max(map(abs, changes))
+    return change, max(LEAST_RATIO, MARGIN * largest / abs(change) if change else math.inf)
+
+
+def _polished(
+    measured: Measurement, first: float, slope: float, within: bool
+) -> tuple[float, Trial] | None:
+    """Return the accurate value of the constant near a first one, and its simulation.
+
+    None if few simulations do not lead to it.
+
+    Parameters
+    ----------
+    slope
+        Sensitivity of the restitution to the constant, d ln e/d ln c [1].
+    within
+        Whether the tolerance of the measurement must be met.
+
+    Raises
+    ------
+    ToleranceError
+        If a simulation does not meet the tolerance of the measurement.
+    """
+    x, before, change = math.log(first), math.inf, 0.0
+    for _ in range(POLISHES):
+        try:
+            trial = measured.simulated(math.exp(x), within)
+        except ToleranceError:
+            raise
+        except SceneError:
+            return None
+        off = math.log(trial.restitution / measured.goal)
+        if abs(off) <= AGREES * trial.bound:
+            return math.exp(x), trial
+        slope = slope if math.isinf(before) else (off - before) / change
+        before, change = off, -off / slope if slope else math.inf
+        if not abs(change) < FURTHEST:
+            return None
+        x += change
+    return None
+
+
+def inaccurate_constant(scene: "Scene", rtol: float | None, error: ToleranceError) -> SceneError:
+    """Return the error of results that do not meet what a fitted constant leaves of a tolerance.
+
+    Parameters
+    ----------
+    rtol
+        The tolerance of the results [1].
+    error
+        The error of the results with the remaining tolerance.
+    """
+    if scene.measured is None or rtol is None:
+        return error
+    fit = _fit_of(scene)
+    if not fit.parts and fit.error < NEGLIGIBLE * rtol:
+        return error
+    bound = math.expm1(math.log1p(fit.error) + math.log1p(error.error))
+    # A measurement leaves at least two parts of the tolerance.
+    named = ENOUGH * (0.5 * fit.parts * error.error if fit.parts else bound)
+    return _inaccurate(fit.error, rtol, named)
+
+
+def _inaccurate(error: float, rtol: float, named: float) -> SceneError:
+    """Return the error of a constant that is not accurate enough for a tolerance.
+
+    Parameters
+    ----------
+    error
+        Error of the results due to the constant [1].
+    rtol, named
+        Their tolerance, and one that they meet [1].
+    """
+    return SceneError(
+        f"accuracy.rtol: expected about {rounded_up(named)} or more, because the constant from the "
+        f"measured restitution causes an error of {rounded_up(error)}, got {rtol:g}; increase the "
+        f"tolerance to {rounded_up(named)}, or give the constant instead of [measured]"
+    )

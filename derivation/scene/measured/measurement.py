@@ -1,0 +1,302 @@
+"""Simulates the measurement of a restitution with trial values of a material constant.
+
+On a thick block the solution is unique: restitution decreases with decreasing yield stress and with
+increasing retardation time. On a plate that bends, an infinite retardation time leaves an elastic
+plate: the solution with the smaller one is returned, if there is any.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+from derivation.scene.effects import BY_NAME
+from derivation.scene.effects.effect import Results
+from derivation.scene.errors import SceneError
+from derivation.scene.input.settings import TIGHTEST
+
+UNITS = {"yield_stress": "Pa", "retardation_time": "s"}
+BLOCK = 1e4
+"""Radius and half-thickness of the block over the sphere radius."""
+EFFECTS = {"yield_stress": "plasticity", "retardation_time": "viscosity"}
+"""The effect of each constant."""
+EARLY = 1e-2
+"""First trial value of the retardation time over the contact time without viscosity [1]."""
+UNDERESTIMATE = 0.8
+"""Part of the retardation time for which a loss proportional to it gives the restitution [1]: it is
+below the solution, because the loss grows more slowly."""
+YIELDS, POWER = 0.47, 1.6
+"""First trial value of the yield stress over the largest elastic pressure [1]: this multiple of a
+power of the restitution, which is about that of a contact far above yield."""
+STEPS, FACTOR = 40, 2.0
+"""Largest number of steps until two trial values enclose the solution, and ratio of a step."""
+RISING = 3
+"""Number of steps in which restitution increases, from which it has passed its smallest value."""
+ROUGH = 1e-2
+"""Relative difference from the measured restitution that ends a rough search."""
+STATIC_RTOL = 1e-9
+"""Relative tolerance of measurements without plate inertia [1]."""
+
+
+class UnreachedError(SceneError):
+    """The error of a restitution below all that the constant gives, within their bounds `least`."""
+
+    def __init__(self, text: str, least: float) -> None:
+        super().__init__(text, least)
+        self.text, self.least = text, least
+
+    def __str__(self) -> str:
+        return self.text
+
+
+class Trial(NamedTuple):
+    """The results of a measurement with a trial value: outputs, pressure [Pa], error bound [1]."""
+
+    outputs: Results
+    max_pressure: float
+    bound: float
+
+    @property
+    def contact_time(self) -> float:
+        """Duration of the contact, with plate inertia of the first one [s]."""
+        return self.outputs[0]
+
+    @property
+    def restitution(self) -> float:
+        """The restitution [1]."""
+        return self.outputs[-1]
+
+
+class Point(NamedTuple):
+    """Logarithm of a trial value, restitution less the measured one, and its lower bound [1]."""
+
+    x: float
+    above: float
+    least: float
+
+
+def measurement_of(tables: Mapping[str, Any], wanted: Mapping[str, Any]) -> "Measurement":
+    """Return the measurement on a thick block or on the plate, from the tables of a scene."""
+    key, goal = wanted["solve_for"], wanted["restitution"]
+    speed = wanted.get("tested_at", tables["impact"]["speed"])
+    scene = dict(tables) | {"impact": tables["impact"] | {"speed": speed}}
+    if wanted.get("target", "block") == "plate":
+        on_plate = Measurement(scene, key, goal)
+        return on_plate.to(STATIC_RTOL) if on_plate.static else on_plate
+    size = BLOCK * tables["sphere"]["radius"]
+    shape = "radius", "thickness", "half_thickness", "edge", "tensile_strength"
+    block = {k: v for k, v in tables["plate"].items() if k not in shape}
+    block |= {"radius": size, "thickness": 2.0 * size}
+    still = dict.fromkeys(("bending", "finite_thickness", "finite_radius", "edge"), False)
+    local = "sphere_elasticity", "spherical_profile"
+    effects = {k: v for k, v in tables.get("effects", {}).items() if k in local}
+    effects |= still | {"inertia": False, "non_hertzian_pressure": False}
+    kept = {k: v for k, v in scene.items() if k in ("sphere", "materials")}
+    made = {"plate": block, "effects": effects, "impact": {"speed": speed}}
+    return Measurement(kept | made, key, goal).to(STATIC_RTOL)
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """The measurement of a restitution.
+
+    Attributes
+    ----------
+    tables
+        The tables of its scene.
+    key
+        The constant of the plate to determine.
+    goal
+        The measured restitution [1].
+    """
+
+    tables: Mapping[str, Any]
+    key: str
+    goal: float
+
+    @property
+    def static(self) -> bool:
+        """Whether plate inertia is disabled."""
+        wanted = self.tables.get("effects", {})
+        return any(one.dynamic and wanted.get(one.name) is False for one in BY_NAME.values())
+
+    def to(self, rtol: float) -> "Measurement":
+        """Return the measurement with another tolerance of the restitution [1]."""
+        accuracy = {"rtol": max(TIGHTEST, rtol), "outputs": ["restitution"]}
+        return replace(self, tables=dict(self.tables) | {"accuracy": accuracy})
+
+    def simulated(self, value: float | None, within: bool = False) -> Trial:
+        """Simulate the impact with a trial value; without one, the effect of the constant is off.
+
+        Parameters
+        ----------
+        within
+            Whether the tolerance must be met with plate inertia, too.
+        """
+        from derivation.scene.contact_law.limits import check_radius
+        from derivation.scene.impact import selected_effects
+        from derivation.scene.scene import read
+        from derivation.scene.selection.method_selection import solve_selected
+
+        effects = self.tables.get("effects", {}) | {EFFECTS[self.key]: value is not None}
+        plate = self.tables["plate"] | ({} if value is None else {self.key: value})
+        scene = read(dict(self.tables) | {"plate": plate, "effects": effects})
+        rtol, selected = selected_effects(scene)
+        numbers, accuracy = solve_selected(selected, rtol, within=within or self.static)
+        law, a = selected.law, numbers[3]
+        check_radius(law, a, "impact.speed", "reduce the speed")
+        return Trial(numbers, min(law.max_pressure(a), law.pressure_limit), accuracy.bound)
+
+    def lossless(self, margin: float = 0.0) -> Trial:
+        """Return the measurement without energy loss in the contact.
+
+        Parameters
+        ----------
+        margin
+            Factor on the error bound by which the measured restitution may exceed that one.
+
+        Raises
+        ------
+        SceneError
+            If its restitution does not exceed the measured one.
+        """
+        trial = self.simulated(None)
+        most = trial.restitution * (1.0 + margin * trial.bound)
+        if self.goal < most:
+            return trial
+        raise SceneError(
+            f"measured.restitution: expected less than {most:.{3 if margin else 6}g}, the "
+            f"restitution without energy loss in the contact, got {self.goal:.6g}; correct "
+            "measured.restitution or measured.target"
+        )
+
+    def rough_value(self, lossless: Trial) -> float:
+        """Return a value at which the restitution is within `ROUGH` of the measured one.
+
+        Parameters
+        ----------
+        lossless
+            The measurement without energy loss in the contact.
+
+        Raises
+        ------
+        UnreachedError
+            If no trial value encloses it; perhaps only because the tolerance is large.
+        """
+        if self.goal >= lossless.restitution:
+            raise UnreachedError("", -math.inf)
+        low, high = self._bracket(lossless, ROUGH)
+        while True:
+            near = min(low, high, key=lambda point: abs(point.above))
+            if abs(near.above) <= ROUGH * self.goal or abs(high.x - low.x) <= ROUGH:
+                return math.exp(near.x)
+            x = (low.x * high.above - high.x * low.above) / (high.above - low.above)
+            # Not at an end again, where the restitution is curved.
+            margin = 0.1 * (high.x - low.x)
+            point = self._point(min(max(x, low.x + margin), high.x - margin))
+            low, high = (point, high) if point.above * low.above > 0.0 else (low, point)
+
+    def value(self, close: float) -> float:
+        """Return the value at which the restitution agrees with the measured one.
+
+        Parameters
+        ----------
+        close
+            Relative accuracy of the value [1].
+        """
+        from scipy.optimize import brentq
+
+        low, high = self._bracket(self.lossless())
+        return math.exp(float(brentq(lambda x: self._point(x).above, low.x, high.x, xtol=close)))
+
+    def _point(self, x: float) -> Point:
+        """Simulate with the trial value exp(x)."""
+        try:
+            trial = self.simulated(math.exp(x))
+            least = trial.restitution * (1.0 - trial.bound)
+            return Point(x, trial.restitution - self.goal, least)
+        except SceneError as error:
+            raise SceneError(
+                "measured.restitution: expected a value that can be computed, got "
+                f"{self.goal:.6g}, for which the simulation of the measurement fails with "
+                f"plate.{self.key} = {math.exp(x):.6g} {UNITS[self.key]} "
+                f"({str(error).partition(';')[0]}); correct measured.restitution or measured.target"
+            ) from None
+
+    def _first(self, lossless: Trial) -> float:
+        """Return the logarithm of the first trial value, with a larger restitution if possible."""
+        ratio = self.goal / lossless.restitution
+        if self.key == "yield_stress":
+            return math.log(YIELDS * lossless.max_pressure * min(ratio, 1.0) ** POWER)
+        early = math.log(EARLY * lossless.contact_time)
+        loss = 1.0 - (self._point(early).above + self.goal) / lossless.restitution
+        if ratio >= 1.0 or not 0.0 < loss < 1.0:
+            return early
+        return early + max(0.0, math.log(UNDERESTIMATE * math.log(ratio) / math.log1p(-loss)))
+
+    def _bracket(self, lossless: Trial, close: float = 0.0) -> tuple[Point, Point]:
+        """Return two trial values that enclose the solution, the smaller one first.
+
+        Parameters
+        ----------
+        lossless
+            The measurement without energy loss in the contact.
+        close
+            Relative difference of the restitution that suffices: both are then the first value.
+
+        Raises
+        ------
+        SceneError
+            If no trial value encloses the solution.
+        """
+        first = self._first(lossless)
+        more = -math.log(FACTOR) if self.key == "yield_stress" else math.log(FACTOR)
+        now, rising = self._point(first), 0
+        if abs(now.above) < close * self.goal:
+            return now, now
+        # Towards a larger energy loss if the restitution is too large, else towards a smaller one.
+        step = more if now.above > 0.0 else -more
+        points = [now]
+        for _ in range(STEPS):
+            points.append(now := self._point(now.x + step))
+            if now.above * step * more <= 0.0:
+                low, high = sorted(points[-2:])
+                return low, high
+            if step != more or now.above <= points[-2].above:
+                rising = 0
+                continue
+            # An elastic plate under a contact that hardly moves returns the energy again.
+            rising += 1
+            if rising == 1 and len(points) > 2:
+                lowest = self._point(_vertex(*points[-3:]))
+                if lowest.above <= 0.0:
+                    low, high = sorted((points[-3], lowest))
+                    return low, high
+                points.insert(-1, lowest)
+            # With several contacts, restitution is not a monotonic function of the yield stress.
+            beyond_errors = now.least > points[-2].above + self.goal
+            if rising == RISING or (beyond_errors and self.key == "retardation_time"):
+                raise self._unreached(points)
+        raise SceneError(
+            f"measured.restitution: expected a value that some plate.{self.key} gives, got "
+            f"{self.goal:.6g}, which no value from {math.exp(first):.6g} to {math.exp(now.x):.6g} "
+            f"{UNITS[self.key]} gives; correct it, or change measured.solve_for"
+        )
+
+    def _unreached(self, points: list[Point]) -> UnreachedError:
+        """Return the error of a restitution below those of all points."""
+        lowest = min(points, key=lambda point: point.above)
+        return UnreachedError(
+            f"measured.restitution: expected at least the smallest restitution that a "
+            f"plate.{self.key} gives, got {self.goal:.6g}, but it increases again from "
+            f"{self.goal + lowest.above:.6g} at {math.exp(lowest.x):.6g} {UNITS[self.key]}; "
+            "correct measured.restitution or measured.target",
+            min(point.least for point in points),
+        )
+
+
+def _vertex(one: Point, two: Point, three: Point) -> float:
+    """Return the position of the vertex of the parabola through equidistant points."""
+    curvature = one.above - 2.0 * two.above + three.above
+    offset = 0.5 * (one.above - three.above) / curvature if curvature > 0.0 else 0.0
+    return two.x + (two.x - one.x) * offset

@@ -1,0 +1,1 @@
+"""Quadrature, Chebyshev polynomials and collocation."""

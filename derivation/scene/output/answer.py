@@ -1,0 +1,116 @@
+"""A result as text: summary, details, and HTML for a notebook."""
+
+import math
+from collections.abc import Iterator
+from html import escape
+from typing import TYPE_CHECKING
+
+from derivation.engine.text import aligned, paragraph
+from derivation.scene.contact_law.yield_warnings import assumed_yield_stress
+from derivation.scene.quantity import prefixed, significant
+
+if TYPE_CHECKING:
+    from derivation.scene.dynamic.wave_motion import DynamicImpact
+    from derivation.scene.result import Result
+
+CONTACT_HEADS = "#start [s]", "#end [s]", "#impulse [N s]", "#peak force [N]", "#speed ratio"
+"""Column heads of the table of contacts."""
+
+
+def quantities(result: "Result") -> list[tuple[str, str, str]]:
+    """Return name, value with significant digits, and unit with SI prefix of each result."""
+    rows = result.numbers()
+    contacts = len(result.dynamics.inertia.contacts) if result.dynamics is not None else 1
+    if contacts == 1:  # the total time is the contact time
+        rows = [row for row in rows if row[0] != "total_time"]
+    return [
+        (_named(name, contacts), *prefixed(value, unit, result.digits))
+        for name, value, unit in rows
+    ]
+
+
+def _named(name: str, contacts: int) -> str:
+    """Return the displayed name of a result."""
+    if name == "contact_time" and contacts > 1:
+        return f"contact time (first of {contacts})"
+    return name.replace("_", " ")
+
+
+def plain(result: "Result") -> str:
+    """Return name, value and SI unit of each result, one result per line."""
+    lines = []
+    for name, value, unit in result.numbers():
+        known = math.isfinite(value) and result.digits
+        number = significant(value, result.digits) if known else "unknown"
+        lines.append(f"{name} {number} {unit}")
+    return "\n".join(lines)
+
+
+def short(result: "Result") -> str:
+    """Return the results with error bound and included effects."""
+    rows = quantities(result)
+    names, values = (max(len(row[column]) for row in rows) for column in (0, 1))
+    table = (f"{name:{names}}  {value:>{values}} {unit}".rstrip() for name, value, unit in rows)
+    blocks = ["\n".join(table), "\n".join(map(paragraph, _remarks(result)))]
+    if result.incomplete_note:
+        blocks.insert(0, paragraph(result.incomplete_note))
+    if result.comparison:
+        blocks.append(result.comparison.to_text())
+    return "\n\n".join(blocks)
+
+
+def _remarks(result: "Result") -> Iterator[str]:
+    """Yield the lines below the table of results."""
+    model = f", model error up to {100 * result.model_error:.2g} %" if result.model_error else ""
+    yield f"Accuracy: {result.accuracy.summary}{model}"
+    if result.complete and not result.digits and math.isfinite(result.accuracy.bound):
+        yield f"Unknown: the error by {result.accuracy.largest_part} may be as large as the results"
+    yield f"Effects: {result.effects.summary}"
+    if result.energy_balance is not None and result.complete:
+        error = result.accuracy.bound + result.model_error
+        yield f"Energy: {result.energy_balance.in_words(error)}"
+    if result.measured_note:
+        yield f"Measured: {result.measured_note}"
+    if result.disabled_note:
+        yield result.disabled_note
+    if result.strength_note:
+        yield f"Strength: {result.strength_note}"
+    if not result.effects.law.viscous:  # its pressure is known only in part
+        assumed = assumed_yield_stress(result.scene, result.max_pressure, result.max_tensile_stress)
+        if assumed:
+            yield f"Yield: {assumed}"
+
+
+def details(result: "Result") -> str:
+    """Return the summary, then method and bound, the effects table, and the table of contacts."""
+    notes = [str(result.accuracy), result.model_note]
+    blocks = [short(result), "\n".join(paragraph(text) for text in notes if text)]
+    blocks.append(f"Effects\n\n{result.effects.to_text()}")
+    if result.dynamics is not None:
+        blocks.append(_contacts(result.dynamics))
+    return "\n\n".join(blocks)
+
+
+def _contacts(dynamics: "DynamicImpact") -> str:
+    """Return the table of contacts, and how the impact ended."""
+    title = "Contacts (speed ratio: approach speed / impact speed)"
+    notes = "\n".join(map(paragraph, dynamics.notes()))
+    return f"{title}\n\n{aligned(CONTACT_HEADS, dynamics.lines())}\n\n{notes}"
+
+
+def html(result: "Result") -> str:
+    """Return the summary and warnings as HTML; the details are folded."""
+    cells = (
+        f"<tr><td>{name}</td><td style='text-align:right'>{value}</td><td>{unit}</td></tr>"
+        for name, value, unit in quantities(result)
+    )
+    incomplete = f"<p><b>{escape(result.incomplete_note)}</b></p>" if result.incomplete_note else ""
+    remarks = "".join(f"<p>{escape(text)}</p>" for text in _remarks(result))
+    paper = result.comparison.to_html() if result.comparison else ""
+    warnings = "".join(f"<p><b>Warning:</b> {escape(text)}</p>" for text in result.warnings)
+    notes = (str(result.accuracy), result.model_note)
+    more = "".join(f"<p>{escape(text)}</p>" for text in notes if text) + result.effects.to_html()
+    if result.dynamics is not None:
+        more += result.dynamics.to_html()
+    folded = f"<details><summary>Details</summary>{more}</details>"
+    return f"{incomplete}<table>{''.join(cells)}</table>{remarks}{paper}{warnings}{folded}"

@@ -1,0 +1,192 @@
+"""Draws for which a/h and h/b the effect selection includes each effect, with the scene marked.
+
+Sphere, materials, edge and tolerance are those of the scene. Thickness and speed vary; the speed is
+that which gives the contact radius on a quasi-static plate. For each point the effects are selected
+as for the scene itself (`selection.select`), so that the map agrees with `explain`.
+"""
+
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.contact_law.limits import energy_of
+from derivation.scene.effects import EFFECTS, PAPER
+from derivation.scene.errors import SceneError
+from derivation.scene.model import Model
+from derivation.scene.output.plot import saved
+from derivation.scene.quasi_static.motion import largest_radius
+from derivation.scene.result import Result
+from derivation.scene.selection.selection import Selection, select
+from generated.arrays import Double as Array
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+THICKNESSES = np.geomspace(1e-3, 10.0, 25)
+"""h/b of the map."""
+RADII = np.geomspace(1e-3, 6.0, 25)
+"""a/h of the map."""
+COLOURS = ("#1f4e79", "#b35806", "#1b7837", "#762a83", "#b2182b", "#01665e", "#e7298a")
+CHOICES = {"auto": "", True: " (enabled in the scene)", False: " (disabled in the scene)"}
+"""Remark in the legend by the choice of the scene."""
+OUTSIDE = "0.88"
+"""Grey of points outside the range of the contact law."""
+TICKS = 9.0
+"""Distance of the ticks on a line [pt]."""
+MOST, SIDE = 100.0, 1.001
+"""Largest ratio in the map, and smallest ratio where an effect is included."""
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Result of the effect selection by thickness (columns) and contact radius (rows).
+
+    Attributes
+    ----------
+    thicknesses, radii
+        h/b and a/h, including those of the scene [1].
+    ratios
+        For each effect, its largest change of the results over the tolerance [1]: above 1 where it
+        is included, below 1 where it is omitted, NaN outside the range of the contact law.
+    """
+
+    thicknesses: Array
+    radii: Array
+    ratios: dict[str, Array]
+
+
+def drawn(result: Result) -> list[str]:
+    """Return the names of the effects that the selection may include or omit."""
+    model = result.model
+    return [
+        e.name
+        for e in EFFECTS
+        if e.selectable and not (e.always_included or e.not_applicable_reason(model))
+    ]
+
+
+def grid(result: Result, rtol: float) -> Grid:
+    """Select the effects for all thicknesses and contact radii, at a tolerance [1]."""
+    model, wanted = result.model, result.scene.effects.model_dump()
+    eta, wide = model.eta, result.max_contact_radius / model.h
+    thicknesses = np.unique(np.append(THICKNESSES, eta))
+    # The range includes the contact radius of the scene.
+    low = min(RADII[0], wide / 2)
+    radii = np.unique(np.append(np.geomspace(low, RADII[-1], RADII.size), wide))
+    names = drawn(result)
+    ratios = {name: np.full((radii.size, thicknesses.size), math.nan) for name in names}
+    with np.errstate(all="ignore"):
+        # By the paper's law the contact radius of the scene differs.
+        try:
+            stretch = largest_radius(_law(model)) / result.max_contact_radius
+        except SceneError:
+            stretch = math.nan
+        for column, ratio in enumerate(thicknesses):
+            plate = replace(model, h=model.h if ratio == eta else float(ratio) * model.b)
+            for row, width in enumerate(radii):
+                a = float(width) * plate.h
+                own = ratio == eta and width == wide
+                if not (own or a < min(model.b, model.R)):
+                    continue
+                speed = model.v0 if own else _speed(plate, stretch * a)
+                if not 0.0 < speed < math.inf:
+                    continue
+                case = replace(plate, v0=speed)
+                selection = select(case, wanted, rtol, result.effects.outputs)
+                for name in names:
+                    ratios[name][row, column] = _ratio(selection, name, rtol)
+    return Grid(thicknesses, radii, ratios)
+
+
+def _law(model: Model) -> ContactLaw:
+    """Return the paper's law, which relates contact radius and speed."""
+    return ContactLaw(replace(model, gravity=0.0), PAPER)
+
+
+def _speed(model: Model, a: float) -> float:
+    """Return the speed [m/s] for a largest contact radius [m] by the paper's law; NaN if none."""
+    law = _law(model)
+    energy = energy_of(law, a) if a < law.limit else math.nan
+    return math.sqrt(2.0 * energy / model.m) if energy > 0.0 else math.nan
+
+
+def _ratio(selection: Selection, name: str, rtol: float) -> float:
+    """Return the change by an effect over the tolerance, above 1 if the effect is included."""
+    if selection.reasons[name]:
+        return math.nan
+    size = selection.sizes.get(name, math.inf)
+    ratio = min(size / rtol, MOST)
+    if selection.choice[name] is False:
+        return ratio
+    return max(ratio, SIDE) if name in selection.included else min(ratio, 1.0 / SIDE)
+
+
+def lines(map_grid: Grid) -> dict[tuple[str, ...], Array]:
+    """Return the ratios of the effects, grouped if they are included at the same points."""
+    groups: dict[bytes, list[str]] = {}
+    for name, ratio in map_grid.ratios.items():
+        groups.setdefault((ratio > 1.0).tobytes(), []).append(name)
+    return {tuple(names): map_grid.ratios[names[0]] for names in groups.values()}
+
+
+def figure(result: Result, rtol: float) -> "Figure":
+    """Return the map of a scene as a Matplotlib figure."""
+    from matplotlib.figure import Figure
+    from matplotlib.patches import Patch
+
+    point = result.model.eta, result.max_contact_radius / result.model.h
+    map_grid, wanted = grid(result, rtol), result.scene.effects.model_dump()
+    made = Figure(figsize=(7.5, 6.5), layout="constrained")
+    axes = made.subplots()
+    axes.set(facecolor=OUTSIDE, xscale="log", yscale="log")
+    known = np.isfinite(np.array([*map_grid.ratios.values()])).any(axis=0)
+    axes.contourf(
+        map_grid.thicknesses, map_grid.radii, np.where(known, 0.0, np.nan), colors=["white"]
+    )
+    colours = iter(COLOURS)
+    for names, ratio in lines(map_grid).items():
+        label = ", ".join(name + CHOICES[wanted[name]] for name in names)
+        finite = ratio[np.isfinite(ratio)]
+        if not finite.size or finite.min() > 1.0 or finite.max() < 1.0:
+            where = "everywhere" if finite.size and finite.min() > 1.0 else "nowhere"
+            axes.plot([], [], linestyle="none", label=f"{where}: {label}")
+            continue
+        _line(axes, map_grid, ratio, next(colours), label)
+    axes.plot(
+        *point, marker="*", markersize=14, color="black", linestyle="none", label="this scene"
+    )
+    axes.set(xlabel="half-thickness / plate radius, $h/b$ [1]")
+    axes.set(ylabel="largest contact radius / half-thickness, $a/h$ [1]")
+    axes.set_xlim(min(THICKNESSES[0], point[0] / 2), max(THICKNESSES[-1], point[0] * 2))
+    axes.set_ylim(map_grid.radii[0], max(map_grid.radii[-1], point[1] * 2))
+    axes.set_title(
+        "Shaded (the side with the ticks): omitting the effect\n"
+        f"may change a result by more than {rtol:g} (relative)",
+        fontsize=10,
+    )
+    handles, _ = axes.get_legend_handles_labels()
+    handles.append(Patch(facecolor=OUTSIDE, label="outside the range of the contact law"))
+    made.legend(handles=handles, loc="outside lower center", fontsize=8, frameon=False)
+    return made
+
+
+def _line(axes: "Axes", map_grid: Grid, ratio: Array, colour: str, label: str) -> None:
+    """Draw the line beyond which an effect is included, with ticks and shading on that side."""
+    from matplotlib.patheffects import withTickedStroke
+
+    values = np.log(np.maximum(ratio, 1.0 / MOST))
+    coordinates = map_grid.thicknesses, map_grid.radii, values
+    axes.contourf(*coordinates, levels=[0.0, np.inf], colors=[colour], alpha=0.12)
+    line = axes.contour(*coordinates, levels=[0.0], colors=[colour])
+    # Matplotlib has the larger values on the left of a line.
+    line.set_path_effects([withTickedStroke(spacing=TICKS, angle=90.0, length=0.8)])
+    axes.plot([], [], color=colour, label=label)
+
+
+def render(result: Result, rtol: float, suffix: str) -> bytes:
+    """Return the map as the content of a file with the suffix `.png`, `.svg` or `.pdf`."""
+    return saved(figure(result, rtol), suffix)

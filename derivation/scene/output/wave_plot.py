@@ -1,0 +1,116 @@
+"""Draws an impact on a plate with inertia: time history, energies and restitution."""
+
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from derivation.scene.contact_law.limits import zener_number
+from derivation.scene.dynamic.time_element import E, P, V, W, Z
+from derivation.scene.output.plot import BLUE, BROWN, frame, scaled, title
+from derivation.scene.result import Result
+from generated.arrays import Double as Array
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+POINTS = 1201
+"""Number of times in the figure."""
+ZENER = np.geomspace(1e-3, 10.0, 25)
+"""Zener parameters of the curve of restitution [1]."""
+TITLES = {
+    "z": "Displacement, positive into the plate",
+    "P": "Contact force",
+    "v": "Velocity",
+    "energy": "Energy",
+    "e": "Restitution, compared with an infinite plate",
+}
+"""Titles of the panels."""
+GREEN = "#5a8f5a"
+
+
+def figure(result: Result) -> "Figure":
+    """Return the impact as a Matplotlib figure."""
+    from matplotlib.figure import Figure
+
+    dynamics = result.dynamics
+    assert dynamics is not None
+    times = np.linspace(0.0, result.total_time, POINTS)
+    rows = dynamics.rows(times)
+    t, label = scaled(times, "time $t$", "s")
+    made = Figure(figsize=(8.0, 9.5), layout="constrained")
+    drawn = made.subplot_mosaic([["z", "z"], ["P", "v"], ["energy", "e"]])
+    (sphere, face), w_label = scaled(rows[[Z, W]], "displacement $z$, $w$", "m")
+    drawn["z"].plot(t, sphere, color=BLUE, linewidth=1.5, label="sphere, $z$")
+    drawn["z"].plot(t, face, color=BROWN, linewidth=1.2, label="plate at the axis, $w$")
+    force, f_label = scaled(rows[P], "contact force $P$", "N")
+    drawn["P"].plot(t, force, color=BLUE, linewidth=1.5)
+    velocity, v_label = scaled(rows[V], "sphere velocity $v$", "m/s")
+    drawn["v"].plot(t, velocity, color=BLUE, linewidth=1.5)
+    _energies(drawn["energy"], result, t, rows)
+    _restitution(drawn["e"], result)
+    e_label = "energy / initial kinetic energy [1]"
+    for name, y_label in (("z", w_label), ("P", f_label), ("v", v_label), ("energy", e_label)):
+        frame(drawn[name], label, y_label)
+        for touch in dynamics.inertia.contacts:
+            begin, end = np.array([touch.start, touch.end]) * (t[-1] / times[-1])
+            drawn[name].axvspan(begin, end, color="0.9", zorder=0, linewidth=0)
+    drawn["z"].patches[0].set_label("in contact")
+    drawn["z"].legend(frameon=False)
+    drawn["z"].invert_yaxis()
+    for name, text in TITLES.items():
+        drawn[name].set_title(text, fontsize=10)
+    made.suptitle(title(result), fontsize=11)
+    return made
+
+
+def _energies(axes: "Axes", result: Result, t: Array, rows: Array) -> None:
+    """Draw the energies of sphere, plate and contact, stacked."""
+    m, v0 = result.model.m, result.model.v0
+    sphere, plate = (rows[V] / v0) ** 2, 2.0 * rows[E] / m / v0**2
+    contact = np.maximum(1.0 - sphere - plate, 0.0)
+    names = ["sphere", "plate", "contact"]
+    law = result.effects.law
+    if law.gravity or law.viscous or law.plastic or law.damping_ratio:
+        names[2] = "contact and dissipated"
+    axes.stackplot(t, sphere, plate, contact, labels=names, colors=(BLUE, BROWN, GREEN), alpha=0.75)
+    axes.legend(frameon=True, loc="center right")
+    axes.set_ylim(0.0, 1.0)
+
+
+def _restitution(axes: "Axes", result: Result) -> None:
+    """Draw the restitution of the impact and that of an infinite plate."""
+    curve = [zener_restitution(number) for number in ZENER]
+    axes.semilogx(ZENER, curve, color="0.4", linewidth=1.2, label="infinite plate (Zener, 1941)")
+    number = zener_number(result.model)
+    axes.plot([number], [result.restitution], "o", color=BROWN, label="this impact")
+    frame(axes, r"Zener parameter $\lambda$ [1]", "coefficient of restitution $e$ [1]")
+    axes.set_ylim(0.0, 1.05)
+    axes.legend(loc="lower left", fontsize=8, frameon=False)
+
+
+@lru_cache(maxsize=64)
+def zener_restitution(number: float) -> float:
+    """Return the restitution [1] on an infinite thin plate with Hertzian contact (Zener, 1941).
+
+    Parameters
+    ----------
+    number
+        Zener parameter [1].
+    """
+    from scipy.integrate import solve_ivp
+
+    # In units of m, v0 and K = (4/3) E* sqrt(R): v' = -s^(3/2), s' = v - number s^(3/2).
+    def rate(_: float, state: Array) -> tuple[float, float]:
+        force = max(float(state[0]), 0.0) ** 1.5
+        return float(state[1]) - number * force, -force
+
+    def released(_: float, state: Array) -> float:
+        return float(state[0])
+
+    released.terminal, released.direction = True, -1.0  # type: ignore[attr-defined]
+    long = 10.0 * (1.0 + number) ** 2
+    times, begin = (0.0, long), (0.0, 1.0)
+    solution = solve_ivp(rate, times, begin, "DOP853", events=released, rtol=1e-12, atol=1e-14)
+    return max(0.0, -float(solution.y[1, -1]))

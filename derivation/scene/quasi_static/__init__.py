@@ -1,0 +1,1 @@
+"""Impacts on a quasi-static plate: elastic, viscoelastic and plastic contacts."""

@@ -1,0 +1,1 @@
+"""Simulation of many scenes at once, in arrays with a row for each."""

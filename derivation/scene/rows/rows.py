@@ -1,0 +1,289 @@
+"""Simulation of many scenes: columns of numbers in, columns of results out.
+
+Impacts on quasi-static plates with Hertzian pressure are computed in arrays. All other rows
+(non-Hertzian pressure, a viscoelastic or plastic contact, plate inertia), invalid rows, and rows
+for which rounding could change a decision are simulated one by one. Each row is equal to the result
+of `simulate` for its scene: effects, status and reason are the same, and numbers to the last bit.
+"""
+
+import math
+import time
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from derivation.scene.dynamic.edge_remainder import edge_remainders
+from derivation.scene.effects import EFFECTS
+from derivation.scene.errors import SceneError
+from derivation.scene.impact import selection_tolerance, simulate
+from derivation.scene.input.keys import number_key
+from derivation.scene.input.units import unit_warnings_of_rows
+from derivation.scene.result import UNITS
+from derivation.scene.rows.columns import Columns, allowed, models_of, of_bodies, row_of
+from derivation.scene.rows.selection import Group, Rejected, selected
+from derivation.scene.rows.static_rows import impacts_of
+from derivation.scene.rows.warnings import warnings_of_rows
+from derivation.scene.scene import OUTPUTS, Scene, read
+from derivation.scene.selection.selection import check_enabled
+from generated.arrays import Double as Array
+
+BLOCK = 2**15
+"""Number of rows computed together, which bounds the memory."""
+ROUNDING = 1e-14
+"""Distance of a bound from the tolerance at which the row is simulated singly [1]."""
+STRENGTH = "plate.tensile_strength"
+"""A key that only warnings use."""
+TRIED = 8
+"""Number of rows to read until one is valid."""
+
+
+@dataclass(frozen=True)
+class Rows:
+    """Results of many scenes, in columns.
+
+    Attributes
+    ----------
+    results
+        Columns by the names of `UNITS` (contact_time ... max_tensile_stress), in SI units; NaN
+        without a result.
+    bound
+        Bound on the relative error of each row [1]; NaN without a result.
+    model_error
+        Largest relative error of the model itself [1], as in `Result`; NaN without a result.
+    status
+        "finished", "incomplete" or "rejected".
+    reason
+        Why a row is rejected or incomplete; else its warnings, joined by "; ", if there are any.
+    effects
+        Names of the effects included, joined by spaces; empty if the row is rejected.
+    """
+
+    results: dict[str, NDArray[np.float64]]
+    bound: NDArray[np.float64]
+    model_error: NDArray[np.float64]
+    status: NDArray[np.str_]
+    reason: NDArray[np.object_]
+    effects: NDArray[np.object_]
+
+    def __len__(self) -> int:
+        return len(self.status)
+
+    def first(self, count: int) -> "Rows":
+        """Return the first rows."""
+        results = {name: values[:count] for name, values in self.results.items()}
+        return Rows(
+            results,
+            self.bound[:count],
+            self.model_error[:count],
+            self.status[:count],
+            self.reason[:count],
+            self.effects[:count],
+        )
+
+
+def solve(
+    scene: Scene,
+    columns: Mapping[str, NDArray[np.float64]],
+    rtol: float | None = None,
+    seconds: float = math.inf,
+) -> Rows:
+    """Simulate the scenes of many rows.
+
+    Parameters
+    ----------
+    scene
+        The scene with all other keys.
+    columns
+        Numbers in SI units by key, `table.key` or `materials.NAME.key`: arrays of the same length,
+        with a row for each scene. A key replaces the keys of the scene that it excludes: for
+        example, half_thickness replaces thickness.
+    rtol
+        Relative tolerance of the results [1], as for `simulate`.
+    seconds
+        Run time after which no more rows are simulated one by one [s].
+
+    Returns
+    -------
+    Rows
+        The results of `simulate` for the scene of each row; an invalid row is rejected. After
+        `seconds` these are only the rows before the first one that is left, at least one.
+
+    Raises
+    ------
+    SceneError
+        If a key is not a numeric key of a scene file, or the columns differ in length.
+    """
+    given = {key: np.asarray(values, dtype=np.float64) for key, values in columns.items()}
+    lengths = {values.shape for values in given.values()}
+    if len(lengths) != 1 or any(len(shape) != 1 for shape in lengths):
+        raise SceneError(
+            "columns: expected one or more arrays of the same length, got shapes "
+            f"{sorted(lengths)}; give each key one number for each row"
+        )
+    for key in given:
+        number_key(key)
+    [(count,)] = lengths
+    rows, until = _empty(count), time.perf_counter() + seconds
+    for start in range(0, count, BLOCK):
+        part = {key: values[start : start + BLOCK] for key, values in given.items()}
+        left = _Block(scene, part, rtol, rows, start).run(until)
+        if left is not None:
+            return rows.first(left)
+    return rows
+
+
+def _empty(count: int) -> Rows:
+    """Return rows without results."""
+    results = {name: np.full(count, np.nan) for name in UNITS}
+    bound, model_error = np.full(count, np.nan), np.full(count, np.nan)
+    status = np.full(count, "rejected", dtype="<U10")
+    reason, effects = np.full(count, "", dtype=object), np.full(count, "", dtype=object)
+    return Rows(results, bound, model_error, status, reason, effects)
+
+
+@dataclass(frozen=True)
+class _Block:
+    """Some of the rows, with the places of their results."""
+
+    scene: Scene
+    columns: Columns
+    rtol: float | None
+    table: Rows
+    start: int
+
+    def run(self, until: float) -> int | None:
+        """Simulate the rows, in arrays where possible and the others one by one.
+
+        Return the first row that is left when the time is over, or None. It is never row 0.
+        """
+        count = len(next(iter(self.columns.values())))
+        left = np.ones(count, dtype=bool)
+        for rows in self._in_arrays():
+            left[rows] = False
+        self._add_unit_warnings(np.flatnonzero(~left))
+        for row in np.flatnonzero(left).tolist():
+            if self.start + row and time.perf_counter() > until:
+                return self.start + row
+            self._one(row)
+        return None
+
+    def _one(self, row: int) -> None:
+        """Simulate a single row."""
+        table, index = self.table, self.start + row
+        try:
+            result = simulate(read(row_of(self.scene, self.columns, row)), rtol=self.rtol)
+            included = " ".join(result.effects.included)
+            numbers = {name: float(getattr(result, name)) for name in UNITS}
+        except SceneError as error:
+            table.reason[index] = str(error)
+            return
+        table.effects[index] = included
+        if not result.complete:
+            table.status[index] = "incomplete"
+            table.reason[index] = result.incomplete_note
+            return
+        table.status[index] = "finished"
+        table.reason[index] = "; ".join(result.warnings)
+        table.bound[index], table.model_error[index] = result.accuracy.bound, result.model_error
+        for name, number in numbers.items():
+            table.results[name][index] = number
+
+    def _add_unit_warnings(self, rows: NDArray[np.intp]) -> None:
+        """Begin the reasons of rows with the warnings about their units."""
+        scene = self._readable(rows[:1].tolist())
+        if scene is None:
+            return
+        columns = {key: values[rows] for key, values in self.columns.items()}
+        for row, texts in unit_warnings_of_rows(scene, columns).items():
+            index = self.start + rows[row]
+            rest = self.table.reason[index]
+            self.table.reason[index] = "; ".join((*texts, rest) if rest else texts)
+
+    def _in_arrays(self) -> Iterable[NDArray[np.intp]]:
+        """Simulate rows in arrays, and yield their indices."""
+        if self.scene.measured is not None or not of_bodies(self.columns):
+            return
+        rows = np.flatnonzero(allowed(self.columns))
+        scene = self._readable(rows[:TRIED].tolist())
+        if scene is None:
+            return
+        columns = {key: values[rows] for key, values in self.columns.items()}
+        model, sound = models_of(scene, columns)
+        accuracy, rtol = scene.accuracy, self.rtol
+        if rtol is None and accuracy is not None:
+            rtol = accuracy.rtol
+        outputs = accuracy.outputs if accuracy is not None else OUTPUTS
+        try:
+            tolerance = selection_tolerance(rtol)
+        except SceneError:
+            return
+        rows, model = rows[sound], model.take(sound)
+        if not len(rows) or (model.inertia.infinite_plate and np.any(model.density)):
+            return
+        try:
+            check_enabled(scene, model.take(0))
+        except SceneError:
+            return
+        wanted = scene.effects.model_dump()
+        for group in selected(model, wanted, np.full(len(rows), tolerance), outputs):
+            if isinstance(group, Rejected):
+                self.table.reason[self.start + rows[group.rows]] = group.reason
+                yield rows[group.rows]
+            else:
+                yield rows[self._static(group, rows[group.rows], scene, rtol)]
+
+    def _readable(self, rows: list[int]) -> Scene | None:
+        """Return the scene of the first valid row; all rows have the same keys."""
+        for row in rows:
+            try:
+                return read(row_of(self.scene, self.columns, row))
+            except SceneError:
+                continue
+        return None
+
+    def _static(
+        self, group: Group, rows: NDArray[np.intp], scene: Scene, rtol: float | None
+    ) -> NDArray[np.intp]:
+        """Compute the impacts of a group; return the rows that have results."""
+        law, error = group.law, group.error
+        rest = None if rtol is None else (rtol - error) / (1.0 + error)
+        impacts = impacts_of(law, len(rows), rest)
+        parts = (error, impacts.law, impacts.quadrature, impacts.rounding)
+        bound = np.expm1(sum(np.log1p(part) for part in parts))
+        a, P = impacts.max_contact_radius[:, None], impacts.max_force[:, None]
+        with np.errstate(all="ignore"):
+            numbers = {
+                "contact_time": impacts.contact_time,
+                "max_indentation": impacts.max_indentation,
+                "max_force": impacts.max_force,
+                "max_contact_radius": impacts.max_contact_radius,
+                "restitution": np.ones(len(rows)),
+                "max_pressure": law.centre_pressure(a)[:, 0],
+                "max_tensile_stress": law.tensile_stresses(a, P, group.held)[:, 0],
+            }
+            known = np.all([np.isfinite(x) & (x > 0.0) for x in list(numbers.values())[:4]], axis=0)
+            known &= np.broadcast_to(a < law.limit, a.shape)[:, 0]
+        if rtol is not None:  # other rows do not meet the tolerance, or only just
+            known &= bound <= rtol - ROUNDING
+        model_error = np.zeros(len(rows))
+        if law.other_edge:
+            model_error = edge_remainders(law.model, a)[:, 0]
+        known &= np.isfinite(model_error)
+        which = np.flatnonzero(known)
+        strength: Array | float | None = scene.plate.tensile_strength
+        if STRENGTH in self.columns:
+            strength = self.columns[STRENGTH][rows]
+        reasons = warnings_of_rows(law, numbers, strength, which)
+        indices = self.start + rows[which]
+        for name, values in numbers.items():
+            self.table.results[name][indices] = values[which]
+        self.table.bound[indices], self.table.model_error[indices] = (
+            bound[which],
+            model_error[which],
+        )
+        self.table.status[indices], self.table.reason[indices] = "finished", reasons
+        included = " ".join(effect.name for effect in EFFECTS if effect.name in law.effects)
+        self.table.effects[indices] = included
+        return group.rows[which]

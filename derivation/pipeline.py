@@ -7,7 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from derivation.engine.activity import Progress, quiet
+from derivation.engine.build import expect_package
 from derivation.engine.files import PACKAGE, expect_writable, measurements, write_file
+from derivation.engine.measure.domain_search import domain_targets
 from derivation.engine.measure.judge import Errors
 from derivation.engine.measure.record import provenance
 from derivation.engine.measure.result import CheckResult, all_passed
@@ -15,6 +17,7 @@ from derivation.engine.measure.search import Progress as SearchProgress
 from derivation.engine.measure.search import Search, search
 from derivation.engine.measure.search_record import SearchRecord, seconds_of
 from derivation.engine.outputs import folder_for, plain, recorded_in, sorted_json
+from derivation.engine.paper import Paper
 from derivation.plate.benchmark import run as accuracy_run
 from derivation.plate.benchmark import speed, user_calls
 from derivation.plate.contact.cases.check import KERNELS, LIMIT, ContactRow
@@ -161,6 +164,7 @@ def search_worse(
     functions: Sequence[str] = (),
     out: Path | None = None,
     progress: SearchProgress | None = None,
+    paper: Paper | None = None,
 ) -> tuple[Search, SearchRecord]:
     """Search for larger errors for some time, and write each new worst case to a file.
 
@@ -176,6 +180,8 @@ def search_worse(
         File for the worst cases; by default ``search.toml`` in the paper's report folder.
     progress
         Called at each function's turn.
+    paper
+        The paper of the functions; by default that on plates.
 
     Returns
     -------
@@ -189,10 +195,18 @@ def search_worse(
     OSError
         If the file cannot be written.
     """
-    seconds, chosen = seconds_of(duration), targets(functions)
-    path = folder_for(None, PAPER.report_folder) / "search.toml" if out is None else out
+    seconds = seconds_of(duration)
+    if paper is None:
+        chosen, known = targets(functions), recorded(PAPER.measured, MEASURED_CONTACT)
+    else:
+        expect_package(paper)
+        chosen, known = (
+            domain_targets(paper.judge(), paper.chain, functions),
+            recorded(paper.measured),
+        )
+    path = folder_for(None, (paper or PAPER).report_folder) / "search.toml" if out is None else out
     expect_writable(path)
-    book = SearchRecord(path, chosen, *recorded(PAPER.measured, MEASURED_CONTACT))
+    book = SearchRecord(path, chosen, *known)
     result = search(chosen, seed, seconds, progress=progress, keep=book.keep)
     book.keep(result)
     return result, book

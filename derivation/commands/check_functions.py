@@ -88,6 +88,7 @@ def search(
             help="Write new worst cases to this file (default: reports/search.toml).",
         ),
     ] = None,
+    paper: PaperFolder = None,
     json: Json = None,
 ) -> None:
     """Search for larger errors at random arguments.
@@ -106,8 +107,9 @@ def search(
         cells,
     )
 
+    own = None if paper is None else chosen_paper(paper)
     with search_clock("search") as progress:
-        results, book = pipeline.search_worse(time, seed, function or [], out, progress)
+        results, book = pipeline.search_worse(time, seed, function or [], out, progress, own)
     if write_json_output(lambda: as_data(results), json):
         table(f"Search, seed {seed}", COLUMNS, [cells(k, results, book) for k in results.standings])
         listing("Worst arguments", [arguments(k, results) for k in results.standings])

@@ -160,6 +160,14 @@ def misprints(paper: Paper) -> tuple[Finding, ...]:
     return paper.errata.findings(paper.chain)
 
 
+def expect_package(paper: Paper) -> None:
+    """Raise FileNotFoundError if the code of a paper has not been generated."""
+    if not (paper.package_folder / "manifest.py").is_file():
+        raise FileNotFoundError(
+            f"no package in {paper.package_folder}: run `platecontact generate` with the same paper"
+        )
+
+
 def check(
     paper: Paper, digits: int = 50, update: bool = False, progress: Progress = quiet
 ) -> "tuple[Row, ...]":
@@ -194,10 +202,7 @@ def check(
 
     if update:
         expect_recordable(paper.measured)
-    if not (paper.package_folder / "manifest.py").is_file():
-        raise FileNotFoundError(
-            f"no package in {paper.package_folder}: run `platecontact generate` with the same paper"
-        )
+    expect_package(paper)
     rows = measure.check(paper.judge(), digits, progress=progress)
     if update:
         write_file(paper.measured, to_json(rows, digits, paper.package().target))

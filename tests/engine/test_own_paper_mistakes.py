@@ -36,7 +36,7 @@ MISTAKES = {
     ),
     "no budget": (
         "budgets.toml",
-        ("F_bonded = 3\n", ""),
+        ("F_bonded = 6\n", ""),
         r"budgets\.toml: expected an error budget for F_bonded; add for example `F_bonded = 4`",
         2,
     ),
@@ -87,7 +87,7 @@ MISTAKES = {
     ),
     "a budget that is no number": (
         "budgets.toml",
-        ("F_bonded = 3", 'F_bonded = "two"'),
+        ("F_bonded = 6", 'F_bonded = "two"'),
         r"expected a positive number of ULP for F_bonded, got 'two'",
         2,
     ),

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 from guide import apply_examples
 
+from derivation import pipeline
 from derivation.engine import build
 from derivation.engine.errata.findings import CORRECT
 from derivation.engine.files import ROOT
@@ -162,6 +163,27 @@ def test_smaller_budgets_are_suggested_but_not_written(folder: Path) -> None:
     assert (folder / "budgets.toml").read_text() == before
 
 
+def test_search_finds_no_error_beyond_the_budgets(folder: Path, tmp_path: Path) -> None:
+    out = str(tmp_path / "worst.toml")
+    shown = run("check", "search", "--paper", str(folder), "--time", "5s", "--out", out, "--json",
+                "-", home=folder.parent)  # fmt: skip
+    rows = json.loads(shown[: shown.rindex("}") + 1])["rows"]
+    assert {row["kernel"] for row in rows} >= {"F_bonded", "F_slipping", "C_slipping"}
+    assert all(row["evaluations"] > 100 and 0.2 < row["ratio"] <= 1 for row in rows)
+
+
+def test_check_and_search_find_a_budget_that_is_too_small(folder: Path, tmp_path: Path) -> None:
+    paper = tmp_path / "too small"
+    shutil.copytree(folder, paper)
+    budgets = (paper / "budgets.toml").read_text()
+    (paper / "budgets.toml").write_text(budgets.replace("F_bonded = 6", "F_bonded = 3"))
+    run("generate", "--paper", str(paper), home=folder.parent)
+    assert "NO" in run("check", "--paper", str(paper), home=folder.parent, status=1)
+    search = ["check", "search", "--paper", str(paper), "--function", "F_bonded", "--time", "3s"]
+    run(*search, home=folder.parent, status=1)
+    assert "F_bonded = {" in (paper / "reports" / "search.toml").read_text()
+
+
 def test_invalid_papers_are_rejected(folder: Path, tmp_path: Path) -> None:
     assert "expected a folder with a file paper.py" in run(
         "derive", "--paper", str(tmp_path), home=tmp_path, status=2
@@ -186,6 +208,8 @@ def test_missing_files_are_named(tmp_path: Path) -> None:
     paper = load(tmp_path / "film")
     with pytest.raises(FileNotFoundError, match="run `platecontact generate`"):
         build.check(paper)
+    with pytest.raises(FileNotFoundError, match="run `platecontact generate`"):
+        pipeline.search_worse("1s", paper=paper)
     with pytest.raises(FileNotFoundError, match="run `platecontact check --update`"):
         build.report(paper)
     with pytest.raises(ValueError, match="no section 'law': expected one of misprints"):

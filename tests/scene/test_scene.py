@@ -59,7 +59,7 @@ BAD = [
     ("mass = 72", "mass = -72", "sphere.mass: |[kg]|-72"),
     ("thickness = 0.2", "", "plate.half_thickness|plate.thickness"),
     ("thickness = 0.2", "thickness = 0.2\nhalf_thickness = 0.1", "thickness|half_thickness"),
-    (LAME, "", "plate.lame_lambda|plate.lame_mu|plate.material"),
+    (LAME, "", "plate.lame_mu|plate.material|add for example `youngs_modulus"),
     (LAME, "lame_mu = 1e9", "plate.lame_mu|add plate.lame_lambda"),
     (LAME, "youngs_modulus = 1e9", "plate.youngs_modulus|add plate.poissons_ratio"),
     (LAME, "lame_mu = 1e9\npoissons_ratio = 0.3", "plate.lame_mu|plate.poissons_ratio"),

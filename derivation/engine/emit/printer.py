@@ -6,11 +6,9 @@ from sympy.printing.numpy import NumPyPrinter
 from sympy.printing.precedence import PRECEDENCE
 
 from derivation.engine.formula.notation import positive_first
+from derivation.engine.rewrite.doubles import SMALL_INTEGER
 from derivation.engine.rewrite.form import CLOSELY, TIMES
 from derivation.engine.rewrite.shape import decay
-
-SMALL_INTEGER = 1000
-"""Largest denominator printed as a divisor; for larger ones 1/n is evaluated as a double."""
 
 LARGEST_PRODUCT = 6
 """Largest power of a single number that is printed as a product."""

@@ -86,7 +86,7 @@ def domain_grid(
                 return values
         narrow = True
         for _ in range(ATTEMPTS):
-            values = _jointly(generator, arguments, vocabulary, 3.0)
+            values = joint_point(generator, arguments, vocabulary, 3.0)
             if inside(vocabulary, values):
                 return values
         raise ValueError(
@@ -120,7 +120,7 @@ def joint_points(
         Number of points that are drawn; those outside the domain are left out.
     """
     generator = random.Random(f"{name} jointly on {','.join(arguments)} to 1e{decades}")
-    points = (_jointly(generator, arguments, vocabulary, float(decades)) for _ in range(count))
+    points = (joint_point(generator, arguments, vocabulary, float(decades)) for _ in range(count))
     return tuple(point for point in points if inside(vocabulary, point))
 
 
@@ -163,12 +163,13 @@ def _size(point: Mapping[str, float]) -> float:
     return sum(abs(math.log10(abs(value))) for value in point.values() if value)
 
 
-def _jointly(
+def joint_point(
     generator: random.Random, arguments: Sequence[str], vocabulary: Vocabulary, decades: float
 ) -> dict[str, float]:
     """Return random arguments, each in the interval that the conditions on the former ones leave.
 
-    Conditions that are not linear in an argument do not narrow its interval.
+    Magnitudes reach from 10^-decades to 10^decades. Conditions that are not linear in an argument
+    do not narrow its interval.
     """
     size = min(decades, generator.choice((1.0, 3.0, decades)))
     share = generator.choice(NEXT_TO_ENDS)

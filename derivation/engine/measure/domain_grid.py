@@ -22,6 +22,10 @@ STATED_FORM = 6
 JOINT = 1000
 """Number of points at which several arguments are extreme, next to ends, or nearly equal."""
 
+USUAL, USUAL_DECADES = 3000, 2
+"""Number of points at which all arguments are of moderate size, and the exponent of ten of the
+largest; most errors of functions are largest there."""
+
 
 def domain_judge(
     chain: Chain,
@@ -77,6 +81,7 @@ def domain_judge(
                 most = 10.0**decades
                 points = tuple(p for p in points if all(abs(x) <= most for x in p.values()))
             points += joint_points(name, arguments, vocabulary, decades, JOINT)
+            points += joint_points(f"usual {name}", arguments, vocabulary, USUAL_DECADES, USUAL)
             signs = [(p, sign(name, p)) for p in points]
             points += tuple(towards_zeros(signs, partial(sign, name)))
         return tuple(map(Point, points))

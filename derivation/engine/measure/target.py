@@ -13,6 +13,7 @@ from derivation.engine.measure.check import Judge
 from derivation.engine.measure.judge import Error, judge, largest
 from derivation.engine.measure.kernels import Kernel
 from derivation.engine.measure.point import Point
+from derivation.engine.nearest import did_you_mean, one_of
 from derivation.engine.oracle.reference import Reference
 
 Numbers = tuple[float, ...]
@@ -115,6 +116,25 @@ class Target:
     def name(self) -> str:
         """Name of the function."""
         return self.domain.name
+
+
+def named_targets(known: Sequence[Target], names: Sequence[str]) -> tuple[Target, ...]:
+    """Return all targets, or those with the given names.
+
+    Raises
+    ------
+    ValueError
+        If no function has one of the names.
+    """
+    every = [one.name for one in known]
+    unknown = [name for name in names if name not in every]
+    if unknown:
+        suggestion = did_you_mean(unknown[0], every, most=3)
+        raise ValueError(
+            f"--function: no generated function {unknown[0]!r}: {suggestion}expected one of "
+            f"{one_of(every)}"
+        )
+    return tuple(one for one in known if not names or one.name in names)
 
 
 def measure_by(

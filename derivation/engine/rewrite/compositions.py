@@ -2,11 +2,13 @@
 
 F is a function of the formula, or one that replaces a difference that cancels:
 
- log p - log q       log1p((p - q)/q); x counts as the logarithm of e^x
- exp p - exp q       e^q expm1(p - q)
- p^a - q^a           q^a expm1(a log1p((p - q)/q))
- atan p - atan q     atan((p - q)/(1 + p q))
- acosh p, acos p     2 asinh and 2 asin of sqrt(|p - 1|/2)
+ log p - log q            log1p((p - q)/q); x counts as the logarithm of e^x
+ log(p + sqrt(p^2 + 1))   asinh p
+ exp p - exp q            e^q expm1(p - q)
+ p^a - q^a                q^a expm1(a log1p((p - q)/q))
+ atan p - atan q          atan((p - q)/(1 + p q))
+ pi/2 - atan p            atan(1/p)
+ acosh p, acos p          2 asinh and 2 asin of sqrt(|p - 1|/2)
 """
 
 from collections.abc import Callable, Iterator
@@ -75,6 +77,7 @@ def _outer(node: sp.Expr, x: sp.Symbol) -> Iterator[tuple[Outer, sp.Expr]]:
     elif node.is_Pow and node.exp.is_number and node.base != x:
         yield lambda v: v**node.exp, node.base
     elif isinstance(node, sp.log):
+        yield from _inverse_sine(node.args[0])
         yield from _logarithm(sp.Integer(1), node.args[0], x)
     elif isinstance(node, sp.acosh):
         yield lambda v: 2 * sp.asinh(sp.sqrt(v)), sp.expand(node.args[0] - 1) / 2
@@ -82,6 +85,14 @@ def _outer(node: sp.Expr, x: sp.Symbol) -> Iterator[tuple[Outer, sp.Expr]]:
         yield lambda v: 2 * sp.asin(sp.sqrt(v)), sp.expand(1 - node.args[0]) / 2
     elif isinstance(node, sp.Function) and len(node.args) == 1 and node.args[0] != x:
         yield node.func, node.args[0]
+
+
+def _inverse_sine(argument: sp.Expr) -> Iterator[tuple[Outer, sp.Expr]]:
+    """Write log(p + sqrt(p^2 + 1)) as asinh p."""
+    for root in sp.Add.make_args(argument):
+        p = argument - root
+        if root.is_Pow and root.exp == sp.S.Half and sp.expand(p**2 + 1 - root.base) == 0:
+            yield sp.asinh, p
 
 
 def _logarithm(factor: sp.Expr, argument: sp.Expr, x: sp.Symbol) -> Iterator[tuple[Outer, sp.Expr]]:
@@ -133,6 +144,9 @@ def _of_difference(one: sp.Expr, other: sp.Expr, x: sp.Symbol) -> Iterator[tuple
         a, b = a.args[0], b.args[0]
         if a.is_positive and b.is_positive:  # otherwise the difference may exceed pi/2
             yield lambda v: size * sp.atan(v), _quotient((a - b) / (1 + a * b), x)
+        return
+    if isinstance(b, sp.atan) and b.args[0].is_positive and 2 * p == sp.pi * factor:
+        yield lambda v: factor * sp.atan(1 / v), b.args[0]
         return
     for sign, above, below in ((1, p, q), (-1, q, p)):
         ratio = above / below

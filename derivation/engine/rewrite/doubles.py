@@ -8,6 +8,7 @@ import math
 import sys
 from collections.abc import Callable, Mapping
 from functools import lru_cache, partial
+from math import prod
 
 import flint
 import sympy as sp
@@ -16,6 +17,8 @@ from derivation.engine.formula.operations import FUNCTIONS
 from derivation.engine.rewrite.form import CLOSELY, TIMES, Block, Branch, Step, Switch
 from derivation.engine.rewrite.series import POLYNOMIAL
 
+SMALL_INTEGER = 1000
+"""Largest denominator of a coefficient by which the code divides; else 1/n becomes a double."""
 _BITS = 160
 _LIMIT = sys.float_info.max
 _EXP = FUNCTIONS[sp.exp][0]
@@ -104,27 +107,27 @@ def _horner(variable: float, *coefficients: float) -> float:
 
 
 def _product(node: sp.Mul) -> tuple[Operation, tuple[sp.Basic, ...]]:
-    """Return numerator over denominator, as in the generated code."""
-    powers = [
-        _power(-factor.exp)
-        if isinstance(factor, sp.Pow) and factor.exp.is_Rational and factor.exp < 0
-        else None
-        for factor in node.args
-    ]
+    """Return numerator over denominator, in the order of the generated code."""
+    coefficient, rest = node.as_coeff_Mul()
+    above, below = list[sp.Expr](), list[sp.Expr]()
+    if isinstance(coefficient, sp.Rational) and coefficient.q <= SMALL_INTEGER:
+        above += [sp.Integer(coefficient.p)] * (coefficient.p != 1)
+        below += [sp.Integer(coefficient.q)] * (coefficient.q != 1)
+    else:
+        above.append(coefficient)
+    for factor in rest.as_ordered_factors():
+        base, exponent = factor.as_base_exp()
+        inverse = exponent.is_Rational and exponent < 0
+        (below if inverse else above).append(base**-exponent if inverse else factor)
+    count = len(above)
 
     def quotient(*values: float) -> float:
-        above, below = 1.0, 1.0
-        for value, power in zip(values, powers, strict=True):
-            if power is None:
-                above *= value
-            else:
-                below *= power(value)
-        if below == 0.0:
-            return math.nan if above == 0.0 else math.copysign(math.inf, above)
-        return above / below
+        numerator, denominator = prod(values[:count]), prod(values[count:])
+        if denominator == 0.0:
+            return math.nan if numerator == 0.0 else math.copysign(math.inf, numerator)
+        return numerator / denominator
 
-    pairs = zip(node.args, powers, strict=True)
-    return quotient, tuple(f if power is None else f.base for f, power in pairs)
+    return quotient, (*above, *below)
 
 
 def _scaled_product(value: float, *powers: float) -> float:

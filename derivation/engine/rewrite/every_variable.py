@@ -4,14 +4,20 @@ import math
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import lru_cache
-from itertools import chain, islice
+from itertools import chain, cycle, islice
 from typing import NamedTuple
 
 import flint
 import sympy as sp
 
 from derivation.engine.formula.ball import PrecisionError, evaluate, to_ball
-from derivation.engine.formula.grid import domain_grid, joint_points, plain_grid, towards_zeros
+from derivation.engine.formula.grid import (
+    ZEROS,
+    domain_grid,
+    joint_points,
+    plain_grid,
+    towards_zeros,
+)
 from derivation.engine.formula.ulp import overflows, ulp_error
 from derivation.engine.rewrite.doubles import run
 from derivation.engine.rewrite.form import Block, Step, Switch, switch_points
@@ -35,6 +41,8 @@ HALF = 0.5
 """Allowed error per sum of the condition numbers, if every argument is rounded."""
 FEW = 150
 """Number of points at which a form is tested before it is tested at all."""
+OVERFLOWS = 72
+"""Number of pairs of points between which the value overflows."""
 JOINT = 1500
 """Number of points at which several arguments are extreme, next to ends, or nearly equal."""
 
@@ -177,7 +185,8 @@ class JointTest:
             if self.nearer is None:  # they are of moderate size, and tested in every range
                 signs = [(point, _sign(value)) for point, value in known]
                 nearer = towards_zeros(signs, lambda point: self._side(point, _sign))
-                self.nearer = _with_values(self.formula, chain(nearer, self._underflow(joint)))
+                ends = chain(nearer, self._underflow(joint), self._overflow(joint))
+                self.nearer = _with_values(self.formula, ends)
             self.known[decades] = known + [
                 (point, value)
                 for point, value in self.nearer
@@ -195,6 +204,23 @@ class JointTest:
 
         sides = [(point, side(point)) for point in islice(points, FEW)]
         yield from towards_zeros(sides, side)
+
+    def _overflow(self, points: Iterable[dict[str, float]]) -> Iterator[dict[str, float]]:
+        """Yield points between those with a finite double and with a larger value, ever nearer.
+
+        Parts of a form may overflow there before the value does.
+        """
+
+        def side(point: dict[str, float]) -> int:
+            return self._side(point, lambda value: 1 if overflows(value) else -1)
+
+        signs = [(point, side(point)) for point in points]
+        above, below = ([p for p, sign in signs if sign == one] for one in (1, -1))
+        for start in range(0, OVERFLOWS if above else 0, ZEROS):
+            pairs = islice(zip(cycle(above), below, strict=False), start, start + ZEROS)
+            yield from towards_zeros(
+                [(p, sign) for pair in pairs for p, sign in zip(pair, (1, -1), strict=True)], side
+            )
 
     def _side(self, point: dict[str, float], of: Callable[[flint.arb], int]) -> int:
         """Return what a function returns for the value at a point; 0 without a value."""

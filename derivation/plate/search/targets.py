@@ -14,8 +14,13 @@ from flint import arb
 from derivation.engine.measure import target
 from derivation.engine.measure.kernels import Kernel
 from derivation.engine.measure.point import Point
-from derivation.engine.measure.target import Domain, Numbers, Target, measure_by
-from derivation.engine.nearest import did_you_mean, one_of
+from derivation.engine.measure.target import (
+    Domain,
+    Numbers,
+    Target,
+    measure_by,
+    named_targets,
+)
 from derivation.engine.oracle.reference import Reference, exact_reference
 from derivation.plate.contact.cases.reference_values import tolerance
 from derivation.plate.impact.oracle.agreement import FIRST
@@ -58,22 +63,18 @@ def targets(names: Sequence[str] = ()) -> tuple[Target, ...]:
     closed = zip(manifest, generated_kernels(), strict=True)
     chosen_targets = [closed_target(domain_of_row(row), kernel) for row, kernel in closed]
     chosen_targets += [_law_target(name) for name in LAW]
-    known = [one.name for one in chosen_targets]
-    unknown = [name for name in names if name not in known]
-    if unknown:
-        suggestion = did_you_mean(unknown[0], known, most=3)
-        raise ValueError(
-            f"--function: no generated function {unknown[0]!r}: {suggestion}expected one of "
-            f"{one_of(known)}"
-        )
-    return tuple(one for one in chosen_targets if not names or one.name in names)
+    return named_targets(chosen_targets, names)
 
 
-def recorded(check: Path, contact: Path) -> tuple[dict[str, float], dict[str, list[str]]]:
+def recorded(
+    check: Path, contact: Path | None = None
+) -> tuple[dict[str, float], dict[str, list[str]]]:
     """Return the worst ratios of the committed check, and worst arguments of the contact law."""
     rows = json.loads(check.read_text())["rows"] if check.is_file() else []
     ratios = {row["kernel"]: row["double"]["ratio"] for row in rows}
-    worst = json.loads(contact.read_text())["rows"] if contact.is_file() else []
+    worst = (
+        json.loads(contact.read_text())["rows"] if contact is not None and contact.is_file() else []
+    )
     return (
         # An infinity is text there.
         {kernel: float(ratio) for kernel, ratio in ratios.items() if ratio is not None},

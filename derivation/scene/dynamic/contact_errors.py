@@ -79,7 +79,7 @@ def narrower(problem: DynamicProblem) -> str:
     """Return what makes a contact narrower, with a speed that is low enough if there is one."""
     weight = " or impact.gravity" if problem.weight else ""
     speed = sufficient_speed(problem)
-    enough = f" to {speed:.2g} m/s" if 0.0 < speed < problem.v0 else ""
+    enough = f" ({speed:.2g} m/s is low enough)" if 0.0 < speed < problem.v0 else ""
     return f"reduce impact.speed{enough}{weight}, or use a lighter sphere or a thicker plate"
 
 

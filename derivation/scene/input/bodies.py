@@ -88,7 +88,7 @@ class Plate(Table):
 
     choices = (
         (("half_thickness",), ("thickness",)),
-        (("lame_lambda", "lame_mu"), ("youngs_modulus", "poissons_ratio"), ("material",)),
+        (("youngs_modulus", "poissons_ratio"), ("material",), ("lame_lambda", "lame_mu")),
     )
     radius: Positive = Field(description="plate radius [m]", examples=[1.0])
     half_thickness: Positive | None = Field(

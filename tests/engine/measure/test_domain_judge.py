@@ -5,13 +5,15 @@ from pathlib import Path
 import pytest
 import sympy as sp
 
-from derivation.engine.emit.found_form import cached_form
+from derivation.engine.emit.found_form import cached_form, found_form
 from derivation.engine.formula.chain import Chain, DerivationStep
 from derivation.engine.formula.proof import prove
 from derivation.engine.formula.record import Record
 from derivation.engine.formula.vocabulary import Argument, Vocabulary
 from derivation.engine.measure import domain_grid
 from derivation.engine.measure.point import Point
+from derivation.engine.rewrite.doubles import run
+from derivation.engine.rewrite.products import GivenFormula
 from derivation.engine.rewrite.scales import Scales
 
 n, q = sp.symbols("n q", real=True)
@@ -72,3 +74,15 @@ def test_the_form_is_tested_within_the_conditions() -> None:
         made, decades = cached_form(given, {}, Scales(), 0.5)
         assert decades == 100
         assert not made.blocks
+
+
+def test_parts_of_a_form_do_not_overflow_before_the_value() -> None:
+    """E h^3 overflows before E h^3/12 does."""
+    stiff, thick = sp.symbols("E h", positive=True)
+    arguments = (Argument(x, "1", str(x), "", (f"{x} >= 1e-100",)) for x in (stiff, thick))
+    given = GivenFormula("D", stiff * thick**3 / 12, Vocabulary(tuple(arguments)))
+    made, decades = found_form(given, {}, Scales(), 0.5)
+    assert decades == 100
+    at = {stiff: 1.2e53, thick: 2.6e85}
+    exact = sp.Rational(at[stiff]) * sp.Rational(at[thick]) ** 3 / 12
+    assert run(made.steps, made.value, at, {}) == pytest.approx(float(exact), rel=1e-15)

@@ -1,15 +1,19 @@
 """The error of a stable form is measured in every variable; inaccurate forms are rejected."""
 
 import math
+import random
 
+import numpy as np
 import pytest
 import sympy as sp
 
+from derivation.engine.emit.printer import to_numpy
 from derivation.engine.formula.proof import prove
 from derivation.engine.formula.record import Record
 from derivation.engine.formula.vocabulary import Argument, Vocabulary
 from derivation.engine.rewrite.automatic import automatic
 from derivation.engine.rewrite.blocks import HYPERBOLIC, Definition, build_blocks
+from derivation.engine.rewrite.doubles import rounded_value
 from derivation.engine.rewrite.every_variable import accurate, measured_error
 from derivation.engine.rewrite.scales import Scale, Scales
 from derivation.engine.rewrite.terms import UnreachableError
@@ -91,3 +95,23 @@ def test_overflow_counts_as_an_infinite_error() -> None:
     """Both cosh T and sinh T overflow for large T, but their quotient does not."""
     quotient = formula("coth", sp.cosh(T) / sp.sinh(T))
     assert measured_error(quotient, (), sp.cosh(T) / sp.sinh(T), BLOCKS).error == math.inf
+
+
+@pytest.mark.parametrize(
+    "expression",
+    [
+        -T * s**3 / (12 * (nu - 1) * (nu + 1)),
+        5 * s * T / (7 * nu),
+        sp.Rational(3, 8) * s**2 * sp.exp(-T) / sp.sqrt(T),
+        T * s / 5040,
+        -(T**2) * (s + 1) / 3,
+    ],
+)
+def test_forms_are_tested_in_the_order_of_the_code(expression: sp.Expr) -> None:
+    draw = random.Random(str(expression))
+    for _ in range(200):
+        at = {T: 10 ** draw.uniform(-2, 2), s: 10 ** draw.uniform(0, 100), nu: draw.uniform(-1, 1)}
+        numbers = {str(symbol): np.float64(x) for symbol, x in at.items()}
+        with np.errstate(over="ignore"):
+            printed = eval(to_numpy(expression), {"np": np, **numbers})
+        assert float(printed) == pytest.approx(rounded_value(expression, at), rel=5e-16)

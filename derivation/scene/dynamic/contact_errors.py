@@ -7,6 +7,7 @@ import numpy as np
 
 from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
 from derivation.scene.dynamic.yield_events import turned
+from derivation.scene.effects.effect import Array
 from derivation.scene.effects.inertia import WIDER
 from derivation.scene.errors import IncompleteError, wide_contact
 
@@ -145,4 +146,19 @@ def lost(
             if a > 0.0 and not elastic_slope + at.less_a[0] @ bent > SHARP * elastic_slope:
                 why = "is not circular, because the plate is more curved than the sphere"
                 remedy = "use a smaller sphere or a thicker plate"
+                if _circular_without_yield(problem, min(a, beyond), bent):
+                    why = (
+                        "has no solution, because the yielded contact unloads more stiffly than "
+                        "the short modes of the plate respond"
+                    )
+                    remedy = 'reduce inertia.modes, or set inertia.branches = "A0"'
     return IncompleteError(f"the contact at {time:.6g} s {why}", remedy)
+
+
+def _circular_without_yield(problem: DynamicProblem, a: float, bent: Array) -> bool:
+    """Return whether only the flattening by yield makes the plate more curved than the sphere."""
+    if problem.yielding is None:
+        return False
+    at = problem.contact.at(problem.a * np.array([a]))
+    elastic_slope = at.depth_a[0] / problem.depth
+    return bool(elastic_slope + at.less_a[0] @ bent > SHARP * elastic_slope)

@@ -360,9 +360,9 @@ def tolerances() -> list[Trial]:
     ]
 
 
-def _simulated(rtol: float | None = None, **inertia: Any) -> CostOutcome:
-    """Return the results of `simulate` and the number of modes."""
-    result = simulate(_scene(**inertia), rtol=rtol)
+def _simulated(rtol: float | None = None, branches: str = "A0", **inertia: Any) -> CostOutcome:
+    """Return the results of `simulate` with these branches, and the number of modes."""
+    result = simulate(_scene(branches=branches, **inertia), rtol=rtol)
     count = result.dynamics.inertia.modes if result.dynamics else 0
     numbers = tuple(getattr(result, name) for name in OUTPUTS)
     return CostOutcome(numbers, count, None if rtol is None else result.accuracy.bound)

@@ -52,7 +52,7 @@ def test_cited_sources_are_in_the_bibliography() -> None:
 
 def test_sources_of_materials_are_in_the_bibliography() -> None:
     """Standards are found by their number, books and articles by their author."""
-    text = (ROOT / "derivation" / "scene" / "materials.toml").read_text()
+    text = (ROOT / "derivation" / "scene" / "input" / "materials.toml").read_text()
     keys = {f"en{number}" for number in re.findall(r"\bEN (\d+(?:-\d)*)", text)}
     assert keys <= set(REFERENCES.entries)
     assert {"en1993-1-1", "en572-1"} <= keys

@@ -3,6 +3,7 @@
 import gc
 import json
 import os
+import signal
 import sys
 import warnings
 from collections.abc import Iterator, Mapping
@@ -24,6 +25,11 @@ if TYPE_CHECKING:  # these modules import the generated package, which may be mi
 # processes, and each would compile again what it imports.
 sys.dont_write_bytecode = False
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+
+# A shell lets what it starts in the background ignore interrupts. Commands that tests interrupt
+# would inherit that.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # Libraries that are loaded later, and processes, multiply matrices in one thread. The threads of
 # two test processes on two cores would wait for one another, which takes several times as long.

@@ -145,9 +145,10 @@ def _of_difference(one: sp.Expr, other: sp.Expr, x: sp.Symbol) -> Iterator[tuple
         if a.is_positive and b.is_positive:  # otherwise the difference may exceed pi/2
             yield lambda v: size * sp.atan(v), _quotient((a - b) / (1 + a * b), x)
         return
-    if isinstance(b, sp.atan) and b.args[0].is_positive and 2 * p == sp.pi * factor:
-        yield lambda v: factor * sp.atan(1 / v), b.args[0]
-        return
+    for c, of, other in ((factor, b, p), (-size, a, -q)):
+        if isinstance(of, sp.atan) and of.args[0].is_positive and 2 * other == sp.pi * c:
+            yield _scaled(c, lambda v: sp.atan(1 / v)), of.args[0]
+            return
     for sign, above, below in ((1, p, q), (-1, q, p)):
         ratio = above / below
         if isinstance(ratio, sp.exp):

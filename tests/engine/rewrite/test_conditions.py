@@ -6,7 +6,8 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from mpmath import mp, mpf
+from exact_errors import allowed_errors
+from mpmath import mp
 
 from derivation.engine.emit.own_formula import domain_of, rewrite_text
 from derivation.engine.rewrite.several_variables import MOST_CONDITIONING, SeveralCheck
@@ -31,23 +32,6 @@ def some_number(draw: random.Random) -> float:
         return draw.choice(SPECIAL) * (1 + draw.choice((-1, 1)) * 10 ** draw.uniform(-16, -1))
     size = draw.choice((1.0, 3.0, 90.0))
     return draw.choice((-1, 1)) * 10 ** draw.uniform(-size, size)
-
-
-def allowed_errors(
-    exact: Callable[..., mpf], point: list[float], computed: float
-) -> tuple[float, float] | None:
-    """Return the error and the sum of the condition numbers [ULP]; None without a value."""
-    with mp.workdps(600):
-        at = [mpf(x) for x in point]
-        value = exact(*at)
-        if mp.im(value) != 0 or not 1e-200 < abs(value) < 1e200:
-            return None
-        conditioning = mpf(0)
-        for index, x in enumerate(at):
-            step = x * mpf(10) ** -120
-            moved = exact(*(y + step * (i == index) for i, y in enumerate(at)))
-            conditioning += abs((moved - value) / value / mpf(10) ** -120)
-        return float(abs(mpf(computed) - value) / mpf(math.ulp(float(value)))), float(conditioning)
 
 
 @pytest.mark.parametrize(("text", "where"), FORMULAS)

@@ -47,6 +47,7 @@ RANGES = {
     "atan(x + 1) - atan(x)": (1e-150, 1e70),
     "pi/2 - atan(x)": (1e-150, 1e150),
     "x*(pi - 2*atan(sqrt(x)))": (1e-150, 1e150),
+    "3*atan(x) - 3*pi/2": (1e-150, 1e150),
     "log(x + sqrt(1 + x**2))": (1e-150, 1e150),
     "log(2*x + sqrt(4*x**2 + 1))/x": (1e-150, 1e150),
     "log(1 + x) - log(x)": (1e-150, 1e150),

@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 import sympy as sp
+from exact_errors import allowed_errors
 from mpmath import mp, mpf
 
 from derivation.engine.emit.own_formula import rewrite_text
@@ -52,23 +53,6 @@ FORMULAS = {
     "(b - sqrt(b**2 - 4*a*c))/(2*a)": lambda b, a, c: 2 * c / (b + mp.sqrt(b * b - 4 * a * c)),
 }
 POINTS = 300
-
-
-def allowed_errors(
-    exact: Callable[..., mpf], point: tuple[float, ...], computed: float
-) -> tuple[float, float] | None:
-    """Return the error and the sum of the condition numbers [ULP]; None without a value."""
-    with mp.workdps(400):
-        at = [mpf(x) for x in point]
-        value = exact(*at)
-        if mp.im(value) != 0 or not 1e-200 < abs(value) < 1e200:
-            return None
-        conditioning = mpf(0)
-        for index, x in enumerate(at):
-            step = x * mpf(10) ** -120
-            moved = exact(*(y + step * (i == index) for i, y in enumerate(at)))
-            conditioning += abs((moved - value) / value / mpf(10) ** -120)
-        return float(abs(mpf(computed) - value) / mpf(math.ulp(float(value)))), float(conditioning)
 
 
 @pytest.mark.parametrize("text", FORMULAS)

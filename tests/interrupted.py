@@ -20,7 +20,6 @@ def interrupted(
         [sys.executable, "-c", program, str(argument)], cwd=ROOT,
         env={**os.environ, **(environment or {})},
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
     )  # fmt: skip
     assert run.stdout is not None
     assert run.stdout.readline() == f"{said}\n"

@@ -350,7 +350,6 @@ def test_ctrl_c_ends_all_processes_and_leaves_no_incomplete_file(
         [sys.executable, "-c", READY, *arguments], cwd=tmp_path, text=True,
         env={**os.environ, "PYTHONPATH": str(ROOT)}, start_new_session=True,
         stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
     )  # fmt: skip
     assert run.stdout is not None
     assert run.stdout.readline() == "ready\n"

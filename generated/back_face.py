@@ -87,7 +87,8 @@ def back_face_stress(
     of the condition numbers of the arguments.
     Domain: P >= 0, a > 0, a < b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2
     * mu, mu > 0. The budget applies where the value is a normal floating-point number;
-    smaller values become subnormal or zero.
+    smaller values become subnormal or zero. Conditions are compared in floating-point
+    arithmetic, rounding included.
 
     Examples
     --------
@@ -142,7 +143,8 @@ def supported_back_face_stress(
     condition numbers of the arguments.
     Domain: P >= 0, a > 0, a <= 0.9 * b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 *
     lam > -2 * mu, mu > 0. The budget applies where the value is a normal floating-point
-    number; smaller values become subnormal or zero.
+    number; smaller values become subnormal or zero. Conditions are compared in
+    floating-point arithmetic, rounding included.
 
     Examples
     --------
@@ -197,7 +199,8 @@ def clamped_back_face_stress(
     condition numbers of the arguments.
     Domain: P >= 0, a > 0, a <= 0.9 * b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 *
     lam > -2 * mu, mu > 0. The budget applies where the value is a normal floating-point
-    number; smaller values become subnormal or zero.
+    number; smaller values become subnormal or zero. Conditions are compared in
+    floating-point arithmetic, rounding included.
 
     Examples
     --------

@@ -59,7 +59,8 @@ def indentation(a: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike) -> np.nd
     of the condition numbers of the arguments.
     Domain: a >= 0, a < b, a < R, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, a <= 6
     * h or h/b >= 1e-5. The budget applies where the value is a normal floating-point
-    number; smaller values become subnormal or zero.
+    number; smaller values become subnormal or zero. Conditions are compared in
+    floating-point arithmetic, rounding included.
 
     Examples
     --------
@@ -105,7 +106,8 @@ def contact_radius(delta: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike) -
     of the condition numbers of the arguments.
     Domain: delta >= 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, a < R, a <= b, a
     <= 6 * h for the a that results. The budget applies where the value is a normal
-    floating-point number; smaller values become subnormal or zero.
+    floating-point number; smaller values become subnormal or zero. Conditions are
+    compared in floating-point arithmetic, rounding included.
 
     Examples
     --------
@@ -155,7 +157,7 @@ def force(
     Domain: delta >= 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2 *
     mu, mu > 0, a < R, a <= b, a <= 6 * h for the a that results. The budget applies
     where the value is a normal floating-point number; smaller values become subnormal
-    or zero.
+    or zero. Conditions are compared in floating-point arithmetic, rounding included.
 
     Examples
     --------
@@ -198,7 +200,7 @@ def force_of_radius(a: ArrayLike, R: ArrayLike, lam: ArrayLike, mu: ArrayLike) -
     of the condition numbers of the arguments.
     Domain: a >= 0, a < R, R > 0, 3 * lam > -2 * mu, mu > 0. The budget applies where
     the value is a normal floating-point number; smaller values become subnormal or
-    zero.
+    zero. Conditions are compared in floating-point arithmetic, rounding included.
 
     Examples
     --------
@@ -247,7 +249,8 @@ def radius_of_force(P: ArrayLike, R: ArrayLike, lam: ArrayLike, mu: ArrayLike) -
     of the condition numbers of the arguments.
     Domain: P >= 0, R > 0, 3 * lam > -2 * mu, mu > 0, a < R for the a that results. The
     budget applies where the value is a normal floating-point number; smaller values
-    become subnormal or zero.
+    become subnormal or zero. Conditions are compared in floating-point arithmetic,
+    rounding included.
 
     Examples
     --------
@@ -304,6 +307,7 @@ def stiffness(
     Domain: a >= 0, a < b, a < R, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 *
     lam > -2 * mu, mu > 0, a <= 6 * h or h/b >= 1e-5. The budget applies where the value
     is a normal floating-point number; smaller values become subnormal or zero.
+    Conditions are compared in floating-point arithmetic, rounding included.
 
     Examples
     --------
@@ -346,7 +350,7 @@ def max_pressure(a: ArrayLike, R: ArrayLike, lam: ArrayLike, mu: ArrayLike) -> n
     of the condition numbers of the arguments.
     Domain: a >= 0, a < R, R > 0, 3 * lam > -2 * mu, mu > 0. The budget applies where
     the value is a normal floating-point number; smaller values become subnormal or
-    zero.
+    zero. Conditions are compared in floating-point arithmetic, rounding included.
 
     Examples
     --------

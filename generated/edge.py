@@ -85,7 +85,8 @@ def supported_edge(
     of the condition numbers of the arguments.
     Domain: a >= 0, a <= 0.9 * b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2
     * mu, mu > 0. The budget applies where the value is a normal floating-point number;
-    smaller values become subnormal or zero.
+    smaller values become subnormal or zero. Conditions are compared in floating-point
+    arithmetic, rounding included.
 
     Examples
     --------
@@ -138,7 +139,8 @@ def clamped_edge(
     of the condition numbers of the arguments.
     Domain: a >= 0, a <= 0.9 * b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2
     * mu, mu > 0. The budget applies where the value is a normal floating-point number;
-    smaller values become subnormal or zero.
+    smaller values become subnormal or zero. Conditions are compared in floating-point
+    arithmetic, rounding included.
 
     Examples
     --------
@@ -192,7 +194,8 @@ def supported_edge_slope(
     of the condition numbers of the arguments.
     Domain: a >= 0, a <= 0.9 * b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2
     * mu, mu > 0. The budget applies where the value is a normal floating-point number;
-    smaller values become subnormal or zero.
+    smaller values become subnormal or zero. Conditions are compared in floating-point
+    arithmetic, rounding included.
 
     Examples
     --------
@@ -245,7 +248,8 @@ def clamped_edge_slope(
     of the condition numbers of the arguments.
     Domain: a >= 0, a <= 0.9 * b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2
     * mu, mu > 0. The budget applies where the value is a normal floating-point number;
-    smaller values become subnormal or zero.
+    smaller values become subnormal or zero. Conditions are compared in floating-point
+    arithmetic, rounding included.
 
     Examples
     --------
@@ -299,7 +303,8 @@ def supported_edge_bound(
     of the condition numbers of the arguments.
     Domain: a >= 0, a <= b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2 * mu,
     mu > 0. The budget applies where the value is a normal floating-point number;
-    smaller values become subnormal or zero.
+    smaller values become subnormal or zero. Conditions are compared in floating-point
+    arithmetic, rounding included.
 
     Examples
     --------
@@ -353,7 +358,8 @@ def clamped_edge_bound(
     of the condition numbers of the arguments.
     Domain: a >= 0, a <= b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2 * mu,
     mu > 0. The budget applies where the value is a normal floating-point number;
-    smaller values become subnormal or zero.
+    smaller values become subnormal or zero. Conditions are compared in floating-point
+    arithmetic, rounding included.
 
     Examples
     --------

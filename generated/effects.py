@@ -219,7 +219,8 @@ def zener_number(
     of the condition numbers of the arguments.
     Domain: R > 0, m > 0, v0 > 0, h > 0, 3 * lam > -2 * mu, mu > 0, rho > 0. The budget
     applies where the value is a normal floating-point number; smaller values become
-    subnormal or zero.
+    subnormal or zero. Conditions are compared in floating-point arithmetic, rounding
+    included.
 
     Examples
     --------
@@ -264,7 +265,7 @@ def bending_period(
     of the condition numbers of the arguments.
     Domain: h > 0, b > 0, 3 * lam > -2 * mu, mu > 0, rho > 0. The budget applies where
     the value is a normal floating-point number; smaller values become subnormal or
-    zero.
+    zero. Conditions are compared in floating-point arithmetic, rounding included.
 
     Examples
     --------
@@ -308,6 +309,7 @@ def echo_time(h: ArrayLike, lam: ArrayLike, mu: ArrayLike, rho: ArrayLike) -> np
     of the condition numbers of the arguments.
     Domain: h > 0, 3 * lam > -2 * mu, mu > 0, rho > 0. The budget applies where the
     value is a normal floating-point number; smaller values become subnormal or zero.
+    Conditions are compared in floating-point arithmetic, rounding included.
 
     Examples
     --------

@@ -153,7 +153,7 @@ def impact(
     Domain: m > 0, v0 > 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2
     * mu, mu > 0, a < R, a <= b, a <= 6 * h for the largest a. The budget applies where
     the value is a normal floating-point number; smaller values become subnormal or
-    zero.
+    zero. Conditions are compared in floating-point arithmetic, rounding included.
 
     Examples
     --------
@@ -225,7 +225,7 @@ def history(
     Domain: m > 0, v0 > 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2
     * mu, mu > 0, a < R, a <= b, a <= 6 * h for the largest a. The budget applies where
     the value is a normal floating-point number; smaller values become subnormal or
-    zero.
+    zero. Conditions are compared in floating-point arithmetic, rounding included.
 
     Examples
     --------

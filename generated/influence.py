@@ -183,7 +183,8 @@ def C_top(phi: ArrayLike, h: ArrayLike, lam: ArrayLike, mu: ArrayLike) -> np.nda
     of the condition numbers of the arguments.
     Domain: phi > 0, h > 0, 3 * lam > -2 * mu, mu > 0, phi * h >= 1e-151. The budget
     applies where the value is a normal floating-point number; smaller values become
-    subnormal or zero.
+    subnormal or zero. Conditions are compared in floating-point arithmetic, rounding
+    included.
 
     Examples
     --------
@@ -242,7 +243,8 @@ def C_bottom(phi: ArrayLike, h: ArrayLike, lam: ArrayLike, mu: ArrayLike) -> np.
     of the condition numbers of the arguments.
     Domain: phi > 0, h > 0, 3 * lam > -2 * mu, mu > 0, phi * h >= 1e-151. The budget
     applies where the value is a normal floating-point number; smaller values become
-    subnormal or zero.
+    subnormal or zero. Conditions are compared in floating-point arithmetic, rounding
+    included.
 
     Examples
     --------
@@ -305,7 +307,7 @@ def K_j(phi: ArrayLike, h: ArrayLike, b: ArrayLike, R: ArrayLike, J1: ArrayLike)
     of the condition numbers of the arguments.
     Domain: phi > 0, h > 0, b > 0, R > 0, J1 != 0, phi * h >= 1e-151. The budget applies
     where the value is a normal floating-point number; smaller values become subnormal
-    or zero.
+    or zero. Conditions are compared in floating-point arithmetic, rounding included.
 
     Examples
     --------
@@ -369,7 +371,7 @@ def K_j_bottom(
     of the condition numbers of the arguments.
     Domain: phi > 0, h > 0, b > 0, R > 0, J1 != 0, phi * h >= 1e-151. The budget applies
     where the value is a normal floating-point number; smaller values become subnormal
-    or zero.
+    or zero. Conditions are compared in floating-point arithmetic, rounding included.
 
     Examples
     --------

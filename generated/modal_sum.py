@@ -56,7 +56,8 @@ def delta(h: ArrayLike, b: ArrayLike, R: ArrayLike, a: ArrayLike, *, modes: int)
     values of all modes, plus half the sum of the condition numbers of the arguments.
     Domain: h > 0, b > 0, R > 0, a > 0, a < b, a < R, h >= 1e-90 * b, h <= 1e90 * b. The
     budget applies where the value is a normal floating-point number; smaller values
-    become subnormal or zero.
+    become subnormal or zero. Conditions are compared in floating-point arithmetic,
+    rounding included.
 
     Examples
     --------
@@ -144,6 +145,7 @@ def u(
     Domain: r >= 0, r <= b, abs(z) <= h, h > 0, b > 0, R > 0, a > 0, a < b, a < R, 3 *
     lam > -2 * mu, mu > 0, h >= 1e-90 * b, h <= 1e90 * b. The budget applies where the
     value is a normal floating-point number; smaller values become subnormal or zero.
+    Conditions are compared in floating-point arithmetic, rounding included.
 
     Examples
     --------
@@ -231,6 +233,7 @@ def w(
     Domain: r >= 0, r <= b, abs(z) <= h, h > 0, b > 0, R > 0, a > 0, a < b, a < R, 3 *
     lam > -2 * mu, mu > 0, h >= 1e-90 * b, h <= 1e90 * b. The budget applies where the
     value is a normal floating-point number; smaller values become subnormal or zero.
+    Conditions are compared in floating-point arithmetic, rounding included.
 
     Examples
     --------
@@ -317,6 +320,7 @@ def sigma_rr(
     Domain: r >= 0, r <= b, abs(z) <= h, h > 0, b > 0, R > 0, a > 0, a < b, a < R, 3 *
     lam > -2 * mu, mu > 0, h >= 1e-90 * b, h <= 1e90 * b. The budget applies where the
     value is a normal floating-point number; smaller values become subnormal or zero.
+    Conditions are compared in floating-point arithmetic, rounding included.
 
     Examples
     --------
@@ -407,6 +411,7 @@ def sigma_tt(
     Domain: r >= 0, r <= b, abs(z) <= h, h > 0, b > 0, R > 0, a > 0, a < b, a < R, 3 *
     lam > -2 * mu, mu > 0, h >= 1e-90 * b, h <= 1e90 * b. The budget applies where the
     value is a normal floating-point number; smaller values become subnormal or zero.
+    Conditions are compared in floating-point arithmetic, rounding included.
 
     Examples
     --------
@@ -496,6 +501,7 @@ def sigma_zz(
     Domain: r >= 0, r <= b, abs(z) <= h, h > 0, b > 0, R > 0, a > 0, a < b, a < R, 3 *
     lam > -2 * mu, mu > 0, h >= 1e-90 * b, h <= 1e90 * b. The budget applies where the
     value is a normal floating-point number; smaller values become subnormal or zero.
+    Conditions are compared in floating-point arithmetic, rounding included.
 
     Examples
     --------
@@ -583,6 +589,7 @@ def sigma_rz(
     Domain: r >= 0, r <= b, abs(z) <= h, h > 0, b > 0, R > 0, a > 0, a < b, a < R, 3 *
     lam > -2 * mu, mu > 0, h >= 1e-90 * b, h <= 1e90 * b. The budget applies where the
     value is a normal floating-point number; smaller values become subnormal or zero.
+    Conditions are compared in floating-point arithmetic, rounding included.
 
     Examples
     --------

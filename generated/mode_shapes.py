@@ -56,7 +56,8 @@ def mode_f(
     of the condition numbers of the arguments.
     Domain: abs(z) <= h, phi > 0, h > 0, 3 * lam > -2 * mu, mu > 0, phi * h >= 1e-151,
     phi * h <= 1e150. The budget applies where the value is a normal floating-point
-    number; smaller values become subnormal or zero.
+    number; smaller values become subnormal or zero. Conditions are compared in
+    floating-point arithmetic, rounding included.
 
     Examples
     --------
@@ -172,7 +173,8 @@ def mode_g(
     of the condition numbers of the arguments.
     Domain: abs(z) <= h, phi > 0, h > 0, 3 * lam > -2 * mu, mu > 0, phi * h >= 1e-151,
     phi * h <= 1e150. The budget applies where the value is a normal floating-point
-    number; smaller values become subnormal or zero.
+    number; smaller values become subnormal or zero. Conditions are compared in
+    floating-point arithmetic, rounding included.
 
     Examples
     --------
@@ -306,7 +308,8 @@ def mode_zz(
     of the condition numbers of the arguments.
     Domain: abs(z) <= h, phi > 0, h > 0, 3 * lam > -2 * mu, mu > 0, phi * h >= 1e-151,
     phi * h <= 1e150. The budget applies where the value is a normal floating-point
-    number; smaller values become subnormal or zero.
+    number; smaller values become subnormal or zero. Conditions are compared in
+    floating-point arithmetic, rounding included.
 
     Examples
     --------
@@ -421,7 +424,8 @@ def mode_rz(
     of the condition numbers of the arguments.
     Domain: abs(z) <= h, phi > 0, h > 0, 3 * lam > -2 * mu, mu > 0, phi * h >= 1e-151,
     phi * h <= 1e150. The budget applies where the value is a normal floating-point
-    number; smaller values become subnormal or zero.
+    number; smaller values become subnormal or zero. Conditions are compared in
+    floating-point arithmetic, rounding included.
 
     Examples
     --------
@@ -523,7 +527,8 @@ def mode_rr(
     of the condition numbers of the arguments.
     Domain: abs(z) <= h, phi > 0, h > 0, 3 * lam > -2 * mu, mu > 0, phi * h >= 1e-151,
     phi * h <= 1e150. The budget applies where the value is a normal floating-point
-    number; smaller values become subnormal or zero.
+    number; smaller values become subnormal or zero. Conditions are compared in
+    floating-point arithmetic, rounding included.
 
     Examples
     --------
@@ -643,7 +648,8 @@ def mode_tt(
     of the condition numbers of the arguments.
     Domain: abs(z) <= h, phi > 0, h > 0, 3 * lam > -2 * mu, mu > 0, phi * h >= 1e-151,
     phi * h <= 1e150. The budget applies where the value is a normal floating-point
-    number; smaller values become subnormal or zero.
+    number; smaller values become subnormal or zero. Conditions are compared in
+    floating-point arithmetic, rounding included.
 
     Examples
     --------

@@ -43,7 +43,8 @@ def Omega_1(phi: ArrayLike, h: ArrayLike, lam: ArrayLike, mu: ArrayLike) -> np.n
     of the condition numbers of the arguments.
     Domain: phi > 0, h > 0, 3 * lam > -2 * mu, mu > 0, phi * h >= 1e-151. The budget
     applies where the value is a normal floating-point number; smaller values become
-    subnormal or zero.
+    subnormal or zero. Conditions are compared in floating-point arithmetic, rounding
+    included.
 
     Examples
     --------
@@ -103,7 +104,8 @@ def Omega_2(phi: ArrayLike, h: ArrayLike, lam: ArrayLike, mu: ArrayLike) -> np.n
     of the condition numbers of the arguments.
     Domain: phi > 0, h > 0, 3 * lam > -2 * mu, mu > 0, phi * h >= 1e-151. The budget
     applies where the value is a normal floating-point number; smaller values become
-    subnormal or zero.
+    subnormal or zero. Conditions are compared in floating-point arithmetic, rounding
+    included.
 
     Examples
     --------
@@ -158,6 +160,7 @@ def Omega_3(phi: ArrayLike, h: ArrayLike, mu: ArrayLike) -> np.ndarray:
     of the condition numbers of the arguments.
     Domain: phi > 0, h > 0, mu > 0, phi * h >= 1e-151. The budget applies where the
     value is a normal floating-point number; smaller values become subnormal or zero.
+    Conditions are compared in floating-point arithmetic, rounding included.
 
     Examples
     --------
@@ -209,6 +212,7 @@ def Omega_4(phi: ArrayLike, h: ArrayLike, mu: ArrayLike) -> np.ndarray:
     of the condition numbers of the arguments.
     Domain: phi > 0, h > 0, mu > 0, phi * h >= 1e-151. The budget applies where the
     value is a normal floating-point number; smaller values become subnormal or zero.
+    Conditions are compared in floating-point arithmetic, rounding included.
 
     Examples
     --------
@@ -265,7 +269,8 @@ def Omega_1_scaled(phi: ArrayLike, h: ArrayLike, lam: ArrayLike, mu: ArrayLike) 
     of the condition numbers of the arguments.
     Domain: phi > 0, h > 0, 3 * lam > -2 * mu, mu > 0, phi * h >= 1e-151. The budget
     applies where the value is a normal floating-point number; smaller values become
-    subnormal or zero.
+    subnormal or zero. Conditions are compared in floating-point arithmetic, rounding
+    included.
 
     Examples
     --------
@@ -321,7 +326,8 @@ def Omega_2_scaled(phi: ArrayLike, h: ArrayLike, lam: ArrayLike, mu: ArrayLike) 
     sum of the condition numbers of the arguments.
     Domain: phi > 0, h > 0, 3 * lam > -2 * mu, mu > 0, phi * h >= 1e-151. The budget
     applies where the value is a normal floating-point number; smaller values become
-    subnormal or zero.
+    subnormal or zero. Conditions are compared in floating-point arithmetic, rounding
+    included.
 
     Examples
     --------
@@ -372,6 +378,7 @@ def Omega_3_scaled(phi: ArrayLike, h: ArrayLike, mu: ArrayLike) -> np.ndarray:
     sum of the condition numbers of the arguments.
     Domain: phi > 0, h > 0, mu > 0, phi * h >= 1e-151. The budget applies where the
     value is a normal floating-point number; smaller values become subnormal or zero.
+    Conditions are compared in floating-point arithmetic, rounding included.
 
     Examples
     --------
@@ -418,6 +425,7 @@ def Omega_4_scaled(phi: ArrayLike, h: ArrayLike, mu: ArrayLike) -> np.ndarray:
     sum of the condition numbers of the arguments.
     Domain: phi > 0, h > 0, mu > 0, phi * h >= 1e-151. The budget applies where the
     value is a normal floating-point number; smaller values become subnormal or zero.
+    Conditions are compared in floating-point arithmetic, rounding included.
 
     Examples
     --------

@@ -46,7 +46,7 @@ def yield_radius(
     of the condition numbers of the arguments.
     Domain: R > 0, 3 * lam > -2 * mu, mu > 0, yield_stress > 0. The budget applies where
     the value is a normal floating-point number; smaller values become subnormal or
-    zero.
+    zero. Conditions are compared in floating-point arithmetic, rounding included.
 
     Examples
     --------
@@ -94,7 +94,8 @@ def yield_speed(
     of the condition numbers of the arguments.
     Domain: R > 0, m > 0, 3 * lam > -2 * mu, mu > 0, yield_stress > 0. The budget
     applies where the value is a normal floating-point number; smaller values become
-    subnormal or zero.
+    subnormal or zero. Conditions are compared in floating-point arithmetic, rounding
+    included.
 
     Examples
     --------

@@ -85,6 +85,7 @@ def P(R: ArrayLike, a: ArrayLike, lam: ArrayLike, mu: ArrayLike) -> np.ndarray:
     of the condition numbers of the arguments.
     Domain: R > 0, a > 0, a < R, 3 * lam > -2 * mu, mu > 0. The budget applies where the
     value is a normal floating-point number; smaller values become subnormal or zero.
+    Conditions are compared in floating-point arithmetic, rounding included.
 
     Examples
     --------
@@ -183,7 +184,8 @@ def A_j(
     of the condition numbers of the arguments.
     Domain: phi > 0, b > 0, R > 0, a > 0, a < b, a < R, 3 * lam > -2 * mu, mu > 0, J1 !=
     0. The budget applies where the value is a normal floating-point number; smaller
-    values become subnormal or zero.
+    values become subnormal or zero. Conditions are compared in floating-point
+    arithmetic, rounding included.
 
     Examples
     --------

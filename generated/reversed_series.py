@@ -80,6 +80,7 @@ def force_by_series(
     Domain: delta >= 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2 *
     mu, mu > 0, sqrt(R * delta)/h < radius of convergence. The budget applies where the
     value is a normal floating-point number; smaller values become subnormal or zero.
+    Conditions are compared in floating-point arithmetic, rounding included.
 
     Examples
     --------

@@ -100,7 +100,8 @@ def indentation_slope(a: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike) ->
     of the condition numbers of the arguments.
     Domain: a >= 0, a < b, a < R, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, a <= 6
     * h or h/b >= 1e-5. The budget applies where the value is a normal floating-point
-    number; smaller values become subnormal or zero.
+    number; smaller values become subnormal or zero. Conditions are compared in
+    floating-point arithmetic, rounding included.
 
     Examples
     --------
@@ -175,7 +176,7 @@ def impact_sensitivities(
     Domain: m > 0, v0 > 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2
     * mu, mu > 0, a < R, a <= b, a <= 6 * h for the largest a. The budget applies where
     the value is a normal floating-point number; smaller values become subnormal or
-    zero.
+    zero. Conditions are compared in floating-point arithmetic, rounding included.
 
     Examples
     --------

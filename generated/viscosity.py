@@ -86,7 +86,8 @@ def viscous_number(
     of the condition numbers of the arguments.
     Domain: R > 0, m > 0, v0 > 0, 3 * lam > -2 * mu, mu > 0, viscous_time > 0. The
     budget applies where the value is a normal floating-point number; smaller values
-    become subnormal or zero.
+    become subnormal or zero. Conditions are compared in floating-point arithmetic,
+    rounding included.
 
     Examples
     --------

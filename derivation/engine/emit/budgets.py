@@ -18,6 +18,8 @@ SHARES = 0.5, 1.0, 1.5, 3.0
 """Shares that a rule may state. Differences of rounded products, and functions of such products,
 have errors of up to 1.5 times the sum of the condition numbers next to their zeros, and sums of
 many products more."""
+ARITHMETIC = "*", "/", " + ", " - "
+"""Signs of conditions whose sides are rounded before they are compared."""
 ORDINARY = "value"
 """Name of the rule for functions that no other rule lists."""
 
@@ -52,6 +54,8 @@ class Budget:
             f"Domain: {domain or 'all real numbers'}. The budget applies where the value is a "
             "normal floating-point number; smaller values become subnormal or zero."
         )
+        if any(sign in domain for sign in ARITHMETIC):
+            where += " Conditions are compared in floating-point arithmetic, rounding included."
         if decades:
             where += f" Arguments other than 0 were tested from 1e-{decades} to 1e{decades}."
         return (*textwrap.wrap(limit, 84), *textwrap.wrap(where, 84, break_on_hyphens=False))

@@ -69,6 +69,7 @@ def standalone_several(
     names = {str(variable) for variable in variables}
     positive = Vocabulary(tuple(Argument(v, "1", str(v), "", (f"{v} > 0",)) for v in variables))
     conditions = _conditions(domain)
+    within = _compared(variables, conditions)
 
     def accepted(share: float, made: ProductForm) -> Tested:
         if taken := names & (RESERVED | {str(step.symbol) for step in made.steps}):
@@ -78,7 +79,7 @@ def standalone_several(
             )
         _prove_equal(expression, made)
         code = compiled_function(_source(expression, variables, made, *ENDS, "", conditions))
-        return made, check_several(expression, variables, code, share, domain)
+        return made, check_several(expression, variables, code, share, domain, within)
 
     best, tested = _best(expression, domain or positive, accepted)
     where = ", ".join(f"{name} = {x!r}" for name, x in tested.at.items())
@@ -103,6 +104,16 @@ def _conditions(domain: Vocabulary | None) -> tuple[tuple[str, str], ...]:
         (f"{left} {sign} {right}", f"({to_numpy(left)} {sign} {to_numpy(right)})")
         for left, sign, right in both
     )
+
+
+def _compared(
+    variables: Sequence[sp.Symbol], conditions: Sequence[tuple[str, str]]
+) -> Callable[..., bool]:
+    """Return the function that compares the conditions as the generated code does."""
+    compared = " & ".join(code for _, code in conditions) or "True"
+    names: dict[str, Callable[..., bool]] = {}
+    exec(f"def within({', '.join(map(str, variables))}): return {compared}", {"np": np}, names)
+    return names["within"]
 
 
 def _best(

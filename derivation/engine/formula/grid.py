@@ -9,7 +9,7 @@ import math
 import random
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import sympy as sp
 
@@ -29,6 +29,9 @@ NEXT_TO_ENDS = (0.25, 0.25, 0.75)
 """Shares of arguments that are next to an end of their domains, one for each kind of point."""
 MAGNITUDES = 10.0
 """Ratio of the ends of a domain from which all magnitudes between them are equally likely."""
+DECADES_DRAWN = 3.0, 12.0, 100.0
+"""Exponents of ten of the ranges in which points are drawn if numbers of moderate size are outside
+the domain."""
 ATTEMPTS = 400
 """Number of random points that are tried to find one in the domain."""
 
@@ -76,19 +79,19 @@ def domain_grid(
     """
     generator = random.Random(f"{name} on {','.join(arguments)}")
 
-    narrow = False
+    def usual() -> dict[str, float]:
+        return {key: _usual(generator, vocabulary.by_name[key]) for key in arguments}
+
+    sources = [usual]
+    sources += [partial(joint_point, generator, arguments, vocabulary, d) for d in DECADES_DRAWN]
 
     def drawn() -> dict[str, float]:
-        nonlocal narrow
-        for _ in range(0 if narrow else ATTEMPTS):
-            values = {key: _usual(generator, vocabulary.by_name[key]) for key in arguments}
-            if inside(vocabulary, values):
-                return values
-        narrow = True
-        for _ in range(ATTEMPTS):
-            values = joint_point(generator, arguments, vocabulary, 3.0)
-            if inside(vocabulary, values):
-                return values
+        while sources:
+            for _ in range(ATTEMPTS):
+                values = sources[0]()
+                if inside(vocabulary, values):
+                    return values
+            del sources[0]  # the next one reaches further, or takes account of other arguments
         raise ValueError(
             f"found no point in the domain of {name}: its conditions exclude each other, or allow "
             "a narrow range only; correct the domains of its arguments"

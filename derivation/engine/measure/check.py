@@ -3,6 +3,8 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+import flint
+
 from derivation.engine.activity import Progress, quiet
 from derivation.engine.formula.ball import PrecisionError
 from derivation.engine.formula.ulp import DOUBLE, SINGLE, Format, overflows
@@ -165,11 +167,22 @@ def reference_values(
     def reference(point: Point) -> Reference:
         try:
             return balls.reference(name, point.values, digits, point.modes)
+        except PrecisionError:
+            return without_slope(point)
+
+    def without_slope(point: Point) -> Reference:
+        """Return a value with an infinite slope, such as that of a root at the end of its domain.
+
+        The sum of the condition numbers then allows any finite result.
+        """
+        try:
+            value = balls.value(name, point.values, digits, point.modes)
         except PrecisionError as error:
             raise ValueError(
                 f"{error}: expected a value in the whole domain; cancel divisors that vanish there "
                 "in the formula, or exclude the point by the domains of its arguments"
             ) from None
+        return Reference(value, {"all": flint.arb.pos_inf()}, abs(value))
 
     references = ((point, reference(point)) for point in points)
     return [

@@ -3,13 +3,14 @@
 import importlib
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache, partial
+from typing import Any
 
 from derivation.engine.formula.chain import Chain
 from derivation.engine.formula.grid import domain_grid, inside, joint_points, towards_zeros
 from derivation.engine.formula.vocabulary import Vocabulary
 from derivation.engine.measure.check import Judge
 from derivation.engine.measure.point import Point
-from derivation.engine.measure.target import NO_REFERENCE
+from derivation.engine.measure.target import NO_REFERENCE, Domain
 from derivation.engine.oracle.agreement import Route, Routes
 from derivation.engine.oracle.oracle import Balls
 from derivation.engine.rewrite.blocks import Definition, build_blocks
@@ -17,6 +18,8 @@ from derivation.engine.rewrite.form import switch_points
 
 FEW = 3
 """Number of digits of values whose sign is needed."""
+ALL = 400
+"""Exponent of ten of a range that contains all doubles, because stated forms state no range."""
 STATED_FORM = 6
 """Exponent of ten of the largest arguments with which stated forms are tested together."""
 JOINT = 1000
@@ -25,6 +28,24 @@ JOINT = 1000
 USUAL, USUAL_DECADES = 3000, 2
 """Number of points at which all arguments are of moderate size, and the exponent of ten of the
 largest; most errors of functions are largest there."""
+
+
+def decades_of(row: Any) -> int:
+    """Return the exponent of ten of the largest arguments for which a function is accurate."""
+    return int(row.get("decades") or STATED_FORM)
+
+
+def stated_domain(row: Any, decades: int) -> Domain:
+    """Return the domain that a row of the manifest states, in a range of all arguments.
+
+    The decades are the exponent of ten of the largest arguments.
+    """
+    stated = tuple(part.strip() for part in row["domain"].split(",") if part.strip())
+    range_of_each = (
+        f"not 0 < abs({name}) < 1e-{decades} and abs({name}) <= 1e{decades}"
+        for name in row["arguments"]
+    )
+    return Domain(row["name"], tuple(row["arguments"]), False, (*stated, *range_of_each))
 
 
 def domain_judge(
@@ -73,15 +94,13 @@ def domain_judge(
         switches = switch_points(block.value for block in build_blocks(blocks).values())
         vocabulary = words(name)
         points = domain_grid(name, arguments, vocabulary, switches)
-        rows = importlib.import_module(f"{package}.manifest").KERNELS
-        tested = {row["name"]: row.get("decades") for row in rows}
-        if name in tested:
-            decades = tested[name] or STATED_FORM
-            if tested[name]:
-                most = 10.0**decades
-                points = tuple(p for p in points if all(abs(x) <= most for x in p.values()))
+        rows = {row["name"]: row for row in importlib.import_module(f"{package}.manifest").KERNELS}
+        if name in rows:
+            decades = decades_of(rows[name])
             points += joint_points(name, arguments, vocabulary, decades, JOINT)
             points += joint_points(f"usual {name}", arguments, vocabulary, USUAL_DECADES, USUAL)
+            stated = stated_domain(rows[name], rows[name].get("decades") or ALL)
+            points = tuple(p for p in points if stated.holds(Point(p)))
             signs = [(p, sign(name, p)) for p in points]
             points += tuple(towards_zeros(signs, partial(sign, name)))
         return tuple(map(Point, points))

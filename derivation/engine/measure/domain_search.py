@@ -9,7 +9,7 @@ from derivation.engine.formula.chain import Chain
 from derivation.engine.formula.grid import ATTEMPTS, joint_point
 from derivation.engine.formula.vocabulary import Vocabulary
 from derivation.engine.measure.check import Judge
-from derivation.engine.measure.domain_grid import STATED_FORM
+from derivation.engine.measure.domain_grid import decades_of, stated_domain
 from derivation.engine.measure.kernels import generated_kernels
 from derivation.engine.measure.point import Point
 from derivation.engine.measure.target import Domain, Target, closed_target, named_targets
@@ -36,7 +36,12 @@ def domain_targets(by: Judge, chain: Chain, names: Sequence[str] = ()) -> tuple[
     pairs = zip(rows, generated_kernels(by.package), strict=True)
     return named_targets(
         [
-            closed_target(by, _domain(row), kernel, _Draw(_words(chain, row), _decades(row)))
+            closed_target(
+                by,
+                stated_domain(row, decades_of(row)),
+                kernel,
+                _Draw(_words(chain, row), decades_of(row)),
+            )
             for row, kernel in pairs
         ],
         names,
@@ -46,21 +51,6 @@ def domain_targets(by: Judge, chain: Chain, names: Sequence[str] = ()) -> tuple[
 def _words(chain: Chain, row: Any) -> Vocabulary:
     formula = chain.formulas().get(row["name"])
     return chain.vocabulary.with_conditions(formula.where if formula else ())
-
-
-def _decades(row: Any) -> int:
-    """Return the exponent of ten of the largest arguments for which a function is accurate."""
-    return int(row.get("decades") or STATED_FORM)
-
-
-def _domain(row: Any) -> Domain:
-    """Return the domain that a row of the manifest states, in the range in which it is tested."""
-    stated = tuple(part.strip() for part in row["domain"].split(",") if part.strip())
-    most = _decades(row)
-    range_of_each = (
-        f"not 0 < abs({name}) < 1e-{most} and abs({name}) <= 1e{most}" for name in row["arguments"]
-    )
-    return Domain(row["name"], tuple(row["arguments"]), False, (*stated, *range_of_each))
 
 
 class _Draw:

@@ -91,12 +91,13 @@ def check_several(
     function: Function,
     share: float = STATED[0],
     words: Vocabulary | None = None,
+    within: Callable[..., bool] = lambda *_: True,
 ) -> SeveralCheck:
     """Return the largest range in which code passes, and the error that it may state.
 
     Only real values with a magnitude between `LEAST_VALUE` and `LARGEST_VALUE` are compared. The
     share is one of `STATED`. The words state the domains of the variables if these are not all
-    positive numbers.
+    positive numbers, and `within` compares them as the code does, rounding included.
 
     Raises
     ------
@@ -113,6 +114,7 @@ def check_several(
                 points = list(_points(draw, decade, len(variables)))
             else:
                 points = _points_inside(expression, variables, words, decade, number)
+                points = [point for point in points if within(*point)]
             errors |= _errors(expression, slopes, variables, function, points, TESTED[share])
             worst = max(((error, point) for point, error in errors.items()), default=worst)
             if worst[0] > ENOUGH:

@@ -103,3 +103,11 @@ def test_other_conditions_are_refused(where: str, reason: str) -> None:
 def test_conditions_that_exclude_each_other_are_refused() -> None:
     with pytest.raises(ValueError, match="exclude each other"):
         rewrite_text("1 - 2*nu", where=["nu > 1", "nu < 0.5"])
+
+
+def test_a_condition_that_is_rounded_does_not_narrow_the_range() -> None:
+    """Q < m n holds exactly at points at which Q is the rounded product; the code gives NaN."""
+    _, source, tested = rewrite_text("1 + Q/(m*n)", where=["Q < m*n"])
+    assert isinstance(tested, SeveralCheck)
+    assert tested.high == 1e100
+    assert "NaN where floating-point arithmetic finds that a condition is violated" in source

@@ -85,6 +85,45 @@ MISTAKES = {
         r"derivation step 'film': expected a function that returns formulas, got a tuple",
         2,
     ),
+    "two formulas with the same name": (
+        "theory.py",
+        ('f"F_{name}", f"F_{letter}"', '"F_bonded", f"F_{letter}"'),
+        r"step 'film': expected another name than F_bonded, which a formula of step 'film' has",
+        2,
+    ),
+    "a formula in place of a tuple": (
+        "theory.py",
+        ("    return tuple(\n        formula\n", "    return next(\n        formula\n"),
+        r"derivation step 'film': expected a tuple of formulas, got a Formula; end",
+        2,
+    ),
+    "a decimal number in a formula": (
+        "theory.py",
+        ("(sp.cosh(T) - 1) / (sp.sinh(T) + T)", "(sp.cosh(T) - 1) / (sp.sinh(T) + 1.0 * T)"),
+        r"theory\.py, line \d+: DecimalError: expected exact numbers, got 2\.0; write sp\.Rat",
+        2,
+    ),
+    "a decimal number in a stated form": (
+        "kernels.py",
+        ("expm1(-2 * x)\n    below", "expm1(-2.0 * x)\n    below"),
+        r"expected exact numbers, got -2\.0; write sp\.Rational\('-2\.0'\)",
+        2,
+    ),
+    "a decimal number that the proof does not contain": (
+        "theory.py",
+        (
+            'f"F_{letter}", f"deflection over a half-space\'s {said}", shape',
+            'f"F_{letter}", "", shape * 0.5',
+        ),
+        r"F_bonded: expected exact numbers, got 0\.5; write sp\.Rational\('0\.5'\)",
+        2,
+    ),
+    "no file of budgets": (
+        "kernels.py",
+        ('"budgets.toml"', '"budget.toml"'),
+        r"expected a file .*budget\.toml; write a table \[ulp\]",
+        2,
+    ),
     "a budget that is no number": (
         "budgets.toml",
         ("F_bonded = 6", 'F_bonded = "two"'),

@@ -74,6 +74,11 @@ def read_budgets(file: Path) -> dict[str, Budget]:
     ValueError
         If the file is not TOML, a number is missing or not positive, or a function has two rules.
     """
+    if not file.is_file():
+        raise ValueError(
+            f"expected a file {file}; write a table [ulp] with a line `name = 4` for each "
+            f"function, and a table [rule.{ORDINARY}] with the text of the ordinary rule"
+        )
     try:
         return parse_budgets(tomllib.loads(file.read_text()))
     except tomllib.TOMLDecodeError as error:

@@ -9,6 +9,7 @@ from typing import TypeVar
 
 from derivation.engine.cache import cached
 from derivation.engine.failed import location
+from derivation.engine.formula.operations import DecimalError
 from derivation.engine.formula.proof import Proof
 from derivation.engine.formula.record import Record
 from derivation.engine.formula.vocabulary import Vocabulary
@@ -21,7 +22,7 @@ Found = tuple[tuple[str, tuple[Record, ...]], ...]
 
 _OF_CODE = (
     *(ArithmeticError, AssertionError, AttributeError, IndexError, KeyError, NameError),
-    *(NotImplementedError, RecursionError, TypeError, ValueError, ZeroDivisionError),
+    *(DecimalError, NotImplementedError, RecursionError, TypeError, ValueError, ZeroDivisionError),
 )
 """Exceptions whose messages do not state where they occurred."""
 
@@ -88,9 +89,7 @@ class Chain:
 
     @cached_property
     def _found(self) -> Found:
-        return self.cached_result(
-            "chain", lambda: tuple((x.name, _derive_step(x)) for x in self.steps)
-        )
+        return self.cached_result("chain", lambda: _checked(self.steps))
 
     def formulas(self) -> dict[str, Record]:
         """Return every formula by name."""
@@ -122,8 +121,40 @@ class Chain:
         return cached(f"{self.name}-{what}", (*self.sources, *also), compute, *every)
 
 
+def _checked(steps: tuple[DerivationStep, ...]) -> Found:
+    """Return the steps with their formulas, each of which has a name of its own.
+
+    Raises
+    ------
+    DerivationStepError
+        If two formulas have the same name, so that one would replace the other.
+    """
+    found = tuple((step.name, _derive_step(step)) for step in steps)
+    first: dict[str, str] = {}
+    for step, formula in ((name, formula) for name, formulas in found for formula in formulas):
+        if formula.name in first:
+            raise DerivationStepError(
+                f"derivation step {step!r}: expected another name than {formula.name}, which a "
+                f"formula of step {first[formula.name]!r} has; rename one of them"
+            )
+        first[formula.name] = step
+    return found
+
+
 def _derive_step(step: DerivationStep) -> tuple[Record, ...]:
     """Return the formulas of a step; state the step and the line if its code fails."""
+    formulas = _run_step(step)
+    if not isinstance(formulas, tuple) or not all(isinstance(f, Record) for f in formulas):
+        raise DerivationStepError(
+            f"derivation step {step.name!r}: expected a tuple of formulas, got a "
+            f"{type(formulas).__name__}; end the function with `return (one, another)`, or with "
+            "`return (one,)` for one formula"
+        )
+    return formulas
+
+
+def _run_step(step: DerivationStep) -> object:
+    """Return what the function of a step returns; state the step and the line if it fails."""
     try:
         return step.derive()
     except Exception as error:  # any exception that the code of a paper raises

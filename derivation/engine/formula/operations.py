@@ -84,6 +84,15 @@ class Operation:
     holomorphic: Callable[..., acb] | None = None
 
 
+class DecimalError(NotImplementedError, ValueError):
+    """An expression contains a rounded number; the message states how to write it exactly."""
+
+
+def exact_number(number: sp.Float) -> str:
+    """Return how to write a rounded number exactly, as part of a message."""
+    return f"write sp.Rational({repr(float(number))!r})"
+
+
 def operation(node: sp.Basic) -> Operation:
     """Return the operation at a node of an expression.
 
@@ -91,10 +100,14 @@ def operation(node: sp.Basic) -> Operation:
     ------
     NotImplementedError
         For a function or constant that is not implemented in ball arithmetic.
+    DecimalError
+        For a floating-point number, which is not exact.
     """
     if isinstance(node, sp.Rational):
         number = flint.fmpq(int(node.p), int(node.q))
         return _constant(lambda: arb(number))
+    if isinstance(node, sp.Float):
+        raise DecimalError(f"expected exact numbers, got {float(node)!r}; {exact_number(node)}")
     if node in _CONSTANTS:
         return _constant(_CONSTANTS[node])
     if isinstance(node, sp.Add):

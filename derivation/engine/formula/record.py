@@ -8,6 +8,7 @@ import sympy as sp
 
 from derivation.engine.formula.dimension import DimensionError, dimension, unit
 from derivation.engine.formula.notation import to_latex, to_markdown, to_plain
+from derivation.engine.formula.operations import exact_number
 from derivation.engine.formula.proof import Proof
 from derivation.engine.formula.vocabulary import Argument, Vocabulary, applicable
 
@@ -48,7 +49,7 @@ class Record:
     KeyError
         If it contains a symbol that the paper does not define.
     ValueError
-        If the name is no Python name.
+        If the name is no Python name, or a number is rounded.
     """
 
     vocabulary: ClassVar[Vocabulary]
@@ -69,6 +70,11 @@ class Record:
         if not self.name.isidentifier() or iskeyword(self.name):
             raise ValueError(f"expected a Python name for a formula, got {self.name!r}; rename it")
         self.vocabulary.arguments_of(self.expression)
+        if rounded := sorted(self.expression.atoms(sp.Float)):
+            raise ValueError(
+                f"{self.name}: expected exact numbers, got {float(rounded[0])!r}; "
+                f"{exact_number(rounded[0])}"
+            )
         try:
             dimensions = dimension(self.expression, self.vocabulary.dimensions)
         except DimensionError as error:

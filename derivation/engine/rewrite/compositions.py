@@ -5,7 +5,7 @@ F is a function of the formula, or one that replaces a difference that cancels:
  log p - log q            log1p((p - q)/q); x counts as the logarithm of e^x
  log(p + sqrt(p^2 + 1))   asinh p
  exp p - exp q            e^q expm1(p - q)
- p^a - q^a                q^a expm1(a log1p((p - q)/q))
+ p^a - q^a                q^a expm1(a log1p((p - q)/q)) or q^a expm1(a log(p/q))
  atan p - atan q          atan((p - q)/(1 + p q))
  pi/2 - atan p            atan(1/p)
  acosh p, acos p          2 asinh and 2 asin of sqrt(|p - 1|/2)
@@ -157,11 +157,17 @@ def _of_difference(one: sp.Expr, other: sp.Expr, x: sp.Symbol) -> Iterator[tuple
         if power.is_Rational and power not in (0, 1):
             root = sp.Mul(*(_root(part, power) for part in sp.Mul.make_args(ratio)))
             yield _scaled(sign * below, _power_minus_one(power)), _quotient(root - 1, x)
+            yield _scaled(sign * below, _exponential_minus_one(power)), _quotient(root, x)
 
 
 def _power_minus_one(exponent: sp.Rational) -> Outer:
     """Return (1 + v)^exponent - 1 as a function of v."""
     return lambda v: expm1(exponent * log1p(v))
+
+
+def _exponential_minus_one(exponent: sp.Rational) -> Outer:
+    """Return v^exponent - 1 as a function of v."""
+    return lambda v: expm1(exponent * sp.log(v))
 
 
 def _root(part: sp.Expr, power: sp.Rational) -> sp.Expr:

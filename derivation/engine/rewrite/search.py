@@ -35,6 +35,8 @@ from derivation.engine.rewrite.useful_range import (
 
 _LEAST = 1e-300
 """Smallest power of x, and inverse of the largest, for which forms are searched."""
+USUAL = 1e9
+"""Largest of the usual numbers, and the inverse of the smallest."""
 SURELY = 0.5 * ENOUGH
 """Error [ULP] up to which the first form is taken, because the code is tested at more points."""
 
@@ -69,6 +71,8 @@ def stabilised(
                 forms.append(_tested(direct, ends, 1.0))
         forms += _joined(forms, ends)
     best = max(forms, key=lambda one: (one.size, -one.worst), default=None)
+    if depth and ends == ENDS and (best is None or best.size[0] < 0):
+        best = _usual(forms)
     if best is None or best.size[0] < 0:
         raise reasons[0] if reasons else UnreachableError(f"{expression} is ill-conditioned")
     return _with_account(best, ends)
@@ -92,6 +96,20 @@ class _Found:
         return max(error for _, error in self.errors)
 
 
+def _usual(forms: Sequence[_Found]) -> _Found | None:
+    """Return the form that is accurate in the largest range, if that contains all usual numbers.
+
+    It is less accurate elsewhere, as a root of a huge number by a rounded exponent is.
+    """
+    ranges = [(_accurate(form.errors, ENDS), form) for form in forms]
+    wide = [
+        replace(form, size=range_size((low, high)))
+        for (low, high), form in ranges
+        if low <= 1 / USUAL and high >= USUAL
+    ]
+    return max(wide, key=lambda one: (one.size, -one.worst), default=None)
+
+
 def _tested(stable: Stable, ends: tuple[float, float], loss: float, rule: str = "") -> _Found:
     test = accuracy_test(stable.expression, stable.variable, ends, stable.equal)
     errors = tuple(test.errors(stable.steps, stable.value))
@@ -103,7 +121,7 @@ def _with_account(form: _Found, ends: tuple[float, float]) -> Stable:
     stable, given = form.stable, form.stable.expression
     if not form.rule:
         return stable
-    low, high = _well_conditioned(form.errors, ends)
+    low, high = _accurate(form.errors, ends)
     test = accuracy_test(given, stable.variable, ends, stable.equal)
     worst, left = (
         max((error for at, error in errors if low <= at.x <= high), default=math.inf)
@@ -245,6 +263,13 @@ def _in_part(expression: sp.Expr, x: sp.Symbol, ends: tuple[float, float]) -> St
     raise UnreachableError(failure(expression, x, worst))
 
 
+def _accurate(
+    errors: Sequence[tuple[ExactPoint, float]], ends: tuple[float, float]
+) -> tuple[float, float]:
+    """Return the largest range in which a form is accurate."""
+    return useful_range([(point.x, error) for point, error in errors], ends)
+
+
 def _well_conditioned(
     errors: Sequence[tuple[ExactPoint, float]], ends: tuple[float, float], loss: float = 1.0
 ) -> tuple[float, float]:
@@ -253,7 +278,7 @@ def _well_conditioned(
     It is empty if it is too short, or excludes points at which the form neither overflows nor is
     the value ill-conditioned.
     """
-    low, high = useful_range([(point.x, error) for point, error in errors], ends)
+    low, high = _accurate(errors, ends)
     avoidable = (
         ENOUGH < error < math.inf and at.slack * loss < ENOUGH
         for at, error in errors

@@ -2,6 +2,7 @@
 
 import math
 import random
+from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
@@ -10,6 +11,7 @@ import numpy as np
 import platecontact as pc
 import pytest
 import sympy as sp
+from exact_errors import allowed_errors
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mpmath import mp, mpf
@@ -111,3 +113,32 @@ def test_the_rounding_of_a_power_is_bounded_where_no_tested_point_shows_it() -> 
 def test_a_function_that_numpy_does_not_have_is_refused(formula: str) -> None:
     with pytest.raises(ValueError, match="expected functions of NumPy"):
         pc.rewrite(formula)
+
+
+@pytest.mark.parametrize(
+    ("formula", "exact"),
+    [
+        ("(1 + x)**(1/7) - 1", lambda x: mp.expm1(mp.log1p(x) / 7)),
+        ("(1 + x)**0.3 - 1", lambda x: mp.expm1(3 * mp.log1p(x) / 10)),
+        ("(x**0.4 - 1)/0.4", lambda x: mp.expm1(2 * mp.log(x) / 5) * 5 / 2),
+        ("x**(2/7) - x**(1/7)", lambda x: mp.expm1(mp.log(x) / 7) * mp.root(x, 7)),
+    ],
+)
+def test_a_power_with_a_rounded_exponent_is_accurate_for_usual_numbers(
+    formula: str, exact: Callable[[mpf], mpf]
+) -> None:
+    """Of a huge number, the logarithm multiplies the error of the exponent."""
+    form = pc.rewrite(formula)
+    assert form.tested.low <= 1e-9
+    assert form.tested.high >= 1e9
+    names: dict[str, Any] = {}
+    exec(form.source, names)
+    draw = random.Random(formula)
+    points = [10 ** draw.uniform(-9, 9) for _ in range(150)]
+    points += [1 + draw.choice((-1, 1)) * 10 ** draw.uniform(-15, -1) for _ in range(100)]
+    points += [form.tested.low, form.tested.high]
+    for point in points:
+        found = allowed_errors(exact, [point], float(names["f"](point)))
+        assert found is not None
+        error, conditioning = found
+        assert error <= form.tested.limit + 0.5 * conditioning, point

@@ -167,9 +167,13 @@ def diagnose(
     given = resolve(given, formulas, formula.vocabulary)
     integral = given.has(sp.Integral) or formula.expression.has(sp.Integral)
     with flint.ctx.workprec(INTEGRAL_BITS if integral else BITS):
-        case = _case(formula, given, formulas, relations)
+        case = _case(formula, given, formulas, relations, integral)
         note = dimension_note(given, formula.unit, formula.vocabulary)
         method = case.method(given)
+        if method is None and not integral:
+            inside = _case(formula, given, formulas, relations, True)
+            if inside.search.points.inside:
+                case, method = inside, inside.method(given)
         if method is not None:
             return _diagnosis(case, EQUAL, None, None, note, method)
         for repair, ratio in _repairs(case, formulas):
@@ -196,17 +200,25 @@ def relations_between(
 
 
 def _case(
-    formula: Record, given: sp.Expr, formulas: Mapping[str, Record], relations: Relations
+    formula: Record,
+    given: sp.Expr,
+    formulas: Mapping[str, Record],
+    relations: Relations,
+    inside: bool,
 ) -> _Case:
+    """Return a comparison at any points, or at points inside the domain of the formula if possible.
+
+    Any points show that two formulas are equal. Formulas that differ at some may be equal inside,
+    such as two with other branches of a root or logarithm, and integrals need not exist elsewhere.
+    """
     derived = formula.expression
     meanings = relations_between(formula.name, given, derived, formulas, relations)
-    vocabulary, domain = formula.vocabulary, list[str]()
-    if given.has(sp.Integral) or derived.has(sp.Integral):  # which have no continuation beyond it
-        domain = [*formula.where, *(c for a in vocabulary.arguments for c in a.domain)]
+    vocabulary = formula.vocabulary
+    domain = [*formula.where, *(c for a in vocabulary.arguments for c in a.domain)]
     for number in given.atoms(sp.Float):
         text = repr(float(number))
         raise FormulaError(f'expected exact numbers, got {text}; write sp.Rational("{text}")')
-    points = sample([given, derived], meanings, vocabulary.within, domain)
+    points = sample([given, derived], meanings, vocabulary.within, domain if inside else ())
     try:
         for expression in (derived, given):
             points.learn(expression)

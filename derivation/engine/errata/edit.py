@@ -39,6 +39,8 @@ from derivation.engine.errata.variant import (
 )
 
 _FEW = 3
+_LARGEST_DENOMINATOR = 200
+"""Largest denominator of required over printed exponent, such as 111/110 of 1.11 over 1.1."""
 _LONE = -2.5
 """Cost of a missing term, less than usual, of which only the other terms of its sum are printed."""
 _POWERS = (1, -1, 2, -2, Fraction(1, 2), Fraction(-1, 2))
@@ -267,7 +269,7 @@ def exponent_edits(position: Position, need: Values, search: VariantSearch) -> I
     have, want = real(search.points.value(node, 0)), real(need[0])
     if have is None or want is None or abs(abs(have) - 1) < 1e-9:
         return
-    power = rational(log(abs(want)) / log(abs(have)), 4)
+    power = rational(log(abs(want)) / log(abs(have)), _LARGEST_DENOMINATOR)
     if power is None or power in (Fraction(0), Fraction(1)) or abs(power) > 12:
         return
     new = raised_to(node, sp.Rational(power.numerator, power.denominator))

@@ -17,13 +17,14 @@ import sympy as sp
 from derivation.engine.formula.ball import enclose, to_ball
 from derivation.engine.formula.domain import violated_conditions
 from derivation.engine.formula.proof import sample_points
+from derivation.engine.formula.vocabulary import applicable
 
 BITS = 448
 INTEGRAL_BITS = 160
 """Precision of comparisons of integrals, which take longer."""
 _RANDOM = 3
 _CLOSE = 1e-11
-_ATTEMPTS = 40
+_ATTEMPTS = 300
 _ROOTS, _POWERS_OF_PI = (1, 2, 3), (0, 1, -1, 2, -2)
 """Roots and powers of pi in a constant ratio."""
 
@@ -41,10 +42,13 @@ class Sample:
         The independent symbols, in the order in which the points double them.
     known
         For each point, the known values of symbols and expressions.
+    inside
+        Whether all points satisfy the conditions that were given.
     """
 
     symbols: tuple[sp.Symbol, ...]
     known: tuple[dict[sp.Basic, flint.acb], ...]
+    inside: bool = True
 
     def value(self, expression: sp.Expr, point: int) -> flint.acb:
         """Return a ball around the expression's value at one point."""
@@ -106,6 +110,7 @@ def sample(
     free = tuple(sorted(symbols - set(relations), key=str))
     first, *others = sample_points(free, _RANDOM)
     doubled = [first | {symbol: 2 * first[symbol]} for symbol in free]
+    conditions = applicable(conditions, {symbol.name for symbol in free})
     generator, drawn = random.Random(2), []
     for attempt in range(_ATTEMPTS if conditions else 1):
         halvings = {s: generator.randrange(6) if attempt else 0 for s in free}
@@ -118,7 +123,7 @@ def sample(
         )
         if drawn[-1][0] == 0:
             break
-    points = min(drawn, key=lambda one: one[:2])[-1]
+    violated, _, points = min(drawn, key=lambda one: one[:2])
     known: list[dict[sp.Basic, flint.acb]] = []
     for point in points:
         values: dict[sp.Basic, flint.acb] = {s: flint.acb(to_ball(v)) for s, v in point.items()}
@@ -126,7 +131,7 @@ def sample(
         for symbol in sorted(dependent, key=lambda s: len(relations[s].free_symbols)):
             values[symbol] = flint.acb(enclose(relations[symbol], values))
         known.append(values)
-    return Sample(free, tuple(known))
+    return Sample(free, tuple(known), violated == 0)
 
 
 def real(value: flint.acb) -> float | None:

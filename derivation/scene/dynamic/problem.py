@@ -195,13 +195,18 @@ class DynamicProblem:
             state.approach - state.separation_speed * t + (fallen - float(np.sum(bent))),
         )
 
-    def flights(self, state: ImpactState, t: Array) -> Array:
+    def flights(self, state: ImpactState, t: Array, radius: float) -> Array:
         """Return velocity, displacement, plate deflection and plate energy after free flights.
 
-        Shape (4, times). `flown` returns the whole state after one of them.
+        Shape (4, times). `flown` returns the whole state after one of them. Deflection and energy
+        include what recovers with a viscoelastic face, which has a radius at separation.
         """
         bent, q_dot = self._vibrated(state, t[:, None])
-        after = state._replace(q=state.q + state.q_dot * t[:, None] + bent, q_dot=q_dot)
+        q = state.q + state.q_dot * t[:, None] + bent
+        if self.retardation_time:
+            lagging, rate = self.lagging(radius, t)
+            q, q_dot = q + lagging, q_dot + rate
+        after = state._replace(q=q, q_dot=q_dot)
         velocity = state.velocity + self.weight * t
         displacement = state.displacement + (state.velocity + velocity) / 2.0 * t
         energy = np.sum(self.energies(after), axis=-1)

@@ -163,8 +163,8 @@ def flatter(problem: DynamicProblem) -> str:
     if not np.any(first > HEAVY):
         return "use a smaller sphere or a thicker plate"
     return (
-        "use a smaller sphere, a thicker plate, or set effects.inertia = false (for so heavy a "
-        "sphere the plate is nearly quasi-static)"
+        "use a smaller sphere or a thicker plate, or try effects.inertia = false: for so heavy a "
+        "sphere the plate is nearly quasi-static"
     )
 
 

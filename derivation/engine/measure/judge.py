@@ -47,8 +47,8 @@ class Error:
 
     @property
     def ratio(self) -> float:
-        """Error over allowance; infinite for an infinite error, even if any error is allowed."""
-        return self.ulp / self.allowed if math.isfinite(self.ulp) else math.inf
+        """Error over allowance."""
+        return self.ulp / self.allowed
 
 
 def judge(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from derivation.commands.options import SPACING, TOLERANCE
+from derivation.commands.options import TOLERANCE, VALUES
 from derivation.engine.console import (
     NOTES,
     OUT,
@@ -63,7 +63,7 @@ def simulate(
     ] = None,
     sweep: Annotated[
         str | None,
-        typer.Option(metavar="TABLE.KEY=A:B:N[:log]", help=f"Simulate for {SPACING}."),
+        typer.Option(metavar="TABLE.KEY=VALUES", help=f"Simulate for each of the values {VALUES}."),
     ] = None,
     details: Annotated[
         bool, typer.Option("--details", help="Also print the tables of effects and contacts.")

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from derivation.commands.options import SPACING, TOLERANCE
+from derivation.commands.options import TOLERANCE, VALUES
 from derivation.commands.scenes import SceneFile, check_outputs
 from derivation.engine.console import NOTES, OUT, Json, progress_bar, warn, write_json_output
 from derivation.engine.files import write_file
@@ -24,7 +24,7 @@ def sweep(
     scene: SceneFile,
     vary: Annotated[
         list[str] | None,
-        typer.Option(metavar="TABLE.KEY=A:B:N[:log]", help=f"Grid: {SPACING}; repeatable."),
+        typer.Option(metavar="TABLE.KEY=VALUES", help=f"Grid of the values {VALUES}; repeatable."),
     ] = None,
     distributions: Annotated[
         Path | None,
@@ -125,7 +125,7 @@ def _given(
         return vary
     if distributions is None or sample is None:
         raise SceneError(
-            "sweep: expected --vary KEY=A:B:N for a grid, or --distributions FILE and --sample N "
+            "sweep: expected --vary KEY=VALUES for a grid, or --distributions FILE and --sample N "
             "for a sample; add one of the two"
         )
     return load_distributions(distributions)

@@ -84,10 +84,11 @@ class SweepRow:
 
 
 def parse(text: str) -> Sweep:
-    """Read a sweep `table.key=first:last:count`: evenly spaced values, both ends included.
+    """Read a sweep: `table.key=first:last:count`, or `table.key=value,value,...`.
 
-    With `:log` after the count, the values are evenly spaced on a logarithmic scale. A key of a
-    material defined in the scene is `materials.NAME.key`.
+    The former has evenly spaced values, both ends included; with `:log` after the count, they are
+    evenly spaced on a logarithmic scale. A key of a material defined in the scene is
+    `materials.NAME.key`.
 
     Raises
     ------
@@ -96,11 +97,32 @@ def parse(text: str) -> Sweep:
     """
     place, _, span = text.partition("=")
     table, key = number_key(place)
+    return Sweep(table, key, _listed(span) if "," in span else _spaced(span))
+
+
+def _listed(span: str) -> tuple[float, ...]:
+    """Return the values of a list `value,value,...`."""
+    try:
+        values = tuple(map(float, span.split(",")))
+    except ValueError:
+        values = ()
+    if not 1 <= len(values) <= MOST or not np.isfinite(values).all():
+        raise SceneError(
+            f"sweep: expected 1 to {MOST} finite values, got {span!r:.60}; write for example "
+            "impact.speed=0.5,1,3"
+        )
+    return values
+
+
+def _spaced(span: str) -> tuple[float, ...]:
+    """Return the values of a range `first:last:count` or `first:last:count:log`."""
     parts, logarithmic = span.removesuffix(":log").split(":"), span.endswith(":log")
     try:
         first, last, count = float(parts[0]), float(parts[1]), int(parts[2])
     except (ValueError, IndexError):
-        raise SceneError(f"sweep: expected first:last:count, got {span!r:.60}; {EXAMPLE}") from None
+        raise SceneError(
+            f"sweep: expected first:last:count or value,value,..., got {span!r:.60}; {EXAMPLE}"
+        ) from None
     if len(parts) != 3 or not 1 <= count <= MOST or not np.isfinite([first, last]).all():
         raise SceneError(
             f"sweep: expected finite ends and 1 to {MOST} values, got {span!r:.60}; {EXAMPLE}"
@@ -111,7 +133,7 @@ def parse(text: str) -> Sweep:
             ":log, or use positive ends"
         )
     spaced = np.geomspace if logarithmic else np.linspace
-    return Sweep(table, key, tuple(spaced(first, last, count).tolist()))
+    return tuple(spaced(first, last, count).tolist())
 
 
 def run(

@@ -46,8 +46,8 @@ def sweep(
         The scene; the varied keys take other values.
     vary
         For each key, such as "plate.thickness", the values in SI units: for a grid a list, an array
-        or a text "first:last:count" (or "first:last:count:log"); for a sample a distribution, for
-        example ``{"distribution": "uniform", "low": 4e-3, "high": 12e-3}``.
+        or a text such as "first:last:count", "first:last:count:log" or "0.5,1,3"; for a sample a
+        distribution, for example ``{"distribution": "uniform", "low": 4e-3, "high": 12e-3}``.
     sample
         Number of points of a sample; by default a grid is computed. It must be a power of two with
         the method "sobol" and with `sensitivity`. With `sensitivity` it is the number of base

@@ -212,7 +212,7 @@ Plan = GridPlan | SamplePlan | SaltelliPlan
 
 
 def grid(given: Mapping[str, Iterable[float] | str] | Sequence[str]) -> GridPlan:
-    """Return a grid from texts `table.key=first:last:count`, or from the values of each key.
+    """Return a grid from texts such as `table.key=first:last:count`, or the values of each key.
 
     Raises
     ------

@@ -184,3 +184,19 @@ def test_plate_with_far_too_many_modes_is_refused_before_they_are_computed(edge:
     assert "at most 100000 bending modes" in text
     free = {"inertia": {"extent": "infinite"}}
     assert simulate(read({"sphere": sphere, "plate": plate, "impact": {"speed": 1.0}} | free))
+
+
+@pytest.mark.parametrize("modes", ["auto", 24])
+def test_more_modes_are_a_remedy_only_if_the_scene_gives_their_number(modes: str | int) -> None:
+    """An automatic number has already been increased as far as that is of use."""
+    block = {"radius": 0.1, "thickness": 0.05, "material": "steel", "edge": "simply-supported"}
+    scene: dict[str, Any] = {
+        "sphere": {"radius": 0.005, "material": "steel"},
+        "plate": block,
+        "impact": {"speed": 3.0},
+        "inertia": {"modes": modes},
+        "accuracy": {"rtol": 2e-5},
+    }
+    text = refusal(scene)
+    assert "increase the tolerance" in text
+    assert ("inertia.modes" in text) == (modes != "auto")

@@ -81,6 +81,12 @@ def test_sweep_of_only_rejected_values_fails_and_writes_no_file(
     assert list(tmp_path.iterdir()) == []
 
 
+def test_values_may_be_listed_in_any_order() -> None:
+    assert sweep.parse("impact.speed=0.5,3,1e-1").values == (0.5, 3.0, 0.1)
+    evenly = sweep.parse("plate.thickness=0.1:0.3:3")
+    assert sweep.parse("plate.thickness=0.1,0.2,0.3").values == pytest.approx(evenly.values)
+
+
 @pytest.mark.parametrize("text", ["impact.sped=1:2:3", "Impact.speeds=1:2:3", "impact=1:2:3"])
 def test_similar_key_is_suggested(text: str) -> None:
     with pytest.raises(SceneError, match=r"impact\.speed\?"):
@@ -93,7 +99,7 @@ def test_similar_key_is_suggested(text: str) -> None:
         "", "speed", "speed=1:2:3", "impact.sped=1:2:3", "plate.edge=1:2:3", "plate.material=1:2:3",
         "impact.speed=1:2", "impact.speed=1:2:3:4", "impact.speed=1:2:x", "impact.speed=a:2:3",
         "impact.speed=1:2:0", "impact.speed=1:inf:3", "impact.speed=1:2:100001",
-        "effects.bending=0:1:2",
+        "impact.speed=1,,2", "impact.speed=1,nan", "effects.bending=0:1:2",
     ],
 )  # fmt: skip
 def test_invalid_sweeps_give_one_message(text: str) -> None:

@@ -21,6 +21,8 @@ GRID, SAFE = 400, 0.97
 """Number of radii of the energy of a contact, and margin of a speed that follows from it."""
 WIDE = 1.01
 """Contact radius over the limit above which a whole simulation is not repeated with more modes."""
+HEAVY = 10.0
+"""Sphere mass over mass of the first mode above which the plate acts as a spring."""
 SHARP = 0.05
 """Slope of the gap over that without vibration below which the contact is no longer circular."""
 
@@ -145,7 +147,7 @@ def lost(
             elastic_slope = at.depth_a[0] / problem.depth
             if a > 0.0 and not elastic_slope + at.less_a[0] @ bent > SHARP * elastic_slope:
                 why = "is not circular, because the plate is more curved than the sphere"
-                remedy = "use a smaller sphere or a thicker plate"
+                remedy = flatter(problem)
                 if _circular_without_yield(problem, min(a, beyond), bent):
                     why = (
                         "has no solution, because the yielded contact unloads more stiffly than "
@@ -153,6 +155,17 @@ def lost(
                     )
                     remedy = 'reduce inertia.modes, or set inertia.branches = "A0"'
     return IncompleteError(f"the contact at {time:.6g} s {why}", remedy)
+
+
+def flatter(problem: DynamicProblem) -> str:
+    """Return what makes the plate less curved than the sphere."""
+    first = problem.inverse_modal_mass[problem.by_speed[:1]]
+    if not np.any(first > HEAVY):
+        return "use a smaller sphere or a thicker plate"
+    return (
+        "use a smaller sphere or a thicker plate, or try effects.inertia = false: for so heavy a "
+        "sphere the plate is nearly quasi-static"
+    )
 
 
 def _circular_without_yield(problem: DynamicProblem, a: float, bent: Array) -> bool:

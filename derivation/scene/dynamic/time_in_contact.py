@@ -11,6 +11,7 @@ import numpy as np
 
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic import contact_sequence
+from derivation.scene.dynamic.contact_errors import HEAVY
 from derivation.scene.dynamic.modal import Modes, plate_of
 from derivation.scene.dynamic.mode_count import affordable, branching, count_of
 from derivation.scene.dynamic.next_element import PHASE
@@ -23,9 +24,8 @@ NODES, MANY = (32, 24, 16), (500, 5000)
 """Nodes of an element, and numbers of modes above which an element has fewer nodes."""
 FEWER = 2
 """Difference in the number of nodes between a run and the coarser one that checks it."""
-HEAVY, IN_CONTACT = 10.0, 0.7
-"""Sphere mass over mass of the first mode above which the plate acts as a spring, and the least
-fraction of half its period in contact; random scenes have at least 0.77."""
+IN_CONTACT = 0.7
+"""Least fraction of half the period of a heavy sphere in contact; 0.77 in random scenes."""
 STOPPED = 64
 """Largest number of modes from which the least time in contact is estimated."""
 TIMES = 801

@@ -47,7 +47,8 @@ def out_of_reach(
     remedy = "increase the tolerance"
     if law.dynamic:
         where = "with the dynamic modes and wave branches of this scene"
-        remedy += " or inertia.modes"
+        if law.model.inertia.modes:  # else their number is already as large as is of use
+            remedy += " or inertia.modes"
     if math.isinf(accuracy.bound):
         return SceneError(
             f"inertia.modes: expected enough modes for an error bound, got "

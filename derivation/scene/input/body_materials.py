@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
+from itertools import chain
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -9,6 +10,7 @@ import numpy as np
 from derivation.scene.input.bodies import Material, Plate, Sphere
 from derivation.scene.input.materials import (
     KnownMaterial,
+    engineering_constants,
     find,
     lame_constants,
     material_of,
@@ -56,6 +58,11 @@ class Body(NamedTuple):
     lightest: float
 
 
+ELASTIC = ("youngs_modulus", "poissons_ratio"), ("lame_lambda", "lame_mu")
+"""Pairs of elastic constants of a body."""
+Materials = Mapping[str, KnownMaterial]
+
+
 def own_materials(tables: Mapping[str, Material]) -> dict[str, KnownMaterial]:
     """Return the materials that a scene defines, by name."""
     return {name: material_of(name, dict(table)) for name, table in tables.items()}
@@ -84,7 +91,7 @@ def body_of(table: Sphere | Plate, materials: Mapping[str, KnownMaterial]) -> Bo
 def lightest_density(lam: Any, mu: Any) -> Any:
     """Return the density below which no solid has these Lame constants [kg/m^3]; 0 if rigid."""
     with np.errstate(all="ignore"):
-        modulus, ratio = mu * (3.0 * lam + 2.0 * mu) / (lam + mu), 0.5 * lam / (lam + mu)
+        modulus, ratio = engineering_constants(lam, mu)
         stiff = np.sqrt(modulus / LIGHT_AND_STIFF)
         least = np.maximum(stiff, np.where(ratio >= INCOMPRESSIBLE, LIGHTEST_DENSE, 0.0))
     least = np.where(np.isfinite(least), least, 0.0)
@@ -100,6 +107,36 @@ def _lame_constants(table: Sphere | Plate, material: KnownMaterial | None) -> tu
     if table.youngs_modulus is None or table.poissons_ratio is None:
         return math.inf, math.inf
     return lame_constants(table.youngs_modulus, table.poissons_ratio)
+
+
+def constants_beside(key: str, table: Sphere | Plate, given: Materials) -> dict[str, float]:
+    """Return the other material constants of a body if one of its elastic constants is replaced.
+
+    Parameters
+    ----------
+    key
+        The key of the replaced constant, such as youngs_modulus.
+    given
+        Materials that the scene defines, by name.
+
+    Returns
+    -------
+    dict
+        The constants of the material by key, with the elastic constants in the pair of `key`; empty
+        for a rigid body, or if `key` is no elastic constant.
+    """
+    pair = next((pair for pair in ELASTIC if key in pair), None)
+    if pair is None:
+        return {}
+    material = find(table.material, given) if table.material is not None else None
+    lam, mu = _lame_constants(table, material)
+    if math.isinf(mu):
+        return {}
+    E, nu = engineering_constants(lam, mu)
+    values = {"youngs_modulus": E, "poissons_ratio": nu, "lame_lambda": lam, "lame_mu": mu}
+    if material is not None:
+        values |= {name: x for name, x in material.to_json().items() if isinstance(x, float)}
+    return {name: x for name, x in values.items() if name in pair or name not in chain(*ELASTIC)}
 
 
 def material_problems(tables: Mapping[str, Any]) -> list[str]:

@@ -8,6 +8,8 @@ from pydantic.fields import FieldInfo
 
 from derivation.engine.nearest import did_you_mean
 from derivation.scene.errors import SceneError
+from derivation.scene.input.bodies import Plate, Sphere
+from derivation.scene.input.body_materials import constants_beside, own_materials
 from derivation.scene.input.messages import OWN_MATERIALS
 from derivation.scene.input.old_names import new_key
 from derivation.scene.input.table import Table, is_number
@@ -68,9 +70,10 @@ def rivals(place: str) -> set[str]:
 def varied(scene: Scene, values: Mapping[str, float]) -> dict[str, Any]:
     """Return the tables of a scene with new values of keys `table.key`, in SI units.
 
-    Keys that exclude a new one are removed.
+    Keys that exclude a new one are removed. If an elastic constant of a body is new, the other
+    constants of its material stay.
     """
-    data = scene.to_json()
+    data, materials = scene.to_json(), own_materials(scene.materials)
     for place, value in values.items():
         name, _, key = place.rpartition(".")
         given, table = data, table_of(name)
@@ -79,6 +82,11 @@ def varied(scene: Scene, values: Mapping[str, float]) -> dict[str, Any]:
             given = given.setdefault(part, {})
         for other in _instead(table, key):
             given.pop(other, None)
+        body = getattr(scene, name, None)
+        if isinstance(body, Sphere | Plate):
+            for other, constant in constants_beside(key, body, materials).items():
+                if not _instead(table, other) & set(given):
+                    given.setdefault(other, constant)
         [example, *_] = field_of(place).examples or [value]
         given[key] = int(value) if isinstance(example, int) and value.is_integer() else value
     return data
@@ -103,7 +111,7 @@ def _instead(table: type[Table], key: str) -> set[str]:
     """Return the keys that exclude a key: half_thickness for thickness, mass for density."""
     return {
         other
-        for groups in table.choices
+        for groups in (*table.choices, *table.options)
         if any(key in group for group in groups)
         for group in groups
         if key not in group

@@ -66,6 +66,11 @@ def lame_constants(E: float, nu: float) -> tuple[float, float]:
     return 2 * mu * nu / (1 - 2 * nu), mu
 
 
+def engineering_constants(lam: Any, mu: Any) -> tuple[Any, Any]:
+    """Return Young's modulus [Pa] and Poisson's ratio [1] from the Lame constants [Pa]."""
+    return mu * (3 * lam + 2 * mu) / (lam + mu), lam / (2 * (lam + mu))
+
+
 def plane_strain_modulus(lam: float, mu: float) -> float:
     """Return E* = E/(1 - nu^2) = 4 mu (lam + mu)/(lam + 2 mu) [Pa]."""
     return 4.0 * mu * ((lam + mu) / (lam + 2.0 * mu))
@@ -75,7 +80,7 @@ def material_of(name: str, keys: Mapping[str, Any]) -> KnownMaterial:
     """Return a material from a table with E and nu or, in the catalogue, Lame constants."""
     if "lame_mu" in keys:
         lam, mu = keys["lame_lambda"], keys["lame_mu"]
-        E, nu = mu * (3 * lam + 2 * mu) / (lam + mu), lam / (2 * (lam + mu))
+        E, nu = engineering_constants(lam, mu)
     else:
         E, nu = keys["youngs_modulus"], keys["poissons_ratio"]
         lam, mu = lame_constants(E, nu)
@@ -121,7 +126,7 @@ def find(name: str, materials: Mapping[str, KnownMaterial] | None = None) -> Kno
     ----------
     name
         Name or other name; case, spaces, hyphens and underscores do not matter.
-    own
+    materials
         Materials that a scene defines, by name.
     """
     of_scene = {plain(known): material for known, material in (materials or {}).items()}

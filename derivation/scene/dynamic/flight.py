@@ -125,13 +125,7 @@ def _recovered(problem: DynamicProblem, t: Array, radius: float) -> Array:
     none = np.zeros_like(t)
     if not problem.retardation_time or not np.any(t < RECOVERED * problem.retardation_time):
         return none
-    grid = radius * np.linspace(0.0, 1.0, 64)
-    root = np.cbrt(problem.contact.at(problem.a * grid).force)
-    goal = root[-1] ** 3 * np.exp(-np.minimum(t / problem.retardation_time, RECOVERED))
-    a = np.interp(np.cbrt(goal), root, grid)
-    for _ in range(3):
-        at = problem.contact.at(problem.a * a)
-        a = a * np.cbrt(goal / at.force)
+    a = problem.recovering(radius, np.minimum(t / problem.retardation_time, RECOVERED))
     return np.where(t < RECOVERED * problem.retardation_time, a, none)
 
 

@@ -17,7 +17,10 @@ def deflections(history: ImpactHistory, t: float) -> Array:
     starts = [touching.start for touching in history.contacts]
     touching = history.contacts[max(int(np.searchsorted(starts, t, side="right")) - 1, 0)]
     if t > touching.end:
-        q = problem.flown(touching.after, t - touching.end).q
+        since = t - touching.end
+        q = problem.flown(touching.after, since).q
+        if problem.retardation_time:
+            q = q + problem.lagging(touching.pieces[-1].radius, np.array([since]))[0][0]
         return problem.contact.modes.by_shape(q)
     pieces = touching.pieces
     x = (max(t - touching.start, 0.0) + pieces[0].element.x ** ONSET) ** (1.0 / ONSET)
@@ -60,9 +63,9 @@ def rows_of(problem: DynamicProblem, touching: ContactRun, t: Array) -> Array:
             a = problem.a * np.maximum(found[A, here], 0.0)
             found[A, here] = branch.widened(a, problem.contact.at(a).force) / problem.a
     flight = np.flatnonzero(~inside)
-    block = max(1, AT_ONCE // max(problem.omega.size, 1))
+    block, radius = max(1, AT_ONCE // max(problem.omega.size, 1)), pieces[-1].radius
     for indices in (flight[k : k + block] for k in range(0, flight.size, block)):
-        flights = problem.flights(touching.after, t[indices] - touching.end)
+        flights = problem.flights(touching.after, t[indices] - touching.end, radius)
         found[V, indices], found[Z, indices], found[W, indices], found[E, indices] = flights
     found[[A, P]] = np.maximum(found[[A, P]], 0.0)
     if not touching.radius:  # exact, without the rounding error of the polynomial

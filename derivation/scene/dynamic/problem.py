@@ -15,6 +15,10 @@ from generated.arrays import Double as Array
 
 MOST_RECOVERED = 700.0
 """Time over A_v beyond which a face has recovered to the smallest double."""
+POWERS = 14
+"""Number of exponential functions of time in the force of a shape while a face recovers."""
+RECOVERY = (1.0 + np.cos(np.pi * np.arange(POWERS * 2) / (POWERS * 2))) / 2.0
+"""Radii of a face that recovers, over that at separation, by Hertz's law."""
 PART = 32768
 """Number of values of modes at nodes that are computed at once, so that they fit in the cache."""
 
@@ -115,8 +119,8 @@ class DynamicProblem:
         """Return how far each mode is deflected by the face that recovers, and how fast.
 
         After a viscoelastic contact P = 0, and P_e = P_e(radius) exp(-t/A_v) drives what is not
-        bending. As the radius decreases, the force of a shape changes otherwise: it is the sum of
-        exp(-t/A_v) and exp(-2 t/A_v) with the same first rate of change.
+        bending. As the radius decreases, the force of a shape changes otherwise: it is a sum of
+        powers of exp(-t/(3 A_v)), in proportion to which the radius decreases by Hertz's law.
 
         Parameters
         ----------
@@ -125,15 +129,49 @@ class DynamicProblem:
         t
             Times after it.
         """
-        at = self.contact.at(np.array([self.a * radius]))
-        felt, narrow = at.felt[0], at.forces_a[0, 1:] * (at.force[0] / at.force_a[0])
-        forces = np.array([2.0 * felt - narrow, narrow - felt]) / self.force
+        if radius not in self._recoveries:
+            self._recoveries[radius] = self._recovering_forces(radius)
+        forces = self._recoveries[radius]
         driving = ((1.0 - self.bending_fraction) * forces)[:, self.contact.modes.shape]
-        rates = np.array([[1.0], [2.0]]) / self.retardation_time
+        rates = (1.0 + np.arange(POWERS)[:, None] / 3.0) / self.retardation_time
         stiff = self.omega**2 + rates * (rates - 2.0 * self.damping_ratio * self.omega)
         deflections = self.inverse_modal_mass * driving / stiff
         left = np.exp(-np.minimum(np.multiply.outer(t, rates[:, 0]), MOST_RECOVERED))
         return left @ deflections, -left @ (rates * deflections)
+
+    @cached_property
+    def _recoveries(self) -> dict[float, Array]:
+        return {}
+
+    def _recovering_forces(self, radius: float) -> Array:
+        """Return the coefficients of `lagging`, shape (powers, shapes).
+
+        Force and rate of change at separation are exact, because the gap opens slowly at first. The
+        remainder is fitted: a wide contact drives short waves in turns, as its radius decreases.
+        """
+        at = self.contact.at(np.array([self.a * radius]))
+        felt, narrow = at.felt[0], at.forces_a[0, 1:] * (at.force[0] / at.force_a[0])
+        forces = np.zeros((POWERS, felt.size))
+        forces[0], forces[3] = 2.0 * felt - narrow, narrow - felt
+        x = RECOVERY[:, None]
+        a = self.recovering(radius, -3.0 * np.log(RECOVERY))
+        rest = self.contact.forces(self.a * a)[:, 1:] / x**3 - forces[0] - x**3 * forces[3]
+        basis = (1.0 - x) ** 2 * x ** np.arange(POWERS - 2)
+        more = np.linalg.lstsq(basis, rest, rcond=None)[0]
+        forces[:-2] += more
+        forces[1:-1] -= 2.0 * more
+        forces[2:] += more
+        return forces / self.force
+
+    def recovering(self, radius: float, t: Array) -> Array:
+        """Return the radius of the face after times without force, over A_v: P_e = exp(-t)."""
+        grid = radius * np.linspace(0.0, 1.0, 64)
+        root = np.cbrt(self.contact.at(self.a * grid).force)
+        goal = root[-1] ** 3 * np.exp(-t)
+        a = np.interp(np.cbrt(goal), root, grid)
+        for _ in range(3):
+            a = a * np.cbrt(goal / self.contact.at(self.a * a).force)
+        return np.asarray(a, dtype=np.float64)
 
     def freed(self, state: ImpactState, radius: float, t: float, sign: float = 1.0) -> ImpactState:
         """Return a state without the deflection of `lagging`, which then is part of the face.
@@ -195,13 +233,18 @@ class DynamicProblem:
             state.approach - state.separation_speed * t + (fallen - float(np.sum(bent))),
         )
 
-    def flights(self, state: ImpactState, t: Array) -> Array:
+    def flights(self, state: ImpactState, t: Array, radius: float) -> Array:
         """Return velocity, displacement, plate deflection and plate energy after free flights.
 
-        Shape (4, times). `flown` returns the whole state after one of them.
+        Shape (4, times). `flown` returns the whole state after one of them. Deflection and energy
+        include what recovers with a viscoelastic face, which has a radius at separation.
         """
         bent, q_dot = self._vibrated(state, t[:, None])
-        after = state._replace(q=state.q + state.q_dot * t[:, None] + bent, q_dot=q_dot)
+        q = state.q + state.q_dot * t[:, None] + bent
+        if self.retardation_time:
+            lagging, rate = self.lagging(radius, t)
+            q, q_dot = q + lagging, q_dot + rate
+        after = state._replace(q=q, q_dot=q_dot)
         velocity = state.velocity + self.weight * t
         displacement = state.displacement + (state.velocity + velocity) / 2.0 * t
         energy = np.sum(self.energies(after), axis=-1)

@@ -16,6 +16,7 @@ from derivation.scene.contact_law.limits import local_indentation
 from derivation.scene.dynamic.contact_sequence import ImpactHistory
 from derivation.scene.dynamic.history_at import deflections, rows_of
 from derivation.scene.dynamic.time_element import DAMPED, A, E, P, V, W, Z
+from derivation.scene.dynamic.wave_problem import echo_time
 from derivation.scene.effects.effect import Results
 from derivation.scene.output.html import html_table
 from derivation.scene.quantity import counted
@@ -105,6 +106,9 @@ class InertiaDetails:
     omitted_octaves
         Doublings of the largest wave number that would each change the results as much as the last
         one, because the omitted modes would be damped in the contact [1]; 0 without damping.
+    echo_ripple, echo_error
+        Bound on the change of a viscoelastic force by short waves from the edge in the omitted
+        modes, over the largest force; the error of the largest force by it [1].
     first_change
         Largest such change of duration, impulse and peak force of the first of several contacts.
     jump
@@ -127,6 +131,8 @@ class InertiaDetails:
     ripple: tuple[float, float] = (0.0, 0.0)
     ripple_error: tuple[float, float] = (0.0, 0.0)
     first_change: float = math.nan
+    echo_ripple: float = 0.0
+    echo_error: float = 0.0
 
     @property
     def complete(self) -> bool:
@@ -160,7 +166,9 @@ class InertiaDetails:
 
     def error(self, outputs: Sequence[str]) -> float:
         """Return the largest estimated error of outputs by all that is omitted [1]."""
-        return max(math.fsum(self.left(outputs)), self.jump if "contact_time" in outputs else 0.0)
+        modes, branches = self.left(outputs)
+        modes = max(modes, self.echo_error if "max_force" in outputs else 0.0)
+        return max(modes + branches, self.jump if "contact_time" in outputs else 0.0)
 
 
 @dataclass(frozen=True)
@@ -200,8 +208,9 @@ class DynamicImpact(Motion):
 
         It may split where a minimum of the force is below the error of the force there, and join
         the second contact if the gap is below the error of its ends. Both errors are estimated from
-        a run with fewer modes. This applies to viscoelastic contacts, whose force follows the rate
-        of the radius and converges slowly; minima of elastic forces converge faster than that.
+        a run with fewer modes, or from the short echoes in the omitted modes. This applies to
+        viscoelastic contacts, whose force follows the rate of the radius and converges slowly;
+        minima of elastic forces converge faster than that.
         """
         if not self.impact_history.problem.retardation_time:
             return 0.0
@@ -209,6 +218,8 @@ class DynamicImpact(Motion):
         known, *same = coarser.inertia.contacts[:2]
         times, force = np.linspace(first.start, first.end, LOOKS), self._touching[0][P]
         error = IRREGULAR * np.abs(force - coarser.rows(times)[P])
+        echoes = np.where(times > echo_time(self.law.model), self.inertia.echo_ripple, 0.0)
+        error = np.maximum(error, echoes * self.max_force)
         indices = _minima(force)
         indices = indices[force[indices] <= error[indices]]
         jump = float(np.max(first.end / times[indices] - 1.0, initial=0.0))

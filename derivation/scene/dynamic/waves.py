@@ -25,7 +25,9 @@ from derivation.scene.dynamic.mode_convergence import (
     unreachable,
 )
 from derivation.scene.dynamic.mode_count import (
+    FURTHER,
     LAST,
+    MODES,
     affordable,
     beyond_limits,
     branching,
@@ -228,7 +230,7 @@ def _converged(
             return _of_chosen_modes(best, law, count, budget)
         change, enough = best.inertia.left(reach.outputs)[0], _accepted_change(best, goal, reach)
         used, almost = contact_sequence.work_of(best.impact_history), change <= LAST * enough
-        if change <= enough:
+        if change <= enough and not _echoes_matter(best, reach):
             return best
         work = _next_work(law, more, best)
         if beyond_limits(law, count, used, almost):
@@ -237,6 +239,17 @@ def _converged(
             most = FINAL
         if unreachable(best, law, count, work, reach):
             return best
+
+
+def _echoes_matter(run: DynamicImpact, reach: Reach) -> bool:
+    """Return whether short echoes exceed the tolerance, and more modes may reduce them enough.
+
+    Their effect on the force decreases as the square root of the number of modes.
+    """
+    error, room = run.inertia.echo_error, reach.need - run.inertia.left(reach.outputs)[1]
+    if "max_force" not in reach.outputs or not room < error:
+        return False
+    return error <= room * math.sqrt(FURTHER * MODES / run.impact_history.problem.omega.size)
 
 
 def _near(run: DynamicImpact, reach: Reach) -> bool:

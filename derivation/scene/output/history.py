@@ -72,7 +72,9 @@ class DynamicHistory(NamedTuple):
     deflection
         Deflection of the plate at the axis [m], sum of the modes.
     plate_energy
-        Energy of the plate vibration [J].
+        Kinetic and elastic energy of the modes [J]. After a viscoelastic contact it includes the
+        deflection that recovers with the face; in the energy balance that part is elastic energy of
+        the contact that is not recovered, and only the free vibration is energy of the plate.
     """
 
     time: Array

@@ -56,9 +56,10 @@ class EnergyBalance:
     rebound_kinetic
         Kinetic energy of the sphere after separation.
     viscous_loss, unrecovered_elastic
-        Dissipated in the viscoelastic contact, and stored in it at separation.
+        Dissipated in the viscoelastic contact, and stored at separation in it and in the plate
+        deflection that recovers with it.
     plate
-        Energy of the plate vibration, or radiated into an infinite plate.
+        Energy of the free plate vibration, or radiated into an infinite plate.
     coupling_loss
         Spurious loss of the pointwise coupling; 0 for the variational one.
     plastic_loss

@@ -8,12 +8,12 @@ import importlib
 import json
 import math
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from functools import cache
 from pathlib import Path
-from types import CodeType, ModuleType
-from typing import NamedTuple
+from types import CodeType, FrameType, ModuleType
+from typing import Any, NamedTuple
 from unittest.mock import patch
 
 import numpy as np
@@ -203,19 +203,49 @@ def survivors(name: str) -> dict[str, list[str]]:
     checks += [Domain(x) for x in POINTWISE if ROWS[x]["module"] in beneath]
     checks += [Layouts()] if "contact_law" in users(name) else []
     assert checks
-    with replaced(name, source(name)) as kernels:
-        assert all(check.holds(kernels) for check in checks)
+    always, executed = _executed_lines(name, checks)
+    pairs = list(zip(checks, executed, strict=True))
     actual: dict[str, list[str]] = {}
     for mutant in of_module(source(name)):
-        detecting = _detecting_check(name, mutant.tree, checks)
+        # A check that does not run the changed line runs as before.
+        every = not always.isdisjoint(mutant.lines)
+        able = [i for i, (_, run) in enumerate(pairs) if every or not run.isdisjoint(mutant.lines)]
+        detecting = _detecting_check(name, mutant.tree, [pairs[i][0] for i in able])
         if detecting is None:
             actual.setdefault(mutant.home, []).append(mutant.change)
-        else:  # the check that has detected one is likely to detect the next
-            checks.insert(0, checks.pop(detecting))
+        elif able:  # the check that has detected one is likely to detect the next
+            pairs.insert(0, pairs.pop(able[detecting]))
     return actual
 
 
-def _detecting_check(name: str, tree: ast.Module, checks: list[Check]) -> int | None:
+def _executed_lines(name: str, checks: Sequence[Check]) -> tuple[set[int], list[set[int]]]:
+    """Return the lines of a module that run when it is loaded, and those that each check runs.
+
+    All checks must hold.
+    """
+    lines, executed = set[int](), list[set[int]]()
+
+    def in_module(frame: FrameType, *_: object) -> Callable[..., Any] | None:
+        if frame.f_code.co_filename != name:
+            return None
+        lines.add(frame.f_lineno)
+        return in_module
+
+    before = sys.gettrace()
+    sys.settrace(in_module)
+    try:
+        with replaced(name, source(name)) as kernels:
+            always = {*lines}
+            for check in checks:
+                lines.clear()
+                assert check.holds(kernels)
+                executed.append({*lines})
+    finally:
+        sys.settrace(before)
+    return always, executed
+
+
+def _detecting_check(name: str, tree: ast.Module, checks: Sequence[Check]) -> int | None:
     """Return the index of the first check that fails; 0 if the module cannot be loaded."""
     try:
         with replaced(name, tree) as kernels:

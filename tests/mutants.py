@@ -77,10 +77,11 @@ Code = ast.expr | ast.AugAssign
 
 
 class CodeMutant(NamedTuple):
-    """The name of the changed function or constant, the change, and the whole module."""
+    """The name of the changed function or constant, the change, its lines, and the whole module."""
 
     home: str
     change: str
+    lines: range
     tree: ast.Module
 
 
@@ -113,7 +114,8 @@ def of_module(text: str, skipped: Sequence[str] = ()) -> Iterator[CodeMutant]:
         for new in _rewritten(place.node, place.exponent):
             ast.fix_missing_locations(ast.copy_location(new, place.node))
             changed = _put(tree, place.node, new)
-            yield CodeMutant(place.home, f"{original} -> {ast.unparse(new)}{inside}", changed)
+            change = f"{original} -> {ast.unparse(new)}{inside}"
+            yield CodeMutant(place.home, change, place.lines, changed)
 
 
 class _Position(NamedTuple):
@@ -121,6 +123,8 @@ class _Position(NamedTuple):
     node: Code
     parent: ast.AST
     exponent: bool
+    lines: range
+    """Lines of the innermost statement; of a compound one without the statements in it."""
 
 
 SKIPPED = ("shape", "axis", "dtype", "reshape", "broadcast_to", "arange")
@@ -129,17 +133,21 @@ SKIPPED = ("shape", "axis", "dtype", "reshape", "broadcast_to", "arange")
 def _formulas(tree: ast.Module, skipped: Sequence[str]) -> Iterator[_Position]:
     """Yield the arithmetic nodes of all functions and module constants."""
 
-    def walk(node: ast.AST, home: str, parent: ast.AST, exponent: bool) -> Iterator[_Position]:
+    def walk(
+        node: ast.AST, home: str, parent: ast.AST, exponent: bool, lines: range
+    ) -> Iterator[_Position]:
+        if isinstance(node, ast.stmt):
+            lines = _own_lines(node)
         if isinstance(node, ast.Subscript | ast.arguments):
             return
         if isinstance(node, ast.AnnAssign):
             if node.value is not None:
-                yield from walk(node.value, home, node, False)
+                yield from walk(node.value, home, node, False, lines)
             return
         if isinstance(node, ast.ClassDef):
             for method in node.body:
                 if isinstance(method, ast.FunctionDef):
-                    yield from walk(method, home, node, False)
+                    yield from walk(method, home, node, False, lines)
             return
         if isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] in skipped:
             return
@@ -150,15 +158,22 @@ def _formulas(tree: ast.Module, skipped: Sequence[str]) -> Iterator[_Position]:
         if isinstance(node, ast.Assign) and not home:
             home = ast.unparse(node.targets[0])
         if isinstance(node, ast.BinOp | ast.UnaryOp | ast.Constant | ast.Call | ast.AugAssign):
-            yield _Position(home, node, parent, exponent)
+            yield _Position(home, node, parent, exponent, lines)
         power = isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow)
         for name, child in ast.iter_fields(node):
             for part in child if isinstance(child, list) else [child]:
                 if isinstance(part, ast.AST):
-                    yield from walk(part, home, node, power and name == "right")
+                    yield from walk(part, home, node, power and name == "right", lines)
 
     for statement in tree.body:
-        yield from walk(statement, "", tree, False)
+        yield from walk(statement, "", tree, False, range(0))
+
+
+def _own_lines(statement: ast.stmt) -> range:
+    """Return the lines of a statement, without the first statement in it and all further ones."""
+    body = getattr(statement, "body", [])
+    end = statement.end_lineno or statement.lineno
+    return range(statement.lineno, max(statement.lineno, body[0].lineno - 1 if body else end) + 1)
 
 
 def _rewritten(node: Code, exponent: bool) -> Iterator[Code]:

@@ -49,7 +49,9 @@ def measurement() -> dict[str, bytes]:
         If a measurement that the report requires is missing.
     """
     folder = measurements()
-    contents = {path.stem: path.read_bytes() for path in sorted(folder.glob("*.json"))}
+    # An interrupted update leaves a file such as `hard.part.json`, which is no measurement.
+    complete = (path for path in sorted(folder.glob("*.json")) if "." not in path.stem)
+    contents = {path.stem: path.read_bytes() for path in complete}
     for name in REQUIRED_MEASUREMENTS:
         if name not in contents:
             raise FileNotFoundError(

@@ -353,7 +353,7 @@ def test_ctrl_c_ends_all_processes_and_leaves_no_incomplete_file(
     )  # fmt: skip
     assert run.stdout is not None
     assert run.stdout.readline() == "ready\n"
-    time.sleep(6.0)  # the command imports, starts processes or computes at that time
+    time.sleep(3.5)  # the command imports, starts processes or computes at that time
     assert run.poll() is None
     os.killpg(run.pid, signal.SIGINT)
     output, message = run.communicate(timeout=60)  # returns when all processes have ended

@@ -1,6 +1,6 @@
 """Single edits: changes at a position in a formula that give it the required value."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
@@ -185,10 +185,9 @@ def _complements(position: Position, ratio: Values, search: VariantSearch) -> It
         for old, new in ((symbol, 1 - symbol), (1 - symbol, symbol)):
             bases = {b: e for b, e in printed.items() if b.is_number is False and b.has(symbol)}
             for base, power in bases.items():
-                number = sp.cancel(base / old)
-                if not number.is_number:
-                    continue
-                if search.points.same((new / old) ** power, ratio):
+                # Most candidates differ in value; their algebra takes a hundred times as long.
+                fits = search.points.same((new / old) ** power, ratio)
+                if fits and sp.cancel(base / old).is_number:
                     says = f"read {_text(new)} instead of {_text(old)} in {name_of(position)}"
                     edited = position.node * (new / old) ** power
                     yield _edit(SYMBOL, position, edited, says)
@@ -202,19 +201,25 @@ def _lone_terms(position: Position, ratio: Values, search: VariantSearch) -> Ite
     """
     printed = position.node.as_powers_dict()
     for total in search.sums:
-        others = [e for b, e in printed.items() if b.is_Add and (b / total).cancel().is_number]
         for term in total.args:
             rest = total - term
-            values = search.points.values(total / rest)
+            value = search.points.value(total / rest, 0)
             for power in _POWERS:
-                if any(e * power < 0 for e in others):
-                    continue
-                if agree(values[0] ** power, ratio[0]):
+                if agree(value**power, ratio[0]):
                     new = position.node * (total / rest) ** sp.Rational(power)
-                    if search.points.same(new / position.node, ratio):
+                    same = search.points.same(new / position.node, ratio)
+                    if same and not _has_other_power(printed, total, power):
                         says = f"add the missing term {_text(term)} to {_text(rest)}"
                         inside = "" if position.parent is None else f" in {name_of(position)}"
                         yield _edit(SUM, position, new, says + inside, _LONE)
+
+
+def _has_other_power(
+    printed: Mapping[sp.Expr, sp.Expr], total: sp.Expr, power: int | Fraction
+) -> bool:
+    """Return whether a multiple of the sum is a factor, with an exponent of the other sign."""
+    others = (b for b, e in printed.items() if b.is_Add and e * power < 0)
+    return any((b / total).cancel().is_number for b in others)
 
 
 def _stray_or_missing(position: Position, ratio: sp.Expr) -> str:

@@ -190,9 +190,9 @@ def other_functions(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
             yield search.variant(kind, apply(factor * argument), 0.2)
         for old, new in permutations(search.points.symbols, 2):
             if argument.has(old):
-                says = f"read {new} instead of {old} in {sp.sstr(node)}"
+                one = f"read {new} instead of {old}"
                 other = search.variant(SYMBOL, apply(argument.subs(old, new)))
-                yield replace(other, shown=lambda text=says: text)  # type: ignore[misc]
+                yield replace(other, shown=lambda x=one: f"{x} in {sp.sstr(node)}")  # type: ignore[misc]
 
 
 def exchanged_symbols(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
@@ -201,10 +201,11 @@ def exchanged_symbols(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]
         return
     for one, other in combinations(search.points.symbols, 2):
         if node.has(one) and node.has(other):
-            new = node.subs({one: other, other: one}, simultaneous=True)
+            new = node.xreplace({one: other, other: one})
             if new != node:
-                says = f"exchange {one} and {other} in {short(node)}"
-                yield replace(search.variant(SYMBOL, new, 0.1), shown=lambda text=says: text)  # type: ignore[misc]
+                both = f"exchange {one} and {other}"
+                variant = search.variant(SYMBOL, new, 0.1)
+                yield replace(variant, shown=lambda x=both: f"{x} in {short(node)}")  # type: ignore[misc]
 
 
 def other_signs(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:

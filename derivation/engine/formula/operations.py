@@ -3,6 +3,7 @@
 Balls of an expression, its gradient and its values in doubles use these operations.
 """
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import cast
@@ -186,15 +187,12 @@ def _constant(value: Callable[[], arb]) -> Operation:
     return Operation((), value, lambda _: ())
 
 
-def _sum(*terms: arb) -> arb:
-    return sum(terms, arb(0))
+def _sum(first: arb, *terms: arb) -> arb:
+    return sum(terms, first)
 
 
-def _product(*factors: arb) -> arb:
-    result = arb(1)
-    for factor in factors:
-        result *= factor
-    return result
+def _product(first: arb, *factors: arb) -> arb:
+    return math.prod(factors, start=first)
 
 
 def _product_slopes(_: arb, *factors: arb) -> tuple[arb, ...]:

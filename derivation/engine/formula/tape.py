@@ -6,9 +6,11 @@ A tape is recorded once per formula and evaluated at any precision. Equal subexp
 recorded once.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
+from operator import itemgetter
+from typing import Any
 
 import flint
 import sympy as sp
@@ -17,6 +19,10 @@ from derivation.engine.formula.operations import Operation, operation
 
 Step = tuple[Operation, tuple[int, ...]]
 """An operation, and the slots of its operands."""
+
+
+_Call = tuple[Callable[..., Any], Callable[..., Any] | None, Callable[[Any], Sequence[Any]]]
+"""Functions for the value and for a holomorphic value, and one that reads operands from slots."""
 
 
 @dataclass(frozen=True)
@@ -32,10 +38,13 @@ class Tape:
         If `holomorphic`, a slot that is not holomorphic in the values is not finite.
         """
         slots = list(values)
-        for done, reads in self.steps:
-            value = (done.holomorphic if holomorphic else None) or done.value
-            slots.append(value(*[slots[i] for i in reads]))
+        for value, analytic, read in self._calls:
+            slots.append(((analytic if holomorphic else None) or value)(*read(slots)))
         return slots
+
+    @cached_property
+    def _calls(self) -> tuple[_Call, ...]:
+        return tuple((done.value, done.holomorphic, _reader(reads)) for done, reads in self.steps)
 
     def gradient(self, slots: Sequence[flint.arb]) -> list[flint.arb]:
         """Return the partial derivatives by the inputs, from the slots of an evaluation."""
@@ -51,6 +60,13 @@ class Tape:
                 contribution, known = weight * slope, weights[i]
                 weights[i] = contribution if known is None else known + contribution
         return [weight if weight is not None else flint.arb(0) for weight in weights[:first]]
+
+
+def _reader(reads: tuple[int, ...]) -> Callable[[Any], Sequence[Any]]:
+    """Return a function that returns the operands in some slots."""
+    if len(reads) > 1:
+        return itemgetter(*reads)
+    return itemgetter(slice(reads[0], reads[0] + 1) if reads else slice(0))
 
 
 def record(expression: sp.Expr, inputs: Sequence[sp.Symbol]) -> Tape:

@@ -232,9 +232,12 @@ def _converged(
         used, almost = contact_sequence.work_of(best.impact_history), change <= LAST * enough
         if change <= enough and not _echoes_matter(best, reach):
             return best
+        beyond = beyond_limits(law, count, used, almost)
+        if beyond and (most or not _near(best, reach)):
+            return best
         work = _next_work(law, more, best)
-        if beyond_limits(law, count, used, almost):
-            if most or work > FINAL or not _near(best, reach):
+        if beyond:
+            if work > FINAL:
                 return best
             most = FINAL
         if unreachable(best, law, count, work, reach):

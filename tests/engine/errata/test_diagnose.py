@@ -116,19 +116,22 @@ def chain() -> dict[str, Formula]:
 # Independent comparison: mpmath at random points.
 
 
-def value(expression: sp.Expr, seed: int) -> mpmath.mpc:
-    """Evaluate at numbers that depend only on the names of the symbols and on the seed."""
+@cache
+def values(expression: sp.Expr) -> list[mpmath.mpc]:
+    """Evaluate at four points that depend only on the names of the symbols."""
     symbols = sorted(expression.free_symbols, key=str)
+    function = sp.lambdify(symbols, expression, modules="mpmath")
     with mpmath.workdps(60):
-        numbers = [
-            mpmath.mpf(random.Random(f"{s} {seed}").randrange(300, 2000)) / 1009 for s in symbols
+        points = [
+            [mpmath.mpf(random.Random(f"{s} {seed}").randrange(300, 2000)) / 1009 for s in symbols]
+            for seed in range(4)
         ]
-        return mpmath.mpc(sp.lambdify(symbols, expression, modules="mpmath")(*numbers))
+        return [mpmath.mpc(function(*point)) for point in points]
 
 
 def same(x: sp.Expr, y: sp.Expr) -> bool:
     """Return whether two expressions agree to 40 digits at four random points."""
-    pairs = [(value(x, seed), value(y, seed)) for seed in range(4)]
+    pairs = list(zip(values(x), values(y), strict=True))
     with mpmath.workdps(60):
         return all(abs(p - q) <= mpmath.mpf(10) ** -40 * (abs(p) + abs(q)) for p, q in pairs)
 

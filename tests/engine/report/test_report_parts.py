@@ -1,12 +1,15 @@
 """Tables and figures of the report with missing data: empty cells and omitted rows."""
 
 import json
+import shutil
+from pathlib import Path
 from typing import Any
 
 import pytest
 import sympy as sp
 from matplotlib.figure import Figure
 
+from derivation.engine.files import measurements
 from derivation.plate import reporting
 from derivation.plate.report.accuracy import duration, factor, tool_rows, winner_cells
 from derivation.plate.report.accuracy_figures import draw_panel
@@ -47,6 +50,16 @@ def test_checks_without_a_record_are_omitted() -> None:
         [omitted] = every.keys() - fewer.keys()
         assert omitted.endswith(f"{name}}}")
         assert fewer.items() <= every.items()
+
+
+def test_leftover_of_an_interrupted_update_is_no_measurement(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shutil.copytree(measurements(), tmp_path, dirs_exist_ok=True)
+    known = reporting.measurement()
+    (tmp_path / "hard.part.json").write_text("{")
+    monkeypatch.setattr(reporting, "measurements", lambda: tmp_path)
+    assert reporting.measurement() == known
 
 
 def test_panel_without_timings_is_empty() -> None:

@@ -1,7 +1,9 @@
 """Check of the generated functions against reference values at difficult points."""
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+import math
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, replace
 
 import flint
 
@@ -21,6 +23,9 @@ AGREEMENTS = 2
 
 SMALL = 1e-60
 """Magnitude of a value above which the second reference method is fast."""
+
+STEEP = 1e4
+"""Condition number next to a point from which the slope at the point counts as infinite."""
 
 EVERY = 4
 """Single precision is tested at every fourth point."""
@@ -167,22 +172,38 @@ def reference_values(
     def reference(point: Point) -> Reference:
         try:
             return balls.reference(name, point.values, digits, point.modes)
-        except PrecisionError:
-            return without_slope(point)
-
-    def without_slope(point: Point) -> Reference:
-        """Return a value with an infinite slope, such as that of a root at the end of its domain.
-
-        The sum of the condition numbers then allows any finite result.
-        """
-        try:
-            value = balls.value(name, point.values, digits, point.modes)
         except PrecisionError as error:
+            found = without_slope(point)
+            if found is not None:
+                return found
             raise ValueError(
                 f"{error}: expected a value in the whole domain; cancel divisors that vanish there "
                 "in the formula, or exclude the point by the domains of its arguments"
             ) from None
-        return Reference(value, {"all": flint.arb.pos_inf()}, abs(value))
+
+    def without_slope(point: Point) -> Reference | None:
+        """Return the value at a point where the slope is unknown, with the slope beside it.
+
+        If that is steep, the slope is infinite, as that of a root at the end of its domain: the sum
+        of the condition numbers then allows any finite result.
+        """
+        with suppress(PrecisionError):
+            value = balls.value(name, point.values, digits, point.modes)
+            for beside in with_slopes_beside(point):
+                steep = beside.total > STEEP * beside.magnitude
+                slopes = {"all": flint.arb.pos_inf()} if steep else beside.sensitivity
+                return replace(beside, value=value, sensitivity=slopes, magnitude=abs(value))
+        return None
+
+    def with_slopes_beside(point: Point) -> Iterator[Reference]:
+        """Yield the references that exist at the floating-point numbers next to each argument."""
+        for key, x in point.values.items():
+            for end in (-math.inf, math.inf):
+                values = {**point.values, key: math.nextafter(x, end)}
+                with suppress(PrecisionError):
+                    beside = balls.reference(name, values, digits, point.modes)
+                    if beside.value.is_finite():
+                        yield beside
 
     references = ((point, reference(point)) for point in points)
     return [

@@ -132,6 +132,19 @@ def test_a_root_at_the_end_of_its_domain_has_a_value(monkeypatch: pytest.MonkeyP
         reference_values(by.routes.balls, "f", [Point({"n": 1.5, "q": 2.0})], 50)
 
 
+def test_a_kink_without_slope_is_judged_by_the_slope_beside_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Balls have no slope of sqrt((1 - n)^2) at n = 1, where it is finite on both sides."""
+    proof = prove("Given", "Given.", {"nothing": sp.Integer(0)})
+    kink = Number("f", "f", "a kink", q + sp.sqrt((1 - n) ** 2), "1", "", (), proof)
+    by = judged(kink, monkeypatch, decades=100)
+    [found] = reference_values(by.routes.balls, "f", [Point({"n": 1.0, "q": 2.0})], 50)
+    assert found.references[0].value == 2
+    assert judge(2.0, found.references[0], 1.0).ratio == 0
+    assert judge(2.0 + 1e-14, found.references[0], 1.0).ratio > 1
+
+
 def test_domains_of_large_and_small_numbers_have_points() -> None:
     """A Reynolds number from 2,000 is larger than the numbers that are drawn first."""
     large, small = sp.symbols("Re k", positive=True)

@@ -116,6 +116,7 @@ def variants(position: Position, search: VariantSearch) -> Iterator[Variant]:
         yield from lost_parentheses(position.node, search)
         if position.role != FACTOR:
             yield from superfluous_parentheses(position.node, search)
+        yield from inverted_fractions(position.node, search)
         yield from other_faces(position.node, search)
 
 
@@ -216,6 +217,17 @@ def other_signs(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
             says = f"reverse the sign of the term {short(term)}"
             new = search.variant(SIGN, (base - 2 * term) ** exponent)
             yield replace(new, shown=lambda text=says: text)  # type: ignore[misc]
+
+
+def inverted_fractions(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
+    """Yield products in which a fraction is upside down, such as (1 + e)/(1 - e).
+
+    Of a fraction without a sum, both symbols are exchanged or the ratio is a monomial.
+    """
+    factors = [factor.as_base_exp() for factor in sp.Mul.make_args(node)]
+    for (above, power), (below, other) in permutations(factors, 2):
+        if power == -other and power.is_positive and (above.is_Add or below.is_Add):
+            yield search.variant(EXPONENT, node * (below / above) ** (2 * power))
 
 
 def other_faces(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:

@@ -45,6 +45,7 @@ from derivation.engine.console import (
 )
 from derivation.engine.failed import FailedError
 from derivation.engine.files import ROOT, in_checkout
+from derivation.engine.interruption import interruptions
 from derivation.engine.staging import recover
 from derivation.scene.input.old_names import OldNameWarning
 
@@ -240,9 +241,11 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         if in_checkout():
             recover(ROOT / "generated")
-        with warnings_as_notes(OldNameWarning):
+        with warnings_as_notes(OldNameWarning), interruptions():
             status = platecontact(args=argv, prog_name="platecontact", standalone_mode=False)
         write_output("")
+    except KeyboardInterrupt:
+        status = INTERRUPTED_STATUS
     except TyperException as error:
         context = getattr(error, "ctx", None)
         command = context.command_path if context else "platecontact"

@@ -14,6 +14,7 @@ from derivation.engine.formula.proof import Proof
 from derivation.engine.formula.record import Record
 from derivation.engine.formula.vocabulary import Vocabulary
 from derivation.engine.formula.vocabulary_check import check_vocabulary
+from derivation.engine.interruption import interruptions
 
 Value = TypeVar("Value")
 Found = tuple[tuple[str, tuple[Record, ...]], ...]
@@ -156,7 +157,8 @@ def _derive_step(step: DerivationStep) -> tuple[Record, ...]:
 def _run_step(step: DerivationStep) -> object:
     """Return what the function of a step returns; state the step and the line if it fails."""
     try:
-        return step.derive()
+        with interruptions():
+            return step.derive()
     except Exception as error:  # any exception that the code of a paper raises
         if type(error) not in _OF_CODE:
             raise

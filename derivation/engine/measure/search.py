@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from derivation.engine.interruption import interruptions
 from derivation.engine.measure.judge import Error
 from derivation.engine.measure.point import Point
 from derivation.engine.measure.target import Target
@@ -151,7 +152,7 @@ def search(
         return enough or (end is not None and time.monotonic() >= end)
 
     try:
-        with np.errstate(all="ignore"):
+        with np.errstate(all="ignore"), interruptions():
             _search_in_turns(targets, hunts, result, over, progress, keep)
     except KeyboardInterrupt:
         result.interrupted = True

@@ -99,6 +99,8 @@ def parse(text: str, vocabulary: Vocabulary, also: Mapping[str, sp.Basic] | None
 
 def _syntax_hint(error: BaseException) -> str:
     if isinstance(error, SyntaxError) and error.offset is not None:
+        if not error.offset:  # Python has read to the end
+            return "it ends too early, for example with an operator; complete it"
         return f"it breaks off near character {error.offset}; check brackets and write every *"
     return "it is nested too deeply; write it with fewer brackets"
 

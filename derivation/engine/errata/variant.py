@@ -222,7 +222,7 @@ def other_signs(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
 def inverted_fractions(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
     """Yield products in which a fraction is upside down, such as (1 + e)/(1 - e).
 
-    Of a fraction without a sum, both symbols are exchanged or the ratio is a monomial.
+    Fractions of symbols alone are found as exchanged symbols, or as a missing factor.
     """
     factors = [factor.as_base_exp() for factor in sp.Mul.make_args(node)]
     for (above, power), (below, other) in permutations(factors, 2):

@@ -2,26 +2,14 @@
 
 import pytest
 import sympy as sp
+from pure_numbers import formulas_of
 
 from derivation.engine.errata.compare import diagnose
 from derivation.engine.errata.relations import Relations
 from derivation.engine.formula.parse import parse
-from derivation.engine.formula.proof import prove
-from derivation.engine.formula.record import Record
-from derivation.engine.formula.vocabulary import Argument, Vocabulary
 
-e, E, k, q = SYMBOLS = sp.symbols("e E k q", positive=True)
+e, E, k, q = sp.symbols("e E k q", positive=True)
 DOMAINS = {e: ("e > 0", "e < 1"), E: ("E > 0", "E < 3")}
-WORDS = Vocabulary(
-    tuple(Argument(s, "1", s.name, "a number", DOMAINS.get(s, (f"{s} > 0",))) for s in SYMBOLS)
-)
-PROOF = prove("given", "typed", {"identity": sp.Integer(0)})
-
-
-class Formula(Record):
-    """A formula of pure numbers."""
-
-    vocabulary = WORDS
 
 
 @pytest.mark.parametrize(
@@ -35,8 +23,8 @@ class Formula(Record):
     ],
 )
 def test_a_fraction_upside_down_is_one_misprint(derived: sp.Expr, printed: str) -> None:
-    formula = Formula("f", "f", "f", derived, "1", "", (), PROOF)
-    result = diagnose("f", parse(printed, WORDS), {"f": formula}, Relations())
+    formulas = formulas_of({"f": derived}, DOMAINS)
+    result = diagnose("f", parse(printed, formulas["f"].vocabulary), formulas, Relations())
     assert result.verdict == "different"
     assert "two" not in result.kind
     assert result.repaired is not None

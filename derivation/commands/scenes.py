@@ -163,6 +163,7 @@ def _sweep(
     """Simulate the scene once for each value of a key."""
     from derivation.scene import SceneError, load
     from derivation.scene import sweep as sweeps
+    from derivation.scene.input.keys import written
 
     if plot is not None:
         raise SceneError(
@@ -174,18 +175,18 @@ def _sweep(
     loaded = load(scene)
     with progress_bar("simulate") as progress:
         rows = sweeps.run(loaded, sweep, rtol, progress, workers=os.cpu_count() or 1)
-    key = f"{sweep.table}.{sweep.key}"
+    key = sweep.key
     if not any(row.results for row in rows):
         raise SceneError(
             f"--sweep: expected a value of {key} that can be simulated, but all {len(rows)} are "
-            f"rejected; {key} = {rows[0].value:.6g} is {rows[0].remark}"
+            f"rejected; {key} = {written(rows[0].value)} is {rows[0].remark}"
         )
     files: dict[Path, str | bytes] = {}
     if csv is not None:
         files[csv] = sweeps.to_csv(sweep, rows)
     if _write(files, json, lambda: [asdict(row) for row in rows]) and csv is None:
         OUT.say(f"Sweep of {one_line(scene.name)} over {key}\n\n{sweeps.to_text(sweep, rows)}")
-    warn([f"at {key} = {row.value:.6g}: {row.remark}" for row in rows if row.remark])
+    warn([f"at {key} = {written(row.value)}: {row.remark}" for row in rows if row.remark])
 
 
 def explain(

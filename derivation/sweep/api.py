@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from derivation.engine.activity import Progress, quiet
 from derivation.scene.errors import SceneError
+from derivation.scene.input.keys import check_names, written
 from derivation.scene.scene import Scene, check_scene
 from derivation.scene.selection.method_selection import check_rtol
 from derivation.sweep.dataset import check_memory, column, data_set, fits_in_memory
@@ -47,7 +48,9 @@ def sweep(
     vary
         For each key, such as "plate.thickness", the values in SI units: for a grid a list, an array
         or a text such as "first:last:count", "first:last:count:log" or "0.5,1,3"; for a sample a
-        distribution, for example ``{"distribution": "uniform", "low": 4e-3, "high": 12e-3}``.
+        distribution, for example ``{"distribution": "uniform", "low": 4e-3, "high": 12e-3}``. A key
+        such as "plate.material" or "plate.edge" takes names: ``["glass", "steel"]``, the text
+        "glass,steel" or ``{"distribution": "choice", "values": ["glass", "steel"]}``.
     sample
         Number of points of a sample; by default a grid is computed. It must be a power of two with
         the method "sobol" and with `sensitivity`. With `sensitivity` it is the number of base
@@ -151,15 +154,16 @@ def make_plan(
 
 
 def check(study: Study, out: Path | None) -> None:
-    """Raise an error for an invalid tolerance or output, before anything is computed.
+    """Raise an error for an invalid name, tolerance or output, before anything is computed.
 
     Raises
     ------
     SceneError
-        If the tolerance is out of range or the output has an unknown suffix.
+        If a name is unknown, the tolerance is out of range or the output has an unknown suffix.
     OSError
         If the output cannot be written.
     """
+    check_names(study.scene, study.plan.names, study.plan.keys)
     if study.rtol is not None:
         check_rtol(study.rtol)
     if out is not None:
@@ -190,7 +194,8 @@ def _check_some(store: Store) -> None:
             return
         if start == 0:
             first = column(table, "reason")[0]
-    values = ", ".join(f"{k} = {v[0]:.6g}" for k, v in store.study.plan.points(0, 1).items())
+    points = store.study.plan.points(0, 1)
+    values = ", ".join(f"{key} = {written(one[0])}" for key, one in points.items())
     raise SceneError(
         "sweep: expected a point that can be simulated, but all "
         f"{store.study.plan.size:,} are rejected; at {values}: {first}"

@@ -2,7 +2,7 @@
 
 import math
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -14,9 +14,11 @@ from derivation.engine.files import read_file
 from derivation.engine.nearest import nearest
 from derivation.engine.printable import one_line
 from derivation.scene.errors import SceneError
-from derivation.scene.input.keys import number_key
+from derivation.scene.input.keys import takes_names, varied_key
 from derivation.scene.input.messages import shown
 from derivation.scene.input.table import is_number
+from derivation.scene.sweep import Values
+from derivation.sweep.values import different, names_among
 
 Array = NDArray[np.float64]
 
@@ -25,9 +27,12 @@ PARAMETERS = {
     "loguniform": ("low", "high"),
     "normal": ("mean", "std"),
     "lognormal": ("mean", "std"),
+    "choice": ("values",),
 }
 """Parameters of each distribution, in the unit of the quantity; those of `lognormal` are mean and
-standard deviation of the quantity itself, not of its logarithm."""
+standard deviation of the quantity itself, not of its logarithm. The values of a choice are equally
+probable."""
+CHOICE = '{distribution = "choice", values = ["glass", "steel"]}'
 EXAMPLE = '"plate.thickness" = {distribution = "uniform", low = 4e-3, high = 12e-3}'
 LARGEST = 2**20
 """Largest size of a file of distributions [bytes]."""
@@ -71,7 +76,30 @@ class Distribution:
         return {"distribution": self.distribution, first: self.first, second: self.second}
 
 
-def load_distributions(path: Path) -> dict[str, Distribution]:
+@dataclass(frozen=True)
+class UniformChoice:
+    """A choice among numbers or names with equal probabilities.
+
+    Attributes
+    ----------
+    values
+        Different numbers in SI units, or different names.
+    """
+
+    values: Values
+
+    def quantiles(self, probabilities: Array) -> NDArray[Any]:
+        """Return the value for each probability in (0, 1)."""
+        count = len(self.values)
+        which = np.minimum((probabilities * count).astype(np.intp), count - 1)
+        return np.array(self.values)[which]
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the choice with the keys of a file."""
+        return {"distribution": "choice", "values": list(self.values)}
+
+
+def load_distributions(path: Path) -> dict[str, Distribution | UniformChoice]:
     """Read the table `[vary]` of a TOML file.
 
     Raises
@@ -113,7 +141,7 @@ def _has_unquoted_dot(given: Any) -> bool:
     return isinstance(given, Mapping) and any(isinstance(x, Mapping) for x in given.values())
 
 
-def read_distributions(given: Mapping[str, Any]) -> dict[str, Distribution]:
+def read_distributions(given: Mapping[str, Any]) -> dict[str, Distribution | UniformChoice]:
     """Return distributions by key from mappings of their parameters.
 
     Raises
@@ -121,12 +149,21 @@ def read_distributions(given: Mapping[str, Any]) -> dict[str, Distribution]:
     SceneError
         If a key, a distribution or a parameter is unknown or out of range.
     """
-    return {".".join(number_key(key)): _distribution(key, given[key]) for key in given}
+    return {varied_key(key): _distribution(varied_key(key), given[key]) for key in given}
 
 
-def _distribution(key: str, given: Any) -> Distribution:
+def names_in(values: Mapping[str, Any]) -> dict[str, tuple[str, ...]]:
+    """Return the names of each key that takes names, from its values or its distribution."""
+    given = {key: one for key, one in values.items() if takes_names(key)}
+    return {
+        key: tuple(map(str, one.values if isinstance(one, UniformChoice) else one))
+        for key, one in given.items()
+    }
+
+
+def _distribution(key: str, given: Any) -> Distribution | UniformChoice:
     """Return the distribution of one key."""
-    if isinstance(given, Distribution):
+    if isinstance(given, Distribution | UniformChoice):
         return given
     example = f"write for example {EXAMPLE}"
     if not isinstance(given, Mapping):
@@ -143,6 +180,13 @@ def _distribution(key: str, given: Any) -> Distribution:
     if set(given) != {"distribution", *wanted}:
         got = ", ".join(str(part) for part in given if part != "distribution") or "none"
         raise SceneError(f"{key}: expected {' and '.join(wanted)} of {name}, got {got}; {example}")
+    if name == "choice":
+        return _choice(key, given["values"])
+    if takes_names(key):
+        raise SceneError(
+            f"{key}: expected the distribution choice for names, got {name}; write for example "
+            f'"plate.material" = {CHOICE}'
+        )
     first, second = (given[part] for part in wanted)
     if not (is_number(first) and is_number(second)):
         raise SceneError(
@@ -152,6 +196,19 @@ def _distribution(key: str, given: Any) -> Distribution:
     made = Distribution(name, float(first), float(second))
     _check_range(key, made)
     return made
+
+
+def _choice(key: str, values: Any) -> UniformChoice:
+    """Return a choice among numbers or names."""
+    if takes_names(key):
+        return UniformChoice(names_among(key, values))
+    numbers = values if isinstance(values, Sequence) and not isinstance(values, str) else []
+    if not numbers or not all(map(is_number, numbers)):
+        raise SceneError(
+            f"{key}: expected finite numbers in values, got {shown(values)}; write for example "
+            "values = [4e-3, 6e-3]"
+        )
+    return UniformChoice(different(key, tuple(map(float, numbers))))
 
 
 def _check_range(key: str, given: Distribution) -> None:

@@ -13,11 +13,15 @@ from numpy.typing import NDArray
 
 from derivation.engine.nearest import did_you_mean
 from derivation.scene.errors import SceneError
-from derivation.scene.input.keys import number_key, rivals
-from derivation.scene.sweep import parse
-from derivation.sweep.distributions import Distribution
+from derivation.scene.input.keys import rivals, takes_names, varied_key
+from derivation.scene.sweep import Values, parse, values_in
+from derivation.sweep.distributions import Distribution, UniformChoice, names_in
+from derivation.sweep.values import different, names_among
 
 Array = NDArray[np.float64]
+Column = NDArray[Any]
+"""Numbers in SI units, or names."""
+Distributions = Mapping[str, Distribution | UniformChoice]
 
 MOST_POINTS = 10**9
 """Largest number of points of a study."""
@@ -37,16 +41,21 @@ class GridPlan:
     Attributes
     ----------
     axes
-        The values of each key, in SI units; the last key varies fastest.
+        The values of each key, in SI units or names; the last key varies fastest.
     """
 
-    axes: dict[str, tuple[float, ...]]
+    axes: dict[str, Values]
     seed: ClassVar[None] = None
 
     @property
     def keys(self) -> tuple[str, ...]:
         """The varied keys."""
         return tuple(self.axes)
+
+    @property
+    def names(self) -> dict[str, tuple[str, ...]]:
+        """The names of each key that takes names."""
+        return names_in(self.axes)
 
     @property
     def dims(self) -> dict[str, int]:
@@ -58,7 +67,7 @@ class GridPlan:
         """Number of points."""
         return prod(self.dims.values())
 
-    def points(self, start: int, stop: int) -> dict[str, Array]:
+    def points(self, start: int, stop: int) -> dict[str, Column]:
         """Return the values of each key at the points from `start` to `stop` (exclusive)."""
         indices = np.unravel_index(np.arange(start, stop), tuple(self.dims.values()))
         return {
@@ -66,9 +75,12 @@ class GridPlan:
             for (key, values), index in zip(self.axes.items(), indices, strict=True)
         }
 
-    def probes(self, most: int) -> dict[str, Array]:
-        """Return at most `most` corners of the grid, for a forecast."""
-        ends = [sorted({0, length - 1}) for length in self.dims.values()]
+    def probes(self, most: int) -> dict[str, Column]:
+        """Return at most `most` corners of the grid, with all names, for a forecast."""
+        ends = [
+            list(range(length)) if key in self.names else sorted({0, length - 1})
+            for key, length in self.dims.items()
+        ]
         corners = np.array([corner for corner, _ in zip(product(*ends), range(most), strict=False)])
         columns = zip(self.axes.items(), corners.T, strict=True)
         return {key: np.asarray(values)[indices] for (key, values), indices in columns}
@@ -94,7 +106,7 @@ class SamplePlan:
         One of `METHODS`.
     """
 
-    distributions: dict[str, Distribution]
+    distributions: dict[str, Distribution | UniformChoice]
     size: int
     seed: int
     method: str
@@ -105,15 +117,20 @@ class SamplePlan:
         return tuple(self.distributions)
 
     @property
+    def names(self) -> dict[str, tuple[str, ...]]:
+        """The names of each key that takes names."""
+        return names_in(self.distributions)
+
+    @property
     def dims(self) -> dict[str, int]:
         """Names and lengths of the dimensions of the results."""
         return {"sample": self.size}
 
-    def points(self, start: int, stop: int) -> dict[str, Array]:
+    def points(self, start: int, stop: int) -> dict[str, Column]:
         """Return the values of each key at the points from `start` to `stop` (exclusive)."""
         return _values(self.distributions, self._probabilities(start, stop))
 
-    def probes(self, most: int) -> dict[str, Array]:
+    def probes(self, most: int) -> dict[str, Column]:
         """Return the first points, at most `most`, for a forecast."""
         return self.points(0, min(most, self.size))
 
@@ -162,7 +179,7 @@ class SaltelliPlan:
         Random seed of the scrambled sequence.
     """
 
-    distributions: dict[str, Distribution]
+    distributions: dict[str, Distribution | UniformChoice]
     base: int
     seed: int
 
@@ -170,6 +187,11 @@ class SaltelliPlan:
     def keys(self) -> tuple[str, ...]:
         """The varied keys."""
         return tuple(self.distributions)
+
+    @property
+    def names(self) -> dict[str, tuple[str, ...]]:
+        """The names of each key that takes names."""
+        return names_in(self.distributions)
 
     @property
     def each(self) -> int:
@@ -186,7 +208,7 @@ class SaltelliPlan:
         """Names and lengths of the dimensions of the results."""
         return {"sample": self.size}
 
-    def points(self, start: int, stop: int) -> dict[str, Array]:
+    def points(self, start: int, stop: int) -> dict[str, Column]:
         """Return the values of each key at the points from `start` to `stop` (exclusive)."""
         number, each = len(self.keys), self.each
         first = start // each
@@ -198,7 +220,7 @@ class SaltelliPlan:
         probabilities = rows.reshape(-1, number)[start - first * each : stop - first * each]
         return _values(self.distributions, probabilities)
 
-    def probes(self, most: int) -> dict[str, Array]:
+    def probes(self, most: int) -> dict[str, Column]:
         """Return the first points, at most `most`, for a forecast."""
         return self.points(0, min(most, self.size))
 
@@ -211,32 +233,27 @@ class SaltelliPlan:
 Plan = GridPlan | SamplePlan | SaltelliPlan
 
 
-def grid(given: Mapping[str, Iterable[float] | str] | Sequence[str]) -> GridPlan:
+def grid(given: Mapping[str, Iterable[float | str] | str] | Sequence[str]) -> GridPlan:
     """Return a grid from texts such as `table.key=first:last:count`, or the values of each key.
 
     Raises
     ------
     SceneError
-        If a key is unknown, given twice or given with a key that it excludes, a value is not finite
-        or given twice, or there are too many points.
+        If a key is unknown, given twice or given with a key that it excludes, a number is not
+        finite, a value is given twice, or there are too many points.
     """
     if isinstance(given, Mapping):
         axes = [_axis(key, values) for key, values in given.items()]
     else:
         sweeps = [parse(text) for text in given]
-        axes = [(f"{one.table}.{one.key}", one.values) for one in sweeps]
+        axes = [(one.key, one.values) for one in sweeps]
     _check_keys([key for key, _ in axes])
-    for key, values in axes:
-        if len(set(values)) < len(values):
-            raise SceneError(f"{key}: expected different values, got one twice; remove one")
-    made = GridPlan(dict(axes))
+    made = GridPlan({key: different(key, values) for key, values in axes})
     _check_size(made.size, "use fewer values")
     return made
 
 
-def sample(
-    distributions: Mapping[str, Distribution], size: int, seed: int, method: str
-) -> SamplePlan:
+def sample(distributions: Distributions, size: int, seed: int, method: str) -> SamplePlan:
     """Return a sample of distributions.
 
     Raises
@@ -261,7 +278,7 @@ def sample(
     return SamplePlan(dict(distributions), size, seed, method)
 
 
-def saltelli(distributions: Mapping[str, Distribution], base: int, seed: int) -> SaltelliPlan:
+def saltelli(distributions: Distributions, base: int, seed: int) -> SaltelliPlan:
     """Return the points for sensitivity indices.
 
     Raises
@@ -278,12 +295,13 @@ def saltelli(distributions: Mapping[str, Distribution], base: int, seed: int) ->
     return made
 
 
-def _axis(key: str, values: Iterable[float] | str) -> tuple[str, tuple[float, ...]]:
-    """Return a key and its values from a text or numbers."""
+def _axis(key: str, values: Iterable[float | str] | str) -> tuple[str, Values]:
+    """Return a key and its values from a text, numbers or names."""
+    place = varied_key(key)
     if isinstance(values, str):
-        parsed = parse(f"{key}={values}")
-        return f"{parsed.table}.{parsed.key}", parsed.values
-    place = ".".join(number_key(key))
+        return place, values_in(place, values)
+    if takes_names(place):
+        return place, names_among(place, values)
     try:
         numbers = np.atleast_1d(np.asarray(values, dtype=np.float64))
     except (TypeError, ValueError):
@@ -326,7 +344,7 @@ def _check_power(size: int, what: str) -> None:
         )
 
 
-def _values(distributions: Mapping[str, Distribution], probabilities: Array) -> dict[str, Array]:
+def _values(distributions: Distributions, probabilities: Array) -> dict[str, Column]:
     """Return the values of the keys at points of the unit cube."""
     inside = np.clip(probabilities, LEAST_PROBABILITY, 1 - LEAST_PROBABILITY)
     columns = zip(distributions.items(), inside.T, strict=True)

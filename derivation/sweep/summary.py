@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from derivation.engine.text import aligned
+from derivation.scene.input.keys import written
 from derivation.scene.quantity import common_prefix
 from derivation.scene.result import UNITS
 from derivation.sweep.dataset import column
@@ -120,6 +121,6 @@ def _add_reasons(reasons: dict[str, str], store: Store, start: int, status: Any,
         if text and text not in reasons and len(reasons) < MOST_WARNINGS:
             number = start + int(index)
             points = store.study.plan.points(number, number + 1)
-            where = ", ".join(f"{key} = {values[0]:.6g}" for key, values in points.items())
+            where = ", ".join(f"{key} = {written(values[0])}" for key, values in points.items())
             state = "" if status[index] == "finished" else f" ({status[index]})"
             reasons[str(text)] = f"at {where}{state}"

@@ -1,5 +1,7 @@
 """Writes the results of a study block by block: .nc, .zarr, .parquet or .csv."""
 
+import csv
+import io
 import shutil
 import warnings
 from collections.abc import Callable, Iterator
@@ -87,9 +89,10 @@ def _csv(store: Store, path: Path, progress: Progress) -> None:
     import pyarrow as pa
     from pyarrow.csv import CSVWriter
 
-    names = (*store.study.plan.keys, *NUMBERS, *TEXTS)
+    head = io.StringIO()
+    csv.writer(head, lineterminator="\n").writerow([*store.study.plan.keys, *NUMBERS, *TEXTS])
     with pa.OSFile(str(path), "wb") as stream:
-        stream.write((",".join(names) + "\n").encode())
+        stream.write(head.getvalue().encode())
         writer = None
         for table in _with_points(store, progress):
             if writer is None:
@@ -129,7 +132,7 @@ def _with_points(store: Store, progress: Progress) -> Iterator[Any]:
     study = store.study
     for start, stop, table in store.tables(BLOCK):
         columns = {
-            name: pa.array(values, pa.float64())
+            name: pa.array(values, pa.string() if name in study.plan.names else pa.float64())
             for name, values in study.plan.points(start, stop).items()
         }
         columns |= {name: pa.array(column(table, name), from_pandas=True) for name in NUMBERS}
@@ -145,14 +148,15 @@ def _zarr(store: Store, path: Path, progress: Progress) -> None:
 
     group = zarr.open_group(path, mode="w")
     group.attrs.update(attributes(store.study))
+    texts = {*TEXTS, *store.study.plan.names}
 
     def create(name: str, dims: Dims, blocks: tuple[int, ...], about: Labels) -> Fill:
         made: Any = group.create_array(
             name,
             shape=tuple(store.study.plan.dims[dim] for dim in dims),
             chunks=blocks,
-            dtype=str if name in TEXTS else "float64",
-            fill_value="" if name in TEXTS else float("nan"),
+            dtype=str if name in texts else "float64",
+            fill_value="" if name in texts else float("nan"),
             dimension_names=dims,
             attributes=about,
         )
@@ -168,13 +172,16 @@ def _zarr(store: Store, path: Path, progress: Progress) -> None:
 def _netcdf(store: Store, path: Path, progress: Progress) -> None:
     import h5netcdf
 
-    lengths = store.text_lengths()
+    names = store.study.plan.names.items()
+    lengths = store.text_lengths() | {
+        key: max(len(name.encode()) for name in given) for key, given in names
+    }
     with h5netcdf.File(path, "w") as file:
         file.attrs.update(attributes(store.study))
         file.dimensions = store.study.plan.dims
 
         def create(name: str, dims: Dims, blocks: tuple[int, ...], about: Labels) -> Fill:
-            if name in TEXTS:
+            if name in lengths:
                 return _characters(file, name, lengths[name], dims, blocks, about)
             made: Any = file.create_variable(name, dims, "f8", chunks=blocks)
             made.attrs.update(about)
@@ -216,7 +223,7 @@ def _arrays(store: Store, create: Callable[..., Fill], progress: Progress) -> No
     points: dict[str, Fill] = {}
     if isinstance(plan, GridPlan):
         for key, values in plan.axes.items():
-            create(key, (key,), (len(values),), labels(key))((slice(None),), values)
+            create(key, (key,), (len(values),), labels(key))((slice(None),), np.array(values))
     else:
         points = {key: create(key, dims, chunks, labels(key)) for key in plan.keys}
     beside = {"coordinates": " ".join(points)} if points else {}  # as CF calls them

@@ -32,7 +32,10 @@ OUTPUT_SUFFIXES = frozenset(
 )
 """Suffixes of output formats."""
 
-SceneFile = Annotated[Path, typer.Argument(metavar="SCENE.toml", help="Scene file.")]
+SceneFile = Annotated[
+    Path,
+    typer.Argument(metavar="SCENE.toml", help="Scene file; - is standard input."),
+]
 SelectionTolerance = Annotated[
     float | None,
     typer.Option(
@@ -110,6 +113,14 @@ def simulate(
         raise typer.Exit(1)
 
 
+def title(scene: Path) -> str:
+    """Return the name of a scene file, or of the pipe it is read from, for a heading."""
+    name = str(scene)
+    if name in ("-", "/dev/stdin"):
+        return "standard input"
+    return one_line(name if name.startswith(("/dev/", "/proc/")) else scene.name)
+
+
 def _check_exclusive(details: bool, quiet: bool, sweep: bool) -> None:
     """Reject options that exclude each other."""
     given = {"--details": details, "--quiet": quiet, "--sweep": sweep}
@@ -185,7 +196,7 @@ def _sweep(
     if csv is not None:
         files[csv] = sweeps.to_csv(sweep, rows)
     if _write(files, json, lambda: [asdict(row) for row in rows]) and csv is None:
-        OUT.say(f"Sweep of {one_line(scene.name)} over {key}\n\n{sweeps.to_text(sweep, rows)}")
+        OUT.say(f"Sweep of {title(scene)} over {key}\n\n{sweeps.to_text(sweep, rows)}")
     warn([f"at {key} = {written(row.value)}: {row.remark}" for row in rows if row.remark])
 
 
@@ -204,7 +215,7 @@ def explain(
     check_outputs(scene, json)
     explanation = run(load(scene), rtol)
     if write_json_output(explanation.to_json, json):
-        OUT.say(f"Effects in {one_line(scene.name)}\n\n{explanation.details()}")
+        OUT.say(f"Effects in {title(scene)}\n\n{explanation.details()}")
         for note in explanation.notes:
             NOTES.say(paragraph(note, 0))
 
@@ -265,7 +276,7 @@ def indent(
         )
     contacts = run(loaded, **chosen)
     if write_json_output(lambda: [contact.to_json() for contact in contacts], json):
-        OUT.say(f"Static contact in {one_line(scene.name)}\n\n{contacts}")
+        OUT.say(f"Static contact in {title(scene)}\n\n{contacts}")
     warn([text for contact in contacts for text in contact.warnings])
 
 

@@ -61,7 +61,7 @@ def write_files(contents: Mapping[Path, str | bytes]) -> tuple[Path, ...]:
         for path, content in contents.items():
             expect_writable(path)
             target = real(path)
-            with _explained(path):
+            with explained(path):
                 made += _make_folder(target.parent)
                 if target.parent not in cleaned:
                     remove_leftovers(target.parent)
@@ -95,7 +95,7 @@ def write_folder(folder: Path, contents: Mapping[str, str | bytes]) -> tuple[Pat
         If a file cannot be written; the message states the file, the reason, and a remedy.
     """
     target = real(folder)
-    with _explained(folder):
+    with explained(folder):
         recover(target)
         made = _make_folder(target.parent)
         remove_leftovers(target.parent)
@@ -172,7 +172,7 @@ def expect_writable(path: Path) -> None:
         If it cannot be written; the message states the reason, and a remedy.
     """
     target = real(path)
-    with _explained(path):
+    with explained(path):
         exists, fine = target.exists(), target.is_file()
         if fine and not os.access(target, os.W_OK):
             raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
@@ -190,7 +190,7 @@ def expect_folder(folder: Path) -> None:
     OSError
         If it cannot be written to; the message states the reason, and a remedy.
     """
-    with _explained(folder):
+    with explained(folder):
         other = folder.exists() and not folder.is_dir()
         if not other:
             _try_folder(real(folder))
@@ -206,7 +206,7 @@ def _try_folder(folder: Path) -> None:
 
 
 @contextlib.contextmanager
-def _explained(path: Path) -> Iterator[None]:
+def explained(path: Path) -> Iterator[None]:
     """Replace an OSError in the block by one that states the file, the reason and a remedy."""
     try:
         yield
@@ -214,7 +214,7 @@ def _explained(path: Path) -> Iterator[None]:
         full = error.errno in (errno.ENOSPC, errno.EDQUOT)
         remedy = "free some space" if full else "obtain permission to write there"
         raise OSError(
-            f"cannot write {path}: {error.strerror}; {remedy}, or name another folder"
+            f"cannot write {path}: {error.strerror or error}; {remedy}, or name another folder"
         ) from None
 
 

@@ -198,8 +198,8 @@ def run(
     SceneError
         If a name is unknown.
     """
-    if takes_names(sweep.key):
-        check_names(scene, {sweep.key: [str(name) for name in sweep.values]}, [sweep.key])
+    names = {sweep.key: [str(name) for name in sweep.values]} if takes_names(sweep.key) else {}
+    check_names(scene, names, [sweep.key])
     results, rows = _rows(scene, sweep, rtol, workers), list[SweepRow]()
     for number in range(1, len(sweep.values) + 1):
         progress(sweep.key, number, len(sweep.values))

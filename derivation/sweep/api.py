@@ -1,12 +1,15 @@
 """Runs a study from Python and returns its results as a Dataset with units."""
 
+import os
 from collections.abc import Iterable, Mapping
+from numbers import Integral
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from derivation.engine.activity import Progress, quiet
 from derivation.scene.errors import SceneError
 from derivation.scene.input.keys import check_names, written
+from derivation.scene.input.messages import shown
 from derivation.scene.scene import Scene, check_scene
 from derivation.scene.selection.method_selection import check_rtol
 from derivation.sweep.dataset import check_memory, column, data_set, fits_in_memory
@@ -104,8 +107,10 @@ def sweep(
     (('impact.speed',), 'N', 'm/s')
     """
     check_scene(scene)
+    workers = _whole("workers", workers, 1)
+    rtol = None if rtol is None else check_rtol(rtol)
     study = Study(scene, make_plan(vary, sample, seed, method, sensitivity), rtol)
-    path = None if out is None else Path(out)
+    path = None if out is None else _path(out)
     check(study, path)
     if sensitivity or path is None or path.suffix not in READ_AS_NEEDED:
         check_memory(study, "sweep")
@@ -137,10 +142,23 @@ def make_plan(
     SceneError
         If an argument is not valid.
     """
+    texts = isinstance(vary, Iterable) and not isinstance(vary, str) and size is None
+    if not isinstance(vary, Mapping) and not texts:
+        raise SceneError(
+            f"vary: expected a mapping from key to values, got {shown(vary)}; write for example "
+            '{"impact.speed": [0.5, 1.0]}'
+        )
+    seed = _whole("seed", seed, 0)
     if size is None:
         if sensitivity:
             raise SceneError("sensitivity: expected a sample, got a grid; give its size too")
+        if method != "random":
+            raise SceneError(
+                f"method: expected none for a grid, got {shown(method)}; remove it, or give the "
+                "size of a sample"
+            )
         return grid(vary if isinstance(vary, Mapping) else list(vary))
+    size = _whole("sample", size, 1)
     assert isinstance(vary, Mapping)
     distributions = read_distributions(vary)
     if sensitivity:
@@ -151,6 +169,35 @@ def make_plan(
             )
         return saltelli(distributions, size, seed)
     return sample(distributions, size, seed, method)
+
+
+def _whole(name: str, value: object, least: int) -> int:
+    """Return an argument that must be a whole number from `least`.
+
+    Raises
+    ------
+    SceneError
+        If it is not.
+    """
+    whole = isinstance(value, Integral) or (isinstance(value, float) and value.is_integer())
+    if isinstance(value, bool) or not whole or int(value) < least:  # type: ignore[call-overload]
+        raise SceneError(
+            f"{name}: expected a whole number from {least}, got {shown(value)}; change it"
+        )
+    return int(value)  # type: ignore[call-overload,no-any-return]
+
+
+def _path(out: object) -> Path:
+    """Return the path of the output.
+
+    Raises
+    ------
+    SceneError
+        If it is not a path.
+    """
+    if not isinstance(out, str | os.PathLike):
+        raise SceneError(f"out: expected a file name, got {shown(out)}; write for example rows.nc")
+    return Path(out)
 
 
 def check(study: Study, out: Path | None) -> None:
@@ -167,7 +214,7 @@ def check(study: Study, out: Path | None) -> None:
     if study.rtol is not None:
         check_rtol(study.rtol)
     if out is not None:
-        check_output_file(out)
+        check_output_file(out, study.plan.keys)
 
 
 def write_results(

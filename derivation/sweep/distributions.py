@@ -2,7 +2,7 @@
 
 import math
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -16,9 +16,9 @@ from derivation.engine.printable import one_line
 from derivation.scene.errors import SceneError
 from derivation.scene.input.keys import takes_names, varied_key
 from derivation.scene.input.messages import shown
-from derivation.scene.input.table import is_number
+from derivation.scene.input.table import is_number, plain_keys
 from derivation.scene.sweep import Values
-from derivation.sweep.values import different, names_among
+from derivation.sweep.values import different, names_among, numbers_among
 
 Array = NDArray[np.float64]
 
@@ -168,6 +168,7 @@ def _distribution(key: str, given: Any) -> Distribution | UniformChoice:
     example = f"write for example {EXAMPLE}"
     if not isinstance(given, Mapping):
         raise SceneError(f"{key}: expected a distribution, got {shown(given)}; {example}")
+    given = plain_keys(given)
     name = given.get("distribution")
     if name not in PARAMETERS:
         near = next(iter(nearest(name, PARAMETERS)), "") if isinstance(name, str) else ""
@@ -181,7 +182,8 @@ def _distribution(key: str, given: Any) -> Distribution | UniformChoice:
         got = ", ".join(str(part) for part in given if part != "distribution") or "none"
         raise SceneError(f"{key}: expected {' and '.join(wanted)} of {name}, got {got}; {example}")
     if name == "choice":
-        return _choice(key, given["values"])
+        among = names_among if takes_names(key) else numbers_among
+        return UniformChoice(different(key, among(key, given["values"])))
     if takes_names(key):
         raise SceneError(
             f"{key}: expected the distribution choice for names, got {name}; write for example "
@@ -196,19 +198,6 @@ def _distribution(key: str, given: Any) -> Distribution | UniformChoice:
     made = Distribution(name, float(first), float(second))
     _check_range(key, made)
     return made
-
-
-def _choice(key: str, values: Any) -> UniformChoice:
-    """Return a choice among numbers or names."""
-    if takes_names(key):
-        return UniformChoice(names_among(key, values))
-    numbers = values if isinstance(values, Sequence) and not isinstance(values, str) else []
-    if not numbers or not all(map(is_number, numbers)):
-        raise SceneError(
-            f"{key}: expected finite numbers in values, got {shown(values)}; write for example "
-            "values = [4e-3, 6e-3]"
-        )
-    return UniformChoice(different(key, tuple(map(float, numbers))))
 
 
 def _check_range(key: str, given: Distribution) -> None:

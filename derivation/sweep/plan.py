@@ -16,7 +16,7 @@ from derivation.scene.errors import SceneError
 from derivation.scene.input.keys import rivals, takes_names, varied_key
 from derivation.scene.sweep import Values, parse, values_in
 from derivation.sweep.distributions import Distribution, UniformChoice, names_in
-from derivation.sweep.values import different, names_among
+from derivation.sweep.values import different, names_among, numbers_among
 
 Array = NDArray[np.float64]
 Column = NDArray[Any]
@@ -245,7 +245,7 @@ def grid(given: Mapping[str, Iterable[float | str] | str] | Sequence[str]) -> Gr
     if isinstance(given, Mapping):
         axes = [_axis(key, values) for key, values in given.items()]
     else:
-        sweeps = [parse(text) for text in given]
+        sweeps = [parse(str(text)) for text in given]
         axes = [(one.key, one.values) for one in sweeps]
     _check_keys([key for key, _ in axes])
     made = GridPlan({key: different(key, values) for key, values in axes})
@@ -263,9 +263,8 @@ def sample(distributions: Distributions, size: int, seed: int, method: str) -> S
         does not allow this number of points.
     """
     _check_keys(list(distributions))
-    _check_seed(seed)
     if method not in METHODS:
-        meant = did_you_mean(method, METHODS).rstrip() or "choose one"
+        meant = did_you_mean(str(method), METHODS).rstrip() or "choose one"
         raise SceneError(f"method: expected {', '.join(METHODS)}, got {method!r:.40}; {meant}")
     _check_size(size, "give the sample another size")
     if method == "latin-hypercube" and size > MOST_LATIN:
@@ -288,10 +287,9 @@ def saltelli(distributions: Distributions, base: int, seed: int) -> SaltelliPlan
         power of two or is too large.
     """
     _check_keys(list(distributions))
-    _check_seed(seed)
     made = SaltelliPlan(dict(distributions), base, seed)
     _check_size(base, "give the sample another size")
-    _check_power(base, f"base points, each of which makes {made.each} runs,")
+    _check_power(base, f"base points, each of which makes {made.each} runs")
     return made
 
 
@@ -302,14 +300,7 @@ def _axis(key: str, values: Iterable[float | str] | str) -> tuple[str, Values]:
         return place, values_in(place, values)
     if takes_names(place):
         return place, names_among(place, values)
-    try:
-        numbers = np.atleast_1d(np.asarray(values, dtype=np.float64))
-    except (TypeError, ValueError):
-        remedy = "give sample=N" if isinstance(values, Mapping) else "give a list"
-        raise SceneError(f"{place}: expected numbers, got {values!r:.60}; {remedy}") from None
-    if numbers.ndim != 1 or not numbers.size or not np.isfinite(numbers).all():
-        raise SceneError(f"{place}: expected finite numbers, got {values!r:.60}; give a list")
-    return place, tuple(numbers.tolist())
+    return place, numbers_among(place, values)
 
 
 def _check_keys(keys: list[str]) -> None:
@@ -323,11 +314,6 @@ def _check_keys(keys: list[str]) -> None:
             raise SceneError(
                 f"vary: expected {key} or {other}, which replace each other, got both; remove one"
             )
-
-
-def _check_seed(seed: int) -> None:
-    if seed < 0:
-        raise SceneError(f"seed: expected a whole number from 0, got {seed}; change it")
 
 
 def _check_size(size: int, remedy: str) -> None:

@@ -1,9 +1,11 @@
 """Values of a varied key that are given in Python or in a table, and checks of them."""
 
+from collections.abc import Mapping
 from typing import Any, TypeVar
 
 import numpy as np
 
+from derivation.engine.printable import one_line
 from derivation.scene.errors import SceneError
 from derivation.scene.sweep import Values
 
@@ -22,9 +24,32 @@ def names_among(key: str, values: Any) -> tuple[str, ...]:
     texts = tuple(str(name).lower() if isinstance(name, bool) else name for name in names)
     if not texts or not all(isinstance(text, str) for text in texts):
         raise SceneError(
-            f'{key}: expected names, got {values!r:.60}; give a list such as ["glass", "steel"]'
+            f"{key}: expected names, got {one_line(repr(values))}; give a list such as "
+            '["glass", "steel"]'
         )
     return tuple(map(str, texts))
+
+
+def numbers_among(key: str, values: Any) -> tuple[float, ...]:
+    """Return the numbers of a key `table.key` from a number, a list or an array.
+
+    Raises
+    ------
+    SceneError
+        If they are not finite numbers, or some of them are masked.
+    """
+    remedy = "give sample=N" if isinstance(values, Mapping) else "give a list"
+    error = SceneError(f"{key}: expected finite numbers, got {one_line(repr(values))}; {remedy}")
+    try:
+        given = np.asarray(values)
+        if given.dtype.kind in "bmM" or np.ma.is_masked(values):
+            raise error
+        numbers = np.atleast_1d(np.asarray(given, dtype=np.float64))
+    except (TypeError, ValueError, OverflowError):
+        raise error from None
+    if numbers.ndim != 1 or not numbers.size or not np.isfinite(numbers).all():
+        raise error
+    return tuple(numbers.tolist())
 
 
 def different(key: str, values: Given) -> Given:

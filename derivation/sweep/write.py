@@ -4,7 +4,7 @@ import csv
 import io
 import shutil
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from math import prod
 from pathlib import Path
 from typing import Any
@@ -12,14 +12,17 @@ from typing import Any
 import numpy as np
 
 from derivation.engine.activity import Progress
-from derivation.engine.files import expect_folder, expect_writable
+from derivation.engine.files import expect_folder, expect_writable, explained, real
 from derivation.engine.nearest import did_you_mean
+from derivation.engine.printable import one_line
 from derivation.scene.errors import SceneError
 from derivation.sweep.dataset import attributes, column, labels
 from derivation.sweep.plan import GridPlan
 from derivation.sweep.store import NUMBERS, TEXTS, Store
 
 SUFFIXES = (".nc", ".zarr", ".parquet", ".csv")
+LONGEST_KEY = 200
+"""Longest name of an array in netCDF and Zarr files [bytes]."""
 Dims = tuple[str, ...]
 Labels = dict[str, str]
 Slices = tuple[slice, ...]
@@ -29,13 +32,13 @@ BLOCK = 2**16
 """Largest number of points that are in memory while a file is written."""
 
 
-def check_output_file(out: Path) -> None:
+def check_output_file(out: Path, keys: Iterable[str]) -> None:
     """Raise an error if an output has no known suffix or cannot be written.
 
     Raises
     ------
     SceneError
-        If its suffix is not one of `SUFFIXES`.
+        If its suffix is not one of `SUFFIXES`, or its format does not allow the name of a key.
     OSError
         If it cannot be written.
     """
@@ -45,6 +48,13 @@ def check_output_file(out: Path) -> None:
             f"out: expected a file name with one of the suffixes {', '.join(SUFFIXES)}, got {out}; "
             f"{meant}"
         )
+    for key in keys if out.suffix in (".nc", ".zarr") else ():
+        if set("/\\") & set(key) or len(key.encode()) > LONGEST_KEY:
+            raise SceneError(
+                f"out: expected keys without / and \\ and with at most {LONGEST_KEY} letters for "
+                f"a {out.suffix} file, got {one_line(key)}; rename the material, or write a "
+                ".parquet or .csv file"
+            )
     (expect_folder if out.suffix == ".zarr" else expect_writable)(out)
 
 
@@ -69,10 +79,12 @@ def write(store: Store, out: Path, progress: Progress) -> None:
         ".csv": _csv,
     }
     try:
-        writers[out.suffix](store, temporary, progress)
-        if temporary.is_dir():
-            _remove(out)
-        temporary.replace(out)
+        with explained(out):
+            writers[out.suffix](store, temporary, progress)
+            target = real(out)  # a link stays
+            if temporary.is_dir():
+                _remove(target)
+            temporary.replace(target)
     except BaseException:  # Ctrl-C too
         _remove(temporary)
         raise

@@ -12,7 +12,7 @@ from derivation.scene.errors import SceneError
 from derivation.scene.input.bodies import Plate, Sphere
 from derivation.scene.input.body_materials import Materials, constants_beside, own_materials
 from derivation.scene.input.materials import find
-from derivation.scene.input.messages import OWN_MATERIALS
+from derivation.scene.input.messages import OWN_MATERIALS, shown
 from derivation.scene.input.old_names import new_key
 from derivation.scene.input.table import Table, is_number
 from derivation.scene.scene import TABLES, Material, Scene, read
@@ -35,7 +35,7 @@ def varied_key(place: str) -> str:
     SceneError
         If there is no such key; the message suggests the nearest one.
     """
-    place = new_key(place.strip())
+    place = new_key(str(place).strip())
     table, _, key = place.rpartition(".")
     known = table_of(table)
     field = known.model_fields.get(key) if known else None
@@ -74,6 +74,8 @@ def _names_of(field: FieldInfo) -> tuple[str, ...]:
 def check_names(scene: Scene, names: Mapping[str, Sequence[str]], keys: Sequence[str]) -> None:
     """Raise the error of `simulate` for an unknown name, before anything is simulated.
 
+    The name of an own material in a key is checked too.
+
     Parameters
     ----------
     names
@@ -88,6 +90,15 @@ def check_names(scene: Scene, names: Mapping[str, Sequence[str]], keys: Sequence
         material would be used for another one.
     """
     own = own_materials(scene.materials)
+    for place in keys:
+        table = place.rpartition(".")[0]
+        absent = table.removeprefix(f"{OWN_MATERIALS}.")
+        if absent != table and absent not in own:
+            suggestion = did_you_mean(absent, own) or "define it in the scene "
+            raise SceneError(
+                f"{one_line(place)}: expected a material that the scene defines in a table "
+                f"[{OWN_MATERIALS}.NAME], got {shown(absent)}; {suggestion.rstrip()}"
+            )
     for place, given in names.items():
         table, _, key = place.rpartition(".")
         known = _names_of(field_of(place))

@@ -178,8 +178,8 @@ def _sweep(
 
     if plot is not None:
         raise SceneError(
-            "--plot and --animate cannot be combined with --sweep; remove --plot and --animate, or "
-            "--sweep"
+            "--plot and --animate cannot be combined with --sweep; remove them, or use "
+            "`platecontact sweep SCENE.toml --vary ... --plot FILE`"
         )
     check_outputs(scene, json, csv=csv)
     sweep = sweeps.parse(text)

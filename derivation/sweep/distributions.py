@@ -32,6 +32,8 @@ PARAMETERS = {
 """Parameters of each distribution, in the unit of the quantity; those of `lognormal` are mean and
 standard deviation of the quantity itself, not of its logarithm. The values of a choice are equally
 probable."""
+WIDEST = 1e100
+"""Largest standard deviation of a lognormal distribution, over its mean."""
 CHOICE = '{distribution = "choice", values = ["glass", "steel"]}'
 EXAMPLE = '"plate.thickness" = {distribution = "uniform", low = 4e-3, high = 12e-3}'
 LARGEST = 2**20
@@ -149,7 +151,13 @@ def read_distributions(given: Mapping[str, Any]) -> dict[str, Distribution | Uni
     SceneError
         If a key, a distribution or a parameter is unknown or out of range.
     """
-    return {varied_key(key): _distribution(varied_key(key), given[key]) for key in given}
+    made = dict[str, Distribution | UniformChoice]()
+    for text, distribution in given.items():
+        key = varied_key(text)
+        if key in made:  # under its old name, or with spaces
+            raise SceneError(f"vary: expected {key} once, got it twice; remove one")
+        made[key] = _distribution(key, distribution)
+    return made
 
 
 def names_in(values: Mapping[str, Any]) -> dict[str, tuple[str, ...]]:
@@ -170,7 +178,7 @@ def _distribution(key: str, given: Any) -> Distribution | UniformChoice:
         raise SceneError(f"{key}: expected a distribution, got {shown(given)}; {example}")
     given = plain_keys(given)
     name = given.get("distribution")
-    if name not in PARAMETERS:
+    if not isinstance(name, str) or name not in PARAMETERS:
         near = next(iter(nearest(name, PARAMETERS)), "") if isinstance(name, str) else ""
         meant = f"did you mean {near}?" if near else example
         got = "none" if name is None else shown(name)
@@ -207,13 +215,15 @@ def _check_range(key: str, given: Distribution) -> None:
     fine = second > 0 if spread else first < second
     if given.distribution in ("loguniform", "lognormal"):
         fine = fine and first > 0
+    if given.distribution == "lognormal":
+        fine = fine and second <= WIDEST * first
     if fine and math.isfinite(first) and math.isfinite(second):
         return
     expected = {
         "uniform": "low < high",
         "loguniform": "0 < low < high",
         "normal": "std > 0",
-        "lognormal": "mean > 0 and std > 0",
+        "lognormal": f"mean > 0 and 0 < std <= {WIDEST:g} mean",
     }[given.distribution]
     values = {k: v for k, v in asdict(given).items() if k != "distribution"}.values()
     got = ", ".join(shown(value) for value in values)

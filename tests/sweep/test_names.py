@@ -238,6 +238,10 @@ def test_choices_are_equally_probable_and_reproducible(tmp_path: Path) -> None:
         ({"impact.speed": {"distribution": "choice", "values": [1, np.nan]}}, "finite numbers"),
         ({"impact.speed": {"distribution": "choice", "values": [1, 1]}}, "got one twice"),
         ({"impact.speed": {"distribution": "chioce", "values": [1]}}, "did you mean choice?"),
+        ({"impact.speed": {"distribution": ["uniform"], "low": 1, "high": 2}}, "got an array"),
+        ({"impact.speed": {"distribution": "lognormal", "mean": 1.0, "std": 1e200}}, "1e+100 mean"),
+        ({key: {"distribution": "choice", "values": [1]} for key in ("impact.speed", " impact.speed")},
+         "got it twice"),
     ],
 )  # fmt: skip
 def test_invalid_choices_are_rejected(given: dict[str, Any], message: str) -> None:

@@ -45,9 +45,9 @@ KEY_SYMBOLS = {
 TEX = {"δ": r"\delta", "σ": r"\sigma"}
 LARGEST_FIGURE = 3
 """Largest number of panels in a row."""
-MOST_COLORS, LONGEST_NAME, MOST_LETTERS = 10, 30, 30
-"""Largest number of curves with clearly different colours, of characters of a name, and of letters
-of all names side by side."""
+MOST_COLORS, MOST_LINES, LONGEST_NAME, MOST_LETTERS = 10, 18, 30, 30
+"""Largest number of curves with clearly different colours, of names below each other in a legend,
+of characters of a name, and of letters of all names side by side."""
 
 
 def check_results(names: Sequence[str]) -> tuple[str, ...]:
@@ -143,7 +143,7 @@ def _legend(made: "Figure", panel: "Axes", other: str) -> None:
     if other:
         made.legend(
             handles, texts, title=_words(other), loc="outside right upper", frameon=False,
-            fontsize=8, title_fontsize=8,
+            fontsize=8, title_fontsize=8, ncols=-(-len(texts) // MOST_LINES),
         )  # fmt: skip
     elif handles:
         panel.legend(handles, texts, frameon=False, fontsize=8)

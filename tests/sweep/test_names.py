@@ -240,7 +240,8 @@ def test_choices_are_equally_probable_and_reproducible(tmp_path: Path) -> None:
         ({"impact.speed": {"distribution": "chioce", "values": [1]}}, "did you mean choice?"),
         ({"impact.speed": {"distribution": ["uniform"], "low": 1, "high": 2}}, "got an array"),
         ({"impact.speed": {"distribution": "lognormal", "mean": 1.0, "std": 1e200}}, "1e+100 mean"),
-        ({key: {"distribution": "choice", "values": [1]} for key in ("impact.speed", " impact.speed")},
+        ({"sphere.mass": {"distribution": "choice", "values": [1]},
+          " sphere.mass": {"distribution": "choice", "values": [2]}},
          "got it twice"),
     ],
 )  # fmt: skip

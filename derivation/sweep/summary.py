@@ -35,7 +35,7 @@ class Summary:
     ranges
         Smallest and largest value of each result, in SI units; results without values are missing.
     largest_bound
-        Largest bound on the relative error [1].
+        Largest bound on the relative error [1]; infinite if a point has none, NaN without results.
     warnings
         The first different reasons and warnings, each with one of its points.
     warned
@@ -56,7 +56,8 @@ class Summary:
     def to_json(self) -> dict[str, Any]:
         """Return the summary under fixed keys, in SI units."""
         data = {key: value for key, value in vars(self).items() if key != "sensitivities"}
-        data |= {"warnings": list(self.warnings)}
+        bound = self.largest_bound if np.isfinite(self.largest_bound) else None
+        data |= {"warnings": list(self.warnings), "largest_bound": bound}
         return data | (
             {"sensitivities": self.sensitivities.to_json()} if self.sensitivities else {}
         )
@@ -73,6 +74,8 @@ class Summary:
         accuracy = f"relative error at most {self.largest_bound:.1e}"
         if self.largest_bound == np.inf:
             accuracy = "no error bound is known at some points"
+        if np.isnan(self.largest_bound):
+            accuracy = "no point has a result"
         text = (
             f"{self.points:,} points: {counts} ({self.computed:,} computed in this run)\n\n"
             f"{aligned(['result', '#smallest', '#largest', 'unit'], rows)}\n\n"
@@ -93,7 +96,7 @@ def summary(store: Store, computed: int, sensitivities: Sensitivities | None) ->
     """
     counts, reasons, warned = Counter[str](), dict[str, str](), 0
     low, high = dict.fromkeys(UNITS, np.inf), dict.fromkeys(UNITS, -np.inf)
-    bound = 0.0
+    bound = np.nan
     for start, _, table in store.tables(BLOCK):
         status = column(table, "status")
         counts.update(status.tolist())

@@ -123,12 +123,15 @@ def figure(data: "xr.Dataset", keys: Sequence[str], results: Sequence[str]) -> "
 
 
 def _notes(data: "xr.Dataset") -> str:
-    """Return the title: omitted points, or the kind of the intervals."""
+    """Return the title: omitted points and unknown errors, or the kind of the intervals."""
     if "first_order" in data:
         return "Sensitivity indices with 95 % confidence intervals (bootstrap)"
     status = data["status"].values
     wrong = int(np.sum(status != "finished"))
-    return f"{wrong} of {status.size} points without a result are omitted" if wrong else ""
+    unknown = int(np.isinf(data["bound"].values).sum())
+    notes = [f"{wrong} of {status.size} points without a result are omitted"] if wrong else []
+    notes += [f"{unknown} of {status.size} points have no error bound"] if unknown else []
+    return "; ".join(notes)
 
 
 def _roles(keys: Sequence[str]) -> tuple[str, str]:
@@ -159,7 +162,7 @@ def _curves(axes: "Axes", data: "xr.Dataset", keys: Sequence[str], name: str) ->
     finite = np.isfinite(raw)
     y = np.full_like(raw, np.nan)
     y[finite], y_label = _result(raw[finite], name)
-    band = np.abs(y) * np.where(np.isfinite(error), error, 0.0)
+    band = np.abs(y) * np.where(np.isfinite(error), error, np.nan)
     given = {key: data[key].broadcast_like(data[name]).values.ravel() for key in keys}
     ticks = list(dict.fromkeys(given[axis].tolist())) if takes_names(axis) else []
     x, x_label = _key(given[axis], axis)

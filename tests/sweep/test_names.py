@@ -295,6 +295,15 @@ def test_names_are_labelled_points_or_curves() -> None:
     assert len(made.legends[0].get_texts()) == 3
 
 
+def test_an_unknown_error_is_not_drawn_as_zero() -> None:
+    data = pc.sweep(STATIC, {"plate.material": ["steel", "PMMA"]})
+    data["bound"][1] = np.inf
+    made = plots.figure(data, ["plate.material"], ["max_force"])
+    [bars] = made.axes[0].containers[0].lines[2]
+    assert [len(ends) for ends in bars.get_segments()] == [2, 0]
+    assert made.get_suptitle() == "1 of 2 points have no error bound"
+
+
 def test_points_of_a_sample_are_not_connected() -> None:
     vary = read_distributions({
         "plate.material": {"distribution": "choice", "values": ["steel", "PMMA"]},

@@ -338,11 +338,12 @@ def check_outputs(
     csv: Path | None = None,
     animate: Path | None = None,
     out: Path | None = None,
+    distributions: Path | None = None,
 ) -> None:
     """Reject output files that are figures of unknown format, not writable, or named twice.
 
-    A name is taken if it is that of the scene file or of another output. JSON and CSV files must
-    not have the suffix of another format; the caller checks the suffix of `out`.
+    A name is taken if it is that of an input or of another output. JSON and CSV files must not have
+    the suffix of another format; the caller checks the suffix of `out`.
 
     Raises
     ------
@@ -367,6 +368,8 @@ def check_outputs(
         _expect_suffix(kind, names)
     paths += [path for path in (plot, csv, animate, out) if path is not None]
     taken = {real(scene): "the scene file"}
+    if distributions is not None:
+        taken[real(distributions)] = "the file of the distributions"
     for place in paths:
         if place == Path("-"):
             raise SceneError("-: expected a file name; only --json accepts - for standard output")

@@ -88,7 +88,7 @@ def sweep(
     from derivation.sweep.study import Study
 
     folder = out is not None and out.suffix == ".zarr"
-    check_outputs(scene, json, plot, out=None if folder else out)
+    check_outputs(scene, json, plot, out=None if folder else out, distributions=distributions)
     sampling = (distributions, sample, seed, method, sensitivity or None)
     given = _given(vary, distributions, sample, any(x is not None for x in sampling))
     seed, method = 1 if seed is None else seed, method or "random"

@@ -9,8 +9,9 @@ import numpy as np
 import platecontact as pc
 import pytest
 import xarray as xr
-from studies import UNIFORM, journal, parts, scene
+from studies import QUICK, UNIFORM, journal, parts, scene
 
+from derivation.cli import main
 from derivation.sweep import plan
 from derivation.sweep.store import open_store
 from derivation.sweep.study import Study
@@ -74,6 +75,18 @@ def test_a_link_stays_and_its_target_is_written(tmp_path: Path, suffix: str) -> 
     assert sorted(path.name for path in tmp_path.iterdir()) == ["disk", link.name]
     assert target.exists()
     assert journal(target, 9).max() == 1
+
+
+def test_the_distributions_are_not_overwritten(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "vary.toml"
+    path.write_text('[vary]\n"impact.speed" = {distribution = "uniform", low = 1, high = 2}\n')
+    once = path.read_text()
+    command = ["sweep", str(QUICK), "--distributions", str(path), "--sample", "2"]
+    assert main([*command, "--json", str(path)]) == 2
+    assert "got the file of the distributions" in capsys.readouterr().err
+    assert path.read_text() == once
 
 
 def test_an_output_in_use_is_rejected(tmp_path: Path) -> None:

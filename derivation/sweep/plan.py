@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from itertools import pairwise, product
 from math import prod
+from threading import Lock
 from typing import Any, ClassVar
 
 import numpy as np
@@ -339,14 +340,22 @@ def _values(distributions: Distributions, probabilities: Array) -> dict[str, Col
 
 @dataclass
 class _Sequence:
-    """A scrambled Sobol sequence that keeps its position, because skipping points takes time."""
+    """A scrambled Sobol sequence that keeps its position, because skipping points takes time.
+
+    Several threads may share it.
+    """
 
     dimensions: int
     seed: int
     engine: Any = field(default=None)
+    lock: Any = field(default_factory=Lock)
 
     def between(self, start: int, stop: int) -> Array:
         """Return the points from `start` to `stop` (exclusive)."""
+        with self.lock:
+            return self._between(start, stop)
+
+    def _between(self, start: int, stop: int) -> Array:
         from scipy.stats import qmc
 
         if self.engine is None or self.engine.num_generated > start:

@@ -10,7 +10,7 @@ from derivation.engine.nearest import did_you_mean
 from derivation.engine.printable import one_line
 from derivation.scene.errors import SceneError
 from derivation.scene.input.bodies import Plate, Sphere
-from derivation.scene.input.body_materials import Materials, constants_beside, own_materials
+from derivation.scene.input.body_materials import constants_beside, own_materials
 from derivation.scene.input.materials import find
 from derivation.scene.input.messages import OWN_MATERIALS, shown
 from derivation.scene.input.old_names import new_key
@@ -23,8 +23,13 @@ SWITCH = {"true": True, "false": False}
 """Values of an effect besides "auto", by their names."""
 MATERIAL = "material"
 """Key that takes the name of any material."""
-OF_MATERIAL = "density", "yield_stress", "retardation_time", "tensile_strength", "loss_factor"
-"""Constants that a scene gives for the material of a body, besides elastic constants."""
+OF_MATERIAL = (
+    *("sphere.mass", "sphere.density", "sphere.yield_stress", "sphere.retardation_time"),
+    *("plate.density", "plate.yield_stress", "plate.retardation_time", "plate.tensile_strength"),
+    *("plate.loss_factor", "measured.restitution"),
+)
+"""Constants that a scene gives for the material of a body, besides elastic constants. The measured
+restitution is that of the plate's material."""
 
 
 def varied_key(place: str) -> str:
@@ -115,22 +120,23 @@ def check_names(scene: Scene, names: Mapping[str, Sequence[str]], keys: Sequence
                 )
             first[same] = name
         if key == MATERIAL:
-            _check_constants(table, getattr(scene, table), set(first), own, keys)
+            _check_constants(scene, table, set(first), keys)
 
 
-def _check_constants(
-    table: str, body: Any, names: set[str], own: Materials, keys: Sequence[str]
-) -> None:
+def _check_constants(scene: Scene, table: str, names: set[str], keys: Sequence[str]) -> None:
     """Raise an error if a given constant of a body would be used for other materials."""
-    present = find(body.material, own) if body.material is not None else None
+    material = getattr(scene, table).material
+    present = find(material, own_materials(scene.materials)) if material is not None else None
     if present is not None and names == {present.name}:
         return
-    for other in OF_MATERIAL:
-        constant = f"{table}.{other}"
-        if getattr(body, other, None) is not None and constant not in keys:
+    for constant in OF_MATERIAL:
+        place, _, key = constant.partition(".")
+        given = getattr(getattr(scene, place), key, None)
+        of_body = table == ("sphere" if place == "sphere" else "plate")
+        if of_body and given is not None and constant not in keys:
             raise SceneError(
                 f"{table}.{MATERIAL}: expected a scene without {constant}, which would be used for "
-                f"every material; remove it, or vary it too to use it for all"
+                "every material; remove it, or vary it too to use it for all"
             )
 
 

@@ -89,6 +89,11 @@ def test_the_distributions_are_not_overwritten(
     assert path.read_text() == once
 
 
+def test_a_table_of_distributions_in_a_scene_belongs_into_another_file() -> None:
+    with pytest.raises(pc.SceneError, match="--distributions FILE"):
+        pc.read(scene().to_json() | {"vary": {"plate.material": ["glass"]}})
+
+
 def test_an_output_in_use_is_rejected(tmp_path: Path) -> None:
     out = tmp_path / "rows.csv"
     study = Study(scene(), plan.grid(["impact.speed=1:2:9"]), None)

@@ -173,7 +173,8 @@ def _distribution(key: str, given: Any) -> Distribution | UniformChoice:
     """Return the distribution of one key."""
     if isinstance(given, Distribution | UniformChoice):
         return given
-    example = f"write for example {EXAMPLE}"
+    line = f'"plate.material" = {CHOICE}' if takes_names(key) else EXAMPLE
+    example = f"write for example {line}"
     if not isinstance(given, Mapping):
         raise SceneError(f"{key}: expected a distribution, got {shown(given)}; {example}")
     given = plain_keys(given)
@@ -194,8 +195,7 @@ def _distribution(key: str, given: Any) -> Distribution | UniformChoice:
         return UniformChoice(different(key, among(key, given["values"])))
     if takes_names(key):
         raise SceneError(
-            f"{key}: expected the distribution choice for names, got {name}; write for example "
-            f'"plate.material" = {CHOICE}'
+            f"{key}: expected the distribution choice for names, got {name}; {example}"
         )
     first, second = (given[part] for part in wanted)
     if not (is_number(first) and is_number(second)):

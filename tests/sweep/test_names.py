@@ -237,6 +237,7 @@ def test_choices_are_equally_probable_and_reproducible(tmp_path: Path) -> None:
         ({"plate.material": {"distribution": "choice", "values": "glass"}}, "expected names"),
         ({"plate.material": {"distribution": "choice", "values": []}}, "expected names"),
         ({"plate.material": {"distribution": "choice"}}, "expected values of choice"),
+        ({"plate.material": ["glass", "steel"]}, '= {distribution = "choice", values = ["glass"'),
         ({"impact.speed": {"distribution": "choice", "values": ["a"]}}, "finite numbers"),
         ({"impact.speed": {"distribution": "choice", "values": [1, np.nan]}}, "finite numbers"),
         ({"impact.speed": {"distribution": "choice", "values": [1, 1]}}, "got one twice"),

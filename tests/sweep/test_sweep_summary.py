@@ -9,7 +9,10 @@ import pytest
 from studies import QUICK, scene
 
 from derivation.cli import main
+from derivation.scene import load, read, simulate
 from derivation.scene.errors import SceneError
+from derivation.scene.input.keys import varied
+from derivation.scene.quantity import percent
 from derivation.scene.result import UNITS
 from derivation.scene.rows.rows import Rows
 from derivation.sweep import run
@@ -26,7 +29,7 @@ def test_number_of_points_with_warnings_is_stated(capsys: pytest.CaptureFixture[
 
 
 def test_unknown_bound_is_stated_in_words() -> None:
-    text = Summary(2, 2, {"finished": 2}, {}, math.inf, (), 0, None).to_text()
+    text = Summary(2, 2, {"finished": 2}, {}, math.inf, 0.0, (), 0, None).to_text()
     assert text.endswith("Accuracy: no error bound is known at some points")
 
 
@@ -49,6 +52,16 @@ def test_missing_bounds_are_no_bounds_of_zero(
     assert main(["sweep", str(QUICK), "--vary", "impact.speed=1", "--json", str(path)]) == 0
     assert f"Accuracy: {text}" in capsys.readouterr().out
     assert json.loads(path.read_text())["largest_bound"] is None
+
+
+def test_largest_model_error_is_stated(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    """The fastest impact deflects the plate most, and has the largest model error by stretching."""
+    path = tmp_path / "summary.json"
+    command = ["sweep", str(QUICK), "--vary", "impact.speed=0.5:2:4", "--json", str(path)]
+    assert main(command) == 0
+    fastest = simulate(read(varied(load(QUICK), {"impact.speed": 2.0})))
+    assert json.loads(path.read_text())["largest_model_error"] == fastest.model_error > 0.0
+    assert f"model error up to {percent(fastest.model_error)}" in capsys.readouterr().out
 
 
 def test_distribution_without_sample_asks_for_its_size() -> None:

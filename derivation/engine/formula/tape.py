@@ -43,6 +43,11 @@ class Tape:
         return slots
 
     @cached_property
+    def names(self) -> tuple[str, ...]:
+        """Names of the inputs."""
+        return tuple(str(symbol) for symbol in self.inputs)
+
+    @cached_property
     def _calls(self) -> tuple[_Call, ...]:
         return tuple((done.value, done.holomorphic, _reader(reads)) for done, reads in self.steps)
 

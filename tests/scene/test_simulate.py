@@ -86,8 +86,8 @@ def test_json_keys_and_notebook_table() -> None:
     made = result.to_json()
     assert list(made) == [
         "contact_time", "max_indentation", "max_force", "max_contact_radius", "restitution",
-        "max_pressure", "max_tensile_stress", "accuracy", "model_error", "effects", "warnings",
-        "scene",
+        "max_pressure", "max_tensile_stress", "accuracy", "model_error", "model_errors",
+        "effects", "warnings", "scene",
     ]  # fmt: skip
     again = json.loads(json.dumps(made))
     assert again["contact_time"] == result.contact_time

@@ -14,6 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from derivation.scene.contact_law.corrections import stretching
+from derivation.scene.contact_law.limits import local_indentation
 from derivation.scene.dynamic.edge_remainder import edge_remainders
 from derivation.scene.effects import EFFECTS
 from derivation.scene.errors import SceneError
@@ -267,9 +269,10 @@ class _Block:
             known &= np.broadcast_to(a < law.limit, a.shape)[:, 0]
         if rtol is not None:  # other rows do not meet the tolerance, or only just
             known &= bound <= rtol - ROUNDING
-        model_error = np.zeros(len(rows))
+        deflection = impacts.max_indentation[:, None] - local_indentation(law, a)
+        model_error = np.broadcast_to(stretching(law.model, deflection), a.shape)[:, 0]
         if law.other_edge:
-            model_error = edge_remainders(law.model, a)[:, 0]
+            model_error = edge_remainders(law.model, a)[:, 0] + model_error
         known &= np.isfinite(model_error)
         which = np.flatnonzero(known)
         strength: Array | float | None = scene.plate.tensile_strength

@@ -27,7 +27,7 @@ def around(point: float) -> tuple[float, ...]:
 
 
 def nearest_root(function: Callable[[Exact], arb], low: float, high: float) -> float:
-    """Return the double nearest to the only root of a function between two numbers.
+    """Return the double nearest to the only root, a simple one, of a function between two numbers.
 
     Raises
     ------

@@ -34,8 +34,10 @@ def nearest_root(function: Callable[[Exact], arb], low: float, high: float) -> f
     ValueError
         If the function has the same sign at both numbers.
     """
-    close, distance = float(brentq(lambda x: float(function(x)), low, high, xtol=5e-324)), 1
     rising = bool(function(high) > 0)
+    if bool(function(low) > 0) == rising:
+        raise ValueError(f"the function has the same sign at {low} and {high}")
+    close, distance = float(brentq(lambda x: float(function(x)), low, high, xtol=5e-324)), 1
 
     def beyond(x: Exact) -> bool:
         return bool(function(x) > 0) == rising

@@ -19,5 +19,5 @@ def test_nearest_root_is_the_rounded_square_root(square: float, sign: int) -> No
 
 
 def test_a_function_of_one_sign_is_rejected() -> None:
-    with pytest.raises(ValueError, match="different signs"):
+    with pytest.raises(ValueError, match=r"the same sign at 1.0 and 4.0"):
         nearest_root(lambda x: to_ball(x) ** 2 + 1, 1.0, 4.0)

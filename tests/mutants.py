@@ -108,14 +108,16 @@ def of_module(text: str, skipped: Sequence[str] = ()) -> Iterator[CodeMutant]:
         ):
             node.body[0] = ast.Expr(ast.Constant(""))
     ast.fix_missing_locations(tree)
-    for place in _formulas(tree, (*SKIPPED, *skipped)):
-        original = ast.unparse(place.node)
-        inside = f" in {ast.unparse(place.parent)}" if isinstance(place.node, ast.Constant) else ""
-        for new in _rewritten(place.node, place.exponent):
-            ast.fix_missing_locations(ast.copy_location(new, place.node))
-            changed = _put(tree, place.node, new)
-            change = f"{original} -> {ast.unparse(new)}{inside}"
-            yield CodeMutant(place.home, change, place.lines, changed)
+    for index, statement in enumerate(tree.body):
+        for place in _formulas(statement, (*SKIPPED, *skipped)):
+            original, constant = ast.unparse(place.node), isinstance(place.node, ast.Constant)
+            inside = f" in {ast.unparse(place.parent)}" if constant else ""
+            for new in _rewritten(place.node, place.exponent):
+                ast.fix_missing_locations(ast.copy_location(new, place.node))
+                changed = _put(statement, place.node, new)
+                change = f"{original} -> {ast.unparse(new)}{inside}"
+                body = [*tree.body[:index], changed, *tree.body[index + 1 :]]
+                yield CodeMutant(place.home, change, place.lines, ast.Module(body, []))
 
 
 class _Position(NamedTuple):
@@ -130,8 +132,8 @@ class _Position(NamedTuple):
 SKIPPED = ("shape", "axis", "dtype", "reshape", "broadcast_to", "arange")
 
 
-def _formulas(tree: ast.Module, skipped: Sequence[str]) -> Iterator[_Position]:
-    """Yield the arithmetic nodes of all functions and module constants."""
+def _formulas(statement: ast.stmt, skipped: Sequence[str]) -> Iterator[_Position]:
+    """Yield the arithmetic nodes of a function, a class or a constant of a module."""
 
     def walk(
         node: ast.AST, home: str, parent: ast.AST, exponent: bool, lines: range
@@ -165,8 +167,7 @@ def _formulas(tree: ast.Module, skipped: Sequence[str]) -> Iterator[_Position]:
                 if isinstance(part, ast.AST):
                     yield from walk(part, home, node, power and name == "right", lines)
 
-    for statement in tree.body:
-        yield from walk(statement, "", tree, False, range(0))
+    yield from walk(statement, "", statement, False, range(0))
 
 
 def _own_lines(statement: ast.stmt) -> range:
@@ -192,8 +193,8 @@ def _rewritten(node: Code, exponent: bool) -> Iterator[Code]:
             yield ast.Call(ast.Attribute(of.value, CALLS[name], of.ctx), node.args, node.keywords)
 
 
-def _put(tree: ast.Module, old: ast.AST, new: ast.AST) -> ast.Module:
-    """Return a copy of the tree with one node replaced; unchanged branches are shared."""
+def _put(statement: ast.stmt, old: ast.AST, new: ast.AST) -> ast.stmt:
+    """Return a copy of a statement with one node replaced; unchanged branches are shared."""
 
     class Replace(ast.NodeTransformer):
         def visit(self, node: ast.AST) -> ast.AST:
@@ -212,6 +213,6 @@ def _put(tree: ast.Module, old: ast.AST, new: ast.AST) -> ast.Module:
                         setattr(node, name, part)
             return node
 
-    changed = Replace().visit(tree)
-    assert isinstance(changed, ast.Module)
+    changed = Replace().visit(statement)
+    assert isinstance(changed, ast.stmt)
     return changed

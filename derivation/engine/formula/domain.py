@@ -45,7 +45,7 @@ def excess(condition: str, values: Mapping[sp.Symbol, Fraction]) -> Fraction:
     """Return the left side of a condition less the right side, at an exact point; see `holds`."""
     difference, _ = comparison(condition)
     known = {symbol.name: value for symbol, value in values.items()}
-    if missing := {symbol.name for symbol in difference.free_symbols} - set(known):
+    if missing := symbols_of(condition) - known.keys():
         names = ", ".join(sorted(missing))
         raise ValueError(f"{condition}: expected a value for each symbol, got none of {names}")
     return _exactly(difference, known)

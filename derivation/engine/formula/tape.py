@@ -21,8 +21,8 @@ Step = tuple[Operation, tuple[int, ...]]
 """An operation, and the slots of its operands."""
 
 
-_Call = tuple[Callable[..., Any], Callable[..., Any] | None, Callable[[Any], Sequence[Any]]]
-"""Functions for the value and for a holomorphic value, and one that reads operands from slots."""
+_Call = tuple[Callable[..., Any], Callable[[Any], Sequence[Any]]]
+"""A function for the value, and one that reads its operands from slots."""
 
 
 @dataclass(frozen=True)
@@ -38,13 +38,22 @@ class Tape:
         If `holomorphic`, a slot that is not holomorphic in the values is not finite.
         """
         slots = list(values)
-        for value, analytic, read in self._calls:
-            slots.append(((analytic if holomorphic else None) or value)(*read(slots)))
+        for value, read in self._holomorphic_calls if holomorphic else self._calls:
+            slots.append(value(*read(slots)))
         return slots
 
     @cached_property
+    def names(self) -> tuple[str, ...]:
+        """Names of the inputs."""
+        return tuple(str(symbol) for symbol in self.inputs)
+
+    @cached_property
     def _calls(self) -> tuple[_Call, ...]:
-        return tuple((done.value, done.holomorphic, _reader(reads)) for done, reads in self.steps)
+        return tuple((done.value, _reader(reads)) for done, reads in self.steps)
+
+    @cached_property
+    def _holomorphic_calls(self) -> tuple[_Call, ...]:
+        return tuple((done.holomorphic or done.value, _reader(reads)) for done, reads in self.steps)
 
     def gradient(self, slots: Sequence[flint.arb]) -> list[flint.arb]:
         """Return the partial derivatives by the inputs, from the slots of an evaluation."""

@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import cached_property
+from functools import cache, cached_property
 
 import sympy as sp
 
@@ -177,9 +177,10 @@ NOTHING = Vocabulary()
 """A vocabulary without symbols."""
 
 
-def symbols_of(condition: str) -> set[str]:
+@cache
+def symbols_of(condition: str) -> frozenset[str]:
     """Return the names of the symbols in a condition."""
-    return set(re.findall(r"(?<![\w.])[A-Za-z]\w*", condition)) - {"abs"}
+    return frozenset(re.findall(r"(?<![\w.])[A-Za-z]\w*", condition)) - {"abs"}
 
 
 def applicable(conditions: Iterable[str], names: set[str]) -> tuple[str, ...]:

@@ -112,7 +112,10 @@ class Balls:
             return (self.numbers[name][0],)
         program = self._program(name)
         own = self.terms.symbols if program.summed and self.terms else ()
-        return tuple(str(symbol) for symbol in program.tape.inputs if symbol not in own)
+        tape = program.tape
+        return tuple(
+            n for n, symbol in zip(tape.names, tape.inputs, strict=True) if symbol not in own
+        )
 
     def is_summed(self, name: str) -> bool:
         """Return whether a formula is a sum."""
@@ -270,11 +273,10 @@ def _at(
     through: Mapping[str, tuple[str, int]],
 ) -> Reference:
     """Return value and sensitivities of one term at the current precision."""
-    keys = [str(symbol) for symbol in tape.inputs]
-    inputs = [known[key] for key in keys]
+    inputs = [known[name] for name in tape.names]
     slots = tape.run(inputs)
     gradient = tape.gradient(slots) if slopes else []
-    sensitivities = {k: x * g for k, x, g in zip(keys, inputs, gradient, strict=False)}
+    sensitivities = {k: x * g for k, x, g in zip(tape.names, inputs, gradient, strict=False)}
     for symbol, (argument, power) in through.items():
         if symbol in sensitivities:
             direct = sensitivities.get(argument, flint.arb(0))

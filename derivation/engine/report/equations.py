@@ -85,16 +85,22 @@ class Displayed(PaperPrinter):
 
 
 @cache
+def _displayed(expression: sp.Basic, vocabulary: Vocabulary) -> tuple[str, float, int]:
+    """Return LaTeX of an expression, its width [pt] and its largest number of nested fractions."""
+    printer = Displayed(vocabulary)
+    text = str(printer.doprint(expression))
+    return text, typeset_width(text), printer.deepest
+
+
 def displayed(expression: sp.Basic, vocabulary: Vocabulary) -> str:
     """Return LaTeX of an expression in a displayed equation."""
-    return str(Displayed(vocabulary).doprint(expression))
+    return _displayed(expression, vocabulary)[0]
 
 
-@cache
 def legible(expression: sp.Expr, vocabulary: Vocabulary, room: float = PAGE) -> bool:
     """Return whether an expression fits a line of width `room` [pt], with legible fractions."""
-    printer = Displayed(vocabulary)
-    return typeset_width(printer.doprint(expression)) <= room and printer.deepest <= DEEPEST
+    _, width, deepest = _displayed(expression, vocabulary)
+    return width <= room and deepest <= DEEPEST
 
 
 def equation(
@@ -215,9 +221,9 @@ def _part(value: sp.Expr, room: float, vocabulary: Vocabulary) -> sp.Expr | None
     inner = [
         part
         for part in wide[0].atoms(sp.Add, sp.Mul, sp.Pow, sp.Function, sp.Sum, sp.Integral)
-        if part != wide[0] and typeset_width(displayed(part, vocabulary)) >= LEAST_PART
+        if part != wide[0] and _displayed(part, vocabulary)[1] >= LEAST_PART
     ]
-    widths = {part: typeset_width(displayed(part, vocabulary)) for part in inner}
+    widths = {part: _displayed(part, vocabulary)[1] for part in inner}
     line = room - INDENT - NAME
     sums = [part for part in inner if isinstance(part, (sp.Add, sp.Sum, sp.Integral))]
     fit = [part for part in sums if legible(part, vocabulary, line)]

@@ -35,5 +35,5 @@ def figure_file(figure: Figure, suffix: str) -> bytes:
     stream = io.BytesIO()
     with mpl.rc_context(STYLE):
         figure.savefig(stream, format=suffix[1:], transparent=True, metadata=METADATA[suffix])
-    figure.set_layout_engine("none")  # keep this layout for other formats
+        figure.set_layout_engine(None)  # keep this layout for other formats, without another search
     return stream.getvalue()

@@ -7,7 +7,12 @@ from itertools import chain
 import flint
 
 from derivation.engine.measure.case import HardCase
-from derivation.engine.measure.neighbours import around, case_around, exact_inputs
+from derivation.engine.measure.neighbours import (
+    around,
+    case_around,
+    exact_inputs,
+    nearest_root,
+)
 from derivation.mathematics.bessel.oracle import j0_zero
 from derivation.plate.cases.steel import LAM, MU
 from derivation.plate.contact.kernels import tables as contact_tables
@@ -78,7 +83,7 @@ def _simple_impacts() -> Iterator[HardCase]:
         yield case_around(SIMPLE, "plate_of", why, exact_inputs(eta=around(point)))
         if mode == 1:
             yield from _estimates(why, around(point), 1.0)
-    root = _root()
+    root = nearest_root(lambda eta: contact_balls.coefficient(1, eta, 1, 12), 0.5, 0.6)
     why = f"h/b = {root:.4f}, where c_1 changes sign"
     yield case_around(SIMPLE, "plate_of", why, exact_inputs(eta=around(root)))
     yield from _estimates(why, around(root), 1.0)
@@ -93,15 +98,6 @@ def _estimates(
     for kernel in ("hertz", "leading"):
         given = exact_inputs(**_SPHERE, v0=speed, h=h, b=b, **_STEEL)
         yield case_around(SIMPLE, kernel, why, given)
-
-
-def _root() -> float:
-    """Return the double nearest to the h/b at which the decreasing c_1 is 0, by bisection."""
-    low, high = 0.5, 0.6
-    while low < (middle := (low + high) / 2) < high:
-        above = contact_balls.coefficient(1, middle, 1, 12) > 0
-        low, high = (middle, high) if above else (low, middle)
-    return min((low, high), key=lambda eta: abs(float(contact_balls.coefficient(1, eta, 1, 12))))
 
 
 # --- the paper's own motion

@@ -74,6 +74,11 @@ class Material:
         """All formulas by name."""
         return {formula.name: formula for _, records in self.steps for formula in records}
 
+    @cached_property
+    def effects(self) -> dict[str, Any]:
+        """All effects, and their selection for each example scene."""
+        return effects_context(self.scenes)
+
 
 def _derivation(material: Material) -> dict[str, Any]:
     return {
@@ -98,7 +103,7 @@ def _misprints(material: Material) -> dict[str, Any]:
 
 def _effects(material: Material) -> dict[str, Any]:
     return {
-        "effects": effects_context(material.scenes),
+        "effects": material.effects,
         "moving": inertia_context(material.measured["inertia"]),
         "elements": elastodynamics_context(material.measured["elastodynamics"]),
     }
@@ -168,7 +173,7 @@ CONTEXTS: dict[str, Callable[[Material], dict[str, Any]]] = {
     "stability": _stability,
     "derivation": _derivation,
     "published": lambda m: contexts.misprints_context(m.findings),
-    "scenes": lambda m: {"effects": effects_context(m.scenes)},
+    "scenes": lambda m: {"effects": m.effects},
     "rewriting": _rewriting,
     "code": lambda m: {
         "code": listings_context(m.sources, m.formulas),

@@ -21,7 +21,6 @@ from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.edge.route import clamped as clamp_routes
 from derivation.plate.edge.route import supported as edge_routes
 from derivation.plate.pressure import route as pressure_routes
-from derivation.plate.waves.cases import switch_points as wave_switches
 from generated.impact import history
 
 
@@ -137,10 +136,3 @@ def test_simple_law_is_not_finite_beyond_its_range(name: str, suite: Suite) -> N
         scene = (*paper[:2], speed, *paper[3:])
         for actual in (known.call(*scene), known.stated(*scene)):
             assert (np.isfinite(np.ravel(actual)) == shown).all()
-
-
-def test_interval_without_a_change_of_the_condition_is_rejected() -> None:
-    root = wave_switches._nearest(lambda x: x * x < 2, 1.0, 2.0)
-    assert root == math.sqrt(2.0)
-    with pytest.raises(ValueError, match=r"between 2.0 and 3.0"):
-        wave_switches._nearest(lambda x: x * x < 2, 2.0, 3.0)

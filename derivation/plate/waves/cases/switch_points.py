@@ -10,6 +10,7 @@ import flint
 from flint import arb
 
 from derivation.engine.formula.ball import Exact, to_ball
+from derivation.engine.measure.neighbours import nearest_root
 from derivation.plate.edge_modes.oracle import modes as mode_balls
 from derivation.plate.edge_modes.oracle import waves as wave_balls
 from derivation.plate.waves import oracle as inertia_balls
@@ -95,36 +96,26 @@ CROSSINGS = {
 def crossing(name: str) -> float:
     """Return the double nearest to a switch point of `CROSSINGS`."""
     of = CROSSINGS[name]
-    return _nearest(lambda x: _sign(of, x), of.low, of.high)
+    return nearest_root(lambda x: _value(of, x), of.low, of.high)
 
 
 @cache
 def partner_crossing(edge: mode_balls.Edge, n: int, nu: float) -> float:
     """Return the double nearest to h/b at which k2 of a mode reaches the series of I0."""
 
-    def below(eta: Exact) -> bool:
-        return bool(wave_balls.wave(edge, n, eta, nu, _DIGITS).k2 < arb(START))
+    def excess(eta: Exact) -> arb:
+        return wave_balls.wave(edge, n, eta, nu, _DIGITS).k2 - arb(START)
 
-    return _nearest(below, 0.012, 0.018)
-
-
-def _nearest(holds: Callable[[Exact], bool], low: float, high: float) -> float:
-    """Return the double nearest to where a condition changes, by bisection."""
-    before = holds(low)
-    if before == holds(high):
-        raise ValueError(f"the condition does not change between {low} and {high}")
-    while low < (middle := (low + high) / 2) < high:
-        low, high = (middle, high) if holds(middle) == before else (low, middle)
-    return high if holds((Fraction(low) + Fraction(high)) / 2) == before else low
+    return nearest_root(excess, 0.012, 0.018)
 
 
-def _sign(of: Crossing, x: Exact) -> bool:
+def _value(of: Crossing, x: Exact) -> arb:
     kap = inertia_balls.zero(x, of.nu, of.kind, of.index, _DIGITS)
     with flint.ctx.workprec(_BITS):
         square, ratio = to_ball(x) ** 2, Fraction(of.nu)
         level = square - to_ball((1 - 2 * ratio) / (2 * (1 - ratio))) * kap
         other = square - kap
-        return bool(of.value(Both(*_sizes(level), *_sizes(other), level, other)) > 0)
+        return of.value(Both(*_sizes(level), *_sizes(other), level, other))
 
 
 def _sizes(level: arb) -> tuple[arb, arb]:

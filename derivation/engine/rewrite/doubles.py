@@ -81,7 +81,7 @@ def _steps(
 
 def _operation(node: sp.Basic) -> tuple[Operation, tuple[sp.Basic, ...]]:
     """Return the operation at a node, and its operands."""
-    if isinstance(node, sp.Number) or node is sp.pi:
+    if isinstance(node, sp.Number | sp.NumberSymbol):
         value = float(node)
         return lambda: value, ()
     if isinstance(node, sp.Add):

@@ -102,8 +102,17 @@ def test_other_conditions_are_refused(where: str, reason: str) -> None:
 
 
 def test_conditions_that_exclude_each_other_are_refused() -> None:
-    with pytest.raises(ValueError, match="exclude each other"):
+    message = (
+        r"1 - 2\*nu cannot be tested: none of 1600 random points satisfies nu > 1, nu < 0.5; these "
+        "conditions exclude each other"
+    )
+    with pytest.raises(ValueError, match=message):
         rewrite_text("1 - 2*nu", where=["nu > 1", "nu < 0.5"])
+
+
+def test_a_formula_without_values_in_its_domain_is_refused_with_the_reason() -> None:
+    with pytest.raises(ValueError, match="at 0 of the tested points, expected 100; correct the"):
+        rewrite_text("sqrt(x - 2)", where=["x < 1"])
 
 
 def test_a_condition_that_is_rounded_does_not_narrow_the_range() -> None:

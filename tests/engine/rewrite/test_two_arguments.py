@@ -13,6 +13,7 @@ from sympy.codegen.cfunctions import expm1, log1p
 
 from derivation.engine.emit.own_formula import domain_of, rewrite_text
 from derivation.engine.formula.grid import inside
+from derivation.engine.rewrite.differences_from_one import by_differences_from_one
 from derivation.engine.rewrite.doubles import rounded_value
 from derivation.engine.rewrite.form import ROUNDING_ERROR
 from derivation.engine.rewrite.identities import by_identities, prove_identity
@@ -78,6 +79,12 @@ x, y, n = sp.symbols("x y n", positive=True)
 )
 def test_the_difference_of_the_arguments_is_not_rounded(formula: sp.Expr, form: sp.Expr) -> None:
     assert next(by_identities(formula)) == form
+
+
+def test_a_damped_wave_is_a_product_and_a_small_term() -> None:
+    *_, found = by_differences_from_one(sp.cos(x) - sp.exp(-y) * sp.cos(x + y))
+    product = 2 * sp.sin(y / 2) * sp.sin(x + y / 2)
+    assert found == product - sp.cos(x + y) * expm1(-y)
 
 
 @pytest.mark.parametrize("kind", DIFFERENCES)

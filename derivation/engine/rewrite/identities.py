@@ -131,7 +131,7 @@ def _exponentials(one: sp.Expr, other: sp.Expr) -> sp.Expr | None:
 
 def _difference_of_exponentials(p: sp.Expr, q: sp.Expr) -> sp.Expr:
     """Return e^p - e^q without overflow of a part."""
-    d = sp.factor_terms(sp.expand(p - q))
+    d = sp.factor_terms(sp.expand(p - q, power_base=False))  # not (x/y)^n as x^n y^-n
     if d.is_positive:
         return -sp.exp(p) * expm1(-d)
     if d.is_negative:

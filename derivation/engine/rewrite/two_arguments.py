@@ -2,7 +2,7 @@
 
 p - q is expanded first: of x + y and x it is y, which is not rounded. p_+ is max(p, 0).
 
-c p^n - c q^n            c q^n expm1(t) or -c p^n expm1(-t), with t = n log(p/q)
+c p^n - c q^n            c q^n expm1(t) or -c p^n expm1(-t), with t = n log(p/q); also p^n - p^m
 log p - log q            log1p((p - q)_+/q) - log1p((q - p)_+/p)
 tan p - tan q            sin(p - q)/(cos p cos q)
 tanh p - tanh q          sinh(p - q)/(cosh p cosh q), for positive and for negative parts separately
@@ -42,7 +42,7 @@ def _split(term: sp.Expr, kind: type[sp.Function]) -> list[tuple[sp.Expr, sp.Exp
 
 
 def _gap(p: sp.Expr, q: sp.Expr) -> sp.Expr:
-    return sp.factor_terms(sp.expand(p - q))
+    return sp.factor_terms(sp.expand(p - q, power_base=False))
 
 
 def _positive_part(u: sp.Expr) -> sp.Expr:
@@ -123,7 +123,10 @@ def _of_powers(one: sp.Expr, other: sp.Expr) -> sp.Expr | None:
     n = next((exponent for _, exponent in powers if not exponent.is_number), None)
     if n is None or any(isinstance(part, sp.exp) for part in sp.Mul.make_args(one * other)):
         return None
-    rates = {b: sp.cancel(exponent / n) for b, exponent in (-one / other).as_powers_dict().items()}
+    ratio = (-one / other).as_powers_dict()
+    if len(ratio) == 1:  # also x^n/x^m
+        (n,) = ratio.values()
+    rates = {base: sp.cancel(exponent / n) for base, exponent in ratio.items()}
     if not all(rate.is_Rational for rate in rates.values()):
         return None
     p, q = (

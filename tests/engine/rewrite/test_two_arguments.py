@@ -74,6 +74,7 @@ x, y, n = sp.symbols("x y n", positive=True)
         (1 - (1 - x) ** n, -expm1(n * log1p(-x))),
         ((1 + x) ** n - 1, expm1(n * log1p(x))),
         (sp.log(x + y) - sp.log(x), log1p(y / x)),
+        (1 - sp.exp(-((x / y) ** n)), -expm1(-((x / y) ** n))),
         (sp.tan(x + y) - sp.tan(x), sp.sin(y) / (sp.cos(x) * sp.cos(x + y))),
     ],
 )
@@ -117,6 +118,7 @@ def test_other_sums_are_not_changed(one: sp.Expr, other: sp.Expr) -> None:
         (sp.Integer(1), -((1 - x / 9) ** -n)),
         ((x + y) ** (1 - n), -(x ** (1 - n))),
         ((x / y) ** (2 * n), -(y**n)),
+        (x**n, -(x**y)),
     ],
 )
 def test_a_difference_of_powers_equals_the_formula(one: sp.Expr, other: sp.Expr) -> None:

@@ -216,7 +216,7 @@ def reference(
     with progress_bar("reference") as progress:
         result = many_digits.reference(known, digits, progress)
     if write_json_output(result.to_json, json):
-        listing(f"{scene.name} to {digits} digits", result.lines())
+        listing(f"{scene_commands.title(scene)} to {digits} digits", result.lines())
     raise typer.Exit(0 if result.agrees else 1)
 
 

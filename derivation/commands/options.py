@@ -15,7 +15,9 @@ PaperFolder = Annotated[
 SEED = 1
 TOLERANCE = "1e-13 to 1 (default: that of the scene)"
 """Range and default of a tolerance, in the help."""
-VALUES = "A:B:N (evenly spaced from A to B), A:B:N:log (spaced by a factor) or A,B,C"
+VALUES = (
+    "A:B:N (evenly spaced from A to B), A:B:N:log (spaced by a factor) or A,B,C (numbers or names)"
+)
 """Forms of the values of a key, in the help."""
 Seed = Annotated[int, typer.Option(metavar="N", help="Random seed.")]
 Suggest = Annotated[

@@ -32,7 +32,10 @@ OUTPUT_SUFFIXES = frozenset(
 )
 """Suffixes of output formats."""
 
-SceneFile = Annotated[Path, typer.Argument(metavar="SCENE.toml", help="Scene file.")]
+SceneFile = Annotated[
+    Path,
+    typer.Argument(metavar="SCENE.toml", help="Scene file; - is standard input."),
+]
 SelectionTolerance = Annotated[
     float | None,
     typer.Option(
@@ -110,6 +113,14 @@ def simulate(
         raise typer.Exit(1)
 
 
+def title(scene: Path) -> str:
+    """Return the name of a scene file, or of the pipe it is read from, for a heading."""
+    name = str(scene)
+    if name in ("-", "/dev/stdin"):
+        return "standard input"
+    return one_line(name if name.startswith(("/dev/", "/proc/")) else scene.name)
+
+
 def _check_exclusive(details: bool, quiet: bool, sweep: bool) -> None:
     """Reject options that exclude each other."""
     given = {"--details": details, "--quiet": quiet, "--sweep": sweep}
@@ -163,29 +174,30 @@ def _sweep(
     """Simulate the scene once for each value of a key."""
     from derivation.scene import SceneError, load
     from derivation.scene import sweep as sweeps
+    from derivation.scene.input.keys import written
 
     if plot is not None:
         raise SceneError(
-            "--plot and --animate cannot be combined with --sweep; remove --plot and --animate, or "
-            "--sweep"
+            "--plot and --animate cannot be combined with --sweep; remove them, or use "
+            "`platecontact sweep SCENE.toml --vary ... --plot FILE`"
         )
     check_outputs(scene, json, csv=csv)
     sweep = sweeps.parse(text)
     loaded = load(scene)
     with progress_bar("simulate") as progress:
         rows = sweeps.run(loaded, sweep, rtol, progress, workers=os.cpu_count() or 1)
-    key = f"{sweep.table}.{sweep.key}"
+    key = sweep.key
     if not any(row.results for row in rows):
         raise SceneError(
             f"--sweep: expected a value of {key} that can be simulated, but all {len(rows)} are "
-            f"rejected; {key} = {rows[0].value:.6g} is {rows[0].remark}"
+            f"rejected; {key} = {written(rows[0].value)} is {rows[0].remark}"
         )
     files: dict[Path, str | bytes] = {}
     if csv is not None:
         files[csv] = sweeps.to_csv(sweep, rows)
     if _write(files, json, lambda: [asdict(row) for row in rows]) and csv is None:
-        OUT.say(f"Sweep of {one_line(scene.name)} over {key}\n\n{sweeps.to_text(sweep, rows)}")
-    warn([f"at {key} = {row.value:.6g}: {row.remark}" for row in rows if row.remark])
+        OUT.say(f"Sweep of {title(scene)} over {key}\n\n{sweeps.to_text(sweep, rows)}")
+    warn([f"at {key} = {written(row.value)}: {row.remark}" for row in rows if row.remark])
 
 
 def explain(
@@ -203,7 +215,7 @@ def explain(
     check_outputs(scene, json)
     explanation = run(load(scene), rtol)
     if write_json_output(explanation.to_json, json):
-        OUT.say(f"Effects in {one_line(scene.name)}\n\n{explanation.details()}")
+        OUT.say(f"Effects in {title(scene)}\n\n{explanation.details()}")
         for note in explanation.notes:
             NOTES.say(paragraph(note, 0))
 
@@ -264,7 +276,7 @@ def indent(
         )
     contacts = run(loaded, **chosen)
     if write_json_output(lambda: [contact.to_json() for contact in contacts], json):
-        OUT.say(f"Static contact in {one_line(scene.name)}\n\n{contacts}")
+        OUT.say(f"Static contact in {title(scene)}\n\n{contacts}")
     warn([text for contact in contacts for text in contact.warnings])
 
 
@@ -326,11 +338,12 @@ def check_outputs(
     csv: Path | None = None,
     animate: Path | None = None,
     out: Path | None = None,
+    distributions: Path | None = None,
 ) -> None:
     """Reject output files that are figures of unknown format, not writable, or named twice.
 
-    A name is taken if it is that of the scene file or of another output. JSON and CSV files must
-    not have the suffix of another format; the caller checks the suffix of `out`.
+    A name is taken if it is that of an input or of another output. JSON and CSV files must not have
+    the suffix of another format; the caller checks the suffix of `out`.
 
     Raises
     ------
@@ -355,6 +368,8 @@ def check_outputs(
         _expect_suffix(kind, names)
     paths += [path for path in (plot, csv, animate, out) if path is not None]
     taken = {real(scene): "the scene file"}
+    if distributions is not None:
+        taken[real(distributions)] = "the file of the distributions"
     for place in paths:
         if place == Path("-"):
             raise SceneError("-: expected a file name; only --json accepts - for standard output")

@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from derivation.commands.options import TOLERANCE, VALUES
-from derivation.commands.scenes import SceneFile, check_outputs
+from derivation.commands.scenes import SceneFile, check_outputs, title
 from derivation.engine.console import NOTES, OUT, Json, progress_bar, warn, write_json_output
 from derivation.engine.files import write_file
-from derivation.engine.printable import one_line
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -89,7 +88,7 @@ def sweep(
     from derivation.sweep.study import Study
 
     folder = out is not None and out.suffix == ".zarr"
-    check_outputs(scene, json, plot, out=None if folder else out)
+    check_outputs(scene, json, plot, out=None if folder else out, distributions=distributions)
     sampling = (distributions, sample, seed, method, sensitivity or None)
     given = _given(vary, distributions, sample, any(x is not None for x in sampling))
     seed, method = 1 if seed is None else seed, method or "random"
@@ -106,7 +105,7 @@ def sweep(
         check_memory(study, "--sensitivity")
     if result and plot is None:
         raise SceneError("--result selects the panels of --plot; add --plot, or remove --result")
-    _run(study, out, plot, results, scheduler, retry, sensitivity, json, scene.name)
+    _run(study, out, plot, results, scheduler, retry, sensitivity, json, title(scene))
 
 
 def _given(
@@ -170,7 +169,7 @@ def _run(
             write_file(plot, _drawing(store, indices, results, plot.suffix))
         answer = summary(store, computed, indices)
     if write_json_output(answer.to_json, json):
-        OUT.say(f"Study of {one_line(name)}\n\n{answer.to_text()}")
+        OUT.say(f"Study of {name}\n\n{answer.to_text()}")
     warn(answer.warnings)
     if answer.warned > len(answer.warnings):
         NOTES.say(

@@ -5,7 +5,9 @@ import errno
 import hashlib
 import os
 import platform
+import re
 import stat
+import sys
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from importlib.metadata import version
@@ -17,6 +19,8 @@ PAGE = 4096
 """Smallest space for a file on a disk, in bytes."""
 PACKAGE = Path(__file__).parents[1]
 ROOT = PACKAGE.parent
+DESCRIPTOR = re.compile(r"-|/dev/stdin|(?:/dev|/proc/self)/fd/(\d{1,9})")
+"""Names of open descriptors: standard input, and those of the shell's process substitution."""
 PINNED = ("sympy", "python-flint", "mpmath", "jinja2", "ruff")
 """Libraries whose version may change a cached result."""
 
@@ -57,7 +61,7 @@ def write_files(contents: Mapping[Path, str | bytes]) -> tuple[Path, ...]:
         for path, content in contents.items():
             expect_writable(path)
             target = real(path)
-            with _explained(path):
+            with explained(path):
                 made += _make_folder(target.parent)
                 if target.parent not in cleaned:
                     remove_leftovers(target.parent)
@@ -91,7 +95,7 @@ def write_folder(folder: Path, contents: Mapping[str, str | bytes]) -> tuple[Pat
         If a file cannot be written; the message states the file, the reason, and a remedy.
     """
     target = real(folder)
-    with _explained(folder):
+    with explained(folder):
         recover(target)
         made = _make_folder(target.parent)
         remove_leftovers(target.parent)
@@ -130,21 +134,33 @@ def _remove_empty(folders: Sequence[Path]) -> None:
 
 
 def read_file(path: Path, most: int) -> bytes:
-    """Return the content of a file.
+    """Return the content of a file or, for `-` or a name such as /dev/fd/63, of an open pipe.
 
     Raises
     ------
     OSError
         If it cannot be read, is a folder or a device, or has more than `most` bytes.
     """
-    if not stat.S_ISREG(path.stat().st_mode):
-        raise OSError(errno.EINVAL, "a folder or a device, not a file")
-    handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
-    with os.fdopen(handle, "rb") as stream:
+    with os.fdopen(_opened(path), "rb") as stream:
         content = stream.read(most + 1)
     if len(content) > most:
         raise OSError(errno.EFBIG, f"more than {most} bytes")
     return content
+
+
+def _opened(path: Path) -> int:
+    """Return the descriptor of a file, or a copy of the open descriptor that a name denotes."""
+    known = DESCRIPTOR.fullmatch(str(path))
+    if known:
+        if not int(known[1] or 0) and sys.stdin is None:  # another file may have descriptor 0
+            raise OSError(errno.EBADF, "standard input is closed")
+        handle = os.dup(int(known[1] or 0))
+        if os.name == "posix":
+            os.set_blocking(handle, True)  # a pipe of another program may return a part otherwise
+        return handle
+    if not stat.S_ISREG(path.stat().st_mode):
+        raise OSError(errno.EINVAL, "a folder or a device, not a file")
+    return os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
 
 
 def expect_writable(path: Path) -> None:
@@ -156,7 +172,7 @@ def expect_writable(path: Path) -> None:
         If it cannot be written; the message states the reason, and a remedy.
     """
     target = real(path)
-    with _explained(path):
+    with explained(path):
         exists, fine = target.exists(), target.is_file()
         if fine and not os.access(target, os.W_OK):
             raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
@@ -174,7 +190,7 @@ def expect_folder(folder: Path) -> None:
     OSError
         If it cannot be written to; the message states the reason, and a remedy.
     """
-    with _explained(folder):
+    with explained(folder):
         other = folder.exists() and not folder.is_dir()
         if not other:
             _try_folder(real(folder))
@@ -190,7 +206,7 @@ def _try_folder(folder: Path) -> None:
 
 
 @contextlib.contextmanager
-def _explained(path: Path) -> Iterator[None]:
+def explained(path: Path) -> Iterator[None]:
     """Replace an OSError in the block by one that states the file, the reason and a remedy."""
     try:
         yield
@@ -198,7 +214,7 @@ def _explained(path: Path) -> Iterator[None]:
         full = error.errno in (errno.ENOSPC, errno.EDQUOT)
         remedy = "free some space" if full else "obtain permission to write there"
         raise OSError(
-            f"cannot write {path}: {error.strerror}; {remedy}, or name another folder"
+            f"cannot write {path}: {error.strerror or error}; {remedy}, or name another folder"
         ) from None
 
 

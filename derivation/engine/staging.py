@@ -9,6 +9,7 @@ import errno
 import os
 import secrets
 import shutil
+from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
 
@@ -64,6 +65,30 @@ class Temporary:
     def discard(self) -> None:
         """Remove it, unless it was renamed."""
         _remove(self.path)
+
+
+@contextlib.contextmanager
+def locked_folder(folder: Path) -> Iterator[None]:
+    """Keep other processes that call this function for the same folder out during the block.
+
+    Raises
+    ------
+    BlockingIOError
+        If another process is in such a block.
+    """
+    if fcntl is None:
+        yield
+        return
+    handle = os.open(folder, os.O_RDONLY)
+    try:
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError as error:  # some file systems have no locks
+            if isinstance(error, BlockingIOError):
+                raise
+        yield
+    finally:
+        os.close(handle)
 
 
 def _new_file(path: Path) -> int:

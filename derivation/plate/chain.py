@@ -37,6 +37,7 @@ and from the contact law to the motion:
 30 thick-plate modes the same for finite thickness: Mindlin's edge conditions, branch A0
 31 plasticity       elastic-plastic contact: limited pressure, unloading, residual indentation
 32 damping          damped modes: response, free motion, dissipated energy
+33 stretching       stiffening of a plate whose middle plane stretches
 """
 
 from collections.abc import Callable

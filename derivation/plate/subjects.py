@@ -32,6 +32,7 @@ SUBJECTS = (
     "edge_modes",
     "plasticity",
     "damping",
+    "stretching",
 )
 
 

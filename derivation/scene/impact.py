@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from derivation.scene.contact_law.corrections import stretching
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import (
     check_radius,
@@ -20,6 +21,7 @@ from derivation.scene.contact_law.yield_warnings import impact_warnings
 from derivation.scene.dynamic.contact_warnings import fall_warnings, grazing_warnings
 from derivation.scene.dynamic.edge_remainder import edge_remainder
 from derivation.scene.dynamic.model_error import inertia_error
+from derivation.scene.dynamic.stretching_error import jump_warnings, stretching_error
 from derivation.scene.effects.effect import Results
 from derivation.scene.errors import SceneError, ToleranceError
 from derivation.scene.input.units import unit_warnings, with_unit_warnings
@@ -114,9 +116,12 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
     check_radius(law, a, "impact.speed", "reduce the speed")
     motion = dynamic_impact(selected, accuracy.remaining) if law.dynamic else None
     pressure = min(law.max_pressure(a), law.pressure_limit)
-    model_error = _model_error(selected, a, motion)
-    fraction = 1.0 - float(local_indentation(law, a)) / delta
-    deflection = motion.largest_deflection(law) if motion is not None else None
+    local = float(local_indentation(law, a))
+    fraction, deflection = 1.0 - local / delta, delta - local
+    if motion is not None:
+        deflection = motion.largest_deflection(law)
+    model_errors = _model_errors(law, a, deflection, motion)
+    model_error = max(model_errors[name] for name in selected.outputs)
     neglected = neglects_inertia(model, contact_time, fraction, motion is not None)
     moving = model  # with the wave branches that the simulation chose
     if motion is not None:
@@ -136,11 +141,13 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
     if motion is not None:
         speeds = [touch.relative_approach_speed for touch in motion.inertia.contacts]
         warnings += grazing_warnings(speeds, motion.least)
+        warnings += jump_warnings(law, motion)
         rebound = motion.restitution * model.v0
         warnings += fall_warnings(model.gravity, rebound, motion.later_deflection)
     return Result(
         *numbers, pressure, accuracy, model_error, warnings, scene,
         selected.grown(growth_of(motion)), inertia_neglected=neglected,
+        model_errors=model_errors,
     )  # fmt: skip
 
 
@@ -183,19 +190,22 @@ def _known(stress: float) -> float | None:
     return stress if math.isfinite(stress) else None
 
 
-def _model_error(selected: SelectedEffects, a: float, motion: "DynamicImpact | None") -> float:
-    """Return the largest relative model error [1]: of the outputs, or of the edge alone."""
-    model, other_edge = selected.law.model, selected.law.other_edge
+def _model_errors(
+    law: ContactLaw, a: float, deflection: float, motion: "DynamicImpact | None"
+) -> dict[str, float]:
+    """Return the relative model error of each output [1], by edge, waves and stretching."""
+    model, other_edge = law.model, law.other_edge
     if motion is None:
-        return edge_remainder(model, a) if other_edge else 0.0
-    error = inertia_error(model, a, motion.contact_time)
-    size = max(error[name] for name in selected.outputs)
+        edge = edge_remainder(model, a) if other_edge else 0.0
+        return dict.fromkeys(OUTPUTS, edge + float(stretching(model, deflection)))
     from derivation.scene.dynamic.wave_problem import echo_time
 
+    stretched = stretching_error(law, motion)
+    waves = inertia_error(model, a, motion.contact_time)
     # The edge has no effect before a wave has returned from it.
-    if other_edge and motion.inertia.total_time > echo_time(motion.law.model):
-        size = max(size, edge_remainder(model, a))
-    return size
+    returned = other_edge and motion.inertia.total_time > echo_time(motion.law.model)
+    edge = edge_remainder(model, a) if returned else 0.0
+    return {name: max(waves[name] + stretched[name], edge) for name in OUTPUTS}
 
 
 def selected_effects(

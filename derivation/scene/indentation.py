@@ -6,9 +6,11 @@ logarithms.
 """
 
 import math
+import sys
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass, replace
 from html import escape
+from numbers import Real
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -179,8 +181,8 @@ def _numbers(name: str, values: Values) -> list[float]:
             f"write for example {name} = [0.001]"
         )
     for value in listed:
-        number = isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
-        if not number or not 0 < value < float("inf"):
+        number = isinstance(value, Real) and not isinstance(value, bool)
+        if not number or not 0 < value <= sys.float_info.max:
             raise SceneError(
                 f"{name}: expected positive numbers [{UNITS[name]}], got {shown(value)}; "
                 "correct or remove it"

@@ -50,6 +50,11 @@ from generated.impact_shapes import cut
 from generated.plasticity_numbers import YIELD_LIMIT
 from generated.sensitivity import indentation_slope
 from generated.simple_impact import Estimate, Plate, law_errors
+from generated.stretching_kernels import (
+    stiffening_clamped,
+    stiffening_paper,
+    stiffening_supported,
+)
 from generated.viscosity import ImpactExtremes, viscous_logarithms, viscous_number
 from generated.viscous_bodies import retardation_of_two
 
@@ -138,6 +143,9 @@ __all__ = [
     "radius_of_force",
     "retardation_of_two",
     "sphere_contact",
+    "stiffening_clamped",
+    "stiffening_paper",
+    "stiffening_supported",
     "stiffness",
     "supported_back_face_stress",
     "supported_edge",

@@ -44,6 +44,17 @@ def significant(value: float, digits: int) -> str:
     return f"{value:#.{digits}g}".removesuffix(".").replace(".e", "e")
 
 
+def percent(ratio: float) -> str:
+    """Return a ratio in per cent with two digits.
+
+    Examples
+    --------
+    >>> percent(0.00126), percent(2.83)
+    ('0.13 %', '280 %')
+    """
+    return f"{float(f'{100.0 * ratio:.2g}'):g} %"
+
+
 def counted(number: int, noun: str) -> str:
     """Return a number with its noun, which has an s unless the number is 1.
 

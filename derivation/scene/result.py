@@ -1,7 +1,7 @@
 """The result of a simulation: numbers in SI units, time history and JSON."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -66,7 +66,8 @@ class Result:
         Largest relative error of the model itself [1], not included in the bound of `accuracy`.
         Without plate inertia: error of the edge relative to the indentation, measured against a
         three-dimensional elastic solution; 0 for the paper's edge. With plate inertia: error of the
-        requested outputs, measured against explicit finite-element simulations.
+        requested outputs, measured against explicit finite-element simulations. In both cases the
+        estimated error by stretching of the plate, which depends on the deflection, is added.
     warnings
         Warnings about validity and accuracy.
     scene
@@ -77,6 +78,8 @@ class Result:
         Times [s] of the history; None for times evenly spaced over the impact.
     inertia_neglected
         Whether plate inertia is neglected although it may change the results (see `warnings`).
+    model_errors
+        Relative model error of each result [1]; `model_error` is the largest of those requested.
     """
 
     contact_time: float
@@ -92,6 +95,7 @@ class Result:
     effects: SelectedEffects = field(repr=False)
     times: tuple[float, ...] | None = None
     inertia_neglected: bool = False
+    model_errors: Mapping[str, float] = field(default_factory=dict, repr=False)
 
     @cached_property
     def max_tensile_stress(self) -> float:
@@ -281,6 +285,7 @@ class Result:
             | {
                 "accuracy": self.accuracy.to_json(),
                 "model_error": self.model_error,
+                "model_errors": dict(self.model_errors),
                 "effects": [row.to_json() for row in self.effects.rows],
                 "warnings": list(self.warnings),
                 "scene": self.scene.to_json(),
@@ -317,22 +322,6 @@ class Result:
         return data_set(self, n)
 
     @property
-    def model_note(self) -> str:
-        """The model error as a sentence; empty if there is none."""
-        if not self.model_error:
-            return ""
-        size = f"up to {100 * self.model_error:.2g} %"
-        if self.dynamics is not None:
-            return (
-                f"Not included in this bound: model error of plate and edge, {size} (measured "
-                "against explicit finite-element simulations)"
-            )
-        return (
-            f"Not included in this bound: model error of the {self.model.edge} edge, {size} of the "
-            "indentation (measured against a 3-D elastic solution)"
-        )
-
-    @property
     def complete(self) -> bool:
         """Whether the impact was computed up to the last separation."""
         return self.dynamics is None or self.dynamics.inertia.complete
@@ -362,8 +351,18 @@ class Result:
 
     @property
     def digits(self) -> int:
-        """Number of significant digits that the bound and the model error support; 0 for none."""
+        """Number of significant digits of all requested results; 0 if one of them has none."""
         return digits_of(self.accuracy.bound + self.model_error)
+
+    def digits_of_result(self, name: str) -> int:
+        """Return the significant digits that bound and model error of a result support.
+
+        A number of the model that is known is shown with at least one digit, whatever the model
+        error.
+        """
+        bound = self.accuracy.bound
+        error = bound + self.model_errors.get(_SAME_ERROR.get(name, name), self.model_error)
+        return max(digits_of(error), min(1, digits_of(bound)))
 
     def numbers(self) -> list[tuple[str, float, str]]:
         """Return name, value and SI unit of each result; with plate inertia also the total time."""
@@ -387,6 +386,8 @@ class Result:
         return answer.html(self)
 
 
+_SAME_ERROR = {"max_pressure": "max_contact_radius", "max_tensile_stress": "max_force"}
+"""The result whose model error another one has: p_0 is proportional to a, and the stress to P."""
 UNITS = {
     "contact_time": "s",
     "max_indentation": "m",

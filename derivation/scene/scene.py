@@ -236,7 +236,8 @@ def load(path: str | Path) -> Scene:
     ----------
     path
         TOML file with the tables ``sphere``, ``plate`` and ``impact``, in SI units, and
-        optionally ``accuracy``, ``effects``, ``inertia``, ``measured`` and ``materials``.
+        optionally ``accuracy``, ``effects``, ``inertia``, ``measured`` and ``materials``; "-" for
+        standard input.
 
     Returns
     -------
@@ -256,7 +257,7 @@ def load(path: str | Path) -> Scene:
     >>> pc.load("glass_pane.toml").plate.edge
     'simply-supported'
     """
-    name = one_line(str(path), 200)
+    name = "standard input" if str(path) == "-" else one_line(str(path), 200)
     text = ""
     try:
         # Some editors begin a file with a byte-order mark, which TOML does not know.

@@ -18,7 +18,15 @@ from derivation.engine.activity import Progress, quiet
 from derivation.engine.text import aligned, paragraph
 from derivation.scene.errors import SceneError
 from derivation.scene.impact import simulate
-from derivation.scene.input.keys import EXAMPLE, number_key, varied
+from derivation.scene.input.keys import (
+    EXAMPLE,
+    check_names,
+    takes_names,
+    varied,
+    varied_key,
+    written,
+)
+from derivation.scene.input.messages import OWN_MATERIALS
 from derivation.scene.quantity import common_prefix
 from derivation.scene.result import UNITS
 from derivation.scene.scene import Scene, read
@@ -41,21 +49,24 @@ SYMBOLS = {
 """Symbols of the results in the table."""
 
 
+Values = tuple[float, ...] | tuple[str, ...]
+"""Numbers in SI units, or names."""
+
+
 @dataclass(frozen=True)
 class Sweep:
     """A key and its values.
 
     Attributes
     ----------
-    table, key
-        Table and key of the scene file.
+    key
+        Key `table.key` of the scene file.
     values
-        Values in SI units.
+        Numbers in SI units, or names.
     """
 
-    table: str
     key: str
-    values: tuple[float, ...]
+    values: Values
 
 
 @dataclass(frozen=True)
@@ -76,7 +87,7 @@ class SweepRow:
         Number of significant digits of the results; 0 without results.
     """
 
-    value: float
+    value: float | str
     results: dict[str, float]
     effects: tuple[str, ...]
     remark: str
@@ -87,29 +98,52 @@ def parse(text: str) -> Sweep:
     """Read a sweep: `table.key=first:last:count`, or `table.key=value,value,...`.
 
     The former has evenly spaced values, both ends included; with `:log` after the count, they are
-    evenly spaced on a logarithmic scale. A key of a material defined in the scene is
-    `materials.NAME.key`.
+    evenly spaced on a logarithmic scale. The latter are numbers or, for a key such as
+    plate.material, names. A key of a material defined in the scene is `materials.NAME.key`.
 
     Raises
     ------
     SceneError
-        If the text does not have this form, or the key is not a numeric key.
+        If the text does not have this form, or the key takes neither numbers nor names.
     """
-    place, _, span = text.partition("=")
-    table, key = number_key(place)
-    return Sweep(table, key, _listed(span) if "," in span else _spaced(span))
+    own = text.lstrip().startswith(f"{OWN_MATERIALS}.")  # its name may contain an equals sign
+    place, _, span = text.rpartition("=") if own else text.partition("=")
+    key = varied_key(place)
+    return Sweep(key, values_in(key, span))
+
+
+def values_in(key: str, span: str) -> Values:
+    """Return the values of a key in a text after `table.key=`."""
+    if takes_names(key):
+        return _names(key, span)
+    return _spaced(span) if ":" in span else _listed(span)
+
+
+def _names(key: str, span: str) -> tuple[str, ...]:
+    """Return the names in a list `name,name,...`; those with a comma are in double quotes."""
+    try:
+        [names] = csv.reader([span], skipinitialspace=True)
+    except (csv.Error, ValueError):
+        names = []
+    given = tuple(name.strip() for name in names)
+    if not 1 <= len(given) <= MOST or not all(given):
+        raise SceneError(
+            f"sweep: {key}: expected names separated by commas, got {span!r:.60}; write for "
+            "example plate.material=glass,steel, and double quotes around a name with a comma"
+        )
+    return given
 
 
 def _listed(span: str) -> tuple[float, ...]:
-    """Return the values of a list `value,value,...`."""
+    """Return the numbers in a list `value,value,...`."""
     try:
         values = tuple(map(float, span.split(",")))
     except ValueError:
         values = ()
     if not 1 <= len(values) <= MOST or not np.isfinite(values).all():
         raise SceneError(
-            f"sweep: expected 1 to {MOST} finite values, got {span!r:.60}; write for example "
-            "impact.speed=0.5,1,3"
+            f"sweep: expected first:last:count or 1 to {MOST} finite values, got {span!r:.60}; "
+            "write for example impact.speed=0.5:3:6 or impact.speed=0.5,1,3"
         )
     return values
 
@@ -158,10 +192,17 @@ def run(
     workers
         Number of processes, used if the sweep takes long. Each process imports the main module,
         so that a script must guard its main part with `if __name__ == "__main__"`.
+
+    Raises
+    ------
+    SceneError
+        If a name is unknown.
     """
+    names = {sweep.key: [str(name) for name in sweep.values]} if takes_names(sweep.key) else {}
+    check_names(scene, names, [sweep.key])
     results, rows = _rows(scene, sweep, rtol, workers), list[SweepRow]()
     for number in range(1, len(sweep.values) + 1):
-        progress(f"{sweep.table}.{sweep.key}", number, len(sweep.values))
+        progress(sweep.key, number, len(sweep.values))
         rows.append(next(results))
     return tuple(rows)
 
@@ -206,8 +247,8 @@ def _leave_interrupts() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
-def _row(scene: Scene, sweep: Sweep, rtol: float | None, value: float) -> SweepRow:
-    data = varied(scene, {f"{sweep.table}.{sweep.key}": value})
+def _row(scene: Scene, sweep: Sweep, rtol: float | None, value: float | str) -> SweepRow:
+    data = varied(scene, {sweep.key: value})
     try:
         result = simulate(read(data), rtol=rtol)
     except SceneError as error:
@@ -223,10 +264,11 @@ def to_csv(sweep: Sweep, rows: Sequence[SweepRow]) -> str:
     """Return the rows as CSV in SI units, with all digits; missing results are empty."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow([f"{sweep.table}.{sweep.key}", *UNITS, "effects", "remark"])
+    writer.writerow([sweep.key, *UNITS, "effects", "remark"])
     for row in rows:
         numbers = (repr(row.results[name]) if row.results else "" for name in UNITS)
-        writer.writerow([repr(row.value), *numbers, " ".join(row.effects), row.remark])
+        value = row.value if isinstance(row.value, str) else repr(row.value)
+        writer.writerow([value, *numbers, " ".join(row.effects), row.remark])
     return text.getvalue()
 
 
@@ -234,7 +276,9 @@ def to_text(sweep: Sweep, rows: Sequence[SweepRow]) -> str:
     """Return the rows as a table, each result with one SI prefix."""
     known = [row for row in rows if row.results]
     fewest = min((max(1, row.digits) for row in known), default=MOST_DIGITS)
-    heads, columns = [f"#{sweep.key}"], [[f"{row.value:.6g}" for row in rows]]
+    head = sweep.key.rpartition(".")[2]
+    heads = [head if takes_names(sweep.key) else f"#{head}"]
+    columns = [[written(row.value) for row in rows]]
     for name, unit in UNITS.items():
         values, multiple = np.array([row.results[name] for row in known]), unit
         if unit != "1":

@@ -1,11 +1,15 @@
 """Runs a study from Python and returns its results as a Dataset with units."""
 
+import os
 from collections.abc import Iterable, Mapping
+from numbers import Integral
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from derivation.engine.activity import Progress, quiet
 from derivation.scene.errors import SceneError
+from derivation.scene.input.keys import check_names, written
+from derivation.scene.input.messages import shown
 from derivation.scene.scene import Scene, check_scene
 from derivation.scene.selection.method_selection import check_rtol
 from derivation.sweep.dataset import check_memory, column, data_set, fits_in_memory
@@ -47,7 +51,9 @@ def sweep(
     vary
         For each key, such as "plate.thickness", the values in SI units: for a grid a list, an array
         or a text such as "first:last:count", "first:last:count:log" or "0.5,1,3"; for a sample a
-        distribution, for example ``{"distribution": "uniform", "low": 4e-3, "high": 12e-3}``.
+        distribution, for example ``{"distribution": "uniform", "low": 4e-3, "high": 12e-3}``. A key
+        such as "plate.material" or "plate.edge" takes names: ``["glass", "steel"]``, the text
+        "glass,steel" or ``{"distribution": "choice", "values": ["glass", "steel"]}``.
     sample
         Number of points of a sample; by default a grid is computed. It must be a power of two with
         the method "sobol" and with `sensitivity`. With `sensitivity` it is the number of base
@@ -101,8 +107,10 @@ def sweep(
     (('impact.speed',), 'N', 'm/s')
     """
     check_scene(scene)
+    workers = _whole("workers", workers, 1)
+    rtol = None if rtol is None else check_rtol(rtol)
     study = Study(scene, make_plan(vary, sample, seed, method, sensitivity), rtol)
-    path = None if out is None else Path(out)
+    path = None if out is None else _path(out)
     check(study, path)
     if sensitivity or path is None or path.suffix not in READ_AS_NEEDED:
         check_memory(study, "sweep")
@@ -134,10 +142,23 @@ def make_plan(
     SceneError
         If an argument is not valid.
     """
+    texts = isinstance(vary, Iterable) and not isinstance(vary, str) and size is None
+    if not isinstance(vary, Mapping) and not texts:
+        raise SceneError(
+            f"vary: expected a mapping from key to values, got {shown(vary)}; write for example "
+            '{"impact.speed": [0.5, 1.0]}'
+        )
+    seed = _whole("seed", seed, 0)
     if size is None:
         if sensitivity:
             raise SceneError("sensitivity: expected a sample, got a grid; give its size too")
+        if method != "random":
+            raise SceneError(
+                f"method: expected none for a grid, got {shown(method)}; remove it, or give the "
+                "size of a sample"
+            )
         return grid(vary if isinstance(vary, Mapping) else list(vary))
+    size = _whole("sample", size, 1)
     assert isinstance(vary, Mapping)
     distributions = read_distributions(vary)
     if sensitivity:
@@ -150,20 +171,50 @@ def make_plan(
     return sample(distributions, size, seed, method)
 
 
-def check(study: Study, out: Path | None) -> None:
-    """Raise an error for an invalid tolerance or output, before anything is computed.
+def _whole(name: str, value: object, least: int) -> int:
+    """Return an argument that must be a whole number from `least`.
 
     Raises
     ------
     SceneError
-        If the tolerance is out of range or the output has an unknown suffix.
+        If it is not.
+    """
+    whole = isinstance(value, Integral) or (isinstance(value, float) and value.is_integer())
+    if isinstance(value, bool) or not whole or int(value) < least:  # type: ignore[call-overload]
+        raise SceneError(
+            f"{name}: expected a whole number from {least}, got {shown(value)}; change it"
+        )
+    return int(value)  # type: ignore[call-overload,no-any-return]
+
+
+def _path(out: object) -> Path:
+    """Return the path of the output.
+
+    Raises
+    ------
+    SceneError
+        If it is not a path.
+    """
+    if not isinstance(out, str | os.PathLike):
+        raise SceneError(f"out: expected a file name, got {shown(out)}; write for example rows.nc")
+    return Path(out)
+
+
+def check(study: Study, out: Path | None) -> None:
+    """Raise an error for an invalid name, tolerance or output, before anything is computed.
+
+    Raises
+    ------
+    SceneError
+        If a name is unknown, the tolerance is out of range or the output has an unknown suffix.
     OSError
         If the output cannot be written.
     """
+    check_names(study.scene, study.plan.names, study.plan.keys)
     if study.rtol is not None:
         check_rtol(study.rtol)
     if out is not None:
-        check_output_file(out)
+        check_output_file(out, study.plan.keys)
 
 
 def write_results(
@@ -190,7 +241,8 @@ def _check_some(store: Store) -> None:
             return
         if start == 0:
             first = column(table, "reason")[0]
-    values = ", ".join(f"{k} = {v[0]:.6g}" for k, v in store.study.plan.points(0, 1).items())
+    points = store.study.plan.points(0, 1)
+    values = ", ".join(f"{key} = {written(one[0])}" for key, one in points.items())
     raise SceneError(
         "sweep: expected a point that can be simulated, but all "
         f"{store.study.plan.size:,} are rejected; at {values}: {first}"

@@ -1,12 +1,13 @@
 """The results of a study as an xarray Dataset with units, labels, scene and version."""
 
 import json
+import re
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from derivation.scene.errors import SceneError
-from derivation.scene.input.keys import described, unit_of
+from derivation.scene.input.keys import described, takes_names, unit_of
 from derivation.scene.result import UNITS
 from derivation.sweep.plan import GridPlan
 from derivation.sweep.store import NUMBERS, TEXTS, Store
@@ -38,6 +39,8 @@ def labels(name: str) -> dict[str, str]:
         long_name, unit = LABELS[name]
         return {"long_name": long_name, "units": unit}
     text, unit = described(name), unit_of(name)
+    if takes_names(name):
+        return {"long_name": re.split("[;:]", text)[0].removeprefix("name of the ")}
     if not unit:
         return {"long_name": text}
     return {"long_name": text.replace(f" [{unit}]", ""), "units": unit}

@@ -14,9 +14,11 @@ from derivation.engine.files import read_file
 from derivation.engine.nearest import nearest
 from derivation.engine.printable import one_line
 from derivation.scene.errors import SceneError
-from derivation.scene.input.keys import number_key
+from derivation.scene.input.keys import takes_names, varied_key
 from derivation.scene.input.messages import shown
-from derivation.scene.input.table import is_number
+from derivation.scene.input.table import is_number, plain_keys
+from derivation.scene.sweep import Values
+from derivation.sweep.values import different, names_among, numbers_among
 
 Array = NDArray[np.float64]
 
@@ -25,9 +27,14 @@ PARAMETERS = {
     "loguniform": ("low", "high"),
     "normal": ("mean", "std"),
     "lognormal": ("mean", "std"),
+    "choice": ("values",),
 }
 """Parameters of each distribution, in the unit of the quantity; those of `lognormal` are mean and
-standard deviation of the quantity itself, not of its logarithm."""
+standard deviation of the quantity itself, not of its logarithm. The values of a choice are equally
+probable."""
+WIDEST = 1e100
+"""Largest standard deviation of a lognormal distribution, over its mean."""
+CHOICE = '{distribution = "choice", values = ["glass", "steel"]}'
 EXAMPLE = '"plate.thickness" = {distribution = "uniform", low = 4e-3, high = 12e-3}'
 LARGEST = 2**20
 """Largest size of a file of distributions [bytes]."""
@@ -71,7 +78,30 @@ class Distribution:
         return {"distribution": self.distribution, first: self.first, second: self.second}
 
 
-def load_distributions(path: Path) -> dict[str, Distribution]:
+@dataclass(frozen=True)
+class UniformChoice:
+    """A choice among numbers or names with equal probabilities.
+
+    Attributes
+    ----------
+    values
+        Different numbers in SI units, or different names.
+    """
+
+    values: Values
+
+    def quantiles(self, probabilities: Array) -> NDArray[Any]:
+        """Return the value for each probability in (0, 1)."""
+        count = len(self.values)
+        which = np.minimum((probabilities * count).astype(np.intp), count - 1)
+        return np.array(self.values)[which]
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the choice with the keys of a file."""
+        return {"distribution": "choice", "values": list(self.values)}
+
+
+def load_distributions(path: Path) -> dict[str, Distribution | UniformChoice]:
     """Read the table `[vary]` of a TOML file.
 
     Raises
@@ -113,7 +143,7 @@ def _has_unquoted_dot(given: Any) -> bool:
     return isinstance(given, Mapping) and any(isinstance(x, Mapping) for x in given.values())
 
 
-def read_distributions(given: Mapping[str, Any]) -> dict[str, Distribution]:
+def read_distributions(given: Mapping[str, Any]) -> dict[str, Distribution | UniformChoice]:
     """Return distributions by key from mappings of their parameters.
 
     Raises
@@ -121,18 +151,35 @@ def read_distributions(given: Mapping[str, Any]) -> dict[str, Distribution]:
     SceneError
         If a key, a distribution or a parameter is unknown or out of range.
     """
-    return {".".join(number_key(key)): _distribution(key, given[key]) for key in given}
+    made = dict[str, Distribution | UniformChoice]()
+    for text, distribution in given.items():
+        key = varied_key(text)
+        if key in made:  # under its old name, or with spaces
+            raise SceneError(f"vary: expected {key} once, got it twice; remove one")
+        made[key] = _distribution(key, distribution)
+    return made
 
 
-def _distribution(key: str, given: Any) -> Distribution:
+def names_in(values: Mapping[str, Any]) -> dict[str, tuple[str, ...]]:
+    """Return the names of each key that takes names, from its values or its distribution."""
+    given = {key: one for key, one in values.items() if takes_names(key)}
+    return {
+        key: tuple(map(str, one.values if isinstance(one, UniformChoice) else one))
+        for key, one in given.items()
+    }
+
+
+def _distribution(key: str, given: Any) -> Distribution | UniformChoice:
     """Return the distribution of one key."""
-    if isinstance(given, Distribution):
+    if isinstance(given, Distribution | UniformChoice):
         return given
-    example = f"write for example {EXAMPLE}"
+    line = f'"plate.material" = {CHOICE}' if takes_names(key) else EXAMPLE
+    example = f"write for example {line}"
     if not isinstance(given, Mapping):
         raise SceneError(f"{key}: expected a distribution, got {shown(given)}; {example}")
+    given = plain_keys(given)
     name = given.get("distribution")
-    if name not in PARAMETERS:
+    if not isinstance(name, str) or name not in PARAMETERS:
         near = next(iter(nearest(name, PARAMETERS)), "") if isinstance(name, str) else ""
         meant = f"did you mean {near}?" if near else example
         got = "none" if name is None else shown(name)
@@ -143,6 +190,13 @@ def _distribution(key: str, given: Any) -> Distribution:
     if set(given) != {"distribution", *wanted}:
         got = ", ".join(str(part) for part in given if part != "distribution") or "none"
         raise SceneError(f"{key}: expected {' and '.join(wanted)} of {name}, got {got}; {example}")
+    if name == "choice":
+        among = names_among if takes_names(key) else numbers_among
+        return UniformChoice(different(key, among(key, given["values"])))
+    if takes_names(key):
+        raise SceneError(
+            f"{key}: expected the distribution choice for names, got {name}; {example}"
+        )
     first, second = (given[part] for part in wanted)
     if not (is_number(first) and is_number(second)):
         raise SceneError(
@@ -161,13 +215,15 @@ def _check_range(key: str, given: Distribution) -> None:
     fine = second > 0 if spread else first < second
     if given.distribution in ("loguniform", "lognormal"):
         fine = fine and first > 0
+    if given.distribution == "lognormal":
+        fine = fine and second <= WIDEST * first
     if fine and math.isfinite(first) and math.isfinite(second):
         return
     expected = {
         "uniform": "low < high",
         "loguniform": "0 < low < high",
         "normal": "std > 0",
-        "lognormal": "mean > 0 and std > 0",
+        "lognormal": f"mean > 0 and 0 < std <= {WIDEST:g} mean",
     }[given.distribution]
     values = {k: v for k, v in asdict(given).items() if k != "distribution"}.values()
     got = ", ".join(shown(value) for value in values)

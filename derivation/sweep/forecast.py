@@ -81,7 +81,7 @@ def forecast(study: Study, workers: int) -> Forecast:
     count = len(next(iter(columns.values())))
     effects, rejected = Counter[str](), dict[str, None]()
     for number in range(count):
-        values = {key: float(column[number]) for key, column in columns.items()}
+        values = {key: column[number].item() for key, column in columns.items()}
         try:
             chosen = selected_effects(read(varied(study.scene, values)), study.rtol)[1]
         except SceneError as error:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from itertools import pairwise, product
 from math import prod
+from threading import Lock
 from typing import Any, ClassVar
 
 import numpy as np
@@ -13,11 +14,15 @@ from numpy.typing import NDArray
 
 from derivation.engine.nearest import did_you_mean
 from derivation.scene.errors import SceneError
-from derivation.scene.input.keys import number_key, rivals
-from derivation.scene.sweep import parse
-from derivation.sweep.distributions import Distribution
+from derivation.scene.input.keys import rivals, takes_names, varied_key
+from derivation.scene.sweep import Values, parse, values_in
+from derivation.sweep.distributions import Distribution, UniformChoice, names_in
+from derivation.sweep.values import different, names_among, numbers_among
 
 Array = NDArray[np.float64]
+Column = NDArray[Any]
+"""Numbers in SI units, or names."""
+Distributions = Mapping[str, Distribution | UniformChoice]
 
 MOST_POINTS = 10**9
 """Largest number of points of a study."""
@@ -37,16 +42,21 @@ class GridPlan:
     Attributes
     ----------
     axes
-        The values of each key, in SI units; the last key varies fastest.
+        The values of each key, in SI units or names; the last key varies fastest.
     """
 
-    axes: dict[str, tuple[float, ...]]
+    axes: dict[str, Values]
     seed: ClassVar[None] = None
 
     @property
     def keys(self) -> tuple[str, ...]:
         """The varied keys."""
         return tuple(self.axes)
+
+    @property
+    def names(self) -> dict[str, tuple[str, ...]]:
+        """The names of each key that takes names."""
+        return names_in(self.axes)
 
     @property
     def dims(self) -> dict[str, int]:
@@ -58,7 +68,7 @@ class GridPlan:
         """Number of points."""
         return prod(self.dims.values())
 
-    def points(self, start: int, stop: int) -> dict[str, Array]:
+    def points(self, start: int, stop: int) -> dict[str, Column]:
         """Return the values of each key at the points from `start` to `stop` (exclusive)."""
         indices = np.unravel_index(np.arange(start, stop), tuple(self.dims.values()))
         return {
@@ -66,9 +76,12 @@ class GridPlan:
             for (key, values), index in zip(self.axes.items(), indices, strict=True)
         }
 
-    def probes(self, most: int) -> dict[str, Array]:
-        """Return at most `most` corners of the grid, for a forecast."""
-        ends = [sorted({0, length - 1}) for length in self.dims.values()]
+    def probes(self, most: int) -> dict[str, Column]:
+        """Return at most `most` corners of the grid, with all names, for a forecast."""
+        ends = [
+            list(range(length)) if key in self.names else sorted({0, length - 1})
+            for key, length in self.dims.items()
+        ]
         corners = np.array([corner for corner, _ in zip(product(*ends), range(most), strict=False)])
         columns = zip(self.axes.items(), corners.T, strict=True)
         return {key: np.asarray(values)[indices] for (key, values), indices in columns}
@@ -94,7 +107,7 @@ class SamplePlan:
         One of `METHODS`.
     """
 
-    distributions: dict[str, Distribution]
+    distributions: dict[str, Distribution | UniformChoice]
     size: int
     seed: int
     method: str
@@ -105,15 +118,20 @@ class SamplePlan:
         return tuple(self.distributions)
 
     @property
+    def names(self) -> dict[str, tuple[str, ...]]:
+        """The names of each key that takes names."""
+        return names_in(self.distributions)
+
+    @property
     def dims(self) -> dict[str, int]:
         """Names and lengths of the dimensions of the results."""
         return {"sample": self.size}
 
-    def points(self, start: int, stop: int) -> dict[str, Array]:
+    def points(self, start: int, stop: int) -> dict[str, Column]:
         """Return the values of each key at the points from `start` to `stop` (exclusive)."""
         return _values(self.distributions, self._probabilities(start, stop))
 
-    def probes(self, most: int) -> dict[str, Array]:
+    def probes(self, most: int) -> dict[str, Column]:
         """Return the first points, at most `most`, for a forecast."""
         return self.points(0, min(most, self.size))
 
@@ -162,7 +180,7 @@ class SaltelliPlan:
         Random seed of the scrambled sequence.
     """
 
-    distributions: dict[str, Distribution]
+    distributions: dict[str, Distribution | UniformChoice]
     base: int
     seed: int
 
@@ -170,6 +188,11 @@ class SaltelliPlan:
     def keys(self) -> tuple[str, ...]:
         """The varied keys."""
         return tuple(self.distributions)
+
+    @property
+    def names(self) -> dict[str, tuple[str, ...]]:
+        """The names of each key that takes names."""
+        return names_in(self.distributions)
 
     @property
     def each(self) -> int:
@@ -186,7 +209,7 @@ class SaltelliPlan:
         """Names and lengths of the dimensions of the results."""
         return {"sample": self.size}
 
-    def points(self, start: int, stop: int) -> dict[str, Array]:
+    def points(self, start: int, stop: int) -> dict[str, Column]:
         """Return the values of each key at the points from `start` to `stop` (exclusive)."""
         number, each = len(self.keys), self.each
         first = start // each
@@ -198,7 +221,7 @@ class SaltelliPlan:
         probabilities = rows.reshape(-1, number)[start - first * each : stop - first * each]
         return _values(self.distributions, probabilities)
 
-    def probes(self, most: int) -> dict[str, Array]:
+    def probes(self, most: int) -> dict[str, Column]:
         """Return the first points, at most `most`, for a forecast."""
         return self.points(0, min(most, self.size))
 
@@ -211,32 +234,27 @@ class SaltelliPlan:
 Plan = GridPlan | SamplePlan | SaltelliPlan
 
 
-def grid(given: Mapping[str, Iterable[float] | str] | Sequence[str]) -> GridPlan:
+def grid(given: Mapping[str, Iterable[float | str] | str] | Sequence[str]) -> GridPlan:
     """Return a grid from texts such as `table.key=first:last:count`, or the values of each key.
 
     Raises
     ------
     SceneError
-        If a key is unknown, given twice or given with a key that it excludes, a value is not finite
-        or given twice, or there are too many points.
+        If a key is unknown, given twice or given with a key that it excludes, a number is not
+        finite, a value is given twice, or there are too many points.
     """
     if isinstance(given, Mapping):
         axes = [_axis(key, values) for key, values in given.items()]
     else:
-        sweeps = [parse(text) for text in given]
-        axes = [(f"{one.table}.{one.key}", one.values) for one in sweeps]
+        sweeps = [parse(str(text)) for text in given]
+        axes = [(one.key, one.values) for one in sweeps]
     _check_keys([key for key, _ in axes])
-    for key, values in axes:
-        if len(set(values)) < len(values):
-            raise SceneError(f"{key}: expected different values, got one twice; remove one")
-    made = GridPlan(dict(axes))
+    made = GridPlan({key: different(key, values) for key, values in axes})
     _check_size(made.size, "use fewer values")
     return made
 
 
-def sample(
-    distributions: Mapping[str, Distribution], size: int, seed: int, method: str
-) -> SamplePlan:
+def sample(distributions: Distributions, size: int, seed: int, method: str) -> SamplePlan:
     """Return a sample of distributions.
 
     Raises
@@ -246,9 +264,8 @@ def sample(
         does not allow this number of points.
     """
     _check_keys(list(distributions))
-    _check_seed(seed)
     if method not in METHODS:
-        meant = did_you_mean(method, METHODS).rstrip() or "choose one"
+        meant = did_you_mean(str(method), METHODS).rstrip() or "choose one"
         raise SceneError(f"method: expected {', '.join(METHODS)}, got {method!r:.40}; {meant}")
     _check_size(size, "give the sample another size")
     if method == "latin-hypercube" and size > MOST_LATIN:
@@ -261,7 +278,7 @@ def sample(
     return SamplePlan(dict(distributions), size, seed, method)
 
 
-def saltelli(distributions: Mapping[str, Distribution], base: int, seed: int) -> SaltelliPlan:
+def saltelli(distributions: Distributions, base: int, seed: int) -> SaltelliPlan:
     """Return the points for sensitivity indices.
 
     Raises
@@ -271,27 +288,20 @@ def saltelli(distributions: Mapping[str, Distribution], base: int, seed: int) ->
         power of two or is too large.
     """
     _check_keys(list(distributions))
-    _check_seed(seed)
     made = SaltelliPlan(dict(distributions), base, seed)
     _check_size(base, "give the sample another size")
-    _check_power(base, f"base points, each of which makes {made.each} runs,")
+    _check_power(base, f"base points, each of which makes {made.each} runs")
     return made
 
 
-def _axis(key: str, values: Iterable[float] | str) -> tuple[str, tuple[float, ...]]:
-    """Return a key and its values from a text or numbers."""
+def _axis(key: str, values: Iterable[float | str] | str) -> tuple[str, Values]:
+    """Return a key and its values from a text, numbers or names."""
+    place = varied_key(key)
     if isinstance(values, str):
-        parsed = parse(f"{key}={values}")
-        return f"{parsed.table}.{parsed.key}", parsed.values
-    place = ".".join(number_key(key))
-    try:
-        numbers = np.atleast_1d(np.asarray(values, dtype=np.float64))
-    except (TypeError, ValueError):
-        remedy = "give sample=N" if isinstance(values, Mapping) else "give a list"
-        raise SceneError(f"{place}: expected numbers, got {values!r:.60}; {remedy}") from None
-    if numbers.ndim != 1 or not numbers.size or not np.isfinite(numbers).all():
-        raise SceneError(f"{place}: expected finite numbers, got {values!r:.60}; give a list")
-    return place, tuple(numbers.tolist())
+        return place, values_in(place, values)
+    if takes_names(place):
+        return place, names_among(place, values)
+    return place, numbers_among(place, values)
 
 
 def _check_keys(keys: list[str]) -> None:
@@ -305,11 +315,6 @@ def _check_keys(keys: list[str]) -> None:
             raise SceneError(
                 f"vary: expected {key} or {other}, which replace each other, got both; remove one"
             )
-
-
-def _check_seed(seed: int) -> None:
-    if seed < 0:
-        raise SceneError(f"seed: expected a whole number from 0, got {seed}; change it")
 
 
 def _check_size(size: int, remedy: str) -> None:
@@ -326,7 +331,7 @@ def _check_power(size: int, what: str) -> None:
         )
 
 
-def _values(distributions: Mapping[str, Distribution], probabilities: Array) -> dict[str, Array]:
+def _values(distributions: Distributions, probabilities: Array) -> dict[str, Column]:
     """Return the values of the keys at points of the unit cube."""
     inside = np.clip(probabilities, LEAST_PROBABILITY, 1 - LEAST_PROBABILITY)
     columns = zip(distributions.items(), inside.T, strict=True)
@@ -335,14 +340,22 @@ def _values(distributions: Mapping[str, Distribution], probabilities: Array) -> 
 
 @dataclass
 class _Sequence:
-    """A scrambled Sobol sequence that keeps its position, because skipping points takes time."""
+    """A scrambled Sobol sequence that keeps its position, because skipping points takes time.
+
+    Several threads may share it.
+    """
 
     dimensions: int
     seed: int
     engine: Any = field(default=None)
+    lock: Any = field(default_factory=Lock)
 
     def between(self, start: int, stop: int) -> Array:
         """Return the points from `start` to `stop` (exclusive)."""
+        with self.lock:
+            return self._between(start, stop)
+
+    def _between(self, start: int, stop: int) -> Array:
         from scipy.stats import qmc
 
         if self.engine is None or self.engine.num_generated > start:

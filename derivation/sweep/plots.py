@@ -1,4 +1,8 @@
-"""Draws a study: curves over one key, maps over two keys, or sensitivity indices."""
+"""Draws a study: curves over one key, maps over two keys, or sensitivity indices.
+
+Names have no axis of numbers: they are labelled positions whose points are not connected or, if
+another key varies too, each name has its own curve.
+"""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
@@ -6,7 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from derivation.engine.nearest import did_you_mean
+from derivation.engine.printable import one_line
 from derivation.scene.errors import SceneError
+from derivation.scene.input.keys import takes_names
 from derivation.scene.output.plot import BLUE, BROWN, saved, scaled
 from derivation.scene.result import UNITS
 from derivation.scene.sweep import SYMBOLS
@@ -39,6 +45,9 @@ KEY_SYMBOLS = {
 TEX = {"δ": r"\delta", "σ": r"\sigma"}
 LARGEST_FIGURE = 3
 """Largest number of panels in a row."""
+MOST_COLORS, MOST_LINES, LONGEST_NAME, MOST_LETTERS = 10, 18, 30, 30
+"""Largest number of curves with clearly different colours, of names below each other in a legend,
+of characters of a name, and of letters of all names side by side."""
 
 
 def check_results(names: Sequence[str]) -> tuple[str, ...]:
@@ -101,13 +110,12 @@ def figure(data: "xr.Dataset", keys: Sequence[str], results: Sequence[str]) -> "
     for name, axes in zip(results, panels[: len(results)], strict=True):
         if "first_order" in data:
             _bars(axes, data, name)
-        elif len(keys) == 1:
-            _curve(axes, data, keys[0], name)
+        elif len(keys) == 1 or any(map(takes_names, keys)):
+            _curves(axes, data, keys, name)
         else:
             _map(made, axes, data, keys, name)
         axes.set_title(name.replace("_", " "), fontsize=10)
-    if panels[0].get_legend_handles_labels()[0]:
-        panels[0].legend(frameon=False, fontsize=8)
+    _legend(made, panels[0], "" if "first_order" in data else _roles(keys)[1])
     notes = _notes(data)
     if notes:
         made.suptitle(notes, fontsize=9)
@@ -115,36 +123,100 @@ def figure(data: "xr.Dataset", keys: Sequence[str], results: Sequence[str]) -> "
 
 
 def _notes(data: "xr.Dataset") -> str:
-    """Return the title: omitted points, or the kind of the intervals."""
+    """Return the title: omitted points and unknown errors, or the kind of the intervals."""
     if "first_order" in data:
         return "Sensitivity indices with 95 % confidence intervals (bootstrap)"
     status = data["status"].values
     wrong = int(np.sum(status != "finished"))
-    return f"{wrong} of {status.size} points without a result are omitted" if wrong else ""
+    unknown = int(np.isinf(data["bound"].values).sum())
+    notes = [f"{wrong} of {status.size} points without a result are omitted"] if wrong else []
+    notes += [f"{unknown} of {status.size} points have no error bound"] if unknown else []
+    return "; ".join(notes)
 
 
-def _curve(axes: "Axes", data: "xr.Dataset", key: str, name: str) -> None:
-    """Draw a result over one key, with its error band and gaps at points without a result."""
-    order = np.argsort(data[key].values)
-    x, x_label = _key(data[key].values[order], key)
-    raw = data[name].values[order]
-    error = (data["bound"].values + data["model_error"].values)[order]
+def _roles(keys: Sequence[str]) -> tuple[str, str]:
+    """Return the key of the axis, a number if there is one, and the key with a curve per name."""
+    axis, *others = sorted(keys, key=takes_names)
+    return axis, others[0] if others else ""
+
+
+def _legend(made: "Figure", panel: "Axes", other: str) -> None:
+    """Add the legend of all panels: in the first one, or beside them if each name has a curve."""
+    handles, texts = panel.get_legend_handles_labels()
+    if other:
+        made.legend(
+            handles, texts, title=_words(other), loc="outside right upper", frameon=False,
+            fontsize=8, title_fontsize=8, ncols=-(-len(texts) // MOST_LINES),
+        )  # fmt: skip
+    elif handles:
+        panel.legend(handles, texts, frameon=False, fontsize=8)
+
+
+def _curves(axes: "Axes", data: "xr.Dataset", keys: Sequence[str], name: str) -> None:
+    """Draw a result over one key, with its error and gaps at points without a result.
+
+    A second key has names, each with its own curve or, in a sample, its own points.
+    """
+    axis, other = _roles(keys)
+    raw, error = data[name].values.ravel(), (data["bound"] + data["model_error"]).values.ravel()
     finite = np.isfinite(raw)
-    y, y_label = np.full_like(raw, np.nan), ""
+    y = np.full_like(raw, np.nan)
     y[finite], y_label = _result(raw[finite], name)
-    band = np.abs(y) * np.where(np.isfinite(error), error, 0.0)
-    axes.fill_between(
-        x, y - band, y + band, color=BLUE, alpha=0.25, linewidth=0, label="error: bound and model"
-    )
-    few = len(x) <= 40
-    axes.plot(x, y, color=BLUE, linewidth=1.5, marker="o" if few else None, markersize=3)
+    band = np.abs(y) * np.where(np.isfinite(error), error, np.nan)
+    given = {key: data[key].broadcast_like(data[name]).values.ravel() for key in keys}
+    ticks = list(dict.fromkeys(given[axis].tolist())) if takes_names(axis) else []
+    x, x_label = _key(given[axis], axis)
+    if ticks:
+        x = np.array([ticks.index(each) for each in given[axis].tolist()], dtype=float)
+    curves = list(dict.fromkeys(given[other].tolist())) if other else [""]
+    for number, curve in enumerate(curves):
+        chosen = np.flatnonzero(given[other] == curve) if other else np.arange(x.size)
+        chosen = chosen[np.argsort(x[chosen], kind="stable")]
+        shift = 0.6 * ((number + 0.5) / len(curves) - 0.5) if ticks else 0.0
+        points = x[chosen] + shift, y[chosen], band[chosen]
+        color = _color(number, len(curves)) if other else BLUE
+        label = _label(curve) if other else "error: bound and model"
+        _draw(axes, points, color, label, bool(ticks) or (bool(other) and "sample" in data.dims))
     axes.set(xlabel=x_label, ylabel=y_label)
     if finite.any() and np.ptp(y[finite]) == 0.0:  # its error alone would fill the panel
         axes.set_ylim(*sorted((0.95 * y[finite][0], 1.05 * y[finite][0])))
     axes.ticklabel_format(axis="y", useOffset=False)
     _frame(axes)
-    if _logarithmic(x):
+    if ticks:
+        axes.set_xticks(range(len(ticks)), [_label(each) for each in ticks])
+        axes.set_xlim(-0.5, len(ticks) - 0.5)
+        axes.tick_params("x", labelrotation=0 if sum(map(len, ticks)) <= MOST_LETTERS else 90)
+    elif _logarithmic(np.unique(x)):
         _scale(axes.xaxis)
+
+
+def _draw(
+    axes: "Axes", points: tuple[Array, Array, Array], color: Any, label: str, apart: bool
+) -> None:
+    """Draw positions, values and half-widths of the error as points, or as a curve with a band."""
+    x, y, band = points
+    if apart:
+        axes.errorbar(x, y, band, color=color, fmt="o", markersize=3, capsize=2, label=label)
+        return
+    filled = axes.fill_between(x, y - band, y + band, color=color, alpha=0.25, linewidth=0)
+    few = len(x) <= 40
+    [line] = axes.plot(x, y, color=color, linewidth=1.5, marker="o" if few else None, markersize=3)
+    (filled if color == BLUE else line).set_label(label)
+
+
+def _color(number: int, count: int) -> Any:
+    """Return the colour of a curve."""
+    from matplotlib import colormaps
+
+    if count <= MOST_COLORS:
+        return colormaps["tab10"](number)
+    return colormaps["turbo"](number / (count - 1))
+
+
+def _label(name: str) -> str:
+    """Return a name for a figure: short, and not as a formula or as a hidden label."""
+    short = one_line(name, LONGEST_NAME).replace("$", r"\$")
+    return f" {short}" if short.startswith("_") else short
 
 
 def _map(made: "Figure", axes: "Axes", data: "xr.Dataset", keys: Sequence[str], name: str) -> None:
@@ -228,6 +300,8 @@ def _words(key: str) -> str:
 
 def _key(values: Array, key: str) -> tuple[Array, str]:
     """Return values of a key in a suitable multiple of their unit, and the axis label."""
+    if takes_names(key):
+        return values, _words(key)
     unit = labels(key).get("units", "1")
     if unit == "1" or unit.startswith("kg"):
         return values, f"{_words(key)} [{unit}]"

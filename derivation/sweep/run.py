@@ -18,7 +18,7 @@ from derivation.scene.errors import SceneError
 from derivation.scene.rows.rows import solve
 from derivation.scene.scene import read
 from derivation.scene.sweep import unheard_interrupts
-from derivation.sweep.plan import Array
+from derivation.sweep.plan import Column
 from derivation.sweep.store import PartFile, Store, to_parquet
 
 FIRST_BATCH, TRIED = 1, 1.0
@@ -224,7 +224,7 @@ def _on_cluster(store: Store, queue: Queue, keep: Keep, client: Any) -> None:
         fill()
 
 
-Task = tuple[dict[str, Any], dict[str, Array], float | None, str]
+Task = tuple[dict[str, Any], dict[str, Column], float | None, str]
 
 
 def _task(store: Store, batch: Batch) -> Task:
@@ -238,7 +238,7 @@ def _task(store: Store, batch: Batch) -> Task:
 
 
 def solve_batch(
-    scene: dict[str, Any], columns: dict[str, Array], rtol: float | None, wanted: str
+    scene: dict[str, Any], columns: dict[str, Column], rtol: float | None, wanted: str
 ) -> tuple[bytes, int, float]:
     """Simulate some points: all of them, or the first ones if they take long.
 

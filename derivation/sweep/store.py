@@ -4,7 +4,7 @@ import json
 import os
 import re
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -12,7 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from derivation.engine.files import expect_folder
+from derivation.engine.files import expect_folder, explained, real
+from derivation.engine.staging import locked_folder
 from derivation.scene.errors import SceneError
 from derivation.scene.result import UNITS
 from derivation.scene.rows.rows import Rows
@@ -156,7 +157,7 @@ class Store:
         self._write(file.name, text.encode())
 
     def _batches(self) -> Iterator[PartFile]:
-        """Yield the batches in the folder, without those whose points have another hash."""
+        """Yield the batches in the folder that are complete and whose points have the same hash."""
         reached = 0
         for path in sorted(self.folder.glob("*.parquet")):
             if not (known := FILE.fullmatch(path.name)):
@@ -164,7 +165,8 @@ class Store:
             start, stop = int(known[1]), int(known[2])
             if not reached <= start < stop <= self.study.plan.size:
                 continue
-            if self.study.points_hash(self.study.plan.points(start, stop)) == known[3]:
+            points = self.study.plan.points(start, stop)
+            if self.study.points_hash(points) == known[3] and _rows_in(path) == stop - start:
                 reached = stop
                 yield PartFile(start, stop, path)
 
@@ -177,11 +179,16 @@ class Store:
     def _write(self, name: str, content: bytes) -> None:
         """Write a file completely or not at all, even if the machine fails."""
         temporary = self.folder / f"{name}.temporary"
-        with temporary.open("wb") as stream:
-            stream.write(content)
-            stream.flush()
-            os.fsync(stream.fileno())
-        temporary.replace(self.folder / name)
+        with explained(self.folder):
+            try:
+                with temporary.open("wb") as stream:
+                    stream.write(content)
+                    stream.flush()
+                    os.fsync(stream.fileno())
+                temporary.replace(self.folder / name)
+            except BaseException:  # Ctrl-C too
+                temporary.unlink(missing_ok=True)
+                raise
 
     def _note(self, start: int, stop: int, computed: int, seconds: float) -> None:
         """Add a line to the journal of computed batches."""
@@ -222,6 +229,17 @@ def _parquet_table(content: bytes) -> Any:
     return file.read(use_threads=False)
 
 
+def _rows_in(path: Path) -> int:
+    """Return the number of rows of a Parquet file; 0 if it is damaged."""
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    try:
+        return int(pq.read_metadata(path).num_rows)
+    except pa.ArrowInvalid:
+        return 0
+
+
 @contextmanager
 def open_store(study: Study, out: Path | None) -> Iterator[Store]:
     """Yield the store in the folder of an output, or without an output a temporary store.
@@ -229,7 +247,8 @@ def open_store(study: Study, out: Path | None) -> Iterator[Store]:
     Raises
     ------
     SceneError
-        If the output exists without its folder, or the folder contains another study.
+        If the output exists without its folder, the folder contains another study, or another
+        process is using it.
     """
     if out is not None:
         if out.exists() and not (parts_folder(out) / "study.json").is_file():
@@ -237,12 +256,27 @@ def open_store(study: Study, out: Path | None) -> Iterator[Store]:
                 f"{out}: expected a new output or one of this study, got a file without its folder "
                 f"{parts_folder(out).name}; use another output, or remove the file"
             )
-        yield Store(study, parts_folder(out))
+        folder = parts_folder(out)
+        expect_folder(folder)
+        folder.mkdir(parents=True, exist_ok=True)
+        with ExitStack() as stack:
+            try:
+                stack.enter_context(locked_folder(folder))
+            except BlockingIOError:
+                raise SceneError(
+                    f"{out}: expected an output that no other run is writing, got one in use; wait "
+                    "until the other run has ended, or use another output"
+                ) from None
+            yield Store(study, folder)
         return
-    with TemporaryDirectory(prefix="platecontact-") as folder:
-        yield Store(study, Path(folder))
+    with TemporaryDirectory(prefix="platecontact-") as temporary:
+        yield Store(study, Path(temporary))
 
 
 def parts_folder(out: Path) -> Path:
-    """Return the folder of the batches of an output: its name with `.parts` added."""
-    return out.with_name(f"{out.name}.parts")
+    """Return the folder of the batches of an output: its name with `.parts` added.
+
+    That of a link is next to the file to which it leads.
+    """
+    target = real(out) if out.is_symlink() else out
+    return target.with_name(f"{target.name}.parts")

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from derivation.scene.scene import Scene
-from derivation.sweep.plan import Array, Plan
+from derivation.sweep.plan import Column, Plan
 
 
 @dataclass(frozen=True)
@@ -46,12 +46,17 @@ class Study:
     def _common(self) -> bytes:
         return _canonical(self.base)
 
-    def points_hash(self, columns: Mapping[str, Array]) -> str:
+    def points_hash(self, columns: Mapping[str, Column]) -> str:
         """Return the hash of scene, tolerance, version and the values of some points, in order."""
         digest = hashlib.sha256(self._common)
         for key, values in columns.items():
             digest.update(key.encode() + b"\0")
-            digest.update(np.ascontiguousarray(values, dtype="<f8").tobytes())
+            names = values.dtype.kind == "U"
+            digest.update(
+                json.dumps(values.tolist()).encode()
+                if names
+                else np.ascontiguousarray(values, dtype="<f8").tobytes()
+            )
         return digest.hexdigest()[:20]
 
     @cached_property

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from derivation.engine.text import aligned
-from derivation.scene.quantity import common_prefix
+from derivation.scene.input.keys import written
+from derivation.scene.quantity import common_prefix, percent
 from derivation.scene.result import UNITS
 from derivation.sweep.dataset import column
 from derivation.sweep.sensitivity import Sensitivities
@@ -34,7 +35,9 @@ class Summary:
     ranges
         Smallest and largest value of each result, in SI units; results without values are missing.
     largest_bound
-        Largest bound on the relative error [1].
+        Largest bound on the relative error [1]; infinite if a point has none, NaN without results.
+    largest_model_error
+        Largest relative error of the model [1]; NaN without results.
     warnings
         The first different reasons and warnings, each with one of its points.
     warned
@@ -48,6 +51,7 @@ class Summary:
     counts: dict[str, int]
     ranges: dict[str, tuple[float, float]]
     largest_bound: float
+    largest_model_error: float
     warnings: tuple[str, ...]
     warned: int
     sensitivities: Sensitivities | None
@@ -56,6 +60,8 @@ class Summary:
         """Return the summary under fixed keys, in SI units."""
         data = {key: value for key, value in vars(self).items() if key != "sensitivities"}
         data |= {"warnings": list(self.warnings)}
+        for name in ("largest_bound", "largest_model_error"):
+            data[name] = data[name] if np.isfinite(data[name]) else None
         return data | (
             {"sensitivities": self.sensitivities.to_json()} if self.sensitivities else {}
         )
@@ -72,6 +78,10 @@ class Summary:
         accuracy = f"relative error at most {self.largest_bound:.1e}"
         if self.largest_bound == np.inf:
             accuracy = "no error bound is known at some points"
+        if np.isnan(self.largest_bound):
+            accuracy = "no point has a result"
+        elif self.largest_model_error:
+            accuracy += f", model error up to {percent(self.largest_model_error)}"
         text = (
             f"{self.points:,} points: {counts} ({self.computed:,} computed in this run)\n\n"
             f"{aligned(['result', '#smallest', '#largest', 'unit'], rows)}\n\n"
@@ -92,11 +102,12 @@ def summary(store: Store, computed: int, sensitivities: Sensitivities | None) ->
     """
     counts, reasons, warned = Counter[str](), dict[str, str](), 0
     low, high = dict.fromkeys(UNITS, np.inf), dict.fromkeys(UNITS, -np.inf)
-    bound = 0.0
+    bound = model_error = np.nan
     for start, _, table in store.tables(BLOCK):
         status = column(table, "status")
         counts.update(status.tolist())
         bound = float(np.fmax(bound, np.fmax.reduce(column(table, "bound"))))
+        model_error = float(np.fmax(model_error, np.fmax.reduce(column(table, "model_error"))))
         for name in UNITS:
             values = column(table, name)
             low[name] = float(np.fmin(low[name], np.fmin.reduce(values)))
@@ -108,8 +119,9 @@ def summary(store: Store, computed: int, sensitivities: Sensitivities | None) ->
     warnings = tuple(f"{where}: {text}" for text, where in reasons.items())
     size = store.study.plan.size
     return Summary(
-        size, computed, dict(sorted(counts.items())), ranges, bound, warnings, warned, sensitivities
-    )
+        size, computed, dict(sorted(counts.items())), ranges, bound, model_error, warnings, warned,
+        sensitivities,
+    )  # fmt: skip
 
 
 def _add_reasons(reasons: dict[str, str], store: Store, start: int, status: Any, new: Any) -> None:
@@ -120,6 +132,6 @@ def _add_reasons(reasons: dict[str, str], store: Store, start: int, status: Any,
         if text and text not in reasons and len(reasons) < MOST_WARNINGS:
             number = start + int(index)
             points = store.study.plan.points(number, number + 1)
-            where = ", ".join(f"{key} = {values[0]:.6g}" for key, values in points.items())
+            where = ", ".join(f"{key} = {written(values[0])}" for key, values in points.items())
             state = "" if status[index] == "finished" else f" ({status[index]})"
             reasons[str(text)] = f"at {where}{state}"

@@ -1,8 +1,10 @@
 """Writes the results of a study block by block: .nc, .zarr, .parquet or .csv."""
 
+import csv
+import io
 import shutil
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from math import prod
 from pathlib import Path
 from typing import Any
@@ -10,14 +12,17 @@ from typing import Any
 import numpy as np
 
 from derivation.engine.activity import Progress
-from derivation.engine.files import expect_folder, expect_writable
+from derivation.engine.files import expect_folder, expect_writable, explained, real
 from derivation.engine.nearest import did_you_mean
+from derivation.engine.printable import one_line
 from derivation.scene.errors import SceneError
 from derivation.sweep.dataset import attributes, column, labels
 from derivation.sweep.plan import GridPlan
 from derivation.sweep.store import NUMBERS, TEXTS, Store
 
 SUFFIXES = (".nc", ".zarr", ".parquet", ".csv")
+LONGEST_KEY = 200
+"""Longest name of an array in netCDF and Zarr files [bytes]."""
 Dims = tuple[str, ...]
 Labels = dict[str, str]
 Slices = tuple[slice, ...]
@@ -27,13 +32,13 @@ BLOCK = 2**16
 """Largest number of points that are in memory while a file is written."""
 
 
-def check_output_file(out: Path) -> None:
+def check_output_file(out: Path, keys: Iterable[str]) -> None:
     """Raise an error if an output has no known suffix or cannot be written.
 
     Raises
     ------
     SceneError
-        If its suffix is not one of `SUFFIXES`.
+        If its suffix is not one of `SUFFIXES`, or its format does not allow the name of a key.
     OSError
         If it cannot be written.
     """
@@ -43,6 +48,13 @@ def check_output_file(out: Path) -> None:
             f"out: expected a file name with one of the suffixes {', '.join(SUFFIXES)}, got {out}; "
             f"{meant}"
         )
+    for key in keys if out.suffix in (".nc", ".zarr") else ():
+        if set("/\\") & set(key) or len(key.encode()) > LONGEST_KEY:
+            raise SceneError(
+                f"out: expected keys without / and \\ and with at most {LONGEST_KEY} letters for "
+                f"a {out.suffix} file, got {one_line(key)}; rename the material, or write a "
+                ".parquet or .csv file"
+            )
     (expect_folder if out.suffix == ".zarr" else expect_writable)(out)
 
 
@@ -67,10 +79,12 @@ def write(store: Store, out: Path, progress: Progress) -> None:
         ".csv": _csv,
     }
     try:
-        writers[out.suffix](store, temporary, progress)
-        if temporary.is_dir():
-            _remove(out)
-        temporary.replace(out)
+        with explained(out):
+            writers[out.suffix](store, temporary, progress)
+            target = real(out)  # a link stays
+            if temporary.is_dir():
+                _remove(target)
+            temporary.replace(target)
     except BaseException:  # Ctrl-C too
         _remove(temporary)
         raise
@@ -87,9 +101,10 @@ def _csv(store: Store, path: Path, progress: Progress) -> None:
     import pyarrow as pa
     from pyarrow.csv import CSVWriter
 
-    names = (*store.study.plan.keys, *NUMBERS, *TEXTS)
+    head = io.StringIO()
+    csv.writer(head, lineterminator="\n").writerow([*store.study.plan.keys, *NUMBERS, *TEXTS])
     with pa.OSFile(str(path), "wb") as stream:
-        stream.write((",".join(names) + "\n").encode())
+        stream.write(head.getvalue().encode())
         writer = None
         for table in _with_points(store, progress):
             if writer is None:
@@ -129,7 +144,7 @@ def _with_points(store: Store, progress: Progress) -> Iterator[Any]:
     study = store.study
     for start, stop, table in store.tables(BLOCK):
         columns = {
-            name: pa.array(values, pa.float64())
+            name: pa.array(values, pa.string() if name in study.plan.names else pa.float64())
             for name, values in study.plan.points(start, stop).items()
         }
         columns |= {name: pa.array(column(table, name), from_pandas=True) for name in NUMBERS}
@@ -145,14 +160,15 @@ def _zarr(store: Store, path: Path, progress: Progress) -> None:
 
     group = zarr.open_group(path, mode="w")
     group.attrs.update(attributes(store.study))
+    texts = {*TEXTS, *store.study.plan.names}
 
     def create(name: str, dims: Dims, blocks: tuple[int, ...], about: Labels) -> Fill:
         made: Any = group.create_array(
             name,
             shape=tuple(store.study.plan.dims[dim] for dim in dims),
             chunks=blocks,
-            dtype=str if name in TEXTS else "float64",
-            fill_value="" if name in TEXTS else float("nan"),
+            dtype=str if name in texts else "float64",
+            fill_value="" if name in texts else float("nan"),
             dimension_names=dims,
             attributes=about,
         )
@@ -168,13 +184,16 @@ def _zarr(store: Store, path: Path, progress: Progress) -> None:
 def _netcdf(store: Store, path: Path, progress: Progress) -> None:
     import h5netcdf
 
-    lengths = store.text_lengths()
+    names = store.study.plan.names.items()
+    lengths = store.text_lengths() | {
+        key: max(len(name.encode()) for name in given) for key, given in names
+    }
     with h5netcdf.File(path, "w") as file:
         file.attrs.update(attributes(store.study))
         file.dimensions = store.study.plan.dims
 
         def create(name: str, dims: Dims, blocks: tuple[int, ...], about: Labels) -> Fill:
-            if name in TEXTS:
+            if name in lengths:
                 return _characters(file, name, lengths[name], dims, blocks, about)
             made: Any = file.create_variable(name, dims, "f8", chunks=blocks)
             made.attrs.update(about)
@@ -216,7 +235,7 @@ def _arrays(store: Store, create: Callable[..., Fill], progress: Progress) -> No
     points: dict[str, Fill] = {}
     if isinstance(plan, GridPlan):
         for key, values in plan.axes.items():
-            create(key, (key,), (len(values),), labels(key))((slice(None),), values)
+            create(key, (key,), (len(values),), labels(key))((slice(None),), np.array(values))
     else:
         points = {key: create(key, dims, chunks, labels(key)) for key in plan.keys}
     beside = {"coordinates": " ".join(points)} if points else {}  # as CF calls them

@@ -2,11 +2,14 @@
 
 import json
 import os
+import shlex
 import subprocess
 import sys
+import time
 from collections.abc import Sequence
 from pathlib import Path
 
+import platecontact as pc
 import pytest
 from shared_scenes import PAPER
 
@@ -105,6 +108,59 @@ def test_unreadable_scene_files_give_one_message(tmp_path: Path, capsys: Capture
             [line] = capsys.readouterr().err.strip().splitlines()
             assert "cannot read the scene file" in line
     assert not (tmp_path / "x.csv").exists()
+
+
+def unread(pipe: int) -> int:
+    """Return the number of bytes in a pipe."""
+    import fcntl
+    import termios
+
+    return int.from_bytes(fcntl.ioctl(pipe, termios.FIONREAD, bytes(4)), sys.byteorder)
+
+
+def test_scene_is_read_from_a_pipe() -> None:
+    """The scene arrives in two parts: the command waits for the second one, even in a slow pipe."""
+    text = PAPER.read_text()
+    script = (
+        "import os, sys\nfrom derivation.cli import main\n"
+        "os.set_blocking(int(sys.argv[1]), False)\nsys.exit(main(sys.argv[2:]))"
+    )
+    for name in ("-", "/dev/stdin", "/dev/fd/{}"):
+        reading, writing = os.pipe()
+        own = "{" in name
+        command = [sys.executable, "-c", script, str(reading if own else 0), "explain",
+                   name.format(reading), "--json", "-"]  # fmt: skip
+        with subprocess.Popen(
+            command, stdin=subprocess.DEVNULL if own else reading, stdout=subprocess.PIPE,
+            pass_fds=[reading] if own else [], cwd=ROOT,
+        ) as process:  # fmt: skip
+            os.write(writing, text[:200].encode())
+            while process.poll() is None and unread(reading):
+                time.sleep(0.01)
+            os.write(writing, text[200:].encode())
+            os.close(writing)
+            os.close(reading)
+            output, _ = process.communicate()
+        assert process.returncode == 0
+        assert json.loads(output)["included"] == pc.explain(pc.load(PAPER)).to_json()["included"]
+
+
+@pytest.mark.parametrize(
+    ("command", "message"),
+    [
+        ("simulate - </dev/null", "standard input: 3 problems"),
+        ("simulate - <&-", "standard input: cannot read the scene file (standard input is closed)"),
+        ("explain /dev/fd/99", "/dev/fd/99: cannot read the scene file"),
+        ("sweep - --vary impact.speed=1 </dev/null", "standard input: 3 problems"),
+    ],
+)
+def test_invalid_pipes_give_one_message(command: str, message: str) -> None:
+    shell = f"{shlex.quote(sys.executable)} -m derivation.cli {command}"
+    done = subprocess.run(
+        ["sh", "-c", shell], capture_output=True, text=True, check=False, cwd=ROOT
+    )
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith(f"platecontact: {message}")
 
 
 # --- closed output

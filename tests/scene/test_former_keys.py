@@ -155,7 +155,7 @@ def test_sweep_of_a_former_key_uses_the_new_key(
     assert rows[0][0] == rows[1][0]
     assert [count for _, count in rows] == [1, 0]
     with pytest.warns(OldNameWarning):
-        assert sweep.parse("plate.strength=1:2:2").key == "tensile_strength"
+        assert sweep.parse("plate.strength=1:2:2").key == "plate.tensile_strength"
 
 
 def test_load_gives_one_warning_for_former_names(tmp_path: Path) -> None:

@@ -21,6 +21,7 @@ from derivation.scene.effects import PAPER, WHOLE_PLATE
 from derivation.scene.effects.edge import MAX_A_OVER_B
 from derivation.scene.effects.spherical_profile import MAX_A_OVER_R
 from derivation.scene.model import model_of
+from derivation.scene.output.answer import model_note
 from derivation.scene.quasi_static import motion, viscous
 from derivation.scene.result import Result
 
@@ -193,7 +194,7 @@ def test_model_error_of_the_edge_is_stated_or_rejected() -> None:
     held = {"edge": "clamped", "half_thickness": 0.01}
     result = simulate(scene(plate=held))
     assert 0 < result.model_error < 0.01
-    assert "Not included in this bound" in result.model_note
+    assert "of the clamped edge (measured" in model_note(result)
     assert result.to_json()["model_error"] == result.model_error
     with pytest.raises(SceneError, match=r"^plate\.edge: .*clamped edge.*1 %"):
         simulate(
@@ -212,7 +213,7 @@ def test_model_error_of_the_edge_is_stated_or_rejected() -> None:
         )
     with pytest.raises(SceneError, match="h/b up to 1"):
         simulate(scene(plate={"half_thickness": 0.6}, effects={"edge": True}))
-    assert simulate(scene(plate={"edge": "paper"})).model_note == ""
+    assert "edge" not in model_note(simulate(scene(plate={"edge": "paper"})))
 
 
 def test_contacts_beyond_the_law_are_rejected_with_its_limit() -> None:

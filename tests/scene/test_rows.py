@@ -222,7 +222,7 @@ def test_rows_in_other_units_of_length_are_the_same_impacts(length: float) -> No
 @pytest.mark.parametrize(
     ("columns", "message"),
     [
-        ({"plate.colour": np.ones(2)}, "numeric key of the scene file"),
+        ({"plate.colour": np.ones(2)}, "takes numbers or names"),
         ({"impact.speed": np.ones(2), "plate.radius": np.ones(3)}, "of the same length"),
         ({"impact.speed": np.ones((2, 2))}, "of the same length"),
         ({}, "one or more arrays"),

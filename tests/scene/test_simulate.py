@@ -86,8 +86,8 @@ def test_json_keys_and_notebook_table() -> None:
     made = result.to_json()
     assert list(made) == [
         "contact_time", "max_indentation", "max_force", "max_contact_radius", "restitution",
-        "max_pressure", "max_tensile_stress", "accuracy", "model_error", "effects", "warnings",
-        "scene",
+        "max_pressure", "max_tensile_stress", "accuracy", "model_error", "model_errors",
+        "effects", "warnings", "scene",
     ]  # fmt: skip
     again = json.loads(json.dumps(made))
     assert again["contact_time"] == result.contact_time
@@ -211,6 +211,8 @@ def test_indent_accepts_a_single_number() -> None:
         ({"force": [math.inf]}, "got inf"),
         ({"force": [True]}, "got true"),
         ({"force": ["1"]}, "got the string"),
+        ({"force": [10**400]}, "expected positive numbers .* got 1000000"),
+        ({"force": np.array([1j])}, "expected positive numbers"),
         ({"force": 1e30}, "force: expected less than .* got 1e\\+30 N; reduce the force"),
         ({"contact_radius": 0.13}, "contact_radius = 0.13 m: .* min\\(b, R\\) = 0.13 m"),
         ({"indentation": 1e3}, "indentation: expected less than .* got 1000 m"),

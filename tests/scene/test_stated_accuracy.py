@@ -19,6 +19,7 @@ from derivation.scene.output.answer import plain, quantities
 from derivation.scene.quantity import MOST_DIGITS
 from derivation.scene.result import Result
 from derivation.scene.scene import OUTPUTS
+from derivation.scene.selection.achieved_accuracy import PROVED, Part
 
 BALL = {"radius": 0.01, "material": "steel"}
 PANE = {"radius": 0.1, "thickness": 0.01, "material": "glass"}
@@ -55,10 +56,14 @@ def test_number_of_digits_follows_from_bound_and_model_error() -> None:
     assert replace(exact, model_error=0.0).digits > result.digits
     assert replace(exact, model_error=0.0).digits <= MOST_DIGITS
     assert replace(result, model_error=0.05).digits == 2
+    assert replace(result, model_errors={"max_force": 0.05}).digits_of_result("max_force") == 2
+    # A number of the model is shown, however large the model error.
+    assert replace(result, model_errors={"max_force": 5.0}).digits_of_result("max_force") == 1
 
 
 def test_results_with_an_error_of_their_size_are_not_shown() -> None:
-    lost = replace(simulate(scene()), model_error=1.0)
+    known = simulate(scene())
+    lost = replace(known, accuracy=replace(known.accuracy, law=Part(1.0, PROVED)))
     assert {line.split()[1] for line in plain(lost).splitlines()} == {"unknown"}
     for name, value, unit in quantities(lost):
         assert (value, unit) == ("unknown", ""), name

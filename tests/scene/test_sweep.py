@@ -96,16 +96,63 @@ def test_similar_key_is_suggested(text: str) -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        "", "speed", "speed=1:2:3", "impact.sped=1:2:3", "plate.edge=1:2:3", "plate.material=1:2:3",
+        "", "speed", "speed=1:2:3", "impact.sped=1:2:3", "plate.material=", "plate.material=a,,b",
         "impact.speed=1:2", "impact.speed=1:2:3:4", "impact.speed=1:2:x", "impact.speed=a:2:3",
         "impact.speed=1:2:0", "impact.speed=1:inf:3", "impact.speed=1:2:100001",
-        "impact.speed=1,,2", "impact.speed=1,nan", "effects.bending=0:1:2",
+        "impact.speed=1,,2", "impact.speed=1,nan", "impact.speed=", "plate.edge=a\nb",
+        "accuracy.outputs=max_force", "effects.compare_paper_motion=true", "materials.a.source=b",
     ],
 )  # fmt: skip
 def test_invalid_sweeps_give_one_message(text: str) -> None:
     with pytest.raises(SceneError, match=r"^sweep: ") as caught:
         sweep.parse(text)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("plate.material=steel,stel", "did you mean steel?"),
+        ("plate.material=1:2:3", "expected the name of a material"),
+        ("plate.edge=1:2:3", '"simply-supported" or "clamped"'),
+        ("effects.bending=0:1:2", "true or false"),
+    ],
+)
+def test_unknown_names_are_rejected_before_a_simulation(
+    text: str, message: str, capsys: Captured, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The message is that of `simulate`."""
+    key, wrong = text.split("=")[0], text.split("=")[1].split(",")[-1]
+    table, name = key.split(".")
+    tables = load(PAPER).to_json()
+    for other in ("lame_lambda", "lame_mu") if name == "material" else ():
+        del tables["plate"][other]
+    with pytest.raises(SceneError) as caught:
+        read(tables | {table: tables.get(table, {}) | {name: wrong}})
+    assert message in str(caught.value)
+    monkeypatch.setattr(sweep, "simulate", None)
+    assert main(["simulate", str(PAPER), "--sweep", text]) == 2
+    assert str(caught.value).removeprefix("scene: ") in capsys.readouterr().err
+
+
+def test_rows_of_names_are_the_simulations_of_their_scenes(tmp_path: Path) -> None:
+    path = tmp_path / "rows.csv"
+    assert (
+        main(["simulate", str(PAPER), "--sweep", "plate.material=PMMA, ice", "--csv", str(path)])
+        == 0
+    )
+    with path.open() as stream:
+        rows = list(csv.DictReader(stream))
+    assert [row["plate.material"] for row in rows] == ["PMMA", "ice"]
+    for row in rows:
+        data = load(PAPER).to_json()
+        plate = {"radius": 1.0, "half_thickness": 0.1, "material": row["plate.material"]}
+        assert float(row["max_force"]) == simulate(read(data | {"plate": plate})).max_force
+
+
+def test_effects_are_switched_by_their_names() -> None:
+    rows = sweep.run(load(PAPER), sweep.parse("effects.bending=auto,true,false"))
+    assert ["bending" in row.effects for row in rows] == [True, True, False]
 
 
 def test_plot_of_a_sweep_is_rejected(capsys: Captured) -> None:

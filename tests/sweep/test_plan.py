@@ -1,6 +1,8 @@
 """Points of a study: each depends on its index only, and has the given distribution."""
 
 import itertools
+import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -30,6 +32,21 @@ def test_points_do_not_depend_on_the_batches(one: plan.Plan) -> None:
     for start, stop in [*itertools.pairwise(ends), (3, 9)]:
         for key, values in one.points(start, stop).items():
             np.testing.assert_array_equal(values, whole[key][start:stop])
+
+
+@pytest.mark.parametrize("one", PLANS[3:], ids=["sobol", "saltelli"])
+def test_points_do_not_depend_on_other_threads(one: plan.Plan) -> None:
+    whole, usual = one.points(0, one.size), sys.getswitchinterval()
+    starts = [37 * number % (one.size - 9) for number in range(200)]
+    sys.setswitchinterval(1e-6)
+    try:
+        with ThreadPoolExecutor(8) as pool:
+            parts = list(pool.map(lambda start: one.points(start, start + 9), starts))
+    finally:
+        sys.setswitchinterval(usual)
+    for start, points in zip(starts, parts, strict=True):
+        for key, values in points.items():
+            np.testing.assert_array_equal(values, whole[key][start : start + 9])
 
 
 def test_grid_has_every_combination_once() -> None:

@@ -1,12 +1,21 @@
 """Summary of a study as the command prints it."""
 
+import json
 import math
+from pathlib import Path
 
+import numpy as np
 import pytest
 from studies import QUICK, scene
 
 from derivation.cli import main
+from derivation.scene import load, read, simulate
 from derivation.scene.errors import SceneError
+from derivation.scene.input.keys import varied
+from derivation.scene.quantity import percent
+from derivation.scene.result import UNITS
+from derivation.scene.rows.rows import Rows
+from derivation.sweep import run
 from derivation.sweep.api import sweep
 from derivation.sweep.summary import MOST_WARNINGS, Summary
 
@@ -20,8 +29,39 @@ def test_number_of_points_with_warnings_is_stated(capsys: pytest.CaptureFixture[
 
 
 def test_unknown_bound_is_stated_in_words() -> None:
-    text = Summary(2, 2, {"finished": 2}, {}, math.inf, (), 0, None).to_text()
+    text = Summary(2, 2, {"finished": 2}, {}, math.inf, 0.0, (), 0, None).to_text()
     assert text.endswith("Accuracy: no error bound is known at some points")
+
+
+@pytest.mark.parametrize(
+    ("status", "bound", "text"),
+    [
+        ("finished", np.inf, "no error bound is known"),
+        ("incomplete", np.nan, "no point has a result"),
+    ],
+)
+def test_missing_bounds_are_no_bounds_of_zero(
+    status: str, bound: float, text: str, capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path,
+) -> None:  # fmt: skip
+    one, none = np.ones(1), np.array([""], dtype=object)
+    results = {name: one * bound if np.isnan(bound) else one for name in UNITS}
+    rows = Rows(results, one * bound, one * bound, np.array([status]), none, none)
+    monkeypatch.setattr(run, "solve", lambda *_: rows)
+    path = tmp_path / "summary.json"
+    assert main(["sweep", str(QUICK), "--vary", "impact.speed=1", "--json", str(path)]) == 0
+    assert f"Accuracy: {text}" in capsys.readouterr().out
+    assert json.loads(path.read_text())["largest_bound"] is None
+
+
+def test_largest_model_error_is_stated(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    """The fastest impact deflects the plate most, and has the largest model error by stretching."""
+    path = tmp_path / "summary.json"
+    command = ["sweep", str(QUICK), "--vary", "impact.speed=0.5:2:4", "--json", str(path)]
+    assert main(command) == 0
+    fastest = simulate(read(varied(load(QUICK), {"impact.speed": 2.0})))
+    assert json.loads(path.read_text())["largest_model_error"] == fastest.model_error > 0.0
+    assert f"model error up to {percent(fastest.model_error)}" in capsys.readouterr().out
 
 
 def test_distribution_without_sample_asks_for_its_size() -> None:

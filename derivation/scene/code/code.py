@@ -26,6 +26,7 @@ from derivation.scene.effects import BY_NAME
 from derivation.scene.errors import SceneError
 from derivation.scene.impact import selected_effects, simulate
 from derivation.scene.numerics.quadrature import NODES
+from derivation.scene.output.answer import model_note
 from derivation.scene.quasi_static.motion import Motion
 from derivation.scene.quasi_static.viscous_law import bending_of
 from derivation.scene.result import Result
@@ -300,7 +301,7 @@ def _head(scene: Scene, result: Result, parts: tuple[str, ...], stepped: bool) -
         for row in selected.rows
         if not row.included
     ]
-    notes = (*result.warnings, *([result.model_note] if result.model_note else []))
+    notes = (*result.warnings, *filter(None, [model_note(result)]))
     title = f"Contact law{' and impact' if stepped else ''} of one scene"
     title += ": a sphere striking a plate, in SI units; requires only NumPy."
     formula = next(summary(part) for part in parts if part.endswith("_law"))

@@ -1,20 +1,34 @@
 """Leading-order size of what a law neglects: exact pressure, spherical profile, stretching."""
 
+import numpy as np
+
 from derivation.scene import kernels
+from derivation.scene.effects.edge import CLAMPED, SUPPORTED
 from derivation.scene.kernels import Numbers
 from derivation.scene.model import Model
 
 SMALL_CORRECTION = 0.3
 """Relative correction above which its leading term is no longer an estimate."""
-STRETCHING = 0.2
-"""Stiffening of a plate by stretching over (w/H)^2, under a central static load: of a clamped edge
-that is free to move in its plane, the least of four edges (Timoshenko and Woinowsky-Krieger, Theory
-of Plates and Shells, 2nd ed., table 82)."""
+_BY_EDGE = {
+    SUPPORTED: kernels.stiffening_supported,
+    CLAMPED: kernels.stiffening_clamped,
+}
 
 
-def stretching(ratio: float) -> float:
-    """Return the least factor by which stretching stiffens a plate, from w/H."""
-    return 1.0 + STRETCHING * ratio * ratio
+def stretching(model: Model, deflection: Numbers) -> Numbers:
+    """Return the relative stiffening of a plate by stretching [1], to first order.
+
+    Parameters
+    ----------
+    model
+        The plate; the stiffening depends on its edge.
+    deflection
+        Deflection on the axis under a static load [m].
+    """
+    nu = np.asarray(model.lam / (2.0 * (model.lam + model.mu)))
+    ratio = deflection / (2.0 * model.h)
+    size: Numbers = _BY_EDGE.get(model.edge, kernels.stiffening_paper)(nu) * ratio * ratio
+    return size
 
 
 def pressure_correction(model: Model, a: Numbers, indentation: Numbers) -> Numbers:

@@ -195,7 +195,7 @@ def warnings_at(
             f"plate deflection over thickness w/H = {deflection / thickness:.3g} exceeds "
             f"{STRETCH_LIMIT}: membrane stretching makes the plate stiffer than in the linear law, "
             "under a static load by a factor of about "
-            f"{stretching(deflection / thickness):.3g} or more"
+            f"{1.0 + stretching(model, deflection):.3g}"
         )
     return tuple(notes)
 

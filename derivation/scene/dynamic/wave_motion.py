@@ -247,13 +247,26 @@ class DynamicImpact(Motion):
         the local indentation. It includes flight, and one period of the slowest mode after the
         last contact.
         """
-        found, contacts = self.later_deflection, self.impact_history.contacts
-        for rows in self._touching:
-            a = np.minimum(np.maximum(rows[A], 0.0), law.limit)
-            free = rows[Z] - local_indentation(law, a)
-            found = max(found, float(np.max(np.abs(free))), float(np.max(np.abs(rows[W]))))
+        return max(self.later_deflection, self.deflection_before_separation(law))
+
+    def deflection_before_separation(self, law: ContactLaw) -> float:
+        """Return the largest deflection at the axis [m] up to the end of the last contact."""
+        touching = (self.deflection_during(law, i) for i in range(len(self._touching)))
+        contacts = self.impact_history.contacts
         flights = (self._in_flight(one.end, other.start) for one, other in pairwise(contacts))
-        return max(found, *flights, 0.0)
+        return max(*touching, *flights, 0.0)
+
+    def deflection_during(self, law: ContactLaw, contact: int, to_peak: bool = False) -> float:
+        """Return the largest deflection at the axis [m] during a contact, numbered from 0.
+
+        With `to_peak`, up to its largest force.
+        """
+        rows = self._touching[contact]
+        if to_peak:
+            rows = rows[:, : np.argmax(rows[P]) + 1]
+        a = np.minimum(np.maximum(rows[A], 0.0), law.limit)
+        free = rows[Z] - local_indentation(law, a)
+        return float(max(np.max(np.abs(free)), np.max(np.abs(rows[W]))))
 
     @cached_property
     def later_deflection(self) -> float:

@@ -1,43 +1,148 @@
 """Keys of a scene file as `table.key`: their descriptions, and scenes with other values."""
 
 import re
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import Any, get_args
 
 from pydantic.fields import FieldInfo
 
 from derivation.engine.nearest import did_you_mean
+from derivation.engine.printable import one_line
 from derivation.scene.errors import SceneError
 from derivation.scene.input.bodies import Plate, Sphere
 from derivation.scene.input.body_materials import constants_beside, own_materials
-from derivation.scene.input.messages import OWN_MATERIALS
+from derivation.scene.input.materials import find
+from derivation.scene.input.messages import OWN_MATERIALS, shown
 from derivation.scene.input.old_names import new_key
 from derivation.scene.input.table import Table, is_number
-from derivation.scene.scene import TABLES, Material, Scene
+from derivation.scene.scene import TABLES, Material, Scene, read
 
-EXAMPLE = "write for example plate.thickness=1e-3:1e-2:50"
+EXAMPLE = "write for example plate.thickness=1e-3:1e-2:50 or plate.material=glass,steel"
 """Example of a sweep."""
+SWITCH = {"true": True, "false": False}
+"""Values of an effect besides "auto", by their names."""
+MATERIAL = "material"
+"""Key that takes the name of any material."""
+OF_MATERIAL = (
+    *("sphere.mass", "sphere.density", "sphere.yield_stress", "sphere.retardation_time"),
+    *("plate.density", "plate.yield_stress", "plate.retardation_time", "plate.tensile_strength"),
+    *("plate.loss_factor", "measured.restitution"),
+)
+"""Constants that a scene gives for the material of a body, besides elastic constants. The measured
+restitution is that of the plate's material."""
 
 
-def number_key(place: str) -> tuple[str, str]:
-    """Return table and key of a numeric key `table.key`.
+def varied_key(place: str) -> str:
+    """Return a key `table.key` whose values are numbers or names.
 
     Raises
     ------
     SceneError
-        If no numeric key has that name; the message suggests the nearest key.
+        If there is no such key; the message suggests the nearest one.
     """
-    place = new_key(place.strip())
+    place = new_key(str(place).strip())
     table, _, key = place.rpartition(".")
     known = table_of(table)
     field = known.model_fields.get(key) if known else None
-    if not any(map(is_number, (field.examples if field else None) or [])):
-        suggestion = did_you_mean(place, _numbers())
+    if field is None or not (_takes_numbers(field) or _takes_names(key, field)):
+        suggestion = did_you_mean(place, _varied_keys())
         raise SceneError(
-            f"sweep: expected TABLE.KEY with a numeric key of the scene file, got {place!r:.60}; "
-            f"{suggestion}{EXAMPLE}"
+            "sweep: expected TABLE.KEY with a key of the scene file that takes numbers or names, "
+            f"got {place!r:.60}; {suggestion}{EXAMPLE}"
         )
-    return table, key
+    return place
+
+
+def takes_names(place: str) -> bool:
+    """Return whether the values of a key `table.key` are names, such as those of materials."""
+    return _takes_names(place.rpartition(".")[2], field_of(place))
+
+
+def _takes_numbers(field: FieldInfo) -> bool:
+    return any(map(is_number, field.examples or []))
+
+
+def _takes_names(key: str, field: FieldInfo) -> bool:
+    return not _takes_numbers(field) and (key == MATERIAL or bool(_names_of(field)))
+
+
+def _names_of(field: FieldInfo) -> tuple[str, ...]:
+    """Return the names that a key takes; none if it takes any text, several names or no name."""
+    kinds = get_args(field.annotation)
+    if not isinstance((field.examples or [None])[0], str | bool):
+        return ()
+    names = [name for kind in (field.annotation, *kinds) for name in get_args(kind)]
+    texts = tuple(name for name in names if isinstance(name, str))
+    return (*texts, *SWITCH) if texts and bool in kinds else texts
+
+
+def check_names(scene: Scene, names: Mapping[str, Sequence[str]], keys: Sequence[str]) -> None:
+    """Raise the error of `simulate` for an unknown name, before anything is simulated.
+
+    The name of an own material in a key is checked too.
+
+    Parameters
+    ----------
+    names
+        The names that each key `table.key` takes in turn.
+    keys
+        All varied keys.
+
+    Raises
+    ------
+    SceneError
+        If a name is unknown, if two mean the same, or if a constant that the scene gives for one
+        material would be used for another one.
+    """
+    own = own_materials(scene.materials)
+    for place in keys:
+        table = place.rpartition(".")[0]
+        absent = table.removeprefix(f"{OWN_MATERIALS}.")
+        if absent != table and absent not in own:
+            suggestion = did_you_mean(absent, own) or "define it in the scene "
+            raise SceneError(
+                f"{one_line(place)}: expected a material that the scene defines in a table "
+                f"[{OWN_MATERIALS}.NAME], got {shown(absent)}; {suggestion.rstrip()}"
+            )
+    for place, given in names.items():
+        table, _, key = place.rpartition(".")
+        known = _names_of(field_of(place))
+        first = dict[str, str]()
+        for name in given:
+            material = find(name, own) if key == MATERIAL else None
+            if material is None and name not in known:
+                read(varied(scene, {place: name}), "sweep")
+            same = material.name if material else name
+            if same in first:
+                raise SceneError(
+                    f"{place}: expected different names, got {written(first[same])} and "
+                    f"{written(name)}, which mean the same; remove one"
+                )
+            first[same] = name
+        if key == MATERIAL:
+            _check_constants(scene, table, set(first), keys)
+
+
+def _check_constants(scene: Scene, table: str, names: set[str], keys: Sequence[str]) -> None:
+    """Raise an error if a given constant of a body would be used for other materials."""
+    material = getattr(scene, table).material
+    present = find(material, own_materials(scene.materials)) if material is not None else None
+    if present is not None and names == {present.name}:
+        return
+    for constant in OF_MATERIAL:
+        place, _, key = constant.partition(".")
+        given = getattr(getattr(scene, place), key, None)
+        of_body = table == ("sphere" if place == "sphere" else "plate")
+        if of_body and given is not None and constant not in keys:
+            raise SceneError(
+                f"{table}.{MATERIAL}: expected a scene without {constant}, which would be used for "
+                "every material; remove it, or vary it too to use it for all"
+            )
+
+
+def written(value: float | str) -> str:
+    """Return a value of a key for a message or a table."""
+    return one_line(value) if isinstance(value, str) else f"{value:.6g}"
 
 
 def described(key: str) -> str:
@@ -67,8 +172,8 @@ def rivals(place: str) -> set[str]:
     return {f"{table}.{other}" for other in _instead(known, key)}
 
 
-def varied(scene: Scene, values: Mapping[str, float]) -> dict[str, Any]:
-    """Return the tables of a scene with new values of keys `table.key`, in SI units.
+def varied(scene: Scene, values: Mapping[str, float | str]) -> dict[str, Any]:
+    """Return the tables of a scene with new values of keys `table.key`, in SI units, or names.
 
     Keys that exclude a new one are removed. If an elastic constant of a body is new, the other
     constants of its material stay.
@@ -87,9 +192,16 @@ def varied(scene: Scene, values: Mapping[str, float]) -> dict[str, Any]:
             for other, constant in constants_beside(key, body, materials).items():
                 if not _instead(table, other) & set(given):
                     given.setdefault(other, constant)
-        [example, *_] = field_of(place).examples or [value]
-        given[key] = int(value) if isinstance(example, int) and value.is_integer() else value
+        given[key] = _typed(field_of(place), value)
     return data
+
+
+def _typed(field: FieldInfo, value: float | str) -> Any:
+    """Return a value with the type that a key takes."""
+    if isinstance(value, str):
+        return SWITCH.get(value, value) if bool in get_args(field.annotation) else value
+    [example, *_] = field.examples or [value]
+    return int(value) if isinstance(example, int) and value.is_integer() else value
 
 
 def table_of(name: str) -> type[Table] | None:
@@ -97,13 +209,13 @@ def table_of(name: str) -> type[Table] | None:
     return Material if name.startswith(f"{OWN_MATERIALS}.") else TABLES.get(name)
 
 
-def _numbers() -> list[str]:
-    """Return every numeric key as `table.key`."""
+def _varied_keys() -> list[str]:
+    """Return every key whose values are numbers or names as `table.key`."""
     return [
         f"{table}.{key}"
         for table, model in TABLES.items()
         for key, field in model.model_fields.items()
-        if any(map(is_number, field.examples or []))
+        if _takes_numbers(field) or _takes_names(key, field)
     ]
 
 

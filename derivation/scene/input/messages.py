@@ -228,6 +228,11 @@ def choice_problem(
 def _unknown(location: tuple[int | str, ...], fields: Fields) -> str:
     name = _name(location)
     key = str(location[-1])
+    if location == ("vary",):
+        return (
+            "vary: unknown table; write the values of a sweep after --vary, and distributions to a "
+            "file of their own for `platecontact sweep SCENE.toml --distributions FILE.toml`"
+        )
     if location in UNKNOWN:
         return f"{name}: unknown key: {UNKNOWN[location]}"
     homes = [f"[{table}]" for table, keys in fields.items() if key in keys]

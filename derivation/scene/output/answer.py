@@ -7,12 +7,14 @@ from typing import TYPE_CHECKING
 
 from derivation.engine.text import aligned, paragraph
 from derivation.scene.contact_law.yield_warnings import assumed_yield_stress
-from derivation.scene.quantity import prefixed, significant
+from derivation.scene.quantity import digits_of, percent, prefixed, significant
 
 if TYPE_CHECKING:
     from derivation.scene.dynamic.wave_motion import DynamicImpact
     from derivation.scene.result import Result
 
+UNLIKE = 0.5
+"""Smallest over largest model error of the results below which the largest one is named."""
 CONTACT_HEADS = "#start [s]", "#end [s]", "#impulse [N s]", "#peak force [N]", "#speed ratio"
 """Column heads of the table of contacts."""
 
@@ -24,7 +26,7 @@ def quantities(result: "Result") -> list[tuple[str, str, str]]:
     if contacts == 1:  # the total time is the contact time
         rows = [row for row in rows if row[0] != "total_time"]
     return [
-        (_named(name, contacts), *prefixed(value, unit, result.digits))
+        (_named(name, contacts), *prefixed(value, unit, result.digits_of_result(name)))
         for name, value, unit in rows
     ]
 
@@ -40,8 +42,8 @@ def plain(result: "Result") -> str:
     """Return name, value and SI unit of each result, one result per line."""
     lines = []
     for name, value, unit in result.numbers():
-        known = math.isfinite(value) and result.digits
-        number = significant(value, result.digits) if known else "unknown"
+        digits = result.digits_of_result(name)
+        number = significant(value, digits) if math.isfinite(value) and digits else "unknown"
         lines.append(f"{name} {number} {unit}")
     return "\n".join(lines)
 
@@ -61,13 +63,15 @@ def short(result: "Result") -> str:
 
 def _remarks(result: "Result") -> Iterator[str]:
     """Yield the lines below the table of results."""
-    model = f", model error up to {100 * result.model_error:.2g} %" if result.model_error else ""
-    yield f"Accuracy: {result.accuracy.summary}{model}"
-    if result.complete and not result.digits and math.isfinite(result.accuracy.bound):
+    bound = result.accuracy.bound
+    yield f"Accuracy: {result.accuracy.summary}{_model_error(result)}"
+    if result.complete and not digits_of(bound) and math.isfinite(bound):
         yield f"Unknown: the error by {result.accuracy.largest_part} may be as large as the results"
+    elif not digits_of(result.model_error):
+        yield "Uncertain: the model error may be as large as the results"
     yield f"Effects: {result.effects.summary}"
     if result.energy_balance is not None and result.complete:
-        error = result.accuracy.bound + result.model_error
+        error = bound + result.model_errors["restitution"]
         yield f"Energy: {result.energy_balance.in_words(error)}"
     if result.measured_note:
         yield f"Measured: {result.measured_note}"
@@ -81,9 +85,35 @@ def _remarks(result: "Result") -> Iterator[str]:
             yield f"Yield: {assumed}"
 
 
+def _model_error(result: "Result") -> str:
+    """Return the largest model error, with the result that has it if others have less."""
+    if not result.model_error:
+        return ""
+    errors = result.model_errors
+    name = max(result.effects.outputs, key=lambda output: errors[output])
+    others = min(errors[output] for output in result.effects.outputs)
+    whose = f" ({name.replace('_', ' ')})" if others < UNLIKE * result.model_error else ""
+    return f", model error up to {percent(result.model_error)}{whose}"
+
+
+def model_note(result: "Result") -> str:
+    """Return the model error as a sentence; empty if there is none."""
+    if not result.model_error:
+        return ""
+    parts = ["stretching of the plate (estimated)"]
+    if result.dynamics is not None:
+        parts.insert(0, "plate and edge (measured against explicit finite-element simulations)")
+    elif result.effects.law.other_edge:
+        parts.insert(0, f"the {result.model.edge} edge (measured against a 3-D elastic solution)")
+    return (
+        f"Not included in this bound: model error up to {percent(result.model_error)}, of "
+        f"{' and of '.join(parts)}"
+    )
+
+
 def details(result: "Result") -> str:
     """Return the summary, then method and bound, the effects table, and the table of contacts."""
-    notes = [str(result.accuracy), result.model_note]
+    notes = [str(result.accuracy), model_note(result)]
     blocks = [short(result), "\n".join(paragraph(text) for text in notes if text)]
     blocks.append(f"Effects\n\n{result.effects.to_text()}")
     if result.dynamics is not None:
@@ -108,7 +138,7 @@ def html(result: "Result") -> str:
     remarks = "".join(f"<p>{escape(text)}</p>" for text in _remarks(result))
     paper = result.comparison.to_html() if result.comparison else ""
     warnings = "".join(f"<p><b>Warning:</b> {escape(text)}</p>" for text in result.warnings)
-    notes = (str(result.accuracy), result.model_note)
+    notes = (str(result.accuracy), model_note(result))
     more = "".join(f"<p>{escape(text)}</p>" for text in notes if text) + result.effects.to_html()
     if result.dynamics is not None:
         more += result.dynamics.to_html()

@@ -1,6 +1,6 @@
-"""Scenes as columns of numbers, with one scene in each row."""
+"""Scenes as columns of numbers or names, with one scene in each row."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any, get_args
 
@@ -16,13 +16,27 @@ from generated.arrays import Double as Array
 
 Columns = Mapping[str, Array]
 """Numbers in SI units by key, `table.key` or `materials.NAME.key`: arrays of equal lengths."""
+Names = Mapping[str, str]
+"""The same name in each row, such as that of a material, by key `table.key`."""
 _BODIES = ("sphere", "plate", "impact", OWN_MATERIALS)
 """Tables whose keys are numbers of the model."""
 
 
-def row_of(scene: Scene, columns: Columns, row: int) -> dict[str, Any]:
+def rows_by_names(columns: Mapping[str, NDArray[Any]]) -> Iterator[tuple[NDArray[np.intp], Names]]:
+    """Yield the rows that have the same names, with these names; `columns` are those of names."""
+    rows: dict[tuple[str, ...], list[int]] = {}
+    for row, names in enumerate(
+        zip(*(values.tolist() for values in columns.values()), strict=True)
+    ):
+        rows.setdefault(names, []).append(row)
+    for names, equal in rows.items():
+        yield np.array(equal), dict(zip(columns, names, strict=True))
+
+
+def row_of(scene: Scene, columns: Columns, row: int, names: Names | None = None) -> dict[str, Any]:
     """Return the tables of the scene of a row, like those of a scene file."""
-    return varied(scene, {key: float(values[row]) for key, values in columns.items()})
+    numbers = {key: float(values[row]) for key, values in columns.items()}
+    return varied(scene, {**(names or {}), **numbers})
 
 
 def of_bodies(columns: Columns) -> bool:

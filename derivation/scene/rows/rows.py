@@ -1,6 +1,7 @@
-"""Simulation of many scenes: columns of numbers in, columns of results out.
+"""Simulation of many scenes: columns of numbers and names in, columns of results out.
 
-Impacts on quasi-static plates with Hertzian pressure are computed in arrays. All other rows
+Rows with the same names, such as those of materials, are computed together: impacts on quasi-static
+plates with Hertzian pressure in arrays. All other rows
 (non-Hertzian pressure, a viscoelastic or plastic contact, plate inertia), invalid rows, and rows
 for which rounding could change a decision are simulated one by one. Each row is equal to the result
 of `simulate` for its scene: effects, status and reason are the same, and numbers to the last bit.
@@ -8,20 +9,31 @@ of `simulate` for its scene: effects, status and reason are the same, and number
 
 import math
 import time
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from derivation.scene.contact_law.corrections import stretching
+from derivation.scene.contact_law.limits import local_indentation
 from derivation.scene.dynamic.edge_remainder import edge_remainders
 from derivation.scene.effects import EFFECTS
 from derivation.scene.errors import SceneError
 from derivation.scene.impact import selection_tolerance, simulate
-from derivation.scene.input.keys import number_key
+from derivation.scene.input.keys import takes_names, varied_key
 from derivation.scene.input.units import unit_warnings_of_rows
 from derivation.scene.result import UNITS
-from derivation.scene.rows.columns import Columns, allowed, models_of, of_bodies, row_of
+from derivation.scene.rows.columns import (
+    Columns,
+    Names,
+    allowed,
+    models_of,
+    of_bodies,
+    row_of,
+    rows_by_names,
+)
 from derivation.scene.rows.selection import Group, Rejected, selected
 from derivation.scene.rows.static_rows import impacts_of
 from derivation.scene.rows.warnings import warnings_of_rows
@@ -33,8 +45,8 @@ BLOCK = 2**15
 """Number of rows computed together, which bounds the memory."""
 ROUNDING = 1e-14
 """Distance of a bound from the tolerance at which the row is simulated singly [1]."""
-STRENGTH = "plate.tensile_strength"
-"""A key that only warnings use."""
+SPEED, STRENGTH = "impact.speed", "plate.tensile_strength"
+"""A key of each scene, and one that only warnings use."""
 TRIED = 8
 """Number of rows to read until one is valid."""
 
@@ -85,7 +97,7 @@ class Rows:
 
 def solve(
     scene: Scene,
-    columns: Mapping[str, NDArray[np.float64]],
+    columns: Mapping[str, NDArray[Any]],
     rtol: float | None = None,
     seconds: float = math.inf,
 ) -> Rows:
@@ -96,9 +108,9 @@ def solve(
     scene
         The scene with all other keys.
     columns
-        Numbers in SI units by key, `table.key` or `materials.NAME.key`: arrays of the same length,
-        with a row for each scene. A key replaces the keys of the scene that it excludes: for
-        example, half_thickness replaces thickness.
+        Numbers in SI units by key, `table.key` or `materials.NAME.key`, or names by a key such as
+        `plate.material`: arrays of the same length, with a row for each scene. A key replaces the
+        keys of the scene that it excludes: for example, half_thickness replaces thickness.
     rtol
         Relative tolerance of the results [1], as for `simulate`.
     seconds
@@ -113,25 +125,45 @@ def solve(
     Raises
     ------
     SceneError
-        If a key is not a numeric key of a scene file, or the columns differ in length.
+        If a key of a scene file takes neither numbers nor names, or the columns differ in length.
     """
-    given = {key: np.asarray(values, dtype=np.float64) for key, values in columns.items()}
+    given = {
+        key: np.asarray(values, dtype=np.str_ if takes_names(varied_key(key)) else np.float64)
+        for key, values in columns.items()
+    }
     lengths = {values.shape for values in given.values()}
     if len(lengths) != 1 or any(len(shape) != 1 for shape in lengths):
         raise SceneError(
             "columns: expected one or more arrays of the same length, got shapes "
             f"{sorted(lengths)}; give each key one number for each row"
         )
-    for key in given:
-        number_key(key)
     [(count,)] = lengths
     rows, until = _empty(count), time.perf_counter() + seconds
     for start in range(0, count, BLOCK):
         part = {key: values[start : start + BLOCK] for key, values in given.items()}
-        left = _Block(scene, part, rtol, rows, start).run(until)
-        if left is not None:
-            return rows.first(left)
+        groups = _groups(scene, part, rtol, rows, start)
+        left = {row: group for group in groups for row in group.run().tolist()}
+        for row in sorted(left):
+            if row and time.perf_counter() > until:
+                return rows.first(row)
+            left[row].one(row)
     return rows
+
+
+def _groups(
+    scene: Scene, columns: Mapping[str, NDArray[Any]], rtol: float | None, rows: Rows, start: int
+) -> Iterator["_Block"]:
+    """Yield the rows with the same names, of which the first one has the index `start`."""
+    count = len(next(iter(columns.values())))
+    names = {key: values for key, values in columns.items() if takes_names(key)}
+    numbers = {key: values for key, values in columns.items() if key not in names}
+    numbers = numbers or {SPEED: np.full(count, scene.impact.speed)}
+    if not names:
+        yield _Block(scene, {}, numbers, rtol, rows, start + np.arange(count))
+        return
+    for equal, same in rows_by_names(names):
+        part = {key: values[equal] for key, values in numbers.items()}
+        yield _Block(scene, same, part, rtol, rows, start + equal)
 
 
 def _empty(count: int) -> Rows:
@@ -145,35 +177,28 @@ def _empty(count: int) -> Rows:
 
 @dataclass(frozen=True)
 class _Block:
-    """Some of the rows, with the places of their results."""
+    """Some rows that have the same names, with the indices of their results."""
 
     scene: Scene
+    names: Names
     columns: Columns
     rtol: float | None
     table: Rows
-    start: int
+    indices: NDArray[np.intp]
 
-    def run(self, until: float) -> int | None:
-        """Simulate the rows, in arrays where possible and the others one by one.
-
-        Return the first row that is left when the time is over, or None. It is never row 0.
-        """
-        count = len(next(iter(self.columns.values())))
-        left = np.ones(count, dtype=bool)
+    def run(self) -> NDArray[np.intp]:
+        """Simulate rows in arrays where possible; return the indices of the others."""
+        left = np.ones(len(self.indices), dtype=bool)
         for rows in self._in_arrays():
             left[rows] = False
         self._add_unit_warnings(np.flatnonzero(~left))
-        for row in np.flatnonzero(left).tolist():
-            if self.start + row and time.perf_counter() > until:
-                return self.start + row
-            self._one(row)
-        return None
+        return self.indices[left]
 
-    def _one(self, row: int) -> None:
-        """Simulate a single row."""
-        table, index = self.table, self.start + row
+    def one(self, index: int) -> None:
+        """Simulate the row whose results have this index."""
+        table, row = self.table, int(np.searchsorted(self.indices, index))
         try:
-            result = simulate(read(row_of(self.scene, self.columns, row)), rtol=self.rtol)
+            result = simulate(read(self._tables(row)), rtol=self.rtol)
             included = " ".join(result.effects.included)
             numbers = {name: float(getattr(result, name)) for name in UNITS}
         except SceneError as error:
@@ -197,17 +222,17 @@ class _Block:
             return
         columns = {key: values[rows] for key, values in self.columns.items()}
         for row, texts in unit_warnings_of_rows(scene, columns).items():
-            index = self.start + rows[row]
+            index = self.indices[rows[row]]
             rest = self.table.reason[index]
             self.table.reason[index] = "; ".join((*texts, rest) if rest else texts)
 
     def _in_arrays(self) -> Iterable[NDArray[np.intp]]:
         """Simulate rows in arrays, and yield their indices."""
-        if self.scene.measured is not None or not of_bodies(self.columns):
+        if not of_bodies(self.columns):
             return
         rows = np.flatnonzero(allowed(self.columns))
         scene = self._readable(rows[:TRIED].tolist())
-        if scene is None:
+        if scene is None or scene.measured is not None:
             return
         columns = {key: values[rows] for key, values in self.columns.items()}
         model, sound = models_of(scene, columns)
@@ -229,16 +254,20 @@ class _Block:
         wanted = scene.effects.model_dump()
         for group in selected(model, wanted, np.full(len(rows), tolerance), outputs):
             if isinstance(group, Rejected):
-                self.table.reason[self.start + rows[group.rows]] = group.reason
+                self.table.reason[self.indices[rows[group.rows]]] = group.reason
                 yield rows[group.rows]
             else:
                 yield rows[self._static(group, rows[group.rows], scene, rtol)]
+
+    def _tables(self, row: int) -> dict[str, Any]:
+        """Return the tables of the scene of a row."""
+        return row_of(self.scene, self.columns, row, self.names)
 
     def _readable(self, rows: list[int]) -> Scene | None:
         """Return the scene of the first valid row; all rows have the same keys."""
         for row in rows:
             try:
-                return read(row_of(self.scene, self.columns, row))
+                return read(self._tables(row))
             except SceneError:
                 continue
         return None
@@ -267,16 +296,17 @@ class _Block:
             known &= np.broadcast_to(a < law.limit, a.shape)[:, 0]
         if rtol is not None:  # other rows do not meet the tolerance, or only just
             known &= bound <= rtol - ROUNDING
-        model_error = np.zeros(len(rows))
+        deflection = impacts.max_indentation[:, None] - local_indentation(law, a)
+        model_error = np.broadcast_to(stretching(law.model, deflection), a.shape)[:, 0]
         if law.other_edge:
-            model_error = edge_remainders(law.model, a)[:, 0]
+            model_error = edge_remainders(law.model, a)[:, 0] + model_error
         known &= np.isfinite(model_error)
         which = np.flatnonzero(known)
         strength: Array | float | None = scene.plate.tensile_strength
         if STRENGTH in self.columns:
             strength = self.columns[STRENGTH][rows]
         reasons = warnings_of_rows(law, numbers, strength, which)
-        indices = self.start + rows[which]
+        indices = self.indices[rows[which]]
         for name, values in numbers.items():
             self.table.results[name][indices] = values[which]
         self.table.bound[indices], self.table.model_error[indices] = (

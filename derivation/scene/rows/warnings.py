@@ -32,7 +32,7 @@ from generated.arrays import Double as Array
 _ROUNDING = 1e-9
 """Relative distance from a limit at which a row is examined, for rounding."""
 _MODEL = (
-    "m", "R", "h", "b", "density", "solid_density", "lightest_density", "yield_stress",
+    "m", "R", "h", "b", "lam", "mu", "density", "solid_density", "lightest_density", "yield_stress",
     "plate_yield_stress",
 )  # fmt: skip
 """Numbers of the model that warnings use."""
@@ -135,6 +135,7 @@ def _texts(law: ContactLaw) -> tuple[Texts, ...]:
     inertia = law.model.inertia
 
     def wide(one: Any) -> tuple[str, ...]:
+        one.edge = law.model.edge
         of_row: Any = SimpleNamespace(model=one, solved=False, spherical=law.spherical)
         sizes = one.max_contact_radius, one.max_indentation, one.deflection
         return warnings_at(of_row, *sizes, one.correction)

@@ -8,6 +8,7 @@ against the law with all effects that the scene does not disable, for inputs tha
 
 import math
 from dataclasses import replace
+from numbers import Real
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -52,7 +53,7 @@ def check_rtol(rtol: float) -> float:
     SceneError
         If it is not between 1e-13 and 1.
     """
-    number = isinstance(rtol, (int, float)) and not isinstance(rtol, bool)
+    number = isinstance(rtol, Real) and not isinstance(rtol, bool)  # NumPy's numbers too
     if not number or not TIGHTEST <= rtol <= 1:
         raise SceneError(
             f"rtol: expected a relative tolerance from {TIGHTEST:g} to 1, got {shown(rtol)}; for "

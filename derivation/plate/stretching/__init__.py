@@ -1,0 +1,1 @@
+"""Stretching of the middle plane of a deflected plate."""

@@ -1,0 +1,119 @@
+"""Step 33: stiffening of a thin plate by stretching, to first order in its deflection.
+
+A plate that deflects by a fraction of its thickness H stretches its middle plane. Its equations
+(von Karman, 1910), for a load P on the axis and a middle plane that moves by u(r), are
+
+    D laplacian^2 w = (1/r) d/dr(r N_r w') + P delta(r)/(2 pi r),   d(r N_r)/dr = N_phi,
+    N_r = (12 D/H^2) (u' + w'^2/2 + nu u/r),   N_phi = (12 D/H^2) (u/r + nu (u' + w'^2/2)).
+
+Without stretching, dw/dx = 4 x (log x - g) w_0/(1 + 2 g) with x = r/b, where g depends on the edge.
+All three edges make the bending operator self-adjoint; multiplied by this w and integrated, the
+first equation then gives the force at the deflection w_0 to first order:
+
+    P = k w_0 (1 + A w_0^2/H^2),   k A w_0^3/H^2 = (2 pi/w_0) int_0^b N_r w'^2 r dr.
+
+A clamped edge holds the middle plane (u = 0), a simply supported edge does not (N_r = 0), and the
+paper's edge has u' + u/r = 0. For nu = 0.3 the values 0.445 and 0.272 are those of Timoshenko and
+Woinowsky-Krieger, Theory of Plates and Shells, 2nd ed. 1959, table 82 (0.443 and 0.272).
+"""
+
+from functools import cache
+from typing import NamedTuple
+
+import sympy as sp
+
+from derivation.engine.formula.proof import prove
+from derivation.plate.vocabulary import Formula, nu
+
+_x, _g, _c, _log = sp.symbols("x g c log_x", positive=True)
+_first, _second, _third = sp.symbols("first second third")
+
+
+class Edge(NamedTuple):
+    """An edge: its g, and the quantity of the middle plane that vanishes there."""
+
+    g: sp.Expr
+    bending: sp.Expr
+    in_plane: sp.Expr
+
+
+def slope() -> sp.Expr:
+    """Return dw/dx without stretching, for a deflection of 1 + 2 g on the axis."""
+    return 4 * _x * (sp.log(_x) - _g)
+
+
+@cache
+def middle_plane() -> sp.Expr:
+    """Return u b of the middle plane for this slope; c is fixed by the edge."""
+    shape = slope()
+    load = shape * sp.diff(shape, _x) + (1 - nu) / (2 * _x) * shape**2
+    u = _x**3 * (_first * sp.log(_x) ** 2 + _second * sp.log(_x) + _third)
+    left = sp.diff(u, _x, 2) + sp.diff(u, _x) / _x - u / _x**2 + load
+    powers = sp.Poly(sp.expand(left / _x).subs(sp.log(_x), _log), _log)
+    return u.subs(sp.solve(powers.coeffs(), [_first, _second, _third])) + _c * _x
+
+
+def _strain(u: sp.Expr) -> sp.Expr:
+    """Return b^2 H^2/(12 D) N_r."""
+    return sp.diff(u, _x) + slope() ** 2 / 2 + nu * u / _x
+
+
+def edges() -> dict[str, Edge]:
+    """Return the three edges, by name."""
+    u, shape = middle_plane(), slope()
+    moment = sp.diff(shape, _x) + nu * shape / _x
+    return {
+        "clamped": Edge(sp.Integer(0), shape, u),
+        "supported": Edge(1 / (1 + nu), moment, _strain(u)),
+        "paper": Edge(sp.Rational(1, 2), sp.diff(shape, _x) + shape / _x, sp.diff(u, _x) + u / _x),
+    }
+
+
+def stiffening(edge: Edge) -> sp.Expr:
+    """Return A of an edge."""
+    constant = sp.solve(sp.expand(edge.in_plane.subs(_x, 1)), _c)[0]
+    tension = _strain(middle_plane()).subs(_c, constant)
+    # k = 16 pi D/(b^2 (1 + 2 g)) and w_0 = 1 + 2 g.
+    work = sp.integrate(sp.expand(tension * slope() ** 2 * _x), (_x, 0, 1))
+    return sp.factor(sp.simplify((sp.Rational(3, 2) * work / (1 + 2 * _g) ** 3).subs(_g, edge.g)))
+
+
+@cache
+def stretching() -> tuple[Formula, ...]:
+    """Return the formulas of the step."""
+    shape, u = slope(), middle_plane()
+    tension = _strain(u)
+    hoop = u / _x + nu * (sp.diff(u, _x) + shape**2 / 2)
+    laplacian = sp.expand(sp.diff(_x * shape, _x) / _x)
+    proof = prove(
+        "Stretching of the middle plane",
+        "The linear deflection satisfies the equation of bending and the edge conditions, and "
+        "carries the load $P = k w_0$; the middle plane is in equilibrium.",
+        {
+            "bending": sp.expand(sp.diff(_x * sp.diff(laplacian, _x), _x)),
+            # P = -2 pi D x d/dx(laplacian), with the sign of a deflection along the load.
+            "load": 2 * _x * sp.diff(laplacian, _x) - 16,
+            "deflection": sp.integrate(shape, (_x, 0, 1)) + 1 + 2 * _g,
+            "middle plane": sp.expand(sp.diff(_x * tension, _x) - hoop),
+            **{
+                f"bending of the {name} edge": sp.expand(edge.bending.subs(_x, 1)).subs(_g, edge.g)
+                for name, edge in edges().items()
+            },
+        },
+    )
+    return tuple(
+        Formula(
+            f"stiffening_{name}",
+            rf"A_\text{{{name}}}",
+            f"A of the stiffening 1 + A (w/H)^2 of a plate by stretching, {name} edge",
+            stiffening(edge),
+            "1",
+            "",
+            (),
+            proof,
+        )
+        for name, edge in edges().items()
+    )
+
+
+STEPS = (("stretching", stretching),)

@@ -1,0 +1,103 @@
+"""The model error by stretching of the plate, against a simulation of a von Karman plate."""
+
+import math
+from typing import Any
+
+import pytest
+from scipy.optimize import brentq
+
+from derivation.scene import Result, read, simulate
+from derivation.scene.contact_law.corrections import stretching
+from derivation.scene.dynamic.stretching_error import SMALLEST, stretching_error
+from tests.scene.von_karman import ThinPlate, impact
+
+SCENES: dict[str, dict[str, Any]] = {
+    "several contacts with a clamped plate": {
+        "sphere": {"radius": 0.0104, "material": "steel"},
+        "plate": {"radius": 0.0365, "thickness": 1.6e-3, "edge": "clamped"},
+        "impact": {"speed": 2.5},
+    },
+    "heavy sphere on a supported plate": {
+        "sphere": {"radius": 0.00704, "material": "steel"},
+        "plate": {"radius": 0.0202, "thickness": 0.91e-3, "edge": "simply-supported"},
+        "impact": {"speed": 2.2},
+    },
+    "paper's edge": {
+        "sphere": {"radius": 0.0103, "material": "steel"},
+        "plate": {"radius": 0.05, "thickness": 2e-3, "edge": "paper"},
+        "impact": {"speed": 4.0},
+    },
+}
+
+MARGINAL = {
+    "sphere": {"radius": 0.006, "material": "steel"},
+    "plate": {"radius": 0.08, "thickness": 1e-3, "edge": "clamped"},
+    "impact": {"speed": 4.0},
+}
+
+
+def simulated(scene: dict[str, Any], **effects: bool) -> Result:
+    plate = scene["plate"] | {"material": "glass"}
+    return simulate(read(scene | {"plate": plate, "effects": effects}), rtol=0.02)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_error_covers_the_difference_between_a_linear_and_a_stretched_plate(name: str) -> None:
+    result = simulated(SCENES[name], inertia=True)
+    model, plate = result.model, SCENES[name]["plate"]
+    assert result.dynamics is not None
+    nu = model.lam / (2.0 * (model.lam + model.mu))
+    thin = ThinPlate(
+        2.0 * model.mu * (1.0 + nu), nu, model.density, plate["thickness"], plate["radius"],
+        plate["edge"], modes=12, points=80,
+    )  # fmt: skip
+    stiffness = 4.0 / 3.0 * model.modulus / (1.0 + model.softness) * math.sqrt(model.R)
+    linear, stretched = (impact(thin, model.m, stiffness, model.v0, on) for on in (False, True))
+    error = stretching_error(result.effects.law, result.dynamics)
+    for key, size in error.items():
+        assert abs(stretched[key] / linear[key] - 1.0) <= size + 1e-3, key
+    # The deflection is large enough to matter, and the errors are part of the model error.
+    assert abs(stretched["max_indentation"] / linear["max_indentation"] - 1.0) > 5e-3
+    assert result.model_error >= max(error.values())
+
+
+@pytest.mark.parametrize("speed", [0.5, 1.5])
+def test_error_of_a_quasi_static_plate_covers_that_of_a_spring(speed: float) -> None:
+    """A Hertz contact and a spring that stiffens, solved by the balance of energy."""
+    scene = SCENES["heavy sphere on a supported plate"] | {"impact": {"speed": speed}}
+    result = simulated(scene, inertia=False, non_hertzian_pressure=False)
+    model = result.model
+    K = 4.0 / 3.0 * model.modulus / (1.0 + model.softness) * math.sqrt(model.R)
+    local = (result.max_force / K) ** (2.0 / 3.0)
+    w, thickness = result.max_indentation - local, 2.0 * model.h
+    stiffness = result.max_force / w
+    A = 0.286 / thickness**2  # supported edge, nu = 0.25
+
+    def force(w: float, A: float) -> float:
+        return stiffness * w * (1.0 + A * w**2)
+
+    def energy(w: float, A: float) -> float:
+        stored = stiffness * w**2 / 2.0 * (1.0 + A * w**2 / 2.0)
+        return 0.4 * K * (force(w, A) / K) ** (5.0 / 3.0) + stored
+
+    stiff = brentq(lambda x: energy(x, A) - energy(w, 0.0), 0.0, w)
+    harder = force(stiff, A)
+    depth = stiff + (harder / K) ** (2.0 / 3.0)
+    changes = harder / result.max_force - 1.0, depth / result.max_indentation - 1.0
+    for change in changes:
+        assert abs(change) <= result.model_error
+    assert max(changes) > 0.3 * result.model_error
+
+
+def test_warning_where_stretching_may_split_the_first_contact() -> None:
+    """It appears if the stiffening exceeds the change that splits or joins the contact."""
+    warned = set()
+    for scene in (*SCENES.values(), MARGINAL):
+        result = simulated(scene, inertia=True)
+        assert result.dynamics is not None
+        first = result.dynamics.deflection_during(result.effects.law, 0)
+        stiffening = float(stretching(result.model, first))
+        expected = stiffening >= max(result.dynamics.decisive_change, SMALLEST)
+        assert any("stiffer by" in text for text in result.warnings) == expected
+        warned.add(expected)
+    assert warned == {True, False}

@@ -20,7 +20,7 @@ from derivation.engine.formula.parse import (
     parse,
 )
 from derivation.engine.formula.size import terms_when_expanded
-from derivation.engine.formula.vocabulary import NOTHING, Argument, Vocabulary, symbols_of
+from derivation.engine.formula.vocabulary import Argument, Vocabulary, symbols_of
 from derivation.engine.rewrite.code_check import CodeCheck
 from derivation.engine.rewrite.products import ProductForm
 from derivation.engine.rewrite.search import stabilised
@@ -56,14 +56,13 @@ def rewrite_text(
     """
     if not variable.isidentifier() or keyword.iskeyword(variable) or variable in FUNCTIONS:
         raise ValueError(f"variable: expected a name such as x, got {variable!r}; use another name")
-    names = _names(text) or [variable]
-    domain = domain_of(names, where) if where else None
-    symbols = {name: sp.Symbol(name, positive=True) for name in names}
-    if domain is not None:
-        symbols = {argument.name: argument.symbol for argument in domain.arguments}
+    names = _names(text, where) or [variable]
+    words = domain_of(names, where)
+    symbols = {argument.name: argument.symbol for argument in words.arguments}
+    domain = words if where else None
 
     def work() -> tuple[Stable | ProductForm, str, CodeCheck | SeveralCheck]:
-        expression = parse(text, NOTHING, symbols)
+        expression = parse(text, words).replace(_is_power_of_number, _by_exponential)
         if terms_when_expanded(expression) > MAX_TERMS:
             raise FormulaError(
                 f"the formula has more than {MAX_TERMS} terms when expanded; simplify it"
@@ -79,13 +78,22 @@ def rewrite_text(
     return run_limited(work, "rewriting the formula", SECONDS)
 
 
-def _names(text: str) -> list[str]:
+def _is_power_of_number(node: sp.Basic) -> bool:
+    return isinstance(node, sp.Pow) and node.base.is_Rational and not node.exp.is_number
+
+
+def _by_exponential(base: sp.Expr, exponent: sp.Expr) -> sp.Expr:
+    return sp.exp(exponent * sp.log(base))
+
+
+def _names(text: str, where: Sequence[str] = ()) -> list[str]:
     """Return the names in a formula that may be variables, in their order.
 
-    E may be one, because it usually is Young's modulus.
+    E may be one, because it usually is Young's modulus, and so may a name in a condition.
     """
     names = re.findall(r"(?<![\w.])[A-Za-z_]\w*\b(?!\s*\()", text.replace("lambda", "lam"))
-    others = {*FUNCTIONS, *CONSTANTS, *NAME_HINTS} - {"E"}
+    stated = set[str]().union(*map(symbols_of, where))
+    others = {*FUNCTIONS, *CONSTANTS, *NAME_HINTS} - {"E"} - (stated - {*FUNCTIONS, *CONSTANTS})
     return list(dict.fromkeys(name for name in names if name not in others))
 
 

@@ -38,6 +38,7 @@ HELPERS = {
     "polynomial": ("polynomials.py",),
     "times": ("ranges.py",),
     "times_closely": ("ranges.py", "halves", "lost_by_halves"),
+    "rounding_error": ("ranges.py", "halves", "lost_by_halves"),
 }
 """File of each function that a form may call, and the functions that it calls itself."""
 Tested = tuple[ProductForm, SeveralCheck]
@@ -222,11 +223,14 @@ def _source(
     blocks = [block_text(block) for block in form.blocks]
     rows, value = lines(form.steps), to_numpy(form.value)
     used = repr((blocks, rows, value))
-    helpers = [
-        function_text(RUNTIME / file, part).replace("Double", "np.ndarray")
+    parts = dict.fromkeys(
+        (file, part)
         for name, (file, *parts) in HELPERS.items()
         if f"{name}(" in used
         for part in (*parts, name)
+    )
+    helpers = [
+        function_text(RUNTIME / file, part).replace("Double", "np.ndarray") for file, part in parts
     ]
     context = {
         "summary": f"Stable form of a formula, by platecontact {version('platecontact')}.",

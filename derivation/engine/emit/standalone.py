@@ -36,7 +36,11 @@ def standalone(stable: Stable) -> tuple[str, CodeCheck]:
         "points, including the ends of the range, and points next to zeros and overflow limits "
         f"of the formula and its parts; largest error {check.worst:.2f} ULP, at {x} = {check.at!r}."
     )
-    source = _source(stable, check.low, check.high, statement)
+    if check.undefined:
+        where = ", ".join(map(repr, check.undefined))
+        statement += f" NaN at {x} = {where}, where the formula has no value."
+    silent = bool(check.undefined) or _by_distance(stable)
+    source = _source(stable, check.low, check.high, statement, silent)
     return format_files({"f.py": source})["f.py"], check
 
 
@@ -47,7 +51,12 @@ def compiled_function(source: str) -> Function:
     return space["f"]
 
 
-def _source(stable: Stable, low: float, high: float, statement: str) -> str:
+def _by_distance(stable: Stable) -> bool:
+    """Return whether a branch is evaluated where it may have no value, and its result not used."""
+    return isinstance(stable.value, Switch) and stable.value.variable != stable.variable
+
+
+def _source(stable: Stable, low: float, high: float, statement: str, silent: bool = False) -> str:
     switch = switch_text(stable.value) if isinstance(stable.value, Switch) else None
     sides = (stable.value.below, stable.value.above) if isinstance(stable.value, Switch) else ()
     powers = any(
@@ -67,6 +76,7 @@ def _source(stable: Stable, low: float, high: float, statement: str) -> str:
         "low": repr(low),
         "high": repr(high),
         "statement": textwrap.wrap(statement, WIDTH),
+        "silent": silent,
         "polynomial": function_text(RUNTIME / "polynomials.py", "polynomial") if powers else "",
         "function": {
             "steps": lines(stable.steps),

@@ -58,26 +58,29 @@ def domain_grid(
     arguments: Sequence[str],
     vocabulary: Vocabulary,
     switches: Mapping[str, Sequence[float]],
+    seed: str = "",
 ) -> tuple[dict[str, float], ...]:
     """Return difficult points of a function, as arguments by name.
 
     Parameters
     ----------
     name
-        Name of the function; it seeds the random values.
+        Name of the function.
     arguments
         Names of its arguments.
     vocabulary
         The symbols with their domains.
     switches
         Switch points of its forms, by argument.
+    seed
+        Seed of the random values; by default the name.
 
     Raises
     ------
     ValueError
         If no random point lies in the domain.
     """
-    generator = random.Random(f"{name} on {','.join(arguments)}")
+    generator = random.Random(f"{seed or name} on {','.join(arguments)}")
 
     def usual() -> dict[str, float]:
         return {key: _usual(generator, vocabulary.by_name[key]) for key in arguments}
@@ -92,9 +95,11 @@ def domain_grid(
                 if inside(vocabulary, values):
                     return values
             del sources[0]  # the next one reaches further, or takes account of other arguments
+        conditions = dict.fromkeys(c for key in arguments for c in vocabulary.by_name[key].domain)
         raise ValueError(
-            f"found no point in the domain of {name}: its conditions exclude each other, or allow "
-            "a narrow range only; correct the domains of its arguments"
+            f"{name} cannot be tested: none of {ATTEMPTS * (1 + len(DECADES_DRAWN))} random points "
+            f"satisfies {', '.join(conditions)}; these conditions exclude each other, or allow a "
+            "narrow range only: correct the domains of its arguments"
         )
 
     points = [drawn() for _ in range(DRAWN)]

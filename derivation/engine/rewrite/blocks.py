@@ -88,7 +88,7 @@ def block_of(name: str, stable: Stable, summary: str) -> Block:
     ProofError
         If the direct form differs from the expression.
     """
-    domain = (f"{stable.variable} > 0",)
+    domain = (f"{stable.variable} > 0",) if stable.variable.is_positive else ()
     truncation = _truncation(stable)
     return _proved(
         Block(

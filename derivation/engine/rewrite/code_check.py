@@ -23,6 +23,7 @@ CONDITION_FACTOR = 0.6
 """Fraction of half the condition number that is subtracted from an error in the test; the stated
 limit allows all of it, because other points may have larger errors than the tested ones."""
 _NEAR_ZERO, _MOST_ZEROS = 150, 12
+_NEAR_END = 300
 _DIGITS = 25
 _ROUNDS = 8
 _OTHER_ERRORS = 2.0
@@ -51,6 +52,8 @@ class CodeCheck:
         number], and its point.
     points
         Number of points in the range that were compared.
+    undefined
+        Points in the range at which the formula has no value, and the code gives NaN.
     """
 
     low: float
@@ -59,6 +62,7 @@ class CodeCheck:
     worst: float
     at: float
     points: int
+    undefined: tuple[float, ...] = ()
 
 
 class _Reference:
@@ -76,6 +80,12 @@ class _Reference:
         if point not in self.known:
             self.known[point] = self._value(point)
         return self.known[point]
+
+    def is_undefined(self, point: float) -> bool:
+        """Return whether there is no value at a point, but at both of its neighbours."""
+        if not ENDS[0] < point < ENDS[1] or self.at(point) is not None:
+            return False
+        return all(self.at(from_ordinal(ordinal(point) + step)) is not None for step in (-1, 1))
 
     def _value(self, point: float) -> tuple[flint.arb, float] | None:
         for most in (_LOW_PRECISION, _HIGH_PRECISION):
@@ -154,7 +164,9 @@ def check_code(stable: Stable, function: Function) -> CodeCheck:
         inside = {p: e for p, e in errors.items() if low <= p <= high}
         if max(inside.values()) <= ENOUGH:
             worst, at = max((e, p) for p, e in inside.items())
-            return CodeCheck(low, high, stated_error(worst), worst, at, len(inside))
+            without = (p for p in inside if reference.at(p) is None)
+            limit = stated_error(worst)
+            return CodeCheck(low, high, limit, worst, at, len(inside), tuple(without))
         before = low, high
         low, high = useful_range(sorted(inside.items()), ENDS)
         if count >= _PATIENT:  # errors that rise slowly towards an end would take many rounds
@@ -162,7 +174,7 @@ def check_code(stable: Stable, function: Function) -> CodeCheck:
             high = rounded(high * (1 - _MARGIN), math.floor, ENDS) if high < before[1] else high
         if not low * LEAST_RATIO <= high:
             break
-        new = {low, high, *_towards(low, high), *_random(draw, low, high)}
+        new = {low, high, *_towards(draw, low, high), *_random(draw, low, high)}
     raise UnreachableError(
         f"the form found for {stable.expression} is not accurate to {ENOUGH:g} ULP in any range "
         f"of {stable.variable} that was tested"
@@ -225,9 +237,15 @@ def _next_to_zeros(
     return {x for x in values if low <= x <= high}
 
 
-def _towards(low: float, high: float) -> set[float]:
-    """Return doubles next to the ends of the range."""
-    return {x for x in around([low, high]) if low <= x <= high}
+def _towards(draw: random.Random, low: float, high: float) -> set[float]:
+    """Return doubles next to the ends of the range, and random ones within a factor of 2 of them.
+
+    Errors are largest near an end behind which they exceed the limit.
+    """
+    values = around([low, high])
+    for end, sign in ((low, 1), (high, -1)):
+        values |= {end * (1 + sign * 10 ** draw.uniform(-4, -0.3)) for _ in range(_NEAR_END)}
+    return {x for x in values if low <= x <= high}
 
 
 def _errors(
@@ -244,7 +262,9 @@ def _errors(
     errors_by_point = {}
     for point, value in zip(points, got, strict=True):
         known = reference.at(point)
-        if known is None or overflows(known[0]):
+        if math.isnan(value) and reference.is_undefined(point):
+            errors_by_point[point] = 0.0
+        elif known is None or overflows(known[0]):
             errors_by_point[point] = math.inf
         else:
             error = ulp_error(value, known[0]) - CONDITION_FACTOR * known[1]

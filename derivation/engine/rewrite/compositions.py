@@ -2,7 +2,8 @@
 
 F is a function of the formula, or one that replaces a difference that cancels:
 
- log p - log q            log1p((p - q)/q); x counts as the logarithm of e^x
+ log p - log q            log1p((p - q)/q); x counts as the logarithm of e^x, acosh p as that of
+                          p + sqrt(p^2 - 1)
  log(p + sqrt(p^2 + 1))   asinh p
  exp p - exp q            e^q expm1(p - q)
  p^a - q^a                q^a expm1(a log1p((p - q)/q)) or q^a expm1(a log(p/q))
@@ -106,18 +107,26 @@ def _logarithm(factor: sp.Expr, argument: sp.Expr, x: sp.Symbol) -> Iterator[tup
 
 
 def _quotient(expression: sp.Expr, x: sp.Symbol) -> sp.Expr:
-    """Return a short form of an expression: a quotient of polynomials, or a sum of exponentials."""
+    """Return a short form of an expression: a quotient, or a sum of exponentials."""
     if expression.count_ops() > MOST_OPERATIONS:
         return expression
     if expression.is_rational_function(x):
         return sp.cancel(expression)
     written = sp.expand(expression.rewrite((sp.sinh, sp.cosh), sp.exp))
+    if any(power.exp.q == 2 for power in expression.atoms(sp.Pow) if power.exp.is_Rational):
+        return sp.together(expression)  # in which the difference with a root is a factor
     return min((expression, written), key=sp.count_ops)
 
 
 def _of_logarithms(node: sp.Add, x: sp.Symbol) -> Iterator[tuple[Outer, sp.Expr]]:
-    """Write c log p - c log q + m x as c times the logarithm of a product."""
+    """Write c log p - c log q + m x as c times the logarithm of a product.
+
+    asinh p and acosh p count as the logarithm of p + sqrt(p^2 +- 1).
+    """
     product, factor = sp.Integer(1), None
+    if node.has(sp.log):
+        node = node.replace(sp.asinh, lambda p: sp.log(p + sp.sqrt(p**2 + 1)))
+        node = node.replace(sp.acosh, lambda p: sp.log(p + sp.sqrt(p**2 - 1)))
     for term in node.args:
         size, rest = term.as_independent(x, as_Add=False)
         if not isinstance(rest, sp.log) and rest != x:

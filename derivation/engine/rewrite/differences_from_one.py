@@ -8,6 +8,8 @@ from collections.abc import Callable, Iterator, Mapping
 import sympy as sp
 from sympy.codegen.cfunctions import expm1
 
+from derivation.engine.formula.differences import TRIGONOMETRIC, in_products
+
 DIFFERENCES: Mapping[type[sp.Function], Callable[[sp.Expr], sp.Expr]] = {
     sp.exp: expm1,
     sp.cosh: lambda p: 2 * sp.sinh(p / 2) ** 2,
@@ -21,10 +23,16 @@ DIGITS = 30
 
 
 def by_differences_from_one(expression: sp.Expr) -> Iterator[sp.Expr]:
-    """Yield the expression with sums that cancel for small arguments by differences, if any."""
+    """Yield the expression with sums that cancel for small arguments by differences, if any.
+
+    The second one keeps sines and cosines, whose differences become products:
+    cos p - e^q cos r is (cos p - cos r) - cos r expm1 q.
+    """
     found = expression.replace(_cancels, _by_differences)
     if found != expression:
         yield found
+    if expression.has(sp.exp) and expression.has(*TRIGONOMETRIC):
+        yield expression.replace(_cancels, _by_products)
 
 
 def _cancels(node: sp.Basic) -> bool:
@@ -38,6 +46,11 @@ def _cancels(node: sp.Basic) -> bool:
     if not all(term.is_Number for term in terms):
         return False
     return bool(abs(sum(terms)) < LEFT * sum(abs(term) for term in terms))
+
+
+def _by_products(node: sp.Expr) -> sp.Expr:
+    node = sp.expand_mul(node.replace(sp.exp, lambda p: 1 + expm1(p)))
+    return in_products(node, TRIGONOMETRIC) if node.is_Add else node
 
 
 def _by_differences(node: sp.Expr) -> sp.Expr:

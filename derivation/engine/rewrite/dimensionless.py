@@ -95,9 +95,10 @@ def _without_divisor(x: sp.Symbol) -> Callable[..., sp.Expr]:
     """Return a function that writes the terms 1 + 2/x as (x + 2)/x."""
 
     def of_terms(*terms: sp.Expr) -> sp.Expr:
-        least = min(term.as_coeff_exponent(x)[1] for term in terms)
-        if not (least.is_Rational and least < 0):
+        exponents = [term.as_coeff_exponent(x)[1] for term in terms]
+        if not all(exponent.is_Rational for exponent in exponents) or min(exponents) >= 0:
             return sp.Add(*terms)
+        least = min(exponents)
         return x**least * sp.Add(*(term / x**least for term in terms))
 
     return of_terms

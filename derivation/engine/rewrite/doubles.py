@@ -7,6 +7,7 @@ arithmetic, so that the selection of a form does not depend on a processor or li
 import math
 import sys
 from collections.abc import Callable, Mapping
+from fractions import Fraction
 from functools import lru_cache, partial
 from math import prod
 
@@ -14,7 +15,15 @@ import flint
 import sympy as sp
 
 from derivation.engine.formula.operations import FUNCTIONS
-from derivation.engine.rewrite.form import CLOSELY, TIMES, Block, Branch, Step, Switch
+from derivation.engine.rewrite.form import (
+    CLOSELY,
+    ROUNDING_ERROR,
+    TIMES,
+    Block,
+    Branch,
+    Step,
+    Switch,
+)
 from derivation.engine.rewrite.series import POLYNOMIAL
 
 SMALL_INTEGER = 1000
@@ -72,7 +81,7 @@ def _steps(
 
 def _operation(node: sp.Basic) -> tuple[Operation, tuple[sp.Basic, ...]]:
     """Return the operation at a node, and its operands."""
-    if isinstance(node, sp.Number) or node is sp.pi:
+    if isinstance(node, sp.Number | sp.NumberSymbol):
         value = float(node)
         return lambda: value, ()
     if isinstance(node, sp.Add):
@@ -80,6 +89,8 @@ def _operation(node: sp.Basic) -> tuple[Operation, tuple[sp.Basic, ...]]:
         return partial(_sum, float(number)), rest.args if rest.is_Add else (rest,)
     if isinstance(node, sp.Mul):
         return _product(node)
+    if isinstance(node, sp.Pow) and not node.exp.is_number:
+        return _variable_power, node.args
     if isinstance(node, sp.Pow):
         return _power(node.exp), (node.base,)
     if node.func == POLYNOMIAL:
@@ -88,6 +99,8 @@ def _operation(node: sp.Basic) -> tuple[Operation, tuple[sp.Basic, ...]]:
         return (min if isinstance(node, sp.Min) else max), node.args
     if node.func in (TIMES, CLOSELY):
         return _scaled_product, node.args
+    if node.func == ROUNDING_ERROR:
+        return _rounding_error, node.args
     if node.func in FUNCTIONS:
         return partial(_function, FUNCTIONS[node.func][0]), node.args[:1]
     raise NotImplementedError(f"no double precision for {node.func.__name__}")
@@ -141,6 +154,14 @@ def _scaled_product(value: float, *powers: float) -> float:
     return math.ldexp(total, exponent)
 
 
+def _rounding_error(one: float, other: float) -> float:
+    """Return the rounding error of a product; NaN if that is not finite."""
+    product = one * other
+    if not math.isfinite(product):
+        return math.nan
+    return float(Fraction(one) * Fraction(other) - Fraction(product))
+
+
 def _power(exponent: sp.Expr) -> Callable[[float], float]:
     """Return the function that raises a double to a power."""
     number, of_finite = float(exponent), _power_of_finite(exponent)
@@ -163,6 +184,13 @@ def _power_of_finite(exponent: sp.Expr) -> Callable[[float], float]:
     number = float(exponent)
     of_positive = partial(_function, lambda x: x ** flint.arb(number))
     return lambda base: of_positive(base) if base else 0.0
+
+
+def _variable_power(base: float, exponent: float) -> float:
+    """Return a power with an exponent that is no number."""
+    if not (base > 0 and math.isfinite(base) and math.isfinite(exponent)):
+        return math.nan
+    return _function(lambda x: x ** flint.arb(exponent), base)
 
 
 def _function(function: Callable[[flint.arb], flint.arb], argument: float) -> float:

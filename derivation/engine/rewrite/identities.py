@@ -3,14 +3,13 @@
 difference of roots            (p^2 - q^2)/(p + q)
 cos u - cos v and similar      products of functions of (u + v)/2 and (u - v)/2
 c e^p - c e^q                  c e^max(p, q) (expm1(min(p - q, 0)) - expm1(-max(p - q, 0)))
-atan p - atan q                atan((p - q)/(1 + p q)), for positive p and q
+f(p) - f(q) of other functions see `two_arguments`
 log(c e^p + c e^q)             log c + max(p, q) + log1p(e^(min(p, q) - max(p, q)))
 sinh u/sinh v and similar      one exponential of the largest exponents, and decaying ones
 """
 
-from collections.abc import Iterator, Mapping
-from functools import partial
-from itertools import combinations, product
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import chain, combinations
 
 import sympy as sp
 from sympy.codegen.cfunctions import expm1, log1p
@@ -19,6 +18,7 @@ from derivation.engine.formula.differences import HYPERBOLIC, TRIGONOMETRIC, in_
 from derivation.engine.formula.proof import decide_zero
 from derivation.engine.rewrite.rules import conjugate
 from derivation.engine.rewrite.terms import UnreachableError
+from derivation.engine.rewrite.two_arguments import difference_of_functions
 
 MOST_CASES = 4
 """Largest number of differences whose signs distinguish the cases of a proof."""
@@ -35,6 +35,7 @@ def by_identities(expression: sp.Expr) -> Iterator[sp.Expr]:
             assert isinstance(written, sp.Expr)  # as `conjugate` returns for an expression
             stable = written
         stable = stable.replace(lambda node: node.is_Add, _sum)
+        stable = stable.replace(lambda node: node.is_Mul, _bounded)
         if stable != expression:
             yield stable
 
@@ -47,17 +48,36 @@ def prove_identity(written: sp.Expr, expression: sp.Expr) -> None:
     UnreachableError
         If that is not proved.
     """
+    for case in _cases(written, {}):
+        if decide_zero(case - expression) is None:
+            raise UnreachableError(f"{written} is not proved equal to {expression}")
+
+
+def _cases(written: sp.Expr, signs: Mapping[sp.Expr, int]) -> Iterator[sp.Expr]:
+    """Yield an expression without its bounds, for every sign of the differences in them."""
     bounds = written.atoms(sp.Min, sp.Max)
     if any(len(bound.args) != 2 for bound in bounds):
         raise UnreachableError(f"more than two bounds in {written}")
-    differences = list(dict.fromkeys(_difference(bound)[0] for bound in bounds))
-    if len(differences) > MOST_CASES:
+    inner = [
+        bound for bound in bounds if not any(part.atoms(sp.Min, sp.Max) for part in bound.args)
+    ]
+    if not inner:
+        yield written
+        return
+    difference, _ = _difference(min(inner, key=str))
+    if len(signs) == MOST_CASES and difference not in signs:
         raise UnreachableError(f"more than {MOST_CASES} signs in {written}")
-    for signs in product((1, -1), repeat=len(differences)):
-        chosen = dict(zip(differences, signs, strict=True))
-        case = written.replace(_is_bound, partial(_chosen, signs=chosen))
-        if decide_zero(case - expression) is None:
-            raise UnreachableError(f"{written} is not proved equal to {expression}")
+    for sign in (1, -1) if difference not in signs else (signs[difference],):
+        chosen = {**signs, difference: sign}
+        alike = {b: _chosen(b, chosen) for b in inner if _difference(b)[0] == difference}
+        if not _contradictory([own * of for of, own in chosen.items()]):
+            yield from _cases(written.xreplace(alike), chosen)
+
+
+def _contradictory(positive: Sequence[sp.Expr]) -> bool:
+    """Return whether some of the expressions cannot all be positive, because their sum is 0."""
+    subsets = chain.from_iterable(combinations(positive, n) for n in range(2, len(positive) + 1))
+    return any(sp.expand(sp.Add(*subset)) == 0 for subset in subsets)
 
 
 def _is_bound(node: sp.Basic) -> bool:
@@ -86,7 +106,7 @@ def _sum(node: sp.Expr) -> sp.Expr:
         return node
     node = in_products(node, (*TRIGONOMETRIC, *HYPERBOLIC))
     for one, other in combinations(sp.Add.make_args(node), 2):
-        product_form = _exponentials(one, other) or _inverse_tangents(one, other)
+        product_form = _exponentials(one, other) or difference_of_functions(one, other)
         if product_form is not None:
             rest = sp.Add(*(part for part in node.args if part not in (one, other)))
             return _sum(rest) + product_form
@@ -111,25 +131,12 @@ def _exponentials(one: sp.Expr, other: sp.Expr) -> sp.Expr | None:
 
 def _difference_of_exponentials(p: sp.Expr, q: sp.Expr) -> sp.Expr:
     """Return e^p - e^q without overflow of a part."""
-    d = sp.factor_terms(sp.expand(p - q))
+    d = sp.factor_terms(sp.expand(p - q, power_base=False))  # not (x/y)^n as x^n y^-n
     if d.is_positive:
         return -sp.exp(p) * expm1(-d)
     if d.is_negative:
         return sp.exp(q) * expm1(d)
     return sp.exp(sp.Max(p, q)) * (expm1(sp.Min(d, 0)) - expm1(-sp.Max(d, 0)))
-
-
-def _inverse_tangents(one: sp.Expr, other: sp.Expr) -> sp.Expr | None:
-    (c, p), (factor, q) = (_argument(part, sp.atan) for part in (one, other))
-    if p is None or q is None or c != -factor or not (p.is_positive and q.is_positive):
-        return None
-    return c * sp.atan((p - q) / (1 + p * q))
-
-
-def _argument(term: sp.Expr, kind: type[sp.Function]) -> tuple[sp.Expr, sp.Expr | None]:
-    """Return a term c f(u) as c and u; u is None without a function of this kind."""
-    functions = [f for f in sp.Mul.make_args(term) if isinstance(f, kind)]
-    return (term / functions[0], functions[0].args[0]) if len(functions) == 1 else (term, None)
 
 
 def _logarithm(argument: sp.Expr) -> sp.Expr:
@@ -177,7 +184,7 @@ def _one_bound(exponent: sp.Expr) -> sp.Expr:
 def _largest(function: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
     """Return |u| of sinh u or cosh u, and the function divided by e^|u|."""
     u = function.args[0]
-    if u.is_positive:
+    if u.is_nonnegative:
         largest, decay, difference = u, -2 * u, -expm1(-2 * u)
     else:
         largest, decay = sp.Max(u, -u), sp.Min(2 * u, -2 * u)

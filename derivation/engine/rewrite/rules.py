@@ -262,14 +262,24 @@ def series(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
             yield replace(
                 given,
                 switch=switch,
-                factors=tuple(_with_series(f, x, switch) for f in given.factors),
+                factors=tuple(with_series(f, x, switch) for f in given.factors),
             )
         except UnreachableError:
             continue
 
 
-def _with_series(factor: Factor, x: sp.Symbol, switch: sp.Rational) -> Factor:
-    """Return the factor with its leading power, and a truncated series if its parts cancel."""
+def with_series(
+    factor: Factor, x: sp.Symbol, switch: sp.Rational, *, both_signs: bool = False
+) -> Factor:
+    """Return the factor with its leading power, and a truncated series if its parts cancel.
+
+    The series holds for negative x too if `both_signs`.
+
+    Raises
+    ------
+    UnreachableError
+        If no series reaches the switch point.
+    """
     terms = terms_of(factor.value, x)
     lead = leading_power(terms)
     if lead == min(power for _, power in parts_of(terms, x)):
@@ -278,7 +288,9 @@ def _with_series(factor: Factor, x: sp.Symbol, switch: sp.Rational) -> Factor:
     rates = [key.rate for key in terms]
     shift = (max(rates) + min(rates)) / 2
     series = truncated_taylor(
-        {k._replace(rate=k.rate - shift): v for k, v in terms.items()}, switch
+        {k._replace(rate=k.rate - shift): v for k, v in terms.items()},
+        switch,
+        both_signs=both_signs,
     )
     near = series.polynomial(square if series.stride == 2 else x)
     return replace(factor, near=near, lead=lead, rate=shift, truncation=series.bound)

@@ -10,8 +10,9 @@ from itertools import permutations
 import sympy as sp
 
 from derivation.engine.rewrite.accuracy_test import ExactPoint, accuracy_test, assembled
-from derivation.engine.rewrite.compositions import Composition, compositions
+from derivation.engine.rewrite.compositions import MOST_OPERATIONS, Composition, compositions
 from derivation.engine.rewrite.form import Branch, Step, Switch
+from derivation.engine.rewrite.near_points import about_point, cancelling_points
 from derivation.engine.rewrite.rules import RULES, SWITCHES
 from derivation.engine.rewrite.stabilise import (
     Applied,
@@ -37,6 +38,8 @@ _LEAST = 1e-300
 """Smallest power of x, and inverse of the largest, for which forms are searched."""
 USUAL = 1e9
 """Largest of the usual numbers, and the inverse of the smallest."""
+FACTORS, ABOUT = "factors", "series about a point"
+"""Names of the rules that write x - p as a factor for each zero p, and that of `near_points`."""
 SURELY = 0.5 * ENOUGH
 """Error [ULP] up to which the first form is taken, because the code is tested at more points."""
 
@@ -61,13 +64,15 @@ def stabilised(
         try:
             forms.append(_tested(search(), ends, loss, rule))
         except UnreachableError as error:
-            reasons.append(error)
+            if rule not in (FACTORS, ABOUT):  # which few formulas need
+                reasons.append(error)
             continue
-        if forms[-1].worst <= SURELY:
+        wide = rule == FACTORS and forms[-1].size[0] >= range_size((1 / USUAL, USUAL))[0]
+        if forms[-1].worst <= SURELY or wide:
             return _with_account(forms[-1], ends)
     if depth:
         with contextlib.suppress(UnreachableError):
-            for direct in (_direct(expression, x), without_series(expression, x, ends)):
+            for direct in (_direct(expression, x, expression), without_series(expression, x, ends)):
                 forms.append(_tested(direct, ends, 1.0))
         forms += _joined(forms, ends)
     best = max(forms, key=lambda one: (one.size, -one.worst), default=None)
@@ -132,10 +137,22 @@ def _with_account(form: _Found, ends: tuple[float, float]) -> Stable:
     return replace(stable, applied=(row, *stable.applied))
 
 
-def _direct(expression: sp.Expr, x: sp.Symbol) -> Stable:
-    """Return the expression itself as a form."""
+def _direct(expression: sp.Expr, x: sp.Symbol, written: sp.Expr) -> Stable:
+    """Return an expression that is equal to the given one as a form."""
     zero = sp.Integer(0)
-    return Stable(expression, x, (), expression, (), math.inf, zero, decayed(expression, x))
+    return Stable(expression, x, (), written, (), math.inf, zero, decayed(expression, x))
+
+
+def _with_zeros_as_factors(expression: sp.Expr, x: sp.Symbol) -> sp.Expr:
+    """Return a rational function with a factor x - p for each positive rational zero p."""
+    if not expression.is_rational_function(x) or expression.free_symbols != {x}:
+        return expression
+    if expression.count_ops() > MOST_OPERATIONS:
+        return expression
+    above, below = (sp.Poly(part, x) for part in sp.fraction(sp.cancel(expression)))
+    if not (above.degree() > 1 and any(root > 0 for root in above.ground_roots())):
+        return expression
+    return sp.factor(above.as_expr()) / sp.factor(below.as_expr())
 
 
 def without_series(expression: sp.Expr, x: sp.Symbol, ends: tuple[float, float]) -> Stable:
@@ -187,6 +204,10 @@ def _searches(
     condition number, divided by the latter: 2/|r| - 1, because the relative error of a rounded
     number is up to one ULP of another one.
     """
+    if depth and (factored := _with_zeros_as_factors(expression, x)) != expression:
+        yield partial(_direct, expression, x, factored), 1.0, FACTORS
+    for point in cancelling_points(expression, x) if depth else ():
+        yield partial(about_point, expression, x, point), 1.0, ABOUT
     yield partial(stabilise, expression, x, ends), 1.0, ""
     for row in compositions(expression, x) if depth else ():
         _, rate = row.argument.as_independent(x)[1].as_base_exp()

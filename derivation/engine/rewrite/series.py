@@ -49,11 +49,12 @@ def leading_power(terms: Terms) -> int:
     raise UnreachableError("the sum vanishes at 0 with all its derivatives")
 
 
-def truncated_taylor(terms: Terms, switch: sp.Rational) -> Section:
+def truncated_taylor(terms: Terms, switch: sp.Rational, *, both_signs: bool = False) -> Section:
     """Return the truncated series of a sum about 0, with a relative error below 2^-55.
 
     The truncation error is bounded by Taylor's theorem term by term. The sum is at least its first
-    coefficient, less the magnitudes of all other terms unless they have the same sign.
+    coefficient, less the magnitudes of all other terms unless they have the same sign. The bound
+    holds between -switch and switch if `both_signs`.
 
     Raises
     ------
@@ -70,6 +71,7 @@ def truncated_taylor(terms: Terms, switch: sp.Rational) -> Section:
     for degree in range(2, len(coefficients)):
         rest = truncation_bound(terms, lead + stride * degree, switch) / switch**lead
         same = all(c * coefficients[0] >= 0 for c in coefficients[:degree])
+        same = same and (stride == 2 or not both_signs)
         lowest = sizes[0] - (0 if same else sp.Add(*sizes[1:degree])) - rest
         if lowest > 0 and rest / lowest < UNIT_ROUNDOFF / 4:
             return Section(lead, stride, tuple(coefficients[:degree]), rest / lowest)

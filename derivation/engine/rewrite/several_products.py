@@ -25,6 +25,7 @@ from derivation.engine.rewrite.dimensionless import Product, reduced
 from derivation.engine.rewrite.exact_sums import by_exact_sums
 from derivation.engine.rewrite.form import Block, Step, Switch
 from derivation.engine.rewrite.identities import by_identities
+from derivation.engine.rewrite.near_points import about_point
 from derivation.engine.rewrite.products import (
     NAMES,
     Powers,
@@ -293,9 +294,10 @@ class _Writer:
 
     def _alone(self, part: sp.Expr, x: sp.Symbol) -> sp.Expr:
         """Return a part of one variable in its stable form, as a block if it has several steps."""
-        if part.is_Symbol or (part.is_Pow and part.base == x) or x not in self.ranges:
+        known = part.is_Symbol or (part.is_Pow and part.base == x)
+        if known or (x not in self.ranges and part.is_rational_function(x)):
             return sp.factor(part) if part.is_rational_function(x) else part
-        stable = _stable(part, x, self.ranges[x])
+        stable = _stable(part, x, self.ranges[x]) if x in self.ranges else _about_zero(part, x)
         if stable is None:
             return part
         self.found.append((((x, sp.Integer(1)),), stable))
@@ -321,6 +323,15 @@ def _stable(part: sp.Expr, x: sp.Symbol, ends: tuple[float, float]) -> Stable | 
         if test.worst(part) <= ACCURATE:
             return None
         return stabilised(part, x, ends)
+    except UnreachableError:
+        return None
+
+
+@lru_cache(maxsize=1024)
+def _about_zero(part: sp.Expr, x: sp.Symbol) -> Stable | None:
+    """Return the form about 0 of a part of a variable of any sign; None if nothing cancels."""
+    try:
+        return about_point(part, x, sp.Integer(0))
     except UnreachableError:
         return None
 

@@ -126,14 +126,26 @@ def check_several(
             low, high = float(f"1e-{decade}"), float(f"1e{decade}")
             limit = stated_error(worst[0] + MARGIN)
             return SeveralCheck(low, high, limit, worst[0], at, len(errors), share)
-    where = ", ".join(f"{v} = {x!r}" for v, x in zip(variables, worst[1], strict=False))
+    if worst[0] <= ENOUGH or not worst[1]:
+        raise UnreachableError(
+            f"{expression} has values from {LEAST_VALUE:g} to {LARGEST_VALUE:g} at {len(errors)} "
+            f"of the tested points, expected {ENOUGH_POINTS}; correct the conditions on its "
+            "variables"
+        )
+    where = ", ".join(f"{v} = {x!r}" for v, x in zip(variables, worst[1], strict=True))
+    domain = "state the domains of the variables" if words is None else "narrow the domains"
     raise UnreachableError(
-        f"the form found for {expression} has an error of {worst[0]:.2g} ULP"
-        f"{f' at {where}' if where else ''}, expected at most {ENOUGH:g}; write the formula in "
-        "variables that need not be subtracted, such as a difference of two, or rewrite its parts "
-        "by themselves",
+        f"no form found for {expression} is accurate: the best one {_error_text(worst[0])} at "
+        f"{where}, expected at most {ENOUGH:g} ULP; its terms cancel or overflow there, and no "
+        f"rule prevents that: {domain} (--where) if such values do not occur, write the formula "
+        "in variables that need not be subtracted, such as a difference of two, or rewrite its "
+        "parts by themselves",
         worst[0],
     )
+
+
+def _error_text(error: float) -> str:
+    return "has no finite value" if math.isinf(error) else f"has an error of {error:.2g} ULP"
 
 
 def _points(draw: random.Random, decade: int, count: int) -> Iterator[Point]:
@@ -178,7 +190,7 @@ def _points_inside(
     drawn = joint_points(seed, names, words, decade, JOINT)
     signs = [(point, sign(point)) for point in drawn[:FEW]]
     found: Iterable[Mapping[str, float]] = (
-        *domain_grid(seed, names, words, {}),
+        *domain_grid(str(expression), names, words, {}, seed),
         *drawn,
         *(point for point in towards_zeros(signs, sign) if inside(words, point)),
     )

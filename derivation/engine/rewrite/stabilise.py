@@ -261,4 +261,8 @@ def failure(expression: sp.Expr, x: sp.Symbol, worst: float) -> str:
             break
     else:
         stopped = "; no rule applies to the rest"
-    return f"the rules give a form of {expression!s:.80} that {size} for some {x} > 0{stopped}"
+    return (
+        f"the rules give a form of {expression!s:.80} that {size} for some {x} > 0{stopped}; state "
+        f"the domain of {x} if such values do not occur, or rewrite parts of the formula by "
+        "themselves"
+    )

@@ -1,12 +1,14 @@
-"""Formulas with roots or the logarithm of one linear expression, in a variable that suits them.
+"""Formulas with roots, a logarithm or an inverse function, in a variable that suits them.
 
 roots of 1 + b x     y = |(1 + b x)^(1/q) - 1|; a rational function is left, in which sums that
                      cancel become products: sqrt(1 + x) - 1 - x/2 = -y^2/2
+asin(b x)            u = asin(b x); sqrt(1 - b^2 x^2) is cos u
+asinh(b x)           u = asinh(b x); sqrt(1 + b^2 x^2) is cosh u
 log(1 + b x)         t = |b| x/(2 + b x) and |log(1 + b x)| = 2 atanh t, whose series converges for
                      every x
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import sympy as sp
@@ -47,6 +49,7 @@ class Substitution:
 
 def substitutions(expression: sp.Expr, x: sp.Symbol) -> Iterator[Substitution]:
     """Yield the formula in the other variable, if that makes it simpler."""
+    yield from _in_inverse_function(expression, x)
     roots = {node for node in expression.atoms(sp.Pow) if node.has(x) and not node.exp.is_Integer}
     logarithms = {node for node in expression.atoms(sp.log) if node.has(x)}
     bases = {node.base for node in roots} | {node.args[0] for node in logarithms}
@@ -61,6 +64,35 @@ def substitutions(expression: sp.Expr, x: sp.Symbol) -> Iterator[Substitution]:
         yield from _in_root(expression, x, {node: node.exp for node in roots}, start, b)
     elif logarithms and start == 1:
         yield from _in_inverse_tangent(expression, x, sp.log(base), b)
+
+
+INVERSES: Mapping[type[sp.Function], tuple[type[sp.Function], type[sp.Function], int]] = {
+    sp.asin: (sp.sin, sp.cos, -1),
+    sp.asinh: (sp.sinh, sp.cosh, 1),
+}
+"""The function whose inverse it is, its derivative g', and the sign in (g')^2 = 1 +- g^2."""
+
+
+def _in_inverse_function(expression: sp.Expr, x: sp.Symbol) -> Iterator[Substitution]:
+    """Yield a formula with asin(b x) or asinh(b x) and its root in the value of this function."""
+    inverses = expression.atoms(*INVERSES)
+    if len(inverses) != 1:
+        return
+    (inverse,), (u,) = inverses, _symbols("angle", x)
+    function, derivative, sign = INVERSES[inverse.func]
+    b = inverse.args[0] / x
+    if not (b.is_Rational and b > 0):
+        return
+    root = sp.Dummy(positive=True)
+
+    def is_root(node: sp.Basic) -> bool:
+        return isinstance(node, sp.Pow) and sp.expand(node.base - 1 - sign * b**2 * x**2) == 0
+
+    written = expression.replace(is_root, lambda node: root ** (2 * node.exp))
+    written = written.xreplace({inverse: u, x: function(u) / b}).xreplace({root: derivative(u)})
+    if not written.has(sp.Pow) or all(node.exp.is_Integer for node in written.atoms(sp.Pow)):
+        end = 1 / b if sign < 0 else sp.oo
+        yield Substitution(sp.Integer(1), written, u, (Step(u, inverse),), function(u) / b, end)
 
 
 def _in_root(

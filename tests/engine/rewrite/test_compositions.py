@@ -54,6 +54,28 @@ def test_a_substitution_does_not_change_the_formula(
         assert equal.evalf(30) == pytest.approx(formula.xreplace(at).evalf(30), rel=1e-20)
 
 
+@pytest.mark.parametrize(
+    "formula",
+    [
+        sp.asin(x / 2) - x * sp.sqrt(4 - x**2) / 4,
+        (2 * x**2 - 1) * sp.asin(x) / sp.sqrt(1 - x**2) ** 3,
+        x * sp.asinh(3 * x) - sp.sqrt(1 + 9 * x**2),
+    ],
+)
+def test_a_formula_equals_that_in_the_value_of_an_inverse_function(formula: sp.Expr) -> None:
+    rows = list(substitutions(formula, x))
+    if formula.has(sp.sqrt(4 - x**2)):
+        assert not rows  # only a root of 1 - b^2 x^2 is a cosine
+        return
+    (row,) = rows
+    assert not row.expression.has(x, sp.asin, sp.asinh)
+    at = {x: sp.Rational(1, 7)}
+    u = row.steps[0].expression.xreplace(at)
+    assert row.inverse.xreplace({row.variable: u}).evalf(30) == pytest.approx(at[x], rel=1e-25)
+    equal = row.expression.xreplace({row.variable: u}).evalf(30)
+    assert equal == pytest.approx(formula.xreplace(at).evalf(30), rel=1e-25)
+
+
 @settings(max_examples=30, deadline=None)
 @given(
     st.sampled_from(["{u} - sin({u})", "exp(-{u}) - 1", "{u}*cos({u})", "log(1 + {u})/{u}"]),

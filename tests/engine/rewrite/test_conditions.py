@@ -19,6 +19,7 @@ FORMULAS = {
     ("tanh(x) - x", "-1 < x < 1"): lambda x: mp.tanh(x) - x,
     ("1 - cos(x)", "-10 <= x <= 10"): lambda x: 2 * mp.sin(x / 2) ** 2,
     ("sqrt(1 + x) - 1", "-1 < x < 1"): lambda x: mp.sqrt(1 + x) - 1,
+    ("log(1 + e) - e", "-0.9 < e < 10"): lambda e: mp.log1p(e) - e,
     ("acos(r/a)", "r < a"): lambda r, a: mp.acos(r / a),
 }
 SPECIAL = -1.0, 0.5, 1.0, -10.0, 10.0
@@ -47,7 +48,7 @@ def test_stated_error_holds_inside_the_domain(text: str, where: str) -> None:
         point = [some_number(draw) for _ in names]
         values = dict(zip(names, point, strict=True))
         inside = eval(where, {}, values) and all(
-            x > 0 or name in ("nu", "x") for name, x in values.items()
+            x > 0 or name in ("nu", "x", "e") for name, x in values.items()
         )
         computed = float(space["f"](*point))
         if not inside:
@@ -101,8 +102,17 @@ def test_other_conditions_are_refused(where: str, reason: str) -> None:
 
 
 def test_conditions_that_exclude_each_other_are_refused() -> None:
-    with pytest.raises(ValueError, match="exclude each other"):
+    message = (
+        r"1 - 2\*nu cannot be tested: none of 1600 random points satisfies nu > 1, nu < 0.5; these "
+        "conditions exclude each other"
+    )
+    with pytest.raises(ValueError, match=message):
         rewrite_text("1 - 2*nu", where=["nu > 1", "nu < 0.5"])
+
+
+def test_a_formula_without_values_in_its_domain_is_refused_with_the_reason() -> None:
+    with pytest.raises(ValueError, match="at 0 of the tested points, expected 100; correct the"):
+        rewrite_text("sqrt(x - 2)", where=["x < 1"])
 
 
 def test_a_condition_that_is_rounded_does_not_narrow_the_range() -> None:

@@ -1,6 +1,7 @@
 """The command `platecontact sweep`: a parameter study, its file, table and figure."""
 
 import os
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -27,7 +28,10 @@ def sweep(
     ] = None,
     distributions: Annotated[
         Path | None,
-        typer.Option(metavar="FILE.toml", help="Sample from the distributions in this file."),
+        typer.Option(
+            metavar="FILE.toml",
+            help="Sample from the distributions in this file (default: [vary] of the scene).",
+        ),
     ] = None,
     sample: Annotated[
         int | None, typer.Option(metavar="N", help="Number of points of the sample.")
@@ -82,7 +86,8 @@ def sweep(
     To continue an interrupted study, run the same command again: finished batches are kept in the
     folder FILE.parts next to the file of --out.
     """
-    from derivation.scene import SceneError, load
+    from derivation.scene import SceneError
+    from derivation.scene.scene import load_with_distributions
     from derivation.sweep import api, plots
     from derivation.sweep.dataset import check_memory
     from derivation.sweep.study import Study
@@ -90,9 +95,15 @@ def sweep(
     folder = out is not None and out.suffix == ".zarr"
     check_outputs(scene, json, plot, out=None if folder else out, distributions=distributions)
     sampling = (distributions, sample, seed, method, sensitivity or None)
-    given = _given(vary, distributions, sample, any(x is not None for x in sampling))
+    whole, table = load_with_distributions(scene)
+    given = vary or _distributions(scene, table, distributions, sample)
+    if vary and any(x is not None for x in sampling):
+        raise SceneError(
+            "--vary defines a grid and cannot be combined with --distributions, --sample, --seed, "
+            "--method or --sensitivity; remove --vary, or the other options"
+        )
     seed, method = 1 if seed is None else seed, method or "random"
-    study = Study(load(scene), api.make_plan(given, sample, seed, method, sensitivity), rtol)
+    study = Study(whole, api.make_plan(given, sample, seed, method, sensitivity), rtol)
     api.check(study, out)
     if explain:
         _explain(study, scheduler, json)
@@ -108,26 +119,22 @@ def sweep(
     _run(study, out, plot, results, scheduler, retry, sensitivity, json, title(scene))
 
 
-def _given(
-    vary: list[str] | None, distributions: Path | None, sample: int | None, sampling: bool
+def _distributions(
+    scene: Path, table: Mapping[str, Any], distributions: Path | None, sample: int | None
 ) -> Any:
-    """Return the keys of a grid as text, or the distributions of a sample."""
+    """Return the distributions of a sample: of their file, or else of the scene."""
     from derivation.scene import SceneError
-    from derivation.sweep.distributions import load_distributions
+    from derivation.sweep.distributions import distributions_of, load_distributions
 
-    if vary and sampling:
+    if not (distributions or table) or sample is None:
         raise SceneError(
-            "--vary defines a grid and cannot be combined with --distributions, --sample, --seed, "
-            "--method or --sensitivity; remove --vary, or the other options"
+            "sweep: expected --vary KEY=VALUES for a grid, or --sample N and distributions for a "
+            "sample, in a table [vary] of the scene or in a --distributions FILE; add one of the "
+            "two"
         )
-    if vary:
-        return vary
-    if distributions is None or sample is None:
-        raise SceneError(
-            "sweep: expected --vary KEY=VALUES for a grid, or --distributions FILE and --sample N "
-            "for a sample; add one of the two"
-        )
-    return load_distributions(distributions)
+    if distributions:
+        return load_distributions(distributions)
+    return distributions_of(table, title(scene))
 
 
 def _explain(study: "Study", scheduler: str | None, json: str | None) -> None:

@@ -1,6 +1,5 @@
 """Reads and validates a scene file; one message lists all problems of its tables and keys."""
 
-import tomllib
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
@@ -8,11 +7,9 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, cast
 
 from pydantic import Field, ValidationError
 
-from derivation.engine.files import read_file
-from derivation.engine.printable import one_line
 from derivation.scene.errors import IncompleteError as IncompleteError
 from derivation.scene.errors import SceneError as SceneError
-from derivation.scene.input import old_names, toml_errors
+from derivation.scene.input import old_names
 from derivation.scene.input.bodies import Material as Material
 from derivation.scene.input.bodies import Plate as Plate
 from derivation.scene.input.bodies import Positive
@@ -35,11 +32,12 @@ from derivation.scene.input.table import (
     problems,
     problems_of,
 )
+from derivation.scene.input.toml_file import name_of, read_toml
 from derivation.scene.output.html import html_table
 
 Wanted = Literal["auto"] | bool
-LARGEST = 2**20
-"""Largest size of a scene file [bytes]."""
+VARY = "vary"
+"""Table of a scene file with the distributions of a sample, for `platecontact sweep`."""
 
 
 class Impact(Table):
@@ -237,7 +235,7 @@ def load(path: str | Path) -> Scene:
     path
         TOML file with the tables ``sphere``, ``plate`` and ``impact``, in SI units, and
         optionally ``accuracy``, ``effects``, ``inertia``, ``measured`` and ``materials``; "-" for
-        standard input.
+        standard input. Distributions for `platecontact sweep` in a table ``vary`` are ignored.
 
     Returns
     -------
@@ -257,30 +255,29 @@ def load(path: str | Path) -> Scene:
     >>> pc.load("glass_pane.toml").plate.edge
     'simply-supported'
     """
-    name = "standard input" if str(path) == "-" else one_line(str(path), 200)
-    text = ""
-    try:
-        # Some editors begin a file with a byte-order mark, which TOML does not know.
-        text = read_file(Path(path), LARGEST).decode("utf-8-sig")
-        data = tomllib.loads(text)
-    except OSError as error:
-        reason = error.strerror or error
-        raise SceneError(
-            f"{name}: cannot read the scene file ({reason}); {remedy(Path(path))}"
-        ) from None
-    except UnicodeDecodeError as error:
-        raise SceneError(
-            f"{name}: expected UTF-8 text, got another encoding (at byte {error.start}); save the "
-            "file as UTF-8"
-        ) from None
-    except tomllib.TOMLDecodeError as error:
-        raise SceneError(f"{name}: not valid TOML: {toml_errors.in_words(error, text)}") from None
-    except (ValueError, RecursionError):  # more digits or brackets than Python can read
-        raise SceneError(
-            f"{name}: expected TOML, got a number or nested brackets that are too long to read; "
-            "write each line as `key = value`, such as `radius = 0.13`"
-        ) from None
-    return _scene(data, name)
+    data, _ = _tables(path)
+    return _scene(data, name_of(path))
+
+
+def load_with_distributions(path: str | Path) -> tuple[Scene, Mapping[str, Any]]:
+    """Return the scene of a file, and its table `[vary]` of distributions for a sample.
+
+    A scene by itself has no use for the table.
+
+    Raises
+    ------
+    SceneError
+        As for `load`.
+    """
+    data, given = _tables(path)
+    return _scene(data, name_of(path)), given
+
+
+def _tables(path: str | Path) -> tuple[dict[str, Any], Mapping[str, Any]]:
+    """Return the tables of a scene in a file, and its distributions."""
+    data = read_toml(path, "the scene file", remedy(Path(path)), "`radius = 0.13`")
+    given = data.pop(VARY, {}) if isinstance(data.get(VARY, {}), Mapping) else {}
+    return data, given
 
 
 def read(data: Mapping[str, Any], source: str = "scene") -> Scene:

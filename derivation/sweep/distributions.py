@@ -1,7 +1,6 @@
 """Distributions of varied quantities, from a TOML file or from mappings."""
 
 import math
-import tomllib
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -10,13 +9,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from derivation.engine.files import read_file
 from derivation.engine.nearest import nearest
 from derivation.engine.printable import one_line
 from derivation.scene.errors import SceneError
 from derivation.scene.input.keys import takes_names, varied_key
 from derivation.scene.input.messages import shown
 from derivation.scene.input.table import is_number, plain_keys
+from derivation.scene.input.toml_file import name_of, read_toml
+from derivation.scene.scene import VARY
 from derivation.scene.sweep import Values
 from derivation.sweep.values import different, names_among, numbers_among
 
@@ -36,8 +36,6 @@ WIDEST = 1e100
 """Largest standard deviation of a lognormal distribution, over its mean."""
 CHOICE = '{distribution = "choice", values = ["glass", "steel"]}'
 EXAMPLE = '"plate.thickness" = {distribution = "uniform", low = 4e-3, high = 12e-3}'
-LARGEST = 2**20
-"""Largest size of a file of distributions [bytes]."""
 
 
 @dataclass(frozen=True)
@@ -109,28 +107,30 @@ def load_distributions(path: Path) -> dict[str, Distribution | UniformChoice]:
     SceneError
         If it cannot be read, or does not contain valid distributions.
     """
-    name = one_line(str(path), 200)
-    try:
-        data = tomllib.loads(read_file(path, LARGEST).decode("utf-8-sig"))
-    except OSError as error:
-        reason = error.strerror or error
-        raise SceneError(f"{name}: cannot read the distributions ({reason}); check its name") from (
-            None
+    data = read_toml(path, "the distributions", "check its name", EXAMPLE)
+    if set(data) != {VARY}:
+        got = ", ".join(one_line(key, 40) for key in data) or "nothing"
+        raise SceneError(
+            f"{name_of(path)}: expected one table [vary] with lines such as {EXAMPLE}, got {got}"
         )
-    except (ValueError, RecursionError) as error:
-        problem = one_line(str(error), 200)
-        raise SceneError(f"{name}: not valid TOML: {problem}; write lines such as {EXAMPLE}") from (
-            None
-        )
-    table = data.get("vary")
+    return distributions_of(data[VARY], name_of(path))
+
+
+def distributions_of(table: Any, name: str) -> dict[str, Distribution | UniformChoice]:
+    """Return the distributions in the table `[vary]` of a file.
+
+    Raises
+    ------
+    SceneError
+        If it is no table of valid distributions.
+    """
     table = table if isinstance(table, Mapping) else {}
     unquoted = next((key for key, given in table.items() if _has_unquoted_dot(given)), None)
-    if set(data) != {"vary"} or not table or unquoted is not None:
-        got = ", ".join(one_line(key, 40) for key in data) or "nothing"
-        got = got if unquoted is None else f"a table {one_line(unquoted, 40)} in it"
+    if not table or unquoted is not None:
+        got = "none" if unquoted is None else f"a table {one_line(unquoted, 40)} in it"
         raise SceneError(
-            f"{name}: expected one table [vary] with lines such as {EXAMPLE}, got {got}; "
-            "put a key with a dot in quotes"
+            f"{name}: expected lines such as {EXAMPLE} in the table [vary], got {got}; put a key "
+            "with a dot in quotes"
         )
     try:
         return read_distributions(table)

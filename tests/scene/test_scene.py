@@ -148,7 +148,7 @@ def test_unreadable_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Non
     def refuse(path: Path, *_: object) -> bytes:
         raise PermissionError(13, "Permission denied", str(path))
 
-    monkeypatch.setattr("derivation.scene.scene.read_file", refuse)
+    monkeypatch.setattr("derivation.scene.input.toml_file.read_file", refuse)
     with pytest.raises(SceneError, match=r"Permission denied"):
         load(path)
 

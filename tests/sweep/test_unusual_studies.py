@@ -89,9 +89,43 @@ def test_the_distributions_are_not_overwritten(
     assert path.read_text() == once
 
 
-def test_a_table_of_distributions_in_a_scene_belongs_into_another_file() -> None:
-    with pytest.raises(pc.SceneError, match="--distributions FILE"):
-        pc.read(scene().to_json() | {"vary": {"plate.material": ["glass"]}})
+VARY = """
+[vary]
+"impact.speed" = {distribution = "uniform", low = 0.5, high = 1.5}
+"""
+
+
+def test_distributions_in_the_scene_equal_those_in_a_file(tmp_path: Path) -> None:
+    """Other commands read the same scene as without the table."""
+    together, apart = tmp_path / "both.toml", tmp_path / "vary.toml"
+    together.write_text(QUICK.read_text() + VARY)
+    apart.write_text(VARY)
+    sample = ["--sample", "4", "--seed", "3", "--out"]
+    one, other = tmp_path / "one.csv", tmp_path / "other.csv"
+    assert main(["sweep", str(together), *sample, str(one)]) == 0
+    assert main(["sweep", str(QUICK), "--distributions", str(apart), *sample, str(other)]) == 0
+    assert one.read_bytes() == other.read_bytes()
+    assert pc.load(together) == pc.load(QUICK)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ('[vary]\nimpact.speed = {distribution = "uniform", low = 1, high = 2}', "in quotes"),
+        ("[vary]", "add one of the two"),
+        ("", "a table [vary] of the scene"),
+        ('vary = "speed"', "vary: expected distributions"),
+    ],
+)
+def test_unusable_distributions_of_a_scene_are_rejected(
+    text: str, message: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    path = tmp_path / "scene.toml"
+    path.write_text(f"{text}\n{QUICK.read_text()}" if "=" in text[:6] else QUICK.read_text() + text)
+    assert main(["sweep", str(path), "--sample", "4"]) == 2
+    assert message in " ".join(capsys.readouterr().err.split())
+    with pytest.raises(pc.SceneError, match="vary: expected distributions only in a scene file"):
+        pc.read(scene().to_json() | {"vary": {}})
 
 
 def test_an_output_in_use_is_rejected(tmp_path: Path) -> None:

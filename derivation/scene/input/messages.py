@@ -230,8 +230,8 @@ def _unknown(location: tuple[int | str, ...], fields: Fields) -> str:
     key = str(location[-1])
     if location == ("vary",):
         return (
-            "vary: unknown table; write the values of a sweep after --vary, and distributions to a "
-            "file of their own for `platecontact sweep SCENE.toml --distributions FILE.toml`"
+            "vary: expected distributions only in a scene file, for `platecontact sweep SCENE.toml "
+            "--sample N`; give them to `sweep` in Python"
         )
     if location in UNKNOWN:
         return f"{name}: unknown key: {UNKNOWN[location]}"

@@ -45,6 +45,7 @@ def rewrite(
     from derivation.engine import build
     from derivation.engine.emit.own_formula import rewrite_text
     from derivation.engine.outputs import plain
+    from derivation.engine.rewrite.products import ProductForm
 
     if formula:
         expect_no_other_options(paper, "--update and --json (and no formula)", formula)
@@ -55,6 +56,7 @@ def rewrite(
             )
         with stage("rewrite"):
             stable, source, tested = rewrite_text(formula, variable, where or ())
+        several = isinstance(stable, ProductForm)
         transformations = [("", rule) for rule in stable.applied]
         applied = [asdict(rule) for rule in stable.applied]
         data: object = {"source": source, "tested": asdict(tested), "applied": applied}
@@ -66,7 +68,7 @@ def rewrite(
         transformations = [
             (account.name, applied) for account in accounts for applied in account.applied
         ]
-        data, source = {"rows": [asdict(account) for account in accounts]}, ""
+        data, source, several = {"rows": [asdict(account) for account in accounts]}, "", False
     if write_json_output(lambda: plain(data), json):
         rows = [
             (name, a.rule, a.cause, *(f"{without:.3g}/{with_:.3g}" for without, with_ in
@@ -78,6 +80,8 @@ def rewrite(
         title = "Each rule: operations and largest error without/with it"
         if rows:
             table(title, heads[first:], [row[first:] for row in rows])
+        elif several:
+            OUT.say("For a formula of several variables, the rules are not compared one by one.\n")
         else:
             OUT.say("No rule reduces the error of this formula.\n")
         OUT.say(source)

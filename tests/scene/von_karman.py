@@ -143,7 +143,7 @@ def impact(
     """
     centre, omega = plate.shapes[-1], plate.frequencies
     contact = 2.9 * (mass**2 / (stiffness**2 * speed)) ** 0.2
-    dt = min(contact / 200.0, 0.2 / omega[-1])
+    dt = min(contact / 100.0, 0.25 / omega[-1])
     cosine, sine = np.cos(omega * dt), np.sin(omega * dt)
     q, rate, y, v, t = 0.0 * omega, 0.0 * omega, 0.0, speed, 0.0
     first, last = 0.0, contact

@@ -10,6 +10,7 @@ from derivation.plate.report.prose import REFERENCES
 NEEDED = {
     "article": {"author", "title", "journal", "volume", "pages", "year", "doi"},
     "book": {"author", "title", "publisher", "year"},
+    "incollection": {"author", "title", "booktitle", "publisher", "year"},
     "misc": {"title", "howpublished", "year"},
 }
 """Required fields of an entry, by its type."""

@@ -95,7 +95,7 @@ class Result:
     effects: SelectedEffects = field(repr=False)
     times: tuple[float, ...] | None = None
     inertia_neglected: bool = False
-    model_errors: Mapping[str, float] = field(default_factory=dict, repr=False)
+    model_errors: Mapping[str, float] = field(kw_only=True, repr=False)
 
     @cached_property
     def max_tensile_stress(self) -> float:

@@ -13,6 +13,8 @@ _BY_EDGE = {
     SUPPORTED: kernels.stiffening_supported,
     CLAMPED: kernels.stiffening_clamped,
 }
+"""Stiffening by stretching over (w/H)^2, as a function of Poisson's ratio; other edges are the
+paper's."""
 
 
 def stretching(model: Model, deflection: Numbers) -> Numbers:

@@ -2,7 +2,7 @@
 
 The estimates are multiples of the relative stiffening S = A (w/H)^2 under a static load. Their
 factors were chosen so that they cover the differences between a linear and a von Karman plate in
-460 simulated impacts of one to 150 contacts, with w/H from 0.1 to 7 and three edges (see
+460 simulated impacts of one to 150 contacts, with w/H from 0.05 to 7 and three edges (see
 `tests/scene/von_karman.py`). They are not proved.
 """
 

@@ -262,7 +262,7 @@ def load(path: str | Path) -> Scene:
 def load_with_distributions(path: str | Path) -> tuple[Scene, Mapping[str, Any]]:
     """Return the scene of a file, and its table `[vary]` of distributions for a sample.
 
-    A scene by itself has no use for the table.
+    The table is not part of the scene.
 
     Raises
     ------

@@ -46,7 +46,7 @@ def test_error_covers_the_difference_between_a_linear_and_a_stretched_plate(name
     result = moving(name)
     model, plate = result.model, SCENES[name]["plate"]
     assert result.dynamics is not None
-    nu = model.lam / (2.0 * (model.lam + model.mu))
+    nu = model.poissons_ratio
     thin = ThinPlate(
         2.0 * model.mu * (1.0 + nu), nu, model.density, plate["thickness"], plate["radius"],
         plate["edge"], modes=10, points=80,

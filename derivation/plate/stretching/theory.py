@@ -1,7 +1,7 @@
 """Step 33: stiffening of a thin plate by stretching, to first order in its deflection.
 
 A plate that deflects by a fraction of its thickness H stretches its middle plane. Its equations
-(von Karman, 1910), for a load P on the axis and a middle plane that moves by u(r), are
+(von Karman, 1910), under a load P on the axis, with the radial displacement u(r) of this plane, are
 
     D laplacian^2 w = (1/r) d/dr(r N_r w') + P delta(r)/(2 pi r),   d(r N_r)/dr = N_phi,
     N_r = (12 D/H^2) (u' + w'^2/2 + nu u/r),   N_phi = (12 D/H^2) (u/r + nu (u' + w'^2/2)).
@@ -13,8 +13,8 @@ first equation then gives the force at the deflection w_0 to first order:
     P = k w_0 (1 + A w_0^2/H^2),   k A w_0^3/H^2 = (2 pi/w_0) int_0^b N_r w'^2 r dr.
 
 A clamped edge holds the middle plane (u = 0), a simply supported edge does not (N_r = 0), and the
-paper's edge has u' + u/r = 0. For nu = 0.3 the values 0.445 and 0.272 are those of Timoshenko and
-Woinowsky-Krieger, Theory of Plates and Shells, 2nd ed. 1959, table 82 (0.443 and 0.272).
+paper's edge has u' + u/r = 0. For nu = 0.3, A is 0.445 and 0.272; Timoshenko and Woinowsky-Krieger,
+Theory of Plates and Shells, 2nd ed. 1959, table 82, have 0.443 and 0.272.
 """
 
 from functools import cache
@@ -30,7 +30,7 @@ _first, _second, _third = sp.symbols("first second third")
 
 
 class Edge(NamedTuple):
-    """An edge: its g, and the quantity of the middle plane that vanishes there."""
+    """An edge: its g, and the quantities of bending and of the middle plane that vanish there."""
 
     g: sp.Expr
     bending: sp.Expr

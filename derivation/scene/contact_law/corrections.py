@@ -27,7 +27,7 @@ def stretching(model: Model, deflection: Numbers) -> Numbers:
     deflection
         Deflection on the axis under a static load [m].
     """
-    nu = np.asarray(model.lam / (2.0 * (model.lam + model.mu)))
+    nu = np.asarray(model.poissons_ratio)
     ratio = deflection / (2.0 * model.h)
     size: Numbers = _BY_EDGE.get(model.edge, kernels.stiffening_paper)(nu) * ratio * ratio
     return size

@@ -51,7 +51,7 @@ def edge_remainder(model: Model, a: float) -> float:
         If the error exceeds 1 %, or h/b or a/b is above the range of the table.
     """
     kind = "supported" if model.edge == SUPPORTED else "clamped"
-    nu = model.lam / (2.0 * (model.lam + model.mu))
+    nu = model.poissons_ratio
     coordinates = {"h_over_b": model.eta, "nu": nu, "a_over_b": a / model.b}
     axes = _axes()
     for name, axis in zip(_KEYS, axes, strict=True):
@@ -77,7 +77,7 @@ def edge_remainder(model: Model, a: float) -> float:
 def edge_remainders(model: Model, a: Array) -> Array:
     """Return the model errors of many scenes as a column; NaN if `edge_remainder` rejects one."""
     kind = "supported" if model.edge == SUPPORTED else "clamped"
-    nu = model.lam / (2.0 * (model.lam + model.mu))
+    nu = model.poissons_ratio
     axes, coordinates = _axes(), np.broadcast_arrays(model.eta, nu, a / model.b)
     known = (coordinates[0] <= axes[0][-1]) & (coordinates[2] <= axes[2][-1])
     ends = []

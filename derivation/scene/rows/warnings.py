@@ -32,8 +32,8 @@ from generated.arrays import Double as Array
 _ROUNDING = 1e-9
 """Relative distance from a limit at which a row is examined, for rounding."""
 _MODEL = (
-    "m", "R", "h", "b", "lam", "mu", "density", "solid_density", "lightest_density", "yield_stress",
-    "plate_yield_stress",
+    "m", "R", "h", "b", "poissons_ratio", "density", "solid_density", "lightest_density",
+    "yield_stress", "plate_yield_stress",
 )  # fmt: skip
 """Numbers of the model that warnings use."""
 Mask = NDArray[np.bool_]

@@ -95,22 +95,19 @@ def write(
     """
     folder, plan = writable_folder(out, paper.report_folder), paper.report()
     texts = documents(paper, sections)
-    drawn = {
-        key: figure
-        for key, figure in plan.figures().items()
-        if any(text.shows(key) for text in texts.values())
-    }
+    shown = {name for text in texts.values() for name in text.figures}
+    drawn = {key: figure for key, figure in plan.figures().items() if key in shown} if shown else {}
     vectors = {key: figure_file(figure, ".svg") for key, figure in drawn.items()}
     with ThreadPoolExecutor() as pool:  # pandoc is another process
         pages = pool.map(lambda text: page(text, text.title, vectors), texts.values())
+        drawings = {key: figure_file(figure, ".pdf") for key, figure in drawn.items()}
     contents: dict[Path, str | bytes] = {
         folder / f"{name}.tex": text.document(version("platecontact"))
         for name, text in texts.items()
     }
     contents |= {folder / f"{name}.html": page for name, page in zip(texts, pages, strict=True)}
     contents[folder / "report.bib"] = plan.prose.references.bib()
-    for key, figure in drawn.items():
-        contents[folder / "figures" / f"{key}.pdf"] = figure_file(figure, ".pdf")
+    contents |= {folder / "figures" / f"{key}.pdf": made for key, made in drawings.items()}
     if out is None and not sections:
         contents.update(plan.accompanying_files(paper.folder))
     write_files(contents)

@@ -43,9 +43,10 @@ class Text:
     sections: tuple[str, ...]
     references: str
 
-    def shows(self, figure: str) -> bool:
-        """Return whether a section contains the figure of this name."""
-        return any(f"figures/{figure}.pdf" in section for section in self.sections)
+    @property
+    def figures(self) -> set[str]:
+        """Names of the figures in the sections."""
+        return set(re.findall(r"\{figures/([\w-]+)\.pdf\}", "".join(self.sections)))
 
     def document(self, version: str) -> str:
         """Return the whole file; it states the version of the program."""

@@ -60,7 +60,7 @@ class ContactInterval(NamedTuple):
     peak_force
         Largest contact force [N].
     relative_approach_speed
-        Speed at which sphere and plate meet, over the impact speed [1].
+        Speed at which sphere and face of the plate meet, over the impact speed [1].
     """
 
     start: float

@@ -76,8 +76,10 @@ def test_history_at_given_times() -> None:
     for bad in ([-1e-9], [2 * whole.contact_time], [math.nan], [math.inf], table):
         with pytest.raises(SceneError, match=r"^times: "):
             simulate(scene, times=bad)
-    with pytest.raises(SceneError, match=r"^n: .*2"):
-        whole.history(1)
+    wrong: Any
+    for wrong in (1, 2.5, "5"):
+        with pytest.raises(SceneError, match=r"^n: .*2"):
+            whole.history(wrong)
 
 
 def test_json_keys_and_notebook_table() -> None:

@@ -255,14 +255,18 @@ class Measurement:
         if abs(now.above) < close * self.goal:
             return now, now
         # Towards a larger energy loss if the restitution is too large, else towards a smaller one.
-        step = more if now.above > 0.0 else -more
+        falling, back = now.above > 0.0, False
+        step = more if falling else -more
         points = [now]
         for _ in range(STEPS):
-            points.append(now := self._point(now.x + step))
-            if now.above * step * more <= 0.0:
+            points.append(now := self._point(points[-1].x + step))
+            if (now.above <= 0.0) if falling else (now.above >= 0.0):
+                if back and falling:
+                    falling = False  # to the smaller solution
+                    continue
                 low, high = sorted(points[-2:])
                 return low, high
-            if step != more or now.above <= points[-2].above:
+            if not falling or now.above <= points[-2].above:
                 rising = 0
                 continue
             # An elastic plate under a contact that hardly moves returns the energy again.
@@ -270,13 +274,17 @@ class Measurement:
             if rising == 1 and len(points) > 2:
                 lowest = self._point(_vertex(*points[-3:]))
                 if lowest.above <= 0.0:
-                    low, high = sorted((points[-3], lowest))
+                    low, high = sorted((now if back else points[-3], lowest))
                     return low, high
                 points.insert(-1, lowest)
             # With several contacts, restitution is not a monotonic function of the yield stress.
             beyond_errors = now.least > points[-2].above + self.goal
-            if rising == RISING or (beyond_errors and self.key == "retardation_time"):
+            if rising < RISING and not (beyond_errors and self.key == "retardation_time"):
+                continue
+            if back or len(points) > 2:
                 raise self._unreached(points)
+            # The first value is already beyond that of the smallest restitution.
+            points, step, rising, back = points[::-1], -step, 0, True
         raise SceneError(
             f"measured.restitution: expected a value that some plate.{self.key} gives, got "
             f"{self.goal:.6g}, which no value from {math.exp(first):.6g} to {math.exp(now.x):.6g} "
@@ -287,10 +295,10 @@ class Measurement:
         """Return the error of a restitution below those of all points."""
         lowest = min(points, key=lambda point: point.above)
         return UnreachedError(
-            f"measured.restitution: expected at least the smallest restitution that a "
-            f"plate.{self.key} gives, got {self.goal:.6g}, but it increases again from "
-            f"{self.goal + lowest.above:.6g} at {math.exp(lowest.x):.6g} {UNITS[self.key]}; "
-            "correct measured.restitution or measured.target",
+            f"measured.restitution: expected at least about {self.goal + lowest.above:.3g}, the "
+            f"smallest restitution that a plate.{self.key} gives, got {self.goal:.6g}; the "
+            f"restitution is smallest at about {math.exp(lowest.x):.3g} {UNITS[self.key]}; correct "
+            "measured.restitution or measured.target",
             min(point.least for point in points),
         )
 

@@ -195,3 +195,23 @@ def test_a_rough_search_refuses_a_restitution_that_no_constant_gives(
     with pytest.raises(SceneError, match="expected less than"):
         simulate(scene)
     assert tolerances == {measured_module.LOOSE}
+
+
+@pytest.mark.parametrize(
+    ("solve_for", "given"), [("yield_stress", 2e8), ("retardation_time", 1e-6)]
+)
+def test_a_lossy_sphere_limits_the_restitution_that_the_plate_can_explain(
+    solve_for: str, given: float
+) -> None:
+    """The message named a range of the constant up to 1e21 Pa, after more than two seconds."""
+    sphere = {"radius": 0.01, "material": "steel", solve_for: given}
+    still = BLOCK | {"sphere": sphere, "effects": {"inertia": False}}
+    most = simulate(read(still)).restitution
+    wanted = {"solve_for": solve_for, "target": "plate"}
+    with pytest.raises(SceneError, match=f"without a plate.{solve_for}") as caught:
+        simulate(read(still | {"measured": wanted | {"restitution": 0.5 * (1.0 + most)}}))
+    stated = re.search(r"less than (\S+),", str(caught.value))
+    assert stated
+    assert float(stated[1]) == pytest.approx(most, rel=1e-4)
+    result = simulate(read(still | {"measured": wanted | {"restitution": 0.9 * most}}))
+    assert abs(result.restitution / (0.9 * most) - 1.0) <= result.accuracy.bound < 1e-3

@@ -4,13 +4,21 @@ import math
 from functools import cache
 from typing import Any
 
+import numpy as np
 import pytest
 from scipy.optimize import brentq
 
 from derivation.scene import Result, read, simulate
 from derivation.scene.contact_law.corrections import stretching
-from derivation.scene.dynamic.stretching_error import SMALLEST, stretching_error
-from tests.scene.von_karman import ThinPlate, impact
+from derivation.scene.dynamic.stretching_error import (
+    DIP,
+    END,
+    MARGIN,
+    SMALLEST,
+    earlier_end,
+    stretching_error,
+)
+from tests.scene.von_karman import Hertz, Plastic, ThinPlate, Viscoelastic, impact
 
 SCENES: dict[str, dict[str, Any]] = {
     "several contacts with a clamped plate": {
@@ -28,12 +36,62 @@ SCENES: dict[str, dict[str, Any]] = {
         "plate": {"radius": 0.05, "thickness": 2e-3, "edge": "paper"},
         "impact": {"speed": 4.0},
     },
+    "damped plate": {
+        "sphere": {"radius": 0.0115, "material": "steel"},
+        "plate": {"radius": 0.0295, "thickness": 1.7e-3, "edge": "clamped", "loss_factor": 0.57},
+        "impact": {"speed": 7.3},
+    },
+    "yielding contacts, of which a later one becomes the strongest": {
+        "sphere": {"radius": 0.0148, "material": "steel"},
+        "plate": {
+            "radius": 0.136,
+            "thickness": 3.87e-3,
+            "material": "steel",
+            "edge": "clamped",
+            "yield_stress": 1.02e9,
+        },
+        "impact": {"speed": 17.3},
+    },
+    "contact with a light damped plate that ends slowly": {
+        "sphere": {"radius": 5.87e-3, "material": "steel"},
+        "plate": {
+            "radius": 0.279,
+            "thickness": 4.03e-3,
+            "material": "PMMA",
+            "edge": "clamped",
+            "loss_factor": 0.096,
+        },
+        "impact": {"speed": 15.1},
+    },
+    "viscoelastic contact that is widest long after its largest force": {
+        "sphere": {"radius": 7.13e-3, "material": "steel"},
+        "plate": {
+            "radius": 0.0426,
+            "thickness": 0.591e-3,
+            "material": "steel",
+            "loss_factor": 0.092,
+            "edge": "simply-supported",
+            "retardation_time": 1.2e-5,
+        },
+        "impact": {"speed": 2.6},
+    },
+    "viscoelastic contact with a damped plate": {
+        "sphere": {"radius": 0.0122, "mass": 0.293, "material": "steel"},
+        "plate": {
+            "radius": 0.0359,
+            "thickness": 1.96e-3,
+            "edge": "clamped",
+            "loss_factor": 0.07,
+            "retardation_time": 2.5e-5,
+        },
+        "impact": {"speed": 1.47},
+    },
 }
 
 
 def simulated(scene: dict[str, Any], **effects: bool) -> Result:
-    plate = scene["plate"] | {"material": "glass"}
-    return simulate(read(scene | {"plate": plate, "effects": effects}), rtol=0.02)
+    plate = {"material": "glass"} | scene["plate"]
+    return simulate(read(scene | {"plate": plate, "effects": effects}), rtol=0.05)
 
 
 @cache
@@ -41,24 +99,51 @@ def moving(name: str) -> Result:
     return simulated(SCENES[name], inertia=True)
 
 
-@pytest.mark.parametrize("name", SCENES)
-def test_error_covers_the_difference_between_a_linear_and_a_stretched_plate(name: str) -> None:
-    result = moving(name)
-    model, plate = result.model, SCENES[name]["plate"]
-    assert result.dynamics is not None
-    nu = model.poissons_ratio
+def simulations(name: str) -> tuple[dict[str, float], dict[str, float]]:
+    """Return the results of the independent simulation without and with stretching."""
+    model, plate = moving(name).model, SCENES[name]["plate"]
+    nu, modulus = model.poissons_ratio, model.modulus / (1.0 + model.softness)
     thin = ThinPlate(
         2.0 * model.mu * (1.0 + nu), nu, model.density, plate["thickness"], plate["radius"],
-        plate["edge"], modes=10, points=80,
+        plate["edge"], modes=30 if plate["radius"] > 0.04 else 10, points=80,
     )  # fmt: skip
-    stiffness = 4.0 / 3.0 * model.modulus / (1.0 + model.softness) * math.sqrt(model.R)
-    linear, stretched = (impact(thin, model.m, stiffness, model.v0, on) for on in (False, True))
+    stiffness = 4.0 / 3.0 * modulus * math.sqrt(model.R)
+
+    def contact() -> Hertz:
+        if "yield_stress" in plate:
+            onset = 0.5 * math.pi * model.R * 1.6 * plate["yield_stress"] / modulus
+            return Plastic(stiffness, model.R, onset)
+        if "retardation_time" in plate:
+            return Viscoelastic(stiffness, model.retardation_time)
+        return Hertz(stiffness)
+
+    loss = plate.get("loss_factor", 0.0)
+    linear, stretched = (
+        impact(thin, model.m, contact(), model.v0, on, loss) for on in (False, True)
+    )
+    return linear, stretched
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_error_covers_the_difference_between_a_linear_and_a_stretched_plate(name: str) -> None:
+    """Without `TIME` or `PEAK` the damped plate fails, without `END` the light one."""
+    result, (linear, stretched) = moving(name), simulations(name)
+    assert result.dynamics is not None
     error = stretching_error(result.effects.law, result.dynamics)
     for key, size in error.items():
         assert abs(stretched[key] / linear[key] - 1.0) <= size + 1e-3, key
     # The deflection is large enough to matter, and the errors are part of the model error.
     assert abs(stretched["max_indentation"] / linear["max_indentation"] - 1.0) > 5e-3
     assert result.model_error >= max(error.values())
+
+
+@pytest.mark.parametrize(("size", "expected"), [(0.1, 0.625), (1e-3, 0.0)])
+def test_first_contact_may_end_at_a_low_minimum_of_its_force(size: float, expected: float) -> None:
+    """The force rises again after a minimum of 0.2 of the largest one, at 3/8 of the contact."""
+    force = np.array([0.0, 1.0, 0.6, 0.2, 0.3, 0.4, 0.3, 0.1, 0.0])
+    assert END * size < 0.2
+    assert (DIP * size > 0.2) == (expected > 0.0)
+    assert earlier_end(force, np.full(9, size)) == expected
 
 
 @pytest.mark.parametrize("speed", [0.5, 1.5])
@@ -96,7 +181,7 @@ def test_warning_where_stretching_may_split_the_first_contact() -> None:
         assert result.dynamics is not None
         first = result.dynamics.deflection_during(result.effects.law, 0)
         stiffening = float(stretching(result.model, first))
-        expected = stiffening >= max(result.dynamics.decisive_change, SMALLEST)
+        expected = stiffening >= max(result.dynamics.decisive_change / MARGIN, SMALLEST)
         assert any("stiffer by" in text for text in result.warnings) == expected
         warned.add(expected)
     assert warned == {True, False}

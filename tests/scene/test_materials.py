@@ -284,7 +284,8 @@ def test_golf_drive_is_rejected_quickly_with_a_remedy() -> None:
 def test_sphere_that_stays_on_a_light_plate_is_rejected_before_the_first_step() -> None:
     """The proposed remedy runs, and its contact time is the one that the message predicts."""
     phone = SCENES["130 g of steel on phone glass"]
-    wide = phone | {"plate": phone["plate"] | {"radius": 0.07}}
+    sphere, plate = phone["sphere"] | {"mass": 3.0}, phone["plate"] | {"radius": 0.07}
+    wide = phone | {"sphere": sphere, "plate": plate, "impact": {"speed": 0.05}}
     with pytest.raises(
         SceneError, match=r"effects\.inertia: .* set effects\.inertia = false"
     ) as error:

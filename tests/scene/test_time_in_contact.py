@@ -1,5 +1,6 @@
 """The least time in contact, known before a simulation, and refusals that follow from it."""
 
+import re
 from typing import Any
 
 import pytest
@@ -55,6 +56,48 @@ def test_mass_on_a_stiff_spring_stops_after_a_quarter_of_a_period() -> None:
     compliance = sum(modes.compliance) + 1.0 / (1.25 * stiffness * depth**0.5)
     quarter = 0.5 * 3.141592653589793 * (model.m * compliance) ** 0.5
     assert time_in_contact.stopping_time(law, modes) == pytest.approx(quarter, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("radius", "plate"),
+    [
+        (0.008, GLASS | {"radius": 0.03, "thickness": 0.5e-3}),
+        (0.01, {"material": "PMMA", "edge": "simply-supported", "radius": 0.06, "thickness": 1e-3}),
+        (0.02, {"material": "steel", "edge": "paper", "radius": 0.06, "thickness": 1e-3}),
+    ],
+)
+def test_heavy_sphere_deflects_the_plate_as_far_as_is_estimated(
+    radius: float, plate: dict[str, Any]
+) -> None:
+    tables = scene(radius, plate, 0.02)
+    del tables["accuracy"]
+    modal = {"effects": {"inertia": True}, "inertia": {"modes": 24, "branches": "A0"}}
+    result = simulate(read(tables | modal))
+    assert result.complete
+    motion, law = result.dynamics, result.effects.law
+    modes = plate_of(law, 24).modes
+    ratio = law.model.m * float(modes.inverse_modal_mass[0])
+    assert ratio > time_in_contact.SPRING
+    estimate = law.model.v0 * time_in_contact.half_period(law.model.m, modes) / 3.141592653589793
+    actual = motion.deflection_before_separation(law) / estimate
+    assert time_in_contact.DEFLECTED < actual < 1.0
+
+
+def test_heavy_sphere_on_a_plate_that_stretches_is_refused_before_the_first_step() -> None:
+    """The proposed speed is the largest that is not refused; any is simulated with given modes."""
+
+    def check(speed: float, **more: Any) -> None:
+        phone = scene(0.0158, GLASS | {"radius": 0.03, "thickness": 1.1e-3}, speed)
+        time_in_contact.check_long(selected_effects(read(phone | more))[1].law, 1e-8)
+
+    with pytest.raises(SceneError, match="stretching") as error:
+        check(4.4)
+    given = re.search(r"at most ([\d.]+) m/s", str(error.value))
+    assert given
+    check(float(given[1]))
+    check(4.4, inertia={"modes": 16})
+    with pytest.raises(SceneError, match="stretching"):
+        check(float(given[1]) + 0.1)
 
 
 def test_impact_with_too_many_time_steps_is_refused_and_runs_on_a_thicker_plate() -> None:

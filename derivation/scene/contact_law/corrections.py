@@ -1,5 +1,7 @@
 """Leading-order size of what a law neglects: exact pressure, spherical profile, stretching."""
 
+import math
+
 import numpy as np
 
 from derivation.scene import kernels
@@ -31,6 +33,12 @@ def stretching(model: Model, deflection: Numbers) -> Numbers:
     ratio = deflection / (2.0 * model.h)
     size: Numbers = _BY_EDGE.get(model.edge, kernels.stiffening_paper)(nu) * ratio * ratio
     return size
+
+
+def doubling_deflection(model: Model) -> float:
+    """Return the deflection [m] at which stretching doubles a plate's stiffness, to first order."""
+    thickness = 2.0 * float(model.h)
+    return thickness / math.sqrt(float(stretching(model, thickness)))
 
 
 def pressure_correction(model: Model, a: Numbers, indentation: Numbers) -> Numbers:

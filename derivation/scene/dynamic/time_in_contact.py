@@ -9,15 +9,17 @@ import math
 
 import numpy as np
 
+from derivation.scene.contact_law.corrections import doubling_deflection
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic import contact_sequence
-from derivation.scene.dynamic.contact_errors import HEAVY
+from derivation.scene.dynamic.contact_errors import HEAVY, rounded_down
 from derivation.scene.dynamic.modal import Modes, plate_of
 from derivation.scene.dynamic.mode_count import affordable, branching, count_of
 from derivation.scene.dynamic.next_element import PHASE
 from derivation.scene.dynamic.problem import DynamicProblem
 from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.errors import SceneError
+from derivation.scene.model import Model
 from generated.arrays import Double as Array
 
 NODES, MANY = (32, 24, 16), (500, 5000)
@@ -26,6 +28,9 @@ FEWER = 2
 """Difference in the number of nodes between a run and the coarser one that checks it."""
 IN_CONTACT = 0.7
 """Least fraction of half the period of a heavy sphere in contact; 0.77 in random scenes."""
+SPRING, DEFLECTED = 5.0, 0.9
+"""Sphere mass over mass of the first mode from which the plate deflects about as a spring, and the
+smallest ratio of its deflection to that of the spring: 0.92 to 0.98 in 22 random impacts."""
 STOPPED = 64
 """Largest number of modes from which the least time in contact is estimated."""
 TIMES = 801
@@ -90,17 +95,20 @@ def check_long(law: ContactLaw, tolerance: float) -> None:
     """Reject a sphere that stays on the plate for more time steps than are allowed.
 
     The fastest mode limits the time step. The contacts of a heavy sphere last about half a period;
-    of any other the least time in contact counts.
+    of any other the least time in contact counts. A heavy sphere that deflects the plate beyond the
+    linear model is rejected too.
     """
     model, count = law.model, count_of(law)
     modes = plate_of(law, count).modes
     ratio = model.m * float(modes.inverse_modal_mass[0])
     if model.inertia.modes or model.inertia.infinite_plate:
         return
+    swing = half_period(model.m, modes)
+    if ratio > SPRING:
+        _check_deflection(model, ratio, swing)
     if ratio < HEAVY:
         _check_time_in_contact(law, tolerance)
         return
-    swing = half_period(model.m, modes)
     steps, most = _steps(law, 2 * affordable(law), tolerance, IN_CONTACT * swing)
     if steps > most:
         raise SceneError(
@@ -109,6 +117,34 @@ def check_long(law: ContactLaw, tolerance: float) -> None:
             f"time steps, more than the limit of {most}; set effects.inertia = false (for such a "
             "sphere the plate is nearly quasi-static), or choose inertia.modes"
         )
+
+
+def _check_deflection(model: Model, ratio: float, swing: float) -> None:
+    """Reject a heavy sphere that deflects the plate so far that stretching doubles its stiffness.
+
+    Up to a hundred contacts would be simulated, on a plate that is far too soft.
+
+    Parameters
+    ----------
+    ratio
+        Sphere mass over mass of the first mode.
+    swing
+        Half the period [s] of the sphere on the plate.
+    """
+    deflection = DEFLECTED * model.v0 * swing / math.pi
+    limit = doubling_deflection(model)
+    if deflection < limit:
+        return
+    speed = rounded_down(model.v0 * limit / deflection)
+    thicknesses = deflection / (2.0 * float(model.h))
+    raise SceneError(
+        f"effects.inertia: expected a deflection of less than {limit:.2g} m, at which stretching, "
+        "which the model neglects, doubles the stiffness of the plate, got at least about "
+        f"{deflection:.2g} m ({thicknesses:.2g} thicknesses) under a sphere {ratio:.3g} times as "
+        "heavy as its first mode; use a thicker or smaller plate, a lighter sphere or an "
+        f"impact.speed of at most {speed:.2g} m/s, or set inertia.modes to simulate a plate that "
+        "does not stretch"
+    )
 
 
 def _check_time_in_contact(law: ContactLaw, tolerance: float) -> None:

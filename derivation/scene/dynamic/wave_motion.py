@@ -244,10 +244,11 @@ class DynamicImpact(Motion):
         """Return the largest deflection of the plate at the axis [m], in either direction.
 
         During contact it is that of the modes or, if larger, the displacement of the sphere less
-        the local indentation. It includes flight, and one period of the slowest mode after the
-        last contact.
+        the local indentation. It includes flight and, if the impact is complete, one period of the
+        slowest mode after the last contact.
         """
-        return max(self.later_deflection, self.deflection_before_separation(law))
+        later = self.later_deflection if self.inertia.complete else 0.0
+        return max(later, self.deflection_before_separation(law))
 
     def deflection_before_separation(self, law: ContactLaw) -> float:
         """Return the largest deflection at the axis [m] up to the end of the last contact."""

@@ -232,10 +232,10 @@ def test_examples_can_be_simulated(path: Path) -> None:
     result = simulate(load(path))
     # All other examples have a warning.
     calm = {"paper", "membrane", "pad"}
-    # The membrane almost separates from the sphere during the first contact.
-    reported = [
-        text for text in result.warnings if path.stem != "membrane" or "grazing" not in text
-    ]
+    # The membrane almost separates from the sphere during the first contact, and stretching may
+    # split this contact.
+    expected = ("grazing", "may split this contact") if path.stem == "membrane" else ()
+    reported = [text for text in result.warnings if not any(part in text for part in expected)]
     assert (reported == []) == (path.stem in calm)
     assert result.contact_time > 0
 

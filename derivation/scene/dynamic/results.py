@@ -76,6 +76,10 @@ def _branches(
     It is 0 if all branches are included. The work of the weight increases all changes except that
     of the displacement. What the contact dissipates increases those of contact time and
     restitution, as if all of it were plastic.
+
+    In 153 random viscoelastic impacts, simulated by another program with and without higher
+    branches, the changes were at most half of the estimates. The higher branches were damped as the
+    contact is (Kelvin-Voigt): undamped ones that P_e drives gain energy from the contact.
     """
     model = law.model
     if model.inertia.branches == "all":

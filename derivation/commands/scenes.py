@@ -22,7 +22,7 @@ from derivation.engine.console import (
 )
 from derivation.engine.files import expect_writable, real, write_file, write_files
 from derivation.engine.printable import one_line
-from derivation.engine.text import paragraph
+from derivation.engine.text import paragraph, wording
 
 if TYPE_CHECKING:
     from derivation.scene.result import Result
@@ -175,6 +175,7 @@ def _sweep(
     from derivation.scene import SceneError, load
     from derivation.scene import sweep as sweeps
     from derivation.scene.input.keys import written
+    from derivation.scene.quantity import counted
 
     if plot is not None:
         raise SceneError(
@@ -197,7 +198,14 @@ def _sweep(
         files[csv] = sweeps.to_csv(sweep, rows)
     if _write(files, json, lambda: [asdict(row) for row in rows]) and csv is None:
         OUT.say(f"Sweep of {title(scene)} over {key}\n\n{sweeps.to_text(sweep, rows)}")
-    warn([f"at {key} = {written(row.value)}: {row.remark}" for row in rows if row.remark])
+    notes, alike = list[str](), dict[str, list[sweeps.SweepRow]]()
+    for row in rows:
+        if row.remark:
+            alike.setdefault(wording(row.remark), []).append(row)
+    for first, *others in alike.values():
+        more = f", and similarly at {counted(len(others), 'other value')}" if others else ""
+        notes.append(f"at {key} = {written(first.value)}{more}: {first.remark}")
+    warn(notes)
 
 
 def explain(

@@ -1,5 +1,6 @@
 """Plain text for a screen of 80 columns: paragraphs, and tables whose cells are not broken."""
 
+import re
 from collections.abc import Sequence
 from textwrap import wrap
 
@@ -13,6 +14,17 @@ def paragraph(text: str, indent: int = 2) -> str:
     """Break a text between words; lines after the first one are indented."""
     lines = wrap(printable(text), WIDTH, subsequent_indent=" " * indent, break_on_hyphens=False)
     return "\n".join(lines)
+
+
+def wording(text: str) -> str:
+    """Return a text with # in place of each number: alike texts have the same wording.
+
+    Examples
+    --------
+    >>> wording("the contact radius is 8.63 times that at 1.2e-05 m")
+    'the contact radius is # times that at # m'
+    """
+    return re.sub(r"(?<![A-Za-z_])[-+]?\d+(\.\d+)?(e[-+]?\d+)?", "#", text)
 
 
 def aligned(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:

@@ -22,7 +22,7 @@ from derivation.scene.dynamic.contact_warnings import fall_warnings, grazing_war
 from derivation.scene.dynamic.edge_remainder import edge_remainder
 from derivation.scene.dynamic.model_error import inertia_error
 from derivation.scene.dynamic.stretching_error import jump_warnings, stretching_error
-from derivation.scene.effects.effect import Results
+from derivation.scene.effects.effect import Results, weight_work_ratio
 from derivation.scene.errors import SceneError, ToleranceError
 from derivation.scene.input.units import unit_warnings, with_unit_warnings
 from derivation.scene.measured.measured import (
@@ -120,7 +120,7 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
     fraction, deflection = 1.0 - local / delta, delta - local
     if motion is not None:
         deflection = motion.largest_deflection(law)
-    model_errors = _model_errors(law, a, deflection, motion)
+    model_errors = _model_errors(law, numbers, deflection, motion)
     model_error = max(model_errors[name] for name in selected.outputs)
     neglected = neglects_inertia(model, contact_time, fraction, motion is not None)
     moving = model  # with the wave branches that the simulation chose
@@ -191,13 +191,22 @@ def _known(stress: float) -> float | None:
 
 
 def _model_errors(
-    law: ContactLaw, a: float, deflection: float, motion: "DynamicImpact | None"
+    law: ContactLaw, numbers: Results, deflection: float, motion: "DynamicImpact | None"
 ) -> dict[str, float]:
-    """Return the relative model error of each output [1], by edge, waves and stretching."""
-    model, other_edge = law.model, law.other_edge
+    """Return the relative model error of each output [1], by edge, waves and stretching.
+
+    On a quasi-static plate, stretching changes the energy that a plastic or viscoelastic contact
+    dissipates. In the restitution this counts by the ratio of that energy to the one that remains.
+    """
+    model, other_edge, a = law.model, law.other_edge, numbers[3]
     if motion is None:
-        edge = edge_remainder(model, a) if other_edge else 0.0
-        return dict.fromkeys(OUTPUTS, edge + float(stretching(model, deflection)))
+        edge, size = edge_remainder(model, a) if other_edge else 0.0, stretching(model, deflection)
+        errors: dict[str, float] = dict.fromkeys(OUTPUTS, edge + float(size))
+        if law.viscous or law.plastic:
+            supplied = 1.0 + float(weight_work_ratio(model, numbers[1]))
+            dissipated = supplied / max(numbers[4], 1e-6) ** 2 - 1.0
+            errors["restitution"] = edge + float(size) * max(1.0, dissipated)
+        return errors
     from derivation.scene.dynamic.wave_problem import echo_time
 
     stretched = stretching_error(law, motion)

@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from numbers import Integral
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -236,8 +237,8 @@ class Result:
         SceneError
             If n is less than 2, or a number of the history is not finite.
         """
-        if n is not None and n < 2:
-            raise SceneError(f"n: expected at least 2 times, got {n}; use 2 or more")
+        if n is not None and not (isinstance(n, Integral) and n >= 2):
+            raise SceneError(f"n: expected a whole number of at least 2 times, got {n!r}")
         history = self._history(n)
         if not all(np.isfinite(column).all() for column in history):
             raise SceneError(

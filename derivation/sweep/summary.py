@@ -2,13 +2,13 @@
 
 from collections import Counter
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from derivation.engine.text import aligned
+from derivation.engine.text import aligned, wording
 from derivation.scene.input.keys import written
-from derivation.scene.quantity import common_prefix, percent
+from derivation.scene.quantity import common_prefix, counted, percent
 from derivation.scene.result import UNITS
 from derivation.sweep.dataset import column
 from derivation.sweep.sensitivity import Sensitivities
@@ -20,6 +20,20 @@ DIGITS = 4
 """Number of significant digits of a range."""
 MOST_WARNINGS = 5
 """Largest number of different reasons and warnings."""
+
+
+class Reason(NamedTuple):
+    """A warning, or why there is no result: the first point, its text, and the number of points."""
+
+    where: str
+    text: str
+    points: int
+
+    def in_words(self) -> str:
+        """Return the text, and at how many points there is a similar one."""
+        others = self.points - 1
+        more = f", and similarly at {counted(others, 'other point')}" if others else ""
+        return f"at {self.where}{more}: {self.text}"
 
 
 @dataclass(frozen=True)
@@ -39,7 +53,7 @@ class Summary:
     largest_model_error
         Largest relative error of the model [1]; NaN without results.
     warnings
-        The first different reasons and warnings, each with one of its points.
+        The first reasons and warnings that differ in more than numbers, each with its first point.
     warned
         Number of points with a warning, or with a reason why there is no result.
     sensitivities
@@ -100,7 +114,7 @@ def summary(store: Store, computed: int, sensitivities: Sensitivities | None) ->
     sensitivities
         Sensitivity indices, if requested.
     """
-    counts, reasons, warned = Counter[str](), dict[str, str](), 0
+    counts, reasons, warned = Counter[str](), dict[str, Reason](), 0
     low, high = dict.fromkeys(UNITS, np.inf), dict.fromkeys(UNITS, -np.inf)
     bound = model_error = np.nan
     for start, _, table in store.tables(BLOCK):
@@ -116,7 +130,7 @@ def summary(store: Store, computed: int, sensitivities: Sensitivities | None) ->
         warned += int(np.count_nonzero(reason != ""))
         _add_reasons(reasons, store, start, status, reason)
     ranges = {name: (low[name], high[name]) for name in UNITS if low[name] <= high[name]}
-    warnings = tuple(f"{where}: {text}" for text, where in reasons.items())
+    warnings = tuple(reason.in_words() for reason in reasons.values())
     size = store.study.plan.size
     return Summary(
         size, computed, dict(sorted(counts.items())), ranges, bound, model_error, warnings, warned,
@@ -124,14 +138,20 @@ def summary(store: Store, computed: int, sensitivities: Sensitivities | None) ->
     )  # fmt: skip
 
 
-def _add_reasons(reasons: dict[str, str], store: Store, start: int, status: Any, new: Any) -> None:
-    """Add new reasons and warnings to `reasons`, each with its first point."""
-    if len(reasons) >= MOST_WARNINGS:
-        return
-    for text, index in zip(*np.unique(new, return_index=True), strict=True):
-        if text and text not in reasons and len(reasons) < MOST_WARNINGS:
-            number = start + int(index)
+def _add_reasons(
+    reasons: dict[str, Reason], store: Store, start: int, status: Any, new: Any
+) -> None:
+    """Add new reasons and warnings to `reasons` by their wording."""
+    texts, first, counts = np.unique(new, return_index=True, return_counts=True)
+    for i in np.argsort(first).tolist():
+        text, number = str(texts[i]), start + int(first[i])
+        kind = wording(text)
+        if kind in reasons:
+            known = reasons[kind]
+            reasons[kind] = known._replace(points=known.points + int(counts[i]))
+        elif text and len(reasons) < MOST_WARNINGS:
             points = store.study.plan.points(number, number + 1)
             where = ", ".join(f"{key} = {written(values[0])}" for key, values in points.items())
-            state = "" if status[index] == "finished" else f" ({status[index]})"
-            reasons[str(text)] = f"at {where}{state}"
+            state = str(status[first[i]])
+            where += "" if state == "finished" else f" ({state})"
+            reasons[kind] = Reason(where, text, int(counts[i]))

@@ -120,6 +120,16 @@ def test_xarray_data_set_has_results_and_history_with_units(result: pc.Result) -
     assert pc.read(json.loads(data.attrs["scene"])) == result.scene
 
 
+def test_xarray_data_set_has_the_dent_of_a_plastic_contact(result: pc.Result) -> None:
+    """On a plate without inertia the sphere leaves when it has risen to the bottom of the dent."""
+    plate = VALID["plate"] | {"yield_stress": 1e6}
+    still = VALID | {"plate": plate, "effects": {"inertia": False, "plasticity": True}}
+    data = pc.simulate(pc.read(still)).to_xarray()
+    assert data["dent"].units == "m"
+    assert float(data["dent"]) == pytest.approx(float(data["indentation"][-1]), rel=1e-6)
+    assert "dent" not in result.to_xarray()
+
+
 def test_pandas_data_frame_has_the_history(result: pc.Result) -> None:
     frame = result.to_pandas(50)
     assert len(frame) == 50

@@ -155,3 +155,36 @@ def test_wide_face_recovers_until_the_next_contact() -> None:
     second = result.dynamics.inertia.contacts[1]
     assert second.start == pytest.approx(4.481648e-4, rel=1e-6)
     assert second.peak_force == pytest.approx(22.4057, rel=3e-5)
+
+
+@pytest.mark.parametrize("time", [2.5e-5, 6e-5])
+def test_sphere_and_recovering_face_meet_at_the_speed_that_the_force_shows(time: float) -> None:
+    """While the face recovers, a sphere may meet it although it moves away from the plate.
+
+    The force of the second contact starts with A_v dP_e/dt, in Hertz's contact 2 A_v E* a times the
+    speed at which sphere and face meet. The thickness of the plate changes this by a tenth.
+    """
+    steel, wood = (210e9, 0.3), (11e9, 0.35)
+    result = simulate(
+        read(
+            {
+                "sphere": {"radius": 0.01, "material": "steel"},
+                "plate": {
+                    "radius": 0.2, "thickness": 0.018, "edge": "clamped", "density": 650.0,
+                    "youngs_modulus": wood[0], "poissons_ratio": wood[1], "retardation_time": time,
+                },
+                "impact": {"speed": 1.98},
+                "inertia": {"modes": 60},
+            }
+        )
+    )  # fmt: skip
+    assert result.dynamics is not None
+    second = result.dynamics.inertia.contacts[1]
+    begun = result.at([second.start * (1.0 + 1e-7)]).history()
+    of_sphere, of_plate = ((1.0 - nu * nu) / young for young, nu in (steel, wood))
+    # The sphere is elastic: A_v E* is A_v over the compliance of both, times the plate's part.
+    viscosity = time * of_plate / (of_sphere + of_plate) ** 2
+    speed = second.relative_approach_speed * result.scene.impact.speed
+    expected = 2.0 * viscosity * float(begun.contact_radius[0]) * speed
+    assert float(begun.force[0]) == pytest.approx(expected, rel=0.15)
+    assert not any("grazing" in text for text in result.warnings)

@@ -6,6 +6,7 @@ import random
 from pathlib import Path
 from typing import Any
 
+import platecontact as pc
 import pytest
 from shared_scenes import changed
 
@@ -46,6 +47,7 @@ BAD = [
     ("radius = 1.0", "radius = nan", "plate.radius|got nan"),
     ("radius = 1.0", "radius = inf", "plate.radius|got inf"),
     ("radius = 1.0", 'radius = "1.0"', 'plate.radius|"1.0"|quotes'),
+    ("radius = 1.0", 'radius = "250 mm"', 'plate.radius|"250 mm"|in m|`radius = 0.25`'),
     ("radius = 1.0", "radius = true", "plate.radius|got true"),
     ("radius = 1.0", "radius = [1.0]", "plate.radius|array"),
     ("radius = 1.0", "radius = { m = 1.0 }", "plate.radius|table"),
@@ -269,3 +271,14 @@ def test_schema_describes_every_key_and_choice() -> None:
     ]
     modes = made["$defs"]["Inertia"]["properties"]["modes"]["anyOf"]
     assert modes[1] == {"maximum": 6000, "minimum": 2, "type": "integer"}
+
+
+def test_a_scene_is_shown_with_the_given_keys_only_and_can_be_typed_again() -> None:
+    scene = pc.Scene(
+        sphere=pc.Sphere(radius=0.01, material="steel"),
+        plate=pc.Plate(radius=0.3, thickness=0.008, material="glass", loss_factor=0.01),
+        impact=pc.Impact(speed=2.0),
+    )
+    assert "None" not in repr(scene)
+    names = {kind.__name__: kind for kind in (pc.Scene, pc.Sphere, pc.Plate, pc.Impact)}
+    assert eval(repr(scene), names) == scene

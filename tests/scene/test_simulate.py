@@ -76,8 +76,10 @@ def test_history_at_given_times() -> None:
     for bad in ([-1e-9], [2 * whole.contact_time], [math.nan], [math.inf], table):
         with pytest.raises(SceneError, match=r"^times: "):
             simulate(scene, times=bad)
-    with pytest.raises(SceneError, match=r"^n: .*2"):
-        whole.history(1)
+    wrong: Any
+    for wrong in (1, 2.5, "5"):
+        with pytest.raises(SceneError, match=r"^n: .*2"):
+            whole.history(wrong)
 
 
 def test_json_keys_and_notebook_table() -> None:
@@ -230,10 +232,10 @@ def test_examples_can_be_simulated(path: Path) -> None:
     result = simulate(load(path))
     # All other examples have a warning.
     calm = {"paper", "membrane", "pad"}
-    # The membrane almost separates from the sphere during the first contact.
-    reported = [
-        text for text in result.warnings if path.stem != "membrane" or "grazing" not in text
-    ]
+    # The membrane almost separates from the sphere during the first contact, and stretching may
+    # split this contact.
+    expected = ("grazing", "may split this contact") if path.stem == "membrane" else ()
+    reported = [text for text in result.warnings if not any(part in text for part in expected)]
     assert (reported == []) == (path.stem in calm)
     assert result.contact_time > 0
 

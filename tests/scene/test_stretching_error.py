@@ -1,16 +1,26 @@
 """The model error by stretching of the plate, against a simulation of a von Karman plate."""
 
 import math
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
+import numpy as np
 import pytest
 from scipy.optimize import brentq
 
 from derivation.scene import Result, read, simulate
 from derivation.scene.contact_law.corrections import stretching
-from derivation.scene.dynamic.stretching_error import SMALLEST, stretching_error
-from tests.scene.von_karman import ThinPlate, impact
+from derivation.scene.dynamic.stretching_error import (
+    DIP,
+    END,
+    MARGIN,
+    SMALLEST,
+    earlier_end,
+    stretching_error,
+)
+from derivation.scene.model import Model
+from tests.scene.von_karman import Hertz, Motion, Plastic, ThinPlate, Viscoelastic, impact
 
 SCENES: dict[str, dict[str, Any]] = {
     "several contacts with a clamped plate": {
@@ -28,12 +38,62 @@ SCENES: dict[str, dict[str, Any]] = {
         "plate": {"radius": 0.05, "thickness": 2e-3, "edge": "paper"},
         "impact": {"speed": 4.0},
     },
+    "damped plate": {
+        "sphere": {"radius": 0.0115, "material": "steel"},
+        "plate": {"radius": 0.0295, "thickness": 1.7e-3, "edge": "clamped", "loss_factor": 0.57},
+        "impact": {"speed": 7.3},
+    },
+    "yielding contacts, of which a later one becomes the strongest": {
+        "sphere": {"radius": 0.0148, "material": "steel"},
+        "plate": {
+            "radius": 0.136,
+            "thickness": 3.87e-3,
+            "material": "steel",
+            "edge": "clamped",
+            "yield_stress": 1.02e9,
+        },
+        "impact": {"speed": 17.3},
+    },
+    "contact with a light damped plate that ends slowly": {
+        "sphere": {"radius": 5.87e-3, "material": "steel"},
+        "plate": {
+            "radius": 0.279,
+            "thickness": 4.03e-3,
+            "material": "PMMA",
+            "edge": "clamped",
+            "loss_factor": 0.096,
+        },
+        "impact": {"speed": 15.1},
+    },
+    "viscoelastic contact that is widest long after its largest force": {
+        "sphere": {"radius": 7.13e-3, "material": "steel"},
+        "plate": {
+            "radius": 0.0426,
+            "thickness": 0.591e-3,
+            "material": "steel",
+            "loss_factor": 0.092,
+            "edge": "simply-supported",
+            "retardation_time": 1.2e-5,
+        },
+        "impact": {"speed": 2.6},
+    },
+    "viscoelastic contact with a damped plate": {
+        "sphere": {"radius": 0.0122, "mass": 0.293, "material": "steel"},
+        "plate": {
+            "radius": 0.0359,
+            "thickness": 1.96e-3,
+            "edge": "clamped",
+            "loss_factor": 0.07,
+            "retardation_time": 2.5e-5,
+        },
+        "impact": {"speed": 1.47},
+    },
 }
 
 
 def simulated(scene: dict[str, Any], **effects: bool) -> Result:
-    plate = scene["plate"] | {"material": "glass"}
-    return simulate(read(scene | {"plate": plate, "effects": effects}), rtol=0.02)
+    plate = {"material": "glass"} | scene["plate"]
+    return simulate(read(scene | {"plate": plate, "effects": effects}), rtol=0.05)
 
 
 @cache
@@ -41,24 +101,51 @@ def moving(name: str) -> Result:
     return simulated(SCENES[name], inertia=True)
 
 
-@pytest.mark.parametrize("name", SCENES)
-def test_error_covers_the_difference_between_a_linear_and_a_stretched_plate(name: str) -> None:
-    result = moving(name)
-    model, plate = result.model, SCENES[name]["plate"]
-    assert result.dynamics is not None
-    nu = model.poissons_ratio
+def simulations(name: str) -> tuple[dict[str, float], dict[str, float]]:
+    """Return the results of the independent simulation without and with stretching."""
+    model, plate = moving(name).model, SCENES[name]["plate"]
+    nu, modulus = model.poissons_ratio, model.modulus / (1.0 + model.softness)
     thin = ThinPlate(
         2.0 * model.mu * (1.0 + nu), nu, model.density, plate["thickness"], plate["radius"],
-        plate["edge"], modes=10, points=80,
+        plate["edge"], modes=30 if plate["radius"] > 0.04 else 10, points=80,
     )  # fmt: skip
-    stiffness = 4.0 / 3.0 * model.modulus / (1.0 + model.softness) * math.sqrt(model.R)
-    linear, stretched = (impact(thin, model.m, stiffness, model.v0, on) for on in (False, True))
+    stiffness = 4.0 / 3.0 * modulus * math.sqrt(model.R)
+
+    def contact() -> Hertz:
+        if "yield_stress" in plate:
+            onset = 0.5 * math.pi * model.R * 1.6 * plate["yield_stress"] / modulus
+            return Plastic(stiffness, model.R, onset)
+        if "retardation_time" in plate:
+            return Viscoelastic(stiffness, model.retardation_time)
+        return Hertz(stiffness)
+
+    loss = plate.get("loss_factor", 0.0)
+    linear, stretched = (
+        impact(thin, model.m, contact(), model.v0, on, loss) for on in (False, True)
+    )
+    return linear, stretched
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_error_covers_the_difference_between_a_linear_and_a_stretched_plate(name: str) -> None:
+    """Without `TIME` or `PEAK` the damped plate fails, without `END` the light one."""
+    result, (linear, stretched) = moving(name), simulations(name)
+    assert result.dynamics is not None
     error = stretching_error(result.effects.law, result.dynamics)
     for key, size in error.items():
         assert abs(stretched[key] / linear[key] - 1.0) <= size + 1e-3, key
     # The deflection is large enough to matter, and the errors are part of the model error.
     assert abs(stretched["max_indentation"] / linear["max_indentation"] - 1.0) > 5e-3
     assert result.model_error >= max(error.values())
+
+
+@pytest.mark.parametrize(("size", "expected"), [(0.1, 0.625), (1e-3, 0.0)])
+def test_first_contact_may_end_at_a_low_minimum_of_its_force(size: float, expected: float) -> None:
+    """The force rises again after a minimum of 0.2 of the largest one, at 3/8 of the contact."""
+    force = np.array([0.0, 1.0, 0.6, 0.2, 0.3, 0.4, 0.3, 0.1, 0.0])
+    assert END * size < 0.2
+    assert (DIP * size > 0.2) == (expected > 0.0)
+    assert earlier_end(force, np.full(9, size)) == expected
 
 
 @pytest.mark.parametrize("speed", [0.5, 1.5])
@@ -89,6 +176,53 @@ def test_error_of_a_quasi_static_plate_covers_that_of_a_spring(speed: float) -> 
     assert max(changes) > 0.3 * result.model_error
 
 
+def rebound(contact: Plastic, model: Model, stiffness: float, A: float, dt: float) -> float:
+    """Return the rebound speed of a plastic contact and a spring that stiffens, in series."""
+    y, v, force, still = 0.0, model.v0, 0.0, Motion(0.0, 0.0, dt)
+    while True:
+        v += dt / 2.0 * (model.gravity - force / model.m)
+        y += v * dt
+        if y <= contact.dent:
+            return -v
+
+        def excess(depth: float, y: float = y) -> float:
+            w = y - depth
+            return replace(contact).press(depth, still)[0] - stiffness * w * (1.0 + A * w**2)
+
+        force, _ = contact.press(brentq(excess, contact.dent, y, xtol=1e-16), still)
+        v += dt / 2.0 * (model.gravity - force / model.m)
+
+
+def test_error_of_the_restitution_covers_a_heavy_plastic_contact_on_a_quasi_static_plate() -> None:
+    """An earlier version stated the stiffening itself, nine tenths of the change."""
+    plate = {
+        "radius": 0.0121, "thickness": 1e-3, "youngs_modulus": 1.14e9, "poissons_ratio": 0.3,
+        "edge": "clamped", "yield_stress": 1.93e6,
+    }  # fmt: skip
+    scene = {
+        "sphere": {"radius": 2.17e-3, "mass": 0.0236, "material": "steel"},
+        "plate": plate,
+        "impact": {"speed": 0.103, "gravity": 67.3},
+        "effects": {"inertia": False, "plasticity": True, "non_hertzian_pressure": False},
+    }
+    result = simulate(read(scene), rtol=0.5)
+    model = result.model
+    modulus = model.modulus / (1.0 + model.softness)
+    K = 4.0 / 3.0 * modulus * math.sqrt(model.R)
+    w = result.max_indentation - result.max_contact_radius**2 / model.R
+    onset = 0.5 * math.pi * model.R * 1.6 * plate["yield_stress"] / modulus
+    linear, stretched = (
+        rebound(
+            Plastic(K, model.R, onset), model, result.max_force / w, A,
+            result.contact_time / 6000,
+        )
+        for A in (0.0, float(stretching(model, w)) / w**2)
+    )  # fmt: skip
+    assert linear / model.v0 == pytest.approx(result.restitution, rel=0.02)
+    change = abs(stretched / linear - 1.0)
+    assert float(stretching(model, w)) < change < result.model_errors["restitution"]
+
+
 def test_warning_where_stretching_may_split_the_first_contact() -> None:
     """It appears if the stiffening exceeds the change that splits or joins the contact."""
     warned = set()
@@ -96,7 +230,7 @@ def test_warning_where_stretching_may_split_the_first_contact() -> None:
         assert result.dynamics is not None
         first = result.dynamics.deflection_during(result.effects.law, 0)
         stiffening = float(stretching(result.model, first))
-        expected = stiffening >= max(result.dynamics.decisive_change, SMALLEST)
+        expected = stiffening >= max(result.dynamics.decisive_change / MARGIN, SMALLEST)
         assert any("stiffer by" in text for text in result.warnings) == expected
         warned.add(expected)
     assert warned == {True, False}

@@ -25,6 +25,7 @@ from derivation.scene import explain, indent, load, read, simulate, sweep
 from derivation.scene.dynamic import contact_sequence, waves
 from derivation.scene.output.answer import quantities
 from derivation.scene.quantity import IN_FRONT, PREFIXES, common_prefix, prefixed
+from derivation.scene.quasi_static.motion import EnergyBalance
 from derivation.scene.result import Result
 from derivation.scene.selection.achieved_accuracy import Part
 
@@ -60,6 +61,18 @@ def test_printed_energies_are_the_kinetic_energy_and_the_work_of_the_weight(spee
     final = sum(map(float, re.findall(r"([\d.]+) %", energies)))
     added = sum(map(float, re.findall(r"([\d.]+) %", weight)))
     assert final == pytest.approx(100.0 + added, abs=0.6 if not added else 0.2)
+
+
+def test_a_small_energy_of_the_sphere_has_digits_of_its_own() -> None:
+    """It was "below 10 %" of a sphere that rebounds at 0.067 of its speed, known to a fifth."""
+    balance = EnergyBalance(
+        initial_kinetic=2.0, gravity_work=0.0, rebound_kinetic=0.00910, viscous_loss=0.0,
+        unrecovered_elastic=0.0, plate=1.0215, plastic_loss=0.9694,
+    )  # fmt: skip
+    words = "% sphere, {} % plate vibration, {} % plastic deformation"
+    assert balance.in_words(0.2) == "0.5 " + words.format(50, 50)
+    assert balance.in_words(0.02) == "0.46 " + words.format(51, 48)
+    assert balance.in_words(1e-3) == "0.5 " + words.format(51.1, 48.5)
 
 
 @given(

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from derivation.scene import SceneError, indent, read, simulate
 from derivation.scene.input.materials import MATERIALS
+from derivation.scene.input.quoted import in_unit
 from derivation.scene.input.units import unit_warnings, unit_warnings_of_rows
 from derivation.scene.rows.rows import solve
 
@@ -146,3 +147,42 @@ def test_a_density_in_grams_per_cubic_centimetre_is_named_once() -> None:
     assert "write 7850" in text
     table = solve(read(scene), {"impact.speed": np.array([1.0, 2.0])})
     assert [reason.count("density") for reason in table.reason] == [1, 1]
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "number"),
+    [
+        ("10 mm", "m", 0.01),
+        ("2.5in", "m", 0.0635),
+        ("70 GPa", "Pa", 7e10),
+        ("240 N/mm²", "Pa", 2.4e8),
+        ("1e3 psi", "Pa", 6.894757e6),
+        ("2.7 g", "kg", 2.7e-3),
+        ("30 mg", "kg", 30e-6),
+        ("5 kg", "kg", 5.0),
+        ("2.7 g/cm3", "kg/m^3", 2700.0),
+        ("36 km/h", "m/s", 10.0),
+        ("300 mm/s", "m/s", 0.3),
+        ("12 us", "s", 12e-6),
+        ("1 g", "m/s^2", 9.80665),
+        ("2 %", "1", 0.02),
+        ("1.5", "m", 1.5),
+        ("10 kg", "m", None),
+        ("-10 mm", "m", None),
+        ("1.2.3 mm", "m", None),
+        ("0 mm", "m", None),
+        ("nan", "m", None),
+        ("", "m", None),
+        ("clamped", "", None),
+    ],
+)
+def test_a_quoted_number_is_suggested_in_the_unit_of_its_key(
+    text: str, unit: str, number: float | None
+) -> None:
+    assert in_unit(text, unit) == (None if number is None else pytest.approx(number, rel=1e-7))
+
+
+@given(st.text(max_size=20), st.sampled_from(["m", "s", "Pa", "kg", "kg/m^3", "m/s", "1", ""]))
+def test_any_quoted_text_is_read(text: str, unit: str) -> None:
+    number = in_unit(text, unit)
+    assert number is None or 0.0 < number < np.inf

@@ -1,8 +1,9 @@
 """Independent simulation of impacts on a thin plate, with or without stretching (von Karman)."""
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.integrate import cumulative_trapezoid
@@ -133,35 +134,111 @@ class ThinPlate:
         return float(stretched / (q @ (stiffnesses * q)) * (self.thickness / (centre @ q)) ** 2)
 
 
+class Motion(NamedTuple):
+    """How fast the depth increases after a time step: at the rate less softness times the force."""
+
+    rate: float
+    softness: float
+    dt: float
+
+
+@dataclass
+class Hertz:
+    """An elastic contact with the force stiffness times depth^(3/2)."""
+
+    stiffness: float
+
+    def press(self, depth: float, motion: "Motion") -> tuple[float, float]:
+        """Return the force and a number in proportion to the contact radius after a time step."""
+        del motion  # only a viscoelastic force depends on it
+        depth = max(depth, 0.0)
+        return self.stiffness * depth**1.5, math.sqrt(depth)
+
+
+@dataclass
+class Viscoelastic(Hertz):
+    """A viscoelastic contact without tensile force, whose face recovers after it."""
+
+    retardation_time: float
+    face: float = 0.0
+    touching: bool = False
+
+    def press(self, depth: float, motion: "Motion") -> tuple[float, float]:
+        if not self.touching:
+            self.face *= math.exp(-2.0 / 3.0 * motion.dt / self.retardation_time)
+            self.touching = depth > self.face
+        if not self.touching:
+            return 0.0, 0.0
+        elastic, radius = super().press(depth, motion)
+        lag = 1.5 * self.stiffness * radius * self.retardation_time
+        force = (elastic + lag * motion.rate) / (1.0 + lag * motion.softness)
+        self.face, self.touching = depth, force > 0.0
+        return (force, radius) if self.touching else (0.0, 0.0)
+
+
+@dataclass
+class Plastic(Hertz):
+    """A contact of a sphere with a radius that yields from Hertz's radius `onset` [m] on."""
+
+    radius: float
+    onset: float
+    largest: float = 0.0
+    flattening: float = 1.0
+    dent: float = 0.0
+
+    def press(self, depth: float, motion: "Motion") -> tuple[float, float]:
+        del motion
+        u = math.sqrt(max(depth - self.dent, 0.0) * self.radius / self.flattening)
+        if u > max(self.largest, self.onset):
+            cube = (3.0 * depth * self.radius / self.onset**2 - 1.0) / 2.0
+            u = self.onset * math.cbrt(cube)
+            area = self.onset**2 * (2.0 * cube + 1.0) / 3.0
+            self.largest, self.flattening = u, u / math.sqrt(area)
+            self.dent = (area - self.flattening * u**2) / self.radius
+        return self.stiffness * (u / math.sqrt(self.radius)) ** 3, u / self.flattening
+
+
 def impact(
-    plate: ThinPlate, mass: float, stiffness: float, speed: float, stretched: bool
+    plate: ThinPlate,
+    mass: float,
+    contact: Hertz,
+    speed: float,
+    stretched: bool,
+    loss_factor: float = 0.0,
 ) -> dict[str, float]:
-    """Simulate the impact of a sphere with the Hertz force stiffness times indentation^(3/2).
+    """Simulate the impact of a sphere.
 
     The modes move exactly between impulses of the contact force and of stretching. The simulation
     ends when the sphere has been above the plate for three times the time of the last contact.
     """
-    centre, omega = plate.shapes[-1], plate.frequencies
-    contact = 2.9 * (mass**2 / (stiffness**2 * speed)) ** 0.2
-    dt = min(contact / 100.0, 0.25 / omega[-1])
-    cosine, sine = np.cos(omega * dt), np.sin(omega * dt)
+    centre, omega, damping = plate.shapes[-1], plate.frequencies, loss_factor / 2.0
+    duration = 2.9 * (mass**2 / (contact.stiffness**2 * speed)) ** 0.2
+    dt = min(duration / 100.0, 0.25 / omega[-1])
+    slower = math.sqrt(1.0 - damping**2)
+    decay = np.exp(-damping * omega * dt)
+    cosine, sine = decay * np.cos(slower * omega * dt), decay * np.sin(slower * omega * dt) / slower
     q, rate, y, v, t = 0.0 * omega, 0.0 * omega, 0.0, speed, 0.0
-    first, last = 0.0, contact
-    peak = depth = deflected = 0.0
+    first, last = 0.0, duration
+    peak = depth = deflected = widest = 0.0
     q_push, y_push = 0.0 * omega, 0.0
+    softness = dt / 2.0 * (1.0 / mass + float(np.sum(centre**2 / plate.masses)))
     while t < 3.0 * last or v > 0.0 or y > -deflected:
         rate, v = rate + dt / 2.0 * q_push, v + dt / 2.0 * y_push
-        q, rate = q * cosine + rate / omega * sine, rate * cosine - q * omega * sine
+        q, rate = (
+            q * (cosine + damping * sine) + rate / omega * sine,
+            rate * (cosine - damping * sine) - q * omega * sine,
+        )
         y, t = y + v * dt, t + dt
-        force = stiffness * max(y - centre @ q, 0.0) ** 1.5
-        pull = plate.force_by_stretching(q) if stretched else 0.0
-        q_push, y_push = (force * centre + pull) / plate.masses, -force / mass
+        pull = plate.force_by_stretching(q) / plate.masses if stretched else 0.0 * omega
+        closing = v - centre @ (rate + dt / 2.0 * pull)
+        force, radius = contact.press(y - centre @ q, Motion(closing, softness, dt))
+        q_push, y_push = force * centre / plate.masses + pull, -force / mass
         rate, v = rate + dt / 2.0 * q_push, v + dt / 2.0 * y_push
-        peak, depth = max(peak, force), max(depth, y)
+        peak, depth, widest = max(peak, force), max(depth, y), max(widest, radius)
         deflected = max(deflected, abs(centre @ q))
         last = t if force else last
         first = t if not first and not force else first
     return {
         "contact_time": first, "max_indentation": depth, "max_force": peak,
-        "max_contact_radius": peak ** (1.0 / 3.0), "restitution": -v / speed,
+        "max_contact_radius": widest, "restitution": -v / speed,
     }  # fmt: skip

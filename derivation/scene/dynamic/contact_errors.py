@@ -153,7 +153,10 @@ def lost(
                         "has no solution, because the yielded contact unloads more stiffly than "
                         "the short modes of the plate respond"
                     )
-                    remedy = 'reduce inertia.modes, or set inertia.branches = "A0"'
+                    modes = problem.contact.modes
+                    remedy = f"set inertia.modes to fewer than {modes.first.size}"
+                    if modes.first.size < modes.omega.size:
+                        remedy += ', or inertia.branches to "A0"'
     return IncompleteError(f"the contact at {time:.6g} s {why}", remedy)
 
 

@@ -20,6 +20,8 @@ RECOVERED = 20.0
 """Time over A_v after which a face counts as recovered: its depth has decayed to 2e-6."""
 LOOK, LOOKS = 0.06, 200.0
 """Work of an evaluation of a mode, and additional work of a block of evaluations."""
+SINCE = 1e-5
+"""Part of the flight, or of A_v, in which the speed of a face that recovers is measured."""
 _HALVINGS = 80
 
 
@@ -79,6 +81,23 @@ def meeting(
         "use a thicker plate or a lighter sphere, or set effects.inertia = false for a "
         "quasi-static plate",
     )
+
+
+def meeting_speed(problem: DynamicProblem, after: ImpactState, radius: float, t: float) -> float:
+    """Return the speed at which sphere and face meet at a time after separation.
+
+    A viscoelastic face may meet a sphere that moves away from the plate, because it recovers.
+
+    Parameters
+    ----------
+    after, radius
+        State and radius at separation.
+    """
+    if not problem.retardation_time:
+        return -problem.flown(after, t).separation_speed
+    step = SINCE * min(t, problem.retardation_time)
+    closed = _into(problem, after, t, radius) - _into(problem, after, t - step, radius)
+    return closed / step
 
 
 def _clear(problem: DynamicProblem, state: ImpactState) -> float:

@@ -60,7 +60,7 @@ class ContactInterval(NamedTuple):
     peak_force
         Largest contact force [N].
     relative_approach_speed
-        Speed at which sphere and plate meet, over the impact speed [1].
+        Speed at which sphere and face of the plate meet, over the impact speed [1].
     """
 
     start: float
@@ -181,8 +181,8 @@ class DynamicImpact(Motion):
     energy_balance: EnergyBalance = field(kw_only=True)
 
     @cached_property
-    def _touching(self) -> tuple[Array, ...]:
-        """The rows of each contact at the times of `LOOKS`, up to the plate's deflection."""
+    def courses(self) -> tuple[Array, ...]:
+        """The rows of each contact at `LOOKS` times, up to the plate's deflection, in SI units."""
         problem, contacts = self.impact_history.problem, self.impact_history.contacts
         times = (np.linspace(one.start, one.end, LOOKS) * problem.T for one in contacts)
         return tuple(self.rows(some)[: W + 1].copy() for some in times)
@@ -190,7 +190,7 @@ class DynamicImpact(Motion):
     @property
     def least(self) -> float:
         """Smallest force between two maxima in a contact, over the peak force [1]; 1 if none."""
-        return min(self._least_force(rows) for rows in self._touching)
+        return min(self._least_force(rows) for rows in self.courses)
 
     @property
     def decisive_change(self) -> float:
@@ -201,7 +201,7 @@ class DynamicImpact(Motion):
         """
         first, *others = self.inertia.contacts
         gap = (others[0].start - first.end) / (first.end - first.start) if others else math.inf
-        return min(self._least_force(self._touching[0]), gap)
+        return min(self._least_force(self.courses[0]), gap)
 
     def jump_since(self, coarser: "DynamicImpact") -> float:
         """Return the relative change of the first contact's duration if it splits or joins [1].
@@ -216,7 +216,7 @@ class DynamicImpact(Motion):
             return 0.0
         first, *others = self.inertia.contacts[:2]
         known, *same = coarser.inertia.contacts[:2]
-        times, force = np.linspace(first.start, first.end, LOOKS), self._touching[0][P]
+        times, force = np.linspace(first.start, first.end, LOOKS), self.courses[0][P]
         error = IRREGULAR * np.abs(force - coarser.rows(times)[P])
         echoes = np.where(times > echo_time(self.law.model), self.inertia.echo_ripple, 0.0)
         error = np.maximum(error, echoes * self.max_force)
@@ -252,22 +252,22 @@ class DynamicImpact(Motion):
 
     def deflection_before_separation(self, law: ContactLaw) -> float:
         """Return the largest deflection at the axis [m] up to the end of the last contact."""
-        touching = (self.deflection_during(law, i) for i in range(len(self._touching)))
+        touching = (self.deflection_during(law, i) for i in range(len(self.courses)))
         contacts = self.impact_history.contacts
         flights = (self._in_flight(one.end, other.start) for one, other in pairwise(contacts))
         return max(*touching, *flights, 0.0)
 
-    def deflection_during(self, law: ContactLaw, contact: int, to_peak: bool = False) -> float:
-        """Return the largest deflection at the axis [m] during a contact, numbered from 0.
+    def deflection_during(self, law: ContactLaw, contact: int) -> float:
+        """Return the largest deflection at the axis [m] during a contact, numbered from 0."""
+        return float(self.deflections_so_far(law, contact)[-1])
 
-        With `to_peak`, up to its largest force.
-        """
-        rows = self._touching[contact]
-        if to_peak:
-            rows = rows[:, : np.argmax(rows[P]) + 1]
+    def deflections_so_far(self, law: ContactLaw, contact: int) -> Array:
+        """Return the largest deflection at the axis [m] up to each time of a contact."""
+        rows = self.courses[contact]
         a = np.minimum(np.maximum(rows[A], 0.0), law.limit)
         free = rows[Z] - local_indentation(law, a)
-        return float(max(np.max(np.abs(free)), np.max(np.abs(rows[W]))))
+        largest = np.maximum.accumulate(np.maximum(np.abs(free), np.abs(rows[W])))
+        return np.asarray(largest, dtype=np.float64)
 
     @cached_property
     def later_deflection(self) -> float:

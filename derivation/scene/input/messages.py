@@ -5,10 +5,12 @@ import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
+from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from derivation.engine.nearest import did_you_mean, nearest
 from derivation.engine.printable import one_line
+from derivation.scene.input.quoted import in_unit
 
 Fields = Mapping[str, Mapping[str, FieldInfo]]
 """The fields of each table by key."""
@@ -25,7 +27,7 @@ TABLE_ALIKE = 0.9
 """Similarity from which an unknown table counts as a misspelled table, not as a key."""
 WANTED = '"auto", true or false'
 EXPECTED = {
-    "material": "the name of a material (`platecontact materials` lists them)",
+    "material": "the name of a material",
     "source": "text",
     "edge": '"paper", "simply-supported" or "clamped"',
     "outputs": "a list of contact_time, max_indentation, max_force, max_contact_radius and "
@@ -105,6 +107,8 @@ UNKNOWN = {
 """What to do instead of each key that users may expect but that does not exist."""
 
 ELSEWHERE = {
+    "material": "; `platecontact materials` lists them, and a table [materials.NAME] in the scene "
+    "file defines another one",
     "edge": '; if the contact ends before waves return from the edge, set extent = "infinite" in '
     "[inertia]: then the edge has no effect",
     "rtol": "; for more digits than double precision has, run "
@@ -124,7 +128,9 @@ def shown(value: Any) -> str:
     if isinstance(value, Mapping):
         return "a table"
     if isinstance(value, (list, tuple)):
-        return "an array"
+        return "an array" if value else "an empty array"
+    if isinstance(value, BaseModel):
+        return one_line(repr(value), 40)
     try:
         return one_line(str(value), 40)
     except ValueError:  # an integer of so many digits that Python refuses to print it
@@ -179,8 +185,20 @@ def explain(kind: str, location: tuple[int | str, ...], value: Any, fields: Fiel
         return f"{name}: {expected}, got nothing; add {example} to [{table}]"
     elsewhere = ELSEWHERE.get(key, "")
     text = field.examples and not isinstance(field.examples[0], (int, float))
-    quotes = "without quotes, " if isinstance(value, str) and not text else ""
-    return f"{name}: {expected}, got {shown(value)}; write {quotes}for example {example}{elsewhere}"
+    if isinstance(value, str) and not text:
+        return f"{name}: {expected}, got {shown(value)}; {_unquoted(key, value, field)}{elsewhere}"
+    return f"{name}: {expected}, got {shown(value)}; write for example {example}{elsewhere}"
+
+
+def _unquoted(key: str, value: str, field: FieldInfo) -> str:
+    """Return how to write a quoted number, or one with a unit."""
+    found = re.search(r"\[(.+?)\]", field.description or "")
+    unit = found[1] if found else ""
+    numeric = field.examples and not isinstance(field.examples[0], bool)
+    number = in_unit(value, unit) if numeric else None
+    example = f"for example {_line('', (key, field))}" if number is None else ""
+    in_that = f" in {unit}" if unit not in ("", "1") else ""
+    return f"write it{in_that} without quotes, {example or f'`{key} = {number:.9g}`'}"
 
 
 def choice_problem(

@@ -84,6 +84,11 @@ class Table(BaseModel):
         """Return the given keys with their values."""
         return self.model_dump(mode="json", exclude_none=True, exclude_unset=True)
 
+    def __repr_args__(self) -> Iterator[tuple[str | None, Any]]:
+        """Yield the given keys with their values."""
+        given = self.model_fields_set
+        return ((key, value) for key, value in super().__repr_args__() if key in given)
+
     @model_validator(mode="after")
     def _consistent(self) -> Self:
         texts = self.conflicts(self.model_dump())

@@ -8,18 +8,24 @@ plate: the solution with the smaller one is returned, if there is any.
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from derivation.scene.effects import BY_NAME
 from derivation.scene.effects.effect import Results
 from derivation.scene.errors import SceneError
+from derivation.scene.input.body_materials import body_of, own_materials
 from derivation.scene.input.settings import TIGHTEST
+
+if TYPE_CHECKING:
+    from derivation.scene.scene import Scene
 
 UNITS = {"yield_stress": "Pa", "retardation_time": "s"}
 BLOCK = 1e4
 """Radius and half-thickness of the block over the sphere radius."""
 EFFECTS = {"yield_stress": "plasticity", "retardation_time": "viscosity"}
 """The effect of each constant."""
+LOSSLESS = {"yield_stress": 1e30, "retardation_time": 1e-30}
+"""Value of each constant at which the plate loses no energy by it: the limits of the keys."""
 EARLY = 1e-2
 """First trial value of the retardation time over the contact time without viscosity [1]."""
 UNDERESTIMATE = 0.8
@@ -126,7 +132,7 @@ class Measurement:
         return replace(self, tables=dict(self.tables) | {"accuracy": accuracy})
 
     def simulated(self, value: float | None, within: bool = False) -> Trial:
-        """Simulate the impact with a trial value; without one, the effect of the constant is off.
+        """Simulate the impact with a trial value; without one, the plate has no such constant.
 
         Parameters
         ----------
@@ -135,20 +141,27 @@ class Measurement:
         """
         from derivation.scene.contact_law.limits import check_radius
         from derivation.scene.impact import selected_effects
-        from derivation.scene.scene import read
         from derivation.scene.selection.method_selection import solve_selected
 
-        effects = self.tables.get("effects", {}) | {EFFECTS[self.key]: value is not None}
-        plate = self.tables["plate"] | ({} if value is None else {self.key: value})
-        scene = read(dict(self.tables) | {"plate": plate, "effects": effects})
-        rtol, selected = selected_effects(scene)
+        rtol, selected = selected_effects(self._scene(value))
         numbers, accuracy = solve_selected(selected, rtol, within=within or self.static)
         law, a = selected.law, numbers[3]
         check_radius(law, a, "impact.speed", "reduce the speed")
         return Trial(numbers, min(law.max_pressure(a), law.pressure_limit), accuracy.bound)
 
+    def _scene(self, value: float | None) -> "Scene":
+        """Return the scene with a trial value; without one, the plate loses no energy by it."""
+        from derivation.scene.scene import read
+
+        plate = self.tables["plate"] | {self.key: LOSSLESS[self.key] if value is None else value}
+        scene = read(dict(self.tables) | {"plate": plate})
+        of_sphere = getattr(body_of(scene.sphere, own_materials(scene.materials)), self.key)
+        lossy = value is not None or of_sphere not in (0.0, math.inf)
+        effects = self.tables.get("effects", {}) | {EFFECTS[self.key]: lossy}
+        return read(dict(self.tables) | {"plate": plate, "effects": effects})
+
     def lossless(self, margin: float = 0.0) -> Trial:
-        """Return the measurement without energy loss in the contact.
+        """Return the measurement without energy loss by the constant.
 
         Parameters
         ----------
@@ -166,7 +179,7 @@ class Measurement:
             return trial
         raise SceneError(
             f"measured.restitution: expected less than {most:.{3 if margin else 6}g}, the "
-            f"restitution without energy loss in the contact, got {self.goal:.6g}; correct "
+            f"restitution without a plate.{self.key}, got {self.goal:.6g}; correct "
             "measured.restitution or measured.target"
         )
 
@@ -176,7 +189,7 @@ class Measurement:
         Parameters
         ----------
         lossless
-            The measurement without energy loss in the contact.
+            The measurement without energy loss by the constant.
 
         Raises
         ------
@@ -240,7 +253,7 @@ class Measurement:
         Parameters
         ----------
         lossless
-            The measurement without energy loss in the contact.
+            The measurement without energy loss by the constant.
         close
             Relative difference of the restitution that suffices: both are then the first value.
 
@@ -255,14 +268,18 @@ class Measurement:
         if abs(now.above) < close * self.goal:
             return now, now
         # Towards a larger energy loss if the restitution is too large, else towards a smaller one.
-        step = more if now.above > 0.0 else -more
+        falling, back = now.above > 0.0, False
+        step = more if falling else -more
         points = [now]
         for _ in range(STEPS):
-            points.append(now := self._point(now.x + step))
-            if now.above * step * more <= 0.0:
+            points.append(now := self._point(points[-1].x + step))
+            if (now.above <= 0.0) if falling else (now.above >= 0.0):
+                if back and falling:
+                    falling = False  # to the smaller solution
+                    continue
                 low, high = sorted(points[-2:])
                 return low, high
-            if step != more or now.above <= points[-2].above:
+            if not falling or now.above <= points[-2].above:
                 rising = 0
                 continue
             # An elastic plate under a contact that hardly moves returns the energy again.
@@ -270,13 +287,17 @@ class Measurement:
             if rising == 1 and len(points) > 2:
                 lowest = self._point(_vertex(*points[-3:]))
                 if lowest.above <= 0.0:
-                    low, high = sorted((points[-3], lowest))
+                    low, high = sorted((now if back else points[-3], lowest))
                     return low, high
                 points.insert(-1, lowest)
             # With several contacts, restitution is not a monotonic function of the yield stress.
             beyond_errors = now.least > points[-2].above + self.goal
-            if rising == RISING or (beyond_errors and self.key == "retardation_time"):
+            if rising < RISING and not (beyond_errors and self.key == "retardation_time"):
+                continue
+            if back or len(points) > 2:
                 raise self._unreached(points)
+            # The first value is already beyond that of the smallest restitution.
+            points, step, rising, back = points[::-1], -step, 0, True
         raise SceneError(
             f"measured.restitution: expected a value that some plate.{self.key} gives, got "
             f"{self.goal:.6g}, which no value from {math.exp(first):.6g} to {math.exp(now.x):.6g} "
@@ -287,10 +308,10 @@ class Measurement:
         """Return the error of a restitution below those of all points."""
         lowest = min(points, key=lambda point: point.above)
         return UnreachedError(
-            f"measured.restitution: expected at least the smallest restitution that a "
-            f"plate.{self.key} gives, got {self.goal:.6g}, but it increases again from "
-            f"{self.goal + lowest.above:.6g} at {math.exp(lowest.x):.6g} {UNITS[self.key]}; "
-            "correct measured.restitution or measured.target",
+            f"measured.restitution: expected at least about {self.goal + lowest.above:.3g}, the "
+            f"smallest restitution that a plate.{self.key} gives, got {self.goal:.6g}; the "
+            f"restitution is smallest at about {math.exp(lowest.x):.3g} {UNITS[self.key]}; correct "
+            "measured.restitution or measured.target",
             min(point.least for point in points),
         )
 

@@ -63,6 +63,8 @@ def data_set(result: Result, n: int | None = None) -> "xr.Dataset":
         name: ((), getattr(result, name), _labels(name, unit)) for name, unit in UNITS.items()
     }
     values["total_time"] = ((), result.total_time, _labels("total_time", "s"))
+    if result.effects.law.plastic:
+        values["dent"] = ((), result.dent, _labels("dent", "m"))
     values |= {
         name: ("time", column, _labels(name, HISTORY_UNITS[name]))
         for name, column in columns.items()

@@ -85,7 +85,8 @@ class EnergyBalance:
         ----------
         error
             Relative error of the restitution [1]; that of the energies is twice as large. All are
-            rounded to the last digit of the largest one that holds.
+            rounded to the last digit of the largest one that holds, but a smaller energy of the
+            sphere has its own last digit.
         """
         parts = {
             "sphere": self.rebound_kinetic,
@@ -99,9 +100,14 @@ class EnergyBalance:
         largest = 100.0 * max(map(abs, parts.values())) / self.initial_kinetic
         if not (digits and 0.0 < largest < math.inf):
             return "unknown"
-        last = math.floor(math.log10(largest)) + 1 - digits
+        last = _last_place(largest, digits)
+        places, rebound = dict.fromkeys(parts, last), 100.0 * parts["sphere"] / self.initial_kinetic
+        if 0.0 < rebound < 0.5 * 10.0**last:
+            places["sphere"] = _last_place(rebound, digits)
         words = ", ".join(
-            f"{self._percent(energy, last)} {name}" for name, energy in parts.items() if energy
+            f"{self._percent(energy, places[name])} {name}"
+            for name, energy in parts.items()
+            if energy
         )
         if abs(self.gravity_work) < NOTABLE_WORK * self.initial_kinetic:
             return words
@@ -120,6 +126,11 @@ class EnergyBalance:
         final = self.rebound_kinetic + self.viscous_loss + self.unrecovered_elastic
         final += self.plate + self.coupling_loss + self.plastic_loss + self.damping_loss
         return (self.initial_kinetic + self.gravity_work - final) / self.initial_kinetic
+
+
+def _last_place(value: float, digits: int) -> int:
+    """Return the power of ten of the last of some significant digits of a positive number."""
+    return math.floor(math.log10(value)) + 1 - digits
 
 
 @dataclass(frozen=True)

@@ -1,5 +1,6 @@
 """The least time in contact, known before a simulation, and refusals that follow from it."""
 
+import math
 import re
 from typing import Any
 
@@ -54,7 +55,7 @@ def test_mass_on_a_stiff_spring_stops_after_a_quarter_of_a_period() -> None:
     stiffness = 4.0 / 3.0 * law.modulus * model.R**0.5
     depth = (1.25 * model.m * model.v0**2 / stiffness) ** 0.4
     compliance = sum(modes.compliance) + 1.0 / (1.25 * stiffness * depth**0.5)
-    quarter = 0.5 * 3.141592653589793 * (model.m * compliance) ** 0.5
+    quarter = 0.5 * math.pi * (model.m * compliance) ** 0.5
     assert time_in_contact.stopping_time(law, modes) == pytest.approx(quarter, rel=0.01)
 
 
@@ -78,7 +79,7 @@ def test_heavy_sphere_deflects_the_plate_as_far_as_is_estimated(
     modes = plate_of(law, 24).modes
     ratio = law.model.m * float(modes.inverse_modal_mass[0])
     assert ratio > time_in_contact.SPRING
-    estimate = law.model.v0 * time_in_contact.half_period(law.model.m, modes) / 3.141592653589793
+    estimate = law.model.v0 * time_in_contact.half_period(law.model.m, modes) / math.pi
     actual = motion.deflection_before_separation(law) / estimate
     assert time_in_contact.DEFLECTED < actual < 1.0
 

@@ -86,7 +86,8 @@ def meeting(
 def meeting_speed(problem: DynamicProblem, after: ImpactState, radius: float, t: float) -> float:
     """Return the speed at which sphere and face meet at a time after separation.
 
-    A viscoelastic face may meet a sphere that moves away from the plate, because it recovers.
+    While a viscoelastic surface recovers from a contact, it may touch a sphere that moves away from
+    the plate.
 
     Parameters
     ----------

@@ -1,7 +1,6 @@
 """Converts the contacts of an impact on a plate with inertia into results in SI units."""
 
 import math
-from itertools import repeat
 
 import numpy as np
 
@@ -40,8 +39,9 @@ def dynamic_impact_of(law: ContactLaw, history: ImpactHistory) -> DynamicImpact:
     first, total = history.contacts[0], history.contacts[-1].end
     balance = balance_of(history)
     ripple, echo_error = _echoes(law, history, problem.a * largest[A], problem.force * largest[P])
+    with_earlier = zip(history.contacts, (None, *history.contacts[:-1]), strict=True)
     inertia = InertiaDetails(
-        tuple(map(_touch, repeat(problem), history.contacts, (None, *history.contacts))),
+        tuple(_touch(problem, *pair) for pair in with_earlier),
         problem.T * total,
         history.reason,
         history.remedy,
@@ -79,7 +79,8 @@ def _branches(
 
     In 153 random viscoelastic impacts, simulated by another program with and without higher
     branches, the changes were at most half of the estimates. The higher branches were damped as the
-    contact is (Kelvin-Voigt): undamped ones that P_e drives gain energy from the contact.
+    contact is (Kelvin-Voigt). Undamped ones, driven by P_e, changed results by up to 4.7 times the
+    estimates in 23 of these impacts. They are not a model of the contact: they may gain energy.
     """
     model = law.model
     if model.inertia.branches == "all":

@@ -38,6 +38,7 @@ and from the contact law to the motion:
 31 plasticity       elastic-plastic contact: limited pressure, unloading, residual indentation
 32 damping          damped modes: response, free motion, dissipated energy
 33 stretching       stiffening of a plate whose middle plane stretches
+34 wave stress      stress of waves and modes on the back face
 """
 
 from collections.abc import Callable
@@ -83,6 +84,7 @@ from derivation.plate.waves.theory.bending_branch import bending_branch
 from derivation.plate.waves.theory.coupling import coupling
 from derivation.plate.waves.theory.dynamic_modes import dynamic_modes
 from derivation.plate.waves.theory.plate_motion import plate_motion
+from derivation.plate.waves.theory.wave_stress import wave_stress
 
 Step = tuple[str, Callable[[], tuple[Formula, ...]]]
 
@@ -118,6 +120,7 @@ MOTION_STEPS: tuple[Step, ...] = (
     ("bending branch", bending_branch),
     ("coupling", coupling),
     *(step for steps in exports("theory", "STEPS") for step in steps),
+    ("wave stress", wave_stress),
 )
 """Steps after the contact law. They are separate, because they contain integrals and constants."""
 

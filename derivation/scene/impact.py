@@ -127,16 +127,16 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
     if motion is not None:
         moving = replace(model, inertia=motion.law.model.inertia)
     strength, yield_stress = scene.plate.tensile_strength, _known(model.plate_yield_stress)
-    stress = math.nan
-    if strength is not None or yield_stress is not None:
-        stress = law.max_tensile_stress(a, force, not selected.edge_disabled)
+    stress = law.max_tensile_stress(a, force, not selected.edge_disabled)
+    if motion is not None:
+        stress = motion.back_face.stress
     warnings = (
         *on_units,
         *hollow_warnings(model),
         *warnings_at(law, a, delta, deflection),
         *motion_warnings(moving, contact_time, fraction, motion is not None),
         *_yield_warnings(law, a, pressure),
-        *stress_warnings(stress, strength, yield_stress),
+        *stress_warnings(stress, strength, yield_stress, static=motion is None),
     )
     if motion is not None:
         speeds = [touch.relative_approach_speed for touch in motion.inertia.contacts]
@@ -145,7 +145,7 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
         rebound = motion.restitution * model.v0
         warnings += fall_warnings(model.gravity, rebound, motion.later_deflection)
     return Result(
-        *numbers, pressure, accuracy, model_error, warnings, scene,
+        *numbers, pressure, stress, accuracy, model_error, warnings, scene,
         selected.grown(growth_of(motion)), inertia_neglected=neglected,
         model_errors=model_errors,
     )  # fmt: skip

@@ -10,7 +10,7 @@ from derivation.scene.effects import WHOLE_PLATE
 from derivation.scene.model import Model
 
 NONE = np.zeros(0)
-STILL = Modes(NONE, NONE, NONE, np.zeros(0, dtype=np.intp))
+STILL = Modes(NONE, NONE, NONE, np.zeros(0, dtype=np.intp), np.zeros(0, dtype=bool))
 
 
 @pytest.mark.parametrize("reach", [0.5, 0.9, 0.99])

@@ -19,4 +19,9 @@ ABOUT = {
     r"\sum c_j P_j s_j$, energy is conserved for any static law; the contact stores $\int P dD "
     r"+ \sum q_j (P s_j - P_j)$. If the indentation is taken on the axis, $s_j = 1$, energy is "
     r"lost spuriously. The same modal weights turn the static law into the variational one.",
+    "wave stress": "Under an impact the back face is not stressed as under a static load, because "
+    "waves have not reached the edge yet. Each wave stresses it in proportion to its deflection. "
+    r"With $x = \phi h$ and $\kappa = (\omega h/c_T)^2$ the ratio is $S_a$ in bending and $S_s$ in "
+    "extension; for thin plates it is that of a bent plate. A mode of a clamped or supported plate "
+    r"also has an evanescent part, $c I_0(k_2 r)$.",
 }

@@ -237,9 +237,16 @@ def neglects_inertia(
     """
     if dynamic or not model.density:
         return False
-    zener, period, _ = known or plate_times(model)
-    slow = contact_time >= QUASI_STATIC_PERIODS * period
-    return not slow and (zener > ZENER_LIMIT or deflection > DEFLECTION_LIMIT)
+    times = known or plate_times(model)
+    if slow_for(model, contact_time, times):
+        return False
+    return bool(times.zener > ZENER_LIMIT or deflection > DEFLECTION_LIMIT)
+
+
+def slow_for(model: Model, contact_time: float, known: PlateTimes | None = None) -> bool:
+    """Return whether an impact is slow enough for a plate to be quasi-static."""
+    period = (known or plate_times(model)).period
+    return bool(contact_time >= QUASI_STATIC_PERIODS * period)
 
 
 def motion_warnings(
@@ -332,7 +339,7 @@ def pressure_warnings(
 
 
 def stress_warnings(
-    stress: float, strength: float | None, yield_stress: float | None = None
+    stress: float, strength: float | None, yield_stress: float | None = None, static: bool = True
 ) -> tuple[str, ...]:
     """Return warnings if the back face is predicted to fail or to yield.
 
@@ -343,19 +350,22 @@ def stress_warnings(
     strength, yield_stress
         Of the plate [Pa], if they are known. On the axis both in-plane stresses are equal, and
         the face yields when they reach the yield stress.
+    static
+        Whether the stress is that under a static load equal to the largest force.
     """
     notes = []
+    basis = " (quasi-static, under the peak force)" if static else ""
     if strength is not None and stress > strength:
         notes.append(
             f"the largest tensile stress on the back face is {stress / strength:.3g} times the "
-            "strength (quasi-static, under the peak force): the plate is predicted to fail, and "
-            "the results assume that it does not"
+            f"strength{basis}: the plate is predicted to fail, and the results assume that it does "
+            "not"
         )
     if yield_stress is not None and stress > yield_stress:
         notes.append(
             f"the largest tensile stress on the back face is {stress / yield_stress:.3g} times "
-            "the yield stress (quasi-static, under the peak force): the plate is predicted to "
-            "yield in bending, and the results assume that it does not"
+            f"the yield stress{basis}: the plate is predicted to yield in bending, and the results "
+            "assume that it does not"
         )
     return tuple(notes)
 

@@ -57,6 +57,8 @@ class Modes:
         compliance.
     first
         Index of the first mode of each shape, shape (shapes,).
+    bends
+        Whether each mode is antisymmetric; the others are symmetric. Shape (modes,).
     held
         The first shapes, if the edge is clamped or simply supported; the others are J0(phi r).
     b
@@ -67,6 +69,7 @@ class Modes:
     omega: Array
     inverse_modal_mass: Array
     first: Indices
+    bends: NDArray[np.bool_]
     held: "Waves | None" = None
     b: float = 1.0
 
@@ -178,12 +181,13 @@ def bending_fraction(model: Model, modes: Modes) -> Array:
 
 
 class _Shapes(NamedTuple):
-    """Wave numbers times b, omega h/c_T, strength W rho h r, and index of each first mode."""
+    """Wave numbers times b, omega h/c_T, strength W rho h r, index of first modes, and symmetry."""
 
     k: Array
     root: Array
     strength: Array
     first: Indices
+    bends: NDArray[np.bool_]
 
 
 def _free(model: Model, count: int) -> _Shapes:
@@ -202,14 +206,14 @@ def _free_shapes(eta: float, nu: float, count: int) -> _Shapes:
     root = inertia.bending_frequency(x, nu)
     residue = inertia.bending_residue(x, nu)
     weight = 1.0 / (np.pi * bessel_j1_at_j0_zeros(count) ** 2)
-    return _Shapes(j, root, residue * weight, np.arange(count))
+    return _Shapes(j, root, residue * weight, np.arange(count), np.ones(count, dtype=bool))
 
 
 def _modes(model: Model, shapes: _Shapes, held: "Waves | None" = None) -> Modes:
     """Return modes in SI units."""
     inverse_mass = shapes.strength / (model.density * model.h * model.b * model.b)
     omega = shapes.root * (model.shear_speed / model.h)
-    return Modes(shapes.k / model.b, omega, inverse_mass, shapes.first, held, model.b)
+    return Modes(shapes.k / model.b, omega, inverse_mass, shapes.first, shapes.bends, held, model.b)
 
 
 def _branches(model: Model, lowest: _Shapes, highest: float, without: int = 0) -> _Shapes:
@@ -232,7 +236,9 @@ def _branches(model: Model, lowest: _Shapes, highest: float, without: int = 0) -
     taken[:, 0] = np.arange(x.size) >= without
     any_taken = np.any(taken, axis=1)
     sizes = np.sum(taken[any_taken], axis=1)
-    return _Shapes(lowest.k[any_taken], root[taken], strength[taken], np.cumsum(sizes) - sizes)
+    bends = np.broadcast_to(np.arange(root.shape[1]) < bent[0].shape[1], root.shape)[taken]
+    first = np.cumsum(sizes) - sizes
+    return _Shapes(lowest.k[any_taken], root[taken], strength[taken], first, bends)
 
 
 def _held_plate(law: ContactLaw, count: int) -> ModalPlate:
@@ -246,7 +252,7 @@ def _held_plate(law: ContactLaw, count: int) -> ModalPlate:
     known, moving = every.k.size, min(count, every.k.size)
     partner = _free(model, max(count, known))
     strength = every.residue * every.weight
-    held = _Shapes(every.k, every.root.copy(), strength, np.arange(known))
+    held = _Shapes(every.k, every.root.copy(), strength, np.arange(known), partner.bends[:known])
     own, other = (_modes(model, x).compliance for x in (held, partner))
     lacking = _edge_compliance(law) - float(np.sum(own) - np.sum(other[:known]))
     held.root[0] /= math.sqrt(1.0 + lacking / own[0])
@@ -268,14 +274,15 @@ def _held_plate(law: ContactLaw, count: int) -> ModalPlate:
 def _first(shapes: _Shapes, end: int, begin: int = 0) -> _Shapes:
     """Return some shapes with one mode each."""
     part = slice(begin, end)
-    k = shapes.k[part]
-    return _Shapes(k, shapes.root[part], shapes.strength[part], np.arange(k.size))
+    k, bends = shapes.k[part], shapes.bends[part]
+    return _Shapes(k, shapes.root[part], shapes.strength[part], np.arange(k.size), bends)
 
 
 def _joined(one: _Shapes, other: _Shapes) -> _Shapes:
     """Return the shapes of both, in this order."""
     k, root, strength = (np.concatenate(pair) for pair in zip(one[:3], other[:3], strict=True))
-    return _Shapes(k, root, strength, np.concatenate((one.first, one.root.size + other.first)))
+    first = np.concatenate((one.first, one.root.size + other.first))
+    return _Shapes(k, root, strength, first, np.concatenate((one.bends, other.bends)))
 
 
 def _some(waves: "Waves", part: slice) -> "Waves":

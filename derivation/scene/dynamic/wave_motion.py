@@ -6,7 +6,7 @@ from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from html import escape
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +23,9 @@ from derivation.scene.quantity import counted
 from derivation.scene.quasi_static.motion import EnergyBalance, Motion
 from derivation.scene.scene import OUTPUTS
 from generated.arrays import Double as Array
+
+if TYPE_CHECKING:
+    from derivation.scene.dynamic.back_face import BackFace
 
 IRREGULAR, LATE = 2.0, 2.5
 """Estimated error of the omitted modes over the change since half as many modes [1]: of a result,
@@ -186,6 +189,13 @@ class DynamicImpact(Motion):
         problem, contacts = self.impact_history.problem, self.impact_history.contacts
         times = (np.linspace(one.start, one.end, LOOKS) * problem.T for one in contacts)
         return tuple(self.rows(some)[: W + 1].copy() for some in times)
+
+    @cached_property
+    def back_face(self) -> "BackFace":
+        """Largest tensile stress on the axis of the back face."""
+        from derivation.scene.dynamic.back_face import back_face
+
+        return back_face(self)
 
     @property
     def least(self) -> float:

@@ -26,15 +26,17 @@ def quantities(result: "Result") -> list[tuple[str, str, str]]:
     if contacts == 1:  # the total time is the contact time
         rows = [row for row in rows if row[0] != "total_time"]
     return [
-        (_named(name, contacts), *prefixed(value, unit, result.digits_of_result(name)))
+        (_named(name, contacts, result), *prefixed(value, unit, result.digits_of_result(name)))
         for name, value, unit in rows
     ]
 
 
-def _named(name: str, contacts: int) -> str:
+def _named(name: str, contacts: int, result: "Result") -> str:
     """Return the displayed name of a result."""
     if name == "contact_time" and contacts > 1:
         return f"contact time (first of {contacts})"
+    if name == "max_tensile_stress" and result.statically_stressed:
+        return "max tensile stress (static)"
     return name.replace("_", " ")
 
 
@@ -64,7 +66,7 @@ def short(result: "Result") -> str:
 def _remarks(result: "Result") -> Iterator[str]:
     """Yield the lines below the table of results."""
     bound = result.accuracy.bound
-    yield f"Accuracy: {result.accuracy.summary}{_model_error(result)}"
+    yield f"Accuracy: {result.accuracy.summary}{_model_error(result)}{_stress_error(result)}"
     if result.complete and not digits_of(bound) and math.isfinite(bound):
         yield f"Unknown: the error by {result.accuracy.largest_part} may be as large as the results"
     elif not digits_of(result.model_error):
@@ -94,6 +96,14 @@ def _model_error(result: "Result") -> str:
     others = min(errors[output] for output in result.effects.outputs)
     whose = f" ({name.replace('_', ' ')})" if others < UNLIKE * result.model_error else ""
     return f", model error up to {percent(result.model_error)}{whose}"
+
+
+def _stress_error(result: "Result") -> str:
+    """Return the error of the tensile stress, which the bound does not include."""
+    error = result.tensile_stress_error
+    if result.dynamics is None or not math.isfinite(error):
+        return ""
+    return f"; of max tensile stress up to {percent(error)} (estimated)"
 
 
 def model_note(result: "Result") -> str:

@@ -75,7 +75,7 @@ def _problem(law: ContactLaw) -> DynamicProblem:
     """Return the scene in units of an impact on a plate that does not deflect."""
     model, (a, T) = law.model, units_of(law)
     none, no_index = np.zeros(0), np.zeros(0, dtype=np.intp)
-    still = Modes(none, none, none, no_index)
+    still = Modes(none, none, none, no_index, np.zeros(0, dtype=bool))
     contact = contact_of(law, ModalPlate(still, still, None), min(WIDER * a, law.limit), False)
     weight = law.gravity * (T / model.v0)
     units = a, T, model.m, model.v0

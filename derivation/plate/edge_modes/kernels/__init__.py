@@ -45,4 +45,5 @@ MODULES = (
     ComputedModule("edge_mode_kernels", edge_mode_kernels),
     RuntimeModule("edge_mode_functions", RUNTIME / "edge_mode_functions.py"),
     RuntimeModule("edge_modes", RUNTIME / "edge_modes.py", _limits),
+    RuntimeModule("wave_stress", RUNTIME / "wave_stress.py"),
 )

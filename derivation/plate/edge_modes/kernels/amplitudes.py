@@ -1,4 +1,4 @@
-"""Evanescent amplitude c of a mode, ratio of face to mean deflection, and modal weight.
+"""Evanescent amplitude c of a mode, ratio of face to mean deflection, modal weight, and stress.
 
 With J1 = q J0 the kinetic energy over J0^2 is a function of q. In the first mode of a supported
 plate, whose k vanishes at nu = -1, all terms are positive for k < j_1 of
@@ -29,11 +29,14 @@ from derivation.plate.edge_modes.theory import mindlin
 from derivation.plate.edge_modes.theory import waves as theory
 from derivation.plate.edge_modes.theory.mindlin import k_2
 from derivation.plate.vocabulary import eta, k_n, nu
+from derivation.plate.waves.theory.wave_stress import MODE, S_A
 
 r = sp.Symbol("r", positive=True)
 scaled, turn, partner, y = sp.symbols("scaled turn partner y", real=True)
 growth, growth_2, short, short_2 = sp.symbols("growth growth_2 short short_2", real=True)
-series, series_2, kinetic = sp.symbols("series series_2 kinetic", real=True)
+series, series_2, kinetic, part_stress = sp.symbols(
+    "series series_2 kinetic part_stress", real=True
+)
 FADED = theory.I0 * sp.exp(-k_2)
 """I0 e^(-k2)."""
 PART = j0 / scaled * sp.exp(-k_2)
@@ -132,4 +135,16 @@ def first_weight() -> Claims:
     )
 
 
-ROUTINES = (first_part, weight, energy, first_weight)
+@named_routine
+def mode_stress() -> Claims:
+    """Return h/mu times the stress of a mode on the back face, over its deflection, from S_a."""
+    return Claims(
+        (part_stress, bending_part, turned, c, t),
+        (),
+        (part_stress * (1 + c * turned / bending_part) / (1 - c * t),),
+        (MODE.subs({theory.t: theory.FACE, mindlin.c: theory.PART}),),
+        {**NAMES, part_stress: S_A},
+    )
+
+
+ROUTINES = (first_part, weight, energy, first_weight, mode_stress)

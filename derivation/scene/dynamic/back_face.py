@@ -1,0 +1,221 @@
+"""Stress on the back face of a plate with inertia, on the axis, over time.
+
+Under an impact the plate is not bent as under a static load: waves that leave the contact have not
+reached the edge yet. With q the modes of all wave branches under the computed contact force, c
+their static compliances, P_j the forces that drive them and S their stresses per deflection,
+
+    sigma = static stress(P, a) + sum S_n (q_n - c_n P_j).
+
+Modes that are faster than the impact are omitted: they respond quasi-statically.
+"""
+
+import math
+from dataclasses import dataclass, replace
+from typing import NamedTuple, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from derivation.engine.threads import one_thread
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.dynamic.contact_tables import contact_of
+from derivation.scene.dynamic.modal import ModalPlate, Modes, free_modes, plate_of
+from derivation.scene.dynamic.mode_count import (
+    FEWEST,
+    affordable,
+    branching,
+    coarser,
+    finer,
+    oscillators,
+)
+from derivation.scene.dynamic.time_element import A, P
+from derivation.scene.dynamic.wave_motion import DynamicImpact
+from derivation.scene.dynamic.wave_problem import echo_time
+from derivation.scene.model import Model
+from generated.arrays import Double as Array
+
+Amplitudes = NDArray[np.complex128]
+PHASE, STEPS = 0.5, 200
+"""Phase of the fastest mode in a time step, and smallest number of steps in a contact or flight.
+The force is linear in each step."""
+WORK, MOST = 2.5e6, 1e7
+"""Numbers of modes times steps: up to the first the modes are doubled, above the second halved."""
+MODES = 10_000
+"""Largest number of modes of all branches; with more the impact is over before the plate bends."""
+AT_ONCE = 2**18
+"""Number of values of modes that are computed at once."""
+ESTIMATE = 2.0
+"""Estimated error over the change since half as many modes."""
+TABLE = 1e-6
+"""Last coefficients of the tables of forces over the largest one."""
+KINDS = "antisymmetric", "symmetric"
+SMALL = 1e-9
+"""Smallest contact radius over half the thickness at which the stress is evaluated."""
+
+
+class BackFace(NamedTuple):
+    """Largest tensile stress on the back face [Pa], and its estimated relative error [1].
+
+    The error is that by omitted modes. Both are NaN if there are too many modes.
+    """
+
+    stress: float
+    error: float
+
+
+class _Course(NamedTuple):
+    """Times [s] and stresses [Pa]."""
+
+    times: Array
+    stress: Array
+
+
+def back_face(motion: DynamicImpact) -> BackFace:
+    """Return the largest tensile stress on the axis of the back face.
+
+    It is that from first contact until the last separation, and then until shear waves have crossed
+    the thickness.
+    """
+    inertia = replace(motion.law.model.inertia, branches="all", modes=0)
+    law = replace(motion.law, model=replace(motion.law.model, inertia=inertia))
+    count = _count(law, motion.inertia.total_time)
+    if count is None:
+        return BackFace(math.nan, math.nan)
+    with one_thread(), np.errstate(all="ignore"):
+        rough, fine = (_course(motion, law, n) for n in (coarser(count), count))
+    changes = np.abs(fine.stress - np.interp(fine.times, *rough))
+    if motion.inertia.total_time > echo_time(law.model):
+        # Short waves that return from the edge may add a peak at any time.
+        changes = np.max(changes)
+    largest = float(np.max(fine.stress))
+    higher = float(np.max(fine.stress + changes)) - largest
+    return BackFace(largest, ESTIMATE * higher / abs(largest))
+
+
+def _count(law: ContactLaw, time: float) -> int | None:
+    """Return the number of bending modes; None if the impact requires too many."""
+
+    def work(count: int) -> float:
+        fastest = float(free_modes(branching(law, "A0").model, count).omega[-1])
+        return oscillators(law, count) * time * fastest / PHASE
+
+    count = affordable(law)
+    if oscillators(law, count) > MODES:
+        return None
+    if work(finer(law, count)) <= WORK and oscillators(law, finer(law, count)) <= MODES:
+        return finer(law, count)
+    while count > FEWEST and work(count) > MOST:
+        count = coarser(count)
+    return count
+
+
+def _course(motion: DynamicImpact, law: ContactLaw, count: int) -> _Course:
+    """Return the stress in all contacts, the flights between them, and shortly after the last."""
+    waves = _Waves.of(law, count)
+    z, end, found = np.zeros(waves.decay.size, dtype=complex), 0.0, []
+    for touching in motion.inertia.contacts:
+        if touching.start > end:
+            times = waves.times(end, touching.start)
+            stress, z = waves.flown(z, times)
+            found.append((times, stress))
+        times, end = waves.times(touching.start, touching.end), touching.end
+        rows = motion.rows(times)
+        stress, z = waves.driven(z, times, np.maximum(rows[A], SMALL * law.model.h), rows[P])
+        found.append((times, stress))
+    times = waves.times(end, end + 2.0 * law.model.h / law.model.shear_speed)
+    found.append((times, waves.flown(z, times)[0]))
+    return _Course(*map(np.concatenate, zip(*found, strict=True)))
+
+
+@dataclass(frozen=True)
+class _Waves:
+    """The waves of a plate as complex amplitudes z, whose imaginary part is the deflection.
+
+    They obey z' = decay z + P_j. `weights` are their stresses over the imaginary part of z.
+    """
+
+    law: ContactLaw
+    plate: ModalPlate
+    decay: Amplitudes
+    weights: Array
+
+    @classmethod
+    def of(cls, law: ContactLaw, count: int) -> Self:
+        """Return the waves of a number of bending modes and of all other branches."""
+        plate, ratio = plate_of(law, count), law.damping_ratio
+        modes = plate.modes
+        turn = complex(-ratio, math.sqrt((1.0 - ratio) * (1.0 + ratio)))
+        decay = np.asarray(turn * modes.omega, dtype=np.complex128)
+        weights = wave_stresses(law.model, modes) * modes.inverse_modal_mass / decay.imag
+        return cls(law, plate, decay, weights)
+
+    def times(self, start: float, end: float) -> Array:
+        """Return the times [s] between two others."""
+        steps = (end - start) * float(np.max(self.plate.modes.omega)) / PHASE
+        return np.linspace(start, end, 1 + max(STEPS, math.ceil(steps)))
+
+    def flown(self, z: Amplitudes, times: Array) -> tuple[Array, Amplitudes]:
+        """Return the stress in free flight, and the amplitudes at its end."""
+        found = []
+        for since in np.array_split(times - times[0], 1 + times.size * z.size // AT_ONCE):
+            flown = z * np.exp(np.multiply.outer(since, self.decay))
+            found.append(flown.imag @ self.weights)
+        return np.concatenate(found), flown[-1]
+
+    def driven(
+        self, z: Amplitudes, times: Array, a: Array, force: Array
+    ) -> tuple[Array, Amplitudes]:
+        """Return the stress in a contact, and the amplitudes at its end.
+
+        Parameters
+        ----------
+        a, force
+            Contact radius [m] and force [N] at the times.
+        """
+        step = float(times[1] - times[0])
+        y = self.decay * step
+        grown, both = np.exp(y), np.expm1(y) / y
+        late = (both - 1.0) / y
+        both, late = step * (both - late), step * late
+        moving = np.empty(times.size)
+        moving[0] = z.imag @ self.weights
+        of, shape = self._shares(self.plate.modes, a), self.plate.modes.shape
+        driving = force[:, None] * of
+        for i in range(1, times.size):
+            z = grown * z + (both * driving[i - 1, shape] + late * driving[i, shape])
+            moving[i] = z.imag @ self.weights
+        return moving + force * self._remainder(a), z
+
+    def _remainder(self, a: Array) -> Array:
+        """Return the stress of the quasi-static remainder per force at contact radii [Pa/N].
+
+        As in `modal`, it is that of the paper's edge, which no wave has reached at first.
+        """
+        still = self.law.tensile_stresses(a, np.ones_like(a), on_edge=False)
+        rest = still - self._static(self.plate.less, a)
+        return rest if self.plate.more is None else rest + self._static(self.plate.more, a)
+
+    def _static(self, modes: Modes, a: Array) -> Array:
+        """Return the static stress of modes per force at contact radii [Pa/N]."""
+        each = wave_stresses(self.law.model, modes) * modes.inverse_modal_mass / modes.omega**2
+        return np.asarray(self._shares(modes, a) @ modes.by_shape(each))
+
+    def _shares(self, modes: Modes, a: Array) -> Array:
+        """Return the force that drives each shape over the contact force, at radii [m]."""
+        rest = self.law.only(lambda e: e.static and not e.other_edge)
+        plate, top = ModalPlate(modes, modes, None), float(np.max(a))
+        forces = contact_of(rest, plate, top, pointwise=False, tail=TABLE).forces(a)
+        return np.asarray(forces[:, 1:] / forces[:, :1])
+
+
+def wave_stresses(model: Model, modes: Modes) -> Array:
+    """Return the stress of each mode over its deflection [Pa/m]."""
+    from generated.wave_stress import mode_stress, wave_stress
+
+    x, frequency = modes.phi[modes.shape] * model.h, modes.omega * (model.h / model.shear_speed)
+    kinds = {kind: wave_stress(x, frequency, model.poissons_ratio, kind) for kind in KINDS}
+    found = np.where(modes.bends, *kinds.values())
+    if modes.held is not None:
+        held = mode_stress(modes.held, model.eta, model.poissons_ratio)
+        found[: held.size] = held
+    return np.asarray(found * (model.mu / model.h))

@@ -121,6 +121,7 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
     if motion is not None:
         deflection = motion.largest_deflection(law)
     model_errors = _model_errors(law, numbers, deflection, motion)
+    model_errors["max_tensile_stress"] = model_errors["max_force"]
     model_error = max(model_errors[name] for name in selected.outputs)
     neglected = neglects_inertia(model, contact_time, fraction, motion is not None)
     moving = model  # with the wave branches that the simulation chose

@@ -54,6 +54,7 @@ TARGETS: Mapping[str, Callable[[str], checks.Check]] = {
     **dict.fromkeys(
         ("B_a", "B_s", "B_a_slow", "B_s_slow", "dynamic_influence"), checks.by_first_order_system
     ),
+    **dict.fromkeys(("bending_wave_stress", "extension_wave_stress"), checks.by_free_wave),
 }
 
 

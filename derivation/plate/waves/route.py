@@ -51,6 +51,28 @@ def residue(x: float, nu: float, digits: int = 30) -> mpf:
         return +((sides[0] + sides[1]) / 2)
 
 
+def wave_stress(x: float, kap: mpf, nu: float, bends: bool, digits: int = 30) -> mpf:
+    """Return h/mu times the stress on the back face over the deflection of the contact face.
+
+    Both are on the axis, and tension is positive. The load has a frequency next to that of a free
+    wave, which dominates the response.
+
+    Parameters
+    ----------
+    kap
+        (omega h/c_T)^2 of a free wave, to more than the requested digits.
+    bends
+        Whether the wave is antisymmetric.
+    """
+    with mp.workdps(_working(x, kap, 3 * digits)):
+        wave, ratio = mpf(x), mpf(nu)
+        near = kap * (1 + mpf(10) ** -(digits + 3))
+        deflection, radial = _moved(wave, near, ratio)[0 if bends else 1]
+        # On a free face the stress is 2 (1 + nu)/(1 - nu) times the radial strain, u'(0) = x U/2;
+        # the load of `_answers` is a traction away from the plate.
+        return +(-(1 + ratio) / (1 - ratio) * wave * radial / deflection)
+
+
 def fraction(x: float, nu: float, digits: int = 30) -> mpf:
     """Return the fraction of A0 in the static deflection, at a negligibly low frequency."""
     with mp.workdps(3 * digits):
@@ -66,6 +88,12 @@ def _working(x: float, kap: float, digits: int) -> int:
 
 def _answers(x: mpf, kap: mpf, nu: mpf) -> tuple[mpf, mpf]:
     """Return the deflection of the upper face for equal and for opposite loads."""
+    (bending, _), (stretching, _) = _moved(x, kap, nu)
+    return bending, stretching
+
+
+def _moved(x: mpf, kap: mpf, nu: mpf) -> tuple[tuple[mpf, mpf], tuple[mpf, mpf]]:
+    """Return W on the upper face and U on the lower one, for equal and for opposite loads."""
     lam = 2 * nu / (1 - 2 * nu)
     stiff = lam + 2
     rows = mp.matrix(
@@ -94,7 +122,9 @@ def _answers(x: mpf, kap: mpf, nu: mpf) -> tuple[mpf, mpf]:
     for sign in (-1, 1):
         half = mpf(1) / 2
         weights = mp.lu_solve(tractions, mp.matrix([0, half, 0, sign * half]))
-        values.append(mp.fsum(weights[k] * vectors[1, k] * above[k] for k in range(4)).real)
+        deflection = mp.fsum(weights[k] * vectors[1, k] * above[k] for k in range(4)).real
+        radial = mp.fsum(weights[k] * vectors[0, k] * below[k] for k in range(4)).real
+        values.append((deflection, radial))
     return values[0], values[1]
 
 

@@ -1,0 +1,115 @@
+"""Tensile stress on the back face of a plate with inertia, against limits and other routes."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import platecontact as pc
+import pytest
+from scipy.integrate import quad
+
+from derivation.scene.dynamic import back_face as stresses
+from derivation.scene.result import Result
+
+
+def impact(edge: str = "paper", **given: float) -> Result:
+    keys = {"radius": 0.01, "b": 0.3, "H": 0.008, "speed": 2.0, "loss": 0.0} | given
+    return pc.simulate(
+        pc.Scene(
+            sphere=pc.Sphere(radius=keys["radius"], material="steel"),
+            plate=pc.Plate(
+                radius=keys["b"], thickness=keys["H"], material="glass", edge=edge,
+                loss_factor=keys["loss"],
+            ),
+            impact=pc.Impact(speed=keys["speed"]),
+            effects=pc.Effects(inertia=True),
+        )
+    )  # fmt: skip
+
+
+def test_the_edge_has_no_effect_before_a_wave_has_returned() -> None:
+    found = [impact(edge).max_tensile_stress for edge in ("paper", "clamped", "simply-supported")]
+    assert found == pytest.approx([found[0]] * 3, rel=5e-4)
+    static = impact().effects.law.max_tensile_stress(impact().max_contact_radius, 1.0)
+    assert found[0] < 0.6 * static * impact().max_force
+
+
+def test_stress_of_a_thin_plate_is_that_of_an_integral_over_wave_numbers() -> None:
+    """Bending waves of an infinite thin plate under Hertz's pressure, by quadrature."""
+    result = impact(H=0.002, b=0.3, radius=0.004, speed=0.5)
+    law, motion = result.effects.law, result.dynamics
+    assert motion is not None
+    m = law.model
+    H, E, nu = 2.0 * m.h, 2.0 * m.mu * (1.0 + m.poissons_ratio), m.poissons_ratio
+    stiff = E * H**3 / (12.0 * (1.0 - nu**2))
+    peak = float(motion.courses[0][3].argmax()) / (motion.courses[0].shape[1] - 1)
+    now = peak * result.contact_time
+    times = np.linspace(0.0, now, 2001)
+    force = motion.rows(times)[3]
+    a = result.max_contact_radius
+    static = law.max_tensile_stress(a, float(force[-1]), on_edge=False)
+
+    def lag(k: float) -> float:
+        """Return the moment of one wave number less its static one."""
+        omega = k * k * math.sqrt(stiff / (m.density * H))
+        answer = np.trapezoid(np.gradient(force, times) * np.cos(omega * (now - times)), times)
+        y = k * a
+        hertz = 3.0 * (math.sin(y) - y * math.cos(y)) / y**3
+        return -float(answer) * hertz / k
+
+    # sigma = E H k^2/(4 (1 - nu)) w, w = P k dk/(2 pi) over rho H omega^2.
+    factor = E * H / (4.0 * (1.0 - nu)) / (2.0 * math.pi * stiff)
+    first = 2.404825557695773 / m.b
+    moved = factor * quad(lag, 0.5 * first, 12.0 / m.h, limit=2000)[0]
+    course = stresses._course(motion, law, 400)
+    found = float(np.interp(now, *course))
+    assert moved < -0.2 * static  # the plate lags far behind
+    assert found == pytest.approx(static + moved, rel=0.03)
+
+
+def test_slow_impact_has_the_static_stress() -> None:
+    for edge in ("paper", "clamped", "simply-supported"):
+        result = impact(edge, b=0.02, H=0.006, radius=0.05, speed=0.01)
+        static = result.effects.law.max_tensile_stress(result.max_contact_radius, result.max_force)
+        assert result.max_tensile_stress == pytest.approx(static, rel=0.006), edge
+        assert not result.statically_stressed
+
+
+def test_no_stress_before_a_pressure_wave_has_crossed_the_thickness() -> None:
+    result = impact(b=0.25, H=0.1, radius=0.008, speed=3.0)
+    m, motion = result.model, result.dynamics
+    assert motion is not None
+    crossed = 2.0 * m.h / math.sqrt((m.lam + 2.0 * m.mu) / m.density)
+    inertia = replace(motion.law.model.inertia, branches="all", modes=0)
+    law = replace(motion.law, model=replace(motion.law.model, inertia=inertia))
+    course = stresses._course(motion, law, 160)
+    before = course.times < 0.9 * crossed
+    assert before.sum() > 100
+    peak = float(np.max(np.abs(course.stress)))
+    assert np.max(np.abs(course.stress[before])) < 0.01 * peak
+
+
+def test_damping_lowers_the_stress_and_vanishes_with_the_loss_factor() -> None:
+    free, slightly, strongly = (impact(loss=loss).max_tensile_stress for loss in (0.0, 1e-6, 0.3))
+    assert slightly == pytest.approx(free, rel=1e-5)
+    assert strongly < 0.998 * free
+
+
+def test_response_to_a_linear_force_is_exact() -> None:
+    """One mode under P = t: q = c (t - sin(omega t)/omega)."""
+    motion = impact().dynamics
+    assert motion is not None
+    waves = stresses._Waves.of(motion.law, 8)
+    times = np.linspace(0.0, 3.0 / float(waves.plate.modes.omega[0]), 40)
+    a = np.full(times.size, 1e-6)
+    found, _ = waves.driven(np.zeros(waves.decay.size, dtype=complex), times, a, times)
+    modes, shares = (
+        waves.plate.modes,
+        waves._shares(waves.plate.modes, a)[0][waves.plate.modes.shape],
+    )
+    each = (
+        stresses.wave_stresses(waves.law.model, modes) * modes.inverse_modal_mass / modes.omega**2
+    )
+    swing = np.sin(np.multiply.outer(times, modes.omega)) / modes.omega
+    exact = times * waves._remainder(a) + (times[:, None] - swing) @ (each * shares)
+    assert found == pytest.approx(exact, rel=1e-9, abs=1e-9 * float(np.max(exact)))

@@ -1,6 +1,7 @@
 """Comparison of simulated impacts with recorded finite-element solutions of the same scenes."""
 
 import itertools
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,10 +14,12 @@ from derivation.engine.files import expect_writable, write_file
 from derivation.engine.measure.result import CheckResult, all_passed
 from derivation.engine.outputs import plain_rows
 from derivation.engine.text import aligned, paragraph
+from derivation.scene.dynamic.model_error import RESOLVED
 from derivation.scene.errors import SceneError
 from derivation.scene.impact import simulate
 from derivation.scene.scene import OUTPUTS, read
 
+STRESS = "max_tensile_stress"
 COLUMNS = ("edge", "worst result", "#difference", "#allowed", "#contacts", "passed")
 NOTE = (
     "difference: of the simulation from the finite elements, relative; worst result: the one with "
@@ -40,6 +43,8 @@ class ComparedCase:
         Estimated relative errors of the finite-element results [1].
     bound, model_error
         Error bound and model error stated by the simulation [1].
+    stress_error
+        Error of the largest tensile stress stated by the simulation, apart from the bound [1].
     contacts
         Number of contacts in the finite-element solution and in the simulation.
     rejected
@@ -51,6 +56,7 @@ class ComparedCase:
     errors: Mapping[str, float]
     bound: float
     model_error: float
+    stress_error: float
     contacts: tuple[int, int]
     rejected: str = ""
 
@@ -71,7 +77,8 @@ class ComparedCase:
 
     def allowed(self, name: str) -> float:
         """Return the allowed difference of a result: the sum of all stated errors [1]."""
-        return self.bound + self.model_error + self.errors[name]
+        stated = self.stress_error if name == STRESS else self.model_error
+        return self.bound + stated + self.errors[name]
 
 
 def compare(
@@ -140,15 +147,22 @@ def simulated(row: Mapping[str, Any]) -> dict[str, Any]:
         return {"rejected": str(error)}
     dynamics = result.dynamics
     assert dynamics is not None  # inertia is required
-    values: dict[str, float] = {name: getattr(result, name) for name in OUTPUTS}
+    values: dict[str, float] = {name: getattr(result, name) for name in (*OUTPUTS, STRESS)}
     values["total_time"] = dynamics.inertia.total_time
     return {
         "branches": dynamics.law.model.inertia.branches,
-        "values": {name: float(f"{values[name]:.8g}") for name in RESULTS},
-        "bound": float(f"{result.accuracy.bound:.3g}"),
-        "model_error": float(f"{result.model_error:.3g}"),
+        "values": {name: _rounded(values[name], 8) for name in RESULTS},
+        "bound": _rounded(result.accuracy.bound, 3),
+        "model_error": _rounded(result.model_error, 3),
+        "stress_error": _rounded(result.tensile_stress.error, 3),
+        "mode_error": _rounded(dynamics.back_face.error, 3),
         "contacts": len(dynamics.inertia.contacts),
     }
+
+
+def _rounded(value: float, digits: int) -> float | None:
+    """Return a number with few digits for the record; None if it is not finite."""
+    return float(f"{value:.{digits}g}") if math.isfinite(value) else None
 
 
 def compared(row: Mapping[str, Any]) -> ComparedCase:
@@ -156,20 +170,24 @@ def compared(row: Mapping[str, Any]) -> ComparedCase:
     program = row["program"]
     if "rejected" in program:
         return ComparedCase(
-            row["name"], {}, {}, 0.0, 0.0, (row["contacts"], 0), program["rejected"]
+            row["name"], {}, {}, 0.0, 0.0, 0.0, (row["contacts"], 0), program["rejected"]
         )
     names = _compared_results(row)
     differences = {k: program["values"][k] / row["elements"][k] - 1.0 for k in names}
     errors = {k: row["errors"][k] for k in names}
+    stated = program["bound"], program["model_error"], program["stress_error"]
     contacts = (row["contacts"], program["contacts"])
-    return ComparedCase(
-        row["name"], differences, errors, program["bound"], program["model_error"], contacts
-    )
+    return ComparedCase(row["name"], differences, errors, *stated, contacts)
 
 
 def _compared_results(row: Mapping[str, Any]) -> Sequence[str]:
-    """Return the names of the compared results; total time and contact radius have no bound."""
-    return [name for name in OUTPUTS if name in row["elements"] and name != "max_contact_radius"]
+    """Return the names of the compared results; total time and contact radius have no bound.
+
+    The tensile stress is compared if the finite elements resolve it and the simulation states it.
+    """
+    names = [name for name in OUTPUTS if name in row["elements"] and name != "max_contact_radius"]
+    stated = row["program"]["values"][STRESS] is not None
+    return [*names, STRESS] if stated and row["errors"][STRESS] <= RESOLVED else names
 
 
 def cells(case: ComparedCase) -> tuple[str, ...]:

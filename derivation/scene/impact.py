@@ -43,6 +43,7 @@ from derivation.scene.selection.method_selection import (
     solve_selected,
 )
 from derivation.scene.selection.selection import check_enabled
+from derivation.scene.tensile_stress import tensile_stress
 
 if TYPE_CHECKING:
     from derivation.scene.dynamic.wave_motion import DynamicImpact
@@ -111,7 +112,7 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
     scene = toleranced(scene, None if rtol is None else check_rtol(rtol))
     rtol, selected = selected_effects(scene, rtol)
     selected, numbers, accuracy = _solved(scene, selected, rtol)
-    contact_time, delta, force, a, _ = numbers
+    contact_time, delta, _, a, _ = numbers
     law, model = selected.law, selected.law.model
     check_radius(law, a, "impact.speed", "reduce the speed")
     motion = dynamic_impact(selected, accuracy.remaining) if law.dynamic else None
@@ -121,16 +122,15 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
     if motion is not None:
         deflection = motion.largest_deflection(law)
     model_errors = _model_errors(law, numbers, deflection, motion)
-    model_errors["max_tensile_stress"] = model_errors["max_force"]
     model_error = max(model_errors[name] for name in selected.outputs)
     neglected = neglects_inertia(model, contact_time, fraction, motion is not None)
     moving = model  # with the wave branches that the simulation chose
     if motion is not None:
         moving = replace(model, inertia=motion.law.model.inertia)
     strength, yield_stress = scene.plate.tensile_strength, _known(model.plate_yield_stress)
-    stress = law.max_tensile_stress(a, force, not selected.edge_disabled)
-    if motion is not None:
-        stress = motion.back_face.stress
+    stress = math.nan
+    if strength is not None or yield_stress is not None:
+        stress = tensile_stress(law, motion, numbers, not selected.edge_disabled).value
     warnings = (
         *on_units,
         *hollow_warnings(model),
@@ -146,7 +146,7 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
         rebound = motion.restitution * model.v0
         warnings += fall_warnings(model.gravity, rebound, motion.later_deflection)
     return Result(
-        *numbers, pressure, stress, accuracy, model_error, warnings, scene,
+        *numbers, pressure, accuracy, model_error, warnings, scene,
         selected.grown(growth_of(motion)), inertia_neglected=neglected,
         model_errors=model_errors,
     )  # fmt: skip

@@ -2,6 +2,7 @@
 
 import itertools
 import math
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -19,6 +20,7 @@ from derivation.checks.finite_elements.impact import (
 )
 from derivation.checks.finite_elements.mesh import Grading, contactless_mesh, graded_mesh
 from derivation.checks.finite_elements.plate import EDGES, Plate, System
+from derivation.scene import kernels
 from generated.bessel import bessel_j0_zeros
 from generated.contact_law import force
 from generated.inertia import bending_frequency
@@ -52,6 +54,28 @@ def test_static_force_on_the_edge_of_the_paper(ratio: float, nu: float) -> None:
     law = force(1.05 * a * a / R, R, 0.01, plate.radius, plate.lam, plate.mu)
     _, forces = static_contact(System(plate, mesh), Sphere(R, 1.0, 1.0), 1.05 * a * a / R)
     assert forces.sum() == pytest.approx(float(law), rel=5e-4)
+
+
+@pytest.mark.parametrize(
+    ("edge", "stress"),
+    [
+        ("paper", kernels.back_face_stress),
+        ("simply-supported", kernels.supported_back_face_stress),
+        ("clamped", kernels.clamped_back_face_stress),
+    ],
+)
+def test_static_stress_on_the_back_face(edge: str, stress: Callable[..., float]) -> None:
+    """A static contact against the closed form, to the error of Hertz's pressure on a plate."""
+    plate, a, R = Plate(0.2, 0.01, 70e9, 0.3, 2700.0, edge), 5e-4, 0.02
+    mesh = graded_mesh(plate.radius, plate.thickness, 1.5 * a, Grading(contact=12, far=2.0))
+    made = System(plate, mesh)
+    _, forces = static_contact(made, Sphere(R, 1.0, 1.0), 1.2 * a * a / R)
+    load = np.zeros(made.free.size)
+    load[made.contact_nodes] = -forces
+    found = made.back_face_stress(made.static_solver.solve(load))
+    force, radius = float(forces.sum()), math.cbrt(0.75 * float(forces.sum()) / plate.modulus * R)
+    expected = stress(force, radius, 0.005, plate.radius, plate.lam, plate.mu)
+    assert found == pytest.approx(float(expected), rel=2e-3)
 
 
 def test_static_contact_converges() -> None:
@@ -151,7 +175,7 @@ def test_edge_beyond_the_reach_of_waves_has_no_influence() -> None:
         history = simulate_impact(
             plate, case.sphere, case.time / 100, 9.0 * case.time, until_end=False
         )
-        impact = results(history, plate.contact_radii)
+        impact = results(history, plate)
         assert impact.contact_time < case.edge_echo
         actual.append((impact.contact_time, impact.max_force, impact.restitution))
     np.testing.assert_allclose(actual[1:], actual[:1] * 2, rtol=1e-7)
@@ -164,7 +188,7 @@ def test_results_converge_with_mesh_and_steps() -> None:
         history = simulate_impact(
             plate, SMALL.sphere, SMALL.time / steps, 9.0 * SMALL.time, until_end=False
         )
-        impact = results(history, plate.contact_radii)
+        impact = results(history, plate)
         actual.append((impact.max_indentation, impact.max_force, impact.contact_time))
     best, coarse, long = np.array(actual)
     assert np.abs(coarse / best - 1.0).max() < 3e-3
@@ -177,7 +201,7 @@ def test_several_contacts_conserve_energy() -> None:
     case = ElementCase("thin", "thin", plate, Sphere(0.01, 0.001, 1.0))
     made = system(case, Grading(contact=4, thickness=1.0, far=3.0, edge=0))
     history = simulate_impact(made, case.sphere, case.time / 100, 300.0 * case.time)
-    impact = results(history, made.contact_radii)
+    impact = results(history, made)
     assert impact.contacts > 1
     assert impact.contact_time < impact.total_time
     assert np.ptp(np.diff(history.time)) > 0.0

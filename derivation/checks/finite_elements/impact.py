@@ -1,5 +1,6 @@
 """A rigid sphere on the plate: static contact, and the time steps of an impact."""
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -25,6 +26,9 @@ GAP_STEPS = 20
 contacts."""
 END_STEPS = 5
 """Number of last steps of a contact from which its end is extrapolated."""
+STRESS_WINDOW, STRESS_TIMES, STRESS_STEPS = 0.06, 60, 5
+"""Half the time, over the contact time, in which a parabola is fitted to the stress; number of
+these parabolas in a contact time; smallest number of time steps of one."""
 PEAK_WINDOW = 0.05
 """Half the time, over the contact time, in which a polynomial is fitted to the largest force."""
 
@@ -120,6 +124,8 @@ class History:
         Contact force [N].
     width
         Number of the outermost touching node, from 1; 0 without contact.
+    stress
+        Stress on the axis of the back face [Pa].
     energy
         Energy of plate and sphere after the last contact, over the initial one [1].
     """
@@ -129,6 +135,7 @@ class History:
     speed: Double
     force: Double
     width: Double
+    stress: Double
     energy: float
 
 
@@ -223,7 +230,8 @@ def simulate_impact(
     """
     fine, coarse = Stepper(system, sphere, step), None
     brought, nodes = fine.energy(), system.contact_nodes
-    rows, deepest, apart, time = [(0.0, 0.0, sphere.speed, 0.0, 0.0)], 0.0, 0, 0.0
+    rows, deepest, apart, time = [(0.0, 0.0, sphere.speed, 0.0, 0.0, 0.0)], 0.0, 0, 0.0
+    crossing, parted = _crossing_time(system) if until_end else 0.0, 0.0
     while True:
         used = fine
         if apart >= GAP_STEPS and rows[-1][1] < 0.0 < sphere.speed:
@@ -243,15 +251,17 @@ def simulate_impact(
             float(fine.state.q[-1]),
         )
         time += used.h
-        rows.append(
-            (time, displacement, speed, total, float(np.max(np.flatnonzero(force), initial=-1) + 1))
-        )
+        width = float(np.max(np.flatnonzero(force), initial=-1) + 1)
+        stress = system.back_face_stress(fine.state.q[:-1])
+        rows.append((time, displacement, speed, total, width, stress))
         apart = 0 if total > 0.0 else apart + 1
+        parted = time if total > 0.0 else parted
         deepest = max(deepest, float(np.abs(fine.state.q[nodes]).max()))
         gone = speed < 0.0 and displacement < -CLEARANCE * deepest
-        if apart > 0 and (gone or (apart == GAP_STEPS and not until_end)):
-            times, ways, speeds, forces, widths = np.array(rows).T
-            return History(times, ways, speeds, forces, widths, fine.energy() / brought)
+        ended = apart > 0 and (gone or (apart >= GAP_STEPS and not until_end))
+        if ended and time >= parted + crossing:
+            times, ways, speeds, forces, widths, stresses = np.array(rows).T
+            return History(times, ways, speeds, forces, widths, stresses, fine.energy() / brought)
         if time > longest:
             raise ArithmeticError(f"impact: expected its end within {longest:g} s, got none")
 
@@ -274,6 +284,9 @@ class ElementImpact:
         Rebound speed after the last contact over the impact speed [1].
     total_time
         Time from first contact to the end of the last contact [s].
+    max_tensile_stress
+        Largest stress on the axis of the back face until shear waves have crossed the thickness
+        after the last contact [Pa], without the fluctuations from node to node.
     contacts
         Number of contacts that are separated by at least `APART` steps without contact.
     energy
@@ -286,12 +299,14 @@ class ElementImpact:
     max_contact_radius: float
     restitution: float
     total_time: float
+    max_tensile_stress: float
     contacts: int
     energy: float
 
 
-def results(history: History, radii: Double) -> ElementImpact:
-    """Return the results of an impact from its history and the radii [m] of the contact nodes."""
+def results(history: History, system: System) -> ElementImpact:
+    """Return the results of an impact from its history and the plate on its mesh."""
+    radii, crossing = system.contact_radii, _crossing_time(system)
     spans = _spans(history.force)
     ends = [_end(history, start, stop) for start, stop in spans]
     widest = int(history.width.max())
@@ -302,9 +317,15 @@ def results(history: History, radii: Double) -> ElementImpact:
         max_contact_radius=float(radii[widest - 1] + radii[widest]) / 2.0,
         restitution=-float(history.speed[-1]) / float(history.speed[0]),
         total_time=ends[-1],
+        max_tensile_stress=_largest_stress(history, ends[0], ends[-1] + crossing),
         contacts=len(spans),
         energy=history.energy,
     )
+
+
+def _crossing_time(system: System) -> float:
+    """Return the time in which shear waves cross the thickness [s]."""
+    return system.plate.thickness / system.plate.shear_wave_speed
 
 
 def _spans(force: Double) -> list[tuple[int, int]]:
@@ -334,3 +355,15 @@ def _peak(history: History, contact_time: float) -> float:
     time = history.time[in_window]
     fit = np.polynomial.Polynomial.fit(time, history.force[in_window], 4)
     return float(fit(np.linspace(time[0], time[-1], 1001)).max())
+
+
+def _largest_stress(history: History, contact_time: float, until: float) -> float:
+    """Return the largest stress up to a time [s], from parabolas through the stress around it."""
+    largest = -math.inf
+    for middle in np.linspace(0.0, until, 1 + math.ceil(STRESS_TIMES * until / contact_time)):
+        near = np.abs(history.time - middle) <= STRESS_WINDOW * contact_time
+        if np.count_nonzero(near) >= STRESS_STEPS:
+            t = (history.time[near] - middle) / contact_time
+            value = np.polynomial.polynomial.polyfit(t, history.stress[near], 2)[0]
+            largest = max(largest, float(value))
+    return largest

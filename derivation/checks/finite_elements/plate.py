@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 from derivation.checks.finite_elements.mesh import Double, Mesh
 from derivation.plate.edge.remainder import lobatto
 
+STRAIN_POWERS = np.array([1, 3, 5])
+"""Powers of r in the radial displacement of the back face next to the axis."""
 EDGES = ("paper", "simply-supported", "clamped")
 """Conditions on the whole edge r = b: w = 0 with a radial spring of stiffness 2 mu/b per area;
 w = 0; u = w = 0."""
@@ -90,6 +92,9 @@ class System:
         top = self._number(touching, np.full_like(touching, mesh.rows - 1), 1)
         self.contact_nodes = np.searchsorted(self.free, top)
         self.contact_radii = self.r[touching]
+        near = np.arange(1, 1 + STRAIN_POWERS.size)
+        back = self._number(near, np.zeros_like(near), 0)
+        self.back_nodes = np.searchsorted(self.free, back)
 
     def _number(self, column: NDArray[Any], row: NDArray[Any], part: int) -> NDArray[Any]:
         """Return the number of an unknown: u (0) or w (1) at a node."""
@@ -133,6 +138,20 @@ class System:
             line[k * degree : (k + 1) * degree + 1] += height / 2 * lobatto(degree)[1]
         entries = 2.0 * np.pi * 2.0 * self.plate.mu * line
         return sparse.csr_matrix((entries, (edge, edge)), shape=(size, size))
+
+    @cached_property
+    def _strain_weights(self) -> Double:
+        """Weights of u at `back_nodes` in du/dr on the axis, for odd powers of r."""
+        r = self.r[1 : 1 + STRAIN_POWERS.size]
+        first = np.zeros(r.size)
+        first[0] = 1.0 / r[-1]
+        weights: Double = np.linalg.solve((r[:, None] / r[-1]) ** STRAIN_POWERS, np.eye(r.size))
+        return first @ weights
+
+    def back_face_stress(self, displacement: Double) -> float:
+        """Return the stress on the axis of the back face [Pa], which is free of traction."""
+        strain = float(self._strain_weights @ displacement[self.back_nodes])
+        return self.plate.youngs_modulus / (1.0 - self.plate.poissons_ratio) * strain
 
     @cached_property
     def static_solver(self) -> Any:

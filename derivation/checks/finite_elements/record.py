@@ -29,7 +29,7 @@ from derivation.engine.outputs import json_by_line
 MEASURED: Path = measurements() / "elastodynamics.json"
 RESULTS = (
     "contact_time", "max_indentation", "max_force", "max_contact_radius", "restitution",
-    "total_time",
+    "total_time", "max_tensile_stress",
 )  # fmt: skip
 REACH_FACTORS = 1.05, 1.25
 """Reach of the fine mesh over the contact radius on a half-space, and the factor by which it is
@@ -86,7 +86,7 @@ def solve_impact(
             continue
         widest = int(history.width.max())
         apart = float(np.diff(system.contact_radii)[widest - 1])
-        return results(history, system.contact_radii), apart / 2.0
+        return results(history, system), apart / 2.0
 
 
 def impact_row(case: ElementCase) -> dict[str, Any]:

@@ -28,6 +28,7 @@ from derivation.scene.dynamic.mode_count import (
     finer,
     oscillators,
 )
+from derivation.scene.dynamic.model_error import echoes_during
 from derivation.scene.dynamic.time_element import A, P
 from derivation.scene.dynamic.wave_motion import DynamicImpact
 from derivation.scene.dynamic.wave_problem import echo_time
@@ -56,7 +57,8 @@ SMALL = 1e-9
 class BackFace(NamedTuple):
     """Largest tensile stress on the back face [Pa], and its estimated relative error [1].
 
-    The error is that by omitted modes. Both are NaN if there are too many modes.
+    The error is that by omitted modes. Both are NaN if the contact ends before a pressure wave has
+    returned from the back face, where finite elements do not confirm the stress.
     """
 
     stress: float
@@ -79,7 +81,7 @@ def back_face(motion: DynamicImpact) -> BackFace:
     inertia = replace(motion.law.model.inertia, branches="all", modes=0)
     law = replace(motion.law, model=replace(motion.law.model, inertia=inertia))
     count = _count(law, motion.inertia.total_time)
-    if count is None:
+    if count is None or echoes_during(law.model, motion.contact_time) < 1.0:
         return BackFace(math.nan, math.nan)
     with one_thread(), np.errstate(all="ignore"):
         rough, fine = (_course(motion, law, n) for n in (coarser(count), count))

@@ -38,6 +38,9 @@ Indices = NDArray[np.intp]
 Parts = tuple[tuple[slice, slice, Indices, Indices], ...]
 SMALL = 1e-6
 """Contact radius over plate radius and thickness at which a contact counts as a point."""
+UNMOVED = 1e-30
+"""Strength W rho h r of a wave below which it does not move the contact face: it is exactly 0 for
+some waves, as far as rounding allows."""
 MOST_BELOW_CUTOFF = 100_000
 """Largest number of bending modes of a clamped or simply supported plate, computed in a second."""
 
@@ -152,6 +155,7 @@ class ModalPlate(NamedTuple):
     more: Modes | None
 
 
+@lru_cache(maxsize=8)
 def plate_of(law: ContactLaw, count: int) -> ModalPlate:
     """Return the plate of a law with a number of modes of the lowest branch A0.
 
@@ -232,7 +236,7 @@ def _branches(model: Model, lowest: _Shapes, highest: float, without: int = 0) -
     root = np.hstack((lowest.root[:, None], bent[0][:, 1:], stretched[0]))
     further = weight * np.hstack((bent[1][:, 1:], stretched[1]))
     strength = np.hstack((lowest.strength[:, None], further))
-    taken = (root <= highest * (1.0 + 1e-12)) & (strength > 0.0)
+    taken = (root <= highest * (1.0 + 1e-12)) & (strength > UNMOVED)
     taken[:, 0] = np.arange(x.size) >= without
     any_taken = np.any(taken, axis=1)
     sizes = np.sum(taken[any_taken], axis=1)

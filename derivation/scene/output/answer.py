@@ -35,7 +35,7 @@ def _named(name: str, contacts: int, result: "Result") -> str:
     """Return the displayed name of a result."""
     if name == "contact_time" and contacts > 1:
         return f"contact time (first of {contacts})"
-    if name == "max_tensile_stress" and result.statically_stressed:
+    if name == "max_tensile_stress" and result.tensile_stress.static:
         return "max tensile stress (static)"
     return name.replace("_", " ")
 
@@ -100,7 +100,7 @@ def _model_error(result: "Result") -> str:
 
 def _stress_error(result: "Result") -> str:
     """Return the error of the tensile stress, which the bound does not include."""
-    error = result.tensile_stress_error
+    error = result.accuracy.bound + result.tensile_stress.error
     if result.dynamics is None or not math.isfinite(error):
         return ""
     return f"; of max tensile stress up to {percent(error)} (estimated)"

@@ -69,6 +69,7 @@ MAY_STAY: Mapping[str, tuple[int, str]] = {
     "simple_impact.law_errors": (4, GUARD),
     "simple_impact.leading": (1, GUARD),
     "viscosity.viscous_logarithms": (4, ELSEWHERE),
+    "wave_stress.wave_stress": (1, "whether a name is known"),
 }
 """Largest number of comparisons by function without close cases on both sides, and why."""
 

@@ -23,6 +23,8 @@ from generated.arrays import as_doubles, as_result, inside, quiet
 from generated.edge_modes import Waves
 from generated.wave_kernels import bending_stress, extension_stress, material
 
+_STRESS = {"antisymmetric": bending_stress, "symmetric": extension_stress}
+
 
 @quiet
 def wave_stress(
@@ -62,14 +64,13 @@ def wave_stress(
     >>> print(f"{wave_stress(0.01, branches(0.01, 0.22, 1)[0][0], 0.22):.5e}")
     1.56398e-04
     """
-    if parity not in ("antisymmetric", "symmetric"):
+    if parity not in _STRESS:
         raise ValueError(f"parity is 'antisymmetric' or 'symmetric', got {parity!r}")
     kind, [x, frequency, nu] = as_doubles(x, frequency, nu)
     [x] = inside([x], x >= 1e-40, x <= 1e40)
     [nu] = inside([nu], nu > -1, nu < 0.5)
-    stress = bending_stress if parity == "antisymmetric" else extension_stress
     over = (frequency - x) * (frequency + x)
-    return as_result(stress(over, x, *material(nu), nu), kind)
+    return as_result(_STRESS[parity](over, x, *material(nu), nu), kind)
 
 
 @quiet

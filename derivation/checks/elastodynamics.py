@@ -14,7 +14,7 @@ from derivation.engine.files import expect_writable, write_file
 from derivation.engine.measure.result import CheckResult, all_passed
 from derivation.engine.outputs import plain_rows
 from derivation.engine.text import aligned, paragraph
-from derivation.scene.dynamic.model_error import RESOLVED
+from derivation.scene.dynamic.model_error import ROUGHLY_RESOLVED
 from derivation.scene.errors import SceneError
 from derivation.scene.impact import simulate
 from derivation.scene.scene import OUTPUTS, read
@@ -187,7 +187,7 @@ def _compared_results(row: Mapping[str, Any]) -> Sequence[str]:
     """
     names = [name for name in OUTPUTS if name in row["elements"] and name != "max_contact_radius"]
     stated = row["program"]["values"][STRESS] is not None
-    return [*names, STRESS] if stated and row["errors"][STRESS] <= RESOLVED else names
+    return [*names, STRESS] if stated and row["errors"][STRESS] <= ROUGHLY_RESOLVED else names
 
 
 def cells(case: ComparedCase) -> tuple[str, ...]:

@@ -108,6 +108,8 @@ def test_program_agrees_with_finite_elements() -> None:
     result = simulated(record.inputs(pane))
     for name in ("contact_time", "max_indentation", "max_force", "restitution"):
         assert result["values"][name] == pytest.approx(getattr(impact, name), rel=2e-3), name
+    stress = result["values"]["max_tensile_stress"]
+    assert stress == pytest.approx(impact.max_tensile_stress, rel=1e-2)
     assert (result["branches"], result["contacts"], impact.contacts) == ("all", 1, 1)
 
 
@@ -115,7 +117,8 @@ def row(name: str, contact_time: float, bound: float = 1e-3) -> dict[str, Any]:
     """Return a row in which only the contact time differs between program and elements."""
     elements = dict.fromkeys(RESULTS, 1.0)
     program = {"values": elements | {"contact_time": contact_time}, "bound": bound,
-               "model_error": 1e-3, "contacts": 1, "rtol": 1e-3}  # fmt: skip
+               "model_error": 1e-3, "stress_error": 2e-3, "mode_error": 1e-3, "contacts": 1,
+               "rtol": 1e-3}  # fmt: skip
     return record.inputs(CASE) | {
         "name": name, "elements": elements, "errors": dict.fromkeys(RESULTS, 5e-4),
         "contacts": 1, "edge_echo": 2.0, "program": program,
@@ -129,6 +132,19 @@ def test_difference_is_accepted_up_to_the_stated_error() -> None:
     assert beyond.worst == "contact_time"
     assert len(cells(beyond)) == len(COLUMNS)
     assert (cells(within)[-1], cells(beyond)[-1]) == ("yes", "NO")
+
+
+def test_stress_has_an_error_of_its_own() -> None:
+    """The bound is 1e-3, its own error 2e-3 and that of the elements 5e-4."""
+    for stress, passes in ((1.0034, True), (1.0036, False)):
+        given = row("a", 1.0)
+        given["program"]["values"]["max_tensile_stress"] = stress
+        case = compared(given)
+        assert (case.worst, case.passed) == ("max_tensile_stress", passes)
+    given["program"]["values"]["max_tensile_stress"] = None
+    assert compared(given).passed
+    given["program"]["values"]["max_tensile_stress"], given["errors"]["max_tensile_stress"] = 2, 0.2
+    assert "max_tensile_stress" not in compared(given).differences
 
 
 def test_rejected_scene_is_reported(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:

@@ -39,7 +39,7 @@ def test_simulate_prints_the_result(scene: Path, capsys: Captured) -> None:
     result = simulate(load(scene))
     assert shown.out == f"{result}\n"
     for name, value, unit in quantities(result):
-        assert re.search(rf"^{name} +{re.escape(value)} ?{unit}$", shown.out, re.M)
+        assert re.search(rf"^{re.escape(name)} +{re.escape(value)} ?{unit}$", shown.out, re.M)
     assert shown.err == ""
 
 

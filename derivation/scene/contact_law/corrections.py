@@ -9,7 +9,7 @@ from derivation.scene.effects.edge import CLAMPED, SUPPORTED
 from derivation.scene.kernels import Numbers
 from derivation.scene.model import Model
 
-MEMBRANE = 0.3
+MEMBRANE = 0.4
 """Stress of the stretched middle plane over that by bending, for a deflection equal to the
 thickness."""
 SMALL_CORRECTION = 0.3

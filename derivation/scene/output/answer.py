@@ -79,6 +79,11 @@ def _remarks(result: "Result") -> Iterator[str]:
         yield f"Measured: {result.measured_note}"
     if result.disabled_note:
         yield result.disabled_note
+    if math.isnan(result.max_tensile_stress):
+        yield (
+            "Tensile stress: unknown, because the contact ends before a pressure wave has returned "
+            "from the back face"
+        )
     if result.strength_note:
         yield f"Strength: {result.strength_note}"
     if not result.effects.law.viscous:  # its pressure is known only in part

@@ -205,21 +205,24 @@ def test_stress_of_a_pane_follows_from_its_force() -> None:
     assert result.max_tensile_stress == float(expected)
     assert result.to_json()["max_tensile_stress"] == result.max_tensile_stress
     (shown,) = re.findall(r"max_tensile_stress (\S+) Pa", plain(result))
-    assert float(shown) == pytest.approx(result.max_tensile_stress, rel=10.0 ** (1 - result.digits))
+    assert float(shown) == pytest.approx(
+        result.max_tensile_stress, rel=10.0 ** (1 - result.digits_of_result("max_tensile_stress"))
+    )
     assert f"= {45e6 / result.max_tensile_stress:.3g}" in result.strength_note
     assert result.inertia_neglected
     assert "plate inertia is neglected" in result.strength_note
     assert result.strength_note in result._repr_html_().replace("&#x27;", "'")
 
 
-def test_stress_with_inertia_is_the_static_stress_at_the_largest_force() -> None:
+def test_stress_with_inertia_is_below_the_static_stress_at_the_largest_force() -> None:
+    """No wave has returned from the edge: the plate is bent near the contact only."""
     data = load(PANE).to_json() | {"effects": {"inertia": "auto"}}
     result = simulate(read(data | {"plate": data["plate"] | {"tensile_strength": 1e9}}))
-    assert "inertia" in result.effects.law.effects
+    assert result.dynamics is not None
     force, a, m = result.max_force, result.max_contact_radius, result.model
-    expected = kernels.supported_back_face_stress(force, a, m.h, m.b, m.lam, m.mu)
-    assert result.max_tensile_stress == float(expected)
-    assert "quasi-static, under the peak force" in result.strength_note
+    static = kernels.supported_back_face_stress(force, a, m.h, m.b, m.lam, m.mu)
+    assert result.max_tensile_stress == result.dynamics.back_face.stress < 0.6 * float(static)
+    assert "quasi-static" not in result.strength_note
     assert "inertia is neglected" not in result.strength_note
 
 

@@ -108,16 +108,34 @@ class ThinPlate:
         }[self.edge]
         return 12.0 * self.bending_stiffness / self.thickness**2 * (own + shift)
 
-    def force_by_stretching(self, q: Array) -> Array:
-        """Return the modal forces [N] of the stretched middle plane."""
+    def stretched(self, q: Array) -> tuple[Array, Array]:
+        """Return the radial force of the middle plane per length [N/m], and the slope."""
         r, nu = self.r, self.nu
         _, slopes, curvatures, _ = self.shapes
         slope = slopes @ q
         half = slope**2 / 2.0
         load = slope * (curvatures @ q) + (1.0 - nu) / r * half
         free = half - half[-1] if self.edge == "simply-supported" else half
-        tension = self.tension @ load + (12.0 * self.bending_stiffness / self.thickness**2 * free)
-        return -2.0 * np.pi * (self.weights * tension * slope) @ slopes
+        own = self.tension @ load
+        return own + 12.0 * self.bending_stiffness / self.thickness**2 * free, slope
+
+    def force_by_stretching(self, q: Array) -> Array:
+        """Return the modal forces [N] of the stretched middle plane."""
+        tension, slope = self.stretched(q)
+        return -2.0 * np.pi * (self.weights * tension * slope) @ self.shapes[1]
+
+    @cached_property
+    def bending_stresses(self) -> Array:
+        """Tensile stress of each mode on the axis of the face opposite the load [Pa/m]."""
+        k = self.wave_numbers
+        ratio = 0.0 if self.edge == "paper" else j0(k) / i0e(k)
+        curvature = (1.0 + ratio * np.exp(-k)) * (k / self.radius) ** 2 / 2.0
+        return self.young * self.thickness / (2.0 * (1.0 - self.nu)) * curvature
+
+    def tensile_stress(self, q: Array, stretched: bool) -> float:
+        """Return the tensile stress on the axis of the face opposite the load [Pa]."""
+        bent = float(self.bending_stresses @ q)
+        return bent + float(self.stretched(q)[0][0]) / self.thickness if stretched else bent
 
     @cached_property
     def weights(self) -> Array:
@@ -219,7 +237,7 @@ def impact(
     cosine, sine = decay * np.cos(slower * omega * dt), decay * np.sin(slower * omega * dt) / slower
     q, rate, y, v, t = 0.0 * omega, 0.0 * omega, 0.0, speed, 0.0
     first, last = 0.0, duration
-    peak = depth = deflected = widest = 0.0
+    peak = depth = deflected = widest = stress = largest = 0.0
     q_push, y_push = 0.0 * omega, 0.0
     softness = dt / 2.0 * (1.0 / mass + float(np.sum(centre**2 / plate.masses)))
     while t < 3.0 * last or v > 0.0 or y > -deflected:
@@ -236,9 +254,10 @@ def impact(
         rate, v = rate + dt / 2.0 * q_push, v + dt / 2.0 * y_push
         peak, depth, widest = max(peak, force), max(depth, y), max(widest, radius)
         deflected = max(deflected, abs(centre @ q))
-        last = t if force else last
+        stress = max(stress, plate.tensile_stress(q, stretched))
+        last, largest = (t, stress) if force else (last, largest)
         first = t if not first and not force else first
     return {
         "contact_time": first, "max_indentation": depth, "max_force": peak,
-        "max_contact_radius": widest, "restitution": -v / speed,
+        "max_contact_radius": widest, "restitution": -v / speed, "max_tensile_stress": largest,
     }  # fmt: skip

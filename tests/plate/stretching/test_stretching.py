@@ -28,3 +28,14 @@ def test_equals_the_stiffness_of_a_numerical_solution(edge: str, nu: float) -> N
     """Modes, and the middle plane by numerical integration: no step of the derivation is used."""
     plate = ThinPlate(70e9, nu, 2500.0, 2e-3, 0.1, edge, modes=60, points=1000)
     assert plate.stiffening() == pytest.approx(float(STIFFENING[edge](np.array(nu))), rel=1e-3)
+
+
+def test_middle_plane_of_a_clamped_plate_has_the_published_stress() -> None:
+    """1.232 E (w/b)^2 on the axis: Timoshenko and Woinowsky-Krieger (1959), table 82."""
+    plate = ThinPlate(70e9, 0.3, 2500.0, 2e-3, 0.1, "clamped", modes=60, points=1000)
+    centre = plate.shapes[-1]
+    q = centre / (plate.masses * plate.frequencies**2)
+    stress = plate.stretched(q)[0][0] / plate.thickness
+    assert stress / (plate.young * (centre @ q / plate.radius) ** 2) == pytest.approx(
+        1.232, rel=2e-3
+    )

@@ -3,11 +3,12 @@
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
-from derivation.scene.contact_law.corrections import stretched_stress
+from derivation.scene.contact_law.corrections import membrane_stress, stretching
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import local_indentation, plate_times, slow_for
 from derivation.scene.dynamic.edge_remainder import edge_remainder
 from derivation.scene.dynamic.model_error import stress_error
+from derivation.scene.dynamic.stretching_error import stretching_error
 from derivation.scene.effects.effect import Results
 
 if TYPE_CHECKING:
@@ -83,9 +84,11 @@ def tensile_stress(
         stress, error = motion.back_face
         error += stress_error(model, a, contact_time)
         deflection = motion.deflection_before_separation(law)
-        return TensileStress(stress, error + stretched_stress(model, deflection), static=False)
+        stretched = membrane_stress(model, deflection) + stretching_error(law, motion)["max_force"]
+        return TensileStress(stress, error + stretched, static=False)
     stress = law.max_tensile_stress(a, force, on_edge)
-    error = stretched_stress(model, indentation - float(local_indentation(law, a)))
+    deflection = indentation - float(local_indentation(law, a))
+    error = membrane_stress(model, deflection) + float(stretching(model, deflection))
     if law.other_edge:
         error += edge_remainder(model, a)
     if not model.density or not slow_for(model, contact_time):

@@ -51,12 +51,12 @@ class TensileStress(NamedTuple):
             return ""
         if self.value <= 0.0:
             return "no failure predicted on the back face: no tensile stress on the axis"
+        ratio = f"strength / largest tensile stress = {strength / self.value:.3g}"
         caveat = "; plate inertia is neglected but may matter" if inertia_neglected else ""
         basis = f" (quasi-static, under the peak force{caveat})" if self.static else ""
-        return (
-            "no failure predicted on the back face: strength / largest tensile stress = "
-            f"{strength / self.value:.3g}{basis}"
-        )
+        if self.value * (1.0 + self.error) > strength:
+            return f"failure on the back face is uncertain: {ratio}, within the error of the stress"
+        return f"no failure predicted on the back face: {ratio}{basis}"
 
     def to_json(self) -> dict[str, float | None]:
         """Return its error, unknown for a static load, and whether it is that of one."""

@@ -61,7 +61,8 @@ class Result:
     comparison
         The paper's motion, for comparison; None unless `effects.compare_paper_motion` is true.
     max_tensile_stress
-        Largest tensile stress on the back face, on the axis [Pa]; below 0 if compressive.
+        Largest tensile stress on the back face, on the axis [Pa]; below 0 if compressive. Its
+        error, and whether it is static, are in `tensile_stress`.
     accuracy
         Method, and bound of the relative error.
     model_error

@@ -2,13 +2,14 @@
 
 import csv
 import io
+import math
 import signal
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from multiprocessing import get_context
 
@@ -84,14 +85,14 @@ class SweepRow:
     remark
         Warnings, or why the scene was rejected.
     digits
-        Number of significant digits of the results; 0 without results.
+        Number of significant digits of each result; empty without results.
     """
 
     value: float | str
     results: dict[str, float]
     effects: tuple[str, ...]
     remark: str
-    digits: int = 0
+    digits: Mapping[str, int] = field(default_factory=dict)
 
 
 def parse(text: str) -> Sweep:
@@ -257,7 +258,8 @@ def _row(scene: Scene, sweep: Sweep, rtol: float | None, value: float | str) -> 
     included = result.effects.included
     if not result.complete:  # without restitution: a row without results, with the reason
         return SweepRow(value, {}, included, result.incomplete_note)
-    return SweepRow(value, results, included, "; ".join(result.warnings), result.digits)
+    digits = {name: result.digits_of_result(name) for name in UNITS}
+    return SweepRow(value, results, included, "; ".join(result.warnings), digits)
 
 
 def to_csv(sweep: Sweep, rows: Sequence[SweepRow]) -> str:
@@ -275,19 +277,28 @@ def to_csv(sweep: Sweep, rows: Sequence[SweepRow]) -> str:
 def to_text(sweep: Sweep, rows: Sequence[SweepRow]) -> str:
     """Return the rows as a table, each result with one SI prefix."""
     known = [row for row in rows if row.results]
-    fewest = min((max(1, row.digits) for row in known), default=MOST_DIGITS)
     head = sweep.key.rpartition(".")[2]
     heads = [head if takes_names(sweep.key) else f"#{head}"]
     columns = [[written(row.value) for row in rows]]
     for name, unit in UNITS.items():
-        values, multiple = np.array([row.results[name] for row in known]), unit
-        if unit != "1":
-            values, multiple = common_prefix(values, unit, fewest)
-        heads.append(f"#{SYMBOLS[name]} [{multiple}]")
-        cells = (
-            f"{value:#.{min(row.digits, MOST_DIGITS)}g}".removesuffix(".") if row.digits else "n/a"
-            for row, value in zip(known, values, strict=True)
-        )
-        columns.append([next(cells) if row.results else "n/a" for row in rows])
+        symbol, cells = _column(known, name, unit)
+        heads.append(symbol)
+        texts = iter(cells)
+        columns.append([next(texts) if row.results else "n/a" for row in rows])
     legend = ", ".join(f"{SYMBOLS[name]}: {name.replace('_', ' ')}" for name in UNITS)
     return f"{aligned(heads, list(zip(*columns, strict=True)))}\n\n{paragraph(legend, 0)}"
+
+
+def _column(known: Sequence[SweepRow], name: str, unit: str) -> tuple[str, list[str]]:
+    """Return the head and the cells of a result; `n/a` where it is unknown."""
+    values, multiple = np.array([row.results[name] for row in known]), unit
+    if unit != "1":
+        fewest = min((max(1, row.digits[name]) for row in known), default=MOST_DIGITS)
+        finite, multiple = common_prefix(values[np.isfinite(values)], unit, fewest)
+        values[np.isfinite(values)] = finite
+    shown = (min(row.digits[name], MOST_DIGITS) for row in known)
+    cells = [
+        f"{value:#.{digits}g}".removesuffix(".") if digits and math.isfinite(value) else "n/a"
+        for value, digits in zip(values.tolist(), shown, strict=True)
+    ]
+    return f"#{SYMBOLS[name]} [{multiple}]", cells

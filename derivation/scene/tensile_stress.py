@@ -23,11 +23,11 @@ deflection; at most 0.25 in nine simulations with inertia."""
 class TensileStress(NamedTuple):
     """Largest tensile stress on the back face, on the axis.
 
-    With plate inertia it is that until the last separation, and then until shear waves have crossed
-    the thickness. Without, it is that under a static load equal to the largest force, distributed
-    over the largest contact radius as in Hertz's law, on a plate with all static effects, and with
-    the edge of the scene unless `effects.edge` is false. The non-Hertzian pressure of the same
-    force and radius gives a smaller stress: by up to 0.06 % at a/h = 1, 3 % at 2, 40 % at 4.
+    With plate inertia it is that until the last separation. Without, it is that under a static load
+    equal to the largest force, distributed over the largest contact radius as in Hertz's law, on a
+    plate with all static effects, and with the edge of the scene unless `effects.edge` is false.
+    The non-Hertzian pressure of the same force and radius gives a smaller stress: by up to 0.06 %
+    at a/h = 1, 3 % at 2, 40 % at 4.
 
     Attributes
     ----------

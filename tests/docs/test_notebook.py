@@ -57,7 +57,11 @@ def test_every_cell_has_one_formatted_output(executed: list[Any]) -> None:
         ('formula("K_j").proof', "text/markdown", ("symbolically",)),
         ("scene", "text/html", ("<td>plate</td><td>edge</td><td>simply-supported</td>",)),
         ("explain(scene, rtol=1e-4)", "text/html", ("<td>bending</td>", "tolerance 0.0001")),
-        ("result", "text/html", ("contact time", "max tensile stress", "Strength: no failure predicted")),
+        (
+            "result",
+            "text/html",
+            ("contact time", "max tensile stress", "Strength: no failure predicted"),
+        ),
         ("result.dynamics", "text/html", ("<th>", "energ")),
         ("result.history()", "text/html", ("plate energy [J]", "12 of 201 times")),
     ],

@@ -11,6 +11,7 @@ Modes that are faster than the impact are omitted: they respond quasi-statically
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import NamedTuple, Self
 
 import numpy as np
@@ -18,7 +19,7 @@ from numpy.typing import NDArray
 
 from derivation.engine.threads import one_thread
 from derivation.scene.contact_law.law import ContactLaw
-from derivation.scene.dynamic.contact_tables import contact_of
+from derivation.scene.dynamic.contact_tables import ContactTables, contact_of
 from derivation.scene.dynamic.modal import ModalPlate, Modes, free_modes, plate_of
 from derivation.scene.dynamic.mode_count import (
     FEWEST,
@@ -36,13 +37,14 @@ from derivation.scene.model import Model
 from generated.arrays import Double as Array
 
 Amplitudes = NDArray[np.complex128]
-PHASE, STEPS = 0.5, 200
+PHASE, STEPS = 1.0, 200
 """Phase of the fastest mode in a time step, and smallest number of steps in a contact or flight.
 The force is linear in each step."""
-WORK, MOST = 2.5e6, 1e7
+WORK, MOST = 1.25e6, 5e6
 """Numbers of modes times steps: up to the first the modes are doubled, above the second halved."""
-MODES = 10_000
-"""Largest number of modes of all branches; with more the impact is over before the plate bends."""
+MODES, ROOM = 10_000, 1.1
+"""Number of modes of all branches from which a narrower plate is sufficient, if no wave returns
+from its edge; its radius over the smallest such radius."""
 AT_ONCE = 2**18
 """Number of values of modes that are computed at once."""
 ESTIMATE = 2.0
@@ -58,7 +60,7 @@ class BackFace(NamedTuple):
     """Largest tensile stress on the back face [Pa], and its estimated relative error [1].
 
     The error is that by omitted modes. Both are NaN if the contact ends before a pressure wave has
-    returned from the back face, where finite elements do not confirm the stress.
+    returned from the back face: finite elements do not resolve the stress of such an impact.
     """
 
     stress: float
@@ -73,16 +75,14 @@ class _Course(NamedTuple):
 
 
 def back_face(motion: DynamicImpact) -> BackFace:
-    """Return the largest tensile stress on the axis of the back face.
-
-    It is that from first contact until the last separation, and then until shear waves have crossed
-    the thickness.
-    """
+    """Return the largest tensile stress on the axis of the back face until the last separation."""
     inertia = replace(motion.law.model.inertia, branches="all", modes=0)
     law = replace(motion.law, model=replace(motion.law.model, inertia=inertia))
-    count = _count(law, motion.inertia.total_time)
-    if count is None or echoes_during(law.model, motion.contact_time) < 1.0:
+    if echoes_during(law.model, motion.contact_time) < 1.0:
         return BackFace(math.nan, math.nan)
+    if oscillators(law, affordable(law)) > MODES:
+        law = _narrower(law, motion.inertia.total_time)
+    count = _count(law, motion.inertia.total_time)
     with one_thread(), np.errstate(all="ignore"):
         rough, fine = (_course(motion, law, n) for n in (coarser(count), count))
     changes = np.abs(fine.stress - np.interp(fine.times, *rough))
@@ -94,16 +94,21 @@ def back_face(motion: DynamicImpact) -> BackFace:
     return BackFace(largest, ESTIMATE * higher / abs(largest))
 
 
-def _count(law: ContactLaw, time: float) -> int | None:
-    """Return the number of bending modes; None if the impact requires too many."""
+def _narrower(law: ContactLaw, time: float) -> ContactLaw:
+    """Return the law of a plate that is just so wide that no wave returns from its edge in time."""
+    model = law.model
+    b = ROOM * model.b * time / echo_time(model)
+    return replace(law, model=replace(model, b=b, edge="paper")) if b < model.b else law
+
+
+def _count(law: ContactLaw, time: float) -> int:
+    """Return the number of bending modes."""
 
     def work(count: int) -> float:
         fastest = float(free_modes(branching(law, "A0").model, count).omega[-1])
         return oscillators(law, count) * time * fastest / PHASE
 
     count = affordable(law)
-    if oscillators(law, count) > MODES:
-        return None
     if work(finer(law, count)) <= WORK and oscillators(law, finer(law, count)) <= MODES:
         return finer(law, count)
     while count > FEWEST and work(count) > MOST:
@@ -112,8 +117,8 @@ def _count(law: ContactLaw, time: float) -> int | None:
 
 
 def _course(motion: DynamicImpact, law: ContactLaw, count: int) -> _Course:
-    """Return the stress in all contacts, the flights between them, and shortly after the last."""
-    waves = _Waves.of(law, count)
+    """Return the stress in all contacts and in the flights between them."""
+    waves = _Waves.of(law, count, motion.max_contact_radius)
     z, end, found = np.zeros(waves.decay.size, dtype=complex), 0.0, []
     for touching in motion.inertia.contacts:
         if touching.start > end:
@@ -122,10 +127,9 @@ def _course(motion: DynamicImpact, law: ContactLaw, count: int) -> _Course:
             found.append((times, stress))
         times, end = waves.times(touching.start, touching.end), touching.end
         rows = motion.rows(times)
-        stress, z = waves.driven(z, times, np.maximum(rows[A], SMALL * law.model.h), rows[P])
+        a = np.clip(rows[A], SMALL * law.model.h, waves.widest)
+        stress, z = waves.driven(z, times, a, rows[P])
         found.append((times, stress))
-    times = waves.times(end, end + 2.0 * law.model.h / law.model.shear_speed)
-    found.append((times, waves.flown(z, times)[0]))
     return _Course(*map(np.concatenate, zip(*found, strict=True)))
 
 
@@ -133,23 +137,25 @@ def _course(motion: DynamicImpact, law: ContactLaw, count: int) -> _Course:
 class _Waves:
     """The waves of a plate as complex amplitudes z, whose imaginary part is the deflection.
 
-    They obey z' = decay z + P_j. `weights` are their stresses over the imaginary part of z.
+    They obey z' = decay z + P_j. `weights` are their stresses over the imaginary part of z, and
+    `widest` is the largest contact radius [m].
     """
 
     law: ContactLaw
     plate: ModalPlate
+    widest: float
     decay: Amplitudes
     weights: Array
 
     @classmethod
-    def of(cls, law: ContactLaw, count: int) -> Self:
+    def of(cls, law: ContactLaw, count: int, widest: float) -> Self:
         """Return the waves of a number of bending modes and of all other branches."""
         plate, ratio = plate_of(law, count), law.damping_ratio
         modes = plate.modes
         turn = complex(-ratio, math.sqrt((1.0 - ratio) * (1.0 + ratio)))
         decay = np.asarray(turn * modes.omega, dtype=np.complex128)
         weights = wave_stresses(law.model, modes) * modes.inverse_modal_mass / decay.imag
-        return cls(law, plate, decay, weights)
+        return cls(law, plate, widest, decay, weights)
 
     def times(self, start: float, end: float) -> Array:
         """Return the times [s] between two others."""
@@ -157,12 +163,16 @@ class _Waves:
         return np.linspace(start, end, 1 + max(STEPS, math.ceil(steps)))
 
     def flown(self, z: Amplitudes, times: Array) -> tuple[Array, Amplitudes]:
-        """Return the stress in free flight, and the amplitudes at its end."""
-        found = []
-        for since in np.array_split(times - times[0], 1 + times.size * z.size // AT_ONCE):
-            flown = z * np.exp(np.multiply.outer(since, self.decay))
-            found.append(flown.imag @ self.weights)
-        return np.concatenate(found), flown[-1]
+        """Return the stress in free flight, and the amplitudes at its end.
+
+        The evenly spaced times are sums of few long and few short steps, so that few exponential
+        functions are computed.
+        """
+        short = math.ceil(math.sqrt(times.size))
+        steps = np.arange(short)[:, None] * (times[1] - times[0])
+        turned = z * self.weights * np.exp(self.decay * (short * steps))
+        stress = (turned @ np.exp(self.decay * steps).T).imag.ravel()[: times.size]
+        return stress, z * np.exp(self.decay * (times[-1] - times[0]))
 
     def driven(
         self, z: Amplitudes, times: Array, a: Array, force: Array
@@ -179,14 +189,17 @@ class _Waves:
         grown, both = np.exp(y), np.expm1(y) / y
         late = (both - 1.0) / y
         both, late = step * (both - late), step * late
-        moving = np.empty(times.size)
-        moving[0] = z.imag @ self.weights
-        of, shape = self._shares(self.plate.modes, a), self.plate.modes.shape
-        driving = force[:, None] * of
-        for i in range(1, times.size):
-            z = grown * z + (both * driving[i - 1, shape] + late * driving[i, shape])
-            moving[i] = z.imag @ self.weights
-        return moving + force * self._remainder(a), z
+        modes = self.plate.modes
+        driving = force[:, None] * self._shares(modes, a)
+        found = [np.array([z.imag @ self.weights])]
+        for part in np.array_split(np.arange(1, times.size), 1 + times.size * z.size // AT_ONCE):
+            early, now = (driving[places][:, modes.shape] for places in (part - 1, part))
+            moved = both * early + late * now
+            for row in moved:
+                row += grown * z
+                z = row
+            found.append(moved.imag @ self.weights)
+        return np.concatenate(found) + force * self._remainder(a), z
 
     def _remainder(self, a: Array) -> Array:
         """Return the stress of the quasi-static remainder per force at contact radii [Pa/N].
@@ -194,20 +207,24 @@ class _Waves:
         As in `modal`, it is that of the paper's edge, which no wave has reached at first.
         """
         still = self.law.tensile_stresses(a, np.ones_like(a), on_edge=False)
-        rest = still - self._static(self.plate.less, a)
-        return rest if self.plate.more is None else rest + self._static(self.plate.more, a)
-
-    def _static(self, modes: Modes, a: Array) -> Array:
-        """Return the static stress of modes per force at contact radii [Pa/N]."""
-        each = wave_stresses(self.law.model, modes) * modes.inverse_modal_mass / modes.omega**2
-        return np.asarray(self._shares(modes, a) @ modes.by_shape(each))
+        for sign, modes in ((-1.0, self.plate.less), (1.0, self.plate.more)):
+            if modes is not None:
+                each = wave_stresses(self.law.model, modes) * modes.compliances
+                still = still + sign * (self._shares(modes, a) @ modes.by_shape(each))
+        return np.asarray(still)
 
     def _shares(self, modes: Modes, a: Array) -> Array:
         """Return the force that drives each shape over the contact force, at radii [m]."""
-        rest = self.law.only(lambda e: e.static and not e.other_edge)
-        plate, top = ModalPlate(modes, modes, None), float(np.max(a))
-        forces = contact_of(rest, plate, top, pointwise=False, tail=TABLE).forces(a)
+        if id(modes) not in self._tables:
+            rest = self.law.only(lambda e: e.static and not e.other_edge)
+            plate = ModalPlate(modes, modes, None)
+            self._tables[id(modes)] = contact_of(rest, plate, self.widest, False, TABLE)
+        forces = self._tables[id(modes)].forces(a)
         return np.asarray(forces[:, 1:] / forces[:, :1])
+
+    @cached_property
+    def _tables(self) -> dict[int, ContactTables]:
+        return {}
 
 
 def wave_stresses(model: Model, modes: Modes) -> Array:

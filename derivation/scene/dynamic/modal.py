@@ -77,9 +77,14 @@ class Modes:
     b: float = 1.0
 
     @property
+    def compliances(self) -> Array:
+        """Static deflection of each mode at the axis by a unit force [m/N]."""
+        return np.asarray(self.inverse_modal_mass / self.omega**2)
+
+    @property
     def compliance(self) -> Array:
         """Static deflection of each shape at the axis by a unit force [m/N]."""
-        return self.by_shape(self.inverse_modal_mass / self.omega**2)
+        return self.by_shape(self.compliances)
 
     @cached_property
     def shape(self) -> Indices:

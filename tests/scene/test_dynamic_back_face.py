@@ -122,3 +122,27 @@ def test_a_plate_with_too_many_modes_is_replaced_by_a_narrower_one(
     narrow = stresses.back_face(motion)
     assert narrow.stress != whole.stress
     assert narrow.stress == pytest.approx(whole.stress, rel=2e-3)
+
+
+def test_free_flight_is_the_sum_of_decaying_vibrations() -> None:
+    motion = impact(loss=0.1).dynamics
+    assert motion is not None
+    waves = stresses._Waves.of(motion.law, 8, 1e-3)
+    times = np.linspace(1e-3, 1e-3 + 5.0 / float(waves.plate.modes.omega[0]), 37)
+    z = np.exp(1j * np.arange(waves.decay.size))
+    found, after = waves.flown(z, times)
+    each = [z * np.exp(waves.decay * (t - times[0])) for t in times]
+    assert found == pytest.approx([float(x.imag @ waves.weights) for x in each], rel=1e-9)
+    assert after == pytest.approx(each[-1])
+
+
+def test_damped_plate_tends_to_the_static_stress_under_a_constant_force() -> None:
+    motion = impact(loss=0.8).dynamics
+    assert motion is not None
+    waves = stresses._Waves.of(motion.law, 8, 1e-3)
+    times = np.linspace(0.0, 60.0 / float(waves.plate.modes.omega[0]), 4000)
+    a = np.full(times.size, 1e-6)
+    found, _ = waves.driven(np.zeros(waves.decay.size, dtype=complex), times, a, 1.0 + 0.0 * times)
+    static = motion.law.max_tensile_stress(1e-6, 1.0, on_edge=False)
+    assert found[-1] == pytest.approx(static, rel=1e-6)
+    assert found[0] < 0.5 * static

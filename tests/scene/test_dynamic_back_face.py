@@ -104,11 +104,11 @@ def test_response_to_a_linear_force_is_exact() -> None:
     found, _ = waves.driven(np.zeros(waves.decay.size, dtype=complex), times, a, times)
     modes, shares = (
         waves.plate.modes,
-        waves._shares(waves.plate.modes, a)[0][waves.plate.modes.shape],
+        waves.shares(waves.plate.modes, a)[0][waves.plate.modes.shape],
     )
     each = stresses.wave_stresses(waves.law.model, modes) * modes.compliances
     swing = np.sin(np.multiply.outer(times, modes.omega)) / modes.omega
-    exact = times * waves._remainder(a) + (times[:, None] - swing) @ (each * shares)
+    exact = times * waves.remainder(a) + (times[:, None] - swing) @ (each * shares)
     assert found == pytest.approx(exact, rel=1e-9, abs=1e-9 * float(np.max(exact)))
 
 

@@ -40,7 +40,7 @@ Amplitudes = NDArray[np.complex128]
 PHASE, STEPS = 1.0, 200
 """Phase of the fastest mode in a time step, and smallest number of steps in a contact or flight.
 The force is linear in each step."""
-WORK, MOST = 1.25e6, 5e6
+WORK, MOST = 3e5, 2e6
 """Numbers of modes times steps: up to the first the modes are doubled, above the second halved."""
 MODES, ROOM = 10_000, 1.1
 """Number of modes of all branches from which a narrower plate is sufficient, if no wave returns
@@ -52,6 +52,8 @@ ESTIMATE = 2.0
 TABLE = 1e-6
 """Last coefficients of the tables of forces over the largest one."""
 KINDS = "antisymmetric", "symmetric"
+RADII = 65
+"""Number of radii at which the quasi-static remainder is evaluated."""
 SMALL = 1e-9
 """Smallest contact radius over half the thickness at which the stress is evaluated."""
 
@@ -190,7 +192,7 @@ class _Waves:
         late = (both - 1.0) / y
         both, late = step * (both - late), step * late
         modes = self.plate.modes
-        driving = force[:, None] * self._shares(modes, a)
+        driving = force[:, None] * self.shares(modes, a)
         found = [np.array([z.imag @ self.weights])]
         for part in np.array_split(np.arange(1, times.size), 1 + times.size * z.size // AT_ONCE):
             early, now = (driving[places][:, modes.shape] for places in (part - 1, part))
@@ -199,21 +201,29 @@ class _Waves:
                 row += grown * z
                 z = row
             found.append(moved.imag @ self.weights)
-        return np.concatenate(found) + force * self._remainder(a), z
+        return np.concatenate(found) + force * self.remainder(a), z
 
-    def _remainder(self, a: Array) -> Array:
+    def remainder(self, a: Array) -> Array:
         """Return the stress of the quasi-static remainder per force at contact radii [Pa/N].
 
-        As in `modal`, it is that of the paper's edge, which no wave has reached at first.
+        It is nearly linear in the square of the radius, and interpolated.
         """
+        squares, stresses = self._sampled_remainder
+        return np.interp(a * a, squares, stresses)
+
+    @cached_property
+    def _sampled_remainder(self) -> tuple[Array, Array]:
+        """Squares of radii and the stress per force: as in `modal`, that of the paper's edge."""
+        squares = self.widest**2 * np.linspace(0.0, 1.0, RADII)
+        a = np.maximum(np.sqrt(squares), SMALL * self.law.model.h)
         still = self.law.tensile_stresses(a, np.ones_like(a), on_edge=False)
         for sign, modes in ((-1.0, self.plate.less), (1.0, self.plate.more)):
             if modes is not None:
                 each = wave_stresses(self.law.model, modes) * modes.compliances
-                still = still + sign * (self._shares(modes, a) @ modes.by_shape(each))
-        return np.asarray(still)
+                still = still + sign * (self.shares(modes, a) @ modes.by_shape(each))
+        return squares, np.asarray(still)
 
-    def _shares(self, modes: Modes, a: Array) -> Array:
+    def shares(self, modes: Modes, a: Array) -> Array:
         """Return the force that drives each shape over the contact force, at radii [m]."""
         if id(modes) not in self._tables:
             rest = self.law.only(lambda e: e.static and not e.other_edge)

@@ -308,11 +308,11 @@ def _waves(model: Model) -> "Waves":
         If the plate is too thick for a bending mode of this edge, or so thin that it has more than
         `MOST_BELOW_CUTOFF`.
     """
-    from generated.edge_modes import THICKEST, cutoff
+    from generated.edge_modes import THICKEST
 
     if model.eta > THICKEST:
         raise _too_thick(model)
-    if cutoff(model.poissons_ratio) > math.pi * MOST_BELOW_CUTOFF * model.eta:
+    if _cutoff(model.poissons_ratio) > math.pi * MOST_BELOW_CUTOFF * model.eta:
         raise SceneError(
             f"plate.edge: expected a {model.edge} plate with at most {MOST_BELOW_CUTOFF} bending "
             f"modes below the cut-off frequency, got a radius of {model.b:.3g} m and a thickness "
@@ -327,11 +327,19 @@ def _waves(model: Model) -> "Waves":
 @lru_cache(maxsize=8)
 def _edge_waves(edge: str, eta: float, nu: float) -> "Waves":
     """Return the modes of `_waves`, which depend on edge, h/b and Poisson's ratio alone."""
-    from generated.edge_modes import clamped_waves, cutoff, supported_waves
+    from generated.edge_modes import clamped_waves, supported_waves
 
-    count = math.ceil(cutoff(nu) / (math.pi * eta)) + 1
+    count = math.ceil(_cutoff(nu) / (math.pi * eta)) + 1
     run = clamped_waves if edge == CLAMPED else supported_waves
     return run(count, eta, nu)
+
+
+@lru_cache(maxsize=64)
+def _cutoff(nu: float) -> float:
+    """Return x = k h above which held plates have no modes of `generated.edge_modes`."""
+    from generated.edge_modes import cutoff
+
+    return cutoff(nu)
 
 
 def _too_thick(model: Model) -> SceneError:

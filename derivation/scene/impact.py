@@ -43,7 +43,7 @@ from derivation.scene.selection.method_selection import (
     solve_selected,
 )
 from derivation.scene.selection.selection import check_enabled
-from derivation.scene.tensile_stress import tensile_stress
+from derivation.scene.tensile_stress import TensileStress, tensile_stress
 
 if TYPE_CHECKING:
     from derivation.scene.dynamic.wave_motion import DynamicImpact
@@ -128,16 +128,17 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
     if motion is not None:
         moving = replace(model, inertia=motion.law.model.inertia)
     strength, yield_stress = scene.plate.tensile_strength, _known(model.plate_yield_stress)
-    stress = math.nan
+    stress = TensileStress(math.nan, math.nan, static=motion is None)
     if strength is not None or yield_stress is not None:
-        stress = tensile_stress(law, motion, numbers, not selected.edge_disabled).value
+        stress = tensile_stress(law, motion, numbers, not selected.edge_disabled)
+    stress_error = accuracy.bound + stress.error if motion is not None else 0.0
     warnings = (
         *on_units,
         *hollow_warnings(model),
         *warnings_at(law, a, delta, deflection),
         *motion_warnings(moving, contact_time, fraction, motion is not None),
         *_yield_warnings(law, a, pressure),
-        *stress_warnings(stress, strength, yield_stress, static=motion is None),
+        *stress_warnings(stress.value, strength, yield_stress, stress_error, motion is None),
     )
     if motion is not None:
         speeds = [touch.relative_approach_speed for touch in motion.inertia.contacts]

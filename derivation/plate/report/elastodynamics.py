@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from derivation.engine.report.figures import STYLE
 from derivation.engine.report.latex import escape
 from derivation.engine.report.numbers import number, rounded
+from derivation.scene.dynamic.model_error import ROUGHLY_RESOLVED
 from generated.bessel import bessel_j0_zeros
 from generated.inertia import bending_frequency
 
@@ -21,6 +22,7 @@ RESULTS = {
     "restitution": "restitution",
 }
 """Results that are compared, by their name in the data."""
+STRESS = "max_tensile_stress"
 MARKS = {"paper": ("o", "paper's edge"), "simply-supported": ("s", "simply supported"),
          "clamped": ("^", "clamped")}  # fmt: skip
 SHOWN = 0.3
@@ -32,7 +34,11 @@ def elastodynamics_context(data: Row) -> dict[str, Any]:
     rows = list(_compared(data))
     rejected = [row for row in data["impacts"] if "rejected" in row.get("program", {})]
     errors = [row["errors"][name] for row in rows for name in RESULTS]
+    stresses = [x for row in rows for x in _stress_difference(row)]
     return {
+        "stresses": len(stresses),
+        "stress_median": rounded(float(np.median(stresses)) if stresses else 0.0),
+        "stress_largest": rounded(max(stresses, default=0.0)),
         "cases": len(rows),
         "rejected": len(rejected),
         "within": sum(_excess(row) <= 1.0 for row in rows),
@@ -76,6 +82,13 @@ def _differences(row: Row) -> dict[str, float]:
     """Return the relative differences of the results [1]."""
     values, elements = row["program"]["values"], row["elements"]
     return {name: abs(values[name] / elements[name] - 1.0) for name in RESULTS}
+
+
+def _stress_difference(row: Row) -> Iterator[float]:
+    """Yield the relative difference of the tensile stress if the elements resolve it [1]."""
+    value = row["program"]["values"][STRESS]
+    if value is not None and row["errors"][STRESS] <= ROUGHLY_RESOLVED:
+        yield abs(value / row["elements"][STRESS] - 1.0)
 
 
 def _stated(row: Row) -> float:

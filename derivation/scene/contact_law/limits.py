@@ -16,6 +16,7 @@ from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.errors import SceneError, wide_contact
 from derivation.scene.model import Model
 from derivation.scene.numerics.quadrature import gauss
+from derivation.scene.quantity import percent
 from generated.arrays import Double as Array
 
 HERTZ_LIMIT = 0.15
@@ -339,9 +340,13 @@ def pressure_warnings(
 
 
 def stress_warnings(
-    stress: float, strength: float | None, yield_stress: float | None = None, static: bool = True
+    stress: float,
+    strength: float | None,
+    yield_stress: float | None = None,
+    error: float = 0.0,
+    static: bool = True,
 ) -> tuple[str, ...]:
-    """Return warnings if the back face is predicted to fail or to yield.
+    """Return warnings if the back face is predicted to fail or to yield, or may do so.
 
     Parameters
     ----------
@@ -350,22 +355,25 @@ def stress_warnings(
     strength, yield_stress
         Of the plate [Pa], if they are known. On the axis both in-plane stresses are equal, and
         the face yields when they reach the yield stress.
+    error
+        Relative error of the stress [1].
     static
         Whether the stress is that under a static load equal to the largest force.
     """
-    notes = []
     basis = " (quasi-static, under the peak force)" if static else ""
-    if strength is not None and stress > strength:
+    notes = []
+    for limit, name, event in (
+        (strength, "strength", "fail"), (yield_stress, "yield stress", "yield in bending")
+    ):  # fmt: skip
+        if limit is None or not stress > limit:
+            continue
+        certain = stress * (1.0 - error) > limit
+        within = "" if certain else f", within its error of {percent(error)}"
+        verdict = "is predicted to" if certain else "may"
         notes.append(
-            f"the largest tensile stress on the back face is {stress / strength:.3g} times the "
-            f"strength{basis}: the plate is predicted to fail, and the results assume that it does "
-            "not"
-        )
-    if yield_stress is not None and stress > yield_stress:
-        notes.append(
-            f"the largest tensile stress on the back face is {stress / yield_stress:.3g} times "
-            f"the yield stress{basis}: the plate is predicted to yield in bending, and the results "
-            "assume that it does not"
+            f"the largest tensile stress on the back face is {stress / limit:.3g} times the "
+            f"{name}{basis}{within}: the plate {verdict} {event}, and the results assume that it "
+            "does not"
         )
     return tuple(notes)
 

@@ -23,7 +23,9 @@ from derivation.plate.back_face import theory as back_face
 from derivation.plate.modes.route.exponentials import ModeMaterial, unit_mode
 from derivation.plate.vocabulary import T
 from derivation.scene import load, read, simulate
+from derivation.scene.contact_law.limits import stress_warnings
 from derivation.scene.output.answer import plain
+from derivation.scene.tensile_stress import TensileStress
 from generated import back_face as kernels
 from generated import contact_law, modal_sum
 from generated.arrays import Double as Array
@@ -234,6 +236,17 @@ def test_failure_is_predicted_on_one_side_of_the_strength() -> None:
         assert bool(failures) is breaks
         assert bool(result.strength_note) is not breaks
     assert simulate(pane()).strength_note == ""
+
+
+def test_failure_within_the_error_of_the_stress_is_possible() -> None:
+    for error, verdict in ((0.2, "may fail"), (0.05, "is predicted to fail")):
+        (text,) = stress_warnings(1.1e6, 1e6, error=error, static=False)
+        assert verdict in text
+        assert "quasi-static" not in text
+    stress = TensileStress(0.95e6, 0.1, static=False)
+    assert "uncertain" in stress.safety(1e6, inertia_neglected=False)
+    assert "no failure predicted" in stress.safety(1.1e6, inertia_neglected=False)
+    assert TensileStress(math.nan, math.nan, static=False).safety(1e6, False) == ""
 
 
 def test_omitted_effects_change_only_the_force() -> None:

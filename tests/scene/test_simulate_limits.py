@@ -93,7 +93,7 @@ def test_sweep_is_printed_as_table_or_json(file: Path, capsys: Captured) -> None
     assert [row["value"] for row in data] == [0.5, 1.0]
     assert len(rows) == 2
     for row, cells in zip(data, rows, strict=True):
-        digits = min(row["digits"], sweep.MOST_DIGITS)
+        digits = min(row["digits"]["max_force"], sweep.MOST_DIGITS)
         error = abs(float(cells[3]) / row["results"]["max_force"] - 1.0)
         assert error <= 0.5 * 10.0 ** (1 - digits)
 

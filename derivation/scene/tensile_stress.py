@@ -8,7 +8,7 @@ from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import local_indentation, plate_times, slow_for
 from derivation.scene.dynamic.edge_remainder import edge_remainder
 from derivation.scene.dynamic.model_error import stress_error
-from derivation.scene.dynamic.stretching_error import stretching_error
+from derivation.scene.dynamic.stretching_error import stress_change
 from derivation.scene.effects.effect import Results
 
 if TYPE_CHECKING:
@@ -83,9 +83,7 @@ def tensile_stress(
     if motion is not None:
         stress, error = motion.back_face
         error += stress_error(model, a, contact_time)
-        deflection = motion.deflection_before_separation(law)
-        stretched = membrane_stress(model, deflection) + stretching_error(law, motion)["max_force"]
-        return TensileStress(stress, error + stretched, static=False)
+        return TensileStress(stress, error + stress_change(law, motion), static=False)
     stress = law.max_tensile_stress(a, force, on_edge)
     deflection = indentation - float(local_indentation(law, a))
     error = membrane_stress(model, deflection) + float(stretching(model, deflection))

@@ -42,10 +42,8 @@ def membrane_stress(model: Model, deflection: float) -> float:
     """Return the stress of a stretched middle plane over that by bending [1].
 
     The middle plane of a deflected plate is in tension, in proportion to the square of the
-    deflection; over the stress by bending this is a multiple of deflection over thickness. In 700
-    random elastic impacts on a von Karman plate (three edges, deflections of 0.03 to 4 thicknesses,
-    up to 76 contacts) the largest stress changed by at most 0.54 of the sum of this estimate, the
-    stiffening, and the change of the largest force.
+    deflection; over the stress by bending this is a multiple of deflection over thickness. The
+    factor is not derived, see `dynamic.stretching_error`.
 
     Parameters
     ----------

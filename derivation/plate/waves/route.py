@@ -69,7 +69,7 @@ def wave_stress(x: float, kap: mpf, nu: float, bends: bool, digits: int = 30) ->
         near = kap * (1 + mpf(10) ** -(digits + 3))
         deflection, radial = _moved(wave, near, ratio)[0 if bends else 1]
         # On a free face the stress is 2 (1 + nu)/(1 - nu) times the radial strain, u'(0) = x U/2;
-        # the load of `_answers` is a traction away from the plate.
+        # the load of `_moved` is a traction away from the plate.
         return +(-(1 + ratio) / (1 - ratio) * wave * radial / deflection)
 
 

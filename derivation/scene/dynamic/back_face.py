@@ -234,6 +234,7 @@ class _Waves:
 
     @cached_property
     def _tables(self) -> dict[int, ContactTables]:
+        """Tables by the identity of their modes, which have no hash."""
         return {}
 
 

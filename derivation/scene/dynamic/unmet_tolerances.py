@@ -43,12 +43,14 @@ def out_of_reach(
             f"rtol: the tolerance {rtol:.3g} cannot be checked because there is no bound on the "
             "omitted effects; remove the keys of [effects] that are false, or remove the tolerance"
         )
-    where = f"for a contact radius of {a / law.model.R:.4g} sphere radii"
+    expected, where = "at least", f"for a contact radius of {a / law.model.R:.4g} sphere radii"
     remedy = "increase the tolerance"
     if law.dynamic:
         where = "with the dynamic modes and wave branches of this scene"
-        if law.model.inertia.modes:  # else their number is already as large as is of use
+        if law.model.inertia.modes:
             remedy += " or inertia.modes"
+        else:  # the simulation ends where more modes are of no use for this tolerance
+            expected = "a tolerance that can be met, such as"
     if math.isinf(accuracy.bound):
         return SceneError(
             f"inertia.modes: expected enough modes for an error bound, got "
@@ -57,7 +59,7 @@ def out_of_reach(
     if met:
         remedy += f", or request only what meets it: accuracy.outputs = {json.dumps(list(met))}"
     return ToleranceError(
-        f"rtol: expected at least {rounded_up(accuracy.bound)} {where}, got {rtol:.3g}; {remedy}",
+        f"rtol: expected {expected} {rounded_up(accuracy.bound)} {where}, got {rtol:.3g}; {remedy}",
         accuracy.bound,
         growth,
     )

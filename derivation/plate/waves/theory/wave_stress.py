@@ -34,6 +34,10 @@ from derivation.plate.waves.theory.dynamic_modes import (
     with_roots,
 )
 
+OF_Q = sp.Symbol("t_q", positive=True)
+OF_P = 4 * x_h**2 * p * q * OF_Q / (x_h**2 + q**2) ** 2
+"""tanh(q), and tanh(p) of a wave in bending, where both faces are free: B_a = 0. In extension they
+are coth(q) and coth(p)."""
 S_A = sp.Symbol("S_a", real=True)
 MODE = S_A * (1 + mindlin.c * g_2 * mindlin.k_2**2 / (g_1 * k_n**2)) / (1 - mindlin.c * t)
 """Stress of a mode of a clamped or supported plate, in S_a of its part J0."""
@@ -59,12 +63,9 @@ def _residual(bends: bool) -> sp.Expr:
     (amplitude,) = sp.solve(in_p_and_q(free.rz).subs(z, 1), C3)
     # A load along w is a pressure on the upper face, towards the back face.
     ratio = (-in_p_and_q(radial).subs(z, -1) / in_p_and_q(free.f).subs(z, 1)).subs(C3, amplitude)
-    # Both faces are free: B = 0, by which tanh(p), or coth(p), follows from that of q.
-    tanh_q = sp.Symbol("t_q", positive=True)
-    tanh_p = 4 * x_h**2 * p * q * tanh_q / (x_h**2 + q**2) ** 2
-    tanh = {p: tanh_p, q: tanh_q} if bends else {p: 1 / tanh_p, q: 1 / tanh_q}
+    tanh = {p: OF_P, q: OF_Q} if bends else {p: 1 / OF_P, q: 1 / OF_Q}
     plain = ratio.replace(sp.sinh, lambda y: sp.cosh(y) * tanh[y])
-    return sp.cancel(plain - in_p_and_q(stress(tanh_p, bends)))
+    return sp.cancel(plain - in_p_and_q(stress(OF_P, bends)))
 
 
 def _thin() -> sp.Expr:
@@ -79,15 +80,13 @@ def _thin() -> sp.Expr:
 @cache
 def wave_stress() -> tuple[Formula, ...]:
     """Return the formulas of the step."""
-    free = sp.symbols("t_p t_q", positive=True)
-    at_zero = 4 * x_h**2 * p * q * free[1] / (x_h**2 + q**2) ** 2
     proof = prove(
         "Stress of a wave on the back face",
         "The amplitude of the part without dilatation follows from the shear stress on the faces, "
         r"and $\tanh p$, or $\coth p$, from their normal stress: $B = 0$. Both are inserted into "
         "the radial stress on the axis.",
         {
-            "free faces": sp.cancel(in_p_and_q(stiffness(at_zero, free[1]))),
+            "free faces": sp.cancel(in_p_and_q(stiffness(OF_P, OF_Q))),
             "bending": _residual(True),
             "extension": _residual(False),
             "thin plate": _thin(),

@@ -176,8 +176,10 @@ def plate_of(law: ContactLaw, count: int) -> ModalPlate:
 def free_modes(model: Model, count: int) -> Modes:
     """Return the modes of a plate with the paper's edge, `count` of them of the lowest branch."""
     modes = _free(model, count)
-    branches = model.inertia.branches == "all"
-    return _modes(model, _branches(model, modes, float(modes.root[-1])) if branches else modes)
+    if model.inertia.branches != "all":
+        return _modes(model, modes)
+    highest = float(modes.root[-1])
+    return _modes(model, _branches(modes, _higher(model, modes, highest), highest))
 
 
 def bending_fraction(model: Model, modes: Modes) -> Array:
@@ -225,11 +227,16 @@ def _modes(model: Model, shapes: _Shapes, held: "Waves | None" = None) -> Modes:
     return Modes(shapes.k / model.b, omega, inverse_mass, shapes.first, shapes.bends, held, model.b)
 
 
-def _branches(model: Model, lowest: _Shapes, highest: float, without: int = 0) -> _Shapes:
-    """Return all branches with the paper's edge up to omega h/c_T = `highest`.
+class _Higher(NamedTuple):
+    """Higher branches of shapes: omega h/c_T and strength, (shapes, branches), and symmetry."""
 
-    A0 of the first `without` shapes is omitted.
-    """
+    root: Array
+    strength: Array
+    bends: NDArray[np.bool_]
+
+
+def _higher(model: Model, lowest: _Shapes, highest: float) -> _Higher:
+    """Return all branches but A0 with the paper's edge, beyond omega h/c_T = `highest`."""
     from generated.bessel import bessel_j1_at_j0_zeros
     from generated.plate_waves import branches
 
@@ -238,14 +245,24 @@ def _branches(model: Model, lowest: _Shapes, highest: float, without: int = 0) -
     # At x = 0 branches are at least pi/2 apart, and none of them decreases by much.
     count = math.ceil(highest / (math.pi / 2.0)) + 2
     bent, stretched = (branches(x, nu, count, kind) for kind in ("antisymmetric", "symmetric"))
-    root = np.hstack((lowest.root[:, None], bent[0][:, 1:], stretched[0]))
-    further = weight * np.hstack((bent[1][:, 1:], stretched[1]))
-    strength = np.hstack((lowest.strength[:, None], further))
+    root = np.hstack((bent[0][:, 1:], stretched[0]))
+    strength = weight * np.hstack((bent[1][:, 1:], stretched[1]))
+    return _Higher(root, strength, np.arange(root.shape[1]) < count - 1)
+
+
+def _branches(lowest: _Shapes, higher: _Higher, highest: float, without: int = 0) -> _Shapes:
+    """Return all branches with the paper's edge up to omega h/c_T = `highest`.
+
+    A0 of the first `without` shapes is omitted. `higher` may be those of more shapes.
+    """
+    shapes = lowest.k.size
+    root = np.hstack((lowest.root[:, None], higher.root[:shapes]))
+    strength = np.hstack((lowest.strength[:, None], higher.strength[:shapes]))
     taken = (root <= highest * (1.0 + 1e-12)) & (strength > UNMOVED)
-    taken[:, 0] = np.arange(x.size) >= without
+    taken[:, 0] = np.arange(shapes) >= without
     any_taken = np.any(taken, axis=1)
     sizes = np.sum(taken[any_taken], axis=1)
-    bends = np.broadcast_to(np.arange(root.shape[1]) < bent[0].shape[1], root.shape)[taken]
+    bends = np.broadcast_to(np.append(True, higher.bends), root.shape)[taken]
     first = np.cumsum(sizes) - sizes
     return _Shapes(lowest.k[any_taken], root[taken], strength[taken], first, bends)
 
@@ -268,8 +285,9 @@ def _held_plate(law: ContactLaw, count: int) -> ModalPlate:
     free, waves = _first(partner, count), _some(every, slice(moving))
     if model.inertia.branches == "all":
         highest = float(free.root[-1])
-        less = _modes(model, _branches(model, partner, highest))
-        free = _branches(model, free, highest, moving)
+        higher = _higher(model, partner, highest)
+        less = _modes(model, _branches(partner, higher, highest))
+        free = _branches(free, higher, highest, moving)
     else:
         less = _modes(model, partner)
         free = _first(free, count, moving)

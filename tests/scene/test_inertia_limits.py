@@ -144,8 +144,9 @@ def test_results_converge_with_the_modes_of_all_branches() -> None:
 def test_results_converge_with_the_branches() -> None:
     """The restitution converges as branches up to higher frequencies are added."""
     lowest, actual = modal._free(BALL, 12), []
-    for highest in (1.0, 2.0, 4.0, 8.0):
-        shapes = modal._branches(BALL, lowest, highest * float(lowest.root[-1]))
+    for times in (1.0, 2.0, 4.0, 8.0):
+        highest = times * float(lowest.root[-1])
+        shapes = modal._branches(lowest, modal._higher(BALL, lowest, highest), highest)
         modes = modal._modes(BALL, shapes)
         actual.append((modes.omega.size, restitution(history(BALL, modes))))
     counts, values = zip(*actual, strict=True)

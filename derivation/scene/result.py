@@ -121,8 +121,10 @@ class Result:
 
         Cone cracks, which start on the contact face around the contact, are not considered.
         """
-        strength = self.scene.plate.tensile_strength
-        return self.tensile_stress.safety(strength, self.inertia_neglected) if strength else ""
+        strength, bound = self.scene.plate.tensile_strength, self.accuracy.bound
+        if strength is None:
+            return ""
+        return self.tensile_stress.safety(strength, bound, self.inertia_neglected)
 
     def pressures(self, points: int = POINTS) -> Pressures:
         """Return the pressure at the largest contact radius, and Hertz's pressure for comparison.

@@ -45,8 +45,11 @@ class TensileStress(NamedTuple):
     error: float
     static: bool
 
-    def safety(self, strength: float, inertia_neglected: bool) -> str:
-        """Return the safety against a strength [Pa] as a sentence; empty if it is exceeded."""
+    def safety(self, strength: float, bound: float, inertia_neglected: bool) -> str:
+        """Return the safety against a strength [Pa] as a sentence; empty if it is exceeded.
+
+        `bound` is the error bound of the force [1].
+        """
         if not self.value <= strength:  # it may be NaN
             return ""
         if self.value <= 0.0:
@@ -54,8 +57,9 @@ class TensileStress(NamedTuple):
         ratio = f"strength / largest tensile stress = {strength / self.value:.3g}"
         caveat = "; plate inertia is neglected but may matter" if inertia_neglected else ""
         basis = f" (quasi-static, under the peak force{caveat})" if self.static else ""
-        if self.value * (1.0 + self.error) > strength:
-            return f"failure on the back face is uncertain: {ratio}, within the error of the stress"
+        if self.value * (1.0 + self.error + bound) > strength:
+            within = "which is within the error of the stress"
+            return f"failure on the back face is uncertain: {ratio}{basis}, {within}"
         return f"no failure predicted on the back face: {ratio}{basis}"
 
     def to_json(self) -> dict[str, float | None]:

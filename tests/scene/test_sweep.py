@@ -2,6 +2,7 @@
 
 import csv
 import json
+import math
 import os
 import signal
 import subprocess
@@ -187,3 +188,19 @@ def test_killed_worker_process_is_reported(monkeypatch: pytest.MonkeyPatch) -> N
     monkeypatch.setattr(sweep, "_leave_interrupts", partial(os._exit, 1))
     with pytest.raises(SceneError, match=r"^sweep: .*fewer values"):
         sweep.run(load(PAPER), sweep.parse("impact.speed=0.5:1:4"), workers=2)
+
+
+def test_each_result_has_its_own_digits_and_an_unknown_one_has_none() -> None:
+    known = dict.fromkeys(sweep.UNITS, 1.2345)
+    rows = [
+        sweep.SweepRow(
+            1.0, known | {"max_tensile_stress": math.nan}, (), "", dict.fromkeys(sweep.UNITS, 4)
+        ),
+        sweep.SweepRow(
+            2.0, known, (), "", dict.fromkeys(sweep.UNITS, 4) | {"max_tensile_stress": 2}
+        ),
+    ]
+    table = sweep.to_text(sweep.parse("impact.speed=1:2:2"), rows).splitlines()
+    cells = [line.split() for line in table[2:4]]
+    assert [row[-1] for row in cells] == ["n/a", "1.2"]
+    assert all(row[1] in ("1.234", "1.235") for row in cells)

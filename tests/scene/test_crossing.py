@@ -17,6 +17,9 @@ RISES: dict[str, tuple[Callable[[float], float], float]] = {
     "near the start": (lambda x: x - 1e-8, 1e-8),
     "near the end": (lambda x: x - (1.0 - 1e-15), 1.0 - 1e-15),
     "zero at the start": (lambda x: x * (x - 0.7), 0.7),
+    "zero at both ends": (lambda x: x * (x - 0.5) * (1.0 - x), 0.5),
+    "level beyond the rise": (lambda x: min(x - 0.3, 0.1), 0.3),
+    "level below the rise": (lambda x: max(x - 0.8, -0.1), 0.8),
     "no value at the end": (lambda x: x - 0.3 if x < 0.9 else math.nan, 0.3),
 }
 

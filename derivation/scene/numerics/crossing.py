@@ -55,7 +55,7 @@ def _interpolated(below: _Point, above: _Point, old: _Point) -> float:
 
     `old` is the end of the interval before the last step.
     """
-    if not below.value < 0.0 <= above.value:
+    if not below.value < 0.0 <= above.value or old.value in (below.value, above.value):
         return 0.5
     new, other = (above, below) if old.x > above.x else (below, above)
     xi = (new.x - other.x) / (old.x - other.x)

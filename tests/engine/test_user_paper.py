@@ -166,7 +166,7 @@ def test_smaller_budgets_are_suggested_but_not_written(folder: Path) -> None:
 
 def test_search_finds_no_error_beyond_the_budgets(folder: Path, tmp_path: Path) -> None:
     out = str(tmp_path / "worst.toml")
-    shown = run("check", "search", "--paper", str(folder), "--time", "3s", "--out", out, "--json",
+    shown = run("check", "search", "--paper", str(folder), "--time", "5s", "--out", out, "--json",
                 "-", home=folder.parent)  # fmt: skip
     rows = json.loads(shown[: shown.rindex("}") + 1])["rows"]
     assert {row["kernel"] for row in rows} >= {"F_bonded", "F_slipping", "C_slipping"}

@@ -20,7 +20,7 @@ from derivation.scene.contact_law.limits import (
 from derivation.scene.contact_law.yield_warnings import impact_warnings
 from derivation.scene.dynamic.contact_warnings import fall_warnings, grazing_warnings
 from derivation.scene.dynamic.edge_remainder import edge_remainder
-from derivation.scene.dynamic.model_error import inertia_error
+from derivation.scene.dynamic.model_error import curvature_error, inertia_error
 from derivation.scene.dynamic.stretching_error import jump_warnings, stretching_error
 from derivation.scene.effects.effect import Results, weight_work_ratio
 from derivation.scene.errors import SceneError, ToleranceError
@@ -116,7 +116,10 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
     law, model = selected.law, selected.law.model
     check_radius(law, a, "impact.speed", "reduce the speed")
     motion = dynamic_impact(selected, accuracy.remaining) if law.dynamic else None
-    pressure = min(law.max_pressure(a), law.pressure_limit)
+    pressure = law.max_pressure(a)
+    if motion is not None:  # it is proportional to P/a^2, and in the static law to a
+        pressure /= (1.0 + motion.inertia.curvature) ** 3
+    pressure = min(pressure, law.pressure_limit)
     local = float(local_indentation(law, a))
     fraction, deflection = 1.0 - local / delta, delta - local
     if motion is not None:
@@ -216,6 +219,7 @@ def _model_errors(
     # The edge has no effect before a wave has returned from it.
     returned = other_edge and motion.inertia.total_time > echo_time(motion.law.model)
     edge = edge_remainder(model, a) if returned else 0.0
+    waves["max_contact_radius"] += curvature_error(motion.inertia.curvature)
     return {name: max(waves[name] + stretched[name], edge) for name in OUTPUTS}
 
 

@@ -20,6 +20,11 @@ TAIL, LAST, FINER, HIGHEST = 1e-13, 4, 1.5, 150
 and the factor by which the degree grows until it is met, up to a degree of `HIGHEST`."""
 
 
+FLATTEST = 0.1
+"""Least force over that of the law at the same radius: the plate is then nearly as curved as the
+sphere, and the change by the curvature is no longer proportional to it."""
+
+
 class ContactSamples(NamedTuple):
     """The contact at radii, with derivatives `_a` with respect to the radius.
 
@@ -57,13 +62,19 @@ class ContactTables:
     With x the radius over `top`, `table` contains Chebyshev coefficients of the forces over x^3, of
     depth and s_j - 1 over x^2, and of the derivatives of both over x^2 and x: four tables with a
     row for each polynomial.
+
+    A plate that is curved less or more than under a static load changes the force at a given
+    radius. `curving` contains the coefficients of the change by the static curvature that is part
+    of the law, over x^3 [N]; None if the law has the Hertz pressure, without any curvature.
     """
 
     modes: Modes
     R: float
     top: float
     table: Array
-    pointwise: bool = False
+    pointwise: bool
+    modulus: float
+    curving: Array | None
 
     @property
     def degree(self) -> int:
@@ -85,6 +96,29 @@ class ContactTables:
         """Return only the forces of `at`."""
         x = self._places(a)
         return np.asarray((x**3)[:, None] * chebyshev(2.0 * x - 1.0, self.degree) @ self.table[0])
+
+    def narrowing(self, a: Array, at: ContactSamples, q: Array) -> Array:
+        """Return the contact radius over that of the law at the same force [1].
+
+        The deflection sum q_j s_j under a flat punch of radius c changes the force at the radius a
+        by 2 E* a sum q_j (a ds_j/da), if the pressure is that on a half-space. The indentation at a
+        given force does not change to first order, because s_j = dP_j/dP.
+
+        Parameters
+        ----------
+        a
+            Contact radii [m] of the law.
+        at
+            The contact at these radii.
+        q
+            Deflection of each shape [m], shape (radii, shapes).
+        """
+        if self.curving is None:
+            return np.ones_like(a)
+        x = a / self.top
+        static = x**3 * (chebyshev(2.0 * x - 1.0, self.curving.size - 1) @ self.curving)
+        change = 2.0 * self.modulus * a * a * np.vecdot(at.less_a, q) - static
+        return np.asarray(np.maximum(FLATTEST, 1.0 + change / at.force) ** (-1.0 / 3.0))
 
     def _places(self, a: Array) -> Array:
         """Return radii [m] over `top`; NaN below 0 and above it."""
@@ -125,10 +159,19 @@ def contact_of(
         felt, less = driven(modes)
         return np.asarray((felt * (1.0 + less)) @ modes.compliance * x, dtype=np.float64)
 
+    def curved(modes: Modes) -> Array:
+        """Return the change of the force by the static curvature of modes over x^3."""
+        growths = analysis @ (modes.modal_weights_less_one(a) / x[:, None] ** 2)
+        bracket = chebyshev(2.0 * x - 1.0, degree) @ (by_growth(growths) + 2.0 * growths)
+        moment = (driven(modes)[0] * bracket) @ modes.compliance
+        return np.asarray(2.0 * law.modulus * a * x**2 * moment, dtype=np.float64)
+
     felt, less = driven(plate.modes)
     rest = sampled.depth - moved(plate.less)
+    static = curved(plate.less) if law.solved and not pointwise else None
     if plate.more is not None:
         rest += moved(plate.more)
+        static = None if static is None else static - curved(plate.more)
     values = np.column_stack((sampled.force, felt, rest, less / x[:, None] ** 2))
     table = analysis @ values
     growths = by_growth(table)
@@ -136,7 +179,9 @@ def contact_of(
     growths[:, :count] += 3.0 * table[:, :count]  # d(x^3 f)/dx = x^2 (3 f + x f')
     growths[:, count:] += 2.0 * table[:, count:]
     tables = (table[:, :count], table[:, count:], growths[:, :count], growths[:, count:])
-    return ContactTables(plate.modes, law.model.R, top, np.array(tables), pointwise)
+    curving = None if static is None else analysis @ static
+    R, modulus = law.model.R, law.modulus
+    return ContactTables(plate.modes, R, top, np.array(tables), pointwise, modulus, curving)
 
 
 class _Samples(NamedTuple):

@@ -6,7 +6,7 @@ from numpy.polynomial.legendre import legvander
 from derivation.scene.dynamic.contact_sequence import ContactRun, ImpactHistory
 from derivation.scene.dynamic.flight import AT_ONCE
 from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
-from derivation.scene.dynamic.time_element import DAMPED, A, E, P, V, W, Z, deflections_at, nodes_of
+from derivation.scene.dynamic.time_element import A, C, E, P, V, W, Z, deflections_at, nodes_of
 from derivation.scene.numerics.collocation import ONSET, Element
 from generated.arrays import Double as Array
 
@@ -45,7 +45,7 @@ def oscillating(
 
 def rows_of(problem: DynamicProblem, touching: ContactRun, t: Array) -> Array:
     """Return the rows in a contact and in the flight after it, at times in problem units."""
-    found = np.zeros((DAMPED + 1, t.size))
+    found = np.zeros((C + 1, t.size))
     pieces, inside = touching.pieces, t <= touching.end
     starts, lengths = np.array([(one.element.x, one.element.length) for one in pieces]).T
     since = np.maximum(t - touching.start, 0.0) + starts[0] ** ONSET
@@ -61,13 +61,16 @@ def rows_of(problem: DynamicProblem, touching: ContactRun, t: Array) -> Array:
         branch = pieces[index].yielding
         if branch is not None:
             a = problem.a * np.maximum(found[A, here], 0.0)
-            found[A, here] = branch.widened(a, problem.contact.at(a).force) / problem.a
+            widened = branch.widened(a, problem.contact.at(a).force) / problem.a
+            touched = here & (found[A] > 0.0)
+            found[C, touched] *= widened[touched[here]] / found[A, touched]
+            found[A, here] = widened
     flight = np.flatnonzero(~inside)
     block, radius = max(1, AT_ONCE // max(problem.omega.size, 1)), pieces[-1].radius
     for indices in (flight[k : k + block] for k in range(0, flight.size, block)):
         flights = problem.flights(touching.after, t[indices] - touching.end, radius)
         found[V, indices], found[Z, indices], found[W, indices], found[E, indices] = flights
-    found[[A, P]] = np.maximum(found[[A, P]], 0.0)
+    found[[A, P, C]] = np.maximum(found[[A, P, C]], 0.0)
     if not touching.radius:  # exact, without the rounding error of the polynomial
-        found[A, t == touching.start] = 0.0
+        found[np.ix_([A, C], t == touching.start)] = 0.0
     return found

@@ -13,7 +13,7 @@ from derivation.scene.dynamic.mode_count import beyond_limits, coarser, fast
 from derivation.scene.dynamic.problem import DynamicProblem
 from derivation.scene.dynamic.reach import Reach
 from derivation.scene.dynamic.results import NONE, UNKNOWN
-from derivation.scene.dynamic.time_element import A, P
+from derivation.scene.dynamic.time_element import C, P
 from derivation.scene.dynamic.wave_motion import DynamicImpact
 from generated.arrays import Double as Array
 
@@ -114,7 +114,7 @@ def _alike(found: DynamicImpact, courses: list[Array]) -> list[tuple[slice, int]
 
 def _compared(rows: Array) -> Array:
     """Return the force and the cube of the contact radius at some times."""
-    return np.stack((rows[P], np.maximum(rows[A], 0.0) ** 3))
+    return np.stack((rows[P], np.maximum(rows[C], 0.0) ** 3))
 
 
 def _same_times(rough: DynamicImpact, found: DynamicImpact) -> Iterator[tuple[Array, Array]]:

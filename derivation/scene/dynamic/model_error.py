@@ -69,6 +69,16 @@ def stress_error(model: Model, a: float, contact_time: float) -> float:
     return max((FLOOR, *errors))
 
 
+def curvature_error(change: float) -> float:
+    """Return the relative error of the contact radius that the curvature of the plate changes [1].
+
+    Pressure on a half-space, as assumed for this change, differs from that of the plate. Between
+    two static plates the formula was wrong by up to 0.4 % of changes of 2 %, 4 % of 10 % and 90 %
+    of 50 %. The pressure at the centre changes by up to three times as much.
+    """
+    return 3.0 * abs(change) * (0.01 + 2.0 * abs(change))
+
+
 def _half_space_radius(model: Model) -> float:
     """Return the largest contact radius [m] on a half-space, by Hertz's law."""
     stiffness = 4.0 / 3.0 * model.modulus / (1.0 + model.softness) * math.sqrt(model.R)

@@ -10,7 +10,7 @@ from derivation.scene.dynamic.energy import balance_of
 from derivation.scene.dynamic.flight import meeting_speed
 from derivation.scene.dynamic.problem import DynamicProblem
 from derivation.scene.dynamic.short_echoes import largest_echo, late_force
-from derivation.scene.dynamic.time_element import A, P, Z
+from derivation.scene.dynamic.time_element import A, C, P, Z
 from derivation.scene.dynamic.wave_motion import ContactInterval, DynamicImpact, InertiaDetails
 from derivation.scene.effects.effect import Results, weight_work_ratio
 from derivation.scene.effects.inertia import after_yield, higher_branch_error
@@ -29,11 +29,11 @@ def dynamic_impact_of(law: ContactLaw, history: ImpactHistory) -> DynamicImpact:
     problem, last = history.problem, history.contacts[-1].after
     energy = problem.m * problem.v0**2
     elements = [element for touching in history.contacts for element in _elements(touching)]
-    largest = {row: largest_of(elements, row) for row in (A, Z, P)}
+    largest = {row: largest_of(elements, row) for row in (A, Z, P, C)}
     displacement = max(
         largest[Z], max(touching.before.displacement for touching in history.contacts)
     )
-    energies, widest = problem.energies(last), problem.a * largest[A]
+    energies, widest = problem.energies(last), problem.a * largest[C]
     if problem.yielding:
         widest /= problem.yielding.flattening
     first, total = history.contacts[0], history.contacts[-1].end
@@ -50,6 +50,7 @@ def dynamic_impact_of(law: ContactLaw, history: ImpactHistory) -> DynamicImpact:
         NONE if history.complete else UNKNOWN,
         _branches(law, widest, problem.depth * displacement, problem.T * first.end, balance),
         _damped_octaves(problem, widest),
+        largest[C] / largest[A] - 1.0,
         echo_ripple=ripple,
         echo_error=echo_error,
     )

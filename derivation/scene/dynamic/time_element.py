@@ -34,9 +34,10 @@ from derivation.scene.numerics.collocation import (
 )
 from generated.arrays import Double as Array
 
-A, V, Z, P, W, E, LOST, LEAK, DAMPED = range(9)
-"""Rows of an element: radius, velocity, displacement, force, deflection and energy of the plate;
-per x the energies lost in the contact, by the pointwise coupling and by damping of the plate."""
+A, V, Z, P, W, E, LOST, LEAK, DAMPED, C = range(10)
+"""Rows of an element: radius of the law, velocity, displacement, force, deflection and energy of
+the plate; per x the energies lost in the contact, by the pointwise coupling and by damping of the
+plate; and the contact radius, which differs from that of the law by the curvature of the plate."""
 
 
 class Nodes(NamedTuple):
@@ -233,11 +234,12 @@ def element(
     The iteration ends when a step would change the radii by at most `enough`, relative to the
     largest of them.
     """
-    nodes, size, last = nodes_of(problem, n, x, length, start), math.inf, False
+    nodes, size = nodes_of(problem, n, x, length, start), math.inf
+    last: ContactSamples | None = None
     order = 1 if problem.retardation_time else 2
     for _ in range(NEWTON):
-        if last:
-            return _piece(problem, nodes, start, radius, y, x, length)
+        if last is not None:
+            return _piece(problem, nodes, start, radius, y, x, length, last)
         a = radius + nodes.by_x @ y
         if not a.min() > 0.0:
             return None
@@ -252,7 +254,7 @@ def element(
         y, before, size = y + step[0], size, step[1]
         if size > max(1.0, before):
             return None
-        last = converged(size, before, order, enough)
+        last = at if converged(size, before, order, enough) else None
     return None
 
 
@@ -333,8 +335,12 @@ def _piece(
     y: Array,
     x: float,
     length: float,
+    near: ContactSamples,
 ) -> TimeElement | None:
-    """Return the element as polynomials, with its end; None if a radius is not positive."""
+    """Return the element as polynomials, with its end; None if a radius is not positive.
+
+    `near` is the contact at nearly the same radii, those of the last iteration.
+    """
     load, pointwise = _forces_at(problem, nodes, radius, y), problem.contact.pointwise
     if not load.a.min() > 0.0:
         return None
@@ -352,7 +358,8 @@ def _piece(
         leak = np.sum((elastic[:, :1] - elastic[:, 1:]) * driven.rates, axis=1) * nodes.rate
     rule = radau(nodes.x.size)
     rows = at.a, at.v, at.z, force, np.sum(at.q, axis=1), driven.energy, lost, leak
-    values = np.array([*rows, driven.damped * nodes.rate])
+    ratio = problem.contact.narrowing(problem.a * load.a, near, problem.depth * at.q)
+    values = np.array([*rows, driven.damped * nodes.rate, at.a * ratio])
     made = Element(x, length, values @ rule.analysis.T, rule.analysis @ at.y)
     end = ImpactState(
         float(at.z[-1]), float(at.v[-1]), driven.q, driven.q_dot, float(at.approach[-1])

@@ -15,7 +15,7 @@ from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import local_indentation
 from derivation.scene.dynamic.contact_sequence import ImpactHistory
 from derivation.scene.dynamic.history_at import deflections, rows_of
-from derivation.scene.dynamic.time_element import DAMPED, A, E, P, V, W, Z
+from derivation.scene.dynamic.time_element import A, C, E, P, V, W, Z
 from derivation.scene.dynamic.wave_problem import echo_time
 from derivation.scene.effects.effect import Results
 from derivation.scene.output.html import html_table
@@ -109,6 +109,9 @@ class InertiaDetails:
     omitted_octaves
         Doublings of the largest wave number that would each change the results as much as the last
         one, because the omitted modes would be damped in the contact [1]; 0 without damping.
+    curvature
+        Largest contact radius over that of the static law at the largest radius, less 1: the plate
+        is curved less or more than under a static load [1].
     echo_ripple, echo_error
         Bound on the change of a viscoelastic force by short waves from the edge in the omitted
         modes, over the largest force; the error of the largest force by it [1].
@@ -128,6 +131,7 @@ class InertiaDetails:
     mode_convergence: Results
     omitted_branch_error: Results
     omitted_octaves: float = 0.0
+    curvature: float = 0.0
     jump: float = 0.0
     earlier_change: Results = (0.0, 0.0, 0.0, 0.0, 0.0)
     recounted: bool = False
@@ -343,12 +347,12 @@ class DynamicImpact(Motion):
     def history(self, law: ContactLaw, times: Array) -> tuple[Array, Array, Array, Array]:  # noqa: ARG002
         """Return indentation [m], velocity [m/s], contact radius [m] and force [N] at times [s]."""
         rows = self.rows(times)
-        return rows[Z], rows[V], rows[A], rows[P]
+        return rows[Z], rows[V], rows[C], rows[P]
 
     def rows(self, times: Array) -> Array:
         """Return the rows of `time_element` at times [s]; in SI units without those of losses."""
         problem, t = self.impact_history.problem, np.asarray(times, dtype=np.float64)
-        found = np.zeros((DAMPED + 1, t.size))
+        found = np.zeros((C + 1, t.size))
         starts = np.array([touching.start for touching in self.impact_history.contacts])
         place = np.maximum(np.searchsorted(starts, t / problem.T, side="right") - 1, 0)
         for index in sorted(set(place.tolist())):
@@ -357,9 +361,9 @@ class DynamicImpact(Motion):
                 problem, self.impact_history.contacts[index], t[here] / problem.T
             )
         energy = problem.m * problem.v0**2
-        units = np.ones(DAMPED + 1)
-        units[[A, V, Z, P, W, E]] = (
-            problem.a, problem.v0, problem.depth, problem.force, problem.depth, energy
+        units = np.ones(C + 1)
+        units[[A, C, V, Z, P, W, E]] = (
+            problem.a, problem.a, problem.v0, problem.depth, problem.force, problem.depth, energy
         )  # fmt: skip
         return found * units[:, None]
 

@@ -1,0 +1,79 @@
+"""The contact radius on a plate with inertia, whose curvature is not that under a static load."""
+
+import numpy as np
+import platecontact as pc
+import pytest
+
+MATERIALS = {
+    "elastic": {},
+    "plastic": {"yield_stress": 3e8},
+    "viscoelastic": {"retardation_time": 1e-6},
+    "damped": {"loss_factor": 0.05},
+}
+
+
+def impact(ratio: float, edge: str = "paper", thickness: float = 1e-3, **given: float) -> pc.Result:
+    """Return an impact on a plate with a radius of `ratio` times its thickness."""
+    return pc.simulate(
+        pc.Scene(
+            sphere=pc.Sphere(radius=0.005, material="steel"),
+            plate=pc.Plate(
+                radius=ratio * thickness, thickness=thickness, material="glass", edge=edge, **given
+            ),
+            impact=pc.Impact(speed=2.0),
+            effects=pc.Effects(inertia=True, non_hertzian_pressure=True),
+        )
+    )
+
+
+@pytest.mark.parametrize("material", MATERIALS)
+def test_an_edge_that_no_wave_has_reached_does_not_change_the_contact(material: str) -> None:
+    """The static curvature under the contact grows with the logarithm of the plate radius."""
+    near, far, clamped = (
+        impact(ratio, edge, **MATERIALS[material])
+        for ratio, edge in ((120, "paper"), (240, "paper"), (240, "clamped"))
+    )
+    assert near.max_force == pytest.approx(far.max_force, rel=1e-5)
+    for one in (near, clamped):
+        assert one.max_contact_radius == pytest.approx(far.max_contact_radius, rel=1e-5)
+        assert one.max_pressure == pytest.approx(far.max_pressure, rel=2e-4)
+        assert one.dynamics is not None
+        assert one.dynamics.inertia.curvature < -2e-3
+
+
+def test_the_error_of_pressure_and_radius_covers_the_radius_of_the_plate() -> None:
+    results = [impact(ratio, thickness=5e-4) for ratio in (480, 960)]
+    one, other = (np.array([r.max_contact_radius, r.max_pressure]) for r in results)
+    allowed = sum(r.model_errors["max_contact_radius"] for r in results)
+    assert np.all(np.abs(one / other - 1.0) <= min(allowed, 2e-3))
+
+
+def test_largest_radius_is_that_of_the_history() -> None:
+    for given in ({}, {"yield_stress": 3e8}):
+        result = impact(120, **given)
+        assert result.dynamics is not None
+        first = result.dynamics.inertia.contacts[0]
+        times = np.linspace(first.start, first.end, 4001)
+        _, _, radius, _ = result.dynamics.history(result.dynamics.law, times)
+        assert np.max(radius) == pytest.approx(result.max_contact_radius, rel=1e-5)
+
+
+def test_slow_impact_has_the_static_radius() -> None:
+    """A heavy sphere deflects the plate as a static load does, with the curvature of that load."""
+    scene = pc.Scene(
+        sphere=pc.Sphere(radius=0.02, mass=20.0, material="steel"),
+        plate=pc.Plate(radius=0.05, thickness=0.005, material="steel", edge="clamped"),
+        impact=pc.Impact(speed=0.02),
+        effects=pc.Effects(inertia=True, non_hertzian_pressure=True),
+    )
+    result = pc.simulate(scene)
+    static = pc.simulate(
+        pc.Scene(
+            sphere=scene.sphere, plate=scene.plate, impact=scene.impact,
+            effects=pc.Effects(inertia=False, non_hertzian_pressure=True),
+        )
+    )  # fmt: skip
+    assert result.dynamics is not None
+    assert abs(result.dynamics.inertia.curvature) < 2e-4
+    ratio = (result.max_force / static.max_force) ** (1.0 / 3.0)
+    assert result.max_contact_radius == pytest.approx(ratio * static.max_contact_radius, rel=5e-4)

@@ -116,9 +116,10 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
     law, model = selected.law, selected.law.model
     check_radius(law, a, "impact.speed", "reduce the speed")
     motion = dynamic_impact(selected, accuracy.remaining) if law.dynamic else None
-    pressure = law.max_pressure(a)
-    if motion is not None:  # it is proportional to P/a^2, and in the static law to a
-        pressure /= (1.0 + motion.inertia.curvature) ** 3
+    if motion is None:
+        pressure = law.max_pressure(a)
+    else:  # it is proportional to P/a^2, and in the static law of the simulated plate to a
+        pressure = motion.law.max_pressure(a) / (1.0 + motion.inertia.curvature) ** 3
     pressure = min(pressure, law.pressure_limit)
     local = float(local_indentation(law, a))
     fraction, deflection = 1.0 - local / delta, delta - local

@@ -9,7 +9,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic.contact_sequence import ImpactHistory
-from derivation.scene.dynamic.mode_count import beyond_limits, coarser, fast
+from derivation.scene.dynamic.mode_count import FURTHER, MODES, beyond_limits, coarser, fast
 from derivation.scene.dynamic.problem import DynamicProblem
 from derivation.scene.dynamic.reach import Reach
 from derivation.scene.dynamic.results import NONE, UNKNOWN
@@ -35,6 +35,8 @@ goes on, all further ripples together are q/(1 - q) of the last."""
 NEARBY, LOOKS = 0.1, 1000
 """Time in which the ripple of the force changes alike, because its phase is arbitrary, over the
 unit of time of the impact; number of times in this unit at which the force is compared."""
+ONCE = 5.0
+"""Error by omitted modes over the allowed one up to which twice as many modes may be enough."""
 DEARER = {"A0": 2.0, "all": 4.0}
 """Least factor of the work of a run with twice as many bending modes."""
 
@@ -221,6 +223,23 @@ def unreachable(
         if max(error, ripple) > reach.need:
             return True
     return False
+
+
+def echoes_matter(run: DynamicImpact, reach: Reach) -> bool:
+    """Return whether short echoes exceed the tolerance, and more modes may reduce them enough.
+
+    Their effect on the force decreases as the square root of the number of modes.
+    """
+    error, room = run.inertia.echo_error, reach.need - run.inertia.left(reach.outputs)[1]
+    if "max_force" not in reach.outputs or not room < error:
+        return False
+    return error <= room * math.sqrt(FURTHER * MODES / run.impact_history.problem.omega.size)
+
+
+def nearly_meets(run: DynamicImpact, reach: Reach) -> bool:
+    """Return whether results that do not meet the tolerance probably do after one more doubling."""
+    modes, branches = run.inertia.left(reach.outputs)
+    return modes + branches > reach.need and modes <= ONCE * (reach.need - branches)
 
 
 def unchecked(coarse: ImpactHistory, problem: DynamicProblem, fewer: int) -> ImpactHistory:

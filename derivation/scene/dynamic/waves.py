@@ -18,16 +18,16 @@ from derivation.scene.dynamic.contact_errors import check_whole_width
 from derivation.scene.dynamic.contact_sequence import ContactRun, ImpactHistory, expected_work
 from derivation.scene.dynamic.integration_error import error_after, integration_error
 from derivation.scene.dynamic.mode_convergence import (
+    echoes_matter,
     judged,
     largest_change,
+    nearly_meets,
     unchecked,
     unjudged,
     unreachable,
 )
 from derivation.scene.dynamic.mode_count import (
-    FURTHER,
     LAST,
-    MODES,
     affordable,
     beyond_limits,
     branching,
@@ -52,9 +52,11 @@ WIDEST = 30.0
 LOOSE, TOLERANCE_FRACTION, KEPT = 4e-4, 1.0 / 3.0, 0.75
 """Largest accepted error by omitted modes: without a tolerance [1], and as a part of one; the part
 that omitted modes and branches together may take."""
-ONCE, FINAL = 5.0, 7e7
-"""If the error by omitted modes is at most `ONCE` times too large, one more run is made beyond the
-limits, with at most the work `FINAL`: twice as many modes often reduce the error more."""
+ROUGHER = 5.0
+"""Factor by which the error by omitted modes may be larger without a tolerance, if the next run
+takes more work than `LONG`; it then is still below the model error."""
+FINAL = 7e7
+"""Largest work of one more run beyond the limits, which is made if the tolerance is nearly met."""
 LONG = 1.5e6
 """Expected work of the second run above which coarser runs first check the first one."""
 FOURTH = 8
@@ -201,7 +203,7 @@ def _converged(
         if compared:
             estimated, halved = compared
             change = estimated.inertia.left(reach.outputs)[0]
-            if change <= _accepted_change(estimated, goal, reach):
+            if change <= _accepted_change(estimated, goal, reach, work):
                 return estimated
             if unreachable(halved, law, count, work, reach):
                 return halved
@@ -230,12 +232,14 @@ def _converged(
             return _of_chosen_modes(best, law, count, budget)
         change, enough = best.inertia.left(reach.outputs)[0], _accepted_change(best, goal, reach)
         used, almost = contact_sequence.work_of(best.impact_history), change <= LAST * enough
-        if change <= enough and not _echoes_matter(best, reach):
+        if change <= enough and not echoes_matter(best, reach):
             return best
         beyond = beyond_limits(law, count, used, almost)
-        if beyond and (most or not _near(best, reach)):
+        if beyond and (most or not nearly_meets(best, reach)):
             return best
         work = _next_work(law, more, best)
+        if change <= _accepted_change(best, goal, reach, work):
+            return best
         if beyond:
             if work > FINAL:
                 return best
@@ -244,25 +248,10 @@ def _converged(
             return best
 
 
-def _echoes_matter(run: DynamicImpact, reach: Reach) -> bool:
-    """Return whether short echoes exceed the tolerance, and more modes may reduce them enough.
-
-    Their effect on the force decreases as the square root of the number of modes.
-    """
-    error, room = run.inertia.echo_error, reach.need - run.inertia.left(reach.outputs)[1]
-    if "max_force" not in reach.outputs or not room < error:
-        return False
-    return error <= room * math.sqrt(FURTHER * MODES / run.impact_history.problem.omega.size)
-
-
-def _near(run: DynamicImpact, reach: Reach) -> bool:
-    """Return whether results that do not meet the tolerance probably do after one more doubling."""
-    modes, branches = run.inertia.left(reach.outputs)
-    return modes + branches > reach.need and modes <= ONCE * (reach.need - branches)
-
-
-def _accepted_change(run: DynamicImpact, goal: float, reach: Reach) -> float:
-    """Return the largest accepted error by omitted modes [1]."""
+def _accepted_change(run: DynamicImpact, goal: float, reach: Reach, work: float = 0.0) -> float:
+    """Return the largest accepted error by omitted modes [1], for the work of the next run."""
+    if work > LONG and math.isinf(reach.need):
+        return ROUGHER * goal
     beyond = run.inertia.left(reach.outputs)[1]
     # Where omitted branches matter more than additional modes, a tenth of them is small enough.
     enough = goal if beyond <= goal / TOLERANCE_FRACTION else max(goal, 0.1 * beyond)

@@ -30,6 +30,7 @@ from derivation.scene.errors import SceneError
 from derivation.scene.input.messages import shown
 from derivation.scene.input.units import unit_warnings, with_unit_warnings
 from derivation.scene.model import model_of
+from derivation.scene.numerics.crossing import last_true
 from derivation.scene.output.html import html_table
 from derivation.scene.scene import Scene
 from derivation.scene.selection.selection import check_enabled
@@ -292,10 +293,7 @@ def _range_end(law: ContactLaw, name: str) -> tuple[float, str]:
     last = last_radius(law)
     if _grows(law, name, last):
         return last, law.limit_in_words
-    low, high = 0.0, last
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if _grows(law, name, middle) else (low, middle)
+    low = last_true(lambda a: _grows(law, name, a), 0.0, last, _HALVINGS)
     return low, f"{low:.6g} m, beyond which the law of this plate does not hold"
 
 

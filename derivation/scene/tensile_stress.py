@@ -85,7 +85,7 @@ def tensile_stress(
     contact_time, indentation, force, a, _ = numbers
     model = law.model
     if motion is not None:
-        stress, error = motion.back_face
+        stress, error, _ = motion.back_face
         error += stress_error(model, a, contact_time)
         return TensileStress(stress, error + stress_change(law, motion), static=False)
     stress = law.max_tensile_stress(a, force, on_edge)

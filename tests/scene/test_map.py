@@ -1,6 +1,7 @@
 """The map of a scene agrees with the effect selection, and so with `explain`."""
 
 import math
+from functools import cache
 from itertools import pairwise
 from pathlib import Path
 
@@ -24,11 +25,17 @@ def coarse(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(map_, "RADII", np.geomspace(1e-3, 6.0, 5))
 
 
+@cache
+def mapped(name: str) -> tuple[Result, map_.Grid]:
+    """Return an example's result and its coarse map."""
+    result = simulate(load(EXAMPLES / f"{name}.toml"))
+    return result, map_.grid(result, result.effects.rtol)
+
+
 @pytest.mark.usefixtures("coarse")
-@pytest.mark.parametrize("example", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.stem)
-def test_marker_agrees_with_explain(example: Path) -> None:
-    result = simulate(load(example))
-    actual = map_.grid(result, result.effects.rtol)
+@pytest.mark.parametrize("name", sorted(path.stem for path in EXAMPLES.glob("*.toml")))
+def test_marker_agrees_with_explain(name: str) -> None:
+    result, actual = mapped(name)
     column = np.flatnonzero(actual.thicknesses == result.model.eta)
     row = np.flatnonzero(actual.radii == result.max_contact_radius / result.model.h)
     for effect in result.effects.rows:
@@ -64,8 +71,7 @@ def test_selection_at_each_point_agrees_with_the_map() -> None:
 @pytest.mark.parametrize("name", ["glass_pane", "block", "paper", "impact_echo"])
 def test_explain_agrees_on_both_sides_of_each_line(name: str) -> None:
     """For the points next to each line, the selection of `explain` agrees with the map."""
-    result = simulate(load(EXAMPLES / f"{name}.toml"))
-    actual = map_.grid(result, result.effects.rtol)
+    result, actual = mapped(name)
     names = [row.name for row in result.effects.rows if row.name in actual.ratios]
     auto = [x for x in names if getattr(result.scene.effects, x) == "auto"]
     included = np.array([actual.ratios[x] > 1.0 for x in auto])
@@ -102,11 +108,10 @@ def _scene_at(result: Result, actual: map_.Grid, row: int, column: int) -> Scene
 @pytest.mark.parametrize("name", ["glass_pane", "block"])
 def test_ticks_point_to_the_side_where_the_effect_matters(name: str) -> None:
     """Ticks are on the left of a line, where the ratio of the effect is above 1."""
-    result = simulate(load(EXAMPLES / f"{name}.toml"))
+    result, actual = mapped(name)
     made = map_.figure(result, result.effects.rtol)
     ticked = [x for x in made.axes[0].collections if x.get_path_effects()]
     assert ticked
-    actual = map_.grid(result, result.effects.rtol)
     drawn = [r for r in map_.lines(actual).values() if np.nanmin(r) < 1.0 < np.nanmax(r)]
     to_screen = made.axes[0].transData
     for line, ratio in zip(ticked, drawn, strict=True):

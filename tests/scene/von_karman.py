@@ -119,23 +119,17 @@ class ThinPlate:
         own = self.tension @ load
         return own + 12.0 * self.bending_stiffness / self.thickness**2 * free, slope
 
-    def force_by_stretching(self, q: Array) -> Array:
+    def force_by_stretching(self, tension: Array, slope: Array) -> Array:
         """Return the modal forces [N] of the stretched middle plane."""
-        tension, slope = self.stretched(q)
         return -2.0 * np.pi * (self.weights * tension * slope) @ self.shapes[1]
 
     @cached_property
     def bending_stresses(self) -> Array:
-        """Tensile stress of each mode on the axis of the face opposite the load [Pa/m]."""
+        """Bending stress of each mode on the axis of the face opposite the load [Pa/m]."""
         k = self.wave_numbers
         ratio = 0.0 if self.edge == "paper" else j0(k) / i0e(k)
         curvature = (1.0 + ratio * np.exp(-k)) * (k / self.radius) ** 2 / 2.0
         return self.young * self.thickness / (2.0 * (1.0 - self.nu)) * curvature
-
-    def tensile_stress(self, q: Array, stretched: bool) -> float:
-        """Return the tensile stress on the axis of the face opposite the load [Pa]."""
-        bent = float(self.bending_stresses @ q)
-        return bent + float(self.stretched(q)[0][0]) / self.thickness if stretched else bent
 
     @cached_property
     def weights(self) -> Array:
@@ -148,7 +142,7 @@ class ThinPlate:
         centre = self.shapes[-1]
         stiffnesses = self.masses * self.frequencies**2
         q = centre / stiffnesses
-        stretched = -q @ self.force_by_stretching(q)
+        stretched = -q @ self.force_by_stretching(*self.stretched(q))
         return float(stretched / (q @ (stiffnesses * q)) * (self.thickness / (centre @ q)) ** 2)
 
 
@@ -238,7 +232,7 @@ def impact(
     q, rate, y, v, t = 0.0 * omega, 0.0 * omega, 0.0, speed, 0.0
     first, last = 0.0, duration
     peak = depth = deflected = widest = stress = largest = 0.0
-    q_push, y_push = 0.0 * omega, 0.0
+    q_push, y_push, pull = 0.0 * omega, 0.0, 0.0 * omega
     softness = dt / 2.0 * (1.0 / mass + float(np.sum(centre**2 / plate.masses)))
     while t < 3.0 * last or v > 0.0 or y > -deflected:
         rate, v = rate + dt / 2.0 * q_push, v + dt / 2.0 * y_push
@@ -247,14 +241,18 @@ def impact(
             rate * (cosine - damping * sine) - q * omega * sine,
         )
         y, t = y + v * dt, t + dt
-        pull = plate.force_by_stretching(q) / plate.masses if stretched else 0.0 * omega
+        bent = float(plate.bending_stresses @ q)
+        if stretched:
+            tension, slope = plate.stretched(q)
+            pull = plate.force_by_stretching(tension, slope) / plate.masses
+            bent += float(tension[0]) / plate.thickness
         closing = v - centre @ (rate + dt / 2.0 * pull)
         force, radius = contact.press(y - centre @ q, Motion(closing, softness, dt))
         q_push, y_push = force * centre / plate.masses + pull, -force / mass
         rate, v = rate + dt / 2.0 * q_push, v + dt / 2.0 * y_push
         peak, depth, widest = max(peak, force), max(depth, y), max(widest, radius)
         deflected = max(deflected, abs(centre @ q))
-        stress = max(stress, plate.tensile_stress(q, stretched))
+        stress = max(stress, bent)
         last, largest = (t, stress) if force else (last, largest)
         first = t if not first and not force else first
     return {

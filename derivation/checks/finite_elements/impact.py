@@ -317,7 +317,9 @@ def results(history: History, system: System) -> ElementImpact:
         max_contact_radius=float(radii[widest - 1] + radii[widest]) / 2.0,
         restitution=-float(history.speed[-1]) / float(history.speed[0]),
         total_time=ends[-1],
-        max_tensile_stress=_largest_stress(history, ends[0], ends[-1] + crossing),
+        max_tensile_stress=largest_stress(
+            history.time, history.stress, ends[0], ends[-1] + crossing
+        ),
         contacts=len(spans),
         energy=history.energy,
     )
@@ -357,13 +359,21 @@ def _peak(history: History, contact_time: float) -> float:
     return float(fit(np.linspace(time[0], time[-1], 1001)).max())
 
 
-def _largest_stress(history: History, contact_time: float, until: float) -> float:
-    """Return the largest stress up to a time [s], from parabolas through the stress around it."""
+def largest_stress(time: Double, stress: Double, contact_time: float, until: float) -> float:
+    """Return the largest stress up to a time [s], from parabolas through the stress around it.
+
+    Parameters
+    ----------
+    time, stress
+        Evenly spaced times [s] and the stress then [Pa].
+    contact_time
+        Duration of the first contact [s], of which each parabola covers a part.
+    """
     largest = -math.inf
     for middle in np.linspace(0.0, until, 1 + math.ceil(STRESS_TIMES * until / contact_time)):
-        near = np.abs(history.time - middle) <= STRESS_WINDOW * contact_time
+        near = np.abs(time - middle) <= STRESS_WINDOW * contact_time
         if np.count_nonzero(near) >= STRESS_STEPS:
-            t = (history.time[near] - middle) / contact_time
-            value = np.polynomial.polynomial.polyfit(t, history.stress[near], 2)[0]
+            t = (time[near] - middle) / contact_time
+            value = np.polynomial.polynomial.polyfit(t, stress[near], 2)[0]
             largest = max(largest, float(value))
     return largest

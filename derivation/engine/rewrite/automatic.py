@@ -18,17 +18,25 @@ from itertools import combinations
 
 import sympy as sp
 
-from derivation.engine.rewrite.form import CLOSELY, FAR, LARGEST, TIMES, Block, Step, limited
+from derivation.engine.rewrite.form import (
+    CLOSELY,
+    FAR,
+    LARGEST,
+    ONCE,
+    TAIL,
+    TIMES,
+    Block,
+    Step,
+    limited,
+)
 from derivation.engine.rewrite.rules import decay, fraction, parts_of
 from derivation.engine.rewrite.scales import Scale, Scales
 from derivation.engine.rewrite.series import leading_power
 from derivation.engine.rewrite.shape import Factor, Shape
 from derivation.engine.rewrite.terms import ONE, Key, UnreachableError, terms_of
 
-exponential, rest = sp.symbols("exponential rest", positive=True)
+exponential = sp.Symbol("exponential", positive=True)
 near, reach, stretch = sp.symbols("near reach stretch", positive=True)
-FADES = 700
-"""Largest x for which e^-x is a normal double."""
 
 
 @dataclass(frozen=True)
@@ -123,9 +131,8 @@ def automatic(
     steps += _joined(powers, scale)
     if shape.rate < 0:
         decayed = -shape.rate * shape.x
-        steps.append(Step(exponential, sp.exp(-sp.Min(decayed, FADES))))
-        steps.append(Step(rest, sp.exp(sp.Min(decayed, FADES) - decayed), "1 unless it underflows"))
-        powers[exponential] = powers[rest] = 1
+        steps.append(Step(exponential, sp.exp(-sp.Min(decayed, ONCE))))
+        powers[exponential] = powers[TAIL(decayed)] = 1
     core = core.xreplace({step.expression: near for step in steps if step.symbol == near})
     factors = [part for base in sorted(powers, key=str) for part in (base, powers[base])]
     value = sp.Mul(size, core, evaluate=False) if core.is_Add and size != 1 else size * core

@@ -17,7 +17,9 @@ import sympy as sp
 from derivation.engine.formula.operations import FUNCTIONS
 from derivation.engine.rewrite.form import (
     CLOSELY,
+    ONCE,
     ROUNDING_ERROR,
+    TAIL,
     TIMES,
     Block,
     Branch,
@@ -101,6 +103,8 @@ def _operation(node: sp.Basic) -> tuple[Operation, tuple[sp.Basic, ...]]:
         return _scaled_product, node.args
     if node.func == ROUNDING_ERROR:
         return _rounding_error, node.args
+    if node.func == TAIL:
+        return _tail, node.args
     if node.func in FUNCTIONS:
         return partial(_function, FUNCTIONS[node.func][0]), node.args[:1]
     raise NotImplementedError(f"no double precision for {node.func.__name__}")
@@ -160,6 +164,10 @@ def _rounding_error(one: float, other: float) -> float:
     if not math.isfinite(product):
         return math.nan
     return float(Fraction(one) * Fraction(other) - Fraction(product))
+
+
+def _tail(v: float) -> float:
+    return math.exp(min(v, float(ONCE)) - v)
 
 
 def _power(exponent: sp.Expr) -> Callable[[float], float]:

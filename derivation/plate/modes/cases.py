@@ -11,7 +11,6 @@ from derivation.engine.measure.neighbours import (
     exact_inputs,
     neighbour,
 )
-from derivation.engine.rewrite.automatic import FADES
 from derivation.engine.rewrite.form import FAR, ONCE
 from derivation.mathematics.bessel.oracle import j0_zero
 from derivation.plate.blocks import blocks
@@ -84,7 +83,7 @@ def _closed() -> Iterator[HardCase]:
         why = f"T = {pair:g}, the end of the power series of sinh^2 T - T^2"
         yield _by_depth(kernel, pair, why)
     for kernel, rate in _FADING.items():
-        point = FADES / rate
+        point = int(ONCE) / rate
         why = f"T = {point:g}, above which {_DECAY[rate]} is applied as two factors"
         yield _by_depth(kernel, point, why)
     for kernel in (*_BY_T[:8], *_BY_X, *_SCALED):

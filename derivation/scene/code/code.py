@@ -25,6 +25,7 @@ from derivation.scene.dynamic.edge_remainder import edge_remainder
 from derivation.scene.effects import BY_NAME
 from derivation.scene.errors import SceneError
 from derivation.scene.impact import selected_effects, simulate
+from derivation.scene.numerics.crossing import last_true
 from derivation.scene.numerics.quadrature import NODES
 from derivation.scene.output.answer import model_note
 from derivation.scene.quasi_static.motion import Motion
@@ -238,11 +239,7 @@ def end_of(law: ContactLaw, a: float) -> float:
             return False
         return float(law.at(np.array([a])).slope[0]) > 0.0
 
-    low, high = a, last
-    for _ in range(0 if sound(last) else _HALVINGS):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if sound(middle) else (low, middle)
-    return last if sound(last) else low
+    return last if sound(last) else last_true(sound, a, last, _HALVINGS)
 
 
 def tabulated(law: ContactLaw, last: float) -> PanelTable:

@@ -4,6 +4,8 @@ from functools import lru_cache
 
 import numpy as np
 
+from derivation.scene.numerics.crossing import last_true
+
 _HALVINGS = 30
 
 
@@ -25,10 +27,4 @@ def closed_up_to(
         )
         return bool(np.isfinite(contact.force[0]))
 
-    if closed(high):
-        return high
-    low = 0.0
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if closed(middle) else (low, middle)
-    return low
+    return high if closed(high) else last_true(closed, 0.0, high, _HALVINGS)

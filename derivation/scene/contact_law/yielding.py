@@ -14,6 +14,7 @@ import numpy as np
 
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.effects.inertia import SLOWEST
+from derivation.scene.numerics.crossing import rise
 from derivation.scene.quasi_static import motion
 from generated.arrays import Double as Array
 from generated.plasticity_kernels import (
@@ -25,8 +26,6 @@ from generated.plasticity_kernels import (
     widening,
     worked,
 )
-
-_HALVINGS = 80
 
 
 class Added(NamedTuple):
@@ -165,13 +164,12 @@ def _end(law: ContactLaw, onset: float) -> float:
     """Return the radius [m] at which the law has the force of Hertz's law at `onset` [m]."""
     if law.hertzian:
         return onset
-    low, high = 0.0, law.limit
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (low + high)
-        a = np.array([middle])
-        below = float(law.hertz_radius(law.force(a, law.at(a)))[0]) < onset
-        low, high = (middle, high) if below else (low, middle)
-    return high
+
+    def beyond(radius: float) -> float:
+        a = np.array([radius])
+        return float(law.hertz_radius(law.force(a, law.at(a)))[0]) - onset
+
+    return rise(beyond, 0.0, law.limit)
 
 
 def _arrays(*numbers: float) -> tuple[Array, ...]:

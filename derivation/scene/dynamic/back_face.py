@@ -58,22 +58,24 @@ SMALL = 1e-9
 """Smallest contact radius over half the thickness at which the stress is evaluated."""
 
 
-class BackFace(NamedTuple):
-    """Largest tensile stress on the back face [Pa], and its estimated relative error [1].
+class Course(NamedTuple):
+    """Times [s] since first contact, and the stress [Pa] then."""
 
-    The error is that by omitted modes. Both are NaN if the contact ends before a pressure wave has
-    returned from the back face: finite elements do not resolve the stress of such an impact.
+    times: Array
+    stress: Array
+
+
+class BackFace(NamedTuple):
+    """Stress on the axis of the back face: its largest value [Pa] and its course.
+
+    The estimated relative error is that by omitted modes. Stress and error are NaN and there is no
+    course if the contact ends before a pressure wave has returned from the back face: finite
+    elements do not resolve the stress of such an impact.
     """
 
     stress: float
     error: float
-
-
-class _Course(NamedTuple):
-    """Times [s] and stresses [Pa]."""
-
-    times: Array
-    stress: Array
+    course: Course | None
 
 
 def back_face(motion: DynamicImpact) -> BackFace:
@@ -81,7 +83,7 @@ def back_face(motion: DynamicImpact) -> BackFace:
     inertia = replace(motion.law.model.inertia, branches="all", modes=0)
     law = replace(motion.law, model=replace(motion.law.model, inertia=inertia))
     if echoes_during(law.model, motion.contact_time) < 1.0:
-        return BackFace(math.nan, math.nan)
+        return BackFace(math.nan, math.nan, None)
     if oscillators(law, affordable(law)) > MODES:
         law = _narrower(law, motion.inertia.total_time)
     count = _count(law, motion.inertia.total_time)
@@ -93,7 +95,7 @@ def back_face(motion: DynamicImpact) -> BackFace:
         changes = np.max(changes)
     largest = float(np.max(fine.stress))
     higher = float(np.max(fine.stress + changes)) - largest
-    return BackFace(largest, ESTIMATE * higher / abs(largest))
+    return BackFace(largest, ESTIMATE * higher / abs(largest), fine)
 
 
 def _narrower(law: ContactLaw, time: float) -> ContactLaw:
@@ -118,7 +120,7 @@ def _count(law: ContactLaw, time: float) -> int:
     return count
 
 
-def _course(motion: DynamicImpact, law: ContactLaw, count: int) -> _Course:
+def _course(motion: DynamicImpact, law: ContactLaw, count: int) -> Course:
     """Return the stress in all contacts and in the flights between them."""
     waves = _Waves.of(law, count, motion.max_contact_radius)
     z, end, found = np.zeros(waves.decay.size, dtype=complex), 0.0, []
@@ -132,7 +134,7 @@ def _course(motion: DynamicImpact, law: ContactLaw, count: int) -> _Course:
         a = np.clip(rows[A], SMALL * law.model.h, waves.widest)
         stress, z = waves.driven(z, times, a, rows[P])
         found.append((times, stress))
-    return _Course(*map(np.concatenate, zip(*found, strict=True)))
+    return Course(*map(np.concatenate, zip(*found, strict=True)))
 
 
 @dataclass(frozen=True)

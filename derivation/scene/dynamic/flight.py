@@ -1,13 +1,13 @@
 """Free flight between contacts: the time of the next contact, if there is one."""
 
 import math
-from collections.abc import Callable
 
 import numpy as np
 
 from derivation.scene.dynamic.oscillators import FreeMotion
 from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
 from derivation.scene.errors import IncompleteError
+from derivation.scene.numerics.crossing import rise
 from generated.arrays import Double as Array
 
 STEP, BLOCK, BLOCKS = 0.3, 256, 4000
@@ -22,7 +22,6 @@ LOOK, LOOKS = 0.06, 200.0
 """Work of an evaluation of a mode, and additional work of a block of evaluations."""
 SINCE = 1e-5
 """Part of the flight, or of A_v, in which the speed of a face that recovers is measured."""
-_HALVINGS = 80
 
 
 def meeting(
@@ -68,9 +67,9 @@ def meeting(
         for k in np.flatnonzero((into[1:] >= 0.0) | turned):
             low, high = begin + float(t[k]), begin + float(t[k + 1])
             if into[k + 1] < 0.0:
-                high = _where(lambda t: problem.flown(after, t).separation_speed < 0.0, low, high)
+                high = rise(lambda t: problem.flown(after, t).separation_speed, low, high)
             if _into(problem, after, high, radius) >= 0.0:
-                met = _where(lambda t: _into(problem, after, t, radius) < 0.0, low, high)
+                met = rise(lambda t: _into(problem, after, t, radius), low, high)
                 return met, float(_recovered(problem, np.array([met]), radius)[0]), work
         begin, state = begin + float(t[-1]), problem.flown(state, float(t[-1]))
         if -state.displacement > reach and state.velocity <= 0.0:
@@ -147,13 +146,3 @@ def _recovered(problem: DynamicProblem, t: Array, radius: float) -> Array:
         return none
     a = problem.recovering(radius, np.minimum(t / problem.retardation_time, RECOVERED))
     return np.where(t < RECOVERED * problem.retardation_time, a, none)
-
-
-def _where(before: Callable[[float], bool], low: float, high: float) -> float:
-    """Return the number between `low` and `high` up to which a condition is true."""
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (low + high)
-        if not low < middle < high:  # no number lies between them
-            break
-        low, high = (middle, high) if before(middle) else (low, middle)
-    return high

@@ -55,7 +55,7 @@ def rows_of(problem: DynamicProblem, touching: ContactRun, t: Array) -> Array:
     s = 2.0 * (x[inside] - starts[place[inside]]) / lengths[place[inside]] - 1.0
     basis = np.zeros((t.size, pieces[0].element.slope.size))
     basis[inside] = legvander(s, basis.shape[1] - 1)
-    for index in np.unique(place[inside]):
+    for index in sorted(set(place[inside].tolist())):
         here = inside & (place == index)
         found[:, here] = pieces[index].element.rows @ basis[here].T
         branch = pieces[index].yielding

@@ -105,7 +105,7 @@ class Modes:
     def _split(self, most: int) -> Parts:
         bounds = np.append(self.first, self.omega.size)
         indices = np.searchsorted(bounds, np.arange(0, self.omega.size, most))
-        ends = [*np.unique(indices).tolist(), self.first.size]
+        ends = [*sorted(set(indices.tolist())), self.first.size]
         return tuple(
             (
                 slice(low, high),

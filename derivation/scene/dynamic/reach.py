@@ -76,9 +76,13 @@ class Reach:
         if not self._checks(used):
             return None
 
+        widest, loss = 0.0, 2.0 * used.damping_ratio
+
         def watch(radius: float) -> None:
-            loss = 2.0 * used.damping_ratio
-            self.check(higher_branch_error(used.model, unit * radius, math.inf, loss))
+            nonlocal widest
+            if radius > widest:  # the change grows with the radius
+                widest = radius
+                self.check(higher_branch_error(used.model, unit * radius, math.inf, loss))
 
         return watch
 

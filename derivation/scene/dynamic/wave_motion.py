@@ -351,7 +351,7 @@ class DynamicImpact(Motion):
         found = np.zeros((DAMPED + 1, t.size))
         starts = np.array([touching.start for touching in self.impact_history.contacts])
         place = np.maximum(np.searchsorted(starts, t / problem.T, side="right") - 1, 0)
-        for index in np.unique(place):
+        for index in sorted(set(place.tolist())):
             here = place == index
             found[:, here] = rows_of(
                 problem, self.impact_history.contacts[index], t[here] / problem.T

@@ -311,7 +311,7 @@ class ViscousMotion(Motion):
         starts = [element.x for element, _ in self.elements]
         place = np.searchsorted(starts, x, side="right") - 1
         rows = np.empty((LOST + 1, x.size))
-        for index in np.unique(place):
+        for index in sorted(set(place.tolist())):
             element, branch = self.elements[index]
             part = element.at(x[place == index])
             if branch is not None:

@@ -292,7 +292,7 @@ QUOTIENTS = (
 def run(formula: sp.Expr, at: dict[sp.Symbol, float]) -> float:
     """Evaluate the stable form of a formula as printed code."""
     steps, value = automatic(formula, blocks(), SCALES)
-    names = vars(importlib.import_module("generated.blocks")) | {"times": ranges.times, "np": np}
+    names = vars(importlib.import_module("generated.blocks")) | vars(ranges) | {"np": np}
     known = {str(symbol): np.asarray(number) for symbol, number in at.items()}
     for step in steps:
         known[str(step.symbol)] = eval(to_numpy(step.expression), names, known)

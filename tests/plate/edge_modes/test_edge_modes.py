@@ -169,13 +169,14 @@ def test_invalid_arguments_are_rejected(of: Callable[..., Waves]) -> None:
 @pytest.mark.parametrize("edge", WAVES_OF)
 def test_results_change_smoothly(edge: str) -> None:
     """Results change smoothly across the switch point of I0 at k2 = 31.7, and along nu."""
-    count = 401 if edge == "supported" else 101  # the curves of a supported plate are more bent
+    # The curves of a supported plate are most bent near nu = -1.
+    ratios = -0.99 + 1.4899 * np.linspace(0.0, 1.0, 101) ** 2
     lines = [
         [WAVES_OF[edge](12, eta, 0.3) for eta in np.linspace(0.0125, 0.015, 51)],
-        [WAVES_OF[edge](2, 0.1, nu) for nu in np.linspace(-0.99, 0.4999, count)],
+        [WAVES_OF[edge](2, 0.1, nu) for nu in ratios],
     ]
     assert lines[0][0].k2[-1] > START > lines[0][-1].k2[-1]
-    for line, allowed in zip(lines, (3e-3, 3e-2), strict=True):
+    for line, allowed in zip(lines, (3e-3, 2e-2), strict=True):
         for name in Waves._fields:
             values = np.array([getattr(waves, name) for waves in line])
             bend = np.abs(np.diff(values, 2, axis=0)) / np.abs(values[1:-1])

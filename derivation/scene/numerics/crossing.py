@@ -1,0 +1,68 @@
+"""Where a function of one variable rises through zero, or a condition ceases to hold."""
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+_STEPS = 100
+
+
+class _Point(NamedTuple):
+    """A number and the value of the function there."""
+
+    x: float
+    value: float
+
+
+def last_true(holds: Callable[[float], bool], low: float, high: float, halvings: int) -> float:
+    """Return a number at which a condition holds, just below one at which it does not.
+
+    The condition holds at `low` and not at `high`, whose distance is halved.
+    """
+    for _ in range(halvings):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if holds(middle) else (low, middle)
+    return low
+
+
+def rise(of: Callable[[float], float], low: float, high: float) -> float:
+    """Return where a function rises through zero, to a few ULP.
+
+    It is not negative at the result, and negative just below it. Each step is one of inverse
+    quadratic interpolation where it can be trusted, or of halving (Chandrupatla 1997).
+
+    Parameters
+    ----------
+    of
+        A function that is not negative at `high`. If it is not negative at `low` either, the
+        interval is halved towards it until the function is negative.
+    """
+    below, above, part = _Point(low, of(low)), _Point(high, of(high)), 0.5
+    for _ in range(_STEPS):
+        length = above.x - below.x
+        least = 2.0 * math.ulp(above.x) / length
+        if least >= 0.5:
+            break
+        x = below.x + min(max(part, least), 1.0 - least) * length
+        new = _Point(x, of(x))
+        old, below, above = (below, new, above) if new.value < 0.0 else (above, below, new)
+        part = _interpolated(below, above, old)
+    return above.x
+
+
+def _interpolated(below: _Point, above: _Point, old: _Point) -> float:
+    """Return the part of the interval below the zero, or half if it cannot be interpolated.
+
+    `old` is the end of the interval before the last step.
+    """
+    if not below.value < 0.0 <= above.value or old.value in (below.value, above.value):
+        return 0.5
+    new, other = (above, below) if old.x > above.x else (below, above)
+    xi = (new.x - other.x) / (old.x - other.x)
+    phi = (new.value - other.value) / (old.value - other.value)
+    if not (phi * phi < xi and (1.0 - phi) ** 2 < 1.0 - xi):
+        return 0.5
+    to_above, to_old = above.value - below.value, old.value - below.value
+    at_old = (old.x - below.x) / (above.x - below.x)
+    between = above.value - old.value
+    return below.value * (old.value / to_above - at_old * above.value / to_old) / between

@@ -10,7 +10,7 @@ from typing import Any
 
 from derivation.engine.emit.source import format_files
 from derivation.engine.files import write_file
-from derivation.scene.code.code import Recipe, errors, recipe
+from derivation.scene.code.code import errors, recipe
 from derivation.scene.code.compose import WIDTH, composed
 from derivation.scene.errors import SceneError
 from derivation.scene.scene import Scene
@@ -37,7 +37,7 @@ def scene_code(scene: Scene) -> str:
         does not reproduce the contact law.
     """
     made = recipe(scene)
-    code_errors = errors(made, _run(_text(made, made.head)))
+    code_errors = errors(made, _run(composed(made.head, "", made.parts, made.numbers)))
     differences = ", ".join(
         f"{name.replace('_', ' ')} {_rounded_up(error)}" for name, error in code_errors.items()
     )
@@ -53,12 +53,8 @@ def scene_code(scene: Scene) -> str:
         "(impact: at the speed of this scene; restitution: absolute).",
         WIDTH,
     )
-    text = _text(made, (*made.head, "", *accuracy), remark)
+    text = composed((*made.head, "", *accuracy), remark, made.parts, made.numbers)
     return format_files({"scene.py": text})["scene.py"]
-
-
-def _text(made: Recipe, head: tuple[str, ...], remark: str = "") -> str:
-    return composed(head, remark, made.parts, made.numbers)
 
 
 def write_scene_code(scene: Scene, out: Path) -> None:

@@ -71,7 +71,7 @@ def judge(count: int, seed: int = inertia.SEED, progress: Progress = quiet) -> I
 
 def reason_to_skip(data: Scene) -> str:
     """Return the reason for which a scene is skipped; empty if it is not."""
-    model = bending(model_of(read(data)))
+    model = replace(model_of(read(data)), inertia=InertiaSettings())
     if zener_number(model) > MAX_ZENER:
         return f"Zener parameter above {MAX_ZENER:g}"
     still = quasi_static(model)
@@ -131,7 +131,7 @@ def solve(number: int, data: Scene, position: float) -> InertiaRow | str:
         values, accuracy = solve_selected(selected, rtol)
         known = "inertia" in selected.law.effects
         used = dynamic_impact(selected, rtol) if known else None
-        model = bending(selected.law.model)
+        model = replace(selected.law.model, inertia=InertiaSettings())
         modes = _modes(used or _moving(model, rtol))
         branches = "A0" if model.retardation_time else "all"
         # Even and odd numbers: what the last mode contributes has alternating signs.
@@ -156,11 +156,6 @@ def solve(number: int, data: Scene, position: float) -> InertiaRow | str:
         number, rtol, inertia.dissipation_of(data), known, accuracy.bound, error, quantity, lasted,
         omission_bound, change, changed, contacts, _modes(reference), count,
     )  # fmt: skip
-
-
-def bending(model: Model) -> Model:
-    """Return the model with the default settings of inertia: automatic modes and branches."""
-    return replace(model, inertia=InertiaSettings())
 
 
 def quasi_static(model: Model) -> motion.Motion | None:

@@ -256,10 +256,6 @@ def _largest(given: Given, _: Sequence[arb]) -> tuple[arb, ...]:
         return (printed_motion_balls.largest(*given[1:4]),)
 
 
-def _at_least_one(_: Given, values: Sequence[arb]) -> tuple[arb, ...]:
-    return tuple(abs(value).max(arb(1)) for value in values)
-
-
 LAWS: Mapping[str, HardLaw] = {
     "indentation": _one(contact_balls.indentation, _of_sum("indentation")),
     "indentation_slope": _one(contact_balls.slope),
@@ -283,7 +279,7 @@ LAWS: Mapping[str, HardLaw] = {
     ),
     "impact_sensitivities": HardLaw(
         sensitivity.impact_sensitivities,
-        _at_least_one,
+        lambda _, values: tuple(abs(value).max(arb(1)) for value in values),
         slopes=sensitivity.rounding,
         results=28,
         oracle=(sensitivity.__name__,),

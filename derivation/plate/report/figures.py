@@ -9,7 +9,6 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
-from numpy.typing import NDArray
 
 from derivation.engine.report.figures import STYLE
 from derivation.plate.report.setup import draw_setup
@@ -17,7 +16,7 @@ from derivation.scene.model import Model
 from derivation.scene.output.map import figure as scene_map
 from derivation.scene.result import Result
 from generated.contact_law import indentation
-from generated.impact import Impact, history, impact
+from generated.impact import history, impact
 from generated.perturbation import printed_motion
 
 TRUNCATIONS = (25, 50, 100, 200, 400)
@@ -122,7 +121,7 @@ def draw_contact_time(figure: Figure, case: Model) -> None:
     for modes in TRUNCATIONS:
         times = [printed_motion(*plate.numbers, modes).contact_time for plate in plates]
         ax.plot(THICKNESS, 1e3 * np.array(times), "--", lw=0.9, label=f"published, {modes} modes")
-    corrected = _impacts(case, THICKNESS)
+    corrected = impact(case.R, case.m, case.v0, THICKNESS * case.b, case.b, case.lam, case.mu)
     ax.plot(THICKNESS, 1e3 * corrected.contact_time, "k", label="corrected law")
     ax.axhline(1e3 * hertz_contact_time(case), color="tab:red", lw=0.9, label="Hertz")
     ax.set(xscale="log", xlabel="h/b [1]", ylabel="contact time [ms]")
@@ -132,7 +131,7 @@ def draw_contact_time(figure: Figure, case: Model) -> None:
 def draw_peaks(figure: Figure, case: Model) -> None:
     """Draw largest force and indentation over h/b, relative to Hertz theory."""
     ax = figure.subplots()
-    corrected = _impacts(case, THICKNESS)
+    corrected = impact(case.R, case.m, case.v0, THICKNESS * case.b, case.b, case.lam, case.mu)
     force, indentation = hertz_peaks(case)
     ax.plot(THICKNESS, corrected.max_force / force, "k", label="largest force")
     ax.plot(
@@ -160,11 +159,6 @@ def draw_law(figure: Figure, case: Model) -> None:
     for ax, what in zip(axes, ("indentation", "force"), strict=True):
         ax.set(xscale="log", yscale="log", xlabel="a/h [1]", title=f"{what} / Hertz's [1]")
     axes[0].legend(fontsize=7)
-
-
-def _impacts(case: Model, ratios: NDArray[np.float64]) -> Impact:
-    """Return impacts according to the corrected law for several h/b."""
-    return impact(case.R, case.m, case.v0, ratios * case.b, case.b, case.lam, case.mu)
 
 
 def hertz_peaks(case: Model) -> tuple[float, float]:

@@ -15,7 +15,7 @@ HEADS = ("effect", "parameter", "value", "max. change", "status", "reason")
 def effects_context(scenes: Mapping[str, Scene]) -> dict[str, Any]:
     """Return all effects, and the selection for each scene."""
     return {
-        "effects": [" & ".join([code(e.name), prose(e.adds), source(e.source)]) for e in EFFECTS],
+        "effects": [" & ".join([code(e.name), prose(e.adds), escape(e.source)]) for e in EFFECTS],
         "heads": HEADS,
         "scenes": [scene_context(name, scene) for name, scene in scenes.items()],
     }
@@ -57,14 +57,4 @@ def sentence(text: str) -> str:
     head, stop, rest = text.partition(". ")
     label, _, names = head.partition(": ")
     shown = ", ".join(code(name) for name in names.split(", "))
-    return f"{capital(label)}: {shown}{stop}{prose(rest)}"
-
-
-def capital(text: str) -> str:
-    """Return a text with a capital first letter."""
-    return text[:1].upper() + text[1:]
-
-
-def source(text: str) -> str:
-    """Return the source of an effect as LaTeX."""
-    return escape(text)
+    return f"{label[:1].upper() + label[1:]}: {shown}{stop}{prose(rest)}"

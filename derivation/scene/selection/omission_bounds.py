@@ -112,7 +112,7 @@ def state_of(law: ContactLaw, top: float = TOP) -> LargestContact:
         wider = state_of(stiff, WIDER)
         # The sphere moves with the plate, as far as on a quasi-static one, during all contacts.
         depth = np.fmax(wider.context.depth, state_of(_quasi_static(law)).context.depth)
-        context = replace(wider.context, depth=_as_number(depth))
+        context = replace(wider.context, depth=float(depth) if np.ndim(depth) == 0 else depth)
         return replace(wider, law=law, context=context, bounds={})
     constant = not (law.plate_effects or law.spherical or law.solved)
     count = FEW if constant else NODES[0]
@@ -154,11 +154,6 @@ def _at_most_one(change: Numbers) -> Numbers:
     """Return a change of a result [1], at most 1; 1 if it is unknown."""
     capped: Numbers = np.where(np.isfinite(change), np.minimum(change, 1.0), 1.0)
     return capped
-
-
-def _as_number(x: Any) -> Numbers:
-    """Return an array of one number without dimensions as a float."""
-    return float(x) if np.ndim(x) == 0 else x
 
 
 def _begun(first: float, values: Array) -> Array:

@@ -159,15 +159,12 @@ def alternating_sum(kind: str, width: Fraction, bits: int) -> arb:
         cut, total = 1, near + arb(kernel.power(0))
         while cut < end:  # panels of growing size: on a single one the balls are too wide
             upto = min(2 * cut, end)
-            total -= acb.integral(lambda y, _: _far(kernel, alpha, y), cut, upto).real
+            total -= acb.integral(
+                lambda y, _: kernel.turned(alpha * y) / (y * y * y.bessel_i(0)), cut, upto
+            ).real
             cut = upto
         rest = 9 * (-to_ball(left) * last).exp() / (2 * to_ball(left) * last**2 / last.sqrt())
         return (total + arb(0, rest.abs_upper())) / arb.pi()
-
-
-def _far(kernel: EdgeKernel, alpha: arb, y: acb) -> acb:
-    """Return k(i alpha y)/(y^2 I0(y))."""
-    return kernel.turned(alpha * y) / (y * y * y.bessel_i(0))
 
 
 def _near(kernel: EdgeKernel, alpha: arb, y: acb) -> acb:

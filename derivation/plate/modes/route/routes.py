@@ -189,11 +189,6 @@ def _force(v: Values) -> mpf:
     return 2 * mp.pi * v["a"] ** 2 * peak * _disc_moment(mp.dps)
 
 
-def _over_phi(route: Callable[[Values, str], mpf]) -> Callable[[Values], mpf]:
-    """Return the paper's g, which is U/phi."""
-    return lambda v: route(v, "u") / v["phi"]
-
-
 def _part(route: Callable[[Values, str], mpf], part: str) -> Callable[[Values], mpf]:
     return lambda v: route(v, part)
 
@@ -225,9 +220,9 @@ ROUTES: dict[str, Callable[[Values], mpf]] = {
         for name in ("u", "w", "sigma_rr", "sigma_tt", "sigma_zz", "sigma_rz")
     },
     "f_j": _part(_general, "w"),
-    "g_j": _over_phi(_general),
+    "g_j": lambda v: _general(v, "u") / v["phi"],
     "mode_f": _part(_mode, "w"),
-    "mode_g": _over_phi(_mode),
+    "mode_g": lambda v: _mode(v, "u") / v["phi"],
     "C_top": lambda v: _face(v, 1),
     "C_bottom": lambda v: _face(v, -1),
     "C_half": lambda v: half_space(v["phi"], _material(v)),

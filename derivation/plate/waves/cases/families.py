@@ -58,7 +58,7 @@ def _lowest_switches() -> Iterator[HardCase]:
 
 
 def _influence_switches() -> Iterator[HardCase]:
-    gam = _level(_METAL)
+    gam = (1 - 2 * Fraction(_METAL)) / (2 * (1 - Fraction(_METAL)))
     for x in (1e-3, 0.7, 20.1):
         square = Fraction(x) ** 2
         for load, what in (
@@ -74,11 +74,6 @@ def _influence_switches() -> Iterator[HardCase]:
         x = math.sqrt(p * p + gam * Fraction(kap))
         why = f"p + q = {NEAR:g} at kap = {kap:g}, below which F is a power series"
         yield case_around(WAVES, INFLUENCE, why, exact_inputs(x=around(x), kap=kap, nu=_METAL))
-
-
-def _level(nu: float) -> Fraction:
-    """Return gam."""
-    return (1 - 2 * Fraction(nu)) / (2 * (1 - Fraction(nu)))
 
 
 def _branch_switches() -> Iterator[HardCase]:

@@ -3,6 +3,13 @@
 import numpy as np
 import platecontact as pc
 import pytest
+import sympy as sp
+from scipy.optimize import brentq
+
+from derivation.scene.dynamic.contact_tables import ContactTables, contact_of
+from derivation.scene.dynamic.modal import ModalPlate, free_modes
+from derivation.scene.dynamic.mode_count import branching
+from derivation.scene.impact import selected_effects
 
 MATERIALS = {
     "elastic": {},
@@ -39,6 +46,53 @@ def test_an_edge_that_no_wave_has_reached_does_not_change_the_contact(material: 
         assert one.max_pressure == pytest.approx(far.max_pressure, rel=2e-4)
         assert one.dynamics is not None
         assert one.dynamics.inertia.curvature < -2e-3
+
+
+def test_change_of_the_force_by_a_profile() -> None:
+    """Sneddon's force for J0(phi r) is 2 E* a^2 ds/da, with s its mean under a flat punch."""
+    a, x, phi, E = sp.symbols("a x phi E", positive=True)
+    sneddon = 2 * E * sp.integrate(sp.cos(phi * a) - sp.cos(phi * x), (x, 0, a))
+    mean = sp.sin(phi * a) / (phi * a)
+    assert sp.simplify(sneddon - 2 * E * a**2 * sp.diff(mean, a)) == 0
+
+
+@pytest.mark.parametrize(("width", "agreement"), [(0.3, 0.004), (0.6, 0.01)])
+def test_without_its_long_waves_a_law_does_not_depend_on_the_plate_radius(
+    width: float, agreement: float
+) -> None:
+    """The laws of two static plates differ by the curvature of long waves.
+
+    Parameters
+    ----------
+    width
+        Contact radius over half the thickness, up to which the law is needed.
+    agreement
+        Difference of the radii without these waves, over that with them.
+    """
+    h, radii, changed = 5e-4, [], []
+
+    def excess(a: float, tables: ContactTables, force: float) -> float:
+        return float(tables.forces(np.array([a]))[0, 0]) - force
+
+    for ratio in (60, 480):
+        plate = pc.Plate(radius=2.0 * ratio * h, thickness=2.0 * h, material="glass")
+        scene = pc.Scene(
+            sphere=pc.Sphere(radius=0.03, material="steel"), plate=plate,
+            impact=pc.Impact(speed=0.5), effects=pc.Effects(non_hertzian_pressure=True),
+        )  # fmt: skip
+        law = branching(selected_effects(scene)[1].law, "A0")
+        rest = law.only(lambda effect: effect.static and not effect.other_edge)
+        # The middle between the last wave number and the next is the same, phi h = 1.5.
+        modes = free_modes(law.model, round(ratio * 3.0 / np.pi - 0.75))
+        tables = contact_of(rest, ModalPlate(modes, modes, None), 1.3 * width * h, False)
+        force = 4.0 / 3.0 * rest.modulus * (width * h) ** 3 / 0.03  # of Hertz's law
+        a = np.array([brentq(excess, 1e-3 * h, tables.top, (tables, force))])
+        radii.append(a[0])
+        ratio_of_radii = tables.radius_ratio(a, tables.at(a), np.zeros((1, modes.phi.size)))
+        changed.append(a[0] * ratio_of_radii[0])
+    with_waves, without = (abs(one / other - 1.0) for one, other in (radii, changed))
+    assert with_waves > 1e-3
+    assert without < agreement * with_waves
 
 
 def test_the_error_of_pressure_and_radius_covers_the_radius_of_the_plate() -> None:

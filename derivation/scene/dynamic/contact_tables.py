@@ -64,8 +64,8 @@ class ContactTables:
     row for each polynomial.
 
     A plate that is curved less or more than under a static load changes the force at a given
-    radius. `curving` contains the coefficients of the change by the static curvature that is part
-    of the law, over x^3 [N]; None if the law has the Hertz pressure, without any curvature.
+    radius. `static_change` contains the coefficients of the change by the static curvature that is
+    part of the law, over x^3 [N]; None if the law has the Hertz pressure, without any curvature.
     """
 
     modes: Modes
@@ -74,7 +74,7 @@ class ContactTables:
     table: Array
     pointwise: bool
     modulus: float
-    curving: Array | None
+    static_change: Array | None
 
     @property
     def degree(self) -> int:
@@ -97,12 +97,15 @@ class ContactTables:
         x = self._places(a)
         return np.asarray((x**3)[:, None] * chebyshev(2.0 * x - 1.0, self.degree) @ self.table[0])
 
-    def narrowing(self, a: Array, at: ContactSamples, q: Array) -> Array:
+    def radius_ratio(self, a: Array, at: ContactSamples, q: Array) -> Array:
         """Return the contact radius over that of the law at the same force [1].
 
         The deflection sum q_j s_j under a flat punch of radius c changes the force at the radius a
         by 2 E* a sum q_j (a ds_j/da), if the pressure is that on a half-space. The indentation at a
         given force does not change to first order, because s_j = dP_j/dP.
+
+        The profile J0(phi r) under a sphere changes the force by 2 E* int_0^a (cos phi a - cos phi
+        x) dx (Sneddon 1965); s_j = sin(phi c)/(phi c).
 
         Parameters
         ----------
@@ -113,10 +116,10 @@ class ContactTables:
         q
             Deflection of each shape [m], shape (radii, shapes).
         """
-        if self.curving is None:
+        if self.static_change is None:
             return np.ones_like(a)
         x = a / self.top
-        static = x**3 * (chebyshev(2.0 * x - 1.0, self.curving.size - 1) @ self.curving)
+        static = x**3 * (chebyshev(2.0 * x - 1.0, self.static_change.size - 1) @ self.static_change)
         change = 2.0 * self.modulus * a * a * np.vecdot(at.less_a, q) - static
         return np.asarray(np.maximum(FLATTEST, 1.0 + change / at.force) ** (-1.0 / 3.0))
 
@@ -179,9 +182,9 @@ def contact_of(
     growths[:, :count] += 3.0 * table[:, :count]  # d(x^3 f)/dx = x^2 (3 f + x f')
     growths[:, count:] += 2.0 * table[:, count:]
     tables = (table[:, :count], table[:, count:], growths[:, :count], growths[:, count:])
-    curving = None if static is None else analysis @ static
+    static_change = None if static is None else analysis @ static
     R, modulus = law.model.R, law.modulus
-    return ContactTables(plate.modes, R, top, np.array(tables), pointwise, modulus, curving)
+    return ContactTables(plate.modes, R, top, np.array(tables), pointwise, modulus, static_change)
 
 
 class _Samples(NamedTuple):

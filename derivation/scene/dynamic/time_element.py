@@ -358,7 +358,7 @@ def _piece(
         leak = np.sum((elastic[:, :1] - elastic[:, 1:]) * driven.rates, axis=1) * nodes.rate
     rule = radau(nodes.x.size)
     rows = at.a, at.v, at.z, force, np.sum(at.q, axis=1), driven.energy, lost, leak
-    ratio = problem.contact.narrowing(problem.a * load.a, near, problem.depth * at.q)
+    ratio = problem.contact.radius_ratio(problem.a * load.a, near, problem.depth * at.q)
     values = np.array([*rows, driven.damped * nodes.rate, at.a * ratio])
     made = Element(x, length, values @ rule.analysis.T, rule.analysis @ at.y)
     end = ImpactState(

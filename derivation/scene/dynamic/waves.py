@@ -54,7 +54,7 @@ LOOSE, TOLERANCE_FRACTION, KEPT = 4e-4, 1.0 / 3.0, 0.75
 that omitted modes and branches together may take."""
 ROUGHER = 5.0
 """Factor by which the error by omitted modes may be larger without a tolerance, if the next run
-takes more work than `LONG`; it then is still below the model error."""
+takes more work than `LONG`: then it is at most 0.2 %."""
 FINAL = 7e7
 """Largest work of one more run beyond the limits, which is made if the tolerance is nearly met."""
 LONG = 1.5e6

@@ -248,10 +248,10 @@ class Result:
         """Compute the time history."""
         law = self.effects.law
         if self.dynamics is not None:
-            from derivation.scene.dynamic.time_element import A, E, P, V, W, Z
+            from derivation.scene.dynamic.time_element import C, E, P, V, W, Z
 
             times = self._times(n, self.total_time)
-            return DynamicHistory(times, *self.dynamics.rows(times)[[Z, V, A, P, W, E]])
+            return DynamicHistory(times, *self.dynamics.rows(times)[[Z, V, C, P, W, E]])
         if law.of_paper:
             end = float(kernels.impact(*self.model.numbers).contact_time)
             times = self._times(n, end)

@@ -119,7 +119,7 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
     if motion is None:
         pressure = law.max_pressure(a)
     else:  # it is proportional to P/a^2, and in the static law of the simulated plate to a
-        pressure = motion.law.max_pressure(a) / (1.0 + motion.inertia.curvature) ** 3
+        pressure = motion.law.max_pressure(a) * motion.at_equal_radius
     pressure = min(pressure, law.pressure_limit)
     local = float(local_indentation(law, a))
     fraction, deflection = 1.0 - local / delta, delta - local

@@ -16,6 +16,7 @@ from derivation.engine.files import measurements
 from derivation.scene.errors import SceneError
 from derivation.scene.kernels import Numbers
 from derivation.scene.model import Model
+from derivation.scene.quantity import percent
 from generated.arrays import Double as Array
 
 LARGEST = 0.01
@@ -89,6 +90,20 @@ def edge_remainders(model: Model, a: Array) -> Array:
     """Return the model errors of many scenes as a column; NaN if `edge_remainder` rejects one."""
     remainders = largest_neighbours(model, a, model.eta)
     return np.where(remainders <= LARGEST, remainders, np.nan)
+
+
+def edge_warnings(model: Model, a: float) -> tuple[str, ...]:
+    """Return a warning if the model error of the edge exceeds 1 % or is unknown."""
+    [error] = largest_neighbours(model, np.array([a]), model.eta)
+    if error <= LARGEST:
+        return ()
+    size = "unknown" if np.isnan(error) else f"up to {percent(error)} of the indentation"
+    text = (
+        f"the model error of the {model.edge} edge is {size} at h/b = {model.eta:.4g}, nu = "
+        f"{model.poissons_ratio:.3g}, a/b = {a / model.b:.4g} (h half-thickness, a contact radius, "
+        "b plate radius)"
+    )
+    return (text,)
 
 
 def largest_neighbours(model: Model, a: Array, eta: Numbers) -> Array:

@@ -147,7 +147,7 @@ def _materials() -> Iterator[HardCase]:
     """Yield cases at zeros and switch points that depend on the elastic constants."""
     why = "lam = mu, where the unit of stress changes from one to the other"
     for kernels, more in (((*SUMS, *CLAMPED, *BOUNDS), {}), (BACK_FACE_EDGES, {"P": _FORCE})):
-        given = exact_inputs(**more, a=0.3, h=0.2, b=1.0, lam=around(MU), mu=MU)
+        given = exact_inputs(**more, a=0.6, h=0.4, b=2.0, lam=around(MU), mu=MU)
         yield from _around_switch(EDGE, kernels, why, given)
     switch = math.sqrt((LAM + 2 * MU) / (2 * LAM))
     given = exact_inputs(a=0.3, h=around(switch), b=1.0, **_STEEL)

@@ -3,14 +3,18 @@
 from contextlib import suppress
 from dataclasses import dataclass
 
+import numpy as np
+
+from derivation.engine.threads import one_thread
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic import contact_sequence
 from derivation.scene.dynamic.contact_sequence import ImpactHistory, expected_work
 from derivation.scene.dynamic.mode_convergence import unchecked
+from derivation.scene.dynamic.mode_count import MODES, branching, count_of
 from derivation.scene.dynamic.problem import DynamicProblem
 from derivation.scene.dynamic.reach import OutOfReachError, Reach
 from derivation.scene.dynamic.results import dynamic_impact_of
-from derivation.scene.dynamic.time_in_contact import nodes_for
+from derivation.scene.dynamic.time_in_contact import FEWER, check_long, nodes_for
 from derivation.scene.dynamic.wave_motion import DynamicImpact
 from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.errors import SceneError
@@ -19,6 +23,8 @@ LOOSE = 4e-4
 """Largest accepted error by omitted modes without a tolerance [1]."""
 WHOLE = 1.5e6
 """Largest work of a run that only determines which tolerance a message names."""
+FEWEST = 5
+"""Least number of modes of a simulation without an error bound."""
 WORK = 4.5e7
 """Largest work of all runs of an impact, in the units of `contact_sequence.WORK`."""
 
@@ -81,6 +87,22 @@ def run_with(
         raise
     budget.left -= history.work
     return dynamic_impact_of(law, history)
+
+
+def with_few_modes(law: ContactLaw, part: float) -> DynamicImpact:
+    """Return an impact with few bending modes and the lowest branch, without an error bound.
+
+    Parameters
+    ----------
+    part
+        Their number over that of the first run [1].
+    """
+    lowest = branching(law, "A0")
+    count = count_of(lowest)
+    count = min(max(min(count, FEWEST), round(part * count)), MODES)
+    with one_thread(), np.errstate(all="ignore"):
+        check_long(lowest, time_tolerance(LOOSE))
+        return run_with(lowest, count, Budget(WORK), time_tolerance(LOOSE), FEWER)
 
 
 def _within(

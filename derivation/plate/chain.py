@@ -62,6 +62,7 @@ from derivation.plate.contact.theory.split import contact_split, reduced_split
 from derivation.plate.contact.theory.thin_plate import thin_plate
 from derivation.plate.contact.theory.thin_remainder import thin_remainder
 from derivation.plate.edge.theory.clamped import clamp
+from derivation.plate.edge.theory.curvature import edge_curvature
 from derivation.plate.edge.theory.sums import edge_sums
 from derivation.plate.edge.theory.supported import edge
 from derivation.plate.effects.theory import effects
@@ -110,7 +111,7 @@ MOTION_STEPS: tuple[Step, ...] = (
     ("sensitivity", sensitivity),
     ("substitution", substitution),
     ("edge", lambda: (*edge(), *edge_sums(), *clamp())),
-    ("contact pressure", non_hertzian_pressure),
+    ("contact pressure", lambda: (*non_hertzian_pressure(), *edge_curvature())),
     ("spherical profile", spherical_profile),
     ("effects", effects),
     ("plate motion", plate_motion),

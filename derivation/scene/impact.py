@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from derivation.scene.contact_law.corrections import edge_curvature, stretching
+from derivation.scene.contact_law.corrections import stretching
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import (
     check_radius,
@@ -208,8 +208,6 @@ def _model_errors(
     if motion is None:
         edge, size = edge_remainder(model, a) if other_edge else 0.0, stretching(model, deflection)
         errors: dict[str, float] = dict.fromkeys(OUTPUTS, edge + float(size))
-        if other_edge:
-            errors["max_contact_radius"] += float(edge_curvature(model, a, law.softness))
         if law.viscous or law.plastic:
             supplied = 1.0 + float(weight_work_ratio(model, numbers[1]))
             dissipated = supplied / max(numbers[4], 1e-6) ** 2 - 1.0

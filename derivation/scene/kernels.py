@@ -35,7 +35,17 @@ from generated.edge import (
     supported_edge_bound,
     supported_edge_slope,
 )
-from generated.effect_numbers import LATERAL_CUBIC, LATERAL_GROWTH, LATERAL_LINEAR, PRESSURE_LATERAL
+from generated.edge_curvature import clamped_edge_curvature, supported_edge_curvature
+from generated.edge_kernels import law_of_square
+from generated.effect_numbers import (
+    LATERAL_CUBIC,
+    LATERAL_GROWTH,
+    LATERAL_LINEAR,
+    PRESSURE_ABOVE,
+    PRESSURE_BELOW,
+    PRESSURE_EITHER,
+    PRESSURE_LATERAL,
+)
 from generated.effects import (
     Sphere,
     bending,
@@ -111,6 +121,9 @@ __all__ = [
     "LATERAL_CUBIC",
     "LATERAL_GROWTH",
     "LATERAL_LINEAR",
+    "PRESSURE_ABOVE",
+    "PRESSURE_BELOW",
+    "PRESSURE_EITHER",
     "PRESSURE_LATERAL",
     "ROUNDING",
     "YIELD_LIMIT",
@@ -126,6 +139,7 @@ __all__ = [
     "clamped_back_face_stress",
     "clamped_edge",
     "clamped_edge_bound",
+    "clamped_edge_curvature",
     "clamped_edge_slope",
     "contact_plates",
     "contact_radius",
@@ -137,6 +151,7 @@ __all__ = [
     "indentation",
     "indentation_slope",
     "law_errors",
+    "law_of_square",
     "max_pressure",
     "plate_contribution",
     "plates_at",
@@ -150,6 +165,7 @@ __all__ = [
     "supported_back_face_stress",
     "supported_edge",
     "supported_edge_bound",
+    "supported_edge_curvature",
     "supported_edge_slope",
     "viscous_logarithms",
     "viscous_number",

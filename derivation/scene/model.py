@@ -18,6 +18,10 @@ from derivation.scene.quasi_static.simple_laws import plates_of
 from derivation.scene.scene import Scene
 from generated.simple_impact import PLATES
 
+_CURVATURES = {
+    "simply-supported": kernels.supported_edge_curvature,
+    "clamped": kernels.clamped_edge_curvature,
+}
 NUMBERS = ("R", "m", "v0", "h", "b", "lam", "mu")
 HERTZ_TIME, TIME_BY_ZENER = 3.3, 5.0
 """Contact time over (m^2/(K^2 v0))^(1/5), which is 2.94 by Hertz's law and more on a plate, and its
@@ -120,6 +124,14 @@ class Model:
         within = (low < self.eta) & (self.eta < high)
         plates = plates_of(np.where(within, self.eta, 1.0))
         return kernels.Plate(*(np.where(within, x, np.inf) for x in plates))
+
+    @cached_property
+    def edge_curvature(self) -> kernels.Numbers:
+        """Coefficient of (t^2 + s^2)/h^3 in the contact kernel by the edge of the scene [1]."""
+        if self.edge not in _CURVATURES:
+            return 0.0
+        value: kernels.Numbers = _CURVATURES[self.edge](self.h, self.b, self.lam, self.mu)
+        return value
 
     @cached_property
     def supports(self) -> Supports:

@@ -290,6 +290,8 @@ LAWS: Mapping[str, HardLaw] = {
     "clamped_edge_slope": _clamped_edge("slope"),
     "supported_edge_bound": _edge_bound("supported"),
     "clamped_edge_bound": _edge_bound("clamped"),
+    "supported_edge_curvature": _one(edge_balls.curvature),
+    "clamped_edge_curvature": _one(clamp_balls.curvature),
     "back_face_stress": _back_face(""),
     "supported_back_face_stress": _back_face("supported"),
     "clamped_back_face_stress": _back_face("clamped"),

@@ -31,6 +31,7 @@ SPHERE, PRESSURE = "switch points of the sphere", "switch points of the non-Hert
 SUMS = ("supported_edge", "supported_edge_slope")
 CLAMPED = ("clamped_edge", "clamped_edge_slope")
 BOUNDS = ("supported_edge_bound", "clamped_edge_bound")
+CURVATURES = ("supported_edge_curvature", "clamped_edge_curvature")
 BACK_FACE_EDGES = ("supported_back_face_stress", "clamped_back_face_stress")
 
 _STEEL: dict[str, float] = {"lam": LAM, "mu": MU}
@@ -98,11 +99,31 @@ def _edge() -> Iterator[HardCase]:
         why = f"h/b = {switch:.4g}, beyond which the sum has one mode less"
         yield from _one_by_one(EDGE, SUMS[1:], switch, why, "h", constants)
     yield from _shape(EDGE, SUMS[:1], {})
+    yield from _curvatures()
     yield from _materials()
     widest, constants = float(edge_tables.WIDEST), {"h": 0.3, "b": 1.0, **_STEEL}
     why = f"a = {widest:g} b, the end of the tables"
     yield from _last(EDGE, (SUMS[1], CLAMPED[0]), widest, why, constants)
     yield from _last(EDGE, BACK_FACE_EDGES[:1], widest, why, {"P": _FORCE, **constants})
+
+
+def _curvatures() -> Iterator[HardCase]:
+    """Yield cases of the curvature by an edge, for thin and thick plates and both signs of nu."""
+    switches = {
+        float(1 / edge_tables.THIN): "b = {thin:g} h, beyond which no sum is added",
+        edge_tables.SWITCH / (2 * _zero(1)): "T = {switch} of mode 1, where Q - 3 ceases to be a "
+        "power series",
+    }
+    for switch, text in switches.items():
+        why = text.format(thin=float(edge_tables.THIN), switch=edge_tables.SWITCH)
+        given = exact_inputs(h=around(switch), b=1.0, **_STEEL)
+        yield from _around_switch(EDGE, CURVATURES, why, given)
+    for lam in (1e-3 * MU, 1e3 * MU, -0.6 * MU):
+        sizes = {CURVATURES[0]: [0.01, 0.1, 1.0, 10.0, 1e3], CURVATURES[1]: [1e-90, 1e-8, 1.0, 1e3]}
+        for kernel, heights in sizes.items():
+            given = exact_inputs(h=heights, b=1.0, lam=lam, mu=MU)
+            why = f"h/b from {heights[0]:g} to {heights[-1]:g} with lam = {lam / MU:g} mu."
+            yield HardCase(EDGE, kernel, why, given, "array")
 
 
 def _last(
@@ -126,7 +147,7 @@ def _materials() -> Iterator[HardCase]:
     """Yield cases at zeros and switch points that depend on the elastic constants."""
     why = "lam = mu, where the unit of stress changes from one to the other"
     for kernels, more in (((*SUMS, *CLAMPED, *BOUNDS), {}), (BACK_FACE_EDGES, {"P": _FORCE})):
-        given = exact_inputs(**more, a=0.3, h=0.2, b=1.0, lam=around(MU), mu=MU)
+        given = exact_inputs(**more, a=0.6, h=0.4, b=2.0, lam=around(MU), mu=MU)
         yield from _around_switch(EDGE, kernels, why, given)
     switch = math.sqrt((LAM + 2 * MU) / (2 * LAM))
     given = exact_inputs(a=0.3, h=around(switch), b=1.0, **_STEEL)

@@ -237,6 +237,22 @@ class Field(Elements):
 
         The polynomial states carry most of it; without them the elements must compute all.
         """
+        known = [self._of_states(a) if states else 0.0 for a in widths]
+        fields = self._solved(widths, states)
+        top = self.number(np.array([0]), np.array([self.rows - 1]), 1)[0]
+        return [of_states - float(one[top]) for of_states, one in zip(known, fields, strict=True)]
+
+    def face(self, a: float) -> tuple[Double, Double]:
+        """Return r, and what a support adds to the indentation -w of the contact face there."""
+        nodes, columns = lobatto(self.degree)[0], np.arange(self.columns)
+        ends = zip(self.x_ends[:-1], self.x_ends[1:], strict=True)
+        inside = [(low + high) / 2 + (high - low) / 2 * nodes[:-1] for low, high in ends]
+        r = np.append(np.concatenate(inside), self.x_ends[-1])
+        (field,) = self._solved([a], states=False)
+        return r, -field[self.number(columns, np.full_like(columns, self.rows - 1), 1)]
+
+    def _solved(self, widths: Sequence[float], states: bool) -> list[Double]:
+        """Return the displacements at all nodes, by a/b."""
         case, ring = self.case, np.arange(self.rows)
         matrix = self.stiffness(case.lam, round_plate=True)
         axis = self.number(np.zeros_like(ring), ring, 0)
@@ -246,17 +262,14 @@ class Field(Elements):
         free = np.setdiff1d(np.arange(self.size), fixed)
         rows = matrix[free]
         solver = factorised(rows[:, free])
-        responses, known = [], []
+        fields = []
         for a in widths:
-            known.append(self._of_states(a) if states else 0.0)
             values, load = np.zeros(self.size), np.zeros(self.size)
             pushed, values[rim[0]], values[rim[1]] = self._given(a, states)
             load[rim[0]] = pushed * self.rim_weights
-            responses.append(solver.solve(load[free] - rows @ values))
-        top = np.searchsorted(free, self.number(np.array([0]), ring[-1:], 1)[0])
-        return [
-            of_states - float(one[top]) for of_states, one in zip(known, responses, strict=True)
-        ]
+            values[free] += solver.solve(load[free] - rows @ values)
+            fields.append(values)
+        return fields
 
     def _of_states(self, a: float) -> float:
         """Return the contribution of the states, -w at the contact face's centre."""

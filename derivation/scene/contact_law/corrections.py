@@ -53,28 +53,6 @@ def membrane_stress(model: Model, deflection: float) -> float:
     return MEMBRANE * float(deflection / (2.0 * model.h))
 
 
-def edge_curvature(model: Model, a: Numbers, softness: Numbers) -> Numbers:
-    """Return the change of the force at a contact radius by the curvature due to an edge [1].
-
-    Under a point load P a clamped thin plate deflects by P (b^2 - r^2)/(16 pi D) less than with the
-    paper's edge, a simply supported one by (1 - nu)/(1 + nu) times as much more (Timoshenko 1959).
-    The law contains this deflection on the axis, but not its curvature, which changes the force by
-    E* a^3/(6 pi D) of itself. The contact radius at a given force changes by a third of this, and
-    the pressure by two thirds.
-
-    Parameters
-    ----------
-    a
-        Contact radius [m].
-    softness
-        E* of the plate over that of the sphere [1].
-    """
-    nu, ratio = model.poissons_ratio, a / model.h
-    part = {CLAMPED: 1.0, SUPPORTED: (1.0 - nu) / (1.0 + nu)}.get(model.edge, 0.0)
-    size: Numbers = part * (ratio * ratio * ratio) / (4.0 * math.pi * (1.0 + softness))
-    return size
-
-
 def doubling_deflection(model: Model) -> float:
     """Return the deflection [m] at which stretching doubles a plate's stiffness, to first order."""
     thickness = 2.0 * float(model.h)

@@ -20,7 +20,7 @@ import numpy as np
 
 from derivation.scene import kernels
 from derivation.scene.contact_law.closed_contact import closed_up_to
-from derivation.scene.contact_law.solved_contact import contact_at, plate_of
+from derivation.scene.contact_law.solved_contact import SolvedCase, contact_at, pressure_at
 from derivation.scene.effects import BY_NAME, PAPER, WHOLE_PLATE, edge
 from derivation.scene.effects.effect import Contribution, Effect, PlateEffect, Reach
 from derivation.scene.effects.finite_thickness import plate_contribution
@@ -150,6 +150,14 @@ class ContactLaw:
         """E* of the plate over that of the sphere in this law [1]; 0 for a rigid sphere."""
         return sum((effect.softness(self.model) for effect in self.chosen), 0.0)
 
+    @cached_property
+    def edge_curvature(self) -> float:
+        """Coefficient of (t^2 + s^2)/h^3 in the contact kernel by another edge [1].
+
+        It is 0 with plate inertia: the modes of the plate contain the curvature by its edge.
+        """
+        return float(self.model.edge_curvature) if self.other_edge and not self.dynamic else 0.0
+
     @property
     def modulus(self) -> float:
         """E* of the contact [Pa]."""
@@ -158,12 +166,8 @@ class ContactLaw:
     @cached_property
     def limit(self) -> float:
         """Largest contact radius [m] of the law, at most where contact is lost at the centre."""
-        model, high = self.model, self._widest
-        if not self.solved:
-            return high
-        return closed_up_to(
-            model.h, model.b, model.R, self.modulus, model.modulus, self.spherical, float(high)
-        )
+        high = self._widest
+        return closed_up_to(self._case, float(high)) if self.solved else high
 
     @cached_property
     def _widest(self) -> float:
@@ -250,20 +254,12 @@ class ContactLaw:
         It is (E*/pi) int_r^a delta'(c)/sqrt(c^2 - r^2) dc on a half-space, with
         c^2 = r^2 + (a^2 - r^2) x^2, or the solution of the integral equation.
         """
-        R = self.model.R
         if self.solved:
-            from generated import non_hertzian_pressure
-
-            plate = plate_of(self.model.h, self.model.b)
-            solved_pressure: Array = non_hertzian_pressure.pressure(
-                r, plate, a, R, self.modulus, self.model.modulus, sphere=self.spherical
-            )
-            return solved_pressure
+            return pressure_at(r, a, self._case)
         x, weights = gauss(NODES[2])
         width = np.sqrt((a - r) * (a + r))
-        slopes = self._sphere(np.hypot(r[:, None], width[:, None] * x)).slope
-        mean: Array = slopes @ weights
-        return 2.0 / np.pi * self.modulus * (width / R) * mean
+        mean: Array = self._sphere(np.hypot(r[:, None], width[:, None] * x)).slope @ weights
+        return 2.0 / np.pi * self.modulus * (width / self.model.R) * mean
 
     def max_tensile_stress(self, a: float, force: float, on_edge: bool = True) -> float:
         """Return the largest tensile stress on the back face [Pa].
@@ -327,28 +323,36 @@ class ContactLaw:
         return Shape(one, 1.0 + part * deflection.depth, slope, slope)
 
     def _solved(self, a: Array) -> Shape:
-        """Return the shape with non-Hertzian pressure; the edge contributes as under Hertz's."""
+        """Return the shape with non-Hertzian pressure; an edge's curvature is in its kernel."""
         # Near a = 0 the pressure is Hertzian.
         a = np.maximum(a, 1e-12 * min(self.model.h, self.model.b, self.model.R))
         shape = self._contact(a)
-        R, scale = self.model.R, 4.0 / 3.0 * self.modulus * a * a * (a / self.model.R)
-        force = shape.force / scale
+        R = self.model.R
+        force = shape.force / (4.0 / 3.0 * self.modulus * a * a * (a / R))
         equal = a * np.cbrt(force)
         depth = shape.indentation / a * (R / a)
         additive = 2.0 * self.modulus * equal / shape.stiffness
         # Derivative of Hertz's radius of the force with respect to the contact radius.
         growth = shape.stiffness * shape.slope / (4.0 * self.modulus * equal) * (R / equal)
         part = 1.0 / (1.0 + self.softness)
-        for effect in self._beyond_whole_plate:
-            plate = effect.contribution(self.model, equal)
+        others = [effect.contribution(self.model, equal) for effect in self._beyond_whole_plate]
+        if self.edge_curvature:
+            curved = kernels.law_of_square(np.array(self.edge_curvature), equal / self.model.h)
+            others.append(Contribution(-curved[0], -curved[1]))
+        for plate in others:
             depth = depth + part * (equal / a) ** 2 * plate.depth
             additive = additive + part * plate.slope
         return Shape(force, depth, additive * growth * (equal / a), additive)
 
     def _contact(self, a: Array) -> "Contact":
         """Return the contact with non-Hertzian pressure."""
-        m = self.model
-        return contact_at(a, m.h, m.b, m.R, self.modulus, m.modulus, self.spherical)
+        return contact_at(a, self._case)
+
+    @property
+    def _case(self) -> SolvedCase:
+        """What determines the contact with non-Hertzian pressure."""
+        m, edge = self.model, self.edge_curvature
+        return SolvedCase(m.h, m.b, m.R, self.modulus, m.modulus, self.spherical, edge)
 
     def _sphere(self, a: Array) -> kernels.Sphere:
         """Return force, indentation and slope on a half-space."""
@@ -357,15 +361,10 @@ class ContactLaw:
         return kernels.Sphere(*(np.ones_like(a),) * 3)
 
     def cancellation(self, a: Array) -> Array:
-        """Return the relative rounding error of the slope by cancellation [1].
+        """Return the relative rounding error of the slope by cancellation [1] at radii [m].
 
         Unless all plate effects are included, the contribution of an effect may be computed as that
         of the whole plate minus those of omitted effects, which may be much larger.
-
-        Parameters
-        ----------
-        a
-            A contact radius [m], or a column of them.
         """
         differs = any(effect.difference for effect in self.plate_effects)
         if not differs or self.effects >= WHOLE_PLATE:

@@ -1,7 +1,7 @@
 """Contacts with non-Hertzian pressure, remembered as bounds and motion need the same radii."""
 
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -11,48 +11,73 @@ if TYPE_CHECKING:
     from generated.non_hertzian_pressure import Contact, Plate
 
 
+class SolvedCase(NamedTuple):
+    """What determines the contact of a law at a radius.
+
+    Attributes
+    ----------
+    h, b, R
+        Half the thickness and radius of the plate, and radius of the sphere [m].
+    modulus, plate_modulus
+        E* of the contact and of the plate alone [Pa].
+    sphere
+        Whether the profile is that of a sphere instead of its paraboloid.
+    edge
+        Coefficient of (t^2 + s^2)/h^3 in the kernel by another edge [1].
+    """
+
+    h: float
+    b: float
+    R: float
+    modulus: float
+    plate_modulus: float
+    sphere: bool
+    edge: float
+
+
 @lru_cache(maxsize=16)
-def plate_of(h: float, b: float) -> "Plate":
-    """Return the kernel of a plate with half the thickness h and radius b [m]."""
+def plate_of(h: float, b: float, edge: float) -> "Plate":
+    """Return the kernel of a plate, see `generated.non_hertzian_pressure.plate`."""
     from generated import non_hertzian_pressure
 
-    return non_hertzian_pressure.plate(h, b)
+    return non_hertzian_pressure.plate(h, b, edge)
 
 
-def contact_at(
-    a: Array, h: float, b: float, R: float, modulus: float, own: float, sphere: bool
-) -> "Contact":
+def contact_at(a: Array, case: SolvedCase) -> "Contact":
     """Return the contact at contact radii [m]; see `generated.non_hertzian_pressure.contact`.
 
     Parameters
     ----------
     a
         Contact radii [m], not too small.
-    h, b, R
-        Half the thickness and radius of the plate, and radius of the sphere [m].
-    modulus, own
-        E* of the contact and of the plate alone [Pa].
-    sphere
-        Whether the profile is that of a sphere instead of its paraboloid.
+    case
+        Plate and sphere.
     """
-    return _contact(a.tobytes(), a.shape, h, b, R, modulus, own, sphere)
+    return _contact(a.tobytes(), a.shape, case)
 
 
 @lru_cache(maxsize=16)
-def _contact(
-    radii: bytes,
-    shape: tuple[int, ...],
-    h: float,
-    b: float,
-    R: float,
-    modulus: float,
-    own: float,
-    sphere: bool,
-) -> "Contact":
-    from generated import non_hertzian_pressure
-
+def _contact(radii: bytes, shape: tuple[int, ...], case: SolvedCase) -> "Contact":
     a = np.frombuffer(radii).reshape(shape)
-    solution = non_hertzian_pressure.contact(plate_of(h, b), a, R, modulus, own, sphere=sphere)
+    solution = solved(a, case)
     for values in solution:
         values.setflags(write=False)
     return solution
+
+
+def pressure_at(r: Array, a: float, case: SolvedCase) -> Array:
+    """Return the contact pressure [Pa] at distances r [m] from the axis, 0 <= r <= a."""
+    from generated import non_hertzian_pressure
+
+    h, b, R, modulus, plate_modulus, sphere, edge = case
+    plate = plate_of(h, b, edge)
+    return non_hertzian_pressure.pressure(r, plate, a, R, modulus, plate_modulus, sphere=sphere)
+
+
+def solved(a: Array, case: SolvedCase) -> "Contact":
+    """Solve the integral equation at contact radii [m]."""
+    from generated import non_hertzian_pressure
+
+    h, b, R, modulus, plate_modulus, sphere, edge = case
+    plate = plate_of(h, b, edge)
+    return non_hertzian_pressure.contact(plate, a, R, modulus, plate_modulus, sphere=sphere)

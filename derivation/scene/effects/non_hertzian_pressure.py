@@ -39,21 +39,28 @@ class NonHertzianPressure(Effect):
         return a / (2.0 * model.h)
 
     def bound(self, model: Model, context: BoundContext) -> Bound:
-        """Return 5/3 (down) and 2/3 (up) of theta >= (-(15/2) c_3 + (2/25) eta^3) A^3.
+        """Return 5/3 (down) and 2/3 (up) of theta >= (-(15/2) c_3 + (2/25) eta^3 + |N_s|) A^3.
 
-        -(5/2) c_3 is at most K_3. The bound is proved for a paraboloid; the pressure of a sphere is
-        steeper, and theta is multiplied by its force over that of the paraboloid.
+        -(5/2) c_3 is at most K_3. N_s is the coefficient of another edge; if it is positive, the
+        kernel may have both signs and both factors are 5/2. The bound is proved for a paraboloid;
+        the pressure of a sphere is steeper, and theta is multiplied by its force over that of the
+        paraboloid.
         """
-        a = context.radii
+        a, edge = context.radii, model.edge_curvature
         cubic = (
             3.0 * model.correction.rest
             + kernels.PRESSURE_LATERAL * model.eta * model.eta * model.eta
+            + np.abs(edge)
         )
         A = a / model.h
         theta = cubic * (A * A * A) * context.sphere_force(model.R)
         theta = np.where(np.isnan(theta), np.inf, theta)
         known = (theta <= BOUND_THETA) & (a <= BOUND_A_OVER_B * model.b)
-        low, up = (np.where(known, c * theta, np.inf) for c in (5.0 / 3.0, 2.0 / 3.0))
+        below, above = (
+            np.where(np.asarray(edge) > 0.0, kernels.PRESSURE_EITHER, c)
+            for c in (kernels.PRESSURE_BELOW, kernels.PRESSURE_ABOVE)
+        )
+        low, up = (np.where(known, c * theta, np.inf) for c in (below, above))
         last = np.where(known, theta, np.nan)[..., -1:]
         radius = np.where(np.isnan(last), np.inf, -np.log1p(-last) / 3.0)
         return Bound(low, up, radius=radius)

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from derivation.scene.contact_law.corrections import edge_curvature, stretching
+from derivation.scene.contact_law.corrections import stretching
 from derivation.scene.contact_law.limits import local_indentation
 from derivation.scene.dynamic.edge_remainder import edge_remainders
 from derivation.scene.effects import EFFECTS
@@ -300,9 +300,6 @@ class _Block:
         model_error = np.broadcast_to(stretching(law.model, deflection), a.shape)[:, 0]
         if law.other_edge:
             model_error = edge_remainders(law.model, a)[:, 0] + model_error
-            if scene.accuracy is None or "max_contact_radius" in scene.accuracy.outputs:
-                curvature = edge_curvature(law.model, a, law.softness)
-                model_error = model_error + np.broadcast_to(curvature, a.shape)[:, 0]
         known &= np.isfinite(model_error)
         which = np.flatnonzero(known)
         strength: Array | float | None = scene.plate.tensile_strength

@@ -30,11 +30,12 @@ MAY_PASS: Mapping[str, Mapping[str, tuple[int, str]]] = {
     },
     "contact_thickness": {},
     "edge": {
-        "_inside": (5, DOMAIN),
         **dict.fromkeys(("supported_edge_bound", "clamped_edge_bound"), (1, DOMAIN)),
     },
     "edge_mode_functions": {"grown": (1, "a term that is nothing in the hard cases")},
+    "edge_curvature": {"clamped_edge_curvature": (1, "a contact radius that does not matter")},
     "edge_sums": {
+        "edge_ratios": (1, DOMAIN),
         "_POINTS": (1, SIZE),
         "elastic_ratios": (1, "which of two is the unit"),
         "edge_sums": (2, "where the sum and the closed form both hold"),

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import sympy as sp
 from mpmath import mp
+from scipy.optimize import brentq
 
 from derivation.engine.formula.proof import ProofError
 from derivation.engine.oracle.agreement import RouteError, to_ball
@@ -236,10 +237,12 @@ def test_pressure_integrates_to_the_force_and_vanishes_at_the_edge(a: float, v: 
     assert abs(fit(1.0)) < 1e-9 * got.chi.max()
 
 
+@pytest.mark.parametrize("edge", [0.0, 0.1, -0.2])
 @pytest.mark.parametrize(("a", "v"), CONTACTS)
-def test_work_and_stiffness_are_consistent(a: float, v: float) -> None:
-    """dU = P d delta and dP = K d delta hold along a, also with a compliant support."""
-    of, compliance = plate(1.0, v), 3e-11
+def test_work_and_stiffness_are_consistent(a: float, v: float, edge: float) -> None:
+    """dU = P d delta and dP = K d delta hold along a, also with a compliant support and edge."""
+    of, compliance = plate(1.0, v, edge), 3e-11
+    a = a if np.isfinite(contact(of, a, R, E).force) else 0.8 * a  # a curved plate loses contact
     nodes, weights = np.polynomial.legendre.leggauss(60)
     x, w = a * (1 + nodes) / 2, a * weights / 2
     path = contact(of, x, R, E, compliance=compliance)
@@ -247,6 +250,29 @@ def test_work_and_stiffness_are_consistent(a: float, v: float) -> None:
     assert abs((path.force * path.slope) @ w / end.energy - 1) < 1e-10
     assert abs((path.stiffness * path.slope) @ w / end.force - 1) < 1e-10
     assert abs(path.slope @ w / end.indentation - 1) < 1e-10
+
+
+@pytest.mark.parametrize("modulus_ratio", [1.0, 0.4])
+@pytest.mark.parametrize("v", [100.0, 5.0])
+def test_a_plate_without_stiffness_of_its_own_is_no_hard_case(
+    v: float, modulus_ratio: float
+) -> None:
+    """Without N(0, 0) the flat punch has no stiffness at one radius, near a = h."""
+    of, own = plate(1.0, v), modulus_ratio * E
+
+    def rest(a: float) -> float:
+        whole = 2.0 * own * a / float(contact(of, a, R, own, E).stiffness)
+        return whole - of.first / of.unit * a * modulus_ratio
+
+    a = brentq(rest, 0.5, 3.0, xtol=1e-15)
+    state = pressure_balls.solve(pressure_balls.case(a, 1.0, v, 0, modulus_ratio), 18)
+    got = contact(of, a, R, own, E)
+    values = [
+        got.force * R / (own * a**3), got.indentation * R / a**2, got.stiffness / (own * a),
+        got.slope * R / a, got.centre_pressure * R / (own * a),
+    ]  # fmt: skip
+    exact = [state.force, state.depth, state.stiffness, state.slope, state.centre]
+    np.testing.assert_allclose(values, [float(x) for x in exact], rtol=5e-14)
 
 
 def test_compliance_of_a_support_is_added() -> None:

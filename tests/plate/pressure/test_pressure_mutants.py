@@ -34,6 +34,7 @@ def pressure_cases() -> list[WithinUlp]:
             actual.append(solved(*numbers, compliance))
         actual.append(distribution(*numbers))
     actual += [work(*numbers) for numbers in SOLVED[1:3]]
+    actual += [of_edge(*sizes) for sizes in ((200.0, 0.1), (3.0, -0.3))]
     return [*actual, *refused(), in_other_units(0.5)]
 
 
@@ -113,6 +114,17 @@ def work(a: float, v: float, R: float, modulus_ratio: float, sphere: bool) -> Wi
         return float(width * (path.force * path.slope) @ weights / 2 / end.energy)
 
     return WithinUlp(call, np.asarray(1.0), 1e6)
+
+
+def of_edge(v: float, edge: float) -> WithinUlp:
+    """Return the case that an edge acts like a sphere of the curvature 1/R + kappa P."""
+    kappa = edge / (2.0 * E * H**3)
+
+    def call(m: ModuleType) -> float:
+        plain, held = (m.contact(m.plate(H, v * H, x), 0.8 * H, 1e3, E) for x in (0.0, edge))
+        return float(held.force / plain.force * (1.0 - kappa * 1e3 * plain.force))
+
+    return WithinUlp(call, np.asarray(1.0), 1000.0)
 
 
 def in_other_units(unit: float) -> WithinUlp:

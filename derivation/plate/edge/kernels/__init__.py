@@ -26,4 +26,5 @@ MODULES = (
     ComputedModule("edge_kernels", edge_kernels),
     RuntimeModule("edge_sums", RUNTIME / "edge_sums.py"),
     RuntimeModule("edge", RUNTIME / "edge.py"),
+    RuntimeModule("edge_curvature", RUNTIME / "edge_curvature.py"),
 )

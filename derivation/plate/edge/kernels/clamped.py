@@ -1,4 +1,4 @@
-"""A clamped edge: its change of the law and of the slope, and the bound of this change."""
+"""A clamped edge: its change of the law, of the slope and of the kernel, and a bound."""
 
 from functools import partial
 
@@ -14,11 +14,12 @@ from derivation.plate.edge.theory.clamped import (
     indentation_loss,
     turn,
 )
+from derivation.plate.edge.theory.curvature import N_s, edge_curvature, law_of_square
 from derivation.plate.edge.theory.supported import RATIO
-from derivation.plate.vocabulary import Formula, alpha, eta
+from derivation.plate.vocabulary import Formula, a_ratio, alpha, eta
 
-chi, loss, inverse, wide, bending, thinning, scale = sp.symbols(
-    "chi loss inverse wide bending thinning scale", real=True
+chi, loss, inverse, wide, bending, thinning, scale, cubic = sp.symbols(
+    "chi loss inverse wide bending thinning scale cubic", real=True
 )
 PUNCH_MEAN = sp.Rational(2, 3)
 """Mean of r^2/a^2 under a flat punch, which is the load in the slope."""
@@ -115,10 +116,44 @@ def bound() -> Routine:
     )
 
 
+def curvature() -> Routine:
+    """Return the term of the kernel of the integral equation."""
+    return routine(
+        "kernel_of_clamp",
+        (eta, n),
+        (
+            Several((loss,), "indentation_loss", (eta, n), (indentation_loss() / eta,)),
+            Several((chi,), "turn_of_clamp", (n,), (turn(),)),
+            Let(scale, sp.Rational(3, 8) / sp.pi),
+        ),
+        (scale * (1 + (2 * chi - loss) * eta),),
+        (edge_curvature()[1].expression,),
+        "Return the coefficient of (t^2 + s^2)/h^3 in the kernel by a clamped edge.",
+        MEANING,
+        in_ratio,
+    )
+
+
+def of_square() -> Routine:
+    """Return the contributions of the kernel's term to the law with Hertz pressure."""
+    depth, slope = law_of_square()
+    return routine(
+        "law_of_square",
+        (N_s, a_ratio),
+        (Let(cubic, N_s * a_ratio**3),),
+        (2 * cubic / 15, cubic / 3),
+        (depth, slope),
+        "Return the contributions to delta R/a^2 and to S of N_s (t^2 + s^2)/h^3 in the kernel.",
+        {},
+    )
+
+
 ROUTINES = (
     rotation,
     depth,
     partial(law, "of_clamp", 0, HERTZ_MEAN, sp.Integer(1)),
     partial(law, "slope_of_clamp", 1, PUNCH_MEAN, sp.Rational(3, 2)),
     bound,
+    curvature,
+    of_square,
 )

@@ -23,6 +23,7 @@ from derivation.engine.rewrite.series import truncated_taylor
 from derivation.engine.rewrite.terms import terms_of
 from derivation.plate.blocks import blocks
 from derivation.plate.edge.kernels.tables import SWITCH
+from derivation.plate.edge.theory.curvature import edge_curvature
 from derivation.plate.edge.theory.sums import (
     Kernel,
     closed_sums,
@@ -298,6 +299,20 @@ def of_bound() -> Routine:
     )
 
 
+def of_curvature() -> Routine:
+    """Return the term of the kernel of the integral equation, from the sum for a point load."""
+    return routine(
+        "kernel_of_support",
+        (support, bending_part),
+        (),
+        (-3 / sp.pi * support * bending_part,),
+        (edge_curvature()[0].expression,),
+        "Return the coefficient of (t^2 + s^2)/h^3 in the kernel by a simple support.",
+        {name: sp.limit(value, alpha, 0) for name, value in one_mode(indentation_kernel).items()},
+        in_ratio,
+    )
+
+
 ROUTINES = (
     of_material,
     of_indentation,
@@ -308,4 +323,5 @@ ROUTINES = (
     all_modes,
     of_law,
     of_bound,
+    of_curvature,
 )

@@ -60,6 +60,16 @@ def clamp_part(
     ]
 
 
+def curvature(h: Exact, b: Exact, lam: Exact, mu: Exact, digits: int = 30) -> arb:
+    """Return the coefficient of (t^2 + s^2)/h^3 in the kernel of the integral equation."""
+    eta, n = ratio_of(h, b), Fraction(lam) / (Fraction(lam) + 2 * Fraction(mu))
+    chi, level = constants(n)
+    total = Fraction(3, 8) * (1 - 2 * n * eta**2 * (1 - 2 * level) + 2 * chi * eta)
+    return refine_to_digits(
+        lambda _: (to_ball(total) / arb.pi(),), digits, "the clamp's curvature"
+    )[0]
+
+
 def back_face_clamp(
     a: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact
 ) -> tuple[Fraction, Fraction]:

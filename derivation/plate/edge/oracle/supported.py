@@ -48,6 +48,9 @@ KERNELS = {
         lambda y: 3 * y.sinh() / (2 * y),
         lambda m: flint.fmpq(3, 2 * math.factorial(2 * m + 1)),
     ),
+    "point load": EdgeKernel(
+        lambda _: arb(1), lambda _: acb(1), lambda m: flint.fmpq(int(m == 0), 1)
+    ),
 }
 """Weight functions by kind; `power(m)` is the coefficient of y^(2m) in k(iy)."""
 
@@ -83,6 +86,17 @@ def edge_part(
         return (alpha / arb.pi() * total,)
 
     return refine_to_digits(compute, digits, f"the edge's {kind} at a/b = {float(width)}")[0]
+
+
+def curvature(h: Exact, b: Exact, lam: Exact, mu: Exact, digits: int = 30) -> arb:
+    """Return the coefficient of (t^2 + s^2)/h^3 in the kernel of the integral equation."""
+    eta, n = ratio_of(h, b), Fraction(lam) / (Fraction(lam) + 2 * Fraction(mu))
+
+    def compute(bits: int) -> tuple[arb]:
+        bent, _ = sums("point load", Fraction(0), eta, n, bits)
+        return (-3 * to_ball(support_ratio(lam, mu)) / arb.pi() * bent,)
+
+    return refine_to_digits(compute, digits, f"a support's curvature at h/b = {float(eta)}")[0]
 
 
 def support_ratio(lam: Exact, mu: Exact) -> Fraction:

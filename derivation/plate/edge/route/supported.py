@@ -45,11 +45,6 @@ def edge_part(kind: str, a: float, h: float, b: float, nu: float, digits: int = 
         n = mpf(nu) / (1 - mpf(nu))
         kernel = KERNELS[kind]
 
-        def bent(z: mpc) -> mpc:
-            T = 2 * eta * z
-            Q = T * (mp.cosh(T) - 1) / (mp.sinh(T) - T)
-            return kernel(alpha * z) * (1 + 3 * n - n * Q) / mp.besselj(0, z)
-
         def stretched(z: mpc) -> mpc:
             T = 2 * eta * z
             return kernel(alpha * z) * (mp.cosh(T) - 1) / (mp.sinh(T) + T) / mp.besselj(0, z)
@@ -59,18 +54,40 @@ def edge_part(kind: str, a: float, h: float, b: float, nu: float, digits: int = 
         # Near 0, four powers of T and three of alpha z cancel in the samples.
         lost = -4 * mp.log10(2 * eta * radius) - 3 * mp.log10(alpha * radius)
         with mp.workdps(mp.dps + 10 + max(0, int(lost))):
-            first = _coefficient(bent, 2, radius, digits + 10) / 2
+            first = _bending(lambda z: kernel(alpha * z), eta, n, digits)
             second = _coefficient(stretched, 1, radius, digits + 10) / 2
 
         def wave(T: mpc) -> mpc:
             z = T / (2 * eta)
             return kernel(alpha * z) / (z**2 * mp.besselj(0, z))
 
-        even = _roots(0, lambda T: -n * wave(T), eta)
-        odd = _roots(1, lambda T: _odd(T) * wave(T), eta)
-        first, second = first + even, second + odd / (2 * eta)
+        second += _roots(1, lambda T: _odd(T) * wave(T), eta) / (2 * eta)
         total = (1 - 2 * n * eta**2) / eta**3 * first + mpf(8) / 3 * n**2 * second
         return +(alpha / mp.pi * total)
+
+
+def curvature(h: float, b: float, nu: float, digits: int = 30) -> mpf:
+    """Return the coefficient of (t^2 + s^2)/h^3 in the kernel of the integral equation."""
+    with mp.workdps(digits + 25):
+        eta, n = mpf(h) / mpf(b), mpf(nu) / (1 - mpf(nu))
+        ratio = (1 - mpf(nu)) / (1 + mpf(nu))
+        return +(-3 / mp.pi * ratio * _bending(lambda _: mpf(1), eta, n, digits))
+
+
+def _bending(kernel: Callable[[mpc], mpc], eta: mpf, n: mpf, digits: int) -> mpf:
+    """Return the sum of bending over the modes, for a weight function of z = j."""
+
+    def bent(z: mpc) -> mpc:
+        T = 2 * eta * z
+        Q = T * (mp.cosh(T) - 1) / (mp.sinh(T) - T)
+        return kernel(z) * (1 + 3 * n - n * Q) / mp.besselj(0, z)
+
+    def residue(T: mpc) -> mpc:
+        z = T / (2 * eta)
+        return -n * kernel(z) / (z**2 * mp.besselj(0, z))
+
+    radius = min(mpf(1), 1 / eta)  # as in `edge_part`
+    return _coefficient(bent, 2, radius, digits + 10) / 2 + _roots(0, residue, eta)
 
 
 def _odd(T: mpc) -> mpc:

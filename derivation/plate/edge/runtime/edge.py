@@ -26,7 +26,7 @@ plane has w = n G h^2 (kappa_r + kappa_t). chi and G were computed for a strip a
 
 In the slope, 2/3 replaces 2/5, and everything is multiplied by 3/2.
 
-Arithmetic: quotients of the arguments, and limits of their domain.
+Arithmetic: none.
 """
 
 from __future__ import annotations
@@ -35,10 +35,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from generated import edge_kernels as kernels
-from generated.arrays import Double, as_doubles, as_result, in_manifest, inside, quiet
-from generated.contact_series import THICKEST, THINNEST
+from generated.arrays import as_result, in_manifest, quiet
 from generated.edge_numbers import WIDEST
-from generated.edge_sums import INDENTATION, SLOPE, SummedKernel, edge_sums, elastic_ratios
+from generated.edge_sums import INDENTATION, SLOPE, SummedKernel, edge_ratios, edge_sums
 
 
 @in_manifest(
@@ -126,7 +125,7 @@ def clamped_edge(
     >>> print(f"{clamped_edge(1e-4, 0.004, 0.15, 22.5e9, 28.7e9):.6g}")
     -1.39871
     """
-    kind, alpha, eta, n, _ = _inside(a, h, b, lam, mu, WIDEST)
+    kind, alpha, eta, n, _ = edge_ratios(a, h, b, lam, mu, WIDEST)
     return as_result(kernels.of_clamp(alpha, eta, n), kind)
 
 
@@ -215,7 +214,7 @@ def clamped_edge_slope(
     >>> print(f"{clamped_edge_slope(1e-4, 0.004, 0.15, 22.5e9, 28.7e9):.6g}")
     -2.09806
     """
-    kind, alpha, eta, n, _ = _inside(a, h, b, lam, mu, WIDEST)
+    kind, alpha, eta, n, _ = edge_ratios(a, h, b, lam, mu, WIDEST)
     return as_result(kernels.slope_of_clamp(alpha, eta, n), kind)
 
 
@@ -260,7 +259,7 @@ def supported_edge_bound(
     >>> print(f"{supported_edge_bound(1e-4, 0.004, 0.15, 22.5e9, 28.7e9):.6g}")
     1.45912
     """
-    kind, *plate = _inside(a, h, b, lam, mu, 1.0)
+    kind, *plate = edge_ratios(a, h, b, lam, mu, 1.0)
     return as_result(kernels.support_bound(*plate), kind)
 
 
@@ -305,27 +304,14 @@ def clamped_edge_bound(
     >>> print(f"{clamped_edge_bound(1e-4, 0.004, 0.15, 22.5e9, 28.7e9):.6g}")
     2.09807
     """
-    kind, alpha, eta, n, _ = _inside(a, h, b, lam, mu, 1.0)
+    kind, alpha, eta, n, _ = edge_ratios(a, h, b, lam, mu, 1.0)
     return as_result(kernels.clamp_bound(alpha, eta, n), kind)
-
-
-def _inside(
-    a: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike, widest: float
-) -> tuple[np.dtype, Double, Double, Double, Double]:
-    """Return the result's type, alpha, eta, n and (1 - nu)/(1 + nu); NaN outside the domain."""
-    kind, [a, h, b, lam, mu] = as_doubles(a, h, b, lam, mu)
-    [a] = inside([a], a >= 0, a <= widest * b, b > 0)
-    [h, b] = inside([h, b], h > 0, b > 0)
-    [lam, mu] = inside([lam, mu], 3.0 * lam > -2.0 * mu, mu > 0)
-    eta = h / b
-    [eta] = inside([eta], eta >= THINNEST, eta <= THICKEST)
-    return kind, a / b, eta, *elastic_ratios(lam, mu)
 
 
 def _supported(
     a: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike, kernel: SummedKernel
 ) -> np.ndarray:
     """Return the correction for a simple support from the sums of the kernel."""
-    kind, alpha, eta, n, support = _inside(a, h, b, lam, mu, WIDEST)
+    kind, alpha, eta, n, support = edge_ratios(a, h, b, lam, mu, WIDEST)
     sums = edge_sums(alpha, eta, n, kernel)
     return as_result(kernels.of_support(alpha, eta, n, support, *sums), kind)

@@ -5,19 +5,22 @@ With n = nu/(1 - nu), T = 2 eta j and k the weight function of the indentation o
     sum k (1 + 3 n - n Q)/(j^3 J1),   Q = T (cosh T - 1)/(sinh T - T)
     sum k H/(j^2 J1),                 H = (cosh T - 1)/(sinh T + T)
 
-Arithmetic: quotients of the arguments; the number of modes summed; the variable of the tables.
+Arithmetic: quotients of the arguments, and limits of their domain; the number of modes summed; the
+variable of the tables.
 """
 
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from generated import edge_kernels as kernels
 from generated import edge_numbers as numbers
-from generated.arrays import Double
+from generated.arrays import Double, as_doubles, inside
 from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
 from generated.blocks import polynomial
+from generated.contact_series import THICKEST, THINNEST
 
 _POINTS = 128  # number of points in one block of the sum
 _MODES = 16  # the number of modes is a multiple of it
@@ -57,6 +60,19 @@ def elastic_ratios(lam: Double, mu: Double) -> tuple[Double, Double]:
     """Return n and (1 - nu)/(1 + nu), with lam and mu scaled to avoid overflow and underflow."""
     most = np.maximum(lam, mu)
     return kernels.elastic_ratios(lam / most, mu / most)
+
+
+def edge_ratios(
+    a: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike, widest: float
+) -> tuple[np.dtype, Double, Double, Double, Double]:
+    """Return the result's type, alpha, eta, n and (1 - nu)/(1 + nu); NaN outside the domain."""
+    kind, [a, h, b, lam, mu] = as_doubles(a, h, b, lam, mu)
+    [a] = inside([a], a >= 0, a <= widest * b, b > 0)
+    [h, b] = inside([h, b], h > 0, b > 0)
+    [lam, mu] = inside([lam, mu], 3.0 * lam > -2.0 * mu, mu > 0)
+    eta = h / b
+    [eta] = inside([eta], eta >= THINNEST, eta <= THICKEST)
+    return kind, a / b, eta, *elastic_ratios(lam, mu)
 
 
 def edge_sums(alpha: Double, eta: Double, n: Double, kernel: SummedKernel) -> tuple[Double, Double]:

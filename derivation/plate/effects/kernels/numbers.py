@@ -25,7 +25,7 @@ from derivation.plate.contact.theory.split import zero_of_j0
 from derivation.plate.effects.theory import lateral_growth_ball
 from derivation.plate.impact.kernels.simple import above
 from derivation.plate.impact.theory.substitution import lateral_rest_ball
-from derivation.plate.pressure.theory.bound import LATERAL_EXTRA
+from derivation.plate.pressure.theory.bound import ABOVE, BELOW, EITHER, LATERAL_EXTRA
 from derivation.plate.vocabulary import j_n, lam, mu
 from derivation.plate.waves.theory.plate_motion import plate_motion
 
@@ -68,6 +68,14 @@ def effect_numbers() -> Numbers:
                 float(LATERAL_EXTRA),
                 "Contribution of the finite radius to theta/(a/b)^3, in the bound for Hertz "
                 "pressure.",
+            ),
+            *(
+                Constant(f"PRESSURE_{name}", float(x), text)
+                for name, x, text in (
+                    ("BELOW", BELOW, "Largest decrease of S by non-Hertzian pressure over theta."),
+                    ("ABOVE", ABOVE, "Largest increase of S by non-Hertzian pressure over theta."),
+                    ("EITHER", EITHER, "Both, where the kernel may have either sign."),
+                )
             ),
             Constant(
                 "LATERAL_GROWTH",

@@ -116,7 +116,7 @@ modulus, plate_modulus, compliance = sp.symbols("modulus plate_modulus complianc
 first, per = sp.symbols("first per", positive=True)
 GIVEN = a, R, modulus, plate_modulus, compliance, first, per
 SOLVED = (
-    theory.force, theory.depth, theory.work, theory.flat, theory.edge, theory.bend, theory.centre,
+    theory.force, theory.depth, theory.work, theory.firm, theory.rim, theory.bend, theory.centre,
 )  # fmt: skip
 MEANING = {
     modulus: theory.E,
@@ -149,8 +149,8 @@ def contact_results() -> Claims:
         (
             pressed * theory.force,
             deep * (theory.depth + theory.force * series),
-            stiff / (1 / theory.flat + series),
-            ratio * theory.bend / theory.edge * (1 + theory.flat * series),
+            stiff / (theory.firm + series),
+            ratio * theory.bend / theory.rim * (theory.firm + series),
             pressed * deep * (theory.work + theory.force**2 * series) / 2,
             peak * theory.centre,
             2 * peak * theory.force,

@@ -14,7 +14,8 @@ polynomials of `contact_series`. N is a sum of cosines; with C = 1 - cos::
 For a thick plate the sum covers its modes, w = j_n/b, and the lateral surface, w = i y/b with
 nu < 0. For a thin plate it covers the nodes of an integral, and a multiple of t^2 + s^2 is added.
 N(0, 0), large in a thin plate, is separated: it adds N(0, 0) P/(2 E*) to the indentation. The term
-t^2 + s^2 acts like additional curvature, so that the pressure's shape depends on a/h alone.
+t^2 + s^2 acts like additional curvature, so that the pressure's shape depends on a/h alone. Another
+edge adds such a term (`edge_curvature`).
 
 Arithmetic: the equation's matrix as products of the kernel's cosines, sums by Gauss quadrature,
 and the conversion of lengths to units of h or b.
@@ -49,6 +50,7 @@ from generated.pressure_numbers import (
 
 _POINTS = np.append(NODES, 1.0)
 _BLOCK = 8  # number of contacts in one block, so that intermediate arrays fit in the cache
+_BORDER = (0, 0), (0, 1), (0, 1)  # of matrices, by one row and one column
 
 
 class Plate(NamedTuple):
@@ -141,12 +143,12 @@ class _Solution(NamedTuple):
     force: Double  # int_0^1 chi dx
     depth: Double  # delta without the contribution of N(0, 0)
     work: Double  # int_0^1 chi (depth - f) dx
-    flat: Double  # int_0^1 psi dx of the flat punch
-    edge: Double  # psi at x = 1
+    firm: Double  # depth of a flat punch with int_0^1 psi dx = 1
+    rim: Double  # its psi at x = 1
     bends: Double  # -chi'(x)/x at the nodes and at x = 1
 
 
-def plate(h: float, b: float) -> Plate:
+def plate(h: float, b: float, edge: float = 0.0) -> Plate:
     """Compute the kernel of a plate, which all its contacts share.
 
     Parameters
@@ -155,6 +157,8 @@ def plate(h: float, b: float) -> Plate:
         half the plate's thickness [m]; h > 0
     b : float
         plate radius [m]; b > 0, 1e-90 <= h/b <= 1e90
+    edge : float
+        coefficient of (t^2 + s^2)/h^3 by another edge [1], see `edge_curvature`
 
     Returns
     -------
@@ -177,13 +181,14 @@ def plate(h: float, b: float) -> Plate:
     if eta * THIN < 1.0:
         _, cubic = _bending(np.array(1.0 / eta))
         # k h = 3/2 c_1 + 15/2 c_3 A^2 + the integral of cos - 1 + (A T/2)^2/2.
-        square = CUBIC * float(cubic) + SQUARE
+        square = CUBIC * float(cubic) + SQUARE + edge
         none = np.zeros(0)
         return Plate(h, b, h, first, square, WAVES, WAVE_WEIGHTS, none, none)
     count = int(FADED / (2.0 * np.pi * eta)) + 2
     zeros, weights = _weights(np.asarray(eta), count)
     modes = MODES * weights
-    return Plate(h, b, b, first / eta, 0.0, zeros, modes, LATERAL, LATERAL_WEIGHTS)
+    square = edge / (eta * eta * eta)
+    return Plate(h, b, b, first / eta, square, zeros, modes, LATERAL, LATERAL_WEIGHTS)
 
 
 @quiet
@@ -226,13 +231,9 @@ def contact(
     -------
     Contact
         Its arrays have the arguments' broadcast shape. NaN outside the domain, and where contact
-        would be lost at the centre, which happens near a = 6 h in a thin plate.
-
-    Notes
-    -----
-    Relative errors are below `pressure_numbers.ERROR`, as measured against a reference solution for
-    h/b from 1e-4 to 1e5: 1e-15 up to a = h, and 7e-14 near a = 6 h, where the pressure at the
-    centre almost vanishes.
+        would be lost at the centre, which happens near a = 6 h in a thin plate. Relative errors are
+        below `pressure_numbers.ERROR`, as measured for h/b from 1e-4 to 1e5: 1e-15 up to a = h, and
+        7e-14 near a = 6 h, where the pressure at the centre almost vanishes.
 
     Examples
     --------
@@ -264,16 +265,15 @@ def _contact(plate: Plate, solution: _Solution, given: tuple[Double, ...]) -> Co
     """Convert from units of the half-space to those of the arguments."""
     a, R, modulus, own_modulus, compliance = given
     centre = solution.bends[..., :-1] @ WEIGHTS
-    edge, bend = solution.edge, solution.bends[..., -1]
+    bend = solution.bends[..., -1]
     values = kernels.contact_results(
         a, R, modulus, own_modulus, compliance, np.asarray(plate.first), np.asarray(plate.unit),
-        solution.force, solution.depth, solution.work, solution.flat, edge, bend, centre,
+        *solution[1:6], bend, centre,
     )  # fmt: skip
     chi = solution.chi * kernels.chi_unit(a, R, modulus)[..., None]
     closed = values[5] > 0
     arrays = [np.where(closed, x, np.nan) for x in (a, *values)]
-    nodes = a[..., None] * NODES
-    wide = [np.where(closed[..., None], x, np.nan) for x in (nodes, chi)]
+    wide = [np.where(closed[..., None], x, np.nan) for x in (a[..., None] * NODES, chi)]
     return Contact(*arrays, *wide)
 
 
@@ -292,7 +292,11 @@ def _waves(plate: Plate, a: Double, x: Double, modulus_ratio: Double) -> _Waves:
 
 
 def _solve(plate: Plate, a: Double, R: Double, modulus_ratio: Double, sphere: bool) -> _Solution:
-    """Return chi at the nodes by Nystroem's method; `modulus_ratio` is E* over the plate's."""
+    """Return chi at the nodes by Nystroem's method; `modulus_ratio` is E* over the plate's.
+
+    The unknowns are chi and the depth, at a given force, which is 0 for the profile and 1 for the
+    flat punch: at a given depth the equation without N(0, 0) is singular at some radius.
+    """
     x = np.broadcast_to(_POINTS, (a.size, _POINTS.size))
     waves = _waves(plate, a, x, modulus_ratio)
     square = plate.square * (a / plate.unit) ** 3 * modulus_ratio
@@ -301,18 +305,20 @@ def _solve(plate: Plate, a: Double, R: Double, modulus_ratio: Double, sphere: bo
     kernel = weighted @ np.swapaxes(waves.rises[:, :-1], 1, 2)
     kernel -= alone[:, :, None] + alone[:, None, :-1]
     kernel = np.where(np.isfinite(kernel), kernel, 0.0)
-    system = np.eye(NODES.size) + kernel[:, :-1] * WEIGHTS
+    system = np.pad(np.eye(NODES.size) + kernel[:, :-1] * WEIGHTS, _BORDER, constant_values=-1.0)
+    system[:, -1] = np.append(WEIGHTS, 0.0)
     profile, bend = _profile(x, (a / R)[:, None], sphere)
-    sides = np.stack((np.ones_like(profile), profile), axis=2)
-    inner = np.linalg.solve(system, sides[:, :-1])
-    ends = sides[:, -1] - (kernel[:, -1:] * WEIGHTS @ inner)[:, 0]
-    psi, omega = inner[:, :, 0], inner[:, :, 1]
-    depth = ends[:, 1] / ends[:, 0]
-    chi = depth[:, None] * psi - omega
-    force = chi @ WEIGHTS
+    sides = np.stack((-profile, np.zeros_like(profile)), axis=2)
+    sides[:, -1] = 0.0, 1.0
+    parts: Double = np.linalg.solve(system, sides)
+    depths: Double = parts[:, -1]
+    ends = depths - (kernel[:, -1:] * WEIGHTS @ parts[:, :-1])[:, 0]
+    force = (profile[:, -1] - ends[:, 0]) / ends[:, 1]
+    chi: Double = parts[:, :-1, 0] + force[:, None] * parts[:, :-1, 1]
+    depth = depths[:, 0] + force * depths[:, 1]
     work = (chi * (depth[:, None] - profile[:, :-1])) @ WEIGHTS
     bends = bend - _bends(waves, _transform(waves, chi)) + 2.0 * (square * force)[:, None]
-    return _Solution(chi, force, depth, work, psi @ WEIGHTS, ends[:, 0], bends)
+    return _Solution(chi, force, depth, work, depths[:, 1], ends[:, 1], bends)
 
 
 def _profile(x: Double, c: Double, sphere: bool) -> tuple[Double, Double]:

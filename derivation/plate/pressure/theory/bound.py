@@ -23,6 +23,15 @@ Neumann's series positive, and 1 <= I = int psi dx <= 1 + (2 tau/3)/(1 - 4 tau/3
 
 so that S_T - S_H is at least (1 - theta)^(1/3)/(1 + 5 theta/4) - 1 >= -(5/3) theta and at most
 (1 + theta)^(1/3) - 1 + theta/3 <= (2/3) theta. Integrated, delta moves by (2/3) theta a_H^2/R.
+
+Another edge adds N_s (t^2 + s^2)/h^3 to the kernel. A simple support has N_s < 0, and the argument
+holds with |N_s| a^3/h^3 in tau. With a clamped edge M may have either sign, |M| <= tau (x^2 + s^2).
+The estimate of z holds; now |psi - 1| <= (4 tau/3)/(1 - 4 tau/3), |I - 1| is within the same
+(2 tau/3)/(1 - 4 tau/3) <= tau, and int M(x, 0) dx within tau/3, so that S_T - S_H is at most
+
+    (1 + theta/3)/(1 - 5 theta/4) - 1 + theta/3 <= (5/2) theta
+
+upwards, and less downwards: -(5/3) theta - theta/3.
 """
 
 from functools import cache
@@ -48,6 +57,8 @@ LARGEST = sp.Rational(1, 5)
 """Largest theta."""
 BELOW, ABOVE, DEPTH = sp.Rational(5, 3), sp.Rational(2, 3), sp.Rational(2, 3)
 """Factors of theta in the bounds: of S downwards, of S upwards, of delta R/a^2."""
+EITHER = sp.Rational(5, 2)
+"""Factor of theta in the bound of S, both ways, if M has either sign."""
 
 _x, _s, _y = sp.symbols("x s y", positive=True)
 _tau, _theta = sp.symbols("tau theta", positive=True)
@@ -114,6 +125,7 @@ def estimates() -> Proof:
     modes = 2 / sp.pi * excess / (j_n * J1**2) * j_n**2 * eta**3
     side = 2 / sp.pi**2 * kappa[2] * eta**3
     lower = 1 - 5 * _theta / 12
+    either = (1 + _theta / 3) / (1 - 5 * _theta / 4)
     E = sp.Symbol("E", positive=True)
     force_rise = sp.diff(contact_radius().expression, a) * E / reduced_modulus()
     return prove(
@@ -144,6 +156,8 @@ def estimates() -> Proof:
             "upwards": sp.diff((1 + _theta) ** sp.Rational(1, 3), _theta).subs(_theta, 0)
             + sp.Rational(1, 3)
             - ABOVE,
+            "either sign": sp.cancel(EITHER * _theta - (either - 1 + _theta / 3))
+            - sp.cancel(_theta * (14 - 65 * _theta) / 24 / (1 - 5 * _theta / 4)),
             "S_T": R / (2 * a) * force_rise / (2 * E) - a,
             "indentation": 2 / R * sp.integrate(BELOW * _s * (_s / a) ** 3, (_s, 0, a))
             - DEPTH * a**2 / R,

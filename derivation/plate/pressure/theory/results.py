@@ -4,6 +4,10 @@ With x = t/a, chi = (E*/pi) (a^2/R) c(x) and f = (a^2/R) g(x). The constant N_0 
 compliance in series with the rest, and so is that of the support: both are omitted from the
 equation for c, and for psi of the flat punch. chi gives the elastic energy: because I + N is
 symmetric, dU/da = P d delta/da for U = pi int chi (delta - f) dt.
+
+Without N_0 there is a radius at which I + N is singular: the rest of a flexible plate alone has no
+stiffness there. At a given force it is always regular: c is solved for int c = 0, with an unknown
+depth, and the flat punch for int psi = 1, where (I + N) psi = firm. Their sum has c(1) = 0.
 """
 
 from functools import cache
@@ -15,9 +19,9 @@ from derivation.engine.formula.proof import Proof, prove
 from derivation.plate.vocabulary import R, a, r
 
 E, N_0, support = sp.symbols("E N_0 support", positive=True)
-force, depth, work, flat = sp.symbols("force depth work flat", positive=True)
-edge, bend, centre = sp.symbols("edge bend centre", positive=True)
-"""int c, delta R/a^2, int c (depth - g), int psi, psi(1), -c'(1), int -c'/x."""
+force, depth, work, firm = sp.symbols("force depth work firm", positive=True)
+rim, bend, centre = sp.symbols("rim bend centre", positive=True)
+"""int c, delta R/a^2, int c (depth - g), (I + N) psi, psi(1), -c'(1), int -c'/x; int psi = 1."""
 _t, _u, _x = sp.symbols("t u x", positive=True)
 _c, _g = sp.Function("c"), sp.Function("g")
 
@@ -44,8 +48,8 @@ def results() -> Results:
     formulas = (
         load,
         a**2 / R * (depth + series * force),
-        2 * E * a / (1 / flat + series),
-        a / R * bend / edge * (1 + flat * series),
+        2 * E * a / (firm + series),
+        a / R * bend / rim * (firm + series),
         E * a**5 / R**2 * (work + series * force**2),
         E * a / (sp.pi * R) * centre,
         load / (sp.pi * a**2),
@@ -58,7 +62,9 @@ def _proof(
     peak: sp.Expr, mean: sp.Expr, unit: sp.Expr,
 ) -> Proof:  # fmt: skip
     chi = unit * _c(_t / a)
-    # int psi of the whole kernel, and psi at the end, in terms of those of the remaining kernel.
+    # The flat punch of unit depth: int psi and psi at the end, of the remaining and of the whole
+    # kernel.
+    flat, edge = 1 / firm, rim / firm
     whole = a * flat / (1 + N_0 * a * flat)
     last = edge * (1 - N_0 * whole)
     end = sp.diff(chi, _t).subs(_t, a * _x).doit().subs({sp.diff(_c(_x), _x): -bend, _x: 1})

@@ -1,0 +1,132 @@
+"""Curvature under the contact by a simply supported or clamped edge."""
+
+import itertools
+import math
+
+import numpy as np
+import platecontact as pc
+import pytest
+from mpmath import mp
+
+from derivation.plate.edge.oracle import clamped as clamp_balls
+from derivation.plate.edge.oracle import supported as support_balls
+from derivation.plate.edge.remainder import MESHES, RADIUS, Field, RemainderCase
+from derivation.plate.edge.route import clamped as clamp_route
+from derivation.plate.edge.route import supported as support_route
+from derivation.scene.indentation import StaticContact
+from generated import non_hertzian_pressure as solver
+from generated.contact_law import force_of_radius
+from generated.edge_curvature import clamped_edge_curvature, supported_edge_curvature
+
+CURVATURES = {"clamped": clamped_edge_curvature, "supported": supported_edge_curvature}
+SIZES = (0.02, 0.05, 0.13, 0.4, 1.0, 5.0)
+POISSON = (-0.5, 0.0, 0.25, 0.375)
+
+
+def lame(nu: float) -> float:
+    """Return the first Lame constant for a second one of 1."""
+    return 2.0 * nu / (1.0 - 2.0 * nu)
+
+
+@pytest.mark.parametrize(("h", "nu"), list(itertools.product(SIZES, POISSON)))
+def test_simple_support_equals_both_references(h: float, nu: float) -> None:
+    ball = support_balls.curvature(h, 1.0, lame(nu), 1.0, 20)
+    assert float(support_route.curvature(h, 1.0, nu, 18)) == pytest.approx(float(ball), rel=1e-15)
+    got = float(supported_edge_curvature(h, 1.0, lame(nu), 1.0))
+    assert got == pytest.approx(float(ball), rel=4e-15, abs=1e-16)
+
+
+@pytest.mark.parametrize(("h", "nu"), list(itertools.product(SIZES, POISSON)))
+def test_clamp_is_the_curvature_of_the_slope(h: float, nu: float) -> None:
+    """In S/alpha of the second route, which integrates the pressure, alpha^2 has this factor."""
+    ball = clamp_balls.curvature(h, 1.0, lame(nu), 1.0, 20)
+    widths = [0.25, 0.5]
+    with mp.workdps(40):
+        low, high = (clamp_route.clamp_part("slope", a, h, 1.0, nu, 30) / a for a in widths)
+        second = (high - low) / (widths[1] ** 2 - widths[0] ** 2)
+        assert float(-3 * mp.mpf(h) ** 3 * second) == pytest.approx(float(ball), rel=1e-12)
+    got = float(clamped_edge_curvature(h, 1.0, lame(nu), 1.0))
+    assert got == pytest.approx(float(ball), rel=4e-15, abs=1e-16)
+
+
+@pytest.mark.parametrize("support", CURVATURES)
+@pytest.mark.parametrize(("h", "agreement"), [(0.05, 0.004), (0.2, 0.01), (0.3, 0.02), (0.5, 0.05)])
+@pytest.mark.parametrize("nu", [0.0, 0.3, 0.45])
+def test_finite_elements_have_the_same_curvature(
+    support: str, h: float, agreement: float, nu: float
+) -> None:
+    """The edge's field in three-dimensional elasticity, with all its tractions."""
+    case, a = RemainderCase(support, h, nu), 0.01
+    r, added = Field(case, MESHES[1]).face(a)
+    near = r <= 0.4
+    powers = np.vander(r[near] ** 2, 4, increasing=True)
+    curvature = 2.0 * np.linalg.lstsq(powers, added[near])[0][1]
+    modulus = 2.0 / (1.0 - nu)
+    expected = 2.0 * modulus * h**3 * curvature / float(force_of_radius(a, RADIUS, case.lam, 1.0))
+    assert float(CURVATURES[support](h, 1.0, case.lam, 1.0)) == pytest.approx(
+        expected, rel=agreement
+    )
+
+
+@pytest.mark.parametrize("h", [0.01, 0.3])
+@pytest.mark.parametrize("edge", [0.1, -0.06])
+@pytest.mark.parametrize("part", [1.0, 0.4])
+def test_an_edge_acts_like_another_sphere(h: float, edge: float, part: float) -> None:
+    """A paraboloid meets the profile 1/R + kappa P, at the same contact radius."""
+    R = 5.0
+    a = np.linspace(0.2, 1.0, 801) * min(2.0 * h, 0.5)
+    plain, held = (solver.contact(solver.plate(h, 1.0, x), a, R, part, 1.0) for x in (0.0, edge))
+    factor = 1.0 / (1.0 - edge / (2.0 * h**3) * R * plain.force)
+    np.testing.assert_allclose(held.force, factor * plain.force, rtol=1e-13)
+    np.testing.assert_allclose(held.centre_pressure, factor * plain.centre_pressure, rtol=1e-12)
+    pressures = (
+        solver.pressure(0.5 * a[400], solver.plate(h, 1.0, x), a[400], R, part, 1.0)
+        for x in (0.0, edge)
+    )
+    alone, with_edge = pressures
+    assert with_edge / alone == pytest.approx(factor[400], rel=1e-12)
+
+
+def contacts(radius: float, edge: str, nu: float, spherical: bool) -> list[StaticContact]:
+    """Return contacts from a tenth to 3/2 of the thickness of 4 mm on a plate."""
+    effects = pc.Effects(non_hertzian_pressure=True, spherical_profile=spherical)
+    scene = pc.Scene(
+        sphere=pc.Sphere(radius=0.3, density=7800),
+        plate=pc.Plate(
+            radius=radius, thickness=4e-3, youngs_modulus=70e9, poissons_ratio=nu, edge=edge,
+            density=2500,
+        ),
+        impact=pc.Impact(speed=0.1), effects=effects,
+    )  # fmt: skip
+    return list(pc.indent(scene, contact_radius=[2e-4, 1e-3, 2e-3, 4e-3, 6e-3]))
+
+
+@pytest.mark.parametrize("spherical", [True, False])
+@pytest.mark.parametrize(("nu", "agreement"), [(0.0, 1e-12), (0.3, 1e-4)])
+@pytest.mark.parametrize("edge", ["clamped", "simply-supported"])
+def test_a_held_plate_is_a_plate_of_another_radius(
+    edge: str, nu: float, agreement: float, spherical: bool
+) -> None:
+    """A thin plate under a point load deflects by P r^2 log(r/c)/(8 pi D) plus a constant.
+
+    With the paper's edge c = e b, clamped c = sqrt(e) b. The contact depends on c, not on the edge,
+    and the indentations differ by a constant compliance.
+    """
+    b = 0.2
+    part = -1.0 if edge == "clamped" else (1.0 - nu) / (1.0 + nu)
+    one = contacts(b, edge, nu, spherical)
+    other = contacts(b * math.exp(0.5 * part), "paper", nu, spherical)
+    forces, pressures, compliances = (
+        np.array(x)
+        for x in (
+            [x.force / y.force - 1.0 for x, y in zip(one, other, strict=True)],
+            [x.max_pressure / y.max_pressure - 1.0 for x, y in zip(one, other, strict=True)],
+            [
+                (x.indentation - y.indentation * x.force / y.force) / x.force
+                for x, y in zip(one, other, strict=True)
+            ],
+        )
+    )
+    assert np.abs(forces).max() < agreement
+    assert np.abs(pressures).max() < agreement
+    assert np.ptp(compliances) < max(10.0 * agreement, 1e-10) * abs(compliances[0])

@@ -18,7 +18,7 @@ from unittest.mock import patch
 
 import numpy as np
 from domains import EXAMPLE, OUTSIDE, POINTWISE, ROWS, violations
-from mutants import of_module
+from mutants import CodeMutant, of_module
 from mutated_code import source
 
 import generated
@@ -36,6 +36,8 @@ from derivation.plate.paper import PAPER
 CALLS = calls.__name__
 STEPS = {"impact": 8, "plate_arrays": 8, "plate_points": 8}
 """Limits of the number of Newton iterations, so that a slower convergence is detected."""
+FIRST = 20
+"""Number of checks that every mutant runs."""
 ROUNDED = 0.51
 """Largest change of a reference value when it is rounded to a double [ULP]."""
 
@@ -195,8 +197,12 @@ def _case_check(case: HardCase, kernel: Kernel, count: int, known: hard.Known) -
     return CaseCheck(case, references, np.reshape(values, shape), np.reshape(allowed, shape))
 
 
-def survivors(name: str) -> dict[str, list[str]]:
-    """Return the mutants that no check detects, by function or constant of the module."""
+def undetected(name: str, may_pass: Mapping[str, int]) -> dict[str, list[str]]:
+    """Return the mutants of each function or constant of which more pass than allowed.
+
+    A mutant that passes runs all checks, which takes most of the time. Where so many mutants of a
+    function are detected that the others may all pass, these run the first checks only.
+    """
     beneath = {name, *users(name)}
     known = hard_suite.kernels()
     checks: list[Check] = [x for x in case_checks() if known[x.case.kernel].module in beneath]
@@ -205,17 +211,30 @@ def survivors(name: str) -> dict[str, list[str]]:
     assert checks
     always, executed = _executed_lines(name, checks)
     pairs = list(zip(checks, executed, strict=True))
-    actual: dict[str, list[str]] = {}
-    for mutant in of_module(source(name)):
+
+    def passes(mutant: CodeMutant, most: int | None = None) -> bool:
         # A check that does not run the changed line runs as before.
         every = not always.isdisjoint(mutant.lines)
         able = [i for i, (_, run) in enumerate(pairs) if every or not run.isdisjoint(mutant.lines)]
-        detecting = _detecting_check(name, mutant.tree, [pairs[i][0] for i in able])
-        if detecting is None:
-            actual.setdefault(mutant.home, []).append(mutant.change)
-        elif able:  # the check that has detected one is likely to detect the next
+        detecting = _detecting_check(name, mutant.tree, [pairs[i][0] for i in able[:most]])
+        if detecting is not None and able:  # it is likely to detect the next one
             pairs.insert(0, pairs.pop(able[detecting]))
-    return actual
+        return detecting is None
+
+    actual: dict[str, list[CodeMutant]] = {}
+    for mutant in of_module(source(name)):
+        if passes(mutant, FIRST):
+            actual.setdefault(mutant.home, []).append(mutant)
+    for home, those in actual.items():
+        left = iter(those.copy())
+        while len(those) > may_pass.get(home, 0) and (mutant := next(left, None)):
+            if not passes(mutant):
+                those.remove(mutant)
+    return {
+        home: [mutant.change for mutant in those]
+        for home, those in actual.items()
+        if len(those) > may_pass.get(home, 0)
+    }
 
 
 def _executed_lines(name: str, checks: Sequence[Check]) -> tuple[set[int], list[set[int]]]:

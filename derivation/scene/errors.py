@@ -34,6 +34,10 @@ def wide_contact(key: str, limit: str, got: str, remedy: str) -> SceneError:
     return SceneError(f"{key}: expected a contact radius below {limit}, got {got} m; {remedy}")
 
 
+class HeldError(SceneError):
+    """The error of a sphere that does not rebound because its weight holds it on the plate."""
+
+
 class IncompleteError(SceneError):
     """The error of an impact with plate inertia that could not be computed to its end."""
 

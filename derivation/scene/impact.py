@@ -23,6 +23,7 @@ from derivation.scene.dynamic.edge_remainder import edge_remainder
 from derivation.scene.dynamic.model_error import curvature_error, inertia_error
 from derivation.scene.dynamic.stretching_error import jump_warnings, stretching_error
 from derivation.scene.effects.effect import Results, weight_work_ratio
+from derivation.scene.effects.viscosity import unlike_bodies_error
 from derivation.scene.errors import SceneError, ToleranceError
 from derivation.scene.input.units import unit_warnings, with_unit_warnings
 from derivation.scene.measured.measured import (
@@ -119,7 +120,7 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
     if motion is None:
         pressure = law.max_pressure(a)
     else:  # it is proportional to P/a^2, and in the static law of the simulated plate to a
-        pressure = motion.law.max_pressure(a) / (1.0 + motion.inertia.curvature) ** 3
+        pressure = motion.law.max_pressure(a) * motion.at_equal_radius
     pressure = min(pressure, law.pressure_limit)
     local = float(local_indentation(law, a))
     fraction, deflection = 1.0 - local / delta, delta - local
@@ -199,19 +200,20 @@ def _known(stress: float) -> float | None:
 def _model_errors(
     law: ContactLaw, numbers: Results, deflection: float, motion: "DynamicImpact | None"
 ) -> dict[str, float]:
-    """Return the relative model error of each output [1], by edge, waves and stretching.
+    """Return the relative model error of each output [1]: by edge, waves, stretching, viscosity.
 
     On a quasi-static plate, stretching changes the energy that a plastic or viscoelastic contact
     dissipates. In the restitution this counts by the ratio of that energy to the one that remains.
     """
     model, other_edge, a = law.model, law.other_edge, numbers[3]
+    unlike = unlike_bodies_error(model) if law.viscous else 0.0
     if motion is None:
         edge, size = edge_remainder(model, a) if other_edge else 0.0, stretching(model, deflection)
-        errors: dict[str, float] = dict.fromkeys(OUTPUTS, edge + float(size))
+        errors: dict[str, float] = dict.fromkeys(OUTPUTS, edge + float(size) + unlike)
         if law.viscous or law.plastic:
             supplied = 1.0 + float(weight_work_ratio(model, numbers[1]))
             dissipated = supplied / max(numbers[4], 1e-6) ** 2 - 1.0
-            errors["restitution"] = edge + float(size) * max(1.0, dissipated)
+            errors["restitution"] = edge + float(size) * max(1.0, dissipated) + unlike
         return errors
     from derivation.scene.dynamic.wave_problem import echo_time
 
@@ -221,7 +223,7 @@ def _model_errors(
     returned = other_edge and motion.inertia.total_time > echo_time(motion.law.model)
     edge = edge_remainder(model, a) if returned else 0.0
     waves["max_contact_radius"] += curvature_error(motion.inertia.curvature)
-    return {name: max(waves[name] + stretched[name], edge) for name in OUTPUTS}
+    return {name: max(waves[name] + stretched[name], edge) + unlike for name in OUTPUTS}
 
 
 def selected_effects(

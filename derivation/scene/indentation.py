@@ -25,6 +25,7 @@ from derivation.scene.contact_law.limits import (
 )
 from derivation.scene.contact_law.yield_warnings import static_warnings
 from derivation.scene.contact_law.yielding import yielding_of
+from derivation.scene.dynamic.edge_remainder import edge_warnings
 from derivation.scene.effects import EFFECTS
 from derivation.scene.errors import SceneError
 from derivation.scene.input.messages import shown
@@ -213,7 +214,11 @@ def _contact(law: ContactLaw, name: str, value: float) -> StaticContact:
         **values,
         stiffness=at.stiffness,
         max_pressure=pressure,
-        warnings=(*warnings_at(law, at.radius, at.depth), *static_warnings(law, at.radius)),
+        warnings=(
+            *warnings_at(law, at.radius, at.depth),
+            *(edge_warnings(model, at.radius) if law.other_edge else ()),
+            *static_warnings(law, at.radius),
+        ),
     )
 
 

@@ -74,6 +74,8 @@ class Model:
     retardation_time
         Retardation time A_v of the viscoelastic contact [s], the mean of those of both bodies
         weighted with their compliances.
+    retardation_spread
+        Standard deviation of the retardation times of both bodies, with the same weights [s].
     yield_stress
         The smaller yield stress of both bodies [Pa]; infinite if none is known.
     plate_yield_stress
@@ -101,6 +103,7 @@ class Model:
     gravity: float = 0.0
     density: float = 0.0
     retardation_time: float = 0.0
+    retardation_spread: float = 0.0
     yield_stress: float = math.inf
     plate_yield_stress: float = math.inf
     solid_density: float = 0.0
@@ -286,7 +289,12 @@ def numbers_of(scene: Scene) -> Model:
     )
     times = plate.retardation_time, sphere.retardation_time
     if any(np.any(time) for time in times):
-        model = replace(model, retardation_time=kernels.retardation_of_two(*times, model.softness))
+        whole = 1.0 + model.softness
+        model = replace(
+            model,
+            retardation_time=kernels.retardation_of_two(*times, model.softness),
+            retardation_spread=np.sqrt(model.softness) / whole * np.abs(times[0] - times[1]),
+        )
     return model
 
 

@@ -137,15 +137,15 @@ class Result:
         points
             Number of distances from the axis.
         """
-        law, a = self.effects.law, self.max_contact_radius
+        law, a, motion = self.effects.law, self.max_contact_radius, self.dynamics
+        part = 1.0 if motion is None else motion.at_equal_radius
         force = float(law.force(np.array([a]), law.at(np.array([a])))[0])
-        if law.plastic:
-            force = self.max_force
+        force = self.max_force if law.plastic else part * force
         hertz = float(law.hertz_radius(np.array(force)))
-        # Denser towards the contact edge, where the pressure falls to zero as a square root.
+        # Denser towards the contact edge, where the pressure falls as a square root.
         r = max(a, hertz) * np.sin(np.linspace(0.0, np.pi / 2, points))
-        inside = np.minimum(r, a)
-        values = np.where(r < a, np.minimum(law.pressure(inside, a), law.pressure_limit), 0.0)
+        limited = np.minimum(part * law.pressure(np.minimum(r, a), a), law.pressure_limit)
+        values = np.where(r < a, limited, 0.0)
         peak = 1.5 * force / (np.pi * hertz * hertz)
         return Pressures(r, values, peak * np.sqrt(np.maximum(1.0 - (r / hertz) ** 2, 0.0)))
 
@@ -248,10 +248,10 @@ class Result:
         """Compute the time history."""
         law = self.effects.law
         if self.dynamics is not None:
-            from derivation.scene.dynamic.time_element import A, E, P, V, W, Z
+            from derivation.scene.dynamic.time_element import C, E, P, V, W, Z
 
             times = self._times(n, self.total_time)
-            return DynamicHistory(times, *self.dynamics.rows(times)[[Z, V, A, P, W, E]])
+            return DynamicHistory(times, *self.dynamics.rows(times)[[Z, V, C, P, W, E]])
         if law.of_paper:
             end = float(kernels.impact(*self.model.numbers).contact_time)
             times = self._times(n, end)

@@ -125,6 +125,17 @@ def test_largest_radius_is_that_of_the_history() -> None:
         times = np.linspace(first.start, first.end, 4001)
         _, _, radius, _ = result.dynamics.history(result.dynamics.law, times)
         assert np.max(radius) == pytest.approx(result.max_contact_radius, rel=1e-5)
+        # The exported history had the radius of the static law, which is 1 % larger.
+        assert result.at(times).history().contact_radius == pytest.approx(radius, rel=1e-12)
+
+
+def test_profile_of_the_pressure_carries_the_largest_force() -> None:
+    """It was that of the static law: its force was 0.5 % too small, here 1 %."""
+    result = impact(120)
+    r, pressure, _ = result.pressures(20001)
+    assert pressure[0] == pytest.approx(result.max_pressure, rel=1e-12)
+    force = float(np.trapezoid(2.0 * np.pi * r * pressure, r))
+    assert force == pytest.approx(result.max_force, rel=4e-4)
 
 
 def slow(edge: str, inertia: bool, speed: float = 0.05) -> pc.Result:

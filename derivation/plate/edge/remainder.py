@@ -39,9 +39,9 @@ Double = NDArray[np.float64]
 SUPPORTS = ("supported", "clamped")
 MODES = 6000
 """Number of modes in u at the edge; on the contact face the sum converges like N^(-3/2)."""
-SIZES = (0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0)
+SIZES = (0.02, 0.035, 0.05, 0.1, 0.2, 0.25, 0.3, 0.5, 0.7, 1.0)
 """h/b."""
-POISSON = (-0.5, 0.0, 0.2, 0.3, 0.45)
+POISSON = (-0.7, -0.5, 0.0, 0.2, 0.3, 0.45, 0.499999)
 WIDTHS = (0.01, 0.1, 0.3)
 """a/b."""
 RADIUS = 1e3

@@ -13,14 +13,21 @@ from typing import Any
 import numpy as np
 
 from derivation.engine.files import measurements
-from derivation.scene.effects.edge import SUPPORTED
 from derivation.scene.errors import SceneError
+from derivation.scene.kernels import Numbers
 from derivation.scene.model import Model
+from derivation.scene.quantity import percent
 from generated.arrays import Double as Array
 
 LARGEST = 0.01
 """Model error relative to the indentation above which a scene is rejected."""
+LARGEST_H_OVER_B, LEAST_A_OVER_B = 1.0, 0.01
+"""Largest h/b and smallest a/b of the table."""
+KINDS = {"simply-supported": "supported", "clamped": "clamped"}
+"""Names of the edges in the table."""
 _KEYS = ("h_over_b", "nu", "a_over_b")
+_NU, _DIGITS = _KEYS.index("nu"), 9
+"""Poisson's ratio among the keys, and its decimals: it is computed from the Lame constants."""
 _PARTS = ("relative_error", "lower_degree", "fewer_layers")
 
 
@@ -42,16 +49,15 @@ def _axes() -> tuple[list[float], ...]:
 def edge_remainder(model: Model, a: float) -> float:
     """Return the largest model error of the edge at a contact radius [m], over the indentation [1].
 
-    For h/b, a/b and Poisson's ratio below the range of the table, its first values are used; for
-    Poisson's ratio above it, the last one.
+    For h/b and a/b below the range of the table, its first values are used.
 
     Raises
     ------
     SceneError
-        If the error exceeds 1 %, or h/b or a/b is above the range of the table.
+        If the error exceeds 1 %, Poisson's ratio is below the range of the table, or h/b or a/b is
+        above it.
     """
-    kind = "supported" if model.edge == SUPPORTED else "clamped"
-    nu = model.poissons_ratio
+    kind, nu = KINDS[model.edge], round(float(model.poissons_ratio), _DIGITS)
     coordinates = {"h_over_b": model.eta, "nu": nu, "a_over_b": a / model.b}
     axes = _axes()
     for name, axis in zip(_KEYS, axes, strict=True):
@@ -62,6 +68,12 @@ def edge_remainder(model: Model, a: float) -> float:
                 f"{coordinates[name]:.4g} (h half-thickness, a contact radius, b plate radius); "
                 'write edge = "paper", or effects.edge = false'
             )
+    if nu < axes[_NU][0]:
+        raise SceneError(
+            f"plate.poissons_ratio: expected at least {axes[_NU][0]} for a {model.edge} edge, the "
+            f"range in which its model error is known, got {nu:.4g}; "
+            'write plate.edge = "paper", or effects.edge = false'
+        )
     around = [_neighbours(axis, coordinates[name]) for name, axis in zip(_KEYS, axes, strict=True)]
     remainder = max(_table()[(kind, *point)] for point in product(*around))
     if remainder > LARGEST:
@@ -76,19 +88,44 @@ def edge_remainder(model: Model, a: float) -> float:
 
 def edge_remainders(model: Model, a: Array) -> Array:
     """Return the model errors of many scenes as a column; NaN if `edge_remainder` rejects one."""
-    kind = "supported" if model.edge == SUPPORTED else "clamped"
-    nu = model.poissons_ratio
-    axes, coordinates = _axes(), np.broadcast_arrays(model.eta, nu, a / model.b)
-    known = (coordinates[0] <= axes[0][-1]) & (coordinates[2] <= axes[2][-1])
-    ends = []
-    for axis, coordinate in zip(axes, coordinates, strict=True):
+    remainders = largest_neighbours(model, a, model.eta)
+    return np.where(remainders <= LARGEST, remainders, np.nan)
+
+
+def edge_warnings(model: Model, a: float) -> tuple[str, ...]:
+    """Return a warning if the model error of the edge exceeds 1 % or is unknown."""
+    [error] = largest_neighbours(model, np.array([a]), model.eta)
+    if error <= LARGEST:
+        return ()
+    size = "unknown" if np.isnan(error) else f"up to {percent(error)} of the indentation"
+    text = (
+        f"the model error of the {model.edge} edge is {size} at h/b = {model.eta:.4g}, nu = "
+        f"{model.poissons_ratio:.3g}, a/b = {a / model.b:.4g} (h half-thickness, a contact radius, "
+        "b plate radius)"
+    )
+    return (text,)
+
+
+def largest_neighbours(model: Model, a: Array, eta: Numbers) -> Array:
+    """Return model errors at radii [m] and half-thicknesses h/b; NaN outside the range."""
+    nu = np.round(model.poissons_ratio, _DIGITS)
+    axes, coordinates = _axes(), np.broadcast_arrays(eta, nu, a / model.b)
+    known, ends = coordinates[_NU] >= axes[_NU][0], []
+    for name, axis, coordinate in zip(_KEYS, axes, coordinates, strict=True):
+        if name != "nu":
+            known &= coordinate <= axis[-1]
         below = np.searchsorted(axis, coordinate, side="right") - 1
         above = np.searchsorted(axis, coordinate, side="left")
         ends.append([np.clip(end, 0, len(axis) - 1) for end in (below, above)])
-    table = np.array([_table()[(kind, *point)] for point in product(*axes)])
-    table = table.reshape([len(axis) for axis in axes])
-    remainders = np.maximum.reduce([table[corner] for corner in product(*ends)])
-    return np.where(known & (remainders <= LARGEST), remainders, np.nan)
+    table = _array(KINDS[model.edge])
+    return np.where(known, np.maximum.reduce([table[one] for one in product(*ends)]), np.nan)
+
+
+@cache
+def _array(kind: str) -> Array:
+    """Return the table of an edge as an array over its axes."""
+    table = np.array([_table()[(kind, *point)] for point in product(*_axes())])
+    return table.reshape([len(axis) for axis in _axes()])
 
 
 def _neighbours(axis: list[float], value: float) -> list[float]:

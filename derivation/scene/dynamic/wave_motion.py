@@ -349,6 +349,14 @@ class DynamicImpact(Motion):
         rows = self.rows(times)
         return rows[Z], rows[V], rows[C], rows[P]
 
+    @property
+    def at_equal_radius(self) -> float:
+        """Force and pressure at the largest contact radius over those of the static law there [1].
+
+        At equal force the curvature of the plate changes the radius, and P grows with its cube.
+        """
+        return (1.0 + self.inertia.curvature) ** -3
+
     def rows(self, times: Array) -> Array:
         """Return the rows of `time_element` at times [s]; in SI units without those of losses."""
         problem, t = self.impact_history.problem, np.asarray(times, dtype=np.float64)

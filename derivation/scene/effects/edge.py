@@ -1,13 +1,21 @@
 """Edge: simply supported or clamped plate instead of the paper's edge condition."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from derivation.scene import kernels
 from derivation.scene.contact_law.support_series import support_contribution
+from derivation.scene.dynamic.edge_remainder import (
+    LARGEST_H_OVER_B,
+    LEAST_A_OVER_B,
+    largest_neighbours,
+)
 from derivation.scene.effects.effect import (
     Bound,
     BoundContext,
     Contribution,
+    Numbers,
     PlateEffect,
     Reach,
     none_of,
@@ -15,6 +23,9 @@ from derivation.scene.effects.effect import (
 from derivation.scene.model import Model
 from derivation.scene.scene import Scene
 from generated.arrays import Double as Array
+
+if TYPE_CHECKING:
+    from derivation.scene.contact_law.law import ContactLaw
 
 SUPPORTED, CLAMPED = "simply-supported", "clamped"
 MAX_A_OVER_B = 0.9
@@ -48,16 +59,35 @@ class Edge(PlateEffect):
 
     def value(self, model: Model, a: float) -> float:
         """Return an upper bound of its contribution to the indentation over Hertz's."""
-        low, up = self._range(model, np.array([a]))
+        low, up = self._range(model, np.array([a]), model.h)
         return float(up[0] - low[0]) / 1.5
 
     def bound(self, model: Model, context: BoundContext) -> Bound:
-        """Return the bound, which is of one sign and valid at all smaller radii."""
-        return Bound(*self._range(model, context.radii))
+        """Return the bound of the law, valid at all smaller radii, plus the error of the law.
 
-    def _range(self, model: Model, a: Array) -> tuple[Array, Array]:
-        """Return the largest decrease and increase of S."""
-        plate = model.h, model.b, model.lam, model.mu
+        The edge of a plate with h > b acts about as that of one with h = b, while the law becomes
+        smaller or larger. The bound is infinite where the error of the law is unknown.
+        """
+        a, plate = context.radii, model.correction
+        ranges = (self._range(model, a, h) for h in (model.h, np.minimum(model.h, model.b)))
+        low, up = (np.maximum(*both) for both in zip(*ranges, strict=True))
+        # Narrower contacts have the same error per force, which goes with a^3.
+        known = np.maximum(a, LEAST_A_OVER_B * model.b)
+        error = largest_neighbours(model, known, np.minimum(model.eta, LARGEST_H_OVER_B))
+        wall = kernels.LATERAL_LINEAR + kernels.LATERAL_CUBIC * (known / model.b) ** 2
+        part = (plate.bend + plate.bend_error) / model.h + wall / model.b
+        whole = 1.0 + (part + np.max(up / known, axis=-1, keepdims=True)) * known
+        change = 1.5 * np.where(np.isnan(error), np.inf, error) * whole
+        change = np.where(a > 0.0, np.maximum.accumulate(change * (a / known), axis=-1), 0.0)
+        return Bound(low + change, up + change)
+
+    def proved(self, law: "ContactLaw") -> bool:  # noqa: ARG002
+        """Return False: the error of the law is measured."""
+        return False
+
+    def _range(self, model: Model, a: Array, h: Numbers) -> tuple[Array, Array]:
+        """Return the largest decrease and increase of S by the law with a half-thickness [m]."""
+        plate = h, model.b, model.lam, model.mu
         if model.edge == SUPPORTED:
             return none_of(a), kernels.supported_edge_bound(a, *plate)
         return kernels.clamped_edge_bound(a, *plate), none_of(a)

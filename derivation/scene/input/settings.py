@@ -119,7 +119,7 @@ class Measured(Table):
         Constant to determine: "yield_stress" or "retardation_time".
     target
         Test specimen: "block", the default, for a thick block of the plate material; "plate" for
-        the plate itself.
+        the plate itself. The weight of the sphere acts on either, if the scene has gravity.
     tested_at
         Impact speed of the measurement [m/s]; by default that of the scene.
 

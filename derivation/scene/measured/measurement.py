@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from derivation.scene.effects import BY_NAME
 from derivation.scene.effects.effect import Results
-from derivation.scene.errors import SceneError
+from derivation.scene.errors import HeldError, SceneError
 from derivation.scene.input.body_materials import body_of, own_materials
 from derivation.scene.input.settings import TIGHTEST
 
@@ -102,11 +102,11 @@ def measurement_of(tables: Mapping[str, Any], wanted: Mapping[str, Any]) -> "Mea
     block = {k: v for k, v in tables["plate"].items() if k not in shape}
     block |= {"radius": size, "thickness": 2.0 * size}
     still = dict.fromkeys(("bending", "finite_thickness", "finite_radius", "edge"), False)
-    local = "sphere_elasticity", "spherical_profile"
+    local = "sphere_elasticity", "spherical_profile", "gravity"
     effects = {k: v for k, v in tables.get("effects", {}).items() if k in local}
     effects |= still | {"inertia": False, "non_hertzian_pressure": False}
     kept = {k: v for k, v in scene.items() if k in ("sphere", "materials")}
-    made = {"plate": block, "effects": effects, "impact": {"speed": speed}}
+    made = {"plate": block, "effects": effects, "impact": scene["impact"]}
     return Measurement(kept | made, key, goal).to(STATIC_RTOL)
 
 
@@ -246,6 +246,8 @@ class Measurement:
             trial = self.simulated(math.exp(x))
             least = trial.restitution * (1.0 - trial.bound)
             return Point(x, trial.restitution - self.goal, least)
+        except HeldError:
+            return Point(x, -self.goal, 0.0)  # the constant is beyond the solution
         except SceneError as error:
             raise SceneError(
                 "measured.restitution: expected a value that can be computed, got "

@@ -120,6 +120,8 @@ def model_note(result: "Result") -> str:
         parts.insert(0, "plate and edge (measured against explicit finite-element simulations)")
     elif result.effects.law.other_edge:
         parts.insert(0, f"the {result.model.edge} edge (measured against a 3-D elastic solution)")
+    if result.effects.law.viscous and result.model.retardation_spread:
+        parts.append("different retardation times of sphere and plate (estimated)")
     return (
         f"Not included in this bound: model error up to {percent(result.model_error)}, of "
         f"{' and of '.join(parts)}"

@@ -22,7 +22,7 @@ import numpy as np
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.yielding import Yielding, yielding_of
 from derivation.scene.dynamic.yield_events import UncutError, branch_after, cut
-from derivation.scene.errors import SceneError
+from derivation.scene.errors import HeldError, SceneError
 from derivation.scene.numerics.collocation import (
     NEWTON,
     ONSET,
@@ -242,7 +242,7 @@ def elements(problem: ViscousProblem, n: int) -> tuple[ViscousElement, ...]:
         if float(np.sum(last.rows[P])) <= 0.0:
             return tuple(viscous_elements)
         if start.velocity < 0.0 < end.velocity:
-            raise SceneError(
+            raise HeldError(
                 "plate.retardation_time: the sphere does not rebound because its weight holds it "
                 "on the plate; reduce retardation_time of plate or sphere, or increase impact.speed"
             )

@@ -93,9 +93,10 @@ def test_law_agrees_with_three_dimensional_elements() -> None:
             a = row["a_over_b"]
             error = row["relative_error"] * edge_contribution(case, a)[1]
             kirchhoff = a**3 / RADIUS / (8 * math.pi * size**3)
-            assert abs(error) < limits[size] * kirchhoff, row
+            usual = -0.5 <= row["nu"] <= 0.45
+            assert abs(error) < limits[size] * kirchhoff * (1.0 if usual else 2.0), row
             tested += 1
-    assert tested == 5 * 5 * 3
+    assert tested == 5 * 7 * 3
 
 
 # --- limits

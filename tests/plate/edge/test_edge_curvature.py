@@ -72,19 +72,26 @@ def test_finite_elements_have_the_same_curvature(
 @pytest.mark.parametrize("edge", [0.1, -0.06])
 @pytest.mark.parametrize("part", [1.0, 0.4])
 def test_an_edge_acts_like_another_sphere(h: float, edge: float, part: float) -> None:
-    """A paraboloid meets the profile 1/R + kappa P, at the same contact radius."""
+    """A paraboloid meets the profile 1/R + kappa P, at the same contact radius.
+
+    The curvature is that of a bending moment, which a load at the distance r from the axis
+    decreases by the factor 1 - r^2/b^2; the mean of r^2 is twice that of t^2, weighted with chi.
+    """
     R = 5.0
     a = np.linspace(0.2, 1.0, 801) * min(2.0 * h, 0.5)
     plain, held = (solver.contact(solver.plate(h, 1.0, x), a, R, part, 1.0) for x in (0.0, edge))
-    factor = 1.0 / (1.0 - edge / (2.0 * h**3) * R * plain.force)
-    np.testing.assert_allclose(held.force, factor * plain.force, rtol=1e-13)
-    np.testing.assert_allclose(held.centre_pressure, factor * plain.centre_pressure, rtol=1e-12)
+    weights = np.polynomial.legendre.leggauss(48)[1][24:]
+    spread = (held.nodes**2 * held.chi) @ weights / (held.chi @ weights)
+    kappa = edge / (2.0 * h**3) * (1.0 - 2.0 * spread)
+    factor = held.force / plain.force
+    np.testing.assert_allclose(1.0 + R * kappa * held.force, factor, rtol=1e-12)
+    np.testing.assert_allclose(held.centre_pressure, factor * plain.centre_pressure, rtol=1e-11)
     pressures = (
         solver.pressure(0.5 * a[400], solver.plate(h, 1.0, x), a[400], R, part, 1.0)
         for x in (0.0, edge)
     )
     alone, with_edge = pressures
-    assert with_edge / alone == pytest.approx(factor[400], rel=1e-12)
+    assert with_edge / alone == pytest.approx(factor[400], rel=1e-11)
 
 
 def contacts(radius: float, edge: str, nu: float, spherical: bool) -> list[StaticContact]:
@@ -102,7 +109,7 @@ def contacts(radius: float, edge: str, nu: float, spherical: bool) -> list[Stati
 
 
 @pytest.mark.parametrize("spherical", [True, False])
-@pytest.mark.parametrize(("nu", "agreement"), [(0.0, 1e-12), (0.3, 1e-4)])
+@pytest.mark.parametrize(("nu", "agreement"), [(0.0, 1e-6), (0.3, 5e-6)])
 @pytest.mark.parametrize("edge", ["clamped", "simply-supported"])
 def test_a_held_plate_is_a_plate_of_another_radius(
     edge: str, nu: float, agreement: float, spherical: bool
@@ -110,9 +117,9 @@ def test_a_held_plate_is_a_plate_of_another_radius(
     """A thin plate under a point load deflects by P r^2 log(r/c)/(8 pi D) plus a constant.
 
     With the paper's edge c = e b, clamped c = sqrt(e) b. The contact depends on c, not on the edge,
-    and the indentations differ by a constant compliance.
+    and the indentations differ by a constant compliance, except for terms of the order (a/b)^2.
     """
-    b = 0.2
+    b = 2.0
     part = -1.0 if edge == "clamped" else (1.0 - nu) / (1.0 + nu)
     one = contacts(b, edge, nu, spherical)
     other = contacts(b * math.exp(0.5 * part), "paper", nu, spherical)
@@ -129,4 +136,4 @@ def test_a_held_plate_is_a_plate_of_another_radius(
     )
     assert np.abs(forces).max() < agreement
     assert np.abs(pressures).max() < agreement
-    assert np.ptp(compliances) < max(10.0 * agreement, 1e-10) * abs(compliances[0])
+    assert np.ptp(compliances) < agreement * abs(compliances[0])

@@ -5,12 +5,14 @@ from functools import partial
 
 import numpy as np
 import pytest
+from shared_scenes import model
 
 from derivation.engine.files import measurements
-from derivation.plate.edge import remainder as edge_remainder
+from derivation.plate.edge import remainder as remainder_module
 from derivation.plate.edge.remainder import (
     MESHES,
     POISSON,
+    RADIUS,
     SIZES,
     SUPPORTS,
     WIDTHS,
@@ -24,6 +26,15 @@ from derivation.plate.edge.remainder import (
     remainders,
     rim_displacement,
 )
+from derivation.scene import SceneError, indent, read
+from derivation.scene.dynamic.edge_remainder import (
+    edge_remainder,
+    edge_remainders,
+    largest_neighbours,
+)
+from derivation.scene.effects import BY_NAME
+from derivation.scene.effects.effect import BoundContext
+from derivation.scene.model import Model
 
 COARSE = RemainderMesh(degree=6, layers=4)
 
@@ -81,8 +92,13 @@ def test_record_is_complete_and_accurate() -> None:
         size = abs(row["relative_error"])
         # The corners of a clamped edge are singular; those of a supported edge are not.
         floor = 1e-7 if row["support"] == "supported" else 3e-5
-        assert abs(row["lower_degree"]) + abs(row["fewer_layers"]) < 0.01 * size + floor
-        assert size < 0.03
+        changes = abs(row["lower_degree"]) + abs(row["fewer_layers"])
+        if row["nu"] > 0.45:  # corners of a nearly incompressible plate converge more slowly
+            assert changes < 0.5 * size + 1.1e-4
+            assert size < 0.06
+            continue
+        assert changes < 0.01 * size + floor
+        assert size < (0.03 if row["nu"] >= -0.5 else 0.04)
         if row["support"] == "supported" and row["nu"] >= 0 and row["a_over_b"] <= 0.1:
             assert size < (1e-3 if row["h_over_b"] <= 0.5 else 3e-3)
         if row["support"] == "clamped" and row["h_over_b"] <= 0.3:
@@ -92,11 +108,11 @@ def test_record_is_complete_and_accurate() -> None:
 def test_rows_state_contributions_and_their_changes(monkeypatch: pytest.MonkeyPatch) -> None:
     """Coarser meshes agree with the record, and each row states its changes with two meshes."""
     meshes = (COARSE, RemainderMesh(degree=5, layers=4), RemainderMesh(degree=6, layers=3))
-    monkeypatch.setattr(edge_remainder, "MESHES", meshes)
-    monkeypatch.setattr(edge_remainder, "SIZES", (1.0,))
-    monkeypatch.setattr(edge_remainder, "POISSON", (0.3,))
-    monkeypatch.setattr(edge_remainder, "rows", partial(edge_remainder.rows, (1.0,), (0.3,)))
-    data = json.loads(edge_remainder.text())
+    monkeypatch.setattr(remainder_module, "MESHES", meshes)
+    monkeypatch.setattr(remainder_module, "SIZES", (1.0,))
+    monkeypatch.setattr(remainder_module, "POISSON", (0.3,))
+    monkeypatch.setattr(remainder_module, "rows", partial(remainder_module.rows, (1.0,), (0.3,)))
+    data = json.loads(remainder_module.text())
     assert [mesh["layers"] for mesh in data["meshes"]] == [4, 4, 3]
     record = json.loads((measurements() / "edge_remainder.json").read_text())["rows"]
     head = ("support", "h_over_b", "nu", "a_over_b")
@@ -113,6 +129,87 @@ def test_rows_state_contributions_and_their_changes(monkeypatch: pytest.MonkeyPa
         for row, remainder, one, other in zip(mine, finest, lower, fewer, strict=True):
             assert row["lower_degree"] == pytest.approx(one - remainder, rel=0.06)
             assert row["fewer_layers"] == pytest.approx(other - remainder, rel=0.06)
+
+
+def model_of_case(case: RemainderCase) -> Model:
+    """Return a plate of radius 1."""
+    edge = {"supported": "simply-supported", "clamped": "clamped"}[case.support]
+    return model(b=1.0, h=case.h, lam=1e9 * case.lam, mu=1e9, edge=edge)
+
+
+@pytest.mark.parametrize(
+    ("support", "h", "nu"),
+    [
+        ("supported", 0.04, 0.2),
+        ("supported", 0.225, -0.5),
+        ("clamped", 0.7, 0.48),
+        ("clamped", 0.3, 0.4999),
+        ("supported", 0.1, 0.4999),
+        ("supported", 0.05, -0.6),
+        ("clamped", 0.3, -0.65),
+    ],
+)
+def test_stated_error_covers_plates_between_those_measured(
+    support: str, h: float, nu: float
+) -> None:
+    """Beyond ratios of -0.5 and 0.45 the error was stated as there: a tenth, or half, of it."""
+    case = RemainderCase(support, h, nu)
+    for a, remainder in zip(WIDTHS, remainders(case, COARSE), strict=True):
+        [[stated]] = largest_neighbours(model_of_case(case), np.array([[a]]), h)
+        assert abs(remainder) <= 1.02 * stated
+
+
+@pytest.mark.parametrize("support", SUPPORTS)
+def test_edge_of_unknown_error_is_rejected(support: str) -> None:
+    """The error of a supported edge was stated as 0.07 %, and is 3 %, for a ratio of -0.95."""
+    plate = model_of_case(RemainderCase(support, 0.02, -0.75))
+    with pytest.raises(SceneError, match=r"plate\.poissons_ratio: expected at least -0\.7"):
+        edge_remainder(plate, 0.01)
+    assert np.isnan(edge_remainders(plate, np.array([0.01]))[0])
+
+
+@pytest.mark.parametrize(
+    ("edge", "thickness", "nu", "size"),
+    [
+        ("simply-supported", 0.6, -0.9, "unknown"),
+        ("clamped", 5.0, 0.0, "unknown"),
+        ("clamped", 1.4, 0.49, "up to 3.1 %"),
+        ("clamped", 0.4, 0.3, ""),
+    ],
+)
+def test_static_contact_warns_of_a_large_error_of_the_edge(
+    edge: str, thickness: float, nu: float, size: str
+) -> None:
+    """The indentation was 15 % and 3 % wrong in the first two, without a warning."""
+    plate = {"radius": 0.1, "thickness": 0.1 * thickness, "youngs_modulus": 1e9}
+    tables = {
+        "sphere": {"radius": 0.9, "mass": 1.0},
+        "plate": plate | {"poissons_ratio": nu, "edge": edge},
+        "impact": {"speed": 0.1},
+    }
+    about_edge = "the model error of the"
+    [held] = indent(read(tables), contact_radius=0.03)
+    [free] = indent(read(tables | {"effects": {"edge": False}}), contact_radius=0.03)
+    assert any(f"{about_edge} {edge} edge is {size}" in text for text in held.warnings) == bool(
+        size
+    )
+    assert not any(about_edge in text for text in free.warnings)
+
+
+@pytest.mark.parametrize("support", SUPPORTS)
+@pytest.mark.parametrize("h", [0.3, 1.0, 1.5, 2.5])
+@pytest.mark.parametrize("nu", [-0.5, 0.0, 0.3, 0.45])
+def test_bound_of_an_omitted_edge_covers_its_change(support: str, h: float, nu: float) -> None:
+    """The bound was that of the law: for h/b = 2.5 and nu = 0, a sixth of the change.
+
+    The change of the indentation is c a^3, that of its slope 3/2 as large.
+    """
+    case = RemainderCase(support, h, nu)
+    bound = BY_NAME["edge"].bound(model_of_case(case), BoundContext(np.array(WIDTHS)))
+    depths = Field(case, COARSE).depths(WIDTHS)
+    for a, depth, low, up in zip(WIDTHS, depths, bound.low, bound.up, strict=True):
+        change = 1.5 * depth / (a**2 / RADIUS)
+        assert -low <= change <= up
 
 
 @pytest.mark.parametrize("h", [0.22213133, *np.geomspace(0.01, 9.0, 60)])

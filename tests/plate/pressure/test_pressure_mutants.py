@@ -117,12 +117,17 @@ def work(a: float, v: float, R: float, modulus_ratio: float, sphere: bool) -> Wi
 
 
 def of_edge(v: float, edge: float) -> WithinUlp:
-    """Return the case that an edge acts like a sphere of the curvature 1/R + kappa P."""
-    kappa = edge / (2.0 * E * H**3)
+    """Return the case that an edge acts like a sphere of the curvature 1/R + kappa P.
+
+    kappa is that of a point load times the mean of 1 - 2 t^2/b^2.
+    """
+    weights = np.polynomial.legendre.leggauss(48)[1][24:]
 
     def call(m: ModuleType) -> float:
         plain, held = (m.contact(m.plate(H, v * H, x), 0.8 * H, 1e3, E) for x in (0.0, edge))
-        return float(held.force / plain.force * (1.0 - kappa * 1e3 * plain.force))
+        spread = (held.nodes / (v * H)) ** 2 @ (weights * held.chi) / (weights @ held.chi)
+        kappa = edge / (2.0 * E * H**3) * (1.0 - 2.0 * spread)
+        return float(held.force / plain.force / (1.0 + kappa * 1e3 * held.force))
 
     return WithinUlp(call, np.asarray(1.0), 1000.0)
 

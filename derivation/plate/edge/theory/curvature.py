@@ -4,10 +4,12 @@ The state of bending by which a support differs from the paper's edge deflects t
 a constant plus kappa P r^2/2. The sphere then meets a profile with 1/R + kappa P instead of 1/R,
 and the kernel of the integral equation has the additional terms
 
-    N_s (t^2 + s^2)/h^3,   N_s = 2 E* h^3 kappa.
+    N_s (t^2 + s^2 - 2 t^2 s^2/b^2)/h^3,   N_s = 2 E* h^3 kappa.
 
 The term in t^2 is the curvature, that in s^2 the smaller effect of a load beside the axis; their
-coefficients are equal, because the kernel is symmetric (Betti). For a thin plate kappa is
+coefficients are equal, because the kernel is symmetric (Betti). The last term makes the sum of
+these and a constant the product of the same function of t and s: the state, and the work of the
+load on it, for a thin plate. For a thin plate kappa is
 1/(8 pi D) clamped, and -(1 - nu)/(1 + nu) times as much simply supported. kappa
 is the amplitude of the state under a point load. The coefficient of s^2 is half the third
 derivative of the slope S with respect to alpha = a/b, which a clamp confirms.
@@ -55,6 +57,14 @@ N_s = sp.Symbol("N_s", real=True)
 _kappa, _resultant, _chi, _loss = sp.symbols("kappa F chi s", real=True)
 
 
+def bent_face(width: sp.Expr) -> sp.Expr:
+    """Return Abel's transform at t = width b of 1 - r^2/b^2, the face in the bending state."""
+    parabola = profile()[0]  # of r^2/(2 R)
+    (t,) = parabola.free_symbols - {R}
+    transform: sp.Expr = 1 - parabola.subs({R: b**2 / 2, t: width * b})
+    return transform
+
+
 def _curved() -> dict[str, sp.Expr]:
     """Return the profile of the bending state, and the term that it adds to the kernel.
 
@@ -66,7 +76,10 @@ def _curved() -> dict[str, sp.Expr]:
     (t,) = parabola.free_symbols - {R}
     added = PLANE_STRAIN_MODULUS / sp.pi * parabola.subs(R, 1 / _kappa)
     kernel = 2 * PLANE_STRAIN_MODULUS * _kappa / P * t**2
+    s, state = sp.Symbol("s"), bent_face(t / b)
+    product = -N_s * b**2 / (2 * h**3) * (state * state.subs(t, s) - 1)
     return {
+        "product": product - N_s / h**3 * (t**2 + s**2 - 2 * t**2 * s**2 / b**2),
         "profile": deflected - deflected.subs(r, 0) - r**2 / 2,
         "kernel": added - kernel.subs(P, 2 * sp.pi * _resultant) * _resultant,
         "S": law_of_square()[1] - N_s * a_ratio**3 / 3,

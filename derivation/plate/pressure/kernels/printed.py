@@ -8,6 +8,7 @@ import sympy as sp
 
 from derivation.engine.emit.named import Claims, named_routine
 from derivation.engine.emit.routine import RAISED, Choice, Let, Routine, routine
+from derivation.plate.edge.theory.curvature import bent_face
 from derivation.plate.pressure.theory import results as theory
 from derivation.plate.pressure.theory.integral_equation import kernel, profile
 from derivation.plate.vocabulary import R, a, alpha, r
@@ -68,6 +69,21 @@ def lateral_wave() -> Claims:
         (risen, sp.diff(risen, x) / x),
         {},
         _by_exponentials,
+    )
+
+
+@named_routine
+def edge_wave() -> Claims:
+    """Return 2 t^2/b^2 of the state by which an edge differs, and its slope; alpha = a/b."""
+    width = sp.Symbol("width", positive=True)
+    risen = 1 - bent_face(alpha * x)
+    return Claims(
+        (x, alpha),
+        (Let(width, alpha * alpha),),
+        (2 * width * x**2, 4 * width),
+        (risen, sp.diff(risen, x) / x),
+        {},
+        sp.expand,
     )
 
 
@@ -214,6 +230,7 @@ def pressure_points() -> Claims:
 ROUTINES = (
     wave,
     lateral_wave,
+    edge_wave,
     paraboloid,
     sphere,
     contact_results,

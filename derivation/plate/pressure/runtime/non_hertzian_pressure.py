@@ -15,7 +15,7 @@ For a thick plate the sum covers its modes, w = j_n/b, and the lateral surface, 
 nu < 0. For a thin plate it covers the nodes of an integral, and a multiple of t^2 + s^2 is added.
 N(0, 0), large in a thin plate, is separated: it adds N(0, 0) P/(2 E*) to the indentation. The term
 t^2 + s^2 acts like additional curvature, so that the pressure's shape depends on a/h alone. Another
-edge adds such a term (`edge_curvature`).
+edge (`edge_curvature`) acts like a wave with 1 - 2 t^2/b^2 in place of its cosine.
 
 Arithmetic: the equation's matrix as products of the kernel's cosines, sums by Gauss quadrature,
 and the conversion of lengths to units of h or b.
@@ -66,6 +66,8 @@ class Plate(NamedTuple):
         N(0, 0).
     square
         Coefficient of t^2 + s^2, in addition to the cosines.
+    edge
+        Coefficient of (1 - 2 t^2/b^2) (1 - 2 s^2/b^2) - 1, for another edge than the paper's.
     waves, wave_weights
         Wave numbers w_i of the cosines, and their weights.
     rises, rise_weights
@@ -77,6 +79,7 @@ class Plate(NamedTuple):
     unit: float
     first: float
     square: float
+    edge: float
     waves: Double
     wave_weights: Double
     rises: Double
@@ -172,23 +175,19 @@ def plate(h: float, b: float, edge: float = 0.0) -> Plate:
     168.576
     """
     _, [height, radius] = as_doubles(h, b)
-    h, b = float(height), float(radius)
+    h, b, none = float(height), float(radius), np.zeros(0)
     if not (h > 0 and b > 0 and THINNEST <= h / b <= THICKEST):
-        none = np.zeros(0)
-        return Plate(np.nan, np.nan, np.nan, np.nan, np.nan, none, none, none, none)
+        return Plate(*6 * (np.nan,), none, none, none, none)
     eta = h / b
+    bent = -edge / (2.0 * eta * eta * eta)
     first = FIRST * float(plates_of(np.array([eta])).first.coefficients[0, 0])
     if eta * THIN < 1.0:
-        _, cubic = _bending(np.array(1.0 / eta))
         # k h = 3/2 c_1 + 15/2 c_3 A^2 + the integral of cos - 1 + (A T/2)^2/2.
-        square = CUBIC * float(cubic) + SQUARE + edge
-        none = np.zeros(0)
-        return Plate(h, b, h, first, square, WAVES, WAVE_WEIGHTS, none, none)
-    count = int(FADED / (2.0 * np.pi * eta)) + 2
-    zeros, weights = _weights(np.asarray(eta), count)
-    modes = MODES * weights
-    square = edge / (eta * eta * eta)
-    return Plate(h, b, b, first / eta, square, zeros, modes, LATERAL, LATERAL_WEIGHTS)
+        square = CUBIC * float(_bending(np.array(1.0 / eta))[1]) + SQUARE
+        return Plate(h, b, h, first, square, bent * eta, WAVES, WAVE_WEIGHTS, none, none)
+    zeros, weights = _weights(np.asarray(eta), int(FADED / (2.0 * np.pi * eta)) + 2)
+    first /= eta
+    return Plate(h, b, b, first, 0.0, bent, zeros, MODES * weights, LATERAL, LATERAL_WEIGHTS)
 
 
 @quiet
@@ -222,8 +221,7 @@ def contact(
     plate_modulus : array_like, optional
         E* of the plate alone [Pa], equal to `modulus` for a rigid sphere; >= modulus
     sphere : bool
-        use the profile of an exact sphere instead of its paraboloid; on a half-space this gives
-        Sneddon's delta = (a/2) ln((R+a)/(R-a)), P = E* [(a^2+R^2)/2 ln((R+a)/(R-a)) - a R]
+        use the profile of an exact sphere (Sneddon 1965) instead of its paraboloid
     compliance : array_like
         indentation per force that the support adds [m/N]; negative for a stiffer support
 
@@ -243,12 +241,11 @@ def contact(
     23003.2 N, 0.00643546 m
     """
     own_modulus = modulus if plate_modulus is None else plate_modulus
-    _, given = as_doubles(a, R, modulus, own_modulus, compliance)
-    a, R, modulus, own_modulus, compliance = (np.array(x) for x in np.broadcast_arrays(*given))
+    given = np.broadcast_arrays(*as_doubles(a, R, modulus, own_modulus, compliance)[1])
+    a, R, modulus, own_modulus, compliance = (np.array(x) for x in given)
     holds = (a > 0, a <= WIDEST_OVER_B * plate.b, a <= WIDEST * plate.h, a < R)
     elastic = (modulus > 0, own_modulus >= modulus, ~np.isnan(compliance))
     a, R, modulus, own_modulus = inside([a, R, modulus, own_modulus], *holds, *elastic)
-    shape = a.shape
     flat = [np.ravel(x) for x in (a, R, modulus / own_modulus)]
     sizes: tuple[tuple[int, ...], ...] = ((NODES.size,), (), (), (), (), (), (_POINTS.size,))
     inner = [np.empty((flat[0].size, *size)) for size in sizes]
@@ -257,7 +254,7 @@ def contact(
         solution = _solve(plate, flat[0][part], flat[1][part], flat[2][part], sphere)
         for values, part_values in zip(inner, solution, strict=True):
             values[part] = part_values
-    solved = _Solution(*(x.reshape((*shape, *x.shape[1:])) for x in inner))
+    solved = _Solution(*(x.reshape((*a.shape, *x.shape[1:])) for x in inner))
     return _contact(plate, solved, (a, R, modulus, own_modulus, compliance))
 
 
@@ -265,10 +262,9 @@ def _contact(plate: Plate, solution: _Solution, given: tuple[Double, ...]) -> Co
     """Convert from units of the half-space to those of the arguments."""
     a, R, modulus, own_modulus, compliance = given
     centre = solution.bends[..., :-1] @ WEIGHTS
-    bend = solution.bends[..., -1]
     values = kernels.contact_results(
         a, R, modulus, own_modulus, compliance, np.asarray(plate.first), np.asarray(plate.unit),
-        *solution[1:6], bend, centre,
+        *solution[1:6], solution.bends[..., -1], centre,
     )  # fmt: skip
     chi = solution.chi * kernels.chi_unit(a, R, modulus)[..., None]
     closed = values[5] > 0
@@ -279,23 +275,26 @@ def _contact(plate: Plate, solution: _Solution, given: tuple[Double, ...]) -> Co
 
 def _waves(plate: Plate, a: Double, x: Double, modulus_ratio: Double) -> _Waves:
     """Return the waves at points x = t/a of shape (contacts, points)."""
-    ratio = (a / plate.unit)[:, None]
-    points, phase, rise = x[:, :, None], ratio * plate.waves, ratio * plate.rises
-    waves = kernels.wave(points, phase[:, None, :])
-    lateral_surfaces = kernels.lateral_wave(points, rise[:, None, :], plate.rises)
-    rises, bends = (
-        np.concatenate(pair, axis=2) for pair in zip(waves, lateral_surfaces, strict=True)
-    )
-    faded = np.concatenate((np.ones(plate.waves.size), np.exp(-plate.rises)))
-    weights = np.concatenate((ratio * plate.wave_weights, -ratio * plate.rise_weights), axis=1)
-    return _Waves(rises, bends, weights * modulus_ratio[:, None], faded)
+    ratio, points = (a / plate.unit)[:, None], x[:, :, None]
+    phase, rise = (ratio * plate.waves)[:, None, :], (ratio * plate.rises)[:, None, :]
+    parts = [kernels.wave(points, phase), kernels.lateral_wave(points, rise, plate.rises)]
+    weights = [plate.wave_weights, -plate.rise_weights]
+    faded = [np.ones(plate.waves.size), np.exp(-plate.rises)]
+    if plate.edge:
+        width = np.broadcast_to((a / plate.b)[:, None, None], points.shape)
+        parts.append(kernels.edge_wave(points, width))
+        weights.append(np.array([plate.edge]))
+        faded.append(np.ones(1))
+    rises, bends = (np.concatenate(part, axis=2) for part in zip(*parts, strict=True))
+    scaled = ratio * np.concatenate(weights) * modulus_ratio[:, None]
+    return _Waves(rises, bends, scaled, np.concatenate(faded))
 
 
 def _solve(plate: Plate, a: Double, R: Double, modulus_ratio: Double, sphere: bool) -> _Solution:
     """Return chi at the nodes by Nystroem's method; `modulus_ratio` is E* over the plate's.
 
-    The unknowns are chi and the depth, at a given force, which is 0 for the profile and 1 for the
-    flat punch: at a given depth the equation without N(0, 0) is singular at some radius.
+    The force is given, 0 for the profile and 1 for the flat punch, and the depth is unknown: at a
+    given depth the equation without N(0, 0) is singular at some radius.
     """
     x = np.broadcast_to(_POINTS, (a.size, _POINTS.size))
     waves = _waves(plate, a, x, modulus_ratio)
@@ -382,8 +381,8 @@ def pressure(
     [r] = inside([r], r >= 0, r <= float(state.a))
     if not state.force > 0:
         return np.full(r.shape, np.nan)[()]
-    own_modulus = modulus if plate_modulus is None else plate_modulus
-    radius, modulus_ratio = np.array([float(a)]), np.array([float(modulus) / float(own_modulus)])
+    own_modulus = float(modulus if plate_modulus is None else plate_modulus)
+    radius, modulus_ratio = np.array([float(a)]), np.array([float(modulus) / own_modulus])
     points = np.broadcast_to(_POINTS, (1, _POINTS.size))
     solution = _solve(plate, radius, np.array([float(R)]), modulus_ratio, sphere)
     transform = _transform(_waves(plate, radius, points, modulus_ratio), solution.chi)

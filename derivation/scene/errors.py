@@ -49,6 +49,10 @@ class IncompleteError(SceneError):
         return f"effects.inertia: {self.why}; {self.remedy}"
 
 
+class EndlessError(IncompleteError):
+    """The error of a contact that takes more time steps than are allowed."""
+
+
 class ToleranceError(SceneError):
     """The error of a tolerance that the results do not meet.
 

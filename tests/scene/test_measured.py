@@ -8,6 +8,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from derivation.scene import SceneError, read, simulate
+from derivation.scene.dynamic.flight import meeting_speed
 from derivation.scene.measured import measured as measured_module
 from derivation.scene.measured.measured import error_of, fitted, in_words, solved
 from derivation.scene.measured.measurement import Measurement, Trial
@@ -202,6 +203,62 @@ def test_a_rough_search_refuses_a_restitution_that_no_constant_gives(
     with pytest.raises(SceneError, match="expected less than"):
         simulate(scene)
     assert tolerances == {measured_module.LOOSE}
+
+
+PHONE: dict[str, Any] = {
+    "sphere": {"radius": 0.0158, "mass": 0.13, "material": "steel"},
+    "plate": {
+        "radius": 0.03, "thickness": 8e-4, "material": "phone glass", "edge": "clamped",
+    },
+    "impact": {"speed": 1.0},
+}  # fmt: skip
+"""A heavy ball, which thin glass throws back: no constant of the contact dissipates much."""
+ROUGHLY = {"rtol": 0.1, "outputs": ["restitution"]}
+
+
+def test_few_modes_refuse_a_restitution_far_below_all_that_a_heavy_ball_may_have(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Impacts with constants of all sizes, each with an error bound, confirm the smallest one."""
+    parts = set()
+    simulated = Measurement.simulated
+
+    def noted(self: Measurement, value: float | None, within: bool = False) -> Trial:
+        parts.add(self.part)
+        return simulated(self, value, within)
+
+    monkeypatch.setattr(Measurement, "simulated", noted)
+    wanted = {"restitution": 0.5, "solve_for": "retardation_time", "target": "plate"}
+    with pytest.raises(SceneError, match="smallest restitution that a plate") as error:
+        simulate(read(PHONE | {"measured": wanted}))
+    assert parts == {measured_module.PART}
+    named = float(str(error.value).partition("at least about ")[2].partition(",")[0])
+    for value in (1e-7, 1e-6, 3e-6, 1e-5):
+        glass = PHONE["plate"] | {"retardation_time": value}
+        result = simulate(read(PHONE | {"plate": glass, "accuracy": ROUGHLY}))
+        assert result.restitution > (1.0 - measured_module.CLEAR) * named > 0.5
+
+
+def test_few_modes_find_a_constant_that_accurate_simulations_confirm() -> None:
+    """The restitution of a known constant, simulated with an error bound, returns it."""
+    truth = 3e-6
+    plate = PHONE["plate"] | {"thickness": 4e-3}
+    scene = PHONE | {"sphere": {"radius": 0.005, "material": "steel"}, "plate": plate}
+    goal = simulate(read(scene | {"plate": plate | {"retardation_time": truth}})).restitution
+    wanted = {"restitution": goal, "solve_for": "retardation_time", "target": "plate"}
+    fit = solved(read(scene | {"measured": wanted}))
+    assert fit == pytest.approx(truth, rel=0.1)
+
+
+def test_a_face_that_meets_the_sphere_again_at_once_has_a_speed() -> None:
+    """At separation face and sphere move alike: their relative speed grows with the time since."""
+    glass = PHONE["plate"] | {"retardation_time": 1e-5}
+    run = simulate(read(PHONE | {"plate": glass, "accuracy": ROUGHLY})).dynamics
+    assert run is not None
+    problem, first = run.impact_history.problem, run.impact_history.contacts[0]
+    radius, late = first.pieces[-1].radius, 1e-4 * problem.retardation_time
+    now, later = (meeting_speed(problem, first.after, radius, t) for t in (0.0, late))
+    assert abs(now) < 0.1 * abs(later) < 1e-4
 
 
 @pytest.mark.parametrize(

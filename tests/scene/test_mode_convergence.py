@@ -16,6 +16,7 @@ from derivation.scene.dynamic import contact_sequence, mode_convergence, waves
 from derivation.scene.dynamic.mode_count import branching
 from derivation.scene.dynamic.reach import Reach
 from derivation.scene.dynamic.results import dynamic_impact_of
+from derivation.scene.dynamic.wave_motion import DynamicImpact
 from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.impact import selected_effects
 from derivation.scene.input.settings import Output
@@ -226,10 +227,76 @@ def test_a_tolerance_is_out_of_reach_only_by_runs_that_show_it(
     monkeypatch.setattr(mode_convergence, "beyond_limits", lambda *_, **__: True)
     monkeypatch.setattr(mode_convergence, "fast", lambda *_: True)
     reach = Reach(law, ("max_force",), 1e-2)
-    assert mode_convergence.unreachable(actual, law, 8, 1.0, reach)
-    assert not mode_convergence.unreachable(recounted, law, 8, 1.0, reach)
+    assert mode_convergence.unreachable([actual], law, 8, 1.0, reach)
+    assert not mode_convergence.unreachable([recounted], law, 8, 1.0, reach)
     monkeypatch.setattr(mode_convergence, "fast", lambda *_: False)
-    assert not mode_convergence.unreachable(actual, law, 8, 1.0, reach)
+    assert not mode_convergence.unreachable([actual], law, 8, 1.0, reach)
+
+
+def test_three_runs_show_how_slowly_an_error_decreases(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One more doubling of an error that fell by factors of 1.6 does not make it a third."""
+    run = followed(8).dynamics
+    assert run is not None
+    law, reach = run.law, Reach(run.law, ("restitution",), 1e-3)
+    monkeypatch.setattr(mode_convergence, "beyond_limits", lambda *_, **__: True)
+
+    def runs(*errors: float) -> list[DynamicImpact]:
+        """Return runs whose error estimates are these errors of all results."""
+        return [
+            replace(run, inertia=replace(run.inertia, mode_convergence=(0.5 * error,) * 5))
+            for error in errors
+        ]
+
+    def shown(*errors: float) -> bool:
+        return mode_convergence.unreachable(runs(*errors), law, 8, 1.0, reach)
+
+    assert shown(7.7e-3, 4.8e-3, 3e-3)
+    assert not shown(4.8e-3, 3e-3)
+    assert not shown(7.7e-3, 4.8e-3, 2e-3)
+    assert not shown(9e-3, 8e-3, 1.8e-3)
+
+
+COMPOSITE: dict[str, Any] = {
+    "sphere": {"radius": 0.0026, "material": "glass"},
+    "plate": {
+        "radius": 0.15, "thickness": 0.0084, "youngs_modulus": 50e9, "poissons_ratio": 0.3,
+        "density": 1600.0, "loss_factor": 0.11, "yield_stress": 320e6,
+    },
+    "impact": {"speed": 0.9},
+    "inertia": {"extent": "infinite"},
+}  # fmt: skip
+LEAD: dict[str, Any] = {
+    "sphere": {"radius": 0.0057, "material": "steel"},
+    "plate": {
+        "radius": 0.038, "thickness": 0.003, "youngs_modulus": 16e9, "poissons_ratio": 0.44,
+        "density": 11340.0,
+    },
+    "impact": {"speed": 0.24, "gravity": 9.81},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("scene", [COMPOSITE, LEAD])
+def test_a_tolerance_out_of_reach_names_one_that_is_met(
+    scene: dict[str, Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The runs end before the limits of modes; another tolerance changes the omitted effects."""
+    works: list[float] = []
+    once = waves.run_with
+
+    def counted(*args: Any, **kwargs: Any) -> DynamicImpact:
+        found = once(*args, **kwargs)
+        works.append(found.impact_history.work)
+        return found
+
+    monkeypatch.setattr(waves, "run_with", counted)
+    with pytest.raises(SceneError, match="expected a tolerance that can be met, such as") as error:
+        simulate(read(scene), rtol=1e-4)
+    spent = sum(works)
+    assert spent < 0.1 * waves.WORK
+    works.clear()
+    named = float(str(error.value).partition("such as ")[2].split()[0])
+    assert simulate(read(scene), rtol=named).accuracy.bound <= named < 1e-3
+    assert sum(works) <= spent
 
 
 @pytest.mark.parametrize("size", [0, 1, 49, 50, 99, 100, 101, 1000])
@@ -248,13 +315,13 @@ def test_one_run_beyond_the_limits_is_made_if_the_tolerance_is_near(
     monkeypatch.setattr("derivation.scene.dynamic.mode_count.WORK", 0.0)
     waves.impact.cache_clear()
     counts: list[int] = []
-    once = waves._run
+    once = waves.run_with
 
     def counted(law: Any, count: int, *args: Any, **kwargs: Any) -> Any:
         counts.append(count)
         return once(law, count, *args, **kwargs)
 
-    monkeypatch.setattr(waves, "_run", counted)
+    monkeypatch.setattr(waves, "run_with", counted)
     if rtol == 3e-4:
         assert simulate(scene, rtol=rtol).accuracy.bound <= rtol
     else:

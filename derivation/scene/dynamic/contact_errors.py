@@ -9,7 +9,7 @@ from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
 from derivation.scene.dynamic.yield_events import turned
 from derivation.scene.effects.effect import Array
 from derivation.scene.effects.inertia import WIDER
-from derivation.scene.errors import IncompleteError, wide_contact
+from derivation.scene.errors import EndlessError, IncompleteError, wide_contact
 
 STUCK = 1e-7
 """Length of an element in x, over max(x, 1), at which one without a solution ends the simulation.
@@ -27,9 +27,9 @@ SHARP = 0.05
 """Slope of the gap over that without vibration below which the contact is no longer circular."""
 
 
-def endless(problem: DynamicProblem, t: float, most: int) -> IncompleteError:
+def endless(problem: DynamicProblem, t: float, most: int) -> EndlessError:
     """Return the error of a simulation with too many time steps."""
-    return IncompleteError(
+    return EndlessError(
         f"the sphere was still in contact {problem.T * t:.6g} s after first contact, when the "
         f"limit of {most} time steps was reached",
         "reduce inertia.modes, increase accuracy.rtol, or set effects.inertia = false",

@@ -186,7 +186,8 @@ def expected_work(problem: DynamicProblem, n: int, coarse: ImpactHistory) -> flo
     """
     lasted = sum(touching.end - touching.start for touching in coarse.contacts)
     more, fewer = (lasted * one.fastest / PHASE for one in (problem, coarse.problem))
-    others = sum(touching.tried for touching in coarse.contacts) - fewer / n
+    nodes = coarse.contacts[0].pieces[0].element.slope.size
+    others = sum(touching.tried for touching in coarse.contacts) - fewer / nodes
     return (more / n + max(0.0, others)) * weight_of(problem, n)
 
 

@@ -95,7 +95,9 @@ def meeting_speed(problem: DynamicProblem, after: ImpactState, radius: float, t:
     """
     if not problem.retardation_time:
         return -problem.flown(after, t).separation_speed
-    step = SINCE * min(t, problem.retardation_time)
+    # They may also meet again at once.
+    step = SINCE * (min(t, problem.retardation_time) or problem.retardation_time)
+    t = max(t, step)
     closed = _into(problem, after, t, radius) - _into(problem, after, t - step, radius)
     return closed / step
 

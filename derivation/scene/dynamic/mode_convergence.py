@@ -1,7 +1,7 @@
 """Convergence of the results of an impact with the number of plate modes."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -37,6 +37,11 @@ NEARBY, LOOKS = 0.1, 1000
 unit of time of the impact; number of times in this unit at which the force is compared."""
 ONCE = 5.0
 """Error by omitted modes over the allowed one up to which twice as many modes may be enough."""
+COMPARED, STEADY, SLOWEST = 3, 1.3, math.sqrt(2.0)
+"""Number of runs that show how fast an error decreases; largest expected factor by which it then
+decreases faster; the slowest decrease that goes on when modes are doubled, of the contact time.
+In random scenes, none of the 46 simulations with at least three such runs that met their tolerance
+would have ended early, and 17 of those that did not."""
 DEARER = {"A0": 2.0, "all": 4.0}
 """Least factor of the work of a run with twice as many bending modes."""
 
@@ -190,7 +195,7 @@ def unjudged(found: DynamicImpact) -> DynamicImpact:
 
 
 def unreachable(
-    found: DynamicImpact, law: ContactLaw, count: int, work: float, reach: Reach
+    runs: Sequence[DynamicImpact], law: ContactLaw, count: int, work: float, reach: Reach
 ) -> bool:
     """Return whether no number of modes within the limits can be expected to meet the tolerance.
 
@@ -198,13 +203,14 @@ def unreachable(
 
     Parameters
     ----------
-    found
-        A run with an error estimate.
+    runs
+        Runs with error estimates, each with twice as many modes as the one before.
     count
-        Its number of bending modes.
+        Number of bending modes of the last one.
     work
         Expected work of the run with twice as many.
     """
+    found = runs[-1]
     if found.inertia.recounted:  # the next run may have the same contacts, and agree
         return False
     branches = "all" if law.model.inertia.branches == "all" else "A0"
@@ -220,9 +226,22 @@ def unreachable(
         first = factor if resolved or factor == REGULAR else FIRST
         error = found.inertia.error_by_change(name) / (first * factor ** (doublings - 1))
         ripple = found.inertia.error_by_ripple(name) / ((first / factor) * calmed**doublings)
-        if max(error, ripple) > reach.need:
+        if max(error, ripple, _after(runs, name, doublings)) > reach.need:
             return True
     return False
+
+
+def _after(runs: Sequence[DynamicImpact], output: str, doublings: int) -> float:
+    """Return the least expected error of an output after more doublings of the number of modes [1].
+
+    It follows from the last three runs, and is 0 if there are fewer with the same contacts.
+    """
+    if len(runs) < COMPARED or any(run.inertia.recounted for run in runs[-COMPARED:]):
+        return 0.0
+    oldest, older, last = (run.inertia.error_of_modes(output) for run in runs[-COMPARED:])
+    if not min(oldest, older, last) > 0.0:
+        return 0.0
+    return last / (STEADY * max(SLOWEST, oldest / older, older / last)) ** doublings
 
 
 def echoes_matter(run: DynamicImpact, reach: Reach) -> bool:

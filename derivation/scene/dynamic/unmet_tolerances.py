@@ -26,6 +26,7 @@ def out_of_reach(
     a: float,
     growth: float,
     met: Sequence[str],
+    named: float,
 ) -> SceneError:
     """Return the error for a tolerance that is not met, or cannot be compared with a bound.
 
@@ -37,6 +38,8 @@ def out_of_reach(
         As in `ToleranceError`.
     met
         The outputs that meet the tolerance.
+    named
+        A tolerance that can be met [1].
     """
     if math.isinf(accuracy.effects.bound):
         return SceneError(
@@ -59,7 +62,7 @@ def out_of_reach(
     if met:
         remedy += f", or request only what meets it: accuracy.outputs = {json.dumps(list(met))}"
     return ToleranceError(
-        f"rtol: expected {expected} {rounded_up(accuracy.bound)} {where}, got {rtol:.3g}; {remedy}",
+        f"rtol: expected {expected} {rounded_up(named)} {where}, got {rtol:.3g}; {remedy}",
         accuracy.bound,
         growth,
     )

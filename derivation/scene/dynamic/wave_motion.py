@@ -148,11 +148,11 @@ class InertiaDetails:
 
     def left(self, outputs: Sequence[str]) -> tuple[float, float]:
         """Return the largest estimated errors of outputs by omitted modes and by branches [1]."""
-        remaining = max(map(self._omitted_modes, outputs))
+        remaining = max(map(self.error_of_modes, outputs))
         indices = [OUTPUTS.index(name) for name in outputs]
         return remaining, max(self.omitted_branch_error[k] for k in indices)
 
-    def _omitted_modes(self, output: str) -> float:
+    def error_of_modes(self, output: str) -> float:
         """Return the estimated error of an output by omitted modes [1]."""
         return max(self.error_by_change(output), self.error_by_ripple(output))
 

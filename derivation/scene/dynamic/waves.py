@@ -8,21 +8,20 @@ from its edge during the contacts.
 """
 
 import math
-from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic import contact_sequence
 from derivation.scene.dynamic.contact_errors import check_whole_width
 from derivation.scene.dynamic.contact_sequence import ContactRun, ImpactHistory, expected_work
+from derivation.scene.dynamic.infinite_plate import edge_heard, widened, wider
 from derivation.scene.dynamic.integration_error import error_after, integration_error
 from derivation.scene.dynamic.mode_convergence import (
     echoes_matter,
     judged,
     largest_change,
     nearly_meets,
-    unchecked,
     unjudged,
     unreachable,
 )
@@ -38,20 +37,18 @@ from derivation.scene.dynamic.mode_count import (
     finer,
     followed,
 )
-from derivation.scene.dynamic.problem import DynamicProblem
 from derivation.scene.dynamic.reach import OutOfReachError, Reach
 from derivation.scene.dynamic.results import dynamic_impact_of
+from derivation.scene.dynamic.runs import LOOSE, WORK, Budget, run_with, time_tolerance
 from derivation.scene.dynamic.time_in_contact import FEWER, check_long, nodes_for
 from derivation.scene.dynamic.wave_motion import DynamicImpact
-from derivation.scene.dynamic.wave_problem import echo_time, problem_of
+from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.errors import SceneError
 from derivation.scene.scene import OUTPUTS
 
-WIDEST = 30.0
-"""Largest radius that represents an infinite plate, over the first guess of `model_of`."""
-LOOSE, TOLERANCE_FRACTION, KEPT = 4e-4, 1.0 / 3.0, 0.75
-"""Largest accepted error by omitted modes: without a tolerance [1], and as a part of one; the part
-that omitted modes and branches together may take."""
+TOLERANCE_FRACTION, KEPT = 1.0 / 3.0, 0.75
+"""Largest accepted error by omitted modes over the tolerance; the part of it that omitted modes and
+branches together may take."""
 ROUGHER = 5.0
 """Factor by which the error by omitted modes may be larger without a tolerance, if the next run
 takes more work than `LONG`: then it is at most 0.2 %."""
@@ -61,27 +58,11 @@ LONG = 1.5e6
 """Expected work of the second run above which coarser runs first check the first one."""
 FOURTH = 8
 """Number of modes from which a run with a quarter of them is meaningful."""
-WHOLE = 1.5e6
-"""Largest work of a run that only determines which tolerance a message names."""
-WORK = 4.5e7
-"""Largest work of all runs of an impact, in the units of `contact_sequence.WORK`."""
 
 
 def goal(rtol: float | None) -> float:
     """Return the largest accepted change with the number of modes [1] for a tolerance."""
     return LOOSE if rtol is None else TOLERANCE_FRACTION * rtol
-
-
-def time_tolerance(goal: float) -> float:
-    """Return the tolerance of the time elements, small against the goal for more modes [1]."""
-    return min(1e-8, max(contact_sequence.TOLERANCE, 1e-3 * goal))
-
-
-@dataclass
-class Budget:
-    """Remaining work of all runs of an impact together, in the units of `WORK`."""
-
-    left: float
 
 
 @lru_cache(maxsize=4)
@@ -116,18 +97,16 @@ def impact(
         plate are too slow or too many, or the first contact cannot be computed to its end.
     """
     check_long(law, time_tolerance(goal))
-    budget, reach = Budget(WORK), Reach(law, outputs, need)
+    budget, reach, first = Budget(WORK), Reach(law, outputs, need), law.model.b
     rough: DynamicImpact | None = None
+    coarse: ImpactHistory | None = None
+    if law.model.inertia.infinite_plate and not law.model.inertia.modes:
+        law, coarse = widened(law, budget)
     if law.model.inertia.branches == "auto" and not law.viscous:
         law, rough = _branched(law, goal, outputs, budget)
-    run, first = _converged(law, goal, reach, budget, rough), law.model.b
-    while law.model.inertia.infinite_plate and _edge_heard(run):
-        if law.model.b > WIDEST * first:
-            raise SceneError(
-                f"inertia.extent: the contact on an infinite plate had not ended after "
-                f"{run.inertia.total_time:.6g} s; use a thicker plate or a lighter sphere"
-            )
-        law = replace(law, model=replace(law.model, b=2.0 * law.model.b))
+    run = _converged(law, goal, reach, budget, rough, coarse)
+    while law.model.inertia.infinite_plate and edge_heard(run):
+        law = wider(law, first, run)
         run = _converged(law, goal, reach, budget)
     return run
 
@@ -168,18 +147,13 @@ def _branched(
     return lowest, rough
 
 
-def _edge_heard(run: DynamicImpact) -> bool:
-    """Return whether a wave may have returned from the edge before the last contact ended."""
-    model, problem = run.law.model, run.impact_history.problem
-    return problem.T * run.impact_history.contacts[-1].end > echo_time(model)
-
-
 def _converged(
     law: ContactLaw,
     goal: float,
     reach: Reach,
     budget: Budget,
     known: DynamicImpact | None = None,
+    coarse: ImpactHistory | None = None,
 ) -> DynamicImpact:
     """Return the impact with as many modes as the goal requires, or as the limits allow.
 
@@ -187,36 +161,43 @@ def _converged(
     ----------
     known
         The run with the fewest modes, if it has been computed.
+    coarse
+        A run with still fewer modes, if there is one.
     """
     count, close = affordable(law), time_tolerance(goal)
     more = finer(law, count)
     check_followed(law, more)
-    rough = known or _run(law, count, budget, close, FEWER, reach=reach)
+    rough = known or run_with(law, count, budget, close, FEWER, coarse, reach)
     if not rough.inertia.complete:  # a finer run would not be complete either
         return rough
+    if law.model.inertia.infinite_plate and edge_heard(rough):
+        return rough
     check_whole_width(rough.impact_history.problem, rough.max_contact_radius)
-    estimated = None
+    estimated: DynamicImpact | None = None
+    halved: DynamicImpact | None = None
     work = _next_work(law, more, rough)
     dear = work > min(LONG, contact_sequence.WORK, budget.left)
     if dear and not law.model.inertia.pointwise:
         compared = _by_coarser(rough, law, count, Budget(budget.left))
         if compared:
             estimated, halved = compared
+        if estimated and halved:
             change = estimated.inertia.left(reach.outputs)[0]
             if change <= _accepted_change(estimated, goal, reach, work):
                 return estimated
-            if unreachable(halved, law, count, work, reach):
+            if unreachable([halved], law, count, work, reach):
                 return halved
             if not halved.inertia.recounted:
                 inertia = replace(rough.inertia, ripple=halved.inertia.ripple)
                 rough = replace(rough, inertia=inertia)
     if estimated is None:
-        rough = _with_earlier(rough, law, count, reach, budget)
+        rough = _with_earlier(rough, law, count, reach, budget, halved)
     best: DynamicImpact | None = None
+    runs: list[DynamicImpact] = []
     most: float | None = None
     while True:
         try:
-            run = _run(law, more, budget, close, coarse=rough.impact_history, most=most)
+            run = run_with(law, more, budget, close, coarse=rough.impact_history, most=most)
         except SceneError:
             if best is None:
                 raise
@@ -225,6 +206,7 @@ def _converged(
             unstarted = run.impact_history.problem is rough.impact_history.problem
             return best or (estimated if unstarted else None) or run
         best = rough = judged(rough, run)
+        runs.append(best)
         if law.model.inertia.pointwise:  # short waves gain energy: the results do not converge
             return unjudged(best)
         count, more = more, finer(law, more)
@@ -244,7 +226,7 @@ def _converged(
             if work > FINAL:
                 return best
             most = FINAL
-        if unreachable(best, law, count, work, reach):
+        if unreachable(runs, law, count, work, reach):
             return best
 
 
@@ -262,13 +244,26 @@ def _accepted_change(run: DynamicImpact, goal: float, reach: Reach, work: float 
 
 
 def _with_earlier(
-    run: DynamicImpact, law: ContactLaw, count: int, reach: Reach, budget: Budget
+    run: DynamicImpact,
+    law: ContactLaw,
+    count: int,
+    reach: Reach,
+    budget: Budget,
+    halved: DynamicImpact | None,
 ) -> DynamicImpact:
-    """Return the first run with its change since half as many: the next may agree by chance."""
+    """Return the first run with its change since half as many: the next may agree by chance.
+
+    Parameters
+    ----------
+    halved
+        The run with this change, if it is known.
+    """
     if "contact_time" in reach.outputs or law.model.inertia.modes or count < FOURTH:
         return run
+    if halved:
+        return halved
     try:
-        coarse = _run(law, coarser(count), budget, time_tolerance(LOOSE), FEWER)
+        coarse = run_with(law, coarser(count), budget, time_tolerance(LOOSE), FEWER)
     except SceneError:  # so few modes may bend the plate more than the sphere is curved
         return run
     return judged(coarse, run) if coarse.inertia.complete else run
@@ -278,64 +273,6 @@ def _next_work(law: ContactLaw, count: int, rough: DynamicImpact) -> float:
     """Return the expected work of a run with a number of bending modes."""
     problem = problem_of(law, count, rough.impact_history.tolerance)
     return expected_work(problem, nodes_for(problem), rough.impact_history)
-
-
-def _run(
-    law: ContactLaw,
-    count: int,
-    budget: Budget,
-    tolerance: float,
-    fewer_nodes: int = 0,
-    coarse: ImpactHistory | None = None,
-    reach: Reach | None = None,
-    most: float | None = None,
-) -> DynamicImpact:
-    """Return the impact with a number of bending modes.
-
-    If the work estimated from a coarser run is too large, that run is returned as incomplete.
-
-    Parameters
-    ----------
-    tolerance
-        Tolerance of the time elements [1].
-    fewer_nodes
-        Number of nodes by which the elements are reduced.
-    coarse
-        A run with fewer modes, if there is one.
-    reach
-        The tolerance, if the run ends when omitted wave branches exceed it.
-    most
-        Largest work, if it differs from that of every run.
-    """
-    problem = problem_of(law, count, tolerance)
-    n = nodes_for(problem) - fewer_nodes
-    work = most or min(contact_sequence.WORK, budget.left)
-    if coarse and expected_work(problem, n, coarse) > work:
-        fewer = count // 2
-        while fewer > 1 and expected_work(problem_of(law, fewer, tolerance), n, coarse) > work:
-            fewer //= 2
-        return dynamic_impact_of(law, unchecked(coarse, problem, fewer))
-    enough = reach.enough(law, problem) if reach else None
-    watch = reach.watch(law, problem.a) if reach else None
-    try:
-        history = contact_sequence.impact_history(problem, n, tolerance, work, enough, watch)
-    except OutOfReachError:
-        # The change by omitted branches grows until the end, and the message names a tolerance.
-        if reach and (whole := _within(law, problem, n, tolerance, WHOLE)):
-            reach.check(whole.inertia.omitted_branch_error)
-        raise
-    budget.left -= history.work
-    return dynamic_impact_of(law, history)
-
-
-def _within(
-    law: ContactLaw, problem: DynamicProblem, n: int, tolerance: float, work: float
-) -> DynamicImpact | None:
-    """Return a complete impact if it needs no more than some work, else None."""
-    with suppress(SceneError):
-        history = contact_sequence.impact_history(problem, n, tolerance, work)
-        return dynamic_impact_of(law, history) if history.complete else None
-    return None
 
 
 def _of_chosen_modes(
@@ -351,7 +288,7 @@ def _of_chosen_modes(
         return run
     if not fast(law, count):
         return unjudged(run)
-    coarse = _run(law, coarser(coarser(count)), budget, time_tolerance(LOOSE), FEWER)
+    coarse = run_with(law, coarser(coarser(count)), budget, time_tolerance(LOOSE), FEWER)
     if not coarse.inertia.complete:
         return unjudged(run)
     return largest_change(run, judged(coarse, run))
@@ -359,20 +296,21 @@ def _of_chosen_modes(
 
 def _by_coarser(
     run: DynamicImpact, law: ContactLaw, count: int, budget: Budget
-) -> tuple[DynamicImpact, DynamicImpact] | None:
+) -> tuple[DynamicImpact | None, DynamicImpact] | None:
     """Return the first run with an error estimate by coarser ones, less work than a finer one.
 
     As in `_of_chosen_modes`, the larger change since half and since a quarter as many modes counts.
     The second result has the change since half as many modes alone.
-    None if the scene gives a number of modes, the modes of the first run are slower than the
-    contact, or a coarser run fails, is incomplete or has entirely different results.
+    The first result is None if the coarser runs have entirely different results; both are if the
+    scene gives a number of modes, the modes of the first run are slower than the contact, or a
+    coarser run fails or is incomplete.
     """
     if law.model.inertia.modes or count < FOURTH or not fast(law, count):
         return None
     compared: list[DynamicImpact] = []
     for fewer in (coarser(coarser(count)), coarser(count)):
         try:
-            coarse = _run(law, fewer, budget, time_tolerance(LOOSE), FEWER)
+            coarse = run_with(law, fewer, budget, time_tolerance(LOOSE), FEWER)
         except SceneError:  # so few modes may bend the plate more than the sphere is curved
             return None
         if not coarse.inertia.complete:
@@ -381,7 +319,7 @@ def _by_coarser(
     quartered, halved = compared
     found = largest_change(quartered, halved)
     if max(found.inertia.mode_convergence) >= 1.0:
-        return None
+        return None, halved
     force, radius = map(max, quartered.inertia.ripple_error, halved.inertia.ripple_error)
     jump = max(quartered.inertia.jump, halved.inertia.jump)
     inertia = replace(found.inertia, jump=jump, ripple_error=(force, radius))

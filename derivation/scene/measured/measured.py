@@ -37,6 +37,9 @@ FURTHEST, POLISHES = 0.2, 6
 simulations."""
 ENOUGH = 1.6
 """Tolerance that a message recommends over the error bound: both increase together."""
+PART, CLEAR = 0.125, 0.1
+"""Part of the modes of simulations that search for the constant roughly, and relative difference
+from the smallest restitution they give that shows without an error bound that no value gives it."""
 AGREES = 0.1
 """Relative difference from the measured restitution that suffices, over the error bound."""
 NEGLIGIBLE = 0.01
@@ -171,16 +174,7 @@ def _with_inertia(measured: Measurement, rtol: float | None) -> Fit:
     rtol
         Tolerance of the results [1].
     """
-    first: float | None = None
-    loose = measured.to(LOOSE)
-    lossless = loose.lossless(margin=1.0)
-    try:
-        first = loose.rough_value(lossless)
-    except UnreachedError as unreached:
-        if measured.goal < unreached.least:
-            raise
-    except SceneError:
-        pass  # few modes may fail where more do not
+    first = _rough_value(measured.to(LOOSE))
     slope, ratio = (0.0, LEAST_RATIO) if first is None else _sensitivities(measured, first)
     parts = 2.0 + (1.0 + AGREES) * ratio
     accurate = measured.to(DEFAULT if rtol is None else rtol / parts)
@@ -198,23 +192,52 @@ def _with_inertia(measured: Measurement, rtol: float | None) -> Fit:
     return Fit(value, error, trial.bound, parts)
 
 
+def _rough_value(loose: Measurement) -> float | None:
+    """Return a value of the constant near the solution, from simulations with few modes.
+
+    None if they do not find it.
+
+    Parameters
+    ----------
+    loose
+        The measurement with a large tolerance.
+
+    Raises
+    ------
+    SceneError
+        If the simulations show that no value gives the restitution.
+    """
+    few = replace(loose, part=PART)
+    try:
+        return few.rough_value(few.simulated(None))
+    except UnreachedError as unreached:
+        if loose.goal < (1.0 - CLEAR) * unreached.least:
+            raise
+        lowest = unreached.value
+    except SceneError:
+        lowest = 0.0  # few modes may fail where more do not
+    lossless = loose.lossless(margin=1.0)
+    try:
+        if lowest:
+            loose.check_reached(lowest)
+        return loose.rough_value(lossless)
+    except UnreachedError as unreached:
+        if loose.goal < unreached.least:
+            raise
+    except SceneError:
+        pass
+    return None
+
+
 def _sensitivities(measured: Measurement, value: float) -> tuple[float, float]:
     """Return the sensitivity of the restitution, and the error of the results over its error [1].
 
     The errors of the results include their change with the constant, relative to the change of the
     restitution. It is large where the restitution hardly depends on the constant.
     """
-    from derivation.scene.dynamic.mode_count import MODES, count_of
-    from derivation.scene.impact import selected_effects
-    from derivation.scene.scene import read
-
-    # The same few modes, so that the number of modes does not change the results.
+    # The same modes, so that their number does not change the results.
     tables = {k: v for k, v in measured.tables.items() if k != "accuracy"}
-    plate = tables["plate"] | {measured.key: value}
-    law = selected_effects(read(tables | {"plate": plate}))[1].law
-    few = {"branches": "A0", "modes": min(2 * count_of(law), MODES)}
-    settings = few | tables.pop("inertia", {})
-    same = replace(measured, tables=tables | {"inertia": settings})
+    same = replace(measured, tables=tables, part=2.0)
     one, other = (same.simulated(x) for x in (value, (1.0 + CHANGE) * value))
     *changes, change = (
         math.log(after / before) / math.log1p(CHANGE)

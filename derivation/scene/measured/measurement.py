@@ -45,11 +45,19 @@ STATIC_RTOL = 1e-9
 
 
 class UnreachedError(SceneError):
-    """The error of a restitution below all that the constant gives, within their bounds `least`."""
+    """The error of a restitution below all that the constant gives.
 
-    def __init__(self, text: str, least: float) -> None:
-        super().__init__(text, least)
-        self.text, self.least = text, least
+    Attributes
+    ----------
+    least
+        The smallest restitution less its error bound [1].
+    value
+        The constant that gives it, about; 0 if it is unknown.
+    """
+
+    def __init__(self, text: str, least: float, value: float) -> None:
+        super().__init__(text, least, value)  # the arguments from which pickle restores it
+        self.text, self.least, self.value = text, least, value
 
     def __str__(self) -> str:
         return self.text
@@ -114,11 +122,16 @@ class Measurement:
         The constant of the plate to determine.
     goal
         The measured restitution [1].
+    part
+        Part of the modes that the first of the usual simulations has [1]: with plate inertia, the
+        only simulation then has these modes, and its error is assumed to be `ROUGH`. 0 for usual
+        simulations with an error bound.
     """
 
     tables: Mapping[str, Any]
     key: str
     goal: float
+    part: float = 0.0
 
     @property
     def static(self) -> bool:
@@ -140,14 +153,19 @@ class Measurement:
             Whether the tolerance must be met with plate inertia, too.
         """
         from derivation.scene.contact_law.limits import check_radius
+        from derivation.scene.dynamic.runs import with_few_modes
         from derivation.scene.impact import selected_effects
         from derivation.scene.selection.method_selection import solve_selected
 
         rtol, selected = selected_effects(self._scene(value))
-        numbers, accuracy = solve_selected(selected, rtol, within=within or self.static)
-        law, a = selected.law, numbers[3]
-        check_radius(law, a, "impact.speed", "reduce the speed")
-        return Trial(numbers, min(law.max_pressure(a), law.pressure_limit), accuracy.bound)
+        law, bound = selected.law, ROUGH
+        if self.part and law.dynamic:
+            numbers = with_few_modes(law, self.part).numbers
+        else:
+            numbers, accuracy = solve_selected(selected, rtol, within=within or self.static)
+            bound = accuracy.bound
+        check_radius(law, a := numbers[3], "impact.speed", "reduce the speed")
+        return Trial(numbers, min(law.max_pressure(a), law.pressure_limit), bound)
 
     def _scene(self, value: float | None) -> "Scene":
         """Return the scene with a trial value; without one, the plate loses no energy by it."""
@@ -196,8 +214,8 @@ class Measurement:
         UnreachedError
             If no trial value encloses it; perhaps only because the tolerance is large.
         """
-        if self.goal >= lossless.restitution:
-            raise UnreachedError("", -math.inf)
+        if not self.goal < lossless.restitution:  # perhaps it is unknown
+            raise UnreachedError("", -math.inf, 0.0)
         low, high = self._bracket(lossless, ROUGH)
         while True:
             near = min(low, high, key=lambda point: abs(point.above))
@@ -274,7 +292,7 @@ class Measurement:
         step = more if falling else -more
         points = [now]
         for _ in range(STEPS):
-            points.append(now := self._point(points[-1].x + step))
+            points.append(now := self._next(points, step))
             if (now.above <= 0.0) if falling else (now.above >= 0.0):
                 if back and falling:
                     falling = False  # to the smaller solution
@@ -306,15 +324,47 @@ class Measurement:
             f"{UNITS[self.key]} gives; correct it, or change measured.solve_for"
         )
 
+    def _next(self, points: list[Point], step: float) -> Point:
+        """Return the point after others, from which it differs by a step.
+
+        Raises
+        ------
+        UnreachedError
+            If it cannot be computed, with the smallest restitution of the others.
+        """
+        try:
+            return self._point(points[-1].x + step)
+        except SceneError as error:
+            raise UnreachedError(str(error), min(p.least for p in points), 0.0) from None
+
     def _unreached(self, points: list[Point]) -> UnreachedError:
         """Return the error of a restitution below those of all points."""
         lowest = min(points, key=lambda point: point.above)
+        least = min(point.least for point in points)
+        return self._below(self.goal + lowest.above, least, math.exp(lowest.x))
+
+    def check_reached(self, value: float) -> None:
+        """Raise an error if a constant that gives the smallest restitution gives a larger one.
+
+        Raises
+        ------
+        UnreachedError
+            If the restitution with this constant exceeds the measured one beyond its error bound.
+        """
+        trial = self.simulated(value)
+        least = trial.restitution * (1.0 - trial.bound)
+        if self.goal < least:
+            raise self._below(trial.restitution, least, value)
+
+    def _below(self, smallest: float, least: float, value: float) -> UnreachedError:
+        """Return the error of a restitution below the smallest one, which a constant gives."""
         return UnreachedError(
-            f"measured.restitution: expected at least about {self.goal + lowest.above:.3g}, the "
-            f"smallest restitution that a plate.{self.key} gives, got {self.goal:.6g}; the "
-            f"restitution is smallest at about {math.exp(lowest.x):.3g} {UNITS[self.key]}; correct "
-            "measured.restitution or measured.target",
-            min(point.least for point in points),
+            f"measured.restitution: expected at least about {smallest:.2g}, the smallest "
+            f"restitution that a plate.{self.key} gives, got {self.goal:.6g}; the restitution is "
+            f"smallest at about {value:.2g} {UNITS[self.key]}; correct measured.restitution or "
+            "measured.target",
+            least,
+            value,
         )
 
 

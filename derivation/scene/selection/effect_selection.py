@@ -118,6 +118,12 @@ class SelectedEffects:
             return self
         return _selected(self._selection, self.rtol, self.outputs, self._tolerance, growth)
 
+    def omitted_at(self, rtol: float) -> float:
+        """Return the bound on the change by the effects omitted with another tolerance [1]."""
+        if self._selection is None:
+            return self.error
+        return select(self.law.model, self._selection.choice, rtol, self.outputs).error
+
     @property
     def stated_error(self) -> float:
         """Bound on the change by all effects omitted by the selection, after the simulation [1]."""

@@ -43,6 +43,8 @@ if TYPE_CHECKING:
 CERTAIN = 0.75
 """Bound on an output over the tolerance up to which a message states that it meets it alone: with
 fewer outputs the simulation may end with fewer modes."""
+SEARCHES, LARGER = 20, 1.05
+"""Largest number of tolerances that are considered for a message, and the least ratio of two."""
 
 
 def check_rtol(rtol: float) -> float:
@@ -110,7 +112,8 @@ def solve_selected(
             largest_growth(growth_of(moving), selected.outputs) if before.bound <= rtol else 1.0
         )
         met = () if moving is None else _met(selected, moving, accuracy, rtol)
-        raise out_of_reach(rtol, accuracy, law, results[3], growth, met)
+        named = accuracy.bound if moving is None else _named(selected, moving, accuracy)
+        raise out_of_reach(rtol, accuracy, law, results[3], growth, met, named)
     check_numbers(law.model, *(results[:-1] if math.isnan(results[-1]) else results))
     return results, accuracy
 
@@ -124,6 +127,27 @@ def _omitted(selected: SelectedEffects, motion: "DynamicImpact | None") -> float
     if _may_jump(selected, motion):
         return math.inf
     return largest_growth(growth_of(motion), selected.outputs) * selected.error
+
+
+def _named(selected: SelectedEffects, moving: "DynamicImpact", accuracy: AchievedAccuracy) -> float:
+    """Return a tolerance at which a simulation with plate inertia ends with these modes [1].
+
+    With a larger tolerance more effects may be omitted, which takes a part of it.
+    """
+    from derivation.scene.dynamic.waves import KEPT
+
+    simulated = replace(accuracy, effects=Part(0.0, PROVED)).bound / KEPT
+    growth, error = largest_growth(growth_of(moving), selected.outputs), selected.error
+    named = math.expm1(math.log1p(growth * error) + math.log1p(simulated))
+    for _ in range(SEARCHES):
+        if not named < 1.0:
+            break
+        error = selected.omitted_at(named)
+        least = math.expm1(math.log1p(growth * error) + math.log1p(simulated))
+        if least <= named:
+            break
+        named = LARGER * least
+    return named
 
 
 def _met(

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from derivation.scene.contact_law.corrections import membrane_stress, stretching
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import local_indentation, plate_times, slow_for
-from derivation.scene.dynamic.edge_remainder import edge_remainder
+from derivation.scene.dynamic.edge_remainder import edge_stress_error
 from derivation.scene.dynamic.model_error import stress_error
 from derivation.scene.dynamic.stretching_error import stress_change
 from derivation.scene.effects.effect import Results
@@ -36,7 +36,7 @@ class TensileStress(NamedTuple):
         the back face.
     error
         Estimated relative error [1], apart from the error bound of the force; that of the static
-        stress if `static` is true.
+        stress if `static` is true. Infinite if that of the edge is unknown.
     static
         Whether the stress is that of a static load, although vibration of the plate may change it.
     """
@@ -82,17 +82,22 @@ def tensile_stress(
     on_edge
         Whether the edge of the scene counts.
     """
+    from derivation.scene.dynamic.wave_problem import echo_time
+
     contact_time, indentation, force, a, _ = numbers
     model = law.model
     if motion is not None:
         stress, error, _ = motion.back_face
-        error += stress_error(model, a, contact_time)
+        measured = stress_error(model, a, contact_time)
+        if on_edge and motion.inertia.total_time > echo_time(motion.law.model):
+            measured = max(measured, edge_stress_error(model, a))
+        error += measured
         return TensileStress(stress, error + stress_change(law, motion), static=False)
     stress = law.max_tensile_stress(a, force, on_edge)
     deflection = indentation - float(local_indentation(law, a))
     error = membrane_stress(model, deflection) + float(stretching(model, deflection))
-    if law.other_edge:
-        error += edge_remainder(model, a)
+    if on_edge:  # even if the law omits the edge
+        error += edge_stress_error(model, a)
     if not model.density or not slow_for(model, contact_time):
         return TensileStress(stress, error, static=True)
     vibration = VIBRATION * plate_times(model).period / contact_time

@@ -9,7 +9,8 @@ The edge conditions of the remainder are
     clamped     u = w = 0:              displacements -u and -w of what is there,
 
 both on the whole edge, not only in the middle plane or in the mean. The model error is the
-centre deflection of the contact face by both, minus the law's value, divided by delta.
+centre deflection of the contact face by both, minus the law's value, divided by delta. That of the
+stress on the axis of the back face is their stress, minus the law's value, divided by this value.
 
 The Gauss-Lobatto-Legendre elements all have one degree. The mesh is graded geometrically towards
 the edge and its two corners, where a clamp is singular. Another degree and another layer of
@@ -29,6 +30,11 @@ from numpy.typing import NDArray
 
 from derivation.engine.files import measurements, write_file
 from derivation.engine.outputs import sorted_json
+from generated.back_face import (
+    back_face_stress,
+    clamped_back_face_stress,
+    supported_back_face_stress,
+)
 from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
 from generated.contact_law import indentation
 from generated.edge import clamped_edge, supported_edge
@@ -232,15 +238,24 @@ class Field(Elements):
         self.case = case
         super().__init__(radii(case.h, mesh.layers), heights(case.h, mesh.layers), mesh.degree)
 
-    def depths(self, widths: Sequence[float], *, states: bool = True) -> list[float]:
-        """Return what a support adds to the indentation, by a/b: -w at the face's centre.
+    def added(self, widths: Sequence[float], *, states: bool = True) -> list[tuple[float, float]]:
+        """Return what a support adds, by a/b: -w at the contact face's centre, and the stress.
 
-        The polynomial states carry most of it; without them the elements must compute all.
+        The stress is sigma_rr on the axis of the back face. The polynomial states carry most of
+        both; without them the elements must compute all.
         """
-        known = [self._of_states(a) if states else 0.0 for a in widths]
+        known = [self._of_states(a) if states else (0.0, 0.0) for a in widths]
         fields = self._solved(widths, states)
         top = self.number(np.array([0]), np.array([self.rows - 1]), 1)[0]
-        return [of_states - float(one[top]) for of_states, one in zip(known, fields, strict=True)]
+        first = np.arange(self.degree + 1)
+        bottom = self.number(first, np.zeros_like(first), 0)
+        slope = lobatto(self.degree)[2][0] * 2.0 / self.x_ends[1]
+        nu = self.case.nu
+        stiffness = 2.0 * (1.0 + nu) / (1.0 - nu)  # the face is free, and both strains are equal
+        return [
+            (depth - float(one[top]), stiffness * (strain + float(slope @ one[bottom])))
+            for (depth, strain), one in zip(known, fields, strict=True)
+        ]
 
     def face(self, a: float) -> tuple[Double, Double]:
         """Return r, and what a support adds to the indentation -w of the contact face there."""
@@ -271,13 +286,14 @@ class Field(Elements):
             fields.append(values)
         return fields
 
-    def _of_states(self, a: float) -> float:
-        """Return the contribution of the states, -w at the contact face's centre."""
+    def _of_states(self, a: float) -> tuple[float, float]:
+        """Return what the states add: -w at the contact face's centre, and the back face's e_rr."""
         case = self.case
         e, k = moments(rim_displacement(case, a, self.z), self.z, self.rim_weights, case.h)
         thinning = case.lam / (case.lam + 2.0)
         w = k / 2 - thinning * (2.0 * e * case.h + k * case.h**2)
-        return w if case.support == "clamped" else -(1.0 - case.nu) / (1.0 + case.nu) * w
+        part = 1.0 if case.support == "clamped" else -(1.0 - case.nu) / (1.0 + case.nu)
+        return part * w, -part * (e - k * case.h)
 
     def _given(self, a: float, states: bool) -> tuple[Double, Double, Double]:
         """Return traction, u and w on the edge; components that the support leaves free are 0."""
@@ -300,11 +316,27 @@ def edge_contribution(case: RemainderCase, a: float) -> tuple[float, float]:
     return more, more + float(indentation(a, RADIUS, case.h, 1.0))
 
 
-def remainders(case: RemainderCase, mesh: RemainderMesh) -> list[float]:
-    """Return the model error of the law relative to the indentation, by a/b."""
-    depths = Field(case, mesh).depths(WIDTHS)
-    laws = [edge_contribution(case, a) for a in WIDTHS]
-    return [(depth - more) / whole for depth, (more, whole) in zip(depths, laws, strict=True)]
+def back_face_stresses(case: RemainderCase, a: float) -> tuple[float, float]:
+    """Return the law's stress on the axis of the back face with the paper's edge and a support."""
+    held = {"supported": supported_back_face_stress, "clamped": clamped_back_face_stress}
+    force = 8.0 / 3.0 / (1.0 - case.nu) * a**3 / RADIUS
+    plate = np.array([force]), np.array([a]), case.h, 1.0, case.lam, 1.0
+    stresses = (stress(*plate) for stress in (back_face_stress, held[case.support]))
+    return tuple(stress.item() for stress in stresses)
+
+
+def remainders(case: RemainderCase, mesh: RemainderMesh) -> list[tuple[float, float]]:
+    """Return the law's model errors by a/b.
+
+    They are that of the indentation, over the indentation, and that of the stress on the axis of
+    the back face, over the law's stress.
+    """
+    errors = []
+    for a, (depth, stress) in zip(WIDTHS, Field(case, mesh).added(WIDTHS), strict=True):
+        more, whole = edge_contribution(case, a)
+        paper, held = back_face_stresses(case, a)
+        errors.append(((depth - more) / whole, (paper + stress) / held - 1.0))
+    return errors
 
 
 def rows(
@@ -315,12 +347,14 @@ def rows(
     for support, h, nu in itertools.product(SUPPORTS, sizes, poisson):
         case = RemainderCase(support, h, nu)
         finest, *others = (remainders(case, mesh) for mesh in MESHES)
-        for a, remainder, *rest in zip(WIDTHS, finest, *others, strict=True):
-            changes = (float(f"{other - remainder:.1e}") for other in rest)
-            head = {"support": support, "h_over_b": h, "nu": nu, "a_over_b": a}
-            names = ("relative_error", "lower_degree", "fewer_layers")
-            numbers = (float(f"{remainder:.4g}"), *changes)
-            cases.append({**head, **dict(zip(names, numbers, strict=True))})
+        for a, errors, *rest in zip(WIDTHS, finest, *others, strict=True):
+            row: dict[str, object] = {"support": support, "h_over_b": h, "nu": nu, "a_over_b": a}
+            for error, *changed, prefix in zip(errors, *rest, ("", "stress_"), strict=True):
+                changes = (float(f"{other - error:.1e}") for other in changed)
+                names = ("relative_error", "lower_degree", "fewer_layers")
+                numbers = (float(f"{error:.4g}"), *changes)
+                row |= {prefix + name: x for name, x in zip(names, numbers, strict=True)}
+            cases.append(row)
     return cases
 
 

@@ -2,10 +2,12 @@
 
 The table contains the error relative to the indentation by h/b, Poisson's ratio and a/b, and the
 changes with coarser finite elements, which are added. Between the points of the table the largest
-neighbour counts. It is a model error and is not part of the error bound of the computation.
+neighbour counts. Other columns are the error of the stress on the axis of the back face, relative
+to this stress. Both are model errors and not part of the error bound of the computation.
 """
 
 import json
+import math
 from functools import cache
 from itertools import product
 from typing import Any
@@ -29,13 +31,14 @@ _KEYS = ("h_over_b", "nu", "a_over_b")
 _NU, _DIGITS = _KEYS.index("nu"), 9
 """Poisson's ratio among the keys, and its decimals: it is computed from the Lame constants."""
 _PARTS = ("relative_error", "lower_degree", "fewer_layers")
+_STRESS = tuple(f"stress_{part}" for part in _PARTS)
 
 
 @cache
-def _table() -> dict[tuple[Any, ...], float]:
+def _table(parts: tuple[str, ...] = _PARTS) -> dict[tuple[Any, ...], float]:
     rows = json.loads((measurements() / "edge_remainder.json").read_text())["rows"]
     return {
-        (row["support"], *(row[key] for key in _KEYS)): sum(abs(row[part]) for part in _PARTS)
+        (row["support"], *(row[key] for key in _KEYS)): sum(abs(row[part]) for part in parts)
         for row in rows
     }
 
@@ -106,8 +109,24 @@ def edge_warnings(model: Model, a: float) -> tuple[str, ...]:
     return (text,)
 
 
-def largest_neighbours(model: Model, a: Array, eta: Numbers) -> Array:
-    """Return model errors at radii [m] and half-thicknesses h/b; NaN outside the range."""
+def edge_stress_error(model: Model, a: float) -> float:
+    """Return the largest model error of the static stress on the back face by the edge [1].
+
+    It is relative to the stress, and infinite outside the range of the table.
+    """
+    if model.edge not in KINDS:
+        return 0.0
+    [error] = largest_neighbours(model, np.array([a]), model.eta, _STRESS)
+    return float(error) if np.isfinite(error) else math.inf
+
+
+def largest_neighbours(
+    model: Model, a: Array, eta: Numbers, parts: tuple[str, ...] = _PARTS
+) -> Array:
+    """Return model errors at radii [m] and half-thicknesses h/b; NaN outside the range.
+
+    `parts` are the columns of the table that are added.
+    """
     nu = np.round(model.poissons_ratio, _DIGITS)
     axes, coordinates = _axes(), np.broadcast_arrays(eta, nu, a / model.b)
     known, ends = coordinates[_NU] >= axes[_NU][0], []
@@ -117,14 +136,14 @@ def largest_neighbours(model: Model, a: Array, eta: Numbers) -> Array:
         below = np.searchsorted(axis, coordinate, side="right") - 1
         above = np.searchsorted(axis, coordinate, side="left")
         ends.append([np.clip(end, 0, len(axis) - 1) for end in (below, above)])
-    table = _array(KINDS[model.edge])
+    table = _array(KINDS[model.edge], parts)
     return np.where(known, np.maximum.reduce([table[one] for one in product(*ends)]), np.nan)
 
 
 @cache
-def _array(kind: str) -> Array:
+def _array(kind: str, parts: tuple[str, ...]) -> Array:
     """Return the table of an edge as an array over its axes."""
-    table = np.array([_table()[(kind, *point)] for point in product(*_axes())])
+    table = np.array([_table(parts)[(kind, *point)] for point in product(*_axes())])
     return table.reshape([len(axis) for axis in _axes()])
 
 

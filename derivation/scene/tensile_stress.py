@@ -59,7 +59,8 @@ class TensileStress(NamedTuple):
         basis = f" (quasi-static, under the peak force{caveat})" if self.static else ""
         if self.value * (1.0 + self.error + bound) > strength:
             within = "which is within the error of the stress"
-            return f"failure on the back face is uncertain: {ratio}{basis}, {within}"
+            why = within if math.isfinite(self.error) else "and the error of the stress is unknown"
+            return f"failure on the back face is uncertain: {ratio}{basis}, {why}"
         return f"no failure predicted on the back face: {ratio}{basis}"
 
     def to_json(self) -> dict[str, float | None]:

@@ -247,6 +247,8 @@ def test_failure_within_the_error_of_the_stress_is_possible() -> None:
     assert "uncertain" in stress.safety(1e6, 0.0, inertia_neglected=False)
     assert "no failure predicted" in stress.safety(1.1e6, 0.0, inertia_neglected=False)
     assert "uncertain" in stress.safety(1.1e6, 0.1, inertia_neglected=False)
+    unknown = TensileStress(1.0, math.inf, static=False).safety(1e6, 0.0, False)
+    assert unknown.endswith("= 1e+06, and the error of the stress is unknown")
     assert TensileStress(math.nan, math.nan, static=False).safety(1e6, 0.0, False) == ""
 
 

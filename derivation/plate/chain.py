@@ -78,6 +78,7 @@ from derivation.plate.modes.theory.mode_shapes import mode_shapes
 from derivation.plate.modes.theory.plate_factor import plate_factor_slope, plate_factors
 from derivation.plate.modes.theory.stresses import modal_stresses
 from derivation.plate.pressure.theory.integral_equation import non_hertzian_pressure
+from derivation.plate.pressure.theory.waves import force_of_wave
 from derivation.plate.subjects import exports
 from derivation.plate.viscosity.theory.bounds import viscosity
 from derivation.plate.vocabulary import Formula
@@ -111,7 +112,7 @@ MOTION_STEPS: tuple[Step, ...] = (
     ("sensitivity", sensitivity),
     ("substitution", substitution),
     ("edge", lambda: (*edge(), *edge_sums(), *clamp())),
-    ("contact pressure", lambda: (*non_hertzian_pressure(), *edge_curvature())),
+    ("contact pressure", lambda: (*non_hertzian_pressure(), *edge_curvature(), force_of_wave())),
     ("spherical profile", spherical_profile),
     ("effects", effects),
     ("plate motion", plate_motion),

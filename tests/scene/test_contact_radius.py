@@ -5,7 +5,6 @@ from typing import Literal
 import numpy as np
 import platecontact as pc
 import pytest
-import sympy as sp
 from scipy.optimize import brentq
 
 from derivation.scene.dynamic.contact_tables import ContactTables, contact_of
@@ -61,14 +60,6 @@ def test_an_edge_that_no_wave_has_reached_does_not_change_the_contact(material: 
         assert one.max_pressure == pytest.approx(far.max_pressure, rel=2e-4)
         assert one.dynamics is not None
         assert one.dynamics.inertia.curvature < -2e-3
-
-
-def test_change_of_the_force_by_a_profile() -> None:
-    """Sneddon's force for J0(phi r) is 2 E* a^2 ds/da, with s its mean under a flat punch."""
-    a, x, phi, E = sp.symbols("a x phi E", positive=True)
-    sneddon = 2 * E * sp.integrate(sp.cos(phi * a) - sp.cos(phi * x), (x, 0, a))
-    mean = sp.sin(phi * a) / (phi * a)
-    assert sp.simplify(sneddon - 2 * E * a**2 * sp.diff(mean, a)) == 0
 
 
 @pytest.mark.parametrize(("width", "agreement"), [(0.3, 0.004), (0.6, 0.01)])

@@ -10,6 +10,7 @@ from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic.modal import ModalPlate, Modes
 from derivation.scene.numerics.chebyshev import by_growth, chebyshev, knots
 from generated.arrays import Double as Array
+from generated.pressure_kernels import force_of_waves
 
 DEGREE, RESOLVED = 32, 0.75
 """Smallest degree of the tables, and its increase per largest wave number times a."""
@@ -100,12 +101,9 @@ class ContactTables:
     def radius_ratio(self, a: Array, at: ContactSamples, q: Array) -> Array:
         """Return the contact radius over that of the law at the same force [1].
 
-        The deflection sum q_j s_j under a flat punch of radius c changes the force at the radius a
-        by 2 E* a sum q_j (a ds_j/da), if the pressure is that on a half-space. The indentation at a
-        given force does not change to first order, because s_j = dP_j/dP.
-
-        The profile J0(phi r) under a sphere changes the force by 2 E* int_0^a (cos phi a - cos phi
-        x) dx (Sneddon 1965); s_j = sin(phi c)/(phi c).
+        The change of the force is that of waves on a half-space (step 20), with the weights s_j of
+        the law. The indentation at a given force does not change to first order, because
+        s_j = dP_j/dP.
 
         Parameters
         ----------
@@ -120,7 +118,7 @@ class ContactTables:
             return np.ones_like(a)
         x = a / self.top
         static = x**3 * (chebyshev(2.0 * x - 1.0, self.static_change.size - 1) @ self.static_change)
-        change = 2.0 * self.modulus * a * a * np.vecdot(at.less_a, q) - static
+        change = force_of_waves(np.array(self.modulus), a, np.vecdot(at.less_a, q)) - static
         return np.asarray(np.maximum(FLATTEST, 1.0 + change / at.force) ** (-1.0 / 3.0))
 
     def _places(self, a: Array) -> Array:
@@ -166,8 +164,8 @@ def contact_of(
         """Return the change of the force by the static curvature of modes over x^3."""
         growths = analysis @ (modes.modal_weights_less_one(a) / x[:, None] ** 2)
         bracket = chebyshev(2.0 * x - 1.0, degree) @ (by_growth(growths) + 2.0 * growths)
-        moment = (driven(modes)[0] * bracket) @ modes.compliance
-        return np.asarray(2.0 * law.modulus * a * x**2 * moment, dtype=np.float64)
+        growth = x / top * ((driven(modes)[0] * bracket) @ modes.compliance)
+        return force_of_waves(np.array(law.modulus), a, growth)
 
     felt, less = driven(plate.modes)
     rest = sampled.depth - moved(plate.less)

@@ -9,8 +9,10 @@ import sympy as sp
 from derivation.engine.emit.named import Claims, named_routine
 from derivation.engine.emit.routine import RAISED, Choice, Let, Routine, routine
 from derivation.plate.edge.theory.curvature import bent_face
+from derivation.plate.modes.theory.influence import PLANE_STRAIN_MODULUS
 from derivation.plate.pressure.theory import results as theory
 from derivation.plate.pressure.theory.integral_equation import kernel, profile
+from derivation.plate.pressure.theory.waves import force_of_wave, mean_deflection
 from derivation.plate.vocabulary import R, a, alpha, r
 
 LOW = sp.Symbol("LOW", positive=True)
@@ -84,6 +86,21 @@ def edge_wave() -> Claims:
         (risen, sp.diff(risen, x) / x),
         {},
         sp.expand,
+    )
+
+
+def curved_force() -> Routine:
+    """Return the routine of the force by waves, from the growth of their mean deflection."""
+    growth = sp.Symbol("growth", real=True)
+    return routine(
+        "force_of_waves",
+        (modulus, a, growth),
+        (),
+        (2 * modulus * a**2 * growth,),
+        (force_of_wave().expression,),
+        "Return the change of the force at a contact radius a by waves; growth is sum q ds/da.",
+        {modulus: PLANE_STRAIN_MODULUS, growth: sp.diff(mean_deflection(), a)},
+        sp.simplify,
     )
 
 
@@ -231,6 +248,7 @@ ROUTINES = (
     wave,
     lateral_wave,
     edge_wave,
+    curved_force,
     paraboloid,
     sphere,
     contact_results,

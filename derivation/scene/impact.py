@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from derivation.scene.contact_law.corrections import stretching
+from derivation.scene.contact_law.edge_curvature import edge_curvature_errors
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import (
     check_radius,
@@ -209,7 +210,10 @@ def _model_errors(
     unlike = unlike_bodies_error(model) if law.viscous else 0.0
     if motion is None:
         edge, size = edge_remainder(model, a) if other_edge else 0.0, stretching(model, deflection)
+        curvature = edge_curvature_errors(law, a)
+        edge += curvature.results
         errors: dict[str, float] = dict.fromkeys(OUTPUTS, edge + float(size) + unlike)
+        errors["max_contact_radius"] += curvature.pressure - curvature.results
         if law.viscous or law.plastic:
             supplied = 1.0 + float(weight_work_ratio(model, numbers[1]))
             dissipated = supplied / max(numbers[4], 1e-6) ** 2 - 1.0

@@ -167,7 +167,7 @@ class ContactLaw:
     def limit(self) -> float:
         """Largest contact radius [m] of the law, at most where contact is lost at the centre."""
         high = self._widest
-        return closed_up_to(self._case, float(high)) if self.solved else high
+        return closed_up_to(self.case, float(high)) if self.solved else high
 
     @cached_property
     def _widest(self) -> float:
@@ -255,7 +255,7 @@ class ContactLaw:
         c^2 = r^2 + (a^2 - r^2) x^2, or the solution of the integral equation.
         """
         if self.solved:
-            return pressure_at(r, a, self._case)
+            return pressure_at(r, a, self.case)
         x, weights = gauss(NODES[2])
         width = np.sqrt((a - r) * (a + r))
         mean: Array = self._sphere(np.hypot(r[:, None], width[:, None] * x)).slope @ weights
@@ -346,10 +346,10 @@ class ContactLaw:
 
     def _contact(self, a: Array) -> "Contact":
         """Return the contact with non-Hertzian pressure."""
-        return contact_at(a, self._case)
+        return contact_at(a, self.case)
 
     @property
-    def _case(self) -> SolvedCase:
+    def case(self) -> SolvedCase:
         """What determines the contact with non-Hertzian pressure."""
         m, edge = self.model, self.edge_curvature
         return SolvedCase(m.h, m.b, m.R, self.modulus, m.modulus, self.spherical, edge)

@@ -17,6 +17,7 @@ from derivation.scene.measured import measured
 from derivation.scene.model import Model
 from derivation.scene.output import answer
 from derivation.scene.output.history import POINTS, DynamicHistory, History, Pressures, times_of
+from derivation.scene.output.pressure_profile import pressure_profile
 from derivation.scene.quantity import counted, digits_of
 from derivation.scene.scene import Scene
 from derivation.scene.selection.achieved_accuracy import AchievedAccuracy
@@ -139,15 +140,8 @@ class Result:
         """
         law, a, motion = self.effects.law, self.max_contact_radius, self.dynamics
         part = 1.0 if motion is None else motion.at_equal_radius
-        force = float(law.force(np.array([a]), law.at(np.array([a])))[0])
-        force = self.max_force if law.plastic else part * force
-        hertz = float(law.hertz_radius(np.array(force)))
-        # Denser towards the contact edge, where the pressure falls as a square root.
-        r = max(a, hertz) * np.sin(np.linspace(0.0, np.pi / 2, points))
-        limited = np.minimum(part * law.pressure(np.minimum(r, a), a), law.pressure_limit)
-        values = np.where(r < a, limited, 0.0)
-        peak = 1.5 * force / (np.pi * hertz * hertz)
-        return Pressures(r, values, peak * np.sqrt(np.maximum(1.0 - (r / hertz) ** 2, 0.0)))
+        elastic = part * float(law.force(np.array([a]), law.at(np.array([a])))[0])
+        return pressure_profile(law, a, self.max_force if law.plastic else elastic, points)
 
     @cached_property
     def comparison(self) -> "Comparison | None":

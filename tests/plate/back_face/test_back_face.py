@@ -8,6 +8,7 @@ from typing import Any
 
 import flint
 import numpy as np
+import platecontact as pc
 import pytest
 import sympy as sp
 from flint import arb
@@ -271,6 +272,29 @@ def test_omitted_effects_change_only_the_force() -> None:
 
 def resultant(distance: Array, pressure: Array) -> float:
     return float(np.trapezoid(2 * math.pi * distance * pressure, distance))
+
+
+@pytest.mark.parametrize("inertia", [False, True])
+@pytest.mark.parametrize("speed", [3.0, 24.0])
+def test_profile_of_a_plastic_contact_carries_the_force(speed: float, inertia: bool) -> None:
+    """A soft sphere, whose contact is wider than the plate is thick, and a hard one."""
+    soft = pc.Sphere(
+        radius=0.01, youngs_modulus=1e8, poissons_ratio=0.3, density=1100.0, yield_stress=1e7
+    )
+    hard = pc.Sphere(radius=0.01, material="steel", yield_stress=3e8)
+    for sphere in (hard,) if inertia else (soft, hard):
+        result = pc.simulate(
+            pc.Scene(
+                sphere=sphere,
+                plate=pc.Plate(radius=0.1, thickness=0.004, material="aluminium", edge="clamped"),
+                impact=pc.Impact(speed=speed if sphere is soft else 0.2 * speed),
+                effects=pc.Effects(inertia=inertia),
+            )
+        )
+        profile = result.pressures(4001)
+        carried = resultant(profile.distance, profile.pressure)
+        assert carried == pytest.approx(result.max_force, rel=1e-4)
+        assert profile.pressure.max() == pytest.approx(result.max_pressure, rel=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,56 @@
+"""The pressure over the distance from the axis, at the largest contact radius of an impact."""
+
+import numpy as np
+
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.numerics.crossing import rise
+from derivation.scene.output.history import Pressures
+
+NODES = 200
+"""Number of nodes of the quadrature of the pressure."""
+LARGEST = 1e3
+"""Largest factor of the elastic pressure of a plastic contact."""
+
+
+def pressure_profile(law: ContactLaw, a: float, force: float, points: int) -> Pressures:
+    """Return the pressure of a contact, and Hertz's pressure of the same force.
+
+    The elastic pressure at the contact radius is multiplied by a factor and limited where the
+    contact yields, so that it carries the force.
+
+    Parameters
+    ----------
+    a
+        Contact radius [m].
+    force
+        Contact force [N].
+    points
+        Number of distances from the axis.
+    """
+    hertz = float(law.hertz_radius(np.array(force)))
+    # Denser towards the contact edge, where the pressure falls as a square root.
+    r = max(a, hertz) * np.sin(np.linspace(0.0, np.pi / 2, points))
+    pressure = _factor(law, a, force) * law.pressure(np.minimum(r, a), a)
+    values = np.where(r < a, np.minimum(pressure, law.pressure_limit), 0.0)
+    peak = 1.5 * force / (np.pi * hertz * hertz)
+    return Pressures(r, values, peak * np.sqrt(np.maximum(1.0 - (r / hertz) ** 2, 0.0)))
+
+
+def _factor(law: ContactLaw, a: float, force: float) -> float:
+    """Return the factor of the elastic pressure at a radius [m] with which it carries a force [N].
+
+    It is 1 in a static elastic contact. On a plate with inertia the pressure is that of the law
+    with another curvature of the plate, and Hertz's law gives the force of a plastic contact.
+    """
+    elastic = float(law.force(np.array([a]), law.at(np.array([a])))[0])
+    if not law.plastic:
+        return force / elastic
+    nodes, weights = np.polynomial.legendre.leggauss(NODES)
+    angles = 0.25 * np.pi * (1.0 + nodes)
+    pressure = law.pressure(a * np.sin(angles), a)
+    areas = 0.25 * np.pi**2 * a * a * np.sin(2.0 * angles) * weights
+
+    def excess(factor: float) -> float:
+        return float(areas @ np.minimum(factor * pressure, law.pressure_limit)) - force
+
+    return rise(excess, 0.0, LARGEST) if excess(LARGEST) > 0.0 else LARGEST

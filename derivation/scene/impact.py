@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from derivation.scene.contact_law.corrections import stretching
 from derivation.scene.contact_law.edge_curvature import edge_curvature_errors
+from derivation.scene.contact_law.edge_remainder import edge_remainder
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import (
     check_radius,
@@ -20,7 +21,6 @@ from derivation.scene.contact_law.limits import (
 )
 from derivation.scene.contact_law.yield_warnings import impact_warnings
 from derivation.scene.dynamic.contact_warnings import fall_warnings, grazing_warnings
-from derivation.scene.dynamic.edge_remainder import edge_remainder
 from derivation.scene.dynamic.model_error import curvature_error, inertia_error
 from derivation.scene.dynamic.stretching_error import jump_warnings, stretching_error
 from derivation.scene.effects.effect import Results, weight_work_ratio

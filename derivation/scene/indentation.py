@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from derivation.engine.text import aligned
+from derivation.scene.contact_law.edge_remainder import edge_warnings
 from derivation.scene.contact_law.law import ContactLaw, Shape
 from derivation.scene.contact_law.limits import (
     check_numbers,
@@ -25,7 +26,6 @@ from derivation.scene.contact_law.limits import (
 )
 from derivation.scene.contact_law.yield_warnings import static_warnings
 from derivation.scene.contact_law.yielding import yielding_of
-from derivation.scene.dynamic.edge_remainder import edge_warnings
 from derivation.scene.effects import EFFECTS
 from derivation.scene.errors import SceneError
 from derivation.scene.input.messages import shown

@@ -4,9 +4,9 @@ import math
 from typing import TYPE_CHECKING, NamedTuple
 
 from derivation.scene.contact_law.corrections import membrane_stress, stretching
+from derivation.scene.contact_law.edge_remainder import edge_stress_error
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import local_indentation, plate_times, slow_for
-from derivation.scene.dynamic.edge_remainder import edge_stress_error
 from derivation.scene.dynamic.model_error import stress_error
 from derivation.scene.dynamic.stretching_error import stress_change
 from derivation.scene.effects.effect import Results

@@ -12,7 +12,7 @@ import pytest
 import derivation.scene
 from derivation.engine.files import measurements
 from derivation.scene import SceneError, read, simulate
-from derivation.scene.dynamic.edge_remainder import edge_remainder
+from derivation.scene.contact_law.edge_remainder import edge_remainder
 from derivation.scene.dynamic.model_error import inertia_error
 from derivation.scene.model import model_of
 from derivation.scene.result import Result

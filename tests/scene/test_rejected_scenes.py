@@ -14,9 +14,9 @@ from shared_scenes import ALL, changed, model, scene, thick
 from derivation.engine.files import measurements
 from derivation.scene import SceneError, indent, read, simulate
 from derivation.scene.contact_law import limits
+from derivation.scene.contact_law.edge_remainder import edge_remainder
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic import waves
-from derivation.scene.dynamic.edge_remainder import edge_remainder
 from derivation.scene.effects import PAPER, WHOLE_PLATE
 from derivation.scene.effects.edge import MAX_A_OVER_B
 from derivation.scene.effects.spherical_profile import MAX_A_OVER_R

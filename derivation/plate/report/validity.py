@@ -9,8 +9,7 @@ from derivation.engine.report.latex import unit
 from derivation.engine.report.numbers import rounded
 from derivation.plate.report.prose import FACTOR
 from derivation.scene import kernels
-from derivation.scene.contact_law import limits
-from derivation.scene.dynamic import edge_remainder
+from derivation.scene.contact_law import edge_remainder, limits
 from derivation.scene.effects import edge, non_hertzian_pressure, spherical_profile
 from generated.simple_impact import PLATES
 

@@ -19,9 +19,9 @@ import numpy as np
 from numpy.polynomial.chebyshev import cheb2poly
 
 from derivation.scene.code.compose import WIDTH, summary
+from derivation.scene.contact_law.edge_remainder import edge_remainder
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import last_radius
-from derivation.scene.dynamic.edge_remainder import edge_remainder
 from derivation.scene.effects import BY_NAME
 from derivation.scene.errors import SceneError
 from derivation.scene.impact import selected_effects, simulate

@@ -5,12 +5,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from derivation.scene import kernels
-from derivation.scene.contact_law.support_series import support_contribution
-from derivation.scene.dynamic.edge_remainder import (
+from derivation.scene.contact_law.edge_remainder import (
     LARGEST_H_OVER_B,
     LEAST_A_OVER_B,
     largest_neighbours,
 )
+from derivation.scene.contact_law.support_series import support_contribution
 from derivation.scene.effects.effect import (
     Bound,
     BoundContext,

@@ -17,8 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from derivation.scene.contact_law.corrections import stretching
+from derivation.scene.contact_law.edge_remainder import edge_remainders
 from derivation.scene.contact_law.limits import local_indentation
-from derivation.scene.dynamic.edge_remainder import edge_remainders
 from derivation.scene.effects import EFFECTS
 from derivation.scene.errors import SceneError
 from derivation.scene.impact import selection_tolerance, simulate

@@ -30,7 +30,7 @@ from derivation.plate.edge.remainder import (
     rim_displacement,
 )
 from derivation.scene import SceneError, indent, read, simulate
-from derivation.scene.dynamic.edge_remainder import (
+from derivation.scene.contact_law.edge_remainder import (
     edge_remainder,
     edge_remainders,
     edge_stress_error,

@@ -2,8 +2,8 @@
 
 The state of bending by which the edge differs from the paper's deflects the contact face by a
 constant plus kappa P r^2/2: the sphere meets a profile of curvature 1/R + kappa P. The integral
-equation has the additional terms N_s (t^2 + s^2)/h^3, N_s = 2 E* h^3 kappa, in its kernel. With
-the notation of `edge`::
+equation has the additional terms N_s (t^2 + s^2 - 2 t^2 s^2/b^2)/h^3, N_s = 2 E* h^3 kappa, in its
+kernel. With the notation of `edge`::
 
     N_s = -(3/pi) (1 - nu)/(1 + nu) sum (1 + 3 n - n Q)/(j^3 J1)   simply supported
     N_s = 3/(8 pi) (1 - s + 2 chi eta)                              clamped
@@ -37,7 +37,7 @@ def supported_edge_curvature(
 
         2 E* h^3 kappa,   1/R + kappa P = curvature of the profile that the sphere meets
 
-    It is negative: the plate is more curved than with the paper's edge.
+    It is negative for a thin plate, which is more curved than with the paper's edge.
 
     Parameters
     ----------

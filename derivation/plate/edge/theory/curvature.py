@@ -9,10 +9,9 @@ and the kernel of the integral equation has the additional terms
 The term in t^2 is the curvature, that in s^2 the smaller effect of a load beside the axis; their
 coefficients are equal, because the kernel is symmetric (Betti). The last term makes the sum of
 these and a constant the product of the same function of t and s: the state, and the work of the
-load on it, for a thin plate. For a thin plate kappa is
-1/(8 pi D) clamped, and -(1 - nu)/(1 + nu) times as much simply supported. kappa
-is the amplitude of the state under a point load. The coefficient of s^2 is half the third
-derivative of the slope S with respect to alpha = a/b, which a clamp confirms.
+load on it, for a thin plate. There kappa is 1/(8 pi D) clamped, and -(1 - nu)/(1 + nu) times as
+much simply supported. kappa is the amplitude of the state under a point load. The coefficient of
+s^2 is half the third derivative of the slope S with respect to alpha = a/b, which a clamp confirms.
 
 Finite elements (`edge.remainder`) confirm kappa within 1 % for h/b = 0.2, 2 % for 0.3 and 5 % for
 0.5 if simply supported, and within 0.2 %, 0.7 % and 5 % if clamped (Poisson's ratio 0 to 0.45).

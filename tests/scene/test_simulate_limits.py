@@ -16,12 +16,11 @@ import shared_scenes
 from derivation.cli import main
 from derivation.scene import SceneError, explain, read, simulate, sweep
 from derivation.scene.code import code
-from derivation.scene.contact_law import limits
+from derivation.scene.contact_law import edge_remainder, limits
 from derivation.scene.contact_law.law import THICK, ContactLaw
 from derivation.scene.dynamic import (
     contact_errors,
     contact_sequence,
-    edge_remainder,
     mode_count,
     separation,
     waves,

@@ -112,7 +112,7 @@ def unlike_bodies_error(model: Model) -> float:
     """Return the estimated model error by two bodies with different retardation times [1].
 
     The law has their mean, weighted with the compliances, which is correct to first order. Each
-    body by itself would lag the force by its own time.
+    body by itself would follow the force with its own delay.
     """
     if not model.retardation_spread:
         return 0.0

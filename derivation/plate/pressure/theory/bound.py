@@ -24,8 +24,9 @@ Neumann's series positive, and 1 <= I = int psi dx <= 1 + (2 tau/3)/(1 - 4 tau/3
 so that S_T - S_H is at least (1 - theta)^(1/3)/(1 + 5 theta/4) - 1 >= -(5/3) theta and at most
 (1 + theta)^(1/3) - 1 + theta/3 <= (2/3) theta. Integrated, delta moves by (2/3) theta a_H^2/R.
 
-Another edge adds N_s (t^2 + s^2)/h^3 to the kernel. A simple support has N_s < 0, and the argument
-holds with |N_s| a^3/h^3 in tau. With a clamped edge M may have either sign, |M| <= tau (x^2 + s^2).
+Another edge adds N_s (t^2 + s^2 - 2 t^2 s^2/b^2)/h^3 to the kernel, a bracket between 0 and
+t^2 + s^2. For N_s < 0, as of a thin supported plate, the argument holds with |N_s| a^3/h^3 in tau.
+For N_s > 0, as of a thin clamped plate, M may have either sign, |M| <= tau (x^2 + s^2).
 The estimate of z holds; now |psi - 1| <= (4 tau/3)/(1 - 4 tau/3), |I - 1| is within the same
 (2 tau/3)/(1 - 4 tau/3) <= tau, and int M(x, 0) dx within tau/3, so that S_T - S_H is at most
 

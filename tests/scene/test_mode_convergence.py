@@ -139,6 +139,16 @@ def test_a_small_last_change_does_not_hide_the_change_before_it() -> None:
     assert abs(result.max_force / finer.max_force - 1.0) <= result.accuracy.bound
 
 
+def test_without_a_tolerance_the_modes_are_as_accurate_as_the_model_requires() -> None:
+    """More modes change no result by more than the bound, or by much beside stretching."""
+    tables = tomllib.loads((EXAMPLES / "soft_layer.toml").read_text())
+    result = simulate(read(tables))
+    finer = simulate(read(tables | {"inertia": {"modes": 120, "branches": "all"}}))
+    for name in OUTPUTS:
+        change = abs(getattr(result, name) / getattr(finer, name) - 1.0)
+        assert change <= min(result.accuracy.bound, 0.02 * result.model_errors[name])
+
+
 def test_runs_with_other_contacts_do_not_show_a_tolerance_out_of_reach() -> None:
     """With 11, 23 and 46 modes the sphere touches the glass 8, 7 and 6 times."""
     scene = {

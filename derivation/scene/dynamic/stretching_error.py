@@ -8,6 +8,7 @@ plastic, 548 viscoelastic; in 222 the plate is damped, and in 200 damping adds t
 The tests repeat a few of them.
 """
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -31,6 +32,8 @@ END, DIP = 0.5, 6.0
 """Force over the largest force and over S below which the first contact may end, and the same of a
 minimum of the force. On a light plate the force decreases long before it vanishes: durations
 changed by up to 6 S, and by 41 S after a minimum of 4.1 S."""
+SMALL = 0.02
+"""Error by omitted modes over that by stretching below which more modes are of no use."""
 SMALLEST, MARGIN = 7e-4, 2.5
 """Stiffening during the first contact from which a warning says that it may split this contact, or
 join it with the next one: half of the smallest one that did; and the same over the change that
@@ -54,6 +57,17 @@ def stretching_error(law: ContactLaw, motion: "DynamicImpact") -> dict[str, floa
         "max_contact_radius": _higher([rows[A] for rows in motion.courses], sizes, RADIUS * size),
         "restitution": SPEED * size / max(rebound, 1e-6),
     }
+
+
+def exceeds_modes(law: ContactLaw, motion: "DynamicImpact", outputs: Sequence[str]) -> bool:
+    """Return whether the omitted modes matter little beside stretching, in each of some outputs."""
+    inertia = motion.inertia
+    # Nearly the error of the indentation itself, without evaluating the deflection over time.
+    rough = DEPTH * float(stretching(law.model, motion.max_indentation))
+    if inertia.recounted or inertia.error_of_modes("max_indentation") > SMALL * rough:
+        return False
+    errors = stretching_error(law, motion)
+    return all(inertia.error_of_modes(name) <= SMALL * errors[name] for name in outputs)
 
 
 def stress_change(law: ContactLaw, motion: "DynamicImpact") -> float:

@@ -40,6 +40,7 @@ from derivation.scene.dynamic.mode_count import (
 from derivation.scene.dynamic.reach import OutOfReachError, Reach
 from derivation.scene.dynamic.results import dynamic_impact_of
 from derivation.scene.dynamic.runs import LOOSE, WORK, Budget, run_with, time_tolerance
+from derivation.scene.dynamic.stretching_error import exceeds_modes
 from derivation.scene.dynamic.time_in_contact import FEWER, check_long, nodes_for
 from derivation.scene.dynamic.wave_motion import DynamicImpact
 from derivation.scene.dynamic.wave_problem import problem_of
@@ -185,6 +186,8 @@ def _converged(
             change = estimated.inertia.left(reach.outputs)[0]
             if change <= _accepted_change(estimated, goal, reach, work):
                 return estimated
+            if math.isinf(reach.need) and exceeds_modes(law, estimated, reach.outputs):
+                return estimated
             if unreachable([halved], law, count, work, reach):
                 return halved
             if not halved.inertia.recounted:
@@ -215,6 +218,8 @@ def _converged(
         change, enough = best.inertia.left(reach.outputs)[0], _accepted_change(best, goal, reach)
         used, almost = contact_sequence.work_of(best.impact_history), change <= LAST * enough
         if change <= enough and not echoes_matter(best, reach):
+            return best
+        if math.isinf(reach.need) and exceeds_modes(law, best, reach.outputs):
             return best
         beyond = beyond_limits(law, count, used, almost)
         if beyond and (most or not nearly_meets(best, reach)):

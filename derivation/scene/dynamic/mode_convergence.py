@@ -14,7 +14,7 @@ from derivation.scene.dynamic.problem import DynamicProblem
 from derivation.scene.dynamic.reach import Reach
 from derivation.scene.dynamic.results import NONE, UNKNOWN
 from derivation.scene.dynamic.time_element import C, P
-from derivation.scene.dynamic.wave_motion import DynamicImpact
+from derivation.scene.dynamic.wave_motion import IRREGULAR, DynamicImpact
 from generated.arrays import Double as Array
 
 REGULAR, QUICK = 2.2, 16.0
@@ -35,6 +35,8 @@ goes on, all further ripples together are q/(1 - q) of the last."""
 NEARBY, LOOKS = 0.1, 1000
 """Time in which the ripple of the force changes alike, because its phase is arbitrary, over the
 unit of time of the impact; number of times in this unit at which the force is compared."""
+LINEAR = 0.2
+"""Last part of this time in which the force of a contact falls in the same way until its end."""
 ONCE = 5.0
 """Error by omitted modes over the allowed one up to which twice as many modes may be enough."""
 COMPARED, STEADY, SLOWEST = 3, 1.3, math.sqrt(2.0)
@@ -56,10 +58,11 @@ def judged(rough: DynamicImpact, found: DynamicImpact) -> DynamicImpact:
     ripple = _ripple(rough, found)
     known = (0.0, 0.0) if rough.inertia.recounted else rough.inertia.ripple
     force_error, radius_error = map(_error_of_ripple, ripple, known)
+    time_error = IRREGULAR * _ripple_of_end(rough, found)
     inertia = replace(
         found.inertia,
         mode_convergence=change, jump=jump, earlier_change=before, recounted=recounted,
-        ripple=ripple, ripple_error=(force_error, radius_error),
+        ripple=ripple, ripple_error=(time_error, force_error, radius_error),
         first_change=_first_change(rough, found),
     )  # fmt: skip
     return replace(found, inertia=inertia)
@@ -97,6 +100,31 @@ def _ripple(rough: DynamicImpact, found: DynamicImpact) -> tuple[float, float]:
     force, cube = np.maximum(above / largest - 1.0, 1.0 - below / largest).tolist()
     # The cube root of 1 - x decreases more than that of 1 + x increases.
     return force, 1.0 - math.cbrt(1.0 - cube) if cube < 1.0 else cube
+
+
+def _ripple_of_end(rough: DynamicImpact, found: DynamicImpact) -> float:
+    """Return how far the end of the first contact may be off, over its duration [1].
+
+    At its end the square of the radius falls linearly, and so does the force of a viscoelastic
+    contact. Their ripple moves this end, where it may vanish by chance.
+    """
+    end, unit = found.inertia.contacts[0].end, found.impact_history.problem.T
+    width = min(NEARBY * unit, 0.5 * end)
+    both = min(end, rough.inertia.contacts[0].end)
+    if both <= end - width:  # the duration itself changes by more
+        return 0.0
+    times = np.linspace(end - width, both, 2 + math.ceil(width / unit * LOOKS))
+    change = np.max(np.abs(_falling(found, times) - _falling(rough, times)))
+    late = LINEAR * width
+    rate = float(_falling(found, np.array([end - late]))[0]) / late
+    return float(change) / (rate * end)
+
+
+def _falling(run: DynamicImpact, times: Array) -> Array:
+    """Return what falls linearly at the end of a contact, at times [s]."""
+    rows = run.rows(times)
+    course = rows[P] if run.law.viscous else np.maximum(rows[C], 0.0) ** 2
+    return np.asarray(course)
 
 
 def _alike(found: DynamicImpact, courses: list[Array]) -> list[tuple[slice, int]]:

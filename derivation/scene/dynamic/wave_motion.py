@@ -99,7 +99,8 @@ class InertiaDetails:
         many modes [1]; 0 if there was none.
     ripple, ripple_error
         Largest changes of force and contact radius near their maxima since the run with half as
-        many modes, over these maxima [1]; the errors of the maxima estimated from them [1].
+        many modes, over these maxima [1]; the errors of contact time, largest force and largest
+        radius estimated from such changes [1].
     recounted
         Whether the run with half as many modes has another number of contacts, so that its results
         are no measure of the convergence.
@@ -136,7 +137,7 @@ class InertiaDetails:
     earlier_change: Results = (0.0, 0.0, 0.0, 0.0, 0.0)
     recounted: bool = False
     ripple: tuple[float, float] = (0.0, 0.0)
-    ripple_error: tuple[float, float] = (0.0, 0.0)
+    ripple_error: tuple[float, float, float] = (0.0, 0.0, 0.0)
     first_change: float = math.nan
     echo_ripple: float = 0.0
     echo_error: float = 0.0
@@ -168,7 +169,7 @@ class InertiaDetails:
 
     def error_by_ripple(self, output: str) -> float:
         """Return that error as estimated from changes of force and radius over time [1]."""
-        outputs = "max_force", "max_contact_radius"
+        outputs = "contact_time", "max_force", "max_contact_radius"
         return dict(zip(outputs, self.ripple_error, strict=True)).get(output, 0.0)
 
     def error(self, outputs: Sequence[str]) -> float:

@@ -325,7 +325,7 @@ def _by_coarser(
     found = largest_change(quartered, halved)
     if max(found.inertia.mode_convergence) >= 1.0:
         return None, halved
-    force, radius = map(max, quartered.inertia.ripple_error, halved.inertia.ripple_error)
+    time, force, radius = map(max, quartered.inertia.ripple_error, halved.inertia.ripple_error)
     jump = max(quartered.inertia.jump, halved.inertia.jump)
-    inertia = replace(found.inertia, jump=jump, ripple_error=(force, radius))
+    inertia = replace(found.inertia, jump=jump, ripple_error=(time, force, radius))
     return replace(run, inertia=inertia), halved

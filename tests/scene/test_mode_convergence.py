@@ -84,6 +84,26 @@ def test_error_of_the_contact_time_covers_a_ripple_that_vanishes_at_the_end(mode
     assert abs(run.contact_time / finer.contact_time - 1.0) <= stated <= 4e-4
 
 
+def test_the_end_of_a_viscoelastic_contact_is_no_ripple_of_its_radius() -> None:
+    """It ends with nearly its largest radius, in two simulations at slightly different times."""
+    scene = {
+        "sphere": {"radius": 0.0127391, "density": 7850},
+        "plate": {
+            "radius": 0.01815, "thickness": 2.18136e-3, "youngs_modulus": 34.38e9,
+            "poissons_ratio": 0.405, "density": 5000, "edge": "clamped",
+            "retardation_time": 5.3835e-4,
+        },
+        "impact": {"speed": 0.0532423},
+    }  # fmt: skip
+    law = branching(selected_effects(read(scene))[1].law, "A0")
+    coarse, run, finer = (
+        dynamic_impact_of(law, contact_sequence.impact_history(problem_of(law, n), 24, 1e-8))
+        for n in (34, 69, 138)
+    )
+    stated = mode_convergence.judged(coarse, run).inertia.error_by_ripple("max_contact_radius")
+    assert abs(run.max_contact_radius / finer.max_contact_radius - 1.0) <= stated <= 1e-3
+
+
 def test_error_covers_what_one_more_mode_changes() -> None:
     """The waves that return to the axis alternate with the number of modes, even or odd.
 

@@ -35,6 +35,8 @@ goes on, all further ripples together are q/(1 - q) of the last."""
 NEARBY, LOOKS = 0.1, 1000
 """Time in which the ripple of the force changes alike, because its phase is arbitrary, over the
 unit of time of the impact; number of times in this unit at which the force is compared."""
+BEFORE = 1.0 - 1e-12
+"""A time just before an end, with all rounding errors, over this end."""
 LINEAR = 0.2
 """Last part of this time in which the force of a contact falls in the same way until its end."""
 ONCE = 5.0
@@ -156,8 +158,9 @@ def _same_times(rough: DynamicImpact, found: DynamicImpact) -> Iterator[tuple[Ar
     """Yield times [s] in both runs, contact by contact, at which to compare them.
 
     Two contacts that overlap each other the most are the same one, and are compared from their
-    starts on. Any other contact of either run, for example a short one that the other run misses,
-    is compared with what the other run does at that time.
+    starts on, the later end of one with the end of the other: a viscoelastic contact ends with a
+    large radius. Any other contact of either run, for example a short one that the other run
+    misses, is compared with what the other run does at that time.
     """
     unit = found.impact_history.problem.T
     overlaps = _overlaps(rough, found)
@@ -167,9 +170,12 @@ def _same_times(rough: DynamicImpact, found: DynamicImpact) -> Iterator[tuple[Ar
         if overlaps[i, j] > 0.0 and int(np.argmax(overlaps[i])) == j
     }
     for j, new in enumerate(found.inertia.contacts):
-        since = _looks(0.0, new.end - new.start, unit)
-        known = rough.inertia.contacts[partners[j]].start if j in partners else new.start
-        yield known + since, new.start + since
+        times = _looks(new.start, BEFORE * new.end, unit)
+        if j not in partners:
+            yield times, times
+            continue
+        known = rough.inertia.contacts[partners[j]]
+        yield np.minimum(known.start + (times - new.start), BEFORE * known.end), times
     for i, old in enumerate(rough.inertia.contacts):
         if i not in partners.values():
             times = _looks(old.start, old.end, unit)

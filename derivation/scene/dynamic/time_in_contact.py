@@ -22,7 +22,7 @@ from derivation.scene.errors import SceneError
 from derivation.scene.model import Model
 from generated.arrays import Double as Array
 
-NODES, MANY = (32, 24, 16), (500, 5000)
+NODES, MANY = (32, 24, 16), (200, 5000)
 """Nodes of an element, and numbers of modes above which an element has fewer nodes."""
 FEWER = 2
 """Difference in the number of nodes between a run and the coarser one that checks it."""

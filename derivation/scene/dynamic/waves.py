@@ -57,6 +57,8 @@ FINAL = 7e7
 """Largest work of one more run beyond the limits, which is made if the tolerance is nearly met."""
 LONG = 1.5e6
 """Expected work of the second run above which coarser runs first check the first one."""
+LONGER = 4.0 * LONG
+"""The same above which they also tell whether a tolerance is out of reach."""
 FOURTH = 8
 """Number of modes from which a run with a quarter of them is meaningful."""
 
@@ -179,14 +181,11 @@ def _converged(
     work = _next_work(law, more, rough)
     dear = work > min(LONG, contact_sequence.WORK, budget.left)
     if dear and not law.model.inertia.pointwise:
-        compared = _by_coarser(rough, law, count, Budget(budget.left))
+        compared = _by_coarser(rough, law, count, budget, goal, reach, work)
         if compared:
             estimated, halved = compared
         if estimated and halved:
-            change = estimated.inertia.left(reach.outputs)[0]
-            if change <= _accepted_change(estimated, goal, reach, work):
-                return estimated
-            if math.isinf(reach.need) and exceeds_modes(law, estimated, reach.outputs):
+            if _enough_modes(estimated, law, goal, reach, work):
                 return estimated
             if unreachable([halved], law, count, work, reach):
                 return halved
@@ -233,6 +232,18 @@ def _converged(
             most = FINAL
         if unreachable(runs, law, count, work, reach):
             return best
+
+
+def _enough_modes(
+    run: DynamicImpact, law: ContactLaw, goal: float, reach: Reach, work: float
+) -> bool:
+    """Return whether a run with more modes, of this work, is not needed.
+
+    Without a tolerance, modes that matter little beside stretching are not.
+    """
+    if run.inertia.left(reach.outputs)[0] <= _accepted_change(run, goal, reach, work):
+        return True
+    return math.isinf(reach.need) and exceeds_modes(law, run, reach.outputs)
 
 
 def _accepted_change(run: DynamicImpact, goal: float, reach: Reach, work: float = 0.0) -> float:
@@ -300,7 +311,13 @@ def _of_chosen_modes(
 
 
 def _by_coarser(
-    run: DynamicImpact, law: ContactLaw, count: int, budget: Budget
+    run: DynamicImpact,
+    law: ContactLaw,
+    count: int,
+    budget: Budget,
+    goal: float,
+    reach: Reach,
+    work: float,
 ) -> tuple[DynamicImpact | None, DynamicImpact] | None:
     """Return the first run with an error estimate by coarser ones, less work than a finer one.
 
@@ -308,19 +325,31 @@ def _by_coarser(
     The second result has the change since half as many modes alone.
     The first result is None if the coarser runs have entirely different results; both are if the
     scene gives a number of modes, the modes of the first run are slower than the contact, or a
-    coarser run fails or is incomplete.
+    coarser run fails, is incomplete, or shows that the first one cannot be accurate enough.
+
+    Parameters
+    ----------
+    budget
+        That of all runs; these runs are not charged to it.
+    work
+        Expected work of the finer run.
     """
     if law.model.inertia.modes or count < FOURTH or not fast(law, count):
         return None
-    compared: list[DynamicImpact] = []
+    compared, spare = list[DynamicImpact](), Budget(budget.left)
     for fewer in (coarser(coarser(count)), coarser(count)):
         try:
-            coarse = run_with(law, fewer, budget, time_tolerance(LOOSE), FEWER)
+            coarse = run_with(law, fewer, spare, time_tolerance(LOOSE), FEWER)
         except SceneError:  # so few modes may bend the plate more than the sphere is curved
             return None
         if not coarse.inertia.complete:
             return None
         compared.append(judged(coarse, run))
+        # The change since a quarter as many modes counts; one more only tells what is in reach.
+        follows = work <= min(contact_sequence.WORK, budget.left)
+        follows &= work <= LONGER or math.isinf(reach.need)
+        if follows and not _enough_modes(compared[0], law, goal, reach, work):
+            return None
     quartered, halved = compared
     found = largest_change(quartered, halved)
     if max(found.inertia.mode_convergence) >= 1.0:

@@ -233,7 +233,7 @@ def test_few_modes_refuse_a_restitution_far_below_all_that_a_heavy_ball_may_have
         simulate(read(PHONE | {"measured": wanted}))
     assert parts == {measured_module.PART}
     named = float(str(error.value).partition("at least about ")[2].partition(",")[0])
-    for value in (1e-7, 1e-6, 3e-6, 1e-5):
+    for value in (3e-6, 1e-5):
         glass = PHONE["plate"] | {"retardation_time": value}
         result = simulate(read(PHONE | {"plate": glass, "accuracy": ROUGHLY}))
         assert result.restitution > (1.0 - measured_module.CLEAR) * named > 0.5
@@ -252,7 +252,7 @@ def test_few_modes_find_a_constant_that_accurate_simulations_confirm() -> None:
 
 def test_a_face_that_meets_the_sphere_again_at_once_has_a_speed() -> None:
     """At separation face and sphere move alike: their relative speed grows with the time since."""
-    glass = PHONE["plate"] | {"retardation_time": 1e-5}
+    glass = PHONE["plate"] | {"retardation_time": 3e-6}
     run = simulate(read(PHONE | {"plate": glass, "accuracy": ROUGHLY})).dynamics
     assert run is not None
     problem, first = run.impact_history.problem, run.impact_history.contacts[0]

@@ -12,6 +12,8 @@ from derivation.scene.dynamic.modal import ModalPlate, free_modes
 from derivation.scene.dynamic.mode_count import branching
 from derivation.scene.impact import selected_effects
 
+pytestmark = pytest.mark.one_version
+
 MATERIALS = {
     "elastic": {},
     "plastic": {"yield_stress": 3e8},

@@ -22,6 +22,8 @@ from derivation.scene.impact import selected_effects
 from derivation.scene.input.settings import Output
 from derivation.scene.scene import OUTPUTS
 
+pytestmark = pytest.mark.one_version
+
 BLOCK: dict[str, dict[str, Any]] = {
     "sphere": {"radius": 0.004, "material": "steel"},
     "plate": {"radius": 0.06, "thickness": 0.03, "material": "concrete"},

@@ -19,6 +19,8 @@ from derivation.scene.result import Result
 from derivation.scene.scene import OUTPUTS
 from generated.edge_modes import clamped_waves, supported_waves
 
+pytestmark = pytest.mark.one_version
+
 EXAMPLES = Path(derivation.scene.__file__).parent / "examples"
 EDGES = ("paper", "simply-supported", "clamped")
 DATA = json.loads((measurements() / "elastodynamics.json").read_text())

@@ -9,6 +9,8 @@ from derivation.scene import read, simulate
 from derivation.scene.dynamic.short_echoes import largest_echo
 from derivation.scene.result import Result
 
+pytestmark = pytest.mark.one_version
+
 SLOW: dict[str, Any] = {
     "sphere": {"radius": 0.0414, "mass": 0.6624},
     "plate": {"radius": 0.021, "thickness": 0.00785, "youngs_modulus": 3.067e8,

@@ -54,7 +54,7 @@ def test_an_edge_that_no_wave_has_reached_does_not_change_the_contact(material: 
     """The static curvature under the contact grows with the logarithm of the plate radius."""
     near, far, clamped = (
         impact(ratio, edge, **MATERIALS[material])
-        for ratio, edge in ((120, "paper"), (240, "paper"), (120, "clamped"))
+        for ratio, edge in ((120, "paper"), (180, "paper"), (120, "clamped"))
     )
     assert near.max_force == pytest.approx(far.max_force, rel=1e-5)
     for one in (near, clamped):

@@ -20,8 +20,6 @@ from derivation.scene.model import model_of
 from derivation.scene.quasi_static import motion
 from generated import contact_law
 
-pytestmark = pytest.mark.one_version
-
 
 def test_all_parts_of_the_plate_give_the_contact_law() -> None:
     m = model()

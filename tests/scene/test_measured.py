@@ -160,7 +160,6 @@ def test_a_recommended_tolerance_is_met(
     assert result.dynamics.numbers == tuple(getattr(result, name) for name in OUTPUTS)
 
 
-@pytest.mark.one_version
 def test_a_measurement_is_more_accurate_than_the_results() -> None:
     """The measurement had the tolerance of the results, which its error then exceeded."""
     scene = measured(restitution=0.2, solve_for="yield_stress", target="plate")
@@ -244,7 +243,6 @@ def test_few_modes_refuse_a_restitution_far_below_all_that_a_heavy_ball_may_have
         assert result.restitution > (1.0 - measured_module.CLEAR) * named > 0.5
 
 
-@pytest.mark.one_version
 def test_few_modes_find_a_constant_that_accurate_simulations_confirm() -> None:
     """The restitution of a known constant, simulated with an error bound, returns it."""
     truth = 3e-6
@@ -268,7 +266,6 @@ def test_a_face_that_meets_the_sphere_again_at_once_has_a_speed() -> None:
     assert abs(now) < 0.1 * abs(later) < 1e-4
 
 
-@pytest.mark.one_version
 @pytest.mark.parametrize(
     ("solve_for", "given"), [("yield_stress", 2e8), ("retardation_time", 1e-6)]
 )

@@ -76,6 +76,7 @@ def test_products_below_the_tested_range_give_nan(row: Any) -> None:
         assert bool(np.isnan(result)) != is_number, (row["name"], product)
 
 
+@pytest.mark.one_version
 @pytest.mark.parametrize("target", WITH_UNITS.values(), ids=WITH_UNITS)
 def test_results_are_within_the_budget_in_any_units(target: Target) -> None:
     """Finite results are within the budget; the unit of subnormal values is the smallest double."""

@@ -57,6 +57,7 @@ def _exceeds(errors: Errors) -> bool:
     return errors.ratio is None or errors.ratio > 1.0 or errors.not_finite > 0
 
 
+@pytest.mark.one_version
 @pytest.mark.parametrize("module", ["omega", "pressure", "mode_shapes", "blocks"])
 def test_mutants_are_detected_up_to_the_listed_number(module: str) -> None:
     """Conditions of domains are not changed; `test_floating_point_exceptions` tests them."""

@@ -9,6 +9,8 @@ from derivation.scene import read, simulate
 from derivation.scene.result import Result
 from derivation.scene.scene import OUTPUTS, SceneError
 
+pytestmark = pytest.mark.one_version
+
 PANE: dict[str, Any] = {
     "sphere": {"radius": 0.01, "material": "steel"},
     "plate": {"radius": 0.3, "thickness": 0.008, "material": "glass", "edge": "simply-supported"},

@@ -41,18 +41,20 @@ def impact(
     )
 
 
+@pytest.mark.one_version
 def test_static_modes_of_a_held_plate_curve_it_as_those_of_the_paper() -> None:
     """With 80 dynamic modes, most modes of a held plate respond statically."""
     held, other = (impact(240, edge, modes=80) for edge in ("clamped", "paper"))
     assert held.max_contact_radius == pytest.approx(other.max_contact_radius, rel=3e-5)
 
 
+@pytest.mark.one_version
 @pytest.mark.parametrize("material", MATERIALS)
 def test_an_edge_that_no_wave_has_reached_does_not_change_the_contact(material: str) -> None:
     """The static curvature under the contact grows with the logarithm of the plate radius."""
     near, far, clamped = (
         impact(ratio, edge, **MATERIALS[material])
-        for ratio, edge in ((120, "paper"), (240, "paper"), (240, "clamped"))
+        for ratio, edge in ((120, "paper"), (180, "paper"), (120, "clamped"))
     )
     assert near.max_force == pytest.approx(far.max_force, rel=1e-5)
     for one in (near, clamped):
@@ -101,8 +103,9 @@ def test_without_its_long_waves_a_law_does_not_depend_on_the_plate_radius(
     assert without < agreement * with_waves
 
 
+@pytest.mark.one_version
 def test_the_error_of_pressure_and_radius_covers_the_radius_of_the_plate() -> None:
-    results = [impact(ratio, thickness=5e-4) for ratio in (480, 960)]
+    results = [impact(ratio) for ratio in (180, 240)]
     one, other = (np.array([r.max_contact_radius, r.max_pressure]) for r in results)
     allowed = sum(r.model_errors["max_contact_radius"] for r in results)
     assert np.all(np.abs(one / other - 1.0) <= min(allowed, 2e-3))

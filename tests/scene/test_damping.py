@@ -51,6 +51,7 @@ def test_loss_factor_of_zero_equals_no_loss_factor() -> None:
     assert values(struck(None)).tolist() == values(struck(0.0)).tolist()
 
 
+@pytest.mark.one_version
 @pytest.mark.parametrize("plate", [{}, {"edge": "clamped"}, MEMBRANE])
 def test_undamped_plate_is_the_limit_of_small_damping(plate: dict[str, Any]) -> None:
     modes = {"modes": 8}
@@ -64,6 +65,7 @@ def test_undamped_plate_is_the_limit_of_small_damping(plate: dict[str, Any]) -> 
     assert 2 * second - third == pytest.approx(first, rel=1e-3, abs=1e-3)
 
 
+@pytest.mark.one_version
 def test_damping_loss_agrees_with_perturbation_theory() -> None:
     """To first order it is the integral of 2 zeta omega q'^2 times modal mass, without damping."""
     eta, wide = 1e-6, {"radius": 0.15}
@@ -257,6 +259,7 @@ def test_damping_is_omitted_for_a_nearly_quasi_static_plate() -> None:
     assert 0 < bound <= explanation.effects.error
 
 
+@pytest.mark.one_version
 def test_the_bound_covers_omitted_modes_that_would_be_damped() -> None:
     """Each doubling changes a strongly damped impact as much as the last: the bound was 1e-4."""
     marble = {
@@ -274,6 +277,7 @@ def test_the_bound_covers_omitted_modes_that_would_be_damped() -> None:
     assert result.accuracy.bound < 4.0 * change
 
 
+@pytest.mark.one_version
 def test_bound_without_higher_branches_covers_a_strongly_damped_plate() -> None:
     """Strong damping increases the energy that the omitted wave branches take."""
     plate = {

@@ -12,6 +12,8 @@ from derivation.scene.dynamic import back_face as stresses
 from derivation.scene.dynamic.mode_count import branching
 from derivation.scene.impact import selected_effects
 
+pytestmark = pytest.mark.one_version
+
 
 def scene(edge: str = "paper", inertia: bool = True, **given: float) -> pc.Scene:
     keys = {"radius": 0.01, "b": 0.3, "H": 0.008, "speed": 2.0, "loss": 0.0} | given

@@ -10,6 +10,8 @@ from derivation.scene import SceneError, load, read, simulate
 from derivation.scene.result import Result
 from derivation.scene.scene import OUTPUTS
 
+pytestmark = pytest.mark.one_version
+
 PAD = load(EXAMPLES / "pad.toml").to_json()
 EFFECTS = dict.fromkeys(ALL | {"inertia"}, True) | {"non_hertzian_pressure": False}
 del EFFECTS["hertz"], EFFECTS["edge"]

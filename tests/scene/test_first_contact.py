@@ -10,6 +10,8 @@ from derivation.scene.impact import selected_effects
 from derivation.scene.selection.effect_selection import SelectedEffects
 from derivation.scene.selection.method_selection import dynamic_impact, solve_selected
 
+pytestmark = pytest.mark.one_version
+
 
 @pytest.fixture(scope="module")
 def selected() -> SelectedEffects:

@@ -32,6 +32,8 @@ from derivation.scene.model import InertiaSettings, Model
 from derivation.scene.numerics import chebyshev
 from derivation.scene.output.wave_plot import zener_restitution
 
+pytestmark = pytest.mark.one_version
+
 REST = WHOLE_PLATE | {"hertz"}
 
 BALL = Model(R=0.02, m=0.25, v0=1.0, h=0.02, b=0.15, lam=40e9, mu=27e9, density=2700.0)

@@ -43,6 +43,7 @@ def scenes(draw: st.DrawFn, disabled: tuple[str, ...] = ()) -> Scene:
     })  # fmt: skip
 
 
+@pytest.mark.one_version
 @given(scenes(), st.sampled_from(TOLERANCES))
 @settings(max_examples=40)
 def test_small_parts_are_not_subtracted_from_the_whole_plate(scene: Scene, shown: float) -> None:

@@ -263,6 +263,7 @@ SCENES: dict[str, Tables] = {
 }  # fmt: skip
 
 
+@pytest.mark.one_version
 @pytest.mark.parametrize("name", SCENES)
 def test_typical_scenes_run_at_one_percent(name: str) -> None:
     tolerance = 0.02 if "echo" in name else 0.01
@@ -295,6 +296,7 @@ def test_sphere_that_stays_on_a_light_plate_is_rejected_before_the_first_step() 
     assert result.contact_time == pytest.approx(predicted, rel=0.1)
 
 
+@pytest.mark.one_version
 @pytest.mark.parametrize(
     ("mass", "edge", "speed"),
     [(0.02, "paper", 1.0), (0.1, "clamped", 0.3), (0.5, "simply-supported", 0.05)],

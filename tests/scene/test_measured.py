@@ -96,6 +96,7 @@ def test_other_keys_are_unchanged() -> None:
     assert kept == read(BLOCK).to_json()
 
 
+@pytest.mark.one_version
 @pytest.mark.parametrize("solve_for", ["yield_stress", "retardation_time"])
 @pytest.mark.parametrize(("goal", "rtol"), [(0.05, 1e-9), (0.5, None), (0.9, 1e-9)])
 def test_the_bound_covers_the_error_of_the_constant(
@@ -127,6 +128,7 @@ def test_a_plate_that_bends_limits_what_a_retardation_time_can_dissipate() -> No
     assert at < min(less, more)
 
 
+@pytest.mark.one_version
 @pytest.mark.parametrize(
     ("solve_for", "part", "thickness", "rtol"),
     [
@@ -170,6 +172,7 @@ def test_a_measurement_is_more_accurate_than_the_results() -> None:
     assert abs(solved(outcome.scene) / solved(finer.scene) - 1.0) <= outcome.accuracy.bound
 
 
+@pytest.mark.one_version
 @pytest.mark.parametrize(("solve_for", "goal"), [("yield_stress", 0.2), ("retardation_time", 0.5)])
 def test_a_rough_search_and_a_full_one_find_the_same_constant(
     solve_for: str, goal: float, monkeypatch: pytest.MonkeyPatch
@@ -216,6 +219,7 @@ PHONE: dict[str, Any] = {
 ROUGHLY = {"rtol": 0.1, "outputs": ["restitution"]}
 
 
+@pytest.mark.one_version
 def test_few_modes_refuse_a_restitution_far_below_all_that_a_heavy_ball_may_have(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -233,7 +237,7 @@ def test_few_modes_refuse_a_restitution_far_below_all_that_a_heavy_ball_may_have
         simulate(read(PHONE | {"measured": wanted}))
     assert parts == {measured_module.PART}
     named = float(str(error.value).partition("at least about ")[2].partition(",")[0])
-    for value in (1e-7, 1e-6, 3e-6, 1e-5):
+    for value in (3e-6, 1e-5):
         glass = PHONE["plate"] | {"retardation_time": value}
         result = simulate(read(PHONE | {"plate": glass, "accuracy": ROUGHLY}))
         assert result.restitution > (1.0 - measured_module.CLEAR) * named > 0.5
@@ -250,9 +254,10 @@ def test_few_modes_find_a_constant_that_accurate_simulations_confirm() -> None:
     assert fit == pytest.approx(truth, rel=0.1)
 
 
+@pytest.mark.one_version
 def test_a_face_that_meets_the_sphere_again_at_once_has_a_speed() -> None:
     """At separation face and sphere move alike: their relative speed grows with the time since."""
-    glass = PHONE["plate"] | {"retardation_time": 1e-5}
+    glass = PHONE["plate"] | {"retardation_time": 3e-6}
     run = simulate(read(PHONE | {"plate": glass, "accuracy": ROUGHLY})).dynamics
     assert run is not None
     problem, first = run.impact_history.problem, run.impact_history.contacts[0]
@@ -281,6 +286,7 @@ def test_a_lossy_sphere_limits_the_restitution_that_the_plate_can_explain(
     assert abs(result.restitution / (0.9 * most) - 1.0) <= result.accuracy.bound < 1e-3
 
 
+@pytest.mark.one_version
 @pytest.mark.parametrize("speed", [1e-2, 2e-3, 1.08e-3])
 def test_the_weight_of_the_sphere_acts_on_a_block_too(speed: float) -> None:
     """A measurement without weight gave up to twice the retardation time, with a bound of 1e-4.

@@ -22,6 +22,8 @@ from derivation.scene.impact import selected_effects
 from derivation.scene.input.settings import Output
 from derivation.scene.scene import OUTPUTS
 
+pytestmark = pytest.mark.one_version
+
 BLOCK: dict[str, dict[str, Any]] = {
     "sphere": {"radius": 0.004, "material": "steel"},
     "plate": {"radius": 0.06, "thickness": 0.03, "material": "concrete"},
@@ -158,7 +160,7 @@ def run(rtol: float, output: Output) -> Result | None:
 
 @pytest.mark.parametrize(
     ("output", "tolerances"),
-    [("max_force", (1e-3, 1e-4, 1e-5, 1e-6)), ("restitution", (1e-3, 1e-4, 1e-6))],
+    [("max_force", (1e-3, 1.5e-4, 1e-5, 1e-6)), ("restitution", (1e-3, 1e-4, 1e-6))],
 )
 def test_two_runs_that_agree_by_chance_do_not_hide_the_error(
     output: Output, tolerances: tuple[float, ...]
@@ -382,16 +384,16 @@ def test_one_run_beyond_the_limits_is_made_if_the_tolerance_is_near(
 
 
 def test_without_a_tolerance_a_dear_run_is_left_out_and_the_bound_holds() -> None:
-    """48,644 modes take seconds; a fraction of them leaves an error of at most 0.2 %."""
+    """The next run has 12,652 modes; a fraction of them leaves an error of at most 0.2 %."""
     scene = read({
         "sphere": {"radius": 0.002, "material": "granite"},
         "plate": {"radius": 0.5, "thickness": 0.006, "material": "glass", "edge": "clamped"},
         "impact": {"speed": 20.0},
     })  # fmt: skip
-    usual, fine = simulate(scene), simulate(scene, rtol=5e-4)
+    usual, fine = simulate(scene), simulate(scene, rtol=1e-3)
     assert usual.dynamics is not None
     assert fine.dynamics is not None
-    assert 10 * usual.dynamics.inertia.modes < fine.dynamics.inertia.modes
+    assert 3 * usual.dynamics.inertia.modes < fine.dynamics.inertia.modes
     assert max(usual.dynamics.inertia.left(OUTPUTS)) <= 2e-3
     allowed = usual.accuracy.bound + fine.accuracy.bound
     for name in OUTPUTS:

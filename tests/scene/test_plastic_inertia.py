@@ -16,6 +16,8 @@ from derivation.scene.model import InertiaSettings, Model
 from derivation.scene.result import Result
 from derivation.scene.scene import OUTPUTS, SceneError
 
+pytestmark = pytest.mark.one_version
+
 DISC: dict[str, Any] = {
     "sphere": {"radius": 1.681, "density": 100.3, "material": "aluminium"},
     "plate": {"radius": 1.569, "half_thickness": 0.1618, "youngs_modulus": 4.952e11,

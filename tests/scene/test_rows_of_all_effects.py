@@ -3,6 +3,7 @@
 from typing import Any
 
 import numpy as np
+import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from test_rows import check
@@ -90,6 +91,7 @@ def studies(draw: st.DrawFn) -> Study:
     return scene, columns, rtol
 
 
+@pytest.mark.one_version
 @given(studies())
 @settings(max_examples=60)
 def test_each_row_equals_its_simulation(study: Study) -> None:

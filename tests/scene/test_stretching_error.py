@@ -126,6 +126,7 @@ def simulations(name: str) -> tuple[dict[str, float], dict[str, float]]:
     return linear, stretched
 
 
+@pytest.mark.one_version
 @pytest.mark.parametrize("name", SCENES)
 def test_error_covers_the_difference_between_a_linear_and_a_stretched_plate(name: str) -> None:
     """Without `TIME` or `PEAK` the damped plate fails, without `END` the light one."""

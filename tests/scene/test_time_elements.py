@@ -19,6 +19,8 @@ from derivation.scene.effects import PAPER
 from derivation.scene.model import model_of
 from derivation.scene.numerics.collocation import Element
 
+pytestmark = pytest.mark.one_version
+
 RADIUS = 0.01
 PANE = {"radius": 0.1, "thickness": 0.01, "material": "glass"}
 MEMBRANE = {"radius": 0.1, "thickness": 0.001, "material": "glass"}

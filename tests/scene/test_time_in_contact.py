@@ -12,6 +12,8 @@ from derivation.scene.dynamic.modal import plate_of
 from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.impact import selected_effects
 
+pytestmark = pytest.mark.one_version
+
 GLASS: dict[str, Any] = {"material": "cover glass", "edge": "clamped"}
 
 

@@ -18,6 +18,8 @@ from derivation.scene.dynamic.problem import DynamicProblem
 from derivation.scene.dynamic.time_element import A, E, P, V, W
 from derivation.scene.result import Result
 
+pytestmark = pytest.mark.one_version
+
 Array = NDArray[np.float64]
 GAUSS, WEIGHTS = np.polynomial.legendre.leggauss(12)
 TIMES = 1200

@@ -13,6 +13,8 @@ from derivation.scene.dynamic import waves
 from derivation.scene.model import InertiaSettings, model_of
 from derivation.scene.scene import OUTPUTS
 
+pytestmark = pytest.mark.one_version
+
 SOFT_BLOCK: dict[str, Any] = {
     "sphere": {"radius": 0.529, "density": 2378.0, "material": "steel"},
     "plate": {"radius": 1.258, "half_thickness": 0.366, "youngs_modulus": 1.387e6,

@@ -94,6 +94,7 @@ def integrated(model: Model, end: float) -> tuple[float, float, float]:
     return s * s, peak, float(solution.y_events[0][-1][1])
 
 
+@pytest.mark.one_version
 @pytest.mark.parametrize(
     "changes",
     [

@@ -1,6 +1,5 @@
 """Plasticity: the lower yield stress limits the contact pressure, and a dent remains."""
 
-import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -25,7 +24,6 @@ class Plasticity(Effect):
     source = "Johnson 1985; Thornton 1997; step 31"
     hertzian = True
     plastic = True
-    takes_rows = False
     remedy = "give plate.yield_stress or sphere.yield_stress [Pa]"
 
     def not_applicable_reason(self, model: Model) -> str:
@@ -46,12 +44,12 @@ class Plasticity(Effect):
         from generated.plasticity_kernels import unloaded
 
         ratio = _over_onset(model, context)
-        flat = float(unloaded(np.maximum(ratio[-1], 1.0))[0])
-        slower = -math.log(max(float(_restitution(model, context, ratio).item()), _SMALLEST))
+        flat = unloaded(np.maximum(ratio[..., -1:], 1.0))[0]
+        slower = _number(-np.log(np.maximum(_restitution(model, context, ratio), _SMALLEST)))
         return Bound(
-            np.full_like(ratio, 1.0 - flat),
+            np.zeros_like(ratio) + (1.0 - flat),
             np.maximum(ratio - 1.0, 0.0),
-            radius=-float(np.log(flat)),
+            radius=_number(-np.log(flat)),
             results=(slower, 0.0, 0.0, 0.0, slower),
         )
 
@@ -80,7 +78,12 @@ def plastic_depth(model: Model, context: BoundContext) -> Numbers:
     elastic = np.maximum(_over_onset(model, context)[..., -1:], 1.0)
     xi = reached(elastic**5)
     deeper: Array = (np.square(xi) + loaded(xi)[0]) / np.square(elastic)
-    return context.depth * (float(deeper.item()) if deeper.ndim == 1 else deeper)
+    return context.depth * _number(deeper)
+
+
+def _number(values: Array) -> Numbers:
+    """Return the number of one scene, or the numbers of many as a column."""
+    return values if values.ndim > 1 else float(values.item())
 
 
 def _restitution(model: Model, context: BoundContext, ratio: Array) -> Array:

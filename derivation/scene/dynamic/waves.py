@@ -57,8 +57,6 @@ FINAL = 7e7
 """Largest work of one more run beyond the limits, which is made if the tolerance is nearly met."""
 LONG = 1.5e6
 """Expected work of the second run above which coarser runs first check the first one."""
-LONGER = 4.0 * LONG
-"""The same above which they also tell whether a tolerance is out of reach."""
 FOURTH = 8
 """Number of modes from which a run with a quarter of them is meaningful."""
 
@@ -345,9 +343,8 @@ def _by_coarser(
         if not coarse.inertia.complete:
             return None
         compared.append(judged(coarse, run))
-        # The change since a quarter as many modes counts; one more only tells what is in reach.
-        follows = work <= min(contact_sequence.WORK, budget.left)
-        follows &= work <= LONGER or math.isinf(reach.need)
+        # The change since a quarter as many modes counts. One more only tells what is in reach.
+        follows = math.isinf(reach.need) and work <= min(contact_sequence.WORK, budget.left)
         if follows and not _enough_modes(compared[0], law, goal, reach, work):
             return None
     quartered, halved = compared

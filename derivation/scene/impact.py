@@ -15,10 +15,9 @@ from derivation.scene.contact_law.limits import (
     local_indentation,
     motion_warnings,
     neglects_inertia,
-    pressure_warnings,
-    stress_warnings,
     warnings_at,
 )
+from derivation.scene.contact_law.stress_limits import pressure_warnings, stress_warnings
 from derivation.scene.contact_law.yield_warnings import impact_warnings
 from derivation.scene.dynamic.contact_warnings import fall_warnings, grazing_warnings
 from derivation.scene.dynamic.model_error import curvature_error, inertia_error
@@ -137,13 +136,14 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
     stress = TensileStress(math.nan, math.nan, static=motion is None)
     if strength is not None or yield_stress is not None:
         stress = tensile_stress(law, motion, numbers, not selected.edge_disabled)
-    stress_error = accuracy.bound + stress.error if motion is not None else 0.0
+    pressure_error = accuracy.bound + model_errors["max_contact_radius"]
+    stress_error = accuracy.bound + stress.error
     warnings = (
         *on_units,
         *hollow_warnings(model),
         *warnings_at(law, a, delta, deflection),
         *motion_warnings(moving, contact_time, fraction, motion is not None),
-        *_yield_warnings(law, a, pressure),
+        *_yield_warnings(law, a, pressure, pressure_error),
         *stress_warnings(stress.value, strength, yield_stress, stress_error, motion is None),
     )
     if motion is not None:
@@ -184,13 +184,16 @@ def _solved(
     return selected, numbers, replace(accuracy, rtol=rtol, constant=constant)
 
 
-def _yield_warnings(law: ContactLaw, a: float, pressure: float) -> tuple[str, ...]:
-    """Return warnings about yielding that the law neglects, or that exceeds its range."""
+def _yield_warnings(law: ContactLaw, a: float, pressure: float, error: float) -> tuple[str, ...]:
+    """Return warnings about yielding that the law neglects, or that exceeds its range.
+
+    `error` is the relative error of the pressure [1].
+    """
     if law.plastic:
         return impact_warnings(law, a)
     model = law.model
     weaker = "sphere" if model.yield_stress < model.plate_yield_stress else "plate"
-    return pressure_warnings(pressure, _known(model.yield_stress), law.viscous, weaker)
+    return pressure_warnings(pressure, _known(model.yield_stress), law.viscous, weaker, error)
 
 
 def _known(stress: float) -> float | None:

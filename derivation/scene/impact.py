@@ -22,8 +22,8 @@ from derivation.scene.contact_law.yield_warnings import impact_warnings
 from derivation.scene.dynamic.contact_warnings import fall_warnings, grazing_warnings
 from derivation.scene.dynamic.model_error import curvature_error, inertia_error
 from derivation.scene.dynamic.stretching_error import jump_warnings, stretching_error
+from derivation.scene.dynamic.unlike_bodies import unlike_bodies_errors, unlike_jump_warnings
 from derivation.scene.effects.effect import Results, weight_work_ratio
-from derivation.scene.effects.viscosity import unlike_bodies_error
 from derivation.scene.errors import SceneError, ToleranceError
 from derivation.scene.input.units import unit_warnings, with_unit_warnings
 from derivation.scene.measured.measured import (
@@ -150,6 +150,7 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
         speeds = [touch.relative_approach_speed for touch in motion.inertia.contacts]
         warnings += grazing_warnings(speeds, motion.least)
         warnings += jump_warnings(law, motion)
+        warnings += unlike_jump_warnings(law, motion)
         rebound = motion.restitution * model.v0
         warnings += fall_warnings(model.gravity, rebound, motion.later_deflection)
     return Result(
@@ -210,17 +211,18 @@ def _model_errors(
     dissipates. In the restitution this counts by the ratio of that energy to the one that remains.
     """
     model, other_edge, a = law.model, law.other_edge, numbers[3]
-    unlike = unlike_bodies_error(model) if law.viscous else 0.0
+    unlike = unlike_bodies_errors(law, numbers[0], motion, growth_of(motion))
     if motion is None:
         edge, size = edge_remainder(model, a) if other_edge else 0.0, stretching(model, deflection)
         curvature = edge_curvature_errors(law, a)
         edge += curvature.results
-        errors: dict[str, float] = dict.fromkeys(OUTPUTS, edge + float(size) + unlike)
+        errors: dict[str, float] = {name: edge + float(size) + unlike[name] for name in OUTPUTS}
         errors["max_contact_radius"] += curvature.pressure - curvature.results
         if law.viscous or law.plastic:
             supplied = 1.0 + float(weight_work_ratio(model, numbers[1]))
             dissipated = supplied / max(numbers[4], 1e-6) ** 2 - 1.0
-            errors["restitution"] = edge + float(size) * max(1.0, dissipated) + unlike
+            lost = float(size) * max(1.0, dissipated)
+            errors["restitution"] = edge + lost + unlike["restitution"]
         return errors
     from derivation.scene.dynamic.wave_problem import echo_time
 
@@ -230,7 +232,7 @@ def _model_errors(
     returned = other_edge and motion.inertia.total_time > echo_time(motion.law.model)
     edge = edge_remainder(model, a) if returned else 0.0
     waves["max_contact_radius"] += curvature_error(motion.inertia.curvature)
-    return {name: max(waves[name] + stretched[name], edge) + unlike for name in OUTPUTS}
+    return {name: max(waves[name] + stretched[name], edge) + unlike[name] for name in OUTPUTS}
 
 
 def selected_effects(

@@ -136,7 +136,7 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
     stress = TensileStress(math.nan, math.nan, static=motion is None)
     if strength is not None or yield_stress is not None:
         stress = tensile_stress(law, motion, numbers, not selected.edge_disabled)
-    pressure_error = accuracy.bound + model_errors["max_contact_radius"]
+    pressure_error = accuracy.pressure_bound + model_errors["max_contact_radius"]
     stress_error = accuracy.bound + stress.error
     warnings = (
         *on_units,

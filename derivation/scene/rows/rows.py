@@ -311,7 +311,7 @@ class _Block:
         with np.errstate(all="ignore"):
             errors = static_errors(law, a, deflection, times, periods, group.held)
         numbers_and_errors = numbers | {
-            "pressure_error": bound + model_error,
+            "pressure_error": np.expm1(np.log1p(bound) + 2.0 * np.log1p(error)) + model_error,
             "stress_error": bound + np.broadcast_to(errors, a.shape)[:, 0],
         }
         reasons = warnings_of_rows(law, numbers_and_errors, strength, which)

@@ -15,16 +15,15 @@ from derivation.scene.contact_law.limits import (
     local_indentation,
     motion_warnings,
     neglects_inertia,
-    pressure_warnings,
-    stress_warnings,
     warnings_at,
 )
+from derivation.scene.contact_law.stress_limits import pressure_warnings, stress_warnings
 from derivation.scene.contact_law.yield_warnings import impact_warnings
 from derivation.scene.dynamic.contact_warnings import fall_warnings, grazing_warnings
 from derivation.scene.dynamic.model_error import curvature_error, inertia_error
 from derivation.scene.dynamic.stretching_error import jump_warnings, stretching_error
+from derivation.scene.dynamic.unlike_bodies import unlike_bodies_errors, unlike_jump_warnings
 from derivation.scene.effects.effect import Results, weight_work_ratio
-from derivation.scene.effects.viscosity import unlike_bodies_error
 from derivation.scene.errors import SceneError, ToleranceError
 from derivation.scene.input.units import unit_warnings, with_unit_warnings
 from derivation.scene.measured.measured import (
@@ -137,19 +136,21 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
     stress = TensileStress(math.nan, math.nan, static=motion is None)
     if strength is not None or yield_stress is not None:
         stress = tensile_stress(law, motion, numbers, not selected.edge_disabled)
-    stress_error = accuracy.bound + stress.error if motion is not None else 0.0
+    pressure_error = accuracy.pressure_bound + model_errors["max_contact_radius"]
+    stress_error = accuracy.bound + stress.error
     warnings = (
         *on_units,
         *hollow_warnings(model),
         *warnings_at(law, a, delta, deflection),
         *motion_warnings(moving, contact_time, fraction, motion is not None),
-        *_yield_warnings(law, a, pressure),
+        *_yield_warnings(law, a, pressure, pressure_error),
         *stress_warnings(stress.value, strength, yield_stress, stress_error, motion is None),
     )
     if motion is not None:
         speeds = [touch.relative_approach_speed for touch in motion.inertia.contacts]
         warnings += grazing_warnings(speeds, motion.least)
         warnings += jump_warnings(law, motion)
+        warnings += unlike_jump_warnings(law, motion)
         rebound = motion.restitution * model.v0
         warnings += fall_warnings(model.gravity, rebound, motion.later_deflection)
     return Result(
@@ -184,13 +185,16 @@ def _solved(
     return selected, numbers, replace(accuracy, rtol=rtol, constant=constant)
 
 
-def _yield_warnings(law: ContactLaw, a: float, pressure: float) -> tuple[str, ...]:
-    """Return warnings about yielding that the law neglects, or that exceeds its range."""
+def _yield_warnings(law: ContactLaw, a: float, pressure: float, error: float) -> tuple[str, ...]:
+    """Return warnings about yielding that the law neglects, or that exceeds its range.
+
+    `error` is the relative error of the pressure [1].
+    """
     if law.plastic:
         return impact_warnings(law, a)
     model = law.model
     weaker = "sphere" if model.yield_stress < model.plate_yield_stress else "plate"
-    return pressure_warnings(pressure, _known(model.yield_stress), law.viscous, weaker)
+    return pressure_warnings(pressure, _known(model.yield_stress), law.viscous, weaker, error)
 
 
 def _known(stress: float) -> float | None:
@@ -207,17 +211,18 @@ def _model_errors(
     dissipates. In the restitution this counts by the ratio of that energy to the one that remains.
     """
     model, other_edge, a = law.model, law.other_edge, numbers[3]
-    unlike = unlike_bodies_error(model) if law.viscous else 0.0
+    unlike = unlike_bodies_errors(law, numbers[0], motion, growth_of(motion))
     if motion is None:
         edge, size = edge_remainder(model, a) if other_edge else 0.0, stretching(model, deflection)
         curvature = edge_curvature_errors(law, a)
         edge += curvature.results
-        errors: dict[str, float] = dict.fromkeys(OUTPUTS, edge + float(size) + unlike)
+        errors: dict[str, float] = {name: edge + float(size) + unlike[name] for name in OUTPUTS}
         errors["max_contact_radius"] += curvature.pressure - curvature.results
         if law.viscous or law.plastic:
             supplied = 1.0 + float(weight_work_ratio(model, numbers[1]))
             dissipated = supplied / max(numbers[4], 1e-6) ** 2 - 1.0
-            errors["restitution"] = edge + float(size) * max(1.0, dissipated) + unlike
+            lost = float(size) * max(1.0, dissipated)
+            errors["restitution"] = edge + lost + unlike["restitution"]
         return errors
     from derivation.scene.dynamic.wave_problem import echo_time
 
@@ -227,7 +232,7 @@ def _model_errors(
     returned = other_edge and motion.inertia.total_time > echo_time(motion.law.model)
     edge = edge_remainder(model, a) if returned else 0.0
     waves["max_contact_radius"] += curvature_error(motion.inertia.curvature)
-    return {name: max(waves[name] + stretched[name], edge) + unlike for name in OUTPUTS}
+    return {name: max(waves[name] + stretched[name], edge) + unlike[name] for name in OUTPUTS}
 
 
 def selected_effects(

@@ -16,12 +16,15 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from derivation.engine.text import aligned
-from derivation.scene.contact_law.edge_remainder import edge_warnings
+from derivation.scene.contact_law.corrections import stretching
+from derivation.scene.contact_law.edge_curvature import edge_curvature_errors
+from derivation.scene.contact_law.edge_remainder import edge_warnings, largest_neighbours
 from derivation.scene.contact_law.law import ContactLaw, Shape
 from derivation.scene.contact_law.limits import (
     check_numbers,
     check_radius,
     last_radius,
+    local_indentation,
     warnings_at,
 )
 from derivation.scene.contact_law.yield_warnings import static_warnings
@@ -33,6 +36,7 @@ from derivation.scene.input.units import unit_warnings, with_unit_warnings
 from derivation.scene.model import model_of
 from derivation.scene.numerics.crossing import last_true
 from derivation.scene.output.html import html_table
+from derivation.scene.quantity import percent
 from derivation.scene.scene import Scene
 from derivation.scene.selection.selection import check_enabled
 
@@ -61,6 +65,9 @@ class StaticContact:
         Derivative of the force with respect to the indentation, on loading [N/m].
     max_pressure
         Pressure at the centre of the contact [Pa]; where the contact yields, the limit 1.6 Y.
+    model_error
+        Largest relative error of any of these by the model [1], by the edge of the plate and by its
+        stretching; infinite if that of the edge is unknown.
     warnings
         Warnings about validity.
     """
@@ -70,11 +77,13 @@ class StaticContact:
     force: float
     stiffness: float
     max_pressure: float
+    model_error: float = 0.0
     warnings: tuple[str, ...] = ()
 
     def to_json(self) -> dict[str, Any]:
-        """Return the attributes as a dictionary, in SI units."""
-        return asdict(self) | {"warnings": list(self.warnings)}
+        """Return the attributes as a dictionary, in SI units; an unknown model error is None."""
+        error = self.model_error if math.isfinite(self.model_error) else None
+        return asdict(self) | {"model_error": error, "warnings": list(self.warnings)}
 
 
 class StaticContacts(tuple[StaticContact, ...]):
@@ -86,15 +95,26 @@ class StaticContacts(tuple[StaticContact, ...]):
         """Return the cells of the table, under `HEADS`, in SI units."""
         return [[f"{x:.6g}" for x in list(asdict(c).values())[: len(HEADS)]] for c in self]
 
+    @property
+    def model_note(self) -> str:
+        """The largest model error, in words; empty if there is none."""
+        error = max((contact.model_error for contact in self), default=0.0)
+        size = f"up to {percent(error)}" if math.isfinite(error) else "unknown"
+        return f"Model error: {size}" if error else ""
+
     def __str__(self) -> str:
-        """Return the table as text."""
-        return aligned(HEADS, self.rows())
+        """Return the table as text, with the model error."""
+        table = aligned(HEADS, self.rows())
+        return f"{table}\n\n{self.model_note}" if self.model_note else table
 
     def _repr_html_(self) -> str:
-        """Return the table for a notebook, with the warnings below it."""
+        """Return the table for a notebook, with model error and warnings below it."""
         texts = dict.fromkeys(text for contact in self for text in contact.warnings)
-        return html_table(HEADS, self.rows()) + "".join(
-            f"<p><b>Warning:</b> {escape(text)}</p>" for text in texts
+        error = f"<p>{self.model_note}</p>" if self.model_note else ""
+        return (
+            html_table(HEADS, self.rows())
+            + error
+            + "".join(f"<p><b>Warning:</b> {escape(text)}</p>" for text in texts)
         )
 
 
@@ -214,12 +234,29 @@ def _contact(law: ContactLaw, name: str, value: float) -> StaticContact:
         **values,
         stiffness=at.stiffness,
         max_pressure=pressure,
+        model_error=_model_error(law, at),
         warnings=(
             *warnings_at(law, at.radius, at.depth),
             *(edge_warnings(model, at.radius) if law.other_edge else ()),
             *static_warnings(law, at.radius),
         ),
     )
+
+
+def _model_error(law: ContactLaw, at: "_Loaded") -> float:
+    """Return the largest relative model error of the quantities of a contact [1].
+
+    Edge, stretching and curvature change the indentation at a given force; the force at a given
+    indentation changes by a power of that. The stiffening S of a plate grows with the square of the
+    deflection, so that the derivative of the force with respect to it changes by 3 S.
+    """
+    model, curvature = law.model, edge_curvature_errors(law, at.radius)
+    deflection = at.depth - float(local_indentation(law, at.radius))
+    changes = curvature.results + 3.0 * float(stretching(model, deflection))
+    if law.other_edge:
+        [edge] = largest_neighbours(model, np.array([at.radius]), model.eta)
+        changes += float(edge) if np.isfinite(edge) else math.inf
+    return max(1.0, at.stiffness * at.depth / at.force) * changes + curvature.pressure
 
 
 class _Loaded(NamedTuple):

@@ -58,7 +58,8 @@ class Result:
         incomplete. A contact to which only the weight returns the sphere is another impact.
     max_pressure
         Largest contact pressure, at the centre of the widest contact [Pa]; at most 1.6 times the
-        yield stress in a plastic contact, only the elastic part in a viscoelastic contact.
+        yield stress in a plastic contact, only the elastic part in a viscoelastic contact. Omitted
+        effects may change it by up to three times as much as the other results.
     comparison
         The paper's motion, for comparison; None unless `effects.compare_paper_motion` is true.
     max_tensile_stress
@@ -357,6 +358,8 @@ class Result:
         error = bound + self.model_errors.get(_SAME_ERROR.get(name, name), self.model_error)
         if name == "max_tensile_stress":
             error = bound + self.tensile_stress.error
+        if name == "max_pressure":
+            error += self.accuracy.pressure_bound - bound
         return max(digits_of(error), min(1, digits_of(bound)))
 
     def numbers(self) -> list[tuple[str, float, str]]:

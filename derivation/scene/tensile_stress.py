@@ -3,13 +3,23 @@
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
+import numpy as np
+
 from derivation.scene.contact_law.corrections import membrane_stress, stretching
-from derivation.scene.contact_law.edge_remainder import edge_stress_error
+from derivation.scene.contact_law.edge_remainder import edge_stress_error, edge_stress_errors
 from derivation.scene.contact_law.law import ContactLaw
-from derivation.scene.contact_law.limits import local_indentation, plate_times, slow_for
+from derivation.scene.contact_law.limits import (
+    QUASI_STATIC_PERIODS,
+    local_indentation,
+    plate_times,
+    slow_for,
+)
+from derivation.scene.contact_law.stress_limits import exceeds
 from derivation.scene.dynamic.model_error import stress_error
 from derivation.scene.dynamic.stretching_error import stress_change
 from derivation.scene.effects.effect import Results
+from derivation.scene.kernels import Numbers
+from generated.arrays import Double as Array
 
 if TYPE_CHECKING:
     from derivation.scene.dynamic.wave_motion import DynamicImpact
@@ -46,21 +56,20 @@ class TensileStress(NamedTuple):
     static: bool
 
     def safety(self, strength: float, bound: float, inertia_neglected: bool) -> str:
-        """Return the safety against a strength [Pa] as a sentence; empty if it is exceeded.
+        """Return the safety against a strength [Pa] as a sentence; empty if it may be exceeded.
 
         `bound` is the error bound of the force [1].
         """
-        if not self.value <= strength:  # it may be NaN
+        if math.isnan(self.value) or exceeds(self.value, strength, bound + self.error):
             return ""
         if self.value <= 0.0:
             return "no failure predicted on the back face: no tensile stress on the axis"
         ratio = f"strength / largest tensile stress = {strength / self.value:.3g}"
         caveat = "; plate inertia is neglected but may matter" if inertia_neglected else ""
         basis = f" (quasi-static, under the peak force{caveat})" if self.static else ""
-        if self.value * (1.0 + self.error + bound) > strength:
-            within = "which is within the error of the stress"
-            why = within if math.isfinite(self.error) else "and the error of the stress is unknown"
-            return f"failure on the back face is uncertain: {ratio}{basis}, {why}"
+        if not math.isfinite(bound + self.error):
+            unknown = "and the error of the stress is unknown"
+            return f"failure on the back face is uncertain: {ratio}{basis}, {unknown}"
         return f"no failure predicted on the back face: {ratio}{basis}"
 
     def to_json(self) -> dict[str, float | None]:
@@ -95,11 +104,35 @@ def tensile_stress(
         error += measured
         return TensileStress(stress, error + stress_change(law, motion), static=False)
     stress = law.max_tensile_stress(a, force, on_edge)
-    deflection = indentation - float(local_indentation(law, a))
-    error = membrane_stress(model, deflection) + float(stretching(model, deflection))
-    if on_edge:  # even if the law omits the edge
-        error += edge_stress_error(model, a)
-    if not model.density or not slow_for(model, contact_time):
-        return TensileStress(stress, error, static=True)
-    vibration = VIBRATION * plate_times(model).period / contact_time
-    return TensileStress(stress, vibration + error, static=False)
+    period = plate_times(model).period if model.density else 0.0
+    radii, times = np.array([a]), np.array([contact_time])
+    deflections = np.array([indentation]) - local_indentation(law, radii)
+    [error] = static_errors(law, radii, deflections, times, period, on_edge)
+    slow = model.density and slow_for(model, contact_time)
+    return TensileStress(stress, float(error), static=not slow)
+
+
+def static_errors(
+    law: ContactLaw,
+    a: Array,
+    deflection: Array,
+    contact_time: Array,
+    period: Numbers,
+    on_edge: bool,
+) -> Array:
+    """Return the relative errors of stresses under static loads [1].
+
+    Parameters
+    ----------
+    a, deflection
+        Contact radii and deflections of the plate [m].
+    contact_time, period
+        Contact times and first periods of the plate [s]; the period is 0 without a density.
+    on_edge
+        Whether the edge of the scene counts, even if the law omits it.
+    """
+    error = membrane_stress(law.model, deflection) + stretching(law.model, deflection)
+    if on_edge:
+        error = error + edge_stress_errors(law.model, a)
+    slow = contact_time >= QUASI_STATIC_PERIODS * period
+    return np.asarray(error + np.where(slow, VIBRATION * period / contact_time, 0.0))

@@ -134,6 +134,8 @@ def test_short_contacts_have_a_larger_model_error() -> None:
     calm, rough = (inertia_error(model, 1e-4, time) for time in (1e-3, 1e-6))
     assert all(rough[name] >= calm[name] >= 1e-3 for name in OUTPUTS)
     assert rough["max_force"] > calm["max_force"]
+    for errors in (calm, rough):  # the force is the cube of the radius, by Hertz's law
+        assert 3.0 * errors["max_contact_radius"] >= errors["max_force"]
 
 
 def test_wide_contacts_have_the_larger_model_error() -> None:

@@ -18,8 +18,8 @@ from derivation.scene.contact_law.limits import (
     STRETCH_LIMIT,
     check_energy,
     local_indentation,
-    stress_warnings,
 )
+from derivation.scene.contact_law.stress_limits import stress_warnings
 from derivation.scene.dynamic.modal import Modes, plate_of
 from derivation.scene.effects import WHOLE_PLATE
 from derivation.scene.kernels import YIELD_LIMIT

@@ -197,7 +197,8 @@ def test_indent_accepts_a_single_number() -> None:
     [row] = indent(read(changed()), force=10.0)
     assert row.force == 10.0
     assert row.to_json().keys() == {
-        "contact_radius", "indentation", "force", "stiffness", "max_pressure", "warnings",
+        "contact_radius", "indentation", "force", "stiffness", "max_pressure", "model_error",
+        "warnings",
     }  # fmt: skip
 
 

@@ -18,6 +18,7 @@ from derivation.scene import SceneError, explain, read, simulate, sweep
 from derivation.scene.code import code
 from derivation.scene.contact_law import edge_remainder, limits
 from derivation.scene.contact_law.law import THICK, ContactLaw
+from derivation.scene.contact_law.stress_limits import pressure_warnings
 from derivation.scene.dynamic import (
     contact_errors,
     contact_sequence,
@@ -176,10 +177,10 @@ def test_grazing_recontact_gives_a_warning(speeds: list[float], least: float, me
 
 
 def test_pressure_warning_of_a_viscoelastic_contact() -> None:
-    (text,) = limits.pressure_warnings(1e6, 2e8, viscous=True)
+    (text,) = pressure_warnings(1e6, 2e8, viscous=True)
     assert "plate" in text
-    assert limits.pressure_warnings(1e6, None, viscous=True) == ()
-    assert limits.pressure_warnings(1e6, 2e8) == ()
+    assert pressure_warnings(1e6, None, viscous=True) == ()
+    assert pressure_warnings(1e6, 2e8) == ()
 
 
 # --- rejected scenes and errors

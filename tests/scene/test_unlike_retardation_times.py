@@ -1,12 +1,16 @@
 """The model error of a viscoelastic contact whose bodies have different retardation times."""
 
 import math
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, NamedTuple
 
 import numpy as np
 import platecontact as pc
 import pytest
 from scipy.integrate import solve_ivp
+
+from derivation.scene.dynamic.unlike_bodies import unlike_bodies_errors, unlike_jump_warnings
+from generated.arrays import Double as Array
 
 RADIUS, DENSITY, SPEED, NU = 0.01, 1000.0, 0.1, 0.3
 TINY = 1e-14
@@ -34,36 +38,81 @@ def simulated(moduli: tuple[float, float], times: tuple[float, float]) -> pc.Res
     return pc.simulate(pc.read(tables))
 
 
-def of_two_bodies(
-    moduli: tuple[float, float], lags: tuple[float, float]
+class Plate(NamedTuple):
+    """Frequencies of a plate's modes and their accelerations by a unit force, in contact units."""
+
+    omega: Array
+    inverse_mass: Array
+
+
+NO_MODES = Plate(np.zeros(0), np.zeros(0))
+
+
+def of_bodies(
+    shares: tuple[float, ...], lags: tuple[float, ...], plate: Plate = NO_MODES
 ) -> tuple[float, float, float, float]:
     """Return time, depth, force and restitution in units of the contact.
 
-    Each body has its own contact law k_i (u^(3/2) + 3/2 A_i u^(1/2) u'), both carry one force.
+    Each body has its own contact law k_i (u^(3/2) + 3/2 A_i u^(1/2) u'), all carry one force, which
+    also drives the modes of the plate. `shares` are the compliances of the bodies over their sum.
     """
-    share = (1 / moduli[0]) / (1 / moduli[0] + 1 / moduli[1])
-    shares = np.array([share, 1.0 - share])
-    stiffness, lag = shares**-1.5, 1.5 * np.array(lags)
+    n, (omega, inverse_mass) = len(shares), plate
+    stiffness, lag = np.array(shares) ** -1.5, 1.5 * np.array(lags)
+    deflections = slice(n + 2, n + 2 + omega.size)
+
+    def moved(state: Any) -> list[float]:
+        """Return velocity and acceleration of a free sphere, and of free modes."""
+        speeds = state[n + 2 + omega.size :]
+        return [0.0, state[n], *speeds, *(-(omega**2) * state[deflections])]
 
     def force(state: Any) -> tuple[Any, float]:
-        u = np.maximum(state[:2], TINY)
+        u = np.maximum(state[:n], TINY)
         ease, elastic = 1.0 / (lag * stiffness * np.sqrt(u)), stiffness * u**1.5
-        common = float((state[2] + np.sum(ease * elastic)) / np.sum(ease))
+        speed = state[n] - np.sum(state[n + 2 + omega.size :])
+        common = float((speed + np.sum(ease * elastic)) / np.sum(ease))
         return ease * (common - elastic), common
 
     def rates(_: float, state: Any) -> list[float]:
         speeds, common = force(state)
-        return [*speeds, -common]
+        driven = [-common, 0.0, *np.zeros(omega.size), *(common * inverse_mass)]
+        return [*speeds, *np.add(moved(state), driven)]
 
-    def left(t: float, state: Any) -> float:
-        return force(state)[1] + (1e-9 if t < 0.1 else 0.0)
+    def free(_: float, state: Any) -> list[float]:
+        return [*(-state[:n] / lag), *moved(state)]
 
-    left.terminal, left.direction = True, -1.0  # type: ignore[attr-defined]
-    run = solve_ivp(
-        rates, (0.0, 200.0), [*(1e-9 * shares), 1.0], "LSODA", events=left, rtol=1e-9, atol=1e-13
-    )
-    forces = [force(state)[1] for state in run.y.T]
-    return run.t[-1], float(np.max(run.y[0] + run.y[1])), max(forces), -float(run.y[2, -1])
+    def gap(_: float, state: Any) -> float:
+        return float(np.sum(state[:n]) + np.sum(state[deflections]) - state[n + 1])
+
+    gap.terminal, gap.direction = True, -1.0  # type: ignore[attr-defined]
+    state = np.array([*(1e-9 * np.array(shares)), 1.0, 1e-9, *np.zeros(2 * omega.size)])
+    t, first, forces, depths = 0.0, 0.0, [], []
+    while True:
+        begun = t
+
+        def left(t: float, state: Any, begun: float = begun) -> float:
+            return force(state)[1] + (1e-9 if t < begun + 1e-6 else 0.0)
+
+        left.terminal, left.direction = True, -1.0  # type: ignore[attr-defined]
+        settings = {"events": left, "rtol": 1e-9, "atol": 1e-13, "max_step": 0.05}
+        if not omega.size:
+            settings["max_step"] = np.inf
+        run = solve_ivp(rates, (t, t + 200.0), state, "LSODA", **settings)
+        t, state = run.t[-1], run.y[:, -1]
+        first = first or t
+        forces.append(max(force(one)[1] for one in run.y.T))
+        depths.append(float(np.max(run.y[n + 1])))
+        if not omega.size:
+            break
+        reach = np.sum(np.hypot(state[deflections], state[n + 2 + omega.size :] / omega))
+        until = t + (max(0.0, -(state[n + 1] + reach) / state[n]) if state[n] < 0.0 else 1e3)
+        longest = 0.5 / float(np.max(omega))
+        run = solve_ivp(
+            free, (t, until), state, "DOP853", events=gap, rtol=1e-8, atol=1e-12, max_step=longest
+        )
+        t, state = run.t[-1], run.y[:, -1]
+        if run.status != 1:
+            break
+    return first, max(depths), max(forces), -float(state[n])
 
 
 @pytest.mark.parametrize(
@@ -75,12 +124,17 @@ def of_two_bodies(
         (0.05, (1e-3, 0.4)),
         (20.0, (0.5, 0.1)),
         (0.3, (0.05, 0.2)),
+        (0.37, (0.0194, 8e-4)),
+        (0.03, (0.65, 1e-3)),
     ],
 )
 def test_model_error_covers_bodies_with_their_own_times(
     ratio: float, lags: tuple[float, float]
 ) -> None:
-    """The model error was 0, and the restitution 0.04 instead of 0.82 in the third impact."""
+    """The model error was 0, and the restitution 0.04 instead of 0.82 in the third impact.
+
+    That of the contact time was too small for short retardation times.
+    """
     moduli = 1e9, ratio * 1e9
     unit = contact_unit(*moduli)
     result = simulated(moduli, (lags[0] * unit, lags[1] * unit))
@@ -88,9 +142,11 @@ def test_model_error_covers_bodies_with_their_own_times(
     scales = unit, SPEED * unit, mass * SPEED / unit, 1.0
     names = "contact_time", "max_indentation", "max_force", "restitution"
     sizes = []
-    for name, scale, value in zip(names, scales, of_two_bodies(moduli, lags), strict=True):
+    share = ratio / (1.0 + ratio)
+    values = of_bodies((share, 1.0 - share), lags)
+    for name, scale, value in zip(names, scales, values, strict=True):
         change, error = abs(scale * value / getattr(result, name) - 1.0), result.model_errors[name]
-        assert change <= max(error, 2e-3) or error > 1.0
+        assert change <= error + 2e-5 or error > 1.0
         sizes.append(change / error)
     assert max(sizes) > 0.1
 
@@ -106,10 +162,56 @@ def test_a_stiff_sphere_hardly_changes_the_time_of_the_plate(sphere: dict[str, A
     }
     result = pc.simulate(pc.read(tables))
     assert result.effects.law.viscous
-    assert result.model_error < 1e-6
+    assert result.model_errors["max_force"] < 1e-6
+    assert result.model_errors["contact_time"] < 1e-4
 
 
 def test_like_bodies_have_no_such_error() -> None:
     result = simulated((1e9, 1e9), (1e-5, 1e-5))
     assert result.model.retardation_spread == 0.0
     assert result.model_error < 1e-12
+
+
+@pytest.mark.parametrize(
+    ("radius", "thickness", "speed", "contacts"),
+    [(0.02, 1e-3, 0.1, 2), (0.03, 1e-3, 0.1, 3), (0.015, 8e-4, 0.05, 3)],
+)
+def test_model_error_covers_later_contacts(
+    radius: float, thickness: float, speed: float, contacts: int
+) -> None:
+    """The force of later contacts changed by 1.3 %, twice the error that was stated."""
+    elastic = {"youngs_modulus": 3e9, "poissons_ratio": 0.3, "density": 1200.0}
+    times = 4e-6, 1e-6
+    plate = {"radius": radius, "thickness": thickness, "edge": "simply-supported"} | elastic
+    tables = {
+        "sphere": {"radius": 0.005, "retardation_time": times[0]} | elastic,
+        "plate": plate | {"retardation_time": times[1]},
+        "impact": {"speed": speed},
+    }
+    result = pc.simulate(pc.read(tables))
+    assert result.dynamics is not None
+    problem = result.dynamics.impact_history.problem
+    unit = problem.T / 3.218
+    slowest = problem.by_speed[:8]
+    modes = Plate(problem.omega[slowest] / 3.218, problem.inverse_modal_mass[slowest])
+    mean = of_bodies((1.0,), (result.model.retardation_time / unit,), modes)
+    lags = times[0] / unit, times[1] / unit
+    both = of_bodies((0.5, 0.5), lags, modes)
+    assert len(result.dynamics.inertia.contacts) == contacts
+    assert mean[-1] == pytest.approx(result.restitution, rel=0.01)
+    names = "contact_time", "max_indentation", "max_force", "restitution"
+    for name, one, other in zip(names, both, mean, strict=True):
+        assert abs(one / other - 1.0) < result.model_errors[name]
+
+
+@pytest.mark.parametrize(("fraction", "warned"), [(0.9, True), (1.1, False)])
+def test_a_force_that_falls_below_its_error_may_split_the_contact(
+    fraction: float, warned: bool
+) -> None:
+    unit = contact_unit(1e9, 1e9)
+    result = simulated((1e9, 1e9), (0.3 * unit, 1e-3 * unit))
+    law, details = result.effects.law, SimpleNamespace(contacts=(None,))
+    motion: Any = SimpleNamespace(inertia=details, numbers=(result.contact_time,))
+    errors = unlike_bodies_errors(law, result.contact_time, motion, 5 * (1.0,))
+    motion.decisive_change = fraction * errors["contact_time"]
+    assert bool(unlike_jump_warnings(law, motion)) is warned

@@ -38,7 +38,7 @@ def stretching(model: Model, deflection: Numbers) -> Numbers:
     return size
 
 
-def membrane_stress(model: Model, deflection: float) -> float:
+def membrane_stress(model: Model, deflection: Numbers) -> Numbers:
     """Return the stress of a stretched middle plane over that by bending [1].
 
     The middle plane of a deflected plate is in tension, in proportion to the square of the
@@ -50,7 +50,8 @@ def membrane_stress(model: Model, deflection: float) -> float:
     deflection
         Largest deflection on the axis [m].
     """
-    return MEMBRANE * float(deflection / (2.0 * model.h))
+    ratio: Numbers = deflection / (2.0 * model.h)
+    return MEMBRANE * ratio
 
 
 def doubling_deflection(model: Model) -> float:

@@ -114,10 +114,16 @@ def edge_stress_error(model: Model, a: float) -> float:
 
     It is relative to the stress, and infinite outside the range of the table.
     """
+    [error] = edge_stress_errors(model, np.array([a]))
+    return float(error)
+
+
+def edge_stress_errors(model: Model, a: Array) -> Array:
+    """Return the errors of `edge_stress_error` for many scenes as a column."""
     if model.edge not in KINDS:
-        return 0.0
-    [error] = largest_neighbours(model, np.array([a]), model.eta, _STRESS)
-    return float(error) if np.isfinite(error) else math.inf
+        return np.zeros_like(a)
+    errors = largest_neighbours(model, a, model.eta, _STRESS)
+    return np.where(np.isfinite(errors), errors, math.inf)
 
 
 def largest_neighbours(

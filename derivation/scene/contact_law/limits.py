@@ -16,7 +16,6 @@ from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.errors import SceneError, wide_contact
 from derivation.scene.model import Model
 from derivation.scene.numerics.quadrature import gauss
-from derivation.scene.quantity import percent
 from generated.arrays import Double as Array
 
 HERTZ_LIMIT = 0.15
@@ -317,65 +316,6 @@ def hollow_warnings(model: Model) -> tuple[str, ...]:
     else:
         return ()
     return (f"the sphere {light}: the model does not include the bending of a hollow sphere",)
-
-
-def pressure_warnings(
-    pressure: float, yield_stress: float | None, viscous: bool = False, body: str = "plate"
-) -> tuple[str, ...]:
-    """Return a warning if the body with the lower yield stress yields, or may yield unchecked."""
-    if yield_stress is not None and viscous:
-        text = (
-            f"whether the {body} yields is not checked: max_pressure is the elastic part of the "
-            "pressure, which a viscoelastic contact exceeds while it grows"
-        )
-        return (text,)
-    if yield_stress is None or pressure <= kernels.YIELD_LIMIT * yield_stress:
-        return ()
-    text = (
-        f"largest pressure / yield stress = {pressure / yield_stress:.3g} exceeds "
-        f"{kernels.YIELD_LIMIT}: the {body} yields below the contact and dissipates energy, which "
-        "this simulation neglects"
-    )
-    return (text,)
-
-
-def stress_warnings(
-    stress: float,
-    strength: float | None,
-    yield_stress: float | None = None,
-    error: float = 0.0,
-    static: bool = True,
-) -> tuple[str, ...]:
-    """Return warnings if the back face is predicted to fail or to yield, or may do so.
-
-    Parameters
-    ----------
-    stress
-        Largest tensile stress on the back face [Pa].
-    strength, yield_stress
-        Of the plate [Pa], if they are known. On the axis both in-plane stresses are equal, and
-        the face yields when they reach the yield stress.
-    error
-        Relative error of the stress [1].
-    static
-        Whether the stress is that under a static load equal to the largest force.
-    """
-    basis = " (quasi-static, under the peak force)" if static else ""
-    notes = []
-    for limit, name, event in (
-        (strength, "strength", "fail"), (yield_stress, "yield stress", "yield in bending")
-    ):  # fmt: skip
-        if limit is None or not stress > limit:
-            continue
-        certain = stress * (1.0 - error) > limit
-        within = "" if certain else f", within its error of {percent(error)}"
-        verdict = "is predicted to" if certain else "may"
-        notes.append(
-            f"the largest tensile stress on the back face is {stress / limit:.3g} times the "
-            f"{name}{basis}{within}: the plate {verdict} {event}, and the results assume that it "
-            "does not"
-        )
-    return tuple(notes)
 
 
 def local_indentation(law: ContactLaw, a: Values) -> Values:

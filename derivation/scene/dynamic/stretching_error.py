@@ -80,7 +80,7 @@ def stress_change(law: ContactLaw, motion: "DynamicImpact") -> float:
     deflection = motion.deflection_before_separation(law)
     size = float(stretching(law.model, deflection))
     factor = 1.0 if len(motion.courses) == 1 else FORCE
-    return membrane_stress(law.model, deflection) + factor * size
+    return float(membrane_stress(law.model, deflection)) + factor * size
 
 
 def earlier_end(force: Array, sizes: Array) -> float:

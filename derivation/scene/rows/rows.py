@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from derivation.scene.contact_law.corrections import stretching
 from derivation.scene.contact_law.edge_remainder import edge_remainders
-from derivation.scene.contact_law.limits import local_indentation
+from derivation.scene.contact_law.limits import local_indentation, plate_times
 from derivation.scene.effects import EFFECTS
 from derivation.scene.errors import SceneError
 from derivation.scene.impact import selection_tolerance, simulate
@@ -39,6 +39,7 @@ from derivation.scene.rows.static_rows import impacts_of
 from derivation.scene.rows.warnings import warnings_of_rows
 from derivation.scene.scene import OUTPUTS, Scene, read
 from derivation.scene.selection.selection import check_enabled
+from derivation.scene.tensile_stress import static_errors
 from generated.arrays import Double as Array
 
 BLOCK = 2**15
@@ -305,7 +306,15 @@ class _Block:
         strength: Array | float | None = scene.plate.tensile_strength
         if STRENGTH in self.columns:
             strength = self.columns[STRENGTH][rows]
-        reasons = warnings_of_rows(law, numbers, strength, which)
+        periods = plate_times(law.model).period if np.any(law.model.density) else 0.0
+        times = impacts.contact_time[:, None]
+        with np.errstate(all="ignore"):
+            errors = static_errors(law, a, deflection, times, periods, group.held)
+        numbers_and_errors = numbers | {
+            "pressure_error": np.expm1(np.log1p(bound) + 2.0 * np.log1p(error)) + model_error,
+            "stress_error": bound + np.broadcast_to(errors, a.shape)[:, 0],
+        }
+        reasons = warnings_of_rows(law, numbers_and_errors, strength, which)
         indices = self.indices[rows[which]]
         for name, values in numbers.items():
             self.table.results[name][indices] = values[which]

@@ -23,10 +23,9 @@ from derivation.scene.contact_law.limits import (
     local_indentation,
     motion_warnings,
     plate_times,
-    pressure_warnings,
-    stress_warnings,
     warnings_at,
 )
+from derivation.scene.contact_law.stress_limits import exceeds, pressure_warnings, stress_warnings
 from generated.arrays import Double as Array
 
 _ROUNDING = 1e-9
@@ -53,7 +52,8 @@ def warnings_of_rows(
     law
         The law of all rows, with columns of numbers.
     results
-        Columns of results by name, of all rows.
+        Columns of results by name, and of the relative errors `pressure_error` and `stress_error`
+        of the largest pressure and tensile stress [1], of all rows.
     strength
         Tensile strength of the plate [Pa], if it is given.
     rows
@@ -119,8 +119,10 @@ def _possible(law: ContactLaw, known: Mapping[str, Array]) -> tuple[Mask, ...]:
         less * one.m < 4 / 3 * np.pi * one.R * one.R * one.R * lightest,
         wide,
         moving & (one.density > 0.0),
-        one.max_pressure > less * kernels.YIELD_LIMIT * one.yield_stress,
-        one.max_tensile_stress > less * limit,
+        exceeds(
+            one.max_pressure, less * kernels.YIELD_LIMIT * one.yield_stress, one.pressure_error
+        ),
+        exceeds(one.max_tensile_stress, less * limit, one.stress_error),
     )
 
 
@@ -147,11 +149,12 @@ def _texts(law: ContactLaw) -> tuple[Texts, ...]:
 
     def yielding(one: Any) -> tuple[str, ...]:
         weaker = "sphere" if one.yield_stress < one.plate_yield_stress else "plate"
-        return pressure_warnings(one.max_pressure, _given(one.yield_stress), body=weaker)
+        limit = _given(one.yield_stress)
+        return pressure_warnings(one.max_pressure, limit, body=weaker, error=one.pressure_error)
 
     def failing(one: Any) -> tuple[str, ...]:
         limits = _given(one.strength), _given(one.plate_yield_stress)
-        return stress_warnings(one.max_tensile_stress, *limits)
+        return stress_warnings(one.max_tensile_stress, *limits, one.stress_error)
 
     return hollow_warnings, wide, moving, yielding, failing  # type: ignore[return-value]
 

@@ -97,6 +97,15 @@ class AchievedAccuracy:
         """The part of the tolerance for the simulation, less the error of a constant [1]."""
         return self.rtol if self.constant is None else remaining(self.rtol, self.constant.bound)
 
+    @property
+    def pressure_bound(self) -> float:
+        """Bound on the relative error of the largest pressure [1].
+
+        In the law the pressure grows with the radius a. Omitted effects, such as the curvature of
+        the plate under the contact, may change a at an equal force P, and the pressure as P/a^2.
+        """
+        return float(np.expm1(np.log1p(self.bound) + 2.0 * np.log1p(self.effects.bound)))
+
     def to_json(self) -> dict[str, Any]:
         """Return method, tolerance and bound, with the parts of the bound and their bases."""
         parts = {

@@ -1,8 +1,8 @@
 """Searches for the constant of a measured restitution by simulations with few plate modes.
 
-They have no error bound. In 88 random scenes the restitution without energy loss by the constant was
-within 1.5 % of that of usual simulations with half the modes of their first run; with an eighth of
-them it was 0.75 to 20 times as large, because a thin plate then has too few modes to take the energy.
+They have no error bound. In 88 random scenes the restitution without energy loss by the constant
+was within 1.5 % of that of usual simulations with half the modes of their first run; with an eighth
+of them it was 0.75 to 20 times as large: a thin plate then has too few modes to take the energy.
 """
 
 from contextlib import suppress

@@ -31,6 +31,7 @@ from derivation.scene.dynamic.mode_count import (
     beyond_limits,
     branching,
     check_followed,
+    check_resolving,
     coarser,
     count_of,
     fast,
@@ -97,6 +98,8 @@ def impact(
         If an impact on a plate that does not deflect exceeds the range of the law, the modes of the
         plate are too slow or too many, or the first contact cannot be computed to its end.
     """
+    if math.isfinite(need):
+        check_resolving(law)
     check_long(law, time_tolerance(goal))
     budget, reach, first = Budget(WORK), Reach(law, outputs, need), law.model.b
     rough: DynamicImpact | None = None

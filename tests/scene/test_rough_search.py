@@ -90,3 +90,20 @@ def test_an_incomplete_measurement_is_an_error_of_the_scene(
         with pytest.raises(SceneError, match=r"^measured\.target: .*last separation"):
             replace(measurement, part=part).simulated(None)
     waves.impact.cache_clear()
+
+
+def test_an_error_of_the_measurement_names_the_speed_of_the_measurement() -> None:
+    """The message named a lower impact.speed, which did not change the measurement."""
+    wide = {
+        "sphere": {"radius": 0.0213, "youngs_modulus": 1e8, "poissons_ratio": 0.45, "mass": 0.0459},
+        "plate": {"radius": 0.04, "thickness": 0.0025, "material": "steel"},
+        "impact": {"speed": 2.0},
+    }
+    measured = {"restitution": 0.5, "solve_for": "yield_stress", "target": "plate"}
+    with pytest.raises(SceneError, match=r"^measured: .*reduce measured\.tested_at") as error:
+        simulate(read(wide | {"measured": measured | {"tested_at": 30.0}}))
+    assert "impact.speed" not in str(error.value)
+    enough = re.search(r"\((\S+) m/s is low enough\)", str(error.value))
+    assert enough
+    slower = wide | {"impact": {"speed": float(enough[1])}}
+    assert Measurement(slower, "yield_stress", 0.5).to(0.1).simulated(None).restitution > 0.0

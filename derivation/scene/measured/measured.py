@@ -143,7 +143,16 @@ def in_words(scene: "Scene") -> str:
 
 
 def _fit_of(scene: "Scene") -> Fit:
-    return _fit(json.dumps(scene.to_json()))
+    """Return the constant of a scene; errors of the measurement name its own speed."""
+    assert scene.measured is not None
+    try:
+        return _fit(json.dumps(scene.to_json()))
+    except SceneError as error:
+        text = str(error).replace("impact.speed", "measured.tested_at")
+        if scene.measured.tested_at is None or text == str(error):
+            raise
+        where = "" if text.startswith("measured.") else "measured: its simulation fails: "
+        raise SceneError(where + text) from None
 
 
 @lru_cache(maxsize=64)

@@ -3,11 +3,9 @@
 import math
 from collections.abc import Iterable
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
-from derivation.scene.contact_law.corrections import stretching
-from derivation.scene.contact_law.edge_curvature import edge_curvature_errors
-from derivation.scene.contact_law.edge_remainder import edge_remainder
+import numpy as np
+
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import (
     check_radius,
@@ -20,10 +18,13 @@ from derivation.scene.contact_law.limits import (
 from derivation.scene.contact_law.stress_limits import pressure_warnings, stress_warnings
 from derivation.scene.contact_law.yield_warnings import impact_warnings
 from derivation.scene.dynamic.contact_warnings import fall_warnings, grazing_warnings
-from derivation.scene.dynamic.model_error import curvature_error, inertia_error
-from derivation.scene.dynamic.stretching_error import jump_warnings, stretching_error
-from derivation.scene.dynamic.unlike_bodies import unlike_bodies_errors, unlike_jump_warnings
-from derivation.scene.effects.effect import Results, weight_work_ratio
+from derivation.scene.dynamic.stretching_error import (
+    Deflections,
+    deflections_of,
+    jump_warnings,
+)
+from derivation.scene.dynamic.unlike_bodies import unlike_jump_warnings
+from derivation.scene.effects.effect import Results
 from derivation.scene.errors import SceneError, ToleranceError
 from derivation.scene.input.units import unit_warnings, with_unit_warnings
 from derivation.scene.measured.measured import (
@@ -33,6 +34,7 @@ from derivation.scene.measured.measured import (
     toleranced,
 )
 from derivation.scene.model import model_of
+from derivation.scene.model_errors import model_errors
 from derivation.scene.result import Result
 from derivation.scene.scene import OUTPUTS, TIGHTEST, Scene, check_scene
 from derivation.scene.selection.achieved_accuracy import ESTIMATED, AchievedAccuracy, Part
@@ -45,9 +47,6 @@ from derivation.scene.selection.method_selection import (
 )
 from derivation.scene.selection.selection import check_enabled
 from derivation.scene.tensile_stress import TensileStress, tensile_stress
-
-if TYPE_CHECKING:
-    from derivation.scene.dynamic.wave_motion import DynamicImpact
 
 DEFAULT = 1e-3
 """Tolerance of the effect selection if the scene has no tolerance [1]."""
@@ -124,10 +123,11 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
     pressure = min(pressure, law.pressure_limit)
     local = float(local_indentation(law, a))
     fraction, deflection = 1.0 - local / delta, delta - local
+    deflections = Deflections(deflection, np.zeros(0))
     if motion is not None:
-        deflection = motion.largest_deflection(law)
-    model_errors = _model_errors(law, numbers, deflection, motion)
-    model_error = max(model_errors[name] for name in selected.outputs)
+        deflection, deflections = motion.largest_deflection(law), deflections_of(law, motion)
+    errors = model_errors(law, numbers, deflections, motion)
+    model_error = max(errors[name] for name in selected.outputs)
     neglected = neglects_inertia(model, contact_time, fraction, motion is not None)
     moving = model  # with the wave branches that the simulation chose
     if motion is not None:
@@ -136,7 +136,7 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
     stress = TensileStress(math.nan, math.nan, static=motion is None)
     if strength is not None or yield_stress is not None:
         stress = tensile_stress(law, motion, numbers, not selected.edge_disabled)
-    pressure_error = accuracy.pressure_bound + model_errors["max_contact_radius"]
+    pressure_error = accuracy.pressure_bound + errors["max_contact_radius"]
     stress_error = accuracy.bound + stress.error
     warnings = (
         *on_units,
@@ -156,7 +156,7 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
     return Result(
         *numbers, pressure, accuracy, model_error, warnings, scene,
         selected.grown(growth_of(motion)), inertia_neglected=neglected,
-        model_errors=model_errors,
+        model_errors=errors,
     )  # fmt: skip
 
 
@@ -200,39 +200,6 @@ def _yield_warnings(law: ContactLaw, a: float, pressure: float, error: float) ->
 def _known(stress: float) -> float | None:
     """Return a yield stress [Pa]; None if it is unknown."""
     return stress if math.isfinite(stress) else None
-
-
-def _model_errors(
-    law: ContactLaw, numbers: Results, deflection: float, motion: "DynamicImpact | None"
-) -> dict[str, float]:
-    """Return the relative model error of each output [1]: by edge, waves, stretching, viscosity.
-
-    On a quasi-static plate, stretching changes the energy that a plastic or viscoelastic contact
-    dissipates. In the restitution this counts by the ratio of that energy to the one that remains.
-    """
-    model, other_edge, a = law.model, law.other_edge, numbers[3]
-    unlike = unlike_bodies_errors(law, numbers[0], motion, growth_of(motion))
-    if motion is None:
-        edge, size = edge_remainder(model, a) if other_edge else 0.0, stretching(model, deflection)
-        curvature = edge_curvature_errors(law, a)
-        edge += curvature.results
-        errors: dict[str, float] = {name: edge + float(size) + unlike[name] for name in OUTPUTS}
-        errors["max_contact_radius"] += curvature.pressure - curvature.results
-        if law.viscous or law.plastic:
-            supplied = 1.0 + float(weight_work_ratio(model, numbers[1]))
-            dissipated = supplied / max(numbers[4], 1e-6) ** 2 - 1.0
-            lost = float(size) * max(1.0, dissipated)
-            errors["restitution"] = edge + lost + unlike["restitution"]
-        return errors
-    from derivation.scene.dynamic.wave_problem import echo_time
-
-    stretched = stretching_error(law, motion)
-    waves = inertia_error(model, a, motion.contact_time)
-    # The edge has no effect before a wave has returned from it.
-    returned = other_edge and motion.inertia.total_time > echo_time(motion.law.model)
-    edge = edge_remainder(model, a) if returned else 0.0
-    waves["max_contact_radius"] += curvature_error(motion.inertia.curvature)
-    return {name: max(waves[name] + stretched[name], edge) + unlike[name] for name in OUTPUTS}
 
 
 def selected_effects(

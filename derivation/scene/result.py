@@ -15,7 +15,7 @@ from derivation.scene.effects.effect import NO_BOUND
 from derivation.scene.errors import SceneError
 from derivation.scene.measured import measured
 from derivation.scene.model import Model
-from derivation.scene.output import answer
+from derivation.scene.output import answer, unusable
 from derivation.scene.output.history import POINTS, DynamicHistory, History, Pressures, times_of
 from derivation.scene.output.pressure_profile import pressure_profile
 from derivation.scene.quantity import counted, digits_of
@@ -332,6 +332,11 @@ class Result:
             "the restitution is unknown. "
             f"{inertia.remedy[0].upper()}{inertia.remedy[1:]}."
         )
+
+    @cached_property
+    def unusable_note(self) -> str:
+        """Which results the model does not support, and what to do; empty if it supports all."""
+        return unusable.in_words(self)
 
     @property
     def disabled_note(self) -> str:

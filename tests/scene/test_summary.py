@@ -32,7 +32,9 @@ from derivation.scene.selection.achieved_accuracy import Part
 Captured = pytest.CaptureFixture[str]
 POWERS = {prefix: 10.0**power for power, prefix in PREFIXES.items()}
 LINES = 25
-"""Largest number of lines of a summary with its warnings."""
+"""Largest number of lines of a summary with its warnings, without `NOTE_LINES`."""
+NOTE_LINES = 6
+"""Largest number of lines of the note before results that are not usable."""
 every_example = pytest.mark.parametrize(
     "example", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.stem
 )
@@ -124,7 +126,9 @@ def test_summary_is_short_and_at_most_80_columns_wide(example: Path) -> None:
     result = result_of(example)
     lines = str(result).splitlines()
     lines += [line for text in result.warnings for line in paragraph(text).splitlines()]
-    assert len(lines) <= LINES
+    note = paragraph(result.unusable_note).splitlines()
+    assert len(lines) <= LINES + len(note)
+    assert len(note) <= NOTE_LINES
     assert max(map(len, lines)) <= WIDTH
     for line in (*result.details().splitlines(), *explain(load(example)).details().splitlines()):
         assert len(line) <= WIDTH
@@ -133,7 +137,8 @@ def test_summary_is_short_and_at_most_80_columns_wide(example: Path) -> None:
 @every_example
 def test_summary_has_the_results_with_their_significant_digits(example: Path) -> None:
     result = result_of(example)
-    shown = dict(line.split("  ", 1) for line in str(result).split("\n\n")[0].splitlines())
+    table = str(result).split("\n\n")[1 if result.unusable_note else 0]
+    shown = dict(line.split("  ", 1) for line in table.splitlines())
     for name, value, unit in result.numbers():
         label = next((key for key in shown if key.startswith(name.replace("_", " "))), None)
         if name == "total_time" and label is None:

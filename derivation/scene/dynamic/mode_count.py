@@ -91,6 +91,30 @@ def fast(law: ContactLaw, count: int) -> bool:
     return bool(free_modes(lowest, count).omega[-1] >= _highest(law))
 
 
+def check_resolving(law: ContactLaw) -> None:
+    """Raise an error if the number of modes of a scene is too small for any error bound.
+
+    Raises
+    ------
+    SceneError
+        If its modes are slower than the contact; the message names the least number, and twice
+        as many, with which simulations end that choose it and need no more.
+    """
+    modes = law.model.inertia.modes
+    if not modes or fast(law, modes):
+        return
+    automatic = replace(law.model, inertia=replace(law.model.inertia, modes=0))
+    least = count_of(replace(law, model=automatic))
+    if least < MOST:
+        remedy = f'increase inertia.modes to {2 * least}, set it to "auto", or remove the tolerance'
+    else:
+        remedy = "remove the tolerance"
+    raise SceneError(
+        f"inertia.modes: expected at least {least} modes with a tolerance, because slower ones do "
+        f"not resolve the contact and have no error bound, got {modes}; {remedy}"
+    )
+
+
 def followed(law: ContactLaw, count: int) -> bool:
     """Return whether the modes are fast enough and not too many, or given by the scene."""
     afforded = oscillators(law, count) <= FURTHER * MANY

@@ -89,20 +89,22 @@ def run_with(
     return dynamic_impact_of(law, history)
 
 
-def with_few_modes(law: ContactLaw, part: float) -> DynamicImpact:
+def with_few_modes(law: ContactLaw, part: float, work: float = WORK) -> DynamicImpact:
     """Return an impact with few bending modes and the lowest branch, without an error bound.
 
     Parameters
     ----------
     part
         Their number over that of the first run [1].
+    work
+        Largest work, in the units of `WORK`.
     """
     lowest = branching(law, "A0")
     count = count_of(lowest)
     count = min(max(min(count, FEWEST), round(part * count)), MODES)
     with one_thread(), np.errstate(all="ignore"):
         check_long(lowest, time_tolerance(LOOSE))
-        return run_with(lowest, count, Budget(WORK), time_tolerance(LOOSE), FEWER)
+        return run_with(lowest, count, Budget(min(work, WORK)), time_tolerance(LOOSE), FEWER)
 
 
 def _within(

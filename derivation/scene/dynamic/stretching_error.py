@@ -9,7 +9,7 @@ The tests repeat a few of them.
 """
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -40,15 +40,42 @@ join it with the next one: half of the smallest one that did; and the same over 
 splits or joins it: the smallest one that did was 1/1.9 of it."""
 
 
-def stretching_error(law: ContactLaw, motion: "DynamicImpact") -> dict[str, float]:
+class Deflections(NamedTuple):
+    """Deflections of the plate at the axis [m].
+
+    Attributes
+    ----------
+    largest
+        The largest one up to the last separation.
+    so_far
+        The largest one up to each time of the first contact, as many times as in its course; empty
+        on a quasi-static plate.
+    """
+
+    largest: float
+    so_far: Array
+
+    def times(self, factor: float) -> "Deflections":
+        """Return the deflections times a factor [1], about those of a faster or slower sphere."""
+        return Deflections(factor * self.largest, factor * self.so_far)
+
+
+def deflections_of(law: ContactLaw, motion: "DynamicImpact") -> Deflections:
+    """Return the deflections of a plate with inertia."""
+    return Deflections(motion.deflection_before_separation(law), motion.deflections_so_far(law, 0))
+
+
+def stretching_error(
+    law: ContactLaw, motion: "DynamicImpact", deflections: Deflections
+) -> dict[str, float]:
     """Return the relative error of each result by the neglect of stretching.
 
     Later contacts, and with them the restitution, depend on the phase of the plate's vibration, and
     change more. If the first contact splits or joins the next one, its duration may change by more,
     see `jump_warnings`.
     """
-    size = float(stretching(law.model, motion.deflection_before_separation(law)))
-    sizes = np.asarray(stretching(law.model, motion.deflections_so_far(law, 0)), dtype=np.float64)
+    size = float(stretching(law.model, deflections.largest))
+    sizes = np.asarray(stretching(law.model, deflections.so_far), dtype=np.float64)
     rebound = abs(motion.restitution) if motion.inertia.complete else 1.0  # else unknown
     return {
         "contact_time": max(TIME * float(sizes[-1]), earlier_end(motion.courses[0][P], sizes)),
@@ -66,7 +93,7 @@ def exceeds_modes(law: ContactLaw, motion: "DynamicImpact", outputs: Sequence[st
     rough = DEPTH * float(stretching(law.model, motion.max_indentation))
     if inertia.recounted or inertia.error_of_modes("max_indentation") > SMALL * rough:
         return False
-    errors = stretching_error(law, motion)
+    errors = stretching_error(law, motion, deflections_of(law, motion))
     return all(inertia.error_of_modes(name) <= SMALL * errors[name] for name in outputs)
 
 

@@ -61,6 +61,14 @@ def out_of_reach(
         )
     if met:
         remedy += f", or request only what meets it: accuracy.outputs = {json.dumps(list(met))}"
+    if not named <= 1.0:
+        instead = remedy.replace("increase the tolerance", "remove the tolerance")
+        return ToleranceError(
+            f"rtol: expected no tolerance, because the error {where} is up to "
+            f"{rounded_up(accuracy.bound)}, got {rtol:.3g}; {instead}",
+            accuracy.bound,
+            growth,
+        )
     return ToleranceError(
         f"rtol: expected {expected} {rounded_up(named)} {where}, got {rtol:.3g}; {remedy}",
         accuracy.bound,

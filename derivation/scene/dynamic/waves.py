@@ -31,6 +31,7 @@ from derivation.scene.dynamic.mode_count import (
     beyond_limits,
     branching,
     check_followed,
+    check_resolving,
     coarser,
     count_of,
     fast,
@@ -50,9 +51,9 @@ from derivation.scene.scene import OUTPUTS
 TOLERANCE_FRACTION, KEPT = 1.0 / 3.0, 0.75
 """Largest accepted error by omitted modes over the tolerance; the part of it that omitted modes and
 branches together may take."""
-ROUGHER = 5.0
-"""Factor by which the error by omitted modes may be larger without a tolerance, if the next run
-takes more work than `LONG`: then it is at most 0.2 %."""
+ROUGHER, ROUGHEST = 5.0, 10.0
+"""Factors by which the error by omitted modes may be larger without a tolerance, if the next run
+takes more work than `LONG`, and at least four times as much: then it is at most 0.2 and 0.4 %."""
 FINAL = 7e7
 """Largest work of one more run beyond the limits, which is made if the tolerance is nearly met."""
 LONG = 1.5e6
@@ -97,6 +98,8 @@ def impact(
         If an impact on a plate that does not deflect exceeds the range of the law, the modes of the
         plate are too slow or too many, or the first contact cannot be computed to its end.
     """
+    if math.isfinite(need):
+        check_resolving(law)
     check_long(law, time_tolerance(goal))
     budget, reach, first = Budget(WORK), Reach(law, outputs, need), law.model.b
     rough: DynamicImpact | None = None
@@ -247,7 +250,7 @@ def _enough_modes(
 def _accepted_change(run: DynamicImpact, goal: float, reach: Reach, work: float = 0.0) -> float:
     """Return the largest accepted error by omitted modes [1], for the work of the next run."""
     if work > LONG and math.isinf(reach.need):
-        return ROUGHER * goal
+        return min(ROUGHER * math.sqrt(work / LONG), ROUGHEST) * goal
     beyond = run.inertia.left(reach.outputs)[1]
     # Where omitted branches matter more than additional modes, a tenth of them is small enough.
     enough = goal if beyond <= goal / TOLERANCE_FRACTION else max(goal, 0.1 * beyond)

@@ -16,9 +16,9 @@ from derivation.scene.measured.measurement import (
     UNITS,
     Measurement,
     Trial,
-    UnreachedError,
-    measurement_of,
 )
+from derivation.scene.measured.rough_search import rough_value
+from derivation.scene.measured.specimen import measurement_of
 from derivation.scene.quantity import prefixed
 from derivation.scene.selection.achieved_accuracy import remaining, rounded_up
 
@@ -37,9 +37,6 @@ FURTHEST, POLISHES = 0.2, 6
 simulations."""
 ENOUGH = 1.6
 """Tolerance that a message recommends over the error bound: both increase together."""
-PART, CLEAR = 0.125, 0.1
-"""Part of the modes of simulations that search for the constant roughly, and relative difference
-from the smallest restitution they give that shows without an error bound that no value gives it."""
 AGREES = 0.1
 """Relative difference from the measured restitution that suffices, over the error bound."""
 NEGLIGIBLE = 0.01
@@ -146,7 +143,16 @@ def in_words(scene: "Scene") -> str:
 
 
 def _fit_of(scene: "Scene") -> Fit:
-    return _fit(json.dumps(scene.to_json()))
+    """Return the constant of a scene; errors of the measurement name its own speed."""
+    assert scene.measured is not None
+    try:
+        return _fit(json.dumps(scene.to_json()))
+    except SceneError as error:
+        text = str(error).replace("impact.speed", "measured.tested_at")
+        if scene.measured.tested_at is None or text == str(error):
+            raise
+        where = "" if text.startswith("measured.") else "measured: its simulation fails: "
+        raise SceneError(where + text) from None
 
 
 @lru_cache(maxsize=64)
@@ -174,7 +180,7 @@ def _with_inertia(measured: Measurement, rtol: float | None) -> Fit:
     rtol
         Tolerance of the results [1].
     """
-    first = _rough_value(measured.to(LOOSE))
+    first = rough_value(measured.to(LOOSE))
     slope, ratio = (0.0, LEAST_RATIO) if first is None else _sensitivities(measured, first)
     parts = 2.0 + (1.0 + AGREES) * ratio
     accurate = measured.to(DEFAULT if rtol is None else rtol / parts)
@@ -190,43 +196,6 @@ def _with_inertia(measured: Measurement, rtol: float | None) -> Fit:
     value, trial = found
     error = ratio * (trial.bound + abs(trial.restitution / measured.goal - 1.0))
     return Fit(value, error, trial.bound, parts)
-
-
-def _rough_value(loose: Measurement) -> float | None:
-    """Return a value of the constant near the solution, from simulations with few modes.
-
-    None if they do not find it.
-
-    Parameters
-    ----------
-    loose
-        The measurement with a large tolerance.
-
-    Raises
-    ------
-    SceneError
-        If the simulations show that no value gives the restitution.
-    """
-    few = replace(loose, part=PART)
-    try:
-        return few.rough_value(few.simulated(None))
-    except UnreachedError as unreached:
-        if loose.goal < (1.0 - CLEAR) * unreached.least:
-            raise
-        lowest = unreached.value
-    except SceneError:
-        lowest = 0.0  # few modes may fail where more do not
-    lossless = loose.lossless(margin=1.0)
-    try:
-        if lowest:
-            loose.check_reached(lowest)
-        return loose.rough_value(lossless)
-    except UnreachedError as unreached:
-        if loose.goal < unreached.least:
-            raise
-    except SceneError:
-        pass
-    return None
 
 
 def _sensitivities(measured: Measurement, value: float) -> tuple[float, float]:
@@ -316,6 +285,12 @@ def _inaccurate(error: float, rtol: float, named: float) -> SceneError:
     rtol, named
         Their tolerance, and one that they meet [1].
     """
+    if not named < 1.0:
+        return SceneError(
+            "accuracy.rtol: expected no tolerance, because the constant from the measured "
+            f"restitution causes an error of {rounded_up(error)}, got {rtol:g}; remove the "
+            "tolerance, or give the constant instead of [measured]"
+        )
     return SceneError(
         f"accuracy.rtol: expected about {rounded_up(named)} or more, because the constant from the "
         f"measured restitution causes an error of {rounded_up(error)}, got {rtol:g}; increase the "

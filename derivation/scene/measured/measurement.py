@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from derivation.scene.scene import Scene
 
 UNITS = {"yield_stress": "Pa", "retardation_time": "s"}
-BLOCK = 1e4
-"""Radius and half-thickness of the block over the sphere radius."""
 EFFECTS = {"yield_stress": "plasticity", "retardation_time": "viscosity"}
 """The effect of each constant."""
 LOSSLESS = {"yield_stress": 1e30, "retardation_time": 1e-30}
@@ -89,27 +87,6 @@ class Point(NamedTuple):
     least: float
 
 
-def measurement_of(tables: Mapping[str, Any], wanted: Mapping[str, Any]) -> "Measurement":
-    """Return the measurement on a thick block or on the plate, from the tables of a scene."""
-    key, goal = wanted["solve_for"], wanted["restitution"]
-    speed = wanted.get("tested_at", tables["impact"]["speed"])
-    scene = dict(tables) | {"impact": tables["impact"] | {"speed": speed}}
-    if wanted.get("target", "block") == "plate":
-        on_plate = Measurement(scene, key, goal)
-        return on_plate.to(STATIC_RTOL) if on_plate.static else on_plate
-    size = BLOCK * tables["sphere"]["radius"]
-    shape = "radius", "thickness", "half_thickness", "edge", "tensile_strength"
-    block = {k: v for k, v in tables["plate"].items() if k not in shape}
-    block |= {"radius": size, "thickness": 2.0 * size}
-    still = dict.fromkeys(("bending", "finite_thickness", "finite_radius", "edge"), False)
-    local = "sphere_elasticity", "spherical_profile", "gravity"
-    effects = {k: v for k, v in tables.get("effects", {}).items() if k in local}
-    effects |= still | {"inertia": False, "non_hertzian_pressure": False}
-    kept = {k: v for k, v in scene.items() if k in ("sphere", "materials")}
-    made = {"plate": block, "effects": effects, "impact": scene["impact"]}
-    return Measurement(kept | made, key, goal).to(STATIC_RTOL)
-
-
 @dataclass(frozen=True)
 class Measurement:
     """The measurement of a restitution.
@@ -126,12 +103,15 @@ class Measurement:
         Part of the modes that the first of the usual simulations has [1]: with plate inertia, the
         only simulation then has these modes, and its error is assumed to be `ROUGH`. 0 for usual
         simulations with an error bound.
+    work
+        Largest work of each of these, in the units of `contact_sequence.WORK` [1].
     """
 
     tables: Mapping[str, Any]
     key: str
     goal: float
     part: float = 0.0
+    work: float = math.inf
 
     @property
     def static(self) -> bool:
@@ -151,6 +131,11 @@ class Measurement:
         ----------
         within
             Whether the tolerance must be met with plate inertia, too.
+
+        Raises
+        ------
+        SceneError
+            If the simulation fails or is incomplete.
         """
         from derivation.scene.contact_law.limits import check_radius
         from derivation.scene.dynamic.runs import with_few_modes
@@ -160,10 +145,16 @@ class Measurement:
         rtol, selected = selected_effects(self._scene(value))
         law, bound = selected.law, ROUGH
         if self.part and law.dynamic:
-            numbers = with_few_modes(law, self.part).numbers
+            numbers = with_few_modes(law, self.part, self.work).numbers
         else:
             numbers, accuracy = solve_selected(selected, rtol, within=within or self.static)
             bound = accuracy.bound
+        if math.isnan(numbers[-1]):
+            raise SceneError(
+                "measured.target: expected an impact that can be computed up to the last "
+                "separation, got one with too many contacts or time steps; use a thicker plate or "
+                'a lighter sphere, or set measured.target = "block"'
+            )
         check_radius(law, a := numbers[3], "impact.speed", "reduce the speed")
         return Trial(numbers, min(law.max_pressure(a), law.pressure_limit), bound)
 
@@ -192,13 +183,29 @@ class Measurement:
             If its restitution does not exceed the measured one.
         """
         trial = self.simulated(None)
-        most = trial.restitution * (1.0 + margin * trial.bound)
+        self.check_below(trial, margin * trial.bound)
+        return trial
+
+    def check_below(self, lossless: Trial, margin: float) -> None:
+        """Raise an error if the measured restitution is not below that without energy loss.
+
+        Parameters
+        ----------
+        lossless
+            The measurement without energy loss by the constant.
+        margin
+            Relative difference by which the measured restitution may exceed that one [1].
+        """
+        most = lossless.restitution * (1.0 + margin)
         if self.goal < most:
-            return trial
+            return
+        named, how = f"{most:.{3 if margin else 6}g}", ""
+        if self.part:
+            named, how = f"about {lossless.restitution:.3g}", " (estimated with few modes)"
         raise SceneError(
-            f"measured.restitution: expected less than {most:.{3 if margin else 6}g}, the "
-            f"restitution without a plate.{self.key}, got {self.goal:.6g}; correct "
-            "measured.restitution or measured.target"
+            f"measured.restitution: expected less than {named}, the restitution without a "
+            f"plate.{self.key}{how}, got {self.goal:.6g}; correct measured.restitution or "
+            "measured.target"
         )
 
     def rough_value(self, lossless: Trial) -> float:
@@ -335,6 +342,9 @@ class Measurement:
         try:
             return self._point(points[-1].x + step)
         except SceneError as error:
+            risen = points[-1] is not min(points, key=lambda point: point.above)
+            if risen and self.key == "retardation_time":
+                raise self._unreached(points) from None
             raise UnreachedError(str(error), min(p.least for p in points), 0.0) from None
 
     def _unreached(self, points: list[Point]) -> UnreachedError:
@@ -343,8 +353,13 @@ class Measurement:
         least = min(point.least for point in points)
         return self._below(self.goal + lowest.above, least, math.exp(lowest.x))
 
-    def check_reached(self, value: float) -> None:
+    def check_reached(self, value: float, margin: float = 0.0) -> None:
         """Raise an error if a constant that gives the smallest restitution gives a larger one.
+
+        Parameters
+        ----------
+        margin
+            Relative difference that is also allowed [1].
 
         Raises
         ------
@@ -353,7 +368,7 @@ class Measurement:
         """
         trial = self.simulated(value)
         least = trial.restitution * (1.0 - trial.bound)
-        if self.goal < least:
+        if self.goal < (1.0 - margin) * least:
             raise self._below(trial.restitution, least, value)
 
     def _below(self, smallest: float, least: float, value: float) -> UnreachedError:

@@ -56,8 +56,9 @@ def short(result: "Result") -> str:
     names, values = (max(len(row[column]) for row in rows) for column in (0, 1))
     table = (f"{name:{names}}  {value:>{values}} {unit}".rstrip() for name, value, unit in rows)
     blocks = ["\n".join(table), "\n".join(map(paragraph, _remarks(result)))]
-    if result.incomplete_note:
-        blocks.insert(0, paragraph(result.incomplete_note))
+    for note in (result.unusable_note, result.incomplete_note):
+        if note:
+            blocks.insert(0, paragraph(note))
     if result.comparison:
         blocks.append(result.comparison.to_text())
     return "\n\n".join(blocks)
@@ -69,7 +70,7 @@ def _remarks(result: "Result") -> Iterator[str]:
     yield f"Accuracy: {result.accuracy.summary}{_model_error(result)}{_stress_error(result)}"
     if result.complete and not digits_of(bound) and math.isfinite(bound):
         yield f"Unknown: the error by {result.accuracy.largest_part} may be as large as the results"
-    elif not digits_of(result.model_error):
+    elif not digits_of(result.model_error) and not result.unusable_note:
         yield "Uncertain: the model error may be as large as the results"
     yield f"Effects: {result.effects.summary}"
     if result.energy_balance is not None and result.complete:
@@ -151,7 +152,8 @@ def html(result: "Result") -> str:
         f"<tr><td>{name}</td><td style='text-align:right'>{value}</td><td>{unit}</td></tr>"
         for name, value, unit in quantities(result)
     )
-    incomplete = f"<p><b>{escape(result.incomplete_note)}</b></p>" if result.incomplete_note else ""
+    notes = result.incomplete_note, result.unusable_note
+    first = "".join(f"<p><b>{escape(note)}</b></p>" for note in notes if note)
     remarks = "".join(f"<p>{escape(text)}</p>" for text in _remarks(result))
     paper = result.comparison.to_html() if result.comparison else ""
     warnings = "".join(f"<p><b>Warning:</b> {escape(text)}</p>" for text in result.warnings)
@@ -160,4 +162,4 @@ def html(result: "Result") -> str:
     if result.dynamics is not None:
         more += result.dynamics.to_html()
     folded = f"<details><summary>Details</summary>{more}</details>"
-    return f"{incomplete}<table>{''.join(cells)}</table>{remarks}{paper}{warnings}{folded}"
+    return f"{first}<table>{''.join(cells)}</table>{remarks}{paper}{warnings}{folded}"

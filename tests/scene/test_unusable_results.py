@@ -1,0 +1,77 @@
+"""Results that the model does not support are named first, with a remedy that makes them usable."""
+
+import re
+from typing import Any
+
+import pytest
+
+from derivation.scene import read, simulate
+from derivation.scene.output import answer
+from derivation.scene.output.unusable import ENOUGH
+
+PREFIX = {"": 1.0, "m": 1e-3, "µ": 1e-6}
+HAIL: dict[str, dict[str, Any]] = {
+    "sphere": {"radius": 0.0125, "material": "ice"},
+    "plate": {"radius": 0.58, "thickness": 1e-3, "material": "steel", "loss_factor": 0.2},
+    "impact": {"speed": 7.9},
+}
+BALL: dict[str, dict[str, Any]] = {
+    "sphere": {"radius": 0.0213, "youngs_modulus": 1.3e8, "poissons_ratio": 0.45, "mass": 0.0459},
+    "plate": {"radius": 0.0457, "thickness": 0.012, "material": "titanium"},
+    "impact": {"speed": 5.0},
+    "effects": {"inertia": False},
+}
+
+
+def changed(scene: dict[str, dict[str, Any]], table: str, **keys: Any) -> dict[str, dict[str, Any]]:
+    return scene | {table: scene[table] | keys}
+
+
+PANE: dict[str, dict[str, Any]] = {
+    "sphere": {"radius": 0.01, "material": "steel"},
+    "plate": {"radius": 0.1, "thickness": 1e-3, "material": "glass", "edge": "clamped"},
+    "impact": {"speed": 2.0},
+    "effects": {"inertia": False},
+}
+
+
+@pytest.mark.parametrize(("scene", "name"), [(HAIL, "restitution"), (PANE, "max force")])
+def test_stretching_is_named_with_a_speed_and_a_thickness(scene: Any, name: str) -> None:
+    """Both are followed: the model error is then at most about what the note says."""
+    result = simulate(read(scene))
+    size = r"([\d.]+) (\w?)m"
+    note = re.search(rf"{name} {size}/s or {size}\b", result.unusable_note)
+    assert note
+    speed, of_speed, thickness, of_thickness = note.groups()
+    slower = simulate(read(changed(scene, "impact", speed=float(speed) * PREFIX[of_speed])))
+    thick = float(thickness) * PREFIX[of_thickness]
+    thicker = simulate(read(changed(scene, "plate", thickness=thick)))
+    for again in slower, thicker:
+        assert again.model_error < 1.6 * ENOUGH
+        assert not again.unusable_note
+    if scene is PANE:  # as slow as necessary; the restitution of the hail depends on the speed
+        assert slower.model_error > 0.8 * ENOUGH
+
+
+def test_the_summary_begins_with_results_that_are_not_usable() -> None:
+    result = simulate(read(HAIL))
+    assert str(result).startswith("NOT USABLE: restitution. ")
+    assert "<b>NOT USABLE: restitution. " in answer.html(result)
+    assert "Uncertain" not in str(result)
+    assert result.model_errors["max_force"] < 0.1
+    usable = changed(HAIL, "impact", speed=0.05)
+    assert not str(simulate(read(usable))).startswith("NOT")
+
+
+def test_a_loss_in_the_stiffer_body_is_named_with_that_of_the_softer_one() -> None:
+    """The sphere with the time that the note names has the same contact, and a small error."""
+    stiff = simulate(read(changed(BALL, "plate", retardation_time=40e-3)))
+    assert stiff.model_error > 1.0
+    note = re.search(r"sphere\.retardation_time, for example ([\d.]+) (\w?)s", stiff.unusable_note)
+    assert note
+    time = float(note.group(1)) * PREFIX[note.group(2)]
+    soft = simulate(read(changed(BALL, "sphere", retardation_time=time)))
+    assert soft.restitution == pytest.approx(stiff.restitution, rel=1e-3)
+    assert soft.restitution < 0.9
+    assert soft.model_error < 0.02
+    assert not soft.unusable_note

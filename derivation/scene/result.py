@@ -329,8 +329,7 @@ class Result:
         return (
             f"INCOMPLETE: {inertia.end_reason}. The results cover the first "
             f"{counted(len(inertia.contacts), 'contact')}, up to {inertia.total_time:.6g} s; "
-            "the restitution is unknown. "
-            f"{inertia.remedy[0].upper()}{inertia.remedy[1:]}."
+            f"the restitution is unknown. {inertia.remedy[0].upper()}{inertia.remedy[1:]}."
         )
 
     @cached_property
@@ -356,8 +355,7 @@ class Result:
     def digits_of_result(self, name: str) -> int:
         """Return the significant digits that bound and model error of a result support.
 
-        A number of the model that is known is shown with at least one digit, whatever the model
-        error.
+        A known number of the model has at least one digit, whatever the model error.
         """
         bound = self.accuracy.bound
         error = bound + self.model_errors.get(_SAME_ERROR.get(name, name), self.model_error)

@@ -80,6 +80,23 @@ def test_results_agree_within_the_tolerance_of_the_elements(
         assert np.max(off) <= integration_error(history)
 
 
+def test_curvature_by_waves_belongs_to_the_radii_of_the_element() -> None:
+    """It was that of the iteration before: the largest radius was wrong by up to 5e-9."""
+    foam = {
+        "radius": 0.10270267447731761, "thickness": 0.023658004721378304, "edge": "clamped",
+        "youngs_modulus": 635211190.9896301, "poissons_ratio": 0.23370357141830028, "density": 1200,
+    }  # fmt: skip
+    sphere, speed = {"radius": 0.03567724270808681, "density": 7850}, 2.571566033869026
+    given = {"sphere": sphere, "plate": foam, "impact": {"speed": speed}}
+    effects = PAPER | {"inertia", "edge", "non_hertzian_pressure", "spherical_profile"}
+    law = ContactLaw(model_of(read(given)), effects)
+    problem = problem_of(law, 8)
+    fine = numbers(law, contact_sequence.impact_history(problem, 20, 3e-13))
+    for n in (22, 28, 32):
+        history = contact_sequence.impact_history(problem, n)
+        assert np.max(np.abs(numbers(law, history) / fine - 1.0)) <= integration_error(history)
+
+
 @pytest.mark.parametrize("name", [name for name in CASES if "viscoelastic" in name])
 def test_viscoelastic_force_is_not_negative(name: str) -> None:
     """The force is non-negative within each element, up to 1e-6 of the unit of force."""

@@ -32,8 +32,9 @@ FIRST, SHORTEST = 0.3, 1e-13
 """First and smallest length of an element in x."""
 TOLERANCE = 1e-11
 """Last coefficients of an element over the largest ones so far [1]."""
-CLOSED = 1e-5
-"""Remaining over elapsed time of a contact below which its end is computed in one step."""
+CLOSED = 0.25
+"""Remaining over elapsed time of a contact below which its end is computed in one step, over the
+power 2/5 of the tolerance: the impulse that remains falls as the power 5/2 of the time."""
 SOLVED = 1e-3
 """Tolerance of Newton's iteration over that of the element, if its derivative is exact."""
 CONTACTS, ELEMENTS, WORK = 100, 20_000, 3.5e7
@@ -239,6 +240,7 @@ def contact(
     # Yield events are located more closely than the tolerance of an element.
     exact = not (problem.retardation_time or problem.yielding)
     enough = max(NEXT, SOLVED * tolerance) if exact else NEXT
+    closed = CLOSED * math.pow(tolerance, 0.4)
     # At the start the tolerance refers to the expected size of each quantity.
     scale = np.full((LOST, 1), 0.1)
     for step in range(tried, most):
@@ -246,7 +248,7 @@ def contact(
             now, count = problem.T * (origin + x**ONSET), problem.omega.size
             announce(f"{now:.3g} s after first contact, {count} modes")
         remaining = left_after(elements[-1]) if elements else math.inf
-        length = min(length, longest(problem, n, x, remaining))
+        length = min(length, longest(problem, n, x, remaining, tolerance))
         if length < SHORTEST * max(x, 1.0):
             break
         made = solved(problem, n, x, length, state, radius, elements[-1:], enough)
@@ -288,7 +290,7 @@ def contact(
         check_width(problem, radius)
         length = next_length(made, x, change)
         left = left_after(made)
-        if left < CLOSED * x**ONSET and not problem.retardation_time:
+        if left < closed * x**ONSET and not problem.retardation_time:
             more, after = released(problem, made, left)
             ended = start + x**ONSET + more
             tries, pieces = step + 1 - tried, tuple(elements)

@@ -98,7 +98,7 @@ class ContactTables:
         x = self._places(a)
         return np.asarray((x**3)[:, None] * chebyshev(2.0 * x - 1.0, self.degree) @ self.table[0])
 
-    def radius_ratio(self, a: Array, at: ContactSamples, q: Array) -> Array:
+    def radius_ratio(self, a: Array, q: Array) -> Array:
         """Return the contact radius over that of the law at the same force [1].
 
         The change of the force is that of waves on a half-space (step 20), with the weights s_j of
@@ -109,14 +109,12 @@ class ContactTables:
         ----------
         a
             Contact radii [m] of the law.
-        at
-            The contact at these radii.
         q
             Deflection of each shape [m], shape (radii, shapes).
         """
         if self.static_change is None:
             return np.ones_like(a)
-        x = a / self.top
+        at, x = self.at(a), a / self.top
         static = x**3 * (chebyshev(2.0 * x - 1.0, self.static_change.size - 1) @ self.static_change)
         change = force_of_waves(np.array(self.modulus), a, np.vecdot(at.less_a, q)) - static
         return np.asarray(np.maximum(FLATTEST, 1.0 + change / at.force) ** (-1.0 / 3.0))

@@ -15,8 +15,8 @@ EARLY = 0.5
 """Coefficient of the additional growth of elements near the onset."""
 PHASE = 0.75
 """Largest phase of a mode over an element, divided by the number of nodes [rad]."""
-TOWARDS = 0.75
-"""Largest length of an element over the remaining time of the contact."""
+SAFE = 0.1
+"""Part of the tolerance for which elements that approach the end of a contact are chosen."""
 WITHIN = 0.5
 """Remaining time by the approach over that by the radius below which the latter is used."""
 OWN = 1e3
@@ -116,9 +116,19 @@ def left_after(last: TimeElement) -> float:
     return left if left * narrowing > WITHIN * last.radius else last.radius / narrowing
 
 
-def longest(problem: DynamicProblem, n: int, x: float, left: float) -> float:
+def longest(problem: DynamicProblem, n: int, x: float, left: float, tolerance: float) -> float:
     """Return the largest length of an element by the fastest mode and the remaining time."""
     most = problem.fastest
     ahead = PHASE * n / most if most else math.inf
-    ahead = min(ahead, TOWARDS * left)
+    ahead = min(ahead, _towards(n, tolerance) * left)
     return float((x**ONSET + ahead) ** (1.0 / ONSET) - x)
+
+
+def _towards(n: int, tolerance: float) -> float:
+    """Return the largest length of an element over the remaining time of a contact.
+
+    At the end the square of the radius vanishes linearly. The Legendre coefficients of the radius
+    decrease as z^-n, with z + 1/z = 2 (2/p - 1) for an element that takes a part p of the time.
+    """
+    z = math.pow(SAFE * tolerance, -1.0 / n)
+    return 4.0 / (2.0 + z + 1.0 / z)

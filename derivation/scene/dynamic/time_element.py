@@ -234,12 +234,11 @@ def element(
     The iteration ends when a step would change the radii by at most `enough`, relative to the
     largest of them.
     """
-    nodes, size = nodes_of(problem, n, x, length, start), math.inf
-    last: ContactSamples | None = None
+    nodes, size, found = nodes_of(problem, n, x, length, start), math.inf, False
     order = 1 if problem.retardation_time else 2
     for _ in range(NEWTON):
-        if last is not None:
-            return _piece(problem, nodes, start, radius, y, x, length, last)
+        if found:
+            return _piece(problem, nodes, start, radius, y, x, length)
         a = radius + nodes.by_x @ y
         if not a.min() > 0.0:
             return None
@@ -254,7 +253,7 @@ def element(
         y, before, size = y + step[0], size, step[1]
         if size > max(1.0, before):
             return None
-        last = at if converged(size, before, order, enough) else None
+        found = converged(size, before, order, enough)
     return None
 
 
@@ -335,12 +334,8 @@ def _piece(
     y: Array,
     x: float,
     length: float,
-    near: ContactSamples,
 ) -> TimeElement | None:
-    """Return the element as polynomials, with its end; None if a radius is not positive.
-
-    `near` is the contact at nearly the same radii, those of the last iteration.
-    """
+    """Return the element as polynomials, with its end; None if a radius is not positive."""
     load, pointwise = _forces_at(problem, nodes, radius, y), problem.contact.pointwise
     if not load.a.min() > 0.0:
         return None
@@ -358,7 +353,7 @@ def _piece(
         leak = np.sum((elastic[:, :1] - elastic[:, 1:]) * driven.rates, axis=1) * nodes.rate
     rule = radau(nodes.x.size)
     rows = at.a, at.v, at.z, force, np.sum(at.q, axis=1), driven.energy, lost, leak
-    ratio = problem.contact.radius_ratio(problem.a * load.a, near, problem.depth * at.q)
+    ratio = problem.contact.radius_ratio(problem.a * load.a, problem.depth * at.q)
     values = np.array([*rows, driven.damped * nodes.rate, at.a * ratio])
     made = Element(x, length, values @ rule.analysis.T, rule.analysis @ at.y)
     end = ImpactState(

@@ -18,6 +18,7 @@ NEWTON = 30
 _CLOSE, _NEARLY = 1e-15, 1e-12
 NEXT = 1e-14
 """Relative step of Newton's iteration that is due to rounding [1]."""
+_GROWTH = 3.0  # largest factor of the length from one element to the next
 _SAFETY = 0.9  # part of the length that the sizes of the coefficients allow
 _LEAST = 0.01  # least square of a continued row, over the square at the end of its element
 _HALVINGS = 60
@@ -128,7 +129,7 @@ def change_of_length(sizes: Array, tolerance: float) -> tuple[float, float]:
     if error > tolerance:
         return error, min(0.8, max(0.1, math.pow(0.1 * tolerance / error, 1.0 / n)))
     needed = n - int(np.argmax(sizes[::-1] > tolerance)) if np.any(sizes > tolerance) else 1
-    return error, min(2.0, _SAFETY * n / (needed + 2))
+    return error, min(_GROWTH, _SAFETY * n / (needed + 2))
 
 
 class Element(NamedTuple):

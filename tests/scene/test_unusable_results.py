@@ -6,8 +6,8 @@ from typing import Any
 import pytest
 
 from derivation.scene import read, simulate
+from derivation.scene.dynamic.stretching_error import USABLE
 from derivation.scene.output import answer
-from derivation.scene.output.unusable import ENOUGH
 
 PREFIX = {"": 1.0, "m": 1e-3, "µ": 1e-6}
 HAIL: dict[str, dict[str, Any]] = {
@@ -47,10 +47,10 @@ def test_stretching_is_named_with_a_speed_and_a_thickness(scene: Any, name: str)
     thick = float(thickness) * PREFIX[of_thickness]
     thicker = simulate(read(changed(scene, "plate", thickness=thick)))
     for again in slower, thicker:
-        assert again.model_error < 1.6 * ENOUGH
+        assert again.model_error < 1.6 * USABLE
         assert not again.unusable_note
     if scene is PANE:  # as slow as necessary; the restitution of the hail depends on the speed
-        assert slower.model_error > 0.8 * ENOUGH
+        assert slower.model_error > 0.8 * USABLE
 
 
 def test_the_summary_begins_with_results_that_are_not_usable() -> None:

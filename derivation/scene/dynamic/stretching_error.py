@@ -32,6 +32,8 @@ END, DIP = 0.5, 6.0
 """Force over the largest force and over S below which the first contact may end, and the same of a
 minimum of the force. On a light plate the force decreases long before it vanishes: durations
 changed by up to 6 S, and by 41 S after a minimum of 4.1 S."""
+USABLE = 0.1
+"""Error by stretching for which a message recommends a speed or a thickness [1]."""
 SMALL = 0.02
 """Error by omitted modes over that by stretching below which more modes are of no use."""
 SMALLEST, MARGIN = 7e-4, 2.5

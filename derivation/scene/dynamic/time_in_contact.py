@@ -17,6 +17,7 @@ from derivation.scene.dynamic.modal import Modes, plate_of
 from derivation.scene.dynamic.mode_count import affordable, branching, count_of
 from derivation.scene.dynamic.next_element import PHASE
 from derivation.scene.dynamic.problem import DynamicProblem
+from derivation.scene.dynamic.stretching_error import FORCE, USABLE
 from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.errors import SceneError
 from derivation.scene.model import Model
@@ -136,15 +137,16 @@ def _check_deflection(model: Model, ratio: float, swing: float) -> None:
     limit = doubling_deflection(model)
     if deflection < limit:
         return
-    speed = rounded_down(model.v0 * limit / deflection)
+    speed = model.v0 * limit / deflection
+    low = speed * math.sqrt(USABLE / FORCE)  # of later contacts, apart from the sphere's weight
     thicknesses = deflection / (2.0 * float(model.h))
     raise SceneError(
         f"effects.inertia: expected a deflection of less than {limit:.2g} m, at which stretching, "
         "which the model neglects, doubles the stiffness of the plate, got at least about "
         f"{deflection:.2g} m ({thicknesses:.2g} thicknesses) under a sphere {ratio:.3g} times as "
         "heavy as its first mode; use a thicker or smaller plate, a lighter sphere or an "
-        f"impact.speed of at most {speed:.2g} m/s, or set inertia.modes to simulate a plate that "
-        "does not stretch"
+        f"impact.speed of at most {rounded_down(speed):.2g} m/s (about {low:.1g} m/s for usable "
+        "results), or set inertia.modes to simulate a plate that does not stretch"
     )
 
 

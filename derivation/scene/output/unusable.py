@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from derivation.scene.contact_law.limits import local_indentation
-from derivation.scene.dynamic.stretching_error import Deflections, deflections_of
+from derivation.scene.dynamic.stretching_error import USABLE, Deflections, deflections_of
 from derivation.scene.dynamic.unlike_bodies import unlike_bodies_errors
 from derivation.scene.model_errors import model_errors
 from derivation.scene.quantity import NO_DIGITS, percent, prefixed
@@ -16,8 +16,6 @@ from derivation.scene.selection.method_selection import growth_of
 if TYPE_CHECKING:
     from derivation.scene.result import Result
 
-ENOUGH = 0.1
-"""Model error by stretching that a message recommends [1]."""
 SMALLEST, STEPS = 1e-5, 30
 """Smallest part of the deflection that a message considers, and number of bisections for it."""
 THICKER = 2.5
@@ -75,7 +73,7 @@ def _by_stretching(result: "Result") -> str:
     least = _errors(result, deflections.times(SMALLEST))
     by_it = {name: result.model_errors[name] - least[name] for name in OUTPUTS}
     parts = {
-        name: _part(result, deflections, name, least[name] + ENOUGH)
+        name: _part(result, deflections, name, least[name] + USABLE)
         for name, error in by_it.items()
         if error >= NO_DIGITS
     }
@@ -90,7 +88,7 @@ def _by_stretching(result: "Result") -> str:
     return (
         f"The plate deflects by {times:.2g} thicknesses and stretches, which the model neglects "
         f"(error up to {percent(worst)}). Speed or thickness for an error of about "
-        f"{percent(ENOUGH)}: {', '.join(remedies)}."
+        f"{percent(USABLE)}: {', '.join(remedies)}."
     )
 
 

@@ -20,6 +20,7 @@ NEAR = 1e-9
 """Relative distance from a tolerance at which the row is simulated singly."""
 WELL_WITHIN = 0.9
 """Largest contact radius over the limit of the law for results from arrays."""
+Mask = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)

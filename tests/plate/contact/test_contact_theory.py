@@ -323,6 +323,23 @@ def test_xi_3_has_the_power_eight_thirds(formulas: Mapping[str, Formula]) -> Non
     assert sp.simplify(xi.subs(named) + three / two ** sp.Rational(8, 3)) == 0
 
 
+@pytest.mark.parametrize("law", [(1.0,), (-0.3,), (8.0, -0.05, 0.002), (0.5, -0.1, 0.02)])
+def test_force_series_diverges_outside_its_radius(law: tuple[float, ...]) -> None:
+    """The root test on 90 coefficients gives the convergence radius."""
+    values = {c_A[2 * i + 1]: sp.Rational(str(value)) for i, value in enumerate(law)}
+    plain = [sp.Integer(1)] + [
+        values.get(c_A.get(n, sp.Integer(0)), sp.Integer(0)) for n in range(1, 91)
+    ]
+    sizes = [
+        abs(reversion.power_series(plain, sp.Rational(-(n + 3), 2), n + 1)[n]) * 3 / (n + 3)
+        for n in (60, 61, 62, 88, 89, 90)
+    ]
+    # p_n ~ n^(-3/2) radius^(-n), with a bounded oscillation for complex nearest singularities.
+    early, late = (max(float(sp.log(s)) for s in part) for part in (sizes[:3], sizes[3:]))
+    estimate = -(late - early + 1.5 * float(mp.log(mp.mpf(90) / 62))) / 28
+    assert estimate == pytest.approx(float(mp.log(reversion.radius(law))), abs=0.04)
+
+
 def test_force_series_agrees_inside_its_radius() -> None:
     """P from eps by the p_n agrees with the law solved for A by mpmath's root finder."""
     law = {c_A[1]: 2, c_A[3]: sp.Rational(-1, 5), c_A[5]: sp.Rational(1, 50)}

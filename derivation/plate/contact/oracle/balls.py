@@ -133,6 +133,13 @@ def _regular(T: acb, bits: int) -> acb:
     return T * (flint.acb_poly(top[2:])(square) + blur) / (flint.acb_poly(d)(square) + blur)
 
 
+def finite_radius(alpha: Exact, digits: int = 50) -> arb:
+    """Return W(alpha), the contribution of the finite radius of an infinitely thick plate."""
+    return refine_to_digits(
+        lambda _: (excess("hertz", to_ball(alpha), None),), digits, f"W at {alpha}"
+    )[0]  # fmt: skip
+
+
 def coefficient(order: int, h: Exact, b: Exact, digits: int = 50) -> arb:
     """Return c_order of delta = (a^2/R) (1 + c_1 a/h + c_3 (a/h)^3 + ...), for an odd order."""
     if order < 1 or order % 2 == 0:

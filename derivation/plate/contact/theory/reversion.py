@@ -9,6 +9,7 @@ p/(p + g n) [x^(g n)] (1 + r_1 x^g + ...)^(-(p + g n)/d) y^(p + g n).
 from collections.abc import Sequence
 from functools import cache
 
+import flint
 import sympy as sp
 
 from derivation.engine.formula.dimension import thirds
@@ -19,6 +20,7 @@ from derivation.plate.vocabulary import N as _N
 
 LAST_XI = 6
 LAST_P = 8
+_RAYS = 200
 
 
 def power_series(
@@ -233,6 +235,60 @@ def radius_estimate() -> tuple[Formula, Formula]:
         ("eps_radius",),
         proof,
     )
+
+
+def radius(coefficients: Sequence[float], bits: int = 128) -> float:
+    """Return the radius of convergence in eps of the inverted series, for given c_1, c_3, c_5, ...
+
+    The inverse A(eps) is singular at critical values eps(A), where d(eps^2)/dA = 0. Only those
+    critical points A count that continuation along the ray from eps = 0 reaches.
+
+    Raises
+    ------
+    ValueError
+        If all coefficients are zero, so that the series ends with its first term.
+    """
+    with flint.ctx.workprec(bits):
+        slope = [flint.arb(2)]
+        for index, value in enumerate(coefficients):
+            slope += [flint.arb((2 * index + 3) * value), flint.arb(0)]
+        while slope and slope[-1] == 0:
+            slope.pop()
+        if len(slope) < 2:
+            raise ValueError("expected a coefficient that is not zero, got none")
+        roots = flint.acb_poly(slope).roots()
+        critical = sorted(
+            ((_eps(coefficients, A), A) for A in roots), key=lambda pair: float(abs(pair[0]))
+        )
+        for value, A in critical:
+            if any(_reaches(coefficients, sign * value, A) for sign in (1, -1)):
+                return float(abs(value))
+    return float("inf")
+
+
+def _eps(coefficients: Sequence[float], A: flint.acb) -> flint.acb:
+    return A * _law(coefficients, A).sqrt()
+
+
+def _law(coefficients: Sequence[float], A: flint.acb) -> flint.acb:
+    return 1 + sum((v * A ** (2 * i + 1) for i, v in enumerate(coefficients)), flint.acb(0))
+
+
+def _reaches(coefficients: Sequence[float], target: flint.acb, A: flint.acb) -> bool:
+    """Return whether Newton continuation of A(eps) from 0 towards `target` ends near A."""
+    here = flint.acb(0)
+    for step in range(1, _RAYS):
+        # Steps shorten towards the end, where the derivative vanishes like a square root.
+        eps_here = (target * (1 - flint.arb(1 - flint.arb(step) / _RAYS) ** 2)).mid()
+        here = here if step > 1 else eps_here
+        for _ in range(8):
+            law = _law(coefficients, here)
+            slope = 2 * here + sum(
+                ((2 * i + 3) * v * here ** (2 * i + 2) for i, v in enumerate(coefficients)),
+                flint.acb(0),
+            )
+            here = (here - (here**2 * law - eps_here**2) / slope).mid()
+    return bool(abs(here - A).mid() < flint.arb(0.05) * abs(A).mid())
 
 
 def reversion() -> tuple[Formula, ...]:

@@ -10,13 +10,16 @@ from derivation.scene.dynamic.time_element import A, C, E, P, V, W, Z, deflectio
 from derivation.scene.numerics.collocation import ONSET, Element
 from generated.arrays import Double as Array
 
+ROUNDED = 1e-12
+"""Relative difference of two times that is due to rounding [1]."""
+
 
 def deflections(history: ImpactHistory, t: float) -> Array:
     """Return the deflection of each shape at the axis at a time, in units of the problem."""
     problem = history.problem
     starts = [touching.start for touching in history.contacts]
     touching = history.contacts[max(int(np.searchsorted(starts, t, side="right")) - 1, 0)]
-    if t > touching.end:
+    if t > _computed(touching):
         since = t - touching.end
         q = problem.flown(touching.after, since).q
         if problem.retardation_time:
@@ -43,10 +46,21 @@ def oscillating(
     return np.asarray(q[-1], dtype=np.float64)
 
 
+def _computed(touching: ContactRun) -> float:
+    """Return the time at which the last element of a contact ends.
+
+    From then on to its end, the force is so small that sphere and plate move as in flight.
+    """
+    first, last = touching.pieces[0].element, touching.pieces[-1].element
+    end = touching.start + ((last.x + last.length) ** ONSET - first.x**ONSET)
+    return end if end < (1.0 - ROUNDED) * touching.end else touching.end
+
+
 def rows_of(problem: DynamicProblem, touching: ContactRun, t: Array) -> Array:
     """Return the rows in a contact and in the flight after it, at times in problem units."""
     found = np.zeros((C + 1, t.size))
-    pieces, inside = touching.pieces, t <= touching.end
+    pieces, known = touching.pieces, _computed(touching)
+    inside = t <= known
     starts, lengths = np.array([(one.element.x, one.element.length) for one in pieces]).T
     since = np.maximum(t - touching.start, 0.0) + starts[0] ** ONSET
     x = since ** (1.0 / ONSET)
@@ -71,6 +85,12 @@ def rows_of(problem: DynamicProblem, touching: ContactRun, t: Array) -> Array:
         flights = problem.flights(touching.after, t[indices] - touching.end, radius)
         found[V, indices], found[Z, indices], found[W, indices], found[E, indices] = flights
     found[[A, P, C]] = np.maximum(found[[A, P, C]], 0.0)
+    ending = ~inside & (t < touching.end)
+    if np.any(ending):  # the square of the radius vanishes linearly
+        left = (touching.end - t[ending]) / (touching.end - known)
+        start = rows_of(problem, touching, np.array([known]))
+        found[A, ending], found[C, ending] = start[A] * np.sqrt(left), start[C] * np.sqrt(left)
+        found[P, ending] = start[P] * left**1.5
     if not touching.radius:  # exact, without the rounding error of the polynomial
         found[np.ix_([A, C], t == touching.start)] = 0.0
     return found

@@ -10,7 +10,7 @@ from generated import manifest
 
 pytestmark = [pytest.mark.usefixtures("no_warning"), pytest.mark.one_version]
 
-COUNT = 10_000
+COUNT = 20_000
 WHOLE = ("bessel", "series_constants")  # modules whose functions take whole numbers
 FUNCTIONS = [row for row in manifest.KERNELS if not row["modes"] and row["module"] not in WHOLE]
 OF_RESULTS = ("that result", "the largest a", "radius of convergence")  # in domains

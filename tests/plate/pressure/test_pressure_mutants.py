@@ -51,7 +51,10 @@ def state(
 def solved(
     a: float, v: float, R: float, modulus_ratio: float, sphere: bool, compliance: float
 ) -> WithinUlp:
-    """Return the case of force, indentation, stiffness, slope, pressures and chi at the nodes."""
+    """Return the case of force, indentation, stiffness, slope, pressures and chi at the nodes.
+
+    The pressure at the centre almost vanishes for a = 6 h: it is added to the mean pressure.
+    """
     exact, own = state(a, v, R, modulus_ratio, sphere), modulus_ratio * E
     width, radius = a * H, R * H
     force = own * width**3 / radius * float(exact.force)
@@ -62,7 +65,7 @@ def solved(
         width**2 / radius * float(exact.depth) + compliance * force,
         1 / (1 / stiffness + compliance),
         width / radius * float(exact.slope) * (1 + compliance * stiffness),
-        own * width / radius * float(exact.centre),
+        own * width / radius * float(exact.centre) + force / (math.pi * width**2),
         force / (math.pi * width**2),
         width,
         force,
@@ -76,9 +79,9 @@ def solved(
         )
         got = [x[-1] for x in every]
         carried = 2 * np.pi * width * weights @ got[9]
-        return [*got[1:5], *got[6:8], got[0], carried, got[8][0]]
+        return [*got[1:5], got[6] + got[7], got[7], got[0], carried, got[8][0]]
 
-    return WithinUlp(call, np.array(values), 100000.0)
+    return WithinUlp(call, np.array(values), 20000.0)
 
 
 def distribution(a: float, v: float, R: float, modulus_ratio: float, sphere: bool) -> WithinUlp:
@@ -99,7 +102,7 @@ def distribution(a: float, v: float, R: float, modulus_ratio: float, sphere: boo
 
     force = own * width**3 / radius * float(exact.force)
     pressures = [own * width / radius * float(x) for x in exact.pressures]
-    return WithinUlp(call, np.array([force, *pressures, NAN, NAN, 0.0]), 100000.0)
+    return WithinUlp(call, np.array([force, *pressures, NAN, NAN, 0.0]), 20000.0)
 
 
 def work(a: float, v: float, R: float, modulus_ratio: float, sphere: bool) -> WithinUlp:

@@ -384,16 +384,16 @@ def test_one_run_beyond_the_limits_is_made_if_the_tolerance_is_near(
 
 
 def test_without_a_tolerance_a_dear_run_is_left_out_and_the_bound_holds() -> None:
-    """The next run has 12,652 modes; a fraction of them leaves an error of at most 0.2 %."""
+    """48,644 modes take seconds; a fraction of them leaves an error of at most 0.2 %."""
     scene = read({
         "sphere": {"radius": 0.002, "material": "granite"},
         "plate": {"radius": 0.5, "thickness": 0.006, "material": "glass", "edge": "clamped"},
         "impact": {"speed": 20.0},
     })  # fmt: skip
-    usual, fine = simulate(scene), simulate(scene, rtol=1e-3)
+    usual, fine = simulate(scene), simulate(scene, rtol=5e-4)
     assert usual.dynamics is not None
     assert fine.dynamics is not None
-    assert 3 * usual.dynamics.inertia.modes < fine.dynamics.inertia.modes
+    assert 10 * usual.dynamics.inertia.modes < fine.dynamics.inertia.modes
     assert max(usual.dynamics.inertia.left(OUTPUTS)) <= 2e-3
     allowed = usual.accuracy.bound + fine.accuracy.bound
     for name in OUTPUTS:

@@ -115,8 +115,8 @@ def inverse_restitution(viscous: Numbers) -> Numbers:
 def unlike_bodies_error(model: Model) -> float:
     """Return the estimated model error by two bodies with different retardation times [1].
 
-    The law has their mean, weighted with the compliances, which is correct to first order. Each
-    body by itself would follow the force with its own delay.
+    The law has their mean, weighted with the compliances, which is correct to first order. In
+    fact each body follows the force with its own delay.
     """
     if not model.retardation_spread:
         return 0.0
@@ -129,8 +129,8 @@ def later_end(model: Model, contact_time: float) -> float:
     """Return the change of a contact's duration if each body has its own time, over the duration.
 
     A contact with the mean A_v of both times ends 3/2 A_v before an elastic one, while it is still
-    indented. This applies to any speed of separation. With a time of its own, each body follows by
-    itself. The end then changes most if one body is far stiffer than the other and without
+    indented. This applies to any speed of separation. If each body follows the force with its
+    own time, the end changes most if one body is far stiffer than the other and without
     retardation: by 0.67 A_v x^(4/3), x the spread of the times over A_v, for small x. The change is
     at most 3/2 A_v, because neither body can be in tension.
     """

@@ -221,12 +221,6 @@ def _pressure() -> Iterator[HardCase]:
         given = exact_inputs(a=0.3, h=around(switch), b=1.0, **constants)
         why = f"h/b = {switch:.4g}, beyond which the kernel has one mode less"
         yield from _around_switch(PRESSURE, ("contact",), why, given)
-    low = pressure_tables.LOW
-    nodes = [y for y in pressure_tables.lateral_places() if low / y < 0.9]
-    for y in (nodes[0], nodes[len(nodes) // 2], nodes[-1]):
-        given = exact_inputs(a=around(low / y), h=1.0, b=1.0, **constants)
-        why = f"y a/b = {low:g} at y = {y:.4g}, where sinh(x)/x ceases to be a power series"
-        yield from _around_switch(PRESSURE, ("contact",), why, given)
     widest = float(pressure_tables.WIDEST_OVER_B)
     why = f"a = {widest:g} b, the widest contact that is solved"
     yield from _last(PRESSURE, ("contact",), widest, why, {"h": 1.0, "b": 1.0, **constants})

@@ -9,5 +9,7 @@ ABOUT = {
     r"bound the error of Hertz pressure at given force; there $a$ is the Hertz radius of this "
     "force. The last formulas are about a simply supported or clamped edge. The state of bending "
     "by which it differs from the paper's edge curves the plate under the contact, which adds "
-    r"$N_s (t^2 + s^2 - 2 t^2 s^2/b^2)/h^3$ to the kernel.",
+    r"$N_s (t^2 + s^2 - 2 t^2 s^2/b^2)/h^3$ to the kernel. A wide contact bends the plate almost "
+    "to the sphere's curvature; the code therefore solves for the curvature that remains between "
+    "them.",
 }

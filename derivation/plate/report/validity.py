@@ -41,7 +41,9 @@ def law_context(formulas: Mapping[str, Record]) -> dict[str, Any]:
 def limit_rows() -> list[str]:
     """Return parameter, limit, consequence beyond it and reason; limits are those of the code."""
     open_, held = f"{non_hertzian_pressure.MAX_A_OVER_H:g}", f"{edge.MAX_A_OVER_B:g}"
-    curved = f"{spherical_profile.MAX_A_OVER_R:g}"
+    curved, solved = (
+        f"{effect.MAX_A_OVER_R:g}" for effect in (spherical_profile, non_hertzian_pressure)
+    )
     thin, thick = (rounded(ratio) for ratio in PLATES)
     rows = (
         (r"$a/b$, $a/R$", "1", "rejected", "the contact would reach the edge or the whole sphere"),
@@ -49,6 +51,8 @@ def limit_rows() -> list[str]:
          "the series for the edge and for the pressure are tabulated up to this limit"),
         (r"$a/R$", curved, "rejected with \\texttt{spherical\\_profile}",
          "the slope of the spherical profile tends to infinity"),
+        (r"$a/R$", solved, "rejected with \\texttt{non\\_hertzian\\_pressure}",
+         "the pressure is resolved up to this limit"),
         (r"$a/h$", open_, "rejected with \\texttt{non\\_hertzian\\_pressure}",
          "contact is lost at the centre"),
         (r"$h/b$", f"{thin} to {thick}", "rejected", "the error bounds are proved for this range"),

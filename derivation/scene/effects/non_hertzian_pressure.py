@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
 MAX_A_OVER_H = 6.0
 """Contact radius over half-thickness at which contact may be lost at the centre."""
+MAX_A_OVER_R = 0.95
+"""Contact radius over sphere radius up to which the pressure is resolved."""
 BOUND_A_OVER_B = 0.4
 """Largest contact radius over plate radius for which the bound is valid."""
 BOUND_THETA = 0.2
@@ -31,7 +33,7 @@ class NonHertzianPressure(Effect):
     source = "Abel transform of the mixed problem; step 20"
     contains = WHOLE_PLATE | {"spherical_profile", "sphere_elasticity"}
     requires = WHOLE_PLATE
-    reach = Reach(plate=edge.MAX_A_OVER_B, thickness=MAX_A_OVER_H)
+    reach = Reach(edge.MAX_A_OVER_B, MAX_A_OVER_R, MAX_A_OVER_H)
     solved = True
 
     def value(self, model: Model, a: float) -> float:

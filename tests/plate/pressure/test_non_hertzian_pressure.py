@@ -22,7 +22,7 @@ from derivation.plate.vocabulary import a_ratio, c_A
 from derivation.plate.vocabulary import eta as eta_symbol
 from generated.contact_series import plates_of
 from generated.non_hertzian_pressure import contact, plate, pressure
-from generated.pressure_numbers import ERROR, THIN, WIDEST, WIDEST_OVER_B
+from generated.pressure_numbers import ERROR, THIN, WIDEST, WIDEST_OVER_B, WIDEST_OVER_R
 
 R, E = 1e3, 7e10
 OPEN = 3.012493
@@ -120,7 +120,9 @@ def test_stated_limit_is_the_recorded_one() -> None:
     assert read_stated_limits("pressure") == {"error": ERROR}
 
 
-@pytest.mark.parametrize(("a", "v", "sphere"), [(0.5, 2.0, 0.8), (1.5, 20.0, 1.9), (2.0, 5.0, 9.0)])
+@pytest.mark.parametrize(
+    ("a", "v", "sphere"), [(0.5, 2.0, 0.8), (1.5, 20.0, 1.9), (2.0, 5.0, 9.0), (0.95, 1.2, 1.0)]
+)
 def test_sphere_and_its_elasticity_agree_with_the_reference(
     a: float, v: float, sphere: float
 ) -> None:
@@ -178,16 +180,16 @@ def test_hertz_limit() -> None:
         assert np.abs(shape - np.sqrt(1 - (r / 1e-5) ** 2)).max() < 1e-14
 
 
-@pytest.mark.parametrize("a_over_R", [1e-6, 0.1, 0.5, 0.99])
+@pytest.mark.parametrize("a_over_R", [1e-6, 0.1, 0.5, WIDEST_OVER_R])
 def test_spherical_profile_on_a_half_space_agrees_with_sneddon(a_over_R: float) -> None:
-    a = 1e-9
+    a = 1e-20
     radius = a / a_over_R
     got = contact(plate(1.0, 1.0), a, radius, E, sphere=True)
     logarithm = 2 * math.atanh(a_over_R)
-    assert abs(got.indentation / (a / 2 * logarithm) - 1) < 1e-8
+    assert abs(got.indentation / (a / 2 * logarithm) - 1) < ERROR
     if a_over_R > 0.01:  # the closed form loses digits by cancellation for smaller values
         force = E * ((a**2 + radius**2) / 2 * logarithm - a * radius)
-        assert abs(got.force / force - 1) < 1e-8
+        assert abs(got.force / force - 1) < ERROR
 
 
 def test_effect_of_the_spherical_profile_is_quadratic() -> None:
@@ -327,6 +329,7 @@ def test_results_are_nan_outside_the_domain() -> None:
     for a in (0.0, -1.0, np.nan, WIDEST_OVER_B * 2.0001, 2.5):
         assert np.isnan(contact(of, a, R, E).force)
     assert np.isnan(contact(of, 0.5, 0.4, E).force)
+    assert np.isnan(contact(of, 1.001 * WIDEST_OVER_R, 1.0, E, sphere=True).force)
     assert np.isnan(contact(of, 0.5, R, -E).force)
     assert np.isnan(contact(of, 0.5, R, E, 0.9 * E).force)
     assert np.isnan(contact(of, 0.5, R, E, compliance=np.nan).force)

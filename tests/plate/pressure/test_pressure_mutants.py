@@ -11,6 +11,7 @@ from mutated_code import BEYOND_ALL, GUARDS, ModuleTests, undetected
 from within_ulp import WithinUlp
 
 from derivation.plate.pressure import oracle as pressure_balls
+from generated.pressure_numbers import ERROR
 
 NAN = math.nan
 
@@ -24,6 +25,7 @@ SOLVED = (
     (5.5, 300.0, 90.0, 1.0, False),
 )
 E, H = 7e10, 0.125
+ULP = ERROR / float(np.finfo(float).eps)
 PLACES = 0.25, 0.9375
 
 
@@ -33,7 +35,7 @@ def pressure_cases() -> list[WithinUlp]:
         for compliance in (0.0, 2e-10):
             actual.append(solved(*numbers, compliance))
         actual.append(distribution(*numbers))
-    actual += [work(*numbers) for numbers in SOLVED[1:3]]
+    actual += [work(*numbers) for numbers in SOLVED[:3]]
     actual += [of_edge(*sizes) for sizes in ((200.0, 0.1), (3.0, -0.3))]
     return [*actual, *refused(), in_other_units(0.5)]
 
@@ -81,7 +83,7 @@ def solved(
         carried = 2 * np.pi * width * weights @ got[9]
         return [*got[1:5], got[6] + got[7], got[7], got[0], carried, got[8][0]]
 
-    return WithinUlp(call, np.array(values), 20000.0)
+    return WithinUlp(call, np.array(values), ULP)
 
 
 def distribution(a: float, v: float, R: float, modulus_ratio: float, sphere: bool) -> WithinUlp:
@@ -102,7 +104,7 @@ def distribution(a: float, v: float, R: float, modulus_ratio: float, sphere: boo
 
     force = own * width**3 / radius * float(exact.force)
     pressures = [own * width / radius * float(x) for x in exact.pressures]
-    return WithinUlp(call, np.array([force, *pressures, NAN, NAN, 0.0]), 20000.0)
+    return WithinUlp(call, np.array([force, *pressures, NAN, NAN, 0.0]), ULP)
 
 
 def work(a: float, v: float, R: float, modulus_ratio: float, sphere: bool) -> WithinUlp:
@@ -167,7 +169,12 @@ def refused() -> list[WithinUlp]:
     for size in (*sizes, (1e60, 1e-60)):
         actual.append(WithinUlp(lambda m, size=size: numbers_of(m.plate(*size)), none, 0.0))
     thin = WithinUlp(lambda m: float(m.plate(1.0, 100.0).rises.size), np.asarray(0.0), 0.0)
-    return [*actual, thin]
+    steep = WithinUlp(
+        lambda m: float(m.contact(m.plate(1.0, 2.0), 0.48, 0.5, 1.0, sphere=True).force),
+        np.asarray(NAN),
+        0.0,
+    )
+    return [*actual, thin, steep]
 
 
 def numbers_of(plate: Any) -> list[float]:
@@ -180,8 +187,7 @@ TESTS = {
         {
             "plate": (2, BEYOND_ALL),
             "contact": (1, "a contact opens before it is as wide"),
-            "_solve": (1, GUARDS),
-            "_profile": (1, "only the shape is used"),
+            "_unit_solutions": (1, GUARDS),
         },
     )
 }

@@ -13,8 +13,7 @@ RUNTIME = Path(__file__).parents[1] / "runtime"
 def pressure_kernels() -> Routines:
     """Return the routines of the kernel's cosines and of the sphere's profile."""
     title = "Cosines of the kernel of the integral equation, and profile of the sphere."
-    imports = {"pressure_numbers": ("LOW",)}
-    return Routines("pressure_kernels", title, tuple(make() for make in ROUTINES), imports)
+    return Routines("pressure_kernels", title, tuple(make() for make in ROUTINES), {})
 
 
 MODULES = (

@@ -34,12 +34,12 @@ WIDEST = 7
 """Largest a/h. In a thin plate, contact at the centre is lost before that."""
 DIRECTIONS, LARGEST_T = 80, 24
 """Gauss nodes for a thin plate, where 4 T^2 e^(-2T), which is G - 1 there, is below 1e-17."""
-LOW = 1e-3
-"""Argument below which sinh(x)/x is 1 + x^2/6, to 1e-14."""
 FADED = 23
 """T = 2 eta j_n up to which modes are summed in plates that are not thin."""
 WIDEST_OVER_B = 0.95
 """Largest a/b: the kernel is singular where t + s = 2 b."""
+WIDEST_OVER_R = 0.95
+"""Largest a/R of a sphere: the slope of its profile is singular where a = R."""
 LATERAL_STEPS, LATERAL_FIRST, LATERAL_LAST = 5, -12, 30
 """Number of trapezoids per unit of u for the integral of the lateral surface, y = exp(u - e^(-u)).
 
@@ -66,12 +66,14 @@ def pressure_numbers() -> Numbers:
                 "WIDEST_OVER_B", WIDEST_OVER_B, "Largest a/b: the kernel is singular at the edge."
             ),
             Constant(
+                "WIDEST_OVER_R", WIDEST_OVER_R, "Largest a/R of a sphere: a singular slope at 1."
+            ),
+            Constant(
                 "ERROR",
                 read_stated_limits("pressure")["error"],
-                "Tested limit of the relative error of all results; for the pressure, of its mean.",
+                "Tested limit of the relative error; for pressures, of the mean pressure.",
             ),
             Constant("FADED", float(FADED), "T = 2 eta j_n up to which modes are summed."),
-            Constant("LOW", LOW, "Argument below which sinh(x)/x is 1 + x^2/6, to 1e-14."),
             Constant("FIRST", first, "N(0, 0) over c_1/h."),
             Constant("CUBIC", cubic, "Factor of c_3 a^2/h^3 (x^2 + s^2) in N."),
             Constant("SQUARE", square, "Factor of x^2 + s^2 in the sum of the cosines."),

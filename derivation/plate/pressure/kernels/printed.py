@@ -1,22 +1,22 @@
 """Cosines of the kernel and profile of the sphere, each proved equal to that of step 20.
 
 The kernel is a sum of cosines, with imaginary arguments for the lateral surface. The code uses
-1 - cos and its slope with respect to x = t/a, divided by x.
+1 - cos = q x^2 - e and the slope of e with respect to x = t/a, divided by x.
 """
 
 import sympy as sp
 
 from derivation.engine.emit.named import Claims, named_routine
-from derivation.engine.emit.routine import RAISED, Choice, Let, Routine, routine
+from derivation.engine.emit.routine import Let, Routine, routine
 from derivation.plate.edge.theory.curvature import bent_face
 from derivation.plate.modes.theory.influence import PLANE_STRAIN_MODULUS
 from derivation.plate.pressure.theory import results as theory
 from derivation.plate.pressure.theory.integral_equation import kernel, profile
+from derivation.plate.pressure.theory.remaining_curvature import parts_of_wave
 from derivation.plate.pressure.theory.waves import force_of_wave, mean_deflection
 from derivation.plate.vocabulary import R, a, alpha, r
 
-LOW = sp.Symbol("LOW", positive=True)
-phase, rise, x, y, c, unit = sp.symbols("phase rise x y c unit", positive=True)
+phase, rise, x, y, c = sp.symbols("phase rise x y c", positive=True)
 
 
 def _shape(of_lateral: bool, turn: sp.Expr) -> sp.Expr:
@@ -27,20 +27,27 @@ def _shape(of_lateral: bool, turn: sp.Expr) -> sp.Expr:
 
 
 def _by_exponentials(expression: sp.Expr) -> sp.Expr:
-    reduced = expression.replace(sp.sinc, lambda v: sp.sin(v) / v)
-    return sp.expand(reduced.rewrite(sp.exp))
+    return sp.expand(expression.rewrite(sp.exp))
+
+
+def _parts(cosine: sp.Expr) -> tuple[sp.Expr, ...]:
+    """Return 1 - cos = q x^2 - e, then e, its slope with respect to x divided by x, and q."""
+    risen, deviation, parabola = parts_of_wave(cosine, x)
+    return risen, deviation, sp.diff(deviation, x) / x, parabola
 
 
 @named_routine
 def wave() -> Claims:
-    """Return 1 - cos(phase x), and its slope with respect to x divided by x."""
-    turns = sp.Symbol("turns", positive=True)
-    risen = 1 - _shape(False, phase * x)
+    """Return 1 - cos(phase x) = q x^2 - e, then e, its slope over x, and q."""
+    turns, risen = sp.symbols("turns risen", positive=True)
     return Claims(
         (x, phase),
-        (Let(turns, phase * x),),
-        (2 * sp.sin(turns / 2) ** 2, phase**2 * sp.sinc(turns)),
-        (risen, sp.diff(risen, x) / x),
+        (
+            Let(turns, phase * x),
+            Let(risen, 2 * sp.sin(turns / 2) ** 2),
+        ),
+        (risen, turns**2 / 2 - risen, phase / x * (turns - sp.sin(turns)), phase**2 / 2),
+        _parts(_shape(False, phase * x)),
         {},
         _by_exponentials,
     )
@@ -48,27 +55,24 @@ def wave() -> Claims:
 
 @named_routine
 def lateral_wave() -> Claims:
-    """Return f = 1 - cosh(rise x), and f'(x)/x, both divided by e^y."""
-    grown, faded, half, chord = sp.symbols("grown faded half chord", positive=True)
-    risen = sp.exp(-y) * (1 - _shape(True, rise * x))
-    above = sp.exp(grown - y) - sp.exp(-grown - y)
+    """Return 1 - cosh(rise x) = q x^2 - e, then e, its slope over x, and q, all divided by e^y."""
+    grown, rising, falling, risen, line = sp.symbols("grown rising falling risen line")
     return Claims(
         (x, rise, y),
         (
             Let(grown, rise * x),
-            Let(faded, sp.exp(-y)),
-            Let(half, sp.exp((grown - y) / 2) - sp.exp(-(grown + y) / 2)),
-            Choice(
-                chord,
-                sp.Gt(grown, LOW),
-                above / (2 * RAISED(grown, LOW)),
-                faded * (1 + grown**2 / 6),
-                unclaimed="no",
-                reason="two terms of the power series, accurate to 1e-14 up to LOW",
-            ),
+            Let(rising, sp.exp((grown - y) / 2)),
+            Let(falling, sp.exp(-(grown + y) / 2)),
+            Let(risen, (rising - falling) ** 2 / 2),
+            Let(line, grown * sp.exp(-y)),
         ),
-        (-(half**2) / 2, -(rise**2) * chord),
-        (risen, sp.diff(risen, x) / x),
+        (
+            -risen,
+            risen - grown * line / 2,
+            rise / x * ((rising - falling) * (rising + falling) / 2 - line),
+            -(rise**2) * sp.exp(-y) / 2,
+        ),
+        tuple(sp.exp(-y) * part for part in _parts(_shape(True, rise * x))),
         {},
         _by_exponentials,
     )
@@ -76,17 +80,10 @@ def lateral_wave() -> Claims:
 
 @named_routine
 def edge_wave() -> Claims:
-    """Return 2 t^2/b^2 of the state by which an edge differs, and its slope; alpha = a/b."""
-    width = sp.Symbol("width", positive=True)
-    risen = 1 - bent_face(alpha * x)
-    return Claims(
-        (x, alpha),
-        (Let(width, alpha * alpha),),
-        (2 * width * x**2, 4 * width),
-        (risen, sp.diff(risen, x) / x),
-        {},
-        sp.expand,
-    )
+    """Return 2 t^2/b^2 = q x^2 of the state by which an edge differs, and q; alpha = a/b."""
+    parabola = 2 * alpha**2
+    risen, _, exact = parts_of_wave(bent_face(alpha * x), x)
+    return Claims((x, alpha), (), (parabola * x**2, parabola), (risen, exact), {}, sp.expand)
 
 
 def curved_force() -> Routine:
@@ -117,29 +114,15 @@ def _by_logarithms(expression: sp.Expr) -> sp.Expr:
 
 
 @named_routine
-def paraboloid() -> Claims:
-    """Return g = f R/a^2 of a paraboloid, and g'(x)/x; `unit` is 1 in their shape."""
-    exact = _profile(False)
-    return Claims(
-        (x, unit),
-        (),
-        (x**2 * unit, 2 * unit),
-        (exact, sp.diff(exact, x) / x),
-        {unit: sp.Integer(1)},
-        sp.cancel,
-    )
-
-
-@named_routine
 def sphere() -> Claims:
-    """Return f R/a^2 of a sphere, and its slope with respect to x over x; c = a/R."""
-    angle, arctanh_ratio = sp.symbols("angle arctanh_ratio", positive=True)
-    exact = _profile(True)
+    """Return f R/a^2 - x^2 of a sphere, and its slope with respect to x over x; c = a/R."""
+    angle, excess = sp.symbols("angle excess", positive=True)
+    deviation = _profile(True) - _profile(False)
     return Claims(
         (x, c),
-        (Let(angle, c * x), Let(arctanh_ratio, sp.atanh(angle) / angle)),
-        (x**2 * arctanh_ratio, arctanh_ratio + 1 / ((1 - angle) * (1 + angle))),
-        (exact, sp.diff(exact, x) / x),
+        (Let(angle, c * x), Let(excess, sp.atanh(angle) / angle - 1)),
+        (x**2 * excess, excess + angle**2 / ((1 - angle) * (1 + angle))),
+        (deviation, sp.diff(deviation, x) / x),
         {},
         _by_logarithms,
     )
@@ -249,7 +232,6 @@ ROUTINES = (
     lateral_wave,
     edge_wave,
     curved_force,
-    paraboloid,
     sphere,
     contact_results,
     chi_unit,

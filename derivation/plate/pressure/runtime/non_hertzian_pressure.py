@@ -7,15 +7,18 @@ The pressure is q(r) = -int_r^a chi'(t)/sqrt(t^2 - r^2) dt, where chi solves::
 
 f = t^2/R for a paraboloid and t artanh(t/R) for an exact sphere. k is the slope of
 S = (R/2a) d delta/da for Hertz pressure, so that b k(0) = (3/2) c_1 b/h follows from the
-polynomials of `contact_series`. N is a sum of cosines; with C = 1 - cos::
+polynomials of `contact_series`. N is a sum of cosines::
 
-    N(t, s) - N(0, 0) = sum nu_i [C(w_i t) C(w_i s) - C(w_i t) - C(w_i s)]
+    N(t, s) - N(0, 0) = sum nu_i [cos(w_i t) cos(w_i s) - 1]
 
 For a thick plate the sum covers its modes, w = j_n/b, and the lateral surface, w = i y/b with
 nu < 0. For a thin plate it covers the nodes of an integral, and a multiple of t^2 + s^2 is added.
-N(0, 0), large in a thin plate, is separated: it adds N(0, 0) P/(2 E*) to the indentation. The term
-t^2 + s^2 acts like additional curvature, so that the pressure's shape depends on a/h alone. Another
+N(0, 0), large in a thin plate, is separated: it adds N(0, 0) P/(2 E*) to the indentation. Another
 edge (`edge_curvature`) acts like a wave with 1 - 2 t^2/b^2 in place of its cosine.
+
+A plate that bends under a wide contact is curved almost like the sphere, so that all terms with t^2
+cancel. The equation is therefore solved for the curvature that remains, with a given force; each
+cosine contributes its deviation from a parabola only (`pressure.theory.remaining_curvature`).
 
 Arithmetic: the equation's matrix as products of the kernel's cosines, sums by Gauss quadrature,
 and the conversion of lengths to units of h or b.
@@ -46,11 +49,11 @@ from generated.pressure_numbers import (
     WEIGHTS,
     WIDEST,
     WIDEST_OVER_B,
+    WIDEST_OVER_R,
 )
 
 _POINTS = np.append(NODES, 1.0)
 _BLOCK = 8  # number of contacts in one block, so that intermediate arrays fit in the cache
-_BORDER = (0, 0), (0, 1), (0, 1)  # of matrices, by one row and one column
 
 
 class Plate(NamedTuple):
@@ -127,16 +130,14 @@ class Contact(NamedTuple):
 
 
 class _Waves(NamedTuple):
-    """C = 1 - cos(w t) at points t/a of shape (contacts, points, waves), scaled by e^-y.
+    """C = 1 - cos(w t) = q x^2 - e at x = t/a, scaled by e^-y; shape (contacts, points, waves)."""
 
-    `bends` is dC/dx divided by x, with x = t/a. `weights` contain signs and the factor a;
-    `faded` is the value of cos(0) in that scaling. Shapes: (contacts, waves) and (waves,).
-    """
-
-    rises: Double
-    bends: Double
-    weights: Double
-    faded: Double
+    rises: Double  # C
+    deviations: Double  # e
+    bends: Double  # e'(x)/x
+    parabolas: Double  # q, of shape (contacts, 1, waves) like the weights
+    weights: Double  # with their signs and the factor a
+    faded: Double  # the value of cos(0) in that scaling, of shape (waves,)
 
 
 class _Solution(NamedTuple):
@@ -149,6 +150,7 @@ class _Solution(NamedTuple):
     firm: Double  # depth of a flat punch with int_0^1 psi dx = 1
     rim: Double  # its psi at x = 1
     bends: Double  # -chi'(x)/x at the nodes and at x = 1
+    curvature: Double  # that of the sphere minus that of the plate at the centre, times R
 
 
 def plate(h: float, b: float, edge: float = 0.0) -> Plate:
@@ -213,7 +215,7 @@ def contact(
     plate : Plate
         kernel returned by `plate`
     a : array_like
-        contact radius [m]; 0 < a <= 0.95 b, a <= 7 h, a < R
+        contact radius [m]; 0 < a <= 0.95 b, a <= 7 h, a < R; for an exact sphere, a <= 0.95 R
     R : array_like
         sphere radius [m]; R > 0
     modulus : array_like
@@ -229,9 +231,9 @@ def contact(
     -------
     Contact
         Its arrays have the arguments' broadcast shape. NaN outside the domain, and where contact
-        would be lost at the centre, which happens near a = 6 h in a thin plate. Relative errors are
-        below `pressure_numbers.ERROR`, as measured for h/b from 1e-4 to 1e5: 1e-15 up to a = h, and
-        7e-14 near a = 6 h, where the pressure at the centre almost vanishes.
+        would be lost at the centre, which happens near a = 6 h in a thin plate. Tests compare the
+        relative errors with `pressure_numbers.ERROR` for h/b from 1e-4 to 1e5; those of pressures
+        are relative to the mean pressure, because that at the centre almost vanishes near a = 6 h.
 
     Examples
     --------
@@ -243,11 +245,12 @@ def contact(
     own_modulus = modulus if plate_modulus is None else plate_modulus
     given = np.broadcast_arrays(*as_doubles(a, R, modulus, own_modulus, compliance)[1])
     a, R, modulus, own_modulus, compliance = (np.array(x) for x in given)
-    holds = (a > 0, a <= WIDEST_OVER_B * plate.b, a <= WIDEST * plate.h, a < R)
+    flat_enough = a <= WIDEST_OVER_R * R if sphere else a < R
+    holds = (a > 0, a <= WIDEST_OVER_B * plate.b, a <= WIDEST * plate.h, flat_enough)
     elastic = (modulus > 0, own_modulus >= modulus, ~np.isnan(compliance))
     a, R, modulus, own_modulus = inside([a, R, modulus, own_modulus], *holds, *elastic)
     flat = [np.ravel(x) for x in (a, R, modulus / own_modulus)]
-    sizes: tuple[tuple[int, ...], ...] = ((NODES.size,), (), (), (), (), (), (_POINTS.size,))
+    sizes: tuple[tuple[int, ...], ...] = ((NODES.size,), *5 * ((),), (_POINTS.size,), ())
     inner = [np.empty((flat[0].size, *size)) for size in sizes]
     for start in range(0, flat[0].size, _BLOCK):
         part = slice(start, start + _BLOCK)
@@ -275,69 +278,91 @@ def _contact(plate: Plate, solution: _Solution, given: tuple[Double, ...]) -> Co
 
 def _waves(plate: Plate, a: Double, x: Double, modulus_ratio: Double) -> _Waves:
     """Return the waves at points x = t/a of shape (contacts, points)."""
-    ratio, points = (a / plate.unit)[:, None], x[:, :, None]
-    phase, rise = (ratio * plate.waves)[:, None, :], (ratio * plate.rises)[:, None, :]
-    parts = [kernels.wave(points, phase), kernels.lateral_wave(points, rise, plate.rises)]
-    weights = [plate.wave_weights, -plate.rise_weights]
-    faded = [np.ones(plate.waves.size), np.exp(-plate.rises)]
+    points, ratio = x[:, :, None], (a / plate.unit)[:, None, None]
+    scale = ratio * modulus_ratio[:, None, None]
+    shapes = kernels.wave(points, ratio * plate.waves)
+    parts = [_Waves(*shapes, scale * plate.wave_weights, np.ones_like(plate.waves))]
+    if plate.rises.size:
+        shapes = kernels.lateral_wave(points, ratio * plate.rises, plate.rises)
+        parts.append(_Waves(*shapes, -scale * plate.rise_weights, np.exp(-plate.rises)))
     if plate.edge:
-        width = np.broadcast_to((a / plate.b)[:, None, None], points.shape)
-        parts.append(kernels.edge_wave(points, width))
-        weights.append(np.array([plate.edge]))
-        faded.append(np.ones(1))
-    rises, bends = (np.concatenate(part, axis=2) for part in zip(*parts, strict=True))
-    scaled = ratio * np.concatenate(weights) * modulus_ratio[:, None]
-    return _Waves(rises, bends, scaled, np.concatenate(faded))
+        bent, parabola = kernels.edge_wave(points, (a / plate.b)[:, None, None])
+        none = np.zeros_like(bent)
+        parts.append(_Waves(bent, none, none, parabola, scale * plate.edge, np.ones(1)))
+    if len(parts) == 1:  # without a copy
+        return parts[0]
+    return _Waves(*(np.concatenate(each, axis=-1) for each in zip(*parts, strict=True)))
 
 
 def _solve(plate: Plate, a: Double, R: Double, modulus_ratio: Double, sphere: bool) -> _Solution:
-    """Return chi at the nodes by Nystroem's method; `modulus_ratio` is E* over the plate's.
+    """Return chi at the nodes and its integrals; `modulus_ratio` is E* over the plate's.
 
-    The force is given, 0 for the profile and 1 for the flat punch, and the depth is unknown: at a
-    given depth the equation without N(0, 0) is singular at some radius.
+    The sphere's curvature determines the factor of the solution for a unit force, and a remaining
+    curvature without any sphere the end of the flat punch.
     """
     x = np.broadcast_to(_POINTS, (a.size, _POINTS.size))
     waves = _waves(plate, a, x, modulus_ratio)
     square = plate.square * (a / plate.unit) ** 3 * modulus_ratio
-    weighted = waves.rises * waves.weights[:, None, :]
-    alone = weighted @ waves.faded - square[:, None] * x**2
-    kernel = weighted @ np.swapaxes(waves.rises[:, :-1], 1, 2)
-    kernel -= alone[:, :, None] + alone[:, None, :-1]
-    kernel = np.where(np.isfinite(kernel), kernel, 0.0)
-    system = np.pad(np.eye(NODES.size) + kernel[:, :-1] * WEIGHTS, _BORDER, constant_values=-1.0)
-    system[:, -1] = np.append(WEIGHTS, 0.0)
-    profile, bend = _profile(x, (a / R)[:, None], sphere)
-    sides = np.stack((-profile, np.zeros_like(profile)), axis=2)
-    sides[:, -1] = 0.0, 1.0
-    parts: Double = np.linalg.solve(system, sides)
-    depths: Double = parts[:, -1]
-    ends = depths - (kernel[:, -1:] * WEIGHTS @ parts[:, :-1])[:, 0]
-    force = (profile[:, -1] - ends[:, 0]) / ends[:, 1]
-    chi: Double = parts[:, :-1, 0] + force[:, None] * parts[:, :-1, 1]
-    depth = depths[:, 0] + force * depths[:, 1]
-    work = (chi * (depth[:, None] - profile[:, :-1])) @ WEIGHTS
-    bends = bend - _bends(waves, _transform(waves, chi)) + 2.0 * (square * force)[:, None]
-    return _Solution(chi, force, depth, work, depths[:, 1], ends[:, 1], bends)
+    deviation, bend = _deviation(x, (a / R)[:, None], sphere)
+    chis, ends, curvatures = _unit_solutions(waves, x, deviation)
+    transforms = _transforms(waves, chis)
+    bent = curvatures + (waves.parabolas @ transforms)[:, 0]
+    force = (1.0 - bent[:, 2]) / (bent[:, 0] - square)
+    rim = (square - bent[:, 0]) / bent[:, 1]
+    rises = (waves.rises[:, :-1] @ _column(waves.weights * waves.faded))[:, :, 0]
+    depths = ends + ((WEIGHTS * (square[:, None] * NODES**2 - rises))[:, None] @ chis)[:, 0]
+    firm = depths[:, 0] + rim * depths[:, 1]
+    whole = np.stack((force, np.zeros_like(force), np.ones_like(force)), axis=1)[:, :, None]
+    chi = (chis @ whole)[:, :, 0]
+    depth, curvature = (force * part[:, 0] + part[:, 2] for part in (depths, curvatures))
+    work = (chi * (depth[:, None] - x[:, :-1] ** 2 - deviation[:, :-1])) @ WEIGHTS
+    bends = _bends(waves, transforms @ whole, curvature, bend)
+    return _Solution(chi, force, depth, work, firm, rim, bends, curvature)
 
 
-def _profile(x: Double, c: Double, sphere: bool) -> tuple[Double, Double]:
-    """Return f R/a^2, and its slope with respect to x divided by x, for c = a/R."""
+def _unit_solutions(waves: _Waves, x: Double, deviation: Double) -> tuple[Double, Double, Double]:
+    """Return chi at the nodes, D and the remaining curvature, by Nystroem's method.
+
+    Along the last axis: for int_0^1 chi dx = 1, for chi(1) = 1, and for the sphere's deviation from
+    its paraboloid; the other two are zero. At a given force the equation is never singular.
+    """
+    count = NODES.size
+    kernel = (waves.deviations * waves.weights) @ _cosines(waves)
+    system = np.zeros((len(x), count + 2, count + 2))
+    system[:, :-1, :-2] = np.where(np.isfinite(kernel), kernel, 0.0)
+    system[:, :-2, :-2] += np.eye(count)
+    system[:, :-1, -2:] = np.stack((-np.ones_like(x), x**2), axis=2)
+    system[:, -1, :-2] = WEIGHTS
+    sides = np.zeros((len(x), count + 2, 3))
+    sides[:, -1, 0], sides[:, -2, 1], sides[:, :-1, 2] = 1.0, -1.0, -deviation
+    parts = np.asarray(np.linalg.solve(system, sides), dtype=float)
+    return parts[:, :-2], parts[:, -2], parts[:, -1]
+
+
+def _deviation(x: Double, c: Double, sphere: bool) -> tuple[Double, Double]:
+    """Return f R/a^2 - x^2, and its slope with respect to x divided by x, for c = a/R."""
     if sphere:
         return kernels.sphere(x, c)
-    return kernels.paraboloid(x, np.ones_like(x * c))
+    return np.zeros_like(x), np.zeros_like(x)
 
 
-def _transform(waves: _Waves, chi: Double) -> Double:
-    """Return int_0^1 chi cos(w a x) dx, scaled like the waves."""
-    weighted = (chi * WEIGHTS)[:, None, :]
-    near = waves.rises[:, : NODES.size]
-    whole: Double = weighted.sum(axis=2) * waves.faded - (weighted @ near)[:, 0]
-    return whole
+def _cosines(waves: _Waves) -> Double:
+    """Return the rows of int_0^1 chi cos(w a x) dx, scaled like the waves."""
+    return WEIGHTS * np.swapaxes(waves.faded - waves.rises[:, : NODES.size], 1, 2)
 
 
-def _bends(waves: _Waves, transform: Double) -> Double:
-    """Return the contribution of the waves to chi'(x)/x."""
-    return np.asarray(waves.bends @ (waves.weights * transform)[:, :, None])[:, :, 0]
+def _transforms(waves: _Waves, chis: Double) -> Double:
+    """Return int_0^1 chi cos(w a x) dx times the weights; chi of shape (contacts, nodes, any)."""
+    return _column(waves.weights) * (_cosines(waves) @ chis)
+
+
+def _column(row: Double) -> Double:
+    return np.swapaxes(row, 1, 2)
+
+
+def _bends(waves: _Waves, transforms: Double, curvature: Double, bend: Double) -> Double:
+    """Return -chi'(x)/x."""
+    return (waves.bends @ transforms)[:, :, 0] + (2.0 * curvature)[:, None] + bend
 
 
 @quiet
@@ -385,15 +410,16 @@ def pressure(
     radius, modulus_ratio = np.array([float(a)]), np.array([float(modulus) / own_modulus])
     points = np.broadcast_to(_POINTS, (1, _POINTS.size))
     solution = _solve(plate, radius, np.array([float(R)]), modulus_ratio, sphere)
-    transform = _transform(_waves(plate, radius, points, modulus_ratio), solution.chi)
-    square = 2.0 * plate.square * (radius / plate.unit) ** 3 * modulus_ratio * solution.force
+    nodes = _waves(plate, radius, points, modulus_ratio)
+    transforms = _transforms(nodes, solution.chi[:, :, None])
     ratio = np.ravel(r) / float(a)
     result = np.empty(ratio.size)
     for start in range(0, ratio.size, _BLOCK):
         part = slice(start, start + _BLOCK)
         x, front = kernels.pressure_points(ratio[part, None], NODES)
-        waves = _waves(plate, radius, x.reshape(1, -1), modulus_ratio)
-        _, bend = _profile(x, np.asarray(a / R), sphere)
-        bends = bend - _bends(waves, transform).reshape(x.shape) + square
-        result[part] = front[:, 0] * (bends @ WEIGHTS)
+        places = x.reshape(1, -1)
+        waves = _waves(plate, radius, places, modulus_ratio)
+        _, bend = _deviation(places, np.asarray(a / R), sphere)
+        bends = _bends(waves, transforms, solution.curvature, bend)
+        result[part] = front[:, 0] * (bends.reshape(x.shape) @ WEIGHTS)
     return (kernels.pressure_unit(*map(np.asarray, (a, R, modulus))) * result.reshape(r.shape))[()]

@@ -28,6 +28,7 @@ from derivation.plate.impact.theory.substitution import slope_law
 from derivation.plate.modes.theory.influence import influence_coefficients
 from derivation.plate.modes.theory.plate_factor import plate_factors
 from derivation.plate.pressure.theory.bound import pressure_bound
+from derivation.plate.pressure.theory.remaining_curvature import remaining_curvature
 from derivation.plate.pressure.theory.results import results, substitution
 from derivation.plate.vocabulary import (
     J1,
@@ -334,5 +335,6 @@ def non_hertzian_pressure() -> tuple[Formula, ...]:
     profiles()
     motion_of_the_edge()
     results()
+    remaining_curvature()
     substitution()
     return (*kernel(), *at_given_force(), *pressure_bound())

@@ -6,8 +6,9 @@ equation for c, and for psi of the flat punch. chi gives the elastic energy: bec
 symmetric, dU/da = P d delta/da for U = pi int chi (delta - f) dt.
 
 Without N_0 there is a radius at which I + N is singular: the rest of a flexible plate alone has no
-stiffness there. At a given force it is always regular: c is solved for int c = 0, with an unknown
-depth, and the flat punch for int psi = 1, where (I + N) psi = firm. Their sum has c(1) = 0.
+stiffness there. At a given force it is always regular. c is therefore solved for given int c and
+c(1), with an unknown depth and an unknown curvature (`remaining_curvature`), and psi of the flat
+punch, where (I + N) psi = firm, is the sum of such solutions with int psi = 1.
 """
 
 from functools import cache

@@ -42,10 +42,8 @@ CONVERGED, NARROWEST = 5e-14, 1e-3
 """Largest accepted ratio of the last coefficients to the largest; smallest panel width [1]."""
 POINTS, SMALL = 60, 1e-5
 """Number of contact radii at which code and law are compared, and the smallest over the limit."""
-TOLERANCES = {"force": 1e-10, "stiffness": 1e-6, "contact_radius": 1e-10, "impact": 1e-10}
-"""Largest allowed relative differences between code and law.
-
-With non-Hertzian pressure, the stiffness of the law itself is accurate to 1e-7 at a = 0.99 R."""
+TOLERANCE = 1e-10
+"""Largest allowed relative difference between code and law."""
 STIFFEST = 2e-3
 """Smallest time scale of the internal state over the contact time for explicit steps [1]."""
 STIFF = (
@@ -371,9 +369,9 @@ def errors(recipe: Recipe, module: Mapping[str, Any]) -> dict[str, float]:
         numbers, reference = np.array(module["impact"]()), np.array(recipe.motion.numbers)
         worst["impact"] = float(np.max(np.abs(numbers - reference) / np.append(reference[:4], 1.0)))
     for name, error in worst.items():
-        if not error <= TOLERANCES[name]:
+        if not error <= TOLERANCE:
             raise SceneError(
                 f"scene: expected code with a {name.replace('_', ' ')} accurate to "
-                f"{TOLERANCES[name]:g}, got an error of {error:.1e}; use less extreme values"
+                f"{TOLERANCE:g}, got an error of {error:.1e}; use less extreme values"
             )
     return worst

@@ -42,7 +42,7 @@ MAY_STAY: Mapping[str, tuple[int, str]] = {
     **dict.fromkeys(("impact._deepest", "impact._far_deepest", "impact._state"), (1, LAST)),
     "impact._solve": (4, GUARD),
     "non_hertzian_pressure._contact": (1, ELSEWHERE),
-    "non_hertzian_pressure.contact": (5, GUARD),
+    "non_hertzian_pressure.contact": (6, GUARD),
     "non_hertzian_pressure.plate": (4, GUARD),
     "non_hertzian_pressure.pressure": (1, GUARD),
     "perturbation._eta": (1, ELSEWHERE),

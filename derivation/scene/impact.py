@@ -40,6 +40,7 @@ from derivation.scene.scene import OUTPUTS, TIGHTEST, Scene, check_scene
 from derivation.scene.selection.achieved_accuracy import ESTIMATED, AchievedAccuracy, Part
 from derivation.scene.selection.effect_selection import SelectedEffects, decide
 from derivation.scene.selection.method_selection import (
+    accuracy_on,
     check_rtol,
     dynamic_impact,
     growth_of,
@@ -136,8 +137,10 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
     stress = TensileStress(math.nan, math.nan, static=motion is None)
     if strength is not None or yield_stress is not None:
         stress = tensile_stress(law, motion, numbers, not selected.edge_disabled)
-    pressure_error = accuracy.pressure_bound + errors["max_contact_radius"]
-    stress_error = accuracy.bound + stress.error
+    pressed = accuracy_on(OUTPUTS, selected, motion, accuracy)
+    loaded = accuracy_on(("max_force",), selected, motion, accuracy)
+    pressure_error = pressed.pressure_bound + errors["max_contact_radius"]
+    stress_error = loaded.bound + stress.error
     warnings = (
         *on_units,
         *hollow_warnings(model),

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from derivation.engine.text import aligned, paragraph
 from derivation.scene.contact_law.yield_warnings import assumed_yield_stress
+from derivation.scene.output.result_errors import unknown
 from derivation.scene.quantity import digits_of, percent, prefixed, significant
 
 if TYPE_CHECKING:
@@ -72,9 +73,15 @@ def _remarks(result: "Result") -> Iterator[str]:
         yield f"Unknown: the error by {result.accuracy.largest_part} may be as large as the results"
     elif not digits_of(result.model_error) and not result.unusable_note:
         yield "Uncertain: the model error may be as large as the results"
+    elif others := unknown(result):
+        names = ", ".join(name.replace("_", " ") for name in others)
+        yield (
+            f"Unknown: {names}, which accuracy.outputs does not name: omitted effects or modes may "
+            "change them by as much as they are"
+        )
     yield f"Effects: {result.effects.summary}"
     if result.energy_balance is not None and result.complete:
-        error = bound + result.model_errors["restitution"]
+        error = result.bound_of("restitution") + result.model_errors["restitution"]
         yield f"Energy: {result.energy_balance.in_words(error)}"
     if result.measured_note:
         yield f"Measured: {result.measured_note}"
@@ -106,7 +113,7 @@ def _model_error(result: "Result") -> str:
 
 def _stress_error(result: "Result") -> str:
     """Return the error of the tensile stress, which the bound does not include."""
-    error = result.accuracy.bound + result.tensile_stress.error
+    error = result.bound_of("max_tensile_stress") + result.tensile_stress.error
     if result.dynamics is None or not math.isfinite(error):
         return ""
     return f"; of max tensile stress up to {percent(error)} (estimated)"

@@ -240,7 +240,6 @@ class _Block:
         accuracy, rtol = scene.accuracy, self.rtol
         if rtol is None and accuracy is not None:
             rtol = accuracy.rtol
-        outputs = accuracy.outputs if accuracy is not None else OUTPUTS
         try:
             tolerance = selection_tolerance(rtol)
         except SceneError:
@@ -253,7 +252,7 @@ class _Block:
         except SceneError:
             return
         wanted = scene.effects.model_dump()
-        for group in selected(model, wanted, np.full(len(rows), tolerance), outputs):
+        for group in selected(model, wanted, np.full(len(rows), tolerance), _outputs(scene)):
             if isinstance(group, Rejected):
                 self.table.reason[self.indices[rows[group.rows]]] = group.reason
                 yield rows[group.rows]
@@ -277,11 +276,18 @@ class _Block:
         self, group: Group, rows: NDArray[np.intp], scene: Scene, rtol: float | None
     ) -> NDArray[np.intp]:
         """Compute the impacts of a group; return the rows that have results."""
-        law, error = group.law, group.error
+        law, error, outputs = group.law, group.error, _outputs(scene)
         rest = None if rtol is None else (rtol - error) / (1.0 + error)
         impacts = impacts_of(law, len(rows), rest)
-        parts = (error, impacts.law, impacts.quadrature, impacts.rounding)
-        bound = np.expm1(sum(np.log1p(part) for part in parts))
+
+        def bound_with(omitted: Array) -> Array:
+            parts = (omitted, impacts.law, impacts.quadrature, impacts.rounding)
+            return np.asarray(np.expm1(sum(np.log1p(part) for part in parts)))
+
+        def omitted_on(*names: str) -> Array:
+            return error if set(names) <= set(outputs) else group.error_on(names)
+
+        bound, on_pressure = bound_with(error), omitted_on(*OUTPUTS)
         a, P = impacts.max_contact_radius[:, None], impacts.max_force[:, None]
         with np.errstate(all="ignore"):
             numbers = {
@@ -311,8 +317,10 @@ class _Block:
         with np.errstate(all="ignore"):
             errors = static_errors(law, a, deflection, times, periods, group.held)
         numbers_and_errors = numbers | {
-            "pressure_error": np.expm1(np.log1p(bound) + 2.0 * np.log1p(error)) + model_error,
-            "stress_error": bound + np.broadcast_to(errors, a.shape)[:, 0],
+            "pressure_error": model_error
+            + np.expm1(np.log1p(bound_with(on_pressure)) + 2.0 * np.log1p(on_pressure)),
+            "stress_error": bound_with(omitted_on("max_force"))
+            + np.broadcast_to(errors, a.shape)[:, 0],
         }
         reasons = warnings_of_rows(law, numbers_and_errors, strength, which)
         indices = self.indices[rows[which]]
@@ -326,3 +334,8 @@ class _Block:
         included = " ".join(effect.name for effect in EFFECTS if effect.name in law.effects)
         self.table.effects[indices] = included
         return group.rows[which]
+
+
+def _outputs(scene: Scene) -> tuple[str, ...]:
+    """Return the results that the tolerance of a scene applies to."""
+    return OUTPUTS if scene.accuracy is None else scene.accuracy.outputs

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from derivation.engine.text import aligned, paragraph
@@ -123,6 +123,13 @@ class SelectedEffects:
         if self._selection is None:
             return self.error
         return select(self.law.model, self._selection.choice, rtol, self.outputs).error
+
+    def on(self, outputs: tuple[str, ...]) -> "SelectedEffects":
+        """Return the same effects with the bound on the change of other outputs."""
+        if self._selection is None:
+            return replace(self, outputs=outputs)
+        error = error_of(self._selection.state, self._selection.omitted, outputs)
+        return replace(self, outputs=outputs, error=error)
 
     @property
     def stated_error(self) -> float:

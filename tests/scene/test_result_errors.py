@@ -50,6 +50,10 @@ def test_requested_outputs_keep_their_bound() -> None:
     result = simulate(scene({}), rtol=1e-2)
     assert {result.bound_of(name) for name in OUTPUTS} == {result.accuracy.bound}
     assert result.bound_of("max_pressure") == result.accuracy.pressure_bound
+    some = simulate(scene({}, accuracy={"rtol": 1e-2, "outputs": ["max_indentation", "max_force"]}))
+    changed = "change max indentation and max force by at most"
+    assert changed in some.effects.summary
+    assert any(changed in row.reason for row in some.effects.rows)
 
 
 @pytest.mark.parametrize("requested", ["restitution", "max_force"])

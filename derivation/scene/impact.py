@@ -155,7 +155,9 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
         warnings += jump_warnings(law, motion)
         warnings += unlike_jump_warnings(law, motion)
         rebound = motion.restitution * model.v0
-        warnings += fall_warnings(model.gravity, rebound, motion.later_deflection)
+        returned = accuracy_on(("restitution",), selected, motion, accuracy)
+        speed_error = returned.bound + errors["restitution"]
+        warnings += fall_warnings(model.gravity, rebound, motion.later_deflection, speed_error)
     return Result(
         *numbers, pressure, accuracy, model_error, warnings, scene,
         selected.grown(growth_of(motion)), inertia_neglected=neglected,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from derivation.engine.text import aligned, paragraph
 from derivation.scene.contact_law.yield_warnings import assumed_yield_stress
-from derivation.scene.output.result_errors import unknown
+from derivation.scene.output.result_errors import largest_within_error, unknown
 from derivation.scene.quantity import digits_of, percent, prefixed, significant
 
 if TYPE_CHECKING:
@@ -95,7 +95,11 @@ def _remarks(result: "Result") -> Iterator[str]:
     if result.strength_note:
         yield f"Strength: {result.strength_note}"
     if not result.effects.law.viscous:  # its pressure is known only in part
-        assumed = assumed_yield_stress(result.scene, result.max_pressure, result.max_tensile_stress)
+        largest = largest_within_error(result, "max_pressure")
+        # A yielding contact does not exceed the limit of the softer body.
+        pressure = min(largest, result.effects.law.pressure_limit)
+        bending = largest_within_error(result, "max_tensile_stress")
+        assumed = assumed_yield_stress(result.scene, pressure, bending)
         if assumed:
             yield f"Yield: {assumed}"
 

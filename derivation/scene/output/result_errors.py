@@ -43,12 +43,22 @@ def digits_of_result(result: "Result", name: str) -> int:
     bound = bound_of(result, name)
     if math.isinf(bound) and math.isfinite(result.accuracy.bound):
         return 0
-    error = bound + result.model_errors.get(SAME_ERROR.get(name, name), result.model_error)
+    return max(digits_of(_error_of(result, name, bound)), min(1, digits_of(bound)))
+
+
+def _error_of(result: "Result", name: str, bound: float) -> float:
+    """Return the relative error of a result by its bound and by the model [1]."""
     if name == "max_tensile_stress":
-        error = bound + result.tensile_stress.error
+        return bound + result.tensile_stress.error
     if name == "dent":
-        error = _dent_error(result, result.model_errors[FORCE])
-    return max(digits_of(error), min(1, digits_of(bound)))
+        return _dent_error(result, result.model_errors[FORCE])
+    return bound + result.model_errors.get(SAME_ERROR.get(name, name), result.model_error)
+
+
+def largest_within_error(result: "Result", name: str) -> float:
+    """Return a result in its unit, increased by its error unless this is unknown."""
+    error = _error_of(result, name, bound_of(result, name))
+    return float(getattr(result, name)) * (1.0 + (error if math.isfinite(error) else 0.0))
 
 
 def unknown(result: "Result") -> tuple[str, ...]:

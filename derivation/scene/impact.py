@@ -28,6 +28,7 @@ from derivation.scene.effects.effect import Results
 from derivation.scene.errors import SceneError, ToleranceError
 from derivation.scene.input.units import unit_warnings, with_unit_warnings
 from derivation.scene.measured.measured import (
+    ambiguity_warnings,
     error_of,
     inaccurate_constant,
     remaining_of,
@@ -151,6 +152,7 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
     )
     if motion is not None:
         speeds = [touch.relative_approach_speed for touch in motion.inertia.contacts]
+        warnings += ambiguity_warnings(scene, len(speeds))
         warnings += grazing_warnings(speeds, motion.least)
         warnings += jump_warnings(law, motion)
         warnings += unlike_jump_warnings(law, motion)

@@ -37,7 +37,7 @@ from derivation.scene.rows.columns import (
 from derivation.scene.rows.selection import Group, Rejected, selected
 from derivation.scene.rows.static_rows import impacts_of
 from derivation.scene.rows.warnings import warnings_of_rows
-from derivation.scene.scene import OUTPUTS, Scene, read
+from derivation.scene.scene import OUTPUTS, Scene, outputs_of, read
 from derivation.scene.selection.selection import check_enabled
 from derivation.scene.tensile_stress import static_errors
 from generated.arrays import Double as Array
@@ -252,7 +252,7 @@ class _Block:
         except SceneError:
             return
         wanted = scene.effects.model_dump()
-        for group in selected(model, wanted, np.full(len(rows), tolerance), _outputs(scene)):
+        for group in selected(model, wanted, np.full(len(rows), tolerance), outputs_of(scene)):
             if isinstance(group, Rejected):
                 self.table.reason[self.indices[rows[group.rows]]] = group.reason
                 yield rows[group.rows]
@@ -276,7 +276,7 @@ class _Block:
         self, group: Group, rows: NDArray[np.intp], scene: Scene, rtol: float | None
     ) -> NDArray[np.intp]:
         """Compute the impacts of a group; return the rows that have results."""
-        law, error, outputs = group.law, group.error, _outputs(scene)
+        law, error, outputs = group.law, group.error, outputs_of(scene)
         rest = None if rtol is None else (rtol - error) / (1.0 + error)
         impacts = impacts_of(law, len(rows), rest)
 
@@ -334,8 +334,3 @@ class _Block:
         included = " ".join(effect.name for effect in EFFECTS if effect.name in law.effects)
         self.table.effects[indices] = included
         return group.rows[which]
-
-
-def _outputs(scene: Scene) -> tuple[str, ...]:
-    """Return the results that the tolerance of a scene applies to."""
-    return OUTPUTS if scene.accuracy is None else scene.accuracy.outputs

@@ -16,8 +16,8 @@ from derivation.scene.effects.effect import NO_BOUND, Effect
 from derivation.scene.impact import selected_effects
 from derivation.scene.numerics.quadrature import NODES, rule
 from derivation.scene.quantity import prefixed
-from derivation.scene.scene import OUTPUTS, Scene
-from derivation.scene.selection.effect_selection import SelectedEffects
+from derivation.scene.scene import Scene
+from derivation.scene.selection.effect_selection import SelectedEffects, named
 
 
 @dataclass(frozen=True)
@@ -50,10 +50,7 @@ class Explanation:
     def __str__(self) -> str:
         """Return the selected effects and the error bound of the omitted ones."""
         effects = ", ".join(self.effects.included)
-        results = "each result"
-        if self.effects.outputs != OUTPUTS:
-            names = [name.replace("_", " ") for name in self.effects.outputs]
-            results = " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
+        results = named(self.effects.outputs, "each result")
         omitted = (
             f"The omitted effects change {results} by at most {self.effects.stated_error:.1e} "
             f"(tolerance {self.effects.rtol:.3g})."

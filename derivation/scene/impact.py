@@ -28,6 +28,7 @@ from derivation.scene.effects.effect import Results
 from derivation.scene.errors import SceneError, ToleranceError
 from derivation.scene.input.units import unit_warnings, with_unit_warnings
 from derivation.scene.measured.measured import (
+    ambiguity_warnings,
     error_of,
     inaccurate_constant,
     remaining_of,
@@ -40,6 +41,7 @@ from derivation.scene.scene import OUTPUTS, TIGHTEST, Scene, check_scene
 from derivation.scene.selection.achieved_accuracy import ESTIMATED, AchievedAccuracy, Part
 from derivation.scene.selection.effect_selection import SelectedEffects, decide
 from derivation.scene.selection.method_selection import (
+    accuracy_on,
     check_rtol,
     dynamic_impact,
     growth_of,
@@ -136,8 +138,10 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
     stress = TensileStress(math.nan, math.nan, static=motion is None)
     if strength is not None or yield_stress is not None:
         stress = tensile_stress(law, motion, numbers, not selected.edge_disabled)
-    pressure_error = accuracy.pressure_bound + errors["max_contact_radius"]
-    stress_error = accuracy.bound + stress.error
+    pressed = accuracy_on(OUTPUTS, selected, motion, accuracy)
+    loaded = accuracy_on(("max_force",), selected, motion, accuracy)
+    pressure_error = pressed.pressure_bound + errors["max_contact_radius"]
+    stress_error = loaded.bound + stress.error
     warnings = (
         *on_units,
         *hollow_warnings(model),
@@ -148,11 +152,14 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
     )
     if motion is not None:
         speeds = [touch.relative_approach_speed for touch in motion.inertia.contacts]
+        warnings += ambiguity_warnings(scene, len(speeds))
         warnings += grazing_warnings(speeds, motion.least)
         warnings += jump_warnings(law, motion)
         warnings += unlike_jump_warnings(law, motion)
         rebound = motion.restitution * model.v0
-        warnings += fall_warnings(model.gravity, rebound, motion.later_deflection)
+        returned = accuracy_on(("restitution",), selected, motion, accuracy)
+        speed_error = returned.bound + errors["restitution"]
+        warnings += fall_warnings(model.gravity, rebound, motion.later_deflection, speed_error)
     return Result(
         *numbers, pressure, accuracy, model_error, warnings, scene,
         selected.grown(growth_of(motion)), inertia_neglected=neglected,

@@ -15,7 +15,7 @@ from derivation.scene.effects.effect import NO_BOUND
 from derivation.scene.errors import SceneError
 from derivation.scene.measured import measured
 from derivation.scene.model import Model
-from derivation.scene.output import answer, unusable
+from derivation.scene.output import answer, result_errors, unusable
 from derivation.scene.output.history import POINTS, DynamicHistory, History, Pressures, times_of
 from derivation.scene.output.pressure_profile import pressure_profile
 from derivation.scene.quantity import counted, digits_of
@@ -123,7 +123,7 @@ class Result:
 
         Cone cracks, which start on the contact face around the contact, are not considered.
         """
-        strength, bound = self.scene.plate.tensile_strength, self.accuracy.bound
+        strength, bound = self.scene.plate.tensile_strength, self.bound_of("max_tensile_stress")
         if strength is None:
             return ""
         return self.tensile_stress.safety(strength, bound, self.inertia_neglected)
@@ -352,18 +352,17 @@ class Result:
         """Number of significant digits of all requested results; 0 if one of them has none."""
         return digits_of(self.accuracy.bound + self.model_error)
 
-    def digits_of_result(self, name: str) -> int:
-        """Return the significant digits that bound and model error of a result support.
+    def bound_of(self, name: str) -> float:
+        """Return the bound on the relative error of a result [1], without its model error.
 
-        A known number of the model has at least one digit, whatever the model error.
+        The tolerance need not apply to it. The bound is infinite if there is none. That of
+        `max_tensile_stress` is the one of the force; the rest is in `tensile_stress`.
         """
-        bound = self.accuracy.bound
-        error = bound + self.model_errors.get(_SAME_ERROR.get(name, name), self.model_error)
-        if name == "max_tensile_stress":
-            error = bound + self.tensile_stress.error
-        if name == "max_pressure":
-            error += self.accuracy.pressure_bound - bound
-        return max(digits_of(error), min(1, digits_of(bound)))
+        return result_errors.bound_of(self, name)
+
+    def digits_of_result(self, name: str) -> int:
+        """Return the significant digits that bound and model error of a result support."""
+        return result_errors.digits_of_result(self, name)
 
     def numbers(self) -> list[tuple[str, float, str]]:
         """Return name, value and SI unit of each result; with plate inertia also the total time."""
@@ -387,8 +386,6 @@ class Result:
         return answer.html(self)
 
 
-_SAME_ERROR = {"max_pressure": "max_contact_radius"}
-"""The result whose model error another one has: p_0 is proportional to a."""
 UNITS = {
     "contact_time": "s",
     "max_indentation": "m",

@@ -386,3 +386,8 @@ def _by_table(problem: Problem) -> Problem:
     if len(place) > 1 and place[0] == OWN_MATERIALS:
         place = (f"{OWN_MATERIALS}.{place[1]}", *place[2:])
     return problem._replace(place=place)
+
+
+def outputs_of(scene: Scene) -> tuple[str, ...]:
+    """Return the results that the tolerance and the error bound of a scene apply to."""
+    return OUTPUTS if scene.accuracy is None else scene.accuracy.outputs

@@ -131,6 +131,7 @@ def static_errors(
     on_edge
         Whether the edge of the scene counts, even if the law omits it.
     """
+    deflection = np.maximum(deflection, 0.0)  # of a stiff plate, by rounding or approximation
     error = membrane_stress(law.model, deflection) + stretching(law.model, deflection)
     if on_edge:
         error = error + edge_stress_errors(law.model, a)

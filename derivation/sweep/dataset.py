@@ -9,6 +9,7 @@ import numpy as np
 from derivation.scene.errors import SceneError
 from derivation.scene.input.keys import described, takes_names, unit_of
 from derivation.scene.result import UNITS
+from derivation.scene.scene import outputs_of
 from derivation.sweep.plan import GridPlan
 from derivation.sweep.store import NUMBERS, TEXTS, Store
 from derivation.sweep.study import Study
@@ -47,10 +48,10 @@ def labels(name: str) -> dict[str, str]:
 
 
 def attributes(study: Study) -> dict[str, Any]:
-    """Return scene and program version of a study, and seed and tolerance if it has them."""
+    """Return scene, version and results with `bound` of a study, and seed and tolerance if any."""
     accuracy = study.scene.accuracy
     rtol = accuracy.rtol if study.rtol is None and accuracy is not None else study.rtol
-    given = {"seed": study.plan.seed, "rtol": rtol}
+    given = {"seed": study.plan.seed, "rtol": rtol, "outputs": " ".join(outputs_of(study.scene))}
     metadata = {"scene": json.dumps(study.base["scene"]), "version": study.base["version"]}
     return metadata | {name: value for name, value in given.items() if value is not None}
 

@@ -10,6 +10,8 @@ from derivation.engine.text import aligned, wording
 from derivation.scene.input.keys import written
 from derivation.scene.quantity import common_prefix, counted, percent
 from derivation.scene.result import UNITS
+from derivation.scene.scene import OUTPUTS, outputs_of
+from derivation.scene.selection.effect_selection import named
 from derivation.sweep.dataset import column
 from derivation.sweep.sensitivity import Sensitivities
 from derivation.sweep.store import Store
@@ -58,6 +60,8 @@ class Summary:
         Number of points with a warning, or with a reason why there is no result.
     sensitivities
         Sensitivity indices, if requested.
+    outputs
+        The results that the bounds apply to.
     """
 
     points: int
@@ -69,6 +73,7 @@ class Summary:
     warnings: tuple[str, ...]
     warned: int
     sensitivities: Sensitivities | None
+    outputs: tuple[str, ...] = OUTPUTS
 
     def to_json(self) -> dict[str, Any]:
         """Return the summary under fixed keys, in SI units."""
@@ -89,7 +94,8 @@ class Summary:
             if unit != "1":
                 values, unit = common_prefix(values, unit)
             rows.append([name.replace("_", " "), *(f"{x:#.{DIGITS}g}" for x in values), unit])
-        accuracy = f"relative error at most {self.largest_bound:.1e}"
+        whose = named(self.outputs, "")
+        accuracy = f"relative error{whose and f' of {whose}'} at most {self.largest_bound:.1e}"
         if self.largest_bound == np.inf:
             accuracy = "no error bound is known at some points"
         if np.isnan(self.largest_bound):
@@ -134,7 +140,7 @@ def summary(store: Store, computed: int, sensitivities: Sensitivities | None) ->
     size = store.study.plan.size
     return Summary(
         size, computed, dict(sorted(counts.items())), ranges, bound, model_error, warnings, warned,
-        sensitivities,
+        sensitivities, outputs_of(store.study.scene),
     )  # fmt: skip
 
 

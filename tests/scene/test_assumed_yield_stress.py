@@ -56,3 +56,16 @@ def test_yield_stress_that_a_measured_restitution_determines_is_known() -> None:
     assert "no yield stress is given for the sphere; the results assume at least" in text
     known = changed(sphere={"yield_stress": 1e12}) | {"measured": measured}
     assert assumed(known) is None
+
+
+def test_assumed_stress_includes_the_error_of_the_pressure() -> None:
+    """A plate with the stated yield stress is not reported to yield within the error."""
+    elastic = changed(effects={"plasticity": False})
+    loose = elastic | {"accuracy": {"rtol": 0.2}}
+    stress = assumed(loose)
+    assert stress
+    assert stress > 1.01 * (assumed(elastic) or 0.0)
+    for factor, may_yield in ((1.01, False), (0.99, True)):
+        plate = loose["plate"] | {"yield_stress": factor * stress}
+        warnings = simulate(read(loose | {"plate": plate})).warnings
+        assert any("may yield" in text for text in warnings) == may_yield

@@ -6,6 +6,8 @@ import numpy as np
 import platecontact as pc
 import pytest
 
+from derivation.scene.dynamic.contact_warnings import fall_warnings
+
 G = 1.3174
 """Gravitational acceleration at which the sphere rises less than the plate deflects [m/s^2]."""
 
@@ -43,3 +45,14 @@ def test_a_warning_tells_whether_the_sphere_meets_the_plate_while_it_rises_and_f
     meets = any(flying.flown(after, float(t)).approach > 0.0 for t in times)
     assert meets == (gravity == G)
     assert any("the weight returns the sphere" in text for text in result.warnings) == meets
+
+
+def test_a_fall_within_the_error_of_the_speed_is_possible() -> None:
+    rise = 0.5 * 0.1**2 / 9.81
+    assert not fall_warnings(9.81, 0.1, 0.9 * rise)
+    [text] = fall_warnings(9.81, 0.1, 0.9 * rise, error=0.06)
+    assert "may return (speed known to 6 %) the sphere to a moving plate" in text
+    assert not fall_warnings(9.81, 0.1, 0.9 * rise, error=0.05)
+    assert not fall_warnings(0.0, 0.1, rise, error=2.0)
+    [text] = fall_warnings(9.81, 0.1, 1.1 * rise, error=0.06)
+    assert "the weight returns the sphere" in text

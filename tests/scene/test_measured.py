@@ -11,7 +11,13 @@ from derivation.scene import SceneError, read, simulate
 from derivation.scene.dynamic.flight import meeting_speed
 from derivation.scene.measured import measured as measured_module
 from derivation.scene.measured import rough_search
-from derivation.scene.measured.measured import error_of, fitted, in_words, solved
+from derivation.scene.measured.measured import (
+    ambiguity_warnings,
+    error_of,
+    fitted,
+    in_words,
+    solved,
+)
 from derivation.scene.measured.measurement import Measurement, Trial
 from derivation.scene.quasi_static.viscous import impact as viscous_impact
 from derivation.scene.scene import OUTPUTS
@@ -313,3 +319,38 @@ def test_the_weight_of_the_sphere_acts_on_a_block_too(speed: float) -> None:
     hertz = {"effects": {"spherical_profile": False}}
     scene = read(BLOCK | hertz | {"impact": impact, "measured": wanted})
     assert solved(scene) == pytest.approx(time, rel=1e-6)
+
+
+def test_several_values_of_several_contacts_are_announced() -> None:
+    """Yield stresses of 16.3 and 6.4 MPa have one restitution, and forces that differ by 23 %."""
+    plate = {
+        "radius": 0.1336, "thickness": 4.9146e-3, "edge": "clamped", "youngs_modulus": 9e9,
+        "poissons_ratio": -0.3, "density": 2000.0,
+    }  # fmt: skip
+    sphere = {
+        "radius": 0.027806, "density": 2500.0, "youngs_modulus": 70e9, "poissons_ratio": 0.22
+    }  # fmt: skip
+    tables = {"sphere": sphere, "impact": {"speed": 0.019115}, "accuracy": {"rtol": 0.01}}
+    other = simulate(read(tables | {"plate": plate | {"yield_stress": 6.4e6}}))
+    wanted = {"solve_for": "yield_stress", "target": "plate", "restitution": other.restitution}
+    scene = read(tables | {"plate": plate, "measured": wanted})
+    result = simulate(scene)
+    assert result.restitution == pytest.approx(other.restitution, rel=2e-3)
+    assert solved(scene) > 2.0 * 6.4e6
+    assert result.max_force > 1.2 * other.max_force
+    assert any("other values of plate.yield_stress" in text for text in result.warnings)
+    assert not ambiguity_warnings(scene, contacts=1)
+    assert not ambiguity_warnings(read(BLOCK), contacts=2)
+
+
+def test_constant_is_shown_with_the_digits_of_its_error() -> None:
+    """Near the onset of yield, the restitution hardly depends on the yield stress."""
+    wanted = {"solve_for": "yield_stress", "restitution": 1.0 - 1e-12, "target": "plate"}
+    thick = BLOCK["plate"] | {"radius": 0.1, "thickness": 0.1}
+    tables = BLOCK | {"plate": thick, "effects": {"inertia": False}}
+    scene = read(tables | {"measured": wanted})
+    value = in_words(scene).partition(" = ")[2].split()[0]
+    assert len(value.replace(".", "").lstrip("0")) == 2
+    clearer = read(tables | {"measured": wanted | {"restitution": 0.99}})
+    value = in_words(clearer).partition(" = ")[2].split()[0]
+    assert len(value.replace(".", "").lstrip("0")) == 4

@@ -18,6 +18,7 @@ from derivation.scene.result import UNITS
 from derivation.scene.rows.rows import Rows
 from derivation.sweep import run
 from derivation.sweep.api import sweep
+from derivation.sweep.plots import figure
 from derivation.sweep.summary import Summary
 
 
@@ -82,3 +83,19 @@ def test_distribution_without_sample_asks_for_its_size() -> None:
     vary = {"impact.speed": {"distribution": "normal", "mean": 1.0, "std": 0.1}}
     with pytest.raises(SceneError, match="give sample=N"):
         sweep(scene(), vary)
+
+
+def test_bound_is_that_of_the_outputs_of_the_scene() -> None:
+    """The restitution of an elastic contact is exact, and the force was said to be exact, too."""
+    accuracy = {"rtol": 1e-3, "outputs": ["restitution"]}
+    some = read(scene().to_json() | {"accuracy": accuracy})
+    data = sweep(some, {"impact.speed": [0.5, 1.0]})
+    assert data.attrs["outputs"] == "restitution"
+    known, unknown = (
+        figure(data, ["impact.speed"], [name]).axes[0].get_legend_handles_labels()[1]
+        for name in ("restitution", "max_force")
+    )
+    assert known == ["error: bound and model"]
+    assert not unknown
+    text = Summary(2, 2, {"finished": 2}, {}, 1e-3, 0.0, (), 0, None, ("restitution",)).to_text()
+    assert text.endswith("Accuracy: relative error of restitution at most 1.0e-03")

@@ -6,6 +6,7 @@ indentation depends on the force and on the largest force so far, and can be com
 elastic law. Depths are measured from the dent at the beginning of the current branch.
 """
 
+import math
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import NamedTuple
@@ -158,6 +159,25 @@ def units_of(law: ContactLaw) -> tuple[float, float]:
             return u, SLOWEST * widest * (widest / model.R) / model.v0
     elastic = motion.impact(law.half_space)
     return elastic.max_contact_radius, elastic.contact_time
+
+
+def dent_error(law: ContactLaw, force: float, change: float) -> float:
+    """Return the relative error of the dent after a largest force [N] [1]; infinite if unknown.
+
+    Just beyond the onset of yield the dent grows as the square of the distance from it.
+
+    Parameters
+    ----------
+    change
+        Error of the logarithm of Hertz's radius of this force over that at the onset of yield [1].
+    """
+    branch = yielding_of(law)
+    if branch is None:
+        return 0.0
+    ratio = float(branch.hertz_radius(np.array(force))) / branch.onset
+    ratios = (max(1.0, ratio * math.exp(change * sign)) for sign in (-1.0, 0.0, 1.0))
+    low, dent, high = (replace(branch, ratio=x).dent for x in ratios)
+    return max(high - dent, dent - low) / dent if dent else high and math.inf
 
 
 def _end(law: ContactLaw, onset: float) -> float:

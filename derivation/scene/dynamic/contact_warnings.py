@@ -1,6 +1,9 @@
 """Warnings about contacts after the first: grazing ones, and a fall back onto a moving plate."""
 
+import math
 from collections.abc import Sequence
+
+from derivation.scene.quantity import percent
 
 GRAZING = 1e-3
 """Approach speed over impact speed, or force over peak force, of a grazing contact."""
@@ -29,7 +32,9 @@ def grazing_warnings(speeds: Sequence[float], least: float) -> tuple[str, ...]:
     return (text,)
 
 
-def fall_warnings(gravity: float, rebound_speed: float, deflection: float) -> tuple[str, ...]:
+def fall_warnings(
+    gravity: float, rebound_speed: float, deflection: float, error: float = 0.0
+) -> tuple[str, ...]:
     """Warn of a sphere that its weight returns to the plate before it has risen clear of it.
 
     A contact to which only the weight returns the sphere is another impact. Usually the plate has
@@ -43,13 +48,18 @@ def fall_warnings(gravity: float, rebound_speed: float, deflection: float) -> tu
         Speed of the sphere after the last contact [m/s].
     deflection
         Largest deflection of the plate after the last contact [m].
+    error
+        Relative error of the rebound speed [1]; infinite if it is unknown.
     """
-    rise = 0.5 * rebound_speed**2 / gravity if gravity and rebound_speed > 0.0 else float("inf")
-    if rise > deflection:
+    if not (gravity and rebound_speed > 0.0):
         return ()
+    rise, known = 0.5 * rebound_speed**2 / gravity, error if math.isfinite(error) else 0.0
+    if rise * max(0.0, 1.0 - known) ** 2 > deflection:
+        return ()
+    returns = "returns" if rise <= deflection else f"may return (speed known to {percent(error)})"
     text = (
         f"after the impact the sphere rises by {rise:.2g} m, and the vibrating plate deflects "
-        f"by up to {deflection:.2g} m: the weight returns the sphere to a moving plate, and the "
+        f"by up to {deflection:.2g} m: the weight {returns} the sphere to a moving plate, and the "
         "restitution does not include the contacts that follow"
     )
     return (text,)

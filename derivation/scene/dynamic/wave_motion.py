@@ -319,9 +319,12 @@ class DynamicImpact(Motion):
         return [tuple(f"{value:.6g}" for value in touch) for touch in self.inertia.contacts]
 
     def notes(self) -> tuple[str, ...]:
-        """Return the error of the energy balance and the end of the simulation as sentences."""
+        """Return what is known of errors, and the end of the simulation, as sentences."""
         inertia, residual = self.inertia, abs(self.energy_balance.residual)
-        energies = f"The energy balance closes to {residual:.1e} of the initial kinetic energy."
+        energies = (
+            "The numbers of single contacts have no error bounds. The energy balance closes to "
+            f"{residual:.1e} of the initial kinetic energy."
+        )
         if not inertia.complete:
             return (energies,)
         contacts = counted(len(inertia.contacts), "contact")

@@ -10,6 +10,7 @@ from dataclasses import replace
 from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
+from derivation.scene.effects.effect import NO_BOUND
 from derivation.scene.errors import SceneError, ToleranceError
 from derivation.scene.input.settings import TIGHTEST
 from derivation.scene.measured.measurement import (
@@ -19,7 +20,7 @@ from derivation.scene.measured.measurement import (
 )
 from derivation.scene.measured.rough_search import rough_value
 from derivation.scene.measured.specimen import measurement_of
-from derivation.scene.quantity import prefixed
+from derivation.scene.quantity import digits_of, prefixed
 from derivation.scene.selection.achieved_accuracy import remaining, rounded_up
 
 if TYPE_CHECKING:
@@ -59,6 +60,8 @@ class Fit(NamedTuple):
         Estimated relative error of the results due to it [1].
     bound
         Error bound of the restitution in the measurement [1].
+    constant
+        Estimated relative error of the constant [1].
     parts
         Tolerance of the results over that of a measurement with plate inertia [1]; 0 without
         plate inertia, where the tolerance of the measurement is `STATIC_RTOL`.
@@ -67,6 +70,7 @@ class Fit(NamedTuple):
     value: float
     error: float
     bound: float
+    constant: float
     parts: float
 
 
@@ -133,13 +137,27 @@ def in_words(scene: "Scene") -> str:
     """Return a phrase with the constant, the measured restitution, specimen and speed."""
     wanted = scene.measured
     assert wanted is not None
-    value, unit = prefixed(solved(scene), UNITS[wanted.solve_for], DIGITS)
+    fit = _fit_of(scene)
+    digits = min(DIGITS, digits_of(min(fit.constant, NO_BOUND)))
+    value, unit = prefixed(fit.value, UNITS[wanted.solve_for], digits)
     specimen = "a thick block" if wanted.target == "block" else "the plate"
     return (
         f"plate.{wanted.solve_for} = {value} {unit}, from the restitution "
         f"{wanted.restitution:g} measured on {specimen} at "
         f"{wanted.tested_at or scene.impact.speed:g} m/s"
     )
+
+
+def ambiguity_warnings(scene: "Scene", contacts: int) -> tuple[str, ...]:
+    """Warn that other constants may give the measured restitution, in an impact of contacts."""
+    wanted = scene.measured
+    if wanted is None or wanted.target == "block" or contacts == 1:
+        return ()
+    text = (
+        f"the impact has {contacts} contacts: other values of plate.{wanted.solve_for} may have "
+        "the measured restitution, too, but other results, which no error bound includes"
+    )
+    return (text,)
 
 
 def _fit_of(scene: "Scene") -> Fit:
@@ -165,8 +183,13 @@ def _fit(text: str) -> Fit:
     value = measured.value(CLOSE["static"])
     found, changed = (measured.simulated(x) for x in (value, (1.0 + CHANGE) * value))
     error = found.bound + abs(found.restitution / measured.goal - 1.0)
-    error *= CHANGE / abs(math.log(changed.restitution / found.restitution))
-    return Fit(value, error, found.bound, 0.0)
+    error = _over(CHANGE * error, math.log(changed.restitution / found.restitution))
+    return Fit(value, error, found.bound, error, 0.0)
+
+
+def _over(error: float, slope: float) -> float:
+    """Return an error over the size of a slope; infinite if the slope vanishes."""
+    return error / abs(slope) if slope else math.inf
 
 
 def _with_inertia(measured: Measurement, rtol: float | None) -> Fit:
@@ -192,10 +215,11 @@ def _with_inertia(measured: Measurement, rtol: float | None) -> Fit:
         raise _inaccurate(least, rtol, named) from None
     if found is None:
         value = accurate.value(CLOSE["dynamic"])
-        found, ratio = (value, accurate.simulated(value)), _sensitivities(measured, value)[1]
+        slope, ratio = _sensitivities(measured, value)
+        found = value, accurate.simulated(value)
     value, trial = found
-    error = ratio * (trial.bound + abs(trial.restitution / measured.goal - 1.0))
-    return Fit(value, error, trial.bound, parts)
+    error = trial.bound + abs(trial.restitution / measured.goal - 1.0)
+    return Fit(value, ratio * error, trial.bound, _over(error, slope), parts)
 
 
 def _sensitivities(measured: Measurement, value: float) -> tuple[float, float]:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from derivation.engine.text import aligned, paragraph
 from derivation.scene.contact_law.yield_warnings import assumed_yield_stress
+from derivation.scene.output.result_errors import largest_within_error, unknown
 from derivation.scene.quantity import digits_of, percent, prefixed, significant
 
 if TYPE_CHECKING:
@@ -72,9 +73,15 @@ def _remarks(result: "Result") -> Iterator[str]:
         yield f"Unknown: the error by {result.accuracy.largest_part} may be as large as the results"
     elif not digits_of(result.model_error) and not result.unusable_note:
         yield "Uncertain: the model error may be as large as the results"
+    elif others := unknown(result):
+        names = ", ".join(name.replace("_", " ") for name in others)
+        yield (
+            f"Unknown: {names}, which accuracy.outputs does not name: omitted effects or modes may "
+            "change them by as much as they are"
+        )
     yield f"Effects: {result.effects.summary}"
     if result.energy_balance is not None and result.complete:
-        error = bound + result.model_errors["restitution"]
+        error = result.bound_of("restitution") + result.model_errors["restitution"]
         yield f"Energy: {result.energy_balance.in_words(error)}"
     if result.measured_note:
         yield f"Measured: {result.measured_note}"
@@ -88,7 +95,11 @@ def _remarks(result: "Result") -> Iterator[str]:
     if result.strength_note:
         yield f"Strength: {result.strength_note}"
     if not result.effects.law.viscous:  # its pressure is known only in part
-        assumed = assumed_yield_stress(result.scene, result.max_pressure, result.max_tensile_stress)
+        largest = largest_within_error(result, "max_pressure")
+        # A yielding contact does not exceed the limit of the softer body.
+        pressure = min(largest, result.effects.law.pressure_limit)
+        bending = largest_within_error(result, "max_tensile_stress")
+        assumed = assumed_yield_stress(result.scene, pressure, bending)
         if assumed:
             yield f"Yield: {assumed}"
 
@@ -106,7 +117,7 @@ def _model_error(result: "Result") -> str:
 
 def _stress_error(result: "Result") -> str:
     """Return the error of the tensile stress, which the bound does not include."""
-    error = result.accuracy.bound + result.tensile_stress.error
+    error = result.bound_of("max_tensile_stress") + result.tensile_stress.error
     if result.dynamics is None or not math.isfinite(error):
         return ""
     return f"; of max tensile stress up to {percent(error)} (estimated)"

@@ -37,7 +37,7 @@ from derivation.scene.rows.columns import (
 from derivation.scene.rows.selection import Group, Rejected, selected
 from derivation.scene.rows.static_rows import impacts_of
 from derivation.scene.rows.warnings import warnings_of_rows
-from derivation.scene.scene import OUTPUTS, Scene, read
+from derivation.scene.scene import OUTPUTS, Scene, outputs_of, read
 from derivation.scene.selection.selection import check_enabled
 from derivation.scene.tensile_stress import static_errors
 from generated.arrays import Double as Array
@@ -240,7 +240,6 @@ class _Block:
         accuracy, rtol = scene.accuracy, self.rtol
         if rtol is None and accuracy is not None:
             rtol = accuracy.rtol
-        outputs = accuracy.outputs if accuracy is not None else OUTPUTS
         try:
             tolerance = selection_tolerance(rtol)
         except SceneError:
@@ -253,7 +252,7 @@ class _Block:
         except SceneError:
             return
         wanted = scene.effects.model_dump()
-        for group in selected(model, wanted, np.full(len(rows), tolerance), outputs):
+        for group in selected(model, wanted, np.full(len(rows), tolerance), outputs_of(scene)):
             if isinstance(group, Rejected):
                 self.table.reason[self.indices[rows[group.rows]]] = group.reason
                 yield rows[group.rows]
@@ -277,11 +276,18 @@ class _Block:
         self, group: Group, rows: NDArray[np.intp], scene: Scene, rtol: float | None
     ) -> NDArray[np.intp]:
         """Compute the impacts of a group; return the rows that have results."""
-        law, error = group.law, group.error
+        law, error, outputs = group.law, group.error, outputs_of(scene)
         rest = None if rtol is None else (rtol - error) / (1.0 + error)
         impacts = impacts_of(law, len(rows), rest)
-        parts = (error, impacts.law, impacts.quadrature, impacts.rounding)
-        bound = np.expm1(sum(np.log1p(part) for part in parts))
+
+        def bound_with(omitted: Array) -> Array:
+            parts = (omitted, impacts.law, impacts.quadrature, impacts.rounding)
+            return np.asarray(np.expm1(sum(np.log1p(part) for part in parts)))
+
+        def omitted_on(*names: str) -> Array:
+            return error if set(names) <= set(outputs) else group.error_on(names)
+
+        bound, on_pressure = bound_with(error), omitted_on(*OUTPUTS)
         a, P = impacts.max_contact_radius[:, None], impacts.max_force[:, None]
         with np.errstate(all="ignore"):
             numbers = {
@@ -311,8 +317,10 @@ class _Block:
         with np.errstate(all="ignore"):
             errors = static_errors(law, a, deflection, times, periods, group.held)
         numbers_and_errors = numbers | {
-            "pressure_error": np.expm1(np.log1p(bound) + 2.0 * np.log1p(error)) + model_error,
-            "stress_error": bound + np.broadcast_to(errors, a.shape)[:, 0],
+            "pressure_error": model_error
+            + np.expm1(np.log1p(bound_with(on_pressure)) + 2.0 * np.log1p(on_pressure)),
+            "stress_error": bound_with(omitted_on("max_force"))
+            + np.broadcast_to(errors, a.shape)[:, 0],
         }
         reasons = warnings_of_rows(law, numbers_and_errors, strength, which)
         indices = self.indices[rows[which]]

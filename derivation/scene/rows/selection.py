@@ -8,7 +8,7 @@ error bound of the omitted effects is computed for each row.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
@@ -46,12 +46,19 @@ class Group:
         Whether the stress on the back face is that with the edge of the scene.
     error
         Bound on the relative change by all omitted effects together, for each row.
+    omitted
+        These effects.
     """
 
     rows: Rows
     law: ContactLaw
     held: bool
     error: Array
+    omitted: tuple[Effect, ...]
+
+    def error_on(self, outputs: Sequence[str]) -> Array:
+        """Return the bound on the change of other outputs than those of the tolerance."""
+        return errors_of(state_of(self.law), self.omitted, outputs)[:, 0]
 
 
 @dataclass(frozen=True)
@@ -101,7 +108,7 @@ def selected(
                 continue
             group, others = _step(given, part, included, indices, rtol[rows], outputs)
             if group is not None:
-                groups.append(Group(rows[group.rows], group.law, group.held, group.error))
+                groups.append(replace(group, rows=rows[group.rows]))
             for names, more in others.items():
                 waiting.setdefault(names, []).append(more)
     return groups
@@ -221,7 +228,7 @@ def _step(
     open_ = given.left(included)
     if not open_:
         none = np.zeros(len(rows))
-        return Group(rows, ContactLaw(model.take(rows), included), _held(given), none), {}
+        return Group(rows, ContactLaw(model.take(rows), included), _held(given), none, ()), {}
     error, fine, sizes = _evaluated(given, model, included, rows, rtol, outputs)
     limit = rtol[rows]
     near = (np.abs(error - limit) <= NEAR * limit) & (limit > 0.0)
@@ -234,7 +241,7 @@ def _step(
     if not kept.any():
         return None, others
     law = ContactLaw(model.take(rows[kept]), included)
-    return Group(rows[kept], law, _held(given), error[kept]), others
+    return Group(rows[kept], law, _held(given), error[kept], tuple(open_)), others
 
 
 def _errors(

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from derivation.engine.text import aligned, paragraph
@@ -124,6 +124,13 @@ class SelectedEffects:
             return self.error
         return select(self.law.model, self._selection.choice, rtol, self.outputs).error
 
+    def on(self, outputs: tuple[str, ...]) -> "SelectedEffects":
+        """Return the same effects with the bound on the change of other outputs."""
+        if self._selection is None:
+            return replace(self, outputs=outputs)
+        error = error_of(self._selection.state, self._selection.omitted, outputs)
+        return replace(self, outputs=outputs, error=error)
+
     @property
     def stated_error(self) -> float:
         """Bound on the change by all effects omitted by the selection, after the simulation [1]."""
@@ -152,8 +159,9 @@ class SelectedEffects:
     @property
     def summary(self) -> str:
         """The included effects, and the bound on the change by the omitted ones."""
-        omitted = f"; the omitted effects change the results by at most {self.stated_error:.1e}"
-        return ", ".join(self.included) + (omitted if self.omits else "")
+        changed = f"{named(self.outputs, 'the results')} by at most {self.stated_error:.1e}"
+        omitted = f"; the omitted effects change {changed}" if self.omits else ""
+        return ", ".join(self.included) + omitted
 
     def lines(self) -> list[tuple[str, str, str, str, str, str]]:
         """Return the cells of all rows, under `HEADS`."""
@@ -184,6 +192,14 @@ class SelectedEffects:
         return html_table(HEADS, self.lines())
 
     _repr_html_ = to_html
+
+
+def named(outputs: Sequence[str], all_of_them: str) -> str:
+    """Return some outputs in words, with other words for all of them."""
+    if tuple(outputs) == OUTPUTS:
+        return all_of_them
+    names = [name.replace("_", " ") for name in outputs]
+    return " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
 
 
 def largest_growth(growth: Results, outputs: Sequence[str]) -> float:
@@ -288,7 +304,8 @@ def _row(
         why = f"needed to meet {tolerance}"
     else:
         most = largest_growth(growth, outputs) * error
-        why = f"all omitted effects together change the results by at most {most:.1e}"
+        changed = named(outputs, "the results")
+        why = f"all omitted effects together change {changed} by at most {most:.1e}"
     disabled = choice[name] is False and effect.selectable
     return EffectRow(name, effect.adds, effect.parameter, value, bound, included, why, disabled)
 

@@ -93,15 +93,10 @@ def solve_selected(
         results, accuracy = solve(law.model, rest)
     elif law.dynamic:
         moving = dynamic_impact(selected, rtol, within)
-        results, accuracy = moving.numbers, _accuracy_with_inertia(selected, moving)
+        results, accuracy = moving.numbers, _accuracy_with_inertia(law, moving)
     else:
         results, accuracy = _composed(law)
-    accuracy = replace(
-        accuracy,
-        rtol=rtol,
-        effects=Part(_omitted(selected, moving), _basis(selected)),
-        outputs=selected.outputs,
-    )
+    accuracy = _of_outputs(selected, moving, replace(accuracy, rtol=rtol))
     # An incomplete impact has no bound; it is returned and marked as incomplete.
     if within and rtol is not None and rtol < accuracy.bound and not math.isnan(results[-1]):
         timed = moving is not None and "contact_time" in selected.outputs
@@ -116,6 +111,27 @@ def solve_selected(
         raise out_of_reach(rtol, accuracy, law, results[3], growth, met, named)
     check_numbers(law.model, *(results[:-1] if math.isnan(results[-1]) else results))
     return results, accuracy
+
+
+def accuracy_on(
+    outputs: tuple[str, ...],
+    selected: SelectedEffects,
+    moving: "DynamicImpact | None",
+    accuracy: AchievedAccuracy,
+) -> AchievedAccuracy:
+    """Return the accuracy of outputs, from that of those to which the tolerance applies."""
+    if set(outputs) <= set(accuracy.outputs):
+        return accuracy
+    return _of_outputs(selected.on(outputs), moving, accuracy)
+
+
+def _of_outputs(
+    selected: SelectedEffects, moving: "DynamicImpact | None", accuracy: AchievedAccuracy
+) -> AchievedAccuracy:
+    """Return an accuracy with the errors of the outputs of `selected` by all that is omitted."""
+    effects, outputs = Part(_omitted(selected, moving), _basis(selected)), selected.outputs
+    law = Part(moving.inertia.error(outputs), ESTIMATED) if moving else accuracy.law
+    return replace(accuracy, law=law, effects=effects, outputs=outputs)
 
 
 def _omitted(selected: SelectedEffects, motion: "DynamicImpact | None") -> float:
@@ -156,9 +172,7 @@ def _met(
     """Return the outputs that meet a tolerance, which the outputs together do not meet."""
 
     def bound(name: str) -> float:
-        omitted = _omitted(replace(selected, outputs=(name,)), moving)
-        modes = Part(moving.inertia.error((name,)), ESTIMATED)
-        return replace(accuracy, law=modes, effects=Part(omitted, TESTED)).bound
+        return _of_outputs(replace(selected, outputs=(name,)), moving, accuracy).bound
 
     return tuple(name for name in selected.outputs if bound(name) <= CERTAIN * rtol)
 
@@ -207,30 +221,26 @@ def _composed(law: ContactLaw) -> tuple[Results, AchievedAccuracy]:
         if closed is not None:
             return closed
     motion = moved(law)
+    of_slope = float(law.cancellation(np.array([motion.max_contact_radius]))[0])
     return motion.numbers, AchievedAccuracy(
         "full",
         None,
         law=Part(0.0, PROVED),
         quadrature=Part(motion.quadrature, TESTED),
-        rounding=Part(rounding_of(law) + _cancellation(law, motion.max_contact_radius), TESTED),
+        rounding=Part(rounding_of(law) + of_slope, TESTED),
     )
 
 
-def _cancellation(law: ContactLaw, a: float) -> float:
-    """Return the relative rounding error of the slope at a contact radius [m]."""
-    return float(law.cancellation(np.array([a]))[0])
-
-
-def _accuracy_with_inertia(selected: SelectedEffects, impact: "DynamicImpact") -> AchievedAccuracy:
-    """Return the accuracy of an impact on a plate with inertia, without the omitted effects."""
+def _accuracy_with_inertia(law: ContactLaw, impact: "DynamicImpact") -> AchievedAccuracy:
+    """Return the accuracy of an impact on a plate with inertia, apart from all that is omitted."""
     from derivation.scene.dynamic.integration_error import integration_error
 
     return AchievedAccuracy(
         "full",
         None,
-        law=Part(impact.inertia.error(selected.outputs), ESTIMATED),
+        law=Part(0.0, ESTIMATED),
         quadrature=Part(integration_error(impact.impact_history), TESTED),
-        rounding=Part(rounding_of(selected.law), TESTED),
+        rounding=Part(rounding_of(law), TESTED),
     )
 
 

@@ -29,8 +29,10 @@ class Selection:
     ----------
     state
         The law with the included effects, at its largest contact radius.
+    omitted
+        The effects that the selection omitted.
     error
-        Bound on the change of the outputs by all effects that the selection omitted [1].
+        Bound on the change of the outputs by all of them [1].
     sizes
         For each applicable effect, the bound on the change if it is omitted [1]: of an included
         effect when it was included, of an omitted one at the end.
@@ -46,6 +48,7 @@ class Selection:
     """
 
     state: LargestContact
+    omitted: tuple[Effect, ...]
     error: float
     sizes: Mapping[str, float]
     choice: Mapping[str, Any]
@@ -209,7 +212,9 @@ def select(
             effect.check_omitted(part, error_of(state, [effect], outputs), rtol)
     left = (effect for effect in given.present if effect.name not in included)
     sizes |= {effect.name: error_of(state, [effect], outputs) for effect in left}
-    return Selection(state, error, sizes, given.choice, given.reasons, required, blocked)
+    return Selection(
+        state, tuple(open_), error, sizes, given.choice, given.reasons, required, blocked
+    )
 
 
 def _disabled(effect: Effect, wanted: Mapping[str, Any]) -> bool:

@@ -1,0 +1,77 @@
+"""Bound on the error of each single result, and the number of its digits that hold."""
+
+import math
+from typing import TYPE_CHECKING
+
+from derivation.scene.contact_law.yielding import dent_error
+from derivation.scene.quantity import digits_of
+from derivation.scene.scene import OUTPUTS
+from derivation.scene.selection.method_selection import accuracy_on
+
+if TYPE_CHECKING:
+    from derivation.scene.result import Result
+
+FORCE = "max_force"
+SAME_ERROR = {"max_pressure": "max_contact_radius"}
+"""The result whose model error another one has: p_0 is proportional to a."""
+ONSET = 2.0
+"""Power in which omitted effects change the largest force's Hertz radius over that at the onset of
+yield. Elasticity s of the sphere changes this ratio by the power -2/3 of 1 + s, and the contact
+time by the power 2/5, so that the latter's bound to the power 5/3 covers it; the force adds 1/3."""
+
+
+def bound_of(result: "Result", name: str) -> float:
+    """Return the bound on the relative error of a result [1], without its model error.
+
+    The tolerance need not apply to it. The bound is infinite if there is none.
+    """
+    if name == "dent":
+        return _dent_error(result, 0.0)
+    outputs: tuple[str, ...] = (name,) if name in OUTPUTS else OUTPUTS
+    if name == "max_tensile_stress":
+        outputs = (FORCE,)
+    accuracy = accuracy_on(outputs, result.effects, result.dynamics, result.accuracy)
+    return accuracy.pressure_bound if name == "max_pressure" else accuracy.bound
+
+
+def digits_of_result(result: "Result", name: str) -> int:
+    """Return the significant digits that bound and model error of a result support.
+
+    A known number of the model has at least one digit, whatever the model error. A result without a
+    bound has none, unless no result has a bound.
+    """
+    bound = bound_of(result, name)
+    if math.isinf(bound) and math.isfinite(result.accuracy.bound):
+        return 0
+    return max(digits_of(_error_of(result, name, bound)), min(1, digits_of(bound)))
+
+
+def _error_of(result: "Result", name: str, bound: float) -> float:
+    """Return the relative error of a result by its bound and by the model [1]."""
+    if name == "max_tensile_stress":
+        return bound + result.tensile_stress.error
+    if name == "dent":
+        return _dent_error(result, result.model_errors[FORCE])
+    return bound + result.model_errors.get(SAME_ERROR.get(name, name), result.model_error)
+
+
+def largest_within_error(result: "Result", name: str) -> float:
+    """Return a result in its unit, increased by its error unless this is unknown."""
+    error = _error_of(result, name, bound_of(result, name))
+    return float(getattr(result, name)) * (1.0 + (error if math.isfinite(error) else 0.0))
+
+
+def unknown(result: "Result") -> tuple[str, ...]:
+    """Return the outputs without a digit to which the tolerance does not apply."""
+    others = (name for name in OUTPUTS if name not in result.accuracy.outputs)
+    return tuple(name for name in others if not digits_of_result(result, name))
+
+
+def _dent_error(result: "Result", model_error: float) -> float:
+    """Return the relative error of the dent [1], with a model error of the force [1]."""
+    accuracy = accuracy_on(OUTPUTS, result.effects, result.dynamics, result.accuracy)
+    if math.isinf(accuracy.bound):
+        return math.inf
+    omitted, all_errors = math.log1p(accuracy.effects.bound), math.log1p(accuracy.bound)
+    change = (all_errors - omitted + math.log1p(model_error)) / 3.0 + ONSET * omitted
+    return dent_error(result.effects.law, result.max_force, change)

@@ -12,7 +12,8 @@ from derivation.scene.dynamic.flight import meeting_speed
 from derivation.scene.measured import measured as measured_module
 from derivation.scene.measured import rough_search
 from derivation.scene.measured.measured import error_of, fitted, in_words, solved
-from derivation.scene.measured.measurement import Measurement, Trial
+from derivation.scene.measured.measurement import Measurement
+from derivation.scene.measured.trial import Trial
 from derivation.scene.quasi_static.viscous import impact as viscous_impact
 from derivation.scene.scene import OUTPUTS
 from generated.plasticity import plastic_restitution, yield_radius

@@ -8,8 +8,9 @@ import pytest
 
 from derivation.scene import SceneError, read, simulate
 from derivation.scene.dynamic import contact_sequence, waves
-from derivation.scene.measured.measurement import Measurement, Trial
+from derivation.scene.measured.measurement import Measurement
 from derivation.scene.measured.rough_search import FAR, HALF, PART
+from derivation.scene.measured.trial import Trial
 
 THIN: dict[str, dict[str, Any]] = {
     "sphere": {"radius": 0.008, "material": "bearing steel"},

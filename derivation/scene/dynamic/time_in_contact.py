@@ -100,14 +100,11 @@ def check_long(law: ContactLaw, tolerance: float) -> None:
     of any other the least time in contact counts. A heavy sphere that deflects the plate beyond the
     linear model is rejected too.
     """
-    model, count = law.model, count_of(law)
-    modes = plate_of(law, count).modes
-    ratio = model.m * float(modes.inverse_modal_mass[0])
+    model = law.model
     if model.inertia.modes or model.inertia.infinite_plate:
         return
-    swing = half_period(model.m, modes)
-    if ratio > SPRING:
-        _check_deflection(model, ratio, swing)
+    check_deflected(law)
+    ratio, swing = _heaviness(law)
     if ratio < HEAVY:
         _check_time_in_contact(law, tolerance)
         return
@@ -119,6 +116,22 @@ def check_long(law: ContactLaw, tolerance: float) -> None:
             f"time steps, more than the limit of {most}; set effects.inertia = false (for such a "
             "sphere the plate is nearly quasi-static), or choose inertia.modes"
         )
+
+
+def check_deflected(law: ContactLaw) -> None:
+    """Reject a heavy sphere that deflects the plate beyond the linear model."""
+    model = law.model
+    if model.inertia.modes or model.inertia.infinite_plate:
+        return
+    ratio, swing = _heaviness(law)
+    if ratio > SPRING:
+        _check_deflection(model, ratio, swing)
+
+
+def _heaviness(law: ContactLaw) -> tuple[float, float]:
+    """Return sphere mass over mass of the first mode [1], and half its period on the plate [s]."""
+    modes = plate_of(law, count_of(law)).modes
+    return law.model.m * float(modes.inverse_modal_mass[0]), half_period(law.model.m, modes)
 
 
 def _check_deflection(model: Model, ratio: float, swing: float) -> None:

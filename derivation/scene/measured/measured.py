@@ -12,13 +12,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from derivation.scene.errors import SceneError, ToleranceError
 from derivation.scene.input.settings import TIGHTEST
-from derivation.scene.measured.measurement import (
-    UNITS,
-    Measurement,
-    Trial,
-)
+from derivation.scene.measured.measurement import AGREES, UNITS, Measurement
 from derivation.scene.measured.rough_search import rough_value
 from derivation.scene.measured.specimen import measurement_of
+from derivation.scene.measured.trial import Trial
 from derivation.scene.quantity import prefixed
 from derivation.scene.selection.achieved_accuracy import remaining, rounded_up
 
@@ -37,8 +34,6 @@ FURTHEST, POLISHES = 0.2, 6
 simulations."""
 ENOUGH = 1.6
 """Tolerance that a message recommends over the error bound: both increase together."""
-AGREES = 0.1
-"""Relative difference from the measured restitution that suffices, over the error bound."""
 NEGLIGIBLE = 0.01
 """Error due to a constant over the tolerance below which a message does not state it."""
 CHANGE = 1e-2
@@ -86,6 +81,14 @@ def fitted(scene: "Scene") -> "Scene":
     tables = scene.to_json()
     del tables["measured"]
     return read(tables | {"plate": tables["plate"] | {scene.measured.solve_for: solved(scene)}})
+
+
+def without_constant(scene: "Scene") -> "Scene":
+    """Return the scene of a measurement with a plate that loses no energy by the constant."""
+    assert scene.measured is not None
+    tables = scene.to_json()
+    del tables["measured"]
+    return Measurement(tables, scene.measured.solve_for, scene.measured.restitution).scene(None)
 
 
 def toleranced(scene: "Scene", rtol: float | None) -> "Scene":

@@ -7,14 +7,15 @@ plate: the solution with the smaller one is returned, if there is any.
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
 
 from derivation.scene.effects import BY_NAME
-from derivation.scene.effects.effect import Results
 from derivation.scene.errors import HeldError, SceneError
 from derivation.scene.input.body_materials import body_of, own_materials
 from derivation.scene.input.settings import TIGHTEST
+from derivation.scene.measured.trial import Point, Trial, UnreachedError, vertex
+from derivation.scene.numerics.crossing import rise
 
 if TYPE_CHECKING:
     from derivation.scene.scene import Scene
@@ -38,53 +39,10 @@ RISING = 3
 """Number of steps in which restitution increases, from which it has passed its smallest value."""
 ROUGH = 1e-2
 """Relative difference from the measured restitution that ends a rough search."""
+AGREES = 0.1
+"""Relative difference from the measured restitution that suffices, over the error bound."""
 STATIC_RTOL = 1e-9
 """Relative tolerance of measurements without plate inertia [1]."""
-
-
-class UnreachedError(SceneError):
-    """The error of a restitution below all that the constant gives.
-
-    Attributes
-    ----------
-    least
-        The smallest restitution less its error bound [1].
-    value
-        The constant that gives it, about; 0 if it is unknown.
-    """
-
-    def __init__(self, text: str, least: float, value: float) -> None:
-        super().__init__(text, least, value)  # the arguments from which pickle restores it
-        self.text, self.least, self.value = text, least, value
-
-    def __str__(self) -> str:
-        return self.text
-
-
-class Trial(NamedTuple):
-    """The results of a measurement with a trial value: outputs, pressure [Pa], error bound [1]."""
-
-    outputs: Results
-    max_pressure: float
-    bound: float
-
-    @property
-    def contact_time(self) -> float:
-        """Duration of the contact, with plate inertia of the first one [s]."""
-        return self.outputs[0]
-
-    @property
-    def restitution(self) -> float:
-        """The restitution [1]."""
-        return self.outputs[-1]
-
-
-class Point(NamedTuple):
-    """Logarithm of a trial value, restitution less the measured one, and its lower bound [1]."""
-
-    x: float
-    above: float
-    least: float
 
 
 @dataclass(frozen=True)
@@ -112,6 +70,9 @@ class Measurement:
     goal: float
     part: float = 0.0
     work: float = math.inf
+    _trials: dict[tuple[float | None, bool], Trial] = field(
+        init=False, default_factory=dict, repr=False, compare=False
+    )
 
     @property
     def static(self) -> bool:
@@ -137,12 +98,17 @@ class Measurement:
         SceneError
             If the simulation fails or is incomplete.
         """
+        if (value, within) not in self._trials:
+            self._trials[value, within] = self._simulated(value, within)
+        return self._trials[value, within]
+
+    def _simulated(self, value: float | None, within: bool) -> Trial:
         from derivation.scene.contact_law.limits import check_radius
         from derivation.scene.dynamic.runs import with_few_modes
         from derivation.scene.impact import selected_effects
         from derivation.scene.selection.method_selection import solve_selected
 
-        rtol, selected = selected_effects(self._scene(value))
+        rtol, selected = selected_effects(self.scene(value))
         law, bound = selected.law, ROUGH
         if self.part and law.dynamic:
             numbers = with_few_modes(law, self.part, self.work).numbers
@@ -158,7 +124,7 @@ class Measurement:
         check_radius(law, a := numbers[3], "impact.speed", "reduce the speed")
         return Trial(numbers, min(law.max_pressure(a), law.pressure_limit), bound)
 
-    def _scene(self, value: float | None) -> "Scene":
+    def scene(self, value: float | None) -> "Scene":
         """Return the scene with a trial value; without one, the plate loses no energy by it."""
         from derivation.scene.scene import read
 
@@ -235,17 +201,23 @@ class Measurement:
             low, high = (point, high) if point.above * low.above > 0.0 else (low, point)
 
     def value(self, close: float) -> float:
-        """Return the value at which the restitution agrees with the measured one.
+        """Return a value at which the restitution agrees with the measured one within its error.
 
         Parameters
         ----------
         close
-            Relative accuracy of the value [1].
+            Relative accuracy of the value that suffices [1].
         """
-        from scipy.optimize import brentq
-
         low, high = self._bracket(self.lossless())
-        return math.exp(float(brentq(lambda x: self._point(x).above, low.x, high.x, xtol=close)))
+        sign = math.copysign(1.0, high.above)
+
+        def above(x: float) -> float:
+            """Return the difference of the restitution with the sign that rises; 0 within error."""
+            point = self._point(x)
+            error = point.above + self.goal - point.least
+            return 0.0 if abs(point.above) <= AGREES * error else sign * point.above
+
+        return math.exp(rise(above, low.x, high.x, close))
 
     def _point(self, x: float) -> Point:
         """Simulate with the trial value exp(x)."""
@@ -312,7 +284,7 @@ class Measurement:
             # An elastic plate under a contact that hardly moves returns the energy again.
             rising += 1
             if rising == 1 and len(points) > 2:
-                lowest = self._point(_vertex(*points[-3:]))
+                lowest = self._point(vertex(*points[-3:]))
                 if lowest.above <= 0.0:
                     low, high = sorted((now if back else points[-3], lowest))
                     return low, high
@@ -381,10 +353,3 @@ class Measurement:
             least,
             value,
         )
-
-
-def _vertex(one: Point, two: Point, three: Point) -> float:
-    """Return the position of the vertex of the parabola through equidistant points."""
-    curvature = one.above - 2.0 * two.above + three.above
-    offset = 0.5 * (one.above - three.above) / curvature if curvature > 0.0 else 0.0
-    return two.x + (two.x - one.x) * offset

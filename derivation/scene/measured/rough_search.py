@@ -9,7 +9,8 @@ from contextlib import suppress
 from dataclasses import replace
 
 from derivation.scene.errors import SceneError
-from derivation.scene.measured.measurement import Measurement, Trial, UnreachedError
+from derivation.scene.measured.measurement import Measurement
+from derivation.scene.measured.trial import Trial, UnreachedError
 
 PART, HALF = 0.125, 0.5
 """Parts of the modes of a usual first simulation that the simulations have."""

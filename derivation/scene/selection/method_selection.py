@@ -130,13 +130,15 @@ def _omitted(selected: SelectedEffects, motion: "DynamicImpact | None") -> float
 
 
 def _named(selected: SelectedEffects, moving: "DynamicImpact", accuracy: AchievedAccuracy) -> float:
-    """Return a tolerance at which a simulation with plate inertia ends with these modes [1].
+    """Return a tolerance that a simulation with plate inertia meets with these or more modes [1].
 
     With a larger tolerance more effects may be omitted, which takes a part of it.
     """
+    from derivation.scene.dynamic.mode_convergence import attainable
     from derivation.scene.dynamic.waves import KEPT
 
-    simulated = replace(accuracy, effects=Part(0.0, PROVED)).bound / KEPT
+    law = Part(attainable(moving).error(selected.outputs), ESTIMATED)
+    simulated = replace(accuracy, law=law, effects=Part(0.0, PROVED)).bound / KEPT
     growth, error = largest_growth(growth_of(moving), selected.outputs), selected.error
     named = math.expm1(math.log1p(growth * error) + math.log1p(simulated))
     for _ in range(SEARCHES):

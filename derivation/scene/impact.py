@@ -175,7 +175,7 @@ def _check_before_fit(scene: Scene, rtol: float | None) -> None:
 
     rtol, selected = selected_effects(without_constant(scene), rtol)
     if selected.law.dynamic:
-        check_simulable(selected.law, rtol is not None)
+        check_simulable(selected.law, rtol)
 
 
 def _solved(

@@ -118,13 +118,13 @@ def impact(
     return run
 
 
-def check_simulable(law: ContactLaw, tolerance: bool) -> None:
+def check_simulable(law: ContactLaw, rtol: float | None) -> None:
     """Reject an impact that cannot be simulated for any yield stress or retardation time.
 
     Parameters
     ----------
-    tolerance
-        Whether the results have a tolerance.
+    rtol
+        Tolerance of the results [1], if they have one.
 
     Raises
     ------
@@ -132,9 +132,9 @@ def check_simulable(law: ContactLaw, tolerance: bool) -> None:
         As `impact` does before its first run.
     """
     with one_thread(), np.errstate(all="ignore"):
-        if tolerance:
+        if rtol is not None:
             check_resolving(law)
-        check_deflected(law)
+        check_deflected(law, time_tolerance(goal(rtol)))
 
 
 def _branched(

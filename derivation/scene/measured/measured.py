@@ -6,10 +6,12 @@ impact is simulated repeatedly until the restitution agrees.
 
 import json
 import math
+import re
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING, NamedTuple
 
+from derivation.scene.dynamic.contact_errors import rounded_down
 from derivation.scene.errors import SceneError, ToleranceError
 from derivation.scene.input.settings import TIGHTEST
 from derivation.scene.measured.measurement import AGREES, UNITS, Measurement
@@ -41,6 +43,10 @@ CHANGE = 1e-2
 LEAST_RATIO, MARGIN = 3.0, 1.5
 """Error of the results over that of the restitution in a measurement with plate inertia, estimated:
 its least value, and its value over that of a simulation with few modes."""
+
+
+LOW_ENOUGH = re.compile(r"\((\S+) m/s is low enough\)")
+"""How a message states a speed at which an elastic contact is narrow enough."""
 
 
 class Fit(NamedTuple):
@@ -151,11 +157,26 @@ def _fit_of(scene: "Scene") -> Fit:
     try:
         return _fit(json.dumps(scene.to_json()))
     except SceneError as error:
-        text = str(error).replace("impact.speed", "measured.tested_at")
-        if scene.measured.tested_at is None or text == str(error):
+        text = str(error)
+        if scene.measured.solve_for == "yield_stress":
+            text = LOW_ENOUGH.sub(partial(_slower, scene.measured.restitution), text)
+        if scene.measured.tested_at is not None:
+            text = text.replace("impact.speed", "measured.tested_at")
+        if scene.accuracy is not None and text.startswith("measured.restitution"):
+            text += f" (the tolerance {scene.accuracy.rtol:g} is checked after that)"
+        if text == str(error):
             raise
         where = "" if text.startswith("measured.") else "measured: its simulation fails: "
         raise SceneError(where + text) from None
+
+
+def _slower(restitution: float, stated: re.Match[str]) -> str:
+    """Return a speed at which a contact is narrow enough that yields until it has a restitution.
+
+    Such a contact is at most as wide as an elastic one of the speed v/e: far above yield, its
+    radius is 0.91 times as large, and also proportional to (v/e)^(2/5).
+    """
+    return f"({rounded_down(restitution * float(stated[1])):.2g} m/s is low enough)"
 
 
 @lru_cache(maxsize=64)
@@ -185,6 +206,8 @@ def _with_inertia(measured: Measurement, rtol: float | None) -> Fit:
     """
     first = rough_value(measured.to(LOOSE))
     slope, ratio = (0.0, LEAST_RATIO) if first is None else _sensitivities(measured, first)
+    if not slope:  # the rough value causes no loss, but the accurate one may
+        first, ratio = None, LEAST_RATIO
     parts = 2.0 + (1.0 + AGREES) * ratio
     accurate = measured.to(DEFAULT if rtol is None else rtol / parts)
     try:

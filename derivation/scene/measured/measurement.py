@@ -6,15 +6,16 @@ plate: the solution with the smaller one is returned, if there is any.
 """
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from derivation.scene.effects import BY_NAME
-from derivation.scene.errors import HeldError, SceneError
+from derivation.scene.errors import HeldError, SceneError, WideContactError
 from derivation.scene.input.body_materials import body_of, own_materials
 from derivation.scene.input.settings import TIGHTEST
-from derivation.scene.measured.trial import Point, Trial, UnreachedError, vertex
+from derivation.scene.measured.trial import Point, Trial, UnreachedError, WideTrialError, vertex
 from derivation.scene.numerics.crossing import rise
 
 if TYPE_CHECKING:
@@ -35,12 +36,16 @@ YIELDS, POWER = 0.47, 1.6
 power of the restitution, which is about that of a contact far above yield."""
 STEPS, FACTOR = 40, 2.0
 """Largest number of steps until two trial values enclose the solution, and ratio of a step."""
+SHORTEST = 0.05
+"""Shortest such step in the logarithm of the value, beyond which a contact is too wide."""
 RISING = 3
 """Number of steps in which restitution increases, from which it has passed its smallest value."""
 ROUGH = 1e-2
 """Relative difference from the measured restitution that ends a rough search."""
 AGREES = 0.1
 """Relative difference from the measured restitution that suffices, over the error bound."""
+CLEARLY = 1.01
+"""Contact radius over the largest one above which the contact is too wide with more modes, too."""
 STATIC_RTOL = 1e-9
 """Relative tolerance of measurements without plate inertia [1]."""
 
@@ -228,11 +233,17 @@ class Measurement:
         except HeldError:
             return Point(x, -self.goal, 0.0)  # the constant is beyond the solution
         except SceneError as error:
-            raise SceneError(
+            kind, remedy = SceneError, ""
+            if isinstance(error, WideContactError):
+                kind = WideTrialError if error.ratio > CLEARLY else SceneError
+                # The speed that it names is that for a given constant, not for the restitution.
+                remedy = re.sub(r" \([^()]* is low enough\)", "", error.remedy) + ", or "
+            raise kind(
                 "measured.restitution: expected a value that can be computed, got "
                 f"{self.goal:.6g}, for which the simulation of the measurement fails with "
                 f"plate.{self.key} = {math.exp(x):.6g} {UNITS[self.key]} "
-                f"({str(error).partition(';')[0]}); correct measured.restitution or measured.target"
+                f"({str(error).partition(';')[0]}); {remedy}correct measured.restitution or "
+                "measured.target"
             ) from None
 
     def _first(self, lossless: Trial) -> float:
@@ -306,6 +317,8 @@ class Measurement:
     def _next(self, points: list[Point], step: float) -> Point:
         """Return the point after others, from which it differs by a step.
 
+        The step is shorter if the contact would be too wide.
+
         Raises
         ------
         UnreachedError
@@ -313,6 +326,10 @@ class Measurement:
         """
         try:
             return self._point(points[-1].x + step)
+        except WideTrialError:
+            if abs(step) < SHORTEST:
+                raise
+            return self._next(points, 0.5 * step)
         except SceneError as error:
             risen = points[-1] is not min(points, key=lambda point: point.above)
             if risen and self.key == "retardation_time":

@@ -10,7 +10,7 @@ from dataclasses import replace
 
 from derivation.scene.errors import SceneError
 from derivation.scene.measured.measurement import Measurement
-from derivation.scene.measured.trial import Trial, UnreachedError
+from derivation.scene.measured.trial import Trial, UnreachedError, WideTrialError
 
 PART, HALF = 0.125, 0.5
 """Parts of the modes of a usual first simulation that the simulations have."""
@@ -62,6 +62,8 @@ def rough_value(loose: Measurement) -> float | None:
             if loose.goal < (1.0 - CLEAR) * unreached.least:
                 raise
             lowest = unreached.value
+        except WideTrialError:
+            raise
         except SceneError:
             pass
     accurate = loose.lossless(margin=1.0)

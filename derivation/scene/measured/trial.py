@@ -25,6 +25,14 @@ class UnreachedError(SceneError):
         return self.text
 
 
+class WideTrialError(SceneError):
+    """The error of a restitution for which the contact is clearly too wide.
+
+    Each trial begins with values that lose less energy than the solution: they are too wide as
+    soon as the solution is.
+    """
+
+
 class Trial(NamedTuple):
     """The results of a measurement with a trial value: outputs, pressure [Pa], error bound [1]."""
 

@@ -9,8 +9,8 @@ import pytest
 from derivation.scene import SceneError, read, simulate
 from derivation.scene.dynamic import contact_sequence, waves
 from derivation.scene.measured.measurement import Measurement
-from derivation.scene.measured.rough_search import FAR, HALF, PART
-from derivation.scene.measured.trial import Trial
+from derivation.scene.measured.rough_search import FAR, HALF, PART, rough_value
+from derivation.scene.measured.trial import Trial, UnreachedError
 
 THIN: dict[str, dict[str, Any]] = {
     "sphere": {"radius": 0.008, "material": "bearing steel"},
@@ -156,3 +156,26 @@ def test_a_restitution_just_below_that_without_loss_determines_the_constant() ->
     near = {"restitution": 0.991 * most, "solve_for": "yield_stress", "target": "plate"}
     result = simulate(read(MARBLE | {"measured": near}), rtol=1e-2)
     assert abs(result.restitution / near["restitution"] - 1.0) <= result.accuracy.bound <= 1e-2
+
+
+def test_few_modes_find_a_constant_that_hardly_reduces_the_restitution() -> None:
+    """One that was found too large by a factor of 5 required a second, accurate search."""
+    most = simulate(read(MARBLE), rtol=1e-3).restitution
+    near = Measurement(MARBLE, "yield_stress", 0.99 * most)
+    found = rough_value(near.to(0.1))
+    assert found == pytest.approx(near.to(1e-3).value(1e-4), rel=0.2)
+
+
+def test_a_retardation_time_that_never_reduces_the_restitution_is_no_solution() -> None:
+    """The message named a smallest restitution above that without a retardation time."""
+    phone = {
+        "sphere": {"radius": 0.01585, "mass": 0.13, "material": "steel"},
+        "plate": {"radius": 0.03538, "thickness": 0.00106, "material": "phone glass"},
+        "impact": {"speed": 0.18138, "gravity": 9.81},
+    }
+    few = Measurement(phone, "retardation_time", 0.96, PART).to(0.1)
+    elastic = few.simulated(None)
+    with pytest.raises(UnreachedError, match="which no value reduces") as error:
+        few.rough_value(elastic)
+    assert f"{elastic.restitution:.3g}" in str(error.value)
+    assert elastic.restitution < few.simulated(error.value.value).restitution

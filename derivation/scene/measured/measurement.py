@@ -40,8 +40,10 @@ SHORTEST = 0.05
 """Shortest such step in the logarithm of the value, beyond which a contact is too wide."""
 RISING = 3
 """Number of steps in which restitution increases, from which it has passed its smallest value."""
-ROUGH = 1e-2
-"""Relative difference from the measured restitution that ends a rough search."""
+ROUGH, OF_LOSS, LEAST = 1e-2, 0.2, 1e-4
+"""Relative difference from the measured restitution that ends a rough search; the same over the
+relative difference from that without loss, near which it hardly determines the constant; the least
+such difference."""
 AGREES = 0.1
 """Relative difference from the measured restitution that suffices, over the error bound."""
 CLEARLY = 1.01
@@ -180,7 +182,9 @@ class Measurement:
         )
 
     def rough_value(self, lossless: Trial) -> float:
-        """Return a value at which the restitution is within `ROUGH` of the measured one.
+        """Return a value at which the restitution is about the measured one.
+
+        It differs by `ROUGH`, or by a part of what the constant reduces it if this is less.
 
         Parameters
         ----------
@@ -194,10 +198,12 @@ class Measurement:
         """
         if not self.goal < lossless.restitution:  # perhaps it is unknown
             raise UnreachedError("", -math.inf, 0.0)
-        low, high = self._bracket(lossless, ROUGH)
+        reduced = 1.0 - self.goal / lossless.restitution
+        close = max(LEAST, min(ROUGH, OF_LOSS * reduced))
+        low, high = self._bracket(lossless, close)
         while True:
             near = min(low, high, key=lambda point: abs(point.above))
-            if abs(near.above) <= ROUGH * self.goal or abs(high.x - low.x) <= ROUGH:
+            if abs(near.above) <= close * self.goal or abs(high.x - low.x) <= ROUGH:
                 return math.exp(near.x)
             x = (low.x * high.above - high.x * low.above) / (high.above - low.above)
             # Not at an end again, where the restitution is curved.
@@ -282,7 +288,7 @@ class Measurement:
         step = more if falling else -more
         points = [now]
         for _ in range(STEPS):
-            points.append(now := self._next(points, step))
+            points.append(now := self._next(points, step, lossless))
             if (now.above <= 0.0) if falling else (now.above >= 0.0):
                 if back and falling:
                     falling = False  # to the smaller solution
@@ -305,7 +311,7 @@ class Measurement:
             if rising < RISING and not (beyond_errors and self.key == "retardation_time"):
                 continue
             if back or len(points) > 2:
-                raise self._unreached(points)
+                raise self._unreached(points, lossless)
             # The first value is already beyond that of the smallest restitution.
             points, step, rising, back = points[::-1], -step, 0, True
         raise SceneError(
@@ -314,7 +320,7 @@ class Measurement:
             f"{UNITS[self.key]} gives; correct it, or change measured.solve_for"
         )
 
-    def _next(self, points: list[Point], step: float) -> Point:
+    def _next(self, points: list[Point], step: float, lossless: Trial) -> Point:
         """Return the point after others, from which it differs by a step.
 
         The step is shorter if the contact would be too wide.
@@ -329,18 +335,26 @@ class Measurement:
         except WideTrialError:
             if abs(step) < SHORTEST:
                 raise
-            return self._next(points, 0.5 * step)
+            return self._next(points, 0.5 * step, lossless)
         except SceneError as error:
             risen = points[-1] is not min(points, key=lambda point: point.above)
             if risen and self.key == "retardation_time":
-                raise self._unreached(points) from None
+                raise self._unreached(points, lossless) from None
             raise UnreachedError(str(error), min(p.least for p in points), 0.0) from None
 
-    def _unreached(self, points: list[Point]) -> UnreachedError:
+    def _unreached(self, points: list[Point], lossless: Trial) -> UnreachedError:
         """Return the error of a restitution below those of all points."""
         lowest = min(points, key=lambda point: point.above)
-        least = min(point.least for point in points)
-        return self._below(self.goal + lowest.above, least, math.exp(lowest.x))
+        least, smallest = min(point.least for point in points), self.goal + lowest.above
+        if smallest < lossless.restitution:
+            return self._below(smallest, least, math.exp(lowest.x))
+        return UnreachedError(
+            f"measured.restitution: expected about {lossless.restitution:.3g}, the restitution "
+            f"without a plate.{self.key}, which no value reduces, got {self.goal:.6g}; correct measured.restitution or measured.target, or change "
+            "measured.solve_for",
+            least,
+            math.exp(lowest.x),
+        )
 
     def check_reached(self, value: float, margin: float = 0.0) -> None:
         """Raise an error if a constant that gives the smallest restitution gives a larger one.
@@ -363,7 +377,7 @@ class Measurement:
     def _below(self, smallest: float, least: float, value: float) -> UnreachedError:
         """Return the error of a restitution below the smallest one, which a constant gives."""
         return UnreachedError(
-            f"measured.restitution: expected at least about {smallest:.2g}, the smallest "
+            f"measured.restitution: expected at least about {smallest:.3g}, the smallest "
             f"restitution that a plate.{self.key} gives, got {self.goal:.6g}; the restitution is "
             f"smallest at about {value:.2g} {UNITS[self.key]}; correct measured.restitution or "
             "measured.target",

@@ -15,7 +15,14 @@ from derivation.scene.effects import BY_NAME
 from derivation.scene.errors import HeldError, SceneError, WideContactError
 from derivation.scene.input.body_materials import body_of, own_materials
 from derivation.scene.input.settings import TIGHTEST
-from derivation.scene.measured.trial import Point, Trial, UnreachedError, WideTrialError, vertex
+from derivation.scene.measured.trial import (
+    IncompleteTrialError,
+    Point,
+    Trial,
+    UnreachedError,
+    WideTrialError,
+    vertex,
+)
 from derivation.scene.numerics.crossing import rise
 
 if TYPE_CHECKING:
@@ -123,7 +130,7 @@ class Measurement:
             numbers, accuracy = solve_selected(selected, rtol, within=within or self.static)
             bound = accuracy.bound
         if math.isnan(numbers[-1]):
-            raise SceneError(
+            raise IncompleteTrialError(
                 "measured.target: expected an impact that can be computed up to the last "
                 "separation, got one with too many contacts or time steps; use a thicker plate or "
                 'a lighter sphere, or set measured.target = "block"'
@@ -239,7 +246,8 @@ class Measurement:
         except HeldError:
             return Point(x, -self.goal, 0.0)  # the constant is beyond the solution
         except SceneError as error:
-            kind, remedy = SceneError, ""
+            incomplete = isinstance(error, IncompleteTrialError)
+            kind, remedy = IncompleteTrialError if incomplete else SceneError, ""
             if isinstance(error, WideContactError):
                 kind = WideTrialError if error.ratio > CLEARLY else SceneError
                 # The speed that it names is that for a given constant, not for the restitution.
@@ -340,6 +348,8 @@ class Measurement:
             risen = points[-1] is not min(points, key=lambda point: point.above)
             if risen and self.key == "retardation_time":
                 raise self._unreached(points, lossless) from None
+            if isinstance(error, IncompleteTrialError):
+                raise
             raise UnreachedError(str(error), min(p.least for p in points), 0.0) from None
 
     def _unreached(self, points: list[Point], lossless: Trial) -> UnreachedError:
@@ -350,8 +360,8 @@ class Measurement:
             return self._below(smallest, least, math.exp(lowest.x))
         return UnreachedError(
             f"measured.restitution: expected about {lossless.restitution:.3g}, the restitution "
-            f"without a plate.{self.key}, which no value reduces, got {self.goal:.6g}; correct measured.restitution or measured.target, or change "
-            "measured.solve_for",
+            f"without a plate.{self.key}, which no value reduces, got {self.goal:.6g}; correct "
+            "measured.restitution or measured.target, or change measured.solve_for",
             least,
             math.exp(lowest.x),
         )

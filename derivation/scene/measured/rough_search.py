@@ -10,7 +10,12 @@ from dataclasses import replace
 
 from derivation.scene.errors import SceneError
 from derivation.scene.measured.measurement import OF_LOSS, Measurement
-from derivation.scene.measured.trial import Trial, UnreachedError, WideTrialError
+from derivation.scene.measured.trial import (
+    IncompleteTrialError,
+    Trial,
+    UnreachedError,
+    WideTrialError,
+)
 
 PART, HALF = 0.125, 0.5
 """Parts of the modes of a usual first simulation that the simulations have."""
@@ -64,7 +69,7 @@ def rough_value(loose: Measurement) -> float | None:
             if loose.goal < (1.0 - CLEAR) * unreached.least:
                 raise
             lowest = unreached
-        except WideTrialError:
+        except (WideTrialError, IncompleteTrialError):
             raise
         except SceneError:
             pass

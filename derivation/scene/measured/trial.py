@@ -33,6 +33,13 @@ class WideTrialError(SceneError):
     """
 
 
+class IncompleteTrialError(SceneError):
+    """The error of a restitution for which the impact has too many contacts or time steps.
+
+    With more modes it has as many contacts and more time steps.
+    """
+
+
 class Trial(NamedTuple):
     """The results of a measurement with a trial value: outputs, pressure [Pa], error bound [1]."""
 

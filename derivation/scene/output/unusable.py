@@ -9,7 +9,7 @@ from derivation.scene.contact_law.limits import local_indentation
 from derivation.scene.dynamic.stretching_error import USABLE, Deflections, deflections_of
 from derivation.scene.dynamic.unlike_bodies import unlike_bodies_errors
 from derivation.scene.model_errors import model_errors
-from derivation.scene.quantity import NO_DIGITS, percent, prefixed
+from derivation.scene.quantity import NO_DIGITS, percent, prefixed, up_to
 from derivation.scene.scene import OUTPUTS
 from derivation.scene.selection.method_selection import growth_of
 
@@ -87,7 +87,7 @@ def _by_stretching(result: "Result") -> str:
     times, worst = deflections.largest / thickness, max(by_it.values())
     return (
         f"The plate deflects by {times:.2g} thicknesses and stretches, which the model neglects "
-        f"(error up to {percent(worst)}). Speed or thickness for an error of about "
+        f"(error {up_to(worst)}). Speed or thickness for an error of about "
         f"{percent(USABLE)}: {', '.join(remedies)}."
     )
 

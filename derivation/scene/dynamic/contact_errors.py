@@ -29,10 +29,13 @@ SHARP = 0.05
 
 def endless(problem: DynamicProblem, t: float, most: int) -> EndlessError:
     """Return the error of a simulation with too many time steps."""
+    remedy = "reduce inertia.modes, increase accuracy.rtol, or set effects.inertia = false"
+    if math.isfinite(problem.heard):
+        remedy = 'use a thicker plate or a lighter sphere, or remove extent = "infinite"'
     return EndlessError(
         f"the sphere was still in contact {problem.T * t:.6g} s after first contact, when the "
         f"limit of {most} time steps was reached",
-        "reduce inertia.modes, increase accuracy.rtol, or set effects.inertia = false",
+        remedy,
     )
 
 

@@ -17,7 +17,26 @@ class SceneError(ValueError):
     """
 
 
-def wide_contact(key: str, limit: str, got: str, remedy: str) -> SceneError:
+class WideContactError(SceneError):
+    """The error of a contact that is wider than the contact law allows.
+
+    Attributes
+    ----------
+    why, remedy
+        The key that determines the radius with what was expected and given; what the user can do.
+    ratio
+        The contact radius over the largest one [1].
+    """
+
+    def __init__(self, why: str, remedy: str, ratio: float) -> None:
+        super().__init__(why, remedy, ratio)  # the arguments from which pickle restores it
+        self.why, self.remedy, self.ratio = why, remedy, ratio
+
+    def __str__(self) -> str:
+        return f"{self.why}; {self.remedy}"
+
+
+def wide_contact(key: str, limit: str, got: str, remedy: str, ratio: float) -> WideContactError:
     """Return the error of a contact that is wider than the contact law allows.
 
     Parameters
@@ -30,8 +49,11 @@ def wide_contact(key: str, limit: str, got: str, remedy: str) -> SceneError:
         The contact radius, in words without its unit.
     remedy
         What the user can do.
+    ratio
+        The contact radius over the largest one [1].
     """
-    return SceneError(f"{key}: expected a contact radius below {limit}, got {got} m; {remedy}")
+    why = f"{key}: expected a contact radius below {limit}, got {got} m"
+    return WideContactError(why, remedy, ratio)
 
 
 class HeldError(SceneError):

@@ -33,6 +33,7 @@ from derivation.scene.measured.measured import (
     inaccurate_constant,
     remaining_of,
     toleranced,
+    without_constant,
 )
 from derivation.scene.model import model_of
 from derivation.scene.model_errors import model_errors
@@ -112,6 +113,8 @@ def simulate(
 def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> Result:
     """Simulate the impact of a scene, with the warnings about its units first."""
     scene = toleranced(scene, None if rtol is None else check_rtol(rtol))
+    if scene.measured is not None:
+        _check_before_fit(scene, rtol)
     rtol, selected = selected_effects(scene, rtol)
     selected, numbers, accuracy = _solved(scene, selected, rtol)
     contact_time, delta, _, a, _ = numbers
@@ -165,6 +168,21 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
         selected.grown(growth_of(motion)), inertia_neglected=neglected,
         model_errors=errors,
     )  # fmt: skip
+
+
+def _check_before_fit(scene: Scene, rtol: float | None) -> None:
+    """Reject a scene that fails for any value of a constant before the value is determined.
+
+    Raises
+    ------
+    SceneError
+        If its plate has inertia, and the impact cannot be simulated.
+    """
+    from derivation.scene.dynamic.waves import check_simulable
+
+    rtol, selected = selected_effects(without_constant(scene), rtol)
+    if selected.law.dynamic:
+        check_simulable(selected.law, rtol)
 
 
 def _solved(

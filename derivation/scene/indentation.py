@@ -36,7 +36,7 @@ from derivation.scene.input.units import unit_warnings, with_unit_warnings
 from derivation.scene.model import model_of
 from derivation.scene.numerics.crossing import last_true
 from derivation.scene.output.html import html_table
-from derivation.scene.quantity import percent
+from derivation.scene.quantity import up_to
 from derivation.scene.scene import Scene
 from derivation.scene.selection.selection import check_enabled
 
@@ -99,7 +99,7 @@ class StaticContacts(tuple[StaticContact, ...]):
     def model_note(self) -> str:
         """The largest model error, in words; empty if there is none."""
         error = max((contact.model_error for contact in self), default=0.0)
-        size = f"up to {percent(error)}" if math.isfinite(error) else "unknown"
+        size = up_to(error) if math.isfinite(error) else "unknown"
         return f"Model error: {size}" if error else ""
 
     def __str__(self) -> str:

@@ -16,6 +16,9 @@ FEWEST_DIGITS, MOST_DIGITS = 2, 12
 ONE_DIGIT, NO_DIGITS = 0.3, 1.0
 """Relative errors from which one digit is shown, and none because no digit holds."""
 
+MOST = 10.0
+"""Ratio above which only this is stated in per cent."""
+
 
 def digits_of(error: float) -> int:
     """Return the number of significant digits to show with a relative error; 0 for none.
@@ -45,14 +48,27 @@ def significant(value: float, digits: int) -> str:
 
 
 def percent(ratio: float) -> str:
-    """Return a ratio in per cent with two digits.
+    """Return a ratio in per cent with two digits; of a large one only that it is large.
 
     Examples
     --------
-    >>> percent(0.00126), percent(2.83)
-    ('0.13 %', '280 %')
+    >>> percent(0.00126), percent(2.83), percent(774.0)
+    ('0.13 %', '280 %', 'more than 1000 %')
     """
+    if ratio > MOST:
+        return f"more than {100.0 * MOST:g} %"
     return f"{float(f'{100.0 * ratio:.2g}'):g} %"
+
+
+def up_to(error: float) -> str:
+    """Return a bound on an error in per cent.
+
+    Examples
+    --------
+    >>> up_to(0.00126), up_to(774.0)
+    ('up to 0.13 %', 'more than 1000 %')
+    """
+    return percent(error) if error > MOST else f"up to {percent(error)}"
 
 
 def counted(number: int, noun: str) -> str:

@@ -50,3 +50,20 @@ def test_smooth_function_takes_few_steps(root: float, steepness: float, curvatur
 def test_last_number_of_a_condition(last: float) -> None:
     found = last_true(lambda x: x <= last, 0.0, 1.0, 60)
     assert found <= last < found + 2.0**-52
+
+
+@pytest.mark.parametrize("name", ["exponential", "flat"])
+def test_accuracy_that_suffices_saves_evaluations(name: str) -> None:
+    of, zero = RISES[name]
+    exact: list[float] = []
+    close: list[float] = []
+    rise(lambda x: exact.append(x) or of(x), 0.0, 1.0)
+    found = rise(lambda x: close.append(x) or of(x), 0.0, 1.0, close=1e-6)
+    assert abs(found - zero) <= 1e-6
+    assert len(close) < len(exact)
+
+
+def test_a_zero_within_an_error_suffices() -> None:
+    """The function is 0 in an interval, as a difference within its error is."""
+    found = rise(lambda x: 0.0 if abs(x - 0.4) < 0.01 else x - 0.4, 0.0, 1.0, close=1e-12)
+    assert abs(found - 0.4) < 0.01

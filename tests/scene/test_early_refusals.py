@@ -8,9 +8,10 @@ import pytest
 from derivation.scene import SceneError, read, simulate
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic import contact_errors, contact_sequence, waves
-from derivation.scene.dynamic.time_element import A
+from derivation.scene.dynamic.time_element import A, C
 from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.impact import selected_effects
+from derivation.scene.measured import measured
 
 HAIL: dict[str, Any] = {
     "sphere": {"radius": 0.0125, "material": "ice", "yield_stress": 10e6},
@@ -200,3 +201,39 @@ def test_more_modes_are_a_remedy_only_if_the_scene_gives_their_number(modes: str
     text = refusal(scene)
     assert "increase the tolerance" in text
     assert ("inertia.modes" in text) == (modes != "auto")
+
+
+def test_early_estimate_of_omitted_branches_is_of_the_radius_on_the_curved_plate() -> None:
+    """Where the plate is curved less than under a static load, its contact is narrower."""
+    law = law_of({
+        "sphere": {"radius": 0.0125, "material": "ice"},
+        "plate": {"radius": 0.7, "thickness": 0.0008, "material": "steel", "loss_factor": 0.05}
+        | {"edge": "simply-supported", "retardation_time": 1.8e-4},
+        "impact": {"speed": 18.0},
+    })  # fmt: skip
+    problem, radii = problem_of(law, 40, 1e-6), list[float]()
+    whole = contact_sequence.contact(
+        problem, 24, problem.begin(), 0.0, 0.0, 1e-6, watch=radii.append
+    )
+    widest, static = (max(piece.element.largest(row) for piece in whole.pieces) for row in (C, A))
+    assert 0.9 * widest < max(radii) <= widest < 0.9 * static
+
+
+@pytest.mark.parametrize(
+    ("tables", "reason"),
+    [
+        ({"inertia": {"modes": 10}, "accuracy": {"rtol": 0.01}}, "inertia.modes: expected at l"),
+        ({"sphere": {"radius": 0.016, "mass": 0.13, "material": "steel"}}, "a deflection of less"),
+    ],
+)
+def test_what_no_constant_changes_is_refused_before_the_constant_is_determined(
+    tables: dict[str, Any], reason: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(measured, "_fit", pytest.fail)
+    scene = {
+        "sphere": {"radius": 0.0125, "material": "ice"},
+        "plate": {"radius": 0.04, "thickness": 0.0006, "material": "steel", "edge": "paper"},
+        "impact": {"speed": 1.0},
+        "measured": {"restitution": 0.76, "solve_for": "yield_stress"},
+    }
+    assert reason in refusal(scene | tables)

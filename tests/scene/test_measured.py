@@ -18,7 +18,8 @@ from derivation.scene.measured.measured import (
     in_words,
     solved,
 )
-from derivation.scene.measured.measurement import Measurement, Trial
+from derivation.scene.measured.measurement import Measurement
+from derivation.scene.measured.trial import Trial
 from derivation.scene.quasi_static.viscous import impact as viscous_impact
 from derivation.scene.scene import OUTPUTS
 from generated.plasticity import plastic_restitution, yield_radius

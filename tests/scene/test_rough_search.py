@@ -8,8 +8,9 @@ import pytest
 
 from derivation.scene import SceneError, read, simulate
 from derivation.scene.dynamic import contact_sequence, waves
-from derivation.scene.measured.measurement import Measurement, Trial
-from derivation.scene.measured.rough_search import FAR, HALF, PART
+from derivation.scene.measured.measurement import Measurement
+from derivation.scene.measured.rough_search import FAR, HALF, PART, rough_value
+from derivation.scene.measured.trial import Trial, UnreachedError
 
 THIN: dict[str, dict[str, Any]] = {
     "sphere": {"radius": 0.008, "material": "bearing steel"},
@@ -107,3 +108,74 @@ def test_an_error_of_the_measurement_names_the_speed_of_the_measurement() -> Non
     assert enough
     slower = wide | {"impact": {"speed": float(enough[1])}}
     assert Measurement(slower, "yield_stress", 0.5).to(0.1).simulated(None).restitution > 0.0
+
+
+GOLF: dict[str, dict[str, Any]] = {
+    "sphere": {"radius": 0.0213, "youngs_modulus": 1e8, "poissons_ratio": 0.45, "mass": 0.0459},
+    "plate": {"radius": 0.04, "thickness": 0.0025, "material": "titanium"},
+    "impact": {"speed": 20.0},
+}
+
+
+@pytest.mark.parametrize("part", [0.9, 0.6, 0.35, 0.2])
+def test_a_contact_that_yields_is_at_most_as_wide_as_an_elastic_one_of_the_speed_over_e(
+    part: float,
+) -> None:
+    block = {"radius": 1.0, "thickness": 2.0, "material": "steel"}
+    effects = {"effects": {"inertia": False, "spherical_profile": False, "bending": False}}
+    scene = {"sphere": {"radius": 0.01, "material": "steel"}, "plate": block} | effects
+    at_rest = {"restitution": part, "solve_for": "yield_stress"}
+    yielding = simulate(read(scene | {"impact": {"speed": 1.0}, "measured": at_rest}))
+    assert yielding.restitution == pytest.approx(part, rel=1e-3)
+    elastic = simulate(read(scene | {"impact": {"speed": 1.0 / part}}))
+    assert 0.9 < yielding.max_contact_radius / elastic.max_contact_radius < 1.0
+
+
+def test_a_named_speed_of_the_measurement_is_low_enough_for_its_restitution() -> None:
+    """At the speed that is low enough without yield, the contact was too wide after yield.
+
+    The search then makes shorter steps where the contact would be too wide.
+    """
+    on_plate = {"restitution": 0.69, "solve_for": "yield_stress", "target": "plate"}
+    scene = GOLF | {"impact": {"speed": 1.0}, "measured": on_plate | {"tested_at": 30.0}}
+    with pytest.raises(SceneError, match=r"measured\.tested_at") as error:
+        simulate(read(scene))
+    enough = re.search(r"\((\S+) m/s is low enough\)", str(error.value))
+    assert enough
+    speed = float(enough[1])
+    scene["measured"]["tested_at"] = speed
+    assert simulate(read(scene)).measured_note
+    scene["measured"]["tested_at"] = speed / 0.69
+    with pytest.raises(SceneError, match=r"radius below .* reduce .*, or correct"):
+        simulate(read(scene))
+
+
+def test_a_restitution_just_below_that_without_loss_determines_the_constant() -> None:
+    """The rough search found a plate that does not yield: the error was infinite."""
+    most = simulate(read(MARBLE), rtol=1e-3).restitution
+    near = {"restitution": 0.991 * most, "solve_for": "yield_stress", "target": "plate"}
+    result = simulate(read(MARBLE | {"measured": near}), rtol=1e-2)
+    assert abs(result.restitution / near["restitution"] - 1.0) <= result.accuracy.bound <= 1e-2
+
+
+def test_few_modes_find_a_constant_that_hardly_reduces_the_restitution() -> None:
+    """One that was found too large by a factor of 5 required a second, accurate search."""
+    most = simulate(read(MARBLE), rtol=1e-3).restitution
+    near = Measurement(MARBLE, "yield_stress", 0.99 * most)
+    found = rough_value(near.to(0.1))
+    assert found == pytest.approx(near.to(1e-3).value(1e-4), rel=0.2)
+
+
+def test_a_retardation_time_that_never_reduces_the_restitution_is_no_solution() -> None:
+    """The message named a smallest restitution above that without a retardation time."""
+    phone = {
+        "sphere": {"radius": 0.01585, "mass": 0.13, "material": "steel"},
+        "plate": {"radius": 0.03538, "thickness": 0.00106, "material": "phone glass"},
+        "impact": {"speed": 0.18138, "gravity": 9.81},
+    }
+    few = Measurement(phone, "retardation_time", 0.96, PART).to(0.1)
+    elastic = few.simulated(None)
+    with pytest.raises(UnreachedError, match="which no value reduces") as error:
+        few.rough_value(elastic)
+    assert f"{elastic.restitution:.3g}" in str(error.value)
+    assert elastic.restitution < few.simulated(error.value.value).restitution

@@ -1,11 +1,12 @@
 """Short waves that return from the edge change the force of a viscoelastic contact sharply."""
 
+import json
 from dataclasses import replace
 from typing import Any
 
 import pytest
 
-from derivation.scene import read, simulate
+from derivation.scene import SceneError, read, simulate
 from derivation.scene.dynamic.short_echoes import largest_echo
 from derivation.scene.result import Result
 
@@ -62,3 +63,24 @@ def test_without_retardation_or_echo_there_is_none() -> None:
 def dynamics(result: Result) -> Any:
     assert result.dynamics is not None
     return result.dynamics
+
+
+def test_echoes_that_no_number_of_modes_reduces_enough_end_a_simulation_early() -> None:
+    """The force has the only error that decreases slowly; a named tolerance is met."""
+    marble = {
+        "sphere": {"radius": 0.008, "material": "glass"},
+        "plate": {"radius": 0.0505, "thickness": 0.0061, "youngs_modulus": 60e9,
+                  "poissons_ratio": 0.22, "density": 2300.0, "retardation_time": 7.88e-6},
+        "impact": {"speed": 0.366},
+    }  # fmt: skip
+    with pytest.raises(SceneError, match="such as") as error:
+        simulate(read(marble), rtol=1e-3)
+    others = ["max_indentation", "max_contact_radius", "restitution"]
+    assert json.dumps(others) in str(error.value)
+    fewer = marble | {"accuracy": {"rtol": 1e-3, "outputs": others}}
+    assert simulate(read(fewer)).accuracy.bound <= 1e-3
+    named = float(str(error.value).partition("such as ")[2].split()[0])
+    met = simulate(read(marble), rtol=named)
+    assert met.accuracy.bound <= named < 4e-3
+    # Results that have converged long before do not end the simulation.
+    assert dynamics(met).inertia.modes > 100

@@ -103,6 +103,46 @@ def test_heavy_sphere_on_a_plate_that_stretches_is_refused_before_the_first_step
         check(float(given[1]) + 0.1)
 
 
+@pytest.mark.parametrize(("thickness", "usable"), [(0.8e-3, True), (0.4e-3, False)])
+def test_proposed_speeds_allow_for_the_weight_of_the_sphere(thickness: float, usable: bool) -> None:
+    """The plate deflects twice as far as under the weight at rest even if the sphere has no speed.
+
+    The proposed speeds deflect it as far as they are meant to.
+    """
+    plate = GLASS | {"radius": 0.035, "thickness": thickness}
+    phone = scene(0.0158, plate, 2.0)
+    phone["sphere"]["mass"], phone["impact"]["gravity"] = 0.13, 9.81
+    del phone["accuracy"]
+    with pytest.raises(SceneError, match="stretching") as error:
+        simulate(read(phone))
+    text = str(error.value)
+    low = re.search(r"\(about ([\d.]+) m/s for usable results", text)
+    assert bool(low) == usable
+    most = re.search(r"at most ([\d.]+) m/s", text)
+    limit = re.search(r"less than ([\d.]+) m, at which", text)
+    assert most
+    assert limit
+    part = math.sqrt(time_in_contact.USABLE / time_in_contact.FORCE)
+    for named, deflection in ((most, 1.0), *([(low, part)] if low else [])):
+        phone["impact"]["speed"] = float(named[1])
+        modal = {"effects": {"inertia": True}, "inertia": {"modes": 24, "branches": "A0"}}
+        result = simulate(read(phone | modal))
+        actual = result.dynamics.deflection_before_separation(result.effects.law)
+        assert 0.7 < actual / (deflection * float(limit[1])) < 1.1
+
+
+def test_a_speed_that_needs_too_many_time_steps_is_not_proposed() -> None:
+    plate = GLASS | {"radius": 0.063, "thickness": 0.53e-3, "edge": "simply-supported"}
+    phone = scene(0.0158, plate, 0.7)
+    phone["sphere"]["mass"] = 0.13
+    with pytest.raises(SceneError, match="stretching") as error:
+        simulate(read(phone))
+    assert "m/s" not in str(error.value)
+    phone["impact"]["speed"] = 0.2
+    with pytest.raises(SceneError, match="time steps"):
+        simulate(read(phone))
+
+
 def test_impact_with_too_many_time_steps_is_refused_and_runs_on_a_thicker_plate() -> None:
     plate = GLASS | {"radius": 0.4, "thickness": 0.6e-3}
     with pytest.raises(SceneError, match=r"effects\.inertia: .* time steps"):

@@ -75,3 +75,24 @@ def test_a_loss_in_the_stiffer_body_is_named_with_that_of_the_softer_one() -> No
     assert soft.restitution < 0.9
     assert soft.model_error < 0.02
     assert not soft.unusable_note
+
+
+def test_a_loss_in_one_of_two_similar_bodies_is_named_with_the_same_time_of_both() -> None:
+    """The note recommended the retardation time that the softer body alone already had."""
+    marble: dict[str, Any] = {
+        "sphere": {"radius": 0.008, "material": "glass"},
+        "plate": {
+            "radius": 0.121, "thickness": 0.0078, "youngs_modulus": 60e9,
+            "poissons_ratio": 0.22, "density": 2300.0, "retardation_time": 38.66e-6,
+        },
+        "impact": {"speed": 2.54},
+    }  # fmt: skip
+    one = simulate(read(marble))
+    note = re.search(r"the same retardation_time, ([\d.]+) (\w?)s", one.unusable_note)
+    assert note
+    time = float(note.group(1)) * PREFIX[note.group(2)]
+    marble["plate"]["retardation_time"] = marble["sphere"]["retardation_time"] = time
+    both = simulate(read(marble))
+    assert both.restitution == pytest.approx(one.restitution, rel=1e-3)
+    assert both.model_error < 0.02
+    assert not both.unusable_note

@@ -58,7 +58,7 @@ def check_radius(law: ContactLaw, a: float, key: str, remedy: str) -> None:
         If a reaches the law's limit.
     """
     if a >= law.limit:
-        raise wide_contact(key, law.limit_in_words, f"{a:.6g}", remedy)
+        raise wide_contact(key, law.limit_in_words, f"{a:.6g}", remedy, a / law.limit)
 
 
 def refuse(law: ContactLaw) -> NoReturn:

@@ -9,7 +9,7 @@ from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
 from derivation.scene.dynamic.yield_events import turned
 from derivation.scene.effects.effect import Array
 from derivation.scene.effects.inertia import WIDER
-from derivation.scene.errors import EndlessError, IncompleteError, wide_contact
+from derivation.scene.errors import EndlessError, IncompleteError, WideContactError, wide_contact
 
 STUCK = 1e-7
 """Length of an element in x, over max(x, 1), at which one without a solution ends the simulation.
@@ -29,10 +29,13 @@ SHARP = 0.05
 
 def endless(problem: DynamicProblem, t: float, most: int) -> EndlessError:
     """Return the error of a simulation with too many time steps."""
+    remedy = "reduce inertia.modes, increase accuracy.rtol, or set effects.inertia = false"
+    if math.isfinite(problem.heard):
+        remedy = 'use a thicker plate or a lighter sphere, or remove extent = "infinite"'
     return EndlessError(
         f"the sphere was still in contact {problem.T * t:.6g} s after first contact, when the "
         f"limit of {most} time steps was reached",
-        "reduce inertia.modes, increase accuracy.rtol, or set effects.inertia = false",
+        remedy,
     )
 
 
@@ -57,8 +60,7 @@ def check_width(problem: DynamicProblem, radius: float) -> None:
         return
     widest = float(branch.widened(a, problem.contact.at(a).force)[0])
     if widest > TOO_WIDE * problem.limit:
-        got = f"at least {widest:.6g}"
-        raise wide_contact("impact.speed", problem.range_end, got, narrower(problem))
+        raise _too_wide(problem, widest, "at least ")
 
 
 def check_whole_width(problem: DynamicProblem, widest: float) -> None:
@@ -75,7 +77,13 @@ def check_whole_width(problem: DynamicProblem, widest: float) -> None:
         If it exceeds `WIDE` times the limit of the law.
     """
     if widest > WIDE * problem.limit:
-        raise wide_contact("impact.speed", problem.range_end, f"{widest:.6g}", narrower(problem))
+        raise _too_wide(problem, widest)
+
+
+def _too_wide(problem: DynamicProblem, widest: float, least: str = "") -> WideContactError:
+    """Return the error of a contact of a radius [m]; `least` says if it is a lower bound."""
+    got, ratio = f"{least}{widest:.6g}", widest / problem.limit
+    return wide_contact("impact.speed", problem.range_end, got, narrower(problem), ratio)
 
 
 def narrower(problem: DynamicProblem) -> str:

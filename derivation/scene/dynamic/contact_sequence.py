@@ -23,7 +23,7 @@ from derivation.scene.dynamic.next_element import (
 )
 from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
 from derivation.scene.dynamic.separation import last_element, released
-from derivation.scene.dynamic.time_element import LOST, P, TimeElement
+from derivation.scene.dynamic.time_element import LOST, C, P, TimeElement
 from derivation.scene.dynamic.yield_events import UncutError, next_branch
 from derivation.scene.errors import IncompleteError
 from derivation.scene.numerics.collocation import NEXT, ONSET
@@ -192,6 +192,24 @@ def expected_work(problem: DynamicProblem, n: int, coarse: ImpactHistory) -> flo
     return (more / n + max(0.0, others)) * weight_of(problem, n)
 
 
+def least_work(history: ImpactHistory, fastest: float, count: int) -> float:
+    """Return a lower bound on the work of the elements of a run with more modes, by its `PHASE`.
+
+    Parameters
+    ----------
+    history
+        A run with fewer modes, in contact for as long.
+    fastest
+        Largest angular frequency of the modes [1/s].
+    count
+        Number of modes.
+    """
+    lasted = sum(touching.end - touching.start for touching in history.contacts)
+    problem = history.problem
+    more = weight_of(problem, 1) - weight_of(problem, 0)
+    return lasted * fastest * problem.T / PHASE * more * count / problem.omega.size
+
+
 def _check_count(problem: DynamicProblem, runs: list[ContactRun], t: float) -> None:
     """Raise an error if the simulation has reached the largest number of contacts."""
     if len(runs) >= CONTACTS:
@@ -227,7 +245,8 @@ def contact(
     tried, most
         Number of elements computed for earlier contacts, and the largest number in all.
     watch
-        Function that is called with the radius, in units of the problem, when it has decreased.
+        Function that is called with a radius just before the largest one of the curved plate, in
+        units of the problem, when it has decreased.
 
     Raises
     ------
@@ -284,8 +303,8 @@ def contact(
         elements.append(made)
         x = made.element.x + made.element.length
         _check_weight(problem, x)
-        if watch and made.radius < radius:
-            watch(radius)
+        if watch and made.radius < radius and len(elements) > 1:
+            watch(float(elements[-2].element.rows[C].sum()))
         state, radius, scale = made.end, made.radius, largest
         check_width(problem, radius)
         length = next_length(made, x, change)

@@ -8,13 +8,22 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
 from derivation.scene.contact_law.law import ContactLaw
-from derivation.scene.dynamic.contact_sequence import ImpactHistory
-from derivation.scene.dynamic.mode_count import FURTHER, MODES, beyond_limits, coarser, fast
+from derivation.scene.dynamic.contact_sequence import ImpactHistory, least_work, work_of
+from derivation.scene.dynamic.modal import free_modes
+from derivation.scene.dynamic.mode_count import (
+    FURTHER,
+    MODES,
+    beyond_limits,
+    branching,
+    coarser,
+    fast,
+)
 from derivation.scene.dynamic.problem import DynamicProblem
 from derivation.scene.dynamic.reach import Reach
 from derivation.scene.dynamic.results import NONE, UNKNOWN
+from derivation.scene.dynamic.short_echoes import echo_errors
 from derivation.scene.dynamic.time_element import C, P
-from derivation.scene.dynamic.wave_motion import IRREGULAR, DynamicImpact
+from derivation.scene.dynamic.wave_motion import IRREGULAR, DynamicImpact, InertiaDetails
 from generated.arrays import Double as Array
 
 REGULAR, QUICK = 2.2, 16.0
@@ -46,8 +55,11 @@ COMPARED, STEADY, SLOWEST = 3, 1.3, math.sqrt(2.0)
 decreases faster; the slowest decrease that goes on when modes are doubled, of the contact time.
 In random scenes, none of the 46 simulations with at least three such runs that met their tolerance
 would have ended early, and 17 of those that did not."""
-DEARER = {"A0": 2.0, "all": 4.0}
-"""Least factor of the work of a run with twice as many bending modes."""
+DEARER, DEAREST = {"A0": 2.0, "all": 4.0}, 4.0
+"""Least factor of the work of a run with twice as many bending modes; the largest one with A0."""
+QUICKLY = 2e5
+"""Expected work of the next run up to which it is made although short echoes exceed the tolerance:
+a tenth of a second, in which other results may meet it."""
 
 
 def judged(rough: DynamicImpact, found: DynamicImpact) -> DynamicImpact:
@@ -247,6 +259,7 @@ def unreachable(
     found = runs[-1]
     if found.inertia.recounted:  # the next run may have the same contacts, and agree
         return False
+    next_work = work
     branches = "all" if law.model.inertia.branches == "all" else "A0"
     dearer, calmed = DEARER[branches], CALMED[branches]
     shortest = float(np.max(found.impact_history.problem.contact.modes.phi)) * law.model.h
@@ -254,7 +267,12 @@ def unreachable(
     resolved = fast(law, coarser(count))
     doublings, count = 1, 2 * count
     while not beyond_limits(law, count, work, near=True):
-        count, work, doublings = 2 * count, dearer * work, doublings + 1
+        count, doublings = 2 * count, doublings + 1
+        work = max(dearer * work, _least_work(found, law, count))
+    if "max_force" in reach.outputs and next_work > QUICKLY:
+        echo = _with_modes(found, count).echo_error
+        if echo + found.inertia.left(reach.outputs)[1] > reach.need:
+            return True
     factors = {name: timed if name == "contact_time" else QUICK for name in reach.outputs}
     for name, factor in factors.items():
         first = factor if resolved or factor == REGULAR else FIRST
@@ -263,6 +281,33 @@ def unreachable(
         if max(error, ripple, _after(runs, name, doublings)) > reach.need:
             return True
     return False
+
+
+def _least_work(run: DynamicImpact, law: ContactLaw, count: int) -> float:
+    """Return a lower bound on the work of a run with more bending modes; 0 if it is unknown."""
+    if law.model.inertia.branches == "all":
+        return 0.0
+    fastest = float(free_modes(branching(law, "A0").model, count).omega[-1])
+    return least_work(run.impact_history, fastest, count)
+
+
+def attainable(run: DynamicImpact) -> InertiaDetails:
+    """Return the details of a run with the error by short echoes that more modes leave."""
+    law, history = run.law, run.impact_history
+    if law.model.inertia.modes or not run.inertia.echo_error:
+        return run.inertia
+    count, work = history.problem.contact.modes.phi.size, work_of(history)
+    while not beyond_limits(law, count, work, near=False):
+        count, work = 2 * count, DEAREST * work
+    return _with_modes(run, count)
+
+
+def _with_modes(run: DynamicImpact, count: int) -> InertiaDetails:
+    """Return the details of a run with the error by short echoes of more bending modes."""
+    if not run.inertia.echo_error:
+        return run.inertia
+    known = run.law, run.impact_history, run.max_contact_radius, run.max_force
+    return replace(run.inertia, echo_error=echo_errors(*known, count)[1])
 
 
 def _after(runs: Sequence[DynamicImpact], output: str, doublings: int) -> float:

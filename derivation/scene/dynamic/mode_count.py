@@ -65,10 +65,14 @@ def count_of(law: ContactLaw) -> int:
 
 def _highest(law: ContactLaw) -> float:
     """Return the angular frequency [1/s] that the fastest mode of the first run must reach."""
+    return PHASE * max(1.0, math.pow(zener_number(law.model), 2.0 / 3.0)) / unit_time(law)
+
+
+def unit_time(law: ContactLaw) -> float:
+    """Return the time That [s]: That^5 = m^2/(K^2 v0), K = (4/3) E* sqrt(R)."""
     model = law.model
     stiffness = 4.0 / 3.0 * law.modulus * math.sqrt(model.R)
-    duration = math.pow(model.m / stiffness, 0.4) / math.pow(model.v0, 0.2)
-    return PHASE * max(1.0, math.pow(zener_number(model), 2.0 / 3.0)) / duration
+    return math.pow(model.m / stiffness, 0.4) / math.pow(model.v0, 0.2)
 
 
 def affordable(law: ContactLaw) -> int:
@@ -133,11 +137,12 @@ def check_followed(law: ContactLaw, count: int) -> None:
     if followed(law, count):
         return
     remedy = 'branches = "A0", or ' if inertia.branches == "all" else ""
-    remedy += "effects.inertia = false" if inertia.infinite_plate else 'extent = "infinite"'
+    remedy = f'use a smaller or thinner plate, or set {remedy}extent = "infinite"'
+    if inertia.infinite_plate:
+        remedy = 'use a thicker plate or a lighter sphere, or remove extent = "infinite"'
     raise SceneError(
         f"inertia.modes: expected a contact that {count} modes can resolve, got one that needs "
-        f"frequencies up to {_highest(law) / (2.0 * math.pi):.3g} Hz; use a smaller or thinner "
-        f"plate, or set {remedy}"
+        f"frequencies up to {_highest(law) / (2.0 * math.pi):.3g} Hz; {remedy}"
     )
 
 

@@ -107,17 +107,25 @@ class Reach:
     def _checks(self, used: ContactLaw) -> bool:
         return used.model.inertia.branches != "all" and math.isfinite(self.need)
 
-    def check(self, changes: Changes) -> None:
-        """Raise an error if the omitted branches change an output by more than is allowed."""
-        known = {name: float(changes[OUTPUTS.index(name)]) for name in self.outputs}
-        worst = max(known, key=lambda name: known[name])
-        if not known[worst] > self.need:
+    def check(self, changes: Changes, known: float = 0.0) -> None:
+        """Raise an error if the omitted branches change an output by more than is allowed.
+
+        Parameters
+        ----------
+        changes
+            Estimated changes of all outputs [1].
+        known
+            A change that they must also exceed [1].
+        """
+        found = {name: float(changes[OUTPUTS.index(name)]) for name in self.outputs}
+        worst = max(found, key=lambda name: found[name])
+        if not found[worst] > max(self.need, known):
             return
         cause, remedy = self._branches_in_words()
         raise OutOfReachError(
-            known[worst],
+            found[worst],
             f"{cause}, and the omitted branches may change {worst} by about "
-            f"{known[worst]:.1e} (estimated)",
+            f"{found[worst]:.1e} (estimated)",
             remedy,
         )
 

@@ -9,7 +9,7 @@ from derivation.scene.dynamic.contact_sequence import ContactRun, ImpactHistory
 from derivation.scene.dynamic.energy import balance_of
 from derivation.scene.dynamic.flight import meeting_speed
 from derivation.scene.dynamic.problem import DynamicProblem
-from derivation.scene.dynamic.short_echoes import largest_echo, late_force
+from derivation.scene.dynamic.short_echoes import echo_errors
 from derivation.scene.dynamic.time_element import A, C, P, Z
 from derivation.scene.dynamic.wave_motion import ContactInterval, DynamicImpact, InertiaDetails
 from derivation.scene.effects.effect import Results, weight_work_ratio
@@ -38,7 +38,9 @@ def dynamic_impact_of(law: ContactLaw, history: ImpactHistory) -> DynamicImpact:
         widest /= problem.yielding.flattening
     first, total = history.contacts[0], history.contacts[-1].end
     balance = balance_of(history)
-    ripple, echo_error = _echoes(law, history, problem.a * largest[A], problem.force * largest[P])
+    ripple, echo_error = echo_errors(
+        law, history, problem.a * largest[A], problem.force * largest[P]
+    )
     with_earlier = zip(history.contacts, (None, *history.contacts[:-1]), strict=True)
     inertia = InertiaDetails(
         tuple(_touch(problem, *pair) for pair in with_earlier),
@@ -93,15 +95,6 @@ def _branches(
     changed = higher_branch_error(model, a, T, 2.0 * law.damping_ratio)
     time, depth, force, radius, speed = map(float, after_yield(changed, restitution))
     return heavier * time, depth, heavier * force, heavier * radius, heavier * speed
-
-
-def _echoes(
-    law: ContactLaw, history: ImpactHistory, a: float, max_force: float
-) -> tuple[float, float]:
-    """Return the ripple of the force by short echoes, and the error of the largest force by it."""
-    ripple = largest_echo(law, history, a) / max_force
-    late = late_force(law, history) / max_force if ripple else 0.0
-    return ripple, max(0.0, late + ripple - 1.0)
 
 
 def _damped_octaves(problem: DynamicProblem, a: float) -> float:

@@ -11,18 +11,18 @@ from derivation.scene.dynamic import contact_sequence
 from derivation.scene.dynamic.contact_sequence import ImpactHistory, expected_work
 from derivation.scene.dynamic.mode_convergence import unchecked
 from derivation.scene.dynamic.mode_count import MODES, branching, count_of
-from derivation.scene.dynamic.problem import DynamicProblem
 from derivation.scene.dynamic.reach import OutOfReachError, Reach
 from derivation.scene.dynamic.results import dynamic_impact_of
 from derivation.scene.dynamic.time_in_contact import FEWER, check_long, nodes_for
 from derivation.scene.dynamic.wave_motion import DynamicImpact
 from derivation.scene.dynamic.wave_problem import problem_of
-from derivation.scene.errors import SceneError
+from derivation.scene.errors import IncompleteError
 
 LOOSE = 4e-4
 """Largest accepted error by omitted modes without a tolerance [1]."""
-WHOLE = 1.5e6
-"""Largest work of a run that only determines which tolerance a message names."""
+WHOLE, FEWER_MODES = 2.5e5, 4
+"""Largest work of a run that only determines which tolerance a message names, and how many times
+fewer modes it has: it takes a quarter of a second."""
 FEWEST = 5
 """Least number of modes of a simulation without an error bound."""
 WORK = 4.5e7
@@ -80,10 +80,9 @@ def run_with(
     watch = reach.watch(law, problem.a) if reach else None
     try:
         history = contact_sequence.impact_history(problem, n, tolerance, work, enough, watch)
-    except OutOfReachError:
-        # The change by omitted branches grows until the end, and the message names a tolerance.
-        if reach and (whole := _within(law, problem, n, tolerance, WHOLE)):
-            reach.check(whole.inertia.omitted_branch_error)
+    except OutOfReachError as early:
+        if reach:
+            _check_later(law, max(1, count // FEWER_MODES), reach, early.change)
         raise
     budget.left -= history.work
     return dynamic_impact_of(law, history)
@@ -107,11 +106,21 @@ def with_few_modes(law: ContactLaw, part: float, work: float = WORK) -> DynamicI
         return run_with(lowest, count, Budget(min(work, WORK)), time_tolerance(LOOSE), FEWER)
 
 
-def _within(
-    law: ContactLaw, problem: DynamicProblem, n: int, tolerance: float, work: float
-) -> DynamicImpact | None:
-    """Return a complete impact if it needs no more than some work, else None."""
-    with suppress(SceneError):
-        history = contact_sequence.impact_history(problem, n, tolerance, work)
-        return dynamic_impact_of(law, history) if history.complete else None
-    return None
+def _check_later(law: ContactLaw, count: int, reach: Reach, early: float) -> None:
+    """Raise an error if the change by omitted branches exceeds an early estimate in the end.
+
+    The message then names a tolerance for which the change at the end counts.
+
+    Parameters
+    ----------
+    count
+        Number of bending modes.
+    early
+        The early estimate [1].
+    """
+    tolerance = time_tolerance(LOOSE)
+    problem = problem_of(law, count, tolerance)
+    with suppress(IncompleteError):
+        n = nodes_for(problem) - FEWER
+        history = contact_sequence.impact_history(problem, n, tolerance, WHOLE)
+        reach.check(dynamic_impact_of(law, history).inertia.omitted_branch_error, early)

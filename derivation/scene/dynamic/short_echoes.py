@@ -33,7 +33,24 @@ SUMMED = 4
 its last term."""
 
 
-def largest_echo(law: ContactLaw, history: ImpactHistory, a: float) -> float:
+def echo_errors(
+    law: ContactLaw, history: ImpactHistory, a: float, max_force: float, count: int = 0
+) -> tuple[float, float]:
+    """Return the ripple of the force by short echoes, and the error of the largest force by it [1].
+
+    Parameters
+    ----------
+    a, max_force
+        Largest contact radius [m] and largest force [N].
+    count
+        Number of bending modes, if more than those of the history are dynamic.
+    """
+    ripple = largest_echo(law, history, a, count) / max_force
+    late = late_force(law, history) / max_force if ripple else 0.0
+    return ripple, max(0.0, late + ripple - 1.0)
+
+
+def largest_echo(law: ContactLaw, history: ImpactHistory, a: float, count: int = 0) -> float:
     """Return a bound on the change of the force by echoes in the omitted modes [N].
 
     It is 0 if the contact is elastic, or ends before a wave returns from the edge.
@@ -42,13 +59,15 @@ def largest_echo(law: ContactLaw, history: ImpactHistory, a: float) -> float:
     ----------
     a
         Largest contact radius [m].
+    count
+        As for `echo_errors`.
     """
     problem, model = history.problem, branching(law, "A0").model
     delay = echo_time(model)
     over = problem.T * history.contacts[-1].end <= delay
     if over or not problem.retardation_time or model.inertia.infinite_plate:
         return 0.0
-    count = problem.contact.modes.phi.size
+    count = count or problem.contact.modes.phi.size
     modes = free_modes(model, SUMMED * count)
     lag = bending_fraction(model, modes) * model.retardation_time * modes.omega
     speed = model.v0 * max(-one.before.separation_speed for one in history.contacts)

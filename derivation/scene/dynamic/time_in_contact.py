@@ -6,6 +6,7 @@ the spring changes its sign.
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -20,7 +21,6 @@ from derivation.scene.dynamic.problem import DynamicProblem
 from derivation.scene.dynamic.stretching_error import FORCE, USABLE
 from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.errors import SceneError
-from derivation.scene.model import Model
 from generated.arrays import Double as Array
 
 NODES, MANY = (32, 24), 200
@@ -100,14 +100,11 @@ def check_long(law: ContactLaw, tolerance: float) -> None:
     of any other the least time in contact counts. A heavy sphere that deflects the plate beyond the
     linear model is rejected too.
     """
-    model, count = law.model, count_of(law)
-    modes = plate_of(law, count).modes
-    ratio = model.m * float(modes.inverse_modal_mass[0])
+    model = law.model
     if model.inertia.modes or model.inertia.infinite_plate:
         return
-    swing = half_period(model.m, modes)
-    if ratio > SPRING:
-        _check_deflection(model, ratio, swing)
+    check_deflected(law, tolerance)
+    ratio, swing = _heaviness(law)
     if ratio < HEAVY:
         _check_time_in_contact(law, tolerance)
         return
@@ -121,33 +118,68 @@ def check_long(law: ContactLaw, tolerance: float) -> None:
         )
 
 
-def _check_deflection(model: Model, ratio: float, swing: float) -> None:
+def check_deflected(law: ContactLaw, tolerance: float) -> None:
     """Reject a heavy sphere that deflects the plate so far that stretching doubles its stiffness.
 
     Up to a hundred contacts would be simulated, on a plate that is far too soft.
 
     Parameters
     ----------
-    ratio
-        Sphere mass over mass of the first mode.
-    swing
-        Half the period [s] of the sphere on the plate.
+    tolerance
+        Tolerance of the time elements [1], on which it depends whether a slower sphere can be
+        simulated.
     """
+    model = law.model
+    ratio, swing = _heaviness(law)
+    free = model.inertia.modes or model.inertia.infinite_plate
     deflection = DEFLECTED * model.v0 * swing / math.pi
     limit = doubling_deflection(model)
-    if deflection < limit:
+    if free or ratio <= SPRING or deflection < limit:
         return
-    speed = model.v0 * limit / deflection
-    low = speed * math.sqrt(USABLE / FORCE)  # of later contacts, apart from the sphere's weight
     thicknesses = deflection / (2.0 * float(model.h))
     raise SceneError(
         f"effects.inertia: expected a deflection of less than {limit:.2g} m, at which stretching, "
         "which the model neglects, doubles the stiffness of the plate, got at least about "
         f"{deflection:.2g} m ({thicknesses:.2g} thicknesses) under a sphere {ratio:.3g} times as "
-        "heavy as its first mode; use a thicker or smaller plate, a lighter sphere or an "
-        f"impact.speed of at most {rounded_down(speed):.2g} m/s (about {low:.1g} m/s for usable "
-        "results), or set inertia.modes to simulate a plate that does not stretch"
+        "heavy as its first mode; use a thicker or smaller plate"
+        f"{_slower(law, tolerance, limit, swing)}, or set inertia.modes to simulate a plate that "
+        "does not stretch"
     )
+
+
+def _slower(law: ContactLaw, tolerance: float, limit: float, swing: float) -> str:
+    """Return a lighter or slower sphere as a remedy, with a speed if one is low enough.
+
+    Parameters
+    ----------
+    limit
+        Deflection [m] at which stretching doubles the stiffness of the plate.
+    swing
+        Half the period [s] of the sphere on the plate.
+    """
+    sag = law.model.gravity * (swing / math.pi) ** 2
+
+    def speed_for(deflection: float) -> float:
+        """Return the speed [m/s] for a largest deflection [m]; 0 if the weight alone exceeds it."""
+        square = deflection * (deflection - 2.0 * DEFLECTED * sag)
+        return math.sqrt(max(0.0, square)) * math.pi / (DEFLECTED * swing)
+
+    speed = rounded_down(speed_for(limit))
+    low = rounded_down(speed_for(limit * math.sqrt(USABLE / FORCE)))  # of later contacts
+    if speed:
+        slow = replace(law, model=replace(law.model, v0=speed))
+        steps, most = _steps(slow, 2 * affordable(slow), tolerance, IN_CONTACT * swing)
+        speed = speed if steps <= most else 0.0
+    if not speed:
+        return " or a lighter sphere"
+    usable = f" (about {low:.2g} m/s for usable results)" if low else ""
+    return f", a lighter sphere or an impact.speed of at most {speed:.2g} m/s{usable}"
+
+
+def _heaviness(law: ContactLaw) -> tuple[float, float]:
+    """Return sphere mass over mass of the first mode [1], and half its period on the plate [s]."""
+    modes = plate_of(law, count_of(law)).modes
+    return law.model.m * float(modes.inverse_modal_mass[0]), half_period(law.model.m, modes)
 
 
 def _check_time_in_contact(law: ContactLaw, tolerance: float) -> None:

@@ -11,6 +11,9 @@ import math
 from dataclasses import replace
 from functools import lru_cache
 
+import numpy as np
+
+from derivation.engine.threads import one_thread
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic import contact_sequence
 from derivation.scene.dynamic.contact_errors import check_whole_width
@@ -42,7 +45,7 @@ from derivation.scene.dynamic.reach import OutOfReachError, Reach
 from derivation.scene.dynamic.results import dynamic_impact_of
 from derivation.scene.dynamic.runs import LOOSE, WORK, Budget, run_with, time_tolerance
 from derivation.scene.dynamic.stretching_error import exceeds_modes
-from derivation.scene.dynamic.time_in_contact import FEWER, check_long, nodes_for
+from derivation.scene.dynamic.time_in_contact import FEWER, check_deflected, check_long, nodes_for
 from derivation.scene.dynamic.wave_motion import DynamicImpact
 from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.errors import SceneError
@@ -113,6 +116,25 @@ def impact(
         law = wider(law, first, run)
         run = _converged(law, goal, reach, budget)
     return run
+
+
+def check_simulable(law: ContactLaw, rtol: float | None) -> None:
+    """Reject an impact that cannot be simulated for any yield stress or retardation time.
+
+    Parameters
+    ----------
+    rtol
+        Tolerance of the results [1], if they have one.
+
+    Raises
+    ------
+    SceneError
+        As `impact` does before its first run.
+    """
+    with one_thread(), np.errstate(all="ignore"):
+        if rtol is not None:
+            check_resolving(law)
+        check_deflected(law, time_tolerance(goal(rtol)))
 
 
 def _branched(
@@ -225,7 +247,7 @@ def _converged(
         if beyond and (most or not nearly_meets(best, reach)):
             return best
         work = _next_work(law, more, best)
-        if change <= _accepted_change(best, goal, reach, work):
+        if math.isinf(reach.need) and change <= _accepted_change(best, goal, reach, work):
             return best
         if beyond:
             if work > FINAL:

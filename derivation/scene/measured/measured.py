@@ -6,20 +6,19 @@ impact is simulated repeatedly until the restitution agrees.
 
 import json
 import math
+import re
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING, NamedTuple
 
+from derivation.scene.dynamic.contact_errors import rounded_down
 from derivation.scene.effects.effect import NO_BOUND
 from derivation.scene.errors import SceneError, ToleranceError
 from derivation.scene.input.settings import TIGHTEST
-from derivation.scene.measured.measurement import (
-    UNITS,
-    Measurement,
-    Trial,
-)
+from derivation.scene.measured.measurement import AGREES, UNITS, Measurement
 from derivation.scene.measured.rough_search import rough_value
 from derivation.scene.measured.specimen import measurement_of
+from derivation.scene.measured.trial import Trial
 from derivation.scene.quantity import digits_of, prefixed
 from derivation.scene.selection.achieved_accuracy import remaining, rounded_up
 
@@ -38,8 +37,6 @@ FURTHEST, POLISHES = 0.2, 6
 simulations."""
 ENOUGH = 1.6
 """Tolerance that a message recommends over the error bound: both increase together."""
-AGREES = 0.1
-"""Relative difference from the measured restitution that suffices, over the error bound."""
 NEGLIGIBLE = 0.01
 """Error due to a constant over the tolerance below which a message does not state it."""
 CHANGE = 1e-2
@@ -47,6 +44,10 @@ CHANGE = 1e-2
 LEAST_RATIO, MARGIN = 3.0, 1.5
 """Error of the results over that of the restitution in a measurement with plate inertia, estimated:
 its least value, and its value over that of a simulation with few modes."""
+
+
+LOW_ENOUGH = re.compile(r"\((\S+) m/s is low enough\)")
+"""How a message states a speed at which an elastic contact is narrow enough."""
 
 
 class Fit(NamedTuple):
@@ -90,6 +91,14 @@ def fitted(scene: "Scene") -> "Scene":
     tables = scene.to_json()
     del tables["measured"]
     return read(tables | {"plate": tables["plate"] | {scene.measured.solve_for: solved(scene)}})
+
+
+def without_constant(scene: "Scene") -> "Scene":
+    """Return the scene of a measurement with a plate that loses no energy by the constant."""
+    assert scene.measured is not None
+    tables = scene.to_json()
+    del tables["measured"]
+    return Measurement(tables, scene.measured.solve_for, scene.measured.restitution).scene(None)
 
 
 def toleranced(scene: "Scene", rtol: float | None) -> "Scene":
@@ -166,11 +175,26 @@ def _fit_of(scene: "Scene") -> Fit:
     try:
         return _fit(json.dumps(scene.to_json()))
     except SceneError as error:
-        text = str(error).replace("impact.speed", "measured.tested_at")
-        if scene.measured.tested_at is None or text == str(error):
+        text = str(error)
+        if scene.measured.solve_for == "yield_stress":
+            text = LOW_ENOUGH.sub(partial(_slower, scene.measured.restitution), text)
+        if scene.measured.tested_at is not None:
+            text = text.replace("impact.speed", "measured.tested_at")
+        if scene.accuracy is not None and text.startswith("measured.restitution"):
+            text += f" (the tolerance {scene.accuracy.rtol:g} is checked after that)"
+        if text == str(error):
             raise
         where = "" if text.startswith("measured.") else "measured: its simulation fails: "
         raise SceneError(where + text) from None
+
+
+def _slower(restitution: float, stated: re.Match[str]) -> str:
+    """Return a speed at which a contact is narrow enough that yields until it has a restitution.
+
+    Such a contact is at most as wide as an elastic one of the speed v/e: far above yield, its
+    radius is 0.91 times as large, and also proportional to (v/e)^(2/5).
+    """
+    return f"({rounded_down(restitution * float(stated[1])):.2g} m/s is low enough)"
 
 
 @lru_cache(maxsize=64)
@@ -205,6 +229,8 @@ def _with_inertia(measured: Measurement, rtol: float | None) -> Fit:
     """
     first = rough_value(measured.to(LOOSE))
     slope, ratio = (0.0, LEAST_RATIO) if first is None else _sensitivities(measured, first)
+    if not slope:  # the rough value causes no loss, but the accurate one may
+        first, ratio = None, LEAST_RATIO
     parts = 2.0 + (1.0 + AGREES) * ratio
     accurate = measured.to(DEFAULT if rtol is None else rtol / parts)
     try:

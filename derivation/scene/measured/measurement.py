@@ -6,15 +6,24 @@ plate: the solution with the smaller one is returned, if there is any.
 """
 
 import math
+import re
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
 
 from derivation.scene.effects import BY_NAME
-from derivation.scene.effects.effect import Results
-from derivation.scene.errors import HeldError, SceneError
+from derivation.scene.errors import HeldError, SceneError, WideContactError
 from derivation.scene.input.body_materials import body_of, own_materials
 from derivation.scene.input.settings import TIGHTEST
+from derivation.scene.measured.trial import (
+    IncompleteTrialError,
+    Point,
+    Trial,
+    UnreachedError,
+    WideTrialError,
+    vertex,
+)
+from derivation.scene.numerics.crossing import rise
 
 if TYPE_CHECKING:
     from derivation.scene.scene import Scene
@@ -34,57 +43,20 @@ YIELDS, POWER = 0.47, 1.6
 power of the restitution, which is about that of a contact far above yield."""
 STEPS, FACTOR = 40, 2.0
 """Largest number of steps until two trial values enclose the solution, and ratio of a step."""
+SHORTEST = 0.05
+"""Shortest such step in the logarithm of the value, beyond which a contact is too wide."""
 RISING = 3
 """Number of steps in which restitution increases, from which it has passed its smallest value."""
-ROUGH = 1e-2
-"""Relative difference from the measured restitution that ends a rough search."""
+ROUGH, OF_LOSS, LEAST = 1e-2, 0.2, 1e-4
+"""Relative difference from the measured restitution that ends a rough search; the same over the
+relative difference from that without loss, near which it hardly determines the constant; the least
+such difference."""
+AGREES = 0.1
+"""Relative difference from the measured restitution that suffices, over the error bound."""
+CLEARLY = 1.01
+"""Contact radius over the largest one above which the contact is too wide with more modes, too."""
 STATIC_RTOL = 1e-9
 """Relative tolerance of measurements without plate inertia [1]."""
-
-
-class UnreachedError(SceneError):
-    """The error of a restitution below all that the constant gives.
-
-    Attributes
-    ----------
-    least
-        The smallest restitution less its error bound [1].
-    value
-        The constant that gives it, about; 0 if it is unknown.
-    """
-
-    def __init__(self, text: str, least: float, value: float) -> None:
-        super().__init__(text, least, value)  # the arguments from which pickle restores it
-        self.text, self.least, self.value = text, least, value
-
-    def __str__(self) -> str:
-        return self.text
-
-
-class Trial(NamedTuple):
-    """The results of a measurement with a trial value: outputs, pressure [Pa], error bound [1]."""
-
-    outputs: Results
-    max_pressure: float
-    bound: float
-
-    @property
-    def contact_time(self) -> float:
-        """Duration of the contact, with plate inertia of the first one [s]."""
-        return self.outputs[0]
-
-    @property
-    def restitution(self) -> float:
-        """The restitution [1]."""
-        return self.outputs[-1]
-
-
-class Point(NamedTuple):
-    """Logarithm of a trial value, restitution less the measured one, and its lower bound [1]."""
-
-    x: float
-    above: float
-    least: float
 
 
 @dataclass(frozen=True)
@@ -112,6 +84,9 @@ class Measurement:
     goal: float
     part: float = 0.0
     work: float = math.inf
+    _trials: dict[tuple[float | None, bool], Trial] = field(
+        init=False, default_factory=dict, repr=False, compare=False
+    )
 
     @property
     def static(self) -> bool:
@@ -137,12 +112,17 @@ class Measurement:
         SceneError
             If the simulation fails or is incomplete.
         """
+        if (value, within) not in self._trials:
+            self._trials[value, within] = self._simulated(value, within)
+        return self._trials[value, within]
+
+    def _simulated(self, value: float | None, within: bool) -> Trial:
         from derivation.scene.contact_law.limits import check_radius
         from derivation.scene.dynamic.runs import with_few_modes
         from derivation.scene.impact import selected_effects
         from derivation.scene.selection.method_selection import solve_selected
 
-        rtol, selected = selected_effects(self._scene(value))
+        rtol, selected = selected_effects(self.scene(value))
         law, bound = selected.law, ROUGH
         if self.part and law.dynamic:
             numbers = with_few_modes(law, self.part, self.work).numbers
@@ -150,7 +130,7 @@ class Measurement:
             numbers, accuracy = solve_selected(selected, rtol, within=within or self.static)
             bound = accuracy.bound
         if math.isnan(numbers[-1]):
-            raise SceneError(
+            raise IncompleteTrialError(
                 "measured.target: expected an impact that can be computed up to the last "
                 "separation, got one with too many contacts or time steps; use a thicker plate or "
                 'a lighter sphere, or set measured.target = "block"'
@@ -158,7 +138,7 @@ class Measurement:
         check_radius(law, a := numbers[3], "impact.speed", "reduce the speed")
         return Trial(numbers, min(law.max_pressure(a), law.pressure_limit), bound)
 
-    def _scene(self, value: float | None) -> "Scene":
+    def scene(self, value: float | None) -> "Scene":
         """Return the scene with a trial value; without one, the plate loses no energy by it."""
         from derivation.scene.scene import read
 
@@ -209,7 +189,9 @@ class Measurement:
         )
 
     def rough_value(self, lossless: Trial) -> float:
-        """Return a value at which the restitution is within `ROUGH` of the measured one.
+        """Return a value at which the restitution is about the measured one.
+
+        It differs by `ROUGH`, or by a part of what the constant reduces it if this is less.
 
         Parameters
         ----------
@@ -223,10 +205,12 @@ class Measurement:
         """
         if not self.goal < lossless.restitution:  # perhaps it is unknown
             raise UnreachedError("", -math.inf, 0.0)
-        low, high = self._bracket(lossless, ROUGH)
+        reduced = 1.0 - self.goal / lossless.restitution
+        close = max(LEAST, min(ROUGH, OF_LOSS * reduced))
+        low, high = self._bracket(lossless, close)
         while True:
             near = min(low, high, key=lambda point: abs(point.above))
-            if abs(near.above) <= ROUGH * self.goal or abs(high.x - low.x) <= ROUGH:
+            if abs(near.above) <= close * self.goal or abs(high.x - low.x) <= ROUGH:
                 return math.exp(near.x)
             x = (low.x * high.above - high.x * low.above) / (high.above - low.above)
             # Not at an end again, where the restitution is curved.
@@ -235,17 +219,23 @@ class Measurement:
             low, high = (point, high) if point.above * low.above > 0.0 else (low, point)
 
     def value(self, close: float) -> float:
-        """Return the value at which the restitution agrees with the measured one.
+        """Return a value at which the restitution agrees with the measured one within its error.
 
         Parameters
         ----------
         close
-            Relative accuracy of the value [1].
+            Relative accuracy of the value that suffices [1].
         """
-        from scipy.optimize import brentq
-
         low, high = self._bracket(self.lossless())
-        return math.exp(float(brentq(lambda x: self._point(x).above, low.x, high.x, xtol=close)))
+        sign = math.copysign(1.0, high.above)
+
+        def above(x: float) -> float:
+            """Return the difference of the restitution with the sign that rises; 0 within error."""
+            point = self._point(x)
+            error = point.above + self.goal - point.least
+            return 0.0 if abs(point.above) <= AGREES * error else sign * point.above
+
+        return math.exp(rise(above, low.x, high.x, close))
 
     def _point(self, x: float) -> Point:
         """Simulate with the trial value exp(x)."""
@@ -256,11 +246,18 @@ class Measurement:
         except HeldError:
             return Point(x, -self.goal, 0.0)  # the constant is beyond the solution
         except SceneError as error:
-            raise SceneError(
+            incomplete = isinstance(error, IncompleteTrialError)
+            kind, remedy = IncompleteTrialError if incomplete else SceneError, ""
+            if isinstance(error, WideContactError):
+                kind = WideTrialError if error.ratio > CLEARLY else SceneError
+                # The speed that it names is that for a given constant, not for the restitution.
+                remedy = re.sub(r" \([^()]* is low enough\)", "", error.remedy) + ", or "
+            raise kind(
                 "measured.restitution: expected a value that can be computed, got "
                 f"{self.goal:.6g}, for which the simulation of the measurement fails with "
                 f"plate.{self.key} = {math.exp(x):.6g} {UNITS[self.key]} "
-                f"({str(error).partition(';')[0]}); correct measured.restitution or measured.target"
+                f"({str(error).partition(';')[0]}); {remedy}correct measured.restitution or "
+                "measured.target"
             ) from None
 
     def _first(self, lossless: Trial) -> float:
@@ -299,7 +296,7 @@ class Measurement:
         step = more if falling else -more
         points = [now]
         for _ in range(STEPS):
-            points.append(now := self._next(points, step))
+            points.append(now := self._next(points, step, lossless))
             if (now.above <= 0.0) if falling else (now.above >= 0.0):
                 if back and falling:
                     falling = False  # to the smaller solution
@@ -312,7 +309,7 @@ class Measurement:
             # An elastic plate under a contact that hardly moves returns the energy again.
             rising += 1
             if rising == 1 and len(points) > 2:
-                lowest = self._point(_vertex(*points[-3:]))
+                lowest = self._point(vertex(*points[-3:]))
                 if lowest.above <= 0.0:
                     low, high = sorted((now if back else points[-3], lowest))
                     return low, high
@@ -322,7 +319,7 @@ class Measurement:
             if rising < RISING and not (beyond_errors and self.key == "retardation_time"):
                 continue
             if back or len(points) > 2:
-                raise self._unreached(points)
+                raise self._unreached(points, lossless)
             # The first value is already beyond that of the smallest restitution.
             points, step, rising, back = points[::-1], -step, 0, True
         raise SceneError(
@@ -331,8 +328,10 @@ class Measurement:
             f"{UNITS[self.key]} gives; correct it, or change measured.solve_for"
         )
 
-    def _next(self, points: list[Point], step: float) -> Point:
+    def _next(self, points: list[Point], step: float, lossless: Trial) -> Point:
         """Return the point after others, from which it differs by a step.
+
+        The step is shorter if the contact would be too wide.
 
         Raises
         ------
@@ -341,17 +340,31 @@ class Measurement:
         """
         try:
             return self._point(points[-1].x + step)
+        except WideTrialError:
+            if abs(step) < SHORTEST:
+                raise
+            return self._next(points, 0.5 * step, lossless)
         except SceneError as error:
             risen = points[-1] is not min(points, key=lambda point: point.above)
             if risen and self.key == "retardation_time":
-                raise self._unreached(points) from None
+                raise self._unreached(points, lossless) from None
+            if isinstance(error, IncompleteTrialError):
+                raise
             raise UnreachedError(str(error), min(p.least for p in points), 0.0) from None
 
-    def _unreached(self, points: list[Point]) -> UnreachedError:
+    def _unreached(self, points: list[Point], lossless: Trial) -> UnreachedError:
         """Return the error of a restitution below those of all points."""
         lowest = min(points, key=lambda point: point.above)
-        least = min(point.least for point in points)
-        return self._below(self.goal + lowest.above, least, math.exp(lowest.x))
+        least, smallest = min(point.least for point in points), self.goal + lowest.above
+        if smallest < lossless.restitution:
+            return self._below(smallest, least, math.exp(lowest.x))
+        return UnreachedError(
+            f"measured.restitution: expected about {lossless.restitution:.3g}, the restitution "
+            f"without a plate.{self.key}, which no value reduces, got {self.goal:.6g}; correct "
+            "measured.restitution or measured.target, or change measured.solve_for",
+            least,
+            math.exp(lowest.x),
+        )
 
     def check_reached(self, value: float, margin: float = 0.0) -> None:
         """Raise an error if a constant that gives the smallest restitution gives a larger one.
@@ -374,17 +387,10 @@ class Measurement:
     def _below(self, smallest: float, least: float, value: float) -> UnreachedError:
         """Return the error of a restitution below the smallest one, which a constant gives."""
         return UnreachedError(
-            f"measured.restitution: expected at least about {smallest:.2g}, the smallest "
+            f"measured.restitution: expected at least about {smallest:.3g}, the smallest "
             f"restitution that a plate.{self.key} gives, got {self.goal:.6g}; the restitution is "
             f"smallest at about {value:.2g} {UNITS[self.key]}; correct measured.restitution or "
             "measured.target",
             least,
             value,
         )
-
-
-def _vertex(one: Point, two: Point, three: Point) -> float:
-    """Return the position of the vertex of the parabola through equidistant points."""
-    curvature = one.above - 2.0 * two.above + three.above
-    offset = 0.5 * (one.above - three.above) / curvature if curvature > 0.0 else 0.0
-    return two.x + (two.x - one.x) * offset

@@ -9,7 +9,13 @@ from contextlib import suppress
 from dataclasses import replace
 
 from derivation.scene.errors import SceneError
-from derivation.scene.measured.measurement import Measurement, Trial, UnreachedError
+from derivation.scene.measured.measurement import OF_LOSS, Measurement
+from derivation.scene.measured.trial import (
+    IncompleteTrialError,
+    Trial,
+    UnreachedError,
+    WideTrialError,
+)
 
 PART, HALF = 0.125, 0.5
 """Parts of the modes of a usual first simulation that the simulations have."""
@@ -23,6 +29,8 @@ difference from the restitution with `HALF` the modes at the value that gives th
 `PART` of them."""
 ALIKE = 0.1
 """Relative difference of the restitution without loss up to which `PART` of the modes suffice."""
+FINE = 1e-3
+"""Tolerance of a single simulation that may show that a restitution is too small."""
 QUICK = 5e5
 """Largest work, in the units of `contact_sequence.WORK`, of a simulation that only determines which
 restitution a message names: a quarter of a second."""
@@ -51,22 +59,24 @@ def rough_value(loose: Measurement) -> float | None:
     whole = _lossless(half)
     if whole is not None:
         _check_below(half, whole)
-    if value and _alike(cheap, whole):
+    if value and _alike(cheap, whole, loose.goal):
         return value
-    lowest = 0.0
+    lowest: UnreachedError | None = None
     if whole is not None:
         try:
             return half.rough_value(whole)
         except UnreachedError as unreached:
             if loose.goal < (1.0 - CLEAR) * unreached.least:
                 raise
-            lowest = unreached.value
+            lowest = unreached
+        except (WideTrialError, IncompleteTrialError):
+            raise
         except SceneError:
             pass
+    if lowest and lowest.value and _exceeds(loose.to(FINE), lowest.value):
+        raise lowest
     accurate = loose.lossless(margin=1.0)
     try:
-        if lowest:
-            loose.check_reached(lowest)
         return loose.rough_value(accurate)
     except UnreachedError as unreached:
         if loose.goal < unreached.least:
@@ -97,16 +107,31 @@ def _by_few(few: Measurement, half: Measurement, lossless: Trial) -> float | Non
     except UnreachedError:
         raise
     except SceneError:
-        if _alike(lossless, _lossless(half)):
+        if _alike(lossless, _lossless(half), 0.0):
             raise smallest from None
     return None
 
 
-def _alike(few: Trial | None, half: Trial | None) -> bool:
-    """Return whether `PART` and `HALF` of the modes give about the same restitution."""
+def _exceeds(fine: Measurement, value: float) -> bool:
+    """Return whether the smallest restitution, with a value, exceeds the measured one."""
+    try:
+        fine.check_reached(value)
+    except UnreachedError:
+        return True
+    except SceneError:
+        pass
+    return False
+
+
+def _alike(few: Trial | None, half: Trial | None, goal: float) -> bool:
+    """Return whether `PART` and `HALF` of the modes give about the same restitution.
+
+    They then determine about the same constant for the measured restitution.
+    """
     if few is None or half is None:
         return False
-    return abs(few.restitution / half.restitution - 1.0) < ALIKE
+    reduced = abs(1.0 - goal / half.restitution)
+    return abs(few.restitution / half.restitution - 1.0) < min(ALIKE, OF_LOSS * reduced)
 
 
 def _check_below(half: Measurement, lossless: Trial) -> None:

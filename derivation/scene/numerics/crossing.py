@@ -25,8 +25,8 @@ def last_true(holds: Callable[[float], bool], low: float, high: float, halvings:
     return low
 
 
-def rise(of: Callable[[float], float], low: float, high: float) -> float:
-    """Return where a function rises through zero, to a few ULP.
+def rise(of: Callable[[float], float], low: float, high: float, close: float = 0.0) -> float:
+    """Return where a function rises through zero, to a few ULP or to an accuracy that suffices.
 
     It is not negative at the result, and negative just below it. Each step is one of inverse
     quadratic interpolation where it can be trusted, or of halving (Chandrupatla 1997).
@@ -36,12 +36,14 @@ def rise(of: Callable[[float], float], low: float, high: float) -> float:
     of
         A function that is not negative at `high`. If it is not negative at `low` either, the
         interval is halved towards it until the function is negative.
+    close
+        Error of the result that suffices. If it is above 0, any zero that is found suffices, too.
     """
     below, above, part = _Point(low, of(low)), _Point(high, of(high)), 0.5
     for _ in range(_STEPS):
         length = above.x - below.x
         least = 2.0 * math.ulp(above.x) / length
-        if least >= 0.5:
+        if least >= 0.5 or length <= close or (close and not above.value):
             break
         x = below.x + min(max(part, least), 1.0 - least) * length
         new = _Point(x, of(x))

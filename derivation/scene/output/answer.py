@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from derivation.engine.text import aligned, paragraph
 from derivation.scene.contact_law.yield_warnings import assumed_yield_stress
 from derivation.scene.output.result_errors import largest_within_error, unknown
-from derivation.scene.quantity import digits_of, percent, prefixed, significant
+from derivation.scene.quantity import digits_of, prefixed, significant, up_to
 
 if TYPE_CHECKING:
     from derivation.scene.dynamic.wave_motion import DynamicImpact
@@ -112,7 +112,7 @@ def _model_error(result: "Result") -> str:
     name = max(result.effects.outputs, key=lambda output: errors[output])
     others = min(errors[output] for output in result.effects.outputs)
     whose = f" ({name.replace('_', ' ')})" if others < UNLIKE * result.model_error else ""
-    return f", model error up to {percent(result.model_error)}{whose}"
+    return f", model error {up_to(result.model_error)}{whose}"
 
 
 def _stress_error(result: "Result") -> str:
@@ -120,7 +120,7 @@ def _stress_error(result: "Result") -> str:
     error = result.bound_of("max_tensile_stress") + result.tensile_stress.error
     if result.dynamics is None or not math.isfinite(error):
         return ""
-    return f"; of max tensile stress up to {percent(error)} (estimated)"
+    return f"; of max tensile stress {up_to(error)} (estimated)"
 
 
 def model_note(result: "Result") -> str:
@@ -135,7 +135,7 @@ def model_note(result: "Result") -> str:
     if result.effects.law.viscous and result.model.retardation_spread:
         parts.append("different retardation times of sphere and plate (estimated)")
     return (
-        f"Not included in this bound: model error up to {percent(result.model_error)}, of "
+        f"Not included in this bound: model error {up_to(result.model_error)}, of "
         f"{' and of '.join(parts)}"
     )
 

@@ -9,7 +9,7 @@ from derivation.scene.contact_law.limits import local_indentation
 from derivation.scene.dynamic.stretching_error import USABLE, Deflections, deflections_of
 from derivation.scene.dynamic.unlike_bodies import unlike_bodies_errors
 from derivation.scene.model_errors import model_errors
-from derivation.scene.quantity import NO_DIGITS, percent, prefixed
+from derivation.scene.quantity import NO_DIGITS, percent, prefixed, up_to
 from derivation.scene.scene import OUTPUTS
 from derivation.scene.selection.method_selection import growth_of
 
@@ -55,15 +55,25 @@ def _by_retardation(result: "Result") -> str:
     error = max(by_time.values())
     if error < NO_DIGITS:
         return ""
+    why = (
+        "The retardation times of sphere and plate differ so much that the model, which combines "
+        f"them, has a model error of {percent(error)}."
+    )
     # The softer body alone, with the same retardation time of the contact.
     softer = "sphere" if model.softness > 1.0 else "plate"
     compliance = max(model.softness, 1.0) / (1.0 + model.softness)
-    time, unit = prefixed(model.retardation_time / compliance, "s", 4)
+    alone = model.retardation_time / compliance
+    spread = alone * math.sqrt(compliance * (1.0 - compliance))
+    if error * (spread / model.retardation_spread) ** 2 < NO_DIGITS:
+        time, unit = prefixed(alone, "s", 4)
+        return (
+            f"{why} If the {softer}, the softer body, causes the loss, give it alone "
+            f"{softer}.retardation_time, for example {time} {unit} for the same contact."
+        )
+    time, unit = prefixed(model.retardation_time, "s", 4)
     return (
-        "The retardation times of sphere and plate differ so much that the model, which combines "
-        f"them, has a model error of {percent(error)}. If the {softer}, the softer body, causes "
-        f"the loss, give it alone {softer}.retardation_time, for example {time} {unit} for the "
-        "same contact."
+        f"{why} If both bodies cause the loss, give both the same retardation_time, {time} {unit} "
+        "for the same contact."
     )
 
 
@@ -87,7 +97,7 @@ def _by_stretching(result: "Result") -> str:
     times, worst = deflections.largest / thickness, max(by_it.values())
     return (
         f"The plate deflects by {times:.2g} thicknesses and stretches, which the model neglects "
-        f"(error up to {percent(worst)}). Speed or thickness for an error of about "
+        f"(error {up_to(worst)}). Speed or thickness for an error of about "
         f"{percent(USABLE)}: {', '.join(remedies)}."
     )
 

@@ -111,7 +111,8 @@ class EnergyBalance:
         )
         if abs(self.gravity_work) < NOTABLE_WORK * self.initial_kinetic:
             return words
-        return f"{words}; the weight contributes {self._percent(self.gravity_work, last)}"
+        weight = self._percent(self.gravity_work, last)
+        return f"{words}; the weight contributes {weight} (in % of the kinetic energy at impact)"
 
     def _percent(self, energy: float, last: int) -> str:
         """Return an energy in percent, rounded to a power of ten."""

@@ -146,13 +146,15 @@ def _omitted(selected: SelectedEffects, motion: "DynamicImpact | None") -> float
 
 
 def _named(selected: SelectedEffects, moving: "DynamicImpact", accuracy: AchievedAccuracy) -> float:
-    """Return a tolerance at which a simulation with plate inertia ends with these modes [1].
+    """Return a tolerance that a simulation with plate inertia meets with these or more modes [1].
 
     With a larger tolerance more effects may be omitted, which takes a part of it.
     """
+    from derivation.scene.dynamic.mode_convergence import attainable
     from derivation.scene.dynamic.waves import KEPT
 
-    simulated = replace(accuracy, effects=Part(0.0, PROVED)).bound / KEPT
+    law = Part(attainable(moving).error(selected.outputs), ESTIMATED)
+    simulated = replace(accuracy, law=law, effects=Part(0.0, PROVED)).bound / KEPT
     growth, error = largest_growth(growth_of(moving), selected.outputs), selected.error
     named = math.expm1(math.log1p(growth * error) + math.log1p(simulated))
     for _ in range(SEARCHES):
@@ -334,10 +336,8 @@ def _half_space(law: ContactLaw) -> tuple[Results, AchievedAccuracy] | None:
     )
     if estimate is None:
         return None
-    rounding = Part(estimate.rounding, ROUNDING_ANALYSIS)
-    return (*estimate[:4], 1.0), AchievedAccuracy(
-        "hertz", None, Part(0.0, PROVED), Part(0.0, PROVED), rounding
-    )
+    none, rounding = Part(0.0, PROVED), Part(estimate.rounding, ROUNDING_ANALYSIS)
+    return (*estimate[:4], 1.0), AchievedAccuracy("hertz", None, none, none, rounding)
 
 
 def solve(model: Model, rtol: float | None = None) -> tuple[Results, AchievedAccuracy]:

@@ -251,6 +251,7 @@ def test_few_modes_refuse_a_restitution_far_below_all_that_a_heavy_ball_may_have
         assert result.restitution > (1.0 - rough_search.CLEAR) * named > 0.5
 
 
+@pytest.mark.one_version
 def test_few_modes_find_a_constant_that_accurate_simulations_confirm() -> None:
     """The restitution of a known constant, simulated with an error bound, returns it."""
     truth = 3e-6
@@ -322,6 +323,7 @@ def test_the_weight_of_the_sphere_acts_on_a_block_too(speed: float) -> None:
     assert solved(scene) == pytest.approx(time, rel=1e-6)
 
 
+@pytest.mark.one_version
 def test_several_values_of_several_contacts_are_announced() -> None:
     """Yield stresses of 16.3 and 6.4 MPa have one restitution, and forces that differ by 23 %."""
     plate = {
@@ -344,6 +346,7 @@ def test_several_values_of_several_contacts_are_announced() -> None:
     assert not ambiguity_warnings(read(BLOCK), contacts=2)
 
 
+@pytest.mark.one_version
 def test_constant_is_shown_with_the_digits_of_its_error() -> None:
     """Near the onset of yield, the restitution hardly depends on the yield stress."""
     wanted = {"solve_for": "yield_stress", "restitution": 1.0 - 1e-12, "target": "plate"}

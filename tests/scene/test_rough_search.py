@@ -12,6 +12,8 @@ from derivation.scene.measured.measurement import Measurement
 from derivation.scene.measured.rough_search import FAR, HALF, PART, rough_value
 from derivation.scene.measured.trial import Trial, UnreachedError
 
+pytestmark = pytest.mark.one_version
+
 THIN: dict[str, dict[str, Any]] = {
     "sphere": {"radius": 0.008, "material": "bearing steel"},
     "plate": {"radius": 0.123, "thickness": 0.002, "material": "steel"},

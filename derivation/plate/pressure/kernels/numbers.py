@@ -123,14 +123,8 @@ def _waves() -> list[tuple[Ball, Ball]]:
     return [(T / 2, w * plate_excess(T) / Ball.pi()) for T, w in places]
 
 
-def lateral_places() -> list[float]:
-    """Return the nodes y of the lateral surface's integral, ascending."""
-    with flint.ctx.workprec(3 * BITS):
-        return [nearest_double(y) for y, _ in _lateral()]
-
-
 def _lateral() -> list[tuple[Ball, Ball]]:
-    """Return nodes y and weights of that integral, times e^(2y) and (4/pi^2) K0/I0."""
+    """Return nodes y and weights of the lateral surface, times e^(2y) and (4/pi^2) K0/I0."""
     front, rows = _front(1), []
     for index in range(LATERAL_FIRST, LATERAL_LAST + 1):
         u = Ball(index) / LATERAL_STEPS

@@ -56,7 +56,6 @@ from derivation.plate.vocabulary import (
 
 RATIO = lam / (lam + 2 * mu)
 """n = nu/(1 - nu): relative thinning of a plate in extension."""
-_e, _k = sp.symbols("e k", real=True)
 _y = alpha * j_n
 
 

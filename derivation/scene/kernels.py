@@ -37,6 +37,7 @@ from generated.edge import (
 )
 from generated.edge_curvature import clamped_edge_curvature, supported_edge_curvature
 from generated.edge_kernels import law_of_square
+from generated.effect_kernels import zener_rates
 from generated.effect_numbers import (
     LATERAL_CUBIC,
     LATERAL_GROWTH,
@@ -170,4 +171,5 @@ __all__ = [
     "viscous_logarithms",
     "viscous_number",
     "zener_number",
+    "zener_rates",
 ]

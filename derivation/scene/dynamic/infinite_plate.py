@@ -9,6 +9,7 @@ from dataclasses import replace
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import zener_number
 from derivation.scene.dynamic.contact_sequence import ImpactHistory
+from derivation.scene.dynamic.infinite_plate_impact import infinite_plate_impact
 from derivation.scene.dynamic.mode_count import (
     affordable,
     branching,
@@ -29,9 +30,6 @@ WIDEST = 30.0
 RADIATING, CERTAIN = 1.0, 0.8
 """Zener parameter from which contacts are so long that Zener's equation gives the first width; the
 contact time over that of this equation is larger: 0.9 to 0.98 in random scenes."""
-STEP, NEWTON, AT_REST = 0.01, 40, 1e-3
-"""Time step over the time or Zener's parameter, plus 1; number of Newton's iterations; relative
-difference from the force and the speed of a sphere that sinks by its weight."""
 PART, FEWEST = 0.1, 8
 """Part of the work of all runs that a run with a quarter of the modes may take, which takes about a
 twentieth of the work of the first run; least number of its modes."""
@@ -86,57 +84,13 @@ def _wide_enough(law: ContactLaw) -> ContactLaw:
     if number < RADIATING:
         return law
     longest = echo_time(replace(model, b=2.0 * WIDEST * model.b))
-    time = CERTAIN * unit * zener_time(number, law.gravity * unit / model.v0, longest / unit)
+    weight = law.gravity * unit / model.v0
+    time = CERTAIN * unit * infinite_plate_impact(number, weight, longest / unit)[0]
     while echo_time(model) < time:
         if model.b > WIDEST * law.model.b:
             raise _too_long(time if math.isfinite(time) else longest)
         model = replace(model, b=2.0 * model.b)
     return replace(law, model=model)
-
-
-def zener_time(number: float, weight: float, longest: float) -> float:
-    """Return the contact time on an infinite thin plate by Zener's equation, within 2 %.
-
-    In units of v0 and T^5 = m^2/(K^2 v0), K = (4/3) E* sqrt(R) (Zener, 1941; with the weight)::
-
-        s' = v - number F,   v' = weight - F,   F = s^(3/2)
-
-    Parameters
-    ----------
-    number
-        Zener parameter [1].
-    weight
-        Gravitational acceleration, in units of v0/T.
-    longest
-        Time after which the contact is considered endless.
-
-    Returns
-    -------
-    float
-        The time in units of T; infinite if the contact is endless, as a sphere's weight makes it.
-    """
-    t, s, v = 0.0, 0.0, 1.0
-    while t < longest:
-        # Implicit steps: the force follows the speed far faster than the speed changes.
-        step = STEP * min(1.0 + t, 1.0 + number)
-        goal = s + step * (v + step * weight)
-        if goal <= 0.0:
-            return t
-        s = _rooted(goal, step * (number + step))
-        t, lifted = t + step, weight - s**1.5
-        v += step * lifted
-        if abs(lifted) < AT_REST * weight and abs(v - number * weight) < AT_REST * number * weight:
-            break
-    return math.inf
-
-
-def _rooted(goal: float, factor: float) -> float:
-    """Return the root s > 0 of s + factor s^(3/2) = goal, by Newton's iteration from above."""
-    s = goal
-    for _ in range(NEWTON):
-        root = math.sqrt(s)
-        s -= (s + factor * s * root - goal) / (1.0 + 1.5 * factor * root)
-    return s
 
 
 def _too_long(time: float) -> SceneError:

@@ -1,11 +1,11 @@
 """Draws an impact on a plate with inertia: time history, energies and restitution."""
 
-from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from derivation.scene.contact_law.limits import zener_number
+from derivation.scene.dynamic.infinite_plate_impact import infinite_plate_impact
 from derivation.scene.dynamic.time_element import E, P, V, W, Z
 from derivation.scene.output.plot import BLUE, BROWN, frame, scaled, title
 from derivation.scene.result import Result
@@ -81,36 +81,10 @@ def _energies(axes: "Axes", result: Result, t: Array, rows: Array) -> None:
 
 def _restitution(axes: "Axes", result: Result) -> None:
     """Draw the restitution of the impact and that of an infinite plate."""
-    curve = [zener_restitution(number) for number in ZENER]
+    curve = [infinite_plate_impact(float(number))[1] for number in ZENER]
     axes.semilogx(ZENER, curve, color="0.4", linewidth=1.2, label="infinite plate (Zener, 1941)")
     number = zener_number(result.model)
     axes.plot([number], [result.restitution], "o", color=BROWN, label="this impact")
     frame(axes, r"Zener parameter $\lambda$ [1]", "coefficient of restitution $e$ [1]")
     axes.set_ylim(0.0, 1.05)
     axes.legend(loc="lower left", fontsize=8, frameon=False)
-
-
-@lru_cache(maxsize=64)
-def zener_restitution(number: float) -> float:
-    """Return the restitution [1] on an infinite thin plate with Hertzian contact (Zener, 1941).
-
-    Parameters
-    ----------
-    number
-        Zener parameter [1].
-    """
-    from scipy.integrate import solve_ivp
-
-    # In units of m, v0 and K = (4/3) E* sqrt(R): v' = -s^(3/2), s' = v - number s^(3/2).
-    def rate(_: float, state: Array) -> tuple[float, float]:
-        force = max(float(state[0]), 0.0) ** 1.5
-        return float(state[1]) - number * force, -force
-
-    def released(_: float, state: Array) -> float:
-        return float(state[0])
-
-    released.terminal, released.direction = True, -1.0  # type: ignore[attr-defined]
-    long = 10.0 * (1.0 + number) ** 2
-    times, begin = (0.0, long), (0.0, 1.0)
-    solution = solve_ivp(rate, times, begin, "DOP853", events=released, rtol=1e-12, atol=1e-14)
-    return max(0.0, -float(solution.y[1, -1]))

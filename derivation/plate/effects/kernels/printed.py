@@ -19,7 +19,14 @@ from derivation.plate.effects.theory import bending
 from derivation.plate.factors import MODERATE, PRODUCT, YOUNG, multiplied, root
 from derivation.plate.modes.theory.influence import PLANE_STRAIN_MODULUS
 from derivation.plate.vocabulary import R, a, a_ratio, b, eta, h, lam, m, mu, rho, v0
-from derivation.plate.waves.theory.plate_motion import plate_motion
+from derivation.plate.waves.theory.plate_motion import (
+    infinite_plate_rates,
+    local,
+    plate_motion,
+    speed,
+    weight,
+    zener,
+)
 
 ZENER, PERIOD = sp.symbols("ZENER PERIOD", positive=True)
 _FACTORS: Facts = {ZENER: factor("zener_number"), PERIOD: factor("bending_period")}
@@ -87,13 +94,26 @@ def bent_plate() -> Claims:
     )
 
 
-def zener() -> Routine:
+def zener_parameter() -> Routine:
     """Return Zener's parameter."""
     waves = root("waves", 5, (m, m, m, R, v0))
     young = root("young", 5, YOUNG)
     mass = root("mass", 2, (rho, *young.symbols))
     value = PRODUCT(sp.Tuple(ZENER, *waves.symbols), sp.Tuple(h, h, *mass.symbols))
     return _of_motion("zener_number", (R, m, v0, h, lam, mu, rho), (waves, young, mass), value)
+
+
+@named_routine
+def zener_rates() -> Claims:
+    """Return the rates of local indentation and speed in an impact on an infinite plate."""
+    force = sp.Symbol("force", positive=True)
+    return Claims(
+        (local, speed, zener, weight),
+        (Let(force, local * sp.sqrt(local)),),
+        (speed - zener * force, weight - force),
+        tuple(infinite_plate_rates()),
+        {},
+    )
 
 
 def first_period() -> Routine:
@@ -128,4 +148,4 @@ def _of_motion(
     )
 
 
-ROUTINES = sphere, bent_plate, zener, first_period, echo
+ROUTINES = sphere, bent_plate, zener_parameter, zener_rates, first_period, echo

@@ -10,10 +10,11 @@ Hertz's impact on such a plate has one parameter only (Zener 1941),
     d'' + d^(3/2) + lambda (d^(3/2))' = 0,   lambda = m/(8 T sqrt(D rho H)),
     T = (m^2/(K^2 v0))^(1/5),   K = (4/3) E* sqrt(R),
 
-time in units of T and the local indentation d in units of v0 T.
+time in units of T and the local indentation d in units of v0 T. Weight accelerates the sphere by g.
 """
 
 from functools import cache
+from typing import NamedTuple
 
 import sympy as sp
 
@@ -21,7 +22,10 @@ from derivation.engine.formula.proof import Proof, lower_bessel, prove
 from derivation.plate.modes.theory.influence import PLANE_STRAIN_MODULUS
 from derivation.plate.vocabulary import Formula, R, b, h, j_n, lam, m, mu, phi, r, rho, v0
 
-_D, _s, _t, _H = sp.symbols("D s t H", positive=True)
+_D, _s, _t, _H, _K, _T, _impedance, _g = sp.symbols("D s t H K T impedance g", positive=True)
+_UNIT = (m**2 / (_K**2 * v0)) ** sp.Rational(1, 5)
+local, speed, zener, weight = sp.symbols("local speed zener weight", positive=True)
+"""d, the sphere's speed, lambda and g, in units of v0 and T."""
 _RIGIDITY_OVER_MASS = PLANE_STRAIN_MODULUS * (2 * h) ** 2 / (12 * rho)
 """D/(rho H), flexural rigidity of the plate divided by its mass per area."""
 
@@ -52,31 +56,47 @@ def bending_waves() -> Proof:
     )
 
 
+class Rates(NamedTuple):
+    """Rates of change of a sphere's local indentation and of its speed, on an infinite plate."""
+
+    local: sp.Expr
+    speed: sp.Expr
+
+
+@cache
+def infinite_plate_rates() -> Rates:
+    """Return the rates of d and of the sphere's speed, with its weight, in units of v0 and T."""
+    force = _K * (v0 * _T * local) ** sp.Rational(3, 2)
+    rates = (v0 * speed - force / _impedance) / v0, (_g - force / m) * _T / v0
+    parameters = {_impedance: m / (_T * zener), _g: weight * v0 / _T}
+
+    def scaled(rate: sp.Expr) -> sp.Expr:
+        inserted = sp.expand_power_base(rate.subs(parameters).subs(_T, _UNIT))
+        return sp.expand(sp.powsimp(inserted, force=True))
+
+    return Rates(*(scaled(rate) for rate in rates))
+
+
 @cache
 def zener_number() -> Formula:
     """Return lambda, the parameter of Hertz's impact on an infinite plate."""
     bending_waves()
-    K, T, impedance = sp.symbols("K T I", positive=True)
-    scale = (m**2 / (K**2 * v0)) ** sp.Rational(1, 5)
-    force = K * (v0 * T) ** sp.Rational(3, 2)
-
-    def scaled(x: sp.Expr) -> sp.Expr:
-        return sp.simplify(sp.powsimp(sp.expand_power_base(x.subs(T, scale), force=True)))
-
+    rates, force = infinite_plate_rates(), local ** sp.Rational(3, 2)
     E = PLANE_STRAIN_MODULUS
     flat = sp.Pow(sp.Rational(4, 3) * sp.sqrt(R), sp.Rational(2, 5)) * E ** sp.Rational(2, 5)
     rate = sp.Pow(v0, sp.Rational(1, 5)) / sp.Pow(m, sp.Rational(2, 5)) * flat  # 1/T
     number = m * rate / (8 * (2 * h) ** 2 * sp.sqrt(E / 12) * sp.sqrt(rho))
-    squares = E * _H**3 / 12 * rho * _H
+    impedance = 8 * sp.sqrt(E * (2 * h) ** 3 / 12 * rho * 2 * h)
+    of_units = m / (_UNIT.subs(_K, sp.Rational(4, 3) * E * sp.sqrt(R)) * impedance)
     proof = prove(
         "Zener's number",
         r"In units of $T$ and $v_0 T$, the equations $m (d + w)'' = -K d^{3/2}$ and $w' = K "
         r"d^{3/2}/I$ with $I = 8 \sqrt{D \rho H}$ have the coefficient 1 of the force and "
-        r"$m/(T I)$ of its rate.",
+        r"$\lambda = m/(T I)$ of its rate.",
         {
-            "force": scaled(force * T / (m * v0)) - 1,
-            "rate": scaled(force / (impedance * v0) * T / m) - 1 / impedance,
-            "impedance": squares - (_H**2) ** 2 * E / 12 * rho,
+            "force": rates.speed + force - weight,
+            "rate": rates.local + zener * force - speed,
+            "number": sp.simplify((number / of_units) ** 10) - 1,
         },
     )
     return Formula(

@@ -15,7 +15,6 @@ from derivation.engine.activity import Progress, quiet
 from derivation.engine.files import measurements
 from derivation.engine.threads import one_thread
 from derivation.scene.contact_law.law import ContactLaw
-from derivation.scene.contact_law.limits import zener_number
 from derivation.scene.dynamic import waves
 from derivation.scene.dynamic.mode_count import count_of
 from derivation.scene.dynamic.wave_motion import DynamicImpact
@@ -26,6 +25,7 @@ from derivation.scene.errors import SceneError
 from derivation.scene.impact import selected_effects
 from derivation.scene.model import InertiaSettings, Model, model_of
 from derivation.scene.quasi_static import motion
+from derivation.scene.scales import zener_number
 from derivation.scene.scene import read
 from derivation.scene.selection.effect_selection import decide
 from derivation.scene.selection.method_selection import dynamic_impact, moved, solve_selected

@@ -1,5 +1,7 @@
 """Errors of a scene: a message with key, expectation, value and remedy."""
 
+from dataclasses import dataclass
+
 
 class SceneError(ValueError):
     """The error of a scene, file or argument that is not valid or cannot be computed.
@@ -17,6 +19,26 @@ class SceneError(ValueError):
     """
 
 
+@dataclass(frozen=True)
+class Slower:
+    """The remedy of a contact that is too wide.
+
+    Attributes
+    ----------
+    speed
+        A speed at which the contact is narrow enough [m/s]; 0 if none is known.
+    others
+        What else the user can do.
+    """
+
+    speed: float
+    others: str
+
+    def __str__(self) -> str:
+        enough = f" ({self.speed:.2g} m/s is low enough)" if self.speed else ""
+        return f"reduce impact.speed{enough}{self.others}"
+
+
 class WideContactError(SceneError):
     """The error of a contact that is wider than the contact law allows.
 
@@ -28,7 +50,7 @@ class WideContactError(SceneError):
         The contact radius over the largest one [1].
     """
 
-    def __init__(self, why: str, remedy: str, ratio: float) -> None:
+    def __init__(self, why: str, remedy: str | Slower, ratio: float) -> None:
         super().__init__(why, remedy, ratio)  # the arguments from which pickle restores it
         self.why, self.remedy, self.ratio = why, remedy, ratio
 
@@ -36,7 +58,9 @@ class WideContactError(SceneError):
         return f"{self.why}; {self.remedy}"
 
 
-def wide_contact(key: str, limit: str, got: str, remedy: str, ratio: float) -> WideContactError:
+def wide_contact(
+    key: str, limit: str, got: str, remedy: str | Slower, ratio: float
+) -> WideContactError:
     """Return the error of a contact that is wider than the contact law allows.
 
     Parameters
@@ -63,7 +87,7 @@ class HeldError(SceneError):
 class IncompleteError(SceneError):
     """The error of an impact with plate inertia that could not be computed to its end."""
 
-    def __init__(self, why: str, remedy: str) -> None:
+    def __init__(self, why: str, remedy: str | Slower) -> None:
         super().__init__(why, remedy)  # the arguments from which pickle restores it
         self.why, self.remedy = why, remedy
 

@@ -10,12 +10,13 @@ import numpy as np
 
 from derivation.engine.text import paragraph
 from derivation.scene.contact_law.law import ContactLaw
-from derivation.scene.contact_law.limits import ZENER_LIMIT, zener_number
+from derivation.scene.contact_law.limits import ZENER_LIMIT
 from derivation.scene.effects import BY_NAME, EFFECTS
 from derivation.scene.effects.effect import NO_BOUND, Effect
 from derivation.scene.impact import selected_effects
 from derivation.scene.numerics.quadrature import NODES, rule
 from derivation.scene.quantity import prefixed
+from derivation.scene.scales import zener_number
 from derivation.scene.scene import Scene
 from derivation.scene.selection.effect_selection import SelectedEffects, named
 

@@ -37,7 +37,7 @@ from generated.edge import (
 )
 from generated.edge_curvature import clamped_edge_curvature, supported_edge_curvature
 from generated.edge_kernels import law_of_square
-from generated.effect_kernels import zener_rates
+from generated.effect_kernels import hertz_constant, hertz_depth, zener_rates, zener_time_unit
 from generated.effect_numbers import (
     LATERAL_CUBIC,
     LATERAL_GROWTH,
@@ -147,6 +147,8 @@ __all__ = [
     "echo_time",
     "finite_radius",
     "force_of_radius",
+    "hertz_constant",
+    "hertz_depth",
     "history",
     "impact",
     "indentation",
@@ -172,4 +174,5 @@ __all__ = [
     "viscous_number",
     "zener_number",
     "zener_rates",
+    "zener_time_unit",
 ]

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from derivation.scene import kernels
+from derivation.scene import kernels, scales
 from derivation.scene.contact_law.support_series import Supports, supports_of
 from derivation.scene.errors import SceneError
 from derivation.scene.input.bodies import Sphere
@@ -24,7 +24,7 @@ _CURVATURES = {
 }
 NUMBERS = ("R", "m", "v0", "h", "b", "lam", "mu")
 HERTZ_TIME, TIME_BY_ZENER = 3.3, 5.0
-"""Contact time over (m^2/(K^2 v0))^(1/5), which is 2.94 by Hertz's law and more on a plate, and its
+"""Contact time over (m^2/(K^2 v0))^(1/5), which is 3.22 by Hertz's law and more on a plate, and its
 increase with the Zener parameter: a first guess for the radius of an infinite plate."""
 
 
@@ -306,11 +306,7 @@ def _lesser(one: float, other: float) -> float:
 
 def _unbounded(model: Model) -> float:
     """Return a first guess of the radius [m] from which no wave returns during the contact."""
-    stiffness = 4.0 / 3.0 * model.modulus / (1.0 + model.softness) * math.sqrt(model.R)
-    alone = math.pow(model.m / stiffness, 0.4) / math.pow(model.v0, 0.2)
-    bending = model.modulus * (2.0 * model.h) ** 3 / 12.0
-    zener = model.m / (8.0 * alone * math.sqrt(bending * 2.0 * model.h * model.density))
-    time = alone * (HERTZ_TIME + TIME_BY_ZENER * zener)
+    time = scales.time_unit(model) * (HERTZ_TIME + TIME_BY_ZENER * scales.zener_number(model))
     return max(model.shear_speed * time, 4.0 * model.h)
 
 

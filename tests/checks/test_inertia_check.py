@@ -16,12 +16,12 @@ from derivation.cli import main
 from derivation.engine.files import measurements
 from derivation.scene.contact_law import limits
 from derivation.scene.contact_law.law import ContactLaw
-from derivation.scene.contact_law.limits import zener_number
 from derivation.scene.dynamic import waves
 from derivation.scene.effects.effect import weight_work_ratio
 from derivation.scene.effects.inertia import higher_branch_error
 from derivation.scene.model import Model, model_of
 from derivation.scene.quasi_static.motion import impact
+from derivation.scene.scales import zener_number
 from derivation.scene.scene import OUTPUTS, read
 from derivation.scene.selection.effect_selection import SelectedEffects, decide
 

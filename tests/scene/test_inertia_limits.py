@@ -15,7 +15,6 @@ from scipy.special import j1, jn_zeros
 
 from derivation.scene import SceneError, read, simulate
 from derivation.scene.contact_law.law import ContactLaw
-from derivation.scene.contact_law.limits import zener_number
 from derivation.scene.dynamic import (
     contact_sequence,
     modal,
@@ -31,6 +30,7 @@ from derivation.scene.dynamic.problem import DynamicProblem
 from derivation.scene.effects import WHOLE_PLATE
 from derivation.scene.model import InertiaSettings, Model
 from derivation.scene.numerics import chebyshev
+from derivation.scene.scales import zener_number
 
 pytestmark = pytest.mark.one_version
 

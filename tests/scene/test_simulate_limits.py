@@ -14,9 +14,9 @@ import pytest
 import shared_scenes
 
 from derivation.cli import main
-from derivation.scene import SceneError, explain, read, simulate, sweep
+from derivation.scene import SceneError, explain, read, scales, simulate, sweep
 from derivation.scene.code import code
-from derivation.scene.contact_law import edge_remainder, limits
+from derivation.scene.contact_law import edge_remainder
 from derivation.scene.contact_law.law import THICK, ContactLaw
 from derivation.scene.contact_law.stress_limits import pressure_warnings
 from derivation.scene.dynamic import (
@@ -352,11 +352,11 @@ def test_restitution_of_a_thin_infinite_plate_agrees_with_zener(number: float) -
              "density": 2500.0}  # fmt: skip
     data = {"sphere": {"radius": 1e-3, "mass": 1e-3}, "plate": plate, "impact": {"speed": 1e-6},
             "inertia": {"extent": "infinite"}}  # fmt: skip
-    unit = limits.zener_number(model_of(read(data)))
+    unit = scales.zener_number(model_of(read(data)))
     # Zener's number is proportional to m^(3/5); a low speed makes the contact small.
     data["sphere"]["mass"] = 1e-3 * (number / unit) ** (5.0 / 3.0)  # type: ignore[index]
     result = simulate(read(data))
-    assert limits.zener_number(result.model) == pytest.approx(number, rel=1e-6)
+    assert scales.zener_number(result.model) == pytest.approx(number, rel=1e-6)
     assert result.restitution == pytest.approx(infinite_plate_impact(number)[1], abs=2e-2)
 
 

@@ -35,6 +35,7 @@ from derivation.scene.scene import Scene
 from derivation.scene.selection import method_selection
 from derivation.scene.selection.effect_selection import SelectedEffects
 from generated.arrays import Double as Array
+from generated.simple_impact_numbers import HERTZ_TIME
 
 COEFFICIENTS = 16
 """Number of coefficients of a polynomial."""
@@ -147,7 +148,7 @@ def _numbers(
         "MAX_INDENTATION": float(law.indentation(last, law.at(last))[0]),
         "LARGEST_RADIUS": motion.max_contact_radius,
         "RISE": motion.max_indentation / model.v0,
-        "HERTZ_TIME": 0.8 * math.sqrt(math.pi) * math.gamma(0.4) / math.gamma(0.9),
+        "HERTZ_TIME": HERTZ_TIME,
         "NODES": NODES[2] if law.spherical else NODES[1],
     }
     if table is not None:

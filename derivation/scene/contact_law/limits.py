@@ -16,6 +16,7 @@ from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.errors import SceneError, wide_contact
 from derivation.scene.model import Model
 from derivation.scene.numerics.quadrature import gauss
+from derivation.scene.scales import zener_number
 from generated.arrays import Double as Array
 
 HERTZ_LIMIT = 0.15
@@ -198,14 +199,6 @@ def warnings_at(
             f"{1.0 + stretching(model, deflection):.3g}"
         )
     return tuple(notes)
-
-
-def zener_number(model: Model) -> float:
-    """Return the Zener parameter [1], with the elasticity of the sphere included."""
-    R, m, v0, h, _, lam, mu = model.numbers
-    of_rigid_sphere = kernels.zener_number(R, m, v0, h, lam, mu, model.density)
-    number: float = of_rigid_sphere / np.power(1.0 + model.softness, 0.4)
-    return number
 
 
 class PlateTimes(NamedTuple):

@@ -9,7 +9,13 @@ from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
 from derivation.scene.dynamic.yield_events import turned
 from derivation.scene.effects.effect import Array
 from derivation.scene.effects.inertia import WIDER
-from derivation.scene.errors import EndlessError, IncompleteError, WideContactError, wide_contact
+from derivation.scene.errors import (
+    EndlessError,
+    IncompleteError,
+    Slower,
+    WideContactError,
+    wide_contact,
+)
 
 STUCK = 1e-7
 """Length of an element in x, over max(x, 1), at which one without a solution ends the simulation.
@@ -86,12 +92,12 @@ def _too_wide(problem: DynamicProblem, widest: float, least: str = "") -> WideCo
     return wide_contact("impact.speed", problem.range_end, got, narrower(problem), ratio)
 
 
-def narrower(problem: DynamicProblem) -> str:
+def narrower(problem: DynamicProblem) -> Slower:
     """Return what makes a contact narrower, with a speed that is low enough if there is one."""
     weight = " or impact.gravity" if problem.weight else ""
     speed = sufficient_speed(problem)
-    enough = f" ({speed:.2g} m/s is low enough)" if 0.0 < speed < problem.v0 else ""
-    return f"reduce impact.speed{enough}{weight}, or use a lighter sphere or a thicker plate"
+    others = f"{weight}, or use a lighter sphere or a thicker plate"
+    return Slower(speed if speed < problem.v0 else 0.0, others)
 
 
 def sufficient_speed(problem: DynamicProblem) -> float:
@@ -137,7 +143,7 @@ def lost(
         f"has no solution at a contact radius of {problem.a * radius:.3g} m and a plate deflection "
         f"of {deflection:.3g} m"
     )
-    remedy = "reduce impact.speed, or use a smaller sphere or a thicker plate"
+    remedy: str | Slower = "reduce impact.speed, or use a smaller sphere or a thicker plate"
     beyond = np.nextafter(problem.contact.top, 0.0) / problem.a
     if radius > 0.99 * beyond:
         why = (

@@ -154,7 +154,7 @@ def impact_history(
         except IncompleteError as end:
             if not runs:
                 raise
-            return ImpactHistory(problem, tuple(runs), end.why, end.remedy, work, tolerance)
+            return ImpactHistory(problem, tuple(runs), end.why, str(end.remedy), work, tolerance)
         t, state = touching.end + wait, problem.flown(after, wait)
         if radius:
             state = problem.freed(state, last, wait, -1.0)

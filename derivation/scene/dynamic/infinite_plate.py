@@ -7,7 +7,6 @@ import math
 from dataclasses import replace
 
 from derivation.scene.contact_law.law import ContactLaw
-from derivation.scene.contact_law.limits import zener_number
 from derivation.scene.dynamic.contact_sequence import ImpactHistory
 from derivation.scene.dynamic.infinite_plate_impact import infinite_plate_impact
 from derivation.scene.dynamic.mode_count import (
@@ -24,6 +23,7 @@ from derivation.scene.dynamic.time_in_contact import FEWER
 from derivation.scene.dynamic.wave_motion import DynamicImpact
 from derivation.scene.dynamic.wave_problem import echo_time
 from derivation.scene.errors import EndlessError, SceneError
+from derivation.scene.scales import zener_number
 
 WIDEST = 30.0
 """Largest radius that represents an infinite plate, over the first guess of `model_of`."""

@@ -6,8 +6,8 @@ from functools import lru_cache
 
 import numpy as np
 
+from derivation.scene import scales
 from derivation.scene.contact_law.law import ContactLaw
-from derivation.scene.contact_law.limits import zener_number
 from derivation.scene.dynamic.modal import free_modes
 from derivation.scene.errors import SceneError
 
@@ -65,14 +65,12 @@ def count_of(law: ContactLaw) -> int:
 
 def _highest(law: ContactLaw) -> float:
     """Return the angular frequency [1/s] that the fastest mode of the first run must reach."""
-    return PHASE * max(1.0, math.pow(zener_number(law.model), 2.0 / 3.0)) / unit_time(law)
+    return PHASE * max(1.0, math.pow(scales.zener_number(law.model), 2.0 / 3.0)) / unit_time(law)
 
 
 def unit_time(law: ContactLaw) -> float:
     """Return the time That [s]: That^5 = m^2/(K^2 v0), K = (4/3) E* sqrt(R)."""
-    model = law.model
-    stiffness = 4.0 / 3.0 * law.modulus * math.sqrt(model.R)
-    return math.pow(model.m / stiffness, 0.4) / math.pow(model.v0, 0.2)
+    return scales.time_unit(law.model, law.modulus)
 
 
 def affordable(law: ContactLaw) -> int:

@@ -14,6 +14,7 @@ from functools import cache
 from typing import Any, NamedTuple
 
 from derivation.engine.files import measurements
+from derivation.scene import scales
 from derivation.scene.model import Model
 from derivation.scene.scene import OUTPUTS
 
@@ -83,9 +84,7 @@ def curvature_error(change: float) -> float:
 
 def _half_space_radius(model: Model) -> float:
     """Return the largest contact radius [m] on a half-space, by Hertz's law."""
-    stiffness = 4.0 / 3.0 * model.modulus / (1.0 + model.softness) * math.sqrt(model.R)
-    depth = math.pow(1.25 * model.m / stiffness, 0.4) * math.pow(model.v0, 0.8)
-    return math.sqrt(model.R * depth)
+    return math.sqrt(model.R * scales.largest_depth(model))
 
 
 def echoes_during(model: Model, contact_time: float) -> float:

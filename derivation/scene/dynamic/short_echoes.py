@@ -18,6 +18,7 @@ import math
 
 import numpy as np
 
+from derivation.scene import scales
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic.contact_sequence import ImpactHistory
 from derivation.scene.dynamic.modal import bending_fraction, free_modes
@@ -71,7 +72,7 @@ def largest_echo(law: ContactLaw, history: ImpactHistory, a: float, count: int =
     modes = free_modes(model, SUMMED * count)
     lag = bending_fraction(model, modes) * model.retardation_time * modes.omega
     speed = model.v0 * max(-one.before.separation_speed for one in history.contacts)
-    begun = 4.0 / 3.0 * law.modulus * math.sqrt(model.R) * speed**1.5
+    begun = scales.hertz_constant(model, law.modulus) * speed**1.5
     rates = begun * ONSET_POWER * modes.compliance * np.sqrt((1.0 + lag * lag) / modes.omega)
     rates *= np.exp(-problem.damping_ratio * modes.omega * delay)
     rates *= np.minimum(1.0, 1.0 / (a * modes.phi))

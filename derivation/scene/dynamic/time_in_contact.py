@@ -10,6 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from derivation.scene import scales
 from derivation.scene.contact_law.corrections import doubling_deflection
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic import contact_sequence
@@ -50,8 +51,8 @@ def stopping_time(law: ContactLaw, modes: Modes) -> float:
     It is at most half the period of its slowest vibration.
     """
     model = law.model
-    stiffness = 4.0 / 3.0 * law.modulus * math.sqrt(model.R)
-    depth = (1.25 * model.m * model.v0**2 / stiffness) ** 0.4
+    stiffness = scales.hertz_constant(model, law.modulus)
+    depth = scales.largest_depth(model, law.modulus)
     omega, fractions = _vibrations(model.m, 1.25 * stiffness * math.sqrt(depth), modes)
     times = np.linspace(0.0, math.pi / float(omega[omega > 0.0][0]), TIMES)
     velocity = np.cos(np.multiply.outer(times, omega)) @ fractions

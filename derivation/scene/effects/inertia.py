@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from derivation.scene import kernels
+from derivation.scene import scales
 from derivation.scene.effects.effect import (
     NO_BOUND,
     Bound,
@@ -65,7 +65,7 @@ THICKNESS_RINGING = (6.0, 0.5, 40.0, 13.0, 2.0)
 """Change of each result by the higher wave branches, over (a/H)^2 (H/(c_T T))^(3/2): thickness
 resonance under a wide contact."""
 HERTZ_TIME = 3.3
-"""Contact time over (m^2/(K^2 v0))^(1/5): 2.94 by Hertz's law, slightly more with bending."""
+"""Contact time over (m^2/(K^2 v0))^(1/5): 3.22 by Hertz's law, slightly more with bending."""
 RISE_BY_ZENER = 3.0
 """Coefficient of the Zener parameter in the rise time of the force."""
 WIDER = 1.25
@@ -95,10 +95,7 @@ class PlateInertia(Effect):
         """Return the Zener parameter; NaN without a density."""
         if not np.all(model.density):
             return math.nan
-        R, m, v0, h, _, lam, mu = model.numbers
-        number = kernels.zener_number(R, m, v0, h, lam, mu, model.density)
-        parameter: float = number / np.power(1.0 + model.softness, 0.4)
-        return parameter
+        return scales.zener_number(model)
 
     def bound(self, model: Model, context: BoundContext) -> Bound:
         """Return the tested bound: deviation of the modes from their quasi-static response."""
@@ -193,9 +190,7 @@ def higher_branch_error(model: Model, a: Numbers, T: Numbers, loss_factor: float
 
 def _alone(model: Model) -> Numbers:
     """Return the contact time [s] without bending."""
-    stiffness = 4.0 / 3.0 * model.modulus / (1.0 + model.softness) * np.sqrt(model.R)
-    time: Numbers = HERTZ_TIME * np.power(model.m / stiffness, 0.4) / np.power(model.v0, 0.2)
-    return time
+    return HERTZ_TIME * scales.time_unit(model)
 
 
 def _rise(model: Model) -> Numbers:

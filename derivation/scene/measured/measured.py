@@ -6,14 +6,13 @@ impact is simulated repeatedly until the restitution agrees.
 
 import json
 import math
-import re
 from dataclasses import replace
-from functools import lru_cache, partial
+from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from derivation.scene.dynamic.contact_errors import rounded_down
 from derivation.scene.effects.effect import NO_BOUND
-from derivation.scene.errors import SceneError, ToleranceError
+from derivation.scene.errors import SceneError, Slower, ToleranceError
 from derivation.scene.input.settings import TIGHTEST
 from derivation.scene.measured.measurement import AGREES, UNITS, Measurement
 from derivation.scene.measured.rough_search import rough_value
@@ -44,10 +43,6 @@ CHANGE = 1e-2
 LEAST_RATIO, MARGIN = 3.0, 1.5
 """Error of the results over that of the restitution in a measurement with plate inertia, estimated:
 its least value, and its value over that of a simulation with few modes."""
-
-
-LOW_ENOUGH = re.compile(r"\((\S+) m/s is low enough\)")
-"""How a message states a speed at which an elastic contact is narrow enough."""
 
 
 class Fit(NamedTuple):
@@ -175,9 +170,10 @@ def _fit_of(scene: "Scene") -> Fit:
     try:
         return _fit(json.dumps(scene.to_json()))
     except SceneError as error:
-        text = str(error)
-        if scene.measured.solve_for == "yield_stress":
-            text = LOW_ENOUGH.sub(partial(_slower, scene.measured.restitution), text)
+        text, remedy = str(error), getattr(error, "remedy", None)
+        if scene.measured.solve_for == "yield_stress" and isinstance(remedy, Slower):
+            slower = _slower(scene.measured.restitution, remedy)
+            text = text.replace(str(remedy), str(slower))
         if scene.measured.tested_at is not None:
             text = text.replace("impact.speed", "measured.tested_at")
         if scene.accuracy is not None and text.startswith("measured.restitution"):
@@ -188,13 +184,13 @@ def _fit_of(scene: "Scene") -> Fit:
         raise SceneError(where + text) from None
 
 
-def _slower(restitution: float, stated: re.Match[str]) -> str:
+def _slower(restitution: float, elastic: Slower) -> Slower:
     """Return a speed at which a contact is narrow enough that yields until it has a restitution.
 
     Such a contact is at most as wide as an elastic one of the speed v/e: far above yield, its
     radius is 0.91 times as large, and also proportional to (v/e)^(2/5).
     """
-    return f"({rounded_down(restitution * float(stated[1])):.2g} m/s is low enough)"
+    return replace(elastic, speed=rounded_down(restitution * elastic.speed))
 
 
 @lru_cache(maxsize=64)

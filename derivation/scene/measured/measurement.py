@@ -6,13 +6,12 @@ plate: the solution with the smaller one is returned, if there is any.
 """
 
 import math
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from derivation.scene.effects import BY_NAME
-from derivation.scene.errors import HeldError, SceneError, WideContactError
+from derivation.scene.errors import HeldError, SceneError, Slower, WideContactError
 from derivation.scene.input.body_materials import body_of, own_materials
 from derivation.scene.input.settings import TIGHTEST
 from derivation.scene.measured.trial import (
@@ -251,7 +250,10 @@ class Measurement:
             if isinstance(error, WideContactError):
                 kind = WideTrialError if error.ratio > CLEARLY else SceneError
                 # The speed that it names is that for a given constant, not for the restitution.
-                remedy = re.sub(r" \([^()]* is low enough\)", "", error.remedy) + ", or "
+                of_goal = error.remedy
+                if isinstance(of_goal, Slower):
+                    of_goal = replace(of_goal, speed=0.0)
+                remedy = f"{of_goal}, or "
             raise kind(
                 "measured.restitution: expected a value that can be computed, got "
                 f"{self.goal:.6g}, for which the simulation of the measurement fails with "

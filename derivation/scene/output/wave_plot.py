@@ -4,11 +4,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from derivation.scene.contact_law.limits import zener_number
 from derivation.scene.dynamic.infinite_plate_impact import infinite_plate_impact
 from derivation.scene.dynamic.time_element import E, P, V, W, Z
 from derivation.scene.output.plot import BLUE, BROWN, frame, scaled, title
 from derivation.scene.result import Result
+from derivation.scene.scales import zener_number
 from generated.arrays import Double as Array
 
 if TYPE_CHECKING:

@@ -13,13 +13,31 @@ from derivation.engine.emit.routine import (
     Several,
     routine,
 )
+from derivation.plate.contact.theory.reversion import force_formulas
 from derivation.plate.contact.theory.spherical_profile import spherical_contact
 from derivation.plate.effects.kernels.numbers import NEAR, arc_coefficients, factor
 from derivation.plate.effects.theory import bending
 from derivation.plate.factors import MODERATE, PRODUCT, YOUNG, multiplied, root
+from derivation.plate.impact.theory.sensitivity import reduced_modulus
 from derivation.plate.modes.theory.influence import PLANE_STRAIN_MODULUS
-from derivation.plate.vocabulary import R, a, a_ratio, b, eta, h, lam, m, mu, rho, v0
+from derivation.plate.vocabulary import (
+    R,
+    a,
+    a_ratio,
+    b,
+    delta,
+    delta_0,
+    eta,
+    h,
+    lam,
+    m,
+    mu,
+    rho,
+    v0,
+)
 from derivation.plate.waves.theory.plate_motion import (
+    TIME_UNIT,
+    K,
     infinite_plate_rates,
     local,
     plate_motion,
@@ -31,6 +49,7 @@ from derivation.plate.waves.theory.plate_motion import (
 ZENER, PERIOD = sp.symbols("ZENER PERIOD", positive=True)
 _FACTORS: Facts = {ZENER: factor("zener_number"), PERIOD: factor("bending_period")}
 a_over_R, square = sp.symbols("a_over_R square", positive=True)
+modulus = sp.Symbol("modulus", positive=True)
 THREE_HALVES = sp.Float(1.5)
 
 
@@ -104,6 +123,38 @@ def zener_parameter() -> Routine:
 
 
 @named_routine
+def hertz_constant() -> Claims:
+    """Return force over indentation^(3/2) on a half-space, by Hertz's law; `modulus` is E*."""
+    law = next(f.expression for f in force_formulas() if f.name == "P_half")
+    claim = law / delta ** sp.Rational(3, 2)
+    return Claims(
+        (R, modulus),
+        (),
+        (4 * modulus / 3 * sp.sqrt(R),),
+        (claim,),
+        {modulus: reduced_modulus()},
+    )
+
+
+@named_routine
+def hertz_depth() -> Claims:
+    """Return the largest indentation of a half-space of the constant K of `hertz_constant`."""
+    work = sp.integrate(K * delta ** sp.Rational(3, 2), (delta, 0, delta_0))
+    claim = (m * v0**2 / 2 / (work / delta_0 ** sp.Rational(5, 2))) ** sp.Rational(2, 5)
+    ratio = sp.Symbol("ratio", positive=True)
+    value = ratio ** sp.Rational(2, 5) * v0 ** sp.Rational(4, 5)
+    return Claims((m, v0, K), (Let(ratio, 5 * m / (4 * K)),), (value,), (claim,), {})
+
+
+@named_routine
+def zener_time_unit() -> Claims:
+    """Return the unit of time of Zener's equation; K is that of `hertz_constant`."""
+    ratio = sp.Symbol("ratio", positive=True)
+    value = ratio ** sp.Rational(2, 5) / v0 ** sp.Rational(1, 5)
+    return Claims((m, v0, K), (Let(ratio, m / K),), (value,), (TIME_UNIT,), {})
+
+
+@named_routine
 def zener_rates() -> Claims:
     """Return the rates of local indentation and speed in an impact on an infinite plate."""
     force = sp.Symbol("force", positive=True)
@@ -148,4 +199,14 @@ def _of_motion(
     )
 
 
-ROUTINES = sphere, bent_plate, zener_parameter, zener_rates, first_period, echo
+ROUTINES = (
+    sphere,
+    bent_plate,
+    hertz_constant,
+    hertz_depth,
+    zener_parameter,
+    zener_time_unit,
+    zener_rates,
+    first_period,
+    echo,
+)

@@ -22,8 +22,10 @@ from derivation.engine.formula.proof import Proof, lower_bessel, prove
 from derivation.plate.modes.theory.influence import PLANE_STRAIN_MODULUS
 from derivation.plate.vocabulary import Formula, R, b, h, j_n, lam, m, mu, phi, r, rho, v0
 
-_D, _s, _t, _H, _K, _T, _impedance, _g = sp.symbols("D s t H K T impedance g", positive=True)
-_UNIT = (m**2 / (_K**2 * v0)) ** sp.Rational(1, 5)
+_D, _s, _t, _H, _T, _impedance, _g = sp.symbols("D s t H T impedance g", positive=True)
+K = sp.Symbol("K", positive=True)
+"""Force over the indentation to the power 3/2, on a half-space."""
+TIME_UNIT = (m**2 / (K**2 * v0)) ** sp.Rational(1, 5)
 local, speed, zener, weight = sp.symbols("local speed zener weight", positive=True)
 """d, the sphere's speed, lambda and g, in units of v0 and T."""
 _RIGIDITY_OVER_MASS = PLANE_STRAIN_MODULUS * (2 * h) ** 2 / (12 * rho)
@@ -66,12 +68,12 @@ class Rates(NamedTuple):
 @cache
 def infinite_plate_rates() -> Rates:
     """Return the rates of d and of the sphere's speed, with its weight, in units of v0 and T."""
-    force = _K * (v0 * _T * local) ** sp.Rational(3, 2)
+    force = K * (v0 * _T * local) ** sp.Rational(3, 2)
     rates = (v0 * speed - force / _impedance) / v0, (_g - force / m) * _T / v0
     parameters = {_impedance: m / (_T * zener), _g: weight * v0 / _T}
 
     def scaled(rate: sp.Expr) -> sp.Expr:
-        inserted = sp.expand_power_base(rate.subs(parameters).subs(_T, _UNIT))
+        inserted = sp.expand_power_base(rate.subs(parameters).subs(_T, TIME_UNIT))
         return sp.expand(sp.powsimp(inserted, force=True))
 
     return Rates(*(scaled(rate) for rate in rates))
@@ -87,7 +89,7 @@ def zener_number() -> Formula:
     rate = sp.Pow(v0, sp.Rational(1, 5)) / sp.Pow(m, sp.Rational(2, 5)) * flat  # 1/T
     number = m * rate / (8 * (2 * h) ** 2 * sp.sqrt(E / 12) * sp.sqrt(rho))
     impedance = 8 * sp.sqrt(E * (2 * h) ** 3 / 12 * rho * 2 * h)
-    of_units = m / (_UNIT.subs(_K, sp.Rational(4, 3) * E * sp.sqrt(R)) * impedance)
+    of_units = m / (TIME_UNIT.subs(K, sp.Rational(4, 3) * E * sp.sqrt(R)) * impedance)
     proof = prove(
         "Zener's number",
         r"In units of $T$ and $v_0 T$, the equations $m (d + w)'' = -K d^{3/2}$ and $w' = K "

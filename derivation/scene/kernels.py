@@ -65,6 +65,9 @@ from generated.stretching_kernels import (
     stiffening_clamped,
     stiffening_paper,
     stiffening_supported,
+    tension_clamped,
+    tension_paper,
+    tension_supported,
 )
 from generated.viscosity import ImpactExtremes, viscous_logarithms, viscous_number
 from generated.viscous_bodies import retardation_of_two
@@ -170,6 +173,9 @@ __all__ = [
     "supported_edge_bound",
     "supported_edge_curvature",
     "supported_edge_slope",
+    "tension_clamped",
+    "tension_paper",
+    "tension_supported",
     "viscous_logarithms",
     "viscous_number",
     "zener_number",

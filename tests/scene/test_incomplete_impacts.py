@@ -13,7 +13,7 @@ import pytest
 
 from derivation.cli import main
 from derivation.scene.contact_law.law import ContactLaw
-from derivation.scene.dynamic import contact_sequence, flight, waves
+from derivation.scene.dynamic import contact_sequence, flight, refinement, waves
 from derivation.scene.dynamic.contact_sequence import ImpactHistory
 from derivation.scene.dynamic.wave_motion import IRREGULAR
 from derivation.scene.dynamic.wave_problem import problem_of
@@ -145,7 +145,7 @@ def test_run_above_the_work_limit_is_not_started(monkeypatch: pytest.MonkeyPatch
         assert coarse == pytest.approx(fine, rel=error)
     begun.clear()
     waves.impact.cache_clear()
-    monkeypatch.setattr(waves, "FOURTH", math.inf)
+    monkeypatch.setattr(refinement, "FOURTH", math.inf)
     part = waves.impact(law)
     waves.impact.cache_clear()
     assert [history.work for history in begun] == [first.work]

@@ -12,7 +12,7 @@ from scipy.ndimage import maximum_filter1d
 from shared_scenes import EXAMPLES
 
 from derivation.scene import Result, SceneError, read, simulate
-from derivation.scene.dynamic import contact_sequence, mode_convergence, waves
+from derivation.scene.dynamic import contact_sequence, mode_convergence, refinement, waves
 from derivation.scene.dynamic.mode_count import branching
 from derivation.scene.dynamic.reach import Reach
 from derivation.scene.dynamic.results import dynamic_impact_of
@@ -333,14 +333,14 @@ def test_a_tolerance_out_of_reach_names_one_that_is_met(
 ) -> None:
     """The runs end before the limits of modes; another tolerance changes the omitted effects."""
     works: list[float] = []
-    once = waves.run_with
+    once = refinement.run_with
 
     def counted(*args: Any, **kwargs: Any) -> DynamicImpact:
         found = once(*args, **kwargs)
         works.append(found.impact_history.work)
         return found
 
-    monkeypatch.setattr(waves, "run_with", counted)
+    monkeypatch.setattr(refinement, "run_with", counted)
     with pytest.raises(SceneError, match="expected a tolerance that can be met, such as") as error:
         simulate(read(scene), rtol=1e-4)
     spent = sum(works)
@@ -367,13 +367,13 @@ def test_one_run_beyond_the_limits_is_made_if_the_tolerance_is_near(
     monkeypatch.setattr("derivation.scene.dynamic.mode_count.WORK", 0.0)
     waves.impact.cache_clear()
     counts: list[int] = []
-    once = waves.run_with
+    once = refinement.run_with
 
     def counted(law: Any, count: int, *args: Any, **kwargs: Any) -> Any:
         counts.append(count)
         return once(law, count, *args, **kwargs)
 
-    monkeypatch.setattr(waves, "run_with", counted)
+    monkeypatch.setattr(refinement, "run_with", counted)
     if rtol == 3e-4:
         assert simulate(scene, rtol=rtol).accuracy.bound <= rtol
     else:

@@ -19,8 +19,8 @@ def _stable(expression: sp.Expr) -> sp.Expr:
     return abs(constant) * sp.Mul(*(sp.horner(factor, SUM) for factor in positive)) / bottom
 
 
-def stiffening(formula: Formula) -> Routine:
-    """Return the routine of one edge."""
+def of_ratio(formula: Formula) -> Routine:
+    """Return the routine of a function of Poisson's ratio."""
     return routine(
         formula.name,
         (nu,),
@@ -35,8 +35,8 @@ def stiffening(formula: Formula) -> Routine:
 
 def stretching_kernels() -> Routines:
     """Return the routines of the three edges."""
-    title = "Stiffening of a plate by stretching of its middle plane, to first order."
-    return Routines("stretching_kernels", title, tuple(map(stiffening, stretching())), {})
+    title = "Stiffening and tension by stretching of a plate's middle plane, to first order."
+    return Routines("stretching_kernels", title, tuple(map(of_ratio, stretching())), {})
 
 
 MODULES = (ComputedModule("stretching_kernels", stretching_kernels),)

@@ -12,6 +12,11 @@ first equation then gives the force at the deflection w_0 to first order:
 
     P = k w_0 (1 + A w_0^2/H^2),   k A w_0^3/H^2 = (2 pi/w_0) int_0^b N_r w'^2 r dr.
 
+The tension N_r/H on the axis is B w_0/H times 3 (1 + nu) P/(2 pi H^2). Under Hertz pressure the
+bending stress is this unit times log(b/a) + 5/6 - log(2) + g (the mean of log(b/r) - 1/2 + g, see
+Timoshenko and Woinowsky-Krieger, section 19), above 1 for a < 0.4 b: then B w_0/H is an upper bound
+on the tension over the bending stress.
+
 A clamped edge holds the middle plane (u = 0), a simply supported edge does not (N_r = 0), and the
 paper's edge has u' + u/r = 0. For nu = 0.3, A is 0.445 and 0.272; Timoshenko and Woinowsky-Krieger,
 Theory of Plates and Shells, 2nd ed. 1959, table 82, have 0.443 and 0.272.
@@ -69,13 +74,27 @@ def edges() -> dict[str, Edge]:
     }
 
 
+def _tension(edge: Edge) -> sp.Expr:
+    """Return b^2 H^2/(12 D) N_r for an edge."""
+    constant = sp.solve(sp.expand(edge.in_plane.subs(_x, 1)), _c)[0]
+    return _strain(middle_plane()).subs(_c, constant)
+
+
 def stiffening(edge: Edge) -> sp.Expr:
     """Return A of an edge."""
-    constant = sp.solve(sp.expand(edge.in_plane.subs(_x, 1)), _c)[0]
-    tension = _strain(middle_plane()).subs(_c, constant)
+    tension = _tension(edge)
     # k = 16 pi D/(b^2 (1 + 2 g)) and w_0 = 1 + 2 g.
     work = sp.integrate(sp.expand(tension * slope() ** 2 * _x), (_x, 0, 1))
     return sp.factor(sp.simplify((sp.Rational(3, 2) * work / (1 + 2 * _g) ** 3).subs(_g, edge.g)))
+
+
+def tension_ratio(edge: Edge) -> sp.Expr:
+    """Return B of an edge."""
+    on_axis = sp.limit(_tension(edge).subs(_g, edge.g), _x, 0)
+    deflection = 1 + 2 * edge.g
+    # Over D/(H^3 b^2): the tension for this w_0, and its unit for P = k w_0, times w_0/H.
+    tension, unit = 12 * on_axis, sp.Rational(3, 2) / sp.pi * (1 + nu) * 16 * sp.pi * deflection
+    return sp.factor(sp.simplify(tension / unit))
 
 
 @cache
@@ -101,17 +120,23 @@ def stretching() -> tuple[Formula, ...]:
             },
         },
     )
+    kinds = (
+        ("stiffening", "A", "the stiffening 1 + A (w/H)^2 of a plate by stretching", stiffening),
+        ("tension", "B", "the tension by stretching over 3 (1 + nu) P w/(2 pi H^3)",
+         tension_ratio),
+    )  # fmt: skip
     return tuple(
         Formula(
-            f"stiffening_{name}",
-            rf"A_\text{{{name}}}",
-            f"A of the stiffening 1 + A (w/H)^2 of a plate by stretching, {name} edge",
-            stiffening(edge),
+            f"{kind}_{name}",
+            rf"{symbol}_\text{{{name}}}",
+            f"{symbol} of {meaning}, {name} edge",
+            value(edge),
             "1",
             "",
             (),
             proof,
         )
+        for kind, symbol, meaning, value in kinds
         for name, edge in edges().items()
     )
 

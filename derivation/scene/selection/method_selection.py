@@ -151,7 +151,7 @@ def _named(selected: SelectedEffects, moving: "DynamicImpact", accuracy: Achieve
     With a larger tolerance more effects may be omitted, which takes a part of it.
     """
     from derivation.scene.dynamic.mode_convergence import attainable
-    from derivation.scene.dynamic.waves import KEPT
+    from derivation.scene.dynamic.refinement import KEPT
 
     law = Part(attainable(moving).error(selected.outputs), ESTIMATED)
     simulated = replace(accuracy, law=law, effects=Part(0.0, PROVED)).bound / KEPT

@@ -1,4 +1,4 @@
-"""The stiffening of plates by stretching, against published values and a numerical solution."""
+"""Stiffening and tension of stretched plates, against published values and numerical solutions."""
 
 from collections.abc import Callable
 
@@ -14,6 +14,17 @@ STIFFENING: dict[str, Callable[[Double], Double]] = {
     "simply-supported": kernels.stiffening_supported,
     "paper": kernels.stiffening_paper,
 }
+TENSION: dict[str, Callable[[Double], Double]] = {
+    "clamped": kernels.tension_clamped,
+    "simply-supported": kernels.tension_supported,
+    "paper": kernels.tension_paper,
+}
+
+
+def tension_on_axis(edge: str, nu: float) -> float:
+    """Return the stress of the middle plane over E (w/b)^2, from the bending stiffness k."""
+    softer = {"clamped": 1.0, "simply-supported": 1.0 + 2.0 / (1.0 + nu), "paper": 2.0}[edge]
+    return 2.0 * float(TENSION[edge](np.array(nu))) / ((1.0 - nu) * softer)
 
 
 @pytest.mark.parametrize(("edge", "published"), [("clamped", 0.443), ("simply-supported", 0.272)])
@@ -30,12 +41,35 @@ def test_equals_the_stiffness_of_a_numerical_solution(edge: str, nu: float) -> N
     assert plate.stiffening() == pytest.approx(float(STIFFENING[edge](np.array(nu))), rel=1e-3)
 
 
-def test_middle_plane_of_a_clamped_plate_has_the_published_stress() -> None:
-    """1.232 E (w/b)^2 on the axis: Timoshenko and Woinowsky-Krieger (1959), table 82."""
-    plate = ThinPlate(70e9, 0.3, 2500.0, 2e-3, 0.1, "clamped", modes=60, points=1000)
+@pytest.mark.parametrize(("edge", "published"), [("clamped", 1.232), ("simply-supported", 0.407)])
+def test_published_stresses_of_the_middle_plane(edge: str, published: float) -> None:
+    """On the axis over E (w/b)^2: Timoshenko and Woinowsky-Krieger (1959), table 82, nu = 0.3."""
+    assert tension_on_axis(edge, 0.3) == pytest.approx(published, abs=6e-4)
+
+
+@pytest.mark.parametrize("edge", TENSION)
+@pytest.mark.parametrize("nu", [-0.9, 0.0, 0.3, 0.49])
+def test_equals_the_stress_of_a_numerical_solution(edge: str, nu: float) -> None:
+    plate = ThinPlate(70e9, nu, 2500.0, 2e-3, 0.1, edge, modes=60, points=1000)
     centre = plate.shapes[-1]
     q = centre / (plate.masses * plate.frequencies**2)
     stress = plate.stretched(q)[0][0] / plate.thickness
-    assert stress / (plate.young * (centre @ q / plate.radius) ** 2) == pytest.approx(
-        1.232, rel=2e-3
-    )
+    over = plate.young * (centre @ q / plate.radius) ** 2
+    assert stress / over == pytest.approx(tension_on_axis(edge, nu), rel=3e-3)
+
+
+@pytest.mark.parametrize(
+    ("edge", "g"), [("clamped", 0.0), ("simply-supported", 1 / 1.3), ("paper", 0.5)]
+)
+def test_bending_stress_of_a_narrow_contact_is_its_unit_times_a_logarithm(
+    edge: str, g: float
+) -> None:
+    """The mean of log(b/r) - 1/2 + g under Hertz pressure, for nu = 0.3; a sum of modes."""
+    plate = ThinPlate(70e9, 0.3, 2500.0, 2e-3, 0.1, edge, modes=200, points=1500)
+    x = plate.wave_numbers / 50.0
+    q = 3.0 * (np.sin(x) - x * np.cos(x)) / x**3 / (plate.masses * plate.frequencies**2)
+    q *= plate.shapes[-1]
+    ratio = plate.stretched(q)[0][0] / plate.thickness / (plate.bending_stresses @ q)
+    over = plate.shapes[-1] @ q / plate.thickness
+    logarithm = np.log(50.0) + 5.0 / 6.0 - np.log(2.0) + g
+    assert ratio / over * logarithm == pytest.approx(float(TENSION[edge](np.array(0.3))), rel=0.01)

@@ -11,6 +11,7 @@ from derivation.scene.input.keys import written
 from derivation.scene.quantity import common_prefix, counted, percent
 from derivation.scene.result import UNITS
 from derivation.scene.scene import OUTPUTS, outputs_of
+from derivation.scene.selection.achieved_accuracy import rounded_up
 from derivation.scene.selection.effect_selection import named
 from derivation.sweep.dataset import column
 from derivation.sweep.sensitivity import Sensitivities
@@ -95,7 +96,9 @@ class Summary:
                 values, unit = common_prefix(values, unit)
             rows.append([name.replace("_", " "), *(f"{x:#.{DIGITS}g}" for x in values), unit])
         whose = named(self.outputs, "")
-        accuracy = f"relative error{whose and f' of {whose}'} at most {self.largest_bound:.1e}"
+        accuracy = (
+            f"relative error{whose and f' of {whose}'} at most {rounded_up(self.largest_bound)}"
+        )
         if self.largest_bound == np.inf:
             accuracy = "no error bound is known at some points"
         if np.isnan(self.largest_bound):

@@ -95,7 +95,11 @@ BAD = [
     ("lame_lambda = 0.36e9", "lame_lambda = 0,36e9", "TOML|line 7|decimal point"),
     ("lame_lambda = 0.36e9", "lame_lambda = 0.36 GPa", "TOML|line 7|0.36 GPa|SI units"),
     ("lame_lambda = 0.36e9", "material = steel", 'TOML|line 7|quotes|material = "steel"'),
-    ("radius = 1.0", "radius = 1.0\nradius = 2.0", "TOML|line 6"),
+    ("lame_lambda = 0.36e9", "material = \"steel", 'TOML|line 7|end text with a quote'),
+    ("radius = 1.0", "radius = 1.0\nradius = 2.0", "TOML|line 6|give each key and table once"),
+    ("[impact]", "[plate]", "TOML|give each key and table once"),
+    ("[impact]", "[impact", "TOML|as `[sphere]`"),
+    ("[impact]", "impact]", "TOML|as `[sphere]`"),
 ]  # fmt: skip
 
 

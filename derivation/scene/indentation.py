@@ -196,6 +196,8 @@ def static_law(scene: Scene) -> ContactLaw:
 def _numbers(name: str, values: Values) -> list[float]:
     """Return the given values after checking that each is a positive number."""
     listed = list(values) if isinstance(values, Iterable) else [values]
+    if isinstance(values, np.ndarray) and values.ndim > 1:
+        raise SceneError(f"{name}: expected a sequence of numbers, got {values.ndim} dimensions")
     if not listed or isinstance(values, str):
         got = "a string" if isinstance(values, str) else "none"
         raise SceneError(

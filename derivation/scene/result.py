@@ -97,7 +97,7 @@ class Result:
     model_error: float
     warnings: tuple[str, ...]
     scene: Scene
-    effects: SelectedEffects = field(repr=False)
+    effects: SelectedEffects = field(repr=False, compare=False)  # follow from the scene
     times: tuple[float, ...] | None = None
     inertia_neglected: bool = False
     model_errors: Mapping[str, float] = field(kw_only=True, repr=False)

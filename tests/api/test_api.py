@@ -2,6 +2,7 @@
 
 import doctest
 import importlib
+import importlib.metadata
 import re
 import subprocess
 import sys
@@ -24,6 +25,10 @@ def test_public_names_are_listed_and_documented() -> None:
     assert dir(platecontact) == sorted(platecontact.__all__)
     for name in platecontact.__all__:
         assert getattr(platecontact, name).__doc__, name
+
+
+def test_package_has_its_version() -> None:
+    assert platecontact.__version__ == importlib.metadata.version("platecontact")
 
 
 def test_docstrings_of_tables_describe_every_key() -> None:

@@ -376,12 +376,12 @@ class Result:
         return rows
 
     def __str__(self) -> str:
-        """Return the summary, as the command line prints it."""
-        return answer.short(self)
+        """Return the summary, as the command line prints it, with the warnings."""
+        return answer.with_warnings(answer.short(self), self)
 
     def details(self) -> str:
         """Return the summary with the parts of the error bound, the effects and the contacts."""
-        return answer.details(self)
+        return answer.with_warnings(answer.details(self), self)
 
     def _repr_html_(self) -> str:
         """Return the summary for a notebook."""

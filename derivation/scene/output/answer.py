@@ -150,6 +150,11 @@ def details(result: "Result") -> str:
     return "\n\n".join(blocks)
 
 
+def with_warnings(text: str, result: "Result") -> str:
+    """Return a text with the warnings below it."""
+    return "\n\n".join([text, *(paragraph(f"Warning: {x}") for x in result.warnings)])
+
+
 def _contacts(dynamics: "DynamicImpact") -> str:
     """Return the table of contacts, and how the impact ended."""
     title = "Contacts (speed ratio: approach speed / impact speed)"

@@ -31,7 +31,7 @@ from derivation.scene.selection.achieved_accuracy import Part
 
 Captured = pytest.CaptureFixture[str]
 POWERS = {prefix: 10.0**power for power, prefix in PREFIXES.items()}
-LINES = 25
+LINES = 27
 """Largest number of lines of a summary with its warnings, without `NOTE_LINES`."""
 NOTE_LINES = 6
 """Largest number of lines of the note before results that are not usable."""

@@ -1,7 +1,7 @@
 """The command `platecontact`: each command reads its arguments and makes one call.
 
-Exit status: 0 success, 1 a check failed or formulas differ, 2 invalid input, 141 the reader of the
-output has closed the pipe.
+Exit status: 0 success, 1 a check failed or formulas differ or an impact is incomplete, 2 invalid
+input or a file that cannot be written or Ctrl-C, 141 the reader of the output has closed the pipe.
 """
 
 import sys
@@ -232,7 +232,16 @@ command()(scene_commands.schema)
 
 def _sentence(error: TyperException) -> str:
     """Return the message of the parser without a full stop and without pydantic's details."""
-    return error.format_message().partition(", unable to parse")[0].rstrip(".")
+    sentence = error.format_message().partition(", unable to parse")[0].rstrip(".")
+    invalid = getattr(error.__cause__, "errors", None)  # pydantic's, with the value
+    return f"{sentence}, got {invalid()[0]['input']}" if invalid else sentence
+
+
+def _reason(error: Exception) -> str:
+    """Return the message of an error; that of the operating system without its number."""
+    if isinstance(error, OSError) and error.strerror:
+        return f"{error.filename or 'standard output'}: {error.strerror}"
+    return str(error)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -255,7 +264,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         silence(sys.stdout)
         return UNREAD_STATUS
     except (OSError, ValueError, FailedError) as error:
-        NOTES.say(f"platecontact: {error}")
+        NOTES.say(f"platecontact: {_reason(error)}")
         return 1 if isinstance(error, FailedError) else 2
     except Exception as error:
         from derivation.engine.load import location_in_paper  # imports SymPy: slow

@@ -21,6 +21,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    __version__: str
     from derivation import diagnose, formula
     from derivation.scene import (
         Accuracy,
@@ -87,6 +88,8 @@ relative names, because an installed copy is called `platecontact`."""
 
 
 def __getattr__(name: str) -> Any:
+    if name == "__version__":
+        return import_module("importlib.metadata").version("platecontact")
     if name not in __all__:
         from derivation.engine.nearest import did_you_mean
 

@@ -2,15 +2,18 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from html import escape
 
 from derivation.engine.emit import own_formula
 from derivation.engine.errata.findings import Finding
+from derivation.engine.formula.notation import to_plain
 from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.code_check import CodeCheck
 from derivation.engine.rewrite.products import ProductForm
 from derivation.engine.rewrite.several_variables import SeveralCheck
 from derivation.engine.rewrite.stabilise import Stable
 from derivation.plate import derived
+from derivation.scene.output.html import html_table
 
 
 @dataclass(frozen=True)
@@ -35,6 +38,25 @@ class Rewritten:
     def __str__(self) -> str:
         return self.source
 
+    def _repr_html_(self) -> str:
+        """Return the source for a notebook."""
+        return f"<pre>{escape(self.source)}</pre>"
+
+
+class Findings(tuple[Finding, ...]):
+    """Comparisons of the published formulas with the derived ones, in the order of the paper."""
+
+    __slots__ = ()
+
+    def __str__(self) -> str:
+        """Return a line for each formula."""
+        return "\n".join(map(str, self))
+
+    def _repr_html_(self) -> str:
+        """Return the comparisons as a table for a notebook."""
+        rows = ((x.printed.equation, x.printed.name, x.kind, to_plain(x.repair)) for x in self)
+        return html_table(("equation", "formula", "finding", "fix"), rows)
+
 
 def formulas() -> dict[str, Record]:
     """Return all derived formulas by name, each with its unit and proof.
@@ -53,14 +75,15 @@ def formulas() -> dict[str, Record]:
     return derived.formulas()
 
 
-def misprints() -> tuple[Finding, ...]:
+def misprints() -> Findings:
     """Return the comparison of each published formula with the derived one, misprint or not.
 
     Returns
     -------
-    tuple of derivation.engine.errata.findings.Finding
-        One comparison for each published formula, in the order of the paper; `kind` is "correct as
-        published" or names the misprint, `repair` is the correction.
+    Findings
+        A tuple with one `derivation.engine.errata.findings.Finding` for each published formula, in
+        the order of the paper; `kind` is "correct as published" or names the misprint, `repair` is
+        the correction.
 
     Examples
     --------
@@ -68,7 +91,7 @@ def misprints() -> tuple[Finding, ...]:
     >>> sum(finding.kind == "correct as published" for finding in pc.misprints()) > 0
     True
     """
-    return derived.misprints()
+    return Findings(derived.misprints())
 
 
 def rewrite(formula: str, variable: str = "x", where: Sequence[str] = ()) -> Rewritten:

@@ -90,7 +90,7 @@ def simulate(
         return
     from derivation.scene import SceneError, load
     from derivation.scene import simulate as run
-    from derivation.scene.output.answer import plain
+    from derivation.scene.output import answer
 
     check_outputs(scene, json, plot, csv, animate)
     with progress_status("simulate"):
@@ -102,7 +102,8 @@ def simulate(
     drawings, problems = _drawings(result, plot, animate)
     files.update(drawings)
     if _write(files, json, result.to_json):
-        OUT.say(plain(result) if quiet else result.details() if details else str(result))
+        text_of = answer.plain if quiet else answer.details if details else answer.short
+        OUT.say(text_of(result))
     if quiet:
         warn([result.incomplete_note] if result.incomplete_note else [])
     else:
@@ -284,8 +285,8 @@ def indent(
         )
     contacts = run(loaded, **chosen)
     if write_json_output(lambda: [contact.to_json() for contact in contacts], json):
-        OUT.say(f"Static contact in {title(scene)}\n\n{contacts}")
-    warn([text for contact in contacts for text in contact.warnings])
+        OUT.say(f"Static contact in {title(scene)}\n\n{contacts.to_text()}")
+    warn(contacts.warnings)
 
 
 def schema(

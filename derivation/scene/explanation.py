@@ -18,6 +18,7 @@ from derivation.scene.numerics.quadrature import NODES, rule
 from derivation.scene.quantity import prefixed
 from derivation.scene.scales import zener_number
 from derivation.scene.scene import Scene
+from derivation.scene.selection.achieved_accuracy import rounded_up
 from derivation.scene.selection.effect_selection import SelectedEffects, named
 
 
@@ -53,8 +54,8 @@ class Explanation:
         effects = ", ".join(self.effects.included)
         results = named(self.effects.outputs, "each result")
         omitted = (
-            f"The omitted effects change {results} by at most {self.effects.stated_error:.1e} "
-            f"(tolerance {self.effects.rtol:.3g})."
+            f"The omitted effects change {results} by at most "
+            f"{rounded_up(self.effects.stated_error)} (tolerance {self.effects.rtol:.3g})."
             if self.effects.omits
             else "No applicable effect was omitted automatically."
         )
@@ -82,7 +83,7 @@ class Explanation:
 
 def _change(bound: float) -> str:
     """Return the bound on the change by a disabled effect, in words."""
-    return f"changes the results by at most {bound:.1e}" if bound < NO_BOUND else "no bound"
+    return f"changes the results by at most {rounded_up(bound)}" if bound < NO_BOUND else "no bound"
 
 
 RUN_TIME_DIGITS = 2

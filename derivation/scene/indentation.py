@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from derivation.engine.text import aligned
+from derivation.engine.text import aligned, paragraph
 from derivation.scene.contact_law.corrections import stretching
 from derivation.scene.contact_law.edge_curvature import edge_curvature_errors
 from derivation.scene.contact_law.edge_remainder import edge_warnings, largest_neighbours
@@ -103,18 +103,26 @@ class StaticContacts(tuple[StaticContact, ...]):
         return f"Model error: {size}" if error else ""
 
     def __str__(self) -> str:
+        """Return the table as text, with model error and warnings."""
+        return "\n\n".join([self.to_text(), *(paragraph(f"Warning: {x}") for x in self.warnings)])
+
+    def to_text(self) -> str:
         """Return the table as text, with the model error."""
         table = aligned(HEADS, self.rows())
         return f"{table}\n\n{self.model_note}" if self.model_note else table
 
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """The warnings of all contacts, each once."""
+        return tuple(dict.fromkeys(text for contact in self for text in contact.warnings))
+
     def _repr_html_(self) -> str:
         """Return the table for a notebook, with model error and warnings below it."""
-        texts = dict.fromkeys(text for contact in self for text in contact.warnings)
         error = f"<p>{self.model_note}</p>" if self.model_note else ""
         return (
             html_table(HEADS, self.rows())
             + error
-            + "".join(f"<p><b>Warning:</b> {escape(text)}</p>" for text in texts)
+            + "".join(f"<p><b>Warning:</b> {escape(text)}</p>" for text in self.warnings)
         )
 
 
@@ -196,6 +204,8 @@ def static_law(scene: Scene) -> ContactLaw:
 def _numbers(name: str, values: Values) -> list[float]:
     """Return the given values after checking that each is a positive number."""
     listed = list(values) if isinstance(values, Iterable) else [values]
+    if isinstance(values, np.ndarray) and values.ndim > 1:
+        raise SceneError(f"{name}: expected a sequence of numbers, got {values.ndim} dimensions")
     if not listed or isinstance(values, str):
         got = "a string" if isinstance(values, str) else "none"
         raise SceneError(

@@ -20,7 +20,7 @@ from derivation.scene.output.history import POINTS, DynamicHistory, History, Pre
 from derivation.scene.output.pressure_profile import pressure_profile
 from derivation.scene.quantity import counted, digits_of
 from derivation.scene.scene import Scene
-from derivation.scene.selection.achieved_accuracy import AchievedAccuracy
+from derivation.scene.selection.achieved_accuracy import AchievedAccuracy, rounded_up
 from derivation.scene.selection.effect_selection import SelectedEffects
 from derivation.scene.selection.method_selection import dynamic_impact, moved
 from derivation.scene.tensile_stress import TensileStress, tensile_stress
@@ -97,7 +97,7 @@ class Result:
     model_error: float
     warnings: tuple[str, ...]
     scene: Scene
-    effects: SelectedEffects = field(repr=False)
+    effects: SelectedEffects = field(repr=False, compare=False)  # follow from the scene
     times: tuple[float, ...] | None = None
     inertia_neglected: bool = False
     model_errors: Mapping[str, float] = field(kw_only=True, repr=False)
@@ -342,7 +342,9 @@ class Result:
         """Bounds on the change by disabled effects, as a sentence; empty if there are none."""
         rows = [row for row in self.effects.rows if row.disabled]
         known = ", ".join(
-            f"{row.name} ({f'at most {row.bound:.1e}' if row.bound < NO_BOUND else 'no bound'})"
+            f"{row.name} (at most {rounded_up(row.bound)})"
+            if row.bound < NO_BOUND
+            else f"{row.name} (no bound)"
             for row in rows
         )
         return f"Disabled by the scene, not included in this bound: {known}." if rows else ""
@@ -374,12 +376,12 @@ class Result:
         return rows
 
     def __str__(self) -> str:
-        """Return the summary, as the command line prints it."""
-        return answer.short(self)
+        """Return the summary, as the command line prints it, with the warnings."""
+        return answer.with_warnings(answer.short(self), self)
 
     def details(self) -> str:
         """Return the summary with the parts of the error bound, the effects and the contacts."""
-        return answer.details(self)
+        return answer.with_warnings(answer.details(self), self)
 
     def _repr_html_(self) -> str:
         """Return the summary for a notebook."""

@@ -63,9 +63,9 @@ class Forecast:
         shared = self.seconds / self.workers
         return (
             f"{self.points:,} points\n\n"
-            f"{aligned(['effect', '#included at'], rows)}\n\n"
+            f"{aligned(['effect', '#included at tested points'], rows)}\n\n"
             f"Estimated time: {_duration(self.seconds)} on one process, {_duration(shared)} on "
-            f"{self.workers}; from {self.timed:,} points"
+            f"{self.workers}; from the run time of {self.timed:,} points"
         )
 
 

@@ -143,12 +143,14 @@ def _roles(keys: Sequence[str]) -> tuple[str, str]:
 def _legend(made: "Figure", panel: "Axes", other: str) -> None:
     """Add the legend of all panels: in the first one, or beside them if each name has a curve."""
     handles, texts = panel.get_legend_handles_labels()
+    if not handles:  # maps have none
+        return
     if other:
         made.legend(
             handles, texts, title=_words(other), loc="outside right upper", frameon=False,
             fontsize=8, title_fontsize=8, ncols=-(-len(texts) // MOST_LINES),
         )  # fmt: skip
-    elif handles:
+    else:
         panel.legend(handles, texts, frameon=False, fontsize=8)
 
 

@@ -301,8 +301,9 @@ def _client(scheduler: str | None, workers: int) -> Iterator[Any]:
         # in a thread that is needed to start another client, which then waits without end.
         gc.collect()
         raise SceneError(
-            f"scheduler: expected a Dask scheduler with a worker, got none at {scheduler} within "
-            f"{PATIENCE:.0f} s; start them with `dask scheduler` and `dask worker ADDRESS`"
+            f"scheduler: expected a Dask scheduler with a worker, got none at {scheduler}; "
+            "start them with `dask scheduler` and `dask worker ADDRESS`, and give the address as "
+            "tcp://HOST:PORT"
         )
     with client:
         yield client

@@ -6,11 +6,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from derivation.engine.text import aligned, wording
+from derivation.engine.text import aligned, paragraph, wording
+from derivation.scene.effects import BY_NAME
 from derivation.scene.input.keys import written
 from derivation.scene.quantity import common_prefix, counted, percent
 from derivation.scene.result import UNITS
 from derivation.scene.scene import OUTPUTS, outputs_of
+from derivation.scene.selection.achieved_accuracy import rounded_up
 from derivation.scene.selection.effect_selection import named
 from derivation.sweep.dataset import column
 from derivation.sweep.sensitivity import Sensitivities
@@ -62,6 +64,8 @@ class Summary:
         Sensitivity indices, if requested.
     outputs
         The results that the bounds apply to.
+    disabled
+        The effects that the scene disables, which the bounds do not include.
     """
 
     points: int
@@ -74,6 +78,7 @@ class Summary:
     warned: int
     sensitivities: Sensitivities | None
     outputs: tuple[str, ...] = OUTPUTS
+    disabled: tuple[str, ...] = ()
 
     def to_json(self) -> dict[str, Any]:
         """Return the summary under fixed keys, in SI units."""
@@ -95,7 +100,9 @@ class Summary:
                 values, unit = common_prefix(values, unit)
             rows.append([name.replace("_", " "), *(f"{x:#.{DIGITS}g}" for x in values), unit])
         whose = named(self.outputs, "")
-        accuracy = f"relative error{whose and f' of {whose}'} at most {self.largest_bound:.1e}"
+        accuracy = (
+            f"relative error{whose and f' of {whose}'} at most {rounded_up(self.largest_bound)}"
+        )
         if self.largest_bound == np.inf:
             accuracy = "no error bound is known at some points"
         if np.isnan(self.largest_bound):
@@ -107,6 +114,9 @@ class Summary:
             f"{aligned(['result', '#smallest', '#largest', 'unit'], rows)}\n\n"
             f"Accuracy: {accuracy}"
         )
+        if self.disabled:
+            names = ", ".join(self.disabled)
+            text += f"\n{paragraph(f'Disabled by the scene, not included in this bound: {names}')}"
         return f"{text}\n\n{self.sensitivities.to_text()}" if self.sensitivities else text
 
 
@@ -137,10 +147,15 @@ def summary(store: Store, computed: int, sensitivities: Sensitivities | None) ->
         _add_reasons(reasons, store, start, status, reason)
     ranges = {name: (low[name], high[name]) for name in UNITS if low[name] <= high[name]}
     warnings = tuple(reason.in_words() for reason in reasons.values())
-    size = store.study.plan.size
+    size, effects = store.study.plan.size, store.study.scene.effects
+    disabled = tuple(
+        name
+        for name in BY_NAME
+        if getattr(effects, name, None) is False and f"effects.{name}" not in store.study.plan.keys
+    )
     return Summary(
         size, computed, dict(sorted(counts.items())), ranges, bound, model_error, warnings, warned,
-        sensitivities, outputs_of(store.study.scene),
+        sensitivities, outputs_of(store.study.scene), disabled,
     )  # fmt: skip
 
 

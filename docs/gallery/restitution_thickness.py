@@ -23,7 +23,9 @@ for radius in (0.005, 0.01):
         ).restitution
         for each in thickness
     ]
-    axes.plot(1e3 * thickness, restitution, ".-", label=f"steel sphere of {2e3 * radius:g} mm")
+    axes.plot(
+        1e3 * thickness, restitution, ".-", label=f"steel sphere, diameter {2e3 * radius:g} mm"
+    )
 axes.set(
     xlabel="plate thickness [mm]", ylabel="coefficient of restitution [1]",
     title="Restitution on a glass plate",

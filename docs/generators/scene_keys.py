@@ -36,7 +36,7 @@ def groups(name: str) -> str:
     shape = TABLES.get(name, Material)
     required = "Exactly one of these is required"
     if shape.stand_in is not None:
-        required += f", or `{shape.stand_in}` without any of them"
+        required += f" without `{shape.stand_in}`, and at most one with it"
     rules = [(required, choice) for choice in shape.choices]
     rules += [("At most one of these may be given", choice) for choice in shape.options]
     return " ".join(f"{said}: {', or '.join(map(_together, keys))}." for said, keys in rules)

@@ -2,6 +2,7 @@
 
 import doctest
 import importlib
+import importlib.metadata
 import re
 import subprocess
 import sys
@@ -10,6 +11,7 @@ from pathlib import Path
 import platecontact
 import pytest
 
+from derivation.engine.files import ROOT
 from derivation.scene.input.example_scenes import copy
 
 
@@ -26,12 +28,27 @@ def test_public_names_are_listed_and_documented() -> None:
         assert getattr(platecontact, name).__doc__, name
 
 
+def test_package_has_its_version() -> None:
+    assert platecontact.__version__ == importlib.metadata.version("platecontact")
+
+
 def test_docstrings_of_tables_describe_every_key() -> None:
     for name in platecontact.__all__:
         table = getattr(platecontact, name)
         section = (table.__doc__ or "").partition("Parameters\n")[2].partition("Examples\n")[0]
         for key in getattr(table, "model_fields", ()):
             assert re.search(rf"^ *([\w, ]+, )?{key}(,|$)", section, re.MULTILINE), f"{name}.{key}"
+
+
+def test_formulas_and_digits_show_themselves_as_text_and_in_notebooks() -> None:
+    findings = platecontact.misprints()
+    assert f"\n{findings[1]}\n" in str(findings)
+    assert findings._repr_html_().count("<tr>") == len(findings) + 1
+    assert "import numpy" in platecontact.rewrite("exp(x) - 1")._repr_html_()
+    scene = platecontact.load(ROOT / "derivation" / "scene" / "examples" / "paper.toml")
+    digits = platecontact.reference(scene, digits=20)
+    assert str(digits).startswith("contact time [s]\n  0.00880816")
+    assert str(digits) in digits._repr_html_()
 
 
 def test_unknown_name_raises_an_attribute_error() -> None:

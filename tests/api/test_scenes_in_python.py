@@ -150,9 +150,36 @@ def test_plot_returns_a_figure(result: pc.Result) -> None:
 def test_result_from_another_process_is_the_same(result: pc.Result) -> None:
     """Processes exchange results by pickle."""
     restored = pickle.loads(pickle.dumps(result))
+    assert restored == result
     assert restored.to_json() == result.to_json()
     assert restored.details() == result.details()
     assert restored.to_pandas().equals(result.to_pandas())
+
+
+def test_changed_copies_are_checked() -> None:
+    scene = pc.read(VALID)
+    faster = scene.model_copy(update={"impact": {"speed": 2.0}})
+    assert faster == pc.read(VALID | {"impact": {"speed": 2.0}})
+    rigid = scene.sphere.model_copy(update={"material": None, "mass": 1.0})
+    assert rigid.to_json() == {"radius": 0.01, "mass": 1.0}
+    both = message(scene.plate.model_copy, update={"half_thickness": 0.01})
+    assert both.startswith("[plate]: expected either plate.half_thickness or plate.thickness")
+    with pytest.raises(pc.SceneError, match=r"plate.radius: cannot be changed; .*model_copy"):
+        scene.plate.radius = 1.0
+
+
+def test_unknown_result_has_no_bound(result: pc.Result) -> None:
+    assert "contact_time, max_indentation" in message(result.bound_of, "max force")
+
+
+@pytest.mark.parametrize("points", [1, 2.5, "9"])
+def test_pressures_need_two_points(result: pc.Result, points: Any) -> None:
+    assert message(result.pressures, points).startswith("points: expected a whole number")
+
+
+def test_static_contacts_take_a_sequence() -> None:
+    forces = np.array([[1.0, 10.0]])
+    assert "2 dimensions" in message(pc.indent, pc.read(VALID), force=forces)
 
 
 @pytest.mark.parametrize("wrong", ["scene.toml", VALID])

@@ -309,8 +309,12 @@ def test_full_device_as_standard_output_is_an_error() -> None:
             stdout=full, stderr=subprocess.PIPE, text=True, check=False, cwd=ROOT,
         )  # fmt: skip
     assert run.returncode == 2
-    assert "No space left on device" in run.stderr
-    assert "Traceback" not in run.stderr
+    assert run.stderr == "platecontact: standard output: No space left on device\n"
+
+
+def test_value_that_is_no_number_is_shown(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["reference", "any.toml", "--digits", "many"]) == 2
+    assert "--digits': Input should be a valid integer, got many (see" in capsys.readouterr().err
 
 
 # --- Ctrl-C

@@ -292,9 +292,15 @@ def test_every_output_states_method_and_bound(tmp_path: Path, capsys: Captured) 
     assert full["quadrature"]["basis"] == full["rounding"]["basis"] == "tested"
 
 
-@pytest.mark.parametrize("bound", [2.53e-4, 9.99e-9, 1e-13, 5.0001e-14, 0.95])
-def test_printed_bound_is_rounded_up(bound: float) -> None:
-    assert bound <= float(achieved_accuracy.rounded_up(bound)) <= 1.11 * bound
+@pytest.mark.parametrize(
+    ("bound", "printed"),
+    [
+        (2.53e-4, "2.6e-04"), (9.99e-9, "1.0e-08"), (1e-13, "1.0e-13"), (5.0001e-14, "5.1e-14"),
+        (0.95, "9.5e-01"), (8.101e-3, "8.2e-03"), (0.0, "0.0e+00"), (math.inf, "inf"),
+    ],
+)  # fmt: skip
+def test_printed_bound_is_rounded_up(bound: float, printed: str) -> None:
+    assert achieved_accuracy.rounded_up(bound) == printed
 
 
 def test_history_uses_the_full_method() -> None:

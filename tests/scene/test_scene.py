@@ -95,7 +95,11 @@ BAD = [
     ("lame_lambda = 0.36e9", "lame_lambda = 0,36e9", "TOML|line 7|decimal point"),
     ("lame_lambda = 0.36e9", "lame_lambda = 0.36 GPa", "TOML|line 7|0.36 GPa|SI units"),
     ("lame_lambda = 0.36e9", "material = steel", 'TOML|line 7|quotes|material = "steel"'),
-    ("radius = 1.0", "radius = 1.0\nradius = 2.0", "TOML|line 6"),
+    ("lame_lambda = 0.36e9", "material = \"steel", 'TOML|line 7|end text with a quote'),
+    ("radius = 1.0", "radius = 1.0\nradius = 2.0", "TOML|line 6|give each key and table once"),
+    ("[impact]", "[plate]", "TOML|give each key and table once"),
+    ("[impact]", "[impact", "TOML|as `[sphere]`"),
+    ("[impact]", "impact]", "TOML|as `[sphere]`"),
 ]  # fmt: skip
 
 
@@ -215,7 +219,7 @@ def test_negative_lame_lambda_of_a_stable_material_is_allowed() -> None:
 
 def test_scene_is_frozen() -> None:
     scene = read(changed())
-    with pytest.raises(ValueError, match="frozen"):
+    with pytest.raises(ValueError, match="cannot be changed"):
         scene.plate.radius = 2.0  # type: ignore[misc]
 
 

@@ -31,7 +31,7 @@ from derivation.scene.selection.achieved_accuracy import Part
 
 Captured = pytest.CaptureFixture[str]
 POWERS = {prefix: 10.0**power for power, prefix in PREFIXES.items()}
-LINES = 25
+LINES = 27
 """Largest number of lines of a summary with its warnings, without `NOTE_LINES`."""
 NOTE_LINES = 6
 """Largest number of lines of the note before results that are not usable."""
@@ -121,11 +121,23 @@ def test_values_of_a_column_have_the_same_prefix(values: list[float], digits: in
 # --- the summary
 
 
+def test_printed_results_include_the_warnings() -> None:
+    """A script that prints a result has no other place where it would show them."""
+    result = result_of(EXAMPLES / "ball_drop.toml")
+    contacts = indent(result.scene, force=1e5)
+    for shown, warnings in (
+        (str(result), result.warnings),
+        (result.details(), result.warnings),
+        (str(contacts), contacts.warnings),
+    ):
+        assert warnings
+        assert " ".join(shown.split()).endswith(f"Warning: {warnings[-1]}")
+
+
 @every_example
 def test_summary_is_short_and_at_most_80_columns_wide(example: Path) -> None:
     result = result_of(example)
     lines = str(result).splitlines()
-    lines += [line for text in result.warnings for line in paragraph(text).splitlines()]
     note = paragraph(result.unusable_note).splitlines()
     assert len(lines) <= LINES + len(note)
     assert len(note) <= NOTE_LINES

@@ -319,6 +319,12 @@ def test_points_of_a_sample_are_not_connected() -> None:
     assert plots.render(data, list(vary), ["max_force"], ".png").startswith(b"\x89PNG")
 
 
+def test_maps_have_no_legend() -> None:
+    vary = {"impact.speed": [0.5, 1.0], "plate.thickness": [0.05, 0.1]}
+    made = plots.figure(pc.sweep(STATIC, vary), list(vary), ["max_force"])
+    assert not made.legends
+
+
 def test_forecast_includes_every_name(tmp_path: Path) -> None:
     scene, path = tmp_path / "scene.toml", tmp_path / "forecast.json"
     scene.write_text(

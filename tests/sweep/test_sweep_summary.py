@@ -43,6 +43,19 @@ def test_a_sweep_shows_warnings_that_differ_in_numbers_once(
     assert wording("at 1.2e-05 m, -3 of 7 c1") == "at # m, # of # c1"
 
 
+@pytest.mark.parametrize(
+    ("vary", "disabled"),
+    [("impact.speed=1,2", "inertia"), ("effects.inertia=true,false", "")],
+)
+def test_effects_that_the_scene_disables_are_named(
+    vary: str, disabled: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["sweep", str(QUICK), "--vary", vary]) == 0
+    line = capsys.readouterr().out.partition("not included in this bound: ")[2]
+    assert line.strip().endswith(disabled)
+    assert ("inertia" in line) == bool(disabled)
+
+
 def test_unknown_bound_is_stated_in_words() -> None:
     text = Summary(2, 2, {"finished": 2}, {}, math.inf, 0.0, (), 0, None).to_text()
     assert text.endswith("Accuracy: no error bound is known at some points")

@@ -79,7 +79,10 @@ def exact_values(at: Mapping[str, str], vocabulary: Vocabulary, relations: Relat
                 "remove one value"
             )
         bare = str(literal).strip()
-        value = number(bare.lstrip("+-") if bare[:1] in ("+", "-") else bare)
+        try:
+            value = number(bare.lstrip("+-") if bare[:1] in ("+", "-") else bare)
+        except FormulaError as error:
+            raise FormulaError(f"--at: {name:.40}: {error}") from None
         sign = -1 if bare.startswith("-") else 1
         result[symbol_name] = bare, sign * Fraction(int(value.p), int(value.q))
     return relations.point(result)

@@ -55,7 +55,7 @@ _HINTS = {
     "]": "square brackets are not used: write ( )",
     "{": "braces belong to LaTeX: give it as LaTeX, or write ( )",
     "}": "braces belong to LaTeX: give it as LaTeX, or write ( )",
-    "\\": "a backslash belongs to LaTeX: give the formula as LaTeX",
+    "\\": "a backslash belongs to LaTeX, which only `diagnose` with --latex reads",
     "'": "quoted text is not part of a formula",
     '"': "quoted text is not part of a formula",
     ":": "':' is not part of a formula",

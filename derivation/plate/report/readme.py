@@ -33,11 +33,14 @@ def lines(data: Data) -> Iterator[str]:
     """Yield the lines of the comparison, the fastest methods, and the run time of an impact."""
     yield from wrap(headline(data), 95)
     yield ""
-    yield f"| digits ({shown_case(data)}) | fastest method for arrays | per point |"
+    yield f"| correct digits (case `{shown_case(data)}`) | fastest method for arrays | per point |"
     yield "|---|---|---|"
     yield from winners(data)
     yield ""
-    yield "| method of `simulate` | one impact | each of many | number of impacts |"
+    yield "Methods `hertz` and `leading` were timed as functions of one impact, called in a loop;"
+    yield "`coarse` and `full` as a function of arrays. `simulate` evaluates all of them in arrays."
+    yield ""
+    yield "| method | one impact | each of many | number of impacts |"
     yield "|---|---|---|---|"
     yield from impacts(data)
 

@@ -80,6 +80,45 @@ class Table(BaseModel):
         texts = (choice_problem(table, groups, keys, examples) for groups in choices)
         return [problem for problem in texts if problem]
 
+    def model_copy(
+        self,
+        *,
+        update: Mapping[str, Any] | None = None,
+        deep: bool = False,  # noqa: ARG002 (tables do not change)
+    ) -> Self:
+        """Return a table with other values for some keys, which are checked.
+
+        Parameters
+        ----------
+        update
+            New values by key; None removes a key that is optional.
+        deep
+            Without effect, because tables do not change.
+
+        Raises
+        ------
+        SceneError
+            If a key is unknown or invalid, or does not suit the others.
+
+        Examples
+        --------
+        >>> import platecontact as pc
+        >>> plate = pc.Plate(radius=0.3, thickness=0.05, material="glass")
+        >>> plate.model_copy(update={"thickness": 0.01})
+        Plate(radius=0.3, thickness=0.01, material='glass')
+        """
+        given = {key: getattr(self, key) for key in self.model_fields_set}
+        return type(self)(**(given | dict(update or {})))
+
+    if not TYPE_CHECKING:
+
+        def __setattr__(self, key: str, _: object) -> None:
+            name = type(self).__name__.lower()
+            raise SceneError(
+                f"{name}.{key}: cannot be changed; make another {type(self).__name__} with "
+                f"{name}.model_copy(update={{{key!r}: ...}})"
+            )
+
     def to_json(self) -> dict[str, Any]:
         """Return the given keys with their values."""
         return self.model_dump(mode="json", exclude_none=True, exclude_unset=True)

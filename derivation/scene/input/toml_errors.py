@@ -4,7 +4,11 @@ import re
 import tomllib
 
 ORDINARY = "write each line as `key = value`, such as `radius = 0.13`"
+REPEATED = ("Cannot overwrite", "Cannot declare")
+"""Beginnings of messages about a key or a table that the file has twice."""
 REMEDIES = {
+    r"^\[[^]]*$|^[^[=]*\]$": "write the name of a table as `[sphere]`",
+    r'=\s*"[^"]*$': 'end text with a quote, such as `material = "steel"`',
     r"=\s*[-+]?\d+,\d": "write numbers with a decimal point",
     r"=\s*[A-Za-z_]": 'put text in quotes, such as `material = "steel"`',
     r"=\s*[-+]?[\d.]+(e[-+]?\d+)?\s*[A-Za-z]+": "write numbers in SI units without the unit",
@@ -20,4 +24,6 @@ def in_words(error: tomllib.TOMLDecodeError, text: str) -> str:
         return f"{error}; {ORDINARY}"
     line = lines[int(place[1]) - 1].split("#")[0].strip()[:80]
     remedies = (remedy for mistake, remedy in REMEDIES.items() if re.search(mistake, line))
-    return f"{error}, in `{line}`; {next(remedies, ORDINARY)}"
+    repeated = str(error).startswith(REPEATED)
+    remedy = "give each key and table once" if repeated else next(remedies, ORDINARY)
+    return f"{error}, in `{line}`; {remedy}"

@@ -6,7 +6,7 @@ from html import escape
 from typing import TYPE_CHECKING
 
 from derivation.engine.text import aligned, paragraph
-from derivation.scene.contact_law.yield_warnings import assumed_yield_stress
+from derivation.scene.contact_law.yield_warnings import assumed_yield_stress, risen_pressure
 from derivation.scene.output.result_errors import largest_within_error, unknown
 from derivation.scene.quantity import digits_of, prefixed, significant, up_to
 
@@ -69,6 +69,13 @@ def _remarks(result: "Result") -> Iterator[str]:
     """Yield the lines below the table of results."""
     bound = result.accuracy.bound
     yield f"Accuracy: {result.accuracy.summary}{_model_error(result)}{_stress_error(result)}"
+    rise = risen_pressure(result.effects.law, result.max_contact_radius)
+    if rise is not None:
+        yield (
+            "Not included: beyond the onset of yield of a ductile solid, restitution and force "
+            f"may be larger by factors of about {rise.restitution:.2g} and {rise.force:.2g} (see "
+            "the warning)"
+        )
     if result.complete and not digits_of(bound) and math.isfinite(bound):
         yield f"Unknown: the error by {result.accuracy.largest_part} may be as large as the results"
     elif not digits_of(result.model_error) and not result.unusable_note:
@@ -148,6 +155,11 @@ def details(result: "Result") -> str:
     if result.dynamics is not None:
         blocks.append(_contacts(result.dynamics))
     return "\n\n".join(blocks)
+
+
+def with_warnings(text: str, result: "Result") -> str:
+    """Return a text with the warnings below it."""
+    return "\n\n".join([text, *(paragraph(f"Warning: {x}") for x in result.warnings)])
 
 
 def _contacts(dynamics: "DynamicImpact") -> str:

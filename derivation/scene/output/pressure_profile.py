@@ -1,8 +1,11 @@
 """The pressure over the distance from the axis, at the largest contact radius of an impact."""
 
+from numbers import Integral
+
 import numpy as np
 
 from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.errors import SceneError
 from derivation.scene.numerics.crossing import rise
 from derivation.scene.output.history import Pressures
 
@@ -26,7 +29,14 @@ def pressure_profile(law: ContactLaw, a: float, force: float, points: int) -> Pr
         Contact force [N].
     points
         Number of distances from the axis.
+
+    Raises
+    ------
+    SceneError
+        If the number of distances is less than 2.
     """
+    if not (isinstance(points, Integral) and points >= 2):
+        raise SceneError(f"points: expected a whole number of at least 2, got {points!r}")
     hertz = float(law.hertz_radius(np.array(force)))
     # Denser towards the contact edge, where the pressure falls as a square root.
     r = max(a, hertz) * np.sin(np.linspace(0.0, np.pi / 2, points))

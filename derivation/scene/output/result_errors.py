@@ -4,6 +4,7 @@ import math
 from typing import TYPE_CHECKING
 
 from derivation.scene.contact_law.yielding import dent_error
+from derivation.scene.errors import SceneError
 from derivation.scene.quantity import digits_of
 from derivation.scene.scene import OUTPUTS
 from derivation.scene.selection.method_selection import accuracy_on
@@ -12,6 +13,7 @@ if TYPE_CHECKING:
     from derivation.scene.result import Result
 
 FORCE = "max_force"
+RESULTS = (*OUTPUTS, "max_pressure", "max_tensile_stress", "total_time", "dent")
 SAME_ERROR = {"max_pressure": "max_contact_radius"}
 """The result whose model error another one has: p_0 is proportional to a."""
 ONSET = 2.0
@@ -24,7 +26,14 @@ def bound_of(result: "Result", name: str) -> float:
     """Return the bound on the relative error of a result [1], without its model error.
 
     The tolerance need not apply to it. The bound is infinite if there is none.
+
+    Raises
+    ------
+    SceneError
+        If there is no such result.
     """
+    if name not in RESULTS:
+        raise SceneError(f"name: expected one of {', '.join(RESULTS)}, got {name!r}")
     if name == "dent":
         return _dent_error(result, 0.0)
     outputs: tuple[str, ...] = (name,) if name in OUTPUTS else OUTPUTS

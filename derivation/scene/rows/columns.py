@@ -6,6 +6,7 @@ from typing import Any, get_args
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from derivation.scene.input.keys import field_of, varied
@@ -18,6 +19,8 @@ Columns = Mapping[str, Array]
 """Numbers in SI units by key, `table.key` or `materials.NAME.key`: arrays of equal lengths."""
 Names = Mapping[str, str]
 """The same name in each row, such as that of a material, by key `table.key`."""
+unchecked_copy = BaseModel.model_copy
+"""Return a table with columns in place of numbers, which its own method would reject."""
 _BODIES = ("sphere", "plate", "impact", OWN_MATERIALS)
 """Tables whose keys are numbers of the model."""
 
@@ -92,11 +95,11 @@ def models_of(scene: Scene, columns: Columns) -> tuple[Model, NDArray[np.bool_]]
     for name, keys in given.items():
         first, _, material = name.partition(".")
         if material:
-            materials[material] = materials[material].model_copy(update=keys)
+            materials[material] = unchecked_copy(materials[material], update=keys)
         else:
-            tables[first] = getattr(scene, first).model_copy(update=keys)
+            tables[first] = unchecked_copy(getattr(scene, first), update=keys)
     with np.errstate(all="ignore"):
-        model = numbers_of(scene.model_copy(update=tables | {OWN_MATERIALS: materials}))
+        model = numbers_of(unchecked_copy(scene, update=tables | {OWN_MATERIALS: materials}))
         sound = 3.0 * np.asarray(model.lam) > -2.0 * np.asarray(model.mu)
         for name, number in zip(NUMBERS, model.numbers, strict=True):
             sound = sound & np.isfinite(number) & ((np.asarray(number) > 0.0) | (name == "lam"))

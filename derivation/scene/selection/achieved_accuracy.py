@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from decimal import ROUND_CEILING, Decimal
 from typing import Any
 
 import numpy as np
@@ -166,5 +167,8 @@ def remaining(rtol: float | None, error: float) -> float | None:
 
 def rounded_up(bound: float) -> str:
     """Return a bound as text with two digits, rounded up."""
-    text = f"{bound:.1e}"
-    return text if float(text) >= bound else f"{1.05 * bound:.1e}"
+    if not math.isfinite(bound):
+        return f"{bound:.1e}"
+    shortest = Decimal(repr(float(bound)))
+    unit = Decimal(1).scaleb(shortest.adjusted() - 1)
+    return f"{float(shortest.quantize(unit, ROUND_CEILING)):.1e}"

@@ -6,6 +6,7 @@ Arguments are doubles, taken as exact numbers.
 
 import math
 from collections.abc import Iterator, Sequence
+from html import escape
 from typing import Any, NamedTuple
 
 import flint
@@ -135,6 +136,14 @@ class ImpactReference(NamedTuple):
         impact = {quantity.name: plain(quantity) for quantity in self.impact}
         inputs = dict(zip(INPUTS, self.motion, strict=True))
         return {"digits": self.digits, "inputs": inputs, "impact": impact, "law": law}
+
+    def __str__(self) -> str:
+        """Return every value as text."""
+        return "\n".join(self.lines())
+
+    def _repr_html_(self) -> str:
+        """Return every value for a notebook."""
+        return f"<pre>{escape(str(self))}</pre>"
 
     def lines(self) -> list[str]:
         """Return every value with its radius and the digits to which mpmath agrees, as text."""

@@ -1,7 +1,7 @@
 """Quantities as text: SI prefixes, significant digits, counts."""
 
 import math
-from decimal import Decimal
+from decimal import ROUND_CEILING, Decimal
 
 import numpy as np
 
@@ -61,14 +61,29 @@ def percent(ratio: float) -> str:
 
 
 def up_to(error: float) -> str:
-    """Return a bound on an error in per cent.
+    """Return a bound on an error in per cent, rounded up.
 
     Examples
     --------
-    >>> up_to(0.00126), up_to(774.0)
+    >>> up_to(0.00121), up_to(774.0)
     ('up to 0.13 %', 'more than 1000 %')
     """
-    return percent(error) if error > MOST else f"up to {percent(error)}"
+    return percent(error) if error > MOST else f"up to {percent(ceiling(error))}"
+
+
+def ceiling(bound: float) -> float:
+    """Return a bound with two digits, rounded up.
+
+    Examples
+    --------
+    >>> ceiling(0.00121), ceiling(0.0012), ceiling(0.0)
+    (0.0013, 0.0012, 0.0)
+    """
+    if not math.isfinite(bound):
+        return bound
+    shortest = Decimal(repr(float(bound)))
+    unit = Decimal(1).scaleb(shortest.adjusted() - 1)
+    return float(shortest.quantize(unit, ROUND_CEILING))
 
 
 def counted(number: int, noun: str) -> str:

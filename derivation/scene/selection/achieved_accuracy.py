@@ -2,11 +2,11 @@
 
 import math
 from dataclasses import dataclass
-from decimal import ROUND_CEILING, Decimal
 from typing import Any
 
 import numpy as np
 
+from derivation.scene.quantity import ceiling
 from derivation.scene.scene import OUTPUTS
 
 METHODS = {
@@ -167,8 +167,4 @@ def remaining(rtol: float | None, error: float) -> float | None:
 
 def rounded_up(bound: float) -> str:
     """Return a bound as text with two digits, rounded up."""
-    if not math.isfinite(bound):
-        return f"{bound:.1e}"
-    shortest = Decimal(repr(float(bound)))
-    unit = Decimal(1).scaleb(shortest.adjusted() - 1)
-    return f"{float(shortest.quantize(unit, ROUND_CEILING)):.1e}"
+    return f"{ceiling(bound):.1e}"

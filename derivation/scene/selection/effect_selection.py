@@ -11,6 +11,7 @@ from derivation.scene.effects import BY_NAME, EFFECTS
 from derivation.scene.effects.effect import NO_BOUND, Effect, Results
 from derivation.scene.model import Model
 from derivation.scene.output.html import html_table
+from derivation.scene.quantity import ceiling, percent
 from derivation.scene.scene import OUTPUTS
 from derivation.scene.selection.achieved_accuracy import rounded_up
 from derivation.scene.selection.omission_bounds import change_of, error_of
@@ -332,5 +333,5 @@ def _forced(included: bool, bound: float, output: str) -> str:
     if included:
         return "enabled in the scene"
     if bound < NO_BOUND:
-        return f"disabled in the scene: changes {output} by at most {100 * bound:.2g} %"
+        return f"disabled in the scene: changes {output} by at most {percent(ceiling(bound))}"
     return "disabled in the scene: no bound available"

@@ -334,7 +334,8 @@ def test_header_states_the_effects_with_reasons() -> None:
     for row in selected.rows:
         assert f"- {row.name}:" in (inside if row.included else out)
     stated = re.search(r"at most (\S+) \(tolerance 0\.001\)", " ".join(head.split()))
-    assert stated and selected.error <= float(stated[1]) < 1.1 * selected.error
+    assert stated
+    assert selected.error <= float(stated[1]) < 1.1 * selected.error
     assert 'material = "glass"' in head
     notes = simulate(scene_of("glass_pane")).warnings
     assert any("inertia is neglected" in text for text in notes)

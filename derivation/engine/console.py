@@ -94,8 +94,16 @@ def stage(name: str) -> Iterator[None]:
 
 @contextmanager
 def progress_bar(name: str) -> Iterator[Progress]:
-    """Show a bar and a clock for work in parts; yield the function that reports a part."""
+    """Show a bar for work in parts, and then its duration; yield as `transient_bar`."""
     start = time.perf_counter()
+    with transient_bar(name) as progress:
+        yield progress
+    NOTES.print(f"[green]✓[/] {name} [dim]{time.perf_counter() - start:.1f} s[/]")
+
+
+@contextmanager
+def transient_bar(name: str) -> Iterator[Progress]:
+    """Show a bar and a clock on a terminal; yield the function that reports a part of the work."""
     part = TextColumn("{task.description}", markup=False)
     columns = (TextColumn(name), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), part)
     with Display(*columns, console=NOTES, transient=True, disable=not NOTES.is_terminal) as bar:
@@ -103,7 +111,6 @@ def progress_bar(name: str) -> Iterator[Progress]:
         yield lambda part, number, total: bar.update(
             task, description=part, completed=number - 1, total=total
         )
-    NOTES.print(f"[green]✓[/] {name} [dim]{time.perf_counter() - start:.1f} s[/]")
 
 
 @contextmanager

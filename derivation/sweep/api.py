@@ -6,7 +6,8 @@ from numbers import Integral
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from derivation.engine.activity import Progress, quiet
+from derivation.engine.activity import Progress
+from derivation.engine.console import transient_bar
 from derivation.scene.errors import SceneError
 from derivation.scene.input.keys import check_names, written
 from derivation.scene.input.messages import shown
@@ -42,7 +43,7 @@ def sweep(
     scheduler: str | None = None,
     retry: bool = False,
 ) -> "xr.Dataset":
-    """Simulate a scene at every point of a grid or a sample.
+    """Simulate a scene at every point of a grid or a sample; show a bar meanwhile on a terminal.
 
     Parameters
     ----------
@@ -115,8 +116,9 @@ def sweep(
     if sensitivity or path is None or path.suffix not in READ_AS_NEEDED:
         check_memory(study, "sweep")
     with open_store(study, path) as store:
-        compute(store, workers, scheduler, retry, quiet)
-        indices = write_results(store, path, sensitivity, quiet)
+        with transient_bar("sweep") as progress:
+            compute(store, workers, scheduler, retry, progress)
+            indices = write_results(store, path, sensitivity, progress)
         data = data_set(store) if path is None or fits_in_memory(study) else _of_file(path)
     return data if indices is None else indices.add_to(data)
 

@@ -107,3 +107,19 @@ sys.exit(cli.main(["derive", "--json", sys.argv[1]]))
     out = tmp_path / "formulas.json"
     interrupted(program, out, "deriving", {"XDG_CACHE_HOME": str(tmp_path / "cache")})
     assert not out.exists()
+
+
+def test_ctrl_c_while_modules_load_gives_one_message() -> None:
+    program = """
+import sys, time
+class Slow:
+    def find_spec(self, name, *_):
+        if name == "derivation.cli":
+            print("loading", flush=True)
+            time.sleep(300)
+sys.meta_path.insert(0, Slow())
+from derivation.start import main
+sys.exit(main())
+"""
+    _, message = interrupted(program, "--version", "loading")
+    assert message == "platecontact: interrupted before it began; run the command again\n"

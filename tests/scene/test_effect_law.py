@@ -185,6 +185,7 @@ def test_peak_force_of_a_slow_heavy_sphere(bent: bool, factor: float) -> None:
     assert result.max_force / (m.m * m.gravity) == pytest.approx(factor, rel=2e-4)
 
 
+@pytest.mark.one_version
 def test_history_conserves_energy_with_every_effect() -> None:
     wanted = dict.fromkeys(ALL - {"hertz", "viscosity", "plasticity"}, True)
     result = simulate(scene(effects=wanted))

@@ -51,6 +51,7 @@ def equal(left: Rows, right: Rows) -> None:
         np.testing.assert_array_equal(values, right.results[name], name)
 
 
+@pytest.mark.one_version
 def test_groups_are_divided_at_the_onset_of_yield(monkeypatch: pytest.MonkeyPatch) -> None:
     """The row that decides for a group may yield while others do not, and the reverse."""
     tables = on_glass("paper").to_json() | {"plate": STEEL}

@@ -222,6 +222,7 @@ def test_impact_with_inertia_beyond_the_law_is_rejected() -> None:
         simulate(scene)
 
 
+@pytest.mark.one_version
 def test_number_of_modes_is_limited(monkeypatch: pytest.MonkeyPatch) -> None:
     """The last run within the limit is returned, with its change as the estimated error."""
     every = law(inertia=InertiaSettings(branches="all"))

@@ -139,11 +139,10 @@ class Model:
     @cached_property
     def supports(self) -> Supports:
         """Contribution of simple supports, up to about Hertz's largest radius, in columns."""
-        modulus = self.modulus / (1.0 + self.softness)
         plate = (self.h, self.b, self.lam, self.mu)
         with np.errstate(all="ignore"):  # extreme scenes give NaN, which is checked
-            energy = 0.9375 * self.R * (self.R / modulus) * self.m * (self.v0 * self.v0)
-            columns = np.broadcast_arrays(np.power(energy, 0.2), *plate)
+            radius = np.sqrt(self.R * scales.largest_depth(self))
+            columns = np.broadcast_arrays(radius, *plate)
             return supports_of(*map(np.atleast_2d, columns))
 
     def take(self, index: Any) -> "Model":
@@ -322,8 +321,8 @@ def _inertia(scene: Scene) -> InertiaSettings:
 def _mass(sphere: Sphere, density: float) -> float:
     if sphere.mass is not None:
         return sphere.mass
-    R = sphere.radius
-    return 4 / 3 * math.pi * (R * R * R) * density
+    mass: float = scales.volume(sphere.radius) * density
+    return mass
 
 
 def _lightest(sphere: Body, by_density: bool) -> Any:

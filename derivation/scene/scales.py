@@ -1,5 +1,6 @@
-"""Scales of an impact: constant, time and depth on a half-space, and Zener's parameter."""
+"""Scales of an impact: on a half-space, Zener's parameter, the volume of the sphere."""
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -39,6 +40,11 @@ def zener_number(model: "Model") -> float:
     R, m, v0, h, _, lam, mu = model.numbers
     of_rigid_sphere = kernels.zener_number(R, m, v0, h, lam, mu, model.density)
     return _number(of_rigid_sphere / np.power(1.0 + model.softness, 0.4))
+
+
+def volume(R: Any) -> Any:
+    """Return the volume of a sphere of a radius [m], or of many [m^3]."""
+    return 4.0 / 3.0 * math.pi * (R * R * R)
 
 
 def _number(value: Any) -> float:

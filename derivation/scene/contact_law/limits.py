@@ -5,7 +5,7 @@ from typing import NamedTuple, NoReturn, TypeVar
 
 import numpy as np
 
-from derivation.scene import kernels
+from derivation.scene import kernels, scales
 from derivation.scene.contact_law.corrections import (
     correction_in_words,
     pressure_correction,
@@ -294,7 +294,7 @@ def motion_warnings(
 
 def hollow_warnings(model: Model) -> tuple[str, ...]:
     """Return a warning if the sphere is far too light to be solid."""
-    volume = 4 / 3 * math.pi * model.R * model.R * model.R
+    volume = scales.volume(model.R)
     solid = volume * model.solid_density
     if model.m < SOLID_LIMIT * solid:
         light = (

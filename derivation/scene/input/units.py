@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from derivation.scene import scales
 from derivation.scene.errors import SceneError
 from derivation.scene.input.keys import unit_of
 from derivation.scene.input.materials import find, plain
@@ -195,7 +196,7 @@ def _of_sizes(scene: Scene, stated: Stated) -> Iterator[UnusualValue]:
     )
     density = _of_material(scene.sphere.material, "density", scene, stated)
     if "sphere.mass" in stated and density is not None:
-        ratio = stated["sphere.mass"] / (4.0 / 3.0 * np.pi * radius**3 * density)
+        ratio = stated["sphere.mass"] / (scales.volume(radius) * density)
         grams = (ratio > GRAMS[0]) & (ratio < GRAMS[1])
         problem = "is about 1000 times the mass of a solid sphere of its material"
         yield UnusualValue("sphere.mass", grams, problem, {"g": 1e-3})

@@ -230,6 +230,13 @@ def sources(*rooms: str | Path) -> Iterator[Path]:
             yield from sorted(p for p in paths if p.suffix in {".py", ".j2", ".toml"})
 
 
+def files_of_paper(folder: Path) -> tuple[Path, ...]:
+    """Return the source files of a paper's folder and its subfolders, without what it generates."""
+    written = folder / "generated", folder / "reports"
+    files = (path for path in sources(folder) if not any(map(path.is_relative_to, written)))
+    return tuple(files)
+
+
 def content_hash(paths: Iterable[Path]) -> str:
     """Return a hash of names and contents of files, and of versions of Python and `PINNED`."""
     digest = hashlib.sha256(platform.python_version().encode())

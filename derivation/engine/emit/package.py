@@ -26,6 +26,7 @@ from derivation.engine.emit.printed_fraction import expect_reason
 from derivation.engine.emit.printer import to_numpy
 from derivation.engine.emit.routine import ARRAYS, QUIET_SCALARS, Dialect, Routine
 from derivation.engine.emit.routine import text as routine_text
+from derivation.engine.emit.routine_check import check_routine, imported
 from derivation.engine.emit.source import TEMPLATES, format_files, rendered_template
 from derivation.engine.formula.record import Record
 from derivation.engine.nearest import did_you_mean
@@ -209,7 +210,15 @@ class PackageSettings:
             )
 
     def files(self, formulas: Mapping[str, Record], forms: tuple[Form, ...]) -> dict[str, str]:
-        """Return the contents of the package's files by name."""
+        """Return the contents of the package's files by name.
+
+        Raises
+        ------
+        ProofError
+            If the code of a routine does not compute its claim; the message states the point.
+        ValueError
+            If a function has no error budget.
+        """
         own = {block.name: block for stable in forms for block in stable.blocks}
         known, budgets = {**build_blocks(self.blocks), **own}, read_budgets(self.budgets)
         if missing := [f.name for f in forms if f.name not in budgets]:
@@ -231,7 +240,14 @@ class PackageSettings:
             Module("manifest", "catalogue", manifest),
             Module("__init__", "package", package),
         )
-        return module_files(planned)
+        files = module_files(planned)
+        if self.routines:
+            words = next(iter(formulas.values())).vocabulary
+            with imported(files) as module:
+                for part in self.routines:
+                    for one in part.routines:
+                        check_routine(one, getattr(module(part.name), one.name), words)
+        return files
 
 
 def common_modules(known: Mapping[str, Block]) -> tuple[Planned, ...]:

@@ -118,6 +118,21 @@ MISTAKES = {
         r"F_bonded: expected exact numbers, got 0\.5; write sp\.Rational\('0\.5'\)",
         2,
     ),
+    "a domain that is wider than the assumptions of a proof": (
+        "vocabulary.py",
+        ('("T >= 1e-100",)', '("T != 0",)'),
+        r"F_bonded: the symbol T is positive in proofs, but its domain \(T != 0\) contains -",
+        2,
+    ),
+    "an integer as argument": (
+        "vocabulary.py",
+        (
+            'sp.symbols("k H G s T", positive=True)',
+            '*sp.symbols("k H G s", positive=True), sp.Symbol("T", integer=True, positive=True)',
+        ),
+        r"F_bonded: the symbol T is integer in proofs, but its domain .* contains",
+        2,
+    ),
     "no file of budgets": (
         "kernels.py",
         ('"budgets.toml"', '"budget.toml"'),

@@ -29,6 +29,7 @@ from derivation.engine.emit.routine import text as routine_text
 from derivation.engine.emit.routine_check import check_routine, imported
 from derivation.engine.emit.source import TEMPLATES, format_files, rendered_template
 from derivation.engine.formula.record import Record
+from derivation.engine.formula.vocabulary_check import expect_assumed_signs
 from derivation.engine.nearest import did_you_mean
 from derivation.engine.rewrite.blocks import HYPERBOLIC, Definition, build_blocks
 from derivation.engine.rewrite.form import SCALINGS, Block, Form, Step, Switch, form
@@ -208,6 +209,8 @@ class PackageSettings:
                 f"parts of the package: no formula {name!r}: {suggestion}expected some of "
                 f"{', '.join(formulas)}"
             )
+        for name in sorted(names):
+            expect_assumed_signs(formulas[name])
 
     def files(self, formulas: Mapping[str, Record], forms: tuple[Form, ...]) -> dict[str, str]:
         """Return the contents of the package's files by name.

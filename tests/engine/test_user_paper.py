@@ -185,6 +185,24 @@ def test_check_and_search_find_a_budget_that_is_too_small(folder: Path, tmp_path
     assert "F_bonded = {" in (paper / "reports" / "search.toml").read_text()
 
 
+def test_functions_without_an_independent_reference_are_named(folder: Path, tmp_path: Path) -> None:
+    """The report counts only the points at which an independent method was evaluated."""
+    said = "No independent reference confirms F_slipping, C_slipping: add one to ROUTES."
+    confirmed = "points a second, independent reference gave the same digits"
+    every = (folder / "reports" / "report.tex").read_text()
+    assert said not in run("check", "--paper", str(folder), home=folder.parent)
+    paper = tmp_path / "fewer routes"
+    shutil.copytree(folder, paper)
+    text = (paper / "route.py").read_text()
+    for name in ("F_slipping", "C_slipping"):
+        text = re.sub(rf'    "{name}": .*\n', "", text)
+    (paper / "route.py").write_text(text)
+    assert said in run("build", "--paper", str(paper), home=folder.parent)
+    fewer = (paper / "reports" / "report.tex").read_text()
+    assert f"At 8 {confirmed}" in every
+    assert f"At 4 {confirmed}" in fewer
+
+
 def test_invalid_papers_are_rejected(folder: Path, tmp_path: Path) -> None:
     assert "expected a folder with a file paper.py" in run(
         "derive", "--paper", str(tmp_path), home=tmp_path, status=2

@@ -124,6 +124,12 @@ MISTAKES = {
         r"F_bonded: the symbol T is positive in proofs, but its domain \(T != 0\) contains -",
         2,
     ),
+    "a symbol with other assumptions": (
+        "theory.py",
+        ('said}", shape, "1"', 'said}", shape.subs(T, sp.Symbol("T")), "1"'),
+        r"F_bonded: expected the symbol T of the vocabulary, got another one .*; import it",
+        2,
+    ),
     "an integer as argument": (
         "vocabulary.py",
         (

@@ -130,6 +130,7 @@ def test_report_check_fragment_and_section(folder: Path, tmp_path: Path) -> None
     assert "up to date" in run("report", "--check", *paper, home=folder.parent)
     fragment = run("report", "--fragment", "F_slipping", *paper, home=folder.parent)
     assert r"\label{eq:F_slipping}" in fragment
+    assert "equation~(4) of the paper" in fragment  # the example has no list of sources to cite
     run("report", "--section", "misprints", "--no-pdf", "--out", str(tmp_path), *paper,
         home=folder.parent)  # fmt: skip
     names = sorted(path.name for path in tmp_path.iterdir())

@@ -49,7 +49,8 @@ class Record:
     KeyError
         If it contains a symbol that the paper does not define.
     ValueError
-        If the name is no Python name, or a number is rounded.
+        If the name is no Python name, a number is rounded, or a symbol has other assumptions than
+        that of the vocabulary.
     """
 
     vocabulary: ClassVar[Vocabulary]
@@ -69,7 +70,7 @@ class Record:
     def __post_init__(self) -> None:
         if not self.name.isidentifier() or iskeyword(self.name):
             raise ValueError(f"expected a Python name for a formula, got {self.name!r}; rename it")
-        self.vocabulary.arguments_of(self.expression)
+        self._expect_symbols()
         if rounded := sorted(self.expression.atoms(sp.Float)):
             raise ValueError(
                 f"{self.name}: expected exact numbers, got {float(rounded[0])!r}; "
@@ -82,6 +83,14 @@ class Record:
         if dimensions != unit(self.unit):
             raise DimensionError(
                 f"{self.name} has dimension [{dimensions}], expected [{self.unit}]"
+            )
+
+    def _expect_symbols(self) -> None:
+        known = {argument.symbol for argument in self.vocabulary.arguments_of(self.expression)}
+        if others := sorted(map(str, self.expression.free_symbols - known)):
+            raise ValueError(
+                f"{self.name}: expected the symbol {others[0]} of the vocabulary, got another one "
+                f"of this name with other assumptions; import it from the vocabulary"
             )
 
     @property

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from derivation.cli import main
+from derivation.engine.files import files_of_paper
 
 RIGHT, WRONG = "(sp.sinh(T) + T)", "(sp.sinh(T) + 2 * T)"
 
@@ -40,11 +41,23 @@ def test_a_false_formula_in_a_subfolder_is_found_after_a_cached_proof(
     assert "Film, slipping: closed form leaves the residual" in capsys.readouterr().err
 
 
-def test_generated_files_are_no_sources(folder: Path) -> None:
-    from derivation.engine.files import files_of_paper
+def test_a_data_file_is_a_source(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    derive = ["derive", "--paper", str(folder)]
+    factor = folder / "steps" / "factor.csv"
+    factor.write_text("1")
+    theory = folder / "steps" / "theory.py"
+    read = '(sp.sinh(T) + sp.Integer(open(__file__.replace("theory.py", "factor.csv")).read()) * T)'
+    theory.write_text(theory.read_text().replace(RIGHT, read))
+    assert main(derive) == 0
+    factor.write_text("2")
+    capsys.readouterr()
+    assert main(derive) == 1
+    assert "Film, slipping: closed form leaves the residual" in capsys.readouterr().err
 
+
+def test_generated_files_are_no_sources(folder: Path) -> None:
     before = files_of_paper(folder)
-    for name in ("generated", "reports"):
+    for name in ("generated", "reports", ".hidden", "__pycache__"):
         (folder / name).mkdir()
         (folder / name / "file.py").touch()
     assert files_of_paper(folder) == before

@@ -1,7 +1,7 @@
 """Proofs: residuals are reduced to zero symbolically, or contain zero in ball arithmetic.
 
 Ball arithmetic is evidence at points: of every sign that the assumptions of a symbol allow, and of
-magnitudes from 1e-9 to 1e9, because a residual may vanish, or almost vanish, in one range only.
+magnitudes from 1e-90 to 1e90, because a residual may vanish, or almost vanish, in one range only.
 """
 
 import random
@@ -24,9 +24,9 @@ _PRECISIONS_OF_INTEGRALS = (80, 160)
 _POINTS, _MOST_POINTS = 12, 120
 """Number of points at which a residual is evaluated, and the number while most are outside its
 domain."""
-_FAR_POINTS, _FAR_BITS = 36, 30
-"""Number of further points, and the largest binary exponent of their coordinates."""
-_FAR_POINTS_OF_INTEGRALS, _FAR_BITS_OF_INTEGRALS = 4, 3
+_FAR = (36, 30), (12, 300)
+"""Numbers of further points, and the largest binary exponents of their coordinates."""
+_FAR_OF_INTEGRALS = ((4, 3),)
 
 
 class ProofError(FailedError):
@@ -174,11 +174,8 @@ def _balls(expression: sp.Expr, values: Mapping[sp.Symbol, Fraction]) -> Iterato
 
 
 def _far_points_of(expression: sp.Expr) -> list[dict[sp.Symbol, Fraction]]:
-    if expression.has(sp.Integral):
-        given = _FAR_POINTS_OF_INTEGRALS, _FAR_BITS_OF_INTEGRALS
-    else:
-        given = _FAR_POINTS, _FAR_BITS
-    return far_points(expression.free_symbols, *given)
+    ranges = _FAR_OF_INTEGRALS if expression.has(sp.Integral) else _FAR
+    return [point for given in ranges for point in far_points(expression.free_symbols, *given)]
 
 
 def _excludes_zero(expression: sp.Expr, values: Mapping[sp.Symbol, Fraction]) -> bool:

@@ -27,6 +27,7 @@ y = sp.Symbol("y")
         (sp.sqrt((T - 3) ** 2) - (3 - T), "T = "),
         (sp.tanh(2000 * T) - 1, "T = "),
         (sp.erf(100 * T) - 1, "T = "),
+        (sp.tanh(10**15 * T) - 1, "T = "),
         (sp.Integral(sp.tanh(x), (x, 0, T)) - T, "T = "),
     ],
     ids=str,

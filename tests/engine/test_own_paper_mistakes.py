@@ -130,6 +130,12 @@ MISTAKES = {
         r"F_bonded: expected the symbol T of the vocabulary, got another one .*; import it",
         2,
     ),
+    "a module that every package has": (
+        "kernels.py",
+        ('FormulaModule("film", ', 'FormulaModule("arrays", '),
+        r"expected modules with different Python names other than arrays, .* got 'arrays'; rename",
+        2,
+    ),
     "an integer as argument": (
         "vocabulary.py",
         (

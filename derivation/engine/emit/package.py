@@ -3,7 +3,7 @@
 import hashlib
 import math
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from importlib.metadata import version
 from pathlib import Path
@@ -22,6 +22,7 @@ from derivation.engine.emit.kernels import (
     rows_by_module,
     switch_text,
 )
+from derivation.engine.emit.names import expect_free_names
 from derivation.engine.emit.printed_fraction import expect_reason
 from derivation.engine.emit.printer import to_numpy
 from derivation.engine.emit.routine import ARRAYS, QUIET_SCALARS, Dialect, Routine
@@ -176,7 +177,7 @@ class PackageSettings:
         """
         known = build_blocks(self.blocks)
         stated, budgets = self.stated(known), read_budgets(self.budgets)
-        self._expect({name for part in self.parts for name in part.formulas}, formulas)
+        self._expect({name for part in self.parts for name in part.formulas}, formulas, known)
 
         def shape(name: str) -> tuple[ProductForm, int]:
             if name in stated:
@@ -201,16 +202,21 @@ class PackageSettings:
             raise UnreachableError("\n".join(refused))
         return tuple(made)
 
-    def _expect(self, names: set[str], formulas: Mapping[str, Record]) -> None:
-        """Reject names that are not those of formulas."""
+    def _expect(
+        self, names: set[str], formulas: Mapping[str, Record], blocks: Iterable[str]
+    ) -> None:
+        """Reject names that are not those of formulas, or that the code uses itself."""
         for name in sorted(names - formulas.keys()):
             suggestion = did_you_mean(name, formulas)
             raise ValueError(
                 f"parts of the package: no formula {name!r}: {suggestion}expected some of "
                 f"{', '.join(formulas)}"
             )
-        for name in sorted(names):
-            expect_assumed_signs(formulas[name])
+        chosen = [formulas[name] for name in sorted(names)]
+        modules = [*(part.name for part in self.parts), *(part.name for part in self.routines)]
+        expect_free_names(modules, chosen, blocks)
+        for formula in chosen:
+            expect_assumed_signs(formula)
 
     def files(self, formulas: Mapping[str, Record], forms: tuple[Form, ...]) -> dict[str, str]:
         """Return the contents of the package's files by name.

@@ -153,6 +153,19 @@ def test_rewrite_report_is_written(folder: Path) -> None:
     assert "F_slipping" in shown
     rows = json.loads((folder / "reports" / "rewrite.json").read_text())["rows"]
     assert "F_slipping" in [row["name"] for row in rows]
+    kernels = folder / "kernels.py"
+    original = kernels.read_text()
+    try:
+        added = original.replace(
+            'REWRITTEN = ("F_slipping"', 'REWRITTEN = ("F_bonded", "F_slipping"'
+        )
+        kernels.write_text(added)
+        shown = run("rewrite", "--paper", str(folder), home=folder.parent)
+    finally:
+        kernels.write_text(original)
+    assert added != original
+    assert "F_slipping" in shown  # F_bonded depends on two arguments and has no row
+    assert "F_bonded" not in shown
 
 
 def test_smaller_budgets_are_suggested_but_not_written(folder: Path) -> None:

@@ -1,4 +1,7 @@
-"""Names of a paper's functions, arguments and modules that the generated code uses itself."""
+"""Names of a paper's functions, arguments and modules that the generated code uses itself.
+
+Constants, which have no arguments, are rejected too.
+"""
 
 from collections.abc import Iterable, Sequence
 
@@ -28,7 +31,8 @@ def expect_free_names(
     Raises
     ------
     ValueError
-        If two modules have one name, or a module, formula or argument has such a name.
+        If two modules have one name, or a module, formula or argument has such a name, or a formula
+        has no arguments.
     """
     for name in modules:
         if name in MODULES or modules.count(name) > 1 or not name.isidentifier():
@@ -38,6 +42,11 @@ def expect_free_names(
             )
     imported = {*IN_MODULES, *blocks, *(scaling.__name__ for scaling in SCALINGS)}
     for formula in formulas:
+        if not formula.arguments:
+            raise ValueError(
+                f"{formula.name}: expected a formula with arguments, got a constant; remove it "
+                "from the module, and write its value in your code"
+            )
         inside = [argument.name for argument in formula.arguments]
         used = {formula.name} & imported or {*inside} & {*imported, *IN_FUNCTIONS}
         if used:

@@ -1,5 +1,7 @@
 """Names that the generated code uses itself are rejected."""
 
+from dataclasses import replace
+
 import pytest
 import sympy as sp
 
@@ -30,6 +32,12 @@ def test_names_of_the_generated_code_are_rejected(name: str, argument: str, used
 
 def test_other_names_are_accepted() -> None:
     expect_free_names(["one", "two"], [formula("kind", "x"), formula("f", "numerator")], ["sinh"])
+
+
+def test_a_constant_is_rejected() -> None:
+    constant = replace(formula("f", "x"), expression=sp.sqrt(sp.pi))
+    with pytest.raises(ValueError, match="f: expected a formula with arguments, got a constant"):
+        expect_free_names(["one"], [constant], [])
 
 
 @pytest.mark.parametrize("modules", [["blocks"], ["one", "one"], ["a b"]])

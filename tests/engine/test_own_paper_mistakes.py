@@ -136,6 +136,12 @@ MISTAKES = {
         r"expected modules with different Python names other than arrays, .* got 'arrays'; rename",
         2,
     ),
+    "a condition of a formula with an unknown symbol": (
+        "theory.py",
+        ('(f"C_{name}",), proof,', '(f"C_{name}",), proof, where=("U > 1",),'),
+        r"F_bonded: the condition 'U > 1' contains the unknown symbol U, expected some of z, k",
+        2,
+    ),
     "an integer as argument": (
         "vocabulary.py",
         (

@@ -29,6 +29,7 @@ y = sp.Symbol("y")
         (sp.erf(100 * T) - 1, "T = "),
         (sp.tanh(10**15 * T) - 1, "T = "),
         (sp.Integral(sp.tanh(x), (x, 0, T)) - T, "T = "),
+        (sp.Integral(sp.exp(-x), (x, 0, sp.oo)) - 1 + sp.exp(-300 * T), "T = "),
     ],
     ids=str,
 )

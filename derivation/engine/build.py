@@ -243,7 +243,9 @@ def check_hard(
         expect_recordable(paper.hard)
     make_suite = paper.judge().hard
     if make_suite is None:
-        raise ValueError("expected a paper with hard cases, got none: pass them as Judge.hard")
+        raise ValueError(
+            "expected a paper with hard cases, got none: pass a file with them to `domain_judge`"
+        )
     suite = make_suite()
     if not update:
         if not paper.hard.is_file():

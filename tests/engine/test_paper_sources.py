@@ -46,8 +46,10 @@ def test_a_data_file_is_a_source(folder: Path, capsys: pytest.CaptureFixture[str
     factor = folder / "steps" / "factor.csv"
     factor.write_text("1")
     theory = folder / "steps" / "theory.py"
-    read = '(sp.sinh(T) + sp.Integer(open(__file__.replace("theory.py", "factor.csv")).read()) * T)'
-    theory.write_text(theory.read_text().replace(RIGHT, read))
+    read = 'Path(__file__).with_name("factor.csv").read_text()'
+    read = f"(sp.sinh(T) + sp.Integer({read}) * T)"
+    text = theory.read_text().replace(RIGHT, read)
+    theory.write_text(text.replace("import sympy", "from pathlib import Path\n\nimport sympy"))
     assert main(derive) == 0
     factor.write_text("2")
     capsys.readouterr()

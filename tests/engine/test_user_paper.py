@@ -217,14 +217,39 @@ def test_functions_without_an_independent_reference_are_named(folder: Path, tmp_
     assert f"At 4 {confirmed}" in fewer
 
 
+def test_hard_cases_are_compared_with_recorded_references(folder: Path, tmp_path: Path) -> None:
+    paper = tmp_path / "hard"
+    shutil.copytree(folder, paper)
+    command = "check", "hard-cases", "--paper", str(paper)
+    assert "hard-cases --update" in run(*command, home=folder.parent, status=2)
+    assert "2 cases, 0 failed" in run(*command, "--update", home=folder.parent)
+    assert "2 cases, 0 failed" in run(*command, home=folder.parent)
+    code = paper / "generated" / "film.py"
+    text = code.read_text()
+    code.write_text(text.replace("np.exp(-2 * x)", "np.exp(-2.001 * x)"))
+    assert "failed" in run(*command, home=folder.parent, status=1)
+    code.write_text(text)
+    cases = paper / "hard_cases.toml"
+    written = cases.read_text()
+    for wrong, message in (
+        (written.replace("F_slipping", "F_sliding"), "did you mean F_slipping?"),
+        (written.replace("s = 1e-12, ", ""), "F_bonded: expected the arguments T, s, got T"),
+    ):
+        assert wrong != written
+        cases.write_text(wrong)
+        said = " ".join(run(*command, home=folder.parent, status=2).split())
+        assert message in said.replace("s, T", "T, s")
+    judged = paper / "paper.py"
+    judged.write_text(judged.read_text().replace(', HERE / "hard_cases.toml"', ""))
+    said = run(*command, home=folder.parent, status=2)
+    assert "expected a paper with hard cases, got none" in said
+
+
 def test_invalid_papers_are_rejected(folder: Path, tmp_path: Path) -> None:
     assert "expected a folder with a file paper.py" in run(
         "derive", "--paper", str(tmp_path), home=tmp_path, status=2
     )
     assert "expected an empty folder" in run("new", str(folder), home=tmp_path, status=2)
-    assert "expected a paper with hard cases, got none" in run(
-        "check", "hard-cases", "--paper", str(folder), home=tmp_path, status=2
-    )
     for text, message in (
         ("import nothing_of_that_name", "paper.py, line 1: ModuleNotFoundError: No module"),
         ("PAPER = 1 +", "cannot be imported: SyntaxError"),

@@ -52,6 +52,8 @@ PAPER = Paper(
         PACKAGE.files,
         rewritten=REWRITTEN,
     ),
-    judge=lambda: domain_judge(CHAIN, ROUTES, TARGET, PACKAGE.blocks, easy),
+    judge=lambda: domain_judge(
+        CHAIN, ROUTES, TARGET, PACKAGE.blocks, easy, HERE / "hard_cases.toml"
+    ),
     report=lambda: Report(Prose(prose.ABOUT), prose.SUBTITLE, prose.ABSTRACT),
 )

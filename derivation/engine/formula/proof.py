@@ -105,8 +105,10 @@ def _as_expression(step: str, label: str, residual: object) -> sp.Expr:
     )
 
 
-def decide_zero(expression: sp.Expr) -> str | None:
+def decide_zero(expression: sp.Expr, positive: Iterable[sp.Expr] = ()) -> str | None:
     """Return the method by which an expression was found to be zero; None if it is not zero.
+
+    Far points at which one of the expressions `positive` is not positive are left out.
 
     Balls are evaluated first: if one excludes zero, the expansion, which can be slow, is avoided.
     If the expansion does not give zero, but all balls contain zero, at `far_points` too, the method
@@ -118,8 +120,13 @@ def decide_zero(expression: sp.Expr) -> str | None:
         return None
     if reduces_to_zero(expression):
         return SYMBOLIC
-    far = _far_points_of(expression)
-    return None if any(_excludes_zero(expression, values) for values in far) else BY_BALLS
+    conditions = tuple(positive)
+    for values in _far_points_of(expression, conditions):
+        if all(_is_positive(one, values) for one in conditions) and _excludes_zero(
+            expression, values
+        ):
+            return None
+    return BY_BALLS
 
 
 def reduces_to_zero(expression: sp.Expr) -> bool:
@@ -174,9 +181,17 @@ def _balls(expression: sp.Expr, values: Mapping[sp.Symbol, Fraction]) -> Iterato
             yield enclose(expression, {key: to_ball(value) for key, value in values.items()})
 
 
-def _far_points_of(expression: sp.Expr) -> list[dict[sp.Symbol, Fraction]]:
+def _far_points_of(
+    expression: sp.Expr, others: Iterable[sp.Expr] = ()
+) -> list[dict[sp.Symbol, Fraction]]:
     ranges = _FAR_OF_INTEGRALS if expression.has(sp.Integral) else _FAR
-    return [point for given in ranges for point in far_points(expression.free_symbols, *given)]
+    symbols = expression.free_symbols.union(*(other.free_symbols for other in others))
+    return [point for given in ranges for point in far_points(symbols, *given)]
+
+
+def _is_positive(expression: sp.Expr, values: Mapping[sp.Symbol, Fraction]) -> bool:
+    with flint.ctx.workprec(_PRECISIONS[0]):
+        return bool(enclose(expression, {k: to_ball(v) for k, v in values.items()}) > 0)
 
 
 def _excludes_zero(expression: sp.Expr, values: Mapping[sp.Symbol, Fraction]) -> bool:

@@ -47,6 +47,16 @@ def test_identities_that_hold_for_every_sign_and_magnitude_are_accepted() -> Non
     assert decide_zero(sp.Integral(sp.cos(x), (x, 0, T)) - sp.sin(T)) == BY_BALLS
 
 
+def test_an_identity_may_hold_where_given_expressions_are_positive() -> None:
+    quotient = sp.atan((x - y) / (1 + x * y))
+    difference = sp.atan(x) - sp.atan(y) - quotient
+    assert decide_zero(difference) is None  # it fails for x y < -1
+    assert decide_zero(difference, (x, y)) == BY_BALLS
+    assert decide_zero(difference, (-x, -y)) == BY_BALLS
+    assert decide_zero(sp.sqrt(x**2) - sp.Abs(x) + sp.sin(y) * 0, (y,)) == SYMBOLIC
+    assert decide_zero(sp.atan(x) + sp.atan(1 / x) - sp.pi / 2, (x, y)) == BY_BALLS
+
+
 def test_far_points_have_the_signs_of_the_assumptions_and_many_magnitudes() -> None:
     negative = sp.Symbol("n", nonpositive=True)
     points = far_points({T, x, negative}, 36, 30)

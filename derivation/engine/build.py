@@ -243,7 +243,9 @@ def check_hard(
         expect_recordable(paper.hard)
     make_suite = paper.judge().hard
     if make_suite is None:
-        raise ValueError("expected a paper with hard cases, got none: pass them as Judge.hard")
+        raise ValueError(
+            "expected a paper with hard cases, got none: pass a file with them to `domain_judge`"
+        )
     suite = make_suite()
     if not update:
         if not paper.hard.is_file():
@@ -307,7 +309,7 @@ def check_generated(paper: Paper, out: Path | None, remedy: str) -> Freshness:
 
 def measurement_remarks(paper: Paper, rows: "Sequence[Row]") -> list[str]:
     """Return remarks on a new measurement, and on differences from the saved one."""
-    from derivation.engine.measure.record import to_json
+    from derivation.engine.measure.record import to_json, unconfirmed
 
     failed = [row.kernel for row in rows if row.passed is False]
     lines = (
@@ -315,6 +317,7 @@ def measurement_remarks(paper: Paper, rows: "Sequence[Row]") -> list[str]:
         if failed
         else ["all errors are within their budgets"]
     )
+    lines += unconfirmed(rows)
     if paper.measured.is_file():
         kept, new = (
             {(row["kernel"], row["module"]): row for row in json.loads(text)["rows"]}

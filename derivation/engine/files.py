@@ -219,15 +219,35 @@ def explained(path: Path) -> Iterator[None]:
 
 
 def sources(*rooms: str | Path) -> Iterator[Path]:
-    """Yield source files (``.py``, ``.j2`` and ``.toml``) in a fixed order.
+    """Yield source files in a fixed order: of folders those in ``.py``, ``.j2`` and ``.toml``.
 
     Text names a folder or a file of this package, or is a pattern like
     ``mathematics/*/theory*``; other folders and files are given by path.
     """
     for room in rooms:
         for path in sorted(PACKAGE.glob(room)) if isinstance(room, str) else [room]:
-            paths = path.rglob("*") if path.is_dir() else [path]
-            yield from sorted(p for p in paths if p.suffix in {".py", ".j2", ".toml"})
+            if path.is_dir():
+                own = (p for p in path.rglob("*") if p.suffix in {".py", ".j2", ".toml"})
+                yield from sorted(own)
+            else:
+                yield path
+
+
+def files_of_paper(folder: Path) -> tuple[Path, ...]:
+    """Return the files of a paper's folder and its subfolders, data included.
+
+    What the program writes there, and hidden files, are left out.
+    """
+    written = {"generated", "reports"}
+    parts = ((path, path.relative_to(folder).parts) for path in folder.rglob("*") if path.is_file())
+    return tuple(
+        sorted(
+            path
+            for path, names in parts
+            if names[0] not in written
+            and not any(name.startswith((".", "__pycache__")) for name in names)
+        )
+    )
 
 
 def content_hash(paths: Iterable[Path]) -> str:

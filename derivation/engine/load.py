@@ -2,11 +2,12 @@
 
 import importlib
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 from types import ModuleType
 
 from derivation.engine.failed import FailedError, location
-from derivation.engine.files import write_files
+from derivation.engine.files import PACKAGE, sources, write_files
 from derivation.engine.paper import Paper
 
 SKELETON = Path(__file__).parent / "skeleton"
@@ -24,7 +25,8 @@ def load(folder: Path) -> Paper:
     Raises
     ------
     PaperError
-        If there is no paper, or the folder's modules cannot be imported.
+        If there is no paper, the folder's modules cannot be imported, or they import a file that is
+        not one of the sources.
     derivation.engine.failed.FailedError
         If a proof fails during the import.
     """
@@ -35,6 +37,7 @@ def load(folder: Path) -> Paper:
             f"create one with `platecontact new {folder}`"
         )
     name = PREFIX + "".join(c if c.isalnum() else "_" for c in path.name)
+    others = {known for known in sys.modules if not known.startswith(f"{name}.")}
     try:
         paper = _imported(name, path).PAPER
     except FailedError:
@@ -46,7 +49,31 @@ def load(folder: Path) -> Paper:
         ) from error
     if not isinstance(paper, Paper):
         raise PaperError(f"--paper: expected PAPER to be a Paper, got {type(paper).__name__}")
+    _expect_sources(paper, path, sys.modules.keys() - others)
     return paper
+
+
+def _expect_sources(paper: Paper, folder: Path, imported: Iterable[str]) -> None:
+    """Reject a paper that imports files which are not among its sources.
+
+    Cached proofs would be used again after such a file has changed.
+    """
+    known = {path.resolve() for path in sources(*paper.chain.sources)}
+    for name in sorted(imported):
+        file = Path(getattr(sys.modules[name], "__file__", None) or __file__).resolve()
+        if file not in known and not _is_installed(file):
+            raise PaperError(
+                f"--paper: {folder.name} imports {file}, which is not one of its sources; "
+                "write Chain(..., sources=(..., *files_of_paper(HERE))) with files_of_paper of "
+                "derivation.engine.files, and add files from other folders"
+            )
+
+
+def _is_installed(file: Path) -> bool:
+    """Return whether a file belongs to Python, to a library or to this program."""
+    rooms = PACKAGE, *(Path(room).resolve() for room in (sys.prefix, sys.base_prefix))
+    libraries = {"site-packages", "dist-packages"} & set(file.parts)
+    return bool(libraries) or any(map(file.is_relative_to, rooms))
 
 
 def _imported(name: str, path: Path) -> ModuleType:

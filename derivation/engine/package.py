@@ -47,7 +47,7 @@ class Package:
 def forms_of(chain: Chain, package: Package) -> tuple[Form, ...]:
     """Return the stable forms, proved equal to the formulas."""
     kinds = (Form, Block, Step, Branch, Switch)
-    rooms = ("engine/rewrite", *package.sources)
+    rooms = ("engine/rewrite", "engine/emit", *package.sources)
     return chain.cached_result("forms", lambda: package.forms(chain.formulas()), *kinds, also=rooms)
 
 

@@ -130,6 +130,7 @@ def test_report_check_fragment_and_section(folder: Path, tmp_path: Path) -> None
     assert "up to date" in run("report", "--check", *paper, home=folder.parent)
     fragment = run("report", "--fragment", "F_slipping", *paper, home=folder.parent)
     assert r"\label{eq:F_slipping}" in fragment
+    assert "equation~(4) of the paper" in fragment  # the example has no list of sources to cite
     run("report", "--section", "misprints", "--no-pdf", "--out", str(tmp_path), *paper,
         home=folder.parent)  # fmt: skip
     names = sorted(path.name for path in tmp_path.iterdir())
@@ -152,6 +153,19 @@ def test_rewrite_report_is_written(folder: Path) -> None:
     assert "F_slipping" in shown
     rows = json.loads((folder / "reports" / "rewrite.json").read_text())["rows"]
     assert "F_slipping" in [row["name"] for row in rows]
+    kernels = folder / "kernels.py"
+    original = kernels.read_text()
+    try:
+        added = original.replace(
+            'REWRITTEN = ("F_slipping"', 'REWRITTEN = ("F_bonded", "F_slipping"'
+        )
+        kernels.write_text(added)
+        shown = run("rewrite", "--paper", str(folder), home=folder.parent)
+    finally:
+        kernels.write_text(original)
+    assert added != original
+    assert "F_slipping" in shown  # F_bonded depends on two arguments and has no row
+    assert "F_bonded" not in shown
 
 
 def test_smaller_budgets_are_suggested_but_not_written(folder: Path) -> None:
@@ -185,14 +199,57 @@ def test_check_and_search_find_a_budget_that_is_too_small(folder: Path, tmp_path
     assert "F_bonded = {" in (paper / "reports" / "search.toml").read_text()
 
 
+def test_functions_without_an_independent_reference_are_named(folder: Path, tmp_path: Path) -> None:
+    """The report counts only the points at which an independent method was evaluated."""
+    said = "No independent reference confirms F_slipping, C_slipping: add one to ROUTES."
+    confirmed = "points a second, independent reference gave the same digits"
+    every = (folder / "reports" / "report.tex").read_text()
+    assert said not in run("check", "--paper", str(folder), home=folder.parent)
+    paper = tmp_path / "fewer routes"
+    shutil.copytree(folder, paper)
+    text = (paper / "route.py").read_text()
+    for name in ("F_slipping", "C_slipping"):
+        text = re.sub(rf'    "{name}": .*\n', "", text)
+    (paper / "route.py").write_text(text)
+    assert said in run("build", "--paper", str(paper), home=folder.parent)
+    fewer = (paper / "reports" / "report.tex").read_text()
+    assert f"At 8 {confirmed}" in every
+    assert f"At 4 {confirmed}" in fewer
+
+
+def test_hard_cases_are_compared_with_recorded_references(folder: Path, tmp_path: Path) -> None:
+    paper = tmp_path / "hard"
+    shutil.copytree(folder, paper)
+    command = "check", "hard-cases", "--paper", str(paper)
+    assert "hard-cases --update" in run(*command, home=folder.parent, status=2)
+    assert "2 cases, 0 failed" in run(*command, "--update", home=folder.parent)
+    assert "2 cases, 0 failed" in run(*command, home=folder.parent)
+    code = paper / "generated" / "film.py"
+    text = code.read_text()
+    code.write_text(text.replace("np.exp(-2 * x)", "np.exp(-2.001 * x)"))
+    assert "failed" in run(*command, home=folder.parent, status=1)
+    code.write_text(text)
+    cases = paper / "hard_cases.toml"
+    written = cases.read_text()
+    for wrong, message in (
+        (written.replace("F_slipping", "F_sliding"), "did you mean F_slipping?"),
+        (written.replace("s = 1e-12, ", ""), "F_bonded: expected the arguments T, s, got T"),
+    ):
+        assert wrong != written
+        cases.write_text(wrong)
+        said = " ".join(run(*command, home=folder.parent, status=2).split())
+        assert message in said.replace("s, T", "T, s")
+    judged = paper / "paper.py"
+    judged.write_text(judged.read_text().replace(', HERE / "hard_cases.toml"', ""))
+    said = run(*command, home=folder.parent, status=2)
+    assert "expected a paper with hard cases, got none" in said
+
+
 def test_invalid_papers_are_rejected(folder: Path, tmp_path: Path) -> None:
     assert "expected a folder with a file paper.py" in run(
         "derive", "--paper", str(tmp_path), home=tmp_path, status=2
     )
     assert "expected an empty folder" in run("new", str(folder), home=tmp_path, status=2)
-    assert "expected a paper with hard cases, got none" in run(
-        "check", "hard-cases", "--paper", str(folder), home=tmp_path, status=2
-    )
     for text, message in (
         ("import nothing_of_that_name", "paper.py, line 1: ModuleNotFoundError: No module"),
         ("PAPER = 1 +", "cannot be imported: SyntaxError"),

@@ -76,8 +76,7 @@ def read_budgets(file: Path) -> dict[str, Budget]:
     """
     if not file.is_file():
         raise ValueError(
-            f"expected a file {file}; write a table [ulp] with a line `name = 4` for each "
-            f"function, and a table [rule.{ORDINARY}] with the text of the ordinary rule"
+            f"expected a file {file}; write a table [ulp] with a line `name = 4` for each function"
         )
     try:
         return parse_budgets(tomllib.loads(file.read_text()))
@@ -95,19 +94,20 @@ def parse_budgets(data: Mapping[str, Any]) -> dict[str, Budget]:
     """Return budgets by function from the tables `ulp` and `rule`.
 
     `ulp` contains a number for each function, and `rule` tables with ``text`` and ``kernels``. A
-    table with ``share``, the allowed error per sum of the condition numbers, needs no text.
+    table with ``share``, the allowed error per sum of the condition numbers, needs no text. Without
+    a table ``value``, the share of functions without a rule is 0.5.
 
     Raises
     ------
     ValueError
         If a table or a number is missing, a number is not positive, or a function has two rules.
     """
-    numbers, rules = data.get("ulp", {}), data.get("rule", {})
-    if not isinstance(rules.get(ORDINARY), dict) or "text" not in rules[ORDINARY]:
-        raise ValueError(
-            f"budgets.toml: expected a table [rule.{ORDINARY}] with the text of the ordinary rule"
-        )
+    numbers, rules = data.get("ulp", {}), {ORDINARY: {"share": HALF}} | data.get("rule", {})
     for name, rule in rules.items():
+        if not isinstance(rule, dict) or not {"text", "share"} & rule.keys():
+            raise ValueError(
+                f"budgets.toml: expected a table [rule.{name}] with a text or a share, got {rule!r}"
+            )
         share = rule.get("share", HALF)
         if isinstance(share, bool) or not isinstance(share, int | float) or share not in SHARES:
             expected = ", ".join(map(str, SHARES))

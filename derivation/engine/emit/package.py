@@ -3,7 +3,7 @@
 import hashlib
 import math
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from importlib.metadata import version
 from pathlib import Path
@@ -22,12 +22,15 @@ from derivation.engine.emit.kernels import (
     rows_by_module,
     switch_text,
 )
+from derivation.engine.emit.names import expect_free_names
 from derivation.engine.emit.printed_fraction import expect_reason
 from derivation.engine.emit.printer import to_numpy
 from derivation.engine.emit.routine import ARRAYS, QUIET_SCALARS, Dialect, Routine
 from derivation.engine.emit.routine import text as routine_text
+from derivation.engine.emit.routine_check import check_routine, imported
 from derivation.engine.emit.source import TEMPLATES, format_files, rendered_template
 from derivation.engine.formula.record import Record
+from derivation.engine.formula.vocabulary_check import expect_assumed_signs
 from derivation.engine.nearest import did_you_mean
 from derivation.engine.rewrite.blocks import HYPERBOLIC, Definition, build_blocks
 from derivation.engine.rewrite.form import SCALINGS, Block, Form, Step, Switch, form
@@ -174,7 +177,7 @@ class PackageSettings:
         """
         known = build_blocks(self.blocks)
         stated, budgets = self.stated(known), read_budgets(self.budgets)
-        self._expect({name for part in self.parts for name in part.formulas}, formulas)
+        self._expect({name for part in self.parts for name in part.formulas}, formulas, known)
 
         def shape(name: str) -> tuple[ProductForm, int]:
             if name in stated:
@@ -199,17 +202,32 @@ class PackageSettings:
             raise UnreachableError("\n".join(refused))
         return tuple(made)
 
-    def _expect(self, names: set[str], formulas: Mapping[str, Record]) -> None:
-        """Reject names that are not those of formulas."""
+    def _expect(
+        self, names: set[str], formulas: Mapping[str, Record], blocks: Iterable[str]
+    ) -> None:
+        """Reject names that are not those of formulas, or that the code uses itself."""
         for name in sorted(names - formulas.keys()):
             suggestion = did_you_mean(name, formulas)
             raise ValueError(
                 f"parts of the package: no formula {name!r}: {suggestion}expected some of "
                 f"{', '.join(formulas)}"
             )
+        chosen = [formulas[name] for name in sorted(names)]
+        modules = [*(part.name for part in self.parts), *(part.name for part in self.routines)]
+        expect_free_names(modules, chosen, blocks)
+        for formula in chosen:
+            expect_assumed_signs(formula)
 
     def files(self, formulas: Mapping[str, Record], forms: tuple[Form, ...]) -> dict[str, str]:
-        """Return the contents of the package's files by name."""
+        """Return the contents of the package's files by name.
+
+        Raises
+        ------
+        ProofError
+            If the code of a routine does not compute its claim; the message states the point.
+        ValueError
+            If a function has no error budget.
+        """
         own = {block.name: block for stable in forms for block in stable.blocks}
         known, budgets = {**build_blocks(self.blocks), **own}, read_budgets(self.budgets)
         if missing := [f.name for f in forms if f.name not in budgets]:
@@ -231,7 +249,14 @@ class PackageSettings:
             Module("manifest", "catalogue", manifest),
             Module("__init__", "package", package),
         )
-        return module_files(planned)
+        files = module_files(planned)
+        if self.routines:
+            words = next(iter(formulas.values())).vocabulary
+            with imported(files) as module:
+                for part in self.routines:
+                    for one in part.routines:
+                        check_routine(one, getattr(module(part.name), one.name), words)
+        return files
 
 
 def common_modules(known: Mapping[str, Block]) -> tuple[Planned, ...]:

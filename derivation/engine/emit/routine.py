@@ -154,6 +154,8 @@ class Routine:
     results: tuple[sp.Expr, ...]
     summary: str
     proof: Proof
+    claims: tuple[sp.Expr | None, ...]
+    meaning: Facts
 
     @property
     def calls(self) -> set[str]:
@@ -268,7 +270,7 @@ def routine(
         "All statements are substituted, for every combination of choices.",
         residuals,
     )
-    return Routine(name, arguments, statements, results, summary, proof)
+    return Routine(name, arguments, statements, results, summary, proof, claims, meaning)
 
 
 def _substituted(

@@ -13,6 +13,7 @@ import sympy as sp
 from derivation.engine.errata.decimals import decimal_corrections
 from derivation.engine.errata.dimensions import dimension_note
 from derivation.engine.errata.edit import factor_pool, sum_pool, term_pool
+from derivation.engine.errata.elsewhere import where_nonzero
 from derivation.engine.errata.lookup import comparable, known_formula, resolve
 from derivation.engine.errata.relations import Relations
 from derivation.engine.errata.repairs import Repair, repairs
@@ -131,10 +132,14 @@ class _Case:
         """Return how an expression was found equal to the derived one; None if it is not."""
         if not self.search.points.same(expression, self.reference):
             return None
-        difference = (expression - self.formula.expression).subs(dict(self.relations))
+        difference = self.difference(expression)
         if terms_when_expanded(difference) <= _MAX_TERMS and reduces_to_zero(difference):
             return SYMBOLIC
-        return BY_BALLS
+        return None if where_nonzero(difference, self.formula) else BY_BALLS
+
+    def difference(self, expression: sp.Expr) -> sp.Expr:
+        """Return the difference from the derived expression in independent symbols."""
+        return (expression - self.formula.expression).subs(dict(self.relations))
 
 
 def diagnose(
@@ -266,7 +271,10 @@ def _diagnosis(
         kind, says, ratio = EQUAL, "no correction needed", sp.Integer(1)
     else:
         kind = DIMENSION if note else UNEXPLAINED
-        says = "no small change corrects it" + (f"; its dimension is wrong: {note}" if note else "")
+        where = where_nonzero(case.difference(case.given), case.formula) if ratio == 1 else ""
+        says = f"equal at usual points, not at {where}" if where else "no small change corrects it"
+        says += f"; its dimension is wrong: {note}" if note else ""
+        ratio = None if where else ratio
     return Diagnosis(
         formula=case.formula,
         verdict=verdict,

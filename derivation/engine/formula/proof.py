@@ -1,9 +1,14 @@
-"""Proofs: residuals are reduced to zero symbolically, or contain zero in ball arithmetic."""
+"""Proofs: residuals are reduced to zero symbolically, or contain zero in ball arithmetic.
+
+Ball arithmetic is evidence at points: of every sign that the assumptions of a symbol allow, and of
+magnitudes from 1e-90 to 1e90, because a residual may vanish, or almost vanish, in one range only.
+"""
 
 import random
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import islice
 
 import flint
 import sympy as sp
@@ -20,6 +25,9 @@ _PRECISIONS_OF_INTEGRALS = (80, 160)
 _POINTS, _MOST_POINTS = 12, 120
 """Number of points at which a residual is evaluated, and the number while most are outside its
 domain."""
+_FAR = (36, 30), (12, 300)
+"""Numbers of further points, and the largest binary exponents of their coordinates."""
+_FAR_OF_INTEGRALS = ((8, 3),)
 
 
 class ProofError(FailedError):
@@ -62,28 +70,63 @@ def prove(step: str, argument: str, residuals: Mapping[str, sp.Expr]) -> Proof:
     ------
     ProofError
         If a residual does not vanish; the message states step, label and residual.
+    TypeError
+        If a residual is no expression.
+    ValueError
+        If there are no residuals.
     """
+    if not residuals:
+        raise ValueError(
+            f"{step}: expected residuals, which are reduced to zero, got none; "
+            'write for example {"equilibrium": left - right}'
+        )
     methods = set()
-    for label, residual in residuals.items():
+    for label, given in residuals.items():
+        residual = _as_expression(step, label, given)
         method = decide_zero(residual)
         if method is None:
-            raise ProofError(f"{step}: {label} leaves the residual {sp.sstr(residual):.300}")
+            raise ProofError(
+                f"{step}: {label} leaves the residual {sp.sstr(residual):.300}{_where(residual)}"
+            )
         methods.add(method)
     method = BY_BALLS if BY_BALLS in methods else SYMBOLIC
     return Proof(step, argument, tuple(residuals), method)
 
 
-def decide_zero(expression: sp.Expr) -> str | None:
+def _as_expression(step: str, label: str, residual: object) -> sp.Expr:
+    """Return a residual; an integer is an expression too, but a truth value is not."""
+    if isinstance(residual, int) and not isinstance(residual, bool):
+        return sp.Integer(residual)
+    if isinstance(residual, sp.Expr):
+        return residual
+    raise TypeError(
+        f"{step}: expected an expression that vanishes as {label}, got a "
+        f"{type(residual).__name__}; write the difference of both sides of an equation"
+    )
+
+
+def decide_zero(expression: sp.Expr, positive: Iterable[sp.Expr] = ()) -> str | None:
     """Return the method by which an expression was found to be zero; None if it is not zero.
 
+    Far points at which one of the expressions `positive` is not positive are left out.
+
     Balls are evaluated first: if one excludes zero, the expansion, which can be slow, is avoided.
-    If the expansion does not give zero, but all balls contain zero, the method is `BY_BALLS`.
+    If the expansion does not give zero, but all balls contain zero, at `far_points` too, the method
+    is `BY_BALLS`.
     """
     if expression.is_zero:
         return SYMBOLIC
     if not balls_contain_zero(expression):
         return None
-    return SYMBOLIC if reduces_to_zero(expression) else BY_BALLS
+    if reduces_to_zero(expression):
+        return SYMBOLIC
+    conditions = tuple(positive)
+    for values in _far_points_of(expression, conditions):
+        if all(_is_positive(one, values) for one in conditions) and _excludes_zero(
+            expression, values
+        ):
+            return None
+    return BY_BALLS
 
 
 def reduces_to_zero(expression: sp.Expr) -> bool:
@@ -124,13 +167,74 @@ def balls_contain_zero(expression: sp.Expr) -> bool:
     for number, values in enumerate(sample_points(expression.free_symbols, most)):
         if number >= _POINTS and inside >= 2 * len(_PRECISIONS):
             break
-        for bits in _PRECISIONS_OF_INTEGRALS if integral else _PRECISIONS:
-            with flint.ctx.workprec(bits):
-                ball = enclose(expression, {key: to_ball(value) for key, value in values.items()})
+        for ball in _balls(expression, values):
             if ball.is_finite() and not ball.contains(0):
                 return False
             inside += ball.is_finite()
     return inside >= 2 * len(_PRECISIONS)
+
+
+def _balls(expression: sp.Expr, values: Mapping[sp.Symbol, Fraction]) -> Iterator[flint.arb]:
+    """Yield the balls of an expression at both precisions, the smaller one first."""
+    for bits in _PRECISIONS_OF_INTEGRALS if expression.has(sp.Integral) else _PRECISIONS:
+        with flint.ctx.workprec(bits):
+            yield enclose(expression, {key: to_ball(value) for key, value in values.items()})
+
+
+def _far_points_of(
+    expression: sp.Expr, others: Iterable[sp.Expr] = ()
+) -> list[dict[sp.Symbol, Fraction]]:
+    ranges = _FAR_OF_INTEGRALS if expression.has(sp.Integral) else _FAR
+    symbols = expression.free_symbols.union(*(other.free_symbols for other in others))
+    return [point for given in ranges for point in far_points(symbols, *given)]
+
+
+def _is_positive(expression: sp.Expr, values: Mapping[sp.Symbol, Fraction]) -> bool:
+    with flint.ctx.workprec(_PRECISIONS[0]):
+        return bool(enclose(expression, {k: to_ball(v) for k, v in values.items()}) > 0)
+
+
+def _excludes_zero(expression: sp.Expr, values: Mapping[sp.Symbol, Fraction]) -> bool:
+    """Return whether an expression is different from zero at a point; False outside its domain.
+
+    The smaller precision is used except for integrals: at the larger one, K_1(182) takes 18 s.
+    """
+    balls = islice(_balls(expression, values), 2 if expression.has(sp.Integral) else 1)
+    return any(ball.is_finite() and not ball.contains(0) for ball in balls)
+
+
+def _where(residual: sp.Expr) -> str:
+    """Return at which point a residual is different from zero, as part of a message."""
+    near = sample_points(residual.free_symbols, _POINTS // 2)
+    for values in (*near, *_far_points_of(residual)):
+        if values and _excludes_zero(residual, values):
+            at = ", ".join(f"{symbol} = {float(value):.4g}" for symbol, value in values.items())
+            return f", which is not 0 at {at}"
+    return ""
+
+
+def far_points(
+    symbols: Iterable[sp.Symbol], count: int, bits: int, seed: int = 3
+) -> list[dict[sp.Symbol, Fraction]]:
+    """Return random rationals of magnitudes from 2^-bits to 2^bits, the same in every run.
+
+    They have the sign that a symbol's assumptions prescribe, or either sign. All coordinates of
+    every other point, up to those signs, are of a similar size.
+    """
+    symbols = sorted(symbols, key=str)
+    generator = random.Random(seed)
+    points = []
+    for number in range(count):
+        shared = generator.uniform(-bits, bits)
+        values = {}
+        for symbol in symbols:
+            exponent = shared if number % 2 else generator.uniform(-bits, bits)
+            size = Fraction(generator.randrange(1001, 1999), 1499) * Fraction(2) ** round(exponent)
+            either = generator.choice((-1, 1))
+            sign = 1 if symbol.is_nonnegative else -1 if symbol.is_nonpositive else either
+            values[symbol] = sign * size
+        points.append(values)
+    return points
 
 
 def sample_points(

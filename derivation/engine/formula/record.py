@@ -7,10 +7,16 @@ from typing import ClassVar
 import sympy as sp
 
 from derivation.engine.formula.dimension import DimensionError, dimension, unit
+from derivation.engine.formula.domain import comparison
 from derivation.engine.formula.notation import to_latex, to_markdown, to_plain
 from derivation.engine.formula.operations import exact_number
 from derivation.engine.formula.proof import Proof
-from derivation.engine.formula.vocabulary import Argument, Vocabulary, applicable
+from derivation.engine.formula.vocabulary import (
+    Argument,
+    Vocabulary,
+    applicable,
+    symbols_of,
+)
 
 
 @dataclass(frozen=True)
@@ -49,7 +55,8 @@ class Record:
     KeyError
         If it contains a symbol that the paper does not define.
     ValueError
-        If the name is no Python name, or a number is rounded.
+        If the name is no Python name, a number is rounded, a symbol has other assumptions than that
+        of the vocabulary, or a condition of `where` contains symbols without a meaning.
     """
 
     vocabulary: ClassVar[Vocabulary]
@@ -69,7 +76,7 @@ class Record:
     def __post_init__(self) -> None:
         if not self.name.isidentifier() or iskeyword(self.name):
             raise ValueError(f"expected a Python name for a formula, got {self.name!r}; rename it")
-        self.vocabulary.arguments_of(self.expression)
+        self._expect_symbols()
         if rounded := sorted(self.expression.atoms(sp.Float)):
             raise ValueError(
                 f"{self.name}: expected exact numbers, got {float(rounded[0])!r}; "
@@ -83,6 +90,21 @@ class Record:
             raise DimensionError(
                 f"{self.name} has dimension [{dimensions}], expected [{self.unit}]"
             )
+
+    def _expect_symbols(self) -> None:
+        known = {argument.symbol for argument in self.vocabulary.arguments_of(self.expression)}
+        if others := sorted(map(str, self.expression.free_symbols - known)):
+            raise ValueError(
+                f"{self.name}: expected the symbol {others[0]} of the vocabulary, got another one "
+                f"of this name with other assumptions; import it from the vocabulary"
+            )
+        for condition in self.where:
+            if unknown := sorted(symbols_of(condition) - self.vocabulary.by_name.keys()):
+                raise ValueError(
+                    f"{self.name}: the condition {condition!r} contains the unknown symbol "
+                    f"{unknown[0]}, expected some of {', '.join(self.vocabulary.by_name)}"
+                )
+            comparison(condition)
 
     @property
     def arguments(self) -> tuple[Argument, ...]:

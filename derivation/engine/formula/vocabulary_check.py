@@ -1,4 +1,7 @@
-"""Checks of a paper's vocabulary: names, conditions and sample values that cannot be meant."""
+"""Checks of a paper's vocabulary: names, conditions and sample values that cannot be meant.
+
+A domain that is wider than the assumptions of proofs is rejected too.
+"""
 
 from collections.abc import Iterator
 from fractions import Fraction
@@ -7,8 +10,13 @@ from keyword import iskeyword
 import sympy as sp
 
 from derivation.engine.formula.domain import holds
+from derivation.engine.formula.grid import joint_points
+from derivation.engine.formula.record import Record
 from derivation.engine.formula.vocabulary import Vocabulary, symbols_of
 from derivation.engine.nearest import did_you_mean
+
+DECADES, COUNT = 3, 200
+"""Exponent of ten of the largest arguments, and number of points, of a domain that is checked."""
 
 
 def check_vocabulary(vocabulary: Vocabulary) -> None:
@@ -22,6 +30,31 @@ def check_vocabulary(vocabulary: Vocabulary) -> None:
     """
     for problem in _problems(vocabulary):
         raise ValueError(f"vocabulary: {problem}")
+
+
+def expect_assumed_signs(formula: Record) -> None:
+    """Reject a formula whose domain contains numbers that its proof excludes by assumptions.
+
+    Raises
+    ------
+    ValueError
+        If an argument may have a sign that the assumptions of its symbol exclude, or need not be an
+        integer although its symbol is one.
+    """
+    words = formula.vocabulary.with_conditions(formula.where)
+    arguments = words.arguments_of(formula.expression)
+    names = [argument.name for argument in arguments]
+    for point in joint_points(formula.name, names, words, DECADES, COUNT):
+        for argument in arguments:
+            value, symbol = point[argument.name], argument.symbol
+            negative, positive = symbol.is_nonnegative and value < 0, value > 0
+            if negative or (symbol.is_nonpositive and positive) or symbol.is_integer:
+                kind = "integer" if symbol.is_integer else "positive" if negative else "negative"
+                raise ValueError(
+                    f"{formula.name}: the symbol {symbol} is {kind} in proofs, but its domain "
+                    f"({', '.join(argument.domain)}) contains {value:.3g}; correct its domain, or "
+                    f"declare it as sp.Symbol({argument.name!r}, real=True)"
+                )
 
 
 def _problems(vocabulary: Vocabulary) -> Iterator[str]:

@@ -85,7 +85,7 @@ class Row:
         Errors with single-precision arguments, in ULP of single precision; None for tables, which
         take no such arguments, and for the formulas as published.
     oracles
-        Number of points at which both reference methods were compared, and agree.
+        Number of points at which two independent reference methods were compared, and agree.
     passed
         Whether no error exceeds the budget; None without a budget.
     """
@@ -222,6 +222,8 @@ def _single(by: Judge, kernel: Kernel, points: Sequence[Point], digits: int) -> 
 def confirm(by: Judge, kernel: Kernel, references: Sequence[PointReference], digits: int) -> int:
     """Compare both reference methods at points where the second is fast; return their number.
 
+    It is 0 for a formula without a method of its own, which is only evaluated again, by mpmath.
+
     Raises
     ------
     OracleError
@@ -231,4 +233,4 @@ def confirm(by: Judge, kernel: Kernel, references: Sequence[PointReference], dig
     chosen = easy[:: max(1, len(easy) // AGREEMENTS)][:AGREEMENTS]
     for at in chosen:
         by.routes.agree(kernel.name, at.point.values, digits, at.point.modes)
-    return len(chosen)
+    return len(chosen) if kernel.name in by.routes.routes else 0

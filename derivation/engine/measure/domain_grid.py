@@ -3,14 +3,19 @@
 import importlib
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache, partial
+from pathlib import Path
 from typing import Any
 
 from derivation.engine.formula.chain import Chain
 from derivation.engine.formula.grid import domain_grid, inside, joint_points, towards_zeros
 from derivation.engine.formula.vocabulary import Vocabulary
+from derivation.engine.measure.case import HardCase, read_cases
 from derivation.engine.measure.check import Judge
+from derivation.engine.measure.kernels import Kernel, generated_kernels
 from derivation.engine.measure.point import Point
+from derivation.engine.measure.suite import Suite
 from derivation.engine.measure.target import NO_REFERENCE, Domain
+from derivation.engine.nearest import did_you_mean
 from derivation.engine.oracle.agreement import Route, Routes
 from derivation.engine.oracle.oracle import Balls
 from derivation.engine.rewrite.blocks import Definition, build_blocks
@@ -54,6 +59,7 @@ def domain_judge(
     package: str,
     blocks: tuple[Definition, ...],
     easy: Callable[[Point], bool],
+    hard_cases: Path | None = None,
 ) -> Judge:
     """Return references and test points of closed formulas, with points from their domains.
 
@@ -70,11 +76,13 @@ def domain_judge(
         Building blocks of the forms; points next to their switch points are tested.
     easy
         Function that returns whether such a method is fast at a point.
+    hard_cases
+        File with hard cases, if there are any; see `derivation.engine.measure.case.read_cases`.
 
     Returns
     -------
     Judge
-        The references and test points, without hard cases.
+        The references and test points.
     """
     references = Routes(Balls(chain.vocabulary, chain.formulas), routes)
 
@@ -108,4 +116,28 @@ def domain_judge(
     def in_domain(name: str, point: Point) -> bool:
         return inside(words(name), point.values)
 
-    return Judge(references, grid, package, easy, in_domain)
+    def suite() -> Suite:
+        assert hard_cases is not None  # as it is called only then
+        kernels = {kernel.name: kernel for kernel in generated_kernels(package)}
+        cases = tuple(read_cases(hard_cases))
+        for case in cases:
+            _expect_arguments(case, kernels)
+        return Suite(cases, kernels, {}, references.balls)
+
+    hard = suite if hard_cases is not None else None
+    return Judge(references, grid, package, easy, in_domain, hard)
+
+
+def _expect_arguments(case: HardCase, kernels: Mapping[str, Kernel]) -> None:
+    """Raise ValueError if a case is not of a generated function, or has other arguments."""
+    if case.kernel not in kernels:
+        raise ValueError(
+            f"hard case of {case.kernel!r}: {did_you_mean(case.kernel, kernels)}expected one of "
+            f"{', '.join(kernels)}"
+        )
+    expected = kernels[case.kernel].arguments
+    if {*expected} != case.inputs.keys():
+        raise ValueError(
+            f"hard case of {case.kernel}: expected the arguments {', '.join(expected)}, got "
+            f"{', '.join(case.inputs)}"
+        )

@@ -56,6 +56,14 @@ def worst(row: Row) -> str:
     return f"{row.kernel}: {arguments}{modes}"
 
 
+def unconfirmed(rows: Sequence[Row]) -> tuple[str, ...]:
+    """Return a sentence about functions that no independent method confirms, if there are any."""
+    names = [row.kernel for row in rows if row.budget is not None and not row.oracles]
+    if not names:
+        return ()
+    return (f"No independent reference confirms {', '.join(names)}: add one to ROUTES.",)
+
+
 def result(rows: Sequence[Row], digits: int, package: str) -> CheckResult:
     """Return the rows as a table, with the worst arguments of the functions that have a budget."""
     return CheckResult(
@@ -64,7 +72,7 @@ def result(rows: Sequence[Row], digits: int, package: str) -> CheckResult:
         [cells(row) for row in rows],
         lambda: as_data(rows, digits, package),
         all(row.passed is not False for row in rows),
-        note=paragraph(NOTE, 0),
+        note=paragraph(" ".join((NOTE, *unconfirmed(rows))), 0),
         listings=[("Worst arguments", [worst(row) for row in rows if row.passed is not None])],
         budgeted=rows,
     )

@@ -56,7 +56,8 @@ def fragment(step: str, formula: Record, references: References) -> str:
     The comment states the formulas from which it follows, and the step that verified it. Lines fit
     a column of a two-column paper, and the LaTeX needs no definitions of its own.
     """
-    of = rf", equation~({formula.equation}) of~\cite{{paper}}" if formula.equation else ""
+    paper = r"~\cite{paper}" if "paper" in references.entries else " the paper"
+    of = f", equation~({formula.equation}) of{paper}" if formula.equation else ""
     sources = [key for key in references.cited(step) if key != "paper"]
     see = rf"; see~\cite{{{','.join(sources)}}}" if sources else ""
     came = f", from {', '.join(formula.sources)}" if formula.sources else ""

@@ -11,6 +11,7 @@ from derivation.engine.rewrite.automatic import dimensionless
 from derivation.engine.rewrite.every_variable import accurate
 from derivation.engine.rewrite.products import ProductForm, of_products
 from derivation.engine.rewrite.scales import Scales
+from derivation.engine.rewrite.several_products import several_products
 from derivation.engine.rewrite.stabilise import Applied, Stable, stabilise
 from derivation.engine.rewrite.terms import UnreachableError
 
@@ -48,6 +49,8 @@ def accounts(
 ) -> tuple[Account, ...]:
     """Return the result of the rules for each named formula.
 
+    A formula of several dimensionless products has no row: the rules write parts of it only.
+
     Parameters
     ----------
     formulas
@@ -76,7 +79,12 @@ def _accounts(formula: Record, scales: Scales) -> Iterator[Account]:
     try:
         reduced = dimensionless(formula.expression, scales)
     except UnreachableError:
-        form = of_products(formula, lambda made: _accurate(formula, made))
+        try:
+            form = of_products(formula, lambda made: _accurate(formula, made))
+        except UnreachableError as error:
+            if next(several_products(formula), None) is None:
+                raise UnreachableError(f"{formula.name}: {error}") from None
+            return
         for product, stable in form.factors:
             whole = sp.Mul(*(symbol**power for symbol, power in product))
             yield _account(formula.name, stable, whole)

@@ -1,6 +1,6 @@
 """The stable form: named steps, branches, and the proof that it equals a derived formula."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 import sympy as sp
@@ -181,7 +181,6 @@ def substitute_steps(
     expression = expression.replace(TAIL, lambda v: sp.exp(sp.Min(v, ONCE) - v))
     for block in blocks.values():
         expression = expression.replace(sp.Function(block.name), block.definition)
-    expression = expression.replace(sp.Abs, lambda x: x)  # roots of squares, in even functions
     expression = expression.replace(sp.Heaviside, lambda *_: _CHOICE)  # for both values
     expression = expression.replace(expm1, lambda x: sp.exp(x) - 1)
     expression = expression.replace(
@@ -194,9 +193,11 @@ _CHOICE = sp.Symbol("choice", real=True)
 
 
 def _without_limits(product: sp.Max) -> sp.Expr:
-    """Return a limited product without its limits."""
-    (bounded,) = (bound for bound in product.args if bound != TINY)
-    return sp.Mul(*(bound for bound in bounded.args if bound not in (FAR, LARGEST)))
+    """Return a limited product without the limits TINY, FAR and LARGEST; others remain."""
+    above = sp.Max(*(bound for bound in product.args if bound != TINY))
+    if not isinstance(above, sp.Min):
+        return above
+    return sp.Min(*(bound for bound in above.args if bound not in (FAR, LARGEST)))
 
 
 def _product(value: sp.Expr, *powers: sp.Expr) -> sp.Expr:
@@ -244,11 +245,28 @@ def form(
         f"Stable form of {name}",
         "Every branch, with steps and blocks substituted, equals the derived formula.",
         {
-            label: substitute_steps(branch.value, (*steps, *branch.steps), every) - formula
+            f"{label}{sign}": exact
             for label, branch in branches(value)
+            for sign, exact in _of_both_signs(
+                substitute_steps(branch.value, (*steps, *branch.steps), every) - formula
+            )
         },
     )
     return Form(name, module, steps, value, proof, own)
+
+
+def _of_both_signs(expression: sp.Expr, said: str = "") -> Iterator[tuple[str, sp.Expr]]:
+    """Yield an expression without |u|, for u > 0 and u < 0 if u may have either sign."""
+    sizes = sorted(expression.atoms(sp.Abs), key=str)
+    if not sizes:
+        yield said, expression
+        return
+    inner = next(size for size in sizes if not size.args[0].has(sp.Abs))
+    (u,) = inner.args
+    for comparison, plain in ((">", u), ("<", -u)):
+        yield from _of_both_signs(
+            expression.xreplace({inner: plain}), f"{said}, {u} {comparison} 0"
+        )
 
 
 def branches(value: sp.Expr | Switch) -> list[tuple[str, Branch]]:

@@ -48,13 +48,18 @@ def prove_identity(written: sp.Expr, expression: sp.Expr) -> None:
     UnreachableError
         If that is not proved.
     """
-    for case in _cases(written, {}):
-        if decide_zero(case - expression) is None:
+    for case, positive in _cases(written, {}):
+        if decide_zero(case - expression, positive) is None:
             raise UnreachableError(f"{written} is not proved equal to {expression}")
 
 
-def _cases(written: sp.Expr, signs: Mapping[sp.Expr, int]) -> Iterator[sp.Expr]:
-    """Yield an expression without its bounds, for every sign of the differences in them."""
+def _cases(
+    written: sp.Expr, signs: Mapping[sp.Expr, int]
+) -> Iterator[tuple[sp.Expr, list[sp.Expr]]]:
+    """Yield an expression without its bounds, for every sign of the differences in them.
+
+    The second item contains the differences with the signs that make them positive.
+    """
     bounds = written.atoms(sp.Min, sp.Max)
     if any(len(bound.args) != 2 for bound in bounds):
         raise UnreachableError(f"more than two bounds in {written}")
@@ -62,7 +67,7 @@ def _cases(written: sp.Expr, signs: Mapping[sp.Expr, int]) -> Iterator[sp.Expr]:
         bound for bound in bounds if not any(part.atoms(sp.Min, sp.Max) for part in bound.args)
     ]
     if not inner:
-        yield written
+        yield written, [sign * of for of, sign in signs.items()]
         return
     difference, _ = _difference(min(inner, key=str))
     if len(signs) == MOST_CASES and difference not in signs:

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from derivation.engine.errata.errata import Errata
+from derivation.engine.files import files_of_paper
 from derivation.engine.formula.chain import Chain, DerivationStep
 from derivation.engine.measure.domain_grid import domain_judge
 from derivation.engine.measure.point import Point
@@ -27,7 +28,7 @@ CHAIN = Chain(
     "film",
     FILM,
     tuple(DerivationStep(name, derive) for name, derive in STEPS.items()),
-    ("engine/cache.py", "engine/formula", *sorted(HERE.glob("*.py")), HERE / "budgets.toml"),
+    ("engine/cache.py", "engine/formula", *files_of_paper(HERE)),
     (Formula,),
 )
 
@@ -51,6 +52,8 @@ PAPER = Paper(
         PACKAGE.files,
         rewritten=REWRITTEN,
     ),
-    judge=lambda: domain_judge(CHAIN, ROUTES, TARGET, PACKAGE.blocks, easy),
+    judge=lambda: domain_judge(
+        CHAIN, ROUTES, TARGET, PACKAGE.blocks, easy, HERE / "hard_cases.toml"
+    ),
     report=lambda: Report(Prose(prose.ABOUT), prose.SUBTITLE, prose.ABSTRACT),
 )

@@ -120,6 +120,16 @@ def test_increased_budgets_and_smaller_domains_are_found() -> None:
     assert looser(now, {**now, "domain": DOMAINS | {"G": "T > 0, T >= 1e-151, T < 9"}}) == []
 
 
+def test_tables_of_rules_are_optional_and_complete() -> None:
+    without = parse_budgets({"ulp": {"f": 4}})["f"]
+    assert without == parse_budgets({"ulp": {"f": 4}, "rule": {"value": {"share": 0.5}}})["f"]
+    assert "0.5 times the sum of the arguments' condition numbers" in without.rule
+    with pytest.raises(
+        ValueError, match=r"expected a table \[rule\.zeros\] with a text or a share"
+    ):
+        parse_budgets({"ulp": {"f": 4}, "rule": {"zeros": {"kernels": ["f"]}}})
+
+
 def test_every_function_has_a_budget_and_one_rule() -> None:
     data = read_tables()
     assert set(parse_budgets(data)) == {row["name"] for row in (*KERNELS, *CONTACT)}

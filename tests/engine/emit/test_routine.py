@@ -170,7 +170,9 @@ def test_functions_of_floats_are_printed_without_numpy() -> None:
 def test_inlined_expression_is_put_in_parentheses() -> None:
     """u = x/3 - 1 is inserted into a product and a function, and has no line of its own."""
     inner = Let(u, x / 3 - 1, within=True)
-    built = routine("inner", (x,), (inner,), (2 * u - sp.sin(u) * u,), (None,), "Inner.", {})
+    result = 2 * u - sp.sin(u) * u
+    claim = result.subs(u, x / 3 - 1)
+    built = routine("inner", (x,), (inner,), (result,), (claim,), "Inner.", {})
     assert "u" not in text(built).replace("Double", "").replace("value", "").split()
     value = 5.0 / 3 - 1
     assert run(built, 5.0) == pytest.approx(2 * value - np.sin(value) * value, rel=1e-15)

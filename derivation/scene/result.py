@@ -59,7 +59,8 @@ class Result:
     max_pressure
         Largest contact pressure, at the centre of the widest contact [Pa]; at most 1.6 times the
         yield stress in a plastic contact, only the elastic part in a viscoelastic contact. Omitted
-        effects may change it by up to three times as much as the other results.
+        effects may change it by up to three times as much as the other results, and an omitted
+        yield more: its error includes by how much it exceeds 1.6 times the yield stress.
     comparison
         The paper's motion, for comparison; None unless `effects.compare_paper_motion` is true.
     max_tensile_stress

@@ -15,7 +15,7 @@ from derivation.scene.effects import BY_NAME, EFFECTS
 from derivation.scene.effects.effect import NO_BOUND, Effect
 from derivation.scene.impact import selected_effects
 from derivation.scene.numerics.quadrature import NODES, rule
-from derivation.scene.quantity import prefixed
+from derivation.scene.quantity import prefixed, rounded_up
 from derivation.scene.scene import Scene
 from derivation.scene.selection.effect_selection import SelectedEffects, named
 
@@ -51,8 +51,9 @@ class Explanation:
         """Return the selected effects and the error bound of the omitted ones."""
         effects = ", ".join(self.effects.included)
         results = named(self.effects.outputs, "each result")
+        most = rounded_up(self.effects.stated_error)
         omitted = (
-            f"The omitted effects change {results} by at most {self.effects.stated_error:.1e} "
+            f"The omitted effects change {results} by at most {most} "
             f"(tolerance {self.effects.rtol:.3g})."
             if self.effects.omits
             else "No applicable effect was omitted automatically."
@@ -81,7 +82,7 @@ class Explanation:
 
 def _change(bound: float) -> str:
     """Return the bound on the change by a disabled effect, in words."""
-    return f"changes the results by at most {bound:.1e}" if bound < NO_BOUND else "no bound"
+    return f"changes the results by at most {rounded_up(bound)}" if bound < NO_BOUND else "no bound"
 
 
 RUN_TIME_DIGITS = 2

@@ -18,7 +18,7 @@ from derivation.scene.model import Model
 from derivation.scene.output import answer, result_errors, unusable
 from derivation.scene.output.history import POINTS, DynamicHistory, History, Pressures, times_of
 from derivation.scene.output.pressure_profile import pressure_profile
-from derivation.scene.quantity import counted, digits_of
+from derivation.scene.quantity import counted, digits_of, rounded_up
 from derivation.scene.scene import Scene
 from derivation.scene.selection.achieved_accuracy import AchievedAccuracy
 from derivation.scene.selection.effect_selection import SelectedEffects
@@ -342,10 +342,11 @@ class Result:
     def disabled_note(self) -> str:
         """Bounds on the change by disabled effects, as a sentence; empty if there are none."""
         rows = [row for row in self.effects.rows if row.disabled]
-        known = ", ".join(
-            f"{row.name} ({f'at most {row.bound:.1e}' if row.bound < NO_BOUND else 'no bound'})"
+        sizes = (
+            f"at most {rounded_up(row.bound)}" if row.bound < NO_BOUND else "no bound"
             for row in rows
         )
+        known = ", ".join(f"{row.name} ({x})" for row, x in zip(rows, sizes, strict=True))
         return f"Disabled by the scene, not included in this bound: {known}." if rows else ""
 
     @property

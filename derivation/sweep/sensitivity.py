@@ -117,8 +117,8 @@ def sensitivities(store: Store) -> Sensitivities:
     if values.size:
         values_by_order[:, :, varies] = _with_intervals(values)
     unbounded = tuple(name for name, x in zip(UNITS, errors, strict=True) if np.isinf(x))
-    by_order = (dict(zip(ORDERS, x, strict=True)) for x in values_by_order)
-    return Sensitivities(plan.keys, plan.size, *by_order, unbounded)
+    index, low, high = (dict(zip(ORDERS, x, strict=True)) for x in values_by_order)
+    return Sensitivities(plan.keys, plan.size, index, low, high, unbounded)
 
 
 def _errors(bound: float, outputs: tuple[str, ...]) -> Array:

@@ -8,7 +8,7 @@ import numpy as np
 
 from derivation.engine.text import aligned, wording
 from derivation.scene.input.keys import written
-from derivation.scene.quantity import common_prefix, counted, percent
+from derivation.scene.quantity import common_prefix, counted, rounded_up, up_to
 from derivation.scene.result import UNITS
 from derivation.scene.scene import OUTPUTS, outputs_of
 from derivation.scene.selection.effect_selection import named
@@ -95,13 +95,15 @@ class Summary:
                 values, unit = common_prefix(values, unit)
             rows.append([name.replace("_", " "), *(f"{x:#.{DIGITS}g}" for x in values), unit])
         whose = named(self.outputs, "")
-        accuracy = f"relative error{whose and f' of {whose}'} at most {self.largest_bound:.1e}"
+        accuracy = (
+            f"relative error{whose and f' of {whose}'} at most {rounded_up(self.largest_bound)}"
+        )
         if self.largest_bound == np.inf:
             accuracy = "no error bound is known at some points"
         if np.isnan(self.largest_bound):
             accuracy = "no point has a result"
         elif self.largest_model_error:
-            accuracy += f", model error up to {percent(self.largest_model_error)}"
+            accuracy += f", model error {up_to(self.largest_model_error)}"
         text = (
             f"{self.points:,} points: {counts} ({self.computed:,} computed in this run)\n\n"
             f"{aligned(['result', '#smallest', '#largest', 'unit'], rows)}\n\n"

@@ -18,7 +18,7 @@ from derivation.engine.files import measurements
 from derivation.scene.errors import SceneError
 from derivation.scene.kernels import Numbers
 from derivation.scene.model import Model
-from derivation.scene.quantity import percent
+from derivation.scene.quantity import up_to
 from generated.arrays import Double as Array
 
 LARGEST = 0.01
@@ -100,7 +100,7 @@ def edge_warnings(model: Model, a: float) -> tuple[str, ...]:
     [error] = largest_neighbours(model, np.array([a]), model.eta)
     if error <= LARGEST:
         return ()
-    size = "unknown" if np.isnan(error) else f"up to {percent(error)} of the indentation"
+    size = "unknown" if np.isnan(error) else f"{up_to(error)} of the indentation"
     text = (
         f"the model error of the {model.edge} edge is {size} at h/b = {model.eta:.4g}, nu = "
         f"{model.poissons_ratio:.3g}, a/b = {a / model.b:.4g} (h half-thickness, a contact radius, "

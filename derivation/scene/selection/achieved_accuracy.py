@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from derivation.scene.quantity import rounded_up
 from derivation.scene.scene import OUTPUTS
 
 METHODS = {
@@ -162,9 +163,3 @@ class AchievedAccuracy:
 def remaining(rtol: float | None, error: float) -> float | None:
     """Return the part of a tolerance that an error leaves [1]; None without a tolerance."""
     return None if rtol is None else (rtol - error) / (1.0 + error)
-
-
-def rounded_up(bound: float) -> str:
-    """Return a bound as text with two digits, rounded up."""
-    text = f"{bound:.1e}"
-    return text if float(text) >= bound else f"{1.05 * bound:.1e}"

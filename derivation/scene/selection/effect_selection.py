@@ -11,6 +11,7 @@ from derivation.scene.effects import BY_NAME, EFFECTS
 from derivation.scene.effects.effect import NO_BOUND, Effect, Results
 from derivation.scene.model import Model
 from derivation.scene.output.html import html_table
+from derivation.scene.quantity import rounded_up
 from derivation.scene.scene import OUTPUTS
 from derivation.scene.selection.omission_bounds import change_of, error_of
 from derivation.scene.selection.selection import Selection, select
@@ -75,7 +76,7 @@ class EffectRow:
         """Return the cells of the row."""
         unknown = math.isnan(self.parameter_value)
         value = "n/a" if unknown else f"{self.parameter_value:.3g}"
-        bound = f"{self.bound:.1e}" if self.bound < NO_BOUND else "no bound"
+        bound = rounded_up(self.bound) if self.bound < NO_BOUND else "no bound"
         status = "included" if self.included else "omitted"
         if unknown and not self.bound:  # the effect does not apply
             bound = status = "n/a"
@@ -159,7 +160,7 @@ class SelectedEffects:
     @property
     def summary(self) -> str:
         """The included effects, and the bound on the change by the omitted ones."""
-        changed = f"{named(self.outputs, 'the results')} by at most {self.stated_error:.1e}"
+        changed = f"{named(self.outputs, 'the results')} by at most {rounded_up(self.stated_error)}"
         omitted = f"; the omitted effects change {changed}" if self.omits else ""
         return ", ".join(self.included) + omitted
 
@@ -305,7 +306,7 @@ def _row(
     else:
         most = largest_growth(growth, outputs) * error
         changed = named(outputs, "the results")
-        why = f"all omitted effects together change {changed} by at most {most:.1e}"
+        why = f"all omitted effects together change {changed} by at most {rounded_up(most)}"
     disabled = choice[name] is False and effect.selectable
     return EffectRow(name, effect.adds, effect.parameter, value, bound, included, why, disabled)
 

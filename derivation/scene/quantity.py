@@ -67,9 +67,12 @@ def upwards(value: float, digits: int) -> float:
 
     Examples
     --------
-    >>> upwards(1.2101e6, 3), upwards(0.25, 2)
-    (1220000.0, 0.25)
+    >>> upwards(1.2101e6, 3), upwards(0.25, 2), upwards(1e-3, 2)
+    (1220000.0, 0.25, 0.001)
     """
+    nearest = float(f"{value:.{digits - 1}e}")
+    if nearest >= value:  # 1e-3 is, as a double, slightly more than a thousandth
+        return nearest
     return float(Context(prec=digits, rounding=ROUND_CEILING).create_decimal(value))
 
 

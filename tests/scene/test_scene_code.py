@@ -23,6 +23,7 @@ from derivation.engine.files import ROOT
 from derivation.scene import SceneError, indent, load, read, simulate
 from derivation.scene.code.code import recipe
 from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.quantity import rounded_up
 from derivation.scene.selection.method_selection import moved
 from derivation.scene_code import scene_code
 
@@ -332,7 +333,7 @@ def test_header_states_the_effects_with_reasons() -> None:
     inside, out = head.split("Omitted effects:")
     for row in selected.rows:
         assert f"- {row.name}:" in (inside if row.included else out)
-    assert f"{selected.error:.1e} (tolerance 0.001)" in head
+    assert f"{rounded_up(selected.error)} (tolerance 0.001)" in head
     assert 'material = "glass"' in head
     notes = simulate(scene_of("glass_pane")).warnings
     assert any("inertia is neglected" in text for text in notes)

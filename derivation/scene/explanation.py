@@ -15,10 +15,9 @@ from derivation.scene.effects import BY_NAME, EFFECTS
 from derivation.scene.effects.effect import NO_BOUND, Effect
 from derivation.scene.impact import selected_effects
 from derivation.scene.numerics.quadrature import NODES, rule
-from derivation.scene.quantity import prefixed
+from derivation.scene.quantity import prefixed, rounded_up
 from derivation.scene.scales import zener_number
 from derivation.scene.scene import Scene
-from derivation.scene.selection.achieved_accuracy import rounded_up
 from derivation.scene.selection.effect_selection import SelectedEffects, named
 
 
@@ -53,9 +52,10 @@ class Explanation:
         """Return the selected effects and the error bound of the omitted ones."""
         effects = ", ".join(self.effects.included)
         results = named(self.effects.outputs, "each result")
+        most = rounded_up(self.effects.stated_error)
         omitted = (
-            f"The omitted effects change {results} by at most "
-            f"{rounded_up(self.effects.stated_error)} (tolerance {self.effects.rtol:.3g})."
+            f"The omitted effects change {results} by at most {most} "
+            f"(tolerance {self.effects.rtol:.3g})."
             if self.effects.omits
             else "No applicable effect was omitted automatically."
         )

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from derivation.scene.contact_law.impact_errors import ImpactErrors
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import (
     check_radius,
@@ -133,7 +134,10 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
         deflection, deflections = motion.largest_deflection(law), deflections_of(law, motion)
     errors = model_errors(law, numbers, deflections, motion)
     model_error = max(errors[name] for name in selected.outputs)
-    neglected = neglects_inertia(model, contact_time, fraction, motion is not None)
+    names = ImpactErrors._fields
+    stated = ImpactErrors(*(accuracy_on((x,), selected, motion, accuracy).bound for x in names))
+    dynamic = motion is not None
+    neglected = neglects_inertia(model, contact_time, fraction, dynamic, errors=stated)
     moving = model  # with the wave branches that the simulation chose
     if motion is not None:
         moving = replace(model, inertia=motion.law.model.inertia)
@@ -148,8 +152,8 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
     warnings = (
         *on_units,
         *hollow_warnings(model),
-        *warnings_at(law, a, delta, deflection),
-        *motion_warnings(moving, contact_time, fraction, motion is not None),
+        *warnings_at(law, a, delta, deflection, errors=stated),
+        *motion_warnings(moving, contact_time, fraction, dynamic, errors=stated),
         *_yield_warnings(law, a, pressure, pressure_error),
         *stress_warnings(stress.value, strength, yield_stress, stress_error, motion is None),
     )

@@ -1,7 +1,7 @@
 """Quantities as text: SI prefixes, significant digits, counts."""
 
 import math
-from decimal import ROUND_CEILING, Decimal
+from decimal import ROUND_CEILING, Context, Decimal
 
 import numpy as np
 
@@ -18,6 +18,8 @@ ONE_DIGIT, NO_DIGITS = 0.3, 1.0
 
 MOST = 10.0
 """Ratio above which only this is stated in per cent."""
+ROUNDED = 1e-12
+"""Relative error by rounding of a number that may be a round one, such as 240 MPa [1]."""
 
 
 def digits_of(error: float) -> int:
@@ -60,6 +62,31 @@ def percent(ratio: float) -> str:
     return f"{float(f'{100.0 * ratio:.2g}'):g} %"
 
 
+def upwards(value: float, digits: int) -> float:
+    """Return a positive number rounded up to the given significant digits.
+
+    Examples
+    --------
+    >>> upwards(1.2101e6, 3), upwards(0.25, 2), upwards(1e-3, 2)
+    (1220000.0, 0.25, 0.001)
+    """
+    nearest = float(f"{value:.{digits - 1}e}")
+    if nearest >= value:  # 1e-3 is, as a double, slightly more than a thousandth
+        return nearest
+    return float(Context(prec=digits, rounding=ROUND_CEILING).create_decimal(value))
+
+
+def rounded_up(bound: float) -> str:
+    """Return a bound as text with two digits, rounded up.
+
+    Examples
+    --------
+    >>> rounded_up(1.2101e-4), rounded_up(0.0), rounded_up(math.inf)
+    ('1.3e-04', '0.0e+00', 'inf')
+    """
+    return f"{upwards(bound, 2):.1e}"
+
+
 def up_to(error: float) -> str:
     """Return a bound on an error in per cent, rounded up.
 
@@ -68,22 +95,9 @@ def up_to(error: float) -> str:
     >>> up_to(0.00121), up_to(774.0)
     ('up to 0.13 %', 'more than 1000 %')
     """
-    return percent(error) if error > MOST else f"up to {percent(ceiling(error))}"
-
-
-def ceiling(bound: float) -> float:
-    """Return a bound with two digits, rounded up.
-
-    Examples
-    --------
-    >>> ceiling(0.00121), ceiling(0.0012), ceiling(0.0)
-    (0.0013, 0.0012, 0.0)
-    """
-    if not math.isfinite(bound):
-        return bound
-    shortest = Decimal(repr(float(bound)))
-    unit = Decimal(1).scaleb(shortest.adjusted() - 1)
-    return float(shortest.quantize(unit, ROUND_CEILING))
+    if error > MOST:
+        return percent(error)
+    return f"up to {percent(upwards((1.0 - ROUNDED) * error, 2))}"
 
 
 def counted(number: int, noun: str) -> str:

@@ -18,9 +18,9 @@ from derivation.scene.model import Model
 from derivation.scene.output import answer, result_errors, unusable
 from derivation.scene.output.history import POINTS, DynamicHistory, History, Pressures, times_of
 from derivation.scene.output.pressure_profile import pressure_profile
-from derivation.scene.quantity import counted, digits_of
+from derivation.scene.quantity import counted, digits_of, rounded_up
 from derivation.scene.scene import Scene
-from derivation.scene.selection.achieved_accuracy import AchievedAccuracy, rounded_up
+from derivation.scene.selection.achieved_accuracy import AchievedAccuracy
 from derivation.scene.selection.effect_selection import SelectedEffects
 from derivation.scene.selection.method_selection import dynamic_impact, moved
 from derivation.scene.tensile_stress import TensileStress, tensile_stress
@@ -59,7 +59,8 @@ class Result:
     max_pressure
         Largest contact pressure, at the centre of the widest contact [Pa]; at most 1.6 times the
         yield stress in a plastic contact, only the elastic part in a viscoelastic contact. Omitted
-        effects may change it by up to three times as much as the other results.
+        effects may change it by up to three times as much as the other results, and an omitted
+        yield more: its error includes by how much it exceeds 1.6 times the yield stress.
     comparison
         The paper's motion, for comparison; None unless `effects.compare_paper_motion` is true.
     max_tensile_stress
@@ -341,12 +342,11 @@ class Result:
     def disabled_note(self) -> str:
         """Bounds on the change by disabled effects, as a sentence; empty if there are none."""
         rows = [row for row in self.effects.rows if row.disabled]
-        known = ", ".join(
-            f"{row.name} (at most {rounded_up(row.bound)})"
-            if row.bound < NO_BOUND
-            else f"{row.name} (no bound)"
+        sizes = (
+            f"at most {rounded_up(row.bound)}" if row.bound < NO_BOUND else "no bound"
             for row in rows
         )
+        known = ", ".join(f"{row.name} ({x})" for row, x in zip(rows, sizes, strict=True))
         return f"Disabled by the scene, not included in this bound: {known}." if rows else ""
 
     @property

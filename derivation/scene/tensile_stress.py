@@ -97,12 +97,11 @@ def tensile_stress(
     contact_time, indentation, force, a, _ = numbers
     model = law.model
     if motion is not None:
-        stress, error, _ = motion.back_face
-        measured = stress_error(model, a, contact_time)
+        found, measured = motion.back_face, stress_error(model, a, contact_time)
         if on_edge and motion.inertia.total_time > echo_time(motion.law.model):
-            measured = max(measured, edge_stress_error(model, a))
-        error += measured
-        return TensileStress(stress, error + stress_change(law, motion), static=False)
+            measured = max(measured, found.on_edge + edge_stress_error(model, a))
+        error = found.error + measured + stress_change(law, motion)
+        return TensileStress(found.stress, error, static=False)
     stress = law.max_tensile_stress(a, force, on_edge)
     period = plate_times(model).period if model.density else 0.0
     radii, times = np.array([a]), np.array([contact_time])

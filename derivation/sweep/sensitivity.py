@@ -8,6 +8,7 @@ import numpy as np
 from derivation.engine.text import aligned
 from derivation.scene.errors import SceneError
 from derivation.scene.result import UNITS
+from derivation.scene.scene import OUTPUTS, outputs_of
 from derivation.sweep.dataset import column
 from derivation.sweep.plan import Array, SaltelliPlan
 from derivation.sweep.store import Store
@@ -38,7 +39,10 @@ class Sensitivities:
     low, high
         Ends of the confidence intervals of both.
 
-    The indices are NaN if the scatter of a result is within its error bound.
+    unbounded
+        Results without an error bound, because `accuracy.outputs` does not name them.
+
+    The indices are NaN if the scatter of a result is within its error bound, or it has none.
     """
 
     keys: tuple[str, ...]
@@ -46,6 +50,7 @@ class Sensitivities:
     index: dict[str, Array]
     low: dict[str, Array]
     high: dict[str, Array]
+    unbounded: tuple[str, ...] = ()
 
     def to_text(self) -> str:
         """Return the indices as a table."""
@@ -61,7 +66,7 @@ class Sensitivities:
         return f"{title}\n\n{aligned(['key', '#first order', '#total order'], rows)}"
 
     def to_json(self) -> list[dict[str, Any]]:
-        """Return a row for each result and key; null if the scatter is within the error bound."""
+        """Return a row for each result and key; null where the indices are NaN."""
         return [
             {"result": name, "key": key}
             | {
@@ -86,7 +91,9 @@ class Sensitivities:
 
     def _shown(self, order: str, i: int, j: int) -> str:
         value, low, high = (x[order][i, j] for x in (self.index, self.low, self.high))
-        return "no scatter" if np.isnan(value) else f"{value:.3f} ({low:.3f} to {high:.3f})"
+        if np.isnan(value):
+            return "unknown" if list(UNITS)[i] in self.unbounded else "no scatter"
+        return f"{value:.3f} ({low:.3f} to {high:.3f})"
 
 
 def sensitivities(store: Store) -> Sensitivities:
@@ -102,15 +109,30 @@ def sensitivities(store: Store) -> Sensitivities:
     table = store.table(0, plan.size)
     _check_finished(table)
     results = np.array([column(table, name) for name in UNITS])
-    error = 2 * float(np.max(column(table, "bound")))
-    varies = np.ptp(results, axis=1) > error * np.max(np.abs(results), axis=1)
+    outputs = outputs_of(store.study.scene)
+    errors = _errors(float(np.max(column(table, "bound"))), outputs)
+    varies = np.ptp(results, axis=1) > 2.0 * errors * np.max(np.abs(results), axis=1)
     values = results[varies].reshape(-1, plan.base, plan.each)
     values_by_order = np.full((3, len(ORDERS), len(UNITS), len(plan.keys)), np.nan)
     if values.size:
         values_by_order[:, :, varies] = _with_intervals(values)
-    return Sensitivities(
-        plan.keys, plan.size, *(dict(zip(ORDERS, x, strict=True)) for x in values_by_order)
-    )
+    unbounded = tuple(name for name, x in zip(UNITS, errors, strict=True) if np.isinf(x))
+    index, low, high = (dict(zip(ORDERS, x, strict=True)) for x in values_by_order)
+    return Sensitivities(plan.keys, plan.size, index, low, high, unbounded)
+
+
+def _errors(bound: float, outputs: tuple[str, ...]) -> Array:
+    """Return the bound on the error of each result [1]; infinite for one to which none applies.
+
+    The bound of the results that `accuracy.outputs` names may be that of simulations that omit what
+    the others depend on. The pressure has three times the error of all of them by omitted effects,
+    the stress on the back face that of the force.
+    """
+    errors = dict.fromkeys(UNITS, np.inf) | dict.fromkeys(outputs, bound)
+    if set(OUTPUTS) <= set(outputs):
+        errors["max_pressure"] = float(np.expm1(3.0 * np.log1p(bound)))
+    errors["max_tensile_stress"] = errors["max_force"]
+    return np.array([errors[name] for name in UNITS])
 
 
 def _check_finished(table: Any) -> None:

@@ -9,10 +9,9 @@ import numpy as np
 from derivation.engine.text import aligned, paragraph, wording
 from derivation.scene.effects import BY_NAME
 from derivation.scene.input.keys import written
-from derivation.scene.quantity import common_prefix, counted, percent
+from derivation.scene.quantity import common_prefix, counted, rounded_up, up_to
 from derivation.scene.result import UNITS
 from derivation.scene.scene import OUTPUTS, outputs_of
-from derivation.scene.selection.achieved_accuracy import rounded_up
 from derivation.scene.selection.effect_selection import named
 from derivation.sweep.dataset import column
 from derivation.sweep.sensitivity import Sensitivities
@@ -108,7 +107,7 @@ class Summary:
         if np.isnan(self.largest_bound):
             accuracy = "no point has a result"
         elif self.largest_model_error:
-            accuracy += f", model error up to {percent(self.largest_model_error)}"
+            accuracy += f", model error {up_to(self.largest_model_error)}"
         text = (
             f"{self.points:,} points: {counts} ({self.computed:,} computed in this run)\n\n"
             f"{aligned(['result', '#smallest', '#largest', 'unit'], rows)}\n\n"

@@ -69,3 +69,14 @@ def test_assumed_stress_includes_the_error_of_the_pressure() -> None:
         plate = loose["plate"] | {"yield_stress": factor * stress}
         warnings = simulate(read(loose | {"plate": plate})).warnings
         assert any("may yield" in text for text in warnings) == may_yield
+
+
+@pytest.mark.parametrize("speed", [0.11, 0.17, 0.23, 0.31, 0.37])
+def test_the_stated_stress_is_rounded_up(speed: float) -> None:
+    """It was rounded to the nearest three digits, and thus half of the time too small."""
+    plate = {"radius": 0.5, "thickness": 0.3}
+    scene = changed(sphere={"material": "steel"}, plate=plate, impact={"speed": speed})
+    stated, needed = assumed(scene), simulate(read(scene)).max_pressure / 1.6
+    assert stated is not None
+    assert needed <= stated <= 1.015 * needed
+    assert simulate(read(changed(**scene | {"plate": plate | {"yield_stress": stated}}))).dent == 0

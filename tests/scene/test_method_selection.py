@@ -14,9 +14,9 @@ from derivation.checks import bounds
 from derivation.cli import main
 from derivation.plate import budgets
 from derivation.plate.benchmark.speed import scenes
-from derivation.scene import SceneError, kernels, load, read, simulate
+from derivation.scene import SceneError, kernels, load, quantity, read, simulate
 from derivation.scene.model import Model, model_of
-from derivation.scene.selection import achieved_accuracy, method_selection
+from derivation.scene.selection import method_selection
 from derivation.scene.selection.achieved_accuracy import METHODS
 from generated import simple_impact
 from generated import simple_impact_numbers as numbers
@@ -300,7 +300,7 @@ def test_every_output_states_method_and_bound(tmp_path: Path, capsys: Captured) 
     ],
 )  # fmt: skip
 def test_printed_bound_is_rounded_up(bound: float, printed: str) -> None:
-    assert achieved_accuracy.rounded_up(bound) == printed
+    assert quantity.rounded_up(bound) == printed
 
 
 def test_history_uses_the_full_method() -> None:

@@ -3,6 +3,7 @@
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
 import pytest
 
 from derivation.checks import inertia as inertia_check
@@ -10,6 +11,7 @@ from derivation.checks import inertia_rows as random_scenes
 from derivation.scene import read, simulate
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic import waves
+from derivation.scene.dynamic.time_element import A
 from derivation.scene.model import InertiaSettings, model_of
 from derivation.scene.scene import OUTPUTS
 
@@ -76,3 +78,30 @@ def test_bound_without_viscosity_covers_oscillations_within_the_contact() -> Non
     [row] = [row for row in elastic.effects.rows if row.name == "viscosity"]
     changes = [abs(getattr(elastic, name) / getattr(viscous, name) - 1.0) for name in OUTPUTS]
     assert 5e-3 < max(changes) < row.bound + elastic.accuracy.bound + viscous.accuracy.bound
+
+
+@pytest.mark.parametrize("second", [1.0, 1.1, 1.3, 1.7, 2.3, 3.1])
+def test_a_contact_that_ends_with_a_large_radius_has_it_at_its_rounded_end(second: float) -> None:
+    """At an end that was rounded up the radius was 0, and the local indentation counted as bending.
+
+    This deflection, 24 times too large, increased the model error by stretching.
+    """
+    pressure, later = 1.0 / second**2, 3e-6 * second
+    scene = {
+        "sphere": {"radius": 0.0022, "density": 1100.0, "retardation_time": later,
+                   "youngs_modulus": 1e8 * pressure, "poissons_ratio": 0.45},
+        "plate": {"radius": 0.033, "thickness": 0.0096, "youngs_modulus": 3e10 * pressure,
+                  "poissons_ratio": 0.2, "density": 2300.0, "retardation_time": later},
+        "impact": {"speed": 0.35 / second},
+        "accuracy": {"rtol": 0.01},
+    }  # fmt: skip
+    result = simulate(read(scene))
+    motion, end = result.dynamics, result.contact_time
+    assert motion is not None
+    assert len(motion.inertia.contacts) == 1
+    before, *radii = result.at([0.9999 * end, end]).history().contact_radius
+    assert radii == [pytest.approx(before, rel=1e-2)]
+    [radius] = motion.rows(np.array([end * (1.0 + 2e-16)]))[A]
+    assert radius == pytest.approx(before, rel=1e-2)
+    deflection = motion.deflection_before_separation(result.effects.law)
+    assert deflection == pytest.approx(float(np.max(result.history(2001).deflection)), rel=0.05)

@@ -53,6 +53,23 @@ def test_indices_of_known_functions(monkeypatch: pytest.MonkeyPatch) -> None:
         assert np.isnan(data.sel(result=name)["first_order"]).all()
 
 
+def test_results_without_a_bound_have_no_indices(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A bound on the restitution says nothing of a force whose scatter may be an omitted effect."""
+    monkeypatch.setattr(run, "solve", rows)
+    monkeypatch.setattr(sensitivity, "RESAMPLES", 9)
+    vary, names = dict.fromkeys(KEYS, SPREAD), list(UNITS)
+    for outputs, known in (
+        (["restitution"], ["restitution"]),
+        (["max_force", "restitution"], ["restitution", "max_tensile_stress"]),  # P is constant
+        (["contact_time"], ["contact_time"]),
+    ):
+        accuracy = pc.Accuracy(rtol=0.1, outputs=outputs)
+        given = scene().model_copy(update={"accuracy": accuracy})
+        data = pc.sweep(given, vary, sample=64, sensitivity=True)
+        found = np.isfinite(data["first_order"]).all(dim="key")
+        assert [name for name in names if found.sel(result=name)] == known
+
+
 def test_confidence_intervals_have_their_coverage(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

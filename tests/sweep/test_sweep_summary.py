@@ -13,7 +13,7 @@ from derivation.engine.text import wording
 from derivation.scene import load, read, simulate
 from derivation.scene.errors import SceneError
 from derivation.scene.input.keys import varied
-from derivation.scene.quantity import percent
+from derivation.scene.quantity import up_to
 from derivation.scene.result import UNITS
 from derivation.scene.rows.rows import Rows
 from derivation.sweep import run
@@ -89,7 +89,7 @@ def test_largest_model_error_is_stated(capsys: pytest.CaptureFixture[str], tmp_p
     assert main(command) == 0
     fastest = simulate(read(varied(load(QUICK), {"impact.speed": 2.0})))
     assert json.loads(path.read_text())["largest_model_error"] == fastest.model_error > 0.0
-    assert f"model error up to {percent(fastest.model_error)}" in capsys.readouterr().out
+    assert f"model error {up_to(fastest.model_error)}" in capsys.readouterr().out
 
 
 def test_distribution_without_sample_asks_for_its_size() -> None:

@@ -28,7 +28,7 @@ from derivation.scene.impact import selected_effects, simulate
 from derivation.scene.numerics.crossing import last_true
 from derivation.scene.numerics.quadrature import NODES
 from derivation.scene.output.answer import model_note
-from derivation.scene.quantity import ceiling
+from derivation.scene.quantity import rounded_up
 from derivation.scene.quasi_static.motion import Motion
 from derivation.scene.quasi_static.viscous_law import bending_of
 from derivation.scene.result import Result
@@ -321,7 +321,7 @@ def _omission(selected: SelectedEffects, result: Result) -> str:
     deepest = result.max_indentation
     return (
         "The omitted effects, except those disabled in the scene, change each result of this "
-        f"impact by at most {ceiling(selected.error):.1e} (tolerance {selected.rtol:.3g}). This "
+        f"impact by at most {rounded_up(selected.error)} (tolerance {selected.rtol:.3g}). This "
         f"bound is valid up to the largest indentation of this impact, {deepest:.6g} m. The same "
         "effects are used for larger indentations, up to MAX_INDENTATION, where the bound may be "
         "exceeded."
@@ -329,7 +329,7 @@ def _omission(selected: SelectedEffects, result: Result) -> str:
 
 
 def _bound(bound: float) -> str:
-    return f"max. change {bound:.1e}" if math.isfinite(bound) else "no bound"
+    return f"max. change {rounded_up(bound)}" if math.isfinite(bound) else "no bound"
 
 
 def _wrapped(items: list[str] | tuple[str, ...]) -> list[str]:

@@ -12,8 +12,10 @@ from derivation.scene.contact_law.corrections import (
     profile_correction,
     stretching,
 )
+from derivation.scene.contact_law.impact_errors import EXACT, ImpactErrors
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.errors import SceneError, wide_contact
+from derivation.scene.kernels import Numbers
 from derivation.scene.model import Model
 from derivation.scene.numerics.quadrature import gauss
 from derivation.scene.scales import zener_number
@@ -159,8 +161,9 @@ def warnings_at(
     indentation: float,
     deflection: float | None = None,
     correction: float | None = None,
+    errors: ImpactErrors = EXACT,
 ) -> tuple[str, ...]:
-    """Return warnings about a wide contact or a large deflection.
+    """Return warnings about a wide contact or a large deflection, or one that may be so.
 
     Parameters
     ----------
@@ -172,33 +175,46 @@ def warnings_at(
         Largest deflection of the plate at the axis [m]; by default that of the quasi-static plate.
     correction
         The `pressure_correction`, if it has been computed.
+    errors
+        Errors of radius and indentation.
     """
     model, notes = law.model, []
     thickness = 2 * model.h
-    if a / thickness > HERTZ_LIMIT and not law.solved:
+    widest = float(errors.largest_radius(a))
+    if widest / thickness > HERTZ_LIMIT and not law.solved:
         if correction is None:
             correction = float(pressure_correction(model, a, indentation))
         notes.append(
-            f"contact radius over thickness a/H = {a / thickness:.3g} exceeds "
-            f"{HERTZ_LIMIT}: the pressure is no longer Hertzian; "
+            f"contact radius over thickness a/H = "
+            f"{_compared(a / thickness, widest / thickness, HERTZ_LIMIT)}: the pressure is no "
+            f"longer Hertzian; "
             f"{correction_in_words(correction)}"
         )
-    if a / model.R > PARABOLOID_LIMIT and not law.spherical:
+    if widest / model.R > PARABOLOID_LIMIT and not law.spherical:
         notes.append(
-            f"contact radius over sphere radius a/R = {a / model.R:.3g} exceeds "
-            f"{PARABOLOID_LIMIT}: the law approximates the sphere by a paraboloid; "
+            f"contact radius over sphere radius a/R = "
+            f"{_compared(a / model.R, widest / model.R, PARABOLOID_LIMIT)}: the law approximates "
+            "the sphere by a paraboloid; "
             f"{correction_in_words(profile_correction(model, a, indentation))}"
         )
     if deflection is None:
         deflection = indentation - float(local_indentation(law, a))
-    if deflection / thickness > STRETCH_LIMIT:
+    largest = float(errors.largest_deflection(deflection, indentation))
+    if largest / thickness > STRETCH_LIMIT:
+        ratios = _compared(deflection / thickness, largest / thickness, STRETCH_LIMIT)
         notes.append(
-            f"plate deflection over thickness w/H = {deflection / thickness:.3g} exceeds "
-            f"{STRETCH_LIMIT}: membrane stretching makes the plate stiffer than in the linear law, "
-            "under a static load by a factor of about "
+            f"plate deflection over thickness w/H = {ratios}: membrane stretching makes the plate "
+            "stiffer than in the linear law, under a static load by a factor of about "
             f"{1.0 + stretching(model, deflection):.3g}"
         )
     return tuple(notes)
+
+
+def _compared(value: float, largest: float, limit: float) -> str:
+    """Return a value that exceeds a limit, or may do so within its error, in words."""
+    if value > limit:
+        return f"{value:.3g} exceeds {limit}"
+    return f"{value:.3g}, within its error up to {largest:.3g}, may exceed {limit}"
 
 
 class PlateTimes(NamedTuple):
@@ -223,6 +239,7 @@ def neglects_inertia(
     deflection: float,
     dynamic: bool = False,
     known: PlateTimes | None = None,
+    errors: ImpactErrors = EXACT,
 ) -> bool:
     """Return whether plate inertia is neglected but may matter; False if the density is unknown.
 
@@ -231,12 +248,12 @@ def neglects_inertia(
     if dynamic or not model.density:
         return False
     times = known or plate_times(model)
-    if slow_for(model, contact_time, times):
+    if slow_for(model, errors.shortest_time(contact_time), times):
         return False
     return bool(times.zener > ZENER_LIMIT or deflection > DEFLECTION_LIMIT)
 
 
-def slow_for(model: Model, contact_time: float, known: PlateTimes | None = None) -> bool:
+def slow_for(model: Model, contact_time: Numbers, known: PlateTimes | None = None) -> bool:
     """Return whether an impact is slow enough for a plate to be quasi-static."""
     period = (known or plate_times(model)).period
     return bool(contact_time >= QUASI_STATIC_PERIODS * period)
@@ -248,6 +265,7 @@ def motion_warnings(
     deflection: float,
     dynamic: bool = False,
     known: PlateTimes | None = None,
+    errors: ImpactErrors = EXACT,
 ) -> tuple[str, ...]:
     """Return warnings about neglected plate inertia and thickness echoes; none without density.
 
@@ -261,12 +279,14 @@ def motion_warnings(
         Whether plate inertia is included.
     known
         Characteristic times of the plate, if they have been computed.
+    errors
+        Error of the contact time.
     """
     if not model.density:
         return ()
     zener, period, echoes = times = known or plate_times(model)
     notes = []
-    if neglects_inertia(model, contact_time, deflection, dynamic, times):
+    if neglects_inertia(model, contact_time, deflection, dynamic, times, errors):
         notes.append(
             f"plate inertia is neglected but may matter: Zener parameter {zener:.3g} (negligible "
             f"below {ZENER_LIMIT}); contact time / first bending period "
@@ -275,7 +295,7 @@ def motion_warnings(
         )
     plate = model.inertia
     echoing = dynamic and plate.branches == "all" and not plate.infinite_plate
-    if contact_time < echoes and not echoing:
+    if float(errors.shortest_time(contact_time)) < echoes and not echoing:
         waves = (
             "through-thickness wave reflections return during the contact, but the model neglects "
             "them"
@@ -286,7 +306,8 @@ def motion_warnings(
                 "in the model the thickness responds without delay"
             )
         notes.append(
-            f"the contact time is below 4 H/c_P = {echoes:.3g} s (H thickness, c_P speed of "
+            f"the contact time {'is' if contact_time < echoes else 'may be'} below 4 H/c_P = "
+            f"{echoes:.3g} s (H thickness, c_P speed of "
             f"compressional waves): {waves}"
         )
     return tuple(notes)

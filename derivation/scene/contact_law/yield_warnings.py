@@ -13,7 +13,7 @@ import numpy as np
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.yielding import onset_of
 from derivation.scene.input.body_materials import body_of, own_materials
-from derivation.scene.quantity import prefixed
+from derivation.scene.quantity import ROUNDED, prefixed, upwards
 from derivation.scene.scene import Scene
 from generated.plasticity_kernels import beyond, risen
 from generated.plasticity_numbers import FULLY_PLASTIC, YIELD_LIMIT
@@ -99,7 +99,10 @@ def assumed_yield_stress(scene: Scene, pressure: float, bending: float) -> str:
     }
     if not assumed:
         return ""
-    stresses = {name: " ".join(prefixed(x, "Pa", 3)) for name, x in assumed.items()}
+    stresses = {
+        name: " ".join(prefixed(upwards((1.0 - ROUNDED) * x, 3), "Pa", 3))
+        for name, x in assumed.items()
+    }
     bent = ", in bending" if bending > contact else ""
     least = " and ".join(
         f"{x} ({name}{bent if name == 'plate' else ''})" for name, x in stresses.items()

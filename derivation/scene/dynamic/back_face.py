@@ -71,11 +71,16 @@ class BackFace(NamedTuple):
     The estimated relative error is that by omitted modes. Stress and error are NaN and there is no
     course if the contact ends before a pressure wave has returned from the back face: finite
     elements do not resolve the stress of such an impact.
+
+    `on_edge` is how far the stress under a static load equal to the largest force, the limit of
+    the waves for slow impacts, is from that on the edge of the scene [1]: the edge has an effect on
+    the bending modes below their cut-off only. It is 0 if no wave returns from the edge.
     """
 
     stress: float
     error: float
     course: Course | None
+    on_edge: float = 0.0
 
 
 def back_face(motion: DynamicImpact) -> BackFace:
@@ -89,13 +94,21 @@ def back_face(motion: DynamicImpact) -> BackFace:
     count = _count(law, motion.inertia.total_time)
     with one_thread(), np.errstate(all="ignore"):
         rough, fine = (_course(motion, law, n) for n in (coarser(count), count))
+        returned = motion.inertia.total_time > echo_time(law.model)
+        lacking = _lacking_on_edge(motion, law, count) if returned else 0.0
     changes = np.abs(fine.stress - np.interp(fine.times, *rough))
-    if motion.inertia.total_time > echo_time(law.model):
-        # Short waves that return from the edge may add a peak at any time.
+    if returned:  # short waves that return from the edge may add a peak at any time
         changes = np.max(changes)
     largest = float(np.max(fine.stress))
     higher = float(np.max(fine.stress + changes)) - largest
-    return BackFace(largest, ESTIMATE * higher / abs(largest), fine)
+    return BackFace(largest, ESTIMATE * higher / abs(largest), fine, lacking / abs(largest))
+
+
+def _lacking_on_edge(motion: DynamicImpact, law: ContactLaw, count: int) -> float:
+    """Return by how much the static limit of the waves differs from the stress on the edge [Pa]."""
+    a, force = np.array([motion.max_contact_radius]), np.array([motion.max_force])
+    waves = _Waves.of(law, count, motion.max_contact_radius)
+    return float(np.abs(force * waves.static(a) - law.tensile_stresses(a, force))[0])
 
 
 def _narrower(law: ContactLaw, time: float) -> ContactLaw:
@@ -204,6 +217,12 @@ class _Waves:
                 z = row
             found.append(moved.imag @ self.weights)
         return np.concatenate(found) + force * self.remainder(a), z
+
+    def static(self, a: Array) -> Array:
+        """Return the stress per force of a static load, to which all waves respond [Pa/N]."""
+        modes = self.plate.modes
+        each = wave_stresses(self.law.model, modes) * modes.compliances
+        return self.remainder(a) + self.shares(modes, a) @ modes.by_shape(each)
 
     def remainder(self, a: Array) -> Array:
         """Return the stress of the quasi-static remainder per force at contact radii [Pa/N].

@@ -123,11 +123,12 @@ def _ripple_of_end(rough: DynamicImpact, found: DynamicImpact) -> float:
     contact. Their ripple moves this end, where it may vanish by chance.
     """
     end, unit = found.inertia.contacts[0].end, found.impact_history.problem.T
-    width = min(NEARBY * unit, 0.5 * end)
+    part = min(NEARBY, 0.5 * end / unit)
+    width = part * unit
     both = min(end, rough.inertia.contacts[0].end)
     if both <= end - width:  # the duration itself changes by more
         return 0.0
-    times = np.linspace(end - width, both, 2 + math.ceil(width / unit * LOOKS))
+    times = np.linspace(end - width, both, 2 + math.ceil(part * LOOKS))
     change = np.max(np.abs(_falling(found, times) - _falling(rough, times)))
     late = LINEAR * width
     rate = float(_falling(found, np.array([end - late]))[0]) / late

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.errors import SceneError, ToleranceError
-from derivation.scene.selection.achieved_accuracy import AchievedAccuracy, rounded_up
+from derivation.scene.quantity import rounded_up
+from derivation.scene.selection.achieved_accuracy import AchievedAccuracy
 
 
 def duration_may_jump(rtol: float) -> SceneError:

@@ -19,7 +19,7 @@ from derivation.scene.dynamic.time_element import A, C, E, P, V, W, Z
 from derivation.scene.dynamic.wave_problem import echo_time
 from derivation.scene.effects.effect import Results
 from derivation.scene.output.html import html_table
-from derivation.scene.quantity import ceiling, counted
+from derivation.scene.quantity import counted, rounded_up
 from derivation.scene.quasi_static.motion import EnergyBalance, Motion
 from derivation.scene.scene import OUTPUTS
 from generated.arrays import Double as Array
@@ -335,10 +335,10 @@ class DynamicImpact(Motion):
         if math.isfinite(max(inertia.mode_convergence)):
             change = (
                 "halving the number of bending modes changes the results by at most "
-                f"{ceiling(max(inertia.mode_convergence)):.1e}"
+                f"{rounded_up(max(inertia.mode_convergence))}"
             )
             if any(inertia.earlier_change):
-                change += f", and halving it again by {ceiling(max(inertia.earlier_change)):.1e}"
+                change += f", and halving it again by {rounded_up(max(inertia.earlier_change))}"
         return energies, ended + f"{counted(inertia.modes, 'mode')} ({branches}); {change}."
 
     def to_html(self) -> str:

@@ -18,8 +18,8 @@ from derivation.scene.measured.measurement import AGREES, UNITS, Measurement
 from derivation.scene.measured.rough_search import rough_value
 from derivation.scene.measured.specimen import measurement_of
 from derivation.scene.measured.trial import Trial
-from derivation.scene.quantity import digits_of, prefixed
-from derivation.scene.selection.achieved_accuracy import remaining, rounded_up
+from derivation.scene.quantity import digits_of, prefixed, rounded_up
+from derivation.scene.selection.achieved_accuracy import remaining
 
 if TYPE_CHECKING:
     from derivation.scene.scene import Scene

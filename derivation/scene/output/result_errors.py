@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 from derivation.scene.contact_law.yielding import dent_error
 from derivation.scene.errors import SceneError
+from derivation.scene.kernels import YIELD_LIMIT
 from derivation.scene.quantity import digits_of
 from derivation.scene.scene import OUTPUTS
 from derivation.scene.selection.method_selection import accuracy_on
@@ -12,7 +13,7 @@ from derivation.scene.selection.method_selection import accuracy_on
 if TYPE_CHECKING:
     from derivation.scene.result import Result
 
-FORCE = "max_force"
+FORCE, PLASTICITY = "max_force", "plasticity"
 RESULTS = (*OUTPUTS, "max_pressure", "max_tensile_stress", "total_time", "dent")
 SAME_ERROR = {"max_pressure": "max_contact_radius"}
 """The result whose model error another one has: p_0 is proportional to a."""
@@ -40,7 +41,9 @@ def bound_of(result: "Result", name: str) -> float:
     if name == "max_tensile_stress":
         outputs = (FORCE,)
     accuracy = accuracy_on(outputs, result.effects, result.dynamics, result.accuracy)
-    return accuracy.pressure_bound if name == "max_pressure" else accuracy.bound
+    if name == "max_pressure":
+        return max(accuracy.pressure_bound, _beyond_yield(result))
+    return accuracy.bound
 
 
 def digits_of_result(result: "Result", name: str) -> int:
@@ -76,8 +79,27 @@ def unknown(result: "Result") -> tuple[str, ...]:
     return tuple(name for name in others if not digits_of_result(result, name))
 
 
+def _omits_yield(result: "Result") -> bool:
+    """Return whether the contact may yield, but plasticity was omitted within the tolerance."""
+    rows = (row for row in result.effects.rows if row.name == PLASTICITY)
+    return any(row.bound and not (row.included or row.disabled) for row in rows)
+
+
+def _beyond_yield(result: "Result") -> float:
+    """Return how far the pressure exceeds that of yield, which was omitted [1].
+
+    A contact that yields has the same results up to its onset, and the pressure of the onset. Thus
+    this pressure is the smaller one of the limit and that of the elastic contact.
+    """
+    if not _omits_yield(result):
+        return 0.0
+    return max(0.0, result.max_pressure / (YIELD_LIMIT * result.model.yield_stress) - 1.0)
+
+
 def _dent_error(result: "Result", model_error: float) -> float:
     """Return the relative error of the dent [1], with a model error of the force [1]."""
+    if _omits_yield(result):
+        return math.inf
     accuracy = accuracy_on(OUTPUTS, result.effects, result.dynamics, result.accuracy)
     if math.isinf(accuracy.bound):
         return math.inf

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from derivation.scene.contact_law.corrections import stretching
 from derivation.scene.contact_law.edge_remainder import edge_remainders
+from derivation.scene.contact_law.impact_errors import ImpactErrors
 from derivation.scene.contact_law.limits import local_indentation, plate_times
 from derivation.scene.effects import EFFECTS
 from derivation.scene.errors import SceneError
@@ -321,6 +322,9 @@ class _Block:
             + np.expm1(np.log1p(bound_with(on_pressure)) + 2.0 * np.log1p(on_pressure)),
             "stress_error": bound_with(omitted_on("max_force"))
             + np.broadcast_to(errors, a.shape)[:, 0],
+        }
+        numbers_and_errors |= {
+            f"{name}_error": bound_with(omitted_on(name)) for name in ImpactErrors._fields
         }
         reasons = warnings_of_rows(law, numbers_and_errors, strength, which)
         indices = self.indices[rows[which]]

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from derivation.scene import kernels
 from derivation.scene.contact_law.corrections import pressure_correction
+from derivation.scene.contact_law.impact_errors import ImpactErrors
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import (
     DEFLECTION_LIMIT,
@@ -53,7 +54,8 @@ def warnings_of_rows(
         The law of all rows, with columns of numbers.
     results
         Columns of results by name, and of the relative errors `pressure_error` and `stress_error`
-        of the largest pressure and tensile stress [1], of all rows.
+        of the largest pressure and tensile stress, and `NAME_error` of the `ImpactErrors` [1], of
+        all rows.
     strength
         Tensile strength of the plate [Pa], if it is given.
     rows
@@ -92,6 +94,11 @@ def _numbers(law: ContactLaw, results: Mapping[str, Array]) -> dict[str, Array]:
     return known
 
 
+def _errors(one: Any) -> ImpactErrors:
+    """Return the relative errors of the results of a row, or of all rows [1]."""
+    return ImpactErrors(*(getattr(one, f"{name}_error") for name in ImpactErrors._fields))
+
+
 def _singles(
     known: Mapping[str, Array], rows: NDArray[np.intp]
 ) -> Iterator[tuple[int, SimpleNamespace]]:
@@ -106,14 +113,19 @@ def _possible(law: ContactLaw, known: Mapping[str, Array]) -> tuple[Mask, ...]:
     """Return the rows that may have warnings, for each kind of warning."""
     one, less = SimpleNamespace(**known), 1.0 - _ROUNDING
     lightest = np.maximum(SOLID_LIMIT * one.solid_density, one.lightest_density)
-    wide = _non_hertzian(one) | (one.deflection > less * STRETCH_LIMIT * 2.0 * one.h)
+    errors = _errors(one)
+    largest = errors.largest_deflection(one.deflection, one.max_indentation)
+    shortest = less * errors.shortest_time(one.contact_time)
+    wide = _non_hertzian(one) | (largest > less * STRETCH_LIMIT * 2.0 * one.h)
     if not law.spherical:
-        wide = wide | (one.max_contact_radius > less * PARABOLOID_LIMIT * one.R)
-    fast = QUASI_STATIC_PERIODS * one.period > less * one.contact_time
+        wide = wide | (
+            errors.largest_radius(one.max_contact_radius) > less * PARABOLOID_LIMIT * one.R
+        )
+    fast = QUASI_STATIC_PERIODS * one.period > shortest
     affected = (one.zener > less * ZENER_LIMIT) | (
         one.deflection_fraction > less * DEFLECTION_LIMIT
     )
-    moving = (fast & affected) | (one.echoes > less * one.contact_time)
+    moving = (fast & affected) | (one.echoes > shortest)
     limit = np.minimum(one.plate_yield_stress, one.strength)
     return (
         less * one.m < 4 / 3 * np.pi * one.R * one.R * one.R * lightest,
@@ -128,7 +140,8 @@ def _possible(law: ContactLaw, known: Mapping[str, Array]) -> tuple[Mask, ...]:
 
 def _non_hertzian(one: SimpleNamespace) -> Mask:
     """Return the rows whose contact may be too wide for the Hertz pressure."""
-    exceeded: Mask = one.max_contact_radius > (1.0 - _ROUNDING) * HERTZ_LIMIT * 2.0 * one.h
+    widest = _errors(one).largest_radius(one.max_contact_radius)
+    exceeded: Mask = widest > (1.0 - _ROUNDING) * HERTZ_LIMIT * 2.0 * one.h
     return exceeded
 
 
@@ -140,12 +153,13 @@ def _texts(law: ContactLaw) -> tuple[Texts, ...]:
         one.edge = law.model.edge
         of_row: Any = SimpleNamespace(model=one, solved=False, spherical=law.spherical)
         sizes = one.max_contact_radius, one.max_indentation, one.deflection
-        return warnings_at(of_row, *sizes, one.correction)
+        return warnings_at(of_row, *sizes, one.correction, _errors(one))
 
     def moving(one: Any) -> tuple[str, ...]:
         one.inertia = inertia
         times = PlateTimes(one.zener, one.period, one.echoes)
-        return motion_warnings(one, one.contact_time, one.deflection_fraction, known=times)
+        fraction, errors = one.deflection_fraction, _errors(one)
+        return motion_warnings(one, one.contact_time, fraction, known=times, errors=errors)
 
     def yielding(one: Any) -> tuple[str, ...]:
         weaker = "sphere" if one.yield_stress < one.plate_yield_stress else "plate"

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from derivation.scene.quantity import ceiling
+from derivation.scene.quantity import rounded_up
 from derivation.scene.scene import OUTPUTS
 
 METHODS = {
@@ -163,8 +163,3 @@ class AchievedAccuracy:
 def remaining(rtol: float | None, error: float) -> float | None:
     """Return the part of a tolerance that an error leaves [1]; None without a tolerance."""
     return None if rtol is None else (rtol - error) / (1.0 + error)
-
-
-def rounded_up(bound: float) -> str:
-    """Return a bound as text with two digits, rounded up."""
-    return f"{ceiling(bound):.1e}"

@@ -11,9 +11,8 @@ from derivation.scene.effects import BY_NAME, EFFECTS
 from derivation.scene.effects.effect import NO_BOUND, Effect, Results
 from derivation.scene.model import Model
 from derivation.scene.output.html import html_table
-from derivation.scene.quantity import ceiling, percent
+from derivation.scene.quantity import percent, rounded_up, upwards
 from derivation.scene.scene import OUTPUTS
-from derivation.scene.selection.achieved_accuracy import rounded_up
 from derivation.scene.selection.omission_bounds import change_of, error_of
 from derivation.scene.selection.selection import Selection, select
 
@@ -333,5 +332,5 @@ def _forced(included: bool, bound: float, output: str) -> str:
     if included:
         return "enabled in the scene"
     if bound < NO_BOUND:
-        return f"disabled in the scene: changes {output} by at most {percent(ceiling(bound))}"
+        return f"disabled in the scene: changes {output} by at most {percent(upwards(bound, 2))}"
     return "disabled in the scene: no bound available"

@@ -23,6 +23,7 @@ from derivation.scene.effects.effect import Results
 from derivation.scene.errors import SceneError, ToleranceError
 from derivation.scene.input.messages import shown
 from derivation.scene.model import Model
+from derivation.scene.quantity import rounded_up
 from derivation.scene.quasi_static import motion, simple_laws
 from derivation.scene.scene import TIGHTEST
 from derivation.scene.selection.achieved_accuracy import (
@@ -33,7 +34,6 @@ from derivation.scene.selection.achieved_accuracy import (
     AchievedAccuracy,
     Part,
     remaining,
-    rounded_up,
 )
 from derivation.scene.selection.effect_selection import NO_GROWTH, SelectedEffects, largest_growth
 

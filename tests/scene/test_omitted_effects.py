@@ -36,7 +36,8 @@ ALONE: dict[str, set[str]] = {
     "bending": {"bending"},
     "finite_radius": {"finite_radius"},
     "finite_thickness": WHOLE | {"bending", "finite_radius"},
-    "edge": ZEROS | {"supported_edge"},  # a series, from which the slope follows
+    # A series up to the largest radius by Hertz's law, from which the slope follows.
+    "edge": ZEROS | {"supported_edge", "hertz_constant", "hertz_depth"},
     "non_hertzian_pressure": ZEROS | {"contact", "plate"},
 }
 """Functions that an impact calls for Hertz's contact and one more effect."""

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from derivation.scene import kernels
+from derivation.scene import kernels, scales
 from derivation.scene.contact_law.corrections import pressure_correction
 from derivation.scene.contact_law.impact_errors import ImpactErrors
 from derivation.scene.contact_law.law import ContactLaw
@@ -128,7 +128,7 @@ def _possible(law: ContactLaw, known: Mapping[str, Array]) -> tuple[Mask, ...]:
     moving = (fast & affected) | (one.echoes > shortest)
     limit = np.minimum(one.plate_yield_stress, one.strength)
     return (
-        less * one.m < 4 / 3 * np.pi * one.R * one.R * one.R * lightest,
+        less * one.m < scales.volume(one.R) * lightest,
         wide,
         moving & (one.density > 0.0),
         exceeds(

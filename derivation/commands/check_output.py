@@ -49,8 +49,7 @@ def show_check(
         if result.note:
             write_output(f"{result.note}\n")
         for title, lines in result.listings:
-            if lines:
-                listing(title, lines)
+            listing(title, lines)
         if suggest_budgets:
             lines = ["[ulp]", *map(str, budgets)] if budgets else ["# no budget can be tightened"]
             OUT.say("\n".join(lines))

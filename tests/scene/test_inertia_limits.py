@@ -4,6 +4,7 @@ import math
 import tracemalloc
 from dataclasses import replace
 from itertools import pairwise
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -91,6 +92,13 @@ def thin_plate(number: float, count: int, phase: float) -> tuple[float, float]:
 def test_infinite_plate_satisfies_the_equation_of_zener(number: float) -> None:
     restitution, time = zener(number)
     assert infinite_plate_impact(number) == pytest.approx((time, restitution), rel=1e-7, abs=1e-9)
+
+
+def test_a_failed_integration_is_no_endless_contact(monkeypatch: pytest.MonkeyPatch) -> None:
+    failed = SimpleNamespace(status=-1, message="too many steps")
+    monkeypatch.setattr("scipy.integrate.solve_ivp", lambda *_, **__: failed)
+    with pytest.raises(SceneError, match="time can be computed"):
+        infinite_plate_impact(0.123, 1e-3, 1e3)
 
 
 def test_weight_holds_a_sphere_on_an_infinite_plate() -> None:

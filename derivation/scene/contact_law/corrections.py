@@ -16,8 +16,8 @@ _STIFFENING = {
     CLAMPED: kernels.stiffening_clamped,
 }
 _TENSION = {SUPPORTED: kernels.tension_supported, CLAMPED: kernels.tension_clamped}
-"""Stiffening by stretching over (w/H)^2, and tension over that of bending and w/H, as functions of
-Poisson's ratio; other edges are the paper's."""
+"""Stiffening by stretching divided by (w/H)^2, and the ratio of tension to bending stress divided
+by w/H, as functions of Poisson's ratio; other edges are the paper's."""
 
 
 def stretching(model: Model, deflection: Numbers) -> Numbers:

@@ -6,6 +6,7 @@ from functools import lru_cache
 import numpy as np
 
 from derivation.scene import kernels
+from derivation.scene.errors import SceneError
 from generated.arrays import Double as Array
 
 RTOL = 1e-10
@@ -38,6 +39,11 @@ def infinite_plate_impact(
         Contact time in units of T; infinite if the contact is endless, as the weight may make it.
     float
         Coefficient of restitution [1]; 0 if the contact is endless.
+
+    Raises
+    ------
+    SceneError
+        If the integration fails.
     """
     from scipy.integrate import solve_ivp
 
@@ -52,6 +58,11 @@ def infinite_plate_impact(
     released.terminal, released.direction = True, -1.0  # type: ignore[attr-defined]
     times, begin = (0.0, longest or SLOW * (1.0 + zener) ** 2), (0.0, 1.0)
     run = solve_ivp(rate, times, begin, "LSODA", events=released, rtol=RTOL, atol=1e-2 * RTOL)
-    if run.status != 1:
+    if run.status < 0:
+        raise SceneError(
+            "inertia.extent: expected a contact whose time can be computed, got the Zener "
+            f'parameter {zener:.3g}; remove extent = "infinite"'
+        )
+    if run.status == 0:
         return math.inf, 0.0
     return float(run.t[-1]), max(0.0, -float(run.y[1, -1]))

@@ -70,9 +70,8 @@ def _energies(axes: "Axes", result: Result, t: Array, rows: Array) -> None:
     m, v0 = result.model.m, result.model.v0
     sphere, plate = (rows[V] / v0) ** 2, 2.0 * rows[E] / m / v0**2
     contact = np.maximum(1.0 - sphere - plate, 0.0)
-    names = ["sphere", "plate", "contact"]
-    law = result.effects.law
-    if law.gravity or law.viscous or law.plastic or law.damping_ratio:
+    names, law = ["sphere", "plate", "contact"], result.effects.law
+    if law.viscous or law.plastic or law.damping_ratio:
         names[2] = "contact and dissipated"
     axes.stackplot(t, sphere, plate, contact, labels=names, colors=(BLUE, BROWN, GREEN), alpha=0.75)
     axes.legend(frameon=True, loc="center right")

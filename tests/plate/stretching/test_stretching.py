@@ -65,11 +65,23 @@ def test_bending_stress_of_a_narrow_contact_is_its_unit_times_a_logarithm(
     edge: str, g: float
 ) -> None:
     """The mean of log(b/r) - 1/2 + g under Hertz pressure, for nu = 0.3; a sum of modes."""
-    plate = ThinPlate(70e9, 0.3, 2500.0, 2e-3, 0.1, edge, modes=200, points=1500)
-    x = plate.wave_numbers / 50.0
+    logarithm = np.log(50.0) + 5.0 / 6.0 - np.log(2.0) + g
+    expected = float(TENSION[edge](np.array(0.3)))
+    assert tension_over_bending(edge, 0.3, 1 / 50) * logarithm == pytest.approx(expected, rel=0.01)
+
+
+@pytest.mark.parametrize("edge", TENSION)
+@pytest.mark.parametrize("nu", [-0.5, 0.0, 0.3, 0.49])
+@pytest.mark.parametrize("width", [0.05, 0.4])
+def test_tension_is_below_its_bound_in_narrow_contacts(edge: str, nu: float, width: float) -> None:
+    assert tension_over_bending(edge, nu, width) < float(TENSION[edge](np.array(nu)))
+
+
+def tension_over_bending(edge: str, nu: float, width: float) -> float:
+    """Return tension over bending stress and w/H for Hertz pressure within width b; by modes."""
+    plate = ThinPlate(70e9, nu, 2500.0, 2e-3, 0.1, edge, modes=200, points=1500)
+    x = plate.wave_numbers * width
     q = 3.0 * (np.sin(x) - x * np.cos(x)) / x**3 / (plate.masses * plate.frequencies**2)
     q *= plate.shapes[-1]
     ratio = plate.stretched(q)[0][0] / plate.thickness / (plate.bending_stresses @ q)
-    over = plate.shapes[-1] @ q / plate.thickness
-    logarithm = np.log(50.0) + 5.0 / 6.0 - np.log(2.0) + g
-    assert ratio / over * logarithm == pytest.approx(float(TENSION[edge](np.array(0.3))), rel=0.01)
+    return float(ratio / (plate.shapes[-1] @ q / plate.thickness))

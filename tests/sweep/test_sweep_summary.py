@@ -1,5 +1,6 @@
 """Summary of a study as the command prints it."""
 
+import io
 import json
 import math
 from pathlib import Path
@@ -9,6 +10,7 @@ import pytest
 from studies import QUICK, scene
 
 from derivation.cli import main
+from derivation.engine import console
 from derivation.engine.text import wording
 from derivation.scene import load, read, simulate
 from derivation.scene.errors import SceneError
@@ -112,3 +114,15 @@ def test_bound_is_that_of_the_outputs_of_the_scene() -> None:
     assert not unknown
     text = Summary(2, 2, {"finished": 2}, {}, 1e-3, 0.0, (), 0, None, ("restitution",)).to_text()
     assert text.endswith("Accuracy: relative error of restitution at most 1.0e-03")
+
+
+@pytest.mark.parametrize("terminal", [True, False])
+def test_a_study_in_python_shows_its_progress_on_a_terminal_only(
+    terminal: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shown = io.StringIO()
+    notes = console.Screen(file=shown, force_terminal=terminal, width=80)
+    monkeypatch.setattr(console, "NOTES", notes)
+    sweep(scene(), {"impact.speed": [0.5, 1.0]})
+    assert ("2/2" in shown.getvalue()) == terminal
+    assert bool(shown.getvalue()) == terminal

@@ -18,7 +18,11 @@ from derivation.scene.contact_law.limits import (
 )
 from derivation.scene.contact_law.stress_limits import pressure_warnings, stress_warnings
 from derivation.scene.contact_law.yield_warnings import impact_warnings
-from derivation.scene.dynamic.contact_warnings import fall_warnings, grazing_warnings
+from derivation.scene.dynamic.contact_warnings import (
+    duration_warnings,
+    fall_warnings,
+    grazing_warnings,
+)
 from derivation.scene.dynamic.stretching_error import (
     Deflections,
     deflections_of,
@@ -161,6 +165,7 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
         speeds = [touch.relative_approach_speed for touch in motion.inertia.contacts]
         warnings += ambiguity_warnings(scene, len(speeds))
         warnings += grazing_warnings(speeds, motion.least)
+        warnings += duration_warnings(motion.inertia.jump)
         warnings += jump_warnings(law, motion)
         warnings += unlike_jump_warnings(law, motion)
         rebound = motion.restitution * model.v0

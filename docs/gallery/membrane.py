@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 scene = pc.Scene(
     sphere=pc.Sphere(radius=0.01, mass=0.0002),
     plate=pc.Plate(radius=0.05, thickness=0.0005, material="aluminium", edge="clamped"),
-    impact=pc.Impact(speed=2.2),
+    impact=pc.Impact(speed=2.0),
     accuracy=pc.Accuracy(rtol=2e-2),
 )
 history = pc.simulate(scene).history(1601)

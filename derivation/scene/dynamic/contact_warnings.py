@@ -1,4 +1,4 @@
-"""Warnings about contacts after the first: grazing ones, and a fall back onto a moving plate."""
+"""Warnings about several contacts: grazing or uncertain ones, and a fall back onto the plate."""
 
 import math
 from collections.abc import Sequence
@@ -28,6 +28,23 @@ def grazing_warnings(speeds: Sequence[float], least: float) -> tuple[str, ...]:
     text = (
         f"{event}: the number of contacts and the restitution are sensitive to rounding of the "
         "input"
+    )
+    return (text,)
+
+
+def duration_warnings(jump: float) -> tuple[str, ...]:
+    """Warn of a first contact that more modes or wave branches may split, or join with the next.
+
+    Parameters
+    ----------
+    jump
+        Relative change of its duration if they do [1]; 0 if that is not expected.
+    """
+    if not jump:
+        return ()
+    text = (
+        "the omitted modes or wave branches may split the first contact or join it with the next "
+        f"one: contact_time may change by {percent(jump)}, which its error includes"
     )
     return (text,)
 

@@ -9,6 +9,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic.contact_sequence import ImpactHistory, least_work, work_of
+from derivation.scene.dynamic.first_contact import IRREGULAR, jump_since
 from derivation.scene.dynamic.modal import free_modes
 from derivation.scene.dynamic.mode_count import (
     FURTHER,
@@ -23,7 +24,7 @@ from derivation.scene.dynamic.reach import Reach
 from derivation.scene.dynamic.results import NONE, UNKNOWN
 from derivation.scene.dynamic.short_echoes import echo_errors
 from derivation.scene.dynamic.time_element import C, P
-from derivation.scene.dynamic.wave_motion import IRREGULAR, DynamicImpact, InertiaDetails
+from derivation.scene.dynamic.wave_motion import DynamicImpact, InertiaDetails
 from generated.arrays import Double as Array
 
 REGULAR, QUICK = 2.2, 16.0
@@ -66,7 +67,7 @@ def judged(rough: DynamicImpact, found: DynamicImpact) -> DynamicImpact:
     """Return the finer run with the relative change of each result since the coarser run."""
     pairs = zip(found.numbers, rough.numbers, strict=True)
     time, depth, force, radius, speed = (abs(new - old) / abs(new) for new, old in pairs)
-    change, jump = (time, depth, force, radius, speed), found.jump_since(rough)
+    change, jump = (time, depth, force, radius, speed), jump_since(found, rough)
     before = rough.inertia.mode_convergence
     recounted = len(found.inertia.contacts) != len(rough.inertia.contacts)
     ripple = _ripple(rough, found)

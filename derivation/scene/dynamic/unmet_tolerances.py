@@ -14,9 +14,9 @@ def duration_may_jump(rtol: float) -> SceneError:
     """Return the error for a first contact whose duration may jump."""
     return SceneError(
         f"rtol: contact_time, the duration of the first contact, cannot be computed to {rtol:.3g}, "
-        "because the omitted effects or modes may split this contact, or join it with the second; "
-        "reduce the tolerance, so that more of them are included, or remove contact_time from "
-        "accuracy.outputs"
+        "because the omitted effects, modes or wave branches may split this contact, or join it "
+        "with the next one; reduce the tolerance, so that more of them are included, or remove "
+        "contact_time from accuracy.outputs"
     )
 
 

@@ -9,14 +9,13 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import local_indentation
 from derivation.scene.dynamic.contact_sequence import ImpactHistory
+from derivation.scene.dynamic.first_contact import IRREGULAR, LOOKS, decisive_change, minima
 from derivation.scene.dynamic.history_at import deflections, rows_of
 from derivation.scene.dynamic.time_element import A, C, E, P, V, W, Z
-from derivation.scene.dynamic.wave_problem import echo_time
 from derivation.scene.effects.effect import Results
 from derivation.scene.output.html import html_table
 from derivation.scene.quantity import counted, rounded_up
@@ -27,12 +26,12 @@ from generated.arrays import Double as Array
 if TYPE_CHECKING:
     from derivation.scene.dynamic.back_face import BackFace
 
-IRREGULAR, LATE = 2.0, 2.5
-"""Estimated error of the omitted modes over the change since half as many modes [1]: of a result,
-and of the contact time. Just before the separation the force falls as the power 3/2 of the time
-left, and a mode lags it by a power -3/2 of its frequency. The sum over the omitted modes of a
-half-space, and with it the error of the contact time, decreases as the square root of their number:
-it tends to 1/(sqrt(2) - 1) = 2.42 times the change."""
+LATE = 2.5
+"""Estimated error of the contact time by omitted modes over its change since half as many [1]. Just
+before the separation the force falls as the power 3/2 of the time left, and a mode lags it by a
+power -3/2 of its frequency. The sum over the omitted modes of a half-space, and with it the error
+of the contact time, decreases as the square root of their number: it tends to 1/(sqrt(2) - 1) =
+2.42 times the change."""
 EARLIER = 1.0
 """Estimated error of the omitted modes over the change between the two runs before [1]. Waves that
 return during the contact make results converge irregularly: two runs may agree by chance."""
@@ -40,8 +39,6 @@ BY_CHANCE = 0.5
 """Least estimated change of a result by more modes, over the largest change of any result: two runs
 may agree in one result by chance. Without it, errors of single results in random scenes were up to
 2.2 times the estimates; 0.34 would have been enough for all of them."""
-LOOKS = 2001
-"""Number of times at which the force of a contact is evaluated."""
 FLIGHT = 129
 """Number of times at which the plate is evaluated in flight; a peak is underestimated by 1 %."""
 HEADS = (
@@ -119,8 +116,8 @@ class InertiaDetails:
     first_change
         Largest such change of duration, impulse and peak force of the first of several contacts.
     jump
-        Relative change of a viscoelastic first contact's duration if more modes split it, or join
-        it with the second contact [1]; 0 if that is not expected.
+        Relative change of the first contact's duration if more modes or branches split it, or join
+        it with the next contact [1]; 0 if that is not expected.
     """
 
     contacts: tuple[ContactInterval, ...]
@@ -176,7 +173,7 @@ class InertiaDetails:
         """Return the largest estimated error of outputs by all that is omitted [1]."""
         modes, branches = self.left(outputs)
         modes = max(modes, self.echo_error if "max_force" in outputs else 0.0)
-        return max(modes + branches, self.jump if "contact_time" in outputs else 0.0)
+        return modes + branches + (self.jump if "contact_time" in outputs else 0.0)
 
 
 @dataclass(frozen=True)
@@ -205,44 +202,12 @@ class DynamicImpact(Motion):
     @property
     def least(self) -> float:
         """Smallest force between two maxima in a contact, over the peak force [1]; 1 if none."""
-        return min(self._least_force(rows) for rows in self.courses)
+        return min(self.least_force(rows) for rows in self.courses)
 
-    @property
+    @cached_property
     def decisive_change(self) -> float:
-        """Relative change that may split the first contact, or join it with the second [1].
-
-        It is the smallest force between two maxima of the first contact, over the peak force; or
-        the time up to the second contact over the duration of the first.
-        """
-        first, *others = self.inertia.contacts
-        gap = (others[0].start - first.end) / (first.end - first.start) if others else math.inf
-        return min(self._least_force(self.courses[0]), gap)
-
-    def jump_since(self, coarser: "DynamicImpact") -> float:
-        """Return the relative change of the first contact's duration if it splits or joins [1].
-
-        It may split where a minimum of the force is below the error of the force there, and join
-        the second contact if the gap is below the error of its ends. Both errors are estimated from
-        a run with fewer modes, or from the short echoes in the omitted modes. This applies to
-        viscoelastic contacts, whose force follows the rate of the radius and converges slowly;
-        minima of elastic forces converge faster than that.
-        """
-        if not self.impact_history.problem.retardation_time:
-            return 0.0
-        first, *others = self.inertia.contacts[:2]
-        known, *same = coarser.inertia.contacts[:2]
-        times, force = np.linspace(first.start, first.end, LOOKS), self.courses[0][P]
-        error = IRREGULAR * np.abs(force - coarser.rows(times)[P])
-        echoes = np.where(times > echo_time(self.law.model), self.inertia.echo_ripple, 0.0)
-        error = np.maximum(error, echoes * self.max_force)
-        indices = _minima(force)
-        indices = indices[force[indices] <= error[indices]]
-        jump = float(np.max(first.end / times[indices] - 1.0, initial=0.0))
-        for after, before in zip(others, same, strict=False):
-            moved = abs(first.end - known.end) + abs(after.start - before.start)
-            if after.start - first.end <= IRREGULAR * moved:
-                jump = max(jump, 1.0 - first.end / after.end)
-        return jump
+        """Relative change that may split the first contact, or join it with the second [1]."""
+        return decisive_change(self)
 
     @property
     def flight(self) -> float:
@@ -250,10 +215,10 @@ class DynamicImpact(Motion):
         contacts = self.impact_history.contacts
         return sum(after.start - before.end for before, after in pairwise(contacts))
 
-    def _least_force(self, rows: Array) -> float:
+    def least_force(self, rows: Array) -> float:
         """Return the smallest force between two maxima, over the peak force [1]; 1 if none."""
         force = rows[P] / self.max_force
-        return float(np.min(force[_minima(force)], initial=1.0))
+        return float(np.min(force[minima(force)], initial=1.0))
 
     def largest_deflection(self, law: ContactLaw) -> float:
         """Return the largest deflection of the plate at the axis [m], in either direction.
@@ -385,8 +350,3 @@ class DynamicImpact(Motion):
         shapes = problem.contact.modes.shapes(r)
         found = [deflections(self.impact_history, float(t) / problem.T) @ shapes for t in times]
         return problem.depth * np.array(found)
-
-
-def _minima(force: Array) -> NDArray[np.intp]:
-    """Return the places of the minima between two maxima."""
-    return 1 + np.flatnonzero((force[1:-1] <= force[:-2]) & (force[1:-1] < force[2:]))

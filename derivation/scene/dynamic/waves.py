@@ -16,6 +16,7 @@ from derivation.engine.threads import one_thread
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic import contact_sequence
 from derivation.scene.dynamic.contact_sequence import ContactRun, ImpactHistory
+from derivation.scene.dynamic.first_contact import jump_since
 from derivation.scene.dynamic.infinite_plate import edge_heard, widened, wider
 from derivation.scene.dynamic.integration_error import error_after
 from derivation.scene.dynamic.mode_count import (
@@ -81,7 +82,7 @@ def impact(
     if law.model.inertia.infinite_plate and not law.model.inertia.modes:
         law, coarse = widened(law, budget)
     if law.model.inertia.branches == "auto" and not law.viscous:
-        law, rough = _branched(law, goal, outputs, budget)
+        law, rough = _branched(law, goal, reach, budget)
     run = Refinement(law, goal, reach, budget).impact(rough, coarse)
     while law.model.inertia.infinite_plate and edge_heard(run):
         law = wider(law, first, run)
@@ -109,7 +110,7 @@ def check_simulable(law: ContactLaw, rtol: float | None) -> None:
 
 
 def _branched(
-    law: ContactLaw, goal: float, outputs: tuple[str, ...], budget: Budget
+    law: ContactLaw, goal: float, reach: Reach, budget: Budget
 ) -> tuple[ContactLaw, DynamicImpact | None]:
     """Return the law with all branches if the higher ones matter, else with the lowest branch.
 
@@ -117,8 +118,10 @@ def _branched(
     tolerance. The estimate follows from a rough run with the lowest branch; those from its first
     contacts or from a radius alone are lower bounds, at which the run may end. The rough run is
     also returned if the lowest branch is sufficient. If the contact is so short that there would be
-    too many modes, the lowest branch is used.
+    too many modes, the lowest branch is used. The higher ones also matter if, by this change, the
+    first contact may split or join the next one, and its duration then exceeds the tolerance.
     """
+    outputs = reach.outputs
     every, lowest, close = branching(law, "all"), branching(law, "A0"), time_tolerance(goal)
     if not followed(every, finer(every, affordable(every))):
         return lowest, None
@@ -138,7 +141,10 @@ def _branched(
         return every, None
     budget.left -= history.work
     rough = dynamic_impact_of(lowest, history)
-    beyond_room = rough.inertia.complete and rough.inertia.left(outputs)[1] > room
+    beyond_room = rough.inertia.complete and (
+        rough.inertia.left(outputs)[1] > room
+        or ("contact_time" in outputs and jump_since(rough) > reach.need)
+    )
     if history.reason == contact_sequence.ENOUGH or beyond_room:
         return every, None
     return lowest, rough

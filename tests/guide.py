@@ -29,7 +29,11 @@ def _apply(target: str, text: str, root: Path) -> None:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
         return
-    name, where, line = (*re.split(r", (below|above|at the end)", target, maxsplit=1), "")[:3]
+    places = r", (new file|below|above|at the end)"
+    name, where, line = (*re.split(places, target, maxsplit=1), "")[:3]
+    if where == "new file":
+        (root / name).write_text(text)
+        return
     old = (root / name).read_text()
     if where == "at the end":
         (root / name).write_text(old + text)

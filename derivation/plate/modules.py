@@ -6,7 +6,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 from derivation.engine.emit.copies import NO_NOTES
-from derivation.engine.emit.package import Numbers, Routines, Shape
+from derivation.engine.emit.modules import Numbers, Routines
+from derivation.engine.emit.package import Shape
 from derivation.mathematics.bessel.kernels import RUNTIME, bessel_numbers
 from derivation.mathematics.bessel.routines import bessel_kernels
 from derivation.plate.subjects import exports

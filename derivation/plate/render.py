@@ -13,15 +13,8 @@ from derivation.engine.emit.kernels import (
     kernel_of_form,
     rows_by_module,
 )
-from derivation.engine.emit.package import (
-    CopiedModule,
-    Module,
-    Planned,
-    common_modules,
-    kernel_modules,
-    kernel_row,
-    module_files,
-)
+from derivation.engine.emit.modules import CopiedModule, Module, Planned, module_files
+from derivation.engine.emit.package import common_modules, kernel_modules, kernel_row
 from derivation.engine.emit.printed_fraction import arithmetic_of_modules, expect_printed_fraction
 from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.form import Form

@@ -40,6 +40,17 @@ MISTAKES = {
         r"budgets\.toml: expected an error budget for F_bonded; add for example `F_bonded = 4`",
         2,
     ),
+    "a copied module that needs SymPy": (
+        "kernels.py",
+        (
+            "PACKAGE = PackageSettings(\n",
+            "from derivation.engine.emit.modules import CopiedModule\n"
+            "PACKAGE = PackageSettings(\n"
+            '    handwritten=(CopiedModule("own", Path(__file__)),),\n',
+        ),
+        r"kernels\.py: expected imports from NumPy, the standard library, or `\.generated` .*sympy",
+        2,
+    ),
     "an exception in a function of the paper": (
         "kernels.py",
         (
@@ -239,11 +250,8 @@ def test_a_routine_of_a_paper_is_proved_tested_and_printed(
     right, mistake, message = WRONG_ROUTINES[wrong]
     routine = ROUTINE.replace(right, mistake)
     text = text.replace("PACKAGE = PackageSettings(\n", routine.lstrip())
-    text = text.replace(
-        "import FormulaModule, PackageSettings, Shape",
-        "import FormulaModule, PackageSettings, Routines, Shape",
-    )
-    head = "from derivation.engine.emit.routine import GUARDED, Routine, routine\n"
+    head = "from derivation.engine.emit.modules import Routines\n"
+    head += "from derivation.engine.emit.routine import GUARDED, Routine, routine\n"
     head += "from .theory import closed_forms\n"
     text = text.replace("from .vocabulary", f"{head}from .vocabulary")
     (folder / "kernels.py").write_text(text)

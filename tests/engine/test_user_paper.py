@@ -76,6 +76,23 @@ def test_package_is_up_to_date_and_needs_only_numpy(folder: Path, tmp_path: Path
     assert f"{float(done.stdout):.12f}" in diagnosed
 
 
+def test_algorithm_is_copied_and_needs_only_numpy(folder: Path, tmp_path: Path) -> None:
+    shutil.copytree(folder / "generated", tmp_path / "elastic_film")
+    program = (
+        "import sys, numpy as np, elastic_film as film; T = np.geomspace(1e-9, 3, 40);"
+        "print(np.max(np.abs(film.T_slipping(film.F_slipping(T)) / T - 1)));"
+        "assert np.isnan(film.T_slipping(np.array([-0.1, 1.1]))).all();"
+        "assert not {'derivation', 'sympy', 'scipy'} & set(sys.modules)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True, check=True
+    )
+    assert float(done.stdout) < 1e-14
+    original = (folder / "inverse.py").read_text().replace(".generated.", ".").splitlines()
+    copy = (folder / "generated" / "inverse.py").read_text().splitlines()
+    assert [line for line in copy if not line.startswith("# ")] == original
+
+
 def test_functions_pass_with_both_references(folder: Path) -> None:
     data = json.loads((folder / "reports" / "check.json").read_text())
     assert [row["kernel"] for row in data["rows"]] == [

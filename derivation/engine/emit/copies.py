@@ -110,14 +110,14 @@ def copy_text(
     added += (_stated_limit(functions[name], text, lines) for name, text in notes.items())
     for place, text in sorted(added, key=lambda pair: -pair[0]):
         lines[place:place] = text
-    return "\n".join(_relative(line, package) for line in lines) + "\n"
+    return "\n".join(relative(line, package) for line in lines) + "\n"
 
 
-def _relative(line: str, package: str) -> str:
-    """Replace an import from the package by a relative import."""
-    for own in (package, "derivation.engine.runtime"):
+def relative(line: str, package: str) -> str:
+    """Return a line with an import from the package as an import within it."""
+    for own in (package, f".{package}", "derivation.engine.runtime"):
         line = re.sub(rf"^from {re.escape(own)}\.(\w+) import", r"from .\1 import", line)
-    return re.sub(rf"^from {re.escape(package)} import", "from . import", line)
+    return re.sub(rf"^from \.?{re.escape(package)} import", "from . import", line)
 
 
 def _listed_definitions(tree: ast.Module) -> Iterator[tuple[ast.FunctionDef, ast.Call]]:

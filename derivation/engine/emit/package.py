@@ -1,19 +1,17 @@
 """Modules of a generated package, and their source code, from the forms of a paper."""
 
-import hashlib
-import math
-import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from importlib.metadata import version
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, replace
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import sympy as sp
 
-from derivation.engine.emit import copies, tables
 from derivation.engine.emit.budgets import HALF, Budget, read_budgets
+from derivation.engine.emit.copies import listed_functions
 from derivation.engine.emit.found_form import cached_form
+from derivation.engine.emit.handwritten import expect_imports, manifest_rows, public_functions
 from derivation.engine.emit.kernels import (
     EmittedKernel,
     Style,
@@ -22,13 +20,17 @@ from derivation.engine.emit.kernels import (
     rows_by_module,
     switch_text,
 )
-from derivation.engine.emit.names import expect_free_names
-from derivation.engine.emit.printed_fraction import expect_reason
+from derivation.engine.emit.modules import (
+    CopiedModule,
+    Module,
+    Numbers,
+    Planned,
+    Routines,
+    module_files,
+)
+from derivation.engine.emit.names import MODULES, expect_free_names
 from derivation.engine.emit.printer import to_numpy
-from derivation.engine.emit.routine import ARRAYS, QUIET_SCALARS, Dialect, Routine
-from derivation.engine.emit.routine import text as routine_text
 from derivation.engine.emit.routine_check import check_routine, imported
-from derivation.engine.emit.source import TEMPLATES, format_files, rendered_template
 from derivation.engine.formula.record import Record
 from derivation.engine.formula.vocabulary_check import expect_assumed_signs
 from derivation.engine.nearest import did_you_mean
@@ -41,76 +43,6 @@ from derivation.engine.rewrite.terms import UnreachableError
 RUNTIME = Path(__file__).parents[1] / "runtime"
 Shape = tuple[tuple[Step, ...], sp.Expr | Switch]
 """Steps and value of a form."""
-
-
-@dataclass(frozen=True)
-class Module:
-    """A module from a template: its name, template, context, and the template's folder."""
-
-    name: str
-    template: str
-    context: Mapping[str, Any]
-    folder: Path = TEMPLATES
-
-
-@dataclass(frozen=True)
-class Numbers:
-    """A module of constants: its name, the first line of its docstring, and the constants."""
-
-    name: str
-    title: str
-    constants: tuple[tables.Constant, ...]
-
-
-@dataclass(frozen=True)
-class Routines:
-    """A module of routines.
-
-    Parameters
-    ----------
-    name, title
-        Name of the module, and first line of its docstring.
-    routines
-        Its functions, in order.
-    imports
-        For each other module of the package, names that the functions may import from it.
-    dialect
-        The way in which expressions are printed: for arrays or for single numbers.
-    """
-
-    name: str
-    title: str
-    routines: tuple[Routine, ...]
-    imports: Mapping[str, tuple[str, ...]]
-    dialect: Dialect = ARRAYS
-
-
-@dataclass(frozen=True)
-class CopiedModule:
-    """A handwritten module that is copied.
-
-    Parameters
-    ----------
-    name
-        Name of the module in the package.
-    file
-        The original.
-    package
-        Import name of the package in the original.
-    budgets
-        Error budgets of the functions that the manifest lists, by name.
-    notes
-        Lines about errors, by function, for functions that the manifest does not list.
-    """
-
-    name: str
-    file: Path
-    package: str = "generated"
-    budgets: Mapping[str, Budget] = field(default_factory=dict)
-    notes: Mapping[str, Sequence[str]] = field(default_factory=dict)
-
-
-Planned = Module | Numbers | Routines | CopiedModule
 
 
 @dataclass(frozen=True)
@@ -152,6 +84,8 @@ class PackageSettings:
         Definitions of the building blocks.
     routines
         Further modules, of functions with several steps or results, each proved.
+    handwritten
+        Further modules: algorithms, which are copied line for line, and tables of numbers.
     """
 
     summary: str
@@ -162,6 +96,7 @@ class PackageSettings:
     stated: Callable[[Mapping[str, Block]], Mapping[str, Shape]] = _nothing
     blocks: tuple[Definition, ...] = HYPERBOLIC
     routines: tuple[Routines, ...] = ()
+    handwritten: tuple[CopiedModule | Numbers, ...] = ()
 
     def forms(self, formulas: Mapping[str, Record]) -> tuple[Form, ...]:
         """Return the stable form of every formula of the parts.
@@ -213,7 +148,7 @@ class PackageSettings:
                 f"{', '.join(formulas)}"
             )
         chosen = [formulas[name] for name in sorted(names)]
-        modules = [*(part.name for part in self.parts), *(part.name for part in self.routines)]
+        modules = [part.name for part in (*self.parts, *self.routines, *self.handwritten)]
         expect_free_names(modules, chosen, blocks)
         for formula in chosen:
             expect_assumed_signs(formula)
@@ -239,12 +174,21 @@ class PackageSettings:
         kernels = tuple(kernel_of_form(f, formulas[f.name], budgets[f.name], style) for f in forms)
         titles = {part.name: part.title for part in self.parts}
         exported = {part.name: list(part.formulas) for part in self.parts}
+        rows = [kernel_row(k) for k in kernels]
+        algorithms = self._algorithms(budgets)
+        for part in algorithms:
+            exported[part.name] = public_functions(part.file)
+            rows += manifest_rows(part.name, part.file, budgets, formulas)
         names = sorted(name for group in exported.values() for name in group)
-        manifest = {"rows": [kernel_row(k) for k in kernels], "citation": self.citation}
+        if twice := [name for name, after in pairwise(names) if name == after]:
+            raise ValueError(f"expected one function {twice[0]}, got two; rename one of them")
+        manifest = {"rows": rows, "citation": self.citation}
         package = {"summary": self.summary, "modules": exported, "all_names": names}
         planned = (
             *common_modules(known),
             *kernel_modules(kernels, titles, known),
+            *(part for part in self.handwritten if isinstance(part, Numbers)),
+            *algorithms,
             *self.routines,
             Module("manifest", "catalogue", manifest),
             Module("__init__", "package", package),
@@ -253,10 +197,22 @@ class PackageSettings:
         if self.routines:
             words = next(iter(formulas.values())).vocabulary
             with imported(files) as module:
-                for part in self.routines:
-                    for one in part.routines:
-                        check_routine(one, getattr(module(part.name), one.name), words)
+                for group in self.routines:
+                    for one in group.routines:
+                        check_routine(one, getattr(module(group.name), one.name), words)
         return files
+
+    def _algorithms(self, budgets: Mapping[str, Budget]) -> tuple[CopiedModule, ...]:
+        """Return the modules to be copied, each with the budgets of its functions."""
+        own = {*MODULES, *(p.name for p in (*self.parts, *self.routines, *self.handwritten))}
+        found = []
+        for part in self.handwritten:
+            if isinstance(part, CopiedModule):
+                expect_imports(part.file, part.package, own)
+                names = {function.name for function in listed_functions(part.file)}
+                known = {name: budgets[name] for name in names & budgets.keys()}
+                found.append(replace(part, budgets=known))
+        return tuple(found)
 
 
 def common_modules(known: Mapping[str, Block]) -> tuple[Planned, ...]:
@@ -281,69 +237,6 @@ def kernel_modules(
         context = {"title": titles[name], "functions": group, "blocks": used, "scalings": scalings}
         planned.append(Module(name, "kernels", context))
     return tuple(planned)
-
-
-def module_files(planned: Sequence[Planned]) -> dict[str, str]:
-    """Return the contents of a package's files by name; equal modules give equal bytes.
-
-    Copies keep their lines; all other files are formatted by ruff.
-    """
-    copied = {
-        f"{part.name}.py": _copied(part) for part in planned if isinstance(part, CopiedModule)
-    }
-    printed = {
-        f"{part.name}.py": _text(part) for part in planned if not isinstance(part, CopiedModule)
-    }
-    return copied | format_files(printed) | {"py.typed": ""}
-
-
-def _copied(part: CopiedModule) -> str:
-    expect_reason(part.name, part.file.read_text())
-    told = sorted(part.budgets.items()), *sorted(part.notes.items())
-    source = f"{part.file.read_text()}{''.join(map(str, told))}"
-    return copies.copy_text(part.file, part.package, header(source), part.budgets, part.notes)
-
-
-def _text(part: Module | Numbers | Routines) -> str:
-    if isinstance(part, Numbers):
-        return tables.module_text(part.title, header(repr(part.constants)), part.constants)
-    if isinstance(part, Routines):
-        return _routines_text(part)
-    return module_source(part)
-
-
-def _routines_text(part: Routines) -> str:
-    """Return the source of a module of routines.
-
-    Raises
-    ------
-    ValueError
-        If the routines use names that no import provides; the message states them.
-    """
-    needed = {name for r in part.routines for name in r.calls | r.constants}
-    given = {name for names in part.imports.values() for name in names}
-    if missing := needed - given - {r.name for r in part.routines}:
-        raise ValueError(f"{part.name}: expected modules for {', '.join(sorted(missing))}")
-    printed = [routine_text(r, part.dialect) for r in part.routines]
-    lines = _first_lines(printed, part.dialect)
-    for module, names in sorted(part.imports.items()):
-        used = sorted(needed & set(names))
-        lines += [f"from .{module} import {', '.join(used)}"] if used else []
-    body = "\n\n\n".join(["\n".join(lines), *printed])
-    return f'"""{part.title}"""\n{header(body)}\n\n{body}\n'
-
-
-def _first_lines(printed: Sequence[str], dialect: Dialect) -> list[str]:
-    """Return the imports from outside the package."""
-    code = "\n".join(printed)
-    lines = ["from collections.abc import Sequence"] if dialect.rows in code else []
-    if dialect is ARRAYS:
-        return [*lines, "import numpy as np", "", "from .arrays import Double"]
-    if dialect is QUIET_SCALARS:
-        return [*lines, "import numpy as np", ""]
-    if functions := sorted(set(re.findall(r"(?<!\.)\b[a-z]+\w*\b", code)) & set(vars(math))):
-        lines.append(f"from math import {', '.join(functions)}")
-    return [*lines, ""]
 
 
 def block_text(block: Block) -> dict[str, Any]:
@@ -377,23 +270,3 @@ def kernel_row(k: EmittedKernel) -> dict[str, Any]:
         "modes": k.modes,
         "decades": k.decades,
     } | k.budget.row()
-
-
-def module_source(module: Module) -> str:
-    """Return a module's source code; the header states versions and a hash of the input."""
-    source = repr(sorted(module.context.items()))
-    source += (module.folder / f"{module.template}.py.j2").read_text()
-    source += (TEMPLATES / "macros.j2").read_text()
-    return rendered_template(
-        module.template, {"header": header(source), **module.context}, module.folder
-    )
-
-
-def header(source: str) -> str:
-    """Return the comment that names the generator, and a hash of its input."""
-    digest = hashlib.sha256(source.encode()).hexdigest()
-    versions = f"platecontact {version('platecontact')} with SymPy {sp.__version__}"
-    return (
-        f"# Generated by {versions} from {digest[:16]}.\n"
-        "# Do not edit: run `platecontact generate` instead."
-    )

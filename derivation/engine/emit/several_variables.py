@@ -10,7 +10,8 @@ import sympy as sp
 
 from derivation.engine.emit.copies import function_text
 from derivation.engine.emit.kernels import lines
-from derivation.engine.emit.package import RUNTIME, Module, block_text, module_source
+from derivation.engine.emit.modules import Module, module_source
+from derivation.engine.emit.package import RUNTIME, block_text
 from derivation.engine.emit.printer import to_numpy
 from derivation.engine.emit.source import format_files
 from derivation.engine.emit.standalone import WIDTH, compiled_function

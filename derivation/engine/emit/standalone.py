@@ -8,7 +8,8 @@ import sympy as sp
 
 from derivation.engine.emit.copies import function_text
 from derivation.engine.emit.kernels import lines, switch_text
-from derivation.engine.emit.package import RUNTIME, Module, module_source
+from derivation.engine.emit.modules import Module, module_source
+from derivation.engine.emit.package import RUNTIME
 from derivation.engine.emit.printer import to_numpy
 from derivation.engine.emit.source import format_files
 from derivation.engine.rewrite.code_check import CodeCheck, Function, check_code

@@ -18,7 +18,7 @@ from pathlib import Path
 import flint
 import sympy as sp
 
-from derivation.engine.emit.package import Numbers
+from derivation.engine.emit.modules import Numbers
 from derivation.engine.emit.tables import Constant
 from derivation.engine.formula.ball import enclose, to_ball
 from derivation.mathematics.bessel.theory.functions import (

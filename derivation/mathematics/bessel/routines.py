@@ -2,8 +2,8 @@
 
 import sympy as sp
 
+from derivation.engine.emit.modules import Routines
 from derivation.engine.emit.named import Claims, named_routine
-from derivation.engine.emit.package import Routines
 from derivation.engine.emit.routine import Let, Routine, routine
 from derivation.mathematics.bessel.theory.functions import SHIFT, P, hankel, nu, x
 from derivation.mathematics.bessel.theory.zeros import slope_at_zero

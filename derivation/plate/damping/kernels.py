@@ -6,7 +6,7 @@
 import sympy as sp
 from sympy.codegen.cfunctions import expm1
 
-from derivation.engine.emit.package import Routines
+from derivation.engine.emit.modules import Routines
 from derivation.engine.emit.routine import (
     GUARDED,
     RAISED,

@@ -2,7 +2,7 @@
 
 import sympy as sp
 
-from derivation.engine.emit.package import Routines
+from derivation.engine.emit.modules import Routines
 from derivation.engine.emit.routine import Let, Routine, routine
 from derivation.plate.modules import ComputedModule
 from derivation.plate.stretching.theory import stretching

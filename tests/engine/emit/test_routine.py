@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mutants import of_expression
 
-from derivation.engine.emit.package import Routines, module_files
+from derivation.engine.emit.modules import Routines, module_files
 from derivation.engine.emit.routine import (
     QUIET_SCALARS,
     SCALARS,

@@ -5,7 +5,8 @@ from typing import Any
 import pytest
 import sympy as sp
 
-from derivation.engine.emit.package import Routines, common_modules, module_files
+from derivation.engine.emit.modules import Routines, module_files
+from derivation.engine.emit.package import common_modules
 from derivation.engine.emit.routine import (
     GUARDED,
     SCALARS,

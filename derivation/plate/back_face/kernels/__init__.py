@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from derivation.engine.emit.package import Routines
+from derivation.engine.emit.modules import Routines
 from derivation.plate.back_face.kernels import stress
 from derivation.plate.back_face.kernels.tables import numbers
 from derivation.plate.modules import ComputedModule, RuntimeModule

@@ -2,7 +2,7 @@
 
 import sympy as sp
 
-from derivation.engine.emit.package import Numbers
+from derivation.engine.emit.modules import Numbers
 from derivation.engine.emit.tables import Constant
 
 THIN = sp.Rational(1, 20)

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from derivation.engine.emit.package import Routines
+from derivation.engine.emit.modules import Routines
 from derivation.engine.emit.routine import SCALARS
 from derivation.plate.contact.kernels import law, moments, sensitivities, series
 from derivation.plate.contact.kernels.numbers import numbers

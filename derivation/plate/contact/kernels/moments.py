@@ -20,7 +20,7 @@ import sympy as sp
 from flint import arb as Ball
 
 from derivation.engine.cache import in_file
-from derivation.engine.emit.package import Numbers
+from derivation.engine.emit.modules import Numbers
 from derivation.engine.emit.tables import Constant
 from derivation.mathematics.bessel.kernels import first_true, nearest_double
 from derivation.plate.contact.theory.moments import (

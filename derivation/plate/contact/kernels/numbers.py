@@ -3,7 +3,7 @@
 import numpy as np
 import sympy as sp
 
-from derivation.engine.emit.package import Numbers
+from derivation.engine.emit.modules import Numbers
 from derivation.engine.emit.tables import Constant
 from derivation.plate.contact.kernels import tables
 from derivation.plate.contact.kernels.series import cubic_by_log

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from derivation.engine.emit.package import Routines
+from derivation.engine.emit.modules import Routines
 from derivation.plate.edge.kernels import clamped, supported
 from derivation.plate.edge.kernels.tables import numbers
 from derivation.plate.modules import ComputedModule, RuntimeModule

@@ -4,7 +4,7 @@ import textwrap
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from derivation.engine.emit.package import Routines
+from derivation.engine.emit.modules import Routines
 from derivation.plate.budgets import read_stated_limits
 from derivation.plate.edge_modes.kernels import amplitudes, edges, faces, states
 from derivation.plate.edge_modes.kernels.numbers import numbers

@@ -8,7 +8,7 @@ import flint
 import numpy as np
 import sympy as sp
 
-from derivation.engine.emit.package import Numbers
+from derivation.engine.emit.modules import Numbers
 from derivation.engine.emit.tables import Constant
 from derivation.engine.formula.ball import to_ball
 from derivation.mathematics.bessel.kernels import (

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from derivation.engine.emit.package import Routines
+from derivation.engine.emit.modules import Routines
 from derivation.plate.effects.kernels.numbers import effect_numbers
 from derivation.plate.effects.kernels.printed import ROUTINES
 from derivation.plate.modules import ComputedModule, RuntimeModule

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from derivation.engine.emit.package import Routines
+from derivation.engine.emit.modules import Routines
 from derivation.engine.emit.routine import SCALARS
 from derivation.plate.impact.kernels import simple, simple_laws
 from derivation.plate.impact.kernels.inversion import reversed_kernels

@@ -2,8 +2,8 @@
 
 import sympy as sp
 
+from derivation.engine.emit.modules import Routines
 from derivation.engine.emit.named import Claims, named_routine
-from derivation.engine.emit.package import Routines
 from derivation.engine.emit.routine import Let
 from derivation.engine.formula.proof import prove
 from derivation.engine.rewrite.form import TIMES

@@ -8,8 +8,8 @@ With D_n as in the theory, q = a/a_m and E the work over C a^5, the code compute
 
 import sympy as sp
 
+from derivation.engine.emit.modules import Routines
 from derivation.engine.emit.named import Claims, named_routine
-from derivation.engine.emit.package import Routines
 from derivation.engine.emit.routine import Facts, Let
 from derivation.plate.contact.theory.hertz import contact_radius
 from derivation.plate.impact.kernels.extremes import hertz_impact, number_of_energy, peak_ratios

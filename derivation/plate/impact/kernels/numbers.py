@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from derivation.engine.emit.package import Numbers
+from derivation.engine.emit.modules import Numbers
 from derivation.engine.emit.tables import Constant
 from derivation.plate.budgets import read_stated_limits
 from derivation.plate.contact.kernels.tables import IMPACT_NODES, INNER_NODES, gauss_legendre

@@ -8,8 +8,8 @@ of (16) smooth.
 
 import sympy as sp
 
+from derivation.engine.emit.modules import Routines
 from derivation.engine.emit.named import Claims, named_routine
-from derivation.engine.emit.package import Routines
 from derivation.engine.emit.routine import QUIET_SCALARS, Facts, Let
 from derivation.plate.contact.theory.divergence import printed_term
 from derivation.plate.contact.theory.hertz import contact_radius

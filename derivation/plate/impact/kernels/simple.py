@@ -11,7 +11,7 @@ import flint
 import sympy as sp
 from flint import arb as Ball
 
-from derivation.engine.emit.package import Numbers
+from derivation.engine.emit.modules import Numbers
 from derivation.engine.emit.tables import Constant
 from derivation.engine.formula.ball import evaluate
 from derivation.mathematics.bessel.kernels import nearest_double

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import sympy as sp
 
-from derivation.engine.emit.package import Routines
+from derivation.engine.emit.modules import Routines
 from derivation.engine.emit.routine import Let, Routine, Several, Statement, routine
 from derivation.plate.modes.theory.face_conditions import loaded
 from derivation.plate.modes.theory.interior import interior_fields

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from derivation.engine.emit.package import Numbers, Routines
+from derivation.engine.emit.modules import Numbers, Routines
 from derivation.engine.emit.tables import Constant
 from derivation.plate.modules import ComputedModule, RuntimeModule
 from derivation.plate.plasticity.kernels import fully_plastic, hertz, printed

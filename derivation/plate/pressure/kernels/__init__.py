@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from derivation.engine.emit.package import Routines
+from derivation.engine.emit.modules import Routines
 from derivation.plate.modules import ComputedModule, RuntimeModule
 from derivation.plate.pressure.kernels.numbers import pressure_numbers
 from derivation.plate.pressure.kernels.printed import ROUTINES

@@ -16,7 +16,7 @@ import numpy as np
 import sympy as sp
 from flint import arb as Ball
 
-from derivation.engine.emit.package import Numbers
+from derivation.engine.emit.modules import Numbers
 from derivation.engine.emit.tables import Constant
 from derivation.engine.formula.ball import enclose
 from derivation.mathematics.bessel.kernels import nearest_double

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import flint
 
-from derivation.engine.emit.package import Numbers, Routines
+from derivation.engine.emit.modules import Numbers, Routines
 from derivation.engine.emit.routine import SCALARS
 from derivation.engine.emit.tables import Constant
 from derivation.mathematics.bessel.kernels import nearest_double

@@ -2,7 +2,7 @@
 
 import sympy as sp
 
-from derivation.engine.emit.package import Numbers
+from derivation.engine.emit.modules import Numbers
 from derivation.engine.emit.tables import Constant
 from derivation.engine.rewrite.series import UNIT_ROUNDOFF
 from derivation.plate.vocabulary import gam, xi_R

@@ -44,9 +44,11 @@ MISTAKES = {
         "kernels.py",
         (
             "PACKAGE = PackageSettings(\n",
-            "from derivation.engine.emit.modules import CopiedModule\n"
-            "PACKAGE = PackageSettings(\n"
-            '    handwritten=(CopiedModule("own", Path(__file__)),),\n',
+            (
+                "from derivation.engine.emit.modules import CopiedModule\n"
+                "PACKAGE = PackageSettings(\n"
+                '    handwritten=(CopiedModule("own", Path(__file__)),),\n'
+            ),
         ),
         r"kernels\.py: expected imports from NumPy, the standard library, or `\.generated` .*sympy",
         2,

@@ -22,6 +22,7 @@ from derivation.scene.dynamic.contact_warnings import (
     duration_warnings,
     fall_warnings,
     grazing_warnings,
+    model_jump_warnings,
 )
 from derivation.scene.dynamic.stretching_error import (
     Deflections,
@@ -166,8 +167,8 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
         warnings += ambiguity_warnings(scene, len(speeds))
         warnings += grazing_warnings(speeds, motion.least)
         warnings += duration_warnings(motion.inertia.jump)
-        warnings += jump_warnings(law, motion)
-        warnings += unlike_jump_warnings(law, motion)
+        jumps = (*jump_warnings(law, motion), *unlike_jump_warnings(law, motion))
+        warnings += jumps or model_jump_warnings(motion.decisive_change, errors["max_force"])
         rebound = motion.restitution * model.v0
         returned = accuracy_on(("restitution",), selected, motion, accuracy)
         speed_error = returned.bound + errors["restitution"]

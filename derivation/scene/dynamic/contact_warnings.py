@@ -49,6 +49,25 @@ def duration_warnings(jump: float) -> tuple[str, ...]:
     return (text,)
 
 
+def model_jump_warnings(decisive_change: float, error: float) -> tuple[str, ...]:
+    """Warn of a first contact that the model error may split, or join with the next one.
+
+    Parameters
+    ----------
+    decisive_change
+        Relative change of the force that splits or joins it [1]; 1 if none does.
+    error
+        Model error of the force [1].
+    """
+    if error < decisive_change or decisive_change >= 1.0:
+        return ()
+    text = (
+        f"the model error of the force, {percent(error)}, may split the first contact or join it "
+        "with the next one: contact_time may change by a jump"
+    )
+    return (text,)
+
+
 def fall_warnings(
     gravity: float, rebound_speed: float, deflection: float, error: float = 0.0
 ) -> tuple[str, ...]:

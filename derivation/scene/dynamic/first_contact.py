@@ -43,11 +43,14 @@ class Place(NamedTuple):
         Time of the minimum, or of the largest gap [s].
     end
         End of the first contact if it jumps [s].
+    before
+        Largest approach before the minimum, over this displacement [1].
     """
 
     margin: float
     time: float
     end: float
+    before: float = math.inf
 
 
 def minima(course: Array) -> NDArray[np.intp]:
@@ -70,11 +73,13 @@ def approach(run: "DynamicImpact", times: Array, contact: int = 0) -> Array:
 
 def splits(run: "DynamicImpact") -> list[Place]:
     """Return where the first contact may end, in order."""
-    first, scale = run.inertia.contacts[0], run.max_indentation
+    first = run.inertia.contacts[0]
     times = np.linspace(first.start, first.end, LOOKS)
-    course = approach(run, times)
+    course = approach(run, times) / run.max_indentation
+    before = np.maximum.accumulate(course)
     return [
-        Place(float(course[i]) / scale, float(times[i]), float(times[i])) for i in minima(course)
+        Place(float(course[i]), float(times[i]), float(times[i]), float(before[i]))
+        for i in minima(course)
     ]
 
 
@@ -118,7 +123,7 @@ def jump_since(run: "DynamicImpact", coarser: "DynamicImpact | None" = None) -> 
     fixed = 2.0 * (run.inertia.omitted_branch_error[1] + integration_error(run.impact_history))
     found = splits(run)
     for place, changed in zip(found, _changes(run, coarser, found), strict=True):
-        if place.margin <= fixed + changed:
+        if place.margin <= fixed + changed < place.before:
             jump = max(jump, end / place.end - 1.0)
     for i, place in enumerate(gaps(run)):
         if place.margin > fixed + _changes(run, coarser, [place], i)[0]:
@@ -157,8 +162,10 @@ def _viscoelastic_jump(run: "DynamicImpact", coarser: "DynamicImpact") -> float:
     error = IRREGULAR * np.abs(force - coarser.rows(times)[P])
     echoes = np.where(times > echo_time(run.law.model), run.inertia.echo_ripple, 0.0)
     error = np.maximum(error, echoes * run.max_force)
+    # Before the force has exceeded its error for the first time, its minima mean nothing.
+    certain = int(np.argmax(force > error))
     indices = minima(force)
-    indices = indices[force[indices] <= error[indices]]
+    indices = indices[(force[indices] <= error[indices]) & (indices > certain)]
     jump = float(np.max(first.end / times[indices] - 1.0, initial=0.0))
     for after, before in zip(others, same, strict=False):
         moved = abs(first.end - known.end) + abs(after.start - before.start)

@@ -6,7 +6,7 @@ magnitudes from 1e-90 to 1e90, because a residual may vanish, or almost vanish, 
 
 import random
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import islice
 
@@ -28,6 +28,9 @@ domain."""
 _FAR = (36, 30), (12, 300)
 """Numbers of further points, and the largest binary exponents of their coordinates."""
 _FAR_OF_INTEGRALS = ((8, 3),)
+_CHANGE = sp.Rational(1, 997)
+"""Relative change of a claim, which a residual must show."""
+Residuals = Mapping[str, sp.Expr]
 
 
 class ProofError(FailedError):
@@ -36,12 +39,27 @@ class ProofError(FailedError):
 
 @dataclass(frozen=True)
 class Proof:
-    """A proved step: its name, argument, names of residuals, and the method."""
+    """A proved step.
+
+    Parameters
+    ----------
+    step, argument, residuals, method
+        Name, reasoning, labels of the residuals, and how they were reduced to zero.
+    determines
+        Whether the residuals are known to determine the claims.
+    claims
+        The proved expressions; a formula with this proof must have one of them. A proof that is
+        read from the cache does not contain them: its formulas were compared when they were made.
+    """
 
     step: str
     argument: str
     residuals: tuple[str, ...]
     method: str
+    determines: bool = False
+    claims: tuple[sp.Expr, ...] = field(
+        default=(), compare=False, repr=False, metadata={"cached": False}
+    )
 
     def _repr_markdown_(self) -> str:
         """Return the step, its argument and its residuals, for a notebook."""
@@ -49,8 +67,17 @@ class Proof:
         return f"**{self.step}.** {argument} Reduced to zero {self.method}: {vanish}."
 
 
-def prove(step: str, argument: str, residuals: Mapping[str, sp.Expr]) -> Proof:
+def prove(
+    step: str,
+    argument: str,
+    residuals: Residuals | Callable[..., Residuals],
+    *claims: sp.Expr,
+) -> Proof:
     """Prove that every residual is zero.
+
+    With `claims`, check that the residuals determine these expressions: a claim that is multiplied
+    by a constant or by a function of one of its symbols must leave a residual, not only at a fixed
+    value of this symbol. Formulas with this proof must have one of the claims as their expression.
 
     Parameters
     ----------
@@ -59,7 +86,10 @@ def prove(step: str, argument: str, residuals: Mapping[str, sp.Expr]) -> Proof:
     argument
         The reasoning in a sentence.
     residuals
-        Expressions that must vanish identically, by label.
+        Expressions that must vanish identically, by label; with claims, a function of the claims
+        that returns them.
+    claims
+        The expressions that are proved.
 
     Returns
     -------
@@ -69,20 +99,22 @@ def prove(step: str, argument: str, residuals: Mapping[str, sp.Expr]) -> Proof:
     Raises
     ------
     ProofError
-        If a residual does not vanish; the message states step, label and residual.
+        If a residual does not vanish; the message states step, label and residual. If the residuals
+        vanish for another claim too; the message states it.
     TypeError
         If a residual is no expression.
     ValueError
         If there are no residuals.
     """
-    if not residuals:
+    given = residuals(*claims) if callable(residuals) else residuals
+    if not given:
         raise ValueError(
             f"{step}: expected residuals, which are reduced to zero, got none; "
             'write for example {"equilibrium": left - right}'
         )
     methods = set()
-    for label, given in residuals.items():
-        residual = _as_expression(step, label, given)
+    for label, one in given.items():
+        residual = _as_expression(step, label, one)
         method = decide_zero(residual)
         if method is None:
             raise ProofError(
@@ -90,7 +122,55 @@ def prove(step: str, argument: str, residuals: Mapping[str, sp.Expr]) -> Proof:
             )
         methods.add(method)
     method = BY_BALLS if BY_BALLS in methods else SYMBOLIC
-    return Proof(step, argument, tuple(residuals), method)
+    if not callable(residuals):
+        return Proof(step, argument, tuple(given), method)
+    for number in range(len(claims)):
+        _expect_determined(step, residuals, claims, number)
+    return Proof(step, argument, tuple(given), method, bool(claims), claims)
+
+
+def _expect_determined(
+    step: str, residuals: Callable[..., Residuals], claims: tuple[sp.Expr, ...], number: int
+) -> None:
+    """Raise ProofError if the residuals vanish even if one claim is multiplied by a function.
+
+    If the function depends on a symbol, a residual must contain this symbol, or what it was
+    replaced by: a residual at a fixed value of the symbol is not sufficient.
+    """
+    claim, usual = claims[number], set[sp.Basic]()
+    for symbol in (None, *sorted(claim.free_symbols, key=str)):
+        other = claim * (1 + _CHANGE * (1 if symbol is None else symbol))
+        given = residuals(*claims[:number], other, *claims[number + 1 :])
+        changed = [sp.sympify(residual) for residual in given.values()]
+        if symbol is None:
+            usual.update(*(residual.free_symbols for residual in changed))
+        else:
+            most = len(claim.free_symbols)
+            changed = [
+                residual
+                for residual in changed
+                if residual.free_symbols - usual
+                or symbol in residual.free_symbols
+                or len(residual.free_symbols) >= most
+            ]
+        if not any(_is_not_zero(residual) for residual in changed):
+            raise ProofError(
+                f"{step}: expected residuals that determine {sp.sstr(claim):.100}"
+                f"{'' if symbol is None else f' at every {symbol}'}, but they vanish too if it is "
+                f"multiplied by {sp.sstr(other / claim)}; add a residual that contains it, such as "
+                "its difference to what it must equal"
+            )
+
+
+def _is_not_zero(residual: sp.Expr) -> bool:
+    """Return whether a residual is different from zero at a point; without balls, if expanded."""
+    if residual == 0:
+        return False
+    try:
+        points = sample_points(residual.free_symbols, _POINTS // 2)
+        return any(_excludes_zero(residual, values) for values in points)
+    except NotImplementedError:
+        return not reduces_to_zero(residual)
 
 
 def _as_expression(step: str, label: str, residual: object) -> sp.Expr:

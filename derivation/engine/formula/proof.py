@@ -134,18 +134,22 @@ def _expect_determined(
 ) -> None:
     """Raise ProofError if the residuals vanish even if one claim is multiplied by a function.
 
+    Of an integral, the integrand is multiplied.
+
     If the function depends on a symbol, a residual must contain this symbol, or what it was
     replaced by: a residual at a fixed value of the symbol is not sufficient.
     """
     claim, usual = claims[number], set[sp.Basic]()
-    for symbol in (None, *sorted(claim.free_symbols, key=str)):
-        other = claim * (1 + _CHANGE * (1 if symbol is None else symbol))
+    inner = claim.function if isinstance(claim, sp.Integral) else claim
+    for symbol in (None, *sorted(inner.free_symbols, key=str)):
+        factor = 1 + _CHANGE * (1 if symbol is None else symbol)
+        other = claim * factor if inner is claim else claim.func(inner * factor, *claim.limits)
         given = residuals(*claims[:number], other, *claims[number + 1 :])
         changed = [sp.sympify(residual) for residual in given.values()]
         if symbol is None:
             usual.update(*(residual.free_symbols for residual in changed))
         else:
-            most = len(claim.free_symbols)
+            most = len(inner.free_symbols)
             changed = [
                 residual
                 for residual in changed
@@ -157,7 +161,7 @@ def _expect_determined(
             raise ProofError(
                 f"{step}: expected residuals that determine {sp.sstr(claim):.100}"
                 f"{'' if symbol is None else f' at every {symbol}'}, but they vanish too if it is "
-                f"multiplied by {sp.sstr(other / claim)}; add a residual that contains it, such as "
+                f"multiplied by {factor}; add a residual that contains it, such as "
                 "its difference to what it must equal"
             )
 

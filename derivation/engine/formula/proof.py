@@ -134,35 +134,31 @@ def _expect_determined(
 ) -> None:
     """Raise ProofError if the residuals vanish even if one claim is multiplied by a function.
 
-    Of an integral, the integrand is multiplied.
-
-    If the function depends on a symbol, a residual must contain this symbol, or what it was
-    replaced by: a residual at a fixed value of the symbol is not sufficient.
+    The function is constant or linear in a symbol. In the second case a residual at a fixed value
+    of this symbol, whose response is that to a constant, does not count. Of an integral, the
+    integrand is multiplied.
     """
-    claim, usual = claims[number], set[sp.Basic]()
+    claim = claims[number]
     inner = claim.function if isinstance(claim, sp.Integral) else claim
-    for symbol in (None, *sorted(inner.free_symbols, key=str)):
-        factor = 1 + _CHANGE * (1 if symbol is None else symbol)
+
+    def changed(factor: sp.Expr) -> list[sp.Expr]:
         other = claim * factor if inner is claim else claim.func(inner * factor, *claim.limits)
         given = residuals(*claims[:number], other, *claims[number + 1 :])
-        changed = [sp.sympify(residual) for residual in given.values()]
+        return [sp.sympify(residual) for residual in given.values()]
+
+    scaled = changed(1 + _CHANGE)
+    for symbol in (None, *sorted(inner.free_symbols, key=str)):
         if symbol is None:
-            usual.update(*(residual.free_symbols for residual in changed))
+            noticed, at = any(map(_is_not_zero, scaled)), ""
         else:
-            most = len(inner.free_symbols)
-            changed = [
-                residual
-                for residual in changed
-                if residual.free_symbols - usual
-                or symbol in residual.free_symbols
-                or len(residual.free_symbols) >= most
-            ]
-        if not any(_is_not_zero(residual) for residual in changed):
+            pairs = zip(changed(1 + _CHANGE * symbol), scaled, strict=True)
+            noticed = any(_depends(one, symbol, other) for one, other in pairs)
+            at = f" at every {symbol}"
+        if not noticed:
             raise ProofError(
-                f"{step}: expected residuals that determine {sp.sstr(claim):.100}"
-                f"{'' if symbol is None else f' at every {symbol}'}, but they vanish too if it is "
-                f"multiplied by {factor}; add a residual that contains it, such as "
-                "its difference to what it must equal"
+                f"{step}: expected residuals that determine {sp.sstr(claim):.100}{at}, but they "
+                f"vanish too if it is multiplied by {1 + _CHANGE * (symbol or 1)}; add a residual that contains it, such as its "
+                "difference to what it must equal"
             )
 
 
@@ -175,6 +171,22 @@ def _is_not_zero(residual: sp.Expr) -> bool:
         return any(_excludes_zero(residual, values) for values in points)
     except NotImplementedError:
         return not reduces_to_zero(residual)
+
+
+def _depends(residual: sp.Expr, symbol: sp.Symbol, scaled: sp.Expr) -> bool:
+    """Return whether a residual is no constant times `scaled`, the response to a constant."""
+    if not _is_not_zero(residual):
+        return False
+    if symbol in residual.free_symbols or not _is_not_zero(scaled):
+        return True
+    points = sample_points(residual.free_symbols | scaled.free_symbols, _POINTS // 2)
+    ratios = [
+        one / other
+        for values in points
+        for one, other in zip(_balls(residual, values), _balls(scaled, values), strict=True)
+        if one.is_finite() and other.is_finite() and not other.contains(0)
+    ]
+    return any(not ratio.overlaps(ratios[0]) for ratio in ratios)
 
 
 def _as_expression(step: str, label: str, residual: object) -> sp.Expr:

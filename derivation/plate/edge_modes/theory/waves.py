@@ -149,12 +149,35 @@ def edges() -> tuple[Formula, ...]:
     known = {g_1: u_1(), g_2: u_2() / left(), k_2: k_n * sp.sqrt(left())}
     moment, ratio = bend - (1 - nu) * turn, turn / (bend - (1 - nu) * turn)
     free = turn - CLAMP * eta * (bend - turn)
+    total = k_n**2 + k_2**2
+    values = PART, TURN - SUPPORTED * BEND, TURN - CLAMPED * BEND
+    stated = PART, TURN - SUPPORTED * total, TURN - CLAMPED * total
+    # psi and psi' at the edge: M = 0 is psi' + nu psi = 0, the clamp is psi = chi eta psi'.
+    turned, bent = J0 * TURN, J0 * (BEND - TURN)
+    conditions = (bent + nu * turned) / (nu - 1), turned - CLAMP * eta * bent
+    conditions = conditions[0], conditions[1] / (1 + CLAMP * eta)
+
+    def in_terms(*claims: sp.Expr) -> dict[str, sp.Expr]:
+        amplitude, *frequencies = claims[:3]
+        part, *said = claims[3:]
+        return {
+            "amplitude": J0 - amplitude * in_k(I0),
+            "amplitude in k_2": J0 - part * I0,
+        } | {
+            f"condition {number}": in_k(J0) * value - in_k(condition)
+            for number, (value, condition) in enumerate(zip(frequencies, conditions, strict=True))
+        } | {
+            f"stated {number}": in_k(text) - value
+            for number, (value, text) in enumerate(zip(frequencies, said, strict=True))
+        }
+
     proof = prove(
         "Edges of a shear-deformable plate",
         r"Rotation and its slope are taken at the edge. $S/\Gamma$ is expressed by "
         r"$\psi/M$, whose slope has the same sign. For a thin plate, where $k_2 = k$ and $g_1 "
         r"= g_2 = 1$, the equations become those of step 29.",
-        {
+        lambda *claims: in_terms(*claims)
+        | {
             "deflection": DEFLECTION.subs({_r: 1, c: PART}),
             "rotation": psi.subs(_r, 1) - J0 * TURN,
             "slope": slope - J0 * (BEND - TURN),
@@ -168,24 +191,25 @@ def edges() -> tuple[Formula, ...]:
             "thin clamp": _thin(TURN - CLAMPED * BEND)
             - k_n * thin.frequency_equations()[1].expression / (thin.J0 * thin.I0),
         },
-    )
-    total = k_n**2 + k_2**2
+        *(in_k(value) for value in values), *stated,
+    )  # fmt: skip
     rows = (
         ("evanescent_amplitude", "c", (
             "amplitude of $I_0$ in the mode $J_0(k r/b) - c I_0(k_2 r/b)$ of a plate"
-        ), PART,
-         PART, ()),
+        ), ()),
         ("supported_wave", "F_s", "frequency function, zero at wave numbers of a supported plate",
-         TURN - SUPPORTED * BEND, TURN - SUPPORTED * total, ("evanescent_amplitude",)),
+         ("evanescent_amplitude",)),
         ("clamped_wave", "F_c", "frequency function, zero at wave numbers of a clamped plate",
-         TURN - CLAMPED * BEND, TURN - CLAMPED * total, ("evanescent_amplitude",)),
+         ("evanescent_amplitude",)),
     )  # fmt: skip
     return tuple(
         Formula(
-            name, latex, meaning, in_k(value), "1", "", ("evanescent_wave_number", *sources), proof,
-            stated=stated,
+            name, latex, meaning, value, "1", "", ("evanescent_wave_number", *sources), proof,
+            stated=said,
         )
-        for name, latex, meaning, value, stated, sources in rows
+        for (name, latex, meaning, sources), value, said in zip(
+            rows, proof.claims[:3], stated, strict=True
+        )
     )  # fmt: skip
 
 
@@ -266,13 +290,17 @@ def face_ratio() -> Formula:
         r"$x^2$, with $\kappa$ proportional to $x^4$. The evanescent wave has $-k_2^2$ in place of "
         r"$k^2$. The same follows from $\sigma_{zz} = 0$: the deflection contains "
         r"$\nu/(1 - \nu) z^2/2 \nabla^2 w$, of which the face minus the mean is taken.",
-        {
+        lambda value, stated: {
+            "stated": in_k(stated) - value,
+            "face ratio": stated.subs(nu, (1 - 2 * gam) / (2 * (1 - gam)))
+            - 1 - one * eta**2 * (k_n**2 + k_2**2),
             "series": sp.cancel(series - 1 + one * s),
             "plane stress": sp.cancel(one - one * 3 * (edge_square - mean_square)),
             "quotient": sp.series(
                 (1 + one * s * k_2**2) / (1 - one * s * k_n**2), s, 0, 2
             ).removeO() - 1 - one * s * (k_n**2 + k_2**2),
         },
+        *(in_k(FACE), FACE),
     )  # fmt: skip
     return Formula(
         "face_ratio", "t", (
@@ -310,14 +338,22 @@ def modal_weight() -> Formula:
     """Return s_n."""
     means = thin.modal_weight()
     value = UNDER_PUNCH / (1 - c * t)
+    small = sp.limit(value, alpha, 0)
+    of_face = ON_FACE.subs({sp.besselj(0, k_n * alpha): sp.sin(y) / y for y in (k_n * alpha,)})
+    of_face = of_face.subs(
+        {sp.besseli(0, k_2 * alpha): sp.sin(sp.I * y) / (sp.I * y) for y in (k_2 * alpha,)}
+    )
     proof = prove(
         "Mean of a plate wave under a flat punch",
         "The transforms are those of step 29, applied to $J_0(k r)$ and to $I_0(k_2 r)$ on the "
         "contact face. " + means.proof.argument,
-        {
-            "thin": _thin(value.subs(c, PART)) - means.expression,
-            "small contact": sp.limit(value, alpha, 0) - 1,
+        lambda value, stated: {
+            "in k": in_k(stated) - value,
+            "mean": stated * ON_FACE.subs(alpha, 0) - of_face,
+            "thin": _thin(stated.subs(c, PART)) - means.expression,
+            "small contact": small - 1,
         },
+        *(in_k(value), value),
     )
     return Formula(
         "wave_mean", "s_n",
@@ -341,6 +377,7 @@ def at_rest() -> tuple[Formula, Formula]:
     first = sp.series(clamped, chi, 0, 2).removeO()
     nabla = thin.laplacian(1 - _r**2)
     lift = 1 + BULGE / 3 * eta**2 * nabla
+    values = SUPPORTED_REST * lift**2, CLAMPED_REST * (lift**2 + 2 * CLAMP * eta)
     proof = prove(
         "Clamped and supported plates under a static load",
         r"The rotation $\psi$ is the sum of that under a force with the paper's edge and of "
@@ -348,18 +385,20 @@ def at_rest() -> tuple[Formula, Formula]:
         r"The deflection of a face is the mean deflection, to which the operator $1 + \eta^2 "
         r"\nu/(3 (1 - \nu)) \nabla^2$ is applied. By reciprocity, the same applies to a force "
         "on the face.",
-        {
+        lambda of_support, of_clamp: {
+            "supported": of_support - supported * lift**2,
+            "clamped": of_clamp - first.subs(chi, CLAMP) - first.subs(chi, 0) * (lift**2 - 1),
             "load": sp.expand(sp.diff(bent, _r) + 1 / (2 * sp.pi * _r)),
             "paper's edge": bent.subs(_r, 1),
-            "supported": sp.cancel(supported - SUPPORTED_REST),
-            "clamped": sp.cancel(clamped - CLAMPED_REST * (1 + chi * eta) / (1 - chi * eta)),
+            "any clamp": sp.cancel(clamped - CLAMPED_REST * (1 + chi * eta) / (1 - chi * eta)),
             "first order of chi": sp.expand(first - CLAMPED_REST * (1 + 2 * chi * eta)),
             "face minus mean": lift - 1 + 4 * BULGE * eta**2 / 3,
         },
+        *values,
     )
     rows = (
-        ("supported_static_change", "a simply supported", SUPPORTED_REST * lift**2),
-        ("clamped_static_change", "a clamped", CLAMPED_REST * (lift**2 + 2 * CLAMP * eta)),
+        ("supported_static_change", "a simply supported", values[0]),
+        ("clamped_static_change", "a clamped", values[1]),
     )
     formulas = tuple(
         Formula(

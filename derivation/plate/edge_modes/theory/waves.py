@@ -234,19 +234,23 @@ def norm() -> Formula:
     turned = _r**2 / 2 * ((g_1 * k_n) ** 2 * first + (c * g_2 * k_2) ** 2 * second)
     turned += 2 * c * g_1 * k_n * g_2 * k_2 * both / total
     psi = rotation(g_1, g_2)
+    slopes = [lower_bessel(sp.diff(part, _r)) for part in (deflected, eta**2 / 3 * turned)]
+    stated = sp.Integral((DEFLECTION**2 + eta**2 / 3 * sp.Symbol("psi") ** 2) * _r, (_r, 0, 1))
     proof = prove(
         "Norm of a plate wave",
         r"Primitives of $w^2 r$ and $\psi^2 r$ are differentiated for any $k$, $k_2$, $g_1$, $g_2$ "
         r"and $c$. For $\eta \to 0$ the norm is that of step 29.",
-        {
-            "deflection": lower_bessel(sp.diff(deflected, _r)) - _r * DEFLECTION**2,
-            "rotation": lower_bessel(sp.diff(turned, _r)) - _r * psi**2,
+        lambda value, stated: {
+            "in k": value - in_k(NORM),
+            "stated": stated.function.subs(sp.Symbol("psi"), psi) - sum(slopes),
+            "deflection": slopes[0] - _r * DEFLECTION**2,
+            "rotation": slopes[1] - eta**2 / 3 * _r * psi**2,
             "axis": sp.expand(deflected + turned).subs(_r, 0),
             "closed form": (deflected + eta**2 / 3 * turned).subs(_r, 1) - NORM,
             "thin": _thin(NORM.subs(c, PART)) - thin.NORM,
         },
+        *(in_k(NORM), stated),
     )
-    stated = sp.Integral((DEFLECTION**2 + eta**2 / 3 * sp.Symbol("psi") ** 2) * _r, (_r, 0, 1))
     return Formula(
         "wave_norm", "N", "kinetic energy of a plate mode, rotary inertia included",
         in_k(NORM), "1", "",
@@ -315,15 +319,18 @@ def weight() -> Formula:
     """Return W."""
     energy = norm()
     face_ratio()
-    soft = WEIGHT.subs(N, NORM).subs(c, 0).subs(J0, 0)
     proof = prove(
         "Modal weight of a plate wave",
         "At $J_0 = 0$ the modal weight is that of the paper's edge, whose residue is that of A0. "
         r"For $\eta \to 0$ it is that of step 29. " + energy.proof.argument,
-        {
-            "paper's edge": sp.cancel(soft - 1 / (sp.pi * J1**2)),
-            "thin": _thin(WEIGHT.subs(N, NORM).subs(c, PART)) - thin.WEIGHT,
+        lambda value, stated: {
+            "in k": value - in_k(stated.subs(N, NORM)),
+            "paper's edge": sp.cancel(
+                stated.subs(N, NORM).subs(c, 0).subs(J0, 0) - 1 / (sp.pi * J1**2)
+            ),
+            "thin": _thin(stated.subs(N, NORM).subs(c, PART)) - thin.WEIGHT,
         },
+        *(in_k(WEIGHT.subs(N, NORM)), WEIGHT),
     )
     return Formula(
         "wave_weight", "W_n",

@@ -80,17 +80,25 @@ def _thin() -> sp.Expr:
 @cache
 def wave_stress() -> tuple[Formula, ...]:
     """Return the formulas of the step."""
+    residuals = {
+        "free faces": sp.cancel(in_p_and_q(stiffness(OF_P, OF_Q))),
+        "bending": _residual(True),
+        "extension": _residual(False),
+        "thin plate": _thin(),
+    }
+    expressions = {"bending": stress(sp.tanh(p), True), "extension": stress(sp.coth(p), False)}
     proof = prove(
         "Stress of a wave on the back face",
         "The amplitude of the part without dilatation follows from the shear stress on the faces, "
         r"and $\tanh p$, or $\coth p$, from their normal stress: $B = 0$. Both are inserted into "
         "the radial stress on the axis.",
-        {
-            "free faces": sp.cancel(in_p_and_q(stiffness(OF_P, OF_Q))),
-            "bending": _residual(True),
-            "extension": _residual(False),
-            "thin plate": _thin(),
+        lambda *claims: residuals
+        | {
+            f"{kind} in {of}": value - expected
+            for (kind, expected), one in zip(expressions.items(), (claims[:2], claims[2:]), strict=True)
+            for of, value, expected in (("x", one[0], with_roots(expected)), ("p", one[1], expected))
         },
+        *(part for stated in expressions.values() for part in (with_roots(stated), stated)),
     )
     psi = mindlin.rotation(g_1, g_2)
     distance = sp.Symbol("r", positive=True)

@@ -157,8 +157,8 @@ def _expect_determined(
         if not noticed:
             raise ProofError(
                 f"{step}: expected residuals that determine {sp.sstr(claim):.100}{at}, but they "
-                f"vanish too if it is multiplied by {1 + _CHANGE * (symbol or 1)}; add a residual that contains it, such as its "
-                "difference to what it must equal"
+                f"vanish too if it is multiplied by {1 + _CHANGE * (symbol or 1)}; add a residual "
+                "that contains it, such as its difference to what it must equal"
             )
 
 
@@ -167,8 +167,7 @@ def _is_not_zero(residual: sp.Expr) -> bool:
     if residual == 0:
         return False
     try:
-        points = sample_points(residual.free_symbols, _POINTS // 2)
-        return any(_excludes_zero(residual, values) for values in points)
+        return any(_excludes_zero(residual, values) for values in _few_points(residual))
     except NotImplementedError:
         return not reduces_to_zero(residual)
 
@@ -179,14 +178,20 @@ def _depends(residual: sp.Expr, symbol: sp.Symbol, scaled: sp.Expr) -> bool:
         return False
     if symbol in residual.free_symbols or not _is_not_zero(scaled):
         return True
-    points = sample_points(residual.free_symbols | scaled.free_symbols, _POINTS // 2)
-    ratios = [
-        one / other
-        for values in points
-        for one, other in zip(_balls(residual, values), _balls(scaled, values), strict=True)
-        if one.is_finite() and other.is_finite() and not other.contains(0)
-    ]
-    return any(not ratio.overlaps(ratios[0]) for ratio in ratios)
+    first = None
+    for values in _few_points(residual, scaled):
+        ratio = next(_balls(residual, values)) / next(_balls(scaled, values))
+        first = ratio if first is None and ratio.is_finite() else first
+        if first is not None and not ratio.overlaps(first):
+            return True
+    return False
+
+
+def _few_points(*expressions: sp.Expr) -> list[dict[sp.Symbol, Fraction]]:
+    """Return points for expressions of which some may be outside their domain at a point."""
+    symbols = set[sp.Symbol]().union(*(one.free_symbols for one in expressions))
+    integral = any(one.has(sp.Integral) for one in expressions)
+    return sample_points(symbols, _POINTS // 2 if integral else 4 * _POINTS)
 
 
 def _as_expression(step: str, label: str, residual: object) -> sp.Expr:

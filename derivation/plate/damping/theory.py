@@ -161,18 +161,20 @@ def dissipation() -> Proof:
     at_first = (q_rate**2 + omega**2 * q_j**2) / 2
     cycle = 2 * sp.pi / (omega * ROOT)
     left = free.q.subs(t, cycle) / q_j
+    decrement = sp.simplify(left - sp.exp(-2 * sp.pi * zeta / ROOT))
     return prove(
         "Energy loss by damping",
         "The rate of the energy follows from the oscillator's equation. In a free motion the loss "
         "grows by $2 \\zeta \\omega q'^2$ and equals the decrease of the energy. After one cycle "
         "the motion is the same, reduced by the decrement.",
-        {
+        lambda lost: {
             "rate of the energy": sp.expand(flow - _push * rate + POWER.subs(q_rate, rate)),
-            "rate of the loss": by_phase(sp.diff(free.lost, t) - POWER.subs(q_rate, free.rate)),
-            "no loss at t = 0": sp.simplify(free.lost.subs(t, 0)),
-            "balance": by_phase(at_first - kept - free.lost),
-            "decrement": sp.simplify(left - sp.exp(-2 * sp.pi * zeta / ROOT)),
+            "rate of the loss": by_phase(sp.diff(lost, t) - POWER.subs(q_rate, free.rate)),
+            "no loss at t = 0": sp.simplify(lost.subs(t, 0)),
+            "balance": by_phase(at_first - kept - lost),
+            "decrement": decrement,
         },
+        free.lost,
     )
 
 

@@ -78,14 +78,16 @@ def sonine() -> Formula:
         "Sonine's integral",
         "$J_0$'s power series is integrated term by term: the ratio of every coefficient to that "
         r"of $a^2 (\sin y - y \cos y)/y^3$, $y = a \phi$, is 1.",
-        lambda value: {
-            "ratio of coefficients - 1": sp.simplify(ratio) - 1,
-            "in y": value.subs(phi, _y / a) - a**2 * (sp.sin(_y) - _y * sp.cos(_y)) / _y**3,
-        }
-        | {
-            f"closed coefficient of y^{2 * k}": closed.subs(_m, k) - series.coeff(_y, 2 * k + 3)
-            for k in range(4)
-        },
+        lambda value: (
+            {
+                "ratio of coefficients - 1": sp.simplify(ratio) - 1,
+                "in y": value.subs(phi, _y / a) - a**2 * (sp.sin(_y) - _y * sp.cos(_y)) / _y**3,
+            }
+            | {
+                f"closed coefficient of y^{2 * k}": closed.subs(_m, k) - series.coeff(_y, 2 * k + 3)
+                for k in range(4)
+            }
+        ),
         value,
     )
     return Formula(
@@ -154,7 +156,7 @@ def contact_radius() -> Formula:
 
 
 def norm_of_bessel() -> tuple[sp.Expr, Proof]:
-    """Return the norm of J0, and prove orthogonality: int_0^b r J0(phi_i r) J0(phi_j r) dr is b^2 J1(b phi_j)^2/2 or 0.
+    """Return b^2 J1^2/2, and prove that it or 0 is int_0^b r J0(phi_i r) J0(phi_j r) dr.
 
     Both antiderivatives are checked by differentiation; their values at the limits follow from
     J0(b phi) = 0.

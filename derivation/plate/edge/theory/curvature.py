@@ -139,9 +139,9 @@ def edge_curvature() -> tuple[Formula, Formula]:
         r"The bending state deflects the contact face by $\kappa P r^2/2$, which Abel's operator "
         r"turns into $\kappa P t^2$. The curvature is the amplitude of the state under a point "
         r"load; at a clamp it is also minus half the third derivative of the reduction of $S$.",
-        lambda support, clamp: curved
-        | {"amplitude": amplitude - support}
-        | _clamp_residuals(clamp),
+        lambda support, clamp: (
+            curved | {"amplitude": amplitude - support} | _clamp_residuals(clamp)
+        ),
         *(_of_support(), _of_clamp()),
     )
     meaning = "coefficient of $(t^2 + s^2)/h^3$ in the kernel by "

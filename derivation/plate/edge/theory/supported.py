@@ -130,7 +130,12 @@ def edge_resultants() -> tuple[Formula, ...]:
     mean = -J1 * RATIO * force / (E * phi)
     turn = J1 * (A_j / phi**2 - RATIO * moment) / (E * phi)
     moved, turned = (loaded(_through(u)) * phi * J1 for u in (g_j, g_j * z))
-    results = (mean / (2 * h * b), turn * 3 / (2 * h**3 * b), -2 * mu / b * mean, -2 * mu / b * turn)
+    results = (
+        mean / (2 * h * b),
+        turn * 3 / (2 * h**3 * b),
+        -2 * mu / b * mean,
+        -2 * mu / b * turn,
+    )
     balances = {
         "Hooke": g_j * phi**2 - (S_rr - RATIO * S_zz) / E,
         "radial balance": sp.diff(S_rz, z) - phi * S_rr,
@@ -144,13 +149,15 @@ def edge_resultants() -> tuple[Formula, ...]:
         "Resultants at the edge",
         "The balance of moments and Hooke's law hold for $g$ and the stresses of one mode, "
         "integrated through the thickness.",
-        lambda extension, rotation, edge_force, edge_moment: balances
-        | {
-            "mean of u": moved - extension * 2 * h * b,
-            "moment of u": turned - rotation * _through(z**2) * b,
-            "edge force": edge_force + 2 * mu / b * moved,
-            "edge moment": edge_moment + 2 * mu / b * turned,
-        },
+        lambda extension, rotation, edge_force, edge_moment: (
+            balances
+            | {
+                "mean of u": moved - extension * 2 * h * b,
+                "moment of u": turned - rotation * _through(z**2) * b,
+                "edge force": edge_force + 2 * mu / b * moved,
+                "edge moment": edge_moment + 2 * mu / b * turned,
+            }
+        ),
         *(sp.factor(value) for value in results),
     )
     rows = (

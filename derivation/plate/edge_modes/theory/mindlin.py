@@ -170,13 +170,15 @@ def waves() -> tuple[Formula, ...]:
         r"$w$ and $\psi$ are inserted into both balances for any $\kappa$ and $k_s$, with $\kappa$ "
         "in terms of $k$ and $k_2$. The dispersion relation is quadratic in $k^2$; its other root "
         "is $-k_2^2$.",
-        lambda k2, first, second, in_k2: general
-        | {
-            "k_2 of A0": k2**2 - k_n**2 + kap / eta**2 * (1 / k_s + ROTARY),
-            "g_1 of A0": first - 1 + kap / (k_s * (k_n * eta) ** 2),
-            "g_2 of A0": second * k2**2 - k_n**2 * u_2().subs(of_kap),
-            "g_2 in k_2": second - in_k2.subs(k_2, k2),
-        },
+        lambda k2, first, second, in_k2: (
+            general
+            | {
+                "k_2 of A0": k2**2 - k_n**2 + kap / eta**2 * (1 / k_s + ROTARY),
+                "g_1 of A0": first - 1 + kap / (k_s * (k_n * eta) ** 2),
+                "g_2 of A0": second * k2**2 - k_n**2 * u_2().subs(of_kap),
+                "g_2 in k_2": second - in_k2.subs(k_2, k2),
+            }
+        ),
         *values,
     )
     rows = (

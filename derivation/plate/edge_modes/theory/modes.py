@@ -104,13 +104,15 @@ def frequency_equations() -> tuple[Formula, Formula, Formula]:
         r"at the edge. Orthogonality: the bracket is differentiated for any two functions; "
         r"$w'' = -\nu w'$ gives $\nabla^2 w = (1 - \nu) w'$ at a supported edge, and a clamped one "
         "has zero slope.",
-        lambda part, clamped, supported: {
-            "plate": plate,
-            "deflection": SHAPE.subs({_r: 1, _c: part}),
-            "slope": slope + k_n / I0 * clamped,
-            "moment": moment - k_n * (1 - nu) * J0 * supported,
-        }
-        | _orthogonality(),
+        lambda part, clamped, supported: (
+            {
+                "plate": plate,
+                "deflection": SHAPE.subs({_r: 1, _c: part}),
+                "slope": slope + k_n / I0 * clamped,
+                "moment": moment - k_n * (1 - nu) * J0 * supported,
+            }
+            | _orthogonality()
+        ),
         *(PART, clamped, supported),
     )
     return (

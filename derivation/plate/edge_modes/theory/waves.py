@@ -160,16 +160,22 @@ def edges() -> tuple[Formula, ...]:
     def in_terms(*claims: sp.Expr) -> dict[str, sp.Expr]:
         amplitude, *frequencies = claims[:3]
         part, *said = claims[3:]
-        return {
-            "amplitude": J0 - amplitude * in_k(I0),
-            "amplitude in k_2": J0 - part * I0,
-        } | {
-            f"condition {number}": in_k(J0) * value - in_k(condition)
-            for number, (value, condition) in enumerate(zip(frequencies, conditions, strict=True))
-        } | {
-            f"stated {number}": in_k(text) - value
-            for number, (value, text) in enumerate(zip(frequencies, said, strict=True))
-        }
+        return (
+            {
+                "amplitude": J0 - amplitude * in_k(I0),
+                "amplitude in k_2": J0 - part * I0,
+            }
+            | {
+                f"condition {number}": in_k(J0) * value - in_k(condition)
+                for number, (value, condition) in enumerate(
+                    zip(frequencies, conditions, strict=True)
+                )
+            }
+            | {
+                f"stated {number}": in_k(text) - value
+                for number, (value, text) in enumerate(zip(frequencies, said, strict=True))
+            }
+        )
 
     proof = prove(
         "Edges of a shear-deformable plate",

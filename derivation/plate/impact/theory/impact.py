@@ -43,16 +43,18 @@ def motion() -> tuple[Formula, Formula]:
     proof = prove(
         "Energy integral",
         r"$\delta'^2$ is differentiated along the motion and equals $v_0^2$ at $\delta = 0$.",
-        lambda acceleration, speed: {
-            "along the motion": sp.diff(speed**2, delta) - 2 * acceleration,
-            "at contact": speed.subs(delta, 0) - v0,
-            "force": m * acceleration + force,
-        }
-        | {
-            f"term {i}": squared.coeff(xi_k[i])
-            + 3 / (m * (i + 1)) * delta ** sp.Rational(2 * (i + 1), 3)
-            for i in (2, 3)
-        },
+        lambda acceleration, speed: (
+            {
+                "along the motion": sp.diff(speed**2, delta) - 2 * acceleration,
+                "at contact": speed.subs(delta, 0) - v0,
+                "force": m * acceleration + force,
+            }
+            | {
+                f"term {i}": squared.coeff(xi_k[i])
+                + 3 / (m * (i + 1)) * delta ** sp.Rational(2 * (i + 1), 3)
+                for i in (2, 3)
+            }
+        ),
         *(acceleration, speed),
     )
     return (
@@ -152,9 +154,7 @@ def _in_quotients(shown: int) -> sp.Expr:
     return 2 * sp.sqrt(1 - _q) * rate / sp.sqrt(stored)
 
 
-def prove_contact_time(
-    shown: int, integrand: sp.Expr, stated: sp.Expr, work: sp.Expr
-) -> Proof:
+def prove_contact_time(shown: int, integrand: sp.Expr, stated: sp.Expr, work: sp.Expr) -> Proof:
     """Prove the energy, its factor 1 - q, and the substitution, with all D_n at once."""
     scale = contact_radius().expression / a**3
     C = scale / R

@@ -76,19 +76,20 @@ def energy_scale() -> sp.Expr:
 @cache
 def energy_number() -> Formula:
     """Return the impact energy over (4/3) E* h^5/R^2, on which A_m depends in addition to h/b."""
-    value = m * v0**2 / 2 / energy_scale().subs(_MODULUS, reduced_modulus())
+    value = sp.factor(m * v0**2 / 2 / energy_scale().subs(_MODULUS, reduced_modulus()))
     C = contact_radius().expression / a**3 / R
     proof = prove(
         "Energy number",
         r"$C a_m^5 \sum n D_n/(n + 3) = m v_0^2/2$ with $a_m = h A_m$.",
-        {"energy": C * (h * _A) ** 5 - _A**5 * m * v0**2 / 2 / value},
+        lambda value: {"energy": C * (h * _A) ** 5 - _A**5 * m * v0**2 / 2 / value},
+        value,
     )
     sources = ("contact_work", "P")
     return Formula(
         "energy_number",
         r"\mathcal{Y}",
         "impact energy divided by $(4/3) E^* h^5/R^2$",
-        sp.factor(value),
+        value,
         "1",
         "13",
         sources,
@@ -118,7 +119,7 @@ def law_slopes() -> tuple[Formula, ...]:
         "Slopes of the contact law",
         r"The series is differentiated with respect to $a$. The split is multiplied by $\alpha^2$ "
         r"and differentiated with respect to $\alpha$, and at fixed $\alpha$ to $\log(h/b)$.",
-        {
+        lambda slope, sinc, deeper: {
             "series": sp.diff(delta, a) - slope,
             "mode": sp.diff(alpha**2 * mode.expression, alpha) / (2 * alpha) - sinc,
             "finite radius": sp.diff(bracket, alpha) / (2 * alpha) - side,
@@ -128,6 +129,7 @@ def law_slopes() -> tuple[Formula, ...]:
             / sp.besseli(0, lateral.expression.variables[0]),
             "thickness": eta * sp.diff(mode.expression, eta) - deeper,
         },
+        *(slope, sinc, deeper),
     )
     return (
         Formula(
@@ -235,10 +237,11 @@ def modulus_slope() -> Formula:
         "Slopes of the modulus",
         "The logarithm of $E^*$ is differentiated; $E^*$ is homogeneous of degree 1 in both "
         "moduli.",
-        {
+        lambda value: {
             "derivative with respect to lam": lam * sp.diff(logarithm, lam) - value,
             "derivative with respect to mu": mu * sp.diff(logarithm, mu) - (1 - value),
         },
+        value,
     )
     return Formula(
         "modulus_by_lam",
@@ -295,13 +298,14 @@ def peaks() -> tuple[Formula, ...]:
         r"The energy number is $A^5 E$ and the indentation is $A^2 (1 + F)$. The radius $A$ is "
         r"varied so that the energy number increases, and so that it stays constant while "
         r"$\eta$ increases.",
-        {
+        lambda by_energy, by_eta, indentation_by_energy, depth_by_eta: {
             "work": work - work_of_contact(),
             "radius by energy": energy_by_radius * by_energy - 1,
             "radius by eta": energy_by_radius * by_eta + energy_by_eta,
             "indentation by energy": depth * by_energy - indentation_by_energy,
             "indentation by eta": depth * by_eta + deeper(lift) / lift - depth_by_eta,
         },
+        *(by_energy, by_eta, indentation_by_energy, depth_by_eta),
     )
     rows = (
         ("radius_by_energy", r"\partial\log a_m/\partial\log\mathcal{Y}", by_energy),

@@ -130,7 +130,9 @@ def weak_restitution() -> Formula:
         "time-reversed motion.",
         lambda e: {
             "loss": sp.gammasimp((loss - C_1).rewrite(sp.gamma)),
-            "to second order": e - 1 + loss * x_v
+            "to second order": e
+            - 1
+            + loss * x_v
             - sp.solve(product.coeff(x, 2), c_2)[0].subs(c_1, C_1) * x_v**2,
         },
         value,

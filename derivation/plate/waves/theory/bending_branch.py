@@ -217,10 +217,11 @@ def rayleigh() -> tuple[Formula, Formula]:
         r"$(2 - \xi)^2 = 4 P Q$ with $P = p/x$ and $Q = q/x$ is squared and divided by $\xi$, "
         "because 0 is a root. The residue is that of A0 without the decaying terms. "
         + proof_of_residue.argument,
-        {
+        lambda cubic, limit: {
             "cubic": sp.expand((2 - xi_R) ** 4 - 16 * w * P**2 - xi_R * cubic),
             "residue": sp.cancel(ratio - limit),
         },
+        *(cubic, limit),
     )
     return (
         Formula(

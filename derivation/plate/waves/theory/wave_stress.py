@@ -92,22 +92,20 @@ def wave_stress() -> tuple[Formula, ...]:
         "The amplitude of the part without dilatation follows from the shear stress on the faces, "
         r"and $\tanh p$, or $\coth p$, from their normal stress: $B = 0$. Both are inserted into "
         "the radial stress on the axis.",
-        lambda *claims: residuals
-        | {
-            f"{kind} in {of}": value - expected
-            for (kind, expected), one in zip(expressions.items(), (claims[:2], claims[2:]), strict=True)
-            for of, value, expected in (("x", one[0], with_roots(expected)), ("p", one[1], expected))
-        },
+        lambda *claims: (
+            residuals
+            | {
+                f"{kind} in {of}": value - expected
+                for (kind, expected), one in zip(
+                    expressions.items(), (claims[:2], claims[2:]), strict=True
+                )
+                for of, value, expected in (
+                    ("x", one[0], with_roots(expected)),
+                    ("p", one[1], expected),
+                )
+            }
+        ),
         *(part for stated in expressions.values() for part in (with_roots(stated), stated)),
-    )
-    psi = mindlin.rotation(g_1, g_2)
-    distance = sp.Symbol("r", positive=True)
-    curved = sp.limit(sp.diff(psi, distance) + psi / distance, distance, 0)
-    own = curved.subs(mindlin.c, 0)
-    of_mode = prove(
-        "Stress of a mode on the back face",
-        r"$\psi' + \psi/r$ is evaluated on the axis, and divided by that of the part $J_0$.",
-        {"axis": sp.cancel(S_A * curved / own / (1 - mindlin.c * t) - MODE)},
     )
     rows = (
         ("bending_wave_stress", "S_a", "bending", sp.tanh(p), True, "B_a"),
@@ -122,11 +120,26 @@ def wave_stress() -> tuple[Formula, ...]:
         )
         for name, latex, kind, tanh_p, bends, source in rows
     )  # fmt: skip
-    of_part = waves[0].expression.subs(gam, (1 - 2 * nu) / (2 * (1 - nu))).subs(x_h, k_n * eta)
+    psi = mindlin.rotation(g_1, g_2)
+    distance = sp.Symbol("r", positive=True)
+    curved = sp.limit(sp.diff(psi, distance) + psi / distance, distance, 0)
+    own = curved.subs(mindlin.c, 0)
+    of_part = waves[0].expression.subs(x_h, k_n * eta)
+    of_nu, of_gam = (1 - 2 * nu) / (2 * (1 - nu)), (1 - 2 * gam) / (2 * (1 - gam))
+    value = in_k(MODE).subs(S_A, of_part.subs(gam, of_nu))
+    of_mode = prove(
+        "Stress of a mode on the back face",
+        r"$\psi' + \psi/r$ is evaluated on the axis, and divided by that of the part $J_0$.",
+        lambda value, stated: {
+            "axis": sp.cancel(S_A * curved / own / (1 - mindlin.c * t) - stated),
+            "in k": (value - in_k(stated).subs(S_A, of_part)).subs(nu, of_gam),
+        },
+        *(value, MODE),
+    )
     mode = Formula(
         "mode_stress", "S_n", "stress of a mode of a clamped or supported plate on the axis of the "
         r"back face, over its deflection of the contact face, times $h/\mu$",
-        in_k(MODE).subs(S_A, of_part), "1", "",
+        value, "1", "",
         (waves[0].name, "face_ratio", "wave_rotation", "evanescent_rotation"), of_mode, stated=MODE,
     )  # fmt: skip
     return *waves, mode

@@ -357,13 +357,14 @@ def times() -> tuple[Formula, ...]:
         "integrand": integrand - whole.subs({n_0: N, s_0: S}),
         "rule": sp.diff(whole, n_0) * n_1 + sp.diff(whole, s_0) * s_1 - rule,
     }
-    values = {}
+    values, grown = {}, {}
     for name, slope in (
         ("radius", {n: (n - 2) * weight for n, weight in D_n.items()}),
         ("thickness", _eta_weights()),
     ):
         N_slope, S_slope = parts(slope)
         values[name] = rule.subs({n_0: N, s_0: S, n_1: N_slope, s_1: S_slope})
+        grown[name] = sp.Add(*(slope[n] * sp.diff(integrand, D[n]) for n in orders()[1:]))
         for label, part, change in (("N", N, N_slope), ("S", S, S_slope)):
             moved = sp.Add(*(slope[n] * sp.diff(part, D[n]) for n in orders()[1:]))
             proofs[f"{label} by {name}"] = sp.expand(moved - change)
@@ -371,7 +372,10 @@ def times() -> tuple[Formula, ...]:
         "Derivatives of the contact time",
         "At fixed $u$, numerator and radicand are differentiated with respect to each $D_n$; the "
         "quotient rule gives the derivative of the integrand.",
-        proofs,
+        lambda *claims: (
+            proofs | {f"by {name}": claims[i] - grown[name] for i, name in enumerate(values)}
+        ),
+        *values.values(),
     )
     rows = (
         ("time_by_radius", r"\partial_{\log A_m}", r"$\log(a_m/h)$"),

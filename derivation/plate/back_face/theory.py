@@ -104,25 +104,19 @@ def back_face_factor() -> Formula:
         "Stress of the back face",
         "The stresses of the loaded mode are taken at $z = -h$; $S_{zz} = 0$ there, and Hooke's "
         "law gives $g$.",
-        lambda value: (
-            conditions
-            | {
-                "radial stress": radial + A_j * value.subs(T, 2 * phi * h),
-                "bending and extension": value - antisymmetric - symmetric,
-            }
-        ),
+        lambda value: {
+            "radial stress": radial + A_j * value.subs(T, 2 * phi * h),
+            "bending and extension": value - antisymmetric - symmetric,
+            **conditions,
+        },
         value,
     )
     return Formula(
         "back_face_factor",
         "B(T)",
         "radial stress of the back face per pressure coefficient, with reversed sign",
-        value,
-        "1",
-        "",
-        ("S_rr", "S_zz", "Omega_1"),
-        proof,
-    )
+        value, "1", "", ("S_rr", "S_zz", "Omega_1"), proof,
+    )  # fmt: skip
 
 
 def _mode() -> sp.Expr:
@@ -323,15 +317,10 @@ def wide_contact_stress() -> Formula:
         residuals,
     )
     return Formula(
-        "back_face_sum_wide",
-        r"S^{\mathrm{wide}}",
+        "back_face_sum_wide", r"S^{\mathrm{wide}}",
         "$S$ of a thin plate for $a$ much larger than $h$",
-        3 * (constant - sp.log(alpha)) + series,
-        "1",
-        "",
-        ("back_face_sum_thin",),
-        proof,
-    )
+        3 * (constant - sp.log(alpha)) + series, "1", "", ("back_face_sum_thin",), proof,
+    )  # fmt: skip
 
 
 # --- the edge
@@ -360,16 +349,10 @@ def back_face_edge() -> Formula:
         value,
     )
     return Formula(
-        "back_face_edge",
-        r"S_e^{\mathrm{far}}",
-        "reduction of $S$ without mean motion of the edge",
-        value,
-        "1",
-        "",
-        ("edge_extension", "edge_rotation", "back_face_sum"),
-        proof,
-        summed=True,
-    )
+        "back_face_edge", r"S_e^{\mathrm{far}}",
+        "reduction of $S$ without mean motion of the edge", value, "1", "",
+        ("edge_extension", "edge_rotation", "back_face_sum"), proof, summed=True,
+    )  # fmt: skip
 
 
 @cache

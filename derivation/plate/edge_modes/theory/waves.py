@@ -86,7 +86,7 @@ both agree, because chi eta is small."""
 
 g_1, g_2, t, beta = sp.symbols("g_1 g_2 t beta", real=True)
 """Rotations over slopes; face over mean of I0 divided by that of J0; S/Gam."""
-_r = sp.Symbol("r", positive=True)
+_r, N = sp.symbols("r N", positive=True)
 J0, J1 = sp.besselj(0, k_n), sp.besselj(1, k_n)
 I0, I1 = sp.besseli(0, k_2), sp.besseli(1, k_2)
 BULGE = nu / (1 - nu)
@@ -119,15 +119,13 @@ NORM = (
     )
 )  # fmt: skip
 """N for any k, k2, g1, g2 and c."""
-N = sp.Symbol("N", positive=True)
 WEIGHT = (1 - c * t) ** 2 * (1 + eta**2 / 3 * (g_1 * k_n) ** 2) / (2 * sp.pi * N)
 """W."""
 ON_FACE = sp.besselj(0, k_n * alpha) - c * t * sp.besseli(0, k_2 * alpha)
 """The contact face at r = alpha."""
 UNDER_PUNCH = sp.sin(k_n * alpha) / (k_n * alpha) - c * t * sp.sinh(k_2 * alpha) / (k_2 * alpha)
 """Its mean under a flat punch of radius alpha."""
-SUPPORTED_REST = (1 - nu) / (1 + nu) / (16 * sp.pi)
-CLAMPED_REST = -1 / (16 * sp.pi)
+SUPPORTED_REST, CLAMPED_REST = (1 - nu) / (1 + nu) / (16 * sp.pi), -1 / (16 * sp.pi)
 
 
 def in_k(expression: sp.Expr) -> sp.Expr:
@@ -150,32 +148,19 @@ def edges() -> tuple[Formula, ...]:
     moment, ratio = bend - (1 - nu) * turn, turn / (bend - (1 - nu) * turn)
     free = turn - CLAMP * eta * (bend - turn)
     total = k_n**2 + k_2**2
-    values = PART, TURN - SUPPORTED * BEND, TURN - CLAMPED * BEND
+    values = tuple(map(in_k, (PART, TURN - SUPPORTED * BEND, TURN - CLAMPED * BEND)))
     stated = PART, TURN - SUPPORTED * total, TURN - CLAMPED * total
-    # psi and psi' at the edge: M = 0 is psi' + nu psi = 0, the clamp is psi = chi eta psi'.
-    turned, bent = J0 * TURN, J0 * (BEND - TURN)
-    conditions = (bent + nu * turned) / (nu - 1), turned - CLAMP * eta * bent
-    conditions = conditions[0], conditions[1] / (1 + CLAMP * eta)
+    turned, bent = J0 * TURN, J0 * (BEND - TURN)  # psi and psi' at the edge
 
-    def in_terms(*claims: sp.Expr) -> dict[str, sp.Expr]:
-        amplitude, *frequencies = claims[:3]
-        part, *said = claims[3:]
-        return (
-            {
-                "amplitude": J0 - amplitude * in_k(I0),
-                "amplitude in k_2": J0 - part * I0,
-            }
-            | {
-                f"condition {number}": in_k(J0) * value - in_k(condition)
-                for number, (value, condition) in enumerate(
-                    zip(frequencies, conditions, strict=True)
-                )
-            }
-            | {
-                f"stated {number}": in_k(text) - value
-                for number, (value, text) in enumerate(zip(frequencies, said, strict=True))
-            }
-        )
+    def in_terms(c_n: sp.Expr, F_s: sp.Expr, F_c: sp.Expr, *said: sp.Expr) -> dict[str, sp.Expr]:
+        return {
+            "amplitude": J0 - c_n * in_k(I0),
+            "amplitude in k_2": J0 - said[0] * I0,
+            "no moment": in_k(J0 * (1 - nu)) * F_s + in_k(bent + nu * turned),
+            "clamp": in_k(J0 * (1 + CLAMP * eta)) * F_c - in_k(turned - CLAMP * eta * bent),
+            "supported wave": in_k(said[1]) - F_s,
+            "clamped wave": in_k(said[2]) - F_c,
+        }
 
     proof = prove(
         "Edges of a shear-deformable plate",
@@ -197,25 +182,21 @@ def edges() -> tuple[Formula, ...]:
             "thin clamp": _thin(TURN - CLAMPED * BEND)
             - k_n * thin.frequency_equations()[1].expression / (thin.J0 * thin.I0),
         },
-        *(in_k(value) for value in values), *stated,
+        *values, *stated,
     )  # fmt: skip
+    zero, of_c = "frequency function, zero at wave numbers of a", ("evanescent_amplitude",)
+    shape = "amplitude of $I_0$ in the mode $J_0(k r/b) - c I_0(k_2 r/b)$ of a plate"
     rows = (
-        ("evanescent_amplitude", "c", (
-            "amplitude of $I_0$ in the mode $J_0(k r/b) - c I_0(k_2 r/b)$ of a plate"
-        ), ()),
-        ("supported_wave", "F_s", "frequency function, zero at wave numbers of a supported plate",
-         ("evanescent_amplitude",)),
-        ("clamped_wave", "F_c", "frequency function, zero at wave numbers of a clamped plate",
-         ("evanescent_amplitude",)),
-    )  # fmt: skip
+        (*of_c, "c", shape, ()),
+        ("supported_wave", "F_s", f"{zero} supported plate", of_c),
+        ("clamped_wave", "F_c", f"{zero} clamped plate", of_c),
+    )
     return tuple(
         Formula(
             name, latex, meaning, value, "1", "", ("evanescent_wave_number", *sources), proof,
             stated=said,
         )
-        for (name, latex, meaning, sources), value, said in zip(
-            rows, proof.claims[:3], stated, strict=True
-        )
+        for (name, latex, meaning, sources), value, said in zip(rows, values, stated, strict=True)
     )  # fmt: skip
 
 
@@ -278,22 +259,18 @@ def face_ratio() -> Formula:
     squares = {p: s - gam * slope * s**2, q: s - slope * s**2}
     order = 3
 
-    def cosh(y: sp.Symbol) -> sp.Expr:
-        return sp.Add(*(squares[y] ** n / sp.factorial(2 * n) for n in range(order + 1)))
-
-    def shc(y: sp.Symbol) -> sp.Expr:
-        return sp.Add(*(squares[y] ** n / sp.factorial(2 * n + 1) for n in range(order + 1)))
+    def series_of(y: sp.Symbol, odd: int) -> sp.Expr:
+        return sp.Add(*(squares[y] ** n / sp.factorial(2 * n + odd) for n in range(order + 1)))
 
     def long(value: sp.Expr) -> sp.Expr:
-        plain = value.subs({sp.cosh(p): cosh(p), sp.cosh(q): cosh(q)})
-        plain = plain.subs({sp.sinh(p): p * shc(p), sp.sinh(q): q * shc(q)})
+        plain = value.subs({sp.cosh(y): series_of(y, 0) for y in (p, q)})
+        plain = plain.subs({sp.sinh(y): y * series_of(y, 1) for y in (p, q)})
         even = sp.cancel(sp.together(plain))
         return even.subs({p: sp.sqrt(squares[p]), q: sp.sqrt(squares[q]), x_h: sp.sqrt(s)})
 
     ratio = sp.cancel(long(face / mean))
     series = sp.series(ratio, s, 0, 2).removeO()
     one = BULGE.subs(nu, (1 - 2 * gam) / (2 * (1 - gam))) / 3
-    mean_square, edge_square = sp.Rational(1, 3) / 2, sp.Rational(1, 2)
     proof = prove(
         "Contact-face over mean deflection",
         r"The deflection of a wave without shear on its faces is expanded to the first power of "
@@ -305,7 +282,7 @@ def face_ratio() -> Formula:
             "face ratio": stated.subs(nu, (1 - 2 * gam) / (2 * (1 - gam)))
             - 1 - one * eta**2 * (k_n**2 + k_2**2),
             "series": sp.cancel(series - 1 + one * s),
-            "plane stress": sp.cancel(one - one * 3 * (edge_square - mean_square)),
+            "plane stress": sp.cancel(one - one * 3 * (sp.Rational(1, 2) - sp.Rational(1, 6))),
             "quotient": sp.series(
                 (1 + one * s * k_2**2) / (1 - one * s * k_n**2), s, 0, 2
             ).removeO() - 1 - one * s * (k_n**2 + k_2**2),
@@ -323,17 +300,14 @@ def face_ratio() -> Formula:
 @cache
 def weight() -> Formula:
     """Return W."""
-    energy = norm()
-    face_ratio()
+    energy, _ = norm(), face_ratio()
     proof = prove(
         "Modal weight of a plate wave",
         "At $J_0 = 0$ the modal weight is that of the paper's edge, whose residue is that of A0. "
         r"For $\eta \to 0$ it is that of step 29. " + energy.proof.argument,
         lambda value, stated: {
             "in k": value - in_k(stated.subs(N, NORM)),
-            "paper's edge": sp.cancel(
-                stated.subs(N, NORM).subs(c, 0).subs(J0, 0) - 1 / (sp.pi * J1**2)
-            ),
+            "paper's edge": stated.subs(N, NORM).subs(c, 0).subs(J0, 0) - 1 / (sp.pi * J1**2),
             "thin": _thin(stated.subs(N, NORM).subs(c, PART)) - thin.WEIGHT,
         },
         *(in_k(WEIGHT.subs(N, NORM)), WEIGHT),
@@ -352,17 +326,14 @@ def modal_weight() -> Formula:
     means = thin.modal_weight()
     value = UNDER_PUNCH / (1 - c * t)
     small = sp.limit(value, alpha, 0)
-    of_face = ON_FACE.subs({sp.besselj(0, k_n * alpha): sp.sin(y) / y for y in (k_n * alpha,)})
-    of_face = of_face.subs(
-        {sp.besseli(0, k_2 * alpha): sp.sin(sp.I * y) / (sp.I * y) for y in (k_2 * alpha,)}
-    )
+    of_face = sp.sin(k_n * alpha) / k_n - c * t * sp.sin(sp.I * k_2 * alpha) / (sp.I * k_2)
     proof = prove(
         "Mean of a plate wave under a flat punch",
         "The transforms are those of step 29, applied to $J_0(k r)$ and to $I_0(k_2 r)$ on the "
         "contact face. " + means.proof.argument,
         lambda value, stated: {
             "in k": in_k(stated) - value,
-            "mean": stated * ON_FACE.subs(alpha, 0) - of_face,
+            "mean": stated * ON_FACE.subs(alpha, 0) - of_face / alpha,
             "thin": _thin(stated.subs(c, PART)) - means.expression,
             "small contact": small - 1,
         },
@@ -376,7 +347,7 @@ def modal_weight() -> Formula:
 
 
 @cache
-def at_rest() -> tuple[Formula, Formula]:
+def at_rest() -> tuple[Formula, ...]:
     """Return the difference to the paper's edge under a static load, on the axis."""
     A = sp.Symbol("A", real=True)
     # In units of P b^2/D: (psi' + psi/r)' = -1/(2 pi r), and psi' + psi = 0 at the edge.
@@ -409,19 +380,15 @@ def at_rest() -> tuple[Formula, Formula]:
         },
         *values,
     )
-    rows = (
-        ("supported_static_change", "a simply supported", values[0]),
-        ("clamped_static_change", "a clamped", values[1]),
-    )
-    formulas = tuple(
+    rows = ("supported", "a simply supported", values[0]), ("clamped", "a clamped", values[1])
+    return tuple(
         Formula(
-            name, r"\Delta", f"static deflection of {which} plate minus that on the paper's edge, "
-            r"under a force on the axis, divided by $P b^2/D$; first order of $\chi$",
-            value, "1", "", ("wave_weight",), proof,
+            f"{name}_static_change", r"\Delta", f"static deflection of {which} plate minus that "
+            r"on the paper's edge, under a force on the axis, divided by $P b^2/D$; first order of "
+            r"$\chi$", value, "1", "", ("wave_weight",), proof,
         )
         for name, which, value in rows
     )  # fmt: skip
-    return formulas[0], formulas[1]
 
 
 @cache

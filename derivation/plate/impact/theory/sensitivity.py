@@ -86,15 +86,9 @@ def energy_number() -> Formula:
     )
     sources = ("contact_work", "P")
     return Formula(
-        "energy_number",
-        r"\mathcal{Y}",
-        "impact energy divided by $(4/3) E^* h^5/R^2$",
-        value,
-        "1",
-        "13",
-        sources,
-        proof,
-    )
+        "energy_number", r"\mathcal{Y}", "impact energy divided by $(4/3) E^* h^5/R^2$", value,
+        "1", "13", sources, proof,
+    )  # fmt: skip
 
 
 # --- slopes of the law
@@ -372,11 +366,10 @@ def times() -> tuple[Formula, ...]:
         "Derivatives of the contact time",
         "At fixed $u$, numerator and radicand are differentiated with respect to each $D_n$; the "
         "quotient rule gives the derivative of the integrand.",
-        lambda *claims: (
-            proofs | {f"by {name}": claims[i] - grown[name] for i, name in enumerate(values)}
-        ),
+        lambda *claims: proofs
+        | {f"by {name}": claim - grown[name] for claim, name in zip(claims, values, strict=True)},
         *values.values(),
-    )
+    )  # fmt: skip
     rows = (
         ("time_by_radius", r"\partial_{\log A_m}", r"$\log(a_m/h)$"),
         ("time_by_thickness", r"\partial_{\log\eta}", r"$\log(h/b)$ at fixed $a_m/h$"),

@@ -108,26 +108,14 @@ def wave_equations() -> tuple[Formula, Formula]:
     sources = ("radial_ode", "axial_ode")
     return (
         Formula(
-            "radial_wave",
-            "0",
-            ("equation of radial motion of mode $j$"),
-            first,
-            "Pa",
-            "",
-            sources[:1],
-            proof,
+            "radial_wave", "0", "equation of radial motion of mode $j$", first, "Pa", "",
+            sources[:1], proof,
         ),
         Formula(
-            "axial_wave",
-            "0",
-            "equation of axial motion of mode $j$",
-            second,
-            "Pa/m",
-            "",
-            sources[1:],
-            proof,
+            "axial_wave", "0", "equation of axial motion of mode $j$", second, "Pa/m", "",
+            sources[1:], proof,
         ),
-    )
+    )  # fmt: skip
 
 
 def wave(shape_p: sp.Expr, shape_q: sp.Expr) -> Wave:
@@ -238,12 +226,7 @@ def dynamic_influence() -> tuple[Formula, ...]:
     parts = loaded_wave(bends=True), loaded_wave(bends=False)
     printed = stiffness(sp.tanh(p), sp.tanh(q)), stiffness(sp.coth(p), sp.coth(q))
     slow = slow_stiffness()
-    given = {
-        name: (with_roots(value), value)
-        for name, value in zip(
-            ("B_a", "B_s", "B_a_slow", "B_s_slow"), (*printed, *slow), strict=True
-        )
-    }
+    exact = (*printed, *slow, *map(with_roots, (*printed, *slow)))
     residuals = {"back face": in_sines(sum(part.zz.subs(z, -1) for part in parts))}
     for part, value, name in zip(parts, printed, ("B_a", "B_s"), strict=True):
         residuals[name] = in_sines(part.f.subs(z, 1) - 1 / in_p_and_q(value))
@@ -255,18 +238,10 @@ def dynamic_influence() -> tuple[Formula, ...]:
         r"A pressure $A_j/2$ acts on both faces, in equal and in opposite directions; the sum of "
         r"both cases leaves the back face free. The tractions are solved for the constants, "
         r"with $\kappa$ and $\gamma$ expressed by $p$ and $q$.",
-        lambda *claims: (
-            residuals
-            | {
-                f"{name}, {of}": claim - value
-                for (name, values), pair in zip(
-                    given.items(), zip(claims[::2], claims[1::2], strict=True), strict=True
-                )
-                for of, claim, value in zip(("in kap", "in p"), pair, values, strict=True)
-            }
-        ),
-        *(value for pair in given.values() for value in pair),
-    )
+        lambda *claims: residuals
+        | {f"form {i}": claim - exact[i] for i, claim in enumerate(claims)},
+        *exact,
+    )  # fmt: skip
     shapes = "wave_f", "wave_g"
     total = h / mu * sum(1 / with_roots(value) for value in printed)
     slowly = r"over $\mu/h$, without cancellation for $\kappa < x^2$"
@@ -283,30 +258,21 @@ def dynamic_influence() -> tuple[Formula, ...]:
         for name, latex, meaning, unit, sources, value in rows
     )  # fmt: skip
     stated = h / mu * sum(1 / sp.Symbol(name) for name in ("B_a", "B_s"))
-    load = static_limit()
-    proof_of_both = prove(
+    load, forms = static_limit(), dict(zip(("B_a", "B_s"), map(with_roots, slow), strict=True))
+    of_both = prove(
         "Dynamic influence of both parts",
         "The two cases of the load on both faces are added. " + load.argument,
         lambda total, stated: {
-            "stated": stated.subs(
-                {name: with_roots(value) for name, value in zip(("B_a", "B_s"), slow, strict=True)}
-            )
-            - total,
+            "stated": stated.subs(forms) - total,
             "deflection": in_sines(in_p_and_q(total) - sum(part.f.subs(z, 1) for part in parts)),
         },
         *(total, stated),
     )
     both = Formula(
-        "dynamic_influence",
-        r"C(\phi_j, \omega)",
+        "dynamic_influence", r"C(\phi_j, \omega)",
         "deflection of the contact face per coefficient of an oscillating pressure",
-        total,
-        "m/Pa",
-        "",
-        ("B_a", "B_s"),
-        proof_of_both,
-        stated=stated,
-    )
+        total, "m/Pa", "", ("B_a", "B_s"), of_both, stated=stated,
+    )  # fmt: skip
     return (*parts_of_both, both)
 
 

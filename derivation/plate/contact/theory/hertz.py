@@ -41,7 +41,7 @@ def pressure() -> Formula:
         "The resultant of the pressure over the contact area is $P$.",
         lambda p: {
             "resultant": resultant.subs(peak, p / shape) - P,
-            "compression": sp.Abs(p) + p,
+            "compression": sp.Abs(p / shape) + p / shape,
         },
         solution * shape,
     )

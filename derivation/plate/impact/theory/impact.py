@@ -199,7 +199,7 @@ def hertz_time() -> Formula:
     euler = s ** (sp.Rational(2, 5) - 1) * (1 - s) ** (sp.Rational(1, 2) - 1)
     factor = sp.simplify(integrand / euler)
     value = 2 * factor * sp.gamma(sp.Rational(2, 5)) * sp.sqrt(sp.pi) / sp.gamma(sp.Rational(9, 10))
-    largest = sp.Symbol("d", positive=True)
+    beta, largest = sp.beta(sp.Rational(2, 5), sp.Rational(1, 2)), sp.Symbol("d", positive=True)
     C = sp.Symbol("C", positive=True)
     # a_m from the work, and the prefactor of I, with D_2 alone.
     speed = sp.sqrt(2 * C * _a_m**5 * work_of_contact(0) / m)
@@ -213,7 +213,7 @@ def hertz_time() -> Formula:
         "q^2$ and $q = 1 - u^2$ give the integral of the contact time with $D_2$ alone.",
         lambda value: {
             "Beta": integrand - factor * euler,
-            "value": value - 2 * factor * sp.beta(sp.Rational(2, 5), sp.Rational(1, 2)),
+            "value": sp.gammasimp(value / beta.rewrite(sp.gamma)) - 2 * factor,
             "prefactor": ratio - sp.sqrt(work_of_contact(0)),
             "same integral": direct**2 - 16 * q**2 * u_t**2 / sp.expand(1 - q**5),
         },

@@ -123,6 +123,7 @@ def weak_restitution() -> Formula:
     integrand = phi**_FIFTH * sp.sqrt(1 - phi**2)  # phi -> arcsin, both halves: twice
     loss = 2 * sp.hyperexpand(sp.integrate(integrand, (phi, 0, 1)))
     loss *= sp.Rational(4, 5) ** sp.Rational(2, 5)
+    second = sp.solve(product.coeff(x, 2), c_2)[0].subs(c_1, C_1)
     value = 1 - C_1 * x_v + sp.Rational(3, 5) * C_1**2 * x_v**2
     proof = prove(
         "Restitution of a weakly viscoelastic contact",
@@ -130,10 +131,7 @@ def weak_restitution() -> Formula:
         "time-reversed motion.",
         lambda e: {
             "loss": sp.gammasimp((loss - C_1).rewrite(sp.gamma)),
-            "to second order": e
-            - 1
-            + loss * x_v
-            - sp.solve(product.coeff(x, 2), c_2)[0].subs(c_1, C_1) * x_v**2,
+            "to second order": sp.expand(e - 1 + C_1 * x_v - second * x_v**2),
         },
         value,
     )

@@ -185,7 +185,7 @@ def _at_rest() -> dict[str, sp.Expr]:
 def variational_law() -> Proof:
     """Prove half the mean over [0, 2a], power by power, and the sphere under the next punch."""
     contact = {formula.name: formula.expression for formula in contact_law()}
-    K_j = contact["K_j"]
+    K_j, squares = contact["K_j"], {sp.cos(_y) ** 2: 1 - sp.sin(_y) ** 2}
     n = sp.Symbol("n", positive=True)
     s = SINE_MINUS.subs(a * phi, _y)
     mean = sp.integrate(s.subs(_y, 2 * _y * _t), (_t, 0, 1)) / 2
@@ -206,9 +206,9 @@ def variational_law() -> Proof:
         "the work is that for $P = a^3$.",
         lambda law, index: {
             "sphere": gap - a**2 / (3 * R),
-            "law": law / K_j - mean.subs(_y, a * phi),
+            "law": sp.expand(sp.expand_trig(mean - (law / K_j).subs(a, _y / phi))).subs(squares),
             "half-space": gap + whole - a**2 / R,
-            "mean": doubled.subs(sp.cos(_y) ** 2, 1 - sp.sin(_y) ** 2),
+            "mean": doubled.subs(squares),
             "power": sp.powsimp(sp.expand_power_base(half)) / a ** (n + 2) - ratio,
             "index": sp.powsimp(ratio.subs(n, 2 * k - 3) - index),
             "work": sp.diff(stored, a) - a**3 * sp.diff(depth, a),

@@ -24,7 +24,23 @@ from derivation.engine.formula.proof import lower_bessel, prove
 from derivation.plate.edge_modes.theory import mindlin
 from derivation.plate.edge_modes.theory.waves import g_1, g_2, in_k, t
 from derivation.plate.modes.theory.equilibrium import BESSEL_J0, BESSEL_J1, hooke
-from derivation.plate.vocabulary import C1, C3, Formula, eta, gam, h, k_n, kap, nu, phi, r, x_h, z
+from derivation.plate.vocabulary import (
+    C1,
+    C3,
+    Formula,
+    eta,
+    gam,
+    h,
+    k_n,
+    kap,
+    lam,
+    mu,
+    nu,
+    phi,
+    r,
+    x_h,
+    z,
+)
 from derivation.plate.waves.theory.dynamic_modes import (
     in_p_and_q,
     p,
@@ -125,14 +141,16 @@ def wave_stress() -> tuple[Formula, ...]:
     curved = sp.limit(sp.diff(psi, distance) + psi / distance, distance, 0)
     own = curved.subs(mindlin.c, 0)
     of_part = waves[0].expression.subs(x_h, k_n * eta)
-    of_nu, of_gam = (1 - 2 * nu) / (2 * (1 - nu)), (1 - 2 * gam) / (2 * (1 - gam))
+    of_nu = (1 - 2 * nu) / (2 * (1 - nu))
     value = in_k(MODE).subs(S_A, of_part.subs(gam, of_nu))
     of_mode = prove(
         "Stress of a mode on the back face",
         r"$\psi' + \psi/r$ is evaluated on the axis, and divided by that of the part $J_0$.",
         lambda value, stated: {
             "axis": sp.cancel(S_A * curved / own / (1 - mindlin.c * t) - stated),
-            "in k": (value - in_k(stated).subs(S_A, of_part)).subs(nu, of_gam),
+            "gamma": of_nu.subs(nu, lam / (2 * (lam + mu))) - mu / (lam + 2 * mu),
+            "in k": value.subs(k_n, x_h / eta)
+            - in_k(stated).subs(k_n, x_h / eta).subs(S_A, waves[0].expression.subs(gam, of_nu)),
         },
         *(value, MODE),
     )

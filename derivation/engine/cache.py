@@ -161,7 +161,8 @@ def to_plain(value: object, kinds: Mapping[str, type]) -> Any:
     if isinstance(value, Mapping):
         return {"mapping": [[_text(key), to_plain(item, kinds)] for key, item in value.items()]}
     if is_dataclass(value) and kinds.get(name) is type(value):
-        return {name: [to_plain(getattr(value, field.name), kinds) for field in fields(value)]}
+        kept = (one.name for one in fields(value) if one.metadata.get("cached", True))
+        return {name: [to_plain(getattr(value, part), kinds) for part in kept]}
     if isinstance(value, sp.Basic):
         return _expression_to_plain(value, kinds)
     raise TypeError(

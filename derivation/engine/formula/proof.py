@@ -6,7 +6,7 @@ magnitudes from 1e-90 to 1e90, because a residual may vanish, or almost vanish, 
 
 import random
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import islice
 
@@ -28,6 +28,9 @@ domain."""
 _FAR = (36, 30), (12, 300)
 """Numbers of further points, and the largest binary exponents of their coordinates."""
 _FAR_OF_INTEGRALS = ((8, 3),)
+_CHANGE = sp.Rational(1, 997)
+"""Relative change of a claim, which a residual must show."""
+Residuals = Mapping[str, sp.Expr]
 
 
 class ProofError(FailedError):
@@ -36,12 +39,27 @@ class ProofError(FailedError):
 
 @dataclass(frozen=True)
 class Proof:
-    """A proved step: its name, argument, names of residuals, and the method."""
+    """A proved step.
+
+    Parameters
+    ----------
+    step, argument, residuals, method
+        Name, reasoning, labels of the residuals, and how they were reduced to zero.
+    determines
+        Whether the residuals are known to determine the claims.
+    claims
+        The proved expressions; a formula with this proof must have one of them. A proof that is
+        read from the cache does not contain them: its formulas were compared when they were made.
+    """
 
     step: str
     argument: str
     residuals: tuple[str, ...]
     method: str
+    determines: bool = False
+    claims: tuple[sp.Expr, ...] = field(
+        default=(), compare=False, repr=False, metadata={"cached": False}
+    )
 
     def _repr_markdown_(self) -> str:
         """Return the step, its argument and its residuals, for a notebook."""
@@ -49,8 +67,17 @@ class Proof:
         return f"**{self.step}.** {argument} Reduced to zero {self.method}: {vanish}."
 
 
-def prove(step: str, argument: str, residuals: Mapping[str, sp.Expr]) -> Proof:
+def prove(
+    step: str,
+    argument: str,
+    residuals: Residuals | Callable[..., Residuals],
+    *claims: sp.Expr,
+) -> Proof:
     """Prove that every residual is zero.
+
+    With `claims`, check that the residuals determine these expressions: a claim that is multiplied
+    by a constant or by a function of one of its symbols must leave a residual, not only at a fixed
+    value of this symbol. Formulas with this proof must have one of the claims as their expression.
 
     Parameters
     ----------
@@ -59,7 +86,10 @@ def prove(step: str, argument: str, residuals: Mapping[str, sp.Expr]) -> Proof:
     argument
         The reasoning in a sentence.
     residuals
-        Expressions that must vanish identically, by label.
+        Expressions that must vanish identically, by label; with claims, a function of the claims
+        that returns them.
+    claims
+        The expressions that are proved.
 
     Returns
     -------
@@ -69,20 +99,22 @@ def prove(step: str, argument: str, residuals: Mapping[str, sp.Expr]) -> Proof:
     Raises
     ------
     ProofError
-        If a residual does not vanish; the message states step, label and residual.
+        If a residual does not vanish; the message states step, label and residual. If the residuals
+        vanish for another claim too; the message states it.
     TypeError
         If a residual is no expression.
     ValueError
         If there are no residuals.
     """
-    if not residuals:
+    given = residuals(*claims) if callable(residuals) else residuals
+    if not given:
         raise ValueError(
             f"{step}: expected residuals, which are reduced to zero, got none; "
             'write for example {"equilibrium": left - right}'
         )
     methods = set()
-    for label, given in residuals.items():
-        residual = _as_expression(step, label, given)
+    for label, one in given.items():
+        residual = _as_expression(step, label, one)
         method = decide_zero(residual)
         if method is None:
             raise ProofError(
@@ -90,7 +122,76 @@ def prove(step: str, argument: str, residuals: Mapping[str, sp.Expr]) -> Proof:
             )
         methods.add(method)
     method = BY_BALLS if BY_BALLS in methods else SYMBOLIC
-    return Proof(step, argument, tuple(residuals), method)
+    if not callable(residuals):
+        return Proof(step, argument, tuple(given), method)
+    for number in range(len(claims)):
+        _expect_determined(step, residuals, claims, number)
+    return Proof(step, argument, tuple(given), method, bool(claims), claims)
+
+
+def _expect_determined(
+    step: str, residuals: Callable[..., Residuals], claims: tuple[sp.Expr, ...], number: int
+) -> None:
+    """Raise ProofError if the residuals vanish even if one claim is multiplied by a function.
+
+    The function is constant or linear in a symbol. In the second case a residual at a fixed value
+    of this symbol, whose response is that to a constant, does not count. Of an integral, the
+    integrand is multiplied.
+    """
+    claim = claims[number]
+    inner = claim.function if isinstance(claim, sp.Integral) else claim
+
+    def changed(factor: sp.Expr) -> list[sp.Expr]:
+        other = claim * factor if inner is claim else claim.func(inner * factor, *claim.limits)
+        given = residuals(*claims[:number], other, *claims[number + 1 :])
+        return [sp.sympify(residual) for residual in given.values()]
+
+    scaled = changed(1 + _CHANGE)
+    for symbol in (None, *sorted(inner.free_symbols, key=str)):
+        if symbol is None:
+            noticed, at = any(map(_is_not_zero, scaled)), ""
+        else:
+            pairs = zip(changed(1 + _CHANGE * symbol), scaled, strict=True)
+            noticed = any(_depends(one, symbol, other) for one, other in pairs)
+            at = f" at every {symbol}"
+        if not noticed:
+            raise ProofError(
+                f"{step}: expected residuals that determine {sp.sstr(claim):.100}{at}, but they "
+                f"vanish too if it is multiplied by {1 + _CHANGE * (symbol or 1)}; add a residual "
+                "that contains it, such as its difference to what it must equal"
+            )
+
+
+def _is_not_zero(residual: sp.Expr) -> bool:
+    """Return whether a residual is different from zero at a point; without balls, if expanded."""
+    if residual == 0:
+        return False
+    try:
+        return any(_excludes_zero(residual, values) for values in _few_points(residual))
+    except NotImplementedError:
+        return not reduces_to_zero(residual)
+
+
+def _depends(residual: sp.Expr, symbol: sp.Symbol, scaled: sp.Expr) -> bool:
+    """Return whether a residual is no constant times `scaled`, the response to a constant."""
+    if not _is_not_zero(residual):
+        return False
+    if symbol in residual.free_symbols or not _is_not_zero(scaled):
+        return True
+    first = None
+    for values in _few_points(residual, scaled):
+        ratio = next(_balls(residual, values)) / next(_balls(scaled, values))
+        first = ratio if first is None and ratio.is_finite() else first
+        if first is not None and not ratio.overlaps(first):
+            return True
+    return False
+
+
+def _few_points(*expressions: sp.Expr) -> list[dict[sp.Symbol, Fraction]]:
+    """Return points for expressions of which some may be outside their domain at a point."""
+    symbols = set[sp.Symbol]().union(*(one.free_symbols for one in expressions))
+    integral = any(one.has(sp.Integral) for one in expressions)
+    return sample_points(symbols, _POINTS // 2 if integral else 4 * _POINTS)
 
 
 def _as_expression(step: str, label: str, residual: object) -> sp.Expr:

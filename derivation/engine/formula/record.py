@@ -40,7 +40,7 @@ class Record:
     sources
         Names of the formulas from which it was derived.
     proof
-        The proof.
+        The proof. If it has claims, `expression` and `stated` must be among them.
     summed
         Whether the quantity is the sum of `expression` over all terms.
     where
@@ -56,7 +56,8 @@ class Record:
         If it contains a symbol that the paper does not define.
     ValueError
         If the name is no Python name, a number is rounded, a symbol has other assumptions than that
-        of the vocabulary, or a condition of `where` contains symbols without a meaning.
+        of the vocabulary, a condition of `where` contains symbols without a meaning, or the proof
+        is about other expressions.
     """
 
     vocabulary: ClassVar[Vocabulary]
@@ -77,6 +78,12 @@ class Record:
         if not self.name.isidentifier() or iskeyword(self.name):
             raise ValueError(f"expected a Python name for a formula, got {self.name!r}; rename it")
         self._expect_symbols()
+        for what, own in (("expression", self.expression), ("stated", self.stated)):
+            if own is not None and self.proof.claims and own not in self.proof.claims:
+                raise ValueError(
+                    f"{self.name}: expected an expression that the proof {self.proof.step!r} "
+                    f"determines, got {what}={sp.sstr(own):.100}; give it to `prove` as a claim"
+                )
         if rounded := sorted(self.expression.atoms(sp.Float)):
             raise ValueError(
                 f"{self.name}: expected exact numbers, got {float(rounded[0])!r}; "

@@ -94,28 +94,29 @@ def back_face_factor() -> Formula:
     antisymmetric, symmetric = T / (sp.sinh(T) - T), T / (sp.sinh(T) + T)
     # On the axis J1(phi r)/r is phi/2.
     on_axis = (S_rr - mu * g_j * phi**2).subs(z, -h)
+    radial = loaded(S_rr.subs(z, -h))
+    conditions = {
+        "free face": loaded(S_zz.subs(z, -h)),
+        "on the axis": loaded(on_axis - ONE_AND_NU / 2 * S_rr.subs(z, -h)),
+        "Hooke": g_j * phi**2 - (S_rr - RATIO * S_zz) / PLANE_STRAIN_MODULUS,
+    }
     proof = prove(
         "Stress of the back face",
         "The stresses of the loaded mode are taken at $z = -h$; $S_{zz} = 0$ there, and Hooke's "
         "law gives $g$.",
-        {
-            "free face": loaded(S_zz.subs(z, -h)),
-            "radial stress": loaded(S_rr.subs(z, -h)) + A_j * value.subs(T, 2 * phi * h),
-            "on the axis": loaded(on_axis - ONE_AND_NU / 2 * S_rr.subs(z, -h)),
-            "Hooke": (g_j * phi**2 - (S_rr - RATIO * S_zz) / PLANE_STRAIN_MODULUS),
+        lambda value: {
+            "radial stress": radial + A_j * value.subs(T, 2 * phi * h),
             "bending and extension": value - antisymmetric - symmetric,
+            **conditions,
         },
+        value,
     )
     return Formula(
         "back_face_factor",
         "B(T)",
         "radial stress of the back face per pressure coefficient, with reversed sign",
-        value,
-        "1",
-        "",
-        ("S_rr", "S_zz", "Omega_1"),
-        proof,
-    )
+        value, "1", "", ("S_rr", "S_zz", "Omega_1"), proof,
+    )  # fmt: skip
 
 
 def _mode() -> sp.Expr:
@@ -134,7 +135,11 @@ def back_face_stress() -> tuple[Formula, ...]:
     proof = prove(
         "Stress on the axis",
         "The coefficient $A_j$ of Hertz pressure is inserted, with $R$ expressed by the force $P$.",
-        {"stress": (stress - SCALE.subs(P, force) * mode_term).subs(_REDUCED)},
+        lambda value, reduced: {
+            "stress": (stress - value.subs(P, force)).subs(_REDUCED),
+            "sum": (stress / SCALE.subs(P, force) - reduced).subs(_REDUCED),
+        },
+        *(SCALE * mode_term, mode_term),
     )
     sources = ("back_face_factor", "A_j", "P")
     rows = (
@@ -312,15 +317,10 @@ def wide_contact_stress() -> Formula:
         residuals,
     )
     return Formula(
-        "back_face_sum_wide",
-        r"S^{\mathrm{wide}}",
+        "back_face_sum_wide", r"S^{\mathrm{wide}}",
         "$S$ of a thin plate for $a$ much larger than $h$",
-        3 * (constant - sp.log(alpha)) + series,
-        "1",
-        "",
-        ("back_face_sum_thin",),
-        proof,
-    )
+        3 * (constant - sp.log(alpha)) + series, "1", "", ("back_face_sum_thin",), proof,
+    )  # fmt: skip
 
 
 # --- the edge
@@ -342,22 +342,17 @@ def back_face_edge() -> Formula:
         "Edge term of the stress on the back face",
         "Hooke's law gives the stresses of both states at $z = -h$, which are multiplied by the "
         "mean motion of the edge in the modes.",
-        {
+        lambda value: {
             "stress": (stress - scale * value).subs(_REDUCED),
             **{f"hoop {i}": hoop[i] - uniform[i] for i in range(2)},
         },
+        value,
     )
     return Formula(
-        "back_face_edge",
-        r"S_e^{\mathrm{far}}",
-        "reduction of $S$ without mean motion of the edge",
-        value,
-        "1",
-        "",
-        ("edge_extension", "edge_rotation", "back_face_sum"),
-        proof,
-        summed=True,
-    )
+        "back_face_edge", r"S_e^{\mathrm{far}}",
+        "reduction of $S$ without mean motion of the edge", value, "1", "",
+        ("edge_extension", "edge_rotation", "back_face_sum"), proof, summed=True,
+    )  # fmt: skip
 
 
 @cache
@@ -378,7 +373,8 @@ def back_face_clamp() -> Formula:
         "Reduction of the stress on the back face by a clamped edge",
         "Hooke's law gives the stresses of both states at $z = -h$, which are multiplied by the "
         "suppressed rotation and extension.",
-        {"stress": (stress - SCALE.subs(P, force) * value).subs(_REDUCED)},
+        lambda value: {"stress": (stress - SCALE.subs(P, force) * value).subs(_REDUCED)},
+        value,
     )
     return Formula(
         "back_face_clamp", r"S_c^{\mathrm{back}}", "reduction of $S$ by a clamped edge", value,

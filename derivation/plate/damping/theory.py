@@ -126,21 +126,26 @@ def oscillator() -> Proof:
     """Prove the free motion and the response to an impulse by inserting them into the equation."""
     g, free = impulse_response(), free_motion()
     start = {t: 0}
+
+    def residuals(g: sp.Expr, q: sp.Expr) -> dict[str, sp.Expr]:
+        return {
+            "impulse": by_phase(_equation(g)),
+            "from rest": g.subs(start),
+            "unit velocity": sp.diff(g, t).subs(start) - 1,
+            "free": by_phase(_equation(q)),
+            "displacement": sp.expand(q.subs(start) - q_j),
+            "velocity": sp.simplify(sp.diff(q, t).subs(start) - q_rate),
+            "undamped": sp.simplify(g.subs(zeta, 0) - sp.sin(omega * t) / omega),
+        }
+
     # d/dt of int_0^t g(t - s) P(s) ds is g(0) P(t) + int g'(t - s) P(s) ds.
     return prove(
         "Damped oscillator",
         "Both motions are inserted into the equation and evaluated at $t = 0$. Duhamel's "
         "integral solves it, because its second derivative is $g'(0) P$ plus the integral "
         "over $g''$.",
-        {
-            "impulse": by_phase(_equation(g)),
-            "from rest": g.subs(start),
-            "unit velocity": sp.diff(g, t).subs(start) - 1,
-            "free": by_phase(_equation(free.q)),
-            "displacement": sp.expand(free.q.subs(start) - q_j),
-            "velocity": sp.simplify(free.rate.subs(start) - q_rate),
-            "undamped": sp.simplify(g.subs(zeta, 0) - sp.sin(omega * t) / omega),
-        },
+        residuals,
+        *(g, free.q),
     )
 
 
@@ -156,18 +161,20 @@ def dissipation() -> Proof:
     at_first = (q_rate**2 + omega**2 * q_j**2) / 2
     cycle = 2 * sp.pi / (omega * ROOT)
     left = free.q.subs(t, cycle) / q_j
+    decrement = sp.simplify(left - sp.exp(-2 * sp.pi * zeta / ROOT))
     return prove(
         "Energy loss by damping",
         "The rate of the energy follows from the oscillator's equation. In a free motion the loss "
         "grows by $2 \\zeta \\omega q'^2$ and equals the decrease of the energy. After one cycle "
         "the motion is the same, reduced by the decrement.",
-        {
+        lambda lost: {
             "rate of the energy": sp.expand(flow - _push * rate + POWER.subs(q_rate, rate)),
-            "rate of the loss": by_phase(sp.diff(free.lost, t) - POWER.subs(q_rate, free.rate)),
-            "no loss at t = 0": sp.simplify(free.lost.subs(t, 0)),
-            "balance": by_phase(at_first - kept - free.lost),
-            "decrement": sp.simplify(left - sp.exp(-2 * sp.pi * zeta / ROOT)),
+            "rate of the loss": by_phase(sp.diff(lost, t) - POWER.subs(q_rate, free.rate)),
+            "no loss at t = 0": sp.simplify(lost.subs(t, 0)),
+            "balance": by_phase(at_first - kept - lost),
+            "decrement": decrement,
         },
+        free.lost,
     )
 
 

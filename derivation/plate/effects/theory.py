@@ -44,10 +44,11 @@ def bending() -> Formula:
         "Bending",
         r"The leading term of $c_1 A$ for $h/b \to 0$ is the deflection $P b^2/(8 \pi D)$ of a "
         "thin plate, $D = E^* (2h)^3/12$, divided by $a^2/R$.",
-        {
+        lambda contribution: {
             "deflection": contribution.subs({a_ratio: radius / half, eta: half / wide})
             - deflection * sphere / radius**2
         },
+        contribution,
     )
     return Formula(
         "F_bending",
@@ -66,7 +67,7 @@ def bending() -> Formula:
 def thickness_bound() -> Formula:
     """Return an upper bound of the finite thickness's contribution to S: the rest of 3/2 c_1 A."""
     one_sided()
-    first = coefficient(2)
+    first, bent = coefficient(2), bending().expression / a_ratio
     lateral = -4 / sp.pi**2 * kappa[0] * alpha
     most = sp.Rational(3, 2) * (c_A[1] * a_ratio - bending().expression) - lateral
     proof = prove(
@@ -74,10 +75,12 @@ def thickness_bound() -> Formula:
         "The contribution of finite thickness is that of the modes minus that of bending. That of "
         "the modes is at most $(3/2) c_1 A$ minus the part of the finite radius in it, "
         r"$-(4/\pi^2) \kappa_0 \alpha$.",
-        {
+        lambda most: {
             "finite radius": sp.Rational(3, 2) * first.side * a_ratio
-            - lateral.subs(alpha, a_ratio * eta)
+            - lateral.subs(alpha, a_ratio * eta),
+            "sum": most + lateral + sp.Rational(3, 2) * (bent - c_A[1]) * a_ratio,
         },
+        most,
     )
     return Formula(
         "S_thickness_bound",

@@ -74,27 +74,33 @@ def edges() -> dict[str, Edge]:
     }
 
 
-def _tension(edge: Edge) -> sp.Expr:
-    """Return b^2 H^2/(12 D) N_r for an edge."""
-    constant = sp.solve(sp.expand(edge.in_plane.subs(_x, 1)), _c)[0]
-    return _strain(middle_plane()).subs(_c, constant)
+class Stretched(NamedTuple):
+    """The middle plane of an edge: its c, b^2 H^2/(12 D) N_r, this on the axis, and the work."""
+
+    c: sp.Expr
+    tension: sp.Expr
+    on_axis: sp.Expr
+    work: sp.Expr
 
 
-def stiffening(edge: Edge) -> sp.Expr:
+def stretched(edge: Edge) -> Stretched:
+    """Return the middle plane of an edge; the work is the integral of N_r w'^2 x, in this unit."""
+    c = sp.solve(sp.expand(edge.in_plane.subs(_x, 1)), _c)[0].subs(_g, edge.g)
+    tension = sp.expand(_strain(middle_plane()).subs({_c: c, _g: edge.g}))
+    work = sp.integrate(sp.expand(tension * slope().subs(_g, edge.g) ** 2 * _x), (_x, 0, 1))
+    return Stretched(c, tension, sp.limit(tension, _x, 0), work)
+
+
+def stiffening(edge: Edge, plane: Stretched) -> sp.Expr:
     """Return A of an edge."""
-    tension = _tension(edge)
     # k = 16 pi D/(b^2 (1 + 2 g)) and w_0 = 1 + 2 g.
-    work = sp.integrate(sp.expand(tension * slope() ** 2 * _x), (_x, 0, 1))
-    return sp.factor(sp.simplify((sp.Rational(3, 2) * work / (1 + 2 * _g) ** 3).subs(_g, edge.g)))
+    return sp.factor(sp.simplify(sp.Rational(3, 2) * plane.work / (1 + 2 * edge.g) ** 3))
 
 
-def tension_ratio(edge: Edge) -> sp.Expr:
+def tension_ratio(edge: Edge, plane: Stretched) -> sp.Expr:
     """Return B of an edge."""
-    on_axis = sp.limit(_tension(edge).subs(_g, edge.g), _x, 0)
-    deflection = 1 + 2 * edge.g
     # Over D/(H^3 b^2): the tension for this w_0, and its unit for P = k w_0, times w_0/H.
-    tension, unit = 12 * on_axis, sp.Rational(3, 2) / sp.pi * (1 + nu) * 16 * sp.pi * deflection
-    return sp.factor(sp.simplify(tension / unit))
+    return sp.factor(sp.simplify(12 * plane.on_axis / (24 * (1 + nu) * (1 + 2 * edge.g))))
 
 
 @cache
@@ -104,40 +110,64 @@ def stretching() -> tuple[Formula, ...]:
     tension = _strain(u)
     hoop = u / _x + nu * (sp.diff(u, _x) + shape**2 / 2)
     laplacian = sp.expand(sp.diff(_x * shape, _x) / _x)
-    proof = prove(
-        "Stretching of the middle plane",
-        "The linear deflection satisfies the equation of bending and the edge conditions, and "
-        "carries the load $P = k w_0$; the middle plane is in equilibrium.",
-        {
-            "bending": sp.expand(sp.diff(_x * sp.diff(laplacian, _x), _x)),
-            # P = -2 pi D x d/dx(laplacian), with the sign of a deflection along the load.
-            "load": 2 * _x * sp.diff(laplacian, _x) - 16,
-            "deflection": sp.integrate(shape, (_x, 0, 1)) + 1 + 2 * _g,
-            "middle plane": sp.expand(sp.diff(_x * tension, _x) - hoop),
-            **{
-                f"bending of the {name} edge": sp.expand(edge.bending.subs(_x, 1)).subs(_g, edge.g)
-                for name, edge in edges().items()
-            },
-        },
-    )
+    # P = -2 pi D x d/dx(laplacian), with the sign of a deflection along the load; D = H = b = 1.
+    force = sp.expand(2 * sp.pi * _x * sp.diff(laplacian, _x))
     kinds = (
         ("stiffening", "A", "the stiffening 1 + A (w/H)^2 of a plate by stretching", stiffening),
         ("tension", "B", "the tension by stretching over 3 (1 + nu) P w/(2 pi H^3)",
          tension_ratio),
     )  # fmt: skip
+    planes = {name: stretched(edge) for name, edge in edges().items()}
+    values = {
+        (kind, name): value(edges()[name], plane)
+        for kind, _, _, value in kinds
+        for name, plane in planes.items()
+    }
+
+    def of_edges(*claims: sp.Expr) -> dict[str, sp.Expr]:
+        given = dict(zip(values, claims, strict=True))
+        residuals: dict[str, sp.Expr] = {}
+        for name, edge in edges().items():
+            plane, w_0 = planes[name], 1 + 2 * edge.g
+            unit = 3 * (1 + nu) * force / (2 * sp.pi)
+            residuals |= {
+                f"bending of the {name} edge": edge.bending.subs(_x, 1).subs(_g, edge.g),
+                f"middle plane of the {name} edge": edge.in_plane.subs(_x, 1).subs(
+                    {_c: plane.c, _g: edge.g}
+                ),
+                f"A, {name} edge": force / w_0 * given["stiffening", name] * w_0**3
+                - 2 * sp.pi / w_0 * 12 * plane.work,
+                f"B, {name} edge": given["tension", name] * unit * w_0 - 12 * plane.on_axis,
+            }
+        return residuals
+
+    proof = prove(
+        "Stretching of the middle plane",
+        "The linear deflection satisfies the equation of bending and the edge conditions, and "
+        "carries the load $P = k w_0$; the middle plane is in equilibrium. The work of its tension "
+        "gives $A$, its tension on the axis $B$.",
+        lambda *claims: {
+            "bending": sp.expand(sp.diff(_x * sp.diff(laplacian, _x), _x)),
+            "load": force - 16 * sp.pi,
+            "deflection": sp.integrate(shape, (_x, 0, 1)) + 1 + 2 * _g,
+            "middle plane": sp.expand(sp.diff(_x * tension, _x) - hoop),
+            **of_edges(*claims),
+        },
+        *values.values(),
+    )
     return tuple(
         Formula(
             f"{kind}_{name}",
             rf"{symbol}_\text{{{name}}}",
             f"{symbol} of {meaning}, {name} edge",
-            value(edge),
+            values[kind, name],
             "1",
             "",
             (),
             proof,
         )
-        for kind, symbol, meaning, value in kinds
-        for name, edge in edges().items()
+        for kind, symbol, meaning, _ in kinds
+        for name in planes
     )
 
 

@@ -8,7 +8,7 @@ from derivation.engine.formula.ball import PrecisionError, evaluate
 from derivation.engine.formula.dimension import LENGTH, STRESS, DimensionError, dimension, unit
 from derivation.engine.formula.hyperbolic import to_hyperbolic
 from derivation.engine.formula.parse_latex import parse_latex
-from derivation.engine.formula.proof import BY_BALLS, SYMBOLIC, Proof, decide_zero
+from derivation.engine.formula.proof import BY_BALLS, SYMBOLIC, Proof, decide_zero, prove
 from derivation.engine.formula.vocabulary import Argument, Vocabulary
 from derivation.plate.vocabulary import ARGUMENTS, Formula, a, h, lam, mu, phi
 
@@ -39,6 +39,16 @@ def test_formula_rejects_a_wrong_unit_and_an_unknown_symbol() -> None:
         Formula("f", "f", "", a, "Pa", "", (), proof)
     with pytest.raises(KeyError, match="x"):
         Formula("f", "f", "", x, "m", "", (), proof)
+
+
+def test_a_formula_has_an_expression_that_its_proof_determines() -> None:
+    """Also one that is exactly half of it, or that is only shown, is rejected."""
+    proof = prove("area", "", lambda f: {"slope": sp.diff(f, a) - 2 * a, "0": f.subs(a, 0)}, a**2)
+    assert Formula("f", "f", "", a**2, "m^2", "", (), proof).expression == a**2
+    with pytest.raises(ValueError, match="f: expected an expression that the proof 'area' determ"):
+        Formula("f", "f", "", a**2 / 2, "m^2", "", (), proof)
+    with pytest.raises(ValueError, match=r"got stated=a\*h; give it to `prove` as a claim"):
+        Formula("f", "f", "", a**2, "m^2", "", (), proof, stated=a * h)
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,7 @@
 """Proofs: false identities that are true, or almost true, in one range only are not accepted."""
 
+from collections.abc import Callable
+
 import pytest
 import sympy as sp
 
@@ -82,3 +84,46 @@ def test_an_integer_is_a_residual() -> None:
     assert prove("step", "argument", {"part": 0}).method == SYMBOLIC
     with pytest.raises(ProofError, match=r"part leaves the residual 1$"):
         prove("step", "argument", {"part": 1})
+
+
+# --- claims: the expressions that residuals determine
+
+
+def test_a_proof_states_the_expressions_that_its_residuals_determine() -> None:
+    proof = prove("step", "argument", lambda f: {"slope": sp.diff(f, T) - 2 * T}, T**2)
+    assert proof.determines
+    assert proof.claims == (T**2,)
+    assert not prove("step", "argument", {"slope": sp.diff(T**2, T) - 2 * T}).determines
+
+
+@pytest.mark.parametrize(
+    ("residuals", "where"),
+    [
+        (
+            lambda f: {"other": sp.sin(T) ** 2 + sp.cos(T) ** 2 - 1 + 0 * f},
+            r"T\*\*2, but .* by 998/997",
+        ),
+        (lambda f: {"homogeneous": T * sp.diff(f, T) - 2 * f}, r"T\*\*2, but .* by 998/997"),
+        (lambda f: {"at one point": f.subs(T, 3) - 9}, r"T\*\*2 at every T, but .* by T/997 \+ 1"),
+        (lambda f: {"limit": sp.limit(f, T, 0)}, r"T\*\*2, but .* by 998/997"),
+    ],
+    ids=["unrelated", "homogeneous", "one point", "limit"],
+)
+def test_residuals_that_do_not_determine_a_claim_are_rejected(
+    residuals: Callable[[sp.Expr], dict[str, sp.Expr]], where: str
+) -> None:
+    with pytest.raises(ProofError, match=rf"step: expected residuals that determine {where}"):
+        prove("step", "argument", residuals, T**2)
+
+
+def test_every_claim_of_several_must_be_determined() -> None:
+    with pytest.raises(ProofError, match=r"determine T, but"):
+        prove("step", "argument", lambda *claims: {"square": claims[0] - T**2}, T**2, T)
+
+
+def test_a_substituted_symbol_and_an_integrand_are_determined() -> None:
+    prove("step", "argument", lambda f: {"at y": f.subs(T, sp.exp(x)) - sp.exp(2 * x)}, T**2)
+    integral = sp.Integral(sp.exp(-x * T), (x, 0, sp.oo))
+    prove("step", "argument", lambda f: {"of x": f.function - sp.exp(-x * T)}, integral)
+    with pytest.raises(ProofError, match="at every x"):
+        prove("step", "argument", lambda f: {"at 0": f.function.subs(x, 0) - 1}, integral)

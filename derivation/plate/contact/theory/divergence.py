@@ -140,18 +140,21 @@ def influence_at_infinity() -> Formula:
     cubed = phi**3 * contact_law()[0].expression.subs(J1, sp.sqrt(slope_at_infinity()))
     limit = sp.limit(cubed.rewrite(sp.exp), h, sp.oo)
     behaviour = tail(phi**3 * contact_law()[0].expression)
-    assert behaviour.leading is not None, "K_j does not oscillate"
+    leading = behaviour.leading
+    assert leading is not None, "K_j does not oscillate"
+    value = sp.factor(limit)
     proof = prove(
         "Influence at infinity",
         r"With $J_1(j_n)^2 \to 2/(\pi j_n)$, $\phi^3 K_j$ depends on $\phi h$ alone, and its limit "
         r"for $\phi h \to \infty$ is the ratio of leading coefficients.",
-        {"limit": limit - behaviour.leading, "exponent": behaviour.exponent},
+        lambda limit: {"limit": limit - leading, "exponent": behaviour.exponent},
+        value,
     )
     return Formula(
         "K_j_limit",
         r"\lim_{j\to\infty}\phi_j^3 K_j",
         r"limit of $\phi_j^3 K_j$ for large $j$",
-        sp.factor(limit),
+        value,
         "1/m^2",
         "10",
         ("K_j",),
@@ -184,7 +187,7 @@ def truncated_gamma(k: int) -> Formula:
     term = sp.powsimp(growth.leading.subs(phi, sp.pi * n / b), force=True)
     power = growth.exponent
     constant = sp.expand(term / n**power)
-    total = constant * N ** (power + 1) / (power + 1)
+    total = sp.powsimp(constant * N ** (power + 1) / (power + 1))
     step = sp.Symbol("N", integer=True, positive=True)
     limit = influence_at_infinity().expression
     partial = sp.expand(sp.summation(n**power, (n, 1, step)) / step ** (power + 1))
@@ -192,17 +195,19 @@ def truncated_gamma(k: int) -> Formula:
         f"Growth of gamma_{k}",
         r"The sum of $n^p$ over $n \le N$ is Faulhaber's polynomial; its leading coefficient is "
         "$1/(p + 1)$, and by Stolz's theorem lower terms do not change the leading one.",
-        {
+        lambda total: {
             "power": power - (2 * k - 4),
             "Faulhaber": sp.limit(partial, step, sp.oo) - 1 / (power + 1),
             "constant": constant - _scale(k) * (sp.pi / b) ** power * limit,
+            "growth": sp.diff(total, N) - _scale(k) * (sp.pi / b) ** power * limit * N**power,
         },
+        total,
     )
     return Formula(
         f"gamma_{k}_truncated",
         rf"\gamma_{k}^{{(N)}}",
         rf"the paper's $\gamma_{k}$ truncated after $N$ modes, for large $N$",
-        sp.powsimp(total),
+        total,
         f"m/{thirds('N', 2 * k - 1)}",
         "10",
         ("K_j_limit",),

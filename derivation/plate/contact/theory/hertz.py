@@ -35,16 +35,21 @@ def pressure() -> Formula:
     peak = sp.Symbol("p_0", real=True)
     resultant = -2 * sp.pi * sp.integrate(peak * _t * a**2 * sp.sqrt(1 - _t**2), (_t, 0, 1))
     (solution,) = sp.solve(resultant - P, peak)
+    shape = sp.sqrt(1 - r**2 / a**2)
     proof = prove(
         "Hertz pressure",
         "The resultant of the pressure over the contact area is $P$.",
-        {"resultant": resultant.subs(peak, solution) - P},
+        lambda p: {
+            "resultant": resultant.subs(peak, p / shape) - P,
+            "compression": sp.Abs(p / shape) + p / shape,
+        },
+        solution * shape,
     )
     return Formula(
         "p",
         "p(r)",
         r"Hertz pressure at $r \le a$",
-        solution * sp.sqrt(1 - r**2 / a**2),
+        solution * shape,
         "Pa",
         "7",
         (),
@@ -67,22 +72,29 @@ def sonine() -> Formula:
     order = 2 * _m + 3
     closed = (-1) ** (_m + 1) * (1 / sp.factorial(order) - 1 / sp.factorial(order - 1))
     ratio = sp.gammasimp((bessel * integral / closed).rewrite(sp.gamma))
+    value = SINE_MINUS / (a * phi**3)
     series = sp.series(sp.sin(_y) - _y * sp.cos(_y), _y, 0, 10).removeO()
     proof = prove(
         "Sonine's integral",
         "$J_0$'s power series is integrated term by term: the ratio of every coefficient to that "
         r"of $a^2 (\sin y - y \cos y)/y^3$, $y = a \phi$, is 1.",
-        {"ratio of coefficients - 1": sp.simplify(ratio) - 1}
-        | {
-            f"closed coefficient of y^{2 * k}": closed.subs(_m, k) - series.coeff(_y, 2 * k + 3)
-            for k in range(4)
-        },
+        lambda value: (
+            {
+                "ratio of coefficients - 1": sp.simplify(ratio) - 1,
+                "in y": value.subs(phi, _y / a) - a**2 * (sp.sin(_y) - _y * sp.cos(_y)) / _y**3,
+            }
+            | {
+                f"closed coefficient of y^{2 * k}": closed.subs(_m, k) - series.coeff(_y, 2 * k + 3)
+                for k in range(4)
+            }
+        ),
+        value,
     )
     return Formula(
         "sonine",
         r"\int_0^a r\sqrt{1-r^2/a^2}\,J_0(\phi_j r)\,dr",
         "Sonine's integral",
-        SINE_MINUS / (a * phi**3),
+        value,
         "m^2",
         "8",
         (),
@@ -117,24 +129,25 @@ def contact_radius() -> Formula:
     amplitude = sp.simplify(half * transform * phi / (SINE_MINUS / phi**3))
     deflection = sp.expand(amplitude * kernel)
     curvature = sp.diff(deflection, radius, 2) - 1 / R
-    (force,) = sp.solve(curvature, P)
+    force = sp.factor(sp.solve(curvature, P)[0])
     moment = sp.integrate(_t * sp.sin(phi * _t), (_t, 0, a))
     proof = prove(
         "Hertz contact radius",
         r"Under this pressure the surface of the half-space is, for $r \le a$, a parabola with "
         r"the curvature $1/R$ of the sphere and the depth $a^2/R$ at the centre.",
-        {
+        lambda force: {
             "moment of the sine": moment - SINE_MINUS / phi**2,
             "curvature": curvature.subs(P, force),
             "higher powers of r": sp.diff(deflection, radius, 3),
             "indentation": -deflection.subs(P, force).subs(radius, 0) - a**2 / R,
         },
+        force,
     )
     return Formula(
         "P",
         "P",
         "contact force of Hertz pressure with contact radius a",
-        sp.factor(force),
+        force,
         "N",
         "7",
         ("p", "sonine", "C_half"),
@@ -142,8 +155,8 @@ def contact_radius() -> Formula:
     )
 
 
-def norm_of_bessel() -> Proof:
-    """Prove orthogonality: int_0^b r J0(phi_i r) J0(phi_j r) dr is b^2 J1(b phi_j)^2/2 or 0.
+def norm_of_bessel() -> tuple[sp.Expr, Proof]:
+    """Return b^2 J1^2/2, and prove that it or 0 is int_0^b r J0(phi_i r) J0(phi_j r) dr.
 
     Both antiderivatives are checked by differentiation; their values at the limits follow from
     J0(b phi) = 0.
@@ -153,7 +166,8 @@ def norm_of_bessel() -> Proof:
     i0, i1 = sp.besselj(0, k * r), sp.besselj(1, k * r)
     square = r**2 / 2 * (j0**2 + j1**2)
     product = r * (phi * j1 * i0 - k * j0 * i1) / (phi**2 - k**2)
-    return prove(
+    norm = square.subs({j0: 0, j1: J1}).subs(r, b)
+    return norm, prove(
         "Orthogonality",
         r"Lommel's antiderivatives are differentiated and give "
         r"$r J_0(\phi r)^2$ and $r J_0(\phi r) J_0(k r)$.",
@@ -167,15 +181,15 @@ def norm_of_bessel() -> Proof:
 @cache
 def pressure_coefficient() -> Formula:
     """Return A_j of (4) and (8): the pressure's moment, Sonine's integral, over the mode's norm."""
-    norm = b**2 * J1**2 / 2
-    orthogonality = norm_of_bessel()
+    norm, orthogonality = norm_of_bessel()
     peak = pressure().expression.subs(r, 0).subs(P, contact_radius().expression)
     moment = peak * sonine().expression
     expression = sp.factor(moment / norm / SINE_MINUS) * SINE_MINUS
     proof = prove(
         "Pressure coefficients",
         f"{orthogonality.argument} The moment of the pressure is Sonine's integral times $p(0)$.",
-        {"moment": expression * norm - moment},
+        lambda A_j: {"moment": A_j * norm - moment},
+        expression,
     )
     return Formula(
         "A_j",

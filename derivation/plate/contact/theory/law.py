@@ -24,14 +24,17 @@ def contact_law() -> tuple[Formula, ...]:
         name: face.expression * prefactor for name, face in (("K_j", top), ("K_j_bottom", bottom))
     }
     mode_term = -loaded(mode_shapes()[0].expression).subs(A_j, coefficient)
+    terms = (*faces.values(), faces["K_j"] * SINE_MINUS)
     proof = prove(
         "Contact law",
         r"$K_j s(a \phi_j)$ equals $-f_j(\pm h)$ with the constants of the face conditions and "
         "the coefficients of Hertz pressure.",
-        {
-            "contact face": faces["K_j"] * SINE_MINUS - mode_term.subs(z, h),
-            "back face": faces["K_j_bottom"] * SINE_MINUS - mode_term.subs(z, -h),
+        lambda K_j, K_j_bottom, delta: {
+            "contact face": K_j * SINE_MINUS - mode_term.subs(z, h),
+            "back face": K_j_bottom * SINE_MINUS - mode_term.subs(z, -h),
+            "indentation": delta - mode_term.subs(z, h),
         },
+        *terms,
     )
     return (
         Formula(
@@ -58,7 +61,7 @@ def contact_law() -> tuple[Formula, ...]:
             "delta",
             r"\delta",
             "indentation, plate deflection included",
-            faces["K_j"] * SINE_MINUS,
+            terms[2],
             "m",
             "6",
             ("K_j",),

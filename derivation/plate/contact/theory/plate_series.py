@@ -95,7 +95,7 @@ def coefficient(k: int) -> Coefficient:
     proof = prove(
         f"Coefficient c_{order}",
         r"Both parts of the split are expanded in Taylor series, with $\alpha = \eta A$.",
-        {
+        lambda mode, side: {
             "mode term": mode_term - factor * spread.subs(_y, alpha * j_n) * excess,
             "Taylor coefficient": factor / alpha * taylor * j_n ** (order - 1) * eta**order * excess
             - mode,
@@ -107,6 +107,7 @@ def coefficient(k: int) -> Coefficient:
             * eta**order
             - side,
         },
+        *(mode, side),
     )
     return Coefficient(k, mode, side, proof)
 
@@ -194,7 +195,8 @@ def regular_gamma(k: int) -> Formula:
         f"gamma_{k}",
         r"$\gamma_k P^{(2k-1)/3}$ is the term of the small-contact series; $a/P^{1/3}$ is "
         "constant.",
-        {"term": sp.powsimp(value * P ** sp.Rational(2 * k - 1, 3), force=True) - term},
+        lambda value: {"term": value * P ** sp.Rational(2 * k - 1, 3) - term},
+        value,
     )
     return Formula(
         f"gamma_{k}",
@@ -219,7 +221,8 @@ def small_contact() -> Formula:
     proof = prove(
         "Small contact",
         r"Powers of $\alpha$ become powers of $A = \alpha/\eta$.",
-        {"powers": total.subs(alpha, eta * a_ratio) / x + 1 - value},
+        lambda value: {"powers": total.subs(alpha, eta * a_ratio) / x + 1 - value},
+        value,
     )
     return Formula(
         "delta_reduced",

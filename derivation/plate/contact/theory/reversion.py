@@ -60,7 +60,7 @@ def composition(
     """Return the residuals of the inverse: x, taken from x^p, is inserted into the series.
 
     x^(d + g n) is the power (d + g n)/p of the inverse series: the coefficient of y^(d + g l) in
-    y^d must be 1 for l = 0 and 0 for all other l up to the truncation order.
+    y^d must be 0 for l > 0 up to the truncation order, and the inverse must begin with 1.
     """
     terms = len(inverse)
     total = [sp.Integer(0)] * terms
@@ -68,7 +68,7 @@ def composition(
         raised = power_series(inverse, sp.Rational(d + g * n, p), terms - n)
         for index, value in enumerate(raised):
             total[n + index] += r * value
-    total[0] -= 1
+    total[0] = inverse[0] - 1
     return {f"order {index}": sp.expand(value) for index, value in enumerate(total)}
 
 
@@ -81,20 +81,25 @@ def formal_coefficients(last: int = LAST_XI) -> tuple[Formula, ...]:
     first = gamma_k[2]
     series = (sp.Integer(1), *(gamma_k[i] / first for i in range(3, last + 1)))
     inverse = inverted_coefficients(series, 3, 2, 3, last - 1)
+    powers = [first ** sp.Rational(-(2 * index + 3), 3) for index in range(len(inverse))]
+    values = tuple(sp.factor(x) * power for x, power in zip(inverse, powers, strict=True))
     proof = prove(
         "Inversion of the formal law",
         "The inverted series is inserted into the law: every order vanishes.",
-        composition(series, inverse, 3, 2, 3),
+        lambda *xi: composition(
+            series, [x / power for x, power in zip(xi, powers, strict=True)], 3, 2, 3
+        ),
+        *values,
     )
     formulas = []
-    for index, value in enumerate(inverse, start=2):
+    for index, value in enumerate(values, start=2):
         power = sp.latex(delta ** sp.Rational(2 * index - 1, 3), fold_frac_powers=True)
         formulas.append(
             Formula(
                 f"xi_{index}",
                 rf"\xi_{{{index}}}",
                 f"coefficient of ${power}$ in the force of the paper's series",
-                sp.factor(value) * first ** sp.Rational(-(2 * index - 1), 3),
+                value,
                 f"N/{thirds('m', 2 * index - 1)}",
                 "10",
                 tuple(f"gamma_{i}" for i in range(2, index + 1)),
@@ -121,12 +126,12 @@ def force_coefficients(last: int = LAST_P) -> tuple[sp.Expr, ...]:
 @cache
 def force_composition(last: int = LAST_P) -> Proof:
     """Prove p_1, ..., p_last."""
-    residuals = composition(plate_law(last), force_coefficients(last), 2, 1, 3)
     return prove(
         "Inversion of the contact law",
         "$A = (A^3)^{1/3}$ from the inverted series is inserted into "
         r"$\varepsilon^2 = A^2 (1 + c_1 A + \ldots)$.",
-        residuals,
+        lambda *p: composition(plate_law(last), (sp.Integer(1), *p), 2, 1, 3),
+        *(sp.factor(value) for value in force_coefficients(last)[1:]),
     )
 
 
@@ -157,7 +162,8 @@ def _hertz_force(scale: sp.Expr) -> Formula:
     proof = prove(
         "Hertz's force",
         r"$\delta = a^2/R$ is inserted into the relation between force and contact radius.",
-        {"force": sp.powdenest(value.subs(delta, a**2 / R), force=True) - scale * a**3 / R},
+        lambda value: {"force": value.subs(delta, a**2 / R) - scale * a**3 / R},
+        value,
     )
     return Formula(
         "P_half",
@@ -178,21 +184,22 @@ def exponent() -> Formula:
     eps^(3 + n) is delta^((3 + n)/2); with n = k - 2 the first is delta^(3/2).
     """
     term = (sp.sqrt(R * delta) / h) ** (3 + _N)
-    power = sp.simplify(delta * sp.diff(term, delta) / term).subs(_N, k - 2)
+    power = sp.factor(sp.simplify(delta * sp.diff(term, delta) / term).subs(_N, k - 2))
     proof = prove(
         "Powers of the indentation",
         r"$P$ is proportional to $\varepsilon^{3 + n}$ with $n = k - 2$, and $\varepsilon$ to "
         r"the square root of $\delta$.",
-        {
+        lambda power: {
             "first": power.subs(k, 2) - sp.Rational(3, 2),
             "step": sp.expand(power.subs(k, k + 1) - power) - sp.Rational(1, 2),
         },
+        power,
     )
     return Formula(
         "force_power",
         r"\mathrm{power\ of\ }\delta",
         "power of the indentation in the k-th term of the force",
-        sp.factor(power),
+        power,
         "1",
         "10",
         ("P_half",),
@@ -210,10 +217,12 @@ def radius_estimate() -> tuple[Formula, Formula]:
     proof = prove(
         "Radius of the inverted series",
         "The inverse is singular where the derivative of $A^2 (1 + c_1 A)$ vanishes.",
-        {
+        lambda value, depth: {
             "turning point": sp.diff(law, a_ratio).subs(a_ratio, turning),
             "radius": value**2 - squared,
+            "indentation": R * depth / h**2 - squared,
         },
+        *(value, squared * h**2 / R),
     )
     eps_radius = Formula(
         "eps_radius",

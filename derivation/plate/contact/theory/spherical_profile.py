@@ -76,8 +76,9 @@ def spherical_contact() -> tuple[Formula, Formula]:
         "Sphere on a half-space",
         r"$\delta'$ is expanded in $a$ and gives the profile of the sphere power by power. $dP = "
         r"2 E^* a d \delta$ gives the force. For $a/R \to 0$ both tend to Hertz's law.",
-        {
+        lambda depth, force: {
             "profile": sp.simplify(sp.gammasimp(ratio)) - 1,
+            "slope": sp.diff(depth, a) - atanh_slope.subs(_x, a / R) * a / R - depth / a,
             "geometric series": atanh_slope - 1 / (1 - _x**2),
             "argument of the logarithm": inner,
             "force": sp.diff(force, a) - 2 * PLANE_STRAIN_MODULUS * a * sp.diff(depth, a),
@@ -86,6 +87,7 @@ def spherical_contact() -> tuple[Formula, Formula]:
             "Hertz force": sp.limit(force * R / a**3, a, 0)
             - PLANE_STRAIN_MODULUS * sp.Rational(4, 3),
         },
+        *(depth, force),
     )
     _powers()
     sources = "C_top", "p"

@@ -230,16 +230,19 @@ def contact_split() -> tuple[Formula, ...]:
     both = sp.expand(f.subs(x, sp.I * _y)) + sp.expand(f.subs(x, -sp.I * _y))
     # int f dx/2 with x = b y/a, by the integral above.
     half = 8 * b**2 / (sp.pi * R) * (a / b) ** 2 * sp.pi / 4 / 2
+    side = sp.Integral(_side_density() * LATERAL, (_y, 0, sp.oo))
+    thickness = flat * SINE_MINUS * excess
     proof = prove(
         "Split of the indentation",
         r"$K_j = 8 G/(\pi R b^2 \phi^4 J_1^2)$, $G = 1 + (G - 1)$; the sum with $G = 1$ is given "
         "by the two integrals of the sum identity, the first of which is Hertz's $a^2/R$.",
-        {
-            "K_j": contact_law()[0].expression - flat * (1 + excess),
+        lambda hertz, side, thickness: {
+            "K_j": contact_law()[2].expression - flat * SINE_MINUS - thickness,
             "mode term": flat * SINE_MINUS - f.subs(x, b * phi) / (b * phi * J1**2),
-            "Hertz": half - a**2 / R,
-            "finite radius": -both / (2 * sp.pi) - _side_density(),
+            "Hertz": half - hertz,
+            "finite radius": -both / (2 * sp.pi) * LATERAL - side.function,
         },
+        *(a**2 / R, side, thickness),
     )
 
     def part(name: str, symbol: str, what: str, value: sp.Expr, summed: bool = False) -> Formula:
@@ -257,8 +260,6 @@ def contact_split() -> tuple[Formula, ...]:
             where=("a < b",),
         )
 
-    side = sp.Integral(_side_density() * LATERAL, (_y, 0, sp.oo))
-    thickness = flat * SINE_MINUS * excess
     return (
         part("delta_half", r"\delta_\infty", "indentation of the half-space", a**2 / R),
         part("delta_lateral", r"\delta_b", "change of the indentation by the finite radius", side),
@@ -275,29 +276,30 @@ def contact_split() -> tuple[Formula, ...]:
 @cache
 def reduced_split() -> tuple[Formula, Formula]:
     """Return W of the finite radius and one mode's term of F - W, where delta R/a^2 = 1 + F."""
-    thickness = contact_split()[2].expression
+    _, side, thickness = (formula.expression for formula in contact_split())
     y = alpha * j_n
     g = 3 * (sp.sin(y) - y * sp.cos(y)) / y**3
     excess = plate_factors()[2].expression.subs(T, 2 * eta * j_n)
     mode = 8 * alpha / (3 * sp.pi) * g * excess / (j_n * J1**2)
-    lateral = -8 / (sp.pi**2 * alpha**2) * lateral_bracket(alpha)
+    lateral = -8 / (sp.pi**2 * alpha**2) * lateral_bracket(alpha) * LATERAL
     reduced = {a: alpha * b, h: eta * b, phi: j_n / b}
     scale = R / (alpha * b) ** 2
     proof = prove(
         "Reduced indentation",
         r"With $\alpha = a/b$, $\eta = h/b$, $\phi = j_n/b$ both parts over $a^2/R$ depend on "
         r"$\alpha$ and $\eta$.",
-        {
-            "finite radius": _side_density().subs(reduced) * scale - lateral,
+        lambda lateral, mode: {
+            "finite radius": side.function.subs(reduced) * scale - lateral.function,
             "thickness": thickness.subs(reduced) * scale - mode,
         },
+        *(sp.Integral(lateral, (_y, 0, sp.oo)), mode),
     )
     return (
         Formula(
             "F_lateral",
             r"W(\alpha)",
             r"contribution of the finite radius to $\delta R/a^2$",
-            sp.Integral(lateral * LATERAL, (_y, 0, sp.oo)),
+            sp.Integral(lateral, (_y, 0, sp.oo)),
             "1",
             "6",
             ("delta_lateral",),

@@ -171,21 +171,25 @@ def thin_coefficient(k: int) -> Formula:
     total = sp.expand(modes + exact.side)
     leading = total.coeff(M[k])
     rest = sp.expand(total - leading * M[k])
+    value = _collected(total, k)
+    known = {sp.log(4 * eta): _LOG + sp.log(2), sp.EulerGamma: _EULER}
     proof = prove(
         f"Thin plate's c_{order}",
         "The coefficients are residues of a Mellin integral. The pole of $G - 1$ at $s = 0$ "
         "cancels the finite-radius term; for $k > 3$ only the finite part $M_k$ remains.",
-        {
+        lambda value: {
+            "collected": sp.expand(value.subs(known) - total),
             "kappa cancels": total.coeff(kappa[2 * k - 4]),
             "finite part": leading - size * 8 / sp.pi / 2 ** (2 * k - 2),
             "remaining terms": rest if k > 3 else _low_rest(k, size) - rest,
         },
+        value,
     )
     return Formula(
         f"c_{order}_thin",
         rf"c_{{{order}}}^{{\mathrm{{thin}}}}",
         rf"coefficient of $(a/h)^{order}$ in $\delta R/a^2$, thin plate",
-        _collected(total, k),
+        value,
         "1",
         "10",
         (f"c_{order}_modes", f"c_{order}_lateral", "G"),

@@ -202,11 +202,17 @@ def clamp_law() -> tuple[Formula, Formula]:
     slope = sp.Rational(3, 2) * front * _bracket(sp.Rational(2, 3), indentation_loss(), turn())
     symbolic = front * _bracket(HERTZ_MEAN, _s, _chi)
     steep = sp.Rational(3, 2) * front * _bracket(sp.Rational(2, 3), _s, _chi)
+    known = {_s: indentation_loss(), _chi: turn()}
     proof = prove(
         "Reduction of the indentation by a clamped edge",
         r"The reduction is the sum of bending, rotation of the edge, shear and extension; "
         r"$\alpha^2 X_c$ is differentiated with respect to $\alpha$.",
-        {"slope": sp.diff(alpha**2 * symbolic, alpha) / (2 * alpha) - steep},
+        lambda reduction, slope: {
+            "indentation": reduction - symbolic.subs(known),
+            "slope": sp.diff(alpha**2 * reduction, alpha) / (2 * alpha) - slope,
+            "slope for any constants": sp.diff(alpha**2 * symbolic, alpha) / (2 * alpha) - steep,
+        },
+        *(reduction, slope),
     )
     sources = ("clamp_rotation", "clamp_deflection", "P")
     return (
@@ -239,20 +245,25 @@ def clamp_bound() -> Formula:
     more = (sp.Abs(1 - lost) - (1 - lost)) / 2
     value = front * (_bracket(sp.Integer(0), lost, turn()) + 2 * more / 3)
     m, third = sp.Symbol("m_s"), sp.Rational(2, 3)
-    left = _bracket(sp.Integer(0), _s, _chi) + third * m - _bracket(third, _s, _chi)
+    steep = front * _bracket(third, _s, _chi)
+    known = {_s: lost, _chi: turn(), m: more}
     floor = 1 - beta - 3 * (2 - beta) ** 2 / 28
     proof = prove(
         "Bound of the slope's reduction by a clamped edge",
         r"The bracket in the slope is linear in $\alpha^2$; squares are completed. For $-1/2 < n "
         r"< 1$, $1000/G$ is above 7000 and $1000 n^2/\chi$ above 5000, so that $0 < 1 - 2 G < "
         r"1$ and $\chi \ge 0$.",
-        {
-            "above": left - third * (m + alpha**2 * (1 - _s)) - 2 * _chi * eta * alpha**2 * third,
+        lambda value: {
+            "above": value
+            - (
+                steep + front * third * (m + alpha**2 * (1 - _s) + 2 * _chi * eta * alpha**2)
+            ).subs(known),
             "square": (1 - _s) * (1 - beta - _s) + sp.Rational(4, 3) * _s**2
             - sp.Rational(7, 3) * (_s - 3 * (2 - beta) / 14) ** 2 - floor,
             "lower bound": floor.subs(beta, third) - sp.Rational(1, 7),
             "decrease": sp.diff(floor, beta) + 1 - 3 * (2 - beta) / 14,
         },
+        value,
     )  # fmt: skip
     return Formula(
         "S_clamp_bound",

@@ -100,14 +100,14 @@ def _of_support() -> sp.Expr:
     return -3 / sp.pi * support_ratio().expression * (1 + 3 * RATIO - RATIO * Q) / (j_n**3 * J1)
 
 
-def _support_residuals() -> dict[str, sp.Expr]:
-    """Return N_s minus 2 E* h^3 times the curvature of one mode's state under a point load."""
+def _amplitude_of_support() -> sp.Expr:
+    """Return 2 E* h^3 times the curvature of one mode's state under a point load."""
     turn = edge_resultants()[1].expression.subs(A_j, pressure_coefficient().expression)
     force = contact_radius().expression
     curvature = support_ratio().expression * turn / force
     whole = 2 * PLANE_STRAIN_MODULUS * h**3 * curvature
     scaled = whole.subs({a: alpha * b, h: eta * b, phi: j_n / b})
-    return {"amplitude": sp.simplify(sp.limit(sp.simplify(scaled), alpha, 0)) - _of_support()}
+    return sp.simplify(sp.limit(sp.simplify(scaled), alpha, 0))
 
 
 def _of_clamp() -> sp.Expr:
@@ -116,7 +116,7 @@ def _of_clamp() -> sp.Expr:
     return 3 / (8 * sp.pi) * (1 - indentation_loss() + 2 * chi * eta)
 
 
-def _clamp_residuals() -> dict[str, sp.Expr]:
+def _clamp_residuals(N: sp.Expr) -> dict[str, sp.Expr]:
     """Return N_s minus the same by the slope, and by the rotation that a clamp suppresses."""
     slope = clamp_law()[1].expression
     deflected = b**2 / 2 * (1 - _loss)  # of the bending state, under the load
@@ -125,20 +125,24 @@ def _clamp_residuals() -> dict[str, sp.Expr]:
     whole = 2 * PLANE_STRAIN_MODULUS * h**3 * rotation / P
     constants = {_loss: indentation_loss(), _chi: clamp_constants()[0].expression}
     return {
-        "reciprocity": _of_clamp() + eta**3 * sp.diff(slope, alpha, 3) / 2,
-        "rotation": _of_clamp() - whole.subs(constants),
+        "reciprocity": N + eta**3 * sp.diff(slope, alpha, 3) / 2,
+        "rotation": N - whole.subs(constants),
     }
 
 
 @cache
 def edge_curvature() -> tuple[Formula, Formula]:
     """Return N_s of a simple support, one mode's term, and that of a clamped edge."""
+    curved, amplitude = _curved(), _amplitude_of_support()
     proof = prove(
         "Curvature under the contact by an edge",
         r"The bending state deflects the contact face by $\kappa P r^2/2$, which Abel's operator "
         r"turns into $\kappa P t^2$. The curvature is the amplitude of the state under a point "
         r"load; at a clamp it is also minus half the third derivative of the reduction of $S$.",
-        _curved() | _support_residuals() | _clamp_residuals(),
+        lambda support, clamp: (
+            curved | {"amplitude": amplitude - support} | _clamp_residuals(clamp)
+        ),
+        *(_of_support(), _of_clamp()),
     )
     meaning = "coefficient of $(t^2 + s^2)/h^3$ in the kernel by "
     return (

@@ -251,21 +251,25 @@ def alternating_sums() -> tuple[Formula, Formula]:
         at_zero = sp.limit(kernel(_y), _y, 0)
         turned = sp.simplify(kernel(sp.I * alpha * _y))
         value = (at_zero - turned / sp.besseli(0, _y)) / _y**2 / sp.pi
+        integral = sp.Integral(value, (_y, 0, sp.oo))
         proof = prove(
             "Alternating sum",
             r"The finite part of $\int_0^{\infty} dy/y^2$ is 0, and $Q - T$ and $H - 1$, the "
             "functions of bending and extension minus their limits, decay like $e^{-T}$.",
-            {
+            lambda value, at_0=at_zero, kernel=kernel: {
+                "integrand": (sp.pi * _y**2 * value.function - at_0) * sp.besseli(0, _y)
+                + sp.expand(kernel(sp.I * alpha * _y)),
                 "Q": bending_function() - T - T * (T - 1 + sp.exp(-T)) / (sp.sinh(T) - T),
                 "H": stretching_function() - 1 + (1 + T - sp.exp(-T)) / (sp.sinh(T) + T),
             },
+            integral,
         )
         formulas.append(
             Formula(
                 name,
                 rf"\sum {factor}(\alpha j_n)/(j_n^2 J_1(j_n))",
                 f"sum over the modes of ${what}/(j^2 J_1)$",
-                sp.Integral(value, (_y, 0, sp.oo)),
+                integral,
                 "1",
                 "6",
                 ("F_edge",),

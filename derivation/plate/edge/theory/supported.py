@@ -129,38 +129,47 @@ def edge_resultants() -> tuple[Formula, ...]:
     # Of u at r = b: phi J1 int g dz and phi J1 int g z dz.
     mean = -J1 * RATIO * force / (E * phi)
     turn = J1 * (A_j / phi**2 - RATIO * moment) / (E * phi)
+    moved, turned = (loaded(_through(u)) * phi * J1 for u in (g_j, g_j * z))
+    results = (
+        mean / (2 * h * b),
+        turn * 3 / (2 * h**3 * b),
+        -2 * mu / b * mean,
+        -2 * mu / b * turn,
+    )
+    balances = {
+        "Hooke": g_j * phi**2 - (S_rr - RATIO * S_zz) / E,
+        "radial balance": sp.diff(S_rz, z) - phi * S_rr,
+        "axial balance": sp.diff(S_zz, z) + phi * S_rz,
+        "force of S_rr": loaded(_through(S_rr)),
+        "moment of S_rr": loaded(_through(S_rr * z)) - A_j / phi**2,
+        "force of S_zz": loaded(_through(S_zz)) - force,
+        "moment of S_zz": loaded(_through(S_zz * z)) - moment,
+    }
     proof = prove(
         "Resultants at the edge",
         "The balance of moments and Hooke's law hold for $g$ and the stresses of one mode, "
         "integrated through the thickness.",
-        {
-            "Hooke": g_j * phi**2 - (S_rr - RATIO * S_zz) / E,
-            "radial balance": sp.diff(S_rz, z) - phi * S_rr,
-            "axial balance": sp.diff(S_zz, z) + phi * S_rz,
-            "force of S_rr": loaded(_through(S_rr)),
-            "moment of S_rr": loaded(_through(S_rr * z)) - A_j / phi**2,
-            "force of S_zz": loaded(_through(S_zz)) - force,
-            "moment of S_zz": loaded(_through(S_zz * z)) - moment,
-            "mean of u": loaded(_through(g_j)) * phi * J1 - mean,
-            "moment of u": loaded(_through(g_j * z)) * phi * J1 - turn,
-        },
+        lambda extension, rotation, edge_force, edge_moment: (
+            balances
+            | {
+                "mean of u": moved - extension * 2 * h * b,
+                "moment of u": turned - rotation * _through(z**2) * b,
+                "edge force": edge_force + 2 * mu / b * moved,
+                "edge moment": edge_moment + 2 * mu / b * turned,
+            }
+        ),
+        *(sp.factor(value) for value in results),
     )
     rows = (
-        ("edge_extension", r"\bar e", "mean of $u/b$ at the edge", mean / (2 * h * b), "1"),
-        (
-            "edge_rotation",
-            r"\bar k",
-            ("mean rotation of the edge divided by $b$"),
-            turn * 3 / (2 * h**3 * b),
-            "1/m",
-        ),
-        ("edge_force", r"\bar N", "radial force per length at the edge", -2 * mu / b * mean, "N/m"),
-        ("edge_moment", r"\bar M", "moment per length at the edge", -2 * mu / b * turn, "N"),
+        ("edge_extension", r"\bar e", "mean of $u/b$ at the edge", "1"),
+        ("edge_rotation", r"\bar k", "mean rotation of the edge divided by $b$", "1/m"),
+        ("edge_force", r"\bar N", "radial force per length at the edge", "N/m"),
+        ("edge_moment", r"\bar M", "moment per length at the edge", "N"),
     )
     sources = ("mode_g", "mode_rr", "mode_zz", "sigma_rr")
     return tuple(
-        Formula(name, latex, meaning, sp.factor(value), unit, "1", sources, proof, summed=True)
-        for name, latex, meaning, value, unit in rows
+        Formula(name, latex, meaning, value, unit, "1", sources, proof, summed=True)
+        for (name, latex, meaning, unit), value in zip(rows, proof.claims, strict=True)
     )
 
 
@@ -172,16 +181,18 @@ def support_ratio() -> Formula:
     _, _, force, moment = (formula.expression for formula in edge_resultants())
     mean, turn = (formula.expression for formula in edge_resultants()[:2])
     value = (lam + 2 * mu) / (3 * lam + 2 * mu)
-    in_nu = value.subs(lam, 2 * mu * nu / (1 - 2 * nu))
     proof = prove(
         "Simple support",
         "The $e$ and $k$ that suppress the mean motion of the edge are multiplied by this "
         "factor. Force and moment of the states then cancel those of the modes.",
-        {
+        lambda value: {
             "force": force + value * mean * stretching.force,
             "moment": moment + value * turn * bending.moment,
-            "by Poisson's ratio": sp.cancel(in_nu - (1 - nu) / (1 + nu)),
+            "by Poisson's ratio": sp.cancel(
+                value.subs(lam, 2 * mu * nu / (1 - 2 * nu)) - (1 - nu) / (1 + nu)
+            ),
         },
+        value,
     )
     return Formula(
         "support_ratio",
@@ -220,11 +231,12 @@ def edge_law() -> tuple[Formula, Formula]:
         "Change of the indentation by the edge",
         r"The deflection $w$ of both states at the contact face, centre minus edge, is written "
         r"in $a/b$ and $h/b$; $\alpha^2 X$ is differentiated with respect to $\alpha$.",
-        {
+        lambda reduction, slope: {
             "indentation": -depth.subs(reduced) * scale - reduction,
             "slope": sp.diff(alpha**2 * reduction, alpha) / (2 * alpha) - slope,
             "pressure": (SINE_MINUS.subs(reduced) / _y**3 * 3) - g,
         },
+        *(reduction, slope),
     )
     sources = ("edge_extension", "edge_rotation", "A_j")
     return (

@@ -80,11 +80,12 @@ def shear_coefficient() -> Formula:
         "Shear coefficient",
         "A0's power series, of step 27, is inserted into Mindlin's dispersion relation. The first "
         "order vanishes for any $k_s$, the second for this one, the third for none.",
-        {
+        lambda value: {
             "first order": sp.cancel(powers[0].subs(known)),
             "second order": sp.cancel(powers[1].subs(known).subs(shear, 1 / value)),
             "in nu": value - 5 / (6 - nu),
         },
+        value,
     )
     return Formula(
         "shear_coefficient", "k_s", "shear coefficient for which Mindlin's lower branch follows A0",
@@ -149,41 +150,54 @@ def waves() -> tuple[Formula, ...]:
     # -k2^2 for k^2 at the same kap.
     other = dispersion(k_n * eta).subs(of_kap).subs(k_n, sp.I * k_2)
     stated = 1 + kap * shear / (eta * k_2) ** 2
+    known, k_s = {shear: slack()}, shear_coefficient().expression
+    partner_k = sp.sqrt(partner.subs(known))
+    values = (
+        partner_k, g_1.subs(of_kap).subs(known), stated.subs(known).subs(k_2, partner_k),
+        stated.subs(known),
+    )  # fmt: skip
+    general = {
+        "by partner": (k_n**2 - k_2**2 - kap / eta**2 * (shear + ROTARY)).subs(by_partner),
+        "force": lower_bessel(force.doit()).subs(by_partner),
+        "moment": lower_bessel((moment - left_over).doit()).subs(by_partner),
+        "partner": sp.cancel((other * k_2**2 + number * k_n**2).subs(by_partner)),
+        "k_2": sp.cancel((partner - k_2**2).subs(by_partner)),
+        "g_2": sp.cancel((g_2.subs(of_kap) - stated).subs(by_partner)),
+        "sum": sp.expand(left() - u_1() - u_2() + 1),
+    }
     proof = prove(
         "Waves of Mindlin's plate",
         r"$w$ and $\psi$ are inserted into both balances for any $\kappa$ and $k_s$, with $\kappa$ "
         "in terms of $k$ and $k_2$. The dispersion relation is quadratic in $k^2$; its other root "
         "is $-k_2^2$.",
-        {
-            "by partner": (k_n**2 - k_2**2 - kap / eta**2 * (shear + ROTARY)).subs(by_partner),
-            "force": lower_bessel(force.doit()).subs(by_partner),
-            "moment": lower_bessel((moment - left_over).doit()).subs(by_partner),
-            "partner": sp.cancel((other * k_2**2 + number * k_n**2).subs(by_partner)),
-            "k_2": sp.cancel((partner - k_2**2).subs(by_partner)),
-            "g_2": sp.cancel((g_2.subs(of_kap) - stated).subs(by_partner)),
-            "sum": sp.expand(left() - u_1() - u_2() + 1),
-        },
+        lambda k2, first, second, in_k2: (
+            general
+            | {
+                "k_2 of A0": k2**2 - k_n**2 + kap / eta**2 * (1 / k_s + ROTARY),
+                "g_1 of A0": first - 1 + kap / (k_s * (k_n * eta) ** 2),
+                "g_2 of A0": second * k2**2 - k_n**2 * u_2().subs(of_kap),
+                "g_2 in k_2": second - in_k2.subs(k_2, k2),
+            }
+        ),
+        *values,
     )
-    known = {shear: slack()}
-    squared = sp.Symbol("k_2", positive=True)
     rows = (
         (
             "evanescent_wave_number", "k_2", "wave number of a mode's evanescent part times $b$",
-            sp.sqrt(partner.subs(known)), None, ("shear_coefficient",),
+            None, ("shear_coefficient",),
         ),
         (
             "wave_rotation", "g_1", "rotation divided by slope, of the part $J_0$",
-            g_1.subs(of_kap).subs(known), None, ("shear_coefficient",),
+            None, ("shear_coefficient",),
         ),
         (
             "evanescent_rotation", "g_2", "rotation divided by slope, of the part $I_0$",
-            stated.subs(known).subs(k_2, sp.sqrt(partner.subs(known))),
-            1 + kap * slack() / (eta * squared) ** 2, ("evanescent_wave_number",),
+            values[3], ("evanescent_wave_number",),
         ),
     )  # fmt: skip
     return tuple(
         Formula(name, latex, meaning, value, "1", "", sources, proof, stated=said)
-        for name, latex, meaning, value, said, sources in rows
+        for (name, latex, meaning, said, sources), value in zip(rows, values[:3], strict=True)
     )
 
 

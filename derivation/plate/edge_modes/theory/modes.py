@@ -97,19 +97,23 @@ def frequency_equations() -> tuple[Formula, Formula, Formula]:
     held = SHAPE.subs(_c, PART)
     slope = lower_bessel(sp.diff(held, _r)).subs(_r, 1)
     moment = lower_bessel(sp.diff(held, _r, 2) + nu * sp.diff(held, _r)).subs(_r, 1)
+    plate = lower_bessel(laplacian(laplacian(SHAPE)) - k_n**4 * SHAPE)
     proof = prove(
         "Modes of a clamped or supported plate",
         r"$w$ is inserted into $\nabla^4 w = k^4 w$; its deflection, slope and moment are taken "
         r"at the edge. Orthogonality: the bracket is differentiated for any two functions; "
         r"$w'' = -\nu w'$ gives $\nabla^2 w = (1 - \nu) w'$ at a supported edge, and a clamped one "
         "has zero slope.",
-        {
-            "plate": lower_bessel(laplacian(laplacian(SHAPE)) - k_n**4 * SHAPE),
-            "deflection": held.subs(_r, 1),
-            "slope": slope + k_n / I0 * clamped,
-            "moment": moment - k_n * (1 - nu) * J0 * supported,
-        }
-        | _orthogonality(),
+        lambda part, clamped, supported: (
+            {
+                "plate": plate,
+                "deflection": SHAPE.subs({_r: 1, _c: part}),
+                "slope": slope + k_n / I0 * clamped,
+                "moment": moment - k_n * (1 - nu) * J0 * supported,
+            }
+            | _orthogonality()
+        ),
+        *(PART, clamped, supported),
     )
     return (
         Formula(
@@ -161,16 +165,17 @@ def norm() -> Formula:
         "$w^2 r$ has a primitive. The derivative of $(J_1/J_0 + I_1/I_0)/k$ with respect to $k$ is "
         "$2 N/(k J_0^2)$, and its value is 1 at $k = 0$. The frequency equations eliminate $J_1$ "
         "from $N$.",
-        {
+        lambda norm: {
             "primitive": lower_bessel(sp.diff(primitive, _r)) - _r * SHAPE**2,
-            "closed form": primitive.subs({_r: 1, _c: PART}) - NORM,
-            "derivative": lower_bessel(growth) - NORM,
+            "closed form": primitive.subs({_r: 1, _c: PART}) - norm,
+            "derivative": lower_bessel(growth) - norm,
             "value at k = 0": start - 1,
-            "clamped": NORM.subs(J1, -J0 * I1 / I0) - J0**2,
-            "supported": NORM.subs(J1, J0 * slope)
+            "clamped": norm.subs(J1, -J0 * I1 / I0) - J0**2,
+            "supported": norm.subs(J1, J0 * slope)
             - J0**2 / 2 * (slope**2 - (I1 / I0) ** 2 + 2 - 4 / (1 - nu)),
-            "paper's edge": NORM.subs(J0, 0) - J1**2 / 2,
+            "paper's edge": norm.subs(J0, 0) - J1**2 / 2,
         },
+        NORM,
     )
     return Formula(
         "thin_mode_norm",
@@ -204,25 +209,32 @@ def weight() -> tuple[Formula, ...]:
     # Near the axis w is even in r.
     w_0, w_2, w_4 = sp.symbols("w_0 w_2 w_4", real=True)
     near = _bracket(w_0 + w_2 * _r**2 + w_4 * _r**4, static_deflection(_A))
+    # The component of the static deflection on a mode is that of the bracket on the axis over
+    # k^4 N; times w(0) it is the deflection of the axis, W/k^4.
+    on_axis = SHAPE.subs({_r: 0, _c: PART})
+    pull = sp.limit(sp.expand(near), _r, 0)
+    axis_pull = pull.subs(w_0, on_axis) * on_axis
     proof = prove(
         "Modal weight of a plate mode",
         r"The static deflection has no load away from the axis, carries $P$ and satisfies the "
         r"edge conditions. The modal weight follows from its bracket with a mode on the axis. "
         r"The paper's edge has $\nu = 1$.",
-        {
+        lambda weight, clamped, supported: {
+            "weight": axis_pull / N.expression - weight,
             "load": laplacian(laplacian(static_deflection(_A))),
             "force": 2 * sp.pi * _r * sp.diff(laplacian(static_deflection(_A)), _r) - 1,
             "edge": static_deflection(_A).subs(_r, 1),
             "clamped edge": slopes["clamped"],
             "supported edge": bends["supported"] + nu * slopes["supported"],
             "paper's edge": bends["paper's edge"] + slopes["paper's edge"],
-            "axis": sp.limit(sp.expand(near), _r, 0) - w_0 / (2 * sp.pi),
-            "clamped sum": axis["clamped"] - CLAMPED_COMPLIANCE,
-            "supported sum": axis["supported"] - SUPPORTED_COMPLIANCE,
+            "axis": pull - w_0 / (2 * sp.pi),
+            "clamped sum": axis["clamped"] - clamped,
+            "supported sum": axis["supported"] - supported,
             "paper's edge: sum": axis["paper's edge"] - PAPER_COMPLIANCE,
-            "paper's edge as nu": SUPPORTED_COMPLIANCE.subs(nu, 1) - PAPER_COMPLIANCE,
-            "paper's edge: weight": WEIGHT.subs(J0, 0) - 1 / (sp.pi * J1**2),
+            "paper's edge as nu": supported.subs(nu, 1) - PAPER_COMPLIANCE,
+            "paper's edge: weight": weight.subs(J0, 0) - 1 / (sp.pi * J1**2),
         },
+        *(WEIGHT, CLAMPED_COMPLIANCE, SUPPORTED_COMPLIANCE),
     )
     return (
         N,
@@ -269,14 +281,18 @@ def modal_weight() -> Formula:
     moment = sp.sqrt(sp.pi) / 2 * sp.gamma(m + 1) / sp.gamma(m + sp.Rational(3, 2))
     y = k_n * alpha
     value = (sp.sin(y) / y - PART * sp.sinh(y) / y) / (1 - PART)
+    small = sp.limit(value.subs(alpha, _r / k_n), _r, 0)
     proof = prove(
         "Mean of a plate mode under a flat punch",
         r"The power series of $I_0$ is that of $J_0$ without signs; the same applies to the "
         r"transforms $\sinh(y)/y$ and $\sin(y)/y$, power by power.",
-        {
+        lambda value: {
             "power": sp.combsimp(sp.gammasimp(bessel * moment * sp.factorial(2 * m + 1))) - 1,
-            "small contact": sp.limit(value.subs(alpha, _r / k_n), _r, 0) - 1,
+            "transform": value * SHAPE.subs({_r: 0, _c: PART})
+            - (sp.sin(y) / y - PART * sp.sin(sp.I * y) / (sp.I * y)),
+            "small contact": small - 1,
         },
+        value,
     )
     return Formula(
         "thin_mode_mean",

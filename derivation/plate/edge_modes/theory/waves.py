@@ -86,7 +86,7 @@ both agree, because chi eta is small."""
 
 g_1, g_2, t, beta = sp.symbols("g_1 g_2 t beta", real=True)
 """Rotations over slopes; face over mean of I0 divided by that of J0; S/Gam."""
-_r = sp.Symbol("r", positive=True)
+_r, N = sp.symbols("r N", positive=True)
 J0, J1 = sp.besselj(0, k_n), sp.besselj(1, k_n)
 I0, I1 = sp.besseli(0, k_2), sp.besseli(1, k_2)
 BULGE = nu / (1 - nu)
@@ -119,15 +119,13 @@ NORM = (
     )
 )  # fmt: skip
 """N for any k, k2, g1, g2 and c."""
-N = sp.Symbol("N", positive=True)
 WEIGHT = (1 - c * t) ** 2 * (1 + eta**2 / 3 * (g_1 * k_n) ** 2) / (2 * sp.pi * N)
 """W."""
 ON_FACE = sp.besselj(0, k_n * alpha) - c * t * sp.besseli(0, k_2 * alpha)
 """The contact face at r = alpha."""
 UNDER_PUNCH = sp.sin(k_n * alpha) / (k_n * alpha) - c * t * sp.sinh(k_2 * alpha) / (k_2 * alpha)
 """Its mean under a flat punch of radius alpha."""
-SUPPORTED_REST = (1 - nu) / (1 + nu) / (16 * sp.pi)
-CLAMPED_REST = -1 / (16 * sp.pi)
+SUPPORTED_REST, CLAMPED_REST = (1 - nu) / (1 + nu) / (16 * sp.pi), -1 / (16 * sp.pi)
 
 
 def in_k(expression: sp.Expr) -> sp.Expr:
@@ -149,12 +147,28 @@ def edges() -> tuple[Formula, ...]:
     known = {g_1: u_1(), g_2: u_2() / left(), k_2: k_n * sp.sqrt(left())}
     moment, ratio = bend - (1 - nu) * turn, turn / (bend - (1 - nu) * turn)
     free = turn - CLAMP * eta * (bend - turn)
+    total = k_n**2 + k_2**2
+    values = tuple(map(in_k, (PART, TURN - SUPPORTED * BEND, TURN - CLAMPED * BEND)))
+    stated = PART, TURN - SUPPORTED * total, TURN - CLAMPED * total
+    turned, bent = J0 * TURN, J0 * (BEND - TURN)  # psi and psi' at the edge
+
+    def in_terms(c_n: sp.Expr, F_s: sp.Expr, F_c: sp.Expr, *said: sp.Expr) -> dict[str, sp.Expr]:
+        return {
+            "amplitude": J0 - c_n * in_k(I0),
+            "amplitude in k_2": J0 - said[0] * I0,
+            "no moment": in_k(J0 * (1 - nu)) * F_s + in_k(bent + nu * turned),
+            "clamp": in_k(J0 * (1 + CLAMP * eta)) * F_c - in_k(turned - CLAMP * eta * bent),
+            "supported wave": in_k(said[1]) - F_s,
+            "clamped wave": in_k(said[2]) - F_c,
+        }
+
     proof = prove(
         "Edges of a shear-deformable plate",
         r"Rotation and its slope are taken at the edge. $S/\Gamma$ is expressed by "
         r"$\psi/M$, whose slope has the same sign. For a thin plate, where $k_2 = k$ and $g_1 "
         r"= g_2 = 1$, the equations become those of step 29.",
-        {
+        lambda *claims: in_terms(*claims)
+        | {
             "deflection": DEFLECTION.subs({_r: 1, c: PART}),
             "rotation": psi.subs(_r, 1) - J0 * TURN,
             "slope": slope - J0 * (BEND - TURN),
@@ -168,24 +182,21 @@ def edges() -> tuple[Formula, ...]:
             "thin clamp": _thin(TURN - CLAMPED * BEND)
             - k_n * thin.frequency_equations()[1].expression / (thin.J0 * thin.I0),
         },
-    )
-    total = k_n**2 + k_2**2
-    rows = (
-        ("evanescent_amplitude", "c", (
-            "amplitude of $I_0$ in the mode $J_0(k r/b) - c I_0(k_2 r/b)$ of a plate"
-        ), PART,
-         PART, ()),
-        ("supported_wave", "F_s", "frequency function, zero at wave numbers of a supported plate",
-         TURN - SUPPORTED * BEND, TURN - SUPPORTED * total, ("evanescent_amplitude",)),
-        ("clamped_wave", "F_c", "frequency function, zero at wave numbers of a clamped plate",
-         TURN - CLAMPED * BEND, TURN - CLAMPED * total, ("evanescent_amplitude",)),
+        *values, *stated,
     )  # fmt: skip
+    zero, of_c = "frequency function, zero at wave numbers of a", ("evanescent_amplitude",)
+    shape = "amplitude of $I_0$ in the mode $J_0(k r/b) - c I_0(k_2 r/b)$ of a plate"
+    rows = (
+        (*of_c, "c", shape, ()),
+        ("supported_wave", "F_s", f"{zero} supported plate", of_c),
+        ("clamped_wave", "F_c", f"{zero} clamped plate", of_c),
+    )
     return tuple(
         Formula(
-            name, latex, meaning, in_k(value), "1", "", ("evanescent_wave_number", *sources), proof,
-            stated=stated,
+            name, latex, meaning, value, "1", "", ("evanescent_wave_number", *sources), proof,
+            stated=said,
         )
-        for name, latex, meaning, value, stated, sources in rows
+        for (name, latex, meaning, sources), value, said in zip(rows, values, stated, strict=True)
     )  # fmt: skip
 
 
@@ -210,19 +221,23 @@ def norm() -> Formula:
     turned = _r**2 / 2 * ((g_1 * k_n) ** 2 * first + (c * g_2 * k_2) ** 2 * second)
     turned += 2 * c * g_1 * k_n * g_2 * k_2 * both / total
     psi = rotation(g_1, g_2)
+    slopes = [lower_bessel(sp.diff(part, _r)) for part in (deflected, eta**2 / 3 * turned)]
+    stated = sp.Integral((DEFLECTION**2 + eta**2 / 3 * sp.Symbol("psi") ** 2) * _r, (_r, 0, 1))
     proof = prove(
         "Norm of a plate wave",
         r"Primitives of $w^2 r$ and $\psi^2 r$ are differentiated for any $k$, $k_2$, $g_1$, $g_2$ "
         r"and $c$. For $\eta \to 0$ the norm is that of step 29.",
-        {
-            "deflection": lower_bessel(sp.diff(deflected, _r)) - _r * DEFLECTION**2,
-            "rotation": lower_bessel(sp.diff(turned, _r)) - _r * psi**2,
+        lambda value, stated: {
+            "in k": value - in_k(NORM),
+            "stated": stated.function.subs(sp.Symbol("psi"), psi) - sum(slopes),
+            "deflection": slopes[0] - _r * DEFLECTION**2,
+            "rotation": slopes[1] - eta**2 / 3 * _r * psi**2,
             "axis": sp.expand(deflected + turned).subs(_r, 0),
             "closed form": (deflected + eta**2 / 3 * turned).subs(_r, 1) - NORM,
             "thin": _thin(NORM.subs(c, PART)) - thin.NORM,
         },
+        *(in_k(NORM), stated),
     )
-    stated = sp.Integral((DEFLECTION**2 + eta**2 / 3 * sp.Symbol("psi") ** 2) * _r, (_r, 0, 1))
     return Formula(
         "wave_norm", "N", "kinetic energy of a plate mode, rotary inertia included",
         in_k(NORM), "1", "",
@@ -244,35 +259,35 @@ def face_ratio() -> Formula:
     squares = {p: s - gam * slope * s**2, q: s - slope * s**2}
     order = 3
 
-    def cosh(y: sp.Symbol) -> sp.Expr:
-        return sp.Add(*(squares[y] ** n / sp.factorial(2 * n) for n in range(order + 1)))
-
-    def shc(y: sp.Symbol) -> sp.Expr:
-        return sp.Add(*(squares[y] ** n / sp.factorial(2 * n + 1) for n in range(order + 1)))
+    def series_of(y: sp.Symbol, odd: int) -> sp.Expr:
+        return sp.Add(*(squares[y] ** n / sp.factorial(2 * n + odd) for n in range(order + 1)))
 
     def long(value: sp.Expr) -> sp.Expr:
-        plain = value.subs({sp.cosh(p): cosh(p), sp.cosh(q): cosh(q)})
-        plain = plain.subs({sp.sinh(p): p * shc(p), sp.sinh(q): q * shc(q)})
+        plain = value.subs({sp.cosh(y): series_of(y, 0) for y in (p, q)})
+        plain = plain.subs({sp.sinh(y): y * series_of(y, 1) for y in (p, q)})
         even = sp.cancel(sp.together(plain))
         return even.subs({p: sp.sqrt(squares[p]), q: sp.sqrt(squares[q]), x_h: sp.sqrt(s)})
 
     ratio = sp.cancel(long(face / mean))
     series = sp.series(ratio, s, 0, 2).removeO()
     one = BULGE.subs(nu, (1 - 2 * gam) / (2 * (1 - gam))) / 3
-    mean_square, edge_square = sp.Rational(1, 3) / 2, sp.Rational(1, 2)
     proof = prove(
         "Contact-face over mean deflection",
         r"The deflection of a wave without shear on its faces is expanded to the first power of "
         r"$x^2$, with $\kappa$ proportional to $x^4$. The evanescent wave has $-k_2^2$ in place of "
         r"$k^2$. The same follows from $\sigma_{zz} = 0$: the deflection contains "
         r"$\nu/(1 - \nu) z^2/2 \nabla^2 w$, of which the face minus the mean is taken.",
-        {
+        lambda value, stated: {
+            "stated": in_k(stated) - value,
+            "face ratio": stated.subs(nu, (1 - 2 * gam) / (2 * (1 - gam)))
+            - 1 - one * eta**2 * (k_n**2 + k_2**2),
             "series": sp.cancel(series - 1 + one * s),
-            "plane stress": sp.cancel(one - one * 3 * (edge_square - mean_square)),
+            "plane stress": sp.cancel(one - one * 3 * (sp.Rational(1, 2) - sp.Rational(1, 6))),
             "quotient": sp.series(
                 (1 + one * s * k_2**2) / (1 - one * s * k_n**2), s, 0, 2
             ).removeO() - 1 - one * s * (k_n**2 + k_2**2),
         },
+        *(in_k(FACE), FACE),
     )  # fmt: skip
     return Formula(
         "face_ratio", "t", (
@@ -285,17 +300,17 @@ def face_ratio() -> Formula:
 @cache
 def weight() -> Formula:
     """Return W."""
-    energy = norm()
-    face_ratio()
-    soft = WEIGHT.subs(N, NORM).subs(c, 0).subs(J0, 0)
+    energy, _ = norm(), face_ratio()
     proof = prove(
         "Modal weight of a plate wave",
         "At $J_0 = 0$ the modal weight is that of the paper's edge, whose residue is that of A0. "
         r"For $\eta \to 0$ it is that of step 29. " + energy.proof.argument,
-        {
-            "paper's edge": sp.cancel(soft - 1 / (sp.pi * J1**2)),
-            "thin": _thin(WEIGHT.subs(N, NORM).subs(c, PART)) - thin.WEIGHT,
+        lambda value, stated: {
+            "in k": value - in_k(stated.subs(N, NORM)),
+            "paper's edge": stated.subs(N, NORM).subs(c, 0).subs(J0, 0) - 1 / (sp.pi * J1**2),
+            "thin": _thin(stated.subs(N, NORM).subs(c, PART)) - thin.WEIGHT,
         },
+        *(in_k(WEIGHT.subs(N, NORM)), WEIGHT),
     )
     return Formula(
         "wave_weight", "W_n",
@@ -310,14 +325,19 @@ def modal_weight() -> Formula:
     """Return s_n."""
     means = thin.modal_weight()
     value = UNDER_PUNCH / (1 - c * t)
+    small = sp.limit(value, alpha, 0)
+    of_face = sp.sin(k_n * alpha) / k_n - c * t * sp.sin(sp.I * k_2 * alpha) / (sp.I * k_2)
     proof = prove(
         "Mean of a plate wave under a flat punch",
         "The transforms are those of step 29, applied to $J_0(k r)$ and to $I_0(k_2 r)$ on the "
         "contact face. " + means.proof.argument,
-        {
-            "thin": _thin(value.subs(c, PART)) - means.expression,
-            "small contact": sp.limit(value, alpha, 0) - 1,
+        lambda value, stated: {
+            "in k": in_k(stated) - value,
+            "mean": stated * ON_FACE.subs(alpha, 0) - of_face / alpha,
+            "thin": _thin(stated.subs(c, PART)) - means.expression,
+            "small contact": small - 1,
         },
+        *(in_k(value), value),
     )
     return Formula(
         "wave_mean", "s_n",
@@ -327,7 +347,7 @@ def modal_weight() -> Formula:
 
 
 @cache
-def at_rest() -> tuple[Formula, Formula]:
+def at_rest() -> tuple[Formula, ...]:
     """Return the difference to the paper's edge under a static load, on the axis."""
     A = sp.Symbol("A", real=True)
     # In units of P b^2/D: (psi' + psi/r)' = -1/(2 pi r), and psi' + psi = 0 at the edge.
@@ -341,6 +361,7 @@ def at_rest() -> tuple[Formula, Formula]:
     first = sp.series(clamped, chi, 0, 2).removeO()
     nabla = thin.laplacian(1 - _r**2)
     lift = 1 + BULGE / 3 * eta**2 * nabla
+    values = SUPPORTED_REST * lift**2, CLAMPED_REST * (lift**2 + 2 * CLAMP * eta)
     proof = prove(
         "Clamped and supported plates under a static load",
         r"The rotation $\psi$ is the sum of that under a force with the paper's edge and of "
@@ -348,28 +369,26 @@ def at_rest() -> tuple[Formula, Formula]:
         r"The deflection of a face is the mean deflection, to which the operator $1 + \eta^2 "
         r"\nu/(3 (1 - \nu)) \nabla^2$ is applied. By reciprocity, the same applies to a force "
         "on the face.",
-        {
+        lambda of_support, of_clamp: {
+            "supported": of_support - supported * lift**2,
+            "clamped": of_clamp - first.subs(chi, CLAMP) - first.subs(chi, 0) * (lift**2 - 1),
             "load": sp.expand(sp.diff(bent, _r) + 1 / (2 * sp.pi * _r)),
             "paper's edge": bent.subs(_r, 1),
-            "supported": sp.cancel(supported - SUPPORTED_REST),
-            "clamped": sp.cancel(clamped - CLAMPED_REST * (1 + chi * eta) / (1 - chi * eta)),
+            "any clamp": sp.cancel(clamped - CLAMPED_REST * (1 + chi * eta) / (1 - chi * eta)),
             "first order of chi": sp.expand(first - CLAMPED_REST * (1 + 2 * chi * eta)),
             "face minus mean": lift - 1 + 4 * BULGE * eta**2 / 3,
         },
+        *values,
     )
-    rows = (
-        ("supported_static_change", "a simply supported", SUPPORTED_REST * lift**2),
-        ("clamped_static_change", "a clamped", CLAMPED_REST * (lift**2 + 2 * CLAMP * eta)),
-    )
-    formulas = tuple(
+    rows = ("supported", "a simply supported", values[0]), ("clamped", "a clamped", values[1])
+    return tuple(
         Formula(
-            name, r"\Delta", f"static deflection of {which} plate minus that on the paper's edge, "
-            r"under a force on the axis, divided by $P b^2/D$; first order of $\chi$",
-            value, "1", "", ("wave_weight",), proof,
+            f"{name}_static_change", r"\Delta", f"static deflection of {which} plate minus that "
+            r"on the paper's edge, under a force on the axis, divided by $P b^2/D$; first order of "
+            r"$\chi$", value, "1", "", ("wave_weight",), proof,
         )
         for name, which, value in rows
     )  # fmt: skip
-    return formulas[0], formulas[1]
 
 
 @cache

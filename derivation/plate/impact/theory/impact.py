@@ -37,20 +37,25 @@ def motion() -> tuple[Formula, Formula]:
     """Return (11) and (13) with the first two terms of the force."""
     force = formal_force(delta)
     squared = formal_speed_squared()
+    speed = sp.sqrt(squared)
     # d/dt (delta'^2) = 2 delta' delta'', and delta'' = -P/m.
     acceleration = -force / m
     proof = prove(
         "Energy integral",
         r"$\delta'^2$ is differentiated along the motion and equals $v_0^2$ at $\delta = 0$.",
-        {
-            "along the motion": sp.diff(squared, delta) - 2 * acceleration,
-            "at contact": squared.subs(delta, 0) - v0**2,
-        }
-        | {
-            f"term {i}": squared.coeff(xi_k[i])
-            + 3 / (m * (i + 1)) * delta ** sp.Rational(2 * (i + 1), 3)
-            for i in (2, 3)
-        },
+        lambda acceleration, speed: (
+            {
+                "along the motion": sp.diff(speed**2, delta) - 2 * acceleration,
+                "at contact": speed.subs(delta, 0) - v0,
+                "force": m * acceleration + force,
+            }
+            | {
+                f"term {i}": squared.coeff(xi_k[i])
+                + 3 / (m * (i + 1)) * delta ** sp.Rational(2 * (i + 1), 3)
+                for i in (2, 3)
+            }
+        ),
+        *(acceleration, speed),
     )
     return (
         Formula(
@@ -67,7 +72,7 @@ def motion() -> tuple[Formula, Formula]:
             "speed",
             r"\dot{\delta}",
             "velocity of the sphere, the force truncated after its second term",
-            sp.sqrt(squared),
+            speed,
             "m/s",
             "13",
             ("acceleration",),
@@ -112,7 +117,8 @@ def contact_time(shown: int = SHOWN) -> tuple[Formula, ...]:
         *(sp.Rational(n, n + 3) * weight(n) * geometric(n + 3, q) for n in orders(shown))
     )
     integrand = 2 * rate / sp.sqrt(stored)
-    proof = prove_contact_time(shown, integrand)
+    stated, work = _in_quotients(shown), work_of_contact(shown)
+    proof = prove_contact_time(shown, integrand, stated, work)
     return (
         Formula(
             "contact_integrand",
@@ -124,13 +130,13 @@ def contact_time(shown: int = SHOWN) -> tuple[Formula, ...]:
             "13",
             ("delta_reduced", "P"),
             proof,
-            stated=_in_quotients(shown),
+            stated=stated,
         ),
         Formula(
             "contact_work",
             r"\frac{m v_0^2}{2 C a_m^5}",
             "impact energy divided by $C a_m^5$, which determines $a_m$",
-            work_of_contact(shown),
+            work,
             "1",
             "13",
             ("delta_reduced", "P"),
@@ -148,30 +154,36 @@ def _in_quotients(shown: int) -> sp.Expr:
     return 2 * sp.sqrt(1 - _q) * rate / sp.sqrt(stored)
 
 
-def prove_contact_time(shown: int, integrand: sp.Expr) -> Proof:
+def prove_contact_time(shown: int, integrand: sp.Expr, stated: sp.Expr, work: sp.Expr) -> Proof:
     """Prove the energy, its factor 1 - q, and the substitution, with all D_n at once."""
     scale = contact_radius().expression / a**3
     C = scale / R
     travel = _a_m**2 / R * sp.Add(*(weight(n) * _q**n for n in orders(shown)))
     force = scale * (_a_m * _q) ** 3
     done = sp.integrate(sp.expand(force * sp.diff(travel, _q)), (_q, 0, _q))
-    total = C * _a_m**5 * work_of_contact(shown)
     left = sp.Add(
         *(sp.Rational(n, n + 3) * weight(n) * geometric(n + 3, _q) for n in orders(shown))
     )
     # (dt/dq)^2 = (d travel/dq)^2/speed^2 against the square of prefactor, integrand, du/dq.
-    speed_squared = 2 / m * (total - done)
+    speed_squared = 2 / m * C * _a_m**5 * (1 - _q) * left
     prefactor_squared = m / 2 * _a_m**4 / R**2 / (C * _a_m**5)
-    by_u = (integrand**2).subs(u_t, sp.sqrt(1 - _q)) / (4 * (1 - _q))
+
+    def residuals(integrand: sp.Expr, stated: sp.Expr, work: sp.Expr) -> dict[str, sp.Expr]:
+        total, in_q = C * _a_m**5 * work, integrand.subs(u_t, sp.sqrt(1 - _q))
+        by_u = in_q**2 / (4 * (1 - _q))
+        return {
+            "work": total - done.subs(_q, 1),
+            "factor": sp.expand(total - done - C * _a_m**5 * (1 - _q) * left),
+            "time": sp.diff(travel, _q) ** 2 - speed_squared * prefactor_squared * by_u,
+            "in quotients": in_q**2 - stated**2,
+        }
+
     return prove(
         "Contact time",
         r"The work $\int P d \delta$ is taken over $a$, with $q = 1 - u^2$ and $1 - q^{n+3} = (1 "
         r"- q)(1 + q + \ldots + q^{n+2})$.",
-        {
-            "work": total - done.subs(_q, 1),
-            "factor": sp.expand(total - done - C * _a_m**5 * (1 - _q) * left),
-            "time": sp.diff(travel, _q) ** 2 - speed_squared * prefactor_squared * by_u,
-        },
+        residuals,
+        *(integrand, stated, work),
     )
 
 
@@ -187,7 +199,7 @@ def hertz_time() -> Formula:
     euler = s ** (sp.Rational(2, 5) - 1) * (1 - s) ** (sp.Rational(1, 2) - 1)
     factor = sp.simplify(integrand / euler)
     value = 2 * factor * sp.gamma(sp.Rational(2, 5)) * sp.sqrt(sp.pi) / sp.gamma(sp.Rational(9, 10))
-    largest = sp.Symbol("d", positive=True)
+    beta, largest = sp.beta(sp.Rational(2, 5), sp.Rational(1, 2)), sp.Symbol("d", positive=True)
     C = sp.Symbol("C", positive=True)
     # a_m from the work, and the prefactor of I, with D_2 alone.
     speed = sp.sqrt(2 * C * _a_m**5 * work_of_contact(0) / m)
@@ -199,11 +211,13 @@ def hertz_time() -> Formula:
         "Hertz's contact time",
         "The substitution $x = s^{2/5}$ gives Euler's Beta integral. The substitutions $x = "
         "q^2$ and $q = 1 - u^2$ give the integral of the contact time with $D_2$ alone.",
-        {
+        lambda value: {
             "Beta": integrand - factor * euler,
+            "value": sp.gammasimp(value / beta.rewrite(sp.gamma)) - 2 * factor,
             "prefactor": ratio - sp.sqrt(work_of_contact(0)),
             "same integral": direct**2 - 16 * q**2 * u_t**2 / sp.expand(1 - q**5),
         },
+        value,
     )
     return Formula(
         "hertz_time",
@@ -224,11 +238,12 @@ def linear_motion() -> Formula:
     proof = prove(
         "Linear motion",
         r"It solves $m \delta'' + \xi_2 \delta = 0$ with $\delta(0) = 0$ and $\delta'(0) = v_0$.",
-        {
+        lambda value: {
             "equation of motion": m * sp.diff(value, t, 2) + xi_k[2] * value,
             "initial position": value.subs(t, 0),
             "initial velocity": sp.diff(value, t).subs(t, 0) - v0,
         },
+        value,
     )
     return Formula(
         "delta_0",
@@ -274,12 +289,14 @@ def linearisation() -> tuple[Formula, ...]:
         "Linearisation",
         r"$V(\delta_0 + \eta) - V_0(\delta_0)$ is expanded to first order in $\eta$; (16) is "
         r"inserted into $\eta' + F \eta + G = 0$; the radicand is taken where $V_0$ vanishes.",
-        {
+        lambda F, G, at_turning: {
             "F": F + sp.diff(V, delta_0),
             "G": G - (sp.sqrt(v0**2 - xi_k[2] / m * delta_0**2) - V),
             "solution": slope + rate * solution + source,
             "turning point": (v0**2 - xi_k[2] / m * delta_0**2).subs(delta_0, turned),
+            "radicand": at_turning - squared.subs(delta_0, turned),
         },
+        *(F, G, at_turning),
     )
 
     def record(name: str, symbol: str, what: str, value: sp.Expr, unit: str, eq: str) -> Formula:
@@ -321,7 +338,8 @@ def linearisation_about_hertz() -> tuple[Formula, Formula]:
         "Both velocities are the roots of squares that are written out here. $F$ is minus the "
         "derivative of the perturbed velocity with respect to the indentation, $G$ is their "
         "difference.",
-        {"F": F + sp.diff(V, delta_0), "G": G - V_0 + V},
+        lambda F, G: {"F": F + sp.diff(V, delta_0), "G": G - V_0 + V},
+        *(F, G),
     )
     sources = ("P_half", "p_1", "speed")
     return (

@@ -76,24 +76,19 @@ def energy_scale() -> sp.Expr:
 @cache
 def energy_number() -> Formula:
     """Return the impact energy over (4/3) E* h^5/R^2, on which A_m depends in addition to h/b."""
-    value = m * v0**2 / 2 / energy_scale().subs(_MODULUS, reduced_modulus())
+    value = sp.factor(m * v0**2 / 2 / energy_scale().subs(_MODULUS, reduced_modulus()))
     C = contact_radius().expression / a**3 / R
     proof = prove(
         "Energy number",
         r"$C a_m^5 \sum n D_n/(n + 3) = m v_0^2/2$ with $a_m = h A_m$.",
-        {"energy": C * (h * _A) ** 5 - _A**5 * m * v0**2 / 2 / value},
+        lambda value: {"energy": C * (h * _A) ** 5 - _A**5 * m * v0**2 / 2 / value},
+        value,
     )
     sources = ("contact_work", "P")
     return Formula(
-        "energy_number",
-        r"\mathcal{Y}",
-        "impact energy divided by $(4/3) E^* h^5/R^2$",
-        sp.factor(value),
-        "1",
-        "13",
-        sources,
-        proof,
-    )
+        "energy_number", r"\mathcal{Y}", "impact energy divided by $(4/3) E^* h^5/R^2$", value,
+        "1", "13", sources, proof,
+    )  # fmt: skip
 
 
 # --- slopes of the law
@@ -118,7 +113,7 @@ def law_slopes() -> tuple[Formula, ...]:
         "Slopes of the contact law",
         r"The series is differentiated with respect to $a$. The split is multiplied by $\alpha^2$ "
         r"and differentiated with respect to $\alpha$, and at fixed $\alpha$ to $\log(h/b)$.",
-        {
+        lambda slope, sinc, deeper: {
             "series": sp.diff(delta, a) - slope,
             "mode": sp.diff(alpha**2 * mode.expression, alpha) / (2 * alpha) - sinc,
             "finite radius": sp.diff(bracket, alpha) / (2 * alpha) - side,
@@ -128,6 +123,7 @@ def law_slopes() -> tuple[Formula, ...]:
             / sp.besseli(0, lateral.expression.variables[0]),
             "thickness": eta * sp.diff(mode.expression, eta) - deeper,
         },
+        *(slope, sinc, deeper),
     )
     return (
         Formula(
@@ -235,10 +231,11 @@ def modulus_slope() -> Formula:
         "Slopes of the modulus",
         "The logarithm of $E^*$ is differentiated; $E^*$ is homogeneous of degree 1 in both "
         "moduli.",
-        {
+        lambda value: {
             "derivative with respect to lam": lam * sp.diff(logarithm, lam) - value,
             "derivative with respect to mu": mu * sp.diff(logarithm, mu) - (1 - value),
         },
+        value,
     )
     return Formula(
         "modulus_by_lam",
@@ -295,13 +292,14 @@ def peaks() -> tuple[Formula, ...]:
         r"The energy number is $A^5 E$ and the indentation is $A^2 (1 + F)$. The radius $A$ is "
         r"varied so that the energy number increases, and so that it stays constant while "
         r"$\eta$ increases.",
-        {
+        lambda by_energy, by_eta, indentation_by_energy, depth_by_eta: {
             "work": work - work_of_contact(),
             "radius by energy": energy_by_radius * by_energy - 1,
             "radius by eta": energy_by_radius * by_eta + energy_by_eta,
             "indentation by energy": depth * by_energy - indentation_by_energy,
             "indentation by eta": depth * by_eta + deeper(lift) / lift - depth_by_eta,
         },
+        *(by_energy, by_eta, indentation_by_energy, depth_by_eta),
     )
     rows = (
         ("radius_by_energy", r"\partial\log a_m/\partial\log\mathcal{Y}", by_energy),
@@ -353,13 +351,14 @@ def times() -> tuple[Formula, ...]:
         "integrand": integrand - whole.subs({n_0: N, s_0: S}),
         "rule": sp.diff(whole, n_0) * n_1 + sp.diff(whole, s_0) * s_1 - rule,
     }
-    values = {}
+    values, grown = {}, {}
     for name, slope in (
         ("radius", {n: (n - 2) * weight for n, weight in D_n.items()}),
         ("thickness", _eta_weights()),
     ):
         N_slope, S_slope = parts(slope)
         values[name] = rule.subs({n_0: N, s_0: S, n_1: N_slope, s_1: S_slope})
+        grown[name] = sp.Add(*(slope[n] * sp.diff(integrand, D[n]) for n in orders()[1:]))
         for label, part, change in (("N", N, N_slope), ("S", S, S_slope)):
             moved = sp.Add(*(slope[n] * sp.diff(part, D[n]) for n in orders()[1:]))
             proofs[f"{label} by {name}"] = sp.expand(moved - change)
@@ -367,8 +366,10 @@ def times() -> tuple[Formula, ...]:
         "Derivatives of the contact time",
         "At fixed $u$, numerator and radicand are differentiated with respect to each $D_n$; the "
         "quotient rule gives the derivative of the integrand.",
-        proofs,
-    )
+        lambda *claims: proofs
+        | {f"by {name}": claim - grown[name] for claim, name in zip(claims, values, strict=True)},
+        *values.values(),
+    )  # fmt: skip
     rows = (
         ("time_by_radius", r"\partial_{\log A_m}", r"$\log(a_m/h)$"),
         ("time_by_thickness", r"\partial_{\log\eta}", r"$\log(h/b)$ at fixed $a_m/h$"),

@@ -53,20 +53,26 @@ def slope_law() -> Formula:
     density = -4 / sp.pi**2 * sp.sinh(alpha * _y) / _y
     (height,) = lateral.expression.variables
     kernel = (lateral.expression.function / LATERAL).subs(height, _y)
+    value = sp.Integral(density * LATERAL.subs(height, _y), (_y, 0, sp.oo))
     proof = prove(
         "Slope of the law",
         r"The expression $F + \alpha F'/2$ is evaluated for one mode and for the integrand of "
         r"the lateral surface.",
-        {
+        lambda lateral: {
             "modes": sloped(mode.expression) - 4 * alpha / sp.pi * sp.sin(y) / y * weight,
-            "finite radius": sp.expand((sloped(kernel) - density).rewrite(sp.exp)),
+            "finite radius": sp.expand(
+                (
+                    sloped(kernel) - lateral.function.subs(height, _y) / LATERAL.subs(height, _y)
+                ).rewrite(sp.exp)
+            ),
         },
+        value,
     )
     return Formula(
         "slope_lateral",
         r"\frac{R}{2a}\frac{\mathrm{d}\delta_b}{\mathrm{d}a}",
         r"contribution of the finite radius to $d \delta/da$, divided by the half-space's",
-        sp.Integral(density * LATERAL.subs(height, _y), (_y, 0, sp.oo)),
+        value,
         "1",
         "6",
         ("F_lateral",),
@@ -89,7 +95,10 @@ def one_sided() -> Formula:
         r"and this is the derivative of $\sin y - y + y^3/6$; so both also vanish at 0 and "
         r"increase. Each power of $\alpha$ in $\sinh(\alpha y)$ after the first is at most "
         r"$\alpha^3$; all $w_n > 0$, because $G > 1$. The first powers add up to $(3/2) c_1 A$.",
-        {
+        lambda value: {
+            "first powers": value.subs(c_A[1], first.mode + first.side)
+            - 1
+            - 4 * eta / sp.pi * a_ratio * (weight - kappa[0] / sp.pi),
             "sinc below 1": rising[0] - chord,
             "1 - cos y below y^2/2": sp.diff(_y**2 / 2 - chord, _y) - (_y - sp.sin(_y)),
             "sinc above 1 - y^2/6": rising[1] - (_y**2 / 2 - chord),
@@ -100,12 +109,13 @@ def one_sided() -> Formula:
             "G - 1": plate_factors()[2].expression * (sp.sinh(T) ** 2 - T**2)
             - ((1 - sp.exp(-2 * T)) / 2 + T + T**2),
         },
+        1 + sp.Rational(3, 2) * c_A[1] * a_ratio,
     )
     return Formula(
         "S_bound",
         r"S_1",
         r"upper bound of $(R/2a) d \delta/da$ for every $a < b$",
-        1 + sp.Rational(3, 2) * c_A[1] * a_ratio,
+        proof.claims[0],
         "1",
         "6",
         ("c_1_modes", "c_1_lateral", "slope_modes", "slope_lateral"),

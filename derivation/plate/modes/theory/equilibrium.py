@@ -63,22 +63,32 @@ def equilibrium() -> tuple[Formula, Formula]:
     """
     stress = hooke(g * phi * BESSEL_J1, f * BESSEL_J0)
     balance_r, balance_z = force_balance(stress)
+    u, w = g * phi * BESSEL_J1, f * BESSEL_J0
+    dilatation, rotation = sp.diff(u, r) + u / r + sp.diff(w, z), sp.diff(u, z) - sp.diff(w, r)
+    stiff = lam + 2 * mu
+    navier_r = stiff * sp.diff(dilatation, r) + mu * sp.diff(rotation, z)
+    navier_z = stiff * sp.diff(dilatation, z) - mu * (sp.diff(rotation, r) + rotation / r)
     radial, axial = factor_of(balance_r, BESSEL_J1), factor_of(balance_z, BESSEL_J0)
+    odes = sp.expand(radial / phi), sp.expand(axial)
     proof = prove(
         "Equilibrium of one mode",
         r"With Hooke's law, the two equilibrium equations become $\phi J_1(\phi r)$ times the "
-        r"first and $J_0(\phi r)$ times the second ODE.",
-        {
-            "radial balance": without_functions(balance_r - radial * BESSEL_J1),
+        r"first and $J_0(\phi r)$ times the second ODE. They are Navier's equations, $(\lambda + "
+        r"2 \mu) \nabla \nabla \cdot u = \mu \nabla \times \nabla \times u$.",
+        lambda radial, axial: {
+            "radial balance": without_functions(balance_r - radial * phi * BESSEL_J1),
             "axial balance": without_functions(balance_z - axial * BESSEL_J0),
+            "radial Navier": _in_bessel(navier_r - radial * phi * BESSEL_J1),
+            "axial Navier": _in_bessel(navier_z - axial * BESSEL_J0),
         },
+        *odes,
     )
     return (
         Formula(
             "radial_ode",
             "0",
             "radial equilibrium equation of mode $j$",
-            sp.expand(radial / phi),
+            odes[0],
             "Pa",
             "2",
             (),
@@ -88,13 +98,17 @@ def equilibrium() -> tuple[Formula, Formula]:
             "axial_ode",
             "0",
             "axial equilibrium equation of mode $j$",
-            sp.expand(axial),
+            odes[1],
             "Pa/m",
             "2",
             (),
             proof,
         ),
     )
+
+
+def _in_bessel(expression: sp.Expr) -> sp.Expr:
+    return without_functions(sp.expand(lower_bessel(expression.doit())))
 
 
 def without_functions(expression: sp.Expr, *functions: sp.Expr) -> sp.Expr:

@@ -33,11 +33,14 @@ def omegas() -> tuple[Formula, ...]:
     conditions = tractions()
     (solution,) = sp.linsolve(list(conditions.values()), *CONSTANTS)
     expressions = [to_hyperbolic(sp.cancel(value / A_j), phi * h) for value in solution]
-    loads = {c: A_j * omega for c, omega in zip(CONSTANTS, expressions, strict=True)}
     proof = prove(
         "Face conditions",
         r"$C_k = A_j \Omega_k$ is inserted into both stresses on both faces.",
-        {where: traction.subs(loads) for where, traction in conditions.items()},
+        lambda *omegas: {
+            where: traction.subs({c: A_j * x for c, x in zip(CONSTANTS, omegas, strict=True)})
+            for where, traction in conditions.items()
+        },
+        *expressions,
     )
     return tuple(
         Formula(
@@ -61,7 +64,11 @@ def scaled_omegas() -> tuple[Formula, ...]:
     proof = prove(
         "Scaled constants",
         r"Each scaled constant is the constant times $e^{\phi h}$ by definition.",
-        {o.name: value * sp.exp(-phi * h) - o.expression for o, value in scaled.items()},
+        lambda *scaled: {
+            omega.name: value * sp.exp(-phi * h) - omega.expression
+            for omega, value in zip(omegas(), scaled, strict=True)
+        },
+        *scaled.values(),
     )
     return tuple(
         Formula(

@@ -28,8 +28,12 @@ def influence_coefficients() -> tuple[Formula, Formula, Formula]:
         "Influence coefficients",
         r"The closed forms equal $f_j(\pm h)/A_j$ with the constants of the face conditions; the "
         r"half-space's is $2/(E^* \phi)$.",
-        {face: closed[face] - faces[face] for face in faces}
-        | {"half-space": half - 2 / (PLANE_STRAIN_MODULUS * phi)},
+        lambda top, bottom, half: {
+            "top": top - faces["top"],
+            "bottom": bottom - faces["bottom"],
+            "half-space": half - 2 / (PLANE_STRAIN_MODULUS * phi),
+        },
+        *(*closed.values(), half),
     )
     sources = ("f_j", "Omega_1", "Omega_2", "Omega_3", "Omega_4")
     return (

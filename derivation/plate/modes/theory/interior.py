@@ -41,20 +41,30 @@ def interior_fields() -> tuple[Formula, ...]:
     fields = {name: value.subs(written_out) for name, value in stated.items()}
     stress = hooke(fields["u"], fields["w"])
     radial, axial = force_balance(stress)
+
+    def residuals(*claims: sp.Expr) -> dict[str, sp.Expr]:
+        given, texts = claims[: len(fields)], claims[len(fields) :]
+        u, w, *stresses = given
+        return {
+            "sigma_rr": stress.rr - stresses[0],
+            "sigma_tt": stress.tt - stresses[1],
+            "sigma_zz": stress.zz - stresses[2],
+            "sigma_rz": stress.rz - stresses[3],
+            "radial balance": radial,
+            "axial balance": axial,
+            "edge": _on_edge(sp.diff(u, r) + u / r),
+            "edge deflection": _on_edge(w),
+        } | {
+            f"{name} in step 3": text.subs(written_out) - value
+            for name, text, value in zip(fields, texts, given, strict=True)
+        }
+
     proof = prove(
         "Interior fields",
         "The stresses are Hooke's law of the displacements and balance without body force; $w$ "
         r"and $u/r + du/dr$ vanish on the edge, where $J_0(b \phi) = 0$.",
-        {
-            "sigma_rr": stress.rr - fields["sigma_rr"],
-            "sigma_tt": stress.tt - fields["sigma_tt"],
-            "sigma_zz": stress.zz - fields["sigma_zz"],
-            "sigma_rz": stress.rz - fields["sigma_rz"],
-            "radial balance": radial,
-            "axial balance": axial,
-            "edge": _on_edge(sp.diff(fields["u"], r) + fields["u"] / r),
-            "edge deflection": _on_edge(fields["w"]),
-        },
+        residuals,
+        *(*fields.values(), *stated.values()),
     )
     return tuple(
         Formula(

@@ -15,18 +15,26 @@ def loaded_mode() -> tuple[Formula, ...]:
     general = (*mode_shapes(), *modal_stresses())
     shapes = {formula.name: loaded(formula.expression) for formula in general}
     radial, axial = substitute(shapes["f_j"], shapes["g_j"])
+    stated = [formula.expression for formula in general]
     proof = prove(
         "Loaded mode",
         "$f_j$ and $g_j$ under load satisfy both ODEs; with their stresses both faces are free of "
         "shear, the back face is free of pressure, and the contact face carries $A_j$.",
-        {
-            "radial ODE": radial,
-            "axial ODE": axial,
-            "shear above": shapes["S_rz"].subs(z, h),
-            "shear below": shapes["S_rz"].subs(z, -h),
-            "pressure above": shapes["S_zz"].subs(z, h) - A_j,
-            "pressure below": shapes["S_zz"].subs(z, -h),
-        },
+        lambda *claims: (
+            {
+                f"constants in {formula.name}": loaded(text) - value
+                for formula, value, text in zip(general, claims[:6], claims[6:], strict=True)
+            }
+            | {
+                "radial ODE": radial,
+                "axial ODE": axial,
+                "shear above": shapes["S_rz"].subs(z, h),
+                "shear below": shapes["S_rz"].subs(z, -h),
+                "pressure above": shapes["S_zz"].subs(z, h) - A_j,
+                "pressure below": shapes["S_zz"].subs(z, -h),
+            }
+        ),
+        *(*shapes.values(), *stated),
     )
     omegas = ("Omega_1", "Omega_2", "Omega_3", "Omega_4")
     return tuple(

@@ -84,11 +84,12 @@ def by_constants(expression: sp.Expr) -> sp.Expr:
 def mode_shapes() -> tuple[Formula, Formula]:
     """Return the paper's (2): f_j and g_j."""
     shape_f, shape_g = general_solution()
-    radial, axial = substitute(shape_f, shape_g)
+    shapes = shape_f, by_constants(shape_g)
     proof = prove(
         "General solution",
         "$f_j$ and $g_j$ are inserted into both ODEs; their four functions are independent.",
-        {"radial ODE": radial, "axial ODE": axial},
+        lambda f, g: dict(zip(("radial ODE", "axial ODE"), substitute(f, g), strict=True)),
+        *shapes,
     )
     return (
         Formula(
@@ -105,7 +106,7 @@ def mode_shapes() -> tuple[Formula, Formula]:
             "g_j",
             "g_j(z)",
             r"radial displacement of mode $j$ through the thickness, divided by $\phi_j$",
-            by_constants(shape_g),
+            shapes[1],
             "m^2",
             "2",
             ("f_j",),

@@ -17,10 +17,12 @@ def plate_factors() -> tuple[Formula, ...]:
     proof = prove(
         "Plate factors",
         r"The ratio of each influence coefficient to the half-space's depends on $\phi h$ alone.",
-        {
+        lambda G, G_m, excess: {
             "contact face": G.subs(T, 2 * phi * h) * half - top,
             "back face": G_m.subs(T, 2 * phi * h) * half - bottom,
+            "increase": (1 + excess.subs(T, 2 * phi * h)) * half - top,
         },
+        *(G, G_m, G - 1),
     )
     return (
         Formula("G", "G(T)", "plate factor of the contact face", G, "1", "6", ("C_top",), proof),
@@ -48,7 +50,8 @@ def plate_factor_slope() -> Formula:
     proof = prove(
         "Slope of the plate factor",
         r"$G$ is differentiated; the numerator reduces to $4 T^2 \sinh^2 T$.",
-        {"derivative": T * sp.diff(G, T) - value},
+        lambda value: {"derivative": T * sp.diff(G, T) - value},
+        value,
     )
     return Formula(
         "G_slope",

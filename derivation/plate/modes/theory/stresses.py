@@ -42,14 +42,15 @@ def modal_stresses() -> tuple[Formula, ...]:
     proof = prove(
         "Modal stresses",
         "The separated stresses equal Hooke's law of the mode, and their forces balance.",
-        {
-            "sigma_zz": stress.zz - shapes["S_zz"] * BESSEL_J0,
-            "sigma_rz": stress.rz - shapes["S_rz"] * BESSEL_J1,
-            "sigma_rr": stress.rr + ring - shapes["S_rr"] * BESSEL_J0,
-            "sigma_tt": stress.tt - ring - shapes["S_tt"] * BESSEL_J0,
+        lambda zz, rz, rr, tt: {
+            "sigma_zz": stress.zz - zz * BESSEL_J0,
+            "sigma_rz": stress.rz - rz * BESSEL_J1,
+            "sigma_rr": stress.rr + ring - rr * BESSEL_J0,
+            "sigma_tt": stress.tt - ring - tt * BESSEL_J0,
             "radial balance": radial,
             "axial balance": axial,
         },
+        *shapes.values(),
     )
     return tuple(
         Formula(

@@ -49,7 +49,8 @@ def yield_radius() -> Formula:
     proof = prove(
         "Onset of yield",
         "The largest Hertz pressure is $1.6 Y$ at this contact radius.",
-        {"pressure": sp.simplify(peak.subs(a, radius) - ONSET * yield_stress)},
+        lambda radius: {"pressure": peak.subs(a, radius) - ONSET * yield_stress},
+        radius,
     )
     return Formula(
         "yield_radius", "a_y", "contact radius at the onset of yield",
@@ -97,10 +98,12 @@ def plastic_indentation() -> Formula:
         "Indentation of an elastic-plastic contact",
         "The indentation is $a^2/R$, with the larger contact radius of the limited pressure. At "
         "the onset, value and slope are those of Hertz's law.",
-        {
+        lambda extra: {
+            "force": loading().force.subs(a, sp.sqrt(xi_y**2 + extra) * _a_y) - xi_y**3,
             "onset": extra.subs(xi_y, 1),
             "slope at the onset": sp.diff(extra, xi_y).subs(xi_y, 1),
         },
+        extra,
     )
     return Formula(
         "plastic_indentation", r"\Delta",
@@ -121,11 +124,12 @@ def flattening() -> Formula:
         "Flattened radius",
         "Thornton's radius $R_p = R P_e/P$ gives the force and contact radius at which "
         "unloading begins.",
-        {
+        lambda ratio: {
             "radius": sp.simplify((equivalent / hertz.subs(a, xi_y * _a_y)) - ratio**-3),
             "force": sp.simplify(unloaded.subs(a, top) / hertz.subs(a, xi_y * _a_y) - 1),
             "at every force of unloading": sp.simplify(unloaded / hertz.subs({a: ratio * a}) - 1),
         },
+        ratio,
     )
     return Formula(
         "flattening", "c", "Hertz radius of the force divided by the contact radius, at unloading",
@@ -141,7 +145,8 @@ def dent() -> Formula:
     proof = prove(
         "Dent",
         "At the beginning of unloading the indentation is that of loading.",
-        {"continuous": sp.simplify(depth + ratio * xi_y**2 - area)},
+        lambda depth: {"continuous": sp.simplify(depth + ratio * xi_y**2 - area)},
+        depth,
     )
     return Formula(
         "dent", r"\delta_p", "residual indentation divided by $a_y^2/R$", depth, "1", "",
@@ -163,10 +168,13 @@ def plastic_work() -> Formula:
     proof = prove(
         "Plastic work",
         "The plastic work is the work of loading minus the energy returned on unloading.",
-        {
+        lambda work: {
             "rebound energy": sp.simplify(returned - ratio * xi_y**5),
+            "loading": sp.diff(work + ratio * xi_y**5, xi_y)
+            - sp.Rational(5, 2) * xi_y**3 * sp.diff(xi_y**2 + extra, xi_y),
             "onset": sp.simplify(work.subs(xi_y, 1)),
         },
+        work,
     )
     return Formula(
         "plastic_work", "W_p", "plastic work divided by Hertz's energy at the onset of yield",
@@ -179,7 +187,8 @@ def yield_speed() -> Formula:
     """Return the impact speed at the onset of yield of a half-space."""
     force, _ = _hertz()
     energy = sp.integrate(force * sp.diff(a**2 / R, a), (a, 0, _a_y))
-    speed = sp.sqrt(2 * energy.subs(_a_y, yield_radius().expression) / m)
+    energy = energy.subs(_a_y, yield_radius().expression)
+    speed = sp.powdenest(sp.simplify(sp.sqrt(2 * energy / m)), force=True)
     limit = ONSET * yield_stress
     thornton = (sp.pi * limit / (2 * PLANE_STRAIN_MODULUS)) ** 2 * sp.sqrt(
         8 * sp.pi * limit * R**3 / (15 * m)
@@ -188,11 +197,15 @@ def yield_speed() -> Formula:
         "Yield speed",
         "The energy of the Hertz contact at the onset of yield gives the speed, which equals "
         "Thornton's (1997) formula.",
-        {"Thornton": sp.simplify((thornton / speed) ** 2 - 1)},
+        lambda speed: {
+            "energy": m * speed**2 / 2 - energy,
+            "Thornton": sp.simplify((thornton / speed) ** 2 - 1),
+        },
+        speed,
     )
     return Formula(
         "yield_speed", "v_y", "impact speed at the onset of yield for a half-space",
-        sp.powdenest(sp.simplify(speed), force=True), "m/s", "", ("yield_radius",), proof,
+        speed, "m/s", "", ("yield_radius",), proof,
     )  # fmt: skip
 
 
@@ -202,6 +215,7 @@ def plastic_restitution() -> Formula:
     work, ratio = plastic_work().expression, flattening().expression
     whole = work + ratio * xi_y**5
     square = ratio * xi_y**5 / whole
+    value = sp.sqrt(square)
     slow = 1 / sp.sqrt(whole)  # v_y/v0
     part = slow / (slow + 2 * sp.sqrt(sp.Rational(6, 5) - slow**2 / 5))
     thornton = sp.Rational(6, 5) * sp.sqrt(3) * (1 - slow**2 / 6) * sp.sqrt(part)
@@ -210,16 +224,18 @@ def plastic_restitution() -> Formula:
         "Restitution of an elastic-plastic contact",
         "The coefficient is the square root of the returned energy divided by the initial energy. "
         "It equals Thornton's (1997) formula in $v_y/v_0$, which tends to $1.185 (v_y/v_0)^{1/4}$.",
-        {
+        lambda value: {
+            "energy": value**2 * whole - ratio * xi_y**5,
             "Thornton": sp.simplify((thornton / square) ** 4 - 1),
             "fast impact": sp.simplify(
                 ends - sp.Rational(6, 5) * sp.sqrt(3) / sp.sqrt(2 * sp.sqrt(sp.Rational(6, 5)))
             ),
         },
+        value,
     )
     return Formula(
         "plastic_restitution", "e", "restitution of an elastic-plastic contact on a half-space",
-        sp.sqrt(square), "1", "", ("plastic_work",), proof,
+        value, "1", "", ("plastic_work",), proof,
     )  # fmt: skip
 
 

@@ -112,7 +112,7 @@ def lateral_ratio() -> flint.arb:
 
 
 @cache
-def estimates() -> Proof:
+def estimates(slope: sp.Expr, depth: sp.Expr) -> Proof:
     """Prove the integrals and the inequalities between rational functions of the argument above.
 
     Each inequality holds because the difference is a product of factors of known sign, for
@@ -134,7 +134,10 @@ def estimates() -> Proof:
         r"$\Theta a^3$ bounds the change of the kernel over the contact. The proof derives both "
         r"parts of $\Theta$, evaluates the integrals of the estimates, and writes each inequality "
         "as a product of factors of known sign.",
-        {
+        lambda slope, depth: {
+            "slope": slope.subs(c_A[3], third.mode + third.side) / (BELOW * a_ratio**3)
+            - modes - side - LATERAL_EXTRA * eta**3,
+            "depth": depth / DEPTH - slope / BELOW,
             "Theta of the modes": modes + sp.Rational(15, 2) * third.mode,
             "Theta of the finite radius": side + sp.Rational(15, 2) * third.side,
             "1 - cos x cos y": (1 - sp.cos(_x) * sp.cos(_y)).expand()
@@ -163,7 +166,8 @@ def estimates() -> Proof:
             "indentation": 2 / R * sp.integrate(BELOW * _s * (_s / a) ** 3, (_s, 0, a))
             - DEPTH * a**2 / R,
         },
-    )
+        *(slope, depth),
+    )  # fmt: skip
 
 
 @cache
@@ -173,9 +177,9 @@ def pressure_bound() -> tuple[Formula, Formula]:
     c_3 < 0 for every plate, because both of its parts are negative: the bounds are positive.
     """
     lateral_ratio()
-    proof = estimates()
     factor = LATERAL_EXTRA * eta**3 - sp.Rational(15, 2) * c_A[3]
     theta = factor * a_ratio**3
+    proof = estimates(BELOW * theta, DEPTH * theta)
     holds = (f"({factor}) * a_ratio**3 <= {LARGEST}", f"a_ratio * eta <= {WIDEST}")
 
     def bound(name: str, latex: str, what: str, multiple: sp.Rational) -> Formula:

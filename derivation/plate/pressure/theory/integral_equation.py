@@ -154,7 +154,7 @@ def kernel() -> tuple[Formula, Formula]:
     one_mode = reduced_modulus() / sp.pi * half * G * load * sp.cos(phi * _t)
     weight = plate_factors()[2].expression.subs(T, 2 * eta * j_n) / (j_n * J1**2)
     mode = 4 / sp.pi * weight * sp.cos(alpha * j_n)
-    lateral = -4 / sp.pi**2 * sp.cosh(alpha * _y)
+    lateral = sp.Integral(-4 / sp.pi**2 * sp.cosh(alpha * _y) * LATERAL, (_y, 0, sp.oo))
 
     def paired(part: sp.Expr) -> sp.Expr:
         ends = (part.subs(alpha, (_t + sign * _s) / b) for sign in (1, -1))
@@ -172,15 +172,18 @@ def kernel() -> tuple[Formula, Formula]:
         r"Abel's operator gives the deflection of a mode under $\chi$. With $G = 1$ the sum "
         r"identity gives $(2/\pi) \int \cos(x t) \cos(x s) dx$, which is $\chi$, and the "
         r"lateral surface. Finally, $S$ is differentiated.",
-        {
+        lambda mode, lateral: {
             "one mode": one_mode - f.subs(_x, b * phi) / (b * phi * J1**2) * G,
             "thickness": f.subs(_x, b * phi) / (b * phi * J1**2) * (G - 1)
             - _spread(paired(mode).subs(scaled), sp.cos),
             "half-space": f / 2 * b - 2 / sp.pi * sp.cos(_x * _t / b) * sp.cos(_x * _s / b),
-            "finite radius": -both / (2 * sp.pi) - _spread(paired(lateral), sp.cosh),
+            "finite radius": -both / (2 * sp.pi)
+            - _spread(paired(lateral.function / LATERAL), sp.cosh),
             "slope of the modes": sp.diff(slope[0], alpha) - mode,
-            "slope of the radius": sp.diff(slope[1] / bessel, alpha).subs(height, _y) - lateral,
+            "slope of the radius": sp.diff(slope[1] / bessel, alpha).subs(height, _y) * LATERAL
+            - lateral.function,
         },
+        *(mode, lateral),
     )
     sources = ("slope_modes", "slope_lateral", "C_half", "G")
     return (
@@ -199,7 +202,7 @@ def kernel() -> tuple[Formula, Formula]:
             "k_lateral",
             r"k_b(\alpha)",
             "contribution of the lateral surface to the kernel",
-            sp.Integral(lateral * LATERAL, (_y, 0, sp.oo)),
+            lateral,
             "1",
             "",
             sources,

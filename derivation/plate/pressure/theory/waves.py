@@ -33,11 +33,12 @@ def force_of_wave() -> Formula:
     proof = prove(
         "Force by a wave under the contact",
         r"$\chi$ is integrated, with $\chi(a) = 0$; $s$ is differentiated with respect to $a$.",
-        {
+        lambda value: {
             "force": sp.integrate(2 * sp.pi * chi, (_t, 0, a)) - value,
             "mean deflection": 2 * PLANE_STRAIN_MODULUS * a**2 * sp.diff(mean_deflection(), a)
             - value,
         },
+        value,
     )
     meaning = r"change of the force at a given contact radius over the deflection $q$ of a wave"
     return Formula("force_of_wave", r"\Delta P/q", meaning, value, "N/m", "", ("k_modes",), proof)

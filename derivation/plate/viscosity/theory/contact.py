@@ -73,7 +73,9 @@ def viscous_number() -> Formula:
     force = _K * _z ** sp.Rational(3, 2)
     ratio = sp.powsimp(sp.diff(force, _z) * viscous_time * speed / force)
     deepest = (sp.Rational(5, 4) * m * v0**2 / _K) ** sp.Rational(2, 5)
-    number = sp.Rational(3, 2) * viscous_time * (_K / m) ** sp.Rational(2, 5) * v0**_FIFTH
+    hertz = sp.Rational(4, 3) * PLANE_STRAIN_MODULUS
+    rate = hertz ** sp.Rational(2, 5) * (R * v0 / m**2) ** _FIFTH
+    number = sp.Rational(3, 2) * viscous_time * rate
     rise = sp.powsimp(ratio / speed**_FIFTH)
 
     def plain(x: sp.Expr) -> sp.Expr:
@@ -83,20 +85,19 @@ def viscous_number() -> Formula:
         "Viscous number",
         r"The parameter $\varepsilon$ of Hertz's law is proportional to $s^{1/5}$, and $s = v_0$ "
         r"at the turning point.",
-        {
+        lambda number: {
             "power of the speed": sp.diff(plain(rise), _z),
-            "turning point": plain(ratio.subs(_z, deepest))
-            / plain(sp.Rational(4, 5) ** sp.Rational(2, 5) * number)
+            "turning point": ratio.subs(_z, deepest).subs(_K, hertz * sp.sqrt(R))
+            / (sp.Rational(4, 5) ** sp.Rational(2, 5) * number)
             - 1,
         },
+        number,
     )
-    hertz = sp.Rational(4, 3) * PLANE_STRAIN_MODULUS
-    rate = hertz ** sp.Rational(2, 5) * (R * v0 / m**2) ** _FIFTH
     return Formula(
         "viscous_number",
         "x_v",
         "viscous parameter, to leading order proportional to the relative loss of speed",
-        sp.Rational(3, 2) * viscous_time * rate,
+        number,
         "1",
         "",
         ("C_half",),
@@ -122,20 +123,23 @@ def weak_restitution() -> Formula:
     integrand = phi**_FIFTH * sp.sqrt(1 - phi**2)  # phi -> arcsin, both halves: twice
     loss = 2 * sp.hyperexpand(sp.integrate(integrand, (phi, 0, 1)))
     loss *= sp.Rational(4, 5) ** sp.Rational(2, 5)
+    second = sp.solve(product.coeff(x, 2), c_2)[0].subs(c_1, C_1)
+    value = 1 - C_1 * x_v + sp.Rational(3, 5) * C_1**2 * x_v**2
     proof = prove(
         "Restitution of a weakly viscoelastic contact",
         "The first term is the loss along the elastic motion; the second follows from the "
         "time-reversed motion.",
-        {
-            "first": sp.gammasimp((loss - C_1).rewrite(sp.gamma)),
-            "second": product.coeff(x, 2).subs(c_2, sp.Rational(3, 5) * c_1**2),
+        lambda e: {
+            "loss": sp.gammasimp((loss - C_1).rewrite(sp.gamma)),
+            "to second order": sp.expand(e - 1 + C_1 * x_v - second * x_v**2),
         },
+        value,
     )
     return Formula(
         "restitution_weak",
         "e",
         "coefficient of restitution of a weakly viscoelastic contact, to second order",
-        1 - C_1 * x_v + sp.Rational(3, 5) * C_1**2 * x_v**2,
+        value,
         "1",
         "",
         ("viscous_number",),

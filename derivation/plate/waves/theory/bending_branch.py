@@ -119,42 +119,47 @@ def bending_zero() -> tuple[Formula, ...]:
     fading -= 8 * w**2 / (plus * x_i) * (1 - tanh[1] ** 2 / tanh[0] ** 2)
     steep = sp.Rational(1, 2) + w * (1 - 2 / plus) + fading / x_i
     reduced = {w: q**2 / x_h**2, x_i: kap / x_h**2}
-    proof = prove(
-        "The lowest bending branch",
-        r"$B_a$ is written in terms of the quotient and differentiated. At its zero, $\tanh p$ is "
-        r"expressed by $\tanh q$.",
-        {
-            "quotient": in_sines(in_p_and_q(B_a - 2 * kap * sp.tanh(p) / p * (quotient() - 1))),
-            "zero": sp.cancel(in_p_and_q(stiffness(at_zero, tanh_q))),
-            "residue": sp.cancel(1 / bare + residue),
-            "residue from the quotient": sp.cancel(1 / bare + anywhere),
-            "steepness": in_sines(in_p_and_q(steep.subs(reduced) - steepness(*tanh))),
-        },
-    )
+    exact = quotient(), steepness(*tanh), bending_residue(*tanh)
+    stated = quotient(), steep, plus * q / (8 * tanh[1] * s)
+    residuals = {
+        "quotient": in_sines(in_p_and_q(B_a - 2 * kap * sp.tanh(p) / p * (quotient() - 1))),
+        "zero": sp.cancel(in_p_and_q(stiffness(at_zero, tanh_q))),
+        "residue": sp.cancel(1 / bare + residue),
+        "residue from the quotient": sp.cancel(1 / bare + anywhere),
+        "steepness": in_sines(in_p_and_q(steep.subs(reduced) - steepness(*tanh))),
+    }
     rows = (
         (
             "bending_quotient", r"q_0(\kappa)", ("quotient of the two terms of $B_a$, equal to 1 "
-            "on the branch A0"),
-            quotient(), quotient(), "B_a_slow",
+            "on the branch A0"), "B_a_slow",
         ),
         (
             "steepness", "s", (
                 r"derivative with respect to $\log \kappa$ of the quotient of both terms of $B_a$ "
                 r"on the branch A0, with reversed sign, times $w$"
-            ),
-            steepness(*tanh), steep, "bending_quotient",
+            ), "bending_quotient",
         ),
-        (
-            "bending_residue", r"\rho h\,r_0", "residue of A0",
-            bending_residue(*tanh), plus * q / (8 * tanh[1] * s), "steepness",
-        ),
+        ("bending_residue", r"\rho h\,r_0", "residue of A0", "steepness"),
     )  # fmt: skip
+
+    def of_claims(*claims: sp.Expr) -> dict[str, sp.Expr]:
+        said = [text.subs(s, exact[1]).subs(reduced) for text in claims[3:]]
+        in_x = {f"{rows[i][0]} in x": claims[i] - with_roots(exact[i]) for i in range(3)}
+        return in_x | {f"{rows[i][0]} as stated": said[i] - exact[i] for i in range(3)}
+
+    proof = prove(
+        "The lowest bending branch",
+        r"$B_a$ is written in terms of the quotient and differentiated. At its zero, $\tanh p$ is "
+        r"expressed by $\tanh q$.",
+        lambda *claims: residuals | of_claims(*claims),
+        *map(with_roots, exact),
+        *stated,
+    )
+    each = zip(rows, map(with_roots, exact), stated, strict=True)
     return tuple(
-        Formula(
-            name, latex, meaning, with_roots(value), "1", "", (source,), proof, stated=stated
-        )
-        for name, latex, meaning, value, stated, source in rows
-    )  # fmt: skip
+        Formula(name, latex, meaning, value, "1", "", (source,), proof, stated=text)
+        for (name, latex, meaning, source), value, text in each
+    )
 
 
 @cache
@@ -175,27 +180,35 @@ def bending_fraction() -> Formula:
     E = (sp.sinh(p + q) - (p + q) * shc(p - q)) / (sp.cosh(p + q) + sp.cosh(p - q))
     B = (sp.sinh(T_x) - T_x) / (sp.cosh(T_x) + 1)
     value = p * q * (p + q) * B / (2 * x_h**3 * E * steep)
+    steep_value = steepness(sp.tanh(p), sp.tanh(q))
+    beta, stated_steep = sp.Symbol("beta", positive=True), sp.Symbol("s", positive=True)
+    whole = with_roots(value.subs(steep, steep_value) / (1 + unlike))
+    stated = (value / (1 + beta)).subs(steep, stated_steep)
+    residuals = {
+        "static B_a": in_sines(both[0] - bent),
+        "B_a over B_s": in_sines(both[0] / both[1] - unlike),
+        "static fraction": in_sines(answer / load * bent - plain),
+        "without cancellation": in_sines(plain - value),
+    }  # fmt: skip
     proof = prove(
         "Static fraction of the lowest branch",
         r"The residue is divided by $\kappa$, with $\kappa$ from the quotient, and multiplied by "
         r"the static $B_a$.",
-        {
-            "static B_a": in_sines(both[0] - bent),
-            "B_a over B_s": in_sines(both[0] / both[1] - unlike),
-            "static fraction": in_sines(answer / load * bent - plain),
-            "without cancellation": in_sines(plain - value),
-        },
+        lambda whole, stated: (
+            residuals
+            | {
+                "as stated": stated * (1 + beta) - plain.subs(steep, stated_steep),
+                "in x": whole - with_roots(stated.subs({stated_steep: steep_value, beta: unlike})),
+            }
+        ),
+        *(whole, stated),
     )
-    steep_value = steepness(sp.tanh(p), sp.tanh(q))
-    beta = sp.Symbol("beta", positive=True)
-    stated = (value / (1 + beta)).subs(steep, sp.Symbol("s", positive=True))
     return Formula(
         "bending_fraction", "s_0", (
             r"fraction of the static deflection that belongs to the branch A0; $\beta$ is the "
             r"static $B_a/B_s$"
         ),
-        with_roots(value.subs(steep, steep_value) / (1 + unlike)), "1", "",
-        (residue.name, "C_top"), proof, stated=stated,
+        whole, "1", "", (residue.name, "C_top"), proof, stated=stated,
     )  # fmt: skip
 
 
@@ -217,10 +230,11 @@ def rayleigh() -> tuple[Formula, Formula]:
         r"$(2 - \xi)^2 = 4 P Q$ with $P = p/x$ and $Q = q/x$ is squared and divided by $\xi$, "
         "because 0 is a root. The residue is that of A0 without the decaying terms. "
         + proof_of_residue.argument,
-        {
+        lambda cubic, limit: {
             "cubic": sp.expand((2 - xi_R) ** 4 - 16 * w * P**2 - xi_R * cubic),
             "residue": sp.cancel(ratio - limit),
         },
+        *(cubic, limit),
     )
     return (
         Formula(

@@ -75,13 +75,24 @@ def growing_contact() -> Proof:
         "The contact is a sequence of flat punches of every radius up to $a$, where $P$ is "
         "proportional to $a^3$. Their pressures add up to Hertz's, and their transforms "
         "to Sonine's integral.",
-        {
+        lambda force, weight: {
             "pressure": spread + hertz,
-            "modal force": felt - MODAL_FORCE,
-            "transform": -2 * sp.pi * hertz.subs(r, 0) * sonine().expression - MODAL_FORCE,
-            "modal weight": sp.diff(MODAL_FORCE / P * a**3, a) / sp.diff(a**3, a) - MODAL_WEIGHT,
+            "modal force": felt - force,
+            "transform": -2 * sp.pi * hertz.subs(r, 0) * sonine().expression - force,
+            "modal weight": sp.diff(force / P * a**3, a) / sp.diff(a**3, a) - weight,
         },
+        *(MODAL_FORCE, MODAL_WEIGHT),
     )
+
+
+def gap_energy(q: sp.Expr, force: sp.Expr, weight: sp.Expr, modal_force: sp.Expr) -> sp.Expr:
+    """Return one mode's term of E_c - int P dD."""
+    return q * (force * weight - modal_force)
+
+
+def coupling_loss(rate: sp.Expr, force: sp.Expr, modal_force: sp.Expr) -> sp.Expr:
+    """Return one mode's term of the energy lost per time with the indentation at the axis."""
+    return rate * (force - modal_force)
 
 
 def _along(energy: sp.Expr, rates: dict[sp.Expr, sp.Expr]) -> sp.Expr:
@@ -127,14 +138,15 @@ def _loss(weights: list[sp.Expr], stored: sp.Expr, lag: sp.Expr, admittance: sp.
 def conservation() -> Proof:
     """Prove the energy along the motion: conserved, dissipated, radiated, or spuriously lost."""
     triples = list(zip(_q, _modal_weights, _modal_forces, strict=True))
-    stored = sp.Add(*(q * (_P * s - f) for q, s, f in triples))
+    stored = sp.Add(*(gap_energy(q, _P, s, f) for q, s, f in triples))
     slope = sp.diff(_D + sp.Add(*(q * s for q, s, _ in triples)), a)
     way = slope * _growth + sp.Add(*(s * v for s, v in zip(_modal_weights, _rate, strict=True)))
     moved = sp.Add(*(f / _P * v for f, v in zip(_modal_forces, _rate, strict=True)))
     lost = _A * sp.diff(_P, a) * _growth * (way - moved)
     taken = _Y * (_P + _A * _growth * sp.diff(_P, a)) ** 2
     nothing, axis = sp.Integer(0), [sp.Integer(1)] * MODES
-    leaked = sp.Add(*((_P - f) * v for f, v in zip(_modal_forces, _rate, strict=True)))
+    pairs = zip(_modal_forces, _rate, strict=True)
+    leaked = sp.Add(*(coupling_loss(v, _P, f) for f, v in pairs))
     return prove(
         "Energy of contact and modes",
         f"For generic $P$, $D$ and $s_j$ and {MODES} modes, the energy is differentiated along the "
@@ -158,7 +170,7 @@ def _at_rest() -> dict[str, sp.Expr]:
     own = law - sp.Add(*(s * q for s, q in zip(_modal_weights, rest, strict=True)))
     stored = _work + sp.Add(
         *(
-            q * (_P * s - f) + q**2 / (2 * c)
+            gap_energy(q, _P, s, f) + q**2 / (2 * c)
             for q, s, f, c in zip(rest, _modal_weights, _modal_forces, _c, strict=True)
         )
     )
@@ -173,6 +185,7 @@ def _at_rest() -> dict[str, sp.Expr]:
 def variational_law() -> Proof:
     """Prove half the mean over [0, 2a], power by power, and the sphere under the next punch."""
     contact = {formula.name: formula.expression for formula in contact_law()}
+    K_j, squares = contact["K_j"], {sp.cos(_y) ** 2: 1 - sp.sin(_y) ** 2}
     n = sp.Symbol("n", positive=True)
     s = SINE_MINUS.subs(a * phi, _y)
     mean = sp.integrate(s.subs(_y, 2 * _y * _t), (_t, 0, 1)) / 2
@@ -191,22 +204,23 @@ def variational_law() -> Proof:
         "Variational law",
         "Under a flat punch the mean of $r^2/(2R)$, of $s$, and of every power of $a$ is taken; "
         "the work is that for $P = a^3$.",
-        {
+        lambda law, index: {
             "sphere": gap - a**2 / (3 * R),
+            "law": sp.expand(sp.expand_trig(mean - (law / K_j).subs(a, _y / phi))).subs(squares),
             "half-space": gap + whole - a**2 / R,
-            "mean": doubled.subs(sp.cos(_y) ** 2, 1 - sp.sin(_y) ** 2),
+            "mean": doubled.subs(squares),
             "power": sp.powsimp(sp.expand_power_base(half)) / a ** (n + 2) - ratio,
-            "index": sp.powsimp(ratio.subs(n, 2 * k - 3) - 4 ** (k - 1) / (2 * k)),
+            "index": sp.powsimp(ratio.subs(n, 2 * k - 3) - index),
             "work": sp.diff(stored, a) - a**3 * sp.diff(depth, a),
-            "pointwise": contact["delta"] - contact["K_j"] * SINE_MINUS,
+            "pointwise": contact["delta"] - K_j * SINE_MINUS,
         },
+        *(K_j * SINE_MINUS * MODAL_WEIGHT, 4 ** (k - 1) / (2 * k)),
     )
 
 
 def coupling() -> tuple[Formula, ...]:
     """Return modal force, modal weight, contact energy, spurious loss, and variational law."""
     growing, energy, variational = growing_contact(), conservation(), variational_law()
-    contact = {formula.name: formula.expression for formula in contact_law()}
     return (
         Formula(
             "mode_force",
@@ -232,7 +246,7 @@ def coupling() -> tuple[Formula, ...]:
             "gap_energy",
             r"E_c - \int P\,\mathrm{d}D",
             "energy of the contact in addition to its static part",
-            q_j * (P * MODAL_WEIGHT - MODAL_FORCE),
+            gap_energy(q_j, P, MODAL_WEIGHT, MODAL_FORCE),
             "J",
             "",
             ("mode_force", "mode_mean"),
@@ -243,7 +257,7 @@ def coupling() -> tuple[Formula, ...]:
             "coupling_loss",
             r"-\dot E",
             "spurious power loss of the pointwise coupling",
-            q_rate * (P - MODAL_FORCE),
+            coupling_loss(q_rate, P, MODAL_FORCE),
             "W",
             "",
             ("mode_force",),
@@ -254,7 +268,7 @@ def coupling() -> tuple[Formula, ...]:
             "delta_variational",
             r"\delta_V - a^2/(3R)",
             "indentation by the variational law minus that of the half-space",
-            contact["K_j"] * SINE_MINUS * MODAL_WEIGHT,
+            variational.claims[0],
             "m",
             "6",
             ("K_j", "mode_mean"),
@@ -265,7 +279,7 @@ def coupling() -> tuple[Formula, ...]:
             "variational_ratio",
             "c_{2k-3}^V/c_{2k-3}",
             "coefficient of the variational law divided by that of the law at the axis",
-            4 ** (k - 1) / (2 * k),
+            variational.claims[1],
             "1",
             "",
             ("delta_variational",),

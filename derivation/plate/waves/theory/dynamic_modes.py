@@ -99,34 +99,23 @@ def wave_equations() -> tuple[Formula, Formula]:
         "Waves of one mode",
         r"For a motion proportional to $\cos(\omega t)$, $-\rho d^2/dt^2$ is $\rho \omega^2$; it "
         r"stands on the right of both balances of forces.",
-        {
+        lambda first, second: {
             "radial": without_functions(balance[0] + inertia * u - phi * first * BESSEL_J1),
             "axial": without_functions(balance[1] + inertia * w - second * BESSEL_J0),
         },
+        *(first, second),
     )
     sources = ("radial_ode", "axial_ode")
     return (
         Formula(
-            "radial_wave",
-            "0",
-            ("equation of radial motion of mode $j$"),
-            first,
-            "Pa",
-            "",
-            sources[:1],
-            proof,
+            "radial_wave", "0", "equation of radial motion of mode $j$", first, "Pa", "",
+            sources[:1], proof,
         ),
         Formula(
-            "axial_wave",
-            "0",
-            "equation of axial motion of mode $j$",
-            second,
-            "Pa/m",
-            "",
-            sources[1:],
-            proof,
+            "axial_wave", "0", "equation of axial motion of mode $j$", second, "Pa/m", "",
+            sources[1:], proof,
         ),
-    )
+    )  # fmt: skip
 
 
 def wave(shape_p: sp.Expr, shape_q: sp.Expr) -> Wave:
@@ -144,7 +133,8 @@ def wave_shapes() -> tuple[Formula, Formula]:
     first = C1 * sp.cosh(p * z / h) + C2 * sp.sinh(p * z / h)
     second = (C3 * sp.cosh(q * z / h) + C4 * sp.sinh(q * z / h)) / phi
     solution = wave(first, second)
-    shape_f, shape_g = (part.subs({p: h * P_NUMBER, q: h * S_NUMBER}) for part in solution[:2])
+    numbers = {p: h * P_NUMBER, q: h * S_NUMBER}
+    shape_f, shape_g = (part.subs(numbers) for part in solution[:2])
     residuals = [
         in_p_and_q(ode.expression.subs({f: solution.f, g: solution.g}).doit())
         for ode in wave_equations()
@@ -153,7 +143,13 @@ def wave_shapes() -> tuple[Formula, Formula]:
         "Solution of the waves",
         "$f$ and $g$ are inserted into both equations; their four functions are independent, as "
         "in step 2.",
-        {"radial": residuals[0], "axial": residuals[1]},
+        lambda f, g: {
+            "f": f - solution.f.subs(numbers),
+            "g": g - solution.g.subs(numbers),
+            "radial": residuals[0],
+            "axial": residuals[1],
+        },
+        *(shape_f, shape_g),
     )
     sources = ("radial_wave", "axial_wave")
     return (
@@ -230,6 +226,7 @@ def dynamic_influence() -> tuple[Formula, ...]:
     parts = loaded_wave(bends=True), loaded_wave(bends=False)
     printed = stiffness(sp.tanh(p), sp.tanh(q)), stiffness(sp.coth(p), sp.coth(q))
     slow = slow_stiffness()
+    exact = (*printed, *slow, *map(with_roots, (*printed, *slow)))
     residuals = {"back face": in_sines(sum(part.zz.subs(z, -1) for part in parts))}
     for part, value, name in zip(parts, printed, ("B_a", "B_s"), strict=True):
         residuals[name] = in_sines(part.f.subs(z, 1) - 1 / in_p_and_q(value))
@@ -241,9 +238,11 @@ def dynamic_influence() -> tuple[Formula, ...]:
         r"A pressure $A_j/2$ acts on both faces, in equal and in opposite directions; the sum of "
         r"both cases leaves the back face free. The tractions are solved for the constants, "
         r"with $\kappa$ and $\gamma$ expressed by $p$ and $q$.",
-        residuals,
-    )
-    shapes, names = ("wave_f", "wave_g"), sp.symbols("B_a B_s")
+        lambda *claims: residuals
+        | {f"form {i}": claim - exact[i] for i, claim in enumerate(claims)},
+        *exact,
+    )  # fmt: skip
+    shapes = "wave_f", "wave_g"
     total = h / mu * sum(1 / with_roots(value) for value in printed)
     slowly = r"over $\mu/h$, without cancellation for $\kappa < x^2$"
     rows = (
@@ -258,17 +257,22 @@ def dynamic_influence() -> tuple[Formula, ...]:
         )
         for name, latex, meaning, unit, sources, value in rows
     )  # fmt: skip
-    both = Formula(
-        "dynamic_influence",
-        r"C(\phi_j, \omega)",
-        "deflection of the contact face per coefficient of an oscillating pressure",
-        total,
-        "m/Pa",
-        "",
-        ("B_a", "B_s"),
-        static_limit(),
-        stated=h / mu * sum(1 / name for name in names),
+    stated = h / mu * sum(1 / sp.Symbol(name) for name in ("B_a", "B_s"))
+    load, forms = static_limit(), dict(zip(("B_a", "B_s"), map(with_roots, slow), strict=True))
+    of_both = prove(
+        "Dynamic influence of both parts",
+        "The two cases of the load on both faces are added. " + load.argument,
+        lambda total, stated: {
+            "stated": stated.subs(forms) - total,
+            "deflection": in_sines(in_p_and_q(total) - sum(part.f.subs(z, 1) for part in parts)),
+        },
+        *(total, stated),
     )
+    both = Formula(
+        "dynamic_influence", r"C(\phi_j, \omega)",
+        "deflection of the contact face per coefficient of an oscillating pressure",
+        total, "m/Pa", "", ("B_a", "B_s"), of_both, stated=stated,
+    )  # fmt: skip
     return (*parts_of_both, both)
 
 

@@ -95,11 +95,12 @@ def zener_number() -> Formula:
         r"In units of $T$ and $v_0 T$, the equations $m (d + w)'' = -K d^{3/2}$ and $w' = K "
         r"d^{3/2}/I$ with $I = 8 \sqrt{D \rho H}$ have the coefficient 1 of the force and "
         r"$\lambda = m/(T I)$ of its rate.",
-        {
+        lambda number: {
             "force": rates.speed + force - weight,
             "rate": rates.local + zener * force - speed,
             "number": sp.simplify((number / of_units) ** 10) - 1,
         },
+        number,
     )
     return Formula(
         "zener_number",
@@ -116,14 +117,25 @@ def zener_number() -> Formula:
 @cache
 def plate_times() -> tuple[Formula, Formula]:
     """Return the first bending period for the paper's edge, and the time of four passages of H."""
-    proof = bending_waves()
-    omega = (j_n / b) ** 2 * sp.sqrt(_RIGIDITY_OVER_MASS)
+    waves = bending_waves()
+    period = 2 * sp.pi / ((j_n / b) ** 2 * sp.sqrt(_RIGIDITY_OVER_MASS))
+    echo = 4 * 2 * h / sp.sqrt((lam + 2 * mu) / rho)
+    proof = prove(
+        "Periods of a plate",
+        waves.argument + r" A pressure wave has the speed $\sqrt{(\lambda + 2 \mu)/\rho}$.",
+        lambda period, echo: {
+            "bending": phi**2 * sp.sqrt(_RIGIDITY_OVER_MASS) * period.subs(j_n, phi * b)
+            - 2 * sp.pi,
+            "pressure": (8 * h / echo) ** 2 * rho - lam - 2 * mu,
+        },
+        *(period, echo),
+    )
     return (
         Formula(
             "bending_period",
             "T_n",
             "period of the $n$-th bending vibration with the paper's edge",
-            2 * sp.pi / omega,
+            period,
             "s",
             "",
             (),
@@ -133,7 +145,7 @@ def plate_times() -> tuple[Formula, Formula]:
             "echo_time",
             "T_e",
             "time in which a pressure wave crosses the thickness four times",
-            4 * 2 * h / sp.sqrt((lam + 2 * mu) / rho),
+            echo,
             "s",
             "",
             (),

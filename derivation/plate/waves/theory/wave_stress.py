@@ -24,7 +24,23 @@ from derivation.engine.formula.proof import lower_bessel, prove
 from derivation.plate.edge_modes.theory import mindlin
 from derivation.plate.edge_modes.theory.waves import g_1, g_2, in_k, t
 from derivation.plate.modes.theory.equilibrium import BESSEL_J0, BESSEL_J1, hooke
-from derivation.plate.vocabulary import C1, C3, Formula, eta, gam, h, k_n, kap, nu, phi, r, x_h, z
+from derivation.plate.vocabulary import (
+    C1,
+    C3,
+    Formula,
+    eta,
+    gam,
+    h,
+    k_n,
+    kap,
+    lam,
+    mu,
+    nu,
+    phi,
+    r,
+    x_h,
+    z,
+)
 from derivation.plate.waves.theory.dynamic_modes import (
     in_p_and_q,
     p,
@@ -80,26 +96,32 @@ def _thin() -> sp.Expr:
 @cache
 def wave_stress() -> tuple[Formula, ...]:
     """Return the formulas of the step."""
+    residuals = {
+        "free faces": sp.cancel(in_p_and_q(stiffness(OF_P, OF_Q))),
+        "bending": _residual(True),
+        "extension": _residual(False),
+        "thin plate": _thin(),
+    }
+    expressions = {"bending": stress(sp.tanh(p), True), "extension": stress(sp.coth(p), False)}
     proof = prove(
         "Stress of a wave on the back face",
         "The amplitude of the part without dilatation follows from the shear stress on the faces, "
         r"and $\tanh p$, or $\coth p$, from their normal stress: $B = 0$. Both are inserted into "
         "the radial stress on the axis.",
-        {
-            "free faces": sp.cancel(in_p_and_q(stiffness(OF_P, OF_Q))),
-            "bending": _residual(True),
-            "extension": _residual(False),
-            "thin plate": _thin(),
-        },
-    )
-    psi = mindlin.rotation(g_1, g_2)
-    distance = sp.Symbol("r", positive=True)
-    curved = sp.limit(sp.diff(psi, distance) + psi / distance, distance, 0)
-    own = curved.subs(mindlin.c, 0)
-    of_mode = prove(
-        "Stress of a mode on the back face",
-        r"$\psi' + \psi/r$ is evaluated on the axis, and divided by that of the part $J_0$.",
-        {"axis": sp.cancel(S_A * curved / own / (1 - mindlin.c * t) - MODE)},
+        lambda *claims: (
+            residuals
+            | {
+                f"{kind} in {of}": value - expected
+                for (kind, expected), one in zip(
+                    expressions.items(), (claims[:2], claims[2:]), strict=True
+                )
+                for of, value, expected in (
+                    ("x", one[0], with_roots(expected)),
+                    ("p", one[1], expected),
+                )
+            }
+        ),
+        *(part for stated in expressions.values() for part in (with_roots(stated), stated)),
     )
     rows = (
         ("bending_wave_stress", "S_a", "bending", sp.tanh(p), True, "B_a"),
@@ -114,11 +136,28 @@ def wave_stress() -> tuple[Formula, ...]:
         )
         for name, latex, kind, tanh_p, bends, source in rows
     )  # fmt: skip
-    of_part = waves[0].expression.subs(gam, (1 - 2 * nu) / (2 * (1 - nu))).subs(x_h, k_n * eta)
+    psi = mindlin.rotation(g_1, g_2)
+    distance = sp.Symbol("r", positive=True)
+    curved = sp.limit(sp.diff(psi, distance) + psi / distance, distance, 0)
+    own = curved.subs(mindlin.c, 0)
+    of_part = waves[0].expression.subs(x_h, k_n * eta)
+    of_nu = (1 - 2 * nu) / (2 * (1 - nu))
+    value = in_k(MODE).subs(S_A, of_part.subs(gam, of_nu))
+    of_mode = prove(
+        "Stress of a mode on the back face",
+        r"$\psi' + \psi/r$ is evaluated on the axis, and divided by that of the part $J_0$.",
+        lambda value, stated: {
+            "axis": sp.cancel(S_A * curved / own / (1 - mindlin.c * t) - stated),
+            "gamma": of_nu.subs(nu, lam / (2 * (lam + mu))) - mu / (lam + 2 * mu),
+            "in k": value.subs(k_n, x_h / eta)
+            - in_k(stated).subs(k_n, x_h / eta).subs(S_A, waves[0].expression.subs(gam, of_nu)),
+        },
+        *(value, MODE),
+    )
     mode = Formula(
         "mode_stress", "S_n", "stress of a mode of a clamped or supported plate on the axis of the "
         r"back face, over its deflection of the contact face, times $h/\mu$",
-        in_k(MODE).subs(S_A, of_part), "1", "",
+        value, "1", "",
         (waves[0].name, "face_ratio", "wave_rotation", "evanescent_rotation"), of_mode, stated=MODE,
     )  # fmt: skip
     return *waves, mode

@@ -281,3 +281,23 @@ def test_result_has_the_requested_precision() -> None:
             number(-1, 60)
     with pytest.raises(ValueError, match="from 2"):
         reference.finite_part(1, 60)
+
+
+def test_scaled_bessel_function_of_a_wide_ball_contains_its_values() -> None:
+    """The slope at the left end bounds the change in the ball; the largest change is near it."""
+    draw = np.random.default_rng(7)
+    ratios = []
+    for _ in range(300):
+        size = 10 ** draw.uniform(-3, 2)
+        middle = size * complex(draw.uniform(-0.2, 1), draw.uniform(-1, 1))
+        width = min(size, 3.0) * 10 ** draw.uniform(-3, 0)
+        corners = [complex(a, b) * width for a in (-1, 1) for b in (-1, 0, 1)]
+        wide = flint.acb(middle) + flint.acb(arb(0, width), arb(0, width))
+        found = contact_balls.scaled_i0(wide)
+        for corner in corners:
+            point = flint.acb(middle + corner)
+            value = (-point).exp() * point.bessel_i(0)
+            assert found.overlaps(value)
+            change = abs(value - contact_balls.scaled_i0(flint.acb(middle)))
+            ratios.append(float(change.mid()) / float(found.real.rad()))
+    assert 0.5 < max(ratios) <= 1.0

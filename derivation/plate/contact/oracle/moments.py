@@ -15,7 +15,7 @@ from flint import acb, arb
 
 from derivation.engine.formula.ball import LOG2_10
 from derivation.plate.contact.oracle import balls as contact_balls
-from derivation.plate.contact.oracle.balls import refine_to_digits
+from derivation.plate.contact.oracle.balls import refine_to_digits, scaled_i0
 
 LOW_KAPPA, LOW_FINITE_PART = 16, 128
 """Largest powers of the integration variable for which the plain integrals are used."""
@@ -59,7 +59,7 @@ def _far_kappa(n: int) -> arb:
     """
 
     def shape(y: acb) -> acb:
-        return 1 / y.bessel_i(0, scaled=True) ** 2
+        return 1 / scaled_i0(y) ** 2
 
     left, right, scale = _window(n, NEAR_ZERO)
     peak = _body(n, shape, left, right, scale)

@@ -336,6 +336,16 @@ def echoes_matter(run: DynamicImpact, reach: Reach) -> bool:
     return error <= room * math.sqrt(FURTHER * MODES / run.impact_history.problem.omega.size)
 
 
+def jump_matters(run: DynamicImpact, reach: Reach) -> bool:
+    """Return whether a jump of the contact time exceeds the tolerance, and more modes may decide.
+
+    They do not if the omitted branches alone may cause it.
+    """
+    if "contact_time" not in reach.outputs or run.inertia.jump <= reach.need:
+        return False
+    return run.inertia.jump > jump_since(run)
+
+
 def nearly_meets(run: DynamicImpact, reach: Reach) -> bool:
     """Return whether results that do not meet the tolerance probably do after one more doubling."""
     modes, branches = run.inertia.left(reach.outputs)

@@ -16,6 +16,7 @@ from derivation.scene.dynamic.integration_error import integration_error
 from derivation.scene.dynamic.mode_convergence import (
     echoes_matter,
     judged,
+    jump_matters,
     largest_change,
     nearly_meets,
     unjudged,
@@ -175,7 +176,9 @@ class Refinement:
         free = math.isinf(reach.need)  # there is no tolerance
         change, enough = best.inertia.left(reach.outputs)[0], self._accepted_change(best)
         if change <= enough and not echoes_matter(best, reach):
-            return 0.0
+            # More modes also show whether the first contact splits, if they take little work.
+            quick = self._next_work(best, finer(self.law, count)) <= LONG
+            return most if quick and jump_matters(best, reach) else 0.0
         if free and exceeds_modes(self.law, best, reach.outputs):
             return 0.0
         used = contact_sequence.work_of(best.impact_history)

@@ -135,6 +135,8 @@ def model_note(result: "Result") -> str:
     if not result.model_error:
         return ""
     parts = ["stretching of the plate (estimated)"]
+    if result.effects.law.softness:
+        parts.append("the sphere as a half-space (estimated)")
     if result.dynamics is not None:
         parts.insert(0, "plate and edge (measured against explicit finite-element simulations)")
     elif result.effects.law.other_edge:

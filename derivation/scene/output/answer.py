@@ -136,7 +136,7 @@ def model_note(result: "Result") -> str:
         return ""
     parts = ["stretching of the plate (estimated)"]
     if result.effects.law.softness:
-        parts.append("the sphere as a half-space (estimated)")
+        parts.append("the finite size of the sphere (estimated)")
     if result.dynamics is not None:
         parts.insert(0, "plate and edge (measured against explicit finite-element simulations)")
     elif result.effects.law.other_edge:

@@ -19,6 +19,7 @@ from derivation.engine.text import aligned, paragraph
 from derivation.scene.contact_law.corrections import stretching
 from derivation.scene.contact_law.edge_curvature import edge_curvature_errors
 from derivation.scene.contact_law.edge_remainder import edge_warnings, largest_neighbours
+from derivation.scene.contact_law.finite_sphere import finite_sphere_error
 from derivation.scene.contact_law.law import ContactLaw, Shape
 from derivation.scene.contact_law.limits import (
     check_numbers,
@@ -41,6 +42,9 @@ from derivation.scene.scene import Scene
 from derivation.scene.selection.selection import check_enabled
 
 UNITS = {"contact_radius": "m", "force": "N", "indentation": "m"}
+STIFFNESS = 4.0 / 3.0
+"""Relative change of the stiffness over that of the force, at an equal indentation, if that of the
+indentation at an equal force is proportional to a/R: 2 over 3/2 times this change."""
 HEADS = (
     "#radius [m]", "#indentation [m]", "#force [N]", "#stiffness [N/m]", "#max. pressure [Pa]",
 )  # fmt: skip
@@ -256,13 +260,15 @@ def _contact(law: ContactLaw, name: str, value: float) -> StaticContact:
 def _model_error(law: ContactLaw, at: "_Loaded") -> float:
     """Return the largest relative model error of the quantities of a contact [1].
 
-    Edge, stretching and curvature change the indentation at a given force; the force at a given
-    indentation changes by a power of that. The stiffening S of a plate grows with the square of the
-    deflection, so that the derivative of the force with respect to it changes by 3 S.
+    Edge, stretching, curvature and the finite size of the sphere change the indentation at a given
+    force; the force at a given indentation changes by a power of that. The stiffening S of a plate
+    grows with the square of the deflection, so that the derivative of the force with respect to it
+    changes by 3 S.
     """
     model, curvature = law.model, edge_curvature_errors(law, at.radius)
     deflection = at.depth - float(local_indentation(law, at.radius))
     changes = curvature.results + 3.0 * float(stretching(model, deflection))
+    changes += STIFFNESS * float(finite_sphere_error(law, at.radius, at.depth))
     if law.other_edge:
         [edge] = largest_neighbours(model, np.array([at.radius]), model.eta)
         changes += float(edge) if np.isfinite(edge) else math.inf

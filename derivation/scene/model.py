@@ -67,6 +67,8 @@ class Model:
         Lame constants of the plate [Pa].
     sphere_modulus
         E/(1 - nu^2) of the sphere [Pa]; infinite for a rigid sphere.
+    sphere_poissons_ratio
+        Poisson's ratio of the sphere [1]; 0 for a rigid sphere.
     gravity
         Gravitational acceleration during contact [m/s^2].
     density
@@ -100,6 +102,7 @@ class Model:
     lam: float
     mu: float
     sphere_modulus: float = math.inf
+    sphere_poissons_ratio: float = 0.0
     gravity: float = 0.0
     density: float = 0.0
     retardation_time: float = 0.0
@@ -276,6 +279,7 @@ def numbers_of(scene: Scene) -> Model:
         lam=plate.lam,
         mu=plate.mu,
         sphere_modulus=_modulus(sphere),
+        sphere_poissons_ratio=_poissons_ratio(sphere),
         gravity=first_given(scene.impact.gravity, 0.0),
         density=plate.density,
         yield_stress=_lesser(sphere.yield_stress, plate.yield_stress),
@@ -341,3 +345,10 @@ def _lightest(sphere: Body, by_density: bool) -> Any:
 def _modulus(body: Body) -> float:
     """Return E/(1 - nu^2) of a body [Pa]; infinite for a rigid body."""
     return plane_strain_modulus(body.lam, body.mu) if np.all(np.isfinite(body.mu)) else math.inf
+
+
+def _poissons_ratio(body: Body) -> float:
+    """Return Poisson's ratio of a body [1]; 0 for a rigid body."""
+    if not np.all(np.isfinite(body.mu)):
+        return 0.0
+    return body.lam / (2.0 * (body.lam + body.mu))

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from derivation.scene.contact_law.corrections import stretching
 from derivation.scene.contact_law.edge_curvature import edge_curvature_errors
 from derivation.scene.contact_law.edge_remainder import edge_remainder
+from derivation.scene.contact_law.finite_sphere import finite_sphere_errors
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic.model_error import curvature_error, inertia_error
 from derivation.scene.dynamic.stretching_error import Deflections, stretching_error
@@ -23,25 +24,30 @@ def model_errors(
     deflections: Deflections,
     motion: "DynamicImpact | None",
 ) -> dict[str, float]:
-    """Return the relative model error of each output [1]: by edge, waves, stretching, viscosity.
+    """Return the relative model error of each output [1]: by edge, waves, stretching, viscosity and
+    the finite size of the sphere.
 
     On a quasi-static plate, stretching changes the energy that a plastic or viscoelastic contact
     dissipates. In the restitution this counts by the ratio of that energy to the one that remains.
     """
     model, other_edge, a = law.model, law.other_edge, numbers[3]
-    unlike = unlike_bodies_errors(law, numbers[0], motion, growth_of(motion))
+    growth = growth_of(motion)
+    unlike = unlike_bodies_errors(law, numbers[0], motion, growth)
+    sphere = dict(zip(OUTPUTS, finite_sphere_errors(law, numbers, growth), strict=True))
     if motion is None:
         edge = edge_remainder(model, a) if other_edge else 0.0
         size = stretching(model, deflections.largest)
         curvature = edge_curvature_errors(law, a)
         edge += curvature.results
-        errors: dict[str, float] = {name: edge + float(size) + unlike[name] for name in OUTPUTS}
+        errors: dict[str, float] = {
+            name: edge + float(size) + unlike[name] + sphere[name] for name in OUTPUTS
+        }
         errors["max_contact_radius"] += curvature.pressure - curvature.results
         if law.viscous or law.plastic:
             supplied = 1.0 + float(weight_work_ratio(model, numbers[1]))
             dissipated = supplied / max(numbers[4], 1e-6) ** 2 - 1.0
             lost = float(size) * max(1.0, dissipated)
-            errors["restitution"] = edge + lost + unlike["restitution"]
+            errors["restitution"] = edge + lost + unlike["restitution"] + sphere["restitution"]
         return errors
     from derivation.scene.dynamic.wave_problem import echo_time
 
@@ -51,4 +57,7 @@ def model_errors(
     returned = other_edge and motion.inertia.total_time > echo_time(motion.law.model)
     edge = edge_remainder(model, a) if returned else 0.0
     waves["max_contact_radius"] += curvature_error(motion.inertia.curvature)
-    return {name: max(waves[name] + stretched[name], edge) + unlike[name] for name in OUTPUTS}
+    return {
+        name: max(waves[name] + stretched[name], edge) + unlike[name] + sphere[name]
+        for name in OUTPUTS
+    }

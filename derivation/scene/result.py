@@ -73,7 +73,8 @@ class Result:
         Without plate inertia: error of the edge relative to the indentation, measured against a
         three-dimensional elastic solution; 0 for the paper's edge. With plate inertia: error of the
         requested outputs, measured against explicit finite-element simulations. In both cases the
-        estimated error by stretching of the plate, which depends on the deflection, is added.
+        estimated errors by stretching of the plate, which depends on the deflection, and by the
+        finite size of an elastic sphere are added.
     warnings
         Warnings about validity and accuracy.
     scene

@@ -7,6 +7,7 @@ import numpy as np
 
 from derivation.scene.contact_law.corrections import membrane_stress, stretching
 from derivation.scene.contact_law.edge_remainder import edge_stress_error, edge_stress_errors
+from derivation.scene.contact_law.finite_sphere import finite_sphere_error
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import (
     QUASI_STATIC_PERIODS,
@@ -101,6 +102,7 @@ def tensile_stress(
         if on_edge and motion.inertia.total_time > echo_time(motion.law.model):
             measured = max(measured, found.on_edge + edge_stress_error(model, a))
         error = found.error + measured + stress_change(law, motion)
+        error += float(finite_sphere_error(law, a, indentation))
         return TensileStress(found.stress, error, static=False)
     stress = law.max_tensile_stress(a, force, on_edge)
     period = plate_times(model).period if model.density else 0.0
@@ -132,6 +134,7 @@ def static_errors(
     """
     deflection = np.maximum(deflection, 0.0)  # of a stiff plate, by rounding or approximation
     error = membrane_stress(law.model, deflection) + stretching(law.model, deflection)
+    error = error + finite_sphere_error(law, a, local_indentation(law, a) + deflection)
     if on_edge:
         error = error + edge_stress_errors(law.model, a)
     slow = contact_time >= QUASI_STATIC_PERIODS * period

@@ -18,9 +18,10 @@ from derivation.scene import scales
 from derivation.scene.model import Model
 from derivation.scene.scene import OUTPUTS
 
-SHORT, WIDE = 4.0, 0.3
+SHORT, WIDE = 4.9, 0.21
 """Contact time over the time of a thickness echo below which a contact is short, and contact radius
-over thickness, on the plate or on a half-space, above which it is wide."""
+over thickness, on the plate or on a half-space, above which it is wide. Other contacts are within
+the range of recorded ones, from 5 and up to 0.2, in which waves hardly make the force rough."""
 CONVERGED, ROUGHLY = 1e-3, 1e-2
 """Largest finite-element error of comparisons that count, and the same for rough contacts."""
 RESOLVED, ROUGHLY_RESOLVED = 1e-2, 5e-2

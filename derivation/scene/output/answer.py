@@ -135,6 +135,8 @@ def model_note(result: "Result") -> str:
     if not result.model_error:
         return ""
     parts = ["stretching of the plate (estimated)"]
+    if result.effects.law.softness:
+        parts.append("the finite size of the sphere (estimated)")
     if result.dynamics is not None:
         parts.insert(0, "plate and edge (measured against explicit finite-element simulations)")
     elif result.effects.law.other_edge:

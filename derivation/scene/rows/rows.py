@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from derivation.scene.contact_law.corrections import stretching
 from derivation.scene.contact_law.edge_remainder import edge_remainders
+from derivation.scene.contact_law.finite_sphere import finite_sphere_error, vibration_error
 from derivation.scene.contact_law.impact_errors import ImpactErrors
 from derivation.scene.contact_law.limits import local_indentation, plate_times
 from derivation.scene.effects import EFFECTS
@@ -308,6 +309,13 @@ class _Block:
         model_error = np.broadcast_to(stretching(law.model, deflection), a.shape)[:, 0]
         if law.other_edge:
             model_error = edge_remainders(law.model, a)[:, 0] + model_error
+        with np.errstate(all="ignore"):
+            by_sphere = finite_sphere_error(law, a, impacts.max_indentation[:, None])
+            on_restitution = model_error + vibration_error(law, a, by_sphere)[:, 0]
+        model_error = model_error + by_sphere[:, 0]
+        pressure_error = model_error
+        if outputs == ("restitution",):
+            model_error = on_restitution
         known &= np.isfinite(model_error)
         which = np.flatnonzero(known)
         strength: Array | float | None = scene.plate.tensile_strength
@@ -318,7 +326,7 @@ class _Block:
         with np.errstate(all="ignore"):
             errors = static_errors(law, a, deflection, times, periods, group.held)
         numbers_and_errors = numbers | {
-            "pressure_error": model_error
+            "pressure_error": pressure_error
             + np.expm1(np.log1p(bound_with(on_pressure)) + 2.0 * np.log1p(on_pressure)),
             "stress_error": bound_with(omitted_on("max_force"))
             + np.broadcast_to(errors, a.shape)[:, 0],

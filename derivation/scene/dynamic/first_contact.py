@@ -64,7 +64,8 @@ def approach(run: "DynamicImpact", times: Array, contact: int = 0) -> Array:
     In contact it is that of a flat face and a sphere that touch each other with this radius. It is
     negative while they are apart.
     """
-    rows, yielding = run.rows(times), run.impact_history.contacts[contact].yielding
+    contacts = run.impact_history.contacts
+    rows, yielding = run.rows(times), contacts[min(contact, len(contacts) - 1)].yielding
     # The sphere of an unloaded plastic contact is flatter, and leaves a dent.
     flatter, dent = (yielding.flattening**3, yielding.dent) if yielding else (1.0, 0.0)
     touching: Array = rows[C] ** 2 * (flatter / run.law.model.R)

@@ -35,6 +35,21 @@ GRID = (
 """Plate thickness over radius, Poisson's ratio, contact radius over plate thickness, and contact
 time over the time of a through-thickness reflection; contact radius and time are those of the same
 impact on a half-space."""
+THICK = (
+    *((H, nu, *rest) for H, nu, rest in itertools.product(
+        (0.5, 0.8), (-0.3, 0.0, 0.3), ((0.15, 6.0), (0.15, 4.0), (0.05, 2.0))
+    )),
+    *((H, 0.45, 0.15, 6.0) for H in (0.5, 0.65, 0.8)),
+)  # fmt: skip
+"""The same of thick plates, on which the edge matters more."""
+AUXETIC = tuple(
+    (H, nu, *rest)
+    for H, nu, rest in itertools.product(
+        (0.05, 0.1, 0.2, 0.3), (-0.6, -0.3), ((0.1, 10.0), (0.2, 6.0))
+    )
+    if nu == -0.3 or H in (0.1, 0.3)
+)
+"""The same of plates with a negative Poisson's ratio."""
 RATIOS = (0.02, 0.05, 0.1, 0.2, 0.3)
 """Thickness over radius of the plates whose natural frequencies are computed."""
 POISSON = (0.0, 0.2, 0.3, 0.45)
@@ -92,7 +107,7 @@ def impacts() -> tuple[ElementCase, ...]:
     """Return every impact that is computed."""
     panes, examples = [*_panes()], [*_examples()]
     return (*panes[:3], *_grid(GRID[:4]), *examples[:4], *_grid(GRID[4:-1]), *panes[3:],
-            *examples[4:], *_grid(GRID[-1:]))  # fmt: skip
+            *examples[4:], *_grid((*GRID[-1:], *THICK, *AUXETIC)))  # fmt: skip
 
 
 def plates() -> tuple[Plate, ...]:

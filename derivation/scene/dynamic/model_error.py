@@ -4,7 +4,8 @@ The recorded simulations are independent of the model (see `derivation.checks.fi
 each result the model error is the largest difference between program and finite elements, plus the
 error of the finite elements; the error bound of the program is not subtracted, because that of
 another scene may be smaller. Short and wide contacts, where thickness resonances make the force
-rough and finite elements less accurate, count separately.
+rough and finite elements less accurate, count separately. So do thick plates, on which the edge
+matters more, and plates with a negative Poisson's ratio.
 """
 
 import json
@@ -23,22 +24,48 @@ SHORT, WIDE = 4.9, 0.21
 over thickness, on the plate or on a half-space, above which it is wide. Other contacts are within
 the range of recorded ones, from 5 and up to 0.2, in which waves hardly make the force rough."""
 CONVERGED, ROUGHLY = 1e-3, 1e-2
-"""Largest finite-element error of comparisons that count, and the same for rough contacts."""
+"""Largest finite-element error of comparisons that count, and the same for rough contacts, thick
+plates and a negative Poisson's ratio."""
 RESOLVED, ROUGHLY_RESOLVED = 1e-2, 5e-2
 """The same of the largest tensile stress, which depends more on the contact of single nodes."""
+PAPER = "paper"
+THIN, ROUNDED = 0.3, 1e-12
+"""Thickness over radius up to which all simulations count; rounding error of such a ratio [1]."""
 FLOOR = 1e-3
 """Smallest model error that is stated, the accuracy of the finite elements in all results."""
 
 
 class _Simulation(NamedTuple):
-    """A recorded simulation: whether it is short or wide, and the model error of each result.
+    """A recorded simulation: the kind of impact, and the model error of each result.
 
-    `stress` is that of the largest tensile stress; 0 if finite elements do not resolve it.
+    Attributes
+    ----------
+    rough
+        Whether the contact is short or wide.
+    thickness
+        Thickness of the plate over its radius [1].
+    held, auxetic
+        Whether the edge is clamped or simply supported, and Poisson's ratio is negative.
+    errors, stress
+        Model error of each output, and of the largest tensile stress; the latter is 0 if finite
+        elements do not resolve it.
     """
 
     rough: bool
+    thickness: float
+    held: bool
+    auxetic: bool
     errors: dict[str, float]
     stress: float
+
+    def counts(self, model: Model, rough: bool, thickest: float) -> bool:
+        """Return whether it counts for a model, with plates up to a thickness over radius."""
+        return (
+            (rough or not self.rough)
+            and (model.edge != PAPER or not self.held or self.thickness <= THIN)
+            and (model.poissons_ratio < 0.0 or not self.auxetic)
+            and self.thickness <= thickest
+        )
 
 
 def inertia_error(model: Model, a: float, contact_time: float) -> dict[str, float]:
@@ -53,11 +80,9 @@ def inertia_error(model: Model, a: float, contact_time: float) -> dict[str, floa
     contact_time
         Duration of the first contact [s].
     """
-    rough = _is_rough(model, a, contact_time)
     errors: dict[str, float] = dict.fromkeys(OUTPUTS, FLOOR)
-    for case in _cases():
-        if rough or not case.rough:
-            errors = {name: max(size, case.errors.get(name, 0.0)) for name, size in errors.items()}
+    for case in _similar(model, a, contact_time):
+        errors = {name: max(size, case.errors.get(name, 0.0)) for name, size in errors.items()}
     # Finite elements do not resolve the radius. By Hertz's law it is the cube root of the force.
     errors["max_contact_radius"] = max(errors["max_contact_radius"], errors["max_force"] / 3.0)
     return errors
@@ -68,9 +93,19 @@ def stress_error(model: Model, a: float, contact_time: float) -> float:
 
     The arguments are those of `inertia_error`.
     """
-    rough = _is_rough(model, a, contact_time)
-    errors = (case.stress for case in _cases() if rough or not case.rough)
-    return max((FLOOR, *errors))
+    return max((FLOOR, *(case.stress for case in _similar(model, a, contact_time))))
+
+
+def _similar(model: Model, a: float, contact_time: float) -> list[_Simulation]:
+    """Return the recorded simulations that count for an impact.
+
+    Those of thick plates count up to the next recorded thickness.
+    """
+    rough, thickness = _is_rough(model, a, contact_time), 2.0 * model.eta
+    recorded = {case.thickness for case in _cases()}
+    thicker = [x for x in recorded if x >= max(thickness, THIN) * (1.0 - ROUNDED)]
+    thickest = min(thicker, default=math.inf)
+    return [case for case in _cases() if case.counts(model, rough, thickest)]
 
 
 def curvature_error(change: float) -> float:
@@ -113,18 +148,22 @@ def _cases() -> tuple[_Simulation, ...]:
         program, parameters = row.get("program", {}), row["parameters"]
         if "values" not in program:
             continue
-        values, elements = program["values"], row["elements"]
+        plate, thickness = row["scene"]["plate"], parameters["thickness_over_radius"]
+        held, auxetic = plate["edge"] != PAPER, plate["poissons_ratio"] < 0.0
         rough = _rough(
             parameters["contact_time_over_echo"], parameters["contact_radius_over_thickness"]
         )
+        # Where the differences are larger, less accurate elements show them, too.
+        roughly = rough or auxetic or thickness > THIN
+        values, elements = program["values"], row["elements"]
         errors: dict[str, float] = {
             name: abs(values[name] / elements[name] - 1.0) + row["errors"][name]
             for name in OUTPUTS
-            if name in elements and row["errors"][name] <= (ROUGHLY if rough else CONVERGED)
+            if name in elements and row["errors"][name] <= (ROUGHLY if roughly else CONVERGED)
             if name != "max_contact_radius"  # finite elements resolve it only to a node
         }
-        least = ROUGHLY_RESOLVED if rough else RESOLVED
-        cases.append(_Simulation(rough, errors, _stress_error(row, least)))
+        stress = _stress_error(row, ROUGHLY_RESOLVED if roughly else RESOLVED)
+        cases.append(_Simulation(rough, thickness, held, auxetic, errors, stress))
     return tuple(cases)
 
 

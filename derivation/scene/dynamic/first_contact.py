@@ -7,6 +7,7 @@ face does not follow the sphere, so that the force and the time between contacts
 """
 
 import math
+from collections.abc import Iterator
 from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -84,15 +85,13 @@ def splits(run: "DynamicImpact") -> list[Place]:
     ]
 
 
-def gaps(run: "DynamicImpact") -> list[Place]:
-    """Return the gaps before the second and later contacts, which the first one may join."""
-    found = []
+def gaps(run: "DynamicImpact") -> Iterator[Place]:
+    """Yield the gaps before the second and later contacts, which the first one may join."""
     for i, (before, after) in enumerate(pairwise(run.inertia.contacts)):
         times = np.linspace(before.end, after.start, IN_GAP)
-        course = approach(run, times, i)
+        course = approach(run, times, i) / run.max_indentation
         k = int(np.argmin(course))
-        found.append(Place(-float(course[k]) / run.max_indentation, float(times[k]), after.end))
-    return found
+        yield Place(-float(course[k]), float(times[k]), after.end)
 
 
 def decisive_change(run: "DynamicImpact") -> float:

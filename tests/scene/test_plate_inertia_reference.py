@@ -65,14 +65,28 @@ def test_infinite_plate_does_not_depend_on_the_radius() -> None:
         assert actual[0].restitution == pytest.approx(0.747, abs=1e-3)
 
 
-@pytest.mark.parametrize("row", DATA["impacts"], ids=lambda row: row["name"])
+REJECTED = [row for row in DATA["impacts"] if "rejected" in row["program"]]
+SIMULATED = [row for row in DATA["impacts"] if row not in REJECTED]
+
+
+@pytest.mark.parametrize("row", SIMULATED, ids=lambda row: row["name"])
 def test_recorded_finite_elements_are_within_the_stated_errors(row: Mapping[str, Any]) -> None:
     """Differences are at most the sum of bound, model error and finite-element error."""
     program = row["program"]
-    assert "values" in program, program["rejected"]
     for name in JUDGED:
         off = abs(program["values"][name] / row["elements"][name] - 1.0)
         assert off <= program["bound"] + program["model_error"] + row["errors"][name]
+
+
+def test_plates_without_a_model_error_are_rejected() -> None:
+    """The error of a simply supported edge for a negative Poisson's ratio exceeds 1 %."""
+    assert 0 < len(REJECTED) <= 4
+    for row in REJECTED:
+        plate = row["scene"]["plate"]
+        assert plate["edge"] == "simply-supported"
+        assert plate["poissons_ratio"] < 0.0
+        with pytest.raises(SceneError, match="expected a model error of the simply-supported edge"):
+            simulate(read({**row["scene"], "effects": {"inertia": True}}))
 
 
 def test_record_covers_the_range_of_the_model_error() -> None:
@@ -82,13 +96,14 @@ def test_record_covers_the_range_of_the_model_error() -> None:
     assert len({plate["poissons_ratio"] for plate in plates}) >= 4
     ratios = [plate["thickness"] / plate["radius"] for plate in plates]
     assert min(ratios) <= 0.03
-    assert max(ratios) >= 0.3
+    assert max(ratios) >= 0.8
+    assert min(plate["poissons_ratio"] for plate in plates) <= -0.6
 
 
-@pytest.mark.parametrize("number", range(0, len(DATA["impacts"]), 9))
+@pytest.mark.parametrize("number", range(0, len(SIMULATED), 9))
 def test_program_still_agrees_with_the_record(number: int) -> None:
     """Every ninth case is simulated again and agrees with the record within its bound."""
-    row = DATA["impacts"][number]
+    row = SIMULATED[number]
     effects = {"spherical_profile": row["spherical_profile"], "inertia": True}
     result = simulate(read({**row["scene"], "effects": effects}))
     for name in JUDGED:
@@ -139,12 +154,18 @@ def test_short_contacts_have_a_larger_model_error() -> None:
 
 
 def test_wide_contacts_have_the_larger_model_error() -> None:
-    """The larger model error applies if the contact radius on a half-space would be above 0.3 H."""
+    """The larger model error applies if the contact radius on a half-space would be above 0.3 H.
+
+    That of thick plates, and for a negative Poisson's ratio, is larger in any case.
+    """
     for row in DATA["impacts"]:
         parameters, model = row["parameters"], model_of(read(row["scene"]))
         wide = parameters["contact_radius_over_thickness"] > 0.3
-        rough = inertia_error(model, 1e-3 * model.h, 1.0)["max_force"] > 5e-3
-        assert rough == wide, row["name"]
+        errors = inertia_error(model, 1e-3 * model.h, 1.0)
+        if parameters["thickness_over_radius"] > 0.3 or model.poissons_ratio < 0.0:
+            assert max(errors["contact_time"], errors["max_force"]) > 3e-3, row["name"]
+        else:
+            assert (errors["max_force"] > 5e-3) == wide, row["name"]
 
 
 def test_plates_too_thick_for_edge_modes_are_rejected() -> None:

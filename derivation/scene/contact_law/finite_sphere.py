@@ -5,8 +5,7 @@ compressed less than a half-space: at equal force by a fraction of the order of 
 indentation. An auxetic sphere is compressed more. The sphere also vibrates after the impact.
 
 The estimates below were compared with the series of a sphere in Legendre polynomials, whose terms
-are exact (Lur'e, Three-Dimensional Problems of the Theory of Elasticity, 1964), and with impacts of
-its spheroidal modes; the tests repeat this.
+are exact (Lurie 1964), and with impacts of its spheroidal modes; the tests repeat this.
 """
 
 import math

@@ -148,8 +148,9 @@ def _cases() -> tuple[_Simulation, ...]:
         program, parameters = row.get("program", {}), row["parameters"]
         if "values" not in program:
             continue
-        plate, thickness = row["scene"]["plate"], parameters["thickness_over_radius"]
-        held, auxetic = plate["edge"] != PAPER, plate["poissons_ratio"] < 0.0
+        thickness = parameters["thickness_over_radius"]
+        held = not row["name"].endswith(PAPER)
+        auxetic = row["scene"]["plate"]["poissons_ratio"] < 0.0
         rough = _rough(
             parameters["contact_time_over_echo"], parameters["contact_radius_over_thickness"]
         )

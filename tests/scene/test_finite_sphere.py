@@ -20,8 +20,8 @@ from generated.arrays import Double as Array
 
 MASS = 4.0 / 3.0 * math.pi
 NAMES = "contact_time", "max_indentation", "max_force", "restitution"
-KINDS = 5
-"""Spheroidal modes of orders below this move."""
+ORDERS = 4
+"""Spheroidal modes of orders below this vibrate in a simulated impact."""
 
 
 def sphere(nu: float) -> dict[str, Any]:
@@ -163,12 +163,13 @@ def test_the_modes_are_those_of_lamb() -> None:
 def impact(nu: float, ratio: float) -> tuple[float, Array]:
     """Return the speed at which Hertz's a/R has a value, and the changes since Hertz's impact.
 
-    Hertz's contact is in series with the difference of the sphere from a half-space: modes below 4
-    move, all others follow at rest. The changes are those of time, indentation, force and speed.
+    Hertz's contact is in series with the difference of the sphere from a half-space. Modes of low
+    order and frequency vibrate; the sphere deflects in all others as under a static force. The
+    changes are those of time, indentation, force and speed.
     """
     modulus = 2 / (1 - nu)
     speed = math.sqrt(16 / 15 * modulus * ratio**5 / MASS)
-    orders = [spheroidal(n, nu) for n in range(KINDS - 1)]
+    orders = [spheroidal(n, nu) for n in range(ORDERS)]
     omega, inverse = (np.concatenate(part) for part in zip(*orders, strict=True))
     m = np.arange(3000) + 0.5
     less = (compliances(m.size, nu) - (1 - nu) / m) * m / (2 * math.pi)

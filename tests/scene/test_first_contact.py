@@ -6,6 +6,7 @@ from dataclasses import replace
 import pytest
 
 from derivation.scene import SceneError, read, simulate
+from derivation.scene.dynamic.contact_warnings import model_jump_warnings
 from derivation.scene.dynamic.first_contact import jump_since
 from derivation.scene.impact import selected_effects
 from derivation.scene.result import Result
@@ -104,6 +105,7 @@ def test_bound_of_an_elastic_contact_includes_a_jump_by_higher_branches() -> Non
     change = every.contact_time / result.contact_time - 1.0
     assert without_jump < 0.01 < 0.3 < change < result.bound_of("contact_time")
     assert any("contact_time may change by" in text for text in result.warnings)
+    assert any("model error of the force" in text for text in result.warnings)
     assert jump_since(result.dynamics) > 0.3  # by the omitted branches alone
     # Two per cent from this speed the first contact does not jump, and its bound is small.
     for speed in (0.0207, 0.0216):
@@ -138,3 +140,13 @@ def test_the_rough_onset_of_a_viscoelastic_contact_is_no_jump() -> None:
         "impact": {"speed": 1.02},
     }))  # fmt: skip
     assert result.bound_of("contact_time") < 0.1
+
+
+@pytest.mark.parametrize(
+    ("decisive_change", "error", "warned"), [(0.01, 0.02, 1), (0.02, 0.01, 0), (1.0, 2.0, 0)]
+)
+def test_a_model_error_may_split_a_contact_only_if_it_exceeds_the_decisive_change(
+    decisive_change: float, error: float, warned: int
+) -> None:
+    """Without a minimum of the force, and a second contact, no change splits or joins it."""
+    assert len(model_jump_warnings(decisive_change, error)) == warned

@@ -16,7 +16,7 @@ def public_functions(file: Path) -> list[str]:
     """Return the names of the public functions of a module."""
     return [
         node.name
-        for node in _tree(file).body
+        for node in _parsed(_text(file), file).body
         if isinstance(node, ast.FunctionDef) and not node.name.startswith("_")
     ]
 
@@ -30,7 +30,7 @@ def expect_imports(file: Path, package: str, modules: Collection[str]) -> None:
         If the file cannot be read, is not Python, or imports another module.
     """
     text = "\n".join(relative(line, package) for line in _text(file).splitlines())
-    for name, own in _imports(ast.parse(text)):
+    for name, own in _imports(_parsed(text, file)):
         if name not in (modules if own else ALLOWED):
             raise ValueError(
                 f"{file.name}: expected imports from NumPy, the standard library, or "
@@ -91,9 +91,9 @@ def manifest_row(
     return row | {"argument_units": units, "latex": function.symbol, "modes": False}
 
 
-def _tree(file: Path) -> ast.Module:
+def _parsed(text: str, file: Path) -> ast.Module:
     try:
-        return ast.parse(_text(file))
+        return ast.parse(text)
     except SyntaxError as error:
         raise ValueError(f"{file.name}, line {error.lineno}: {error.msg}") from None
 

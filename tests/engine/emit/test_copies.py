@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from derivation.engine.emit.budgets import Budget
 from derivation.engine.emit.copies import copy_text, listed_functions
+from derivation.engine.emit.handwritten import expect_imports, manifest_rows
 from derivation.engine.emit.package import RUNTIME
 from derivation.engine.emit.tables import literal
 from derivation.engine.files import ROOT
@@ -104,3 +105,34 @@ NUMBERS = st.one_of(st.integers(-9, 9), st.floats(allow_nan=False, allow_infinit
 @given(st.recursive(NUMBERS, lambda part: st.lists(part, max_size=30).map(tuple), max_leaves=60))
 def test_printed_tables_evaluate_to_the_original(value: object) -> None:
     assert ast.literal_eval(literal(value)) == value
+
+
+def test_a_marked_function_computes_a_formula_and_has_a_budget(tmp_path: Path) -> None:
+    """Otherwise nothing could be compared with it, and its budget would not be tested."""
+    file = tmp_path / "module.py"
+    file.write_text(MODULE.replace('domain="x > 0"', 'domain="x > 0", kernel=True'))
+    budgets = {"twice": Budget(2.0, "the value")}
+    (row,) = manifest_rows("module", file, budgets, {"twice"})
+    assert (row["name"], row["arguments"], row["argument_units"]) == ("twice", ("x",), ["m"])
+    for known, formulas in ((budgets, set[str]()), ({}, {"twice"})):
+        with pytest.raises(ValueError, match=r"got 'twice'; remove the mark"):
+            manifest_rows("module", file, known, formulas)
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ("import scipy.special", "got 'scipy'"),
+        ("from .generated.other import f", "got 'other'"),
+        ("def (", r"module\.py, line 26: invalid syntax"),
+    ],
+)
+def test_a_copied_module_imports_only_what_the_package_has(
+    line: str, message: str, tmp_path: Path
+) -> None:
+    file = tmp_path / "module.py"
+    file.write_text(f"{MODULE}\n{line}\n")
+    with pytest.raises(ValueError, match=message):
+        expect_imports(file, "generated", {"arrays", "blocks"})
+    file.write_text(MODULE)
+    expect_imports(file, "generated", {"arrays", "blocks"})

@@ -92,7 +92,10 @@ def diagnose(
         str, typer.Argument(metavar="NAME", help="Name of a derived formula, for example K_j.")
     ],
     formula: Annotated[
-        str, typer.Option(metavar="FORMULA", help="Your version of the formula, in SymPy syntax.")
+        str,
+        typer.Option(
+            metavar="FORMULA", help="Your version of the formula, or the equation, in SymPy syntax."
+        ),
     ],
     latex: Annotated[bool, typer.Option("--latex", help="Read the formula as LaTeX.")] = False,
     at: Annotated[

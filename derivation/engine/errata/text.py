@@ -14,6 +14,11 @@ import sympy as sp
 from derivation.engine.bounded import run_limited
 from derivation.engine.errata import summed
 from derivation.engine.errata.compare import Diagnosis, diagnose, relations_between
+from derivation.engine.errata.equation import (
+    arguments_by_name,
+    checked_right_hand_side,
+    right_hand_side,
+)
 from derivation.engine.errata.lookup import comparable, known_formula, resolve
 from derivation.engine.errata.point import completed_point, exact_values, other_points, parse_point
 from derivation.engine.errata.relations import Point, Relations
@@ -125,8 +130,9 @@ def diagnose_text(
     name
         Name of the derived formula that it should equal.
     text
-        The formula in SymPy syntax, or in LaTeX if `latex`; it may contain names of other formulas.
-        For a sum over modes one term is expected, or ``Sum(..., (j, 1, oo))``.
+        The formula in SymPy syntax, or in LaTeX if `latex`; it may contain names of other formulas,
+        and begin with the formula's own name or symbol and an equals sign. For a sum over modes one
+        term is expected, or ``Sum(..., (j, 1, oo))``.
     formulas
         The derived formulas by name.
     relations
@@ -147,9 +153,10 @@ def diagnose_text(
     vocabulary = formula.vocabulary
     chosen = exact_values(at or {}, vocabulary, relations)
     references = {n: sp.Symbol(n, real=True) for n in comparable(formulas)}
-    given = read(
-        text, vocabulary, {**references, **vocabulary.guest_names}, latex, _letters(formula)
-    )
+    also = {**references, **vocabulary.guest_names}
+    text = checked_right_hand_side(text, formula)
+    applied = arguments_by_name(formulas)
+    given = read(text, vocabulary, also, latex, _letters(formula), applied)
     summed.check_contribution(formula, resolve(given, formulas, vocabulary))
     diagnosis = diagnose(name, given, formulas, relations)
     derived = formula.expression
@@ -204,10 +211,11 @@ def diagnose_limited(
     """
     point = parse_point(at)
     # A text that cannot be parsed, whatever its names mean, is rejected before the derivation.
-    words = re.findall(r"[A-Za-z]\w*" if latex else r"[A-Za-z]\w*+(?! *\()", text)
+    right = right_hand_side(text)
+    words = re.findall(r"[A-Za-z]\w*" if latex else r"[A-Za-z]\w*+(?! *\()", right)
     anything = {word: sp.Symbol(word) for word in words}
     vocabulary = chain.vocabulary
-    run_limited(lambda: read(text, vocabulary, anything, latex) and None, "reading the formula")
+    run_limited(lambda: read(right, vocabulary, anything, latex) and None, "reading the formula")
     known = chain.formulas()
     return run_limited(
         lambda: diagnose_text(name, text, known, relations, latex=latex, at=point, digits=digits),
@@ -227,11 +235,15 @@ def read(
     also: Mapping[str, sp.Basic],
     latex: bool,
     letters: Mapping[str, str] | None = None,
+    applied: Mapping[str, tuple[str, ...]] | None = None,
 ) -> sp.Expr:
-    """Return the expression of a text in SymPy syntax or LaTeX; for a sum, of one term."""
+    """Return the expression of a text in SymPy syntax or LaTeX; for a sum, of one term.
+
+    `letters` and `applied` are used for LaTeX, as `preferred` and `applied` of `parse_latex`.
+    """
     if latex:
         term = summed.without_latex_sum(text, vocabulary)
-        return parse_latex(term, vocabulary, also, letters)
+        return parse_latex(term, vocabulary, also, letters, applied)
     return summed.parse_contribution(text, vocabulary, also)
 
 

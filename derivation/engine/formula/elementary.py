@@ -54,7 +54,6 @@ INSTEAD: Mapping[str, str] = {
     "sinc": "write sin(x)/x",
     "sign": "write x/abs(x)",
     "sgn": "write x/abs(x)",
-    "factorial": "write gamma(n + 1)",
     "Rational": "write p/q",
     **dict.fromkeys(
         ("Max", "Min", "max", "min", "Piecewise", "Heaviside", "floor", "ceiling"),

@@ -7,11 +7,16 @@ from derivation.engine.formula.elementary import INSTEAD
 from derivation.engine.formula.parse import FormulaError, check_nesting
 from derivation.engine.formula.vocabulary import LATEX_SYMBOL, Argument
 
-_TOKEN = re.compile(r"\\[A-Za-z]+|\\.|\d+(?:\.\d+)?|[A-Za-z]|[{}()\[\]^_+\-*/,.;&|]")
+_TOKEN = re.compile(r"\\[A-Za-z]+|\\.|\d+(?:\.\d+)?|[A-Za-z]|[{}()\[\]^_+\-*/,.;&|!]")
 _SPACING = re.compile(
     r"\\(?:left|right|[bB]igg?[lr]?|displaystyle|textstyle|q?quad|limits)(?![A-Za-z])"
     r"|\\[,;:!>\\ ]|[&~\s]"
 )
+_DISPLAY = re.compile(
+    r"\\(?:begin|end) *\{ *(?:align|aligned|equation|gather|gathered|split)\*? *\}"
+    r"|\\(?:tag|label) *\{[^{}]*\}|\\[()\[\]]|^\s*\$+|\$+[\s.,;]*$"
+)
+_NUMBER = re.compile(r"\\q?quad *\( *\d+[a-z]? *\)[\s.,;]*$")
 _BARS = {r"\left|": r"\lvert ", r"\right|": r"\rvert ", r"\left\vert": r"\lvert",
          r"\right\vert": r"\rvert"}  # fmt: skip
 _STYLE = r"\\(?:text|textrm|textit|mathrm|mathit|rm|operatorname\*?) *"
@@ -38,7 +43,6 @@ _INSTEAD = {
     r"\over": r"write \frac{...}{...}",
     r"\begin": "give one formula without environments",
     r"\|": r"write \left| ... \right|",
-    "!": INSTEAD["factorial"],
 }
 """What to write instead of tokens that are not read."""
 
@@ -83,15 +87,21 @@ def _named(found: str, number: int) -> str:
     return found if surplus < 0 else f"Z_{{own{number}}}" + "}" * surplus
 
 
+def without_display(text: str) -> str:
+    """Return a formula without environment, dollars, label and number of the equation."""
+    return _NUMBER.sub("", _DISPLAY.sub(" ", text))
+
+
 def tokens_of(text: str) -> list[str]:
     """Return the tokens of a formula, without spacing and styles."""
+    text = without_display(text)
     check_nesting(text, "{", "}")
     check_nesting(text, "([", ")]")
     for bar, bracket in _BARS.items():
         text = text.replace(bar, bracket)
     text = _INDEX.sub(lambda match: f"_{{{match[1] or match[2]}}}", text)
     plain = _WORDS.sub(lambda match: rf"\{match[1]} " if len(match[1]) > 1 else match[1], text)
-    rest = _SPACING.sub(" ", plain.strip("$")).rstrip(" .,;")
+    rest = _SPACING.sub(" ", plain).rstrip(" .,;")
     tokens: list[str] = []
     position = 0
     while position < len(rest):

@@ -47,7 +47,6 @@ NAME_HINTS = {
 }
 
 _HINTS = {
-    "^": "'^' is not a power here: write **",
     "=": "'=' is not allowed: give only the right-hand side",
     "<": "a comparison is not a formula: give one expression",
     ">": "a comparison is not a formula: give one expression",
@@ -60,9 +59,9 @@ _HINTS = {
     '"': "quoted text is not part of a formula",
     ":": "':' is not part of a formula",
     "|": "write abs(...) for an absolute value",
-    "!": "write gamma(n + 1) for a factorial",
+    "!": "write factorial(n)",
 }
-_STRANGE = re.compile(r"[^A-Za-z0-9_.+\-*/(), ]")
+_STRANGE = re.compile(r"[^A-Za-z0-9_.+\-*/^(), ]")
 _NUMBER = re.compile(r"(\d+\.?\d*|\.\d+)(?:[eE]([+-]?\d+))?")
 
 
@@ -73,7 +72,7 @@ def parse(text: str, vocabulary: Vocabulary, also: Mapping[str, sp.Basic] | None
     ----------
     text
         The formula, such as ``-sinh(x)/(2*mu*(sinh(2*x) + 2*x))``. Decimal numbers are exact:
-        ``0.1`` is 1/10.
+        ``0.1`` is 1/10. Powers may also be written with ``^``.
     vocabulary
         The symbols that may occur.
     also
@@ -126,7 +125,7 @@ def _checked(text: str) -> str:
     check_nesting(plain, "(", ")")
     if re.search(rf"\d{{{MAX_DIGITS + 1},}}", plain):
         raise FormulaError(f"expected numbers of at most {MAX_DIGITS} digits: shorten them")
-    return re.sub(r"\blambda\b", "lam", plain)
+    return re.sub(r"\blambda\b", "lam", plain.replace("^", "**"))
 
 
 def check_nesting(text: str, opening: str, closing: str) -> None:
@@ -377,6 +376,7 @@ FUNCTIONS: Mapping[str, Callable[..., sp.Expr]] = {
     "Abs": sp.Abs,
     "abs": sp.Abs,
     "gamma": sp.gamma,
+    "factorial": lambda number: sp.gamma(number + 1),
     "beta": sp.beta,
     "besselj": bessel,
     "besseli": lambda order, argument: sp.besseli(_order(order), argument),

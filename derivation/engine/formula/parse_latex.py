@@ -5,6 +5,7 @@ The LaTeX is translated into the syntax of `parse`, which checks the result.
 
 import re
 from collections.abc import Mapping
+from types import MappingProxyType
 
 import sympy as sp
 
@@ -41,6 +42,7 @@ def parse_latex(
     vocabulary: Vocabulary,
     also: Mapping[str, sp.Basic] | None = None,
     preferred: Mapping[str, str] | None = None,
+    applied: Mapping[str, tuple[str, ...]] | None = MappingProxyType({}),
 ) -> sp.Expr:
     r"""Return the expression for a LaTeX formula.
 
@@ -52,6 +54,9 @@ def parse_latex(
         As in `derivation.engine.formula.parse.parse`.
     preferred
         Names by LaTeX without backslashes and braces, for letters with several meanings.
+    applied
+        Arguments that may follow a name in brackets, in addition to those of `vocabulary`. None if
+        they are not known: then any name may have arguments, and the result is meaningless.
 
     Raises
     ------
@@ -64,7 +69,10 @@ def parse_latex(
         raise FormulaError(f"expected at most {MAX_TEXT} characters, got {len(text)}: split it")
     allowed = {**(also or {}), **vocabulary.names}
     text, own = with_plain_names(text, vocabulary.arguments)
-    translator = _Translator(tokens_of(text), vocabulary, allowed, {**own, **(preferred or {})})
+    known = None if applied is None else {**applied, **vocabulary.applied}
+    translator = _Translator(
+        tokens_of(text), vocabulary, allowed, {**own, **(preferred or {})}, known
+    )
     plain = translator.sum()
     if translator.here is not None:
         raise FormulaError(
@@ -82,8 +90,10 @@ class _Translator:
         vocabulary: Vocabulary,
         allowed: Mapping[str, sp.Basic],
         preferred: Mapping[str, str],
+        applied: Mapping[str, tuple[str, ...]] | None,
     ) -> None:
         self.tokens = tokens
+        self.applied = applied
         self.preferred = preferred
         self.vocabulary = vocabulary
         self.allowed = allowed
@@ -139,8 +149,11 @@ class _Translator:
 
     def factor(self) -> str:
         base = self.primary()
-        if base.isidentifier():
+        if base.isidentifier() and self.applied is not None:
             self._refuse_unknown_function(base)
+        while self.here == "!":
+            self.take()
+            base = f"factorial({base})"
         if self.here != "^":
             return base
         raised = f"({base})**({self.exponent()})"
@@ -293,9 +306,9 @@ class _Translator:
         if name in ("J_0", "J_1", "I_0", "I_1"):
             return self._bessel(name.replace("_", ""))
         self._pass_index()
-        applied = self.vocabulary.applied.get(name)
-        if applied and self._next(3) == ["(", *applied, ")"]:
-            self.position += 3
+        arguments = ["(", *" , ".join((self.applied or {}).get(name, ())).split(), ")"]
+        if len(arguments) > 2 and self._next(len(arguments)) == arguments:
+            self.position += len(arguments)
         if name in self.preferred:
             return self.preferred[name]
         return name if name in self.allowed else self.vocabulary.name_of_latex.get(name, name)

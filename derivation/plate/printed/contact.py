@@ -16,6 +16,7 @@ from derivation.plate.vocabulary import PLATE, P, a
 f_j, g_j, K_j, M_j = sp.symbols("f_j g_j K_j M_j", real=True)
 sonine = sp.Symbol("sonine", real=True)
 _NAMES = {symbol.name: symbol for symbol in (f_j, g_j, K_j, M_j, sonine)}
+_OF_TIME = {"delta": ("t",), "delta_0": ("t",)}
 
 
 def printed(
@@ -26,8 +27,8 @@ def printed(
     kind: type[Printed] = Printed,
     **more: Any,
 ) -> Printed:
-    """Return a formula of the paper; (t) after a function is not part of its expression."""
-    expression = parse_latex(latex.replace("(t)", ""), PLATE, _NAMES)
+    """Return a formula of the paper."""
+    expression = parse_latex(latex, PLATE, _NAMES, applied=_OF_TIME)
     return kind(name, equation, symbol, latex, expression, **more)
 
 

@@ -1,10 +1,12 @@
 """Upper estimates of the size of an expression before anything is expanded."""
 
+import math
+
 import sympy as sp
 
 MANY = 16_000_000
 """Value at which estimates stop increasing."""
-_MOST_FACTORS = 30
+_MOST_FACTORS = 1000
 
 
 def terms_when_expanded(expression: sp.Expr) -> int:
@@ -27,8 +29,8 @@ def _estimate(expression: sp.Expr, memo: dict[sp.Basic, int]) -> int:
             product = min(product * _terms(factor, memo), MANY)
         return product
     if isinstance(expression, sp.Pow) and isinstance(expression.exp, sp.Integer):
-        base = _terms(expression.base, memo)
-        return int(min(base ** min(abs(int(expression.exp)), _MOST_FACTORS), MANY))
+        base, factors = _terms(expression.base, memo), min(abs(int(expression.exp)), _MOST_FACTORS)
+        return min(math.comb(base + factors - 1, factors), MANY)
     return 2 if isinstance(expression, sp.sinh | sp.cosh | sp.tanh | sp.coth) else 1
 
 

@@ -188,6 +188,11 @@ class Scene(Table):
         """Return the problems of materials and measurement; each table checks its own keys."""
         return [*material_problems(given), *_solved_twice(given)]
 
+    def __hash__(self) -> int:
+        """Return the same number for equal scenes, so that results can be kept by scene."""
+        tables = (getattr(self, name) for name in TABLES)
+        return hash((*tables, frozenset(self.materials.items())))
+
     def _repr_html_(self) -> str:
         """Return the given keys as a table for a notebook."""
         given = self.to_json()

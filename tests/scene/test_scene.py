@@ -223,6 +223,17 @@ def test_scene_is_frozen() -> None:
         scene.plate.radius = 2.0  # type: ignore[misc]
 
 
+def test_equal_scenes_are_one_key_of_a_dictionary() -> None:
+    """The order of materials and of keys does not matter; any other value does."""
+    own = {"youngs_modulus": 1e9, "poissons_ratio": 0.3, "density": 900.0}
+    more = {"materials": {"one": own, "two": own}, "accuracy": {"rtol": 0.1}}
+    turned = {"materials": {"two": own, "one": own}, "accuracy": {"rtol": 0.1}}
+    kept = {read(changed() | more): "first"}
+    assert kept[read(dict(reversed((changed() | turned).items())))] == "first"
+    for other in ({"accuracy": {"rtol": 0.2}}, {"materials": {"one": own}}):
+        assert read(changed() | more | other) not in kept
+
+
 def test_direct_construction_is_validated_too() -> None:
     from derivation.scene.scene import Plate
 

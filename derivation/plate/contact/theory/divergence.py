@@ -13,6 +13,7 @@ import sympy as sp
 from derivation.engine.formula.dimension import thirds
 from derivation.engine.formula.proof import prove
 from derivation.mathematics.bessel.theory.zeros import slope_squared, zero_correction
+from derivation.plate.contact.theory.hertz import SINE_MINUS
 from derivation.plate.contact.theory.law import contact_law
 from derivation.plate.vocabulary import J1, Formula, N, P, a, b, h, phi
 
@@ -197,6 +198,8 @@ def truncated_gamma(k: int) -> Formula:
         "$1/(p + 1)$, and by Stolz's theorem lower terms do not change the leading one.",
         lambda total: {
             "power": power - (2 * k - 4),
+            "coefficient": sp.series(SINE_MINUS, phi, 0, 2 * k).removeO().coeff(phi, 2 * k - 1)
+            - _scale(k) * P ** sp.Rational(2 * k - 1, 3),
             "Faulhaber": sp.limit(partial, step, sp.oo) - 1 / (power + 1),
             "constant": constant - _scale(k) * (sp.pi / b) ** power * limit,
             "growth": sp.diff(total, N) - _scale(k) * (sp.pi / b) ** power * limit * N**power,

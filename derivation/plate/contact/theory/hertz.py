@@ -38,10 +38,12 @@ def pressure() -> Formula:
     shape = sp.sqrt(1 - r**2 / a**2)
     proof = prove(
         "Hertz pressure",
-        "The resultant of the pressure over the contact area is $P$.",
+        "The resultant of the pressure over the contact area is $P$; half an ellipsoid has 3/2 of "
+        "its mean height in the centre.",
         lambda p: {
             "resultant": resultant.subs(peak, p / shape) - P,
             "compression": sp.Abs(p / shape) + p / shape,
+            "largest over mean pressure": p.subs(r, 0) / (P / (sp.pi * a**2)) + sp.Rational(3, 2),
         },
         solution * shape,
     )

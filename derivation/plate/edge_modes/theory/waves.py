@@ -230,6 +230,8 @@ def norm() -> Formula:
         lambda value, stated: {
             "in k": value - in_k(NORM),
             "stated": stated.function.subs(sp.Symbol("psi"), psi) - sum(slopes),
+            "from the axis": stated.limits[0][1],
+            "to the edge": stated.limits[0][2] - 1,
             "deflection": slopes[0] - _r * DEFLECTION**2,
             "rotation": slopes[1] - eta**2 / 3 * _r * psi**2,
             "axis": sp.expand(deflected + turned).subs(_r, 0),
@@ -307,6 +309,7 @@ def weight() -> Formula:
         r"For $\eta \to 0$ it is that of step 29. " + energy.proof.argument,
         lambda value, stated: {
             "in k": value - in_k(stated.subs(N, NORM)),
+            "face in the centre": stated.subs(c, 0) * sp.limit(ON_FACE, alpha, 0) ** 2 - stated,
             "paper's edge": stated.subs(N, NORM).subs(c, 0).subs(J0, 0) - 1 / (sp.pi * J1**2),
             "thin": _thin(stated.subs(N, NORM).subs(c, PART)) - thin.WEIGHT,
         },

@@ -29,8 +29,8 @@ def influence_coefficients() -> tuple[Formula, Formula, Formula]:
         r"The closed forms equal $f_j(\pm h)/A_j$ with the constants of the face conditions; the "
         r"half-space's is $2/(E^* \phi)$.",
         lambda top, bottom, half: {
-            "top": top - faces["top"],
-            "bottom": bottom - faces["bottom"],
+            "top": top - deflection.subs(z, h),
+            "bottom": bottom - deflection.subs(z, -h),
             "half-space": half - 2 / (PLANE_STRAIN_MODULUS * phi),
         },
         *(*closed.values(), half),

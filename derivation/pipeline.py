@@ -11,6 +11,7 @@ from derivation.engine.build import expect_package
 from derivation.engine.files import PACKAGE, expect_writable, measurements, write_file
 from derivation.engine.measure.domain_search import domain_targets
 from derivation.engine.measure.judge import Errors
+from derivation.engine.measure.point import in_both_forms
 from derivation.engine.measure.record import provenance
 from derivation.engine.measure.result import CheckResult, all_passed
 from derivation.engine.measure.search import Progress as SearchProgress
@@ -54,6 +55,7 @@ def check_contact(progress: Progress = quiet) -> CheckResult:
          f"{r.double.ratio:.2f}", f"{r.budget:g}", "yes" if r.passed else "NO")
         for r in rows
     ]  # fmt: skip
+    worst = [f"{row.kernel}: {' '.join(map(in_both_forms, row.worst))}" for row in rows]
     return CheckResult(
         "Errors of the contact law",
         (
@@ -68,7 +70,7 @@ def check_contact(progress: Progress = quiet) -> CheckResult:
         cells,
         lambda: contact_data(rows),
         all(row.passed for row in rows),
-        listings=[("Worst arguments", [f"{r.kernel}: {' '.join(r.worst)}" for r in rows])],
+        listings=[("Worst arguments", worst)],
         budgeted=rows,
     )
 

@@ -79,8 +79,9 @@ def test_measurement_agrees_with_the_record(
     shown = capsys.readouterr().out
     assert "Errors against 50 digits" in shown
     listed = [line for line in shown.splitlines() if line.startswith("bessel_j0: ")]
-    exact = " ".join(f"{name}={x}" for name, x, _ in committed[0]["double"]["worst"]["arguments"])
-    assert listed == [f"bessel_j0: {exact}"]  # a function without a budget is not listed
+    [(name, exact, _)] = committed[0]["double"]["worst"]["arguments"]
+    decimal = f"{float.fromhex(exact)!r} ({exact})"
+    assert listed == [f"bessel_j0: {name}={decimal}"]  # a function without a budget is not listed
 
 
 def test_function_above_its_budget_fails_and_is_named(
@@ -129,7 +130,8 @@ def test_contact_law_agrees_with_the_record(few_contacts: Path, capsys: Captured
     assert json.loads(few_contacts.read_text()) == data
     shown = capsys.readouterr().out
     for row in known:
-        assert f"{row['kernel']}: {' '.join(row['worst'])}" in shown
+        worst = " ".join(f"{float.fromhex(exact)!r} ({exact})" for exact in row["worst"])
+        assert f"{row['kernel']}: {worst}" in shown
     assert main(["check", "contact-law", "--suggest-budgets", "--json", "-"]) == 0
     suggested = json.loads(capsys.readouterr().out)["suggested_budgets"]
     for name, ulp in suggested.items():

@@ -15,6 +15,17 @@ class Point:
     modes: int | None = None
 
 
+def in_both_forms(exact: str) -> str:
+    """Return a hexadecimal double in decimal, with the hexadecimal in parentheses.
+
+    Examples
+    --------
+    >>> in_both_forms("0x1.8000000000000p-1")
+    '0.75 (0x1.8000000000000p-1)'
+    """
+    return f"{float.fromhex(exact)!r} ({exact})"
+
+
 def to_single(point: Point) -> Point | None:
     """Return the point rounded to single precision; None if the rounding changes its kind.
 

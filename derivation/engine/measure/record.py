@@ -49,9 +49,9 @@ def cells(row: Row) -> tuple[str, ...]:
 
 
 def worst(row: Row) -> str:
-    """Return the arguments with the largest ratio of error to allowance, as exact doubles."""
+    """Return the arguments with the largest ratio of error to allowance, decimal and exact."""
     worst_row = row.double.worst
-    arguments = " ".join(f"{name}={exact}" for name, exact, _ in worst_row.arguments)
+    arguments = " ".join(f"{name}={text} ({exact})" for name, exact, text in worst_row.arguments)
     modes = f" modes={worst_row.modes}" if worst_row.modes else ""
     return f"{row.kernel}: {arguments}{modes}"
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from derivation.engine.files import write_file
 from derivation.engine.measure.case import CAUSE_TEXTS, HardCase, read_cases
-from derivation.engine.measure.point import Point
+from derivation.engine.measure.point import Point, in_both_forms
 from derivation.engine.measure.search import LargeError, Search, point_error
 from derivation.engine.measure.target import Target
 from derivation.engine.outputs import plain
@@ -208,12 +208,12 @@ def cells(kernel: str, search: Search, book: SearchRecord) -> tuple[str, ...]:
 
 
 def arguments(kernel: str, search: Search) -> str:
-    """Return a function's worst arguments as hexadecimal doubles, in one line."""
+    """Return a function's worst arguments, decimal and hexadecimal, in one line."""
     worst = search.standings[kernel].worst
     if worst is None:
         return f"{kernel}:"
-    given = case_of(kernel, worst, search.seed).table["inputs"].items()
-    texts = [f"{k}={v}" if isinstance(v, str) else f"{k}={','.join(v)}" for k, v in given]
+    inputs = case_of(kernel, worst, search.seed).inputs.items()
+    texts = [f"{name}={', '.join(map(in_both_forms, exact))}" for name, exact in inputs]
     modes = [] if worst.point.modes is None else [f"modes={worst.point.modes}"]
     return f"{kernel}: {' '.join(texts + modes)}"
 

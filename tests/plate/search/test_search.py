@@ -227,7 +227,8 @@ def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert [row["kernel"] for row in actual["rows"]] == ["bessel_j1", "kappa_ratio"]
     assert status == int(any(float(row["ratio"] or 0) > 1 for row in actual["rows"]))
     assert actual["seed"] == 5
-    assert f"bessel_j1: x={actual['rows'][0]['inputs']['x']}\n" in shown
+    exact = actual["rows"][0]["inputs"]["x"]
+    assert f"bessel_j1: x={float.fromhex(exact)!r} ({exact})\n" in shown
 
 
 def test_interrupted_search_keeps_its_cases(tmp_path: Path) -> None:

@@ -326,7 +326,7 @@ def _radius(law: ContactLaw, name: str, value: float) -> float:
         )
     a = value if name == "contact_radius" else math.sqrt(R) * math.sqrt(value)
     if name == "force":
-        a = math.cbrt(0.75 * (value / law.modulus) * R)
+        a = float(law.hertz_radius(np.array(value)))
     a = min(a, last)
     for _ in range(_STEPS):
         reached, slope = _with_slope(law, name, a)

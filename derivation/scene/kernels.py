@@ -37,7 +37,15 @@ from generated.edge import (
 )
 from generated.edge_curvature import clamped_edge_curvature, supported_edge_curvature
 from generated.edge_kernels import law_of_square
-from generated.effect_kernels import hertz_constant, hertz_depth, zener_rates, zener_time_unit
+from generated.effect_kernels import (
+    hertz_constant,
+    hertz_depth,
+    hertz_force,
+    hertz_pressure,
+    hertz_stiffness,
+    zener_rates,
+    zener_time_unit,
+)
 from generated.effect_numbers import (
     LATERAL_CUBIC,
     LATERAL_GROWTH,
@@ -58,6 +66,7 @@ from generated.effects import (
 )
 from generated.impact import COARSE_QUADRATURE, FULL_QUADRATURE, ROUNDING, history, impact
 from generated.impact_shapes import cut
+from generated.plasticity_kernels import hertz_radius
 from generated.plasticity_numbers import YIELD_LIMIT
 from generated.sensitivity import indentation_slope
 from generated.simple_impact import Estimate, Plate, law_errors
@@ -152,6 +161,10 @@ __all__ = [
     "force_of_radius",
     "hertz_constant",
     "hertz_depth",
+    "hertz_force",
+    "hertz_pressure",
+    "hertz_radius",
+    "hertz_stiffness",
     "history",
     "impact",
     "indentation",

@@ -14,7 +14,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -27,9 +27,6 @@ from derivation.scene.effects.finite_thickness import plate_contribution
 from derivation.scene.model import Model
 from derivation.scene.numerics.quadrature import NODES, gauss
 from generated.arrays import Double as Array
-
-if TYPE_CHECKING:
-    from generated.non_hertzian_pressure import Contact
 
 THICK = 1.0
 """Largest h/b for which the model of simply supported and clamped edges was measured."""
@@ -164,6 +161,11 @@ class ContactLaw:
         return self.model.modulus / (1.0 + self.softness)
 
     @cached_property
+    def _bodies(self) -> tuple[Array, Array]:
+        """Sphere radius [m] and E* of the contact [Pa], for functions of the generated package."""
+        return np.asarray(self.model.R), np.asarray(self.modulus)
+
+    @cached_property
     def limit(self) -> float:
         """Largest contact radius [m] of the law, at most where contact is lost at the centre."""
         high = self._widest
@@ -213,15 +215,15 @@ class ContactLaw:
 
     def force(self, a: Array, shape: Shape) -> Array:
         """Return the contact force [N] at contact radii [m]."""
-        return 4.0 / 3.0 * self.modulus * (a * a * (a / self.model.R)) * shape.force
+        return kernels.hertz_force(a, *self._bodies) * shape.force
 
     def indentation(self, a: Array, shape: Shape) -> Array:
         """Return the indentation [m] at contact radii [m]."""
         return a * (a / self.model.R) * shape.depth
 
     def stiffness(self, a: Array, shape: Shape) -> Array:
-        """Return dP/d delta [N/m] at radii [m]: 2 E* times Hertz's radius over additive slope."""
-        return 2.0 * self.modulus * a * np.cbrt(shape.force) / shape.additive
+        """Return dP/d delta [N/m] at radii [m]: that at Hertz's radius over the additive slope."""
+        return kernels.hertz_stiffness(a * np.cbrt(shape.force), self._bodies[1]) / shape.additive
 
     def max_pressure(self, a: float) -> float:
         """Return the pressure at the centre [Pa]: (E*/pi) int_0^a delta'(c)/c dc on a half-space.
@@ -231,12 +233,12 @@ class ContactLaw:
         solution of the integral equation.
         """
         if self.solved:
-            return float(self._contact(np.array([a])).centre_pressure[0])
+            return float(contact_at(np.array([a]), self.case).centre_pressure[0])
         return float(self.centre_pressure(np.array([a]))[0])
 
     def centre_pressure(self, a: Array) -> Array:
         """Return the pressure at the centre [Pa] on a half-space, at one or many radii [m]."""
-        pressure: Array = 2.0 / np.pi * self.modulus * (a / self.model.R)
+        pressure = kernels.hertz_pressure(a, *self._bodies)
         if not self.spherical:
             return pressure
         x, weights = gauss(NODES[2])
@@ -259,7 +261,7 @@ class ContactLaw:
         x, weights = gauss(NODES[2])
         width = np.sqrt((a - r) * (a + r))
         mean: Array = self._sphere(np.hypot(r[:, None], width[:, None] * x)).slope @ weights
-        return 2.0 / np.pi * self.modulus * (width / self.model.R) * mean
+        return kernels.hertz_pressure(width, *self._bodies) * mean
 
     def max_tensile_stress(self, a: float, force: float, on_edge: bool = True) -> float:
         """Return the largest tensile stress on the back face [Pa].
@@ -295,7 +297,7 @@ class ContactLaw:
 
     def hertz_radius(self, force: Array) -> Array:
         """Return the radius [m] at which Hertz's law has a force [N]."""
-        return np.cbrt(0.75 * (force / self.modulus) * self.model.R)
+        return kernels.hertz_radius(force, *self._bodies)
 
     def at(self, a: Array) -> Shape:
         """Return force, indentation and slope at increasing contact radii [m]."""
@@ -326,14 +328,15 @@ class ContactLaw:
         """Return the shape with non-Hertzian pressure; an edge's curvature is in its kernel."""
         # Near a = 0 the pressure is Hertzian.
         a = np.maximum(a, 1e-12 * min(self.model.h, self.model.b, self.model.R))
-        shape = self._contact(a)
+        shape = contact_at(a, self.case)
         R = self.model.R
-        force = shape.force / (4.0 / 3.0 * self.modulus * a * a * (a / R))
+        force = shape.force / kernels.hertz_force(a, *self._bodies)
         equal = a * np.cbrt(force)
         depth = shape.indentation / a * (R / a)
-        additive = 2.0 * self.modulus * equal / shape.stiffness
+        hertz = kernels.hertz_stiffness(equal, self._bodies[1])
+        additive = hertz / shape.stiffness
         # Derivative of Hertz's radius of the force with respect to the contact radius.
-        growth = shape.stiffness * shape.slope / (4.0 * self.modulus * equal) * (R / equal)
+        growth = shape.stiffness * shape.slope / (2.0 * hertz) * (R / equal)
         part = 1.0 / (1.0 + self.softness)
         others = [effect.contribution(self.model, equal) for effect in self._beyond_whole_plate]
         if self.edge_curvature:
@@ -343,10 +346,6 @@ class ContactLaw:
             depth = depth + part * (equal / a) ** 2 * plate.depth
             additive = additive + part * plate.slope
         return Shape(force, depth, additive * growth * (equal / a), additive)
-
-    def _contact(self, a: Array) -> "Contact":
-        """Return the contact with non-Hertzian pressure."""
-        return contact_at(a, self.case)
 
     @property
     def case(self) -> SolvedCase:

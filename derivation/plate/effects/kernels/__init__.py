@@ -3,8 +3,8 @@
 from pathlib import Path
 
 from derivation.engine.emit.modules import Routines
+from derivation.plate.effects.kernels import half_space, printed
 from derivation.plate.effects.kernels.numbers import effect_numbers
-from derivation.plate.effects.kernels.printed import ROUTINES
 from derivation.plate.modules import ComputedModule, RuntimeModule
 
 RUNTIME = Path(__file__).parents[1] / "runtime"
@@ -18,7 +18,8 @@ def effect_kernels() -> Routines:
         "ranges": ("moderate", "product", "root_factors"),
     }
     title = "Formulas of single effects, proved equal to those of the theory."
-    return Routines("effect_kernels", title, tuple(make() for make in ROUTINES), imports)
+    made = (*printed.ROUTINES, *half_space.ROUTINES)
+    return Routines("effect_kernels", title, tuple(make() for make in made), imports)
 
 
 MODULES = (

@@ -156,7 +156,11 @@ def zener_time_unit() -> Claims:
 
 @named_routine
 def zener_rates() -> Claims:
-    """Return the rates of local indentation and speed in an impact on an infinite plate."""
+    """Return rates of local indentation and speed on an infinite plate; units: v0 T, v0 and T.
+
+    T is `zener_time_unit` [s] and v0 the impact speed [m/s]: the rate of the indentation is in
+    units of v0, that of the speed in units of v0/T, and `weight` is g T/v0.
+    """
     force = sp.Symbol("force", positive=True)
     return Claims(
         (local, speed, zener, weight),

@@ -7,6 +7,7 @@ import sympy as sp
 from sympy.codegen.cfunctions import expm1
 
 from derivation.engine.emit.modules import Routines
+from derivation.engine.emit.named import Claims, named_routine
 from derivation.engine.emit.routine import (
     GUARDED,
     RAISED,
@@ -110,11 +111,11 @@ def free() -> Routine:
     )
 
 
-def response() -> Routine:
-    """Return the factors of Duhamel's integral."""
+@named_routine
+def response() -> Claims:
+    """Return the factors of t in omega g(t - s) and in g'(t - s), and those of s in both."""
     of = response_factors()
-    return routine(
-        "response",
+    return Claims(
         (phase, zeta),
         (
             *BEGIN,
@@ -132,17 +133,16 @@ def response() -> Routine:
             growth * sine,
         ),
         (*of.moved, *of.rate, *of.drive),
-        "Return the factors of t in omega g(t - s) and in g'(t - s), and those of s in both.",
         MEANING,
         _reduced,
     )
 
 
-def loss() -> Routine:
-    """Return the energy loss of a free motion."""
+@named_routine
+def free_loss() -> Claims:
+    """Return the energy loss per mass of a free motion, swing = omega q_0 and speed = q_0'."""
     B, even, odd, fading = sp.symbols("B even odd fading")
-    return routine(
-        "free_loss",
+    return Claims(
         (phase, zeta, swing, speed),
         (
             *BEGIN,
@@ -160,7 +160,6 @@ def loss() -> Routine:
         ),
         (zeta / 2 * double - (speed * speed + B * B) / 2 * expm1(-2 * decay_exponent),),
         (free_motion().lost.subs(q_j, swing / omega).subs(q_rate, speed),),
-        "Return the energy loss per mass of a free motion, swing = omega q_0 and speed = q_0'.",
         MEANING,
         _reduced,
     )
@@ -173,7 +172,7 @@ def power() -> Routine:
     return routine("power_lost", (omega, zeta, q_rate), (), taken, (POWER,), summary, {})
 
 
-ROUTINES = free, response, power, loss
+ROUTINES = free, response, power, free_loss
 
 
 def damping_kernels() -> Routines:

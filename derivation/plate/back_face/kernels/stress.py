@@ -3,7 +3,8 @@
 import sympy as sp
 from sympy.codegen.cfunctions import expm1
 
-from derivation.engine.emit.routine import Choice, Let, Routine, Several, routine
+from derivation.engine.emit.named import Claims, named_routine
+from derivation.engine.emit.routine import Choice, Let, Several
 from derivation.engine.rewrite.form import TIMES, substitute_steps
 from derivation.engine.rewrite.series import POLYNOMIAL
 from derivation.plate.back_face.kernels.tables import TERMS
@@ -35,15 +36,15 @@ THIN = sp.Symbol("THIN", positive=True)
 _sum = sp.Symbol("S", real=True)
 
 
-def modes() -> Routine:
-    """Return each mode's term of S; the block is divided by min(T, switch point)^4."""
+@named_routine
+def back_face_modes() -> Claims:
+    """Return 4 eta^2 k B(2 eta j)/J1^2 of modes; `kernel` is k."""
     names = "low pair square low_square"
     low, pair, square, low_square = sp.symbols(names, positive=True)
     block = blocks()["sinh_pair"]
     (_, mode) = back_face_stress()
     cubed = T * square / low_square**2
-    return routine(
-        "back_face_modes",
+    return Claims(
         (eta, j, J1, kernel),
         (
             Let(T, 2 * eta * j),
@@ -54,45 +55,43 @@ def modes() -> Routine:
         ),
         (-4 * kernel * cubed * sp.exp(-T) * expm1(-2 * T) / (pair * (j * J1) ** 2),),
         (mode.expression,),
-        "Return 4 eta^2 k B(2 eta j)/J1^2 of modes; `kernel` is k.",
         {j: j_n, kernel: indentation_kernel(alpha * j_n)},
         in_ratio,
     )
 
 
-def other_plate() -> Routine:
-    """Return the plate whose sum is computed: for a thin plate, a thicker one with the same a/h."""
+@named_routine
+def summed_plate() -> Claims:
+    """Return a/b and h/b of the plate whose sum is computed."""
     width = sp.Symbol("width", positive=True)
     is_thin = sp.Lt(eta, THIN)
     limited = sp.Max(eta, THIN)
-    return routine(
-        "summed_plate",
+    return Claims(
         (alpha, eta, A),
         (Choice(width, is_thin, A * THIN, alpha, if_yes={limited: THIN}, if_no={limited: eta}),),
         (width, limited),
         (a_ratio * limited, None),
-        "Return a/b and h/b of the plate whose sum is computed.",
         {alpha: a_ratio * eta, A: a_ratio},
     )
 
 
-def thin_plate() -> Routine:
-    """Return S of a thin plate from that of a thicker one."""
+@named_routine
+def of_thin_plate() -> Claims:
+    """Return S from that of a thicker plate with the same a/h."""
     stated = thin_plate_stress()[0].expression
-    return routine(
-        "of_thin_plate",
+    return Claims(
         (total, thick, eta),
         (),
         (total + 3 * sp.log(thick / eta),),
         (stated,),
-        "Return S from that of a thicker plate with the same a/h.",
         {total: stated.subs(eta, thick)},
         lambda e: sp.expand(sp.expand_log(sp.expand(e))),
     )
 
 
-def narrow_contact() -> Routine:
-    """Return S where the contact is narrow, from sums over the modes that depend on h/b alone."""
+@named_routine
+def under_narrow_contact() -> Claims:
+    """Return S of a narrow contact; `moment0`, ... are sums of modes times j^(2k), k = 0, ..."""
     y, square = sp.symbols("y square", positive=True)
     moments = sp.symbols(f"moment:{TERMS}", positive=True)
     series = sp.Poly(sp.series(indentation_kernel(y), y, 0, 2 * TERMS).removeO(), y)
@@ -105,13 +104,11 @@ def narrow_contact() -> Routine:
         for k in range(TERMS)
     ]
     terms = [factor * moment for factor, moment in zip(factors, moments, strict=True)]
-    return routine(
-        "under_narrow_contact",
+    return Claims(
         (alpha, *moments),
         (Let(square, alpha**2),),
         (POLYNOMIAL(square, *terms),),
         (stated,),
-        "Return S of a narrow contact; `moment0`, ... are sums of modes times j^(2k), k = 0, ...",
         {},
         without_polynomials,
     )
@@ -125,7 +122,8 @@ def without_polynomials(expression: sp.Expr) -> sp.Expr:
     return sp.expand(sp.expand_log(summed_terms))
 
 
-def wide_contact() -> Routine:
+@named_routine
+def under_wide_contact() -> Claims:
     """Return S where the contact is wide compared with the thickness."""
     square = sp.Symbol("square", positive=True)
     stated = wide_contact_stress().expression
@@ -134,37 +132,34 @@ def wide_contact() -> Routine:
     )
     coefficients = [powers.coeff_monomial(square**k) for k in range(1, powers.degree() + 1)]
 
-    return routine(
-        "under_wide_contact",
+    return Claims(
         (alpha, A),
         (Let(square, (2 / A) ** 2),),
         (4 - 3 * sp.log(2 * alpha) + square * POLYNOMIAL(square, *coefficients),),
         (stated,),
-        "Return S where the contact is wide compared with the thickness.",
         {A: a_ratio},
         without_polynomials,
     )
 
 
-def supported() -> Routine:
-    """Return S plus the correction for a simple support."""
-    return routine(
-        "with_support",
+@named_routine
+def with_support() -> Claims:
+    """Return S plus the correction for a simple support, from both sums over the modes."""
+    return Claims(
         (total, eta, n, support, bending_part, extension_part),
         (),
         (total + support * (12 * bending_part + 8 * n * eta * extension_part),),
         (_sum + support_ratio().expression * back_face_edge().expression,),
-        "Return S plus the correction for a simple support, from both sums over the modes.",
         {**one_mode(indentation_kernel), total: _sum},
         in_ratio,
     )
 
 
-def clamped() -> Routine:
+@named_routine
+def with_clamp() -> Claims:
     """Return S plus the correction for a clamped edge."""
     chi, loss, wide, moment = sp.symbols("chi loss wide moment", real=True)
-    return routine(
-        "with_clamp",
+    return Claims(
         (total, alpha, eta, n),
         (
             Several((chi,), "turn_of_clamp", (n,), (turn(),)),
@@ -174,26 +169,25 @@ def clamped() -> Routine:
         ),
         (total - sp.Rational(3, 2) * moment - 2 * n * eta**2,),
         (_sum - back_face_clamp().expression,),
-        "Return S plus the correction for a clamped edge.",
         {n: RATIO, total: _sum},
         in_ratio,
     )
 
 
-def scaled() -> Routine:
-    """Return the stress from S, with lam and mu over any common scale."""
-    return routine(
-        "stress_of_sum",
+@named_routine
+def stress_of_sum() -> Claims:
+    """Return (1 + nu) P/(2 pi H^2) S, with lam and mu over any common scale."""
+    return Claims(
         (total, P, h, lam, mu),
         (Let(stiff, (3 * lam + 2 * mu) / (16 * sp.pi * (lam + mu))),),
         (TIMES(total, stiff, 1, P, 1, h, -2),),
         (SCALE * _sum,),
-        "Return (1 + nu) P/(2 pi H^2) S, with lam and mu over any common scale.",
         {lam: lam / unit, mu: mu / unit, total: _sum},
         lambda e: substitute_steps(e, (), {}),
     )
 
 
 ROUTINES = (
-    modes, other_plate, thin_plate, narrow_contact, wide_contact, supported, clamped, scaled,
+    back_face_modes, summed_plate, of_thin_plate, under_narrow_contact,
+    under_wide_contact, with_support, with_clamp, stress_of_sum,
 )  # fmt: skip

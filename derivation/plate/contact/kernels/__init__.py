@@ -26,7 +26,7 @@ def contact_kernels() -> Routines:
 
 def contact_point_kernels() -> Routines:
     """Return routines of the contact law for single numbers."""
-    made = (series.polynomial_slope(), *(make() for make in law.POINT_ROUTINES))
+    made = (series.with_slope_of(), *(make() for make in law.POINT_ROUTINES))
     title = "Contact law of a sphere on a plate: formulas of single, ordinary numbers."
     return Routines("contact_point_kernels", title, made, {}, SCALARS)
 

@@ -10,7 +10,7 @@ In the code F, A F'(A) and C over mu are `F`, `slope` and `modulus`.
 import sympy as sp
 
 from derivation.engine.emit.named import Claims, named_routine
-from derivation.engine.emit.routine import Facts, Let, Routine, Several, routine
+from derivation.engine.emit.routine import Facts, Let, Several
 from derivation.engine.formula.functions import unspecified_function
 from derivation.engine.rewrite.form import TIMES
 from derivation.plate.contact.theory.hertz import contact_radius, pressure
@@ -132,15 +132,14 @@ def largest_pressure() -> Claims:
     )
 
 
-def indentation() -> Routine:
-    """Return the indentation as a function of the contact radius."""
-    return routine(
-        "indentation_of",
+@named_routine
+def indentation_of() -> Claims:
+    """Return delta, the indentation, for any lengths."""
+    return Claims(
         (a, R, F),
         (Let(indentation_ratio, 1 + F),),
         (TIMES(indentation_ratio, a, 2, R, -1),),
         (DEPTH,),
-        "Return delta, the indentation, for any lengths.",
         LAW,
         reduce,
     )
@@ -186,10 +185,10 @@ def relative_rise() -> Claims:
     )
 
 
-def indentation_slope() -> Routine:
+@named_routine
+def slope_of_indentation() -> Claims:
     """Return d delta/da."""
-    return routine(
-        "slope_of_indentation",
+    return Claims(
         (a, R, F, slope),
         (
             Let(ratio, a / R),
@@ -198,21 +197,19 @@ def indentation_slope() -> Routine:
         ),
         (ratio * rise,),
         (sp.diff(DEPTH, a),),
-        "Return d delta/da.",
         LAW,
         reduce,
     )
 
 
-def stiffness() -> Routine:
-    """Return dP/d delta, from the derivatives of both with respect to the contact radius."""
-    return routine(
-        "contact_stiffness",
+@named_routine
+def contact_stiffness() -> Claims:
+    """Return dP/d delta, the contact stiffness; `rise` is (R/a) d delta/da."""
+    return Claims(
         (a, rise, mu, modulus),
         (),
         (TIMES(3 * modulus, mu, 1, a, 1, rise, -1),),
         (sp.diff(FORCE, a) / sp.diff(DEPTH, a),),
-        "Return dP/d delta, the contact stiffness; `rise` is (R/a) d delta/da.",
         LAW,
         reduce,
     )
@@ -339,12 +336,12 @@ ROUTINES = (
     hertz_force,
     hertz_radius,
     largest_pressure,
-    indentation,
+    indentation_of,
     indentation_in_range,
     depth_coefficients,
     relative_rise,
-    indentation_slope,
-    stiffness,
+    slope_of_indentation,
+    contact_stiffness,
     depth_ratio,
     depth_ratio_at,
     radius_of_ratio,

@@ -224,24 +224,23 @@ def by_log_radius(expression: sp.Expr) -> sp.Expr:
     return A * sp.diff(expression, A)
 
 
-def polynomial_slope() -> Routine:
-    """Return the routine of F and A F'."""
-    return routine(
-        "with_slope_of",
+@named_routine
+def with_slope_of() -> Claims:
+    """Return F and A F' from A, A^2, S and dS/dt."""
+    return Claims(
         (A, square, inverse_half, S, slope),
         (Let(step, square * inverse_half), Let(F, A * S)),
         (F, F + 2 * A * step * slope),
         (LAW, by_log_radius(LAW)),
-        "Return F and A F' from A, A^2, S and dS/dt.",
         POLYNOMIAL,
         sp.expand,
     )
 
 
-def polynomial_slopes() -> Routine:
-    """Return the routine of F, A F' and A (A F')'."""
-    return routine(
-        "with_slopes_of",
+@named_routine
+def with_slopes_of() -> Claims:
+    """Return F, A F' and A (A F')' from A, A^2, S, dS/dt and (d^2 S/dt^2)/2."""
+    return Claims(
         (A, square, inverse_half, S, slope, curve),
         (
             Let(step, square * inverse_half),
@@ -251,7 +250,6 @@ def polynomial_slopes() -> Routine:
         ),
         (F, F + 2 * steep, F + 8 * steep + 8 * change),
         (LAW, by_log_radius(LAW), by_log_radius(by_log_radius(LAW))),
-        "Return F, A F' and A (A F')' from A, A^2, S, dS/dt and (d^2 S/dt^2)/2.",
         POLYNOMIAL,
         sp.expand,
     )
@@ -301,8 +299,8 @@ ROUTINES = (
     weight_by_thickness,
     mode_terms,
     of_modes,
-    polynomial_slope,
-    polynomial_slopes,
+    with_slope_of,
+    with_slopes_of,
     thick_by_thickness,
     range_by_thickness,
 )

@@ -4,6 +4,7 @@ from functools import partial
 
 import sympy as sp
 
+from derivation.engine.emit.named import Claims, named_routine
 from derivation.engine.emit.routine import Facts, Let, Routine, Several, Statement, routine
 from derivation.plate.edge.kernels.supported import in_ratio, n
 from derivation.plate.edge.theory.clamped import (
@@ -32,15 +33,14 @@ def _by_horner(expression: sp.Expr) -> sp.Expr:
     return above / sp.horner(below, n)
 
 
-def rotation() -> Routine:
-    """Return chi, the rotation of a clamped edge."""
-    return routine(
-        "turn_of_clamp",
+@named_routine
+def turn_of_clamp() -> Claims:
+    """Return chi: a clamped edge under a moment has psi = chi eta psi'."""
+    return Claims(
         (n,),
         (),
         (_by_horner(turn()),),
         (turn(),),
-        "Return chi: a clamped edge under a moment has psi = chi eta psi'.",
         MEANING,
         in_ratio,
     )
@@ -116,10 +116,10 @@ def bound() -> Routine:
     )
 
 
-def curvature() -> Routine:
-    """Return the term of the kernel of the integral equation."""
-    return routine(
-        "kernel_of_clamp",
+@named_routine
+def kernel_of_clamp() -> Claims:
+    """Return the coefficient of (t^2 + s^2)/h^3 in the kernel by a clamped edge."""
+    return Claims(
         (eta, n),
         (
             Several((loss,), "indentation_loss", (eta, n), (indentation_loss() / eta,)),
@@ -128,7 +128,6 @@ def curvature() -> Routine:
         ),
         (scale * (1 + (2 * chi - loss) * eta),),
         (edge_curvature()[1].expression,),
-        "Return the coefficient of (t^2 + s^2)/h^3 in the kernel by a clamped edge.",
         MEANING,
         in_ratio,
     )
@@ -149,11 +148,11 @@ def of_square() -> Routine:
 
 
 ROUTINES = (
-    rotation,
+    turn_of_clamp,
     depth,
     partial(law, "of_clamp", 0, HERTZ_MEAN, sp.Integer(1)),
     partial(law, "slope_of_clamp", 1, PUNCH_MEAN, sp.Rational(3, 2)),
     bound,
-    curvature,
+    kernel_of_clamp,
     of_square,
 )

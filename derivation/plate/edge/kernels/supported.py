@@ -62,15 +62,14 @@ def in_ratio(expression: sp.Expr) -> sp.Expr:
     return reduced
 
 
-def of_material() -> Routine:
-    """Return two ratios of elastic constants, with these divided by any common scale."""
-    return routine(
-        "elastic_ratios",
+@named_routine
+def elastic_ratios() -> Claims:
+    """Return n = nu/(1 - nu) and (1 - nu)/(1 + nu), for lam and mu over any common scale."""
+    return Claims(
         (lam, mu),
         (),
         (lam / (lam + 2 * mu), (lam + 2 * mu) / (3 * lam + 2 * mu)),
         (RATIO, support_ratio().expression),
-        "Return n = nu/(1 - nu) and (1 - nu)/(1 + nu), for lam and mu over any common scale.",
         {lam: lam / _unit, mu: mu / _unit},
         sp.cancel,
     )
@@ -277,14 +276,14 @@ def of_law() -> Routine:
     return proved[0]
 
 
-def of_bound() -> Routine:
-    """Return the bound of the slope's change."""
+@named_routine
+def support_bound() -> Claims:
+    """Return a bound of the slope's change by a simple support, for all radii up to this one."""
     square, bending, large = sp.symbols("square bending large", positive=True)
     sum_of_squares = inverse_squares()
     extended = sp.Rational(1, 8) + 2 * eta * sp.Abs(n) * sum_of_squares
     value = bending * extended + sp.Rational(8, 3) * n**2 * sum_of_squares
-    return routine(
-        "support_bound",
+    return Claims(
         (alpha, eta, n, support),
         (
             Let(square, eta * eta),
@@ -293,28 +292,26 @@ def of_bound() -> Routine:
         ),
         (3 * alpha * support * large / (2 * sp.pi),),
         (support_ratio().expression * edge_bound().expression,),
-        "Return a bound of the slope's change by a simple support, for all radii up to this one.",
         {n: RATIO, support: support_ratio().expression},
         in_ratio,
     )
 
 
-def of_curvature() -> Routine:
-    """Return the term of the kernel of the integral equation, from the sum for a point load."""
-    return routine(
-        "kernel_of_support",
+@named_routine
+def kernel_of_support() -> Claims:
+    """Return the coefficient of (t^2 + s^2)/h^3 in the kernel by a simple support."""
+    return Claims(
         (support, bending_part),
         (),
         (-3 / sp.pi * support * bending_part,),
         (edge_curvature()[0].expression,),
-        "Return the coefficient of (t^2 + s^2)/h^3 in the kernel by a simple support.",
         {name: sp.limit(value, alpha, 0) for name, value in one_mode(indentation_kernel).items()},
         in_ratio,
     )
 
 
 ROUTINES = (
-    of_material,
+    elastic_ratios,
     of_indentation,
     of_slope,
     partial(thin, "indentation"),
@@ -322,6 +319,6 @@ ROUTINES = (
     later_modes,
     all_modes,
     of_law,
-    of_bound,
-    of_curvature,
+    support_bound,
+    kernel_of_support,
 )

@@ -63,16 +63,16 @@ def _by_contact_radius(expression: sp.Expr) -> sp.Expr:
 ARC = (sp.atanh(a_over_R) - a_over_R) / a_over_R**3
 
 
-def sphere() -> Routine:
-    """Return force, indentation and slope of a sphere over those of Hertz's paraboloid."""
+@named_routine
+def sphere_over_paraboloid() -> Claims:
+    """Return force, indentation and its slope of a sphere over those of a paraboloid."""
     arc, series, depth, scaled_force = sp.symbols("arc series depth scaled_force", positive=True)
     far, steep = sp.symbols("far steep", positive=True)
     delta, force = (formula.expression for formula in spherical_contact())
     hertz = sp.Rational(4, 3) * PLANE_STRAIN_MODULUS * a**3 / R
     near = sp.Rational(NEAR)
     limited, cube = GUARDED(square, near), RAISED(square * a_over_R, near ** sp.Rational(3, 2))
-    return routine(
-        "sphere_over_paraboloid",
+    return Claims(
         (a_over_R,),
         (
             Let(square, a_over_R * a_over_R),
@@ -89,7 +89,6 @@ def sphere() -> Routine:
             steep / 2,
         ),
         (force / hertz, delta * R / a**2, R / (2 * a) * sp.diff(delta, a)),
-        "Return force, indentation and its slope of a sphere over those of a paraboloid.",
         {a_over_R: a / R},
         _by_contact_radius,
     )
@@ -204,7 +203,7 @@ def _of_motion(
 
 
 ROUTINES = (
-    sphere,
+    sphere_over_paraboloid,
     bent_plate,
     hertz_constant,
     hertz_depth,

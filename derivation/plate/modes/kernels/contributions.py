@@ -5,6 +5,7 @@ from collections.abc import Mapping
 import sympy as sp
 
 from derivation.engine.emit.modules import Routines
+from derivation.engine.emit.named import Claims, named_routine
 from derivation.engine.emit.routine import Let, Routine, Several, Statement, routine
 from derivation.plate.modes.theory.face_conditions import loaded
 from derivation.plate.modes.theory.interior import interior_fields
@@ -41,14 +42,14 @@ def _field(name: str) -> sp.Expr:
     return loaded(fields[name])
 
 
-def of_bessel() -> Routine:
-    """Return the functions of J0 and J1 that in-plane stresses need."""
+@named_routine
+def chord_and_twist() -> Claims:
+    """Return J1(y)/y, which is 1/2 on the axis, and dJ1/dy - J1(y)/y."""
 
     def without_guard(expression: sp.Expr) -> sp.Expr:
         return sp.simplify(expression.xreplace({sp.Max(y, SMALLEST): y}))
 
-    return routine(
-        "chord_and_twist",
+    return Claims(
         (y,),
         (
             Let(away, sp.Max(y, SMALLEST)),
@@ -61,7 +62,6 @@ def of_bessel() -> Routine:
             sp.besselj(1, y) / y,
             sp.besselj(0, y) - 2 * sp.besselj(1, y) / y,
         ),
-        "Return J1(y)/y, which is 1/2 on the axis, and dJ1/dy - J1(y)/y.",
         {},
         without_guard,
     )
@@ -107,7 +107,7 @@ def _routine(name: str, statements: tuple[Statement, ...], result: sp.Expr) -> R
 def contributions() -> Routines:
     """Return the module of these contributions."""
     routines = (
-        of_bessel(),
+        chord_and_twist(),
         _plain("u", "mode_g", 1, phi),  # g phi may be a normal number where g is subnormal
         _plain("w", "mode_f", 0, sp.Integer(1)),
         _in_plane("sigma_rr", radial),

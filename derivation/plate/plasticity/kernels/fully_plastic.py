@@ -2,19 +2,20 @@
 
 import sympy as sp
 
-from derivation.engine.emit.routine import Choice, Let, Routine, routine
+from derivation.engine.emit.named import Claims, named_routine
+from derivation.engine.emit.routine import Choice, Let
 from derivation.plate.plasticity.theory import fully_plastic as theory
 from derivation.plate.plasticity.theory.fully_plastic import pressure, steep, wide
 
 grown, top = sp.symbols("grown top", positive=True)
 
 
-def risen() -> Routine:
-    """Return the mean pressure over that of step 31, and s of an indentation a^2/(s R)."""
+@named_routine
+def risen() -> Claims:
+    """Return the mean pressure over that with the limit 1.6 Y, and a^2/(R delta)."""
     mean, risen_pressure = theory.mean_pressure(), theory.risen_pressure()
     steepness = theory.steepness()
-    return routine(
-        "risen",
+    return Claims(
         (wide,),
         (
             Let(grown, risen_pressure),
@@ -29,22 +30,20 @@ def risen() -> Routine:
         ),
         (top / mean, steepness.subs(pressure, top)),
         (risen_pressure / mean, steepness.subs(pressure, risen_pressure)),
-        "Return the mean pressure over that with the limit 1.6 Y, and a^2/(R delta).",
         {},
         sp.simplify,
     )
 
 
-def beyond() -> Routine:
-    """Return the resulting changes of an impact."""
+@named_routine
+def beyond() -> Claims:
+    """Return force and restitution on a half-space over those with the limit 1.6 Y."""
     changed = theory.beyond()
-    return routine(
-        "beyond",
+    return Claims(
         (pressure, steep),
         (),
         (changed.force, changed.restitution),
         (changed.force, changed.restitution),
-        "Return force and restitution on a half-space over those with the limit 1.6 Y.",
         {},
     )
 

@@ -2,7 +2,8 @@
 
 import sympy as sp
 
-from derivation.engine.emit.routine import Let, Routine, routine
+from derivation.engine.emit.named import Claims, named_routine
+from derivation.engine.emit.routine import Let
 from derivation.plate.contact.theory.hertz import contact_radius
 from derivation.plate.factors import PRODUCT
 from derivation.plate.modes.theory.influence import PLANE_STRAIN_MODULUS
@@ -15,77 +16,72 @@ FORCE = contact_radius().expression
 BODIES = {modulus: PLANE_STRAIN_MODULUS}
 
 
-def hertz_radius() -> Routine:
-    """Return the radius for a force."""
-    return routine(
-        "hertz_radius",
+@named_routine
+def hertz_radius() -> Claims:
+    """Return the radius at which Hertz's law gives a force."""
+    return Claims(
         (P, R, modulus),
         (Let(strain, P / modulus),),
         (CUBE_ROOT(sp.Rational(3, 4) * strain * R),),
         (a,),
-        "Return the radius at which Hertz's law gives a force.",
         BODIES | {P: FORCE},
         _without_roots,
     )
 
 
-def hertz_modulus() -> Routine:
-    """Return E* for force and radius."""
-    return routine(
-        "hertz_modulus",
+@named_routine
+def hertz_modulus() -> Claims:
+    """Return the E* for which Hertz's law gives a force at a radius."""
+    return Claims(
         (P, R, a),
         (),
         (sp.Rational(3, 4) * PRODUCT(sp.Tuple(P, R), sp.Tuple(a, a, a)),),
         (PLANE_STRAIN_MODULUS,),
-        "Return the E* for which Hertz's law gives a force at a radius.",
         {P: FORCE},
         _without_roots,
     )
 
 
-def hertz_energy() -> Routine:
-    """Return the energy for a radius."""
+@named_routine
+def hertz_energy() -> Claims:
+    """Return the energy of a Hertz contact at a radius."""
     brought = sp.integrate(FORCE * sp.diff(a**2 / R, a), (a, 0, a))
-    return routine(
-        "hertz_energy",
+    return Claims(
         (a, R, modulus),
         (),
         (sp.Rational(8, 15) * PRODUCT(sp.Tuple(modulus, a, a, a, a, a), sp.Tuple(R, R)),),
         (brought,),
-        "Return the energy of a Hertz contact at a radius.",
         BODIES,
         _without_roots,
     )
 
 
-def widening() -> Routine:
-    """Return the growth of the elastic-plastic contact: its area is linear in the force."""
+@named_routine
+def widening() -> Claims:
+    """Return the growth of the contact radius with the force on loading, at a radius."""
     force = P / FORCE.subs(a, a_y)  # xi^3
     radius = a_y * sp.sqrt(theory.loading().area.subs(xi_y, sp.cbrt(force)))
     wide = FORCE.subs(a, a_y) * (3 * a**2 / a_y**2 - 1) / 2
-    return routine(
-        "widening",
+    return Claims(
         (a, a_y, R, modulus),
         (),
         (R / (4 * modulus * a_y * a),),
         (sp.diff(radius, P).subs(P, wide),),
-        "Return the growth of the contact radius with the force on loading, at a radius.",
         BODIES,
         _without_roots,
     )
 
 
-def reached() -> Routine:
-    """Return xi for an energy."""
+@named_routine
+def reached() -> Claims:
+    """Return xi at which the loading energy is a multiple of Hertz's at the onset of yield."""
     work, ratio = theory.plastic_work().expression, theory.flattening().expression
     brought = sp.expand(work + ratio * xi_y**5)
-    return routine(
-        "reached",
+    return Claims(
         (energy_ratio,),
         (),
         (((6 * energy_ratio - 1) / 5) ** sp.Rational(1, 6),),
         (xi_y,),
-        "Return xi at which the loading energy is a multiple of Hertz's at the onset of yield.",
         {energy_ratio: brought},
         _without_roots,
     )

@@ -2,7 +2,8 @@
 
 import sympy as sp
 
-from derivation.engine.emit.routine import Let, Routine, routine
+from derivation.engine.emit.named import Claims, named_routine
+from derivation.engine.emit.routine import Let
 from derivation.plate.factors import MODERATE, PRODUCT, YOUNG, multiplied, root
 from derivation.plate.plasticity.theory import contact as theory
 from derivation.plate.vocabulary import R, lam, m, mu, xi_y, yield_stress
@@ -15,27 +16,26 @@ CUBE = Let(cube, xi_y * xi_y * xi_y)
 RATIO = Let(ratio, xi_y * sp.sqrt(THREE / DOUBLED))
 
 
-def yield_radius() -> Routine:
-    """Return the contact radius at the onset of yield."""
-    return routine(
-        "yield_radius_of_factors",
+@named_routine
+def yield_radius_of_factors() -> Claims:
+    """Return the contact radius at which the largest Hertz pressure is 1.6 Y."""
+    return Claims(
         (R, lam, mu, yield_stress),
         MODERATE,
         (PRODUCT(sp.Tuple(sp.pi / 5, R, yield_stress), sp.Tuple(mu, MODULUS_RATIO)),),
         (theory.yield_radius().expression,),
-        "Return the contact radius at which the largest Hertz pressure is 1.6 Y.",
         {},
         multiplied,
     )
 
 
-def yield_speed() -> Routine:
-    """Return the impact speed at the onset of yield."""
+@named_routine
+def yield_speed_of_factors() -> Claims:
+    """Return the impact speed at which a half-space begins to yield."""
     above = (sp.Rational(64, 75) * sp.pi, yield_stress, R, R, R)
     rate = root("rate", 2, above, m)
     strain = sp.pi / 5, yield_stress, sp.pi / 5, yield_stress
-    return routine(
-        "yield_speed_of_factors",
+    return Claims(
         (R, m, lam, mu, yield_stress),
         (*MODERATE, rate),
         (
@@ -44,48 +44,45 @@ def yield_speed() -> Routine:
             ),
         ),
         (theory.yield_speed().expression,),
-        "Return the impact speed at which a half-space begins to yield.",
         {},
         multiplied,
     )
 
 
-def loading() -> Routine:
-    """Return the plastic part of the indentation on loading, and its slope."""
+@named_routine
+def loaded() -> Claims:
+    """Return the plastic part of the indentation on loading over a_y^2/R, and its slope by xi."""
     extra = theory.plastic_indentation().expression
-    return routine(
-        "loaded",
+    return Claims(
         (xi_y,),
         (BEYOND,),
         (beyond * beyond * (2 * xi_y + 1) / 3, 2 * xi_y * beyond),
         (extra, sp.diff(extra, xi_y)),
-        "Return the plastic part of the indentation on loading over a_y^2/R, and its slope by xi.",
         {},
     )
 
 
-def unloading() -> Routine:
-    """Return the flattening of a contact, and its residual indentation."""
+@named_routine
+def unloaded() -> Claims:
+    """Return Hertz over actual radius at unloading, and residual indentation over a_y^2/R."""
     cubic = beyond * (xi_y * xi_y + xi_y + 1)
     squared = sp.Symbol("squared", positive=True)
-    return routine(
-        "unloaded",
+    return Claims(
         (xi_y,),
         (BEYOND, CUBE, RATIO, Let(squared, (cubic / DOUBLED) ** 2), Let(cubed, ratio**3)),
         (ratio, squared * (8 * cube + 1) / (3 * (1 + cubed))),
         (theory.flattening().expression, theory.dent().expression),
-        "Return Hertz over actual radius at unloading, and residual indentation over a_y^2/R.",
         {},
         _by_roots,
     )
 
 
-def work() -> Routine:
-    """Return the plastic work, and the restitution of a half-space."""
+@named_routine
+def worked() -> Claims:
+    """Return plastic work over energy at the onset of yield, and restitution of a half-space."""
     quintic = sp.Symbol("quintic", positive=True)
     brought = ((((5 * xi_y + 4) * xi_y + 3) * xi_y + 2) * xi_y + 1) / 6
-    return routine(
-        "worked",
+    return Claims(
         (xi_y,),
         (
             BEYOND,
@@ -99,7 +96,6 @@ def work() -> Routine:
             sp.sqrt(6 * ratio * quintic / (5 * quintic * xi_y + 1)),
         ),
         (theory.plastic_work().expression, theory.plastic_restitution().expression),
-        "Return plastic work over energy at the onset of yield, and restitution of a half-space.",
         {},
         _by_roots,
     )
@@ -114,4 +110,4 @@ def _by_roots(expression: sp.Expr) -> sp.Expr:
     return sp.simplify(expression_in_roots)
 
 
-ROUTINES = yield_radius, yield_speed, loading, unloading, work
+ROUTINES = yield_radius_of_factors, yield_speed_of_factors, loaded, unloaded, worked

@@ -86,16 +86,15 @@ def edge_wave() -> Claims:
     return Claims((x, alpha), (), (parabola * x**2, parabola), (risen, exact), {}, sp.expand)
 
 
-def curved_force() -> Routine:
-    """Return the routine of the force by waves, from the growth of their mean deflection."""
+@named_routine
+def force_of_waves() -> Claims:
+    """Return the change of the force at a contact radius a by waves; growth is sum q ds/da."""
     growth = sp.Symbol("growth", real=True)
-    return routine(
-        "force_of_waves",
+    return Claims(
         (modulus, a, growth),
         (),
         (2 * modulus * a**2 * growth,),
         (force_of_wave().expression,),
-        "Return the change of the force at a contact radius a by waves; growth is sum q ds/da.",
         {modulus: PLANE_STRAIN_MODULUS, growth: sp.diff(mean_deflection(), a)},
         sp.simplify,
     )
@@ -231,7 +230,7 @@ ROUTINES = (
     wave,
     lateral_wave,
     edge_wave,
-    curved_force,
+    force_of_waves,
     sphere,
     contact_results,
     chi_unit,

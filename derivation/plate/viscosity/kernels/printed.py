@@ -4,7 +4,7 @@ import sympy as sp
 from sympy.codegen.cfunctions import expm1, log1p
 
 from derivation.engine.emit.named import Claims, named_routine
-from derivation.engine.emit.routine import Let, Routine, routine
+from derivation.engine.emit.routine import Let
 from derivation.plate.factors import MODERATE, PRODUCT, YOUNG, multiplied, root
 from derivation.plate.viscosity.theory import bounds as theory
 from derivation.plate.viscosity.theory.contact import C_1, epsilon
@@ -24,31 +24,29 @@ STIFFNESS = sp.Rational(16, 3), *YOUNG[1:]
 """(4/3) E* as factors."""
 
 
-def viscous_number() -> Routine:
-    """Return the viscous parameter, proportional to the loss of speed to leading order."""
+@named_routine
+def viscous_number_of_factors() -> Claims:
+    """Return the viscous parameter x_v."""
     rate = root("rate", 5, (*STIFFNESS, *STIFFNESS, R, v0), m, m)
-    return routine(
-        "viscous_number_of_factors",
+    return Claims(
         (R, m, v0, lam, mu, viscous_time),
         (*MODERATE, rate),
         (PRODUCT(sp.Tuple(sp.Float(1.5), viscous_time, *rate.symbols)),),
         (number().expression,),
-        "Return the viscous parameter x_v.",
         {},
         lambda e: sp.nsimplify(multiplied(e)),
     )
 
 
-def weak_restitution() -> Routine:
-    """Return the restitution of a weakly viscoelastic contact."""
+@named_routine
+def restitution_of_number() -> Claims:
+    """Return the restitution of a weakly viscoelastic contact to second order."""
     first = sp.Symbol("first", positive=True)
-    return routine(
-        "restitution_of_number",
+    return Claims(
         (x_v,),
         (Let(first, LOSS * x_v),),
         (1 + first * (sp.Float(0.6) * first - 1),),
         (restitution().expression,),
-        "Return the restitution of a weakly viscoelastic contact to second order.",
         {LOSS: C_1},
         lambda e: sp.expand(sp.nsimplify(e)),
     )
@@ -102,20 +100,19 @@ def rebound_bounds() -> Claims:
     )
 
 
-def retardation_of_two() -> Routine:
-    """Return the retardation time of a contact from those of its bodies."""
-    return routine(
-        "retardation_of_two",
+@named_routine
+def retardation_of_two() -> Claims:
+    """Return the retardation time of a contact: its bodies' mean, weighted by compliance."""
+    return Claims(
         (plate_time, sphere_time, softness),
         (),
         ((plate_time + softness * sphere_time) / (1 + softness),),
         (contact_time().expression,),
-        "Return the retardation time of a contact: its bodies' mean, weighted by compliance.",
         {},
         sp.simplify,
     )
 
 
-ROUTINES = viscous_number, weak_restitution
+ROUTINES = viscous_number_of_factors, restitution_of_number
 BOUNDS = spiral_bounds, rebound_bounds
 BODIES = (retardation_of_two,)

@@ -5,6 +5,7 @@ from functools import partial
 import sympy as sp
 from sympy.codegen.cfunctions import expm1
 
+from derivation.engine.emit.named import Claims, named_routine
 from derivation.engine.emit.routine import GUARDED, Choice, Let, Routine, Several, routine
 from derivation.plate.vocabulary import gam, kap, x_h
 from derivation.plate.waves.kernels.entire import (
@@ -85,20 +86,19 @@ def zero_of(bends: bool) -> Routine:
     )
 
 
-def above_shear() -> Routine:
-    """Return 1/B_a and 1/B_s for kap > x^2."""
+@named_routine
+def fast() -> Claims:
+    """Return 1/Ba and 1/Bs for kap > x^2, where q is imaginary, and p for gam kap > x^2."""
     values = [
         (-load * entire(whole(bends)) / (2 * sp.Add(*terms(bends)))).xreplace(NAMES)
         for bends in (True, False)
     ]
     first, *others = FIRST
-    return routine(
-        "fast",
+    return Claims(
         (x, load, gam, rest),
         (first, Let(over, load - square), *others),
         tuple(values),
         tuple(1 / stiffness(bends) for bends in (True, False)),
-        "Return 1/Ba and 1/Bs for kap > x^2, where q is imaginary, and p for gam kap > x^2.",
         {x: x_h, load: kap, rest: 1 - gam},
         reduce,
     )
@@ -128,8 +128,9 @@ def _bracket() -> tuple[Let | Several | Choice, ...]:
     )
 
 
-def below_shear() -> Routine:
-    """Return 1/B_a and 1/B_s for kap <= x^2, in positive functions."""
+@named_routine
+def slow() -> Claims:
+    """Return 1/Ba and 1/Bs for kap <= x^2, where p and q are real."""
     statements = (
         Let(square, x * x),
         Let(p, sp.sqrt(square - gam * load)),
@@ -149,16 +150,14 @@ def below_shear() -> Routine:
         Let(even, (shc_S + fading_q * shc_d) / (shc_p * shc_q)),
         Let(stretching, 2 * square * rest * even - load / tanh_p),
     )
-    return routine(
-        "slow",
+    return Claims(
         (x, load, gam, rest),
         statements,
         (1 / (2 * bending), p * p / (2 * stretching)),
         tuple(1 / stiffness(bends) for bends in (True, False)),
-        "Return 1/Ba and 1/Bs for kap <= x^2, where p and q are real.",
         {x: x_h, load: kap, rest: 1 - gam},
         reduce_exponentials,
     )
 
 
-ROUTINES = (partial(zero_of, True), partial(zero_of, False), above_shear, below_shear)
+ROUTINES = (partial(zero_of, True), partial(zero_of, False), fast, slow)

@@ -115,8 +115,9 @@ def deep_steepness() -> Claims:
     )
 
 
-def whole_less_one() -> Routine:
-    """Return E - 1, which decays exponentially."""
+@named_routine
+def less_than_one() -> Claims:
+    """Return E - 1, E = (sinh S - S shc d)/(cosh S + cosh d)."""
     shc_d = sp.Symbol("shc_d", positive=True)
     exact = (sp.sinh(p + q) - (p + q) * shc(p - q)) / (sp.cosh(p + q) + sp.cosh(p - q))
     statements = (
@@ -127,13 +128,11 @@ def whole_less_one() -> Routine:
         Several((shc_d,), "shc", (d,), (scaled_shc(p - q),)),
     )
     above = fading_p + fading_q * (1 + 2 * fading_p + 2 * S * shc_d)
-    return routine(
-        "less_than_one",
+    return Claims(
         (x, rest, xi, P, Q),
         statements,
         (-above / ((1 + fading_p) * (1 + fading_q)),),
         (exact - 1,),
-        "Return E - 1, E = (sinh S - S shc d)/(cosh S + cosh d).",
         WAVE,
         reduce_exponentials,
     )
@@ -181,39 +180,37 @@ def deep_excess() -> Claims:
     )
 
 
-def plate() -> Routine:
-    """Return both ratios of the squared wave speeds, from Poisson's ratio."""
-    return routine(
-        "material",
+@named_routine
+def material() -> Claims:
+    """Return gam = mu/(lam + 2 mu), and 1 - gam."""
+    return Claims(
         (nu,),
         (),
         ((sp.Rational(1, 2) - nu) / (1 - nu), 1 / (2 * (1 - nu))),
         (gam, 1 - gam),
-        "Return gam = mu/(lam + 2 mu), and 1 - gam.",
         {nu: (1 - 2 * gam) / (2 * (1 - gam))},
     )
 
 
-def wave_numbers() -> Routine:
-    """Return the variables of the lowest branch, from kap/x^4."""
-    return routine(
-        "wave_ratios",
+@named_routine
+def wave_ratios() -> Claims:
+    """Return xi = kap/x^2, 1 - xi, p/x and q/x."""
+    return Claims(
         (x, gam, slope),
         (Let(xi, slope * x * x), Let(left, 1 - xi)),
         (xi, left, sp.sqrt(1 - gam * xi), sp.sqrt(left)),
         tuple(WAVE[part] for part in (xi, left, P, Q)),
-        "Return xi = kap/x^2, 1 - xi, p/x and q/x.",
         WAVE,
         in_p_and_q,
     )
 
 
 ROUTINES = (
-    plate,
-    wave_numbers,
+    material,
+    wave_ratios,
     shallow,
     deep_steepness,
-    whole_less_one,
+    less_than_one,
     deep_excess,
     partial(residue, True),
     partial(residue, False),

@@ -71,15 +71,14 @@ def fraction_beyond() -> Claims:
     )
 
 
-def product_at_zero() -> Routine:
-    """Return 4 P Q at B_a = 0, for x at which tanh p and tanh q are more accurate than p and q."""
-    return routine(
-        "deep_product",
+@named_routine
+def deep_product() -> Claims:
+    """Return 4 P Q at A0."""
+    return Claims(
         (x, left, P, Q),
         (),
         ((1 + left) ** 2 * sp.tanh(x * P) / sp.tanh(x * Q),),
         (4 * p * q / x_h**2,),
-        "Return 4 P Q at A0.",
         WAVE,
         lambda e: at_zero(e, True),
     )
@@ -122,4 +121,4 @@ def fraction_near_one() -> Claims:
     )
 
 
-ROUTINES = (ratio_at_rest, fraction_beyond, product_at_zero, fraction_near_one)
+ROUTINES = (ratio_at_rest, fraction_beyond, deep_product, fraction_near_one)

@@ -7,8 +7,9 @@ from derivation.scene.contact_law.edge_curvature import edge_curvature_errors
 from derivation.scene.contact_law.edge_remainder import edge_remainder
 from derivation.scene.contact_law.finite_sphere import finite_sphere_errors
 from derivation.scene.contact_law.law import ContactLaw
-from derivation.scene.dynamic.model_error import curvature_error, inertia_error
+from derivation.scene.dynamic.model_error import curvature_error, end_error, inertia_error
 from derivation.scene.dynamic.stretching_error import Deflections, stretching_error
+from derivation.scene.dynamic.time_element import P
 from derivation.scene.dynamic.unlike_bodies import unlike_bodies_errors
 from derivation.scene.effects.effect import Results, weight_work_ratio
 from derivation.scene.scene import OUTPUTS
@@ -57,6 +58,9 @@ def model_errors(
     returned = other_edge and motion.inertia.total_time > echo_time(motion.law.model)
     edge = edge_remainder(model, a) if returned else 0.0
     waves["max_contact_radius"] += curvature_error(motion.inertia.curvature)
+    if law.viscous:
+        end = end_error(motion.courses[0][P], waves["max_force"])
+        waves["contact_time"] = max(waves["contact_time"], end)
     return {
         name: max(waves[name] + stretched[name], edge) + unlike[name] + sphere[name]
         for name in OUTPUTS

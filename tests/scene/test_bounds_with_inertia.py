@@ -299,3 +299,23 @@ def test_pointwise_coupling_has_no_bound_and_meets_no_tolerance() -> None:
     assert math.isinf(simulate(read(pointwise)).accuracy.bound)
     with pytest.raises(SceneError, match=r"inertia\.coupling: expected \"variational\""):
         simulate(read(pointwise | {"accuracy": {"rtol": 1e-2}}))
+
+
+def test_contact_that_vibration_splits_has_no_bound_on_its_duration() -> None:
+    """The first of two contacts lasts 2 % of the quasi-static one; the bound was 0.69."""
+    data = {
+        "sphere": {
+            "radius": 0.1343, "density": 5194, "youngs_modulus": 12.2e6, "poissons_ratio": 0.35,
+        },
+        "plate": {
+            "radius": 0.107, "thickness": 1.53e-3, "youngs_modulus": 26.1e9, "poissons_ratio": 0.30,
+            "density": 5891, "edge": "simply-supported",
+        },
+        "impact": {"speed": 8.66e-6},
+    }  # fmt: skip
+    others = ("sphere_elasticity", "spherical_profile", "non_hertzian_pressure", "finite_radius")
+    effects = dict.fromkeys((*others, "finite_thickness", "edge"), False)
+    without, reference, bound = compared(data, effects, "inertia")
+    assert change(without, reference, "contact_time") > 0.9
+    assert change(without, reference, "contact_time") < bound
+    assert abs(reference.total_time / without.contact_time - 1.0) < 0.02

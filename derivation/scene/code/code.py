@@ -46,6 +46,9 @@ POINTS, SMALL = 60, 1e-5
 """Number of contact radii at which code and law are compared, and the smallest over the limit."""
 TOLERANCE = 1e-10
 """Largest allowed relative difference between code and law."""
+LEAST_SLOPE = 0.1
+"""Smallest slope of the indentation over that of Hertz's law: rounding errors of the contact radius
+grow with its inverse [1]."""
 STIFFEST = 2e-3
 """Smallest time scale of the internal state over the contact time for explicit steps [1]."""
 STIFF = (
@@ -226,18 +229,18 @@ def end_of(law: ContactLaw, a: float) -> float:
     """Return the largest contact radius [m] of the code, from the radius a of an impact.
 
     It is the limit of the law, or a smaller one where the model of a simply supported or clamped
-    edge is not accurate or gives a negative slope.
+    edge is not accurate, or where the indentation hardly grows with the radius, as on a plate
+    without bending.
     """
     last = last_radius(law)
-    if not law.other_edge:
-        return last
 
     def sound(a: float) -> bool:
         try:
-            edge_remainder(law.model, a)
+            if law.other_edge:
+                edge_remainder(law.model, a)
         except SceneError:
             return False
-        return float(law.at(np.array([a])).slope[0]) > 0.0
+        return float(law.at(np.array([a])).slope[0]) >= LEAST_SLOPE
 
     return last if sound(last) else last_true(sound, a, last, _HALVINGS)
 

@@ -14,10 +14,13 @@ from collections.abc import Mapping
 from functools import cache
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from derivation.engine.files import measurements
 from derivation.scene import scales
 from derivation.scene.model import Model
 from derivation.scene.scene import OUTPUTS
+from generated.arrays import Double as Array
 
 SHORT, WIDE = 4.9, 0.21
 """Contact time over the time of a thickness echo below which a contact is short, and contact radius
@@ -116,6 +119,23 @@ def curvature_error(change: float) -> float:
     of 50 %. The pressure at the centre changes by up to three times as much.
     """
     return 3.0 * abs(change) * (0.01 + 2.0 * abs(change))
+
+
+def end_error(force: Array, error: float) -> float:
+    """Return the relative error of a viscoelastic contact's duration by that of its force [1].
+
+    Such a contact ends where its force vanishes, which may decrease slowly before: the error is the
+    part of the contact in which the force is below its error.
+
+    Parameters
+    ----------
+    force
+        Force at equidistant times of the contact [N].
+    error
+        Error of the force over the largest one [1].
+    """
+    above = np.flatnonzero(force > error * np.max(force))
+    return 1.0 - float(above[-1]) / (force.size - 1)
 
 
 def _half_space_radius(model: Model) -> float:

@@ -15,7 +15,7 @@ def contact_radius(delta: ArrayLike) -> np.ndarray:
     delta = _inside(delta)
     touching = np.where(delta > 0, delta, MAX_INDENTATION)
     # Newton's iteration for log a, from Hertz's radius or that of a thin plate.
-    a = np.minimum(np.sqrt(R * touching), LIMIT * np.cbrt(touching / MAX_INDENTATION))
+    a = np.minimum(np.sqrt(R) * np.sqrt(touching), LIMIT * np.cbrt(touching / MAX_INDENTATION))
     for _ in range(_STEPS):
         _, radius, _, slope = _law(a)
         step = np.log(touching / radius) * radius / (a * slope)

@@ -135,7 +135,7 @@ def end_error(force: Array, error: float) -> float:
         Error of the force over the largest one [1].
     """
     above = np.flatnonzero(force > error * np.max(force))
-    return 1.0 - float(above[-1]) / (force.size - 1)
+    return 1.0 - float(above[-1]) / (force.size - 1) if above.size else 1.0
 
 
 def _half_space_radius(model: Model) -> float:

@@ -107,7 +107,7 @@ def test_stress_is_that_of_the_exact_layer(nu: float, width: float, echoes: floa
 def test_the_largest_stress_may_follow_the_last_separation(
     nu: float, echoes: float, factor: float
 ) -> None:
-    """The stress was that until the separation: a seventh of the largest one in some impacts."""
+    """The stress was that until the separation: a twentieth of the largest one in some impacts."""
     result = impact(nu, 0.02, echoes)
     t, stress = layer_stress(result)
     before = float(stress[t < result.contact_time].max())

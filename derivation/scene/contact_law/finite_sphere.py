@@ -10,6 +10,7 @@ exact, and by impacts of its spheroidal modes; the tests repeat this.
 """
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -50,7 +51,7 @@ def finite_size(nu: Numbers, ratio: Values) -> Values:
     poisson = np.asarray(nu, dtype=np.float64)
     terms = kernels.sphere_term(np.arange(2.0, DEGREES + 1.0), poisson[..., None])
     # The sum of (k + 1/2)^-2 over larger k is 1/(DEGREES + 1) to 1e-6.
-    constant = np.sum(terms, axis=-1) + kernels.sphere_tail(poisson) / (DEGREES + 1.0)
+    constant: Any = np.sum(terms, axis=-1) + kernels.sphere_tail(poisson) / (DEGREES + 1.0)
     constant = constant + kernels.sphere_start(poisson)
     change: Values = ratio * (constant - kernels.sphere_logarithm(poisson) * np.log(ratio))
     return change
@@ -61,13 +62,14 @@ def _of_sphere(law: ContactLaw, a: Values) -> Values:
     share = _sphere_share(law)
     if not np.any(share):
         return 0.0 * a
-    nu, ratio = law.model.sphere_poissons_ratio, a / law.model.R
+    nu: Any = law.model.sphere_poissons_ratio
+    ratio = a / law.model.R
     second = ratio * ratio * (SECOND + AUXETIC / (1.0 + nu))
-    change: Values = share * (abs(finite_size(nu, ratio)) + REST * ratio + second)
+    change: Values = share * (np.abs(finite_size(nu, ratio)) + REST * ratio + second)
     return change
 
 
-def _sphere_share(law: ContactLaw) -> Numbers:
+def _sphere_share(law: ContactLaw) -> Any:
     """Return the part of the compliance of both bodies that is the sphere's [1]."""
     return law.softness / (1.0 + law.softness)
 
@@ -75,7 +77,7 @@ def _sphere_share(law: ContactLaw) -> Numbers:
 def _of_faces(law: ContactLaw, a: Values) -> Values:
     """Return the change of the local indentation by the motion of both faces [1]."""
     model, share = law.model, _sphere_share(law)
-    moved = share**2 * kernels.face_motion(np.asarray(model.sphere_poissons_ratio))
+    moved: Any = share**2 * kernels.face_motion(np.asarray(model.sphere_poissons_ratio))
     moved = moved + (1.0 - share) ** 2 * kernels.face_motion(np.asarray(model.poissons_ratio))
     change: Values = moved * (a / model.R)
     return change

@@ -79,7 +79,8 @@ def _of_faces(law: ContactLaw, a: Values) -> Values:
     model, share = law.model, _sphere_share(law)
     moved: Any = share**2 * kernels.face_motion(np.asarray(model.sphere_poissons_ratio))
     moved = moved + (1.0 - share) ** 2 * kernels.face_motion(np.asarray(model.poissons_ratio))
-    change: Values = moved * (a / model.R)
+    ratio: Any = a / model.R
+    change: Values = moved * ratio
     return change
 
 
@@ -97,7 +98,7 @@ def finite_sphere_error(law: ContactLaw, a: Values, indentation: Values) -> Valu
     part: float | Array = 1.0
     if not law.dynamic:
         part = np.minimum(local_indentation(law, a) / indentation, 1.0)
-    change = np.minimum(part * (_of_sphere(law, a) + _of_faces(law, a)), LARGEST)
+    change: Any = np.minimum(part * (_of_sphere(law, a) + _of_faces(law, a)), LARGEST)
     error: Values = change / (1.0 - change)
     return error
 

@@ -39,6 +39,7 @@ and from the contact law to the motion:
 32 damping          damped modes: response, free motion, dissipated energy
 33 stretching       stiffening of a plate whose middle plane stretches
 34 wave stress      stress of waves and modes on the back face
+35 finite sphere    compliance of a sphere, and motion of both faces, to first order in a/R
 """
 
 from collections.abc import Callable

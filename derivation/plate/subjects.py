@@ -33,6 +33,7 @@ SUBJECTS = (
     "plasticity",
     "damping",
     "stretching",
+    "sphere",
 )
 
 

@@ -260,10 +260,10 @@ def _contact(law: ContactLaw, name: str, value: float) -> StaticContact:
 def _model_error(law: ContactLaw, at: "_Loaded") -> float:
     """Return the largest relative model error of the quantities of a contact [1].
 
-    Edge, stretching, curvature and the finite size of the sphere change the indentation at a given
-    force; the force at a given indentation changes by a power of that. The stiffening S of a plate
-    grows with the square of the deflection, so that the derivative of the force with respect to it
-    changes by 3 S.
+    Edge, stretching, curvature, the finite size of the sphere and motion of the faces change the
+    indentation at a given force; the force at a given indentation changes by a power of that. The
+    stiffening S of a plate grows with the square of the deflection, so that the derivative of the
+    force with respect to it changes by 3 S.
     """
     model, curvature = law.model, edge_curvature_errors(law, at.radius)
     deflection = at.depth - float(local_indentation(law, at.radius))

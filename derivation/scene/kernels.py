@@ -70,6 +70,13 @@ from generated.plasticity_kernels import hertz_radius
 from generated.plasticity_numbers import YIELD_LIMIT
 from generated.sensitivity import indentation_slope
 from generated.simple_impact import Estimate, Plate, law_errors
+from generated.sphere_kernels import (
+    face_motion,
+    sphere_logarithm,
+    sphere_start,
+    sphere_tail,
+    sphere_term,
+)
 from generated.stretching_kernels import (
     stiffening_clamped,
     stiffening_paper,
@@ -157,6 +164,7 @@ __all__ = [
     "contact_plates",
     "contact_radius",
     "echo_time",
+    "face_motion",
     "finite_radius",
     "force_of_radius",
     "hertz_constant",
@@ -177,6 +185,10 @@ __all__ = [
     "radius_of_force",
     "retardation_of_two",
     "sphere_contact",
+    "sphere_logarithm",
+    "sphere_start",
+    "sphere_tail",
+    "sphere_term",
     "stiffening_clamped",
     "stiffening_paper",
     "stiffening_supported",

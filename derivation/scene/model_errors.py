@@ -25,8 +25,9 @@ def model_errors(
     deflections: Deflections,
     motion: "DynamicImpact | None",
 ) -> dict[str, float]:
-    """Return the relative model error of each output [1]: by edge, waves, stretching, viscosity and
-    the finite size of the sphere.
+    """Return the relative model error of each output [1].
+
+    It is that by edge, waves, stretching, viscosity, finite size of the sphere and motion of faces.
 
     On a quasi-static plate, stretching changes the energy that a plastic or viscoelastic contact
     dissipates. In the restitution this counts by the ratio of that energy to the one that remains.

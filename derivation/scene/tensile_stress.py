@@ -34,11 +34,11 @@ deflection; at most 0.25 in nine simulations with inertia."""
 class TensileStress(NamedTuple):
     """Largest tensile stress on the back face, on the axis.
 
-    With plate inertia it is that until the last separation. Without, it is that under a static load
-    equal to the largest force, distributed over the largest contact radius as in Hertz's law, on a
-    plate with all static effects, and with the edge of the scene unless `effects.edge` is false.
-    The non-Hertzian pressure of the same force and radius gives a smaller stress: by up to 0.06 %
-    at a/h = 1, 3 % at 2, 40 % at 4.
+    With plate inertia it is that until shear waves from the last contact have crossed the
+    thickness. Without, it is that under a static load equal to the largest force, distributed over
+    the largest contact radius as in Hertz's law, on a plate with all static effects, and with the
+    edge of the scene unless `effects.edge` is false. The non-Hertzian pressure of the same force
+    and radius gives a smaller stress: by up to 0.06 % at a/h = 1, 3 % at 2, 40 % at 4.
 
     Attributes
     ----------
@@ -93,13 +93,14 @@ def tensile_stress(
     on_edge
         Whether the edge of the scene counts.
     """
+    from derivation.scene.dynamic.back_face import stress_end
     from derivation.scene.dynamic.wave_problem import echo_time
 
     contact_time, indentation, force, a, _ = numbers
     model = law.model
     if motion is not None:
         found, measured = motion.back_face, stress_error(model, a, contact_time)
-        if on_edge and motion.inertia.total_time > echo_time(motion.law.model):
+        if on_edge and stress_end(motion) > echo_time(motion.law.model):
             measured = max(measured, found.on_edge + edge_stress_error(model, a))
         error = found.error + measured + stress_change(law, motion)
         error += float(finite_sphere_error(law, a, indentation))

@@ -10,11 +10,21 @@ from typing import Any
 import numpy as np
 import platecontact as pc
 import pytest
+from mpmath import mp
 from numpy.polynomial.legendre import leggauss
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from derivation.scene.contact_law.finite_sphere import finite_sphere_error, finite_sphere_errors
+from derivation.scene.contact_law.finite_sphere import (
+    AUXETIC,
+    REST,
+    SECOND,
+    finite_size,
+    finite_sphere_error,
+    finite_sphere_errors,
+    vibration_error,
+)
+from derivation.scene.contact_law.limits import local_indentation
 from derivation.scene.selection.method_selection import growth_of
 from generated.arrays import Double as Array
 
@@ -87,6 +97,15 @@ def pressed(nu: float, angle: float) -> tuple[float, float]:
     return float(solved[:-1] @ forces), float(solved[-1])
 
 
+def radius_of(force: float, nu: float) -> float:
+    """Return the contact radius of a rigid sphere on a half-space under a force."""
+
+    def excess(a: float) -> float:
+        return 4 / (1 - nu) * ((1 + a * a) / 2 * math.atanh(a) - a / 2) - force
+
+    return float(brentq(excess, 1e-6, 0.99))
+
+
 def test_the_series_is_that_of_a_half_space_for_narrow_contacts() -> None:
     force, depth = pressed(0.5 - 1e-9, 0.01)
     hertz = (force * 3 / 4 * (1 - 0.25) / 3.0) ** (2 / 3)
@@ -97,15 +116,11 @@ def test_the_series_is_that_of_a_half_space_for_narrow_contacts() -> None:
 def test_the_error_covers_the_indentation_at_equal_force(nu: float) -> None:
     """It was 4e-12, and the indentation of a sphere of rubber 6 % too large at a/R = 0.1."""
     law = on_stiff_block(nu, 1e-3).effects.law
-    modulus = 2 * (1 + nu) / (1 - nu * nu)
     sizes = []
     for angle in (0.02, 0.1, 0.3):
         force, depth = pressed(nu, angle)
 
-        def excess(a: float, force: float = force) -> float:
-            return 2 * modulus * ((1 + a * a) / 2 * math.atanh(a) - a / 2) - force
-
-        a = float(brentq(excess, 1e-6, 0.99))
+        a = radius_of(force, nu)
         expected = a * math.atanh(a)
         error = float(finite_sphere_error(law, a, expected))
         change = abs(depth / expected - 1.0)
@@ -267,7 +282,50 @@ def test_the_error_covers_a_plate_with_inertia(
         assert error <= result.model_errors[name]
 
 
-def test_a_rigid_sphere_has_no_such_error() -> None:
+@pytest.mark.parametrize("nu", [-0.9, -0.5, 0.0, 0.25, 0.3, 0.45, 0.499])
+def test_the_first_order_is_that_of_the_series(nu: float) -> None:
+    """The limit for small a/R of the change at equal force, without the error of second order."""
+    ratios, changes = [], []
+    for angle in (0.1, 0.2):
+        force, depth = pressed(nu, angle)
+        a = radius_of(force, nu)
+        ratios.append(a)
+        changes.append((depth / (a * math.atanh(a)) - 1.0 - float(finite_size(nu, a))) / a**2)
+    assert changes[0] == pytest.approx(changes[1], rel=0.2, abs=0.03)
+    assert max(map(abs, changes)) < 0.9 * (SECOND + AUXETIC / (1.0 + nu))
+
+
+@pytest.mark.parametrize("nu", [-0.9, 0.0, 0.3, 0.499])
+def test_the_sum_of_the_first_order_is_that_of_digamma_functions(nu: float) -> None:
+    """Partial fractions of t_n over its poles, whose residues add up to 0."""
+    root = mp.sqrt(mp.mpc(nu * nu - 0.75))
+    poles = [mp.mpf(1), -nu - 0.5 + root, -nu - 0.5 - root, mp.mpf("-0.5")]
+    values = []
+    for pole in poles:  # of t_n in n, by its value close to the pole
+        near = pole + mp.mpf("1e-12")
+        m, other = near + mp.mpf("0.5"), near**2 + near + 1 + nu * (2 * near + 1)
+        whole = m * (2 * (1 - nu) * near**2 + nu * near + 2 * nu - 1) / (2 * (near - 1) * other)
+        values.append((whole - (1 - nu) - (1 - 2 * nu) ** 2 / 2 / m) * mp.mpf("1e-12"))
+    exact = -sum(v * mp.digamma(2 - pole) for v, pole in zip(values, poles, strict=True))
+    first = 0.5 * (1 - 2 * nu) / (2 * (1 + nu)) + 1.5 * 0.3 * (1 - 2 * nu) / (1 + nu)
+    first -= 2 * (1 - nu) + (1 - 2 * nu) ** 2 / 2 * (1 / 0.5 + 1 / 1.5)
+    expected = 4 / (3 * math.pi * (1 - nu)) * (float(exact.real) + first)
+    logarithm = 2 / (3 * math.pi) * (1 - 2 * nu) ** 2 / (1 - nu)
+    found = float(finite_size(nu, 1.0)) - logarithm * (math.log(2.0) + 19.0 / 12.0)
+    assert found == pytest.approx(expected, abs=REST)
+
+
+def test_the_sphere_is_compressed_less_than_a_half_space_where_it_is_incompressible() -> None:
+    assert float(finite_size(0.5, 0.01)) == pytest.approx(-0.5635e-2, rel=1e-3)
+    assert float(finite_size(-0.5, 0.01)) > 0.0
+
+
+@pytest.mark.parametrize(("nu", "of_face"), [(0.0, 0.2122), (0.22, 0.1523), (0.5, 0.0)])
+def test_the_error_of_a_rigid_sphere_is_the_motion_of_the_face(nu: float, of_face: float) -> None:
     rigid = {"radius": 0.01, "density": 7800.0}
-    result = pc.simulate(pc.read(PANE | {"sphere": rigid, "effects": {"inertia": False}}))
-    assert finite_sphere_error(result.effects.law, 1e-3, 1e-4) == 0.0
+    plate = PANE["plate"] | {"poissons_ratio": min(nu, 0.4999999), "thickness": 0.1}
+    tables = PANE | {"sphere": rigid, "plate": plate, "effects": {"inertia": False}}
+    law, a = pc.simulate(pc.read(tables)).effects.law, 1e-4
+    size = float(finite_sphere_error(law, a, float(local_indentation(law, a))))
+    assert size / (1.0 + size) == pytest.approx(of_face * 0.01, abs=1e-6)
+    assert vibration_error(law, a) == 0.0

@@ -1,36 +1,87 @@
-"""Model error by the finite size of an elastic sphere, which the law treats as a half-space.
+"""Model error by the finite size of an elastic sphere, and by the motion of both faces.
 
-Under the contact pressure, which its inertia balances, a sphere of an ordinary material is
-compressed less than a half-space: at equal force by a fraction of the order of a/R of its own
-indentation. An auxetic sphere is compressed more. The sphere also vibrates after the impact.
+The law treats the sphere as a half-space, and strains as infinitely small. Both change the
+indentation at equal force by fractions of the order of a/R. The derivation (step 35) has the first
+order: that of a sphere whose inertia balances the contact pressure, and that by the motion of the
+faces towards the axis. The sphere also vibrates after the impact.
 
-The estimates below were compared with the series of a sphere in Legendre polynomials, whose terms
-are exact (Lurie 1964), and with impacts of its spheroidal modes; the tests repeat this.
+Constants below are measured, by the series of a sphere in Legendre polynomials, whose terms are
+exact, and by impacts of its spheroidal modes; the tests repeat this.
 """
 
 import math
+from typing import Any
 
 import numpy as np
 
+from derivation.scene import kernels
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import Values, local_indentation
 from derivation.scene.effects.effect import Results
+from derivation.scene.kernels import Numbers
 from generated.arrays import Double as Array
 
-STIFFER = 0.75
-"""Largest decrease of the indentation of a sphere at equal force, over a/R: for an incompressible
-sphere, 0.58 of narrow contacts and 0.743 at a/R = 0.56."""
-AUXETIC = 0.5
-"""Increase by a negative Poisson's ratio over (a/R) (-nu)/(1 + nu), to which a sphere is soft under
-pressure: at most 0.95 of the estimate for nu from -0.99 to -0.7."""
-VIBRATION = 2.0 / 3.0
-"""Relative decrease of the restitution by vibration of the sphere, over the change of the
-indentation and (a/R)^2: at most 0.38 (a/R)^3 for Poisson's ratios of 0 to 0.48."""
+DEGREES, REST = 60, 0.003
+"""Largest degree of a Legendre polynomial in the sum of the first order, and a bound on the rest of
+the sum, from that of the terms in the derivation."""
+SECOND, AUXETIC = 0.5, 0.25
+"""Change of second order over (a/R)^2: the first number plus the second one over 1 + nu. The series
+has at most 0.9 of it for nu from -0.99 to 0.5 and a/R from 0.1 to 0.47."""
+STIFFER, VIBRATION = 0.75, 2.0 / 3.0
+"""Smallest change of the indentation, over a/R, from which vibration of the sphere is estimated;
+relative decrease of the restitution by vibration, over this change and (a/R)^2: at most
+0.38 (a/R)^3 for Poisson's ratios of 0 to 0.48."""
 LOSS = 1.5
 """Change of the logarithm of the restitution e over -log(e) and the change of the indentation: at
 most 0.91 in 128 random elastic and yielding impacts, and 1.0 in 38 that yield, for small e."""
 LARGEST = 0.99
 """Largest change of the indentation; the change of the other results grows beyond all bounds."""
+
+
+def finite_size(nu: Numbers, ratio: Values) -> Values:
+    """Return the change of the indentation of a sphere by its finite size, to first order [1].
+
+    It is relative, at equal force, and negative if the sphere is compressed less than a half-space.
+
+    Parameters
+    ----------
+    nu, ratio
+        Poisson's ratio and a/R [1].
+    """
+    poisson = np.asarray(nu, dtype=np.float64)
+    terms = kernels.sphere_term(np.arange(2.0, DEGREES + 1.0), poisson[..., None])
+    # The sum of (k + 1/2)^-2 over larger k is 1/(DEGREES + 1) to 1e-6.
+    constant: Any = np.sum(terms, axis=-1) + kernels.sphere_tail(poisson) / (DEGREES + 1.0)
+    constant = constant + kernels.sphere_start(poisson)
+    change: Values = ratio * (constant - kernels.sphere_logarithm(poisson) * np.log(ratio))
+    return change
+
+
+def _of_sphere(law: ContactLaw, a: Values) -> Values:
+    """Return the change of the local indentation by the finite size of the sphere [1]."""
+    share = _sphere_share(law)
+    if not np.any(share):
+        return 0.0 * a
+    nu: Any = law.model.sphere_poissons_ratio
+    ratio = a / law.model.R
+    second = ratio * ratio * (SECOND + AUXETIC / (1.0 + nu))
+    change: Values = share * (np.abs(finite_size(nu, ratio)) + REST * ratio + second)
+    return change
+
+
+def _sphere_share(law: ContactLaw) -> Any:
+    """Return the part of the compliance of both bodies that is the sphere's [1]."""
+    return law.softness / (1.0 + law.softness)
+
+
+def _of_faces(law: ContactLaw, a: Values) -> Values:
+    """Return the change of the local indentation by the motion of both faces [1]."""
+    model, share = law.model, _sphere_share(law)
+    moved: Any = share**2 * kernels.face_motion(np.asarray(model.sphere_poissons_ratio))
+    moved = moved + (1.0 - share) ** 2 * kernels.face_motion(np.asarray(model.poissons_ratio))
+    ratio: Any = a / model.R
+    change: Values = moved * ratio
+    return change
 
 
 def finite_sphere_error(law: ContactLaw, a: Values, indentation: Values) -> Values:
@@ -44,29 +95,25 @@ def finite_sphere_error(law: ContactLaw, a: Values, indentation: Values) -> Valu
     a, indentation
         Largest contact radius and indentation [m].
     """
-    model = law.model
-    share = law.softness / (1.0 + law.softness)
-    if not np.any(share):
-        return 0.0 * a
-    nu, ratio = model.sphere_poissons_ratio, a / model.R
-    # Not of higher order in a/R than the rest: the pressure of a curved face acts on its sides.
-    curved = 2.0 / (3.0 * math.pi) * (1.0 - 2.0 * nu) ** 2 / (1.0 - nu) * np.log(1.0 / ratio)
-    slope = np.maximum(STIFFER, curved + AUXETIC * np.maximum(-nu, 0.0) / (1.0 + nu))
     part: float | Array = 1.0
     if not law.dynamic:
         part = np.minimum(local_indentation(law, a) / indentation, 1.0)
-    change = np.minimum(share * part * ratio * slope, LARGEST)
+    change: Any = np.minimum(part * (_of_sphere(law, a) + _of_faces(law, a)), LARGEST)
     error: Values = change / (1.0 - change)
     return error
 
 
-def vibration_error(law: ContactLaw, a: Values, error: Values) -> Values:
+def vibration_error(law: ContactLaw, a: Values) -> Values:
     """Return the relative change of the restitution by vibration of the sphere [1].
 
-    `error` is that of `finite_sphere_error` at the contact radius a [m].
+    Parameters
+    ----------
+    a
+        Largest contact radius [m].
     """
     ratio = a / law.model.R
-    change: Values = VIBRATION * ratio * ratio * error
+    least = STIFFER * _sphere_share(law) * ratio
+    change: Values = VIBRATION * ratio * ratio * np.maximum(_of_sphere(law, a), least)
     return change
 
 
@@ -82,7 +129,7 @@ def finite_sphere_errors(law: ContactLaw, numbers: Results, growth: Results) -> 
     """
     _, depth, _, a, restitution = numbers
     size = float(finite_sphere_error(law, a, depth))
-    rebound = float(vibration_error(law, a, size))
+    rebound = float(vibration_error(law, a))
     if law.dynamic or law.viscous or law.plastic:
         rest = max(abs(restitution), 1e-6) if math.isfinite(restitution) else 1.0
         rebound += size * max(1.0, LOSS * abs(math.log(rest)))

@@ -7,6 +7,9 @@ their static compliances, P_j the forces that drive them and S their stresses pe
     sigma = static stress(P, a) + sum S_n (q_n - c_n P_j).
 
 Modes that are faster than the impact are omitted: they respond quasi-statically.
+
+Shear waves cross the thickness late, in a nearly incompressible plate after many echoes of the
+pressure waves: the largest stress may follow the last separation.
 """
 
 import math
@@ -84,17 +87,21 @@ class BackFace(NamedTuple):
 
 
 def back_face(motion: DynamicImpact) -> BackFace:
-    """Return the largest tensile stress on the axis of the back face until the last separation."""
+    """Return the largest tensile stress on the axis of the back face.
+
+    The time ends when shear waves from the last contact have crossed the thickness.
+    """
     inertia = replace(motion.law.model.inertia, branches="all", modes=0)
     law = replace(motion.law, model=replace(motion.law.model, inertia=inertia))
     if echoes_during(law.model, motion.contact_time) < 1.0:
         return BackFace(math.nan, math.nan, None)
+    until = stress_end(motion)
     if oscillators(law, affordable(law)) > MODES:
-        law = _narrower(law, motion.inertia.total_time)
-    count = _count(law, motion.inertia.total_time)
+        law = _narrower(law, until)
+    count = _count(law, until)
     with one_thread(), np.errstate(all="ignore"):
         rough, fine = (_course(motion, law, n) for n in (coarser(count), count))
-        returned = motion.inertia.total_time > echo_time(law.model)
+        returned = until > echo_time(law.model)
         lacking = _lacking_on_edge(motion, law, count) if returned else 0.0
     changes = np.abs(fine.stress - np.interp(fine.times, *rough))
     if returned:  # short waves that return from the edge may add a peak at any time
@@ -102,6 +109,15 @@ def back_face(motion: DynamicImpact) -> BackFace:
     largest = float(np.max(fine.stress))
     higher = float(np.max(fine.stress + changes)) - largest
     return BackFace(largest, ESTIMATE * higher / abs(largest), fine, lacking / abs(largest))
+
+
+def stress_end(motion: DynamicImpact) -> float:
+    """Return the time [s] since first contact at which shear waves have crossed the thickness.
+
+    It is that of the last separation, if the impact is incomplete.
+    """
+    model, total = motion.law.model, motion.inertia.total_time
+    return total + (2.0 * model.h / model.shear_speed if motion.inertia.complete else 0.0)
 
 
 def _lacking_on_edge(motion: DynamicImpact, law: ContactLaw, count: int) -> float:
@@ -134,7 +150,7 @@ def _count(law: ContactLaw, time: float) -> int:
 
 
 def _course(motion: DynamicImpact, law: ContactLaw, count: int) -> Course:
-    """Return the stress in all contacts and in the flights between them."""
+    """Return the stress in all contacts, in the flights between them, and after the last one."""
     waves = _Waves.of(law, count, motion.max_contact_radius)
     z, end, found = np.zeros(waves.decay.size, dtype=complex), 0.0, []
     for touching in motion.inertia.contacts:
@@ -147,6 +163,9 @@ def _course(motion: DynamicImpact, law: ContactLaw, count: int) -> Course:
         a = np.clip(rows[A], SMALL * law.model.h, waves.widest)
         stress, z = waves.driven(z, times, a, rows[P])
         found.append((times, stress))
+    if stress_end(motion) > end:
+        times = waves.times(end, stress_end(motion))
+        found.append((times, waves.flown(z, times)[0]))
     return Course(*map(np.concatenate, zip(*found, strict=True)))
 
 

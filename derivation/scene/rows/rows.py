@@ -311,7 +311,7 @@ class _Block:
             model_error = edge_remainders(law.model, a)[:, 0] + model_error
         with np.errstate(all="ignore"):
             by_sphere = finite_sphere_error(law, a, impacts.max_indentation[:, None])
-            on_restitution = model_error + vibration_error(law, a, by_sphere)[:, 0]
+            on_restitution = model_error + vibration_error(law, a)[:, 0]
         model_error = model_error + by_sphere[:, 0]
         pressure_error = model_error
         if outputs == ("restitution",):

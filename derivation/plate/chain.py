@@ -80,6 +80,7 @@ from derivation.plate.modes.theory.plate_factor import plate_factor_slope, plate
 from derivation.plate.modes.theory.stresses import modal_stresses
 from derivation.plate.pressure.theory.integral_equation import non_hertzian_pressure
 from derivation.plate.pressure.theory.waves import force_of_wave
+from derivation.plate.sphere.theory import finite_sphere
 from derivation.plate.subjects import exports
 from derivation.plate.viscosity.theory.bounds import viscosity
 from derivation.plate.vocabulary import Formula
@@ -124,6 +125,7 @@ MOTION_STEPS: tuple[Step, ...] = (
     ("coupling", coupling),
     *(step for steps in exports("theory", "STEPS") for step in steps),
     ("wave stress", wave_stress),
+    ("finite sphere", finite_sphere),
 )
 """Steps after the contact law. They are separate, because they contain integrals and constants."""
 

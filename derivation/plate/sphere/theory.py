@@ -264,6 +264,3 @@ def finite_sphere() -> tuple[Formula, ...]:
         Formula(name, latex, meaning, value, "1", "", sources, proof)
         for name, latex, meaning, value, sources, proof in rows
     )
-
-
-STEPS = (("finite sphere", finite_sphere),)

@@ -167,16 +167,14 @@ def edges() -> tuple[Formula, ...]:
         r"Rotation and its slope are taken at the edge. $S/\Gamma$ is expressed by "
         r"$\psi/M$, whose slope has the same sign. For a thin plate, where $k_2 = k$ and $g_1 "
         r"= g_2 = 1$, the equations become those of step 29.",
-        lambda *claims: in_terms(*claims)
-        | {
+        lambda *claims: in_terms(*claims) | {
             "deflection": DEFLECTION.subs({_r: 1, c: PART}),
             "rotation": psi.subs(_r, 1) - J0 * TURN,
             "slope": slope - J0 * (BEND - TURN),
             "curvature": sp.expand((BEND - k_n**2 - k_2**2).subs(known)),
             "supported": moment / (1 - nu) + turn - SUPPORTED * bend,
             "clamped": free - (1 + CLAMP * eta) * (turn - CLAMPED * bend),
-            "derivative": sp.diff(ratio / (1 + (1 - nu) * ratio), turn)
-            - sp.diff(turn / bend, turn),
+            "derivative": sp.diff(ratio / (1 + (1 - nu) * ratio) - turn / bend, turn),
             "thin support": _thin(TURN - SUPPORTED * BEND)
             - k_n * thin.frequency_equations()[2].expression,
             "thin clamp": _thin(TURN - CLAMPED * BEND)
@@ -230,8 +228,7 @@ def norm() -> Formula:
         lambda value, stated: {
             "in k": value - in_k(NORM),
             "stated": stated.function.subs(sp.Symbol("psi"), psi) - sum(slopes),
-            "from the axis": stated.limits[0][1],
-            "to the edge": stated.limits[0][2] - 1,
+            "limits": stated.limits[0][1] ** 2 + (stated.limits[0][2] - 1) ** 2,
             "deflection": slopes[0] - _r * DEFLECTION**2,
             "rotation": slopes[1] - eta**2 / 3 * _r * psi**2,
             "axis": sp.expand(deflected + turned).subs(_r, 0),

@@ -51,3 +51,4 @@ def test_error_of_the_end_is_the_time_of_forces_within_their_error() -> None:
     assert end_error(force, 1e-3) == pytest.approx(1 / 5)
     assert end_error(force, 5e-3) == pytest.approx(2 / 5)
     assert end_error(force, 1e-2) == pytest.approx(3 / 5)
+    assert end_error(force, 1.0) == 1.0  # no force exceeds its error

@@ -223,18 +223,23 @@ def _positive(part: sp.Expr, own: sp.Symbol) -> bool:
 
 
 def _with_length(core: sp.Expr, powers: dict[sp.Expr, int], scale: Scale) -> sp.Expr:
-    """Write (ratio f + x g)/rate as ratio f/rate + length g, with fewer roundings of x and rate."""
+    """Write (ratio f + x g)/rate as ratio f/rate + length g, with fewer roundings of x and rate.
+
+    All other parts become powers, because a large length over a small part would overflow.
+    """
     own, rate = scale.variable, scale.rate
     sums = [f for f in core.as_powers_dict() if f.is_Add and f.free_symbols > {own}]
     if rate is None or not sums or powers[rate] >= 0 or scale.product / rate != scale.length:
         return core
     (whole,) = sums
+    for base, exponent in (core / whole).as_powers_dict().items():
+        powers[base] += exponent
     powers[rate] += 1
     apart = [
         part * scale.length / own if own in part.as_powers_dict() else part / rate
         for part in whole.args
     ]
-    return core / whole * sp.Add(*apart)
+    return sp.Add(*apart)
 
 
 def _joined(powers: dict[sp.Expr, int], scale: Scale) -> list[Step]:

@@ -1,4 +1,4 @@
-"""Zeros of J0 and J1 as balls, each with a proof that it is the n-th.
+"""Zeros of J0 and J1 as Arb balls (intervals), each with a proof that it is the n-th.
 
 y = sqrt(x) J0(x) satisfies y'' + (1 + 1/(4 x^2)) y = 0. The coefficient decreases towards 1, so by
 Sturm's comparison consecutive zeros are less than pi apart and their spacing increases;

@@ -239,7 +239,7 @@ def bessel_j1_at_j0_zeros(count: int) -> Double:
     missing -= m * lost_by_halves(slope_halves, slope_halves, slope_squared)
     missing += EIGHT_OVER_PI2_TAIL + EIGHT_OVER_PI2 * excess
     slope += slope * missing / (2.0 * EIGHT_OVER_PI2)
-    slope[FIRST_MCMAHON[0] % 2 :: 2] *= -1.0  # zeros with an even number
+    slope[FIRST_MCMAHON[0] % 2 :: 2] *= -1.0  # zeros with an even index
     return np.concatenate((LOW_SLOPES[:count], slope))
 
 

@@ -120,7 +120,7 @@ def taylor_recurrence() -> Recurrence:
 
 
 def _prove_recurrence(following: sp.Expr, at_origin: sp.Expr, degree: int = 8) -> Proof:
-    """Prove that polynomials built by it solve Bessel's equation, except in the last powers."""
+    """Prove that polynomials with these coefficients solve the equation up to a power of t."""
     series = [sp.Integer(0), sp.Integer(0), *sp.symbols("a_0 a_1", real=True)]
     origin = [sp.Integer(0), sp.Integer(1)]
     for index in range(degree - 1):
@@ -135,8 +135,8 @@ def _prove_recurrence(following: sp.Expr, at_origin: sp.Expr, degree: int = 8) -
     residual_0 = sp.Poly(equation(about_0, sp.Integer(0)), x)
     return prove(
         "Taylor recurrence",
-        f"Polynomials of degree {degree} built by it are substituted into Bessel's equation: "
-        "every power they determine vanishes.",
+        f"Polynomials of degree {degree} with coefficients from the recurrence are substituted "
+        "into Bessel's equation: every power that they determine vanishes.",
         {
             f"t^{power}": residual.coeff_monomial(sp.Symbol("t") ** power)
             for power in range(degree - 1)

@@ -39,11 +39,12 @@ def ratio_series(terms: int) -> Coefficients:
         s.append(((m - 2) * s[-1] - sum(s[i] * s[m - i] for i in range(1, m))) / 2)
     ratio = sp.besseli(1, _k) / sp.besseli(0, _k)
     equation = sp.diff(ratio, _k) - (1 - ratio / _k - ratio**2)
-    left, least = _left_over(tuple(s)), _k / (2 + _k)
+    left, least = _residual(tuple(s)), _k / (2 + _k)
     prove(
         "Ratio of modified Bessel functions",
-        "I1/I0 and its truncated series in s' = 1 - s/k - s^2; k/(2 + k), which begins like I1/I0, "
-        "increases more slowly than this equation states.",
+        "I1/I0 and its truncated series are substituted into s' = 1 - s/k - s^2. k/(2 + k), which "
+        "has the same first term at k = 0 as I1/I0, has a smaller derivative than this equation "
+        "requires.",
         {
             "equation": equation,
             "below": 1 - least / _k - least**2 - sp.diff(least, _k) - 3 * _k / (2 + _k) ** 2,
@@ -53,7 +54,7 @@ def ratio_series(terms: int) -> Coefficients:
     return tuple(s)
 
 
-def _left_over(s: Coefficients) -> Coefficients:
+def _residual(s: Coefficients) -> Coefficients:
     """Return the residual of a truncated series in s' - 1 + s/k + s^2, by powers of 1/k."""
     square = sp.Poly(s[::-1], _x) ** 2
     linear = sp.Poly([(1 - m) * c for m, c in reversed(list(enumerate(s)))] + [0], _x)
@@ -70,7 +71,7 @@ def ratio_bound(terms: int, start: Fraction) -> flint.arb:
     """
     K, s = to_ball(start), ratio_series(terms)
     size = flint.arb(0)
-    for power, coefficient in enumerate(_left_over(s)[terms:], start=terms):
+    for power, coefficient in enumerate(_residual(s)[terms:], start=terms):
         size += abs(to_ball(Fraction(int(coefficient.p), int(coefficient.q)))) / K**power
     value = sum(
         (to_ball(Fraction(int(c.p), int(c.q))) / K**m for m, c in enumerate(s)), flint.arb(0)
@@ -97,8 +98,8 @@ def bessel_integral() -> Proof:
     I0, I1, I2 = (sp.besseli(order, _k) for order in range(3))
     return prove(
         "Bessel's integral as a sum",
-        "sin^2 t = (1 - cos 2t)/2 in the generating function; the coefficients of I_n and of "
-        "(k/2)^n I0/n! have a binomial coefficient as quotient.",
+        "sin^2 t = (1 - cos 2t)/2 in the generating function; the quotient of the coefficients of "
+        "I_n and of (k/2)^n I0/n! is a binomial coefficient.",
         {
             "I1": _k * (I0 - I2) / 2 - I1,
             "half angle": sp.expand_trig(sp.sin(_x) ** 2 - (1 - sp.cos(2 * _x)) / 2)
@@ -125,7 +126,7 @@ def sum_bound(steps: int, largest: Fraction) -> Fraction:
     half = largest / 2
     least = steps - 2
     first = half**least / factorial(least)
-    # Each further order is smaller by half/least at least: less than 1/2.
+    # Each further term is at most half/least times the one before it, and this is below 1/2.
     if not 2 * half < least:
         raise ProofError(f"{steps} steps for k = {largest}: too few for the bound")
     return 4 * first * (1 + half)
@@ -144,7 +145,7 @@ def fourth_bound(steps: int, largest: Fraction) -> Fraction:
     """
     fourth_power()
     least = steps - 4
-    # Each further order is smaller by half/least at least: less than 1/2.
+    # Each further term is at most largest/(2 least) times the one before it: less than 1/2.
     if not largest < least:
         raise ProofError(f"{steps} steps of I2 for k = {largest}: too few for the bound")
     return Fraction(32, 3) * (largest / 2) ** least / factorial(least)
@@ -160,8 +161,8 @@ def fourth_power() -> Proof:
     x = sp.Symbol("x", real=True)
     return prove(
         "Bessel's integral of I2 as a sum",
-        "sin^4 in the generating function; the coefficients' quotient is a binomial coefficient "
-        "over that of m = 0.",
+        "sin^4 t is expanded in cosines in the generating function; the quotient of the "
+        "coefficients is a binomial coefficient over the one for m = 0.",
         {
             "I2": lower_bessel(_k**2 / 3 * (3 * I0 - 4 * I2 + I4) / 8 - I2),
             "fourth power": sp.expand(

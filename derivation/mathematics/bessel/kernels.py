@@ -167,7 +167,7 @@ def mcmahon_start(order: int) -> int:
     quarters, slope = phase_at_zeros(order)[0], slope_squared(TERMS + 1)
 
     def within(index: int) -> bool:
-        # 3 < pi makes beta, and so the bounds, safe.
+        # With 3 instead of pi, beta is smaller and the bounds are larger.
         beta = sp.Rational(4 * index + quarters, 4) * 3
         near = order == 1 or abs(slope.term(TERMS, beta)) <= 2 * sp.Rational(TOLERANCE)
         return bool(near and zero_bound(order, TERMS, beta) <= beta * sp.Rational(TOLERANCE))
